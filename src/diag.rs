@@ -1,0 +1,165 @@
+//! What an author reads when something is wrong with their text.
+//!
+//! Owns positions ([`Span`], [`SourceId`]), the texts they point into ([`SourceMap`]), the message itself
+//! ([`Diagnostic`]) and its caret form for a terminal ([`render`]). Knows nothing of GLSL: a span may point into a shader,
+//! an `eddy.toml` or a JSON file alike. Trouble that is the machine's or ours is an error type of its layer, never a
+//! `Diagnostic`.
+
+mod caret;
+
+pub use caret::{render, render_all};
+
+use std::{ops::Range, sync::Arc};
+
+/// Which text of a [`SourceMap`] a span points into: one per tab, included file or project file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct SourceId(pub u16);
+
+/// A half-open range of bytes `[start, end)` in one source text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Span {
+    pub source: SourceId,
+    pub start: u32,
+    pub end: u32,
+}
+
+impl Span {
+    pub fn new(source: SourceId, range: Range<usize>) -> Self {
+        Self { source, start: range.start as u32, end: range.end as u32 }
+    }
+
+    /// An empty span at `offset`: a place between two characters.
+    pub fn at(source: SourceId, offset: usize) -> Self {
+        Self::new(source, offset..offset)
+    }
+
+    /// From the start of `self` to the end of `end`; `self` alone where the two lie in different texts.
+    pub fn to(self, end: Span) -> Span {
+        if self.source != end.source || end.end < self.start {
+            return self;
+        }
+        Span { end: end.end, ..self }
+    }
+
+    pub fn range(self) -> Range<usize> {
+        self.start as usize..self.end as usize
+    }
+}
+
+/// How much a diagnostic matters. Only an error keeps a program from running.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Severity {
+    Note,
+    Warning,
+    Error,
+}
+
+impl Severity {
+    pub fn name(self) -> &'static str {
+        match self {
+            Severity::Note => "note",
+            Severity::Warning => "warning",
+            Severity::Error => "error",
+        }
+    }
+}
+
+/// A second place worth showing: the earlier declaration, the macro's definition.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Label {
+    pub span: Span,
+    pub message: String,
+}
+
+/// One thing the author has to mend, or should know.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnostic {
+    pub severity: Severity,
+    /// Where; `None` for something that is not in any text (a pass that is missing).
+    pub span: Option<Span>,
+    /// What is wrong, one sentence without a full stop.
+    pub message: String,
+    /// Further places.
+    pub labels: Vec<Label>,
+    /// How to mend it, one line each.
+    pub hints: Vec<String>,
+}
+
+impl Diagnostic {
+    pub fn new(severity: Severity, span: impl Into<Option<Span>>, message: impl Into<String>) -> Self {
+        Self { severity, span: span.into(), message: message.into(), labels: Vec::new(), hints: Vec::new() }
+    }
+
+    pub fn error(span: impl Into<Option<Span>>, message: impl Into<String>) -> Self {
+        Self::new(Severity::Error, span, message)
+    }
+
+    pub fn warning(span: impl Into<Option<Span>>, message: impl Into<String>) -> Self {
+        Self::new(Severity::Warning, span, message)
+    }
+
+    #[must_use]
+    pub fn label(mut self, span: Span, message: impl Into<String>) -> Self {
+        self.labels.push(Label { span, message: message.into() });
+        self
+    }
+
+    #[must_use]
+    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+        self.hints.push(hint.into());
+        self
+    }
+
+    pub fn is_error(&self) -> bool {
+        self.severity == Severity::Error
+    }
+}
+
+/// A named text that spans point into.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SourceText {
+    /// What the author calls it: `buffer_a.glsl`, `Image`, `eddy.toml`.
+    pub name: String,
+    pub text: Arc<str>,
+}
+
+/// A line and column, both counted from 1, as editors show them. Columns count characters, not bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LineColumn {
+    pub line: usize,
+    pub column: usize,
+}
+
+/// The texts of one compile, by [`SourceId`].
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SourceMap {
+    sources: Vec<SourceText>,
+}
+
+impl SourceMap {
+    pub fn add(&mut self, name: impl Into<String>, text: impl Into<Arc<str>>) -> SourceId {
+        let id = SourceId(u16::try_from(self.sources.len()).expect("fewer than 65,536 sources in one compile"));
+        self.sources.push(SourceText { name: name.into(), text: text.into() });
+        id
+    }
+
+    pub fn get(&self, id: SourceId) -> Option<&SourceText> {
+        self.sources.get(usize::from(id.0))
+    }
+
+    pub fn iter(&self) -> impl Iterator<Item = (SourceId, &SourceText)> {
+        self.sources.iter().enumerate().map(|(i, s)| (SourceId(i as u16), s))
+    }
+
+    /// Line and column of a span's start; `None` for an unknown source.
+    pub fn line_column(&self, span: Span) -> Option<LineColumn> {
+        let text = &self.get(span.source)?.text;
+        let mut start = (span.start as usize).min(text.len());
+        while !text.is_char_boundary(start) {
+            start -= 1;
+        }
+        let before = &text[..start];
+        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
+        Some(LineColumn { line: before.matches('\n').count() + 1, column: before[line_start..].chars().count() + 1 })
+    }
+}

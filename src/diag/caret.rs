@@ -1,0 +1,96 @@
+//! The caret form of a diagnostic: the message, the line it is about, a mark under the place.
+//!
+//! The shape is rustc's, which people know. Plain text only; a terminal front end may colour the first word.
+
+use super::{Diagnostic, SourceMap, Span};
+use std::fmt::Write;
+
+/// Every diagnostic in caret form, a blank line between two.
+pub fn render_all(diagnostics: &[Diagnostic], sources: &SourceMap) -> String {
+    diagnostics.iter().map(|d| render(d, sources)).collect::<Vec<_>>().join("\n")
+}
+
+/// One diagnostic in caret form, ending in a line break.
+pub fn render(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
+    let mut out = String::new();
+    let _ = writeln!(out, "{}: {}", diagnostic.severity.name(), diagnostic.message);
+    let places: Vec<(Span, &str, char)> = diagnostic
+        .span
+        .iter()
+        .map(|&s| (s, "", '^'))
+        .chain(diagnostic.labels.iter().map(|l| (l.span, l.message.as_str(), '-')))
+        .collect();
+    let gutter = places
+        .iter()
+        .filter_map(|(span, ..)| sources.line_column(*span))
+        .map(|at| at.line.to_string().len())
+        .max()
+        .unwrap_or(1);
+    let mut last_source = None;
+    for (span, message, mark) in places {
+        excerpt(&mut out, sources, span, message, mark, gutter, &mut last_source);
+    }
+    for hint in &diagnostic.hints {
+        let _ = writeln!(out, "{:gutter$} = help: {hint}", "");
+    }
+    out
+}
+
+fn excerpt(
+    out: &mut String,
+    sources: &SourceMap,
+    span: Span,
+    message: &str,
+    mark: char,
+    gutter: usize,
+    last_source: &mut Option<crate::diag::SourceId>,
+) {
+    let (Some(source), Some(at)) = (sources.get(span.source), sources.line_column(span)) else { return };
+    let arrow = if last_source.replace(span.source).is_none() { "-->" } else { ":::" };
+    let _ = writeln!(out, "{:gutter$}{arrow} {}:{}:{}", "", source.name, at.line, at.column);
+    let line = source.text.lines().nth(at.line - 1).unwrap_or("").trim_end_matches('\r');
+    // A tab is drawn as four spaces so that the mark stands under its character in any terminal.
+    let shown = line.replace('\t', "    ");
+    let before: usize = line.chars().take(at.column - 1).map(|c| if c == '\t' { 4 } else { 1 }).sum();
+    let length = source.text.get(span.range()).map_or(1, |s| {
+        s.split('\n').next().unwrap_or("").trim_end_matches('\r').chars().map(|c| if c == '\t' { 4 } else { 1 }).sum()
+    });
+    let marks = mark.to_string().repeat(length.max(1));
+    // A line can be a whole minified shader; show the part around the place.
+    const WIDTH: usize = 160;
+    let from = if shown.chars().count() > WIDTH { before.saturating_sub(WIDTH / 2) } else { 0 };
+    let part: String = shown.chars().skip(from).take(WIDTH).collect();
+    let marks: String = marks.chars().take(WIDTH.saturating_sub(before - from).max(1)).collect();
+    let _ = writeln!(out, "{:gutter$} |", "");
+    let _ = writeln!(out, "{:>gutter$} | {part}", at.line);
+    let line = format!("{:gutter$} | {:pad$}{marks} {message}", "", "", pad = before - from);
+    let _ = writeln!(out, "{}", line.trim_end());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diag::Diagnostic;
+
+    #[test]
+    fn caret_stands_under_the_place() {
+        let mut sources = SourceMap::default();
+        let id = sources.add("image.glsl", "void f() {\n\tfloat x = 2;\n}\n");
+        let d = Diagnostic::error(Span::new(id, 22..23), "cannot convert int to float")
+            .label(Span::new(id, 12..17), "declared float here")
+            .hint("write 2.0");
+        assert_eq!(
+            render(&d, &sources),
+            "error: cannot convert int to float\n --> image.glsl:2:12\n  |\n2 |     float x = 2;\n  |               ^\n ::: image.glsl:2:2\n  |\n2 |     float x = 2;\n  |     ----- declared float here\n  = help: write 2.0\n"
+        );
+    }
+
+    #[test]
+    fn a_span_past_the_end_or_inside_a_character_does_not_panic() {
+        let mut sources = SourceMap::default();
+        let id = sources.add("a", "é");
+        for range in [0..1, 1..2, 5..9, 2..2] {
+            render(&Diagnostic::error(Span::new(id, range), "x"), &sources);
+        }
+    }
+}
