@@ -1,0 +1,56 @@
+//! Why a project could not be read or written.
+
+use crate::diag::{Diagnostic, SourceMap, render_all};
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
+
+/// Failure of [`super::load`] or [`super::save`]. Its text is complete: file, place and mend.
+#[derive(Debug, thiserror::Error)]
+pub enum ProjectError {
+    /// The machine's: permissions, a full disk, a file that vanished.
+    #[error("cannot {action} {}: {source}", path.display())]
+    Io { action: &'static str, path: PathBuf, source: io::Error },
+    /// The author's: what the files say makes no project. Holds at least one error.
+    #[error("{what} is not a usable project\n{}", render_all(diagnostics, sources))]
+    Invalid { what: String, diagnostics: Vec<Diagnostic>, sources: SourceMap },
+    /// A name that means nothing here.
+    #[error("{spec}: neither a file, a folder nor a preset{}; presets are {}", did_you_mean(near.as_deref()), presets_listed(presets))]
+    NotFound { spec: String, near: Option<String>, presets: Vec<String> },
+    /// A file that is there, of a kind no project comes in.
+    #[error(
+        "{}: not a project file; a project is a folder, a .glsl file, a Shadertoy .json file or a preset's name",
+        path.display()
+    )]
+    UnknownKind { path: PathBuf },
+    /// Saving would replace something that is not this project's.
+    #[error("{} exists and is not part of this project; choose another place or allow overwriting", path.display())]
+    WouldOverwrite { path: PathBuf },
+    /// Saving in this form would lose something.
+    #[error("{} cannot hold {what}; save the project as a folder of its own", path.display())]
+    CannotHold { path: PathBuf, what: String },
+}
+
+fn did_you_mean(near: Option<&str>) -> String {
+    near.map(|n| format!(" (did you mean {n}?)")).unwrap_or_default()
+}
+
+fn presets_listed(presets: &[String]) -> String {
+    if presets.is_empty() { "none in this build".into() } else { super::listed(presets) }
+}
+
+impl ProjectError {
+    pub(super) fn io(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> ProjectError {
+        let path = path.to_owned();
+        move |source| ProjectError::Io { action, path, source }
+    }
+
+    /// What the author has to mend, where it is theirs.
+    pub fn diagnostics(&self) -> Option<(&[Diagnostic], &SourceMap)> {
+        match self {
+            ProjectError::Invalid { diagnostics, sources, .. } => Some((diagnostics, sources)),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,272 @@
+//! A project as a folder of files: where its texts come from, and the convention that names passes after files.
+//!
+//! Owns reading texts from a folder on disk or inside the binary, and the project of a folder without `eddy.toml`:
+//!
+//! | file | is |
+//! |---|---|
+//! | `common.glsl` | Common |
+//! | `buffer_a.glsl`, `Buffer B.glsl`, `buffer_blur.glsl` | a buffer; drawn in the order of their names |
+//! | `cube_a.glsl`, `cubemap.glsl` | the cubemap pass |
+//! | `sound.glsl` | Sound |
+//! | `image.glsl` | Image, which must be there |
+//!
+//! Case does not matter, and `.frag` is as good as `.glsl`. A pass whose text has `#iChannel` lines reads what they say (see
+//! [`super::directives`]); any other pass reads Buffer A, B, C and D in iChannel0, 1, 2 and 3, as far as these exist.
+
+use super::{
+    Channel, Info, Input, Origin, Pass, PassId, Project, ProjectError, Sampler, SamplerRules, Source, directives,
+};
+use crate::diag::{Diagnostic, SourceMap, Span};
+use std::{
+    collections::BTreeMap,
+    ffi::OsStr,
+    fs,
+    path::{Path, PathBuf},
+};
+
+/// The text files of a project, by name relative to its folder.
+pub(super) enum Files<'a> {
+    Disk(&'a Path),
+    Embedded(&'a include_dir::Dir<'a>),
+    /// A folder as it will be once it is saved.
+    Memory(&'a BTreeMap<String, Vec<u8>>),
+}
+
+/// A text file's content, or why it has none.
+pub(super) enum Read {
+    Text(String),
+    Missing,
+    /// Byte offset of the first byte that is not UTF-8, and the text with every such byte replaced.
+    NotUtf8(usize, String),
+}
+
+impl Files<'_> {
+    /// Names of the files directly in the folder, sorted.
+    pub fn names(&self) -> Result<Vec<String>, ProjectError> {
+        let mut names: Vec<String> = match self {
+            Files::Disk(path) => {
+                let mut names = Vec::new();
+                for entry in fs::read_dir(path).map_err(ProjectError::io("list", path))? {
+                    let entry = entry.map_err(ProjectError::io("list", path))?;
+                    // A name that is not UTF-8 is no name of a pass.
+                    if let Ok(name) = entry.file_name().into_string()
+                        && !entry.path().is_dir()
+                    {
+                        names.push(name);
+                    }
+                }
+                names
+            }
+            Files::Embedded(dir) => {
+                dir.files().filter_map(|f| f.path().file_name()?.to_str().map(str::to_owned)).collect()
+            }
+            Files::Memory(files) => files.keys().cloned().collect(),
+        };
+        names.sort();
+        Ok(names)
+    }
+
+    pub fn read(&self, name: &str) -> Result<Read, ProjectError> {
+        match self {
+            Files::Disk(folder) => {
+                let path = folder.join(name);
+                match fs::read(&path) {
+                    Ok(bytes) => Ok(decode(bytes)),
+                    Err(e) if e.kind() == std::io::ErrorKind::NotFound => Ok(Read::Missing),
+                    Err(source) => Err(ProjectError::Io { action: "read", path, source }),
+                }
+            }
+            Files::Embedded(dir) => Ok(dir
+                .files()
+                .find(|f| f.path().file_name() == Some(OsStr::new(name)))
+                .map_or(Read::Missing, |f| decode(f.contents().to_vec()))),
+            Files::Memory(files) => Ok(files.get(name).map_or(Read::Missing, |bytes| decode(bytes.clone()))),
+        }
+    }
+
+    pub fn exists(&self, name: &str) -> bool {
+        match self {
+            Files::Disk(folder) => folder.join(name).is_file(),
+            Files::Embedded(dir) => dir.files().any(|f| f.path().file_name() == Some(OsStr::new(name))),
+            Files::Memory(files) => files.contains_key(name),
+        }
+    }
+
+    /// The file behind a name, where there is one on disk.
+    pub fn path(&self, name: &str) -> Option<PathBuf> {
+        match self {
+            Files::Disk(folder) => Some(folder.join(name)),
+            Files::Embedded(_) | Files::Memory(_) => None,
+        }
+    }
+}
+
+pub(super) fn decode(bytes: Vec<u8>) -> Read {
+    match String::from_utf8(bytes) {
+        Ok(text) => Read::Text(text),
+        Err(e) => Read::NotUtf8(e.utf8_error().valid_up_to(), String::from_utf8_lossy(e.as_bytes()).into_owned()),
+    }
+}
+
+/// The diagnostic for a text that is not UTF-8, into `sources`.
+pub(super) fn not_utf8(sources: &mut SourceMap, name: &str, at: usize, lossy: String) -> Diagnostic {
+    let id = sources.add(name, lossy);
+    Diagnostic::error(Span::new(id, at..at + '\u{fffd}'.len_utf8()), format!("{name} is not UTF-8 text"))
+        .hint("save it as UTF-8 in your editor")
+}
+
+pub(super) fn is_glsl_extension(extension: &OsStr) -> bool {
+    ["glsl", "frag", "fs"].iter().any(|e| extension.eq_ignore_ascii_case(e))
+}
+
+/// The pass a file is by its stem; `None` for Common and for files that are not of the convention.
+pub(super) fn pass_of_stem(stem: &str) -> Option<PassId> {
+    let lower = stem.to_lowercase();
+    let is_buffer = lower.strip_prefix("buffer").is_some_and(|rest| !rest.is_empty())
+        || lower.strip_prefix("buf").is_some_and(|rest| rest.len() == 1 || rest.starts_with([' ', '_', '-']));
+    match PassId::parse(stem)? {
+        PassId::Buffer(name) => is_buffer.then_some(PassId::Buffer(name)),
+        other => Some(other),
+    }
+}
+
+/// Which text of a project a file is by convention.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) enum Role {
+    Common,
+    Pass(PassId),
+}
+
+pub(super) fn role_of_file(name: &str) -> Option<Role> {
+    let path = Path::new(name);
+    if !path.extension().is_some_and(is_glsl_extension) {
+        return None;
+    }
+    let stem = path.file_stem()?.to_str()?;
+    if stem.eq_ignore_ascii_case("common") { Some(Role::Common) } else { pass_of_stem(stem).map(Role::Pass) }
+}
+
+/// The order passes lie in: buffers as they come, the cubemap pass, Image, Sound.
+pub(super) fn sort_passes(passes: &mut [Pass]) {
+    passes.sort_by_key(|p| match p.id {
+        PassId::Buffer(_) => 0,
+        PassId::Cubemap => 1,
+        PassId::Image => 2,
+        PassId::Sound => 3,
+    });
+}
+
+/// What a convention makes of texts by file name, besides the texts.
+pub(super) struct ByConvention {
+    pub common: Option<Source>,
+    pub passes: Vec<Pass>,
+    /// About things that span several files; the directives' own come from [`declare_channels`].
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// Sorts texts into passes by their file names. Names that are not of the convention are left out.
+pub(super) fn by_convention(files: Vec<Source>) -> ByConvention {
+    let mut found = ByConvention { common: None, passes: Vec::new(), diagnostics: Vec::new() };
+    for source in files {
+        match role_of_file(&source.name) {
+            None => {}
+            Some(Role::Common) => match &found.common {
+                Some(first) => found.diagnostics.push(two_files("Common", &first.name, &source.name)),
+                None => found.common = Some(source),
+            },
+            Some(Role::Pass(id)) => match found.passes.iter().find(|p| p.id == id) {
+                Some(first) => {
+                    let diagnostic = two_files(&id.title(), &first.source.name, &source.name);
+                    found.diagnostics.push(diagnostic);
+                }
+                None => found.passes.push(Pass { id, source, channels: Default::default() }),
+            },
+        }
+    }
+    found.passes.sort_by(|a, b| a.id.cmp(&b.id));
+    sort_passes(&mut found.passes);
+    found
+}
+
+fn two_files(title: &str, first: &str, second: &str) -> Diagnostic {
+    Diagnostic::error(None, format!("{first} and {second} are both {title}")).hint("rename or remove one of them")
+}
+
+/// Gives every pass the channels its text declares, or the default ones. The spans point into [`Project::sources`].
+pub fn declare_channels(project: &mut Project) -> Vec<Diagnostic> {
+    let mut diagnostics = Vec::new();
+    let buffers: Vec<PassId> = project.passes.iter().map(|p| p.id.clone()).collect();
+    for (i, pass) in project.passes.iter_mut().enumerate() {
+        let declared = directives::read(&pass.source.text, crate::diag::SourceId(i as u16 + 1), &pass.id);
+        diagnostics.extend(declared.diagnostics);
+        pass.channels = declared.channels.unwrap_or_else(|| match pass.id {
+            PassId::Sound => Default::default(),
+            _ => ["A", "B", "C", "D"].map(|name| {
+                let input = Input::Buffer(name.into());
+                buffers.contains(&PassId::Buffer(name.into())).then_some(Channel { input, sampler: Sampler::BUFFER })
+            }),
+        });
+    }
+    diagnostics
+}
+
+/// A folder without `eddy.toml`, its texts already read.
+pub(super) fn project(name: String, files: Vec<Source>, origin: Origin) -> (Project, Vec<Diagnostic>) {
+    let ByConvention { common, passes, mut diagnostics } = by_convention(files);
+    let mut project =
+        Project { name, info: Info::default(), common, passes, sampler_rules: SamplerRules::PerChannel, origin };
+    if project.pass(&PassId::Image).is_none() {
+        diagnostics
+            .push(Diagnostic::error(None, "there is no Image pass").hint("add image.glsl with a mainImage function"));
+    }
+    diagnostics.extend(declare_channels(&mut project));
+    (project, diagnostics)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn source(name: &str, text: &str) -> Source {
+        Source { name: name.into(), path: None, text: text.into() }
+    }
+
+    #[test]
+    fn file_names_name_passes_whatever_their_case() {
+        let role = |n: &str| role_of_file(n);
+        assert_eq!(role("Common.GLSL"), Some(Role::Common));
+        assert_eq!(role("Buffer A.glsl"), Some(Role::Pass(PassId::Buffer("A".into()))));
+        assert_eq!(role("BUF_b.frag"), Some(Role::Pass(PassId::Buffer("B".into()))));
+        assert_eq!(role("buffer_blur.glsl"), Some(Role::Pass(PassId::Buffer("blur".into()))));
+        assert_eq!(role("cubeA.glsl"), Some(Role::Pass(PassId::Cubemap)));
+        assert_eq!(role("cube_a.glsl"), Some(Role::Pass(PassId::Cubemap)));
+        assert_eq!(role("image.glsl"), Some(Role::Pass(PassId::Image)));
+        for other in ["image.txt", "buffoon.glsl", "buffer.glsl", "noise.glsl", "a.glsl", "image", ".glsl"] {
+            assert_eq!(role(other), None, "{other}");
+        }
+    }
+
+    #[test]
+    fn buffers_are_drawn_in_the_order_of_their_names_and_read_by_letter() {
+        let files =
+            ["buffer_zoom.glsl", "image.glsl", "buffer_c.glsl", "buffer_a.glsl", "sound.glsl"].map(|n| source(n, ""));
+        let (project, diagnostics) = project("p".into(), files.into(), Origin::Unsaved);
+        assert_eq!(diagnostics, []);
+        let keys: Vec<String> = project.passes.iter().map(|p| p.id.key()).collect();
+        assert_eq!(keys, ["buffer_a", "buffer_c", "buffer_zoom", "image", "sound"]);
+        let image = &project.pass(&PassId::Image).unwrap().channels;
+        assert_eq!(image[0].as_ref().unwrap().input, Input::Buffer("A".into()));
+        assert_eq!(image[1], None);
+        assert_eq!(image[2].as_ref().unwrap().input, Input::Buffer("C".into()));
+        assert_eq!(project.pass(&PassId::Sound).unwrap().channels, <[Option<Channel>; 4]>::default());
+    }
+
+    #[test]
+    fn two_files_for_one_pass_and_a_missing_image_are_errors() {
+        let files = ["buffer_a.glsl", "Buffer A.glsl"].map(|n| source(n, "")).into();
+        let (_, diagnostics) = project("p".into(), files, Origin::Unsaved);
+        let messages: Vec<&str> = diagnostics.iter().map(|d| d.message.as_str()).collect();
+        assert_eq!(messages, ["buffer_a.glsl and Buffer A.glsl are both Buffer A", "there is no Image pass"]);
+        assert!(diagnostics.iter().all(|d| !d.hints.is_empty()));
+    }
+}

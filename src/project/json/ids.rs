@@ -1,0 +1,47 @@
+//! The site's fixed ids: what a pass writes and what an input reads.
+
+use crate::project::PassId;
+
+pub const IMAGE: &str = "4dfGRr";
+pub const SOUND: &str = "XsfGRr";
+pub const CUBEMAP: &str = "4dX3Rr";
+pub const KEYBOARD: &str = "4dXGRr";
+pub const WEBCAM: &str = "4sf3zn";
+pub const MICROPHONE: &str = "XdXGRr";
+
+/// Buffer A to D. The API's older answers have the numbers.
+const BUFFERS: [(&str, &str, &str); 4] =
+    [("A", "4dXGR8", "257"), ("B", "XsXGR8", "258"), ("C", "4sXGR8", "259"), ("D", "XdfGR8", "260")];
+
+/// Id of a buffer's output. A further buffer, which the site does not have, is known by its key.
+pub fn of_buffer(name: &str) -> String {
+    match BUFFERS.iter().find(|(n, ..)| *n == name) {
+        Some((_, id, _)) => (*id).to_owned(),
+        None => PassId::Buffer(name.to_owned()).key(),
+    }
+}
+
+/// The buffer an id stands for.
+pub fn buffer(id: &str) -> Option<String> {
+    if let Some((name, ..)) = BUFFERS.iter().find(|(_, i, number)| *i == id || *number == id) {
+        return Some((*name).to_owned());
+    }
+    match PassId::parse(id.strip_prefix("buffer_").map(|_| id)?)? {
+        PassId::Buffer(name) => Some(name),
+        _ => None,
+    }
+}
+
+/// Path of a buffer's preview picture, which the site's inputs carry; empty for a buffer that the site does not have.
+pub fn preview(name: &str) -> String {
+    match BUFFERS.iter().position(|(n, ..)| *n == name) {
+        Some(number) => format!("/media/previz/buffer0{number}.png"),
+        None => String::new(),
+    }
+}
+
+/// The buffer a preview picture's path stands for.
+pub fn buffer_of_preview(path: &str) -> Option<String> {
+    let number: usize = path.rsplit_once("buffer0")?.1.strip_suffix(".png")?.parse().ok()?;
+    BUFFERS.get(number).map(|(name, ..)| (*name).to_owned())
+}

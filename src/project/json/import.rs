@@ -1,0 +1,374 @@
+//! Shadertoy JSON to [`Project`].
+//!
+//! Three shapes come by: the site's own (`ver`, `info`, `renderpass`), the API's (that, wrapped in `Shader`), and a list of
+//! the first. Spellings of both are read everywhere. A pass is known by its type and its output's id, never by its name,
+//! which is free text.
+
+use super::ids;
+use crate::{
+    diag::{Diagnostic, SourceMap, Span},
+    project::{
+        Channel, Filter, Info, Input, Media, Origin, Pass, PassId, Project, ProjectError, Sampler, SamplerRules,
+        Source, Wrap, folder::sort_passes,
+    },
+};
+use serde::Deserialize;
+use serde_json::{Map, Value};
+use std::{collections::HashMap, path::PathBuf};
+
+/// What the site writes as `ver`, and the only version it reads.
+const VERSION: &str = "0.1";
+
+/// A project from `text`, whose file is called `name` in messages. The project's origin is [`Origin::Unsaved`].
+/// Fails with [`ProjectError::Invalid`] for anything that is none of the three shapes.
+pub fn import(text: &str, name: &str) -> Result<(Project, Vec<Diagnostic>), ProjectError> {
+    read(text, name).map_err(|diagnostics| {
+        let mut sources = SourceMap::default();
+        sources.add(name, text);
+        ProjectError::Invalid { what: name.to_owned(), diagnostics, sources }
+    })
+}
+
+#[derive(Deserialize)]
+struct Shader {
+    ver: Option<Scalar>,
+    #[serde(default)]
+    info: Map<String, Value>,
+    renderpass: Vec<RenderPass>,
+}
+
+#[derive(Deserialize)]
+struct Answer {
+    #[serde(rename = "Shader")]
+    shader: Shader,
+}
+
+#[derive(Deserialize)]
+struct RenderPass {
+    inputs: Option<Vec<RenderInput>>,
+    outputs: Option<Vec<Output>>,
+    code: String,
+    #[serde(default)]
+    name: String,
+    r#type: String,
+}
+
+#[derive(Deserialize)]
+struct RenderInput {
+    id: Option<Scalar>,
+    filepath: Option<String>,
+    src: Option<String>,
+    r#type: Option<String>,
+    ctype: Option<String>,
+    channel: Scalar,
+    sampler: Option<RenderSampler>,
+}
+
+#[derive(Deserialize)]
+struct Output {
+    id: Option<Scalar>,
+}
+
+#[derive(Deserialize)]
+struct RenderSampler {
+    filter: Option<String>,
+    wrap: Option<String>,
+    vflip: Option<Scalar>,
+}
+
+/// Ids, numbers and truths come as texts from the site and bare from others.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Scalar {
+    Text(String),
+    Number(serde_json::Number),
+    Bool(bool),
+}
+
+impl Scalar {
+    fn text(&self) -> String {
+        match self {
+            Scalar::Text(t) => t.clone(),
+            Scalar::Number(n) => n.to_string(),
+            Scalar::Bool(b) => b.to_string(),
+        }
+    }
+}
+
+const EXPECTED: &str = "expected is a Shadertoy shader: an object with \"ver\", \"info\" and \"renderpass\", the same inside \
+    \"Shader\", or a list of such objects";
+
+fn read(text: &str, name: &str) -> Result<(Project, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let body = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let skipped = text.len() - body.len();
+    let at =
+        |offset: usize, length: usize| Span::new(crate::diag::SourceId(0), skipped + offset..skipped + offset + length);
+    let at_error = |e: &serde_json::Error| at(offset_of(body, e.line(), e.column()), 0);
+    // The key's place where it is found; the file's start where it is not.
+    let at_key = |key: &str| body.find(&format!("\"{key}\"")).map_or(at(0, 0), |i| at(i, key.len() + 2));
+    let failed = |e: serde_json::Error| {
+        let message = e.to_string();
+        let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(m, _)| m);
+        vec![Diagnostic::error(at_error(&e), format!("not a Shadertoy shader: {message}")).hint(EXPECTED)]
+    };
+    let value: Value = serde_json::from_str(body).map_err(|e| {
+        let message = e.to_string();
+        let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(m, _)| m);
+        vec![Diagnostic::error(at_error(&e), format!("not JSON: {message}")).hint(EXPECTED)]
+    })?;
+    let mut warnings = Vec::new();
+    let shader = match &value {
+        Value::Object(object) if object.contains_key("renderpass") => serde_json::from_str(body).map_err(failed)?,
+        Value::Object(object) if object.contains_key("Shader") => {
+            serde_json::from_str::<Answer>(body).map_err(failed)?.shader
+        }
+        Value::Object(object) if object.contains_key("Error") => {
+            let said = object["Error"].as_str().unwrap_or("no reason given");
+            return Err(vec![
+                Diagnostic::error(at_key("Error"), format!("this is the API's refusal, not a shader: {said}"))
+                    .hint("ask the API again; a shader must be public + API to be had"),
+            ]);
+        }
+        Value::Object(object) => {
+            let keys: Vec<String> = object.keys().take(5).map(|k| format!("\"{k}\"")).collect();
+            let has =
+                if keys.is_empty() { "is empty".into() } else { format!("has {}", crate::project::listed(&keys)) };
+            return Err(vec![
+                Diagnostic::error(at(0, 0), format!("not a Shadertoy shader: the object {has}, and no \"renderpass\""))
+                    .hint(EXPECTED),
+            ]);
+        }
+        Value::Array(_) => {
+            let shaders: Vec<Shader> = serde_json::from_str(body).map_err(failed)?;
+            if shaders.len() > 1 {
+                warnings.push(Diagnostic::warning(
+                    at(0, 0),
+                    format!("the file holds {} shaders; the first one is read", shaders.len()),
+                ));
+            }
+            shaders.into_iter().next().ok_or_else(|| {
+                vec![Diagnostic::error(at(0, 0), "not a Shadertoy shader: the list is empty").hint(EXPECTED)]
+            })?
+        }
+        _ => return Err(vec![Diagnostic::error(at(0, 0), "not a Shadertoy shader: a bare value").hint(EXPECTED)]),
+    };
+    match shader.ver.as_ref().map(Scalar::text).as_deref() {
+        Some(VERSION) => {}
+        Some(other) => {
+            return Err(vec![
+                Diagnostic::error(at_key("ver"), format!("version \"{other}\" of the form is not known"))
+                    .hint(format!("expected is \"ver\": \"{VERSION}\"")),
+            ]);
+        }
+        None => {
+            return Err(vec![
+                Diagnostic::error(at(0, 0), "the shader has no \"ver\"")
+                    .hint(format!("expected is \"ver\": \"{VERSION}\"")),
+            ]);
+        }
+    }
+    let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+    let project = project(shader, stem, &mut warnings).map_err(|mut d| {
+        d.span = Some(at_key("renderpass"));
+        vec![d]
+    })?;
+    // Warnings point into the JSON, which is none of the project's own texts: keep the words, drop the place.
+    for warning in &mut warnings {
+        warning.span = None;
+    }
+    Ok((project, warnings))
+}
+
+/// Byte offset of serde_json's line and column: both from 1, columns in bytes.
+fn offset_of(text: &str, line: usize, column: usize) -> usize {
+    let start: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
+    let mut offset = (start + column.saturating_sub(1)).min(text.len());
+    while !text.is_char_boundary(offset) {
+        offset -= 1;
+    }
+    offset
+}
+
+fn project(shader: Shader, stem: &str, warnings: &mut Vec<Diagnostic>) -> Result<Project, Diagnostic> {
+    let mut common: Option<Source> = None;
+    let mut passes: Vec<Pass> = Vec::new();
+    // Reads of buffers in the order the site loads them, as (place in `passes`, channel).
+    let mut reads: Vec<(usize, usize)> = Vec::new();
+    for pass in &shader.renderpass {
+        let id = match pass.r#type.as_str() {
+            "common" => {
+                if common.is_some() {
+                    return Err(Diagnostic::error(None, "the shader has two Common passes").hint("remove one of them"));
+                }
+                common = Some(Source { name: "Common".into(), path: None, text: pass.code.as_str().into() });
+                continue;
+            }
+            "image" => PassId::Image,
+            "sound" => PassId::Sound,
+            "cubemap" => PassId::Cubemap,
+            "buffer" => PassId::Buffer(buffer_name(pass, &shader.renderpass, &passes, warnings)),
+            other => {
+                return Err(Diagnostic::error(None, format!("a pass is of the unknown type \"{other}\""))
+                    .hint("known are common, buffer, cubemap, sound and image"));
+            }
+        };
+        if passes.iter().any(|p| p.id == id) {
+            return Err(Diagnostic::error(None, format!("the shader has two passes named {}", id.title()))
+                .hint("remove one of them"));
+        }
+        let mut channels: [Option<Channel>; 4] = Default::default();
+        for input in pass.inputs.iter().flatten() {
+            if let Some((n, channel)) = channel(input, &id, warnings) {
+                if matches!(channel.input, Input::Buffer(_)) {
+                    reads.push((passes.len(), n));
+                }
+                channels[n] = Some(channel);
+            }
+        }
+        let source = Source { name: id.title(), path: None, text: pass.code.as_str().into() };
+        passes.push(Pass { id, source, channels });
+    }
+    if !passes.iter().any(|p| p.id == PassId::Image) {
+        return Err(Diagnostic::error(None, "the shader has no Image pass")
+            .hint("a renderpass of type \"image\" must be there"));
+    }
+    settle_wraps(&mut passes, &reads);
+    sort_passes(&mut passes);
+    let mut extra = shader.info;
+    let mut take = |key: &str| match extra.remove(key) {
+        Some(Value::String(text)) => text,
+        None | Some(Value::Null) => String::new(),
+        Some(other) => other.to_string(),
+    };
+    let (id, name, author, description) = (take("id"), take("name"), take("username"), take("description"));
+    let tags = match extra.remove("tags") {
+        Some(Value::Array(tags)) => {
+            tags.into_iter().map(|t| t.as_str().map_or_else(|| t.to_string(), str::to_owned)).collect()
+        }
+        Some(Value::String(tags)) => tags.split(',').map(|t| t.trim().to_owned()).filter(|t| !t.is_empty()).collect(),
+        _ => Vec::new(),
+    };
+    Ok(Project {
+        name: if name.trim().is_empty() { stem.to_owned() } else { name },
+        info: Info { id, author, description, tags, extra },
+        common,
+        passes,
+        sampler_rules: SamplerRules::Site,
+        origin: Origin::Unsaved,
+    })
+}
+
+/// On the site a buffer has one wrap, that of the channel loaded last in the order of the JSON's list. That order is not
+/// kept (Image stands first in the list and is drawn last), so every channel gets the wrap that wins; pictures stay the
+/// same, there and here.
+fn settle_wraps(passes: &mut [Pass], reads: &[(usize, usize)]) {
+    let mut wraps: HashMap<String, Wrap> = HashMap::new();
+    for &(pass, n) in reads {
+        if let Some(Channel { input: Input::Buffer(name), sampler }) = &passes[pass].channels[n] {
+            wraps.insert(name.clone(), sampler.wrap);
+        }
+    }
+    for channel in passes.iter_mut().flat_map(|p| p.channels.iter_mut().flatten()) {
+        if let Input::Buffer(name) = &channel.input
+            && let Some(wrap) = wraps.get(name)
+        {
+            channel.sampler.wrap = *wrap;
+        }
+    }
+}
+
+/// A buffer's name by its output's id. A pass whose id says nothing, or what another one already has, gets the first letter
+/// that no pass claims.
+fn buffer_name(pass: &RenderPass, all: &[RenderPass], done: &[Pass], warnings: &mut Vec<Diagnostic>) -> String {
+    let claim = |p: &RenderPass| p.outputs.iter().flatten().find_map(|o| ids::buffer(&o.id.as_ref()?.text()));
+    let is_taken = |name: &str| done.iter().any(|p| p.id == PassId::Buffer(name.to_owned()));
+    let own = claim(pass);
+    if let Some(name) = own.as_ref().filter(|n| !is_taken(n)) {
+        return name.clone();
+    }
+    let claimed: Vec<String> = all.iter().filter(|p| p.r#type == "buffer").filter_map(claim).collect();
+    let free = ('A'..='Z').map(String::from).find(|l| !is_taken(l) && !claimed.contains(l));
+    let name = free.unwrap_or_else(|| format!("n{}", done.len()));
+    let said = match own {
+        Some(other) => format!("writes Buffer {other}, as another pass does"),
+        None => "does not say which buffer it writes".into(),
+    };
+    warnings.push(
+        Diagnostic::warning(None, format!("the pass \"{}\" {said}; it is read as Buffer {name}", pass.name))
+            .hint("give every buffer pass an output id of its own"),
+    );
+    name
+}
+
+fn channel(input: &RenderInput, id: &PassId, warnings: &mut Vec<Diagnostic>) -> Option<(usize, Channel)> {
+    let number = input.channel.text();
+    let Some(n) = number.parse::<usize>().ok().filter(|n| *n < 4) else {
+        warnings.push(
+            Diagnostic::warning(None, format!("{} has an input for iChannel{number}, which there is not", id.title()))
+                .hint("a pass has iChannel0 to iChannel3; the input is left out"),
+        );
+        return None;
+    };
+    let kind = input.r#type.as_deref().or(input.ctype.as_deref()).unwrap_or_default();
+    let path = input.filepath.as_deref().or(input.src.as_deref()).unwrap_or_default();
+    let input_id = input.id.as_ref().map(Scalar::text).unwrap_or_default();
+    let media = || media(&input_id, path);
+    let read = match kind {
+        "buffer" => match ids::buffer(&input_id).or_else(|| ids::buffer_of_preview(path)) {
+            Some(name) => Input::Buffer(name),
+            None => {
+                warnings.push(
+                    Diagnostic::warning(
+                        None,
+                        format!("iChannel{n} of {} reads a buffer of the unknown id \"{input_id}\"", id.title()),
+                    )
+                    .hint("the channel is left empty and reads black"),
+                );
+                return None;
+            }
+        },
+        "cubemap" if input_id == ids::CUBEMAP || path.contains("/previz/cubemap") => Input::CubemapPass,
+        "cubemap" => Input::Cubemap(media()),
+        "texture" => Input::Texture(media()),
+        "volume" => Input::Volume(media()),
+        "video" => Input::Video(media()),
+        "music" | "musicstream" => Input::Music(media()),
+        "keyboard" => Input::Keyboard,
+        "mic" => Input::Microphone,
+        "webcam" => Input::Webcam,
+        other => {
+            warnings.push(
+                Diagnostic::warning(None, format!("iChannel{n} of {} is of the unknown type \"{other}\"", id.title()))
+                    .hint("the channel is left empty and reads black"),
+            );
+            return None;
+        }
+    };
+    let stored = input.sampler.as_ref();
+    let word = |get: fn(&RenderSampler) -> Option<&String>| stored.and_then(get).map(|s| s.to_lowercase());
+    let sampler = Sampler {
+        filter: match word(|s| s.filter.as_ref()).as_deref() {
+            Some("nearest") => Filter::Nearest,
+            Some("mipmap") => Filter::Mipmap,
+            _ => Filter::Linear,
+        },
+        // Whatever is not "clamp" repeats, on the site too.
+        wrap: match word(|s| s.wrap.as_ref()).as_deref() {
+            Some("clamp") | None => Wrap::Clamp,
+            Some(_) => Wrap::Repeat,
+        },
+        vflip: stored.and_then(|s| s.vflip.as_ref()).is_none_or(|v| v.text() != "false"),
+    };
+    Some((n, Channel { input: read, sampler }))
+}
+
+/// A path of the site, or one that [`super::export`] wrote for a picture the site does not have.
+fn media(id: &str, path: &str) -> Media {
+    if let Some(name) = path.strip_prefix("builtin://").filter(|_| id.is_empty()) {
+        Media::Builtin(name.to_owned())
+    } else if let Some(file) = path.strip_prefix("file://").filter(|_| id.is_empty()) {
+        Media::File(PathBuf::from(file))
+    } else {
+        Media::Site { id: id.to_owned(), path: path.to_owned() }
+    }
+}

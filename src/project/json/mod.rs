@@ -1,0 +1,14 @@
+//! The JSON that Shadertoy's API, its export and its plugins speak.
+//!
+//! Owns both directions between that JSON and a [`super::Project`], and the site's fixed ids. What Eddy does not understand
+//! of `info` it keeps and gives back.
+
+mod export;
+mod ids;
+mod import;
+
+pub use export::export;
+pub use import::import;
+
+#[cfg(test)]
+mod tests;

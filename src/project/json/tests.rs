@@ -1,0 +1,205 @@
+use super::{export, import};
+use crate::project::{
+    Channel, Filter, Info, Input, Media, Origin, Pass, PassId, Project, Sampler, SamplerRules, Source, Wrap,
+};
+use serde_json::{Value, json};
+
+fn input(channel: u32, kind: &str, id: &str, path: &str, wrap: &str) -> Value {
+    json!({ "id": id, "filepath": path, "type": kind, "channel": channel, "published": 1,
+        "sampler": { "filter": "linear", "wrap": wrap, "vflip": "true", "srgb": "false", "internal": "byte" } })
+}
+
+fn pass(kind: &str, output: Option<&str>, inputs: &[Value]) -> Value {
+    let outputs: Vec<Value> = output.iter().map(|id| json!({ "id": id, "channel": 0 })).collect();
+    json!({ "inputs": inputs, "outputs": outputs, "code": format!("// {kind}"), "name": "any name", "description": "",
+        "type": kind })
+}
+
+fn shader(passes: &[Value]) -> Value {
+    json!({ "ver": "0.1", "renderpass": passes, "info": { "id": "XxXxXx", "name": "Test", "username": "me",
+        "description": "d", "tags": ["a", "b"], "date": "1424942564", "viewed": 7, "parentid": null } })
+}
+
+fn read(value: &Value) -> Project {
+    let (project, warnings) = import(&value.to_string(), "x.json").unwrap();
+    assert_eq!(warnings, []);
+    project
+}
+
+fn refusal(text: &str) -> String {
+    import(text, "x.json").expect_err("is refused").to_string()
+}
+
+#[test]
+fn the_three_shapes_give_the_same_project() {
+    let site = shader(&[
+        pass("image", None, &[input(1, "buffer", "XsXGR8", "", "clamp"), input(0, "keyboard", "4dXGRr", "", "clamp")]),
+        pass("common", None, &[]),
+        pass("buffer", Some("XsXGR8"), &[]),
+        pass("buffer", Some("4dXGR8"), &[input(2, "cubemap", "4dX3Rr", "", "clamp")]),
+    ]);
+    let project = read(&site);
+    assert_eq!(read(&json!({ "Shader": site })), project);
+    assert_eq!(read(&json!([site])), project);
+    let ids: Vec<String> = project.passes.iter().map(|p| p.id.key()).collect();
+    assert_eq!(ids, ["buffer_b", "buffer_a", "image"], "buffers in the list's order, by output id, Image last");
+    assert_eq!(&*project.common.as_ref().unwrap().text, "// common");
+    assert_eq!(project.passes[1].channels[2].as_ref().unwrap().input, Input::CubemapPass);
+    assert_eq!(project.passes[2].channels[1].as_ref().unwrap().input, Input::Buffer("B".into()));
+    assert_eq!(project.sampler_rules, SamplerRules::Site);
+    assert_eq!((project.info.id.as_str(), project.info.author.as_str()), ("XxXxXx", "me"));
+    assert_eq!(project.info.extra["viewed"], json!(7));
+}
+
+#[test]
+fn the_api_spelling_is_read_too() {
+    let api = json!({ "Shader": { "ver": "0.1", "info": {}, "renderpass": [
+        { "type": "image", "code": "", "outputs": [{ "id": 37, "channel": 0 }], "inputs": [
+            { "id": 257, "src": "/media/previz/buffer00.png", "ctype": "buffer", "channel": 0,
+              "sampler": { "filter": "mipmap", "wrap": "repeat", "vflip": "false" } },
+            { "id": "whatever", "src": "/media/previz/buffer03.png", "ctype": "buffer", "channel": "1" },
+            { "id": "XsfGRn", "src": "/media/a/1f7d.jpg", "ctype": "texture", "channel": 2 } ] } ] } });
+    let project = read(&api);
+    assert_eq!(project.name, "x", "a shader without a name is called after its file");
+    let channels = &project.passes[0].channels;
+    let sampler = Sampler { filter: Filter::Mipmap, wrap: Wrap::Repeat, vflip: false };
+    assert_eq!(channels[0], Some(Channel { input: Input::Buffer("A".into()), sampler }));
+    assert_eq!(channels[1].as_ref().unwrap().input, Input::Buffer("D".into()));
+    let wood = Media::Site { id: "XsfGRn".into(), path: "/media/a/1f7d.jpg".into() };
+    assert_eq!(channels[2].as_ref().unwrap().input, Input::Texture(wood));
+}
+
+#[test]
+fn one_wrap_a_buffer_and_the_last_of_the_list_wins() {
+    let project = read(&shader(&[
+        pass("image", None, &[input(0, "buffer", "4dXGR8", "", "clamp")]),
+        pass("buffer", Some("4dXGR8"), &[input(0, "buffer", "4dXGR8", "", "repeat")]),
+    ]));
+    for pass in &project.passes {
+        assert_eq!(pass.channels[0].as_ref().unwrap().sampler.wrap, Wrap::Repeat, "{}", pass.id.key());
+    }
+}
+
+#[test]
+fn buffers_without_a_usable_id_get_a_free_letter_and_a_warning() {
+    let value = shader(&[
+        pass("image", None, &[]),
+        pass("buffer", Some("4dXGR8"), &[]),
+        pass("buffer", Some("4dXGR8"), &[]),
+        pass("buffer", None, &[]),
+        pass("buffer", Some("4sXGR8"), &[]),
+        pass("buffer", Some("buffer_blur"), &[]),
+    ]);
+    let (project, warnings) = import(&value.to_string(), "x.json").unwrap();
+    let ids: Vec<String> = project.passes.iter().map(|p| p.id.key()).collect();
+    assert_eq!(ids, ["buffer_a", "buffer_b", "buffer_d", "buffer_c", "buffer_blur", "image"]);
+    assert_eq!(warnings.len(), 2, "{warnings:?}");
+}
+
+#[test]
+fn inputs_that_mean_nothing_are_left_out_with_a_warning() {
+    let value = shader(&[pass(
+        "image",
+        None,
+        &[
+            input(7, "buffer", "4dXGR8", "", "clamp"),
+            input(0, "hologram", "", "", "clamp"),
+            input(1, "buffer", "?", "", ""),
+        ],
+    )]);
+    let (project, warnings) = import(&value.to_string(), "x.json").unwrap();
+    assert_eq!(project.passes[0].channels, <[Option<Channel>; 4]>::default());
+    assert_eq!(warnings.len(), 3);
+}
+
+#[test]
+fn what_is_no_shader_is_refused_with_place_and_expectation() {
+    let no_image = shader(&[pass("common", None, &[])]).to_string();
+    let two_images = shader(&[pass("image", None, &[]), pass("image", None, &[])]).to_string();
+    let unknown = shader(&[pass("image", None, &[]), pass("vertex", None, &[])]).to_string();
+    let version = shader(&[pass("image", None, &[])]).to_string().replace("0.1", "0.2");
+    for (text, expected) in [
+        ("", vec!["x.json:1:1", "not JSON", "expected is a Shadertoy shader"]),
+        ("{\n  \"ver\": \"0.1\",\n  oops }", vec!["x.json:3:3", "not JSON"]),
+        ("{\n  \"ver\": \"0.1\", \"renderpass\": [\n    { \"type\": 3 } ] }", vec!["x.json:3:", "invalid type"]),
+        ("{ \"ver\": \"0.1\", \"renderpass\": [{ \"type\": \"image\" }] }", vec!["missing field `code`"]),
+        ("{ \"a\": 1, \"b\": 2 }", vec!["has \"a\" and \"b\", and no \"renderpass\"", "\"Shader\""]),
+        ("{}", vec!["is empty"]),
+        ("[]", vec!["list is empty"]),
+        ("[1]", vec!["x.json:1:", "invalid type"]),
+        ("\"text\"", vec!["a bare value"]),
+        ("{ \"Error\": \"Shader not found\" }", vec!["x.json:1:3", "API's refusal", "Shader not found"]),
+        (version.as_str(), vec!["version \"0.2\"", "\"ver\": \"0.1\""]),
+        ("{ \"renderpass\": [] }", vec!["no \"ver\""]),
+        (no_image.as_str(), vec!["no Image pass"]),
+        (two_images.as_str(), vec!["two passes named Image"]),
+        (unknown.as_str(), vec!["unknown type \"vertex\""]),
+    ] {
+        let said = refusal(text);
+        for part in expected {
+            assert!(said.contains(part), "{text}\ndoes not give {part:?} but\n{said}");
+        }
+    }
+    for depth in [1_000, 200_000] {
+        refusal(&"[".repeat(depth));
+    }
+}
+
+#[test]
+fn an_export_reads_back_as_the_same_project() {
+    let channel = |input, filter, wrap, vflip| Some(Channel { input, sampler: Sampler { filter, wrap, vflip } });
+    let site = |id: &str, path: &str| Media::Site { id: id.into(), path: path.into() };
+    let source = |name: &str, text: &str| Source { name: name.into(), path: None, text: text.into() };
+    let pass =
+        |id: PassId, channels| Pass { source: source(&id.title(), "void f() { \"\u{e9}\\n\" }\r\n"), id, channels };
+    let (n, l, m) = (Filter::Nearest, Filter::Linear, Filter::Mipmap);
+    let project = Project {
+        name: "A name".into(),
+        info: Info {
+            id: "abcdef".into(),
+            author: "someone".into(),
+            description: "line\nline".into(),
+            tags: vec!["x".into()],
+            extra: serde_json::from_str(r#"{ "likes": 3, "parentid": null, "nested": { "a": [1.5] } }"#).unwrap(),
+        },
+        common: Some(source("Common", "#define A\n")),
+        passes: vec![
+            pass(
+                PassId::Buffer("C".into()),
+                [
+                    channel(Input::Buffer("blur".into()), n, Wrap::Clamp, true),
+                    channel(Input::Texture(Media::Builtin("noise-rgba-64".into())), m, Wrap::Repeat, false),
+                    channel(Input::Texture(Media::File("dir/pic.png".into())), l, Wrap::Clamp, true),
+                    channel(Input::Volume(site("v", "/media/a/v.bin")), l, Wrap::Repeat, true),
+                ],
+            ),
+            pass(
+                PassId::Buffer("blur".into()),
+                [
+                    channel(Input::Music(site("m", "/media/a/m.mp3")), l, Wrap::Clamp, true),
+                    channel(Input::Music(site("s", "https://soundcloud.com/x/y")), l, Wrap::Clamp, true),
+                    channel(Input::Microphone, l, Wrap::Clamp, true),
+                    channel(Input::Webcam, l, Wrap::Clamp, true),
+                ],
+            ),
+            pass(PassId::Cubemap, [channel(Input::CubemapPass, l, Wrap::Clamp, true), None, None, None]),
+            pass(
+                PassId::Image,
+                [
+                    None,
+                    channel(Input::Keyboard, n, Wrap::Clamp, true),
+                    channel(Input::Cubemap(site("c", "/media/a/c.png")), m, Wrap::Clamp, false),
+                    channel(Input::Video(site("w", "/media/a/w.webm")), l, Wrap::Clamp, true),
+                ],
+            ),
+            pass(PassId::Sound, Default::default()),
+        ],
+        sampler_rules: SamplerRules::Site,
+        origin: Origin::Unsaved,
+    };
+    let text = export(&project);
+    let (back, warnings) = import(&text, "x.json").unwrap();
+    assert_eq!(warnings, []);
+    assert_eq!(back, project);
+    assert_eq!(export(&back), text);
+}

@@ -1,0 +1,195 @@
+use super::*;
+use crate::project::{Channel, Filter, Input, Media, Sampler, Wrap};
+use std::{fs, path::Path};
+use tempfile::TempDir;
+
+fn folder(files: &[(&str, &str)]) -> TempDir {
+    let dir = tempfile::tempdir().unwrap();
+    for (name, text) in files {
+        fs::write(dir.path().join(name), text).unwrap();
+    }
+    dir
+}
+
+fn load_path(path: &Path) -> Result<Loaded, ProjectError> {
+    load(path.to_str().unwrap())
+}
+
+/// The one message of a project that the author has to mend, in caret form.
+fn complaint(path: &Path) -> String {
+    let error = load_path(path).expect_err("the project is wrong");
+    assert!(error.diagnostics().is_some(), "{error}");
+    error.to_string()
+}
+
+#[test]
+fn a_folder_of_glsl_files_is_a_project() {
+    let dir = folder(&[
+        ("Common.glsl", "#define X 1\n"),
+        ("buffer_a.glsl", "#iChannel0 \"self\"\n#iChannel0::WrapMode \"Repeat\"\n"),
+        ("image.glsl", "void mainImage() {}"),
+        ("readme.md", "\u{1f600}"),
+    ]);
+    let Loaded { project, warnings, .. } = load_path(dir.path()).unwrap();
+    assert_eq!(warnings, []);
+    assert_eq!(project.origin, Origin::Folder { path: dir.path().to_owned(), has_manifest: false });
+    assert_eq!(project.name, dir.path().file_name().unwrap().to_str().unwrap());
+    assert_eq!(&*project.common.as_ref().unwrap().text, "#define X 1\n");
+    assert_eq!(project.passes.len(), 2);
+    let sampler = Sampler { wrap: Wrap::Repeat, ..Sampler::BUFFER };
+    assert_eq!(project.passes[0].channels[0], Some(Channel { input: Input::Buffer("A".into()), sampler }));
+    assert_eq!(project.passes[0].source.path.as_deref(), Some(dir.path().join("buffer_a.glsl").as_path()));
+    assert_eq!(project.passes[1].channels[0].as_ref().unwrap().input, Input::Buffer("A".into()));
+}
+
+#[test]
+fn one_glsl_file_is_an_image_pass() {
+    let dir = folder(&[("plasma.frag", "#iChannel0 \"file://pic.png\"\nvoid mainImage() {}")]);
+    let path = dir.path().join("plasma.frag");
+    let project = load_path(&path).unwrap().project;
+    assert_eq!((project.name.as_str(), project.passes.len()), ("plasma", 1));
+    assert_eq!(project.origin, Origin::File(path.clone()));
+    assert_eq!(project.origin.base_dir(), Some(dir.path()));
+    assert_eq!(project.passes[0].channels[0].as_ref().unwrap().input, Input::Texture(Media::File("pic.png".into())));
+    assert!(project.passes[0].source.compile_text().starts_with("     "));
+    assert_eq!(stem(path.to_str().unwrap()), "plasma");
+}
+
+#[test]
+fn eddy_toml_says_what_the_texts_cannot() {
+    let dir = folder(&[
+        (
+            "eddy.toml",
+            r#"
+            eddy = 1
+            name = "Ink"
+            tags = ["fluid", "2d"]
+            [passes.buffer_b]
+            file = "flow.glsl"
+            channels.3 = { texture = "noise-rgba-256", filter = "nearest" }
+            [passes.buffer_a]
+            [passes.image.channels]
+            0 = { buffer = "b", wrap = "repeat" }
+            1 = { file = "pic.png", vflip = false }
+            2 = { keyboard = true }
+        "#,
+        ),
+        ("flow.glsl", "flow"),
+        ("Buffer_A.glsl", "a"),
+        ("image.glsl", "i"),
+        ("common.glsl", "c"),
+    ]);
+    let Loaded { project, warnings, sources } = load_path(dir.path()).unwrap();
+    assert_eq!(warnings, []);
+    assert_eq!(project.name, "Ink");
+    assert_eq!(project.info.tags, ["fluid", "2d"]);
+    let ids: Vec<String> = project.passes.iter().map(|p| p.id.key()).collect();
+    assert_eq!(ids, ["buffer_b", "buffer_a", "image"], "buffers are drawn in the file's order");
+    assert_eq!(&*project.passes[1].source.text, "a");
+    let noise = project.passes[0].channels[3].as_ref().unwrap();
+    assert_eq!(noise.input, Input::Texture(Media::Builtin("noise-rgba-256".into())));
+    assert_eq!(noise.sampler, Sampler { filter: Filter::Nearest, ..Sampler::TEXTURE });
+    let image = &project.passes[2].channels;
+    assert_eq!(image[0].as_ref().unwrap().input, Input::Buffer("B".into()));
+    assert!(!image[1].as_ref().unwrap().sampler.vflip);
+    assert_eq!(image[2].as_ref().unwrap().input, Input::Keyboard);
+    assert_eq!(&*sources.get(crate::diag::SourceId(0)).unwrap().text, "c", "common is source 0");
+    assert_eq!(load_path(&dir.path().join("eddy.toml")).unwrap().project.passes, project.passes);
+}
+
+#[test]
+fn a_wrong_eddy_toml_names_line_and_mend() {
+    for (toml, expected) in [
+        ("[passes.image\n", vec!["eddy.toml:1:", "= help"]),
+        ("\nnmae = \"x\"\n[passes.image]", vec!["eddy.toml:2:1", "no key nmae", "did you mean name?"]),
+        ("name = 3\n[passes.image]", vec!["eddy.toml:1:8", "name is an integer, not a text in quotes"]),
+        (
+            "[passes.buffer_a]\nfile = \"bufer_b.glsl\"\n[passes.image]",
+            vec!["eddy.toml:2:8", "did you mean buffer_b.glsl?"],
+        ),
+        ("[passes.imge]\n[passes.image]", vec!["eddy.toml:1:9", "did you mean image?"]),
+        ("[passes.buffer_a]\n[passes.buf_A]\n[passes.image]", vec!["eddy.toml:2:9", "a second pass named Buffer A"]),
+        ("name = \"x\"\n", vec!["names no passes", "[passes.image]"]),
+        ("[passes.buffer_a]\n", vec!["no Image pass", "[passes.image]"]),
+        ("[passes.image]\nchannels.4 = { buffer = \"A\" }", vec!["eddy.toml:2:10", "no channel 4"]),
+        ("[passes.image]\nchannels.0 = { bufer = \"A\" }", vec!["no key bufer", "did you mean buffer?"]),
+        ("[passes.image]\nchannels.0 = { wrap = \"clamp\" }", vec!["does not say what it reads"]),
+        ("[passes.image]\nchannels.0 = { buffer = \"A\", file = \"x\" }", vec!["reads buffer and file at once"]),
+        (
+            "[passes.image]\nchannels.0 = { buffer = \"A\", wrap = \"repaet\" }",
+            vec!["eddy.toml:2:37", "did you mean \"repeat\"?"],
+        ),
+        ("[passes.image]\nchannels.0 = { buffer = \"image\" }", vec!["\"image\" is no buffer"]),
+        ("[passes.image]\nchannels.0 = \"A\"", vec!["channels.0 is a string, not a table"]),
+        ("[passes]\nimage = 3", vec!["image is an integer, not a table"]),
+        ("eddy = 99\nfuture = true\n", vec!["eddy.toml:1:8", "version 99", "newer Eddy"]),
+        ("[shadertoy]\ninfo = '{'\n[passes.image]", vec!["eddy.toml:2:8", "not a JSON object"]),
+    ] {
+        let dir = folder(&[("eddy.toml", toml), ("image.glsl", ""), ("buffer_a.glsl", ""), ("buffer_b.glsl", "")]);
+        let said = complaint(dir.path());
+        for part in expected {
+            assert!(said.contains(part), "{toml}\ndoes not give {part:?} but\n{said}");
+        }
+    }
+}
+
+#[test]
+fn every_mistake_of_an_eddy_toml_is_told_at_once() {
+    let dir = folder(&[("eddy.toml", "nmae = 1\nauthr = 2\n[passes.image]\nfiel = 1\n"), ("image.glsl", "")]);
+    let said = complaint(dir.path());
+    assert_eq!(said.matches("error: ").count(), 3, "{said}");
+}
+
+#[test]
+fn a_read_of_a_buffer_without_a_pass_is_a_warning_at_its_line() {
+    let dir = folder(&[("eddy.toml", "[passes.image]\nchannels.0 = { buffer = \"A\" }\n"), ("image.glsl", "")]);
+    let loaded = load_path(dir.path()).unwrap();
+    let [warning] = loaded.warnings.as_slice() else { panic!("{:?}", loaded.warnings) };
+    let said = crate::diag::render(warning, &loaded.sources);
+    assert!(said.contains("eddy.toml:2:") && said.contains("reads Buffer A, which has no pass"), "{said}");
+}
+
+#[test]
+fn a_text_that_is_not_utf8_is_named_with_its_line() {
+    let dir = folder(&[("image.glsl", "")]);
+    fs::write(dir.path().join("common.glsl"), b"ok\n// caf\xe9\n").unwrap();
+    let said = complaint(dir.path());
+    assert!(said.contains("common.glsl:2:7") && said.contains("UTF-8"), "{said}");
+    fs::write(dir.path().join("eddy.toml"), b"name = \"\xff\"").unwrap();
+    assert!(complaint(dir.path()).contains("eddy.toml:1:9"));
+    fs::write(dir.path().join("eddy.toml"), "[passes.image]").unwrap();
+    assert!(complaint(dir.path()).contains("common.glsl:2:7"), "also when eddy.toml names it");
+}
+
+#[test]
+fn an_include_is_refused_with_its_line() {
+    let dir = folder(&[("image.glsl", "\n#include \"noise.glsl\"\n")]);
+    let said = complaint(dir.path());
+    assert!(said.contains("image.glsl:2:1") && said.contains("no such file") && said.contains("common.glsl"), "{said}");
+}
+
+#[test]
+fn what_is_no_project_says_what_would_be_one() {
+    let error = load("flooid-that-is-not").unwrap_err().to_string();
+    assert!(error.starts_with("flooid-that-is-not: neither a file, a folder nor a preset"), "{error}");
+    assert!(matches!(load(""), Err(ProjectError::NotFound { .. })));
+    let dir = folder(&[("a.txt", "")]);
+    assert!(matches!(load_path(&dir.path().join("a.txt")), Err(ProjectError::UnknownKind { .. })));
+    assert!(complaint(dir.path()).contains("add image.glsl"));
+    let under_a_file = dir.path().join("a.txt").join("x.glsl");
+    assert!(matches!(load_path(&under_a_file), Err(ProjectError::Io { .. })));
+    fs::create_dir(dir.path().join("image.glsl")).unwrap();
+    assert!(load_path(&dir.path().join("image.glsl")).is_err(), "a folder called image.glsl is a folder");
+}
+
+#[test]
+fn the_stem_names_outputs() {
+    let dir = folder(&[("image.glsl", ""), ("a.b.json", "")]);
+    let inner = dir.path().join("my.project");
+    fs::create_dir(&inner).unwrap();
+    assert_eq!(stem(inner.to_str().unwrap()), "my.project");
+    assert_eq!(stem(&format!("{}/", inner.display())), "my.project");
+    assert_eq!(stem(dir.path().join("a.b.json").to_str().unwrap()), "a.b");
+    assert_eq!(stem("nowhere/shader.glsl"), "shader");
+    assert!(!stem(".").is_empty() && stem(".") != ".");
+}

@@ -1,0 +1,58 @@
+//! `eddy.toml`: the file that says of a folder what its GLSL texts cannot.
+//!
+//! Owns the file's form, both ways. Everything in it is optional but a pass named `image`.
+//!
+//! ```toml
+//! eddy = 1                        # version of this form; a newer one is refused
+//! name = "Fluid"
+//! description = "Weakly compressible flow"
+//! author = "…"
+//! tags = ["fluid"]
+//! sampler_rules = "site"          # default "channel"; "site" as projects from the site's JSON have it
+//!
+//! [common]
+//! file = "common.glsl"            # without this table, common.glsl is read where there is one; common = false: none
+//!
+//! # Buffers are drawn in the order in which they stand here.
+//! [passes.buffer_a]
+//! file = "buffer_a.glsl"          # default: the pass's name and .glsl
+//! channels.0 = { buffer = "A", filter = "nearest", wrap = "repeat" }
+//!
+//! [passes.image]
+//! channels.0 = { buffer = "A" }
+//! channels.1 = { texture = "noise-rgba-256" }     # one of Eddy's own; also cubemap, volume, video, music
+//! channels.2 = { file = "pic.png", vflip = false }
+//! channels.3 = { keyboard = true }                # also cube_a, microphone, webcam
+//! ```
+//!
+//! A `file` is a picture unless `kind` says otherwise (`"cubemap"`, `"volume"`, `"video"`, `"music"`); a stock file of the
+//! site is `site = "/media/a/…"` with its `site_id`. `[shadertoy]` keeps what the site's JSON said and Eddy has no use for.
+
+mod read;
+mod write;
+
+pub(super) use read::project;
+pub use write::write;
+
+use super::{Input, Sampler};
+
+/// Version of the form this build writes and the newest it reads.
+const VERSION: i64 = 1;
+
+/// Media kinds by their word in the file.
+const KINDS: [&str; 5] = ["texture", "cubemap", "volume", "video", "music"];
+
+/// What a channel has that the file does not say.
+fn default_sampler(input: &Input) -> Sampler {
+    match input {
+        Input::Buffer(_) | Input::CubemapPass => Sampler::BUFFER,
+        Input::Keyboard => Sampler::KEYBOARD,
+        Input::Texture(_) => Sampler::TEXTURE,
+        Input::Cubemap(_)
+        | Input::Volume(_)
+        | Input::Video(_)
+        | Input::Music(_)
+        | Input::Microphone
+        | Input::Webcam => Sampler::BUFFER,
+    }
+}

@@ -1,0 +1,441 @@
+//! Reading `eddy.toml`. Every complaint is a diagnostic at its place, and all of them come at once.
+
+use super::{KINDS, VERSION, default_sampler};
+use crate::{
+    diag::{Diagnostic, SourceId, SourceMap, Span},
+    project::{
+        Channel, Filter, Info, Input, Loaded, Media, Origin, Pass, PassId, Project, ProjectError, SamplerRules, Source,
+        Wrap,
+        folder::{self, Files, Read, Role},
+        listed,
+        load::MANIFEST,
+        nearest,
+    },
+};
+use std::{collections::BTreeMap, ops::Range, path::PathBuf};
+use toml_edit::{Document, Item, TableLike};
+
+const TOP: [&str; 10] =
+    ["eddy", "name", "description", "author", "tags", "id", "sampler_rules", "common", "passes", "shadertoy"];
+const INPUTS: [&str; 12] = [
+    "buffer",
+    "cube_a",
+    "keyboard",
+    "texture",
+    "cubemap",
+    "volume",
+    "video",
+    "music",
+    "microphone",
+    "webcam",
+    "file",
+    "site",
+];
+const SETTINGS: [&str; 5] = ["filter", "wrap", "vflip", "kind", "site_id"];
+
+/// The project that `text`, an `eddy.toml`, makes of `files`. Errors of the author's come back as [`ProjectError::Invalid`].
+pub fn project(
+    what: &str,
+    folder_name: String,
+    text: &str,
+    files: &Files<'_>,
+    origin: Origin,
+) -> Result<Loaded, ProjectError> {
+    let mut reader = Reader { files, sources: SourceMap::default(), id: SourceId(0), diagnostics: Vec::new() };
+    // While the project is not whole, the only text that spans can point into is this one.
+    reader.id = reader.sources.add(MANIFEST, text);
+    let project = reader.read(folder_name, text, origin)?;
+    let Reader { mut diagnostics, sources: own, id, .. } = reader;
+    let Some(project) = project.filter(|_| !diagnostics.iter().any(Diagnostic::is_error)) else {
+        return Err(ProjectError::Invalid { what: what.to_owned(), diagnostics, sources: own });
+    };
+    let mut sources = project.sources();
+    let moved = sources.add(MANIFEST, text);
+    for span in diagnostics.iter_mut().flat_map(|d| d.span.iter_mut().chain(d.labels.iter_mut().map(|l| &mut l.span))) {
+        if span.source == id {
+            span.source = moved;
+        }
+    }
+    Ok(Loaded { project, warnings: diagnostics, sources })
+}
+
+struct Reader<'a> {
+    files: &'a Files<'a>,
+    sources: SourceMap,
+    id: SourceId,
+    diagnostics: Vec<Diagnostic>,
+}
+
+impl Reader<'_> {
+    fn span(&self, range: Option<Range<usize>>) -> Option<Span> {
+        range.map(|r| Span::new(self.id, r))
+    }
+
+    fn error(&mut self, range: Option<Range<usize>>, message: impl Into<String>, hint: impl Into<String>) {
+        let span = self.span(range);
+        self.diagnostics.push(Diagnostic::error(span, message).hint(hint));
+    }
+
+    fn read(&mut self, folder_name: String, text: &str, origin: Origin) -> Result<Option<Project>, ProjectError> {
+        let document = match Document::parse(text) {
+            Ok(document) => document,
+            Err(e) => {
+                self.error(
+                    e.span(),
+                    e.message().trim().replace('\n', ", "),
+                    "see https://toml.io for the form of the file",
+                );
+                return Ok(None);
+            }
+        };
+        let root = document.as_table();
+        // A newer file may differ in anything: say so once instead of complaining of every new key.
+        match root.get("eddy") {
+            Some(item) if item.as_integer().is_none_or(|v| v < 1) => {
+                self.wrong_type("eddy", item, "a whole number from 1")
+            }
+            Some(item) if item.as_integer().is_some_and(|v| v > VERSION) => {
+                self.error(
+                    item.span(),
+                    format!(
+                        "this file is of version {}; this Eddy reads up to {VERSION}",
+                        item.as_integer().unwrap_or(0)
+                    ),
+                    "open it with a newer Eddy",
+                );
+                return Ok(None);
+            }
+            _ => {}
+        }
+        self.check_keys("eddy.toml", root, &[&TOP]);
+        let name = self.string(root, "name").filter(|n| !n.trim().is_empty()).unwrap_or(folder_name);
+        let info = Info {
+            id: self.string(root, "id").unwrap_or_default(),
+            author: self.string(root, "author").unwrap_or_default(),
+            description: self.string(root, "description").unwrap_or_default(),
+            tags: self.tags(root),
+            extra: self.extra(root),
+        };
+        let sampler_rules = match self.one_of(root, "sampler_rules", &["channel", "site"]) {
+            Some("site") => SamplerRules::Site,
+            _ => SamplerRules::PerChannel,
+        };
+        let common = self.common(root)?;
+        let passes = self.passes(root)?;
+        Ok(Some(Project { name, info, common, passes, sampler_rules, origin }))
+    }
+
+    fn common(&mut self, root: &dyn TableLike) -> Result<Option<Source>, ProjectError> {
+        if let Some(item) = root.get("common") {
+            if item.as_bool() == Some(false) {
+                return Ok(None);
+            }
+            let Some(table) = self.table("common", item) else { return Ok(None) };
+            self.check_keys("[common]", table, &[&["file"]]);
+            let file = self.string(table, "file").unwrap_or_else(|| self.conventional(&Role::Common));
+            let at = table.get("file").and_then(Item::span).or_else(|| item.span());
+            return self.source(&file, "Common", at);
+        }
+        let file = self.conventional(&Role::Common);
+        if self.files.exists(&file) { self.source(&file, "Common", None) } else { Ok(None) }
+    }
+
+    /// The file of a role that is there, whatever its case and extension; else the name a new one would get.
+    fn conventional(&self, role: &Role) -> String {
+        let key = match role {
+            Role::Common => "common".to_owned(),
+            Role::Pass(id) => id.key(),
+        };
+        let plain = format!("{key}.glsl");
+        if self.files.exists(&plain) {
+            return plain;
+        }
+        let names = self.files.names().unwrap_or_default();
+        names.into_iter().find(|n| folder::role_of_file(n).as_ref() == Some(role)).unwrap_or(plain)
+    }
+
+    fn passes(&mut self, root: &dyn TableLike) -> Result<Vec<Pass>, ProjectError> {
+        let mut passes: Vec<Pass> = Vec::new();
+        let Some(item) = root.get("passes") else {
+            self.error(None, "eddy.toml names no passes", "add a table [passes.image]");
+            return Ok(passes);
+        };
+        let Some(table) = self.table("passes", item) else { return Ok(passes) };
+        for (name, item) in table.iter() {
+            let at = table.key(name).and_then(toml_edit::Key::span).or_else(|| item.span());
+            let Some(id) = folder::pass_of_stem(name) else {
+                let hint =
+                    match nearest(name, ["image", "sound", "cube_a", "buffer_a", "buffer_b", "buffer_c", "buffer_d"]) {
+                        Some(near) => format!("did you mean {near}?"),
+                        None => "a pass is image, sound, cube_a, or buffer_ and a name".into(),
+                    };
+                self.error(at, format!("there is no pass {name}"), hint);
+                continue;
+            };
+            if passes.iter().any(|p| p.id == id) {
+                self.error(at, format!("a second pass named {}", id.title()), "rename or remove one of them");
+                continue;
+            }
+            let Some(table) = self.table(name, item) else { continue };
+            self.check_keys(&format!("[passes.{name}]"), table, &[&["file", "channels"]]);
+            let file = self.string(table, "file").unwrap_or_else(|| self.conventional(&Role::Pass(id.clone())));
+            let file_at = table.get("file").and_then(Item::span).or(at);
+            let source = self.source(&file, &id.title(), file_at)?;
+            let channels = self.channels(table);
+            if let Some(source) = source {
+                passes.push(Pass { id, source, channels });
+            }
+        }
+        if !table.iter().any(|(name, _)| folder::pass_of_stem(name) == Some(PassId::Image)) {
+            self.error(item.span(), "there is no Image pass", "add a table [passes.image]");
+        }
+        folder::sort_passes(&mut passes);
+        self.check_reads(table, &passes);
+        Ok(passes)
+    }
+
+    /// Channels that read a pass the project does not have: legal, but more often a slip.
+    fn check_reads(&mut self, table: &dyn TableLike, passes: &[Pass]) {
+        let names: Vec<&str> =
+            passes.iter().filter_map(|p| if let PassId::Buffer(n) = &p.id { Some(n.as_str()) } else { None }).collect();
+        let mut found = Vec::new();
+        for pass in passes {
+            for (n, channel) in pass.channels.iter().enumerate() {
+                let missing = match channel.as_ref().map(|c| &c.input) {
+                    Some(Input::Buffer(name)) if !names.contains(&name.as_str()) => PassId::Buffer(name.clone()),
+                    Some(Input::CubemapPass) if !passes.iter().any(|p| p.id == PassId::Cubemap) => PassId::Cubemap,
+                    _ => continue,
+                };
+                let item = table
+                    .iter()
+                    .find(|(key, _)| folder::pass_of_stem(key).as_ref() == Some(&pass.id))
+                    .and_then(|(_, item)| item.get("channels")?.get(n.to_string()));
+                found.push((item.and_then(Item::span), pass.id.title(), n, missing));
+            }
+        }
+        for (at, reader, n, missing) in found {
+            let span = self.span(at);
+            self.diagnostics.push(
+                Diagnostic::warning(
+                    span,
+                    format!("iChannel{n} of {reader} reads {}, which has no pass", missing.title()),
+                )
+                .hint(format!("it reads zeros; add [passes.{}] or name another", missing.key())),
+            );
+        }
+    }
+
+    fn channels(&mut self, pass: &dyn TableLike) -> [Option<Channel>; 4] {
+        let mut channels: [Option<Channel>; 4] = Default::default();
+        let Some(table) = pass.get("channels").and_then(|item| self.table("channels", item)) else { return channels };
+        for (number, item) in table.iter() {
+            match number.parse::<usize>() {
+                Ok(n) if n < 4 && number.len() == 1 => channels[n] = self.channel(n, item),
+                _ => {
+                    let at = table.key(number).and_then(toml_edit::Key::span).or_else(|| item.span());
+                    self.error(at, format!("there is no channel {number}"), "a pass has channels 0 to 3");
+                }
+            }
+        }
+        channels
+    }
+
+    fn channel(&mut self, n: usize, item: &Item) -> Option<Channel> {
+        let table = self.table(&format!("channels.{n}"), item)?;
+        self.check_keys(&format!("channel {n}"), table, &[&INPUTS, &SETTINGS]);
+        let named: Vec<&str> = table.iter().map(|(k, _)| k).filter(|k| INPUTS.contains(k)).collect();
+        let &[key] = named.as_slice() else {
+            let message = if named.is_empty() {
+                format!("channel {n} does not say what it reads")
+            } else {
+                format!("channel {n} reads {} at once", listed(&named))
+            };
+            self.error(item.span(), message, format!("name one of {}", listed(&INPUTS)));
+            return None;
+        };
+        let kind = self.one_of(table, "kind", &KINDS);
+        if kind.is_some() && !matches!(key, "file" | "site") {
+            let at = table.get("kind").and_then(Item::span);
+            self.error(at, "kind belongs to file or site only", "remove it");
+        }
+        let input = match key {
+            "buffer" => {
+                let name = self.string(table, key)?;
+                match PassId::parse(&name) {
+                    Some(PassId::Buffer(name)) => Input::Buffer(name),
+                    Some(PassId::Cubemap) => Input::CubemapPass,
+                    _ => {
+                        let at = table.get(key).and_then(Item::span);
+                        self.error(at, format!("\"{name}\" is no buffer"), "name a buffer pass: buffer = \"A\"");
+                        return None;
+                    }
+                }
+            }
+            "cube_a" | "keyboard" | "microphone" | "webcam" => {
+                if !self.boolean(table, key)? {
+                    return None;
+                }
+                match key {
+                    "cube_a" => Input::CubemapPass,
+                    "keyboard" => Input::Keyboard,
+                    "microphone" => Input::Microphone,
+                    _ => Input::Webcam,
+                }
+            }
+            "file" => of_kind(kind.unwrap_or("texture"), Media::File(PathBuf::from(self.string(table, key)?))),
+            "site" => {
+                let path = self.string(table, key)?;
+                let id = self.string(table, "site_id").unwrap_or_default();
+                of_kind(kind.unwrap_or("texture"), Media::Site { id, path })
+            }
+            kind => of_kind(kind, Media::Builtin(self.string(table, kind)?)),
+        };
+        let mut sampler = default_sampler(&input);
+        match self.one_of(table, "filter", &["nearest", "linear", "mipmap"]) {
+            Some("nearest") => sampler.filter = Filter::Nearest,
+            Some("linear") => sampler.filter = Filter::Linear,
+            Some(_) => sampler.filter = Filter::Mipmap,
+            None => {}
+        }
+        match self.one_of(table, "wrap", &["clamp", "repeat"]) {
+            Some("clamp") => sampler.wrap = Wrap::Clamp,
+            Some(_) => sampler.wrap = Wrap::Repeat,
+            None => {}
+        }
+        if table.contains_key("vflip") {
+            sampler.vflip = self.boolean(table, "vflip")?;
+        }
+        Some(Channel { input, sampler })
+    }
+
+    fn source(&mut self, file: &str, title: &str, at: Option<Range<usize>>) -> Result<Option<Source>, ProjectError> {
+        match self.files.read(file)? {
+            Read::Text(text) => {
+                Ok(Some(Source { name: file.to_owned(), path: self.files.path(file), text: text.into() }))
+            }
+            Read::Missing => {
+                let names = self.files.names().unwrap_or_default();
+                let hint = match nearest(file, names.iter().map(String::as_str)) {
+                    Some(near) => format!("did you mean {near}?"),
+                    None => format!("create {file}, or remove the entry"),
+                };
+                self.error(at, format!("the file of {title}, {file}, is not there"), hint);
+                Ok(None)
+            }
+            Read::NotUtf8(offset, lossy) => {
+                self.diagnostics.push(folder::not_utf8(&mut self.sources, file, offset, lossy));
+                Ok(None)
+            }
+        }
+    }
+
+    fn tags(&mut self, root: &dyn TableLike) -> Vec<String> {
+        let Some(item) = root.get("tags") else { return Vec::new() };
+        let tags: Option<Vec<String>> =
+            item.as_array().and_then(|a| a.iter().map(|v| v.as_str().map(str::to_owned)).collect());
+        tags.unwrap_or_else(|| {
+            self.wrong_type("tags", item, "a list of texts");
+            Vec::new()
+        })
+    }
+
+    /// `[shadertoy] info = '{…}'`: JSON inside TOML, because TOML has no null and only its own numbers.
+    fn extra(&mut self, root: &dyn TableLike) -> serde_json::Map<String, serde_json::Value> {
+        let Some(table) = root.get("shadertoy").and_then(|item| self.table("shadertoy", item)) else {
+            return serde_json::Map::default();
+        };
+        self.check_keys("[shadertoy]", table, &[&["info"]]);
+        let Some(text) = self.string(table, "info") else { return serde_json::Map::default() };
+        serde_json::from_str(&text).unwrap_or_else(|e| {
+            let at = table.get("info").and_then(Item::span);
+            self.error(at, format!("info is not a JSON object: {e}"), "mend it, or remove the table [shadertoy]");
+            serde_json::Map::default()
+        })
+    }
+
+    fn table<'i>(&mut self, key: &str, item: &'i Item) -> Option<&'i dyn TableLike> {
+        let table = item.as_table_like();
+        if table.is_none() {
+            self.wrong_type(key, item, "a table");
+        }
+        table
+    }
+
+    fn string(&mut self, table: &dyn TableLike, key: &str) -> Option<String> {
+        let item = table.get(key)?;
+        let text = item.as_str().map(str::to_owned);
+        if text.is_none() {
+            self.wrong_type(key, item, "a text in quotes");
+        }
+        text
+    }
+
+    fn boolean(&mut self, table: &dyn TableLike, key: &str) -> Option<bool> {
+        let item = table.get(key)?;
+        if item.as_bool().is_none() {
+            self.wrong_type(key, item, "true or false");
+        }
+        item.as_bool()
+    }
+
+    fn one_of<'k>(&mut self, table: &dyn TableLike, key: &str, known: &[&'k str]) -> Option<&'k str> {
+        let text = self.string(table, key)?;
+        let found = known.iter().copied().find(|k| k.eq_ignore_ascii_case(&text));
+        if found.is_none() {
+            let hint = match nearest(&text, known.iter().copied()) {
+                Some(near) => format!("did you mean \"{near}\"?"),
+                None => format!("known are {}", listed(known)),
+            };
+            self.error(table.get(key).and_then(Item::span), format!("unknown {key} \"{text}\""), hint);
+        }
+        found
+    }
+
+    fn wrong_type(&mut self, key: &str, item: &Item, expected: &str) {
+        let message = format!("{key} is {}, not {expected}", article(item.type_name()));
+        self.error(item.span(), message, format!("write {expected}"));
+    }
+
+    fn check_keys(&mut self, place: &str, table: &dyn TableLike, known: &[&[&'static str]]) {
+        let known: Vec<&'static str> = known.iter().flat_map(|k| k.iter().copied()).collect();
+        let unknown: Vec<(String, Option<Range<usize>>)> = table
+            .iter()
+            .filter(|(key, _)| !known.contains(key))
+            .map(|(key, item)| (key.to_owned(), table.key(key).and_then(toml_edit::Key::span).or_else(|| item.span())))
+            .collect();
+        for (key, at) in unknown {
+            let hint = match nearest(&key, known.iter().copied()) {
+                Some(near) => format!("did you mean {near}?"),
+                None => format!("known are {}", listed(&known)),
+            };
+            self.error(at, format!("{place} has no key {key}"), hint);
+        }
+    }
+}
+
+/// The channel an entry of `channels` says, if it says one without a mistake.
+pub fn channel(item: &Item) -> Option<Channel> {
+    let none = BTreeMap::new();
+    let mut reader = Reader {
+        files: &Files::Memory(&none),
+        sources: SourceMap::default(),
+        id: SourceId(0),
+        diagnostics: Vec::new(),
+    };
+    reader.channel(0, item).filter(|_| reader.diagnostics.is_empty())
+}
+
+fn article(type_name: &str) -> String {
+    let vowel = type_name.starts_with(['a', 'e', 'i', 'o', 'u']);
+    format!("{} {type_name}", if vowel { "an" } else { "a" })
+}
+
+fn of_kind(kind: &str, media: Media) -> Input {
+    match kind {
+        "cubemap" => Input::Cubemap(media),
+        "volume" => Input::Volume(media),
+        "video" => Input::Video(media),
+        "music" => Input::Music(media),
+        _ => Input::Texture(media),
+    }
+}

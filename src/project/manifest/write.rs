@@ -1,0 +1,262 @@
+//! Writing `eddy.toml`: an old text changed no more than needed, so that the author's comments and order stay.
+
+use super::{VERSION, default_sampler, read};
+use crate::project::{Channel, Filter, Input, Media, PassId, Project, SamplerRules, Wrap, folder::pass_of_stem};
+use toml_edit::{DocumentMut, InlineTable, Item, Key, Table, TableLike, Value};
+
+/// The text of `eddy.toml` for a project whose sources are called by their file names. `old` is the text it had; where the
+/// project says the same, so does the new one, byte for byte. `folder_name` is the name of a project that gives none;
+/// `has_common_file`: a file lies in the folder that would be read as Common if nothing were said.
+pub fn write(project: &Project, old: Option<&str>, folder_name: &str, has_common_file: bool) -> String {
+    let mut document: DocumentMut = old.and_then(|text| text.parse().ok()).unwrap_or_default();
+    let is_new = document.is_empty();
+    let root = document.as_table_mut();
+    if is_new {
+        root.insert("eddy", toml_edit::value(VERSION));
+    }
+    if is_new || root.contains_key("name") || project.name != folder_name {
+        set(root, "name", Some(project.name.as_str().into()));
+    }
+    let text = |t: &str| (!t.is_empty()).then(|| Value::from(t));
+    set(root, "description", text(&project.info.description));
+    set(root, "author", text(&project.info.author));
+    let tags = &project.info.tags;
+    set(root, "tags", (!tags.is_empty()).then(|| tags.iter().collect()));
+    set(root, "id", text(&project.info.id));
+    set(root, "sampler_rules", (project.sampler_rules == SamplerRules::Site).then(|| "site".into()));
+    common(root, project, has_common_file);
+    passes(root, project);
+    let extra = &project.info.extra;
+    if extra.is_empty() {
+        root.remove("shadertoy");
+    } else if let Some(table) = child(root, "shadertoy", false) {
+        let json = serde_json::Value::Object(extra.clone());
+        let same =
+            table.get("info").and_then(Item::as_str).and_then(|t| serde_json::from_str(t).ok()).as_ref() == Some(&json);
+        if !same {
+            set(table, "info", Some(json.to_string().into()));
+        }
+    }
+    document.to_string()
+}
+
+/// Sets, replaces or removes a value. One that says the same stays as it is written; a comment beside it stays in any case.
+fn set(table: &mut dyn TableLike, key: &str, value: Option<Value>) {
+    let Some(mut value) = value else {
+        table.remove(key);
+        return;
+    };
+    if let Some(old) = table.get(key).and_then(Item::as_value) {
+        if plain(old) == plain(&value) {
+            return;
+        }
+        *value.decor_mut() = old.decor().clone();
+    }
+    match table.get_mut(key) {
+        Some(item) => *item = Item::Value(value),
+        None => {
+            table.insert(key, Item::Value(value));
+        }
+    }
+}
+
+/// A value without its decoration, for comparing.
+fn plain(value: &Value) -> String {
+    match value {
+        Value::String(text) => format!("\"{}", text.value()),
+        Value::Array(items) => items.iter().map(plain).collect::<Vec<_>>().join("\n"),
+        other => other.clone().decorated("", "").to_string(),
+    }
+}
+
+/// The table at `key`, made where there is none.
+fn child<'t>(table: &'t mut dyn TableLike, key: &str, is_implicit: bool) -> Option<&'t mut dyn TableLike> {
+    if table.get(key).is_none_or(|item| !item.is_table_like()) {
+        let mut new = Table::new();
+        new.set_implicit(is_implicit);
+        table.insert(key, Item::Table(new));
+    }
+    table.get_mut(key)?.as_table_like_mut()
+}
+
+fn common(root: &mut Table, project: &Project, has_common_file: bool) {
+    match &project.common {
+        Some(source) => {
+            let is_said = root.get("common").is_some_and(Item::is_table_like);
+            if let Some(table) = child(root, "common", false)
+                && (table.contains_key("file") || !is_said || source.name != "common.glsl")
+            {
+                set(table, "file", Some(source.name.as_str().into()));
+            }
+        }
+        None if root.get("common").and_then(Item::as_bool) == Some(false) => {}
+        None => {
+            root.remove("common");
+            if has_common_file {
+                set(root, "common", Some(false.into()));
+            }
+        }
+    }
+}
+
+fn passes(root: &mut Table, project: &Project) {
+    let Some(table) = child(root, "passes", true) else { return };
+    let gone: Vec<String> = table
+        .iter()
+        .map(|(key, _)| key.to_owned())
+        .filter(|key| pass_of_stem(key).is_none_or(|id| project.pass(&id).is_none()))
+        .collect();
+    for key in gone {
+        table.remove(&key);
+    }
+    for pass in &project.passes {
+        let key = key_of(table, &pass.id);
+        let is_old = table.contains_key(&key);
+        let Some(entry) = child(table, &key, false) else { continue };
+        if !is_old || entry.contains_key("file") || pass.source.name != format!("{}.glsl", pass.id.key()) {
+            set(entry, "file", Some(pass.source.name.as_str().into()));
+        }
+        channels(entry, &pass.channels);
+    }
+    order(table, project);
+}
+
+/// The key by which a table has a pass already, or the one it shall get.
+fn key_of(table: &dyn TableLike, id: &PassId) -> String {
+    let old = table.iter().map(|(key, _)| key).find(|key| pass_of_stem(key).as_ref() == Some(id));
+    old.map_or_else(|| id.key(), str::to_owned)
+}
+
+/// Puts the pass tables into the project's order where they do not stand in it already.
+fn order(table: &mut dyn TableLike, project: &Project) {
+    let wanted: Vec<String> = project.passes.iter().map(|p| key_of(table, &p.id)).collect();
+    let is_buffer = |key: &&str| matches!(pass_of_stem(key), Some(PassId::Buffer(_)));
+    let now: Vec<&str> = table.iter().map(|(key, _)| key).filter(is_buffer).collect();
+    // Only buffers have an order.
+    if now == wanted.iter().map(String::as_str).filter(is_buffer).collect::<Vec<_>>() {
+        return;
+    }
+    let tables = |item: &Item| item.as_table().and_then(Table::position);
+    let mut places: Vec<isize> = wanted.iter().filter_map(|key| tables(table.get(key)?)).collect();
+    places.sort_unstable();
+    let last = places.last().copied();
+    let mut places = places.into_iter();
+    for key in &wanted {
+        let Some((old_key, item)) = take(table, key) else { continue };
+        let mut item = item;
+        if let Item::Table(t) = &mut item {
+            t.set_position(places.next().or(last));
+        }
+        table.entry_format(&old_key).or_insert(item);
+    }
+}
+
+fn take(table: &mut dyn TableLike, key: &str) -> Option<(Key, Item)> {
+    let old_key = table.key(key)?.clone();
+    Some((old_key, table.remove(key)?))
+}
+
+fn channels(pass: &mut dyn TableLike, channels: &[Option<Channel>; 4]) {
+    if channels.iter().all(Option::is_none) {
+        pass.remove("channels");
+        return;
+    }
+    if pass.get("channels").is_none_or(|item| !item.is_table_like()) {
+        let mut dotted = Table::new();
+        dotted.set_dotted(true);
+        pass.insert("channels", Item::Table(dotted));
+    }
+    let Some(table) = pass.get_mut("channels").and_then(Item::as_table_like_mut) else { return };
+    for (n, channel) in channels.iter().enumerate() {
+        let key = n.to_string();
+        match (channel, table.get(&key)) {
+            (None, _) => {
+                table.remove(&key);
+            }
+            (Some(channel), Some(item)) if read::channel(item).as_ref() == Some(channel) => {}
+            (Some(channel), old) => {
+                let mut value = Value::InlineTable(entry(channel));
+                let decor = match old {
+                    Some(Item::Value(old)) => Some(old.decor().clone()),
+                    _ => None,
+                };
+                if let Some(decor) = decor {
+                    *value.decor_mut() = decor;
+                }
+                table.insert(&key, Item::Value(value));
+            }
+        }
+    }
+}
+
+fn entry(channel: &Channel) -> InlineTable {
+    let mut table = InlineTable::new();
+    match &channel.input {
+        Input::Buffer(name) => {
+            let is_plain = PassId::parse(name) == Some(PassId::Buffer(name.clone()));
+            let name = if is_plain { name.clone() } else { PassId::Buffer(name.clone()).key() };
+            table.insert("buffer", name.into());
+        }
+        Input::CubemapPass => {
+            table.insert("cube_a", true.into());
+        }
+        Input::Keyboard => {
+            table.insert("keyboard", true.into());
+        }
+        Input::Microphone => {
+            table.insert("microphone", true.into());
+        }
+        Input::Webcam => {
+            table.insert("webcam", true.into());
+        }
+        Input::Texture(m) => media(&mut table, "texture", m),
+        Input::Cubemap(m) => media(&mut table, "cubemap", m),
+        Input::Volume(m) => media(&mut table, "volume", m),
+        Input::Video(m) => media(&mut table, "video", m),
+        Input::Music(m) => media(&mut table, "music", m),
+    }
+    let (sampler, default) = (channel.sampler, default_sampler(&channel.input));
+    if sampler.filter != default.filter {
+        let filter = match sampler.filter {
+            Filter::Nearest => "nearest",
+            Filter::Linear => "linear",
+            Filter::Mipmap => "mipmap",
+        };
+        table.insert("filter", filter.into());
+    }
+    if sampler.wrap != default.wrap {
+        let wrap = match sampler.wrap {
+            Wrap::Clamp => "clamp",
+            Wrap::Repeat => "repeat",
+        };
+        table.insert("wrap", wrap.into());
+    }
+    if sampler.vflip != default.vflip {
+        table.insert("vflip", sampler.vflip.into());
+    }
+    table
+}
+
+fn media(table: &mut InlineTable, kind: &str, media: &Media) {
+    match media {
+        Media::Builtin(name) => {
+            table.insert(kind, name.as_str().into());
+            return;
+        }
+        Media::File(path) => {
+            // Forward slashes are understood everywhere.
+            let path = path.to_string_lossy();
+            let path = if cfg!(windows) { path.replace('\\', "/") } else { path.into_owned() };
+            table.insert("file", path.into());
+        }
+        Media::Site { id, path } => {
+            table.insert("site", path.as_str().into());
+            if !id.is_empty() {
+                table.insert("site_id", id.as_str().into());
+            }
+        }
+    }
+    if kind != "texture" {
+        table.insert("kind", kind.into());
+    }
+}

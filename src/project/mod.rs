@@ -1,0 +1,26 @@
+//! What the author wrote, as pure data, and its forms on disk.
+//!
+//! Owns [`Project`], `eddy.toml`, folders of GLSL files, Shadertoy JSON in and out, the presets inside the binary. Knows
+//! nothing of wgpu or naga; reads files only where a caller names them.
+
+mod atomic;
+pub mod directives;
+mod error;
+mod folder;
+pub mod json;
+mod load;
+mod manifest;
+mod model;
+mod names;
+pub mod presets;
+mod save;
+
+pub use error::ProjectError;
+pub use folder::declare_channels;
+pub use load::{Loaded, load, stem};
+pub use manifest::write as write_manifest;
+pub use model::{
+    Channel, Filter, Info, Input, Media, Origin, Pass, PassId, Project, Sampler, SamplerRules, Source, Tab, Wrap,
+};
+pub use names::{listed, nearest};
+pub use save::{Overwrite, save};

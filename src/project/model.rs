@@ -1,0 +1,291 @@
+//! A project as pure data: passes in their drawing order, what each channel reads, and where the texts came from.
+
+use std::{path::PathBuf, sync::Arc};
+
+/// What the author wrote, whole: enough to compile, plan and draw, and to write it back unchanged.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Project {
+    /// Shown in the title bar and the gallery; never empty.
+    pub name: String,
+    pub info: Info,
+    /// Text put before every pass's own.
+    pub common: Option<Source>,
+    /// Buffers in the order they are drawn each frame, then the cubemap pass, then Image. (Sound passes lie here too and are
+    /// not drawn.) Exactly one Image.
+    pub passes: Vec<Pass>,
+    pub sampler_rules: SamplerRules,
+    pub origin: Origin,
+}
+
+/// What the site's JSON says of a shader besides its passes. Kept so that an export gives back what an import took.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Info {
+    pub id: String,
+    pub author: String,
+    pub description: String,
+    pub tags: Vec<String>,
+    /// Every other member of the JSON's `info` object, as read.
+    pub extra: serde_json::Map<String, serde_json::Value>,
+}
+
+/// Where a project was read from, and so where saving goes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Origin {
+    /// Nowhere yet: new, or a copy of something that is not written in place.
+    #[default]
+    Unsaved,
+    /// A preset inside the binary. Editing one edits a copy; saving asks where to.
+    Preset(String),
+    /// A folder with `eddy.toml`, or with GLSL files named by convention.
+    Folder { path: PathBuf, has_manifest: bool },
+    /// A single `.glsl` file: the Image pass.
+    File(PathBuf),
+    /// A Shadertoy JSON file.
+    Json(PathBuf),
+}
+
+/// A text of the project, and the file it lives in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    /// What diagnostics and tabs call it: the file's name (`buffer_a.glsl`) or the tab's (`Buffer A`).
+    pub name: String,
+    /// The file, where there is one of its own.
+    pub path: Option<PathBuf>,
+    pub text: Arc<str>,
+}
+
+impl Source {
+    /// What a compiler gets: the text with every `#iChannel` line (see [`crate::project::directives`]) and a byte order mark
+    /// overwritten with spaces, byte for byte, so that offsets and lines are those of `text`.
+    pub fn compile_text(&self) -> std::borrow::Cow<'_, str> {
+        super::directives::blank(&self.text)
+    }
+}
+
+/// One render pass.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pass {
+    pub id: PassId,
+    pub source: Source,
+    /// `iChannel0..3`; `None` reads as a 2D texture that is black and of size 0.
+    pub channels: [Option<Channel>; 4],
+}
+
+/// Which pass. Buffers are told apart by name: `A`..`D` as on the site, or any further name a project gives.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum PassId {
+    Buffer(String),
+    Cubemap,
+    Sound,
+    Image,
+}
+
+impl PassId {
+    /// As tabs show it: `Buffer A`, `Cube A`, `Sound`, `Image`.
+    pub fn title(&self) -> String {
+        match self {
+            PassId::Buffer(name) => format!("Buffer {name}"),
+            PassId::Cubemap => "Cube A".into(),
+            PassId::Sound => "Sound".into(),
+            PassId::Image => "Image".into(),
+        }
+    }
+
+    /// As file names, `eddy.toml` and `--pass` spell it: `buffer_a`, `cube_a`, `sound`, `image`.
+    pub fn key(&self) -> String {
+        match self {
+            PassId::Buffer(name) => format!("buffer_{}", name.to_lowercase()),
+            PassId::Cubemap => "cube_a".into(),
+            PassId::Sound => "sound".into(),
+            PassId::Image => "image".into(),
+        }
+    }
+
+    /// Reads either spelling, without regard to case, spaces or underscores; a bare letter is a buffer.
+    pub fn parse(text: &str) -> Option<PassId> {
+        let flat: String = text.chars().filter(|c| !matches!(c, ' ' | '_' | '-')).collect::<String>().to_lowercase();
+        Some(match flat.as_str() {
+            "" => return None,
+            "image" => PassId::Image,
+            "sound" => PassId::Sound,
+            "cubea" | "cubemap" | "cubemapa" => PassId::Cubemap,
+            _ => {
+                let name = flat.strip_prefix("buffer").or_else(|| flat.strip_prefix("buf")).unwrap_or(&flat);
+                if name.is_empty() {
+                    return None;
+                }
+                // A site buffer is one capital letter; further names are kept in lower case, as file names fold case.
+                PassId::Buffer(if name.len() == 1 { name.to_uppercase() } else { name.to_owned() })
+            }
+        })
+    }
+}
+
+/// What one `iChannelN` reads and how.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Channel {
+    pub input: Input,
+    pub sampler: Sampler,
+}
+
+/// A source of texels.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Input {
+    /// A buffer by name; one without a pass reads zeros.
+    Buffer(String),
+    /// The cubemap pass.
+    CubemapPass,
+    Keyboard,
+    /// A 2D picture.
+    Texture(Media),
+    Cubemap(Media),
+    Volume(Media),
+    Video(Media),
+    /// A music file or stream.
+    Music(Media),
+    Microphone,
+    Webcam,
+}
+
+/// Where a picture, volume or sound comes from.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Media {
+    /// One of Eddy's own, by name (`noise-rgba-256`): see `media::builtin`.
+    Builtin(String),
+    /// A file, relative to the project's folder or absolute.
+    File(PathBuf),
+    /// One of the site's stock files. Stands for a built-in of the same size and kind, or a file of that name in `--media`.
+    Site { id: String, path: String },
+}
+
+/// How texels are read between and beyond texel centres.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Sampler {
+    pub filter: Filter,
+    pub wrap: Wrap,
+    /// The picture's top row lies at v = 1. Means something for pictures, cubemaps and video only.
+    pub vflip: bool,
+}
+
+impl Sampler {
+    /// What a new channel reading a buffer starts with on the site.
+    pub const BUFFER: Sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true };
+    /// What a new channel reading a picture starts with on the site.
+    pub const TEXTURE: Sampler = Sampler { filter: Filter::Mipmap, wrap: Wrap::Repeat, vflip: true };
+    /// The keyboard is always read so, whatever is stored.
+    pub const KEYBOARD: Sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: true };
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Filter {
+    Nearest,
+    #[default]
+    Linear,
+    /// Linear, between mip levels too.
+    Mipmap,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Wrap {
+    #[default]
+    Clamp,
+    Repeat,
+}
+
+/// Whose samplers count when several channels read one buffer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum SamplerRules {
+    /// Every channel has its own (`eddy.toml`, and GLSL files without one).
+    #[default]
+    PerChannel,
+    /// As on the site, for projects read from its JSON: the filter belongs to the buffer while a pass draws (the pass's last
+    /// channel wins), the wrap to the buffer for good (the last channel of the whole project wins).
+    Site,
+}
+
+impl Origin {
+    /// The folder that relative media paths start from; `None` where there is none on disk.
+    pub fn base_dir(&self) -> Option<&std::path::Path> {
+        match self {
+            Origin::Unsaved | Origin::Preset(_) => None,
+            Origin::Folder { path, .. } => Some(path),
+            Origin::File(path) | Origin::Json(path) => path.parent(),
+        }
+    }
+}
+
+impl Project {
+    pub fn pass(&self, id: &PassId) -> Option<&Pass> {
+        self.passes.iter().find(|p| p.id == *id)
+    }
+
+    pub fn pass_mut(&mut self, id: &PassId) -> Option<&mut Pass> {
+        self.passes.iter_mut().find(|p| p.id == *id)
+    }
+}
+
+/// A text of the project as the editor shows it.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Tab {
+    Common,
+    Pass(PassId),
+}
+
+impl Tab {
+    pub fn title(&self) -> String {
+        match self {
+            Tab::Common => "Common".into(),
+            Tab::Pass(id) => id.title(),
+        }
+    }
+}
+
+/// Sources of a project by [`crate::diag::SourceId`]: 0 is Common (an empty text where there is none), then the passes in order.
+impl Project {
+    pub fn sources(&self) -> crate::diag::SourceMap {
+        let mut map = crate::diag::SourceMap::default();
+        match &self.common {
+            Some(c) => map.add(c.name.clone(), c.text.clone()),
+            None => map.add("Common", ""),
+        };
+        for pass in &self.passes {
+            map.add(pass.source.name.clone(), pass.source.text.clone());
+        }
+        map
+    }
+
+    /// The tab a diagnostic's source belongs to; `None` for one this project does not have.
+    pub fn tab_of(&self, source: crate::diag::SourceId) -> Option<Tab> {
+        match usize::from(source.0) {
+            0 => Some(Tab::Common),
+            i => self.passes.get(i - 1).map(|p| Tab::Pass(p.id.clone())),
+        }
+    }
+
+    pub fn source(&self, tab: &Tab) -> Option<&Source> {
+        match tab {
+            Tab::Common => self.common.as_ref(),
+            Tab::Pass(id) => self.pass(id).map(|p| &p.source),
+        }
+    }
+
+    pub fn source_mut(&mut self, tab: &Tab) -> Option<&mut Source> {
+        match tab {
+            Tab::Common => self.common.as_mut(),
+            Tab::Pass(id) => self.pass_mut(id).map(|p| &mut p.source),
+        }
+    }
+
+    /// Every tab there is, in the site's order: Common, buffers, cubemap, Image, Sound.
+    pub fn tabs(&self) -> Vec<Tab> {
+        let rank = |id: &PassId| match id {
+            PassId::Buffer(_) => 0,
+            PassId::Cubemap => 1,
+            PassId::Image => 2,
+            PassId::Sound => 3,
+        };
+        let mut ids: Vec<_> = self.passes.iter().map(|p| p.id.clone()).collect();
+        ids.sort_by(|a, b| rank(a).cmp(&rank(b)).then_with(|| a.cmp(b)));
+        self.common.iter().map(|_| Tab::Common).chain(ids.into_iter().map(Tab::Pass)).collect()
+    }
+}
