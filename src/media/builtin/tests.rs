@@ -1,0 +1,151 @@
+use super::*;
+use crate::media::site::STOCK;
+use std::{collections::BTreeMap, sync::LazyLock};
+
+/// Every texture, made once for all these tests.
+static MADE: LazyLock<BTreeMap<&str, Texels>> =
+    LazyLock::new(|| names().iter().map(|&n| (n, make(n).unwrap())).collect());
+
+/// FNV-1a: enough to see that bytes changed.
+fn checksum(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |h, b| (h ^ u64::from(*b)).wrapping_mul(0x0000_0100_0000_01b3))
+}
+
+#[test]
+fn every_texture_has_the_same_bytes_on_every_machine() {
+    let expected: [(&str, u64); ALL.len()] = [
+        ("noise-rgba-64", 0x4455_65ba_9671_2fb6),
+        ("noise-rgba-256", 0x76c7_f2d0_96f2_b0f2),
+        ("noise-grey-64", 0xe1b6_08f5_a641_e252),
+        ("noise-grey-256", 0xe550_860c_45f3_27f0),
+        ("blue-noise", 0x9058_01a5_6efe_0525),
+        ("blue-noise-64", 0x864a_36a0_deb1_93f1),
+        ("bayer-8", 0xbd5f_cb5e_a6fb_ef25),
+        ("checkers", 0x83a7_19ea_bff0_2325),
+        ("gradient", 0x7a4e_44a9_70ea_9b25),
+        ("font", 0x28b2_05ba_6210_3c20),
+        ("wood", 0xed32_367a_8330_d85c),
+        ("brick", 0x24fe_3db7_1a8d_f2aa),
+        ("pebbles", 0x0e64_91c0_55cf_822b),
+        ("marble", 0xa1a4_fec0_6afa_b280),
+        ("granite", 0x8245_d816_0d48_918f),
+        ("lichen", 0x67f4_048b_8f53_a1ad),
+        ("rust", 0x3c97_512d_7b41_c812),
+        ("fabric", 0x0c61_54b9_c630_3e3c),
+        ("grass", 0xa611_8517_863d_5974),
+        ("moss", 0x300e_7554_af2b_1deb),
+        ("coral", 0x147c_7568_595a_afb0),
+        ("dunes", 0x3e9d_ba43_41f9_3424),
+        ("stars", 0xb3c2_36ad_0e75_3c29),
+        ("street", 0xa500_6da0_2098_84ad),
+        ("sprites", 0x038d_1831_b0ed_da99),
+    ];
+    for (name, sum) in expected {
+        let texels = &MADE[name];
+        assert_eq!(texels.bytes.len(), (texels.width * texels.height) as usize * texels.format.bytes(), "{name}");
+        assert_eq!(checksum(&texels.bytes), sum, "{name}: {:#x}", checksum(&texels.bytes));
+    }
+}
+
+#[test]
+fn stand_ins_have_the_sizes_and_channels_of_what_they_stand_for() {
+    let size = |id: &str| {
+        let stock = STOCK.iter().find(|s| s.id == id).unwrap();
+        let texels = &MADE[stock.stand_in];
+        let format = if stock.is_grey { TexelFormat::R8 } else { TexelFormat::Rgba8 };
+        assert_eq!(texels.format, format, "{}", stock.stand_in);
+        (texels.width, texels.height)
+    };
+    for id in ["4dXGzr", "XdX3Rn", "XsBSR3", "XsX3Rn", "XsfGRn", "4sfGRn", "Xsf3Rr", "4df3Rr", "XsXGRn", "XdXGzr"] {
+        assert_eq!(size(id), (1024, 1024), "{id}");
+    }
+    for id in ["4dfGRn", "4dXGRn", "4sf3Rr", "4sXGRn", "XdfGRn", "4dX3Rn"] {
+        assert_eq!(size(id), (512, 512), "{id}");
+    }
+    assert_eq!((size("Xsf3zn"), size("4dXGzn")), ((256, 256), (256, 256)));
+    assert_eq!((size("XdXGzn"), size("4sf3Rn")), ((64, 64), (64, 64)));
+    assert_eq!((size("Xdf3zn"), size("Xsf3Rn")), ((8, 8), (256, 32)));
+}
+
+/// Mean step between neighbouring columns and between neighbouring rows: the largest inside, and the larger of the two where
+/// the picture meets itself.
+fn steps(texels: &Texels) -> (f64, f64) {
+    let (w, h, n) = (texels.width as usize, texels.height as usize, texels.format.bytes());
+    let at = |x: usize, y: usize| f64::from(texels.bytes[((y % h) * w + x % w) * n]);
+    let columns = (0..w).map(|x| (0..h).map(|y| (at(x + 1, y) - at(x, y)).abs()).sum::<f64>() / h as f64);
+    let rows = (0..h).map(|y| (0..w).map(|x| (at(x, y + 1) - at(x, y)).abs()).sum::<f64>() / w as f64);
+    let (columns, rows): (Vec<f64>, Vec<f64>) = (columns.collect(), rows.collect());
+    let inside = columns[..w - 1].iter().chain(&rows[..h - 1]).copied().fold(0.0, f64::max);
+    (inside, columns[w - 1].max(rows[h - 1]))
+}
+
+#[test]
+fn textures_that_say_so_are_seamless() {
+    for (name, texels) in MADE.iter() {
+        let (inside, edge) = steps(texels);
+        match *name {
+            "gradient" => assert!(edge > 1.5 * inside, "the measure sees a seam where there is one"),
+            "font" | "sprites" | "street" => {}
+            _ => assert!(edge <= 1.1 * inside, "{name}: {edge} against {inside}"),
+        }
+    }
+}
+
+#[test]
+fn blue_noise_has_every_value_as_often_and_no_low_frequencies() {
+    // Mean square of what is left of a channel after averaging over 8x8 texels: the low frequencies' part.
+    let low = |texels: &Texels, channel: usize| {
+        let w = texels.width as usize;
+        let mut sum = 0.0;
+        for (by, bx) in (0..w / 8).flat_map(|y| (0..w / 8).map(move |x| (y, x))) {
+            let mean: f64 =
+                (0..64).map(|i| f64::from(texels.bytes[((by * 8 + i / 8) * w + bx * 8 + i % 8) * 4 + channel])).sum();
+            sum += (mean / 64.0 - 127.5).powi(2);
+        }
+        sum
+    };
+    let (blue, white) = (&MADE["blue-noise-64"], &MADE["noise-rgba-64"]);
+    for channel in 0..4 {
+        let mut counts = [0; 256];
+        blue.bytes.iter().skip(channel).step_by(4).for_each(|&b| counts[usize::from(b)] += 1);
+        assert_eq!(counts, [16; 256], "channel {channel}");
+        assert!(low(blue, channel) * 8.0 < low(white, channel), "channel {channel}: {}", low(blue, channel));
+    }
+}
+
+#[test]
+fn bayer_has_every_threshold_once() {
+    let mut values = MADE["bayer-8"].bytes.clone();
+    values.sort_unstable();
+    values.dedup();
+    assert_eq!(values.len(), 64);
+    assert!(values[0] >= 1 && values[63] <= 254, "no threshold is passed by everything or nothing");
+}
+
+#[test]
+fn the_font_has_its_letters_where_shaders_look_for_them() {
+    let font = &MADE["font"];
+    let texel = |code: usize, x: usize, y: usize| {
+        // From the bottom of the picture, as a shader counts: row 15 - code / 16 of cells.
+        let (px, py) = (code % 16 * 64 + x, (15 - code / 16) * 64 + y);
+        let at = (py * 1024 + px) * 4;
+        [0, 1, 2, 3].map(|i| font.bytes[at + i])
+    };
+    let covered = |code: usize| (0..64 * 64).filter(|i| texel(code, i % 64, i / 64)[0] > 127).count();
+    for code in 33..127 {
+        assert!(covered(code) > 20, "{}", code as u8 as char);
+    }
+    assert_eq!((covered(32), covered(127), covered(200)), (0, 0, 0));
+    assert!(covered(usize::from(b'M')) > covered(usize::from(b'i')));
+    // A bar: inside it the distance is below one half, far away above.
+    let (inside, outside) = (texel(124, 32, 34), texel(124, 2, 34));
+    assert!(inside[0] == 255 && inside[3] < 128 && outside[0] == 0 && outside[3] > 160, "{inside:?} {outside:?}");
+    assert!(outside[1] < 128 && (120..136).contains(&outside[2]), "left of the bar, away is to the left: {outside:?}");
+    let underscore: Vec<usize> = (0..64).filter(|&y| texel(95, 32, y)[0] > 127).collect();
+    assert!(underscore.iter().all(|&y| y < 20) && !underscore.is_empty(), "it lies low: {underscore:?}");
+}
+
+#[test]
+fn an_unknown_name_makes_nothing() {
+    assert!(make("no such texture").is_none());
+}

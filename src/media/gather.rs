@@ -1,0 +1,114 @@
+//! All the pictures of a project at once.
+
+use super::{MediaKey, MediaSet, load};
+use crate::{
+    diag::Diagnostic,
+    project::{Input, Pass, PassId, Project},
+};
+use std::{
+    collections::{HashMap, hash_map::Entry},
+    path::Path,
+    sync::Arc,
+};
+
+/// Loads every picture that a drawn pass of the project names. `media_dir` holds the user's own copies of the site's stock
+/// files. What cannot be had is left out, which reads as the site's unloaded channel (black, of size 0), with a warning that
+/// names pass, channel and mend.
+pub fn gather(project: &Project, media_dir: Option<&Path>) -> (MediaSet, Vec<Diagnostic>) {
+    let mut set = MediaSet::new();
+    let mut failed: HashMap<MediaKey, (String, String)> = HashMap::new();
+    let mut warnings = Vec::new();
+    let base = project.origin.base_dir();
+    for (pass, n, input, vflip) in inputs(project) {
+        let mut warn = |message: String, hint: String| {
+            warnings
+                .push(Diagnostic::warning(None, format!("iChannel{n} of {}: {message}", pass.id.title())).hint(hint));
+        };
+        let media = match input {
+            Input::Texture(media) => media,
+            Input::Buffer(_) | Input::CubemapPass | Input::Keyboard => continue,
+            other => {
+                let (name, hint) = unsupported(other);
+                warn(format!("{name} cannot be read yet; the channel is black and of size 0"), hint);
+                continue;
+            }
+        };
+        let key = MediaKey { media: media.clone(), vflip };
+        if let Some((message, hint)) = failed.get(&key) {
+            warn(message.clone(), hint.clone());
+            continue;
+        }
+        let Entry::Vacant(place) = set.entry(key.clone()) else { continue };
+        match load(media, vflip, base, media_dir) {
+            Ok(texels) => {
+                place.insert(Arc::new(texels));
+            }
+            Err(error) => {
+                let message = format!("{error}; the channel is black and of size 0");
+                warn(message.clone(), error.hint());
+                failed.insert(key, (message, error.hint()));
+            }
+        }
+    }
+    (set, warnings)
+}
+
+fn inputs(project: &Project) -> impl Iterator<Item = (&Pass, usize, &Input, bool)> {
+    project.passes.iter().filter(|p| p.id != PassId::Sound).flat_map(|pass| {
+        pass.channels
+            .iter()
+            .enumerate()
+            .filter_map(move |(n, c)| c.as_ref().map(|c| (pass, n, &c.input, c.sampler.vflip)))
+    })
+}
+
+fn unsupported(input: &Input) -> (&'static str, String) {
+    let picture = "read a picture, a buffer or the keyboard instead".to_owned();
+    match input {
+        Input::Cubemap(_) => ("a cubemap picture", picture),
+        Input::Volume(_) => ("a volume", picture),
+        Input::Video(_) => ("a video", picture),
+        Input::Music(_) => ("music", picture),
+        Input::Microphone => ("the microphone", picture),
+        Input::Webcam => ("the webcam", picture),
+        Input::Buffer(_) | Input::CubemapPass | Input::Keyboard | Input::Texture(_) => ("this", picture),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::project::{Channel, Info, Media, Origin, Sampler, SamplerRules, Source};
+
+    fn project(inputs: [Option<Input>; 4]) -> Project {
+        let channels = inputs.map(|i| i.map(|input| Channel { input, sampler: Sampler::TEXTURE }));
+        let source = Source { name: "image.glsl".into(), path: None, text: "".into() };
+        Project {
+            name: "p".into(),
+            info: Info::default(),
+            common: None,
+            passes: vec![Pass { id: PassId::Image, source, channels }],
+            sampler_rules: SamplerRules::PerChannel,
+            origin: Origin::Unsaved,
+        }
+    }
+
+    #[test]
+    fn what_is_there_is_loaded_once_and_what_is_not_is_a_warning() {
+        let missing = Input::Texture(Media::File("/nowhere/pic.png".into()));
+        let noise = || Some(Input::Texture(Media::Builtin("noise-rgba-64".into())));
+        let (set, warnings) = gather(&project([noise(), noise(), Some(missing), Some(Input::Webcam)]), None);
+        assert_eq!(set.len(), 1);
+        let messages: Vec<&str> = warnings.iter().map(|w| w.message.as_str()).collect();
+        assert_eq!(warnings.len(), 2, "{messages:?}");
+        assert!(messages[0].starts_with("iChannel2 of Image: cannot read /nowhere/pic.png"), "{messages:?}");
+        assert!(messages[1].starts_with("iChannel3 of Image: the webcam"), "{messages:?}");
+        assert!(warnings.iter().all(|w| !w.is_error() && !w.hints.is_empty()));
+    }
+
+    #[test]
+    fn a_project_without_pictures_warns_of_nothing() {
+        let p = project([Some(Input::Keyboard), Some(Input::Buffer("A".into())), None, Some(Input::CubemapPass)]);
+        assert_eq!(gather(&p, None), (MediaSet::new(), vec![]));
+    }
+}

@@ -1,0 +1,96 @@
+//! The keyboard as Shadertoy's 256x3 texture: row 0 held, row 1 pressed this frame, row 2 toggled.
+
+use super::{TexelFormat, Texels};
+
+/// State of every key by JavaScript `keyCode`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Keyboard {
+    texels: Box<[u8; Self::WIDTH * 3]>,
+}
+
+impl Default for Keyboard {
+    fn default() -> Self {
+        Self { texels: Box::new([0; Self::WIDTH * 3]) }
+    }
+}
+
+impl Keyboard {
+    pub const WIDTH: usize = 256;
+    pub const HEIGHT: usize = 3;
+
+    /// A key went down. Auto-repeat (already held) does nothing, as on the site.
+    pub fn press(&mut self, code: u8) {
+        let (held, pressed, toggle) = Self::columns(code);
+        if self.texels[held] != 0 {
+            return;
+        }
+        self.texels[held] = 255;
+        self.texels[pressed] = 255;
+        self.texels[toggle] = 255 - self.texels[toggle];
+    }
+
+    /// A key went up.
+    pub fn release(&mut self, code: u8) {
+        let (held, pressed, _) = Self::columns(code);
+        self.texels[held] = 0;
+        self.texels[pressed] = 0;
+    }
+
+    /// The window lost focus: nothing is held any more. Toggles stay.
+    pub fn release_all(&mut self) {
+        self.texels[..2 * Self::WIDTH].fill(0);
+    }
+
+    /// After every painted frame: "pressed" lasts one frame.
+    pub fn frame_painted(&mut self) {
+        self.texels[Self::WIDTH..2 * Self::WIDTH].fill(0);
+    }
+
+    pub fn is_held(&self, code: u8) -> bool {
+        self.texels[usize::from(code)] != 0
+    }
+
+    /// 256x3 bytes, row 0 first.
+    pub fn bytes(&self) -> &[u8] {
+        &self.texels[..]
+    }
+
+    pub fn texels(&self) -> Texels {
+        Texels {
+            width: Self::WIDTH as u32,
+            height: Self::HEIGHT as u32,
+            format: TexelFormat::R8,
+            bytes: self.texels.to_vec(),
+        }
+    }
+
+    fn columns(code: u8) -> (usize, usize, usize) {
+        let code = usize::from(code);
+        (code, Self::WIDTH + code, 2 * Self::WIDTH + code)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rows(k: &Keyboard, code: usize) -> [u8; 3] {
+        [k.bytes()[code], k.bytes()[256 + code], k.bytes()[512 + code]]
+    }
+
+    #[test]
+    fn pressed_lasts_one_frame_and_toggle_stays() {
+        let mut k = Keyboard::default();
+        k.press(32);
+        k.press(32);
+        assert_eq!(rows(&k, 32), [255, 255, 255]);
+        k.frame_painted();
+        k.press(32);
+        assert_eq!(rows(&k, 32), [255, 0, 255], "auto-repeat does nothing");
+        k.release(32);
+        assert_eq!(rows(&k, 32), [0, 0, 255]);
+        k.press(32);
+        k.release(32);
+        assert_eq!(rows(&k, 32), [0, 0, 0], "a tap shorter than a frame flips the toggle only");
+    }
+}

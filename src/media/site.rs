@@ -1,0 +1,67 @@
+//! The site's stock pictures, by id: which of Eddy's own stands in for each.
+//!
+//! Sizes and channels are facts of the site; the pictures themselves are its own and not here. A stand-in has the same size
+//! and channels and something of the same kind to see, so that a shader looks as meant if not as it was.
+
+/// What is known of one stock picture.
+#[derive(Clone, Copy, Debug)]
+pub struct Stock {
+    pub id: &'static str,
+    /// First characters of the file's name, which is a hash; for JSON without ids.
+    pub hash: &'static str,
+    pub stand_in: &'static str,
+    /// Uploaded as one channel.
+    pub is_grey: bool,
+}
+
+const fn rgba(id: &'static str, hash: &'static str, stand_in: &'static str) -> Stock {
+    Stock { id, hash, stand_in, is_grey: false }
+}
+
+const fn grey(id: &'static str, hash: &'static str, stand_in: &'static str) -> Stock {
+    Stock { id, hash, stand_in, is_grey: true }
+}
+
+/// The 22 stock pictures, those read most first.
+pub const STOCK: [Stock; 22] = [
+    rgba("4dXGzr", "08b42b43ae9d", "font"),
+    rgba("4dfGRn", "8de3a3924cb9", "street"),
+    rgba("Xsf3zn", "f735bee5b64e", "noise-rgba-256"),
+    rgba("XdX3Rn", "52d2a8f514c4", "marble"),
+    grey("4dXGzn", "0c7bf5fe9462", "noise-grey-256"),
+    rgba("4dXGRn", "10eb4fe0ac8a", "brick"),
+    rgba("XsBSR3", "cb49c003b454", "blue-noise"),
+    grey("4sf3Rr", "ad56fba948df", "pebbles"),
+    rgba("XsX3Rn", "92d7758c402f", "granite"),
+    rgba("4sXGRn", "95b90082f799", "rust"),
+    rgba("XsfGRn", "1f7dca9c22f3", "wood"),
+    rgba("4sfGRn", "fb918796edc3", "lichen"),
+    grey("4sf3Rn", "0a40562379b6", "noise-grey-64"),
+    rgba("XdXGzn", "3083c722c0c7", "noise-rgba-64"),
+    rgba("XdfGRn", "e6e5631ce123", "stars"),
+    rgba("Xsf3Rr", "79520a3d3a0f", "grass"),
+    rgba("4dX3Rn", "bd6464771e47", "fabric"),
+    rgba("4df3Rr", "3871e838723d", "moss"),
+    grey("Xdf3zn", "85a6d68622b3", "bayer-8"),
+    rgba("Xsf3Rn", "cbcbb5a6cfb5", "sprites"),
+    rgba("XsXGRn", "cd4c518bc6ef", "coral"),
+    rgba("XdXGzr", "8979352a182b", "dunes"),
+];
+
+/// The stock picture of an id, or of a path that ends in its name.
+pub fn stock(id: &str, path: &str) -> Option<&'static Stock> {
+    let name = path.rsplit('/').next().unwrap_or_default();
+    STOCK.iter().find(|s| s.id == id).or_else(|| STOCK.iter().find(|s| name.starts_with(s.hash)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_is_known_by_id_or_by_path() {
+        assert_eq!(stock("XsfGRn", "").unwrap().stand_in, "wood");
+        assert_eq!(stock("", "/media/a/1f7dca9c22f324751f2a.jpg").unwrap().stand_in, "wood");
+        assert!(stock("", "/media/a/").is_none() && stock("", "").is_none());
+    }
+}
