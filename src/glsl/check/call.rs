@@ -1,0 +1,435 @@
+//! Calls: of users' functions, of built-ins, and of structs' constructors; and what is said when none fits.
+
+use super::{Checker, env, overloads, scope::Binding};
+use crate::glsl::{
+    ast::{self, BasicType, List, Loc, Symbol},
+    hir::{Builtin, DeclRef, ExprFlags, ExprId, ExprKind, FuncId, LocalKind, Scalar, TypeId},
+    parse::foreign_type,
+};
+
+/// More arguments than any built-in has.
+const MOST_ARGS: usize = 8;
+
+impl Checker<'_> {
+    pub(super) fn call(&mut self, name: Symbol, args: List<ast::ExprId>, loc: Loc) -> ExprId {
+        match self.scopes.get(name) {
+            Binding::Builtin(builtin) => self.builtin_call(builtin, args, loc),
+            Binding::Function(first) => self.user_call(first, args, loc),
+            Binding::Struct(id) => {
+                self.uses(loc.first, DeclRef::Struct(id));
+                self.construct_struct(id, args, loc)
+            }
+            Binding::Poison => self.error_expr(loc),
+            Binding::None => {
+                if let Some(ty) = foreign_type(self.name(name)) {
+                    return self.foreign_constructor(name, ty, args, loc);
+                }
+                self.unknown_function(name, args, loc);
+                self.error_expr(loc)
+            }
+            hidden => {
+                let text = self.name(name);
+                let what = self.describe_binding(hidden);
+                self.error(loc.first, format!("`{text}` is {what} here and cannot be called"));
+                if let Some(at) = self.declared_at(hidden) {
+                    self.also(at, "this declaration hides any function of the name");
+                }
+                self.hint("give one of the two another name");
+                self.error_expr(loc)
+            }
+        }
+    }
+
+    /// `float3(..)`: said once, then taken for what was meant.
+    #[cold]
+    fn foreign_constructor(&mut self, name: Symbol, ty: BasicType, args: List<ast::ExprId>, loc: Loc) -> ExprId {
+        let text = self.name(name);
+        if self.say_once(name) {
+            self.error(loc.first, format!("GLSL has no type `{text}`"));
+            self.hint(format!("write `{}`", ty.name()));
+        }
+        self.construct_type(TypeId::basic(ty), args, loc)
+    }
+
+    // ------------------------------------------------------------------------------------------------ users' functions
+
+    fn user_call(&mut self, first: FuncId, args: List<ast::ExprId>, loc: Loc) -> ExprId {
+        let ast = self.ast;
+        let mut candidate = Some(first);
+        while let Some(id) = candidate {
+            let params = self.module.params(id);
+            let fits = params.len() == args.len()
+                && params.iter().zip(&ast[args]).all(|(p, &arg)| {
+                    self.lowered[arg.index()].is_some_and(|arg| self.module[arg].ty == p.ty) && p.ty != TypeId::ERROR
+                });
+            if fits {
+                return self.resolved_call(id, args, loc);
+            }
+            candidate = self.funcs[id.index()].next;
+        }
+        // Overloads of a built-in leave its own in force.
+        if let Some(builtin) = Builtin::from_symbol(self.module[first].name.symbol)
+            && builtin != Builtin::StAssert
+        {
+            return self.builtin_call(builtin, args, loc);
+        }
+        let broken = ast[args].iter().any(|&arg| self.ty(self.done(arg)) == TypeId::ERROR);
+        if !broken {
+            self.no_user_overload(first, args, loc);
+        }
+        // With one candidate the result's type is known all the same.
+        if self.funcs[first.index()].next.is_some() {
+            return self.error_expr(loc);
+        }
+        self.uses(loc.first, DeclRef::Func(first));
+        self.error_expr_of(self.module[first].result, loc)
+    }
+
+    fn resolved_call(&mut self, func: FuncId, args: List<ast::ExprId>, loc: Loc) -> ExprId {
+        self.uses(loc.first, DeclRef::Func(func));
+        let ast = self.ast;
+        let base = self.expr_stack.len();
+        let first_param = self.module[func].locals.start as usize;
+        let mut legal = true;
+        for (i, &arg) in ast[args].iter().enumerate() {
+            let id = self.done(arg);
+            let kind = self.module.locals[first_param + i].kind;
+            if kind.copies_out() {
+                let doing = if kind == LocalKind::Out { "passed as `out`" } else { "passed as `inout`" };
+                legal &= self.place(id, doing);
+            }
+            self.expr_stack.push(id);
+        }
+        self.note_call(func, loc);
+        let result = self.module[func].result;
+        let id = if legal {
+            let flags = self.inherited(&self.expr_stack[base..]).with(ExprFlags::EFFECTS).with(ExprFlags::BRANCHES);
+            let args = self.module.list(&self.expr_stack[base..]);
+            self.push(ExprKind::Call { func, args }, result, flags, loc)
+        } else {
+            self.error_expr_of(result, loc)
+        };
+        self.expr_stack.truncate(base);
+        id
+    }
+
+    /// Enters a call into the call graph.
+    fn note_call(&mut self, callee: FuncId, loc: Loc) {
+        let facts = &mut self.funcs[callee.index()];
+        facts.first_call.get_or_insert(loc);
+        match self.func {
+            Some(caller) => {
+                let stamp = caller.index() as u32 + 1;
+                if facts.called_by != stamp {
+                    facts.called_by = stamp;
+                    self.module[caller].calls.push(callee);
+                }
+            }
+            None => self.global_calls.push(callee),
+        }
+    }
+
+    #[cold]
+    fn no_user_overload(&mut self, first: FuncId, args: List<ast::ExprId>, loc: Loc) {
+        let ast = self.ast;
+        let name = self.name(self.module[first].name.symbol);
+        let given: Vec<TypeId> = ast[args].iter().map(|&arg| self.ty(self.done(arg))).collect();
+        if ast[args].iter().any(|&arg| self.is_void(self.done(arg))) {
+            return;
+        }
+        if self.funcs[first.index()].next.is_none() {
+            let params: Vec<TypeId> = self.module.params(first).iter().map(|p| p.ty).collect();
+            if params.len() != given.len() {
+                let (needed, given) = (count(params.len(), "argument"), given.len());
+                self.error(
+                    loc,
+                    format!("`{name}` takes {needed}, {given} {} given", if given == 1 { "is" } else { "are" }),
+                );
+                self.hint(format!("it is declared as `{}`", self.signature(first)));
+                if let Some(at) = self.function_at(first) {
+                    self.also(at, "declared here");
+                }
+                return;
+            }
+            self.wrong_arguments(name, args, &params);
+            if let Some(at) = self.function_at(first) {
+                self.also(at, format!("declared as `{}`", self.signature(first)));
+            }
+            return;
+        }
+        let mut candidates = Vec::new();
+        let mut next = Some(first);
+        while let Some(id) = next {
+            candidates.push(id);
+            next = self.funcs[id.index()].next;
+        }
+        let types = |id: FuncId| self.module.params(id).iter().map(|p| p.ty).collect::<Vec<_>>();
+        let meant = self.closest(&given, candidates.iter().map(|&id| types(id)));
+        let shown = self.type_list(&given);
+        self.error(loc, format!("no overload of `{name}` takes ({shown})"));
+        for (i, want) in meant.into_iter().flatten().enumerate() {
+            let written = ast[args][i];
+            if want != given[i]
+                && let Some(mend) = self.mend(self.done(written), written, want)
+            {
+                self.hint(mend.hint());
+            }
+        }
+        for id in candidates.into_iter().take(6) {
+            self.hint(format!("candidate: `{}`", self.signature(id)));
+        }
+    }
+
+    /// One message for all arguments that have other types than wanted.
+    fn wrong_arguments(&mut self, name: &str, args: List<ast::ExprId>, want: &[TypeId]) {
+        let ast = self.ast;
+        let pairs = ast[args].iter().zip(want).map(|(&written, &want)| (self.done(written), written, want));
+        let wrong: Vec<_> =
+            pairs.clone().filter(|&(value, _, want)| self.ty(value) != want && want != TypeId::ERROR).collect();
+        let Some(&(first, _, ty)) = wrong.first() else { return };
+        let at = pairs.clone().position(|(value, ..)| value == first).map_or(0, |i| i + 1);
+        let message = format!("argument {at} of `{name}` must be {}, not {{}}", self.a(ty));
+        self.wrong_types(&wrong, &message);
+    }
+
+    /// `float f(vec3, inout int)`.
+    pub(super) fn signature(&self, id: FuncId) -> String {
+        let params: Vec<String> = self
+            .module
+            .params(id)
+            .iter()
+            .map(|p| {
+                let direction = match p.kind {
+                    LocalKind::Out => "out ",
+                    LocalKind::Inout => "inout ",
+                    _ => "",
+                };
+                let name = p.name.map(|n| format!(" {}", self.name(n.symbol))).unwrap_or_default();
+                format!("{direction}{}{name}", self.type_name(p.ty))
+            })
+            .collect();
+        let func = &self.module[id];
+        format!("{} {}({})", self.type_name(func.result), self.name(func.name.symbol), params.join(", "))
+    }
+
+    fn type_list(&self, types: &[TypeId]) -> String {
+        types.iter().map(|&ty| self.type_name(ty)).collect::<Vec<_>>().join(", ")
+    }
+
+    // ------------------------------------------------------------------------------------------------------ built-ins
+
+    fn builtin_call(&mut self, builtin: Builtin, args: List<ast::ExprId>, loc: Loc) -> ExprId {
+        self.uses(loc.first, DeclRef::Builtin(builtin));
+        let ast = self.ast;
+        let base = self.expr_stack.len();
+        let mut types = [TypeId::ERROR; MOST_ARGS];
+        let mut known = true;
+        for (i, &arg) in ast[args].iter().enumerate() {
+            let id = self.done(arg);
+            let ty = self.ty(id);
+            known &= ty != TypeId::ERROR;
+            if let Some(slot) = types.get_mut(i) {
+                *slot = ty;
+            }
+            self.expr_stack.push(id);
+        }
+        let given = &types[..args.len().min(MOST_ARGS)];
+        let result = self.builtin_result(builtin, given);
+        let id = match result {
+            Some(result) if args.len() <= MOST_ARGS => self.resolved_builtin(builtin, result, args, base, loc),
+            _ if !known => {
+                // Most results have the type of the first argument; guessing wrong would invent mistakes.
+                self.error_expr(loc)
+            }
+            _ => {
+                let given = given.to_vec();
+                self.no_builtin_overload(builtin, &given, args, loc)
+            }
+        };
+        self.expr_stack.truncate(base);
+        id
+    }
+
+    fn resolved_builtin(
+        &mut self,
+        builtin: Builtin,
+        result: TypeId,
+        args: List<ast::ExprId>,
+        base: usize,
+        loc: Loc,
+    ) -> ExprId {
+        if self.expr_stack[base..].iter().all(|&id| self.is_constant(id))
+            && !self.expr_stack.is_empty()
+            && let Some(folded) = self.fold_builtin(builtin, result, base, loc)
+        {
+            return folded;
+        }
+        let mut flags = self.inherited(&self.expr_stack[base..]);
+        match builtin {
+            Builtin::Modf => {
+                flags = flags.with(ExprFlags::EFFECTS);
+                if !self.place(self.expr_stack[base + 1], "passed as `out`") {
+                    return self.error_expr_of(result, loc);
+                }
+            }
+            Builtin::StAssert => flags = flags.with(ExprFlags::EFFECTS),
+            _ => {}
+        }
+        if let Some(at) = overloads::offset_argument(builtin)
+            && !self.check_offset(builtin, self.expr_stack[base + at])
+        {
+            return self.error_expr_of(result, loc);
+        }
+        debug_assert_eq!(args.len(), self.expr_stack.len() - base);
+        let args = self.module.list(&self.expr_stack[base..]);
+        self.push(ExprKind::Builtin { builtin, args }, result, flags, loc)
+    }
+
+    /// Section 8.8: a constant expression, in the range of the implementation.
+    fn check_offset(&mut self, builtin: Builtin, offset: ExprId) -> bool {
+        let loc = self.loc(offset);
+        let Some(words) = self.words(offset) else {
+            if self.is_broken() {
+                return false;
+            }
+            self.error(loc, format!("the offset of `{}` must be a constant expression", builtin.name()));
+            self.hint("to move by a varying amount, add it to the coordinate");
+            return false;
+        };
+        let (least, most) = (env::MIN_OFFSET, env::MAX_OFFSET);
+        if let Some(&bad) = words.iter().find(|&&bits| !(least..=most).contains(&(bits as i32))) {
+            self.error(loc, format!("the offset {} is out of range: {least} to {most} texels", bad as i32));
+            return false;
+        }
+        true
+    }
+
+    #[cold]
+    fn no_builtin_overload(&mut self, builtin: Builtin, given: &[TypeId], args: List<ast::ExprId>, loc: Loc) -> ExprId {
+        let ast = self.ast;
+        let name = builtin.name();
+        if ast[args].iter().any(|&arg| self.is_void(self.done(arg))) {
+            return self.error_expr(loc);
+        }
+        let all = overloads::of(builtin);
+        let counts: Vec<usize> = all.iter().map(|o| o.params.len()).collect();
+        if !counts.contains(&args.len()) {
+            let (least, most) = (counts.iter().min().copied().unwrap_or(0), counts.iter().max().copied().unwrap_or(0));
+            let needed = if least == most { count(least, "argument") } else { format!("{least} to {most} arguments") };
+            self.error(loc, format!("`{name}` takes {needed}, {}", self::given(args.len())));
+            self.candidates(builtin, given);
+            return self.error_expr(loc);
+        }
+        let size = self.largest(given);
+        let wanted = all.iter().filter_map(|overload| overload.params_at(size, given, &self.module.types));
+        if let Some(want) = self.closest(given, wanted) {
+            self.wrong_arguments(name, args, &want);
+            // Only with the first argument right it is sure what was meant.
+            let result = self.builtin_result(builtin, &want).filter(|_| given[0] == want[0]);
+            return self.error_expr_of(result.unwrap_or(TypeId::ERROR), loc);
+        }
+        let shown = self.type_list(given);
+        self.error(loc, format!("no overload of `{name}` takes ({shown})"));
+        self.sampler_hint(all, given, ast[args][0]);
+        self.candidates(builtin, given);
+        self.error_expr(loc)
+    }
+
+    /// Components of the longest argument.
+    fn largest(&self, given: &[TypeId]) -> u8 {
+        given.iter().filter_map(|&ty| self.vector_shape(ty)).map(|(_, n)| n).max().unwrap_or(1)
+    }
+
+    /// The parameter types nearest to the arguments given, where one list is nearest: ints become floats sooner than the other
+    /// way round, and a scalar may become a vector.
+    fn closest(&self, given: &[TypeId], overloads: impl Iterator<Item = Vec<TypeId>>) -> Option<Vec<TypeId>> {
+        let mut best: Option<(u32, Vec<TypeId>)> = None;
+        let mut tie = false;
+        for want in overloads.filter(|want| want.len() == given.len()) {
+            let Some(cost) =
+                want.iter().zip(given).map(|(&want, &have)| self.distance(have, want)).sum::<Option<u32>>()
+            else {
+                continue;
+            };
+            // Types that are equal and do not fit are matrices that disagree with each other.
+            match &best {
+                _ if cost == 0 => {}
+                Some((least, known)) if *least < cost || *known == want => {}
+                Some((least, _)) if *least == cost => tie = true,
+                _ => {
+                    tie = false;
+                    best = Some((cost, want));
+                }
+            }
+        }
+        best.filter(|_| !tie).map(|(_, want)| want)
+    }
+
+    fn distance(&self, have: TypeId, want: TypeId) -> Option<u32> {
+        if have == want {
+            return Some(0);
+        }
+        let ((from, n), (to, m)) = (self.vector_shape(have)?, self.vector_shape(want)?);
+        match (from, to) {
+            _ if from == to && n == 1 => Some(2),
+            (Scalar::Int | Scalar::Uint, Scalar::Float | Scalar::Int | Scalar::Uint) if n == m => Some(1),
+            _ if n == m && from != Scalar::Bool && to != Scalar::Bool => Some(3),
+            _ => None,
+        }
+    }
+
+    /// Coordinates that would fit a sampler of another shape.
+    fn sampler_hint(&mut self, all: &[overloads::Overload], given: &[TypeId], sampler: ast::ExprId) {
+        if given.first().is_none_or(|&ty| !self.is_sampler(ty)) {
+            return;
+        }
+        let fit = |ty: BasicType| {
+            let mut with = given.to_vec();
+            with[0] = TypeId::basic(ty);
+            all.iter().any(|overload| overload.result_for(&with, &self.module.types).is_some())
+        };
+        let shapes = [BasicType::Sampler2D, BasicType::Sampler3D, BasicType::SamplerCube];
+        let fits: Vec<&str> = shapes.into_iter().filter(|&ty| fit(ty)).map(BasicType::name).collect();
+        if fits.is_empty() {
+            return;
+        }
+        let has = self.type_name(given[0]);
+        let what = match self.ast[sampler].kind {
+            ast::ExprKind::Name(symbol) => self.name(symbol),
+            _ => "the first argument",
+        };
+        self.hint(format!("{what} is a `{has}` here; these coordinates are for a `{}`", fits.join("` or `")));
+    }
+
+    /// Lists overloads at the size the arguments have, those of the right number of arguments first.
+    fn candidates(&mut self, builtin: Builtin, given: &[TypeId]) {
+        let size = self.largest(given);
+        let sampler = given.first().filter(|&&ty| self.is_sampler(ty)).map(|&ty| self.type_name(ty));
+        let mut lines: Vec<(bool, String)> = Vec::new();
+        for overload in overloads::of(builtin) {
+            let params: Vec<String> = overload.params.iter().map(|&p| overload.shown(p, size)).collect();
+            if sampler.as_ref().is_some_and(|sampler| params[0] != *sampler) {
+                continue;
+            }
+            let line = format!("{} {}({})", overload.shown(overload.result, size), builtin.name(), params.join(", "));
+            let off = overload.params.len() != given.len();
+            if !lines.iter().any(|(_, l)| *l == line) {
+                lines.push((off, line));
+            }
+        }
+        lines.sort_by_key(|(off, _)| *off);
+        for (_, line) in lines.into_iter().take(4) {
+            self.hint(format!("candidate: `{line}`"));
+        }
+    }
+}
+
+/// `1 is given`, `2 are given`.
+pub(super) fn given(n: usize) -> String {
+    format!("{n} {} given", if n == 1 { "is" } else { "are" })
+}
+
+/// `1 argument`, `2 arguments`.
+pub(super) fn count(n: usize, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+}

@@ -1,0 +1,230 @@
+//! Where a value must have a certain type: what is said when it has another. GLSL ES converts nothing by itself, so nearly
+//! every such mistake is an int where a float belongs, and the mend can be written out.
+
+use super::Checker;
+use crate::glsl::{
+    ast::{self, ExprKind as A},
+    hir::{ExprId, Scalar, TypeId},
+};
+
+impl Checker<'_> {
+    /// Whether `value` has type `want`; otherwise reports `message`, in which `{}` stands for the type found.
+    pub(super) fn expect_type(&mut self, value: ExprId, written: ast::ExprId, want: TypeId, message: &str) -> bool {
+        let found = self.ty(value);
+        if found == want {
+            return true;
+        }
+        if found != TypeId::ERROR && want != TypeId::ERROR {
+            self.wrong_type(value, written, want, message);
+        }
+        false
+    }
+
+    #[cold]
+    fn wrong_type(&mut self, value: ExprId, written: ast::ExprId, want: TypeId, message: &str) {
+        let found = self.ty(value);
+        let loc = self.loc(value);
+        let message = message.replace("{}", &format!("`{}`", self.type_name(found)));
+        self.error(loc, message);
+        if let Some(mend) = self.mend(value, written, want) {
+            self.hint(mend.hint());
+        }
+    }
+
+    /// One message for several values that have other types than wanted; `message` is about the first, `{}` in it stands for
+    /// the type found.
+    pub(super) fn wrong_types(&mut self, wrong: &[(ExprId, ast::ExprId, TypeId)], message: &str) {
+        let Some(&(first, written, want)) = wrong.first() else { return };
+        let message = message.replace("{}", &format!("`{}`", self.type_name(self.ty(first))));
+        self.error(self.loc(first), message);
+        let mut mends: Vec<Mend> = self.mend(first, written, want).into_iter().collect();
+        for &(value, written, want) in &wrong[1..] {
+            let message = format!("this must be {}, too", self.a(want));
+            if wrong.len() <= 4 {
+                self.also(self.loc(value), message);
+            }
+            let Some(mend) = self.mend(value, written, want) else { continue };
+            match mends.iter_mut().find(|m| m.converts == mend.converts && m.is_plain() && mend.is_plain()) {
+                Some(known) => {
+                    known.text.push_str("`, `");
+                    known.text.push_str(&mend.text);
+                }
+                None => mends.push(mend),
+            }
+        }
+        mends.iter().for_each(|mend| self.hint(mend.hint()));
+    }
+
+    pub(super) fn expect_bool(&mut self, value: ExprId, written: ast::ExprId, what: &str) -> bool {
+        let found = self.ty(value);
+        if found == TypeId::BOOL {
+            return true;
+        }
+        if found != TypeId::ERROR {
+            let (name, loc) = (self.type_name(found), self.loc(value));
+            self.error(loc, format!("{what} must be a `bool`, not `{name}`"));
+            if let A::Assign { op: None, .. } = self.ast[written].kind {
+                self.hint("`=` assigns; to compare write `==`");
+            } else {
+                match self.vector_shape(found) {
+                    Some((Scalar::Float, 1)) => self.hint("compare it: `.. != 0.0`"),
+                    Some((Scalar::Int, 1)) => self.hint("compare it: `.. != 0`"),
+                    Some((Scalar::Uint, 1)) => self.hint("compare it: `.. != 0u`"),
+                    Some((Scalar::Bool, _)) => self.hint("make one bool of it: `all(..)` or `any(..)`"),
+                    _ => {}
+                }
+            }
+        }
+        false
+    }
+
+    /// How to make a value of type `want` of this one.
+    pub(super) fn mend(&self, value: ExprId, written: ast::ExprId, want: TypeId) -> Option<Mend> {
+        let found = self.ty(value);
+        let (Some((from, n)), Some((to, m))) = (self.vector_shape(found), self.vector_shape(want)) else { return None };
+        let target = self.type_name(want);
+        let converts = (from != to).then_some((from, to));
+        let named = match self.ast[written].kind {
+            A::Name(symbol) => Some(self.name(symbol)),
+            _ => None,
+        };
+        if n == m {
+            if let (A::Int(value), Scalar::Uint) = (self.ast[written].kind, to)
+                && value > 9999
+            {
+                // It was written in hexadecimal, most likely, so it cannot be shown as the author wrote it.
+                return Some(Mend::new(converts, String::new()));
+            }
+            let text = self.as_scalar(written, to);
+            let text = text.or_else(|| named.map(|name| format!("{target}({name})")));
+            return Some(Mend::new(converts, text.unwrap_or_else(|| format!("{target}(..)"))));
+        }
+        if n > m {
+            if from != to {
+                return None;
+            }
+            let kept = &"xyzw"[..usize::from(m)];
+            return Some(Mend::new(None, format!("{}.{kept}", named.unwrap_or(".."))));
+        }
+        if n > 1 {
+            let missing = if m == 4 && n == 3 { "1.0".to_owned() } else { vec!["0.0"; usize::from(m - n)].join(", ") };
+            return (from == Scalar::Float && to == from)
+                .then(|| Mend::new(None, format!("{target}({}, {missing})", named.unwrap_or(".."))));
+        }
+        let text = self.as_scalar(written, to).or_else(|| named.map(str::to_owned));
+        Some(Mend::new(None, format!("{target}({})", text.as_deref().unwrap_or(".."))))
+    }
+
+    /// A literal (or its negative) as the author would write it in another scalar type.
+    fn as_scalar(&self, written: ast::ExprId, to: Scalar) -> Option<String> {
+        let (sign, literal) = match self.ast[written].kind {
+            A::Unary { op: ast::UnaryOp::Minus, operand } => ("-", operand),
+            _ => ("", written),
+        };
+        Some(match (self.ast[literal].kind, to) {
+            (A::Int(v), Scalar::Float) => format!("{sign}{v}.0"),
+            (A::Uint(v), Scalar::Float) => format!("{sign}{v}.0"),
+            (A::Float(v), Scalar::Float) => format!("{sign}{v:?}"),
+            (A::Int(v), Scalar::Uint) if sign.is_empty() && v >= 0 => format!("{v}u"),
+            (A::Uint(v), Scalar::Int) if v <= i32::MAX as u32 => format!("{sign}{v}"),
+            (A::Float(v), Scalar::Int) if v.fract() == 0.0 && v.abs() < 1e9 => format!("{sign}{v}"),
+            (A::Float(v), Scalar::Uint) if v.fract() == 0.0 && (0.0..4e9).contains(&v) && sign.is_empty() => {
+                format!("{v}u")
+            }
+            (A::Int(v), Scalar::Bool) => String::from(if v == 0 { "false" } else { "true" }),
+            _ => return None,
+        })
+    }
+
+    /// For two sides that should have one type: the mend that turns ints to floats, of whichever side has them.
+    pub(super) fn conversion_hint(&mut self, left: (ExprId, ast::ExprId), right: (ExprId, ast::ExprId)) {
+        let (l, r) = (self.ty(left.0), self.ty(right.0));
+        let rank = |scalar| match scalar {
+            Scalar::Bool => 0,
+            Scalar::Int => 1,
+            Scalar::Uint => 2,
+            Scalar::Float => 3,
+        };
+        let (Some(a), Some(b)) = (self.module.types.scalar(l), self.module.types.scalar(r)) else { return };
+        if a == b {
+            return self.size_hint(l, r);
+        }
+        // The literal is what one rewrites, and else the poorer type; a side keeps its number of components.
+        let is_literal = |id: ast::ExprId| matches!(self.ast[id].kind, A::Int(_) | A::Float(_) | A::Uint(_));
+        let left_changes = match (is_literal(left.1), is_literal(right.1)) {
+            (true, false) if self.as_scalar(left.1, b).is_some() => true,
+            (false, true) if self.as_scalar(right.1, a).is_some() => false,
+            _ => rank(a) < rank(b),
+        };
+        let ((value, written), to) = if left_changes { (left, b) } else { (right, a) };
+        if let Some((_, n)) = self.vector_shape(self.ty(value))
+            && let Some(mend) = self.mend(value, written, TypeId::vector(to, n))
+        {
+            self.hint(mend.hint());
+        }
+    }
+
+    fn size_hint(&mut self, l: TypeId, r: TypeId) {
+        if let (Some((_, m)), Some((_, n))) = (self.vector_shape(l), self.vector_shape(r))
+            && m != n
+        {
+            let (small, big) = (m.min(n), m.max(n));
+            let target = self.type_name(if m > n { l } else { r });
+            if small == 1 {
+                self.hint(format!("write `{target}(..)` around the scalar"));
+            } else {
+                let kept = &"xyzw"[..usize::from(small)];
+                self.hint(format!(
+                    "take `.{kept}` of the one with {big} components, or build a `{target}` of the other"
+                ));
+            }
+        }
+    }
+}
+
+/// What to write instead of a value.
+pub(super) struct Mend {
+    /// The conversion that GLSL ES does not make by itself, if that is the trouble.
+    converts: Option<(Scalar, Scalar)>,
+    /// With `..` for what it is now; empty for a literal that only needs a `u`.
+    text: String,
+}
+
+impl Mend {
+    fn new(converts: Option<(Scalar, Scalar)>, text: String) -> Self {
+        Self { converts, text }
+    }
+
+    /// Can stand in one line with others of its kind.
+    fn is_plain(&self) -> bool {
+        !self.text.is_empty() && !self.text.contains("..")
+    }
+
+    pub fn hint(&self) -> String {
+        let text = &self.text;
+        let what = if text.is_empty() {
+            "add a `u` to the number".to_owned()
+        } else if let Some(part) = text.strip_prefix("..") {
+            format!("take `{part}` of it")
+        } else if text.contains("..") {
+            format!("write `{text}` around it")
+        } else {
+            format!("write `{text}`")
+        };
+        match self.converts {
+            Some((from, to)) => {
+                format!("GLSL ES has no implicit {} to {}: {what}", scalar_name(from), scalar_name(to))
+            }
+            None => what,
+        }
+    }
+}
+
+fn scalar_name(scalar: Scalar) -> &'static str {
+    match scalar {
+        Scalar::Bool => "bool",
+        Scalar::Int => "int",
+        Scalar::Uint => "uint",
+        Scalar::Float => "float",
+    }
+}

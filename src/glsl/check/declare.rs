@@ -1,0 +1,369 @@
+//! Declarations of variables (section 4.3) at file scope and in functions, uniform blocks, and what else a declaration can be.
+
+use super::{
+    Checker,
+    qualifiers::{LayoutOf, Place, Qualifiers},
+    scope::Binding,
+    types::{MAX_WORDS, Size},
+};
+use crate::glsl::{
+    ast::{self, DeclKind, Declarator, Field, Ident, List, Loc, Precision, QualifierKind as Q, TypeSpecId},
+    hir::{
+        ConstId, ExprId, Global, GlobalId, GlobalStorage, Local, LocalId, LocalKind, StmtKind, StructMember, Type,
+        TypeId, VarFlags,
+    },
+};
+
+impl Checker<'_> {
+    pub(super) fn global_declaration(&mut self, id: ast::DeclId) {
+        let ast::Decl { kind, loc } = self.ast[id];
+        match kind {
+            DeclKind::Error => {}
+            DeclKind::Empty => {
+                self.error(loc, "a `;` without a declaration");
+                self.hint("remove it");
+            }
+            DeclKind::Vars { qualifiers, ty, declarators } => {
+                let quals = self.qualifiers(qualifiers, Place::Global);
+                let base = self.base_type(ty);
+                self.check_precision(&quals, base, self.ast[ty].loc);
+                let ast = self.ast;
+                for &declarator in &ast[declarators] {
+                    self.global_variable(&quals, base, ty, declarator, loc);
+                }
+            }
+            DeclKind::Precision { precision, ty } => self.precision_statement(precision, ty),
+            DeclKind::Qualify { qualifiers, names } => self.qualify(qualifiers, names, loc),
+            DeclKind::Function(function) => self.function_declaration(function, loc),
+            DeclKind::Block { qualifiers, name, fields, instance, dims } => {
+                self.block(qualifiers, name, fields, instance, dims, loc);
+            }
+        }
+    }
+
+    pub(super) fn local_declaration(&mut self, id: ast::DeclId) {
+        let ast::Decl { kind, loc } = self.ast[id];
+        match kind {
+            DeclKind::Error | DeclKind::Empty => {}
+            DeclKind::Vars { qualifiers, ty, declarators } => {
+                let quals = self.qualifiers(qualifiers, Place::Local);
+                let base = self.base_type(ty);
+                self.check_precision(&quals, base, self.ast[ty].loc);
+                let ast = self.ast;
+                for &declarator in &ast[declarators] {
+                    self.local_variable(&quals, base, ty, declarator, loc);
+                }
+            }
+            DeclKind::Precision { precision, ty } => self.precision_statement(precision, ty),
+            DeclKind::Qualify { .. } => {
+                self.error(loc, "qualifiers of declared names can only be changed at file scope");
+            }
+            DeclKind::Function(function) => {
+                let name = self.ast[function].name;
+                let text = self.name(name.symbol);
+                self.error(
+                    self.ast[function].header,
+                    format!("`{text}`: a function cannot be declared inside another"),
+                );
+                self.hint("move it to file scope, before this function");
+            }
+            DeclKind::Block { name, .. } => {
+                self.error(name, "a block cannot be declared inside a function");
+            }
+        }
+    }
+
+    /// Type of a variable, with its checked initialiser, which `[]` takes its size from.
+    fn variable_type(&mut self, base: TypeId, spec: TypeSpecId, declarator: Declarator) -> (TypeId, Option<ExprId>) {
+        let spec = self.ast[spec];
+        let sizes = self.sizes(spec.dims, declarator.dims);
+        let init = declarator.init.map(|init| self.expr(init));
+        let name = self.name(declarator.name.symbol);
+        if base == TypeId::VOID {
+            self.error(spec.loc, format!("the variable `{name}` cannot be of type `void`"));
+            return (TypeId::ERROR, init);
+        }
+        let ty = match sizes {
+            None => base,
+            Some((Size::Known(len), at)) => self.array_type(base, len, at),
+            Some((Size::Bad, _)) => TypeId::ERROR,
+            Some((Size::Open, at)) => match init.map(|init| self.module.types.get(self.ty(init))) {
+                Some(Type::Array { len, .. }) => self.array_type(base, len, at),
+                Some(Type::Error) => TypeId::ERROR,
+                _ => {
+                    let element = self.type_name(base);
+                    self.error(
+                        at,
+                        format!("`{name}` needs a size between the brackets, or an initialiser that is an array"),
+                    );
+                    self.hint(format!("write `{element} {name}[] = {element}[](..);`"));
+                    TypeId::ERROR
+                }
+            },
+        };
+        (ty, init)
+    }
+
+    /// Whether the initialiser fits.
+    fn check_init(&mut self, name: Ident, ty: TypeId, init: ExprId, written: ast::ExprId) -> bool {
+        if ty == TypeId::ERROR || self.ty(init) == TypeId::ERROR || self.is_void(init) {
+            return false;
+        }
+        let message = format!("cannot initialise the `{}` `{}` with {{}}", self.type_name(ty), self.name(name.symbol));
+        self.expect_type(init, written, ty, &message)
+    }
+
+    /// The value of a `const` variable, or what is wrong with its initialiser.
+    fn const_value(&mut self, name: Ident, ty: TypeId, init: Option<(ExprId, ast::ExprId)>) -> Option<ConstId> {
+        let text = self.name(name.symbol);
+        let Some((init, written)) = init else {
+            self.error(name, format!("`{text}` is `const` and needs a value"));
+            self.hint("initialise it, or remove `const`");
+            return None;
+        };
+        if !self.check_init(name, ty, init, written) {
+            return None;
+        }
+        if !self.is_constant(init) {
+            if self.is_broken() {
+                return None;
+            }
+            let loc = self.loc(init);
+            self.error(loc, format!("`{text}` is `const`, but its value is not a constant expression"));
+            if self.func.is_some() {
+                self.hint("remove `const`: it is for values known before the shader runs");
+            } else {
+                self.hint(
+                    "compute it in a function, or remove what varies: uniforms, variables, calls of your own functions",
+                );
+            }
+            return None;
+        }
+        self.as_const(init)
+    }
+
+    /// A folded expression's value as a constant of the module.
+    fn as_const(&mut self, init: ExprId) -> Option<ConstId> {
+        let expr = self.module[init];
+        match expr.kind {
+            crate::glsl::hir::ExprKind::Const(id) => Some(id),
+            crate::glsl::hir::ExprKind::Literal(bits) => Some(self.module.constant(expr.ty, &[bits])),
+            _ => None,
+        }
+    }
+
+    // ------------------------------------------------------------------------------------------------------ functions
+
+    fn local_variable(&mut self, quals: &Qualifiers, base: TypeId, spec: TypeSpecId, declarator: Declarator, loc: Loc) {
+        let name = declarator.name;
+        let (ty, init) = self.variable_type(base, spec, declarator);
+        if self.facts(ty).opaque {
+            self.error(self.ast[spec].loc, format!("a `{}` cannot be a local variable", self.type_name(ty)));
+            self.hint("name the channel where it is sampled, or pass it to a function as a parameter");
+            self.declare(name, Binding::Poison);
+            return;
+        }
+        let init = init.zip(declarator.init);
+        let precision = quals.precision_of(self, base);
+        if quals.constant.is_some() {
+            let value = self.const_value(name, ty, init);
+            // Without a value it goes on as a variable, so that its uses are not reported as well.
+            let kind = if value.is_some() { LocalKind::Const } else { LocalKind::Var };
+            self.add_local(name, ty, kind, precision, value);
+            return;
+        }
+        let init = init.and_then(|(init, written)| self.check_init(name, ty, init, written).then_some(init));
+        let local = self.add_local(name, ty, LocalKind::Var, precision, None);
+        self.add_stmt(StmtKind::Declare { local, init }, loc);
+    }
+
+    pub(super) fn add_local(
+        &mut self,
+        name: Ident,
+        ty: TypeId,
+        kind: LocalKind,
+        precision: Option<Precision>,
+        value: Option<ConstId>,
+    ) -> LocalId {
+        self.module.locals.push(Local { name: Some(name), ty, kind, precision, value, flags: VarFlags::default() });
+        let id = LocalId::new(self.module.locals.len() - 1);
+        self.declare(name, Binding::Local(id));
+        id
+    }
+
+    // ----------------------------------------------------------------------------------------------------- file scope
+
+    fn global_variable(
+        &mut self,
+        quals: &Qualifiers,
+        base: TypeId,
+        spec: TypeSpecId,
+        declarator: Declarator,
+        loc: Loc,
+    ) {
+        let name = declarator.name;
+        let text = self.name(name.symbol);
+        let (ty, init) = self.variable_type(base, spec, declarator);
+        self.check_interface(quals, ty, self.ast[spec].loc);
+        let init = init.zip(declarator.init);
+        let mut storage = match quals.storage {
+            Some((Q::Uniform, _)) => GlobalStorage::Uniform,
+            Some((Q::In, _)) => GlobalStorage::In,
+            Some((Q::Out, token)) => {
+                self.error(token, format!("`{text}` cannot be an output: the pass has one already, its colour"));
+                self.hint("write the colour to the `out` parameter of the entry point");
+                GlobalStorage::Out
+            }
+            _ if quals.constant.is_some() => GlobalStorage::Const,
+            _ => GlobalStorage::Private,
+        };
+        if self.facts(ty).opaque && storage != GlobalStorage::Uniform {
+            self.error(self.ast[spec].loc, format!("the sampler `{text}` must be a uniform or a parameter"));
+            self.hint("use iChannel0 to iChannel3");
+            self.declare(name, Binding::Poison);
+            return;
+        }
+        if let (Some((value, _)), GlobalStorage::Uniform | GlobalStorage::In | GlobalStorage::Out) = (init, storage) {
+            let at = self.loc(value);
+            self.error(at, format!("`{text}` is an interface variable and cannot have an initialiser"));
+        }
+        if matches!(storage, GlobalStorage::Uniform | GlobalStorage::In) {
+            let what = if storage == GlobalStorage::Uniform { "uniform" } else { "input" };
+            self.warning(name, format!("nobody sets the {what} `{text}`: it is zero"));
+            self.hint("the site's own inputs are iTime, iResolution, iMouse and so on; use a `const` or a #define for the rest");
+        }
+        let mut value = None;
+        let mut kept = None;
+        match storage {
+            GlobalStorage::Const => {
+                value = self.const_value(name, ty, init);
+                if value.is_none() {
+                    storage = GlobalStorage::Private;
+                }
+            }
+            GlobalStorage::Private => {
+                if let Some((init, written)) = init
+                    && self.check_init(name, ty, init, written)
+                {
+                    if self.is_constant(init) {
+                        kept = Some(init);
+                        value = self.as_const(init);
+                    } else if !self.is_broken() {
+                        self.not_constant_global(name, init);
+                    }
+                }
+            }
+            GlobalStorage::Uniform | GlobalStorage::In | GlobalStorage::Out => {}
+        }
+        self.add_global(name, ty, storage, kept, value, loc);
+    }
+
+    /// Section 4.3: an initialiser at file scope must be a constant expression, for any variable.
+    #[cold]
+    fn not_constant_global(&mut self, name: Ident, init: ExprId) {
+        let (text, at) = (self.name(name.symbol), self.loc(init));
+        self.error(at, format!("the global `{text}` must be initialised with a constant expression"));
+        self.hint(format!("declare `{text}` without a value and assign it at the start of the entry point"));
+        self.hint("or use a #define, which is written out wherever it is used");
+    }
+
+    fn add_global(
+        &mut self,
+        name: Ident,
+        ty: TypeId,
+        storage: GlobalStorage,
+        init: Option<ExprId>,
+        value: Option<ConstId>,
+        loc: Loc,
+    ) -> GlobalId {
+        self.module.globals.push(Global { name, ty, storage, init, value, loc, flags: VarFlags::default() });
+        let id = GlobalId::new(self.module.globals.len() - 1);
+        self.declare(name, Binding::Global(id));
+        id
+    }
+
+    /// `invariant a, b;` and `layout(..) uniform;`.
+    fn qualify(&mut self, qualifiers: List<ast::Qualifier>, names: List<Ident>, loc: Loc) {
+        let quals = self.qualifiers(qualifiers, Place::Global);
+        let ast = self.ast;
+        if ast[names].is_empty() {
+            self.check_layout(&quals, LayoutOf::Block);
+            if quals.layout.is_none() && quals.storage.is_none() {
+                self.error(loc, "these qualifiers belong to no declaration");
+            }
+            return;
+        }
+        for &name in &ast[names] {
+            let text = self.name(name.symbol);
+            match self.scopes.get(name.symbol) {
+                Binding::None => self.unknown_name(name.symbol, name.token),
+                Binding::Poison => {}
+                Binding::Global(id) if self.module[id].storage == GlobalStorage::Out && quals.invariant.is_some() => {}
+                _ if quals.invariant.is_some() => {
+                    self.error(name, format!("`{text}` is no output and cannot be `invariant`"));
+                }
+                _ => {
+                    self.error(name, format!("the qualifiers of `{text}` cannot be changed after its declaration"));
+                }
+            }
+        }
+    }
+
+    /// A uniform block: nobody fills it, so its members are zero.
+    fn block(
+        &mut self,
+        qualifiers: List<ast::Qualifier>,
+        name: Ident,
+        fields: List<Field>,
+        instance: Option<Ident>,
+        dims: List<ast::Dim>,
+        loc: Loc,
+    ) {
+        let ast = self.ast;
+        let quals = self.qualifiers(qualifiers, Place::Block);
+        if !quals.is(Q::Uniform) {
+            self.error(name, "GLSL ES 3.00 has only `uniform` blocks");
+        }
+        self.check_layout(&quals, LayoutOf::Block);
+        self.declare(name, Binding::Poison);
+        let mut members: Vec<StructMember> = Vec::new();
+        for field in &ast[fields] {
+            let base = self.base_type(field.ty);
+            let spec = ast[field.ty];
+            let of_field = self.qualifiers(field.qualifiers, Place::Block);
+            self.check_layout(&of_field, LayoutOf::Member);
+            if let Some((Q::In | Q::Out, token)) = of_field.storage {
+                self.error(token, "a member of a uniform block cannot be `in` or `out`");
+            }
+            for declarator in &ast[field.declarators] {
+                let mut ty = self.complete_type(base, spec.dims, declarator.dims, "an array in a block");
+                let text = self.name(declarator.name.symbol);
+                if ty == TypeId::VOID || self.facts(ty).opaque {
+                    let shown = self.type_name(ty);
+                    self.error(spec.loc, format!("the member `{text}` of a block cannot be a `{shown}`"));
+                    ty = TypeId::ERROR;
+                }
+                if members.iter().any(|m| m.name.symbol == declarator.name.symbol) {
+                    self.error(declarator.name, format!("this block already has a member `{text}`"));
+                    continue;
+                }
+                members.push(StructMember { name: declarator.name, ty });
+            }
+        }
+        let text = self.name(name.symbol);
+        self.warning(name, format!("nobody sets the uniform block `{text}`: its members are zero"));
+        let Some(instance) = instance else {
+            for member in members {
+                self.add_global(member.name, member.ty, GlobalStorage::Uniform, None, None, loc);
+            }
+            return;
+        };
+        let words: u32 = members.iter().fold(0u32, |sum, m| sum.saturating_add(self.facts(m.ty).words));
+        if words > MAX_WORDS {
+            self.error(loc, "this block takes more than 16 MiB, the limit");
+        }
+        let ty = self.add_struct(Some(name), &members, loc, None);
+        let ty = self.complete_type(ty, dims, List::EMPTY, "an array of blocks");
+        self.add_global(instance, ty, GlobalStorage::Uniform, None, None, loc);
+    }
+}

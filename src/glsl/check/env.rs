@@ -1,0 +1,201 @@
+//! What is in scope before the first line: the built-ins of chapters 7 and 8, the site's uniforms and channels for each kind
+//! of pass, and the entry point the header declares.
+
+use super::{Checker, function::FunctionSign, scope};
+use crate::glsl::{
+    PassKind,
+    ast::{BasicType, Loc, Precision, TokenId},
+    hir::{Builtin, BuiltinVar, DeclRef, LocalKind, TypeId, Uniform},
+};
+use scope::Binding;
+
+/// Which header stands before the text.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Env {
+    Pass(PassKind),
+    /// Common alone: `iDate` and `iSampleRate`. The rest is in scope too, but naming it is noted.
+    Common,
+}
+
+impl Env {
+    /// Whether this text may name a uniform.
+    fn has(self, uniform: Uniform) -> bool {
+        use Uniform as U;
+        match self {
+            Env::Common => uniform != U::ChannelLoaded,
+            Env::Pass(PassKind::Sound) => matches!(
+                uniform,
+                U::ChannelTime | U::TimeOffset | U::SampleOffset | U::Date | U::SampleRate | U::ChannelResolution
+            ),
+            Env::Pass(_) => !matches!(uniform, U::TimeOffset | U::SampleOffset | U::ChannelLoaded),
+        }
+    }
+}
+
+/// The built-in constants of section 7.3, at the least values the specification promises.
+const LIMITS: [(&str, i32); 11] = [
+    ("gl_MaxVertexAttribs", 16),
+    ("gl_MaxVertexUniformVectors", 256),
+    ("gl_MaxVertexOutputVectors", 16),
+    ("gl_MaxFragmentInputVectors", 15),
+    ("gl_MaxVertexTextureImageUnits", 16),
+    ("gl_MaxCombinedTextureImageUnits", 32),
+    ("gl_MaxTextureImageUnits", 16),
+    ("gl_MaxFragmentUniformVectors", 224),
+    ("gl_MaxDrawBuffers", 4),
+    ("gl_MinProgramTexelOffset", MIN_OFFSET),
+    ("gl_MaxProgramTexelOffset", MAX_OFFSET),
+];
+
+/// Legal range of the constant offsets of section 8.8.
+pub(super) const MIN_OFFSET: i32 = -8;
+pub(super) const MAX_OFFSET: i32 = 7;
+
+const VARIABLES: [(&str, BuiltinVar); 4] = [
+    ("gl_FragCoord", BuiltinVar::FragCoord),
+    ("gl_FrontFacing", BuiltinVar::FrontFacing),
+    ("gl_PointCoord", BuiltinVar::PointCoord),
+    ("gl_FragDepth", BuiltinVar::FragDepth),
+];
+
+const CHANNELS: [&str; 4] = ["iChannel0", "iChannel1", "iChannel2", "iChannel3"];
+const CHANNEL_STRUCTS: [&str; 4] = ["iCh0", "iCh1", "iCh2", "iCh3"];
+
+/// Name and signature of a kind's entry point; `usage` is what an author has to write.
+pub(super) struct Entry {
+    pub name: &'static str,
+    pub result: TypeId,
+    pub params: &'static [(LocalKind, TypeId)],
+    pub usage: &'static str,
+}
+
+pub(super) fn entry(kind: PassKind) -> Entry {
+    use LocalKind::{In, Out};
+    match kind {
+        PassKind::Image | PassKind::Buffer => Entry {
+            name: "mainImage",
+            result: TypeId::VOID,
+            params: &[(Out, TypeId::VEC4), (In, TypeId::VEC2)],
+            usage: "void mainImage(out vec4 fragColor, in vec2 fragCoord) { .. }",
+        },
+        PassKind::Cubemap => Entry {
+            name: "mainCubemap",
+            result: TypeId::VOID,
+            params: &[(Out, TypeId::VEC4), (In, TypeId::VEC2), (In, TypeId::VEC3), (In, TypeId::VEC3)],
+            usage: "void mainCubemap(out vec4 fragColor, in vec2 fragCoord, in vec3 rayOri, in vec3 rayDir) { .. }",
+        },
+        PassKind::Sound => Entry {
+            name: "mainSound",
+            result: TypeId::VEC2,
+            params: &[(In, TypeId::INT), (In, TypeId::FLOAT)],
+            usage: "vec2 mainSound(int samp, float time) { .. }",
+        },
+    }
+}
+
+impl Checker<'_> {
+    /// Fills the scopes before the first declaration is read.
+    pub(super) fn declare_environment(&mut self) {
+        for &builtin in Builtin::ALL {
+            if builtin != Builtin::StAssert {
+                self.scopes.give(builtin.symbol(), Binding::Builtin(builtin), scope::LANGUAGE);
+            }
+        }
+        // The site defines st_assert in the text of Image passes, so a pass may overload or, elsewhere, define its own.
+        if self.env == Env::Pass(PassKind::Image) {
+            self.scopes.give(Builtin::StAssert.symbol(), Binding::Builtin(Builtin::StAssert), scope::LANGUAGE);
+        }
+        for &uniform in Uniform::ALL {
+            if self.env.has(uniform) {
+                self.scopes.give(uniform.symbol(), Binding::Uniform(uniform), scope::FILE);
+            }
+        }
+        for (name, var) in VARIABLES {
+            self.give(name, Binding::BuiltinVar(var), scope::LANGUAGE);
+        }
+        for (name, value) in LIMITS {
+            self.give(name, Binding::BuiltinConst(value), scope::LANGUAGE);
+        }
+        self.give("gl_DepthRange", Binding::DepthRange, scope::LANGUAGE);
+        if self.env.has(Uniform::Time) {
+            self.give("iGlobalTime", Binding::OldTime, scope::LANGUAGE);
+        }
+        for (i, name) in CHANNELS.into_iter().enumerate() {
+            self.give(name, Binding::Channel(i as u8), scope::FILE);
+        }
+        if self.env == Env::Pass(PassKind::Image) {
+            for (i, name) in CHANNEL_STRUCTS.into_iter().enumerate() {
+                self.give(name, Binding::ChannelStruct(i as u8), scope::FILE);
+            }
+        }
+        for (basic, precision) in [
+            (BasicType::Float, Precision::High),
+            (BasicType::Int, Precision::High),
+            (BasicType::Sampler2D, Precision::Low),
+            (BasicType::SamplerCube, Precision::Low),
+            (BasicType::Sampler3D, Precision::Medium),
+        ] {
+            self.precisions[basic as usize] = Some(precision);
+        }
+        if let Env::Pass(kind) = self.env {
+            let entry = entry(kind);
+            self.entry_symbol = self.names.find(entry.name);
+            if let Some(symbol) = self.entry_symbol {
+                // The header's prototype stands nowhere in the text; the end of file stands for it.
+                let nowhere = TokenId(self.origins.tokens.len() as u32 - 1);
+                let params: Vec<_> = entry.params.iter().map(|&(kind, ty)| (None, ty, kind, None)).collect();
+                self.add_function(
+                    FunctionSign { symbol, token: nowhere, result: entry.result, params: &params },
+                    Loc::from(nowhere),
+                    Loc::from(nowhere),
+                );
+            }
+        }
+    }
+
+    fn give(&mut self, name: &str, binding: Binding, depth: u32) {
+        if let Some(symbol) = self.names.find(name) {
+            self.scopes.give(symbol, binding, depth);
+        }
+    }
+
+    /// Type of `iChannelN`.
+    pub(super) fn channel_type(&self, channel: u8) -> TypeId {
+        use crate::glsl::ChannelKind as C;
+        TypeId::basic(match self.channels[usize::from(channel)] {
+            C::Sampler2D => BasicType::Sampler2D,
+            C::Sampler3D => BasicType::Sampler3D,
+            C::SamplerCube => BasicType::SamplerCube,
+        })
+    }
+
+    /// Notes that Common named what only passes have.
+    pub(super) fn note_in_common(&mut self, token: TokenId, target: DeclRef) {
+        let refused = match target {
+            DeclRef::Uniform(uniform) => !matches!(uniform, Uniform::Date | Uniform::SampleRate),
+            DeclRef::Channel(_) | DeclRef::ChannelStruct(_) => true,
+            _ => false,
+        };
+        if self.env != Env::Common || !refused {
+            return;
+        }
+        let name = match target {
+            DeclRef::Uniform(uniform) => uniform.name(),
+            DeclRef::Channel(i) => CHANNELS[usize::from(i)],
+            DeclRef::ChannelStruct(i) => CHANNEL_STRUCTS[usize::from(i)],
+            _ => return,
+        };
+        self.refuse_in_common(token.into(), name);
+    }
+
+    pub(super) fn refuse_in_common(&mut self, loc: Loc, name: &str) {
+        let message =
+            format!("Shadertoy would refuse `{name}` here: it compiles Common alone, with only iDate and iSampleRate");
+        if self.refused_in_common.iter().any(|known| known.message == message) {
+            return;
+        }
+        let hint = format!("pass `{name}` to the function as an argument, or name it in a macro");
+        let diagnostic = self.origins.warning(self.names, loc, message).hint(hint);
+        self.refused_in_common.push(diagnostic);
+    }
+}

@@ -1,0 +1,450 @@
+//! Expressions: the loop over the tree's arena, names, and the kinds that need no rules of their own file.
+
+use super::{Checker, scope::Binding};
+use crate::glsl::{
+    ast::{self, ExprKind as A, Loc, Symbol, TokenId},
+    hir::{
+        self, BuiltinVar, DeclRef, ExprFlags, ExprId, ExprKind, GlobalStorage, IncDec, LocalKind, Type, TypeId,
+        VarFlags,
+    },
+};
+
+impl<'a> Checker<'a> {
+    /// Checks one full expression and everything in it.
+    pub(super) fn expr(&mut self, root: ast::ExprId) -> ExprId {
+        if let Some(done) = self.lowered[root.index()] {
+            return done;
+        }
+        self.full_expr = self.module.exprs.len();
+        let first = self.first_of(root);
+        if self.broken_tree {
+            self.expr_in_broken_tree(first, root.index());
+        } else {
+            for i in first..=root.index() {
+                self.node(i);
+            }
+        }
+        if !self.pending_channels.is_empty() {
+            self.report_pending_channels();
+        }
+        self.lowered[root.index()].expect("the root is in the range")
+    }
+
+    /// Post-order, so the first node of an expression is its leftmost leaf.
+    fn first_of(&self, root: ast::ExprId) -> usize {
+        let ast = self.ast;
+        let mut at = root;
+        loop {
+            let next = match ast[at].kind {
+                A::Error | A::Int(_) | A::Uint(_) | A::Float(_) | A::Bool(_) | A::Name(_) => None,
+                A::Call { args, .. } => ast[args].first().copied(),
+                A::Construct { ty, args } => {
+                    let size = ast[ast[ty].dims].iter().find_map(|dim| dim.size);
+                    size.or_else(|| ast[args].first().copied())
+                }
+                A::Method { base, .. } | A::Member { base, .. } | A::Index { base, .. } => Some(base),
+                A::Unary { operand, .. } | A::Postfix { operand, .. } => Some(operand),
+                A::Binary { lhs, .. } | A::Comma { lhs, .. } => Some(lhs),
+                A::Assign { place, .. } => Some(place),
+                A::Ternary { cond, .. } => Some(cond),
+            };
+            match next {
+                Some(child) => at = child,
+                None => return at.index(),
+            }
+        }
+    }
+
+    /// Between the nodes of a tree that had syntax errors may lie others that were given up: only what hangs on the root
+    /// counts.
+    #[cold]
+    fn expr_in_broken_tree(&mut self, first: usize, root: usize) {
+        let ast = self.ast;
+        let mut wanted = vec![false; root + 1 - first];
+        wanted[root - first] = true;
+        for i in (first..=root).rev() {
+            if !wanted[i - first] {
+                continue;
+            }
+            let mut want = |child: ast::ExprId| {
+                if let Some(at) = child.index().checked_sub(first) {
+                    wanted[at] = true;
+                }
+            };
+            match ast.exprs[i].kind {
+                A::Error | A::Int(_) | A::Uint(_) | A::Float(_) | A::Bool(_) | A::Name(_) => {}
+                A::Call { args, .. } => ast[args].iter().copied().for_each(&mut want),
+                A::Construct { ty, args } => {
+                    ast[ast[ty].dims].iter().filter_map(|dim| dim.size).for_each(&mut want);
+                    ast[args].iter().copied().for_each(&mut want);
+                }
+                A::Method { base, .. } | A::Member { base, .. } => want(base),
+                A::Unary { operand, .. } | A::Postfix { operand, .. } => want(operand),
+                A::Index { base: a, index: b }
+                | A::Binary { lhs: a, rhs: b, .. }
+                | A::Comma { lhs: a, rhs: b }
+                | A::Assign { place: a, value: b, .. } => {
+                    want(a);
+                    want(b);
+                }
+                A::Ternary { cond, then, otherwise } => [cond, then, otherwise].into_iter().for_each(&mut want),
+            }
+        }
+        for (i, _) in wanted.into_iter().enumerate().filter(|(_, wanted)| *wanted) {
+            self.node(first + i);
+        }
+    }
+
+    /// HIR of a child that was checked before.
+    #[inline]
+    pub(super) fn done(&self, id: ast::ExprId) -> ExprId {
+        self.lowered[id.index()].expect("children come first")
+    }
+
+    fn node(&mut self, index: usize) {
+        if self.lowered[index].is_some() {
+            return;
+        }
+        let ast::Expr { kind, loc } = self.ast.exprs[index];
+        let id = match kind {
+            A::Error => self.error_expr(loc),
+            A::Int(value) => self.literal(value as u32, TypeId::INT, loc),
+            A::Uint(value) => self.literal(value, TypeId::UINT, loc),
+            A::Float(value) => self.literal(value.to_bits(), TypeId::FLOAT, loc),
+            A::Bool(value) => self.literal(u32::from(value), TypeId::BOOL, loc),
+            A::Name(symbol) => self.named(symbol, loc),
+            A::Call { name, args } => self.call(name, args, loc),
+            A::Construct { ty, args } => self.construct(ty, args, loc),
+            A::Method { base, name } => self.method(self.done(base), name, loc),
+            A::Member { base, name } => self.member(self.done(base), name, loc),
+            A::Index { base, index } => self.index(self.done(base), self.done(index), loc),
+            A::Unary { op, operand } => self.unary(op, operand, loc),
+            A::Postfix { op, operand } => {
+                let op = match op {
+                    ast::PostfixOp::Increment => IncDec::PostIncrement,
+                    ast::PostfixOp::Decrement => IncDec::PostDecrement,
+                };
+                self.inc_dec(op, self.done(operand), loc)
+            }
+            A::Binary { op, lhs, rhs } => self.binary(op, lhs, rhs, loc),
+            A::Assign { op, place, value } => self.assign(op, place, value, loc),
+            A::Ternary { cond, then, otherwise } => self.ternary(cond, then, otherwise, loc),
+            A::Comma { lhs, rhs } => self.comma(self.done(lhs), self.done(rhs), loc),
+        };
+        self.lowered[index] = Some(id);
+    }
+
+    // --------------------------------------------------------------------------------------------------------- names
+
+    #[inline]
+    fn named(&mut self, symbol: Symbol, loc: Loc) -> ExprId {
+        let token = loc.first;
+        match self.scopes.get(symbol) {
+            Binding::Local(id) => {
+                self.uses(token, DeclRef::Local(id));
+                let local = &mut self.module[id];
+                local.flags.insert(VarFlags::USED);
+                let (ty, kind, value) = (local.ty, local.kind, local.value);
+                match kind {
+                    LocalKind::Const => self.folded(value, loc),
+                    LocalKind::ConstIn => self.push(ExprKind::Local(id), ty, ExprFlags::default(), loc),
+                    _ if self.is_sampler(ty) => self.push(ExprKind::Local(id), ty, ExprFlags::default(), loc),
+                    _ => self.push(ExprKind::Local(id), ty, ExprFlags::PLACE, loc),
+                }
+            }
+            Binding::Global(id) => {
+                self.uses(token, DeclRef::Global(id));
+                let global = &mut self.module[id];
+                global.flags.insert(VarFlags::USED);
+                let (ty, storage, value) = (global.ty, global.storage, global.value);
+                match storage {
+                    GlobalStorage::Const => self.folded(value, loc),
+                    _ if self.is_sampler(ty) => self.own_sampler(ty, loc),
+                    GlobalStorage::Private | GlobalStorage::Out => {
+                        self.push(ExprKind::Global(id), ty, ExprFlags::PLACE, loc)
+                    }
+                    _ => self.push(ExprKind::Global(id), ty, ExprFlags::default(), loc),
+                }
+            }
+            Binding::Uniform(uniform) => self.uniform(uniform, token, loc),
+            Binding::OldTime => {
+                if self.say_once(symbol) {
+                    self.warning(loc, "`iGlobalTime` is the old name of `iTime`");
+                    self.hint("write `iTime`");
+                }
+                self.uniform(hir::Uniform::Time, token, loc)
+            }
+            Binding::Channel(i) => {
+                self.uses(token, DeclRef::Channel(i));
+                self.note_in_common(token, DeclRef::Channel(i));
+                let ty = self.channel_type(i);
+                self.push(ExprKind::Channel(i), ty, ExprFlags::default(), loc)
+            }
+            Binding::ChannelStruct(i) => {
+                self.uses(token, DeclRef::ChannelStruct(i));
+                let id = self.error_expr(loc);
+                self.pending_channels.push((id, i));
+                id
+            }
+            Binding::BuiltinVar(var) => {
+                self.uses(token, DeclRef::BuiltinVar(var));
+                let (ty, flags) = match var {
+                    BuiltinVar::FragCoord => (TypeId::VEC4, ExprFlags::default()),
+                    BuiltinVar::FrontFacing => (TypeId::BOOL, ExprFlags::default()),
+                    BuiltinVar::PointCoord => (TypeId::VEC2, ExprFlags::default()),
+                    BuiltinVar::FragDepth => (TypeId::FLOAT, ExprFlags::PLACE),
+                };
+                self.push(ExprKind::BuiltinVar(var), ty, flags, loc)
+            }
+            Binding::BuiltinConst(value) => {
+                self.uses(token, DeclRef::BuiltinConst(symbol));
+                self.literal(value as u32, TypeId::INT, loc)
+            }
+            Binding::DepthRange => self.depth_range(symbol, loc),
+            Binding::Poison => self.error_expr(loc),
+            Binding::None => {
+                self.unknown_name(symbol, token);
+                self.error_expr(loc)
+            }
+            binding @ (Binding::Builtin(_) | Binding::Function(_) | Binding::Struct(_)) => {
+                let (name, what) = (self.name(symbol), self.describe_binding(binding));
+                self.error(loc, format!("`{name}` is {what}, not a value"));
+                match binding {
+                    Binding::Struct(_) => self.hint(format!("construct one: `{name}(..)`")),
+                    _ => self.hint(format!("call it: `{name}(..)`")),
+                }
+                self.error_expr(loc)
+            }
+        }
+    }
+
+    /// A use of a `const` variable: its value, whose words all uses share.
+    fn folded(&mut self, value: Option<hir::ConstId>, loc: Loc) -> ExprId {
+        let Some(id) = value else { return self.error_expr(loc) };
+        let hir::Const { ty, words } = self.module[id];
+        let kind = match &self.module[words] {
+            &[bits] if self.vector_shape(ty).is_some() => ExprKind::Literal(bits),
+            _ => ExprKind::Const(id),
+        };
+        self.push(kind, ty, ExprFlags::CONSTANT, loc)
+    }
+
+    pub(super) fn uniform(&mut self, uniform: hir::Uniform, token: TokenId, loc: Loc) -> ExprId {
+        if uniform != hir::Uniform::ChannelLoaded {
+            self.uses(token, DeclRef::Uniform(uniform));
+            self.note_in_common(token, DeclRef::Uniform(uniform));
+        }
+        let ty = match uniform {
+            hir::Uniform::ChannelTime => self.array_type(TypeId::FLOAT, 4, loc),
+            hir::Uniform::ChannelResolution => self.array_type(TypeId::VEC3, 4, loc),
+            hir::Uniform::ChannelLoaded => self.array_type(TypeId::INT, 4, loc),
+            _ => uniform.ty(&mut self.module.types),
+        };
+        self.push(ExprKind::Uniform(uniform), ty, ExprFlags::default(), loc)
+    }
+
+    /// `gl_DepthRange`, whose window is always 0 to 1 here.
+    fn depth_range(&mut self, symbol: Symbol, loc: Loc) -> ExprId {
+        if self.depth_range.is_none() {
+            let here = |symbol| ast::Ident { symbol, token: loc.first };
+            // A member the text never names cannot be asked for either; the struct's own name stands in for it.
+            let members = ["near", "far", "diff"].map(|name| hir::StructMember {
+                name: here(self.names.find(name).unwrap_or(symbol)),
+                ty: TypeId::FLOAT,
+            });
+            let ty = self.add_struct(Some(here(symbol)), &members, loc, None);
+            let words = [0.0f32, 1.0, 1.0].map(f32::to_bits);
+            self.depth_range = Some(self.module.constant(ty, &words));
+        }
+        self.folded(self.depth_range, loc)
+    }
+
+    #[cold]
+    fn report_pending_channels(&mut self) {
+        for (id, i) in std::mem::take(&mut self.pending_channels) {
+            let loc = self.loc(id);
+            self.error(loc, format!("`iCh{i}` is a struct and cannot be used whole"));
+            self.hint(format!("write `iCh{i}.sampler`, `iCh{i}.size`, `iCh{i}.time` or `iCh{i}.loaded`"));
+        }
+    }
+
+    // --------------------------------------------------------------------------------------------------- small kinds
+
+    fn ternary(&mut self, cond: ast::ExprId, then: ast::ExprId, otherwise: ast::ExprId, loc: Loc) -> ExprId {
+        let (c, t, o) = (self.done(cond), self.done(then), self.done(otherwise));
+        let (tt, ot) = (self.ty(t), self.ty(o));
+        if !self.expect_bool(c, cond, "the condition of `?:`") || tt == TypeId::ERROR || ot == TypeId::ERROR {
+            // The type may still be known, which spares the reader of the surrounding expression a guess.
+            let id = self.error_expr(loc);
+            if tt == ot {
+                self.module[id].ty = tt;
+            }
+            return id;
+        }
+        if tt != ot {
+            let (a, b) = (self.type_name(tt), self.type_name(ot));
+            let at = self.loc(t).to(self.loc(o));
+            self.error(at, format!("both branches of `?:` must have one type, not `{a}` and `{b}`"));
+            self.conversion_hint((t, then), (o, otherwise));
+            return self.error_expr(loc);
+        }
+        let facts = self.facts(tt);
+        if tt == TypeId::VOID || facts.arrays || facts.opaque {
+            let name = self.type_name(tt);
+            self.error(loc, format!("`?:` cannot choose between values of type `{name}`"));
+            match self.is_sampler(tt) {
+                true => self.hint("choose between the colours: `c ? texture(iChannel0, uv) : texture(iChannel1, uv)`"),
+                false => self.hint("use if and else"),
+            }
+            return self.error_expr(loc);
+        }
+        if self.struct_of(tt).is_some() {
+            self.warning(loc, "Shadertoy refuses `?:` between structs, though the language allows it");
+            self.hint("use if and else");
+        }
+        if self.is_constant(c) && self.is_constant(t) && self.is_constant(o) {
+            let chosen = if self.words(c) == Some(&[1]) { t } else { o };
+            let hir::Expr { kind, ty, .. } = self.module[chosen];
+            return self.push(kind, ty, ExprFlags::CONSTANT, loc);
+        }
+        let flags = self.inherited(&[c, t, o]).with(ExprFlags::BRANCHES);
+        self.push(ExprKind::Ternary { cond: c, then: t, otherwise: o }, tt, flags, loc)
+    }
+
+    /// Never a constant expression (section 12.43), even of constants.
+    fn comma(&mut self, lhs: ExprId, rhs: ExprId, loc: Loc) -> ExprId {
+        let ty = self.ty(rhs);
+        for side in [lhs, rhs] {
+            let facts = self.facts(self.ty(side));
+            if self.ty(side) == TypeId::VOID || facts.arrays {
+                let (name, at) = (self.type_name(self.ty(side)), self.loc(side));
+                self.error(at, format!("the comma operator takes no value of type `{name}`"));
+                self.hint("write two statements, with `;` between them");
+                return self.error_expr(loc);
+            }
+        }
+        let flags = self.inherited(&[lhs, rhs]);
+        self.push(ExprKind::Comma { lhs, rhs }, ty, flags, loc)
+    }
+
+    // --------------------------------------------------------------------------------------------------------- places
+
+    /// The variable, call or constant that a chain of members, components and indices begins with.
+    pub(super) fn root_of(&self, expr: ExprId) -> ExprId {
+        let mut at = expr;
+        loop {
+            match self.module[at].kind {
+                ExprKind::Member { base, .. } | ExprKind::Swizzle { base, .. } | ExprKind::Index { base, .. } => {
+                    at = base
+                }
+                _ => return at,
+            }
+        }
+    }
+
+    /// Sets a flag on the variable at the root of a chain, if there is one.
+    pub(super) fn flag_root(&mut self, expr: ExprId, flag: VarFlags) {
+        match self.module[self.root_of(expr)].kind {
+            ExprKind::Local(id) => self.module[id].flags.insert(flag),
+            ExprKind::Global(id) => self.module[id].flags.insert(flag),
+            _ => {}
+        }
+    }
+
+    /// Whether `expr` may be written to; otherwise says why not. `doing` is what is tried: `assigned to`.
+    pub(super) fn place(&mut self, expr: ExprId, doing: &str) -> bool {
+        if self.ty(expr) == TypeId::ERROR {
+            return false;
+        }
+        if self.module[expr].flags.contains(ExprFlags::PLACE) {
+            self.flag_root(expr, VarFlags::WRITTEN);
+            return true;
+        }
+        self.not_a_place(expr, doing);
+        false
+    }
+
+    #[cold]
+    fn not_a_place(&mut self, expr: ExprId, doing: &str) {
+        let loc = self.loc(expr);
+        let mut at = expr;
+        loop {
+            match self.module[at].kind {
+                ExprKind::Swizzle { base, swizzle } => {
+                    if swizzle.repeats() && self.module[base].flags.contains(ExprFlags::PLACE) {
+                        self.error(loc, format!("`{swizzle:?}` names a component twice and cannot be {doing}"));
+                        return;
+                    }
+                    at = base;
+                }
+                ExprKind::Member { base, .. } | ExprKind::Index { base, .. } => at = base,
+                _ => break,
+            }
+        }
+        let Some(name) = self.named_root(expr) else {
+            let what = match self.module[at].kind {
+                ExprKind::Literal(_) | ExprKind::Const(_) => "a constant",
+                ExprKind::Call { .. } | ExprKind::Builtin { .. } => "the result of a call",
+                ExprKind::Local(_) | ExprKind::Global(_) | ExprKind::Uniform(_) => "a copy made by a constructor",
+                _ => "the result of an expression",
+            };
+            self.error(loc, format!("{what} cannot be {doing}: it is no variable"));
+            if doing.contains("out`") {
+                self.hint("give it a variable: the function writes its result there");
+            }
+            return;
+        };
+        let text = self.name(name);
+        let binding = self.scopes.get(name);
+        let what = match binding {
+            Binding::Uniform(_) | Binding::OldTime | Binding::DepthRange => "a uniform",
+            Binding::Channel(_) => "a sampler",
+            Binding::BuiltinVar(_) => "an input",
+            Binding::Local(id) if self.is_sampler(self.module[id].ty) => "a sampler",
+            Binding::Global(id) => match self.module[id].storage {
+                GlobalStorage::Uniform => "a uniform",
+                GlobalStorage::In => "an input",
+                _ => "`const`",
+            },
+            Binding::BuiltinConst(_) => "a constant",
+            _ => "`const`",
+        };
+        self.error(loc, format!("`{text}` is {what} and cannot be {doing}"));
+        if let Some(declared) = self.declared_at(binding) {
+            self.also(declared, "declared here");
+        }
+        if matches!(what, "a uniform" | "an input") {
+            self.hint("copy it into a variable of your own and change that");
+        }
+    }
+
+    /// The name that an expression written as `name`, `name.member`, `name[index]` and so on begins with.
+    fn named_root(&self, expr: ExprId) -> Option<Symbol> {
+        // A constructor that leaves no node gives its argument's: what was written last counts.
+        let mut at = self.lowered.iter().rposition(|done| *done == Some(expr))?;
+        loop {
+            match self.ast.exprs[at].kind {
+                A::Name(symbol) => return Some(symbol),
+                A::Member { base, .. } | A::Index { base, .. } => at = base.index(),
+                _ => return None,
+            }
+        }
+    }
+
+    /// Whether something in the full expression checked last was reported, so that what it is not need not be said.
+    #[cold]
+    pub(super) fn is_broken(&self) -> bool {
+        self.module.exprs[self.full_expr..].iter().any(|expr| matches!(expr.kind, ExprKind::Error))
+    }
+
+    /// Reports a use of a value of type `void`.
+    pub(super) fn is_void(&mut self, expr: ExprId) -> bool {
+        if self.module.types.get(self.ty(expr)) != Type::Void {
+            return false;
+        }
+        let loc = self.loc(expr);
+        self.error(loc, "this function returns nothing (`void`), so it has no value to use");
+        self.hint("write the call as a statement of its own");
+        true
+    }
+}

@@ -1,0 +1,282 @@
+//! Functions (section 6.1): prototypes, definitions, overloads, parameters.
+
+use super::{
+    Checker, FuncFacts,
+    env::{self, Env},
+    overloads,
+    qualifiers::Place,
+    scope::{self, Binding},
+    types::Size,
+};
+use crate::glsl::{
+    ast::{self, FunctionDeclId, Ident, List, Loc, Precision, StmtKind, Symbol, TokenId, TypeSpecKind},
+    hir::{Builtin, FuncId, Function, Local, LocalKind, TypeId, VarFlags},
+};
+
+/// A parameter as declared: name, type, direction, precision.
+pub(super) type ParamSign = (Option<Ident>, TypeId, LocalKind, Option<Precision>);
+
+pub(super) struct FunctionSign<'s> {
+    pub symbol: Symbol,
+    pub token: TokenId,
+    pub result: TypeId,
+    pub params: &'s [ParamSign],
+}
+
+impl Checker<'_> {
+    /// A new function; its name is bound, or put behind the overloads it has.
+    pub(super) fn add_function(&mut self, sign: FunctionSign<'_>, header: Loc, loc: Loc) -> FuncId {
+        let id = self.add_unnamed_function(&sign, header, loc);
+        match self.scopes.here(sign.symbol) {
+            Some(Binding::Function(first)) => {
+                let mut last = first;
+                while let Some(next) = self.funcs[last.index()].next {
+                    last = next;
+                }
+                self.funcs[last.index()].next = Some(id);
+            }
+            _ => self.scopes.declare(sign.symbol, Binding::Function(id)),
+        }
+        id
+    }
+
+    /// A function nothing can call: one whose name may not be declared.
+    fn add_unnamed_function(&mut self, sign: &FunctionSign<'_>, header: Loc, loc: Loc) -> FuncId {
+        let start = self.add_params(sign.params);
+        self.module.functions.push(Function {
+            name: Ident { symbol: sign.symbol, token: sign.token },
+            declared_at: Vec::new(),
+            result: sign.result,
+            locals: start..start + sign.params.len() as u32,
+            param_count: sign.params.len() as u32,
+            body: None,
+            calls: Vec::new(),
+            used: false,
+            header,
+            loc,
+        });
+        self.funcs.push(FuncFacts { next: None, first_call: None, called_by: 0 });
+        FuncId::new(self.funcs.len() - 1)
+    }
+
+    fn add_params(&mut self, params: &[ParamSign]) -> u32 {
+        let start = self.module.locals.len() as u32;
+        self.module.locals.extend(params.iter().map(|&(name, ty, kind, precision)| Local {
+            name,
+            ty,
+            kind,
+            precision,
+            value: None,
+            flags: VarFlags::default(),
+        }));
+        start
+    }
+
+    /// Where a function was declared first, unless the header did it.
+    pub(super) fn function_at(&self, id: FuncId) -> Option<Loc> {
+        self.module[id].declared_at.first().map(|&token| token.into())
+    }
+
+    pub(super) fn function_declaration(&mut self, id: FunctionDeclId, loc: Loc) {
+        let decl = self.ast[id];
+        let result = self.result_type(&decl);
+        let params = self.param_signs(&decl);
+        let name = decl.name;
+        let text = self.name(name.symbol);
+        let sign = FunctionSign { symbol: name.symbol, token: name.token, result, params: &params };
+        let builtin = Builtin::from_symbol(name.symbol).filter(|&b| b != Builtin::StAssert);
+        let func = if builtin.is_some_and(|b| !overloads::may_be_overloaded(b)) {
+            self.error(name, format!("`{text}` is a built-in function and cannot be declared again"));
+            self.hint(format!("choose another name, `my_{text}` for instance, or remove this to use the built-in"));
+            self.add_unnamed_function(&sign, decl.header, loc)
+        } else if text == "main" && matches!(self.env, Env::Pass(_)) {
+            self.error(name, "Shadertoy's header has `main` already; a pass defines its own entry point");
+            if let Env::Pass(kind) = self.env {
+                self.hint(format!("write `{}`", env::entry(kind).usage));
+            }
+            self.add_unnamed_function(&sign, decl.header, loc)
+        } else {
+            match self.scopes.here(name.symbol) {
+                None | Some(Binding::Poison) => self.add_function(sign, decl.header, loc),
+                Some(Binding::Function(first)) => match self.same_params(first, &params) {
+                    Some(known) => self.declared_again(known, &sign, decl, loc),
+                    None => self.add_function(sign, decl.header, loc),
+                },
+                Some(_) => {
+                    // Says that the name is taken; what it stands for stays.
+                    self.declare(name, Binding::Poison);
+                    self.add_unnamed_function(&sign, decl.header, loc)
+                }
+            }
+        };
+        if builtin.is_some_and(overloads::may_be_overloaded) && self.module[func].declared_at.is_empty() {
+            self.warning(
+                name,
+                format!("`{text}` is a built-in function; only the site's compiler lets it be overloaded"),
+            );
+            self.hint("choose another name to be portable");
+        }
+        self.module[func].declared_at.push(name.token);
+        if let Some(body) = decl.body {
+            self.define(func, &decl, &params, body, loc);
+        }
+    }
+
+    fn result_type(&mut self, decl: &ast::FunctionDecl) -> TypeId {
+        let base = self.base_type(decl.result);
+        let spec = self.ast[decl.result];
+        let quals = self.qualifiers(decl.qualifiers, Place::Result);
+        self.check_precision(&quals, base, spec.loc);
+        let ty = self.complete_type(base, spec.dims, ast::List::EMPTY, "an array that is returned");
+        if self.facts(ty).opaque {
+            let name = self.type_name(ty);
+            self.error(
+                spec.loc,
+                format!("a function cannot return a `{name}`: samplers are only passed as parameters"),
+            );
+            return TypeId::ERROR;
+        }
+        ty
+    }
+
+    fn param_signs(&mut self, decl: &ast::FunctionDecl) -> Vec<ParamSign> {
+        let ast = self.ast;
+        let mut signs = Vec::with_capacity(decl.params.len());
+        for param in &ast[decl.params] {
+            let spec = ast[param.ty];
+            if let TypeSpecKind::Struct(def) = spec.kind {
+                self.error(ast[def].loc, "a struct cannot be defined in a parameter list");
+                self.hint("define it before the function and use its name here");
+            }
+            let base = self.base_type(param.ty);
+            let quals = self.qualifiers(param.qualifiers, Place::Param);
+            let mut ty = match self.sizes(spec.dims, param.dims) {
+                None => base,
+                Some((Size::Known(len), at)) if base != TypeId::VOID => self.array_type(base, len, at),
+                Some((Size::Open, at)) => {
+                    self.error(at, "an array parameter needs a size between the brackets");
+                    TypeId::ERROR
+                }
+                Some(_) => TypeId::ERROR,
+            };
+            if base == TypeId::VOID {
+                self.error(spec.loc, "a parameter cannot be of type `void`");
+                ty = TypeId::ERROR;
+            }
+            self.check_precision(&quals, base, spec.loc);
+            let kind = quals.param_kind();
+            if kind.copies_out() && self.facts(ty).opaque {
+                self.error(param.loc, "a sampler can only be passed `in`");
+                ty = TypeId::ERROR;
+            }
+            if self.facts(ty).opaque && !self.is_sampler(ty) {
+                let name = self.type_name(ty);
+                self.error(param.loc, format!("a `{name}` holds samplers and cannot be passed to a function here"));
+                self.hint("pass the samplers as parameters of their own");
+                ty = TypeId::ERROR;
+            }
+            signs.push((param.name, ty, kind, quals.precision_of(self, base)));
+        }
+        signs
+    }
+
+    /// The overload with these parameter types.
+    fn same_params(&self, first: FuncId, params: &[ParamSign]) -> Option<FuncId> {
+        let mut next = Some(first);
+        while let Some(id) = next {
+            let known = self.module.params(id);
+            if known.len() == params.len() && known.iter().zip(params).all(|(a, b)| a.ty == b.1) {
+                return Some(id);
+            }
+            next = self.funcs[id.index()].next;
+        }
+        None
+    }
+
+    /// A prototype or definition of a function that was declared before.
+    fn declared_again(&mut self, known: FuncId, sign: &FunctionSign<'_>, decl: ast::FunctionDecl, loc: Loc) -> FuncId {
+        let name = self.name(sign.symbol);
+        let first = self.function_at(known);
+        let is_entry = self.entry_symbol == Some(sign.symbol) && self.is_header_entry(known);
+        let usage = match self.env {
+            Env::Pass(kind) if is_entry => Some(env::entry(kind).usage),
+            _ => None,
+        };
+        if self.module[known].result != sign.result {
+            if sign.result != TypeId::ERROR && self.module[known].result != TypeId::ERROR {
+                let (was, is) = (self.type_name(self.module[known].result), self.type_name(sign.result));
+                self.error(decl.header, format!("`{name}` returns `{is}` here, but was declared to return `{was}`"));
+                match usage {
+                    Some(usage) => self.hint(format!("Shadertoy declares it as `{usage}`")),
+                    None => self.hint("overloads must differ in their parameters, not only in what they return"),
+                }
+                if let Some(first) = first {
+                    self.also(first, "declared here");
+                }
+            }
+            return self.add_unnamed_function(sign, decl.header, loc);
+        }
+        let differs = self.module.params(known).iter().zip(sign.params).position(|(a, b)| a.kind != b.2);
+        if let Some(at) = differs {
+            let param = self.ast[decl.params][at];
+            self.error(param.loc, format!("`{name}` was declared with another qualifier (in, out, inout, const) here"));
+            match usage {
+                Some(usage) => self.hint(format!("Shadertoy declares it as `{usage}`")),
+                None => self.hint("prototype and definition must agree"),
+            }
+            if let Some(first) = first {
+                self.also(first, "declared here");
+            }
+            return self.add_unnamed_function(sign, decl.header, loc);
+        }
+        if decl.body.is_some() && self.module[known].body.is_some() {
+            self.error(decl.name, format!("`{name}` with these parameters has a body already"));
+            self.also(self.module[known].name, "the first definition");
+            self.hint("remove one of the two, or rename it");
+            return self.add_unnamed_function(sign, decl.header, loc);
+        }
+        known
+    }
+
+    /// The entry point the site's header declares is the first function there is.
+    pub(super) fn is_header_entry(&self, id: FuncId) -> bool {
+        self.entry_symbol.is_some() && id.index() == 0
+    }
+
+    fn define(&mut self, func: FuncId, decl: &ast::FunctionDecl, params: &[ParamSign], body: ast::StmtId, loc: Loc) {
+        // The body's locals follow the parameters, so a definition after a prototype has parameters of its own.
+        let start = self.add_params(params);
+        let function = &mut self.module[func];
+        function.name = decl.name;
+        function.header = decl.header;
+        function.loc = loc;
+        function.locals = start..start + params.len() as u32;
+        // Says that there is a body, before it is there: the function may (wrongly) be defined inside itself no more.
+        function.body = Some(List::EMPTY);
+        let result = function.result;
+        debug_assert_eq!(self.scopes.depth(), scope::FILE);
+        self.scopes.push();
+        self.func = Some(func);
+        self.returns = false;
+        for (i, param) in params.iter().enumerate() {
+            if let Some(name) = param.0 {
+                self.declare(name, Binding::Local(crate::glsl::hir::LocalId::new(start as usize + i)));
+            }
+        }
+        let list = match self.ast[body].kind {
+            StmtKind::Block(stmts) => self.statements(stmts),
+            _ => List::EMPTY,
+        };
+        self.pop_scope();
+        self.func = None;
+        let end = self.module.locals.len() as u32;
+        let function = &mut self.module[func];
+        function.body = Some(list);
+        function.locals.end = end;
+        if result != TypeId::VOID && result != TypeId::ERROR && !self.returns && !self.broken_tree {
+            let (name, ty) = (self.name(decl.name.symbol), self.type_name(result));
+            self.error(decl.name, format!("`{name}` never returns a value, but is declared to return `{ty}`"));
+            self.hint("add a `return ..;`, or declare it `void`");
+        }
+    }
+}

@@ -1,0 +1,318 @@
+//! Qualifiers (sections 4.3 to 4.8): which may stand where, in which order, on which types.
+
+use super::Checker;
+use crate::glsl::{
+    ast::{BasicType, LayoutItem, List, Loc, Precision, Qualifier, QualifierKind as Q, TokenId},
+    hir::{LocalKind, Scalar, Type, TypeId},
+};
+
+/// Where qualifiers stand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Place {
+    Global,
+    Local,
+    Param,
+    Field,
+    Result,
+    Block,
+}
+
+/// Qualifiers sorted out; what does not belong has been reported and left out.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Qualifiers {
+    pub constant: Option<TokenId>,
+    /// `in`, `out`, `inout` or `uniform`.
+    pub storage: Option<(Q, TokenId)>,
+    pub precision: Option<(Precision, TokenId)>,
+    pub flat: bool,
+    /// `flat`, `smooth` or `centroid`.
+    pub interpolation: Option<TokenId>,
+    pub invariant: Option<TokenId>,
+    pub layout: Option<(TokenId, List<LayoutItem>)>,
+}
+
+/// What a layout is written on.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum LayoutOf {
+    /// A block, or the default for all blocks.
+    Block,
+    Member,
+    Output,
+    Variable,
+}
+
+impl Qualifiers {
+    pub fn is(&self, storage: Q) -> bool {
+        self.storage.is_some_and(|(kind, _)| kind == storage)
+    }
+
+    pub fn param_kind(&self) -> LocalKind {
+        match self.storage {
+            Some((Q::Out, _)) => LocalKind::Out,
+            Some((Q::Inout, _)) => LocalKind::Inout,
+            _ if self.constant.is_some() => LocalKind::ConstIn,
+            _ => LocalKind::In,
+        }
+    }
+
+    /// As written, or the default of the type.
+    pub fn precision_of(&self, checker: &Checker<'_>, base: TypeId) -> Option<Precision> {
+        self.precision.map(|(precision, _)| precision).or_else(|| checker.default_precision(base))
+    }
+}
+
+/// Position in the order that section 4.7 and the grammar demand.
+fn rank(kind: Q) -> u8 {
+    match kind {
+        Q::Layout(_) => 0,
+        Q::Invariant => 1,
+        Q::Flat | Q::Smooth => 2,
+        Q::Centroid => 3,
+        Q::Const => 4,
+        Q::In | Q::Out | Q::Inout | Q::Uniform => 5,
+        Q::Precision(_) => 6,
+    }
+}
+
+fn text(kind: Q) -> &'static str {
+    match kind {
+        Q::Const => "const",
+        Q::In => "in",
+        Q::Out => "out",
+        Q::Inout => "inout",
+        Q::Uniform => "uniform",
+        Q::Flat => "flat",
+        Q::Smooth => "smooth",
+        Q::Centroid => "centroid",
+        Q::Invariant => "invariant",
+        Q::Precision(Precision::Low) => "lowp",
+        Q::Precision(Precision::Medium) => "mediump",
+        Q::Precision(Precision::High) => "highp",
+        Q::Layout(_) => "layout",
+    }
+}
+
+fn fits(kind: Q, place: Place) -> bool {
+    match kind {
+        Q::Precision(_) => place != Place::Block,
+        Q::Const => matches!(place, Place::Global | Place::Local | Place::Param),
+        Q::In | Q::Out => matches!(place, Place::Global | Place::Param | Place::Block),
+        Q::Inout => place == Place::Param,
+        Q::Uniform | Q::Layout(_) => matches!(place, Place::Global | Place::Block),
+        Q::Flat | Q::Smooth | Q::Centroid | Q::Invariant => place == Place::Global,
+    }
+}
+
+impl Checker<'_> {
+    pub(super) fn qualifiers(&mut self, list: List<Qualifier>, place: Place) -> Qualifiers {
+        let mut out = Qualifiers::default();
+        let mut last: Option<Qualifier> = None;
+        let ast = self.ast;
+        for &qualifier in &ast[list] {
+            let Qualifier { kind, token } = qualifier;
+            if !fits(kind, place) {
+                self.misplaced(kind, token, place);
+                continue;
+            }
+            if let Some(before) = last
+                && rank(before.kind) >= rank(kind)
+            {
+                let (a, b) = (text(kind), text(before.kind));
+                if a == b {
+                    self.error(token, format!("`{a}` stands here twice"));
+                } else if rank(before.kind) == rank(kind) {
+                    self.error(token, format!("`{b}` and `{a}` exclude each other"));
+                } else {
+                    self.error(token, format!("`{a}` must stand before `{b}`"));
+                    self.hint(format!("write `{a} {b}`"));
+                }
+            }
+            last = Some(qualifier);
+            match kind {
+                Q::Const => out.constant = Some(token),
+                Q::In | Q::Out | Q::Inout | Q::Uniform => out.storage = Some((kind, token)),
+                Q::Precision(precision) => out.precision = Some((precision, token)),
+                Q::Flat | Q::Smooth | Q::Centroid => {
+                    out.flat |= kind == Q::Flat;
+                    out.interpolation = Some(token);
+                }
+                Q::Invariant => out.invariant = Some(token),
+                Q::Layout(items) => out.layout = Some((token, items)),
+            }
+        }
+        if out.constant.is_some()
+            && let Some((kind, token)) = out.storage
+            && (place != Place::Param || kind != Q::In)
+        {
+            self.error(token, format!("`const` and `{}` exclude each other", text(kind)));
+            out.constant = None;
+        }
+        out
+    }
+
+    #[cold]
+    fn misplaced(&mut self, kind: Q, token: TokenId, place: Place) {
+        let place_name = match place {
+            Place::Global => "a global variable",
+            Place::Local => "a local variable",
+            Place::Param => "a parameter",
+            Place::Field => "a struct's member",
+            Place::Result => "a function's result",
+            Place::Block => "a block",
+        };
+        self.error(token, format!("`{}` cannot stand on {place_name}", text(kind)));
+        match (kind, place) {
+            (Q::Uniform, Place::Local | Place::Param) => self.hint("uniforms are declared at file scope"),
+            (Q::In | Q::Out | Q::Inout, Place::Local) => self.hint("remove it: directions belong to parameters"),
+            (Q::Const, Place::Result | Place::Field) => self.hint("remove it"),
+            _ => {}
+        }
+    }
+
+    /// Precision only on numbers and samplers, and samplers that have no default must have one (section 4.5.4).
+    pub(super) fn check_precision(&mut self, quals: &Qualifiers, base: TypeId, loc: Loc) {
+        let numeric = matches!(self.module.types.scalar(base), Some(Scalar::Float | Scalar::Int | Scalar::Uint));
+        let sampler = self.is_sampler(base);
+        match quals.precision {
+            Some((precision, token)) if !numeric && !sampler && base != TypeId::ERROR => {
+                let (name, precision) = (self.type_name(base), text(Q::Precision(precision)));
+                self.error(
+                    token,
+                    format!("`{precision}` cannot stand on a `{name}`: only numbers and samplers have a precision"),
+                );
+                self.hint("remove it");
+            }
+            None if sampler && self.default_precision(base).is_none() => {
+                let name = self.type_name(base);
+                self.error(loc, format!("`{name}` has no default precision"));
+                self.hint(format!("write `highp {name}`"));
+            }
+            _ => {}
+        }
+    }
+
+    pub(super) fn default_precision(&self, base: TypeId) -> Option<Precision> {
+        let basic = match self.module.types.get(base) {
+            Type::Sampler { .. } => base.as_basic()?,
+            _ => match self.module.types.scalar(base)? {
+                Scalar::Float => BasicType::Float,
+                Scalar::Int | Scalar::Uint => BasicType::Int,
+                Scalar::Bool => return None,
+            },
+        };
+        self.precisions[basic as usize]
+    }
+
+    /// `precision highp float;`
+    pub(super) fn precision_statement(&mut self, precision: Precision, ty: crate::glsl::ast::TypeSpecId) {
+        let base = self.base_type(ty);
+        let spec = self.ast[ty];
+        let legal = base == TypeId::FLOAT || base == TypeId::INT || self.is_sampler(base);
+        match base.as_basic() {
+            Some(basic) if legal && spec.dims.is_empty() => {
+                let depth = self.scopes.depth();
+                if depth > super::scope::FILE && self.saved_precisions.last().is_none_or(|&(at, _)| at != depth) {
+                    self.saved_precisions.push((depth, self.precisions));
+                }
+                self.precisions[basic as usize] = Some(precision);
+            }
+            _ if base == TypeId::ERROR => {}
+            _ => {
+                let name = self.type_name(base);
+                self.error(spec.loc, format!("`{name}` has no default precision to set"));
+                self.hint("only `float`, `int` and samplers have one");
+            }
+        }
+    }
+
+    /// Closes a scope: names and default precisions are again what they were.
+    pub(super) fn pop_scope(&mut self) {
+        let depth = self.scopes.depth();
+        if let Some(&(at, saved)) = self.saved_precisions.last()
+            && at == depth
+        {
+            self.precisions = saved;
+            self.saved_precisions.pop();
+        }
+        self.scopes.pop();
+    }
+
+    /// Qualifiers of a member: a precision at most.
+    pub(super) fn field_qualifiers(&mut self, list: List<Qualifier>, base: TypeId) {
+        if list.is_empty() {
+            return;
+        }
+        let quals = self.qualifiers(list, Place::Field);
+        if let Some((_, token)) = quals.precision {
+            self.check_precision(&quals, base, token.into());
+        }
+    }
+
+    /// Which layouts may stand where (section 4.3.8). None changes anything here: blocks are zero, outputs private.
+    pub(super) fn check_layout(&mut self, quals: &Qualifiers, of: LayoutOf) {
+        let Some((_, items)) = quals.layout else { return };
+        let ast = self.ast;
+        for item in &ast[items] {
+            let name = self.name(item.name.symbol);
+            let (fits, whose) = match name {
+                "location" => (of == LayoutOf::Output, "outputs"),
+                "row_major" | "column_major" => {
+                    (matches!(of, LayoutOf::Block | LayoutOf::Member), "blocks and their members")
+                }
+                "std140" => (of == LayoutOf::Block, if of == LayoutOf::Member { "whole blocks" } else { "blocks" }),
+                "shared" | "packed" => {
+                    self.error(item.name, format!("WebGL has no layout `{name}`"));
+                    self.hint("write `std140`");
+                    continue;
+                }
+                _ => {
+                    self.error(item.name, format!("GLSL ES 3.00 has no layout `{name}`"));
+                    continue;
+                }
+            };
+            if !fits {
+                self.error(item.name, format!("the layout `{name}` is only for {whose}"));
+            }
+        }
+    }
+
+    /// What a global's storage demands of its qualifiers and type (sections 4.3.4 to 4.3.9).
+    pub(super) fn check_interface(&mut self, quals: &Qualifiers, ty: TypeId, loc: Loc) {
+        let (input, output) = (quals.is(Q::In), quals.is(Q::Out));
+        if let Some(token) = quals.invariant
+            && !output
+        {
+            self.error(token, "`invariant` can only stand on outputs");
+        }
+        if let Some(token) = quals.interpolation
+            && !input
+            && !output
+        {
+            self.error(token, "interpolation qualifiers can only stand on inputs and outputs");
+        }
+        if let Some((token, _)) = quals.layout
+            && quals.storage.is_none()
+        {
+            self.error(token, "`layout` needs `in`, `out` or `uniform`");
+        } else {
+            self.check_layout(quals, if output { LayoutOf::Output } else { LayoutOf::Variable });
+        }
+        if !input && !output {
+            return;
+        }
+        let scalar = self.module.types.scalar(match self.module.types.get(ty) {
+            Type::Array { element, .. } => element,
+            _ => ty,
+        });
+        let word = if input { "input" } else { "output" };
+        if self.facts(ty).opaque || scalar == Some(Scalar::Bool) || (output && self.struct_of(ty).is_some()) {
+            let name = self.type_name(ty);
+            self.error(loc, format!("an {word} cannot be a `{name}`"));
+        } else if input && !quals.flat && matches!(scalar, Some(Scalar::Int | Scalar::Uint)) {
+            self.error(loc, "an integer input must be `flat`");
+            self.hint("write `flat in`");
+        } else if output && matches!(self.module.types.get(ty), Type::Matrix { .. }) {
+            self.error(loc, "an output cannot be a matrix");
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! What was probably meant: names of other shading languages and old versions, and names spelled nearly like this one.
+
+use super::{Checker, env::Env, scope::Binding};
+use crate::glsl::{
+    ast::{self, BasicType, List, Loc, Symbol, TokenId},
+    near,
+    parse::foreign_type,
+};
+
+/// Functions of HLSL, old and later GLSL and C, with what stands for them here.
+const FUNCTIONS: &[(&str, &str)] = &[
+    ("saturate", "`saturate` is HLSL: write `clamp(x, 0.0, 1.0)`"),
+    ("lerp", "`lerp` is HLSL: write `mix(a, b, t)`"),
+    ("frac", "`frac` is HLSL: write `fract(x)`"),
+    ("fmod", "`fmod` is HLSL: write `mod(x, y)`, which rounds down where fmod rounds towards zero"),
+    ("atan2", "`atan2` is HLSL: write `atan(y, x)`"),
+    ("mul", "`mul` is HLSL: write `a * b`"),
+    ("rsqrt", "`rsqrt` is HLSL: write `inversesqrt(x)`"),
+    ("ddx", "`ddx` is HLSL: write `dFdx(x)`"),
+    ("ddy", "`ddy` is HLSL: write `dFdy(x)`"),
+    ("clip", "`clip` is HLSL: write `if (x < 0.0) discard;`"),
+    ("sincos", "`sincos` is HLSL: call `sin` and `cos`"),
+    ("log10", "write `log(x) / log(10.0)`"),
+    ("mad", "`mad` is HLSL: write `a * b + c`"),
+    ("fma", "`fma` is not in GLSL ES 3.00: write `a * b + c`"),
+    ("asfloat", "`asfloat` is HLSL: write `intBitsToFloat(x)` or `uintBitsToFloat(x)`"),
+    ("asint", "`asint` is HLSL: write `floatBitsToInt(x)`"),
+    ("asuint", "`asuint` is HLSL: write `floatBitsToUint(x)`"),
+    ("tex2D", "`tex2D` is HLSL: write `texture(iChannel0, uv)`"),
+    ("tex2Dlod", "`tex2Dlod` is HLSL: write `textureLod(iChannel0, uv, lod)`"),
+    ("texCUBE", "`texCUBE` is HLSL: write `texture(iChannel0, direction)`"),
+    ("texture2D", "`texture2D` is GLSL ES 1.00: write `texture(..)`"),
+    ("texture3D", "`texture3D` is old GLSL: write `texture(..)`"),
+    ("textureCube", "`textureCube` is GLSL ES 1.00: write `texture(..)`"),
+    ("texture2DLod", "`texture2DLod` is old GLSL: write `textureLod(..)`"),
+    ("texture2DLodEXT", "`texture2DLodEXT` is GLSL ES 1.00: write `textureLod(..)`"),
+    ("textureCubeLod", "`textureCubeLod` is old GLSL: write `textureLod(..)`"),
+    ("textureCubeLodEXT", "`textureCubeLodEXT` is GLSL ES 1.00: write `textureLod(..)`"),
+    ("texture2DProj", "`texture2DProj` is GLSL ES 1.00: write `textureProj(..)`"),
+    ("texture2DGradEXT", "`texture2DGradEXT` is GLSL ES 1.00: write `textureGrad(..)`"),
+    ("texture2DGrad", "`texture2DGrad` is old GLSL: write `textureGrad(..)`"),
+    ("textureGather", "`textureGather` is not in GLSL ES 3.00: read the four texels with `texelFetch`"),
+    ("textureQueryLod", "`textureQueryLod` is not in GLSL ES 3.00: take the log2 of the derivatives"),
+    ("textureQueryLevels", "`textureQueryLevels` is not in GLSL ES 3.00: take the log2 of `textureSize`"),
+    ("bitCount", "`bitCount` is not in GLSL ES 3.00: count in a loop"),
+    ("bitfieldReverse", "`bitfieldReverse` is not in GLSL ES 3.00: swap with shifts and masks"),
+    ("bitfieldExtract", "`bitfieldExtract` is not in GLSL ES 3.00: write `(x >> offset) & mask`"),
+    ("bitfieldInsert", "`bitfieldInsert` is not in GLSL ES 3.00: use shifts and masks"),
+    ("findMSB", "`findMSB` is not in GLSL ES 3.00: take `int(log2(float(x)))` or a loop"),
+    ("findLSB", "`findLSB` is not in GLSL ES 3.00: search in a loop"),
+    ("ldexp", "`ldexp` is not in GLSL ES 3.00: write `x * exp2(float(e))`"),
+    ("frexp", "`frexp` is not in GLSL ES 3.00: take `floor(log2(abs(x)))`"),
+    ("fwidthFine", "write `fwidth(x)`"),
+    ("dFdxFine", "write `dFdx(x)`"),
+    ("dFdyFine", "write `dFdy(x)`"),
+    ("dFdxCoarse", "write `dFdx(x)`"),
+    ("dFdyCoarse", "write `dFdy(x)`"),
+    ("fabs", "write `abs(x)`"),
+    ("powf", "write `pow(x, y)`"),
+    ("sqrtf", "write `sqrt(x)`"),
+    ("cbrt", "write `sign(x) * pow(abs(x), 1.0 / 3.0)`"),
+    ("hypot", "write `length(vec2(x, y))`"),
+    ("noise", "there is no built-in noise: hash the coordinates, or sample a noise texture"),
+    (
+        "random",
+        "there is no built-in random: hash the coordinates, for instance `fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453)`",
+    ),
+    (
+        "rand",
+        "there is no built-in rand: hash the coordinates, for instance `fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453)`",
+    ),
+    ("printf", "a shader cannot print: write the value to the colour"),
+];
+
+/// Variables that other hosts give.
+const VARIABLES: &[(&str, &str)] = &[
+    ("gl_FragColor", "`gl_FragColor` is GLSL ES 1.00: assign to the `out` parameter of the entry point"),
+    ("gl_FragData", "`gl_FragData` is GLSL ES 1.00: assign to the `out` parameter of the entry point"),
+    ("u_time", "the time is `iTime`"),
+    ("time", "the time is `iTime`"),
+    ("iGlobalTime", "the time is `iTime`; sound passes get it as a parameter"),
+    ("iGlobalDelta", "the time of a frame is `iTimeDelta`"),
+    ("iGlobalFrame", "the number of the frame is `iFrame`"),
+    ("u_resolution", "the size of the picture is `iResolution.xy`"),
+    ("resolution", "the size of the picture is `iResolution.xy`"),
+    ("u_mouse", "the mouse is `iMouse`"),
+    ("mouse", "the mouse is `iMouse`"),
+    ("backbuffer", "to read the last frame, bind a buffer to iChannel0"),
+    ("PI", "define it: `const float PI = 3.14159265359;`"),
+    ("M_PI", "define it: `const float M_PI = 3.14159265359;`"),
+    ("TAU", "define it: `const float TAU = 6.28318530718;`"),
+    ("NULL", "GLSL has no pointers"),
+    ("this", "GLSL has no objects"),
+];
+
+impl Checker<'_> {
+    /// Whether nothing was said yet in this function about an unknown name.
+    pub(super) fn say_once(&mut self, symbol: Symbol) -> bool {
+        if self.unknown_said.is_empty() {
+            self.unknown_said = vec![u32::MAX; self.names.len()];
+        }
+        let here = self.func.map_or(0, |func| func.index() as u32 + 1);
+        std::mem::replace(&mut self.unknown_said[symbol.0 as usize], here) != here
+    }
+
+    #[cold]
+    pub(super) fn unknown_name(&mut self, symbol: Symbol, token: TokenId) {
+        if !self.say_once(symbol) {
+            return;
+        }
+        let name = self.name(symbol);
+        self.error(token, format!("`{name}` is not declared"));
+        if let Some(hint) = find(VARIABLES, name) {
+            self.hint(hint);
+        } else if self.env_explains(name) {
+        } else if let Some((near, at)) = self.near(name, |binding| !is_function(binding)) {
+            self.hint(format!("did you mean `{near}`?"));
+            if let Some(at) = at {
+                self.also(at, format!("`{near}` is declared here"));
+            }
+        } else if foreign_type(name).is_some() || BasicType::ALL.iter().any(|b| b.name() == name) {
+            self.hint("a type must be called: `vec3(..)`");
+        } else if self.declared_in_some_scope(symbol, token) {
+            self.hint(
+                "it is declared in another scope: move the declaration out of the braces, or pass it as a parameter",
+            );
+        }
+    }
+
+    /// Some names exist, but not in this kind of pass.
+    fn env_explains(&mut self, name: &str) -> bool {
+        let Some(uniform) = crate::glsl::hir::Uniform::ALL.iter().find(|u| u.name() == name) else { return false };
+        if self.env == Env::Pass(crate::glsl::PassKind::Sound) {
+            self.hint(format!("a sound pass has no `{}`; its time is the parameter of mainSound", uniform.name()));
+        } else {
+            self.hint(format!("only sound passes have `{}`", uniform.name()));
+        }
+        true
+    }
+
+    /// Whether a variable of this name was declared earlier in the text, in a scope that is closed.
+    fn declared_in_some_scope(&self, symbol: Symbol, before: TokenId) -> bool {
+        let is_it = |name: &ast::Ident| name.symbol == symbol && name.token < before;
+        self.module.locals.iter().filter_map(|local| local.name.as_ref()).any(is_it)
+    }
+
+    #[cold]
+    pub(super) fn unknown_function(&mut self, symbol: Symbol, args: List<ast::ExprId>, loc: Loc) {
+        let name = self.name(symbol);
+        if self.env == Env::Common && matches!(name, "mainImage" | "mainSound" | "mainCubemap") {
+            self.refuse_in_common(loc, name);
+            return;
+        }
+        if !self.say_once(symbol) {
+            return;
+        }
+        self.error(loc.first, format!("there is no function `{name}`"));
+        let later = self.ast.functions.iter().find(|f| f.name.symbol == symbol).copied();
+        if let Some(hint) = find(FUNCTIONS, name) {
+            self.hint(hint);
+        } else if let Some(later) = later
+            && later.name.token > loc.first
+        {
+            self.also(later.name, "it is declared here");
+            self.hint(
+                "a function must be declared before its first use: move it up, or write a prototype before this line",
+            );
+        } else if let Some((near, at)) = self.near(name, is_function) {
+            self.hint(format!("did you mean `{near}`?"));
+            if let Some(at) = at {
+                self.also(at, format!("`{near}` is declared here"));
+            }
+        } else if args.len() == 1
+            && let Some(near) = near::nearest(name, BasicType::ALL.iter().map(|b| b.name()))
+        {
+            self.hint(format!("did you mean `{near}`?"));
+        }
+    }
+
+    #[cold]
+    pub(super) fn unknown_type(&mut self, symbol: Symbol, token: TokenId) {
+        if !self.say_once(symbol) {
+            return;
+        }
+        let name = self.name(symbol);
+        self.error(token, format!("there is no type `{name}`"));
+        let structs: Vec<&str> = self
+            .scopes
+            .visible()
+            .filter(|(_, binding)| matches!(binding, Binding::Struct(_)))
+            .map(|(symbol, _)| self.name(symbol))
+            .collect();
+        let all = BasicType::ALL.iter().map(|b| b.name()).chain(structs);
+        if let Some(near) = near::nearest(name, all) {
+            self.hint(format!("did you mean `{near}`?"));
+        } else if let Some(def) = self.ast.structs.iter().find(|s| s.name.is_some_and(|n| n.symbol == symbol)) {
+            let at = def.name.expect("just seen");
+            self.also(at, "it is defined here");
+            self.hint("a struct must be defined before its first use: move it up");
+        }
+    }
+
+    /// The visible name of a fitting kind that is spelled most like this one.
+    fn near(&self, name: &str, fits: impl Fn(Binding) -> bool) -> Option<(String, Option<Loc>)> {
+        let visible = self.scopes.visible().filter(|&(_, binding)| fits(binding));
+        let visible = visible.filter(|&(_, binding)| binding != Binding::Poison);
+        let near = near::nearest(name, visible.map(|(symbol, _)| self.name(symbol)))?;
+        let at = self.names.find(near).and_then(|symbol| self.declared_at(self.scopes.get(symbol)));
+        Some((near.to_owned(), at))
+    }
+}
+
+fn is_function(binding: Binding) -> bool {
+    matches!(binding, Binding::Builtin(_) | Binding::Function(_) | Binding::Struct(_))
+}
+
+fn find(table: &[(&str, &'static str)], name: &str) -> Option<&'static str> {
+    table.iter().find(|(known, _)| *known == name).map(|(_, hint)| *hint)
+}

@@ -1,0 +1,37 @@
+//! The checker against tables of small programs, by section of the specification, and against folders of real ones.
+
+mod corpus;
+mod names;
+mod promises;
+mod robust;
+mod spec;
+
+use super::{Checked, check};
+use crate::{
+    diag::{SourceId, SourceMap, render_all},
+    glsl::{ChannelKind, PassKind, PassSource, Text, parse},
+};
+
+/// Parses and checks a pass alone; parser's and checker's messages in caret form, and whether one is an error.
+fn checked(kind: PassKind, channels: [ChannelKind; 4], common: Option<&str>, code: &str) -> (Checked, bool, String) {
+    let mut sources = SourceMap::default();
+    let common = common.map(|text| Text { id: sources.add("common.glsl", text), text });
+    let id: SourceId = sources.add("image.glsl", code);
+    let source = PassSource {
+        kind,
+        common,
+        code: Text { id, text: code },
+        channels,
+        bilinear_by_hand: [false; 4],
+        tables_in_memory: false,
+    };
+    let parsed = parse::parse(&source);
+    let checked = check(&parsed.ast, &parsed.origins, &parsed.names, kind, channels);
+    let all: Vec<_> = parsed.diagnostics.iter().chain(&checked.diagnostics).cloned().collect();
+    let failed = all.iter().any(|d| d.is_error());
+    if !failed {
+        promises::assert_kept(&checked.module);
+    }
+    let text = render_all(&all, &sources);
+    (checked, failed, text)
+}

@@ -1,0 +1,348 @@
+//! Types as written to [`TypeId`]s: names, dimensions, struct definitions; and types as messages spell them.
+
+use super::{Checker, TypeFacts, scope::Binding};
+use crate::glsl::{
+    ast::{self, BasicType, Dim, List, Loc, StructDefId, TypeSpecId, TypeSpecKind},
+    hir::{self, DeclRef, Scalar, Struct, StructId, StructMember, Type, TypeId, TypeTable},
+};
+
+/// Most scalars a type may hold: 16 MiB, ANGLE's limit for a shader's private variables.
+pub(super) const MAX_WORDS: u32 = 1 << 22;
+
+/// Structs inside one another that WebGL's compiler takes.
+const MAX_NESTING: u8 = 4;
+
+const NOTHING: TypeFacts = TypeFacts { words: 0, opaque: false, arrays: false, nesting: 0 };
+
+impl TypeFacts {
+    /// Takes in one more member.
+    fn add(&mut self, member: TypeFacts) {
+        self.words = self.words.saturating_add(member.words);
+        self.opaque |= member.opaque;
+        self.arrays |= member.arrays;
+        self.nesting = self.nesting.max(member.nesting);
+    }
+}
+
+pub(super) fn basic_facts(types: &TypeTable) -> Vec<TypeFacts> {
+    let of = |id| match types.get(id) {
+        Type::Sampler { .. } => TypeFacts { opaque: true, ..NOTHING },
+        _ => TypeFacts { words: types.components(id).unwrap_or(0), ..NOTHING },
+    };
+    (0..types.len() as u32).map(|i| of(TypeId(i))).collect()
+}
+
+/// Size of an array as written.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Size {
+    /// `[]`: the initialiser or the constructor's arguments tell.
+    Open,
+    Known(u32),
+    /// Reported.
+    Bad,
+}
+
+impl<'a> Checker<'a> {
+    #[inline]
+    pub(super) fn facts(&self, ty: TypeId) -> TypeFacts {
+        self.facts[ty.0 as usize]
+    }
+
+    /// `void`, and what is no type at all.
+    #[inline]
+    pub(super) fn is_sampler(&self, ty: TypeId) -> bool {
+        matches!(self.module.types.get(ty), Type::Sampler { .. })
+    }
+
+    /// An array type; reports sizes past the limit.
+    pub(super) fn array_type(&mut self, element: TypeId, len: u32, loc: Loc) -> TypeId {
+        if element == TypeId::ERROR {
+            return TypeId::ERROR;
+        }
+        let facts = self.facts(element);
+        let words = u64::from(facts.words) * u64::from(len);
+        if words > u64::from(MAX_WORDS) {
+            self.error(loc, format!("this array takes {} MiB; the limit is 16 MiB", words.div_ceil(1 << 18)));
+            self.hint("keep big tables in a buffer and read them with texelFetch");
+            return TypeId::ERROR;
+        }
+        let ty = self.module.types.array(element, len);
+        if ty.0 as usize == self.facts.len() {
+            self.facts.push(TypeFacts { words: words as u32, arrays: true, ..facts });
+        }
+        ty
+    }
+
+    /// The type without its dimensions.
+    pub(super) fn base_type(&mut self, spec: TypeSpecId) -> TypeId {
+        let spec = self.ast[spec];
+        match spec.kind {
+            TypeSpecKind::Error => TypeId::ERROR,
+            TypeSpecKind::Basic(basic) => TypeId::basic(basic),
+            TypeSpecKind::Named(symbol) => match self.scopes.get(symbol) {
+                Binding::Struct(id) => {
+                    self.uses(spec.loc.first, DeclRef::Struct(id));
+                    self.module[id].ty
+                }
+                Binding::Poison => TypeId::ERROR,
+                Binding::None => {
+                    self.unknown_type(symbol, spec.loc.first);
+                    TypeId::ERROR
+                }
+                other => {
+                    let name = self.name(symbol);
+                    let what = self.describe_binding(other);
+                    self.error(spec.loc.first, format!("`{name}` is {what}, not a type"));
+                    TypeId::ERROR
+                }
+            },
+            TypeSpecKind::Struct(def) => self.define_struct(def),
+        }
+    }
+
+    /// Size of one pair of brackets.
+    pub(super) fn size(&mut self, dim: Dim) -> Size {
+        let Some(expr) = dim.size else { return Size::Open };
+        let id = self.expr(expr);
+        let ty = self.ty(id);
+        let loc = self.loc(id);
+        if ty == TypeId::ERROR {
+            return Size::Bad;
+        }
+        if ty != TypeId::INT && ty != TypeId::UINT {
+            let found = self.type_name(ty);
+            self.error(loc, format!("an array's size must be an `int` or `uint`, not `{found}`"));
+            if let ast::ExprKind::Float(value) = self.ast[expr].kind {
+                self.hint(format!("write {}", value.trunc()));
+            }
+            return Size::Bad;
+        }
+        let Some(&[bits]) = self.words(id) else {
+            if self.is_broken() {
+                return Size::Bad;
+            }
+            self.error(loc, "an array's size must be a constant expression");
+            self.hint("use a literal, a `const int` or a #define");
+            return Size::Bad;
+        };
+        if bits == 0 || (ty == TypeId::INT && (bits as i32) < 0) {
+            self.error(loc, "an array's size must be greater than zero");
+            return Size::Bad;
+        }
+        Size::Known(bits)
+    }
+
+    /// The size that the dimensions of a type and of a declarator give together: at most one in ESSL 3.00.
+    pub(super) fn sizes(&mut self, of_type: List<Dim>, of_name: List<Dim>) -> Option<(Size, Loc)> {
+        let ast = self.ast;
+        let mut found = None;
+        for &dim in ast[of_type].iter().chain(&ast[of_name]) {
+            let size = self.size(dim);
+            match &mut found {
+                None => found = Some((size, dim.loc)),
+                Some((first, _)) => {
+                    if *first != Size::Bad {
+                        self.error(dim.loc, "GLSL ES 3.00 has no arrays of arrays");
+                        self.hint("use one array and compute the index, `a[y * WIDTH + x]`, or an array of structs");
+                    }
+                    *first = Size::Bad;
+                }
+            }
+        }
+        found
+    }
+
+    /// A complete type with its dimensions; `[]` is an error described by `what`.
+    pub(super) fn complete_type(&mut self, base: TypeId, of_type: List<Dim>, of_name: List<Dim>, what: &str) -> TypeId {
+        match self.sizes(of_type, of_name) {
+            None => base,
+            Some((Size::Known(len), loc)) => self.element_checked(base, len, loc),
+            Some((Size::Bad, _)) => TypeId::ERROR,
+            Some((Size::Open, loc)) => {
+                self.error(loc, format!("{what} needs a size between the brackets"));
+                TypeId::ERROR
+            }
+        }
+    }
+
+    fn element_checked(&mut self, element: TypeId, len: u32, loc: Loc) -> TypeId {
+        if element == TypeId::VOID {
+            self.error(loc, "an array cannot have elements of type `void`");
+            return TypeId::ERROR;
+        }
+        self.array_type(element, len, loc)
+    }
+
+    fn define_struct(&mut self, def: StructDefId) -> TypeId {
+        let ast = self.ast;
+        let def = ast[def];
+        let mut members: Vec<StructMember> = Vec::new();
+        let mut facts = NOTHING;
+        for field in &ast[def.fields] {
+            let spec = ast[field.ty];
+            if let TypeSpecKind::Struct(inner) = spec.kind {
+                self.error(ast[inner].loc, "a struct cannot be defined inside another struct");
+                self.hint("define it before this one and use its name here");
+            }
+            let base = self.base_type(field.ty);
+            self.field_qualifiers(field.qualifiers, base);
+            for declarator in &ast[field.declarators] {
+                let name = self.name(declarator.name.symbol);
+                let mut ty = self.complete_type(base, spec.dims, declarator.dims, "an array in a struct");
+                if ty == TypeId::VOID {
+                    self.error(spec.loc, format!("the member `{name}` cannot be of type `void`"));
+                    ty = TypeId::ERROR;
+                }
+                if let Some(first) = members.iter().find(|m| m.name.symbol == declarator.name.symbol) {
+                    let first = first.name;
+                    self.error(declarator.name, format!("this struct already has a member `{name}`"));
+                    self.also(first, "the first one");
+                    continue;
+                }
+                if self.facts(ty).nesting == MAX_NESTING {
+                    let shown = self.type_name(ty);
+                    self.error(declarator.name, format!("a `{shown}` inside this struct exceeds the nesting of {MAX_NESTING} structs that WebGL allows"));
+                    ty = TypeId::ERROR;
+                }
+                facts.add(self.facts(ty));
+                members.push(StructMember { name: declarator.name, ty });
+            }
+        }
+        facts.nesting += 1;
+        if facts.words > MAX_WORDS {
+            self.error(def.loc, "this struct takes more than 16 MiB, the limit");
+            facts.words = MAX_WORDS;
+        }
+        if members.is_empty() && ast[def.fields].is_empty() && !self.broken_tree {
+            self.error(def.loc, "a struct needs at least one member");
+        }
+        let ty = self.add_struct(def.name, &members, def.loc, facts);
+        if let Some(name) = def.name
+            && let Type::Struct(id) = self.module.types.get(ty)
+        {
+            self.declare(name, Binding::Struct(id));
+        }
+        ty
+    }
+
+    pub(super) fn add_struct(
+        &mut self,
+        name: Option<ast::Ident>,
+        members: &[StructMember],
+        loc: Loc,
+        facts: impl Into<Option<TypeFacts>>,
+    ) -> TypeId {
+        let facts = facts.into().unwrap_or_else(|| {
+            let mut sum = NOTHING;
+            members.iter().for_each(|member| sum.add(self.facts(member.ty)));
+            TypeFacts { words: sum.words.min(MAX_WORDS), nesting: sum.nesting.saturating_add(1), ..sum }
+        });
+        let id = StructId::new(self.module.structs.len());
+        let ty = self.module.types.add_struct(id);
+        let members = self.module.list(members);
+        self.module.structs.push(Struct { name, ty, members, loc });
+        self.facts.push(facts);
+        ty
+    }
+
+    /// A type as a message spells it.
+    pub(super) fn type_name(&self, ty: TypeId) -> String {
+        match self.module.types.get(ty) {
+            Type::Array { element, len } => format!("{}[{len}]", self.type_name(element)),
+            Type::Struct(id) => match self.module[id].name {
+                Some(name) => self.name(name.symbol).to_owned(),
+                None => "struct {..}".to_owned(),
+            },
+            _ => ty.as_basic().map_or("?", BasicType::name).to_owned(),
+        }
+    }
+
+    /// The type with its article: `an `int``.
+    pub(super) fn a(&self, ty: TypeId) -> String {
+        let name = self.type_name(ty);
+        let article = if name.starts_with(['a', 'e', 'i', 'o', 'A', 'E', 'I', 'O']) { "an" } else { "a" };
+        format!("{article} `{name}`")
+    }
+
+    /// Declares a name, or reports that this scope has it already.
+    pub(super) fn declare(&mut self, name: ast::Ident, binding: Binding) -> bool {
+        if let Some(previous) = self.scopes.here(name.symbol) {
+            if previous != Binding::Poison {
+                self.redeclared(name, previous);
+            }
+            return false;
+        }
+        self.scopes.declare(name.symbol, binding);
+        true
+    }
+
+    #[cold]
+    fn redeclared(&mut self, name: ast::Ident, previous: Binding) {
+        let text = self.name(name.symbol);
+        let at = self.declared_at(previous);
+        let given = matches!(
+            previous,
+            Binding::Uniform(_) | Binding::Channel(_) | Binding::ChannelStruct(_) | Binding::BuiltinVar(_)
+        );
+        if given {
+            self.error(name, format!("`{text}` is already declared: Shadertoy's header gives it"));
+            self.hint("remove this declaration, or choose another name");
+            return;
+        }
+        let parameter = match previous {
+            Binding::Local(local) => self.module[local].kind.is_param(),
+            _ => false,
+        };
+        if parameter {
+            self.error(name, format!("`{text}` is already the name of a parameter of this function"));
+        } else {
+            self.error(name, format!("`{text}` is already declared in this scope"));
+        }
+        if let Some(at) = at {
+            self.also(at, "the first declaration");
+        }
+        self.hint("choose another name, or remove the type to assign to the first one");
+    }
+
+    /// Where what a name stands for was declared, if that is in the text.
+    pub(super) fn declared_at(&self, binding: Binding) -> Option<Loc> {
+        match binding {
+            Binding::Function(id) => self.function_at(id),
+            Binding::Struct(id) => self.module[id].name.map(Loc::from),
+            Binding::Global(id) => Some(self.module[id].name.into()),
+            Binding::Local(id) => self.module[id].name.map(Loc::from),
+            _ => None,
+        }
+    }
+
+    /// `a variable`, `a function`... for messages.
+    pub(super) fn describe_binding(&self, binding: Binding) -> &'static str {
+        match binding {
+            Binding::Builtin(_) => "a built-in function",
+            Binding::Function(_) => "a function",
+            Binding::Struct(_) => "a struct",
+            Binding::Local(id) if self.module[id].kind.is_param() => "a parameter",
+            Binding::Channel(_) => "a channel's sampler",
+            Binding::Uniform(_) | Binding::OldTime | Binding::ChannelStruct(_) | Binding::DepthRange => "a uniform",
+            Binding::BuiltinConst(_) => "a constant",
+            _ => "a variable",
+        }
+    }
+
+    /// Component type and number of a scalar or vector.
+    #[inline]
+    pub(super) fn vector_shape(&self, ty: TypeId) -> Option<(Scalar, u8)> {
+        match self.module.types.get(ty) {
+            Type::Scalar(scalar) => Some((scalar, 1)),
+            Type::Vector { scalar, size } => Some((scalar, size)),
+            _ => None,
+        }
+    }
+
+    pub(super) fn struct_of(&self, ty: TypeId) -> Option<hir::StructId> {
+        match self.module.types.get(ty) {
+            Type::Struct(id) => Some(id),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! Making nodes of the typed program, and reading and writing folded values in it.
+
+use super::Checker;
+use crate::glsl::{
+    ast::Loc,
+    hir::{Expr, ExprFlags, ExprId, ExprKind, TypeId},
+};
+
+/// The scalars of a value of a keyword type, at most those of a `mat4`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Words {
+    bits: [u32; 16],
+    len: u8,
+}
+
+impl Words {
+    pub fn push(&mut self, bits: u32) {
+        self.bits[usize::from(self.len)] = bits;
+        self.len += 1;
+    }
+
+    pub fn as_slice(&self) -> &[u32] {
+        &self.bits[..usize::from(self.len)]
+    }
+}
+
+impl FromIterator<u32> for Words {
+    fn from_iter<I: IntoIterator<Item = u32>>(iter: I) -> Self {
+        let mut words = Words::default();
+        iter.into_iter().for_each(|bits| words.push(bits));
+        words
+    }
+}
+
+impl Checker<'_> {
+    #[inline]
+    pub(super) fn push(&mut self, kind: ExprKind, ty: TypeId, flags: ExprFlags, loc: Loc) -> ExprId {
+        self.module.expr(Expr { kind, ty, flags, loc })
+    }
+
+    #[inline]
+    pub(super) fn error_expr(&mut self, loc: Loc) -> ExprId {
+        self.push(ExprKind::Error, TypeId::ERROR, ExprFlags::default(), loc)
+    }
+
+    /// A scalar constant.
+    #[inline]
+    pub(super) fn literal(&mut self, bits: u32, ty: TypeId, loc: Loc) -> ExprId {
+        self.push(ExprKind::Literal(bits), ty, ExprFlags::CONSTANT, loc)
+    }
+
+    /// A folded value of any type: a `Literal` where it is a scalar.
+    pub(super) fn constant(&mut self, ty: TypeId, words: &[u32], loc: Loc) -> ExprId {
+        let kind = match words {
+            &[bits] if self.vector_shape(ty).is_some() => ExprKind::Literal(bits),
+            _ => ExprKind::Const(self.module.constant(ty, words)),
+        };
+        self.push(kind, ty, ExprFlags::CONSTANT, loc)
+    }
+
+    /// The scalars of a folded value, in memory order.
+    #[inline]
+    pub(super) fn words(&self, expr: ExprId) -> Option<&[u32]> {
+        match &self.module[expr].kind {
+            ExprKind::Literal(bits) => Some(std::slice::from_ref(bits)),
+            ExprKind::Const(id) => Some(&self.module[self.module[*id].words]),
+            _ => None,
+        }
+    }
+
+    #[inline]
+    pub(super) fn is_constant(&self, expr: ExprId) -> bool {
+        self.module[expr].flags.contains(ExprFlags::CONSTANT)
+    }
+
+    /// Effects and branches of several children together.
+    pub(super) fn inherited(&self, children: &[ExprId]) -> ExprFlags {
+        children.iter().fold(ExprFlags::default(), |sum, &child| sum.with(self.module[child].flags.inherited()))
+    }
+
+    /// The value, no longer a place: what a constructor or operator that leaves no node gives.
+    pub(super) fn as_value(&mut self, expr: ExprId) -> ExprId {
+        let flags = &mut self.module[expr].flags;
+        flags.0 &= !ExprFlags::PLACE.0;
+        expr
+    }
+}

@@ -1,0 +1,136 @@
+//! What a program declares: variables, functions, folded values.
+
+use super::{ConstId, ExprId, FuncId, StmtId, TypeId};
+use crate::glsl::ast::{Ident, List, Loc, Precision, TokenId};
+use std::ops::Range;
+
+/// A file-scope variable.
+#[derive(Clone, Copy, Debug)]
+pub struct Global {
+    pub name: Ident,
+    pub ty: TypeId,
+    pub storage: GlobalStorage,
+    /// `None` is zero. May be any expression of type `ty` (ANGLE forgives non-constant ones: a warning). Never set for `Const`.
+    pub init: Option<ExprId>,
+    /// The folded value: always for `Const`; for others where `init` is constant (then lowering may use either).
+    pub value: Option<ConstId>,
+    /// The whole declaration.
+    pub loc: Loc,
+    pub flags: VarFlags,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum GlobalStorage {
+    /// An ordinary global: one copy an invocation, initialised when the entry point starts.
+    Private,
+    /// `const`: uses are folded to `Literal` or `Const` with this `value`'s id, so no expression refers to the global.
+    Const,
+    /// A `uniform` the author declared: nobody sets it, so it reads as zero. (A sampler among them reads `iChannel0`, whose
+    /// unit WebGL gives it: its uses are `Channel(0)`.)
+    Uniform,
+    /// `in`: no vertex shader writes it; reads as zero.
+    In,
+    /// `out`: private memory that nobody reads afterwards.
+    Out,
+}
+
+/// What the checker saw done to a variable, anywhere in the text, reached or not.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct VarFlags(pub u8);
+
+impl VarFlags {
+    /// Read or written by some expression.
+    pub const USED: VarFlags = VarFlags(1);
+    /// Assigned, changed or passed as `out` or `inout`, in whole or in part. Without it the variable keeps the value of its
+    /// declaration (or argument), and lowering needs no memory for it.
+    pub const WRITTEN: VarFlags = VarFlags(2);
+    /// Some `Index` with an index that is no literal has this variable at its root.
+    pub const INDEXED: VarFlags = VarFlags(4);
+
+    pub fn contains(self, other: VarFlags) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    pub fn insert(&mut self, other: VarFlags) {
+        self.0 |= other.0;
+    }
+}
+
+/// A user function.
+#[derive(Clone, Debug)]
+pub struct Function {
+    /// At its definition, or its first prototype if it has none.
+    pub name: Ident,
+    /// Names in all its prototypes, and in its definition; for editors.
+    pub declared_at: Vec<TokenId>,
+    pub result: TypeId,
+    /// The function's slice of [`Module::locals`]: parameters first, in order, then every local of the body. Scopes are
+    /// resolved; two variables of one name are two locals. The checker guarantees that bodies do not interleave.
+    pub locals: Range<u32>,
+    pub param_count: u32,
+    /// `None` if only declared (an error where it is called).
+    pub body: Option<List<StmtId>>,
+    /// Functions it calls, each once.
+    pub calls: Vec<FuncId>,
+    /// Reachable from the entry point: member of [`Module::call_order`].
+    pub used: bool,
+    /// Header, and the whole definition or prototype.
+    pub header: Loc,
+    pub loc: Loc,
+}
+
+/// A parameter or a local variable.
+#[derive(Clone, Copy, Debug)]
+pub struct Local {
+    /// `None` for a parameter without name.
+    pub name: Option<Ident>,
+    pub ty: TypeId,
+    pub kind: LocalKind,
+    /// As written or by default; changes nothing, for hover only.
+    pub precision: Option<Precision>,
+    /// For `Const`: its value.
+    pub value: Option<ConstId>,
+    pub flags: VarFlags,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum LocalKind {
+    /// `in` (copied at the call; the function may write its copy). Samplers are always `In` and never written: lowering makes
+    /// one copy of the function for each combination of channels that is passed.
+    In,
+    /// `const in`.
+    ConstIn,
+    /// Zero at entry, copied to the argument at return.
+    Out,
+    /// Copied in at the call and out at return.
+    Inout,
+    /// A local variable.
+    Var,
+    /// A `const` local: folded away like a [`GlobalStorage::Const`], and not declared by any statement.
+    Const,
+}
+
+impl LocalKind {
+    pub fn is_param(self) -> bool {
+        matches!(self, LocalKind::In | LocalKind::ConstIn | LocalKind::Out | LocalKind::Inout)
+    }
+
+    /// The argument is written at return, and must be a place.
+    pub fn copies_out(self) -> bool {
+        matches!(self, LocalKind::Out | LocalKind::Inout)
+    }
+
+    /// The argument is read at the call.
+    pub fn copies_in(self) -> bool {
+        matches!(self, LocalKind::In | LocalKind::ConstIn | LocalKind::Inout)
+    }
+}
+
+/// A folded value of any type but void and samplers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Const {
+    pub ty: TypeId,
+    /// All scalars in memory order, 32 bits each: floats and ints bit for bit (NaN and infinities may occur), bools 0 or 1;
+    /// matrices column by column, structs member by member, arrays element by element. As many as `ty` has scalars.
+    pub words: List<u32>,
+}

@@ -1,0 +1,227 @@
+//! Types of the language, interned.
+
+use super::StructId;
+use crate::glsl::ast::{BasicType, Ident, List, Loc};
+use std::collections::HashMap;
+
+/// A type, interned: equal types have equal ids. The keyword types have fixed ids, for matching without a look-up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct TypeId(pub u32);
+
+impl TypeId {
+    /// Of an expression that was not understood. Silences every check it takes part in; never reaches lowering.
+    pub const ERROR: TypeId = TypeId(0);
+    pub const VOID: TypeId = TypeId::basic(BasicType::Void);
+    pub const BOOL: TypeId = TypeId::basic(BasicType::Bool);
+    pub const INT: TypeId = TypeId::basic(BasicType::Int);
+    pub const UINT: TypeId = TypeId::basic(BasicType::Uint);
+    pub const FLOAT: TypeId = TypeId::basic(BasicType::Float);
+    pub const VEC2: TypeId = TypeId::basic(BasicType::Vec2);
+    pub const VEC3: TypeId = TypeId::basic(BasicType::Vec3);
+    pub const VEC4: TypeId = TypeId::basic(BasicType::Vec4);
+
+    /// The id of a keyword type.
+    pub const fn basic(ty: BasicType) -> Self {
+        TypeId(ty as u32 + 1)
+    }
+
+    /// The keyword of this type, `None` for error, arrays and structs.
+    pub fn as_basic(self) -> Option<BasicType> {
+        BasicType::ALL.get((self.0 as usize).checked_sub(1)?).copied()
+    }
+
+    /// `bool`, `int`... for size 1, else the vector of 2, 3 or 4.
+    pub const fn vector(scalar: Scalar, size: u8) -> Self {
+        debug_assert!(size >= 1 && size <= 4);
+        let base = match scalar {
+            Scalar::Bool => BasicType::Bool,
+            Scalar::Int => BasicType::Int,
+            Scalar::Uint => BasicType::Uint,
+            Scalar::Float => BasicType::Float,
+        };
+        TypeId(base as u32 + size as u32)
+    }
+
+    /// `matCxR`, both 2 to 4.
+    pub const fn matrix(columns: u8, rows: u8) -> Self {
+        debug_assert!(columns >= 2 && columns <= 4 && rows >= 2 && rows <= 4);
+        TypeId(BasicType::Mat2x2 as u32 + 1 + (columns as u32 - 2) * 3 + (rows as u32 - 2))
+    }
+}
+
+/// Component types. All are 32 bits wide here: precision qualifiers change nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Scalar {
+    Bool,
+    Int,
+    Uint,
+    Float,
+}
+
+/// Shape of a sampler's texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum SamplerDim {
+    D2,
+    D3,
+    Cube,
+    D2Array,
+}
+
+/// What a [`TypeId`] stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Type {
+    Error,
+    Void,
+    Scalar(Scalar),
+    /// `size` 2 to 4.
+    Vector {
+        scalar: Scalar,
+        size: u8,
+    },
+    /// Of floats, column-major; `matCxR` has C columns of R rows.
+    Matrix {
+        columns: u8,
+        rows: u8,
+    },
+    /// `len` at least 1. ESSL 3.00 has no arrays of arrays, so `element` is no array (but may be a struct holding one).
+    Array {
+        element: TypeId,
+        len: u32,
+    },
+    Struct(StructId),
+    /// `scalar` is what a read gives: float, int or uint. Lowering meets only float 2D, 3D and cube without `shadow`: there is
+    /// no other channel, so no call can pass one.
+    Sampler {
+        dim: SamplerDim,
+        scalar: Scalar,
+        shadow: bool,
+    },
+}
+
+/// All types of a module by [`TypeId`].
+#[derive(Clone, Debug)]
+pub struct TypeTable {
+    types: Vec<Type>,
+    arrays: HashMap<(TypeId, u32), TypeId>,
+}
+
+impl Default for TypeTable {
+    fn default() -> Self {
+        let mut types = Vec::with_capacity(64);
+        types.push(Type::Error);
+        types.extend(BasicType::ALL.iter().map(|&basic| basic_type(basic)));
+        Self { types, arrays: HashMap::new() }
+    }
+}
+
+impl TypeTable {
+    #[inline]
+    pub fn get(&self, id: TypeId) -> Type {
+        self.types[id.0 as usize]
+    }
+
+    /// Number of types; ids are 0 to this, a type's element or members always before it.
+    pub fn len(&self) -> usize {
+        self.types.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.types.is_empty()
+    }
+
+    pub fn array(&mut self, element: TypeId, len: u32) -> TypeId {
+        *self.arrays.entry((element, len)).or_insert_with(|| {
+            self.types.push(Type::Array { element, len });
+            TypeId(self.types.len() as u32 - 1)
+        })
+    }
+
+    /// A new type for a new struct: structs are equal by declaration, not by structure. Call once a struct.
+    pub fn add_struct(&mut self, id: StructId) -> TypeId {
+        self.types.push(Type::Struct(id));
+        TypeId(self.types.len() as u32 - 1)
+    }
+
+    /// Component type of a scalar, vector or matrix.
+    pub fn scalar(&self, id: TypeId) -> Option<Scalar> {
+        match self.get(id) {
+            Type::Scalar(scalar) | Type::Vector { scalar, .. } => Some(scalar),
+            Type::Matrix { .. } => Some(Scalar::Float),
+            _ => None,
+        }
+    }
+
+    /// Number of components of a scalar, vector or matrix.
+    pub fn components(&self, id: TypeId) -> Option<u32> {
+        match self.get(id) {
+            Type::Scalar(_) => Some(1),
+            Type::Vector { size, .. } => Some(size.into()),
+            Type::Matrix { columns, rows } => Some(u32::from(columns) * u32::from(rows)),
+            _ => None,
+        }
+    }
+
+    /// What `x[i]` gives: an array's element, a matrix's column, a vector's component.
+    pub fn element(&self, id: TypeId) -> Option<TypeId> {
+        match self.get(id) {
+            Type::Array { element, .. } => Some(element),
+            Type::Matrix { rows, .. } => Some(TypeId::vector(Scalar::Float, rows)),
+            Type::Vector { scalar, .. } => Some(TypeId::vector(scalar, 1)),
+            _ => None,
+        }
+    }
+}
+
+fn basic_type(basic: BasicType) -> Type {
+    use BasicType as B;
+    let sampler = |dim, scalar, shadow| Type::Sampler { dim, scalar, shadow };
+    let index = basic as u8;
+    match basic {
+        B::Void => Type::Void,
+        B::Bool | B::Int | B::Uint | B::Float => Type::Scalar(match basic {
+            B::Bool => Scalar::Bool,
+            B::Int => Scalar::Int,
+            B::Uint => Scalar::Uint,
+            _ => Scalar::Float,
+        }),
+        B::Bvec2 | B::Bvec3 | B::Bvec4 => Type::Vector { scalar: Scalar::Bool, size: index - B::Bool as u8 + 1 },
+        B::Ivec2 | B::Ivec3 | B::Ivec4 => Type::Vector { scalar: Scalar::Int, size: index - B::Int as u8 + 1 },
+        B::Uvec2 | B::Uvec3 | B::Uvec4 => Type::Vector { scalar: Scalar::Uint, size: index - B::Uint as u8 + 1 },
+        B::Vec2 | B::Vec3 | B::Vec4 => Type::Vector { scalar: Scalar::Float, size: index - B::Float as u8 + 1 },
+        B::Mat2x2 | B::Mat2x3 | B::Mat2x4 | B::Mat3x2 | B::Mat3x3 | B::Mat3x4 | B::Mat4x2 | B::Mat4x3 | B::Mat4x4 => {
+            let i = index - B::Mat2x2 as u8;
+            Type::Matrix { columns: i / 3 + 2, rows: i % 3 + 2 }
+        }
+        B::Sampler2D => sampler(SamplerDim::D2, Scalar::Float, false),
+        B::Sampler3D => sampler(SamplerDim::D3, Scalar::Float, false),
+        B::SamplerCube => sampler(SamplerDim::Cube, Scalar::Float, false),
+        B::Sampler2DArray => sampler(SamplerDim::D2Array, Scalar::Float, false),
+        B::Sampler2DShadow => sampler(SamplerDim::D2, Scalar::Float, true),
+        B::SamplerCubeShadow => sampler(SamplerDim::Cube, Scalar::Float, true),
+        B::Sampler2DArrayShadow => sampler(SamplerDim::D2Array, Scalar::Float, true),
+        B::Isampler2D => sampler(SamplerDim::D2, Scalar::Int, false),
+        B::Isampler3D => sampler(SamplerDim::D3, Scalar::Int, false),
+        B::IsamplerCube => sampler(SamplerDim::Cube, Scalar::Int, false),
+        B::Isampler2DArray => sampler(SamplerDim::D2Array, Scalar::Int, false),
+        B::Usampler2D => sampler(SamplerDim::D2, Scalar::Uint, false),
+        B::Usampler3D => sampler(SamplerDim::D3, Scalar::Uint, false),
+        B::UsamplerCube => sampler(SamplerDim::Cube, Scalar::Uint, false),
+        B::Usampler2DArray => sampler(SamplerDim::D2Array, Scalar::Uint, false),
+    }
+}
+
+/// A struct type. Member types are complete and none is void; names are distinct.
+#[derive(Clone, Copy, Debug)]
+pub struct Struct {
+    /// `None` for `struct { .. } x;`.
+    pub name: Option<Ident>,
+    pub ty: TypeId,
+    pub members: List<StructMember>,
+    pub loc: Loc,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub struct StructMember {
+    pub name: Ident,
+    pub ty: TypeId,
+}

@@ -1,0 +1,67 @@
+//! What a generated module looks like from outside: entry point, bind groups, the uniform block's bytes.
+//!
+//! - Vertex stage: none. The caller draws a full-screen triangle with its own; `gl_FragCoord` is `@builtin(position)`, and
+//!   because row 0 of every target is the bottom of the picture, its y needs no flip.
+//! - Fragment entry point [`ENTRY_POINT`], one `@location(0) vec4<f32>` result.
+//! - Group 0, binding 0: the uniform block [`UniformBlock`], 16-byte aligned, std140. Absent when nothing of it is read.
+//! - Group 0, binding 1: a read-only storage buffer with the author's large constant tables, whose bytes come with the module
+//!   ([`crate::glsl::Compiled::tables`]). Absent when there are none.
+//! - Group 1, binding 2i: the texture of `iChannel`i, binding 2i+1: its sampler. Each is declared only where it is reached from
+//!   the entry point ([`crate::glsl::Reflection::channels`] says which), so the bind group layout follows the reflection.
+
+use bytemuck::{Pod, Zeroable};
+
+/// Name of the fragment entry point.
+pub const ENTRY_POINT: &str = "main";
+/// Bind group of the uniform block.
+pub const UNIFORM_GROUP: u32 = 0;
+/// Binding of the constant tables in [`UNIFORM_GROUP`].
+pub const TABLE_BINDING: u32 = 1;
+/// Bind group of channel textures and samplers.
+pub const CHANNEL_GROUP: u32 = 1;
+
+/// Binding of a channel's texture in [`CHANNEL_GROUP`].
+pub const fn texture_binding(channel: usize) -> u32 {
+    channel as u32 * 2
+}
+
+/// Binding of a channel's sampler in [`CHANNEL_GROUP`].
+pub const fn sampler_binding(channel: usize) -> u32 {
+    channel as u32 * 2 + 1
+}
+
+/// The uniform block as bytes. Field order, offsets and names are what the lowered module declares.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct UniformBlock {
+    /// `vec3 iResolution` at offset 0, in pixels; z is the pixel aspect ratio, always 1.
+    pub resolution: [f32; 3],
+    /// `float iTime` at 12, seconds.
+    pub time: f32,
+    /// `vec4 iMouse` at 16, canvas pixels.
+    pub mouse: [f32; 4],
+    /// `vec4 iDate` at 32: year, month 0-11, day, seconds since midnight.
+    pub date: [f32; 4],
+    /// `float iTimeDelta` at 48, seconds.
+    pub time_delta: f32,
+    /// `float iFrameRate` at 52, frames a second.
+    pub frame_rate: f32,
+    /// `float iSampleRate` at 56, Hz.
+    pub sample_rate: f32,
+    /// `int iFrame` at 60.
+    pub frame: i32,
+    /// `float iChannelTime[4]` at 64, array stride 16: x holds the value.
+    pub channel_time: [[f32; 4]; 4],
+    /// `vec3 iChannelResolution[4]` at 128, array stride 16.
+    pub channel_resolution: [[f32; 4]; 4],
+    /// `float iTimeOffset` at 192 (sound), seconds.
+    pub time_offset: f32,
+    /// `int iSampleOffset` at 196 (sound), samples.
+    pub sample_offset: i32,
+    /// `float iChannel_loaded` of `iCh0..3` at 208 (Image): 1 where the channel's media is there.
+    pub pad: [i32; 2],
+    pub channel_loaded: [i32; 4],
+}
+
+const _: () = assert!(size_of::<UniformBlock>() == 224);
+const _: () = assert!(std::mem::offset_of!(UniformBlock, channel_loaded) == 208);

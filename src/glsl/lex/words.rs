@@ -1,0 +1,106 @@
+//! Keywords and reserved words (section 3.8), and the interner every compile starts from.
+//!
+//! Names that only desktop GLSL or later versions reserve (`buffer`, `sampler`, `texture2D`, `shared`, `precise`) are plain
+//! names here, as they are in GLSL ES 3.00.
+
+use super::Kind;
+use crate::glsl::{
+    ast::{BasicType, Interner},
+    hir::{Builtin, Uniform},
+};
+use std::sync::LazyLock;
+
+const FIRST_TYPE: u32 = (Builtin::ALL.len() + Uniform::ALL.len()) as u32;
+const FIRST_KEYWORD: u32 = FIRST_TYPE + BasicType::ALL.len() as u32 + TYPE_ALIASES.len() as u32;
+const FIRST_RESERVED: u32 = FIRST_KEYWORD + KEYWORDS.len() as u32;
+const END: u32 = FIRST_RESERVED + RESERVED.len() as u32;
+
+/// Second spellings of square matrices.
+const TYPE_ALIASES: [(&str, BasicType); 3] =
+    [("mat2x2", BasicType::Mat2x2), ("mat3x3", BasicType::Mat3x3), ("mat4x4", BasicType::Mat4x4)];
+
+const KEYWORDS: [(&str, Kind); 29] = [
+    ("const", Kind::Const),
+    ("in", Kind::In),
+    ("out", Kind::Out),
+    ("inout", Kind::Inout),
+    ("uniform", Kind::Uniform),
+    ("flat", Kind::Flat),
+    ("smooth", Kind::Smooth),
+    ("centroid", Kind::Centroid),
+    ("invariant", Kind::Invariant),
+    ("lowp", Kind::Lowp),
+    ("mediump", Kind::Mediump),
+    ("highp", Kind::Highp),
+    ("precision", Kind::Precision),
+    ("layout", Kind::Layout),
+    ("struct", Kind::Struct),
+    ("if", Kind::If),
+    ("else", Kind::Else),
+    ("for", Kind::For),
+    ("while", Kind::While),
+    ("do", Kind::Do),
+    ("switch", Kind::Switch),
+    ("case", Kind::Case),
+    ("default", Kind::Default),
+    ("return", Kind::Return),
+    ("break", Kind::Break),
+    ("continue", Kind::Continue),
+    ("discard", Kind::Discard),
+    ("true", Kind::True),
+    ("false", Kind::False),
+];
+
+#[rustfmt::skip]
+const RESERVED: &[&str] = &[
+    "attribute", "varying", "coherent", "volatile", "restrict", "readonly", "writeonly", "resource", "atomic_uint",
+    "noperspective", "patch", "sample", "subroutine", "common", "partition", "active", "asm", "class", "union", "enum",
+    "typedef", "template", "this", "goto", "inline", "noinline", "public", "static", "extern", "external", "interface",
+    "long", "short", "double", "half", "fixed", "unsigned", "superp", "input", "output", "hvec2", "hvec3", "hvec4",
+    "dvec2", "dvec3", "dvec4", "fvec2", "fvec3", "fvec4", "sampler3DRect", "filter", "image1D", "image2D", "image3D",
+    "imageCube", "iimage1D", "iimage2D", "iimage3D", "iimageCube", "uimage1D", "uimage2D", "uimage3D", "uimageCube",
+    "image1DArray", "image2DArray", "iimage1DArray", "iimage2DArray", "uimage1DArray", "uimage2DArray", "imageBuffer",
+    "iimageBuffer", "uimageBuffer", "sampler1D", "sampler1DShadow", "sampler1DArray", "sampler1DArrayShadow",
+    "isampler1D", "isampler1DArray", "usampler1D", "usampler1DArray", "sampler2DRect", "sampler2DRectShadow",
+    "isampler2DRect", "usampler2DRect", "samplerBuffer", "isamplerBuffer", "usamplerBuffer", "sampler2DMS",
+    "isampler2DMS", "usampler2DMS", "sampler2DMSArray", "isampler2DMSArray", "usampler2DMSArray", "image1DShadow",
+    "image2DShadow", "image1DArrayShadow", "image2DArrayShadow", "sizeof", "cast", "namespace", "using",
+];
+
+/// An interner that knows all words of the language.
+pub(in crate::glsl) fn interner() -> Interner {
+    static SEEDED: LazyLock<Interner> = LazyLock::new(|| {
+        Interner::seeded(
+            Builtin::ALL
+                .iter()
+                .map(|b| b.name())
+                .chain(Uniform::ALL.iter().map(|u| u.name()))
+                .chain(BasicType::ALL.iter().map(|t| t.name()))
+                .chain(TYPE_ALIASES.iter().map(|a| a.0))
+                .chain(KEYWORDS.iter().map(|k| k.0))
+                .chain(RESERVED.iter().copied()),
+        )
+    });
+    SEEDED.clone()
+}
+
+/// `Ident`, or which keyword a name is.
+#[inline]
+pub(in crate::glsl) fn kind(symbol: u32) -> Kind {
+    // One comparison for the names of the author, which come after the seed.
+    if !(FIRST_TYPE..END).contains(&symbol) {
+        Kind::Ident
+    } else if symbol < FIRST_KEYWORD {
+        Kind::Type
+    } else if symbol < FIRST_RESERVED {
+        KEYWORDS[(symbol - FIRST_KEYWORD) as usize].1
+    } else {
+        Kind::Reserved
+    }
+}
+
+/// The type of a `Kind::Type` token's symbol.
+pub(in crate::glsl) fn basic_type(symbol: u32) -> BasicType {
+    let i = (symbol - FIRST_TYPE) as usize;
+    BasicType::ALL.get(i).copied().unwrap_or_else(|| TYPE_ALIASES[i - BasicType::ALL.len()].1)
+}

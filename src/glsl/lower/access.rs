@@ -1,0 +1,334 @@
+//! Parts of variables and values: members, components, elements; places that are assigned to; clamped indices.
+
+use naga::{Expression, MathFunction, ScalarKind, SwizzleComponent};
+
+use super::{
+    function::{Builder, Slot, Value},
+    resources, types,
+};
+use crate::glsl::hir::{
+    BuiltinVar, ExprId, ExprKind, GlobalStorage, LocalId, Scalar, Swizzle, Type, TypeId, Uniform, VarFlags,
+};
+
+/// Something in memory.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub pointer: Value,
+    /// Of what the pointer points to.
+    pub ty: TypeId,
+    /// Components of it that are meant; none: all of it.
+    pub swizzle: Option<Swizzle>,
+    /// Points to slots of 16 bytes, of which the first component counts (`iChannelTime`).
+    padded: bool,
+}
+
+impl Place {
+    pub fn of(pointer: Value, ty: TypeId) -> Self {
+        Self { pointer, ty, swizzle: None, padded: false }
+    }
+}
+
+impl Builder<'_, '_> {
+    /// Finds an l-value: evaluates its indices, once.
+    pub fn place(&mut self, expr: ExprId) -> Place {
+        let (root, links) = self.chain(expr);
+        let mut place = self.root(root, &links).expect("a place is in memory");
+        for link in links.into_iter().rev() {
+            place = self.part_of_place(place, link);
+        }
+        place
+    }
+
+    /// The value of a variable or of a part of one, if it is in memory; else the links from the outermost to the root.
+    pub fn read(&mut self, expr: ExprId) -> Result<Value, Vec<ExprId>> {
+        let (root, links) = self.chain(expr);
+        let Some(mut place) = self.root(root, &links) else { return Err(links) };
+        for link in links.into_iter().rev() {
+            place = self.part_of_place(place, link);
+        }
+        Ok(self.load_place(place))
+    }
+
+    /// What members, swizzles and indices stand on, and these from the outermost inwards.
+    fn chain(&self, expr: ExprId) -> (ExprId, Vec<ExprId>) {
+        let mut links = Vec::new();
+        let mut root = expr;
+        while let ExprKind::Member { base, .. } | ExprKind::Swizzle { base, .. } | ExprKind::Index { base, .. } =
+            self.cx.hir[root].kind
+        {
+            links.push(root);
+            root = base;
+        }
+        (root, links)
+    }
+
+    /// The memory an expression names; `None` if it is a value.
+    fn root(&mut self, root: ExprId, links: &[ExprId]) -> Option<Place> {
+        let hir = self.cx.hir;
+        let ty = hir[root].ty;
+        let global = match hir[root].kind {
+            ExprKind::Local(local) => match self.slot(local) {
+                Slot::Memory(pointer) => return Some(Place::of(pointer, ty)),
+                Slot::Table(id) => return Some(Place::of(self.table(id), ty)),
+                Slot::Unset if self.needs_memory(local) => {
+                    let pointer = self.memory(local);
+                    return Some(Place::of(pointer, ty));
+                }
+                Slot::Unset | Slot::Value(_) | Slot::Channel(_) => return None,
+            },
+            ExprKind::Global(id) => {
+                let global = hir[id];
+                match global.storage {
+                    GlobalStorage::Private | GlobalStorage::Out => {}
+                    GlobalStorage::Const | GlobalStorage::Uniform | GlobalStorage::In => return None,
+                }
+                let varies =
+                    global.flags.contains(VarFlags::WRITTEN) || (global.init.is_some() && global.value.is_none());
+                if !varies && !self.indexes_aggregate(links) {
+                    return None;
+                }
+                if let (false, Some(value)) = (varies, global.value) {
+                    return Some(Place::of(self.table(value), ty));
+                }
+                self.cx.global(id)
+            }
+            ExprKind::Uniform(uniform) => {
+                let (member, name) = resources::uniform(uniform);
+                self.cx.reflection.uniforms.insert(name);
+                let pointer = self.block_member(member);
+                return Some(Place { padded: uniform == Uniform::ChannelTime, ..Place::of(pointer, ty) });
+            }
+            ExprKind::BuiltinVar(BuiltinVar::FragCoord) => self.cx.frag_coord(),
+            ExprKind::BuiltinVar(BuiltinVar::FragDepth) => self.cx.frag_depth(),
+            ExprKind::Const(id) if self.indexes_aggregate(links) => return Some(Place::of(self.table(id), ty)),
+            _ => return None,
+        };
+        Some(Place::of(self.global(global), ty))
+    }
+
+    /// Pointer to a member of the uniform block.
+    pub fn block_member(&mut self, index: u32) -> Value {
+        let block = self.cx.block();
+        let base = self.global(block);
+        self.add(Expression::AccessIndex { base, index })
+    }
+
+    /// The value a root that is not in memory has.
+    pub fn root_value(&mut self, root: ExprId) -> Value {
+        let hir = self.cx.hir;
+        let ty = hir[root].ty;
+        match hir[root].kind {
+            ExprKind::Local(local) => match self.slot(local) {
+                Slot::Value(value) => value,
+                // Its declaration was skipped: any value will do.
+                _ => self.zero(ty),
+            },
+            ExprKind::Global(id) => match hir[id].value {
+                Some(value) if hir[id].storage == GlobalStorage::Private => self.folded(value),
+                _ => self.zero(ty),
+            },
+            ExprKind::BuiltinVar(BuiltinVar::FrontFacing) => self.literal(Scalar::Bool, 1),
+            _ => self.zero(ty),
+        }
+    }
+
+    /// Some index that is no literal goes into an array or matrix.
+    fn indexes_aggregate(&self, links: &[ExprId]) -> bool {
+        let hir = self.cx.hir;
+        links.iter().any(|&link| match hir[link].kind {
+            ExprKind::Index { base, index } => {
+                !matches!(hir[index].kind, ExprKind::Literal(_)) && !self.is_vector_or_scalar(hir[base].ty)
+            }
+            _ => false,
+        })
+    }
+
+    fn part_of_place(&mut self, place: Place, link: ExprId) -> Place {
+        let hir = self.cx.hir;
+        let ty = hir[link].ty;
+        let base = place.pointer;
+        let pointer = match hir[link].kind {
+            ExprKind::Member { index, .. } => self.add(Expression::AccessIndex { base, index }),
+            ExprKind::Swizzle { swizzle, .. } => {
+                let swizzle = match place.swizzle {
+                    None => swizzle,
+                    Some(outer) => compose_swizzles(outer, swizzle),
+                };
+                if swizzle.len() > 1 {
+                    return Place { swizzle: Some(swizzle), ..place };
+                }
+                self.add(Expression::AccessIndex { base, index: swizzle.get(0) as u32 })
+            }
+            ExprKind::Index { index, .. } => {
+                let pointer = match (hir[index].kind, place.swizzle) {
+                    (ExprKind::Literal(i), None) => self.add(Expression::AccessIndex { base, index: i }),
+                    (ExprKind::Literal(i), Some(swizzle)) => {
+                        self.add(Expression::AccessIndex { base, index: swizzle.get(i as usize) as u32 })
+                    }
+                    (_, None) => {
+                        let index = self.index(index, self.extent(place.ty));
+                        self.add(Expression::Access { base, index })
+                    }
+                    (_, Some(swizzle)) => {
+                        let index = self.index(index, swizzle.len() as u32);
+                        let components = swizzle.iter().map(|c| self.literal(Scalar::Uint, c as u32)).collect();
+                        let table = self.compose(TypeId::vector(Scalar::Uint, swizzle.len() as u8), components);
+                        let index = self.add(Expression::Access { base: table, index });
+                        self.add(Expression::Access { base, index })
+                    }
+                };
+                match place.padded {
+                    true => self.add(Expression::AccessIndex { base: pointer, index: 0 }),
+                    false => pointer,
+                }
+            }
+            other => unreachable!("{other:?} is no part"),
+        };
+        Place::of(pointer, ty)
+    }
+
+    pub fn load_place(&mut self, place: Place) -> Value {
+        if place.padded {
+            let parts = (0..self.extent(place.ty)).map(|index| {
+                let slot = self.add(Expression::AccessIndex { base: place.pointer, index });
+                let first = self.add(Expression::AccessIndex { base: slot, index: 0 });
+                self.load(first)
+            });
+            let parts = parts.collect();
+            return self.compose(place.ty, parts);
+        }
+        let value = self.load(place.pointer);
+        match place.swizzle {
+            Some(swizzle) => self.swizzle(value, place.ty, swizzle),
+            None => value,
+        }
+    }
+
+    pub fn store_place(&mut self, place: Place, value: Value) {
+        let Some(swizzle) = place.swizzle else { return self.store(place.pointer, value) };
+        for (i, component) in swizzle.iter().enumerate() {
+            let part = self.add(Expression::AccessIndex { base: value, index: i as u32 });
+            let pointer = self.add(Expression::AccessIndex { base: place.pointer, index: component as u32 });
+            self.store(pointer, part);
+        }
+    }
+
+    /// A part of a value; `link` is the member, swizzle or index whose base has this value.
+    pub fn part_of_value(&mut self, base: Value, link: ExprId) -> Value {
+        let hir = self.cx.hir;
+        match hir[link].kind {
+            ExprKind::Member { index, .. } => self.add(Expression::AccessIndex { base, index }),
+            ExprKind::Swizzle { base: of, swizzle } => self.swizzle(base, hir[of].ty, swizzle),
+            ExprKind::Index { base: of, index } => {
+                if let ExprKind::Literal(index) = hir[index].kind {
+                    return self.add(Expression::AccessIndex { base, index });
+                }
+                let of = hir[of].ty;
+                let index = self.index(index, self.extent(of));
+                if self.is_vector_or_scalar(of) {
+                    return self.add(Expression::Access { base, index });
+                }
+                // Only memory can be indexed at run time.
+                let memory = self.temporary(of);
+                self.store(memory, base);
+                let pointer = self.add(Expression::Access { base: memory, index });
+                self.load(pointer)
+            }
+            other => unreachable!("{other:?} is no part"),
+        }
+    }
+
+    /// Components of a vector of type `ty`.
+    pub fn swizzle(&mut self, vector: Value, ty: TypeId, swizzle: Swizzle) -> Value {
+        if swizzle.len() == 1 {
+            return self.add(Expression::AccessIndex { base: vector, index: swizzle.get(0) as u32 });
+        }
+        if swizzle.len() as u32 == self.extent(ty) && swizzle.iter().enumerate().all(|(i, c)| i == c) {
+            return vector;
+        }
+        const XYZW: [SwizzleComponent; 4] =
+            [SwizzleComponent::X, SwizzleComponent::Y, SwizzleComponent::Z, SwizzleComponent::W];
+        let mut pattern = [SwizzleComponent::X; 4];
+        for (i, component) in swizzle.iter().enumerate() {
+            pattern[i] = XYZW[component];
+        }
+        self.add(Expression::Swizzle { size: types::vector_size(swizzle.len()), vector, pattern })
+    }
+
+    /// Elements of an array, columns of a matrix, components of a vector.
+    pub fn extent(&self, ty: TypeId) -> u32 {
+        match self.cx.hir.types.get(ty) {
+            Type::Array { len, .. } => len,
+            Type::Matrix { columns, .. } => columns.into(),
+            Type::Vector { size, .. } => size.into(),
+            _ => 1,
+        }
+    }
+
+    /// An index, clamped to `0..len` unless it is known to be there: WebGL lets no index stray, and clamping is what its
+    /// implementations do.
+    fn index(&mut self, index: ExprId, len: u32) -> Value {
+        let known = self.range(index);
+        let value = self.value(index);
+        let last = i64::from(len) - 1;
+        if known.is_some_and(|(least, greatest)| least >= 0 && greatest <= last) {
+            return value;
+        }
+        if self.cx.hir[index].ty == TypeId::UINT {
+            let last = self.literal(Scalar::Uint, last as u32);
+            return self.math2(MathFunction::Min, value, last);
+        }
+        let mut value = value;
+        if known.is_none_or(|(least, _)| least < 0) {
+            let zero = self.literal(Scalar::Int, 0);
+            value = self.math2(MathFunction::Max, value, zero);
+        }
+        if known.is_none_or(|(_, greatest)| greatest > last) {
+            let last = self.literal(Scalar::Int, last as u32);
+            value = self.math2(MathFunction::Min, value, last);
+        }
+        value
+    }
+
+    /// Components of a vector, or a scalar alone.
+    pub fn components(&mut self, value: Value, ty: TypeId, out: &mut Vec<Value>) {
+        match self.cx.hir.types.get(ty) {
+            Type::Vector { size, .. } => {
+                for index in 0..u32::from(size) {
+                    let part = self.add(Expression::AccessIndex { base: value, index });
+                    out.push(part);
+                }
+            }
+            Type::Matrix { columns, rows } => {
+                let column_ty = TypeId::vector(Scalar::Float, rows);
+                for index in 0..u32::from(columns) {
+                    let column = self.add(Expression::AccessIndex { base: value, index });
+                    self.components(column, column_ty, out);
+                }
+            }
+            _ => out.push(value),
+        }
+    }
+
+    /// Reinterprets the bits of a scalar or vector.
+    pub fn bitcast(&mut self, expr: Value, kind: ScalarKind) -> Value {
+        self.add(Expression::As { expr, kind, convert: None })
+    }
+
+    /// The variable of this function that an expression names as a whole, if it is memory.
+    pub fn whole_local(&self, expr: ExprId) -> Option<(LocalId, Value)> {
+        match self.cx.hir[expr].kind {
+            ExprKind::Local(local) => match self.slot(local) {
+                Slot::Memory(pointer) => Some((local, pointer)),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+}
+
+/// `inner` of what `outer` selects.
+fn compose_swizzles(outer: Swizzle, inner: Swizzle) -> Swizzle {
+    let components: Vec<u8> = inner.iter().map(|c| outer.get(c) as u8).collect();
+    Swizzle::new(&components)
+}

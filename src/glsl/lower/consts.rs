@@ -1,0 +1,130 @@
+//! Folded composites as naga constants, and tables that are indexed at run time.
+//!
+//! naga refuses infinities and NaN as literals. A composite that holds one is built from bit patterns where it is used; a table
+//! with one is filled when the entry point starts.
+
+use naga::{Expression, GlobalVariable, Handle, Literal, Span};
+
+use super::{Lowering, Map};
+use crate::glsl::hir::{ConstId, Scalar, Type, TypeId};
+
+/// Constants made so far.
+pub(super) struct Constants {
+    /// By [`ConstId::index`]; `Some(None)`: holds something that is no literal.
+    inits: Vec<Option<Option<Handle<Expression>>>>,
+    constants: Vec<Option<Handle<naga::Constant>>>,
+    literals: Map<(u8, u32), Handle<Expression>>,
+    /// Globals whose constant value is no constant expression of naga's.
+    pub set_at_start: Vec<(Handle<GlobalVariable>, ConstId)>,
+}
+
+impl Constants {
+    pub fn new(count: usize) -> Self {
+        Self {
+            inits: vec![None; count],
+            constants: vec![None; count],
+            literals: Map::default(),
+            set_at_start: Vec::new(),
+        }
+    }
+}
+
+/// A scalar as naga's literal; `None` for infinities and NaN.
+pub(super) fn literal(scalar: Scalar, bits: u32) -> Option<Literal> {
+    Some(match scalar {
+        Scalar::Bool => Literal::Bool(bits != 0),
+        Scalar::Int => Literal::I32(bits as i32),
+        Scalar::Uint => Literal::U32(bits),
+        Scalar::Float => Literal::F32(Some(f32::from_bits(bits)).filter(|value| value.is_finite())?),
+    })
+}
+
+impl Lowering<'_> {
+    /// A folded value as a naga constant; `None` if it holds an infinity or NaN.
+    pub fn constant(&mut self, id: ConstId) -> Option<Handle<naga::Constant>> {
+        if let Some(made) = self.consts.constants[id.index()] {
+            return Some(made);
+        }
+        let init = self.constant_init(id)?;
+        let ty = self.ty(self.hir[id].ty);
+        let made = self.out.constants.append(naga::Constant { name: None, ty, init }, Span::UNDEFINED);
+        self.consts.constants[id.index()] = Some(made);
+        Some(made)
+    }
+
+    /// The same as a module-scope expression.
+    pub fn constant_init(&mut self, id: ConstId) -> Option<Handle<Expression>> {
+        if let Some(init) = self.consts.inits[id.index()] {
+            return init;
+        }
+        let hir = self.hir;
+        let constant = hir[id];
+        let words = &hir[constant.words];
+        // Judged beforehand, so that no half-built composite stays behind.
+        let init = self.all_finite(constant.ty, &mut words.iter().copied()).then(|| {
+            let mut words = words.iter().copied();
+            self.global_expression(constant.ty, &mut words)
+        });
+        self.consts.inits[id.index()] = Some(init);
+        init
+    }
+
+    fn all_finite(&self, ty: TypeId, words: &mut dyn Iterator<Item = u32>) -> bool {
+        let hir = self.hir;
+        match hir.types.get(ty) {
+            Type::Array { element, len } => (0..len).all(|_| self.all_finite(element, words)),
+            Type::Struct(id) => hir[hir[id].members].iter().all(|member| self.all_finite(member.ty, words)),
+            _ => {
+                let scalar = hir.types.scalar(ty).expect("a value");
+                let count = hir.types.components(ty).expect("a value");
+                // Takes all words of this part even after a bad one is seen: the caller goes on only if all are good.
+                (0..count).all(|_| words.next().is_some_and(|bits| literal(scalar, bits).is_some()))
+            }
+        }
+    }
+
+    fn global_expression(&mut self, ty: TypeId, words: &mut dyn Iterator<Item = u32>) -> Handle<Expression> {
+        let hir = self.hir;
+        let components = match hir.types.get(ty) {
+            Type::Scalar(scalar) => {
+                return self.global_literal(scalar, words.next().expect("as many words as scalars"));
+            }
+            Type::Vector { scalar, size } => {
+                let word = |_| self.global_literal(scalar, words.next().expect("as many words as scalars"));
+                (0..size).map(word).collect()
+            }
+            Type::Matrix { columns, rows } => {
+                let column = TypeId::vector(Scalar::Float, rows);
+                (0..columns).map(|_| self.global_expression(column, words)).collect()
+            }
+            Type::Array { element, len } => (0..len).map(|_| self.global_expression(element, words)).collect(),
+            Type::Struct(id) => {
+                hir[hir[id].members].iter().map(|member| self.global_expression(member.ty, words)).collect()
+            }
+            other => unreachable!("{other:?} is no type of a value"),
+        };
+        let ty = self.ty(ty);
+        self.out.global_expressions.append(Expression::Compose { ty, components }, Span::UNDEFINED)
+    }
+
+    fn global_literal(&mut self, scalar: Scalar, bits: u32) -> Handle<Expression> {
+        let made = self.consts.literals.get(&(scalar as u8, bits)).copied();
+        made.unwrap_or_else(|| {
+            let literal = literal(scalar, bits).expect("judged before");
+            let made = self.out.global_expressions.append(Expression::Literal(literal), Span::UNDEFINED);
+            self.consts.literals.insert((scalar as u8, bits), made);
+            made
+        })
+    }
+
+    /// A private global that holds a folded value, for indexing.
+    pub(super) fn private_table(&mut self, id: ConstId) -> Handle<GlobalVariable> {
+        let ty = self.ty(self.hir[id].ty);
+        let init = self.constant_init(id);
+        let table = self.private(ty, init);
+        if init.is_none() {
+            self.consts.set_at_start.push((table, id));
+        }
+        table
+    }
+}

@@ -1,0 +1,250 @@
+//! Expressions: what they evaluate to, in which order, under which conditions.
+
+use naga::{BinaryOperator, Block, Expression, Statement, UnaryOperator};
+
+use super::{
+    cost::CHEAP,
+    function::{Builder, Value},
+    reach::known_bool,
+};
+use crate::glsl::hir::{ConstId, ExprFlags, ExprId, ExprKind, LogicalOp, Scalar, Type, TypeId};
+
+impl Builder<'_, '_> {
+    /// The value of an expression that is not void.
+    pub fn value(&mut self, expr: ExprId) -> Value {
+        // Left spines may be thousands of links long: descended by this loop, not by recursion.
+        let hir = self.cx.hir;
+        let mut spine = Vec::new();
+        let mut at = expr;
+        let mut value = loop {
+            match hir[at].kind {
+                ExprKind::Member { .. } | ExprKind::Swizzle { .. } | ExprKind::Index { .. } => match self.read(at) {
+                    Ok(value) => break value,
+                    Err(links) => {
+                        let innermost = *links.last().expect("a part has a link");
+                        spine.extend(links);
+                        at = match hir[innermost].kind {
+                            ExprKind::Member { base, .. }
+                            | ExprKind::Swizzle { base, .. }
+                            | ExprKind::Index { base, .. } => base,
+                            other => unreachable!("{other:?} is no part"),
+                        };
+                    }
+                },
+                ExprKind::Binary { lhs: inner, .. }
+                | ExprKind::Logical { lhs: inner, .. }
+                | ExprKind::Convert(inner) => {
+                    spine.push(at);
+                    at = inner;
+                }
+                _ => break self.leaf(at),
+            }
+        };
+        while let Some(link) = spine.pop() {
+            value = self.link(link, value);
+        }
+        value
+    }
+
+    /// One step up a left spine, from the value of the inner expression.
+    fn link(&mut self, link: ExprId, value: Value) -> Value {
+        let hir = self.cx.hir;
+        match hir[link].kind {
+            ExprKind::Binary { op, shape, lhs, rhs } => {
+                let right = self.value(rhs);
+                self.binary(op, shape, (hir[lhs].ty, value), (hir[rhs].ty, right))
+            }
+            ExprKind::Logical { op, lhs, rhs } => self.logical(op, lhs, value, rhs),
+            ExprKind::Convert(inner) => self.convert(value, hir[inner].ty, hir[link].ty),
+            _ => self.part_of_value(value, link),
+        }
+    }
+
+    fn leaf(&mut self, expr: ExprId) -> Value {
+        let hir = self.cx.hir;
+        let ty = hir[expr].ty;
+        match hir[expr].kind {
+            ExprKind::Literal(bits) => self.scalar_literal(ty, bits),
+            ExprKind::Const(id) => self.folded(id),
+            ExprKind::Local(_) | ExprKind::Global(_) | ExprKind::Uniform(_) | ExprKind::BuiltinVar(_) => {
+                self.read(expr).unwrap_or_else(|_| self.root_value(expr))
+            }
+            ExprKind::Unary { op, operand } => {
+                let value = self.value(operand);
+                self.unary(op, ty, value)
+            }
+            ExprKind::Ternary { cond, then, otherwise } => self.ternary(ty, cond, then, otherwise),
+            ExprKind::Comma { lhs, rhs } => {
+                self.effect(lhs);
+                self.value(rhs)
+            }
+            ExprKind::Assign { place, value } => self.assign(place, value),
+            ExprKind::AssignOp { op, shape, place, value } => self.assign_op(op, shape, place, value),
+            ExprKind::IncDec { op, place } => self.inc_dec(op, place),
+            ExprKind::Splat(of) => {
+                let value = self.value(of);
+                self.splat(value, ty)
+            }
+            ExprKind::Vector(args) => self.vector(ty, &hir[args]),
+            ExprKind::MatrixDiagonal(of) => self.matrix_diagonal(ty, of),
+            ExprKind::MatrixResize(of) => self.matrix_resize(ty, of),
+            ExprKind::Matrix(args) => self.matrix(ty, &hir[args]),
+            ExprKind::Struct(args) | ExprKind::Array(args) => {
+                let parts = hir[args].iter().map(|&arg| self.value(arg)).collect();
+                self.compose(ty, parts)
+            }
+            ExprKind::Call { func, args } => self.call(func, &hir[args]).expect("a call with a value"),
+            ExprKind::Builtin { builtin, args } => {
+                self.builtin(builtin, ty, &hir[args]).expect("a built-in with a value")
+            }
+            other => unreachable!("{other:?} has no value"),
+        }
+    }
+
+    pub fn scalar_literal(&mut self, ty: TypeId, bits: u32) -> Value {
+        let scalar = self.cx.hir.types.scalar(ty).expect("a literal is a scalar");
+        self.literal(scalar, bits)
+    }
+
+    /// A folded value of any type.
+    pub fn folded(&mut self, id: ConstId) -> Value {
+        let hir = self.cx.hir;
+        match hir.types.get(hir[id].ty) {
+            Type::Scalar(scalar) => self.literal(scalar, hir[hir[id].words][0]),
+            _ => self.constant(id),
+        }
+    }
+
+    /// Evaluates for effects alone; the only way for what is void.
+    pub fn effect(&mut self, expr: ExprId) {
+        let hir = self.cx.hir;
+        // A comma chain is a left spine.
+        let mut rest = Vec::new();
+        let mut at = expr;
+        while let ExprKind::Comma { lhs, rhs } = hir[at].kind {
+            rest.push(rhs);
+            at = lhs;
+        }
+        self.effect_of_one(at);
+        while let Some(next) = rest.pop() {
+            self.effect(next);
+        }
+    }
+
+    fn effect_of_one(&mut self, expr: ExprId) {
+        let hir = self.cx.hir;
+        if !hir[expr].flags.contains(ExprFlags::EFFECTS) {
+            return;
+        }
+        match hir[expr].kind {
+            ExprKind::Call { func, args } => {
+                self.call(func, &hir[args]);
+            }
+            ExprKind::Builtin { builtin, args } => {
+                self.builtin(builtin, hir[expr].ty, &hir[args]);
+            }
+            ExprKind::Ternary { cond, then, otherwise } => match known_bool(hir, cond) {
+                Some(known) => self.effect(if known { then } else { otherwise }),
+                None => {
+                    let condition = self.value(cond);
+                    let (accept, _) = self.nested(|b| b.effect(then));
+                    let (reject, _) = self.nested(|b| b.effect(otherwise));
+                    self.push(Statement::If { condition, accept, reject });
+                }
+            },
+            _ => {
+                self.value(expr);
+            }
+        }
+    }
+
+    fn is_cheap(&self, expr: ExprId) -> bool {
+        !self.cx.hir[expr].flags.contains(ExprFlags::EFFECTS) && self.cx.costs[expr.index()] <= CHEAP
+    }
+
+    fn logical(&mut self, op: LogicalOp, lhs: ExprId, left: Value, rhs: ExprId) -> Value {
+        match (op, known_bool(self.cx.hir, lhs)) {
+            (LogicalOp::And, Some(false)) | (LogicalOp::Or, Some(true)) => return left,
+            (_, Some(_)) => return self.value(rhs),
+            (_, None) => {}
+        }
+        if self.is_cheap(rhs) {
+            let right = self.value(rhs);
+            let op = match op {
+                LogicalOp::And => BinaryOperator::LogicalAnd,
+                LogicalOp::Or => BinaryOperator::LogicalOr,
+            };
+            return self.add(Expression::Binary { op, left, right });
+        }
+        let result = self.temporary(TypeId::BOOL);
+        self.store(result, left);
+        let (needed, _) = self.nested(|b| {
+            let right = b.value(rhs);
+            b.store(result, right);
+        });
+        let (accept, reject) = match op {
+            LogicalOp::And => (needed, Block::new()),
+            LogicalOp::Or => (Block::new(), needed),
+        };
+        self.push(Statement::If { condition: left, accept, reject });
+        self.load(result)
+    }
+
+    fn ternary(&mut self, ty: TypeId, cond: ExprId, then: ExprId, otherwise: ExprId) -> Value {
+        if let Some(known) = known_bool(self.cx.hir, cond) {
+            return self.value(if known { then } else { otherwise });
+        }
+        let condition = self.value(cond);
+        if self.is_vector_or_scalar(ty) && self.is_cheap(then) && self.is_cheap(otherwise) {
+            let accept = self.value(then);
+            let reject = self.value(otherwise);
+            return self.select(condition, accept, reject);
+        }
+        let result = self.temporary(ty);
+        let (accept, _) = self.nested(|b| {
+            let value = b.value(then);
+            b.store(result, value);
+        });
+        let (reject, _) = self.nested(|b| {
+            let value = b.value(otherwise);
+            b.store(result, value);
+        });
+        self.push(Statement::If { condition, accept, reject });
+        self.load(result)
+    }
+
+    pub fn select(&mut self, condition: Value, accept: Value, reject: Value) -> Value {
+        self.add(Expression::Select { condition, accept, reject })
+    }
+
+    pub fn not(&mut self, expr: Value) -> Value {
+        self.add(Expression::Unary { op: UnaryOperator::LogicalNot, expr })
+    }
+
+    pub fn op(&mut self, op: BinaryOperator, left: Value, right: Value) -> Value {
+        self.add(Expression::Binary { op, left, right })
+    }
+
+    /// A scalar repeated to a vector of type `ty`; itself if `ty` is a scalar.
+    pub fn splat(&mut self, value: Value, ty: TypeId) -> Value {
+        match self.cx.hir.types.get(ty) {
+            Type::Vector { size, .. } => {
+                self.add(Expression::Splat { size: super::types::vector_size(size.into()), value })
+            }
+            _ => value,
+        }
+    }
+
+    /// A literal number repeated to the float type `ty`.
+    pub fn float_of(&mut self, ty: TypeId, number: f32) -> Value {
+        let value = self.float(number);
+        self.splat(value, ty)
+    }
+
+    /// A literal repeated to the int or uint type `ty`.
+    pub fn int_of(&mut self, ty: TypeId, bits: u32) -> Value {
+        let scalar = self.cx.hir.types.scalar(ty).unwrap_or(Scalar::Int);
+        let value = self.literal(scalar, bits);
+        self.splat(value, ty)
+    }
+}

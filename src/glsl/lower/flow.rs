@@ -1,0 +1,243 @@
+//! Statements: declarations, branches, loops, switches, jumps.
+
+use naga::{Block, Span, Statement, SwitchCase, SwitchValue};
+
+use super::{
+    cost::CHEAP,
+    function::{Builder, Loop, Slot},
+    reach::known_bool,
+};
+use crate::glsl::{
+    ast::List,
+    hir::{Case, ExprId, ExprKind, LocalId, StmtId, StmtKind, TypeId},
+};
+
+impl Builder<'_, '_> {
+    pub fn statements(&mut self, list: List<StmtId>) {
+        let hir = self.cx.hir;
+        for &stmt in &hir[list] {
+            // What follows a jump is never reached.
+            if self.ended {
+                return;
+            }
+            self.statement(stmt);
+        }
+    }
+
+    fn statement(&mut self, stmt: StmtId) {
+        let hir = self.cx.hir;
+        match hir[stmt].kind {
+            StmtKind::Block(list) => self.statements(list),
+            StmtKind::Expr(expr) => self.effect(expr),
+            StmtKind::Declare { local, init } => self.declaration(local, init),
+            StmtKind::If { cond, then, otherwise } => self.branch(cond, then, otherwise),
+            StmtKind::For { init, test, step, body } => self.for_loop(init, test, step, body),
+            StmtKind::DoWhile { body, test } => self.do_while(body, test),
+            StmtKind::Switch { value, cases } => self.switch(value, &hir[cases]),
+            StmtKind::Return(value) => {
+                let value = match value {
+                    Some(expr) if self.result == TypeId::VOID => {
+                        self.effect(expr);
+                        None
+                    }
+                    value => value.map(|expr| self.value(expr)),
+                };
+                self.push(Statement::Return { value });
+            }
+            StmtKind::Break => self.push(Statement::Break),
+            StmtKind::Continue => {
+                if let Some(Loop { step: Some(step) }) = self.loops.last().copied() {
+                    self.effect(step);
+                }
+                self.push(Statement::Continue);
+            }
+            StmtKind::Discard => {
+                self.cx.reflection.discards = true;
+                self.push(Statement::Kill);
+            }
+        }
+    }
+
+    fn declaration(&mut self, local: LocalId, init: Option<ExprId>) {
+        let hir = self.cx.hir;
+        // A table that is only read needs no copy.
+        if let (Some(init), true) = (init, self.needs_memory(local))
+            && let (ExprKind::Const(id), 0) = (hir[init].kind, self.cx.writes[local.index()])
+            && !self.is_vector_or_scalar(hir[local].ty)
+        {
+            self.set_slot(local, Slot::Table(id));
+            return;
+        }
+        let value = match init {
+            Some(init) => self.value(init),
+            None => self.zero(hir[local].ty),
+        };
+        self.declare(local, value);
+    }
+
+    fn branch(&mut self, cond: ExprId, then: List<StmtId>, otherwise: List<StmtId>) {
+        if let Some(known) = known_bool(self.cx.hir, cond) {
+            return self.statements(if known { then } else { otherwise });
+        }
+        let condition = self.value(cond);
+        let (accept, then_ended) = self.nested(|b| b.statements(then));
+        let (reject, else_ended) = self.nested(|b| b.statements(otherwise));
+        self.push(Statement::If { condition, accept, reject });
+        self.ended = then_ended && else_ended;
+    }
+
+    fn for_loop(&mut self, init: List<StmtId>, test: Option<ExprId>, step: Option<ExprId>, body: List<StmtId>) {
+        let hir = self.cx.hir;
+        self.statements(init);
+        let known = test.map_or(Some(true), |test| known_bool(hir, test));
+        if known == Some(false) {
+            return;
+        }
+        let counter = test.and_then(|test| self.counter(init, test, step));
+        // Drivers analyse a loop whose step ends the body more readily than one with a `continuing` part that several places
+        // jump to; a short step is repeated before each `continue` instead, as their own GLSL compilers do.
+        let repeated = step.filter(|step| self.cx.costs[step.index()] <= CHEAP);
+        let (body, _) = self.nested(|b| {
+            if let (None, Some(test)) = (known, test) {
+                let condition = b.value(test);
+                let mut leave = Block::new();
+                leave.push(Statement::Break, Span::UNDEFINED);
+                b.push(Statement::If { condition, accept: Block::new(), reject: leave });
+            }
+            let outer = counter.map(|(local, range)| (local, b.known.insert(local, range)));
+            b.loops.push(Loop { step: repeated });
+            b.statements(body);
+            b.loops.pop();
+            if let Some((local, outer)) = outer {
+                match outer {
+                    Some(range) => b.known.insert(local, range),
+                    None => b.known.remove(&local),
+                };
+            }
+            if let (Some(step), false) = (repeated, b.ended) {
+                b.effect(step);
+            }
+        });
+        let continuing = match (step, repeated) {
+            (Some(step), None) => self.nested(|b| b.effect(step)).0,
+            _ => Block::new(),
+        };
+        self.push(Statement::Loop { body, continuing, break_if: None });
+    }
+
+    fn do_while(&mut self, body: List<StmtId>, test: ExprId) {
+        let known = known_bool(self.cx.hir, test);
+        let (body, _) = self.nested(|b| {
+            b.loops.push(Loop { step: None });
+            b.statements(body);
+            b.loops.pop();
+        });
+        let mut break_if = None;
+        let (continuing, _) = self.nested(|b| {
+            if known != Some(true) {
+                let again = b.value(test);
+                break_if = Some(b.not(again));
+            }
+        });
+        self.push(Statement::Loop { body, continuing, break_if });
+    }
+
+    fn switch(&mut self, value: ExprId, cases: &[Case]) {
+        let hir = self.cx.hir;
+        let selector = self.value(value);
+        let unsigned = hir[value].ty == TypeId::UINT;
+        for case in cases {
+            self.force_declared(case.body);
+        }
+        // Each body alone, and whether it runs into the next.
+        let mut bodies = Vec::with_capacity(cases.len());
+        for case in cases {
+            bodies.push(self.nested(|b| b.statements(case.body)));
+        }
+        let last = cases.len().saturating_sub(1);
+        let falls = bodies.iter().enumerate().any(|(i, (body, ended))| i != last && !*ended && !body.is_empty());
+        if falls {
+            return self.switch_with_fall_through(selector, unsigned, cases, bodies);
+        }
+        let mut out = Vec::with_capacity(cases.len() + 1);
+        let mut labels = Vec::new();
+        for (case, (body, _)) in cases.iter().zip(bodies) {
+            labels.extend(self.labels(case, unsigned));
+            // Without a body of its own: the labels belong to the next one.
+            if body.is_empty() && !std::ptr::eq(case, &cases[last]) {
+                continue;
+            }
+            let Some(main) = labels.pop() else { continue };
+            let empty = |value| SwitchCase { value, body: Block::new(), fall_through: true };
+            out.extend(labels.drain(..).map(empty));
+            out.push(SwitchCase { value: main, body, fall_through: false });
+        }
+        self.finish_switch(selector, out);
+    }
+
+    fn labels(&self, case: &Case, unsigned: bool) -> Vec<SwitchValue> {
+        let values = self.cx.hir[case.values].iter();
+        let values = values.map(|&bits| if unsigned { SwitchValue::U32(bits) } else { SwitchValue::I32(bits as i32) });
+        values.chain(case.is_default.then_some(SwitchValue::Default)).collect()
+    }
+
+    fn finish_switch(&mut self, selector: super::function::Value, mut cases: Vec<SwitchCase>) {
+        if !cases.iter().any(|case| case.value == SwitchValue::Default) {
+            cases.push(SwitchCase { value: SwitchValue::Default, body: Block::new(), fall_through: false });
+        }
+        self.push(Statement::Switch { selector, cases });
+    }
+
+    /// Where a body runs into the next one, naga's writers disagree on what they accept. So a first switch finds the number of
+    /// the body to begin with, and a second, with one case, holds all bodies, each under a test that it is reached; a `break` leaves it.
+    fn switch_with_fall_through(
+        &mut self,
+        selector: super::function::Value,
+        unsigned: bool,
+        cases: &[Case],
+        bodies: Vec<(Block, bool)>,
+    ) {
+        use crate::glsl::hir::Scalar;
+        let first = self.temporary(TypeId::INT);
+        let none = self.literal(Scalar::Int, cases.len() as u32);
+        let mut out = Vec::new();
+        let mut has_default = false;
+        for (i, case) in cases.iter().enumerate() {
+            has_default |= case.is_default;
+            let mut labels = self.labels(case, unsigned);
+            let Some(main) = labels.pop() else { continue };
+            let number = self.literal(Scalar::Int, i as u32);
+            let (body, _) = self.nested(|b| b.store(first, number));
+            let empty = |value| SwitchCase { value, body: Block::new(), fall_through: true };
+            out.extend(labels.into_iter().map(empty));
+            out.push(SwitchCase { value: main, body, fall_through: false });
+        }
+        if !has_default {
+            let (body, _) = self.nested(|b| b.store(first, none));
+            out.push(SwitchCase { value: SwitchValue::Default, body, fall_through: false });
+        }
+        self.push(Statement::Switch { selector, cases: out });
+        let start = self.load(first);
+        let (body, _) = self.nested(|b| {
+            for (i, (accept, _)) in bodies.into_iter().enumerate() {
+                let number = b.literal(Scalar::Int, i as u32);
+                let condition = b.op(naga::BinaryOperator::LessEqual, start, number);
+                b.push(Statement::If { condition, accept, reject: Block::new() });
+            }
+        });
+        let only = SwitchCase { value: SwitchValue::Default, body, fall_through: false };
+        self.push(Statement::Switch { selector: start, cases: vec![only] });
+    }
+
+    /// Locals declared in one case can be named in the next, whose code their declaration does not dominate.
+    fn force_declared(&mut self, list: List<StmtId>) {
+        let hir = self.cx.hir;
+        for &stmt in &hir[list] {
+            match hir[stmt].kind {
+                StmtKind::Declare { local, .. } => self.force_memory(local),
+                StmtKind::Block(list) => self.force_declared(list),
+                _ => {}
+            }
+        }
+    }
+}

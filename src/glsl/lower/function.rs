@@ -1,0 +1,329 @@
+//! The body of one function under construction: expressions, blocks, what each local stands for.
+
+use naga::{Block, Expression, FunctionArgument, FunctionResult, Handle, LocalVariable, Range, Span, Statement};
+
+use super::{Instance, Lowering, Map, consts};
+use crate::glsl::{
+    ast::List,
+    hir::{ConstId, ExprId, FuncId, LocalId, LocalKind, Scalar, Type, TypeId, VarFlags},
+};
+
+/// An expression of the function being built.
+pub(super) type Value = Handle<Expression>;
+
+/// What a parameter or local variable is in the generated code.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Slot {
+    /// Its declaration was not met yet.
+    Unset,
+    /// Never written: a value.
+    Value(Value),
+    /// A pointer.
+    Memory(Value),
+    /// Never written, and its value is a constant that is indexed.
+    Table(ConstId),
+    /// A sampler parameter.
+    Channel(u8),
+}
+
+/// Where `continue` goes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Loop {
+    /// Evaluated before each `continue`; `None` where the loop's `continuing` block does it.
+    pub step: Option<ExprId>,
+}
+
+pub(super) struct Builder<'m, 'a> {
+    pub cx: &'m mut Lowering<'a>,
+    pub f: naga::Function,
+    block: Block,
+    /// First and last expression not yet emitted.
+    unemitted: Option<(Value, Value)>,
+    /// Control cannot reach the end of the block: nothing more belongs into it.
+    pub ended: bool,
+    first_local: usize,
+    slots: Vec<Slot>,
+    /// Locals that are memory though nobody writes them: their uses are not dominated by their declaration.
+    pub forced: Vec<bool>,
+    literals: Map<(u8, u32), Value>,
+    zeros: Map<Handle<naga::Type>, Value>,
+    constants: Map<u32, Value>,
+    globals: Map<Handle<naga::GlobalVariable>, Value>,
+    pub loops: Vec<Loop>,
+    /// What is known of int locals at this place: least and greatest value.
+    pub known: Map<u32, (i64, i64)>,
+    pub result: TypeId,
+}
+
+/// Lowers one copy of a user function.
+pub(super) fn lower(cx: &mut Lowering<'_>, instance: &Instance) -> naga::Function {
+    let hir = cx.hir;
+    let function = &hir[instance.func];
+    let mut builder = Builder::new(cx, function.locals.start as usize, function.locals.len());
+    builder.result = function.result;
+    builder.parameters(instance.func, &instance.channels);
+    builder.statements(function.body.unwrap_or(List::EMPTY));
+    if !builder.ended && function.result != TypeId::VOID {
+        // Falling off the end gives zero.
+        let value = builder.zero(function.result);
+        builder.push(Statement::Return { value: Some(value) });
+    }
+    if function.result != TypeId::VOID {
+        let ty = builder.cx.ty(function.result);
+        builder.f.result = Some(FunctionResult { ty, binding: None });
+    }
+    builder.finish()
+}
+
+impl<'m, 'a> Builder<'m, 'a> {
+    /// For a function whose locals are `count` from `first_local`.
+    pub fn new(cx: &'m mut Lowering<'a>, first_local: usize, count: usize) -> Self {
+        Self {
+            cx,
+            f: naga::Function::default(),
+            block: Block::new(),
+            unemitted: None,
+            ended: false,
+            first_local,
+            slots: vec![Slot::Unset; count],
+            forced: vec![false; count],
+            literals: Map::default(),
+            zeros: Map::default(),
+            constants: Map::default(),
+            globals: Map::default(),
+            loops: Vec::new(),
+            known: Map::default(),
+            result: TypeId::VOID,
+        }
+    }
+
+    pub fn finish(mut self) -> naga::Function {
+        self.emit();
+        self.f.body = self.block;
+        self.f
+    }
+
+    fn parameters(&mut self, func: FuncId, channels: &[u8]) {
+        let hir = self.cx.hir;
+        let mut channels = channels.iter();
+        for (i, param) in hir.params(func).iter().enumerate() {
+            let local = LocalId::new(hir[func].locals.start as usize + i);
+            if let Type::Sampler { .. } = hir.types.get(param.ty) {
+                let channel = channels.next().expect("a channel for each sampler parameter");
+                self.set_slot(local, Slot::Channel(*channel));
+                continue;
+            }
+            let by_pointer = param.kind.copies_out();
+            let ty = if by_pointer { self.cx.pointer_ty(param.ty) } else { self.cx.ty(param.ty) };
+            let index = self.f.arguments.len() as u32;
+            self.f.arguments.push(FunctionArgument { name: None, ty, binding: None });
+            let argument = self.given(Expression::FunctionArgument(index));
+            if by_pointer {
+                if param.kind == LocalKind::Out {
+                    let zero = self.zero(param.ty);
+                    self.store(argument, zero);
+                }
+                self.set_slot(local, Slot::Memory(argument));
+            } else {
+                self.declare(local, argument);
+            }
+        }
+    }
+
+    // ------------------------------------------------------------------------------------------------- variables
+
+    pub fn slot(&self, local: LocalId) -> Slot {
+        self.slots[local.index() - self.first_local]
+    }
+
+    pub fn set_slot(&mut self, local: LocalId, slot: Slot) {
+        self.slots[local.index() - self.first_local] = slot;
+    }
+
+    /// Makes a local memory whatever is done to it.
+    pub fn force_memory(&mut self, local: LocalId) {
+        self.forced[local.index() - self.first_local] = true;
+    }
+
+    /// Gives a local its first value.
+    pub fn declare(&mut self, local: LocalId, value: Value) {
+        if self.needs_memory(local) {
+            let pointer = self.memory(local);
+            self.store(pointer, value);
+        } else {
+            self.set_slot(local, Slot::Value(value));
+        }
+    }
+
+    /// Whether a local is written, or indexed in a way values cannot be.
+    pub fn needs_memory(&self, local: LocalId) -> bool {
+        let declared = self.cx.hir[local];
+        declared.flags.contains(VarFlags::WRITTEN)
+            || self.forced[local.index() - self.first_local]
+            || (declared.flags.contains(VarFlags::INDEXED) && !self.is_vector_or_scalar(declared.ty))
+    }
+
+    /// The pointer to a local that is memory.
+    pub fn memory(&mut self, local: LocalId) -> Value {
+        if let Slot::Memory(pointer) = self.slot(local) {
+            return pointer;
+        }
+        let pointer = self.temporary(self.cx.hir[local].ty);
+        self.set_slot(local, Slot::Memory(pointer));
+        pointer
+    }
+
+    /// A new variable of this function.
+    pub fn temporary(&mut self, ty: TypeId) -> Value {
+        let ty = self.cx.ty(ty);
+        let variable = self.f.local_variables.append(LocalVariable { name: None, ty, init: None }, Span::UNDEFINED);
+        self.given(Expression::LocalVariable(variable))
+    }
+
+    // ----------------------------------------------------------------------------------------------- expressions
+
+    /// An expression to be computed here.
+    pub fn add(&mut self, expression: Expression) -> Value {
+        let value = self.f.expressions.append(expression, Span::UNDEFINED);
+        let first = self.unemitted.map_or(value, |(first, _)| first);
+        self.unemitted = Some((first, value));
+        value
+    }
+
+    /// An expression that is there from the start of the function.
+    pub fn given(&mut self, expression: Expression) -> Value {
+        debug_assert!(expression.needs_pre_emit());
+        self.emit();
+        self.f.expressions.append(expression, Span::UNDEFINED)
+    }
+
+    /// An expression some statement computes.
+    pub fn computed_elsewhere(&mut self, expression: Expression) -> Value {
+        self.emit();
+        self.f.expressions.append(expression, Span::UNDEFINED)
+    }
+
+    fn emit(&mut self) {
+        if let Some((first, last)) = self.unemitted.take() {
+            self.block.push(Statement::Emit(Range::new_from_bounds(first, last)), Span::UNDEFINED);
+        }
+    }
+
+    pub fn push(&mut self, statement: Statement) {
+        self.emit();
+        self.ended =
+            matches!(statement, Statement::Break | Statement::Continue | Statement::Return { .. } | Statement::Kill);
+        self.block.push(statement, Span::UNDEFINED);
+    }
+
+    /// A nested block, filled by `fill`. Tells also whether its end can not be reached.
+    pub fn nested(&mut self, fill: impl FnOnce(&mut Self)) -> (Block, bool) {
+        self.emit();
+        let outer = std::mem::take(&mut self.block);
+        let outer_ended = std::mem::take(&mut self.ended);
+        fill(self);
+        self.emit();
+        let ended = std::mem::replace(&mut self.ended, outer_ended);
+        (std::mem::replace(&mut self.block, outer), ended)
+    }
+
+    pub fn load(&mut self, pointer: Value) -> Value {
+        self.add(Expression::Load { pointer })
+    }
+
+    pub fn store(&mut self, pointer: Value, value: Value) {
+        self.push(Statement::Store { pointer, value });
+    }
+
+    /// A scalar constant, bit for bit.
+    pub fn literal(&mut self, scalar: Scalar, bits: u32) -> Value {
+        let key = (scalar as u8, bits);
+        if let Some(&value) = self.literals.get(&key) {
+            return value;
+        }
+        match consts::literal(scalar, bits) {
+            Some(literal) => {
+                let value = self.given(Expression::Literal(literal));
+                self.literals.insert(key, value);
+                value
+            }
+            // Not kept: it is computed in the block at hand.
+            None => {
+                let bits = self.literal(Scalar::Uint, bits);
+                self.add(Expression::As { expr: bits, kind: naga::ScalarKind::Float, convert: None })
+            }
+        }
+    }
+
+    pub fn float(&mut self, value: f32) -> Value {
+        self.literal(Scalar::Float, value.to_bits())
+    }
+
+    pub fn zero(&mut self, ty: TypeId) -> Value {
+        let ty = self.cx.ty(ty);
+        if let Some(&value) = self.zeros.get(&ty) {
+            return value;
+        }
+        let value = self.given(Expression::ZeroValue(ty));
+        self.zeros.insert(ty, value);
+        value
+    }
+
+    /// A folded composite.
+    pub fn constant(&mut self, id: ConstId) -> Value {
+        let key = id.index() as u32;
+        if let Some(&value) = self.constants.get(&key) {
+            return value;
+        }
+        match self.cx.constant(id) {
+            Some(constant) => {
+                let value = self.given(Expression::Constant(constant));
+                self.constants.insert(key, value);
+                value
+            }
+            None => {
+                let hir = self.cx.hir;
+                let constant = hir[id];
+                self.value_of_words(constant.ty, &mut hir[constant.words].iter().copied())
+            }
+        }
+    }
+
+    fn value_of_words(&mut self, ty: TypeId, words: &mut dyn Iterator<Item = u32>) -> Value {
+        let hir = self.cx.hir;
+        let parts = match hir.types.get(ty) {
+            Type::Scalar(scalar) => return self.literal(scalar, words.next().expect("as many words as scalars")),
+            Type::Struct(id) => hir[hir[id].members].iter().map(|m| self.value_of_words(m.ty, words)).collect(),
+            Type::Array { element, len } => (0..len).map(|_| self.value_of_words(element, words)).collect(),
+            Type::Matrix { columns, rows } => {
+                let column = TypeId::vector(Scalar::Float, rows);
+                (0..columns).map(|_| self.value_of_words(column, words)).collect()
+            }
+            Type::Vector { scalar, size } => {
+                let scalar = TypeId::vector(scalar, 1);
+                (0..size).map(|_| self.value_of_words(scalar, words)).collect()
+            }
+            other => unreachable!("{other:?} is no type of a value"),
+        };
+        self.compose(ty, parts)
+    }
+
+    pub fn compose(&mut self, ty: TypeId, components: Vec<Value>) -> Value {
+        let ty = self.cx.ty(ty);
+        self.add(Expression::Compose { ty, components })
+    }
+
+    /// The pointer to (or handle of) a module-scope variable.
+    pub fn global(&mut self, global: Handle<naga::GlobalVariable>) -> Value {
+        if let Some(&value) = self.globals.get(&global) {
+            return value;
+        }
+        let value = self.given(Expression::GlobalVariable(global));
+        self.globals.insert(global, value);
+        value
+    }
+
+    pub fn is_vector_or_scalar(&self, ty: TypeId) -> bool {
+        matches!(self.cx.hir.types.get(ty), Type::Scalar(_) | Type::Vector { .. })
+    }
+}

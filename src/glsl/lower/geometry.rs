@@ -1,0 +1,130 @@
+//! Geometry, written out in the order in which OpenGL's compilers evaluate it.
+//!
+//! SPIR-V leaves the order of additions within a dot product or matrix product to the driver, which takes another one than its
+//! OpenGL sibling. Real shaders blow up last bits (`fract(sin(dot(p, k)) * 43758.5453)`), so the pictures differ. The
+//! instructions are as many either way, and drivers may still fuse them.
+
+use naga::{BinaryOperator as Op, Expression, MathFunction as Math};
+
+use super::function::{Builder, Value};
+use crate::glsl::hir::TypeId;
+
+impl Builder<'_, '_> {
+    /// `x x' + (y y' + (z z' + w w'))`.
+    pub fn dot(&mut self, ty: TypeId, a: Value, b: Value) -> Value {
+        let products = self.op(Op::Multiply, a, b);
+        let size = self.extent(ty);
+        if size == 1 {
+            return products;
+        }
+        let part = |this: &mut Self, index| this.add(Expression::AccessIndex { base: products, index });
+        let mut sum = part(self, size - 1);
+        for index in (0..size - 1).rev() {
+            let term = part(self, index);
+            sum = self.op(Op::Add, term, sum);
+        }
+        sum
+    }
+
+    pub fn length(&mut self, ty: TypeId, vector: Value) -> Value {
+        if ty == TypeId::FLOAT {
+            return self.math(Math::Abs, vector);
+        }
+        let square = self.dot(ty, vector, vector);
+        self.math(Math::Sqrt, square)
+    }
+
+    pub fn normalize(&mut self, ty: TypeId, vector: Value) -> Value {
+        let square = self.dot(ty, vector, vector);
+        let scale = self.math(Math::InverseSqrt, square);
+        self.op(Op::Multiply, vector, scale)
+    }
+
+    /// `i - 2 dot(n, i) n`.
+    pub fn reflect(&mut self, ty: TypeId, i: Value, n: Value) -> Value {
+        let dot = self.dot(ty, n, i);
+        let two = self.float(2.0);
+        let twice = self.op(Op::Multiply, two, dot);
+        let along = self.op(Op::Multiply, n, twice);
+        self.op(Op::Subtract, i, along)
+    }
+
+    /// Section 8.5: zero where all light is reflected.
+    pub fn refract(&mut self, ty: TypeId, i: Value, n: Value, eta: Value) -> Value {
+        let one = self.float(1.0);
+        let dot = self.dot(ty, n, i);
+        let dot_squared = self.op(Op::Multiply, dot, dot);
+        let sine = self.op(Op::Subtract, one, dot_squared);
+        let bent = self.op(Op::Multiply, eta, sine);
+        let bent = self.op(Op::Multiply, eta, bent);
+        let k = self.op(Op::Subtract, one, bent);
+        let root = self.math(Math::Sqrt, k);
+        let along = self.op(Op::Multiply, eta, dot);
+        let sum = self.op(Op::Add, along, root);
+        let normal = self.op(Op::Multiply, n, sum);
+        let scaled = self.op(Op::Multiply, i, eta);
+        let refracted = self.op(Op::Subtract, scaled, normal);
+        let zero_k = self.float(0.0);
+        let total = self.op(Op::Less, k, zero_k);
+        let zero = self.zero(ty);
+        self.select(total, zero, refracted)
+    }
+
+    /// `x + a (y - x)`, as OpenGL's compilers and the site's evaluate it; for a constant `a`, `x (1 - a) + y a` as in section 8.3.
+    pub fn mix(&mut self, ty: TypeId, x: Value, y: Value, a: Value) -> Value {
+        if self.is_literal(a) {
+            let one = self.float_of(ty, 1.0);
+            let rest = self.op(Op::Subtract, one, a);
+            let (left, right) = (self.op(Op::Multiply, x, rest), self.op(Op::Multiply, y, a));
+            return self.op(Op::Add, left, right);
+        }
+        let difference = self.op(Op::Subtract, y, x);
+        let part = self.op(Op::Multiply, a, difference);
+        self.op(Op::Add, x, part)
+    }
+
+    fn is_literal(&self, value: Value) -> bool {
+        match self.f.expressions[value] {
+            Expression::Literal(_) | Expression::Constant(_) | Expression::ZeroValue(_) => true,
+            Expression::Splat { value, .. } => self.is_literal(value),
+            _ => false,
+        }
+    }
+
+    /// `matCxR * vecC`: columns times components, added from the first on.
+    pub fn matrix_times_vector(&mut self, columns: u8, matrix: Value, vector: Value) -> Value {
+        let mut sum = None;
+        for index in 0..u32::from(columns) {
+            let column = self.add(Expression::AccessIndex { base: matrix, index });
+            let factor = self.add(Expression::AccessIndex { base: vector, index });
+            let term = self.op(Op::Multiply, column, factor);
+            sum = Some(match sum {
+                Some(sum) => self.op(Op::Add, sum, term),
+                None => term,
+            });
+        }
+        sum.expect("a matrix has columns")
+    }
+
+    /// `vecR * matCxR`: the dot product with each column.
+    pub fn vector_times_matrix(&mut self, (columns, rows): (u8, u8), vector: Value, matrix: Value) -> Value {
+        use crate::glsl::hir::Scalar::Float;
+        let column_ty = TypeId::vector(Float, rows);
+        let parts = (0..u32::from(columns)).map(|index| {
+            let column = self.add(Expression::AccessIndex { base: matrix, index });
+            self.dot(column_ty, vector, column)
+        });
+        let parts = parts.collect();
+        self.compose(TypeId::vector(Float, columns), parts)
+    }
+
+    /// `matKxR * matCxK`: the left one times each column of the right one.
+    pub fn matrix_times_matrix(&mut self, ty: TypeId, inner: u8, left: Value, right: Value) -> Value {
+        let columns = (0..self.extent(ty)).map(|index| {
+            let column = self.add(Expression::AccessIndex { base: right, index });
+            self.matrix_times_vector(inner, left, column)
+        });
+        let columns = columns.collect();
+        self.compose(ty, columns)
+    }
+}

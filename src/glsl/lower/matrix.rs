@@ -1,0 +1,118 @@
+//! Matrix functions (section 8.6). `inverse` is written out because naga's Metal and HLSL writers have none, and like `determinant`
+//! in the order of OpenGL's compilers (see [`super::geometry`]).
+
+use naga::{BinaryOperator as Op, Expression, MathFunction as Math};
+
+use super::function::{Builder, Value};
+use crate::glsl::hir::{Scalar, Type, TypeId};
+
+impl Builder<'_, '_> {
+    /// The inverse of a square matrix: transposed cofactors over the determinant.
+    pub fn inverse(&mut self, ty: TypeId, matrix: Value) -> Value {
+        let m = self.elements(ty, matrix);
+        let n = m.len();
+        // Column j, row i of the inverse is the cofactor of m's row j, column i.
+        let mut cofactors = vec![Vec::with_capacity(n); n];
+        for (j, column) in cofactors.iter_mut().enumerate() {
+            for i in 0..n {
+                column.push(self.cofactor(&m, i, j));
+            }
+        }
+        let first: Vec<Value> = cofactors.iter().map(|column| column[0]).collect();
+        let determinant = self.expand(&m[0], &first);
+        let column_ty = TypeId::vector(Scalar::Float, n as u8);
+        let divisor = self.splat(determinant, column_ty);
+        let columns: Vec<_> = cofactors
+            .into_iter()
+            .map(|column| {
+                let column = self.compose(column_ty, column);
+                self.op(Op::Divide, column, divisor)
+            })
+            .collect();
+        self.compose(ty, columns)
+    }
+
+    pub fn determinant(&mut self, ty: TypeId, matrix: Value) -> Value {
+        if self.extent(ty) < 4 {
+            return self.math(Math::Determinant, matrix);
+        }
+        let m = self.elements(ty, matrix);
+        let cofactors: Vec<_> = (0..m.len()).map(|row| self.cofactor(&m, 0, row)).collect();
+        self.expand(&m[0], &cofactors)
+    }
+
+    /// `m[c][r]`: column c, row r.
+    fn elements(&mut self, ty: TypeId, matrix: Value) -> Vec<Vec<Value>> {
+        let n = self.extent(ty);
+        let part = |this: &mut Self, base, index| this.add(Expression::AccessIndex { base, index });
+        (0..n)
+            .map(|c| {
+                let column = part(self, matrix, c);
+                (0..n).map(|r| part(self, column, r)).collect()
+            })
+            .collect()
+    }
+
+    /// A determinant from its first column and that column's cofactors.
+    fn expand(&mut self, column: &[Value], cofactors: &[Value]) -> Value {
+        let terms: Vec<_> = column.iter().zip(cofactors).map(|(&e, &c)| self.op(Op::Multiply, e, c)).collect();
+        match terms[..] {
+            // Four are added from the end, fewer from the start.
+            [a, b, c, d] => {
+                let sum = self.op(Op::Add, c, d);
+                let sum = self.op(Op::Add, b, sum);
+                self.op(Op::Add, a, sum)
+            }
+            _ => terms.into_iter().reduce(|sum, term| self.op(Op::Add, sum, term)).expect("a matrix has columns"),
+        }
+    }
+
+    /// Of the element in column i, row j.
+    fn cofactor(&mut self, m: &[Vec<Value>], i: usize, j: usize) -> Value {
+        let without = |skip: usize| (0..m.len()).filter(|&k| k != skip).collect::<Vec<_>>();
+        let minor = self.minor(m, &without(i), &without(j));
+        if (i + j).is_multiple_of(2) {
+            return minor;
+        }
+        let minus = self.float(-1.0);
+        self.op(Op::Multiply, minor, minus)
+    }
+
+    /// Determinant of the named columns and rows, expanded along the first of the columns.
+    fn minor(&mut self, m: &[Vec<Value>], columns: &[usize], rows: &[usize]) -> Value {
+        let (&first, rest) = columns.split_first().expect("a minor has a column");
+        if rest.is_empty() {
+            return m[first][rows[0]];
+        }
+        let mut sum = None;
+        for (i, &row) in rows.iter().enumerate() {
+            let others: Vec<usize> = rows.iter().copied().filter(|&r| r != row).collect();
+            let below = self.minor(m, rest, &others);
+            let term = self.op(Op::Multiply, m[first][row], below);
+            sum = Some(match sum {
+                None => term,
+                Some(sum) => self.op(if i % 2 == 0 { Op::Add } else { Op::Subtract }, sum, term),
+            });
+        }
+        sum.expect("a minor has a row")
+    }
+
+    pub fn matrix_comp_mult(&mut self, ty: TypeId, a: Value, b: Value) -> Value {
+        let Type::Matrix { columns, .. } = self.cx.hir.types.get(ty) else { unreachable!("a matrix type") };
+        let columns = (0..u32::from(columns)).map(|index| {
+            let left = self.add(Expression::AccessIndex { base: a, index });
+            let right = self.add(Expression::AccessIndex { base: b, index });
+            self.op(Op::Multiply, left, right)
+        });
+        let columns = columns.collect();
+        self.compose(ty, columns)
+    }
+
+    /// Columns are `a` times each component of `b`.
+    pub fn outer_product(&mut self, ty: TypeId, b_ty: TypeId, a: Value, b: Value) -> Value {
+        let mut parts = Vec::new();
+        self.components(b, b_ty, &mut parts);
+        let columns = parts.into_iter().map(|part| self.op(Op::Multiply, a, part)).collect();
+        self.compose(ty, columns)
+    }
+}

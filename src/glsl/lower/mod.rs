@@ -1,0 +1,126 @@
+//! Lowering: the checked program of [`super::hir`] to a validated-by-construction [`naga::Module`], and the [`Reflection`] of
+//! what it reaches.
+//!
+//! Owns the meaning of running code: evaluation order, copies of `out` and `inout` arguments, the zero that WebGL gives to
+//! everything undefined, clamped indices, one copy of a function for each combination of channels passed to it. Judges nothing:
+//! it runs only on programs without errors, and reports none.
+//!
+//! What the generated code looks like, and why:
+//! - Only what the entry point reaches is lowered ([`reach`]). A branch whose condition is a literal is not reached.
+//! - A variable nobody writes is a value, not memory. All others are `LocalVariable`s or private globals; drivers turn them into
+//!   registers, so no effort goes into values across statements.
+//! - A constant table that is indexed at run time lives in a storage buffer ([`tables`]); a small one once in a private global
+//!   with an initialiser: naga's SPIR-V writer would otherwise copy the whole table to the stack at each access.
+//! - Every index that is not provably in range is clamped here, as WebGL does; the modules need no bounds checks from naga.
+//!   Fetches outside a texture are left to the driver's image robustness, which gives the zeros WebGL promises.
+//! - `&&`, `||` and `?:` become selects where both sides are cheap and have no effects, branches elsewhere.
+
+mod access;
+mod bilinear;
+mod builtin;
+mod calls;
+mod consts;
+mod convert;
+mod cost;
+mod entry;
+mod expr;
+mod flow;
+mod function;
+mod geometry;
+mod matrix;
+mod operators;
+mod ranges;
+mod reach;
+mod resources;
+mod tables;
+mod texture;
+mod types;
+
+use std::collections::HashMap;
+
+use naga::{FastHashMap, Handle};
+
+use self::{consts::Constants, reach::Reach, resources::Resources, tables::Tables, types::Types};
+use super::{PassSource, Reflection, hir};
+
+/// What lowering makes.
+pub(crate) struct Lowered {
+    pub module: naga::Module,
+    pub reflection: Reflection,
+    /// Bytes of the storage buffer with constant tables; empty if the module has none.
+    pub tables: Vec<u8>,
+}
+
+/// Lowers a program without errors. The result validates; a validation error is a bug of this module.
+///
+/// # Panics
+/// If `module` breaks the promises of [`hir`], such as having no entry point.
+pub(crate) fn lower(module: &hir::Module, source: &PassSource<'_>) -> Lowered {
+    let reach = Reach::new(module);
+    let mut cx = Lowering {
+        hir: module,
+        source,
+        out: naga::Module::default(),
+        types: Types::new(module.types.len()),
+        consts: Constants::new(module.consts.len()),
+        tables: Tables::default(),
+        resources: Resources::new(module.globals.len()),
+        costs: cost::costs(module),
+        writes: ranges::write_counts(module),
+        functions: HashMap::with_capacity(reach.instances.len()),
+        reflection: Reflection::default(),
+    };
+    for instance in &reach.instances {
+        let function = function::lower(&mut cx, instance);
+        let handle = cx.out.functions.append(function, naga::Span::UNDEFINED);
+        cx.functions.insert(instance.clone(), handle);
+    }
+    entry::lower(&mut cx, &reach);
+    let tables = cx.finish_tables();
+    Lowered { module: cx.out, reflection: cx.reflection, tables }
+}
+
+/// Checks a lowered module. An error is a bug of this module, never the author's.
+pub(crate) fn validate(module: &naga::Module) -> Result<naga::valid::ModuleInfo, String> {
+    use naga::valid::{Capabilities, ValidationFlags, Validator};
+    // `packHalf2x16` needs the second; every desktop device has it.
+    let capabilities = Capabilities::default() | Capabilities::SHADER_FLOAT16_IN_FLOAT32;
+    Validator::new(ValidationFlags::all(), capabilities).validate(module).map_err(|error| {
+        let error = error.into_inner();
+        let mut text = error.to_string();
+        let mut source = std::error::Error::source(&error);
+        while let Some(cause) = source {
+            text.push_str(": ");
+            text.push_str(&cause.to_string());
+            source = cause.source();
+        }
+        text
+    })
+}
+
+/// A user function with the channels that stand for its sampler parameters, in order.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct Instance {
+    func: hir::FuncId,
+    channels: Box<[u8]>,
+}
+
+/// State of lowering one module. What belongs to one function is in [`function::Builder`].
+struct Lowering<'a> {
+    hir: &'a hir::Module,
+    source: &'a PassSource<'a>,
+    out: naga::Module,
+    types: Types,
+    consts: Constants,
+    tables: Tables,
+    resources: Resources,
+    /// Cost of each expression, by [`hir::ExprId::index`].
+    costs: Vec<u16>,
+    /// How many expressions write each local, by [`hir::LocalId::index`].
+    writes: Vec<u32>,
+    functions: HashMap<Instance, Handle<naga::Function>>,
+    reflection: Reflection,
+}
+
+/// Handles by 32-bit keys, with naga's quick hash.
+type Map<K, V> = FastHashMap<K, V>;

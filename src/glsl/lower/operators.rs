@@ -1,0 +1,300 @@
+//! Operators, assignments, equality.
+
+use naga::{BinaryOperator as Op, Expression, RelationalFunction, ScalarKind, UnaryOperator};
+
+use super::function::{Builder, Value};
+use crate::glsl::hir::{BinaryOp, ExprId, ExprKind, IncDec, Scalar, Shape, Type, TypeId, UnaryOp};
+
+/// A value and its type.
+pub(super) type Typed = (TypeId, Value);
+
+impl Builder<'_, '_> {
+    pub fn unary(&mut self, op: UnaryOp, ty: TypeId, expr: Value) -> Value {
+        let types = &self.cx.hir.types;
+        match op {
+            UnaryOp::Not => self.not(expr),
+            UnaryOp::BitNot => self.add(Expression::Unary { op: UnaryOperator::BitwiseNot, expr }),
+            UnaryOp::Negate if matches!(types.get(ty), Type::Matrix { .. }) => {
+                let minus = self.float(-1.0);
+                self.op(Op::Multiply, expr, minus)
+            }
+            UnaryOp::Negate if types.scalar(ty) == Some(Scalar::Uint) => {
+                let zero = self.zero(ty);
+                self.op(Op::Subtract, zero, expr)
+            }
+            UnaryOp::Negate => self.add(Expression::Unary { op: UnaryOperator::Negate, expr }),
+        }
+    }
+
+    pub fn binary(&mut self, op: BinaryOp, shape: Shape, left: Typed, right: Typed) -> Value {
+        use BinaryOp as B;
+        let types = &self.cx.hir.types;
+        match op {
+            B::Equal => return self.equal(left.0, left.1, right.1),
+            B::NotEqual => {
+                // Not `!=`: naga's is false for NaN.
+                let equal = self.equal(left.0, left.1, right.1);
+                return self.not(equal);
+            }
+            B::LogicalXor => return self.op(Op::NotEqual, left.1, right.1),
+            B::Shl => return self.shift(Op::ShiftLeft, left, right),
+            B::Shr => return self.shift(Op::ShiftRight, left, right),
+            _ => {}
+        }
+        let op = match op {
+            B::Add => Op::Add,
+            B::Sub => Op::Subtract,
+            B::Mul => Op::Multiply,
+            B::Div => Op::Divide,
+            B::Rem => Op::Modulo,
+            B::BitAnd => Op::And,
+            B::BitOr => Op::InclusiveOr,
+            B::BitXor => Op::ExclusiveOr,
+            B::Less => Op::Less,
+            B::Greater => Op::Greater,
+            B::LessEqual => Op::LessEqual,
+            B::GreaterEqual => Op::GreaterEqual,
+            B::Equal | B::NotEqual | B::LogicalXor | B::Shl | B::Shr => unreachable!("seen above"),
+        };
+        let matrix = match shape {
+            Shape::ScalarLeft => types.get(right.0),
+            _ => types.get(left.0),
+        };
+        match (shape, types.get(left.0), types.get(right.0)) {
+            (Shape::MatVec, Type::Matrix { columns, .. }, _) => {
+                return self.matrix_times_vector(columns, left.1, right.1);
+            }
+            (Shape::VecMat, _, Type::Matrix { columns, rows }) => {
+                return self.vector_times_matrix((columns, rows), left.1, right.1);
+            }
+            (Shape::MatMat, Type::Matrix { columns: inner, rows }, Type::Matrix { columns, .. }) => {
+                return self.matrix_times_matrix(TypeId::matrix(columns, rows), inner, left.1, right.1);
+            }
+            _ => {}
+        }
+        // naga multiplies matrices and scalars itself, and vectors and scalars of floats.
+        if op == Op::Multiply {
+            let scaled = if shape == Shape::ScalarLeft { right.0 } else { left.0 };
+            if shape == Shape::Same || types.scalar(scaled) == Some(Scalar::Float) {
+                return self.op(op, left.1, right.1);
+            }
+        }
+        if let (Type::Matrix { columns, rows }, true) =
+            (matrix, matches!(shape, Shape::Same | Shape::ScalarLeft | Shape::ScalarRight))
+        {
+            if shape == Shape::Same && op != Op::Divide {
+                return self.op(op, left.1, right.1);
+            }
+            return self.by_column(op, shape, (columns, rows), left.1, right.1);
+        }
+        let (l, mut r) = match shape {
+            Shape::ScalarLeft => (self.splat(left.1, right.0), right.1),
+            Shape::ScalarRight => (left.1, self.splat(right.1, left.0)),
+            _ => (left.1, right.1),
+        };
+        if matches!(op, Op::Divide | Op::Modulo) && self.cx.hir.types.scalar(left.0) != Some(Scalar::Float) {
+            r = self.opaque_divisor(r);
+        }
+        if op == Op::Modulo && self.cx.hir.types.scalar(left.0) == Some(Scalar::Int) {
+            let ty = if shape == Shape::ScalarLeft { right.0 } else { left.0 };
+            return self.remainder(ty, l, r);
+        }
+        self.op(op, l, r)
+    }
+
+    /// `%` of ints. Undefined where a side is negative (section 5.9), but shaders lean on what OpenGL drivers and the site make of
+    /// it: a remainder with the divisor's sign.
+    fn remainder(&mut self, ty: TypeId, left: Value, right: Value) -> Value {
+        let mut divisor = right;
+        if let Expression::Splat { value, .. } = self.f.expressions[divisor] {
+            divisor = value;
+        }
+        let known = match self.f.expressions[divisor] {
+            Expression::Literal(naga::Literal::I32(divisor)) if divisor > 0 => Some(divisor as u32),
+            _ => None,
+        };
+        if let Some(divisor) = known.filter(|divisor| divisor.is_power_of_two()) {
+            let mask = self.int_of(ty, divisor - 1);
+            return self.op(Op::And, left, mask);
+        }
+        // Not naga's `%`, whose SPIR-V form guards against overflow that cannot be here.
+        let quotient = self.op(Op::Divide, left, right);
+        let multiple = self.op(Op::Multiply, quotient, right);
+        let rest = self.op(Op::Subtract, left, multiple);
+        let zero = self.zero(ty);
+        // A rest of 0 has no sign: for a positive divisor it is not below zero, and for a negative one the test is on the product of
+        // signs, which 0 must not enter.
+        let wrong_side = if known.is_some() {
+            self.op(Op::Less, rest, zero)
+        } else {
+            let signs = self.op(Op::ExclusiveOr, rest, right);
+            let differ = self.op(Op::Less, signs, zero);
+            let some = self.op(Op::NotEqual, rest, zero);
+            self.op(Op::And, differ, some)
+        };
+        let moved = self.op(Op::Add, rest, right);
+        self.select(wrong_side, moved, rest)
+    }
+
+    /// Component by component on matrices, where naga has no operator for it.
+    fn by_column(&mut self, op: Op, shape: Shape, (columns, rows): (u8, u8), left: Value, right: Value) -> Value {
+        let column_ty = TypeId::vector(Scalar::Float, rows);
+        let scalar = match shape {
+            Shape::ScalarLeft => Some(self.splat(left, column_ty)),
+            Shape::ScalarRight => Some(self.splat(right, column_ty)),
+            _ => None,
+        };
+        let mut out = Vec::with_capacity(columns.into());
+        for index in 0..u32::from(columns) {
+            let l = match (shape, scalar) {
+                (Shape::ScalarLeft, Some(scalar)) => scalar,
+                _ => self.add(Expression::AccessIndex { base: left, index }),
+            };
+            let r = match (shape, scalar) {
+                (Shape::ScalarRight, Some(scalar)) => scalar,
+                _ => self.add(Expression::AccessIndex { base: right, index }),
+            };
+            out.push(self.op(op, l, r));
+        }
+        self.compose(TypeId::matrix(columns, rows), out)
+    }
+
+    /// naga's validator refuses a division by a literal zero; GLSL only leaves the result open.
+    fn opaque_divisor(&mut self, divisor: Value) -> Value {
+        if !self.holds_zero(divisor) {
+            return divisor;
+        }
+        self.add(Expression::Math {
+            fun: naga::MathFunction::Max,
+            arg: divisor,
+            arg1: Some(divisor),
+            arg2: None,
+            arg3: None,
+        })
+    }
+
+    fn holds_zero(&self, value: Value) -> bool {
+        let is_zero = |literal: &naga::Literal| matches!(literal, naga::Literal::I32(0) | naga::Literal::U32(0));
+        match &self.f.expressions[value] {
+            Expression::Literal(literal) => is_zero(literal),
+            Expression::ZeroValue(_) => true,
+            Expression::Splat { value, .. } => self.holds_zero(*value),
+            Expression::Compose { components, .. } => components.iter().any(|&part| self.holds_zero(part)),
+            Expression::Constant(constant) => {
+                let expressions = &self.cx.out.global_expressions;
+                match &expressions[self.cx.out.constants[*constant].init] {
+                    Expression::Compose { components, .. } => components
+                        .iter()
+                        .any(|&part| matches!(&expressions[part], Expression::Literal(literal) if is_zero(literal))),
+                    _ => false,
+                }
+            }
+            _ => false,
+        }
+    }
+
+    /// Distances of 32 and more are undefined in GLSL and refused by naga: the low five bits count, as on all hardware.
+    fn shift(&mut self, op: Op, left: Typed, right: Typed) -> Value {
+        let hir = self.cx.hir;
+        let small = match self.f.expressions[right.1] {
+            Expression::Literal(naga::Literal::I32(by)) => (0..32).contains(&by),
+            Expression::Literal(naga::Literal::U32(by)) => by < 32,
+            _ => false,
+        };
+        let mut by = right.1;
+        if hir.types.scalar(right.0) == Some(Scalar::Int) {
+            by = match self.f.expressions[by] {
+                Expression::Literal(naga::Literal::I32(bits)) => self.literal(Scalar::Uint, bits as u32),
+                _ => self.bitcast(by, ScalarKind::Uint),
+            };
+        }
+        if !small {
+            let size = self.extent(right.0) as u8;
+            let mask = self.int_of(TypeId::vector(Scalar::Uint, size), 31);
+            by = self.op(Op::And, by, mask);
+        }
+        if self.extent(right.0) == 1 {
+            by = self.splat(by, left.0);
+        }
+        self.op(op, left.1, by)
+    }
+
+    /// `==` of whole values of one type.
+    pub fn equal(&mut self, ty: TypeId, left: Value, right: Value) -> Value {
+        let hir = self.cx.hir;
+        let parts: Vec<TypeId> = match hir.types.get(ty) {
+            Type::Vector { .. } => {
+                let each = self.op(Op::Equal, left, right);
+                return self.add(Expression::Relational { fun: RelationalFunction::All, argument: each });
+            }
+            Type::Matrix { columns, rows } => vec![TypeId::vector(Scalar::Float, rows); columns.into()],
+            Type::Array { element, len } => vec![element; len as usize],
+            Type::Struct(id) => hir[hir[id].members].iter().map(|member| member.ty).collect(),
+            _ => return self.op(Op::Equal, left, right),
+        };
+        let mut all = None;
+        for (index, ty) in parts.into_iter().enumerate() {
+            let index = index as u32;
+            let l = self.add(Expression::AccessIndex { base: left, index });
+            let r = self.add(Expression::AccessIndex { base: right, index });
+            let equal = self.equal(ty, l, r);
+            all = Some(match all {
+                Some(all) => self.op(Op::LogicalAnd, all, equal),
+                None => equal,
+            });
+        }
+        all.unwrap_or_else(|| self.literal(Scalar::Bool, 1))
+    }
+
+    pub fn assign(&mut self, place: ExprId, value: ExprId) -> Value {
+        let place = self.place(place);
+        let value = self.value(value);
+        self.store_place(place, value);
+        value
+    }
+
+    pub fn assign_op(&mut self, op: BinaryOp, shape: Shape, place: ExprId, value: ExprId) -> Value {
+        let hir = self.cx.hir;
+        let (place_ty, value_ty) = (hir[place].ty, hir[value].ty);
+        let place = self.place(place);
+        let right = self.value(value);
+        let left = self.load_place(place);
+        let result = self.binary(op, shape, (place_ty, left), (value_ty, right));
+        self.store_place(place, result);
+        result
+    }
+
+    pub fn inc_dec(&mut self, op: IncDec, place: ExprId) -> Value {
+        let hir = self.cx.hir;
+        let ty = hir[place].ty;
+        let scalar = hir.types.scalar(ty).unwrap_or(Scalar::Int);
+        let one = match scalar {
+            Scalar::Float => self.float(1.0),
+            scalar => self.literal(scalar, 1),
+        };
+        let shape = match hir.types.get(ty) {
+            Type::Scalar(_) => Shape::Same,
+            _ => Shape::ScalarRight,
+        };
+        let place = self.place(place);
+        let old = self.load_place(place);
+        let direction = match op {
+            IncDec::PreIncrement | IncDec::PostIncrement => BinaryOp::Add,
+            IncDec::PreDecrement | IncDec::PostDecrement => BinaryOp::Sub,
+        };
+        let new = self.binary(direction, shape, (ty, old), (TypeId::vector(scalar, 1), one));
+        self.store_place(place, new);
+        match op {
+            IncDec::PreIncrement | IncDec::PreDecrement => new,
+            IncDec::PostIncrement | IncDec::PostDecrement => old,
+        }
+    }
+
+    /// The literal an expression is.
+    pub fn literal_bits(&self, expr: ExprId) -> Option<u32> {
+        match self.cx.hir[expr].kind {
+            ExprKind::Literal(bits) => Some(bits),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! What is known of integers: so that an index provably in range needs no clamp.
+
+use super::function::Builder;
+use crate::glsl::{
+    ast::List,
+    hir::{BinaryOp, Builtin, ExprId, ExprKind, IncDec, LocalId, Module, Scalar, Shape, StmtId, StmtKind, TypeId},
+};
+
+/// Least and greatest value.
+pub(super) type Bounds = (i64, i64);
+
+/// How deep an index expression is looked into.
+const DEPTH: u32 = 8;
+
+/// How many expressions write each local, anywhere; declarations are not counted.
+pub(super) fn write_counts(module: &Module) -> Vec<u32> {
+    let mut counts = vec![0; module.locals.len()];
+    let mut count = |mut place: ExprId| {
+        loop {
+            match module[place].kind {
+                ExprKind::Member { base, .. } | ExprKind::Swizzle { base, .. } | ExprKind::Index { base, .. } => {
+                    place = base;
+                }
+                ExprKind::Local(local) => {
+                    counts[local.index()] += 1;
+                    return;
+                }
+                _ => return,
+            }
+        }
+    };
+    for expr in &module.exprs {
+        match expr.kind {
+            ExprKind::Assign { place, .. } | ExprKind::AssignOp { place, .. } | ExprKind::IncDec { place, .. } => {
+                count(place);
+            }
+            ExprKind::Call { func, args } => {
+                for (param, &arg) in module.params(func).iter().zip(&module[args]) {
+                    if param.kind.copies_out() {
+                        count(arg);
+                    }
+                }
+            }
+            ExprKind::Builtin { builtin: Builtin::Modf, args } => count(module[args][1]),
+            _ => {}
+        }
+    }
+    counts
+}
+
+fn limits(ty: TypeId) -> Option<Bounds> {
+    match ty {
+        TypeId::INT => Some((i32::MIN.into(), i32::MAX.into())),
+        TypeId::UINT => Some((0, u32::MAX.into())),
+        _ => None,
+    }
+}
+
+impl Builder<'_, '_> {
+    /// Bounds of an int or uint scalar at this place, as far as known.
+    pub fn range(&self, expr: ExprId) -> Option<Bounds> {
+        self.range_within(expr, DEPTH)
+    }
+
+    fn range_within(&self, expr: ExprId, depth: u32) -> Option<Bounds> {
+        let hir = self.cx.hir;
+        let ty = hir[expr].ty;
+        let limits = limits(ty)?;
+        let depth = depth.checked_sub(1)?;
+        // What would overflow wraps: then nothing is known.
+        let fits = |bounds: Bounds| (bounds.0 >= limits.0 && bounds.1 <= limits.1).then_some(bounds);
+        match hir[expr].kind {
+            ExprKind::Literal(bits) => {
+                let value = if ty == TypeId::UINT { i64::from(bits) } else { i64::from(bits as i32) };
+                Some((value, value))
+            }
+            ExprKind::Local(local) => self.known.get(&(local.index() as u32)).copied(),
+            ExprKind::Convert(of) => match hir.types.scalar(hir[of].ty) {
+                Some(Scalar::Bool) => Some((0, 1)),
+                Some(Scalar::Int | Scalar::Uint) => fits(self.range_within(of, depth)?),
+                _ => None,
+            },
+            ExprKind::Binary { op, shape: Shape::Same, lhs, rhs } => {
+                let left = self.range_within(lhs, depth);
+                let right = self.range_within(rhs, depth);
+                match (op, left, right) {
+                    (BinaryOp::Add, Some(l), Some(r)) => fits((l.0 + r.0, l.1 + r.1)),
+                    (BinaryOp::Sub, Some(l), Some(r)) => fits((l.0 - r.1, l.1 - r.0)),
+                    (BinaryOp::Mul, Some(l), Some(r)) => {
+                        let all = [l.0 * r.0, l.0 * r.1, l.1 * r.0, l.1 * r.1];
+                        fits((*all.iter().min()?, *all.iter().max()?))
+                    }
+                    (BinaryOp::Div, Some(l), Some(r)) if l.0 >= 0 && r.0 > 0 => Some((l.0 / r.1, l.1 / r.0)),
+                    (BinaryOp::BitAnd, _, Some((0.., mask))) | (BinaryOp::BitAnd, Some((0.., mask)), _) => {
+                        Some((0, mask))
+                    }
+                    (BinaryOp::Rem, left, Some(r)) if r.0 > 0 => {
+                        let last = r.1 - 1;
+                        let least = if ty == TypeId::UINT || left.is_some_and(|l| l.0 >= 0) { 0 } else { -last };
+                        Some((least, last))
+                    }
+                    (BinaryOp::Shr, left, Some(r)) if r.0 == r.1 && (0..32).contains(&r.0) => {
+                        let left = left.unwrap_or(limits);
+                        Some((left.0 >> r.0, left.1 >> r.0))
+                    }
+                    _ => None,
+                }
+            }
+            ExprKind::Builtin { builtin, args } => {
+                let args: Vec<_> =
+                    hir[args].iter().map(|&arg| self.range_within(arg, depth).unwrap_or(limits)).collect();
+                match (builtin, &args[..]) {
+                    (Builtin::Min, [a, b]) => Some((a.0.min(b.0), a.1.min(b.1))),
+                    (Builtin::Max, [a, b]) => Some((a.0.max(b.0), a.1.max(b.1))),
+                    (Builtin::Clamp, [x, low, high]) => {
+                        let max = (x.0.max(low.0), x.1.max(low.1));
+                        Some((max.0.min(high.0), max.1.min(high.1)))
+                    }
+                    _ => None,
+                }
+            }
+            ExprKind::Ternary { then, otherwise, .. } => {
+                let (a, b) = (self.range_within(then, depth)?, self.range_within(otherwise, depth)?);
+                Some((a.0.min(b.0), a.1.max(b.1)))
+            }
+            _ => None,
+        }
+    }
+
+    /// For `for (int i = a; i < b; i++)` whose `i` is written by the step alone: `i` and its bounds in the body. Any order of
+    /// comparison and any known step will do.
+    pub fn counter(&self, init: List<StmtId>, test: ExprId, step: Option<ExprId>) -> Option<(u32, Bounds)> {
+        let hir = self.cx.hir;
+        let ExprKind::Binary { op, shape: Shape::Same, lhs, rhs } = hir[test].kind else { return None };
+        let (local, op, bound) = match (hir[lhs].kind, hir[rhs].kind) {
+            (ExprKind::Local(local), _) => (local, op, rhs),
+            (_, ExprKind::Local(local)) => (local, mirrored(op)?, lhs),
+            _ => return None,
+        };
+        let limits = limits(hir[local].ty)?;
+        if self.cx.writes[local.index()] != 1 {
+            return None;
+        }
+        let start = self.start(init, local)?;
+        let by = self.step(step?, local)?;
+        let bound = self.range(bound)?;
+        let bounds = match op {
+            BinaryOp::Less | BinaryOp::LessEqual if by.0 >= 0 => {
+                let last = bound.1 - i64::from(op == BinaryOp::Less);
+                (last + by.1 <= limits.1).then_some((start.0, last))
+            }
+            BinaryOp::Greater | BinaryOp::GreaterEqual if by.1 <= 0 => {
+                let least = bound.0 + i64::from(op == BinaryOp::Greater);
+                (least + by.0 >= limits.0).then_some((least, start.1))
+            }
+            _ => None,
+        }?;
+        Some((local.index() as u32, bounds))
+    }
+
+    /// What the loop's own declarations give `local`.
+    fn start(&self, init: List<StmtId>, local: LocalId) -> Option<Bounds> {
+        let hir = self.cx.hir;
+        hir[init].iter().find_map(|&stmt| match hir[stmt].kind {
+            StmtKind::Declare { local: declared, init } if declared == local => match init {
+                Some(init) => self.range(init),
+                None => Some((0, 0)),
+            },
+            StmtKind::Block(list) => self.start(list, local),
+            _ => None,
+        })
+    }
+
+    /// What the step adds to `local`.
+    fn step(&self, step: ExprId, local: LocalId) -> Option<Bounds> {
+        let hir = self.cx.hir;
+        let is_local = |place: ExprId| matches!(hir[place].kind, ExprKind::Local(found) if found == local);
+        match hir[step].kind {
+            ExprKind::IncDec { op, place } if is_local(place) => Some(match op {
+                IncDec::PreIncrement | IncDec::PostIncrement => (1, 1),
+                IncDec::PreDecrement | IncDec::PostDecrement => (-1, -1),
+            }),
+            ExprKind::AssignOp { op, place, value, .. } if is_local(place) => match op {
+                BinaryOp::Add => self.range(value),
+                BinaryOp::Sub => self.range(value).map(|(least, greatest)| (-greatest, -least)),
+                _ => None,
+            },
+            ExprKind::Comma { lhs, rhs } => self.step(rhs, local).or_else(|| match hir[lhs].kind {
+                // One level: counters are rarely hidden deeper.
+                ExprKind::Comma { .. } => None,
+                _ => self.step(lhs, local),
+            }),
+            _ => None,
+        }
+    }
+}
+
+/// The comparison with its sides exchanged.
+fn mirrored(op: BinaryOp) -> Option<BinaryOp> {
+    Some(match op {
+        BinaryOp::Less => BinaryOp::Greater,
+        BinaryOp::Greater => BinaryOp::Less,
+        BinaryOp::LessEqual => BinaryOp::GreaterEqual,
+        BinaryOp::GreaterEqual => BinaryOp::LessEqual,
+        _ => return None,
+    })
+}

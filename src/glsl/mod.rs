@@ -1,0 +1,123 @@
+//! The compile boundary: GLSL ES 3.00 as Shadertoy's authors write it, in; a validated [`naga::Module`] and what it really
+//! reads, out.
+//!
+//! Owns the language: preprocessor, parser, types, built-ins, lowering, [`Reflection`]. Needs no device, no file and no
+//! clock, and is not told which project a pass belongs to. What the generated module looks like from outside (bind groups,
+//! uniform block, entry point) is fixed in [`interface`], so that the GPU side can be written without reading this one.
+
+// The two trees are written for more readers than compile: editor services look at what lowering does not.
+#[allow(dead_code)]
+pub(crate) mod ast;
+#[allow(dead_code)]
+pub(crate) mod check;
+#[allow(dead_code)]
+pub(crate) mod hir;
+pub mod interface;
+mod lex;
+pub(crate) mod lower;
+mod near;
+pub(crate) mod parse;
+mod preprocess;
+pub mod reflection;
+mod report;
+
+pub use reflection::{ChannelUse, Reflection, UniformSet};
+
+use crate::diag::{Diagnostic, SourceId};
+
+/// Which entry point a pass defines, and which uniforms it may name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum PassKind {
+    /// `void mainImage(out vec4, in vec2)`; alpha is forced to 1; may call `st_assert`.
+    Image,
+    /// `void mainImage(out vec4, in vec2)`; all four channels are stored as written.
+    Buffer,
+    /// `void mainCubemap(out vec4, in vec2, in vec3, in vec3)`.
+    Cubemap,
+    /// `vec2 mainSound(int, float)`.
+    Sound,
+}
+
+/// The type `iChannelN` is declared with. A channel with no input is a `sampler2D`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum ChannelKind {
+    #[default]
+    Sampler2D,
+    Sampler3D,
+    SamplerCube,
+}
+
+/// One text, and the id by which diagnostics shall point into it.
+#[derive(Clone, Copy, Debug)]
+pub struct Text<'a> {
+    pub id: SourceId,
+    pub text: &'a str,
+}
+
+/// Everything the front end needs to know of a pass.
+#[derive(Clone, Copy, Debug)]
+pub struct PassSource<'a> {
+    pub kind: PassKind,
+    pub common: Option<Text<'a>>,
+    pub code: Text<'a>,
+    pub channels: [ChannelKind; 4],
+    /// Channels whose texture this device cannot filter though the project asks for it: every filtered read of them is
+    /// written as four fetches and a mix (section 8.13 of the OpenGL ES 3.0 specification gives the weights).
+    pub bilinear_by_hand: [bool; 4],
+    /// The device reads no storage buffers in a fragment shader: large constant tables are then memory of each invocation,
+    /// which costs time to fill.
+    pub tables_in_memory: bool,
+}
+
+/// A pass that compiled.
+#[derive(Clone, Debug)]
+pub struct Compiled {
+    /// Validated; one fragment entry point named [`interface::ENTRY_POINT`].
+    pub module: naga::Module,
+    pub reflection: Reflection,
+    /// What the storage buffer at [`interface::TABLE_BINDING`] holds; empty: the module declares none.
+    pub tables: Vec<u8>,
+    /// Warnings and notes; never an error.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// What is wrong with a pass, without making a program of it: what an editor asks after each pause in typing. Holds errors
+/// exactly where [`compile`] would fail.
+pub fn diagnose(source: &PassSource<'_>) -> Vec<Diagnostic> {
+    check_pass(source).1
+}
+
+fn check_pass(source: &PassSource<'_>) -> (hir::Module, Vec<Diagnostic>) {
+    let parsed = parse::parse(source);
+    let checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source.kind, source.channels);
+    let mut all = report::Report::default();
+    parsed.diagnostics.into_iter().chain(checked.diagnostics).for_each(|d| all.add(d));
+    // As the author reads the text.
+    all.diagnostics.sort_by_key(|d| d.span.map(|s| (s.source, s.start)));
+    (checked.module, all.diagnostics)
+}
+
+/// Compiles one pass. On failure the list holds at least one error; warnings may stand among them.
+pub fn compile(source: &PassSource<'_>) -> Result<Compiled, Vec<Diagnostic>> {
+    let (checked, mut diagnostics) = check_pass(source);
+    if diagnostics.iter().any(Diagnostic::is_error) {
+        return Err(diagnostics);
+    }
+    let lower::Lowered { module, reflection, tables } = lower::lower(&checked, source);
+    if let Err(reason) = lower::validate(&module) {
+        let bug =
+            Diagnostic::error(None, format!("this is a bug in Eddy: the generated program is not valid: {reason}"));
+        diagnostics.push(bug.hint("the program itself is right; please report it with this text"));
+        return Err(diagnostics);
+    }
+    Ok(Compiled { module, reflection, tables, diagnostics })
+}
+
+/// Checks Common the way the site does: alone, with only `iDate` and `iSampleRate` in scope. An empty list means that the
+/// site would accept it; what it would refuse comes back as warnings, because Eddy runs such a project all the same.
+pub fn check_common(common: Text<'_>) -> Vec<Diagnostic> {
+    let parsed = parse::parse_texts(&[common], preprocess::Unit::CommonAlone);
+    let refused = parsed.diagnostics.iter().any(Diagnostic::is_error);
+    // A Common that cannot be read is reported with each pass; only what is wrong with it alone is said here.
+    if refused { Vec::new() } else { check::check_common(&parsed.ast, &parsed.origins, &parsed.names) }
+}

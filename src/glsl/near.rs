@@ -1,0 +1,40 @@
+//! "Did you mean": the known word that is nearest to one nobody knows.
+
+/// The candidate that `word` is most likely a slip of: few letters changed, added, left out or swapped. `None` where nothing
+/// is near enough to be worth saying.
+pub(super) fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
+    // One slip in a short word, two in a long one.
+    let allowed = match word.chars().count() {
+        0..=2 => return None,
+        3..=5 => 1,
+        6..=10 => 2,
+        _ => 3,
+    };
+    candidates
+        .into_iter()
+        .filter(|candidate| *candidate != word && candidate.len().abs_diff(word.len()) <= 2 * allowed)
+        // Letter case counts for nothing when it is all that differs.
+        .map(|candidate| {
+            let same = candidate.eq_ignore_ascii_case(word);
+            (if same { 0 } else { strsim::osa_distance(word, candidate) }, candidate)
+        })
+        .filter(|&(distance, _)| distance <= allowed)
+        .min_by_key(|&(distance, _)| distance)
+        .map(|(_, candidate)| candidate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn finds_slips_and_leaves_strangers() {
+        let words = ["normalize", "smoothstep", "mix", "return"];
+        assert_eq!(nearest("normalise", words), Some("normalize"));
+        assert_eq!(nearest("smoothStep", words), Some("smoothstep"));
+        assert_eq!(nearest("retrun", words), Some("return"));
+        assert_eq!(nearest("mxi", words), Some("mix"));
+        assert_eq!(nearest("banana", words), None);
+        assert_eq!(nearest("x", words), None);
+    }
+}

@@ -1,0 +1,329 @@
+//! Declarations: the file's items, variables, blocks, qualifiers (chapter 4).
+
+use super::*;
+use crate::glsl::ast::{
+    DeclId, DeclKind, Declarator, LayoutItem, List, Precision, Qualifier, QualifierKind, TypeSpecKind,
+};
+
+impl Parser<'_> {
+    /// The whole text.
+    pub(super) fn file(&mut self) {
+        loop {
+            let first = self.at;
+            let item = match self.kind() {
+                Kind::Eof => return,
+                Kind::Semicolon => {
+                    self.bump();
+                    Ok(self.ast.decl(DeclKind::Empty, Self::token(first).into()))
+                }
+                Kind::RBrace => {
+                    if !std::mem::replace(&mut self.adrift, true) {
+                        let hint = "there is one `}` too many here or above";
+                        self.error(first, "`}` closes nothing", Some(hint.into()));
+                    }
+                    self.bump();
+                    continue;
+                }
+                _ if self.begins_declaration() => self.attempt(|p| p.declaration(true)),
+                _ => Err(self.outside()),
+            };
+            let item = match item {
+                Ok(item) => {
+                    if matches!(self.ast[item].kind, DeclKind::Function(_)) {
+                        self.adrift = false;
+                    }
+                    item
+                }
+                Err(Failed) => {
+                    self.recover();
+                    if self.at == first {
+                        self.bump();
+                    }
+                    let loc = self.loc(first);
+                    self.ast.decl(DeclKind::Error, loc)
+                }
+            };
+            self.ast.items.push(item);
+            if self.report.is_full() {
+                return;
+            }
+        }
+    }
+
+    /// Something at file scope that is no declaration.
+    fn outside(&mut self) -> Failed {
+        let i = self.at;
+        if std::mem::replace(&mut self.adrift, true) {
+            return Failed;
+        }
+        if self.kind() == Kind::Wrong {
+            self.adrift = false;
+            self.bump();
+            return Failed;
+        }
+        let message = match self.kind() {
+            Kind::Ident | Kind::PlusPlus | Kind::MinusMinus => {
+                self.adrift = false;
+                format!("expected a declaration, found {}: statements stand in functions", self.shown(i))
+            }
+            kind if hint::is_keyword(kind) => format!("{} stands outside of any function", self.shown(i)),
+            _ => {
+                self.adrift = false;
+                format!("expected a declaration, found {}", self.shown(i))
+            }
+        };
+        let after_function = i > 0 && self.kind_at(i - 1) == Kind::RBrace;
+        let hint = after_function.then(|| "is there a `}` too many above?".to_owned());
+        self.adrift |= after_function;
+        self.fail(i, message, hint)
+    }
+
+    /// What follows is a declaration rather than an expression or another statement.
+    #[inline]
+    pub(super) fn begins_declaration(&self) -> bool {
+        match self.kind() {
+            Kind::Type => match self.second() {
+                Kind::LParen => false,
+                Kind::LBracket => self.partner(self.at + 1).is_none_or(|end| self.kind_at(end + 1) != Kind::LParen),
+                _ => true,
+            },
+            Kind::Ident => match self.second() {
+                Kind::Ident => true,
+                Kind::Type | Kind::Reserved => !self.starts_line(self.at + 1),
+                Kind::LBracket => self.partner(self.at + 1).is_some_and(|end| self.kind_at(end + 1) == Kind::Ident),
+                _ => false,
+            },
+            Kind::Reserved => {
+                matches!(self.second(), Kind::Ident | Kind::Type | Kind::Reserved)
+                    || is_qualifier_kind(self.second())
+                    || hint::begins_foreign_declaration(self.text(self.at))
+            }
+            kind => is_qualifier_kind(kind) || matches!(kind, Kind::Precision | Kind::Struct),
+        }
+    }
+
+    /// A declaration to behind its `;` or body.
+    pub(super) fn declaration(&mut self, at_file: bool) -> Parse<DeclId> {
+        let first = self.at;
+        if self.eat(Kind::Precision) {
+            let precision = match self.kind() {
+                Kind::Lowp => Precision::Low,
+                Kind::Mediump => Precision::Medium,
+                Kind::Highp => Precision::High,
+                _ => return Err(self.unexpected("`highp`, `mediump` or `lowp`")),
+            };
+            self.bump();
+            let ty = self.type_spec()?;
+            self.semicolon()?;
+            let loc = self.loc(first);
+            return Ok(self.ast.decl(DeclKind::Precision { precision, ty }, loc));
+        }
+        if self.kind() == Kind::Reserved && hint::begins_foreign_declaration(self.text(first)) {
+            self.reserved(first);
+            return Err(Failed);
+        }
+        let qualifiers = self.qualifiers()?;
+        if !qualifiers.is_empty()
+            && let Some(decl) = self.without_type(first, qualifiers)?
+        {
+            return Ok(decl);
+        }
+        let ty = self.type_spec()?;
+        if matches!(self.ast[ty].kind, TypeSpecKind::Struct(_)) && self.starts_line(self.at) && self.plainly_begins() {
+            self.missing("`;`", None, None);
+            let loc = self.loc(first);
+            return Ok(self.ast.decl(DeclKind::Vars { qualifiers, ty, declarators: List::EMPTY }, loc));
+        }
+        if self.is_function() {
+            return self.function(first, qualifiers, ty, at_file);
+        }
+        // The grammar lets the first declarator be empty: `struct S { .. }, a;`.
+        self.eat(Kind::Comma);
+        let declarators = if self.kind() == Kind::Semicolon { List::EMPTY } else { self.declarators()? };
+        if self.semicolon().is_err() {
+            // The names are known all the same.
+            self.recover();
+        }
+        let loc = self.loc(first);
+        Ok(self.ast.decl(DeclKind::Vars { qualifiers, ty, declarators }, loc))
+    }
+
+    /// A name and parameters. A keyword as the name is told when it is read; a number as the first parameter makes it a
+    /// variable of C++.
+    fn is_function(&self) -> bool {
+        (self.kind() == Kind::Ident || hint::is_keyword(self.kind()))
+            && self.second() == Kind::LParen
+            && !matches!(self.kind_at(self.at + 2), Kind::Int | Kind::Uint | Kind::Float | Kind::Minus)
+    }
+
+    /// Declarations that have qualifiers and no type.
+    fn without_type(&mut self, first: usize, qualifiers: List<Qualifier>) -> Parse<Option<DeclId>> {
+        let kind = match (self.kind(), self.second()) {
+            (Kind::Semicolon, _) => {
+                self.bump();
+                DeclKind::Qualify { qualifiers, names: List::EMPTY }
+            }
+            (Kind::Ident, Kind::Comma | Kind::Semicolon) => {
+                let mut names = vec![self.ident("a name")?];
+                while self.eat(Kind::Comma) {
+                    names.push(self.ident("a name")?);
+                }
+                self.semicolon()?;
+                let names = self.ast.list(&names);
+                DeclKind::Qualify { qualifiers, names }
+            }
+            (Kind::Ident, Kind::LBrace) => {
+                let name = self.declared("the name of the block")?;
+                let fields = self.fields()?;
+                let named = matches!(self.kind(), Kind::Ident | Kind::Reserved);
+                let instance = if named { Some(self.declared("the name of the block")?) } else { None };
+                let dims = self.dims(Self::full_expression)?;
+                self.semicolon()?;
+                DeclKind::Block { qualifiers, name, fields, instance, dims }
+            }
+            (Kind::Ident, Kind::Equal) => {
+                let name = self.text(self.at).to_owned();
+                let hint = format!("write a type before `{name}`, for example `float`");
+                return Err(self.fail(self.at, format!("`{name}` is declared without a type"), Some(hint)));
+            }
+            _ => return Ok(None),
+        };
+        let loc = self.loc(first);
+        Ok(Some(self.ast.decl(kind, loc)))
+    }
+
+    pub(super) fn qualifiers(&mut self) -> Parse<List<Qualifier>> {
+        // Most declarations have none.
+        if !is_qualifier_kind(self.kind()) && self.kind() != Kind::Reserved {
+            return Ok(List::EMPTY);
+        }
+        let mut found = Vec::new();
+        loop {
+            let token = Self::token(self.at);
+            let kind = match self.kind() {
+                Kind::Const => QualifierKind::Const,
+                Kind::In => QualifierKind::In,
+                Kind::Out => QualifierKind::Out,
+                Kind::Inout => QualifierKind::Inout,
+                Kind::Uniform => QualifierKind::Uniform,
+                Kind::Flat => QualifierKind::Flat,
+                Kind::Smooth => QualifierKind::Smooth,
+                Kind::Centroid => QualifierKind::Centroid,
+                Kind::Invariant => QualifierKind::Invariant,
+                Kind::Lowp => QualifierKind::Precision(Precision::Low),
+                Kind::Mediump => QualifierKind::Precision(Precision::Medium),
+                Kind::Highp => QualifierKind::Precision(Precision::High),
+                Kind::Layout => {
+                    let items = self.layout()?;
+                    found.push(Qualifier { kind: QualifierKind::Layout(items), token });
+                    continue;
+                }
+                Kind::Reserved if hint::is_qualifier(self.text(self.at)) => {
+                    // Left out, so that the rest of the declaration holds.
+                    self.reserved(self.at);
+                    self.bump();
+                    continue;
+                }
+                _ => break,
+            };
+            self.bump();
+            found.push(Qualifier { kind, token });
+        }
+        Ok(self.ast.list(&found))
+    }
+
+    /// `layout(location = 0, std140)`.
+    fn layout(&mut self) -> Parse<List<LayoutItem>> {
+        self.bump();
+        let open = self.at;
+        if !self.eat(Kind::LParen) {
+            return Err(self.unexpected("`(`"));
+        }
+        let mut items = Vec::new();
+        loop {
+            let name = self.ident("the name of a layout")?;
+            let value = if self.eat(Kind::Equal) { Some(self.full_assignment()?) } else { None };
+            items.push(LayoutItem { name, value });
+            if !self.eat(Kind::Comma) {
+                break;
+            }
+        }
+        self.close(open, Kind::RParen)?;
+        Ok(self.ast.list(&items))
+    }
+
+    /// `a = .., b[2]`.
+    pub(super) fn declarators(&mut self) -> Parse<List<Declarator>> {
+        let mut found = std::mem::take(&mut self.declarators);
+        found.clear();
+        let read = loop {
+            match self.declarator() {
+                Ok(declarator) => found.push(declarator),
+                Err(failed) => break Err(failed),
+            }
+            if !self.eat(Kind::Comma) {
+                break Ok(());
+            }
+        };
+        let list = self.ast.list(&found);
+        self.declarators = found;
+        // What was declared before a mistake stays declared.
+        if list.is_empty() { read.map(|()| list) } else { Ok(list) }
+    }
+
+    fn declarator(&mut self) -> Parse<Declarator> {
+        let name = self.declared("a name")?;
+        let dims = self.dims(Self::full_expression)?;
+        let first = self.at;
+        let init = match self.kind() {
+            Kind::Equal => {
+                self.bump();
+                self.check_unary_slip();
+                let read = self.full_assignment();
+                Some(read.unwrap_or_else(|Failed| self.lost_value(first)))
+            }
+            Kind::LParen => {
+                let name = self.text(first - 1).to_owned();
+                let hint = format!("write `{name} = ..`, with a constructor where it takes several values");
+                self.error(first, "GLSL gives a variable its value with `=`", Some(hint));
+                Some(self.lost_value(first))
+            }
+            Kind::LBrace => {
+                self.error(first, "GLSL gives a variable its value with `=`", None);
+                Some(self.lost_value(first))
+            }
+            _ => None,
+        };
+        Ok(Declarator { name, dims, init })
+    }
+
+    /// Passes a value that was not understood.
+    fn lost_value(&mut self, first: usize) -> ExprId {
+        self.skip_to_comma();
+        self.error_expr(first)
+    }
+
+    /// Passes the rest of an item of a list.
+    pub(super) fn skip_to_comma(&mut self) {
+        let start = self.at;
+        loop {
+            match self.kind() {
+                Kind::Comma | Kind::Semicolon | Kind::RBrace | Kind::RParen | Kind::RBracket | Kind::Eof => return,
+                Kind::LParen | Kind::LBracket | Kind::LBrace => match self.partner(self.at) {
+                    Some(end) => {
+                        self.at = end;
+                        self.bump();
+                    }
+                    None => self.bump(),
+                },
+                _ if self.at > start && self.plainly_begins() && self.starts_line(self.at) => return,
+                _ => self.bump(),
+            }
+        }
+    }
+}
+
+#[inline]
+fn is_qualifier_kind(kind: Kind) -> bool {
+    (Kind::Const as u8..=Kind::Highp as u8).contains(&(kind as u8)) || kind == Kind::Layout
+}

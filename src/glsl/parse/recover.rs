@@ -1,0 +1,145 @@
+//! Saying what is wrong, each mistake once, and finding the place to go on from.
+
+use super::*;
+
+impl Parser<'_> {
+    /// The token as the author wrote it, its beginning if it is long.
+    pub(super) fn quoted(&self, i: usize) -> String {
+        const MOST: usize = 60;
+        let text = self.text(i);
+        match text.char_indices().nth(MOST) {
+            Some((end, _)) => format!("`{}...`", &text[..end]),
+            None => format!("`{text}`"),
+        }
+    }
+
+    /// The token as the author wrote it.
+    pub(super) fn text(&self, i: usize) -> &str {
+        let span = self.origins.tokens[i].spelled;
+        self.texts.iter().find(|t| t.id == span.source).and_then(|t| t.text.get(span.range())).unwrap_or("")
+    }
+
+    /// The token for a message.
+    pub(super) fn shown(&self, i: usize) -> String {
+        if self.kind_at(i) == Kind::Eof { "the end of the text".into() } else { self.quoted(i) }
+    }
+
+    /// A token and the one before it stand in different lines (or one of them comes from a macro in a line of its own).
+    pub(super) fn starts_line(&self, i: usize) -> bool {
+        if i == 0 || self.kind_at(i) == Kind::Eof {
+            return true;
+        }
+        let (before, here) = (self.origins.token_span(Self::token(i - 1)), self.origins.token_span(Self::token(i)));
+        if before.source != here.source {
+            return true;
+        }
+        let text = self.texts.iter().find(|t| t.id == here.source).map_or("", |t| t.text);
+        text.get(before.end as usize..here.start as usize).is_some_and(|between| between.contains(['\n', '\r']))
+    }
+
+    /// Two tokens touch each other.
+    pub(super) fn adjacent(&self, i: usize) -> bool {
+        let (first, second) = (self.origins.tokens[i].spelled, self.origins.tokens[i + 1].spelled);
+        first.source == second.source && first.end == second.start
+    }
+
+    /// Nothing is to be said about a token: it was reported, or the message before was about it.
+    pub(super) fn is_told(&self, i: usize) -> bool {
+        self.last_error == Some(i) || self.kind_at(i) == Kind::Wrong || (i > 0 && self.kind_at(i - 1) == Kind::Wrong)
+    }
+
+    pub(super) fn error(&mut self, i: usize, message: impl Into<String>, hint: Option<String>) {
+        let mut diagnostic = self.origins.error(self.names, Self::token(i), message);
+        diagnostic.hints.extend(hint);
+        self.report_at(i, diagnostic);
+    }
+
+    pub(super) fn report_at(&mut self, i: usize, diagnostic: Diagnostic) {
+        if self.is_told(i) {
+            return;
+        }
+        self.last_error = Some(i);
+        let definition = self.origins.definition_span(Self::token(i).into()).map(|d| d.0);
+        self.report.add_in_macro(definition, diagnostic);
+    }
+
+    /// An error at a token that ends the group being read.
+    #[cold]
+    pub(super) fn fail(&mut self, i: usize, message: impl Into<String>, hint: Option<String>) -> Failed {
+        self.error(i, message, hint);
+        Failed
+    }
+
+    /// The place just behind a token, where something is missing.
+    pub(super) fn behind(&self, i: usize) -> Span {
+        let span = self.origins.token_span(Self::token(i));
+        Span { start: span.end, ..span }
+    }
+
+    /// Reports that something is missing behind the last token.
+    pub(super) fn missing(&mut self, what: &str, hint: Option<String>, label: Option<(usize, &str)>) {
+        let here = self.at;
+        let before = here.saturating_sub(1);
+        let mut diagnostic =
+            Diagnostic::error(self.behind(before), format!("missing {what} behind {}", self.shown(before)));
+        if let Some((token, text)) = label {
+            diagnostic = diagnostic.label(self.origins.token_span(Self::token(token)), text);
+        }
+        diagnostic.hints.extend(hint);
+        self.report_at(here, diagnostic);
+    }
+
+    /// Passes what is left of a declaration or statement that was not understood: to behind its `;` or block, or to before
+    /// what plainly begins the next one.
+    pub(super) fn recover(&mut self) {
+        let start = self.at;
+        loop {
+            match self.kind() {
+                Kind::Eof | Kind::RBrace => return,
+                Kind::Semicolon => {
+                    self.bump();
+                    return;
+                }
+                Kind::LBrace => {
+                    if let Some(end) = self.partner(self.at) {
+                        self.at = end;
+                        self.bump();
+                        self.eat(Kind::Semicolon);
+                        return;
+                    }
+                    self.bump();
+                }
+                Kind::LParen | Kind::LBracket => {
+                    self.at = self.partner(self.at).unwrap_or(self.at);
+                    self.bump();
+                }
+                _ if self.at > start && self.plainly_begins() && self.starts_line(self.at) => return,
+                _ => self.bump(),
+            }
+        }
+    }
+
+    /// The next tokens can only be the beginning of a statement or declaration.
+    pub(super) fn plainly_begins(&self) -> bool {
+        match self.kind() {
+            Kind::Type | Kind::Ident => self.second() == Kind::Ident,
+            Kind::Const
+            | Kind::Uniform
+            | Kind::Struct
+            | Kind::Precision
+            | Kind::Layout
+            | Kind::If
+            | Kind::For
+            | Kind::While
+            | Kind::Do
+            | Kind::Switch
+            | Kind::Case
+            | Kind::Default
+            | Kind::Return
+            | Kind::Break
+            | Kind::Continue
+            | Kind::Discard => true,
+            _ => false,
+        }
+    }
+}

@@ -1,0 +1,496 @@
+//! Trees, and what is said about texts that have none.
+#![cfg(test)]
+
+use super::*;
+use crate::{
+    diag::SourceId,
+    glsl::{
+        ChannelKind, PassKind, Text,
+        ast::{Condition, DeclId, DeclKind, List, StmtKind, TypeSpecId, TypeSpecKind},
+    },
+};
+
+fn parse_text(text: &str) -> Parsed {
+    parse(&PassSource {
+        kind: PassKind::Image,
+        common: None,
+        code: Text { id: SourceId(0), text },
+        channels: [ChannelKind::Sampler2D; 4],
+        bilinear_by_hand: [false; 4],
+        tables_in_memory: false,
+    })
+}
+
+fn messages(text: &str) -> Vec<String> {
+    let parsed = parse_text(text);
+    check_guarantees(&parsed);
+    parsed.diagnostics.iter().map(|d| d.message.clone()).collect()
+}
+
+/// The tree as nested parentheses; the text must be without mistakes.
+#[track_caller]
+fn tree(text: &str) -> String {
+    let parsed = parse_text(text);
+    assert_eq!(parsed.diagnostics.iter().map(|d| &d.message).collect::<Vec<_>>(), [""; 0], "{text}");
+    check_guarantees(&parsed);
+    parsed.ast.items.iter().map(|&d| decl(&parsed, d)).collect::<Vec<_>>().join(" ")
+}
+
+/// The tree of one expression.
+#[track_caller]
+fn expr_tree(text: &str) -> String {
+    let whole = tree(&format!("void f() {{ {text}; }}"));
+    whole.strip_prefix("(fn void f () {").unwrap().strip_suffix("})").unwrap().to_owned()
+}
+
+/// Exactly these messages, each with a part.
+#[track_caller]
+fn refuses(text: &str, parts: &[&str]) {
+    let found = messages(text);
+    assert_eq!(found.len(), parts.len(), "{text}: {found:#?}");
+    for (message, part) in found.iter().zip(parts) {
+        assert!(message.contains(part), "{text}: `{part}` is not in: {message}");
+    }
+}
+
+/// The same for a statement in a function that is followed by another.
+#[track_caller]
+fn refuses_stmt(text: &str, parts: &[&str]) {
+    refuses(&format!("void f() {{\n    {text}\n    int after = 1;\n}}\nvoid g() {{}}"), parts);
+}
+
+fn expr(p: &Parsed, id: ExprId) -> String {
+    let e = |id| expr(p, id);
+    let name = |s| p.names.get(s).to_owned();
+    let args = |list: List<ExprId>| p.ast[list].iter().map(|&a| format!(" {}", e(a))).collect::<String>();
+    match p.ast[id].kind {
+        ExprKind::Error => "<error>".into(),
+        ExprKind::Int(v) => v.to_string(),
+        ExprKind::Uint(v) => format!("{v}u"),
+        ExprKind::Float(v) => format!("{v:?}"),
+        ExprKind::Bool(v) => v.to_string(),
+        ExprKind::Name(s) => name(s),
+        ExprKind::Call { name: s, args: list } => format!("(call {}{})", name(s), args(list)),
+        ExprKind::Construct { ty, args: list } => format!("(new {}{})", type_text(p, ty), args(list)),
+        ExprKind::Method { base, name: n } => format!("(method {} {})", e(base), name(n.symbol)),
+        ExprKind::Member { base, name: n } => format!("(. {} {})", e(base), name(n)),
+        ExprKind::Index { base, index } => format!("([] {} {})", e(base), e(index)),
+        ExprKind::Unary { op, operand } => format!("({op:?} {})", e(operand)),
+        ExprKind::Postfix { op, operand } => format!("(post{op:?} {})", e(operand)),
+        ExprKind::Binary { op, lhs, rhs } => format!("({} {} {})", op.text(), e(lhs), e(rhs)),
+        ExprKind::Assign { op, place, value } => {
+            format!("({}= {} {})", op.map_or("", |o| o.text()), e(place), e(value))
+        }
+        ExprKind::Ternary { cond, then, otherwise } => format!("(? {} {} {})", e(cond), e(then), e(otherwise)),
+        ExprKind::Comma { lhs, rhs } => format!("(, {} {})", e(lhs), e(rhs)),
+    }
+}
+
+fn dims(p: &Parsed, list: List<crate::glsl::ast::Dim>) -> String {
+    p.ast[list].iter().map(|d| format!("[{}]", d.size.map_or(String::new(), |s| expr(p, s)))).collect()
+}
+
+fn type_text(p: &Parsed, id: TypeSpecId) -> String {
+    let spec = p.ast[id];
+    let base = match spec.kind {
+        TypeSpecKind::Error => "<error>".into(),
+        TypeSpecKind::Basic(basic) => basic.name().to_owned(),
+        TypeSpecKind::Named(symbol) => p.names.get(symbol).to_owned(),
+        TypeSpecKind::Struct(id) => {
+            let def = p.ast[id];
+            let fields: Vec<String> = p.ast[def.fields]
+                .iter()
+                .map(|f| {
+                    let names: Vec<String> = p.ast[f.declarators]
+                        .iter()
+                        .map(|d| format!("{}{}", p.names.get(d.name.symbol), dims(p, d.dims)))
+                        .collect();
+                    format!("{} {}", type_text(p, f.ty), names.join(","))
+                })
+                .collect();
+            format!("(struct {} {{{}}})", def.name.map_or("", |n| p.names.get(n.symbol)), fields.join("; "))
+        }
+    };
+    base + &dims(p, spec.dims)
+}
+
+fn qualifiers(p: &Parsed, list: List<crate::glsl::ast::Qualifier>) -> String {
+    p.ast[list].iter().map(|q| format!("{:?} ", q.kind).to_lowercase()).collect()
+}
+
+fn decl(p: &Parsed, id: DeclId) -> String {
+    match p.ast[id].kind {
+        DeclKind::Error => "<error>".into(),
+        DeclKind::Empty => ";".into(),
+        DeclKind::Vars { qualifiers: q, ty, declarators } => {
+            let list: Vec<String> = p.ast[declarators]
+                .iter()
+                .map(|d| {
+                    let init = d.init.map_or(String::new(), |i| format!("={}", expr(p, i)));
+                    format!("{}{}{init}", p.names.get(d.name.symbol), dims(p, d.dims))
+                })
+                .collect();
+            format!("(var {}{} {})", qualifiers(p, q), type_text(p, ty), list.join(","))
+        }
+        DeclKind::Precision { precision, ty } => format!("(precision {precision:?} {})", type_text(p, ty)),
+        DeclKind::Qualify { qualifiers: q, names } => {
+            let list: Vec<&str> = p.ast[names].iter().map(|n| p.names.get(n.symbol)).collect();
+            format!("(qualify {}{})", qualifiers(p, q), list.join(","))
+        }
+        DeclKind::Function(id) => {
+            let f = p.ast[id];
+            let params: Vec<String> = p.ast[f.params]
+                .iter()
+                .map(|a| {
+                    let name = a.name.map_or(String::new(), |n| format!(" {}", p.names.get(n.symbol)));
+                    format!("{}{}{name}{}", qualifiers(p, a.qualifiers), type_text(p, a.ty), dims(p, a.dims))
+                })
+                .collect();
+            let body = f.body.map_or(String::new(), |b| format!(" {}", stmt(p, b)));
+            let head = format!("{}{}", qualifiers(p, f.qualifiers), type_text(p, f.result));
+            format!("(fn {head} {} ({}){body})", p.names.get(f.name.symbol), params.join(", "))
+        }
+        DeclKind::Block { qualifiers: q, name, fields, instance, .. } => {
+            let instance = instance.map_or("", |i| p.names.get(i.symbol));
+            format!("(block {}{} {} {instance})", qualifiers(p, q), p.names.get(name.symbol), p.ast[fields].len())
+        }
+    }
+}
+
+fn stmt(p: &Parsed, id: StmtId) -> String {
+    let list = |list: List<StmtId>| p.ast[list].iter().map(|&s| stmt(p, s)).collect::<Vec<_>>().join(" ");
+    let cond = |c| match c {
+        Condition::Expr(e) => expr(p, e),
+        Condition::Decl(d) => decl(p, d),
+    };
+    match p.ast[id].kind {
+        StmtKind::Error => "<error>".into(),
+        StmtKind::Empty => ";".into(),
+        StmtKind::Block(body) => format!("{{{}}}", list(body)),
+        StmtKind::Expr(e) => expr(p, e),
+        StmtKind::Decl(d) => decl(p, d),
+        StmtKind::If { cond, then, otherwise } => {
+            let otherwise = otherwise.map_or(String::new(), |o| format!(" else {}", stmt(p, o)));
+            format!("(if {} {}{otherwise})", expr(p, cond), stmt(p, then))
+        }
+        StmtKind::For { init, cond: c, step, body } => format!(
+            "(for {} {} {} {})",
+            stmt(p, init),
+            c.map_or("_".into(), cond),
+            step.map_or("_".into(), |e| expr(p, e)),
+            stmt(p, body)
+        ),
+        StmtKind::While { cond: c, body } => format!("(while {} {})", cond(c), stmt(p, body)),
+        StmtKind::DoWhile { body, cond } => format!("(do {} {})", stmt(p, body), expr(p, cond)),
+        StmtKind::Switch { value, body } => format!("(switch {} {{{}}})", expr(p, value), list(body)),
+        StmtKind::Case(e) => format!("(case {})", expr(p, e)),
+        StmtKind::Default => "(default)".into(),
+        StmtKind::Return(e) => format!("(return{})", e.map_or(String::new(), |e| format!(" {}", expr(p, e)))),
+        StmtKind::Break => "break".into(),
+        StmtKind::Continue => "continue".into(),
+        StmtKind::Discard => "discard".into(),
+    }
+}
+
+/// What the tree's documentation promises to everyone.
+pub(super) fn check_guarantees(p: &Parsed) {
+    let tokens = p.origins.tokens.len();
+    let loc = |l: Loc| assert!(l.first <= l.last && (l.last.0 as usize) < tokens);
+    let mut parents = vec![0; p.ast.exprs.len()];
+    for (i, e) in p.ast.exprs.iter().enumerate() {
+        loc(e.loc);
+        let mut child = |id: ExprId| {
+            assert!(id.index() < i, "children come first");
+            parents[id.index()] += 1;
+            let inner = p.ast[id].loc;
+            assert!(e.loc.first <= inner.first && inner.last <= e.loc.last, "a node covers its children");
+        };
+        match e.kind {
+            ExprKind::Call { args, .. } | ExprKind::Construct { args, .. } => {
+                p.ast[args].iter().for_each(|&a| child(a));
+            }
+            ExprKind::Method { base, .. } | ExprKind::Member { base, .. } => child(base),
+            ExprKind::Index { base: a, index: b }
+            | ExprKind::Binary { lhs: a, rhs: b, .. }
+            | ExprKind::Comma { lhs: a, rhs: b }
+            | ExprKind::Assign { place: a, value: b, .. } => {
+                child(a);
+                child(b);
+            }
+            ExprKind::Unary { operand, .. } | ExprKind::Postfix { operand, .. } => child(operand),
+            ExprKind::Ternary { cond, then, otherwise } => [cond, then, otherwise].into_iter().for_each(child),
+            _ => {}
+        }
+    }
+    assert!(parents.iter().all(|&n| n <= 1), "one parent at most");
+    for (i, s) in p.ast.stmts.iter().enumerate() {
+        loc(s.loc);
+        let child = |id: StmtId| assert!(id.index() < i);
+        match s.kind {
+            StmtKind::Block(list) | StmtKind::Switch { body: list, .. } => p.ast[list].iter().for_each(|&s| child(s)),
+            StmtKind::If { then, otherwise, .. } => {
+                child(then);
+                otherwise.into_iter().for_each(child);
+            }
+            StmtKind::For { init, body, .. } => {
+                child(init);
+                child(body);
+            }
+            StmtKind::While { body, .. } | StmtKind::DoWhile { body, .. } => child(body),
+            _ => {}
+        }
+    }
+    p.ast.decls.iter().for_each(|d| loc(d.loc));
+    p.ast.types.iter().for_each(|t| loc(t.loc));
+}
+
+#[test]
+fn precedence() {
+    assert_eq!(expr_tree("a + b * c - d / e"), "(- (+ a (* b c)) (/ d e))");
+    assert_eq!(expr_tree("a - b - c"), "(- (- a b) c)");
+    assert_eq!(
+        expr_tree("a << b + c > d == e & f ^ g | h && i ^^ j || k"),
+        "(|| (^^ (&& (| (^ (& (== (> (<< a (+ b c)) d) e) f) g) h) i) j) k)"
+    );
+    assert_eq!(expr_tree("a || b ^^ c && d"), "(|| a (^^ b (&& c d)))");
+    assert_eq!(expr_tree("-a * !b + ~c"), "(+ (* (Minus a) (Not b)) (BitNot c))");
+    assert_eq!(expr_tree("- -a"), "(Minus (Minus a))");
+    assert_eq!(expr_tree("++a - --b"), "(- (Increment a) (Decrement b))");
+    assert_eq!(expr_tree("-a++"), "(Minus (postIncrement a))");
+    assert_eq!(expr_tree("a = b = c"), "(= a (= b c))");
+    assert_eq!(expr_tree("a += b, c *= d"), "(, (+= a b) (*= c d))");
+    assert_eq!(expr_tree("a ? b : c ? d : e"), "(? a b (? c d e))");
+    assert_eq!(expr_tree("a ? b, c : d = e"), "(? a (, b c) (= d e))");
+    assert_eq!(expr_tree("x = a ? b : c"), "(= x (? a b c))");
+    assert_eq!(expr_tree("(a + b) * c"), "(* (+ a b) c)");
+    assert_eq!(
+        expr_tree("a <<= 1, b >>= 2, c &= 3, d |= 4, e ^= 5, f %= 6"),
+        "(, (, (, (, (, (<<= a 1) (>>= b 2)) (&= c 3)) (|= d 4)) (^= e 5)) (%= f 6))"
+    );
+}
+
+#[test]
+fn operands() {
+    assert_eq!(expr_tree("a.xyz.x"), "(. (. a xyz) x)");
+    assert_eq!(expr_tree("a[i][1].b[2]++"), "(postIncrement ([] (. ([] ([] a i) 1) b) 2))");
+    assert_eq!(expr_tree("f() + g(1, 2.5, true, 3u)"), "(+ (call f) (call g 1 2.5 true 3u))");
+    assert_eq!(expr_tree("f(void)"), "(call f)");
+    assert_eq!(expr_tree("f((a, b), c)"), "(call f (, a b) c)");
+    assert_eq!(expr_tree("f(a = 1)"), "(call f (= a 1))");
+    assert_eq!(expr_tree("vec3(1).xy"), "(. (new vec3 1) xy)");
+    assert_eq!(expr_tree("float[2](1., 2.)[0]"), "([] (new float[2] 1.0 2.0) 0)");
+    assert_eq!(expr_tree("float[](1., 2.).length()"), "(method (new float[] 1.0 2.0) length)");
+    assert_eq!(expr_tree("S[2](a, b)"), "(new S[2] a b)");
+    assert_eq!(expr_tree("a[2]"), "([] a 2)");
+    assert_eq!(expr_tree("f(a)[0].x"), "(. ([] (call f a) 0) x)");
+    assert_eq!(expr_tree("mat2x2(1) * mat3x3(2)"), "(* (new mat2 1) (new mat3 2))");
+    assert_eq!(expr_tree("(a).x"), "(. a x)");
+    assert_eq!(expr_tree("a[i, j]"), "([] a (, i j))");
+}
+
+#[test]
+fn statements() {
+    assert_eq!(
+        tree("void f() { if (a) b; else if (c) {} else d; }"),
+        "(fn void f () {(if a b else (if c {} else d))})"
+    );
+    assert_eq!(tree("void f() { if (a) if (b) c; else d; }"), "(fn void f () {(if a (if b c else d))})");
+    assert_eq!(
+        tree("void f() { for (int i = 0, j = 1; i < 3; i++, j--) ; }"),
+        "(fn void f () {(for (var int i=0,j=1) (< i 3) (, (postIncrement i) (postDecrement j)) ;)})"
+    );
+    assert_eq!(tree("void f() { for (;;) { break; } }"), "(fn void f () {(for ; _ _ {break})})");
+    assert_eq!(
+        tree("void f() { for (i = 0; bool b = g(); ) continue; }"),
+        "(fn void f () {(for (= i 0) (var bool b=(call g)) _ continue)})"
+    );
+    assert_eq!(
+        tree("void f() { while (bool b = g()) discard; do { } while (a); }"),
+        "(fn void f () {(while (var bool b=(call g)) discard) (do {} a)})"
+    );
+    assert_eq!(
+        tree("int f() { switch (a) { case 1: case 2 + 3: b; break; default: return 4; } return; }"),
+        "(fn int f () {(switch a {(case 1) (case (+ 2 3)) b break (default) (return 4)}) (return)})"
+    );
+    assert_eq!(tree("void f() { ; {} { a; } }"), "(fn void f () {; {} {a}})");
+}
+
+#[test]
+fn declarations() {
+    assert_eq!(
+        tree("const float a = 1., b[2] = float[2](1., 2.), c;"),
+        "(var const float a=1.0,b[2]=(new float[2] 1.0 2.0),c)"
+    );
+    assert_eq!(tree("float[3] a; vec2 b[];"), "(var float[3] a) (var vec2 b[])");
+    assert_eq!(tree("struct S { float a, b[2]; vec3 c; } s, t[2];"), "(var (struct S {float a,b[2]; vec3 c}) s,t[2])");
+    assert_eq!(tree("struct { int a; } s;"), "(var (struct  {int a}) s)");
+    assert_eq!(
+        tree("struct S { int a; }; S s = S(1); S[2] t;"),
+        "(var (struct S {int a}) ) (var S s=(call S 1)) (var S[2] t)"
+    );
+    assert_eq!(tree("struct S { int a; }, s;"), "(var (struct S {int a}) s)");
+    assert_eq!(
+        tree("void f(void); float g(const in vec2, out float a, inout int b[2], highp S);"),
+        "(fn void f ()) (fn float g (const in vec2, out float a, inout int b[2], precision(high) S))"
+    );
+    assert_eq!(tree("precision highp float; invariant a, b; ;"), "(precision High float) (qualify invariant a,b) ;");
+    assert_eq!(
+        tree("uniform sampler2D t; flat in int i; layout(location = 1) out vec4 o;"),
+        "(var uniform sampler2D t) (var flat in int i) (var layout(0..1) out vec4 o)"
+    );
+    assert_eq!(tree("uniform Block { float a; vec2 b; } c;"), "(block uniform Block 2 c)");
+    assert_eq!(tree("highp float f() { return 1.; }"), "(fn precision(high) float f () {(return 1.0)})");
+    assert_eq!(
+        tree("float[2] f() { S s; S(1); s[0] = 1; S[1](a); S[1] t; }"),
+        "(fn float[2] f () {(var S s) (call S 1) (= ([] s 0) 1) (new S[1] a) (var S[1] t)})"
+    );
+    assert_eq!(tree("float buffer, sampler, texture2D, sampleX;"), "(var float buffer,sampler,texture2D,sampleX)");
+    assert_eq!(tree(""), "");
+}
+
+#[test]
+fn long_chains_are_legal_and_deep_ones_are_not() {
+    let chain = |n: usize, op: &str| format!("void f() {{ x = a{}; }}", format!("{op}a").repeat(n));
+    assert_eq!(messages(&chain(100_000, "+")), [""; 0]);
+    assert_eq!(messages(&chain(100_000, ",")), [""; 0]);
+    assert_eq!(messages(&chain(100_000, ".x")).len(), 0);
+    assert_eq!(messages(&format!("void f() {{ a{}; }}", "[0]".repeat(100_000))), [""; 0]);
+    for deep in [
+        format!("void f() {{ x = {}a{}; }}", "(".repeat(100_000), ")".repeat(100_000)),
+        format!("void f() {{ x = {}a{}; }}", "f(".repeat(100_000), ")".repeat(100_000)),
+        format!("void f() {{ x = {}a{}; }}", "a[".repeat(100_000), "]".repeat(100_000)),
+        format!("void f() {{ x = {}a; }}", "-".repeat(100_001).replace("--", "- -")),
+        format!("void f() {{ {}a; }}", "x = ".repeat(100_000)),
+        format!("void f() {{ {}a; }}", "x ? y : ".repeat(100_000)),
+        format!("void f() {{ {}{} }}", "{".repeat(100_000), "}".repeat(100_000)),
+        format!("void f() {{ {}; }}", "if (a) ".repeat(100_000)),
+        format!("void f() {{ {}; }}", "if (a) b; else ".repeat(100_000)),
+        format!("void f() {{ x = {}a; }}", "a + (".repeat(100_000)),
+    ] {
+        let found = messages(&deep);
+        assert!(found.first().is_some_and(|m| m.contains("256 deep")), "{}: {found:?}", &deep[..40]);
+        assert!(found.len() <= 2, "{}: {found:?}", &deep[..40]);
+    }
+    assert_eq!(messages(&format!("void f() {{ x = {}a{}; }}", "(".repeat(200), ")".repeat(200))), [""; 0]);
+}
+
+#[test]
+fn one_mistake_is_one_message() {
+    refuses_stmt("float a = 1.0", &["missing `;` behind `1.0`"]);
+    refuses_stmt("a = b", &["missing `;` behind `b`"]);
+    refuses_stmt("f(a)", &["missing `;` behind `)`"]);
+    refuses_stmt("return", &["missing `;` behind `return`"]);
+    refuses_stmt("a = b c;", &["missing an operator or `;` between `b` and `c`"]);
+    refuses_stmt("float a = 2.0 b;", &["missing an operator or `;` between `2.0` and `b`"]);
+    refuses_stmt("a = ;", &["`=` needs a value on its right, found `;`"]);
+    refuses_stmt("a = b +;", &["`+` needs a value on its right"]);
+    refuses_stmt("float a =\n    float b = 1.0;", &["`=` needs a value on its right"]);
+    refuses_stmt("a = (b + c;", &["missing `)` behind `c`"]);
+    refuses_stmt("a = f(b, c;", &["missing `)` behind `c`"]);
+    refuses_stmt("a = b + c);", &["`)` closes nothing"]);
+    refuses_stmt("a = b[1;", &["missing `]` behind `1`"]);
+    refuses_stmt("a = b[];", &["need an index"]);
+    refuses_stmt("a = f(b, );", &["a value is missing between `,` and `)`"]);
+    refuses_stmt("a = f(, b);", &["a value is missing between `(` and `,`"]);
+    refuses_stmt("a = ();", &["empty"]);
+    refuses_stmt("a = b ? c;", &["`:` and the other value"]);
+    refuses_stmt("a ** b;", &["`**`"]);
+    refuses_stmt("a->b;", &["`->`"]);
+    refuses_stmt("if (a === b) {}", &["`===`"]);
+    refuses_stmt("if (a <> b) {}", &["`<>`"]);
+    refuses_stmt("if (a and b) {}", &["expected an operator or `)`, found `and`"]);
+    refuses_stmt("if a > b { c; }", &["stands in parentheses"]);
+    refuses_stmt("if (a > b { c; }", &["missing `)` behind `b`"]);
+    refuses_stmt("if () { c; }", &["a condition is missing"]);
+    refuses_stmt("if (a) then { c; }", &["`then`"]);
+    refuses_stmt("if (a) { } elseif (b) { } else { }", &["`elseif`"]);
+    refuses_stmt("if (a); b; else c;", &["`else` without an `if`"]);
+    refuses_stmt("for (int i = 0, i < 3, i++) { }", &["expected `;`, found `<`"]);
+    refuses_stmt("for (int i = 0; i < 3) { }", &["expected `;`, found `)`"]);
+    refuses_stmt("for (int i = 0; i <; i++) { j; }", &["`<` needs a value"]);
+    refuses_stmt("for (int i = 0; i < 3; i++ { j; }", &["missing `)` behind `++`"]);
+    refuses_stmt("while (int i) { }", &["a condition that declares"]);
+    refuses_stmt("do { } while a;", &["stands in parentheses"]);
+    refuses_stmt("do { } until (a);", &["`while` and the condition"]);
+    refuses_stmt("switch (a) case 1: b;", &["expected `{`"]);
+    refuses_stmt("switch (a) { case 1; b; }", &["ends with `:`"]);
+    refuses_stmt("float a[2] = {1.0, 2.0};", &["lists in braces"]);
+    refuses_stmt("a = {1.0, 2.0};", &["lists in braces"]);
+    refuses_stmt("vec3 a(1.0, 2.0);", &["with `=`"]);
+    refuses_stmt("f(float a);", &["`float` is a type"]);
+    refuses_stmt("a = vec3;", &["`vec3` is a type"]);
+    refuses_stmt("retrun a;", &["`retrun` is no keyword"]);
+    refuses_stmt("float2 a = b; a.x;", &["no type `float2`"]);
+    refuses_stmt("let a = 1.0;", &["`let` declares nothing"]);
+    refuses_stmt("var a = 1.0;", &["`var` declares nothing"]);
+    refuses_stmt("const a = 1.0;", &["without a type"]);
+    refuses_stmt("float input = 1.0; input += input;", &["`input` is a reserved word"]);
+    refuses_stmt("double a = 1.0;", &["`double` is a reserved word"]);
+    refuses_stmt("static const float a = 1.0;", &["`static` is a reserved word"]);
+    refuses_stmt("goto a;", &["`goto` is a reserved word"]);
+    refuses_stmt("float if = 1.0;", &["which is a keyword"]);
+    refuses_stmt("float 2a = 1.0;", &["`2a` is not a number"]);
+    refuses_stmt("a.length(1);", &["takes no arguments"]);
+    refuses_stmt("a.push(1);", &["functions of objects"]);
+    refuses_stmt("a.;", &["behind `.`"]);
+    refuses_stmt("float gl_a, b__c, webgl_d;", &["`gl_`", "two underscores", "webgl_"]);
+    refuses_stmt("a = 1.0 / 08;", &["octal"]);
+    refuses_stmt("a = \u{201c}b\u{201d};", &["no meaning", "no meaning"]);
+    refuses_stmt("a = b \u{2212} c;", &["only looks like `-`"]);
+    refuses_stmt("float x; float g(float a) { return a; }", &["cannot be defined inside"]);
+}
+
+#[test]
+fn mistakes_at_file_scope() {
+    refuses("float a = 1.0\nfloat b;", &["missing `;` behind `1.0`"]);
+    refuses("a = 1.0;\nfloat b;", &["statements stand in functions"]);
+    refuses("float f(float a { return a; }\nfloat b;", &["missing `)` behind `a`"]);
+    // `a` may be a type: the checker knows.
+    refuses("float f(a) { return b; }\nfloat b;", &[]);
+    refuses("float f(float a = 1.0) { return a; }\nfloat b;", &["no default value"]);
+    refuses("float f(float& a) { return a; }\nfloat b;", &["no pointers"]);
+    refuses("float f(float a) return a;\nfloat b;", &["expected `{` or `;`"]);
+    refuses("struct S { float a = 1.0; vec2 b; };\nS s;", &["no initial value"]);
+    refuses("struct S { float f() { return 1.0; } vec2 b; };\nS s;", &["has no functions"]);
+    refuses("struct S { float a; }\nfloat b;", &["missing `;` behind `}`"]);
+    refuses("struct S : T { float a; };", &["cannot extend"]);
+    refuses("function f() { }\nfloat b;", &["`function` declares nothing"]);
+    refuses("enum A { B };\nfloat b;", &["`enum` is a reserved word"]);
+    refuses("void f() { a; } }\nvoid g() { }", &["`}` closes nothing"]);
+    refuses("void f() { a; }\n  b; }\n}\nvoid g() { c; }", &["statements stand in functions"]);
+    refuses("void f() {\n if (a) {\n b;\n}\nvoid g() { }\nvoid h() { }", &["missing `}`: `g` begins inside of `f`"]);
+    refuses("void g() { }\nvoid f() {\n if (a) {\n b;\n}\n", &["missing `}` at the end"]);
+    refuses("void f() { if (a) b; }\nreturn 1;\nfor (;;) { }\nvoid g() { }", &["`return` stands outside"]);
+    refuses("%", &["expected a declaration"]);
+    refuses("float a; b", &["statements stand in functions"]);
+    refuses(
+        "#define F(x) x\nvoid f() { F(1, 2); float a = F(1, 2) + 1.0; }",
+        &["takes 1 argument", "takes 1 argument"],
+    );
+    refuses("#define BAD float a = ;\nvoid f() { BAD }\nvoid g() { BAD }", &["`=` needs a value"]);
+}
+
+#[test]
+fn several_mistakes_are_several_messages() {
+    refuses(
+        "void f() {\n float a = ;\n b = c d;\n if (e f) { g; }\n for (int i = 0; i < 3; i++ { j }\n}\nfloat k = (1.0;\nvoid l() { m( ; }",
+        &[
+            "`=` needs a value",
+            "between `c` and `d`",
+            "found `f`",
+            "missing `)` behind `++`",
+            "missing `;` behind `j`",
+            "missing `)` behind `1.0`",
+            "expected an expression, found `;`",
+        ],
+    );
+    let many = format!("void f() {{ {} }}", "a b c;\n".repeat(1000));
+    assert_eq!(messages(&many).len(), crate::glsl::report::MAX_ERRORS);
+}
+
+#[test]
+fn what_was_declared_before_a_mistake_stays_declared() {
+    let parsed = parse_text("void f() { float a = 1.0 +, b = 2.0; }");
+    let shown: Vec<String> = parsed.ast.items.iter().map(|&d| decl(&parsed, d)).collect();
+    assert_eq!(shown, ["(fn void f () {(var float a=<error>,b=2.0)})"]);
+}

@@ -1,0 +1,219 @@
+//! `#define` and `#undef` (section 3.4): what a macro may be named, its parameters, its replacement list, and when it may be
+//! defined again.
+
+use super::*;
+use crate::glsl::lex::SPACE;
+
+impl Preprocessor<'_, '_> {
+    /// Enters a macro under its name.
+    pub(super) fn add_macro(&mut self, def: MacroDef, params: (u32, u32), body: (u32, u32), given: Given) -> MacroId {
+        self.origins.macros.push(def);
+        self.macros.push(Macro { body, params, busy: false, calls: 0, given, first_use: None });
+        let symbol = def.name.0 as usize;
+        if self.defined.len() <= symbol {
+            self.defined.resize(self.names.len().max(symbol + 1), 0);
+        }
+        self.defined[symbol] = self.macros.len() as u32;
+        MacroId::new(self.macros.len() - 1)
+    }
+
+    /// The macro's name in a `#define` or `#undef`, if it may be one.
+    fn macro_name(&mut self, directive: &Token, line: &[Token]) -> Option<Token> {
+        let verb = self.text(directive.span).to_owned();
+        let Some(&name) = line.first() else {
+            self.error(directive, format!("`#{verb}` needs the name of a macro"), None);
+            return None;
+        };
+        if name.kind != Kind::Ident {
+            if name.kind == Kind::BadName {
+                self.mend(&name);
+                return Some(Token { kind: Kind::Ident, ..name });
+            }
+            let text = self.text(name.span).to_owned();
+            if !matches!(name.kind, Kind::BadChar | Kind::Text | Kind::Hash | Kind::HashHash) {
+                self.error(&name, format!("`{text}` cannot be the name of a macro"), None);
+            }
+            return None;
+        }
+        let text = self.names.get(Symbol(name.value)).to_owned();
+        if text == "defined" {
+            self.error(&name, "`defined` cannot be the name of a macro: it is an operator of `#if`", None);
+            return None;
+        }
+        if let Some(id) = self.defined(name.value) {
+            let given = self.macros[id.index()].given;
+            if !matches!(given, Given::ByAuthor | Given::BySite(_)) {
+                let what = if verb == "undef" { "undefined" } else { "defined again" };
+                self.error(&name, format!("`{text}` is part of the language and cannot be {what}"), None);
+                return None;
+            }
+        }
+        if text.starts_with("GL_") {
+            self.error(
+                &name,
+                format!("`{text}`: names that begin with `GL_` are kept for the language"),
+                Some("choose another name".into()),
+            );
+            return None;
+        }
+        if text.contains("__") {
+            let message = format!("`{text}`: names with two underscores in a row are kept for the language");
+            self.warning(&name, message, None);
+        }
+        Some(name)
+    }
+
+    pub(super) fn undef(&mut self, directive: &Token, line: &[Token]) {
+        let Some(name) = self.macro_name(directive, line) else { return };
+        if let Some(id) = self.defined(name.value) {
+            if self.macros[id.index()].calls > 0 {
+                let text = self.text(name.span).to_owned();
+                self.error(&name, format!("`{text}` cannot be undefined in the arguments of its own call"), None);
+                return;
+            }
+            self.origins.macro_uses.push((name.span, id));
+            self.defined[name.value as usize] = 0;
+        }
+        self.nothing_more(&line[1..], "undef");
+    }
+
+    pub(super) fn define(&mut self, directive: &Token, line: &[Token]) {
+        let Some(name) = self.macro_name(directive, line) else { return };
+        let mut at = 1;
+        let function_like = line.get(1).is_some_and(|t| t.kind == Kind::LParen && !t.has(SPACE));
+        let first_param = self.params.len() as u32;
+        if function_like {
+            let Some(behind) = self.parameters(&name, line) else { return };
+            at = behind;
+        }
+        let params = (first_param, self.params.len() as u32);
+        let list = &line[at..];
+        if let Some(first) = list.first()
+            && !function_like
+            && !first.has(SPACE)
+            && is_suspicious(first.kind)
+        {
+            let text = self.text(name.span).to_owned();
+            let hint = format!("write a space behind `{text}`");
+            self.warning(first, "there is no space between the macro's name and its text", Some(hint));
+        }
+        let body_start = self.bodies.len() as u32;
+        for (i, &token) in list.iter().enumerate() {
+            let mut token = token;
+            if i == 0 {
+                token.flags &= !SPACE;
+            }
+            if token.kind == Kind::Ident {
+                let names = &self.params[params.0 as usize..params.1 as usize];
+                if let Some(i) = names.iter().position(|&p| p == token.value) {
+                    token.kind = Kind::Param;
+                    token.value = i as u32;
+                }
+            }
+            self.bodies.push(token);
+        }
+        let body = (body_start, self.bodies.len() as u32);
+        if let Some(old) = self.defined(name.value) {
+            self.redefine(&name, old, function_like, params, body);
+        }
+        let last = line.last().unwrap_or(&name).span;
+        let def = MacroDef {
+            name: Symbol(name.value),
+            name_at: Some(name.span),
+            defined_at: Some(name.span.to(last)),
+            function_like,
+        };
+        self.add_macro(def, params, body, Given::ByAuthor);
+    }
+
+    /// Reads `(a, b)` behind a macro's name; gives the position behind it.
+    fn parameters(&mut self, name: &Token, line: &[Token]) -> Option<usize> {
+        let first = self.params.len();
+        let mut at = 2;
+        if line.get(at).is_some_and(|t| t.kind == Kind::RParen) {
+            return Some(at + 1);
+        }
+        loop {
+            match line.get(at) {
+                Some(param) if param.kind == Kind::Ident => {
+                    let text = self.names.get(Symbol(param.value)).to_owned();
+                    if self.params[first..].contains(&param.value) {
+                        self.error(param, format!("the parameter `{text}` is there twice"), None);
+                        return None;
+                    }
+                    self.params.push(param.value);
+                }
+                Some(token) if token.kind == Kind::RParen && self.params.len() > first => {
+                    // ANGLE lets it pass, and shaders have it.
+                    self.warning(token, "there is a comma too many in these parameters", None);
+                    return Some(at + 1);
+                }
+                Some(token) if token.kind == Kind::Dot => {
+                    self.error(token, "GLSL ES has no macros with a variable number of arguments", None);
+                    return None;
+                }
+                other => {
+                    let place = *other.unwrap_or(name);
+                    self.error(&place, "expected the name of a parameter", None);
+                    return None;
+                }
+            }
+            match line.get(at + 1) {
+                Some(token) if token.kind == Kind::Comma => at += 2,
+                Some(token) if token.kind == Kind::RParen => return Some(at + 2),
+                other => {
+                    let place = *other.unwrap_or(name);
+                    let text = self.text(name.span).to_owned();
+                    self.error(
+                        &place,
+                        format!("expected `,` or `)` in the parameters of the macro `{text}`"),
+                        Some(format!("if `{text}` has no parameters, write a space between its name and `(`")),
+                    );
+                    return None;
+                }
+            }
+        }
+    }
+
+    /// A second definition is allowed where it is the same as the first; otherwise that is an error, and the new one holds.
+    fn redefine(&mut self, name: &Token, old: MacroId, function_like: bool, params: (u32, u32), body: (u32, u32)) {
+        let def = self.origins[old];
+        let before = &self.macros[old.index()];
+        let list = |range: (u32, u32)| &self.bodies[range.0 as usize..range.1 as usize];
+        let names = |range: (u32, u32)| &self.params[range.0 as usize..range.1 as usize];
+        let same = match before.given {
+            Given::BySite(value) => {
+                matches!(list(body), [t] if t.kind == Kind::Int && t.value == value) && !function_like
+            }
+            _ => {
+                def.function_like == function_like
+                    && names(before.params) == names(params)
+                    && list(before.body).len() == list(body).len()
+                    && list(before.body)
+                        .iter()
+                        .zip(list(body))
+                        .all(|(a, b)| (a.kind, a.value, a.has(SPACE)) == (b.kind, b.value, b.has(SPACE)))
+            }
+        };
+        if same {
+            return;
+        }
+        let text = self.names.get(Symbol(name.value));
+        let message = format!("the macro `{text}` is defined already, with another text");
+        let mut diagnostic = Diagnostic::error(name.span, message);
+        if let Some(at) = def.name_at {
+            diagnostic = diagnostic.label(at, "first defined here");
+        }
+        let hint = if matches!(before.given, Given::BySite(_)) {
+            format!("the site defines `{text}` itself; write `#undef {text}` before, or `#ifndef {text}` around")
+        } else {
+            format!("write `#undef {text}` before, or choose another name")
+        };
+        self.report.add(diagnostic.hint(hint));
+    }
+}
+
+/// What follows a macro's name without a space and most likely belongs to something else.
+fn is_suspicious(kind: Kind) -> bool {
+    !matches!(kind, Kind::LParen | Kind::LBrace | Kind::LBracket | Kind::Semicolon)
+}

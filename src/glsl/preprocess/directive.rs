@@ -1,0 +1,219 @@
+//! Which directive a line is, and what all of them but `#define` do: conditionals, `#error`, `#line`, `#version`,
+//! `#extension`, `#pragma`.
+
+use super::*;
+use crate::glsl::near::nearest;
+
+const DIRECTIVES: [&str; 13] = [
+    "define",
+    "undef",
+    "if",
+    "ifdef",
+    "ifndef",
+    "elif",
+    "else",
+    "endif",
+    "error",
+    "line",
+    "version",
+    "extension",
+    "pragma",
+];
+
+impl Preprocessor<'_, '_> {
+    /// Carries out the directive that begins with `hash`, to the end of its line.
+    pub(super) fn directive(&mut self, hash: Token) {
+        self.lexers[self.current].begin_directive();
+        let name = self.raw();
+        match name.kind {
+            // `#` alone does nothing.
+            Kind::Newline | Kind::Eof => return,
+            Kind::Ident => {}
+            _ => {
+                let text = self.text(name.span).to_owned();
+                self.error(&hash, format!("expected the name of a directive behind `#`, found `{text}`"), None);
+                self.lexers[self.current].rest_of_line();
+                self.line_tokens();
+                return;
+            }
+        }
+        if self.names.get(Symbol(name.value)) == "error" {
+            let (text, span) = self.lexers[self.current].rest_of_line();
+            self.line_tokens();
+            self.report.add(Diagnostic::error(name.span.to(span), format!("#error: {text}")));
+            return;
+        }
+        let line = self.line_tokens();
+        self.named_directive(&name, &line);
+        self.recycle(line);
+    }
+
+    fn named_directive(&mut self, name: &Token, line: &[Token]) {
+        match self.names.get(Symbol(name.value)) {
+            "define" => self.define(name, line),
+            "undef" => self.undef(name, line),
+            "if" => {
+                let on = self.condition(name, line);
+                self.open_conditional(name, on);
+            }
+            "ifdef" | "ifndef" => {
+                let wanted = self.names.get(Symbol(name.value)) == "ifdef";
+                let on = self.is_defined(name, line).map(|defined| defined == wanted);
+                self.open_conditional(name, on.unwrap_or(false));
+            }
+            "elif" | "else" | "endif" => {
+                if !self.next_group(name, line) {
+                    self.skip();
+                }
+            }
+            "line" => self.line_directive(name, line),
+            "version" => self.error(
+                name,
+                "`#version` must stand before everything else, and the site's own header has it already",
+                Some("delete the line: the language is always GLSL ES 3.00".into()),
+            ),
+            "extension" => self.error(
+                name,
+                "`#extension` must stand before all declarations, and the site's own come first",
+                Some("delete the line: what it asks for is in GLSL ES 3.00 or cannot be had".into()),
+            ),
+            "pragma" => self.pragma(line),
+            "include" => {
+                self.error(name, "GLSL ES has no `#include`", Some("put what several passes share into Common".into()))
+            }
+            other => {
+                let message = format!("there is no directive `#{other}`");
+                let hint = match other {
+                    "elseif" | "elsif" | "elsei" => Some("elif"),
+                    _ => nearest(other, DIRECTIVES),
+                };
+                self.error(name, message, hint.map(|near| format!("did you mean `#{near}`?")));
+            }
+        }
+    }
+
+    /// The rest of the directive's line.
+    fn line_tokens(&mut self) -> Vec<Token> {
+        let mut line = self.spare.pop().unwrap_or_default();
+        loop {
+            let token = self.raw();
+            match token.kind {
+                Kind::Newline | Kind::Eof => return line,
+                Kind::OpenComment => {
+                    self.open_comment(&token);
+                    return line;
+                }
+                _ => line.push(token),
+            }
+        }
+    }
+
+    fn recycle(&mut self, mut tokens: Vec<Token>) {
+        tokens.clear();
+        self.spare.push(tokens);
+    }
+
+    /// A directive is complete: what else stands in its line is an error, as in ANGLE.
+    pub(super) fn nothing_more(&mut self, rest: &[Token], directive: &str) {
+        if let Some(extra) = rest.first() {
+            let text = self.text(extra.span).to_owned();
+            self.error(extra, format!("`{text}` is too much behind `#{directive}`"), None);
+        }
+    }
+
+    /// `#ifdef` and `#ifndef`; `None` where no name follows.
+    fn is_defined(&mut self, directive: &Token, line: &[Token]) -> Option<bool> {
+        let text = self.text(directive.span).to_owned();
+        let Some(name) = line.first().filter(|t| t.kind == Kind::Ident) else {
+            let hint = format!("write `#{text} NAME`; for an expression use `#if`");
+            self.error(line.first().unwrap_or(directive), format!("`#{text}` needs the name of a macro"), Some(hint));
+            return None;
+        };
+        self.nothing_more(&line[1..], &text);
+        let found = self.defined(name.value);
+        self.origins.macro_uses.extend(found.map(|id| (name.span, id)));
+        Some(found.is_some())
+    }
+
+    fn open_conditional(&mut self, name: &Token, on: bool) {
+        self.conditionals.push(Conditional { at: *name, taken: on, seen_else: None });
+        if !on {
+            self.skip();
+        }
+    }
+
+    /// Leaves out lines up to the group of the innermost conditional that is to be compiled, or its end.
+    fn skip(&mut self) {
+        let mut depth = 0;
+        loop {
+            if !self.lexers[self.current].skip_to_directive() {
+                if self.current + 1 < self.lexers.len() {
+                    self.current += 1;
+                    continue;
+                }
+                return;
+            }
+            self.lexers[self.current].begin_directive();
+            let name = self.raw();
+            let word = if name.kind == Kind::Ident { self.names.get(Symbol(name.value)) } else { "" };
+            match word {
+                "if" | "ifdef" | "ifndef" => depth += 1,
+                "endif" if depth > 0 => depth -= 1,
+                "elif" | "else" | "endif" if depth == 0 => {
+                    let line = self.line_tokens();
+                    let compiled = self.next_group(&name, &line);
+                    self.recycle(line);
+                    if compiled {
+                        return;
+                    }
+                }
+                _ => {}
+            }
+            self.lexers[self.current].end_directive();
+        }
+    }
+
+    /// `#elif`, `#else` and `#endif` of the innermost conditional: whether the lines behind are compiled.
+    fn next_group(&mut self, name: &Token, line: &[Token]) -> bool {
+        let text = self.text(name.span).to_owned();
+        if self.conditionals.is_empty() {
+            self.error(name, format!("`#{text}` without an `#if` before it"), None);
+            return true;
+        }
+        let last = self.conditionals.len() - 1;
+        if text == "endif" {
+            self.conditionals.pop();
+            self.nothing_more(line, "endif");
+            return true;
+        }
+        if let Some(earlier) = self.conditionals[last].seen_else {
+            let message = format!("`#{text}` behind the `#else` of the same `#if`");
+            let diagnostic = Diagnostic::error(name.span, message)
+                .label(earlier.span, "the `#else`")
+                .label(self.conditionals[last].at.span, "the `#if`");
+            self.report.add(diagnostic);
+            return false;
+        }
+        let taken = self.conditionals[last].taken;
+        let on = if text == "else" {
+            self.nothing_more(line, "else");
+            self.conditionals[last].seen_else = Some(*name);
+            !taken
+        } else {
+            // The condition behind a group that was compiled is not even looked at.
+            !taken && self.condition(name, line)
+        };
+        self.conditionals[last].taken |= on;
+        on
+    }
+
+    /// The one pragma that means something, and not in a fragment shader.
+    fn pragma(&mut self, line: &[Token]) {
+        if let [stdgl, word, ..] = line
+            && self.text(stdgl.span) == "STDGL"
+            && self.text(word.span) == "invariant"
+        {
+            self.error(word, "a fragment shader has no `invariant(all)`", Some("delete the line".into()));
+        }
+    }
+}

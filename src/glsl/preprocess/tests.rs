@@ -1,0 +1,339 @@
+//! Directives and macros: what the specification and the browsers' compiler let pass, and what they refuse.
+#![cfg(test)]
+
+use super::*;
+use crate::diag::SourceId;
+
+/// The tokens as text with single spaces, and the diagnostics' messages.
+fn run(text: &str) -> (String, Vec<String>) {
+    run_texts(&[text])
+}
+
+fn run_texts(texts: &[&str]) -> (String, Vec<String>) {
+    let texts: Vec<_> = texts.iter().enumerate().map(|(i, text)| Text { id: SourceId(i as u16), text }).collect();
+    let mut names = words::interner();
+    let mut report = Report::default();
+    let done = preprocess(&texts, Unit::CommonAlone, &mut names, &mut report);
+    assert_eq!(done.tokens.len(), done.origins.tokens.len());
+    assert_eq!(done.tokens.last().unwrap().kind, Kind::Eof);
+    let shown: Vec<String> = done.tokens[..done.tokens.len() - 1]
+        .iter()
+        .zip(&done.origins.tokens)
+        .map(|(token, origin)| match token.kind {
+            Kind::Int => (token.value as i32).to_string(),
+            Kind::Wrong => "<wrong>".into(),
+            _ => texts[usize::from(origin.spelled.source.0)].text[origin.spelled.range()].to_owned(),
+        })
+        .collect();
+    (shown.join(" "), report.diagnostics.iter().map(|d| format!("{}: {}", d.severity.name(), d.message)).collect())
+}
+
+/// The text without any diagnostic.
+#[track_caller]
+fn gives(text: &str, expected: &str) {
+    let (tokens, messages) = run(text);
+    assert_eq!(messages, [""; 0], "{text}");
+    assert_eq!(tokens, expected, "{text}");
+}
+
+/// One error that has `part` in it.
+#[track_caller]
+fn refuses(text: &str, part: &str) -> String {
+    let (tokens, messages) = run(text);
+    let text: String = text.chars().take(200).collect();
+    assert_eq!(messages.len(), 1, "{text}: {messages:?}");
+    assert!(messages[0].starts_with("error") && messages[0].contains(part), "{text}: {messages:?}");
+    tokens
+}
+
+#[test]
+fn object_macros() {
+    gives("#define A 1 + B\n#define B 2\nA;", "1 + 2 ;");
+    gives("#define A\nx A y", "x y");
+    gives("#define A 1\n#undef A\nA", "A");
+    gives("#define A (x)\nA", "( x )");
+    gives("#define float vec4\nfloat", "vec4");
+    gives("A\n#define A 1", "A");
+    gives("# define A 1 // c\n  #  undef A\n#\n# // nothing\nA", "A");
+    gives("/* */ #define X /* a \n b */ 1.\nX", "1.");
+}
+
+#[test]
+fn function_macros() {
+    gives("#define F(x) (x*x)\nF(a+b)", "( a + b * a + b )");
+    gives("#define F(x, y) y x\nF((1, 2), f(3, 4))", "f ( 3 , 4 ) ( 1 , 2 )");
+    gives("#define F() 1\nF() F( )", "1 1");
+    gives("#define F(x) [x]\nF() F(\n\n1\n)", "[ ] [ 1 ]");
+    gives("#define F(x, y) [x y]\nF(,)", "[ ]");
+    // Without parentheses it is a name.
+    gives("#define F(x) x\nF = F;", "F = F ;");
+    gives("#define F (x)\nF", "( x )");
+    gives("#define F(x) x\nF\n\n(1)", "1");
+    // Parameters stand for their arguments also in a nested call.
+    gives("#define G(y) <y>\n#define F(x) G(x) G((x))\nF(1)", "< 1 > < ( 1 ) >");
+}
+
+#[test]
+fn rescanning() {
+    // The examples of C that bear on the order of things.
+    gives("#define foo foo\nfoo", "foo");
+    gives("#define a b\n#define b a\na b", "a b");
+    gives("#define a b + a\n#define b a * 2\na", "a * 2 + a");
+    gives("#define f(x) x + f(x)\nf(1)", "1 + f ( 1 )");
+    gives("#define f(x) (x)\nf(f(f(1)))", "( ( ( 1 ) ) )");
+    gives("#define f(a) a*g\n#define g(a) f(a)\nf(2)(9)", "2 * 9 * g");
+    gives("#define F(x) x\n#define G F\nG(1)", "1");
+    gives("#define F(x) [x]\n#define G F(\nG 1)", "[ 1 ]");
+    gives("#define F(x) [x]\n#define L (\n#define R )\nF L 1 R", "F ( 1 )");
+    // A name that came up inside its own macro is left alone also when it is passed on.
+    gives("#define x x y\n#define F(a) a\nF(x)", "x y");
+    gives("#define AA BB\n#define BB AA(1)\n#define AA2(x) x\nAA2(AA)", "AA ( 1 )");
+    gives("#define z z[0]\n#define f(a) f(z * (a))\nf(y)", "f ( z [ 0 ] * ( y ) )");
+}
+
+#[test]
+fn arguments_are_counted() {
+    let tokens = refuses("#define F(x, y) x\nF(1);", "takes 2 arguments, but 1 is given");
+    assert_eq!(tokens, "<wrong> ;");
+    refuses("#define F(x) x\nF(1, 2)", "takes 1 argument, but 2 are given");
+    refuses("#define F() 1\nF(1)", "takes 0 arguments, but 1 is given");
+    refuses("#define F(x) x\nF(1;\n2", "no closing parenthesis");
+    refuses("#define F(x) x\n#define G F(1\nG", "no closing parenthesis");
+}
+
+#[test]
+fn directives_in_arguments() {
+    gives("#define F(x) x\nF(\n#if 1\n1\n#else\n2\n#endif\n)", "1");
+    gives("#define F(x) x\nF(\n#define B 3\nB)", "3");
+    refuses("#define F(x) x\nF(\n#undef F\n1)", "in the arguments of its own call");
+}
+
+#[test]
+fn definitions() {
+    gives("#define A 1\n#define A 1\nA", "1");
+    gives("#define A 1 +  2\n#define A   1 + 2 \nA", "1 + 2");
+    gives("#define F(x) x\n#define F(x) x\nF(1)", "1");
+    refuses("#define A 1\n#define A 2", "defined already");
+    refuses("#define A 1+2\n#define A 1 + 2", "defined already");
+    refuses("#define F(x) x\n#define F(y) y", "defined already");
+    refuses("#define F(x) x\n#define F (x) x", "defined already");
+    gives("#define A 1\n#undef A\n#define A 2\nA", "2");
+    gives("#undef A", "");
+    gives("#define HW_PERFORMANCE 1\n#undef HW_PERFORMANCE\n#define HW_PERFORMANCE 0\nHW_PERFORMANCE", "0");
+    refuses("#define HW_PERFORMANCE 0", "defined already");
+    for name in ["__LINE__", "__FILE__", "__VERSION__", "GL_ES"] {
+        refuses(&format!("#define {name} 1"), "part of the language");
+        refuses(&format!("#undef {name}"), "part of the language");
+    }
+    refuses("#define GL_A 1", "kept for the language");
+    refuses("#define defined 1", "operator");
+    refuses("#define", "needs the name");
+    refuses("#define 1 2", "cannot be the name");
+    refuses("#undef A B", "too much");
+    refuses("#define F(x, x) 1", "twice");
+    refuses("#define F(...) 1", "variable number");
+    refuses("#define F(x 1", "expected `,` or `)`");
+    refuses("#define F(1) 1", "name of a parameter");
+    refuses("#define F(", "name of a parameter");
+    let (tokens, messages) = run("#define A__B 1\nA__B");
+    assert_eq!((tokens.as_str(), messages.len()), ("1", 1));
+    assert!(messages[0].starts_with("warning"));
+    let (tokens, messages) = run("#define F(x,) x\nF(1,)");
+    assert!(messages.iter().any(|m| m.starts_with("warning")), "{tokens} {messages:?}");
+}
+
+#[test]
+fn given_macros() {
+    gives("__VERSION__ GL_ES HW_PERFORMANCE __FILE__ GL_FRAGMENT_PRECISION_HIGH", "300 1 1 0 1");
+    // The site's header comes first: 11 lines before a Common that is compiled alone.
+    gives("__LINE__\n\n__LINE__ \\\n __LINE__", "12 14 15");
+    gives("#define L __LINE__\n\nL", "14");
+    gives("#line 5\n__LINE__\n#line 5\n__LINE__", "5 5");
+    gives("#line 100\n__LINE__\n__LINE__", "100 101");
+    gives("#line 10 + 5 7\n__LINE__ __FILE__", "15 7");
+    refuses("#line foo", "not defined");
+    refuses("#line 1 2 3", "not expected");
+    assert_eq!(run_texts(&["\n__LINE__", "__LINE__\n__LINE__"]).0, "13 14 15", "Common and the pass are one text");
+    assert_eq!(run_texts(&["#line 1\n\n", "__LINE__"]).0, "3");
+}
+
+#[test]
+fn conditionals() {
+    gives("#if 1\na\n#else\nb\n#endif\nc", "a c");
+    gives("#if 0\na\n#elif 1\nb\n#elif 1\nc\n#else\nd\n#endif", "b");
+    gives("#if 0\na\n#elif 0\nb\n#else\nc\n#endif", "c");
+    gives("#ifdef A\na\n#endif\n#ifndef A\nb\n#endif", "b");
+    gives("#define A\n#ifdef A\na\n#endif\n#ifndef A\nb\n#endif", "a");
+    gives("#if 0\n#if 1\na\n#else\nb\n#endif\n#foo \" it's\n#else\nc\n#endif", "c");
+    gives("#if 1\n#if 0\na\n#else\nb\n#endif\n#else\nc\n#endif", "b");
+    // What is left out is not looked at.
+    gives("#if 0\n\u{e9} @ 08 #error x\n#error y\n#endif\nz", "z");
+    gives("#if 1\na\n#elif NOBODY\n#endif", "a");
+    gives("#if 0\n/* #endif */ // #endif\n#endif\nz", "z");
+    gives("#if 0\na \\\n#endif\n#endif\nz", "z");
+    gives("#if 0\n/*\n#endif\n*/\n#endif\nz", "z");
+    refuses("#if 1", "has no `#endif`");
+    refuses("#ifdef A", "has no `#endif`");
+    refuses("#endif", "without an `#if`");
+    refuses("#else", "without an `#if`");
+    refuses("#elif 1", "without an `#if`");
+    refuses("#if 1\n#else\n#else\n#endif", "behind the `#else`");
+    refuses("#if 0\n#else\n#elif 1\n#endif", "behind the `#else`");
+    refuses("#if 1\n#endif x", "too much");
+    refuses("#if 1\n#else x\n#endif", "too much");
+    refuses("#ifdef A B\n#endif", "too much");
+    refuses("#ifdef\n#endif", "needs the name");
+    refuses("#ifdef 1\n#endif", "needs the name");
+}
+
+#[test]
+fn expressions() {
+    for (text, holds) in [
+        ("1 + 2 * 3 == 7", true),
+        ("(1 + 2) * 3 == 9", true),
+        ("7 / 2 == 3 && 7 % 2 == 1", true),
+        ("-7 / 2 == -3", true),
+        ("1 << 4 == 16", true),
+        ("16 >> 2 == 4", true),
+        ("1 << 3 + 1 == 16", true),
+        ("5 & 3 | 8 ^ 1", true),
+        ("1 | 2 ^ 3 & 0", true),
+        ("!0 && ~0 == -1", true),
+        ("- - 1 == 1", true),
+        ("1 < 2 == 1", true),
+        ("2 > 1 != 0", true),
+        ("1 <= 0", false),
+        ("1 >= 2 || 0", false),
+        ("0x10 == 16 && 010 == 8 && 3u == 3", true),
+        ("defined A", false),
+        ("defined(GL_ES) && defined GL_ES", true),
+        ("!defined(A)", true),
+        ("defined(A) && A > 1", false),
+        ("1 || A", true),
+        ("0 && 1 / 0", false),
+        ("__VERSION__ >= 300", true),
+        ("HW_PERFORMANCE == 0", false),
+    ] {
+        let expected = if holds { "y" } else { "n" };
+        gives(&format!("#if {text}\ny\n#else\nn\n#endif"), expected);
+    }
+    gives("#define F(x) (x > 2)\n#if F(3) && !F(2)\ny\n#endif", "y");
+    gives("#define E == 1\n#if 1 E\ny\n#endif", "y");
+    for (text, part) in [
+        ("", "missing"),
+        ("A", "`A` is not defined"),
+        ("1 +", "not complete"),
+        ("(1", "not closed"),
+        ("1)", "not expected"),
+        ("1 2", "not expected"),
+        ("1.0", "only integers"),
+        ("1 / 0", "zero"),
+        ("1 % 0", "zero"),
+        ("1 << 32", "shift"),
+        ("1 >> -1", "shift"),
+        ("1 ? 2 : 3", "not expected"),
+        ("1 = 1", "not expected"),
+        ("1, 2", "not expected"),
+        ("true", "`true`"),
+        ("4294967296", "32 bits"),
+        ("defined 1", "takes the name"),
+        ("defined(GL_ES", "takes the name"),
+        ("\"a\"", "quotes"),
+    ] {
+        refuses(&format!("#if {text}\n#endif"), part);
+    }
+    refuses("#define D defined(A)\n#if D\n#endif", "out of a macro");
+    refuses("#define F(x) x\n#if F\n#endif", "has no value");
+    let deep = format!("#if {}1{}\n#endif", "(".repeat(100_000), ")".repeat(100_000));
+    refuses(&deep, "deep");
+}
+
+#[test]
+fn other_directives() {
+    refuses("#error it is  so\nx", "#error: it is  so");
+    gives("#pragma optimize(off)\n#pragma STDGL foo\nx", "x");
+    refuses("#pragma STDGL invariant(all)", "invariant");
+    refuses("#version 300 es", "#version");
+    refuses("#extension GL_OES_standard_derivatives : enable", "#extension");
+    refuses("#include <a>", "#include");
+    refuses("#foo", "no directive");
+    refuses("#1", "name of a directive");
+    refuses("a #define B", "no meaning here");
+}
+
+#[test]
+fn what_is_no_glsl() {
+    assert_eq!(refuses("a \u{2212} b", "looks like `-`"), "a \u{2212} b");
+    assert_eq!(refuses("a $ b", "no meaning"), "a b");
+    assert_eq!(refuses("float \u{3b1} = 1.0; \u{3b1};", "letter"), "float \u{3b1} = 1.0 ; \u{3b1} ;");
+    refuses("a\u{a0}b", "U+00A0");
+    refuses("a\0b", "NUL");
+    refuses("\"text\"", "quotes");
+    refuses("08", "octal");
+    refuses("a /* b", "not closed");
+    refuses("#define A /* b\nA", "not closed");
+    // Only where it is used does a macro's text matter.
+    gives("#define A @ 08 \"x\" a##b #c\nx", "x");
+    refuses("#define A 08\nA A A", "octal");
+    let (_, messages) = run("#define C(a, b) a##b\nC(x, y)");
+    assert!(messages[0].contains("##"), "{messages:?}");
+}
+
+#[test]
+fn common_and_code_are_one_text() {
+    let (tokens, messages) = run_texts(&["#define A 1\n#ifdef B\nno", "no\n#else\nA\n#endif"]);
+    assert_eq!((tokens.as_str(), messages.len()), ("1", 0));
+    assert_eq!(run_texts(&["#define F(x) x\nF(", "2)"]).0, "2");
+    assert_eq!(run_texts(&["", ""]).0, "");
+}
+
+#[test]
+fn origins_lead_back() {
+    let text = "#define IN(x) x * k\n#define OUT IN(a)\nOUT + IN(b);";
+    let texts = [Text { id: SourceId(0), text }];
+    let (mut names, mut report) = (words::interner(), Report::default());
+    let done = preprocess(&texts, Unit::CommonAlone, &mut names, &mut report);
+    let spelled = |i: usize| &text[done.origins.tokens[i].spelled.range()];
+    let used = |i: usize| &text[done.origins.token_span(crate::glsl::ast::TokenId(i as u32)).range()];
+    // a * k + b * k ;
+    assert_eq!((spelled(0), used(0)), ("a", "OUT"));
+    assert_eq!((spelled(2), used(2)), ("k", "OUT"));
+    assert_eq!((spelled(4), used(4)), ("b", "b"), "an argument points at itself");
+    assert_eq!((spelled(6), used(6)), ("k", "IN(b)"));
+    let inner = done.origins.tokens[2].expansion.unwrap();
+    let outer = done.origins[inner].parent.unwrap();
+    assert_eq!(names.get(done.origins[done.origins[inner].macro_id].name), "IN");
+    assert_eq!(names.get(done.origins[done.origins[outer].macro_id].name), "OUT");
+    assert_eq!(done.origins[outer].parent, None);
+    let uses: Vec<&str> = done.origins.macro_uses.iter().map(|u| &text[u.0.range()]).collect();
+    assert_eq!(uses, ["OUT", "IN", "IN"]);
+}
+
+#[test]
+fn bombs_are_stopped_by_name() {
+    let mut doubling = String::from("#define A0 x x\n");
+    for i in 1..64 {
+        doubling += &format!("#define A{i} A{} A{}\n", i - 1, i - 1);
+    }
+    assert_eq!(refuses(&(doubling + "A63"), "2000000"), "");
+    let mut calls = String::from("#define F0(x) x, x\n");
+    for i in 1..64 {
+        calls += &format!("#define F{i}(x) F{}((x)) F{}((x))\n", i - 1, i - 1);
+    }
+    refuses(&(calls + "F63(1)"), "2000000");
+    let mut empty = String::from("#define A0\n");
+    for i in 1..64 {
+        empty += &format!("#define A{i} A{} A{}\n", i - 1, i - 1);
+    }
+    refuses(&(empty + "A63"), "2000000");
+    let nested = |depth| format!("#define F(x) x\n{}1{}", "F(".repeat(depth), ")".repeat(depth));
+    gives(&nested(200), "1");
+    refuses(&nested(250), "200 deep");
+    refuses(&nested(100_000), "2000000");
+    // A chain that is long, but no bomb.
+    let mut chain = String::from("#define A0 1\n");
+    for i in 1..10_000 {
+        chain += &format!("#define A{i} A{}\n", i - 1);
+    }
+    gives(&(chain + "A9999"), "1");
+}

@@ -1,0 +1,98 @@
+//! What a pass really reaches from its entry point. `graph` plans with it: what is not read here need not be made.
+
+/// Uniforms as a set.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct UniformSet(u16);
+
+macro_rules! uniforms {
+    ($($name:ident = $bit:literal, $text:literal;)*) => {
+        impl UniformSet {
+            $(pub const $name: UniformSet = UniformSet(1 << $bit);)*
+
+            /// Names as GLSL spells them, in the order of the block.
+            pub fn names(self) -> Vec<&'static str> {
+                [$((Self::$name, $text)),*].into_iter().filter(|(u, _)| self.contains(*u)).map(|(_, n)| n).collect()
+            }
+        }
+    };
+}
+
+uniforms! {
+    RESOLUTION = 0, "iResolution";
+    TIME = 1, "iTime";
+    MOUSE = 2, "iMouse";
+    DATE = 3, "iDate";
+    TIME_DELTA = 4, "iTimeDelta";
+    FRAME_RATE = 5, "iFrameRate";
+    SAMPLE_RATE = 6, "iSampleRate";
+    FRAME = 7, "iFrame";
+    CHANNEL_TIME = 8, "iChannelTime";
+    CHANNEL_RESOLUTION = 9, "iChannelResolution";
+    TIME_OFFSET = 10, "iTimeOffset";
+    SAMPLE_OFFSET = 11, "iSampleOffset";
+    CHANNEL_LOADED = 12, "iCh";
+}
+
+impl UniformSet {
+    pub const EMPTY: UniformSet = UniformSet(0);
+
+    pub fn contains(self, other: UniformSet) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    pub fn intersects(self, other: UniformSet) -> bool {
+        self.0 & other.0 != 0
+    }
+
+    pub fn insert(&mut self, other: UniformSet) {
+        self.0 |= other.0;
+    }
+
+    pub fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+}
+
+/// How a pass reads one channel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct ChannelUse {
+    /// The texture is declared in the module: it is fetched, sampled or its size is asked for.
+    pub texture: bool,
+    /// The sampler is declared in the module.
+    pub sampler: bool,
+    /// Some read could reach a mip level other than 0: an implicit-derivative, biased, gradient or explicit-level read, or a
+    /// fetch or size query of a level not known to be 0. False lets the planner leave out the mips though the sampler asks.
+    pub mips: bool,
+}
+
+impl ChannelUse {
+    pub fn is_read(self) -> bool {
+        self.texture || self.sampler
+    }
+}
+
+/// What a pass reads, as reached from its entry point after preprocessing. Conservative: a read that may happen is listed.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Reflection {
+    pub uniforms: UniformSet,
+    pub channels: [ChannelUse; 4],
+    /// `discard` can be reached: the target keeps what it held, so the planner must not pretend it is overwritten.
+    pub discards: bool,
+    /// Screen-space derivatives are taken (also by implicit-level texture reads).
+    pub derivatives: bool,
+}
+
+impl Reflection {
+    /// Whether the picture can change though no channel and no input event does.
+    pub fn depends_on_time(&self) -> bool {
+        let clocks = [
+            UniformSet::TIME,
+            UniformSet::TIME_DELTA,
+            UniformSet::FRAME,
+            UniformSet::FRAME_RATE,
+            UniformSet::DATE,
+            UniformSet::CHANNEL_TIME,
+        ];
+        clocks.into_iter().any(|u| self.uniforms.intersects(u))
+    }
+}
