@@ -1,0 +1,174 @@
+//! Bind groups: which texture each channel of each draw sees in each phase. Made once for a program and a size, so that a
+//! frame only sets them.
+
+use super::{
+    program::{BoundChannel, CompiledDraw, Program},
+    targets::Target,
+};
+use crate::{
+    glsl::{
+        ChannelKind,
+        interface::{self, UniformBlock},
+    },
+    gpu::{Address, Filtering, Gpu, Samplers, Texture},
+    graph::{Draw, Read, Source, When},
+    project::{Filter, Wrap},
+};
+
+/// Uniform blocks lie this far apart in the one buffer, which is what every device allows.
+pub(super) const UNIFORM_STRIDE: u64 = 256;
+
+/// Textures that channels read besides targets and pictures.
+pub(super) struct Stock {
+    pub samplers: Samplers,
+    pub keyboard: Texture,
+    /// Black and without alpha; what a channel with nothing in it reads.
+    nothing_2d: Texture,
+    nothing_3d: wgpu::TextureView,
+    nothing_cube: wgpu::TextureView,
+}
+
+impl Stock {
+    pub fn new(gpu: &Gpu) -> Result<Self, crate::gpu::GpuError> {
+        let picture = |label, width, height, format| {
+            Texture::new(
+                gpu,
+                &crate::gpu::TextureDescriptor { label, width, height, format, levels: 1, is_target: false },
+            )
+        };
+        let view = |dimension, layers, view_dimension| {
+            gpu.device
+                .create_texture(&wgpu::TextureDescriptor {
+                    label: Some("nothing"),
+                    size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: layers },
+                    mip_level_count: 1,
+                    sample_count: 1,
+                    dimension,
+                    format: wgpu::TextureFormat::Rgba8Unorm,
+                    usage: wgpu::TextureUsages::TEXTURE_BINDING,
+                    view_formats: &[],
+                })
+                .create_view(&wgpu::TextureViewDescriptor { dimension: Some(view_dimension), ..Default::default() })
+        };
+        Ok(Self {
+            samplers: Samplers::new(gpu),
+            keyboard: picture("keyboard", 256, 3, wgpu::TextureFormat::R8Unorm)?,
+            nothing_2d: picture("nothing", 1, 1, wgpu::TextureFormat::Rgba8Unorm)?,
+            nothing_3d: view(wgpu::TextureDimension::D3, 1, wgpu::TextureViewDimension::D3),
+            nothing_cube: view(wgpu::TextureDimension::D2, 6, wgpu::TextureViewDimension::Cube),
+        })
+    }
+}
+
+/// The bind groups of one draw.
+pub(super) struct DrawBindings {
+    pub uniforms: wgpu::BindGroup,
+    /// By phase.
+    pub channels: [wgpu::BindGroup; 2],
+}
+
+pub(super) fn make(
+    gpu: &Gpu,
+    stock: &Stock,
+    program: &Program,
+    targets: &[Target],
+    uniforms: &wgpu::Buffer,
+) -> Vec<DrawBindings> {
+    program
+        .draws
+        .iter()
+        .zip(&program.plan.draws)
+        .enumerate()
+        .map(|(index, (compiled, draw))| DrawBindings {
+            uniforms: uniform_group(gpu, compiled, uniforms, index as u64 * UNIFORM_STRIDE),
+            channels: [0, 1].map(|phase| channel_group(gpu, stock, compiled, draw, targets, phase)),
+        })
+        .collect()
+}
+
+fn uniform_group(gpu: &Gpu, compiled: &CompiledDraw, uniforms: &wgpu::Buffer, offset: u64) -> wgpu::BindGroup {
+    let size = std::num::NonZero::new(size_of::<UniformBlock>() as u64);
+    let block = wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer: uniforms, offset, size });
+    let mut entries = vec![wgpu::BindGroupEntry { binding: 0, resource: block }];
+    if let Some(tables) = &compiled.tables {
+        entries.push(wgpu::BindGroupEntry { binding: interface::TABLE_BINDING, resource: tables.as_entire_binding() });
+    }
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("uniforms"),
+        layout: &compiled.pipeline.layouts[interface::UNIFORM_GROUP as usize],
+        entries: &entries,
+    })
+}
+
+fn channel_group(
+    gpu: &Gpu,
+    stock: &Stock,
+    compiled: &CompiledDraw,
+    draw: &Draw,
+    targets: &[Target],
+    phase: usize,
+) -> wgpu::BindGroup {
+    let mut entries = Vec::new();
+    for (index, channel) in compiled.channels.iter().enumerate() {
+        let read = draw.reads[index].as_ref();
+        if channel.texture {
+            entries.push(wgpu::BindGroupEntry {
+                binding: interface::texture_binding(index),
+                resource: wgpu::BindingResource::TextureView(view(stock, channel, read, targets, phase)),
+            });
+        }
+        if channel.sampler {
+            entries.push(wgpu::BindGroupEntry {
+                binding: interface::sampler_binding(index),
+                resource: wgpu::BindingResource::Sampler(sampler(stock, channel, read)),
+            });
+        }
+    }
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("channels"),
+        layout: &compiled.pipeline.layouts[interface::CHANNEL_GROUP as usize],
+        entries: &entries,
+    })
+}
+
+fn view<'a>(
+    stock: &'a Stock,
+    channel: &'a BoundChannel,
+    read: Option<&Read>,
+    targets: &'a [Target],
+    phase: usize,
+) -> &'a wgpu::TextureView {
+    match (read.map(|r| &r.source), channel.kind) {
+        (Some(Source::Target { index, when }), _) => {
+            let phase = match when {
+                When::ThisFrame => phase,
+                When::LastFrame => 1 - phase,
+            };
+            let texture = targets[*index].at(phase);
+            // Filtering by hand goes by the levels it finds.
+            let by_hand = read.is_some_and(|r| r.sampler.filter == Filter::Linear) && !channel.filters;
+            if by_hand { &texture.level_0 } else { &texture.all_levels }
+        }
+        (Some(Source::Keyboard), _) => &stock.keyboard.all_levels,
+        (_, ChannelKind::Sampler2D) => channel.media.as_ref().map_or(&stock.nothing_2d.all_levels, |m| &m.all_levels),
+        (_, ChannelKind::Sampler3D) => &stock.nothing_3d,
+        (_, ChannelKind::SamplerCube) => &stock.nothing_cube,
+    }
+}
+
+fn sampler<'a>(stock: &'a Stock, channel: &BoundChannel, read: Option<&Read>) -> &'a wgpu::Sampler {
+    let (filter, wrap) = read.map_or((Filter::Nearest, Wrap::Clamp), |r| (r.sampler.filter, r.sampler.wrap));
+    let filtering = match filter {
+        // By hand, in the shader.
+        Filter::Mipmap if !channel.filters => Filtering::NearestOfLevel,
+        _ if !channel.filters => Filtering::Nearest,
+        Filter::Nearest => Filtering::Nearest,
+        Filter::Linear => Filtering::Linear,
+        Filter::Mipmap => Filtering::Trilinear,
+    };
+    let address = match wrap {
+        Wrap::Clamp => Address::Clamp,
+        Wrap::Repeat => Address::Repeat,
+    };
+    stock.samplers.get(filtering, address)
+}

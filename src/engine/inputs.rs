@@ -1,0 +1,36 @@
+//! Everything of one frame that is not the project's: time, mouse, keys, date.
+
+use crate::media::Keyboard;
+
+/// What the uniforms and the keyboard texture show in one frame. Values are as in `shadertoy.md` sections 3 to 6.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameInputs {
+    /// `iFrame`.
+    pub frame: i32,
+    /// `iTime`, seconds. Kept in f64: an f32 clock steps by 8 ms after a day.
+    pub time_secs: f64,
+    /// `iTimeDelta`, seconds.
+    pub time_delta_secs: f32,
+    /// `iFrameRate`, frames a second.
+    pub frame_rate: f32,
+    /// `iMouse`, canvas pixels from the bottom left.
+    pub mouse: [f32; 4],
+    /// `iDate`: year, month 0-11, day 1-31, seconds since local midnight.
+    pub date: [f32; 4],
+    pub keyboard: Keyboard,
+}
+
+impl FrameInputs {
+    /// Frame `frame` of a run at a fixed step of `1/fps` seconds: nothing pressed, date zero.
+    pub fn at_fixed_step(frame: i32, fps: f64) -> Self {
+        Self {
+            frame,
+            time_secs: f64::from(frame) / fps,
+            time_delta_secs: (1.0 / fps) as f32,
+            frame_rate: fps as f32,
+            mouse: [0.0; 4],
+            date: [0.0; 4],
+            keyboard: Keyboard::default(),
+        }
+    }
+}

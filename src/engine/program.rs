@@ -1,0 +1,340 @@
+//! From a project to everything a frame needs that does not change from frame to frame.
+
+use super::EngineError;
+use crate::{
+    diag::{Diagnostic, SourceId, SourceMap},
+    glsl::{self, ChannelKind, Compiled, PassKind, PassSource, Text, interface},
+    gpu::{
+        Binding, FragmentPipeline, FragmentPipelineDescriptor, Gpu, MipMaker, Texture, TextureDescriptor,
+        constant_buffer, mip_levels,
+    },
+    graph::{ChannelFacts, Draw, FramePlan, PassFacts, Source},
+    media::{MediaKey, MediaSet, TexelFormat, Texels},
+    project::{Channel, Filter, Input, PassId, Project},
+};
+use std::{collections::HashMap, sync::Arc};
+
+/// What may be left out, and what is wanted.
+#[derive(Clone, Debug)]
+pub struct BuildOptions {
+    /// The passes whose pictures are wanted; nothing they do not need is compiled into the frame. Empty: Image.
+    pub wanted: Vec<PassId>,
+    /// Leave out what nobody reads. Off (`--no-skip`), everything is drawn, with the same bytes in every picture.
+    pub skip: bool,
+}
+
+impl Default for BuildOptions {
+    fn default() -> Self {
+        Self { wanted: Vec::new(), skip: true }
+    }
+}
+
+/// A whole set of compiled passes and their plan. Made on any thread; swapped in at once by [`super::Engine::set_program`].
+pub struct Program {
+    pub(super) plan: FramePlan,
+    /// One for each of the plan's draws.
+    pub(super) draws: Vec<CompiledDraw>,
+}
+
+/// The pipeline of one draw and what its channels are bound to.
+pub(super) struct CompiledDraw {
+    pub id: PassId,
+    pub pipeline: FragmentPipeline,
+    pub channels: [BoundChannel; 4],
+    /// The constant tables of the shader, where it has any.
+    pub tables: Option<wgpu::Buffer>,
+}
+
+/// One channel of a compiled pass.
+#[derive(Default)]
+pub(super) struct BoundChannel {
+    pub kind: ChannelKind,
+    pub texture: bool,
+    pub sampler: bool,
+    /// The sampler may filter: the texture's format can be filtered on this device.
+    pub filters: bool,
+    /// The picture, where the channel reads one and it is there.
+    pub media: Option<Texture>,
+    /// What `iChannelResolution` says of the channel if it does not read a buffer.
+    pub resolution: [f32; 3],
+    /// The channel names a buffer, whose size is the canvas's.
+    pub is_canvas_sized: bool,
+}
+
+/// A program and what the compiler wants to say of it.
+pub struct Built {
+    pub program: Program,
+    /// Warnings and notes.
+    pub diagnostics: Vec<Diagnostic>,
+    pub sources: SourceMap,
+}
+
+/// Why there is no program.
+#[derive(Debug, thiserror::Error)]
+pub enum BuildError {
+    /// The author's to mend: at least one error, all of all passes.
+    #[error("the project does not compile")]
+    Diagnostics { diagnostics: Vec<Diagnostic>, sources: SourceMap },
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+}
+
+impl Program {
+    /// Compiles every pass, plans the frame and makes the pipelines of the passes it needs. `media` holds the pictures the
+    /// channels name; one that is missing reads as the site's unloaded channel.
+    pub fn build(gpu: &Gpu, project: &Project, media: &MediaSet, options: &BuildOptions) -> Result<Built, BuildError> {
+        let sources = project.sources();
+        let (drawable, compiled, diagnostics) = match compile(gpu, project, media) {
+            Ok(done) => done,
+            Err(diagnostics) => return Err(BuildError::Diagnostics { diagnostics, sources }),
+        };
+        let facts: Vec<PassFacts> = compiled.iter().map(facts).collect();
+        for id in &options.wanted {
+            if drawable.pass(id).is_none() {
+                return Err(EngineError::NoSuchPass(id.title()).into());
+            }
+        }
+        let plan = FramePlan::new(&drawable, &facts, &options.wanted, options.skip);
+        let mut compiled: Vec<Option<Compiled>> = compiled.into_iter().map(Some).collect();
+        let mut uploads = Uploads { gpu, mips: MipMaker::new(gpu), made: HashMap::new() };
+        let mut jobs = Vec::new();
+        for draw in &plan.draws {
+            let pass = &drawable.passes[draw.pass];
+            let Some(compiled) = compiled[draw.pass].take() else { continue };
+            let mut channels: [BoundChannel; 4] = Default::default();
+            for (index, bound) in channels.iter_mut().enumerate() {
+                let used = compiled.reflection.channels[index];
+                let channel = pass.channels[index].as_ref();
+                (bound.texture, bound.sampler) = (used.texture, used.sampler);
+                bound.kind = kind_of(channel);
+                let texels = channel.and_then(media_key).and_then(|key| media.get(&key).map(|t| (key, t)));
+                let float = is_float(channel, texels.as_ref().map(|(_, t)| &***t));
+                let read = draw.reads[index].as_ref();
+                bound.filters =
+                    read.is_some_and(|r| r.sampler.filter != Filter::Nearest) && (!float || gpu.filters_float32);
+                bound.resolution = match channel.map(|c| &c.input) {
+                    Some(Input::Keyboard) => [256.0, 3.0, 1.0],
+                    _ => texels.as_ref().map_or([0.0; 3], |(_, t)| [t.width as f32, t.height as f32, 1.0]),
+                };
+                bound.is_canvas_sized = matches!(channel.map(|c| &c.input), Some(Input::Buffer(_)));
+                if let Some((key, texels)) = texels
+                    && (used.texture || used.sampler)
+                {
+                    let mips = read.is_some_and(|r| r.mips);
+                    bound.media = Some(uploads.get(key, texels, mips).map_err(EngineError::from)?);
+                }
+            }
+            jobs.push((pass.id.clone(), compiled, channels, draw));
+        }
+        let draws = make_pipelines(gpu, jobs)?;
+        Ok(Built { program: Program { plan, draws }, diagnostics, sources })
+    }
+
+    /// What is drawn, read and kept in each frame.
+    pub fn plan(&self) -> &FramePlan {
+        &self.plan
+    }
+}
+
+/// The passes that can be drawn, compiled; `project` with only these, and every warning.
+type Compilation = (Project, Vec<Compiled>, Vec<Diagnostic>);
+
+fn compile(gpu: &Gpu, project: &Project, media: &MediaSet) -> Result<Compilation, Vec<Diagnostic>> {
+    let mut drawable = project.clone();
+    drawable.passes.clear();
+    let mut compiled = Vec::new();
+    let mut diagnostics: Vec<Diagnostic> = Vec::new();
+    for (index, pass) in project.passes.iter().enumerate() {
+        if matches!(pass.id, PassId::Cubemap | PassId::Sound) {
+            let what = pass.id.title();
+            diagnostics
+                .push(Diagnostic::warning(None, format!("the pass {what} is not drawn; what reads it reads black")));
+            continue;
+        }
+        let bilinear_by_hand = std::array::from_fn(|i| {
+            let channel = pass.channels[i].as_ref();
+            let texels = channel.and_then(media_key).and_then(|k| media.get(&k));
+            let filter = crate::graph::effective_sampler(project, index, i).map(|s| s.filter);
+            !gpu.filters_float32
+                && is_float(channel, texels.map(|t| &**t))
+                && filter.is_some_and(|f| f != Filter::Nearest)
+        });
+        let said = match compile_pass(project, index, bilinear_by_hand, !gpu.has_storage_buffers) {
+            Ok(mut done) => {
+                let said = std::mem::take(&mut done.diagnostics);
+                drawable.passes.push(without_cubemap_passes(pass.clone()));
+                compiled.push(done);
+                said
+            }
+            Err(errors) => errors,
+        };
+        for d in said {
+            // What is wrong in Common is found again in every pass.
+            if !diagnostics.contains(&d) {
+                diagnostics.push(d);
+            }
+        }
+    }
+    if diagnostics.iter().any(Diagnostic::is_error) { Err(diagnostics) } else { Ok((drawable, compiled, diagnostics)) }
+}
+
+/// Compiles `project.passes[index]` as it is, of whichever kind and reached or not. Needs no device, but is told which
+/// channels the device that shall run it cannot filter, and whether it has no storage buffers.
+///
+/// # Panics
+/// If there is no such pass.
+pub fn compile_pass(
+    project: &Project,
+    index: usize,
+    bilinear_by_hand: [bool; 4],
+    tables_in_memory: bool,
+) -> Result<Compiled, Vec<Diagnostic>> {
+    let pass = &project.passes[index];
+    let common = project.common.as_ref().map(|c| c.compile_text());
+    let code = pass.source.compile_text();
+    glsl::compile(&PassSource {
+        kind: match pass.id {
+            PassId::Image => PassKind::Image,
+            PassId::Buffer(_) => PassKind::Buffer,
+            PassId::Cubemap => PassKind::Cubemap,
+            PassId::Sound => PassKind::Sound,
+        },
+        common: common.as_deref().map(|text| Text { id: SourceId(0), text }),
+        code: Text { id: SourceId(index as u16 + 1), text: &code },
+        channels: std::array::from_fn(|i| kind_of(pass.channels[i].as_ref())),
+        bilinear_by_hand,
+        tables_in_memory,
+    })
+}
+
+/// A cubemap pass is not drawn, so a channel that reads it is as one whose file is missing.
+fn without_cubemap_passes(mut pass: crate::project::Pass) -> crate::project::Pass {
+    for channel in pass.channels.iter_mut().flatten() {
+        if channel.input == Input::CubemapPass {
+            channel.input = Input::Cubemap(crate::project::Media::Builtin("cube_a".into()));
+        }
+    }
+    pass
+}
+
+fn facts(compiled: &Compiled) -> PassFacts {
+    PassFacts {
+        channels: compiled.reflection.channels.map(|c| ChannelFacts { is_read: c.is_read(), reaches_mips: c.mips }),
+        discards: compiled.reflection.discards,
+    }
+}
+
+fn kind_of(channel: Option<&Channel>) -> ChannelKind {
+    match channel.map(|c| &c.input) {
+        Some(Input::Cubemap(_) | Input::CubemapPass) => ChannelKind::SamplerCube,
+        Some(Input::Volume(_)) => ChannelKind::Sampler3D,
+        _ => ChannelKind::Sampler2D,
+    }
+}
+
+fn media_key(channel: &Channel) -> Option<MediaKey> {
+    match &channel.input {
+        Input::Texture(media) => Some(MediaKey { media: media.clone(), vflip: channel.sampler.vflip }),
+        _ => None,
+    }
+}
+
+/// Whether what the channel reads holds 32-bit floats.
+fn is_float(channel: Option<&Channel>, texels: Option<&Texels>) -> bool {
+    matches!(channel.map(|c| &c.input), Some(Input::Buffer(_)))
+        || texels.is_some_and(|t| t.format == TexelFormat::Rgba32Float)
+}
+
+/// Pictures on the device, each once.
+struct Uploads<'a> {
+    gpu: &'a Gpu,
+    mips: MipMaker,
+    made: HashMap<(MediaKey, bool), Texture>,
+}
+
+impl Uploads<'_> {
+    fn get(&mut self, key: MediaKey, texels: &Arc<Texels>, mips: bool) -> Result<Texture, crate::gpu::GpuError> {
+        let key = (key, mips);
+        if let Some(texture) = self.made.get(&key) {
+            return Ok(texture.clone());
+        }
+        let (width, height) = (texels.width, texels.height);
+        let texture = Texture::new(
+            self.gpu,
+            &TextureDescriptor {
+                label: "picture",
+                width,
+                height,
+                format: match texels.format {
+                    TexelFormat::R8 => wgpu::TextureFormat::R8Unorm,
+                    TexelFormat::Rgba8 => wgpu::TextureFormat::Rgba8Unorm,
+                    TexelFormat::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
+                },
+                levels: if mips { mip_levels(width, height) } else { 1 },
+                is_target: false,
+            },
+        )?;
+        texture.write(self.gpu, &texels.bytes);
+        if mips {
+            let chain = self.mips.chain(self.gpu, &texture);
+            let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
+            self.mips.build(&mut encoder, &chain);
+            self.gpu.queue.submit([encoder.finish()]);
+        }
+        self.made.insert(key, texture.clone());
+        Ok(texture)
+    }
+}
+
+type Job<'a> = (PassId, Compiled, [BoundChannel; 4], &'a Draw);
+
+/// Pipelines side by side: a driver takes a tenth of a second for one.
+fn make_pipelines(gpu: &Gpu, jobs: Vec<Job<'_>>) -> Result<Vec<CompiledDraw>, EngineError> {
+    let make = |(id, compiled, channels, draw): Job<'_>| {
+        let mut uniforms = vec![(0, Binding::Uniform { bytes: size_of::<interface::UniformBlock>() as u64 })];
+        let tables = (!compiled.tables.is_empty()).then(|| constant_buffer(gpu, "constant tables", &compiled.tables));
+        if tables.is_some() {
+            uniforms.push((interface::TABLE_BINDING, Binding::Storage));
+        }
+        let groups = [uniforms, channel_bindings(&channels, draw)];
+        let pipeline = FragmentPipeline::new(
+            gpu,
+            FragmentPipelineDescriptor {
+                label: &id.title(),
+                module: compiled.module,
+                entry_point: interface::ENTRY_POINT,
+                groups: &groups,
+                target: super::targets::FORMAT,
+            },
+        )?;
+        Ok(CompiledDraw { id, pipeline, channels, tables: tables.transpose()? })
+    };
+    if jobs.len() == 1 {
+        return jobs.into_iter().map(make).collect();
+    }
+    std::thread::scope(|scope| {
+        let threads: Vec<_> = jobs.into_iter().map(|job| scope.spawn(move || make(job))).collect();
+        threads.into_iter().map(|t| t.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))).collect()
+    })
+}
+
+fn channel_bindings(channels: &[BoundChannel; 4], draw: &Draw) -> Vec<(u32, Binding)> {
+    let mut bindings = Vec::new();
+    for (index, channel) in channels.iter().enumerate() {
+        let dimension = match channel.kind {
+            ChannelKind::Sampler2D => wgpu::TextureViewDimension::D2,
+            ChannelKind::Sampler3D => wgpu::TextureViewDimension::D3,
+            ChannelKind::SamplerCube => wgpu::TextureViewDimension::Cube,
+        };
+        // An empty channel is an 8-bit texture and can always be filtered; it is bound like the others to need no third case.
+        let filterable =
+            channel.filters && !matches!(draw.reads[index].as_ref().map(|r| &r.source), Some(Source::Keyboard));
+        if channel.texture {
+            bindings.push((interface::texture_binding(index), Binding::Texture { dimension, filterable }));
+        }
+        if channel.sampler {
+            bindings.push((interface::sampler_binding(index), Binding::Sampler { filtering: filterable }));
+        }
+    }
+    bindings
+}

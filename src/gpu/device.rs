@@ -1,0 +1,198 @@
+//! The device and what was found out about it.
+
+use std::sync::{
+    Arc, Mutex,
+    atomic::{AtomicBool, Ordering},
+};
+
+/// What to ask of the machine.
+#[derive(Clone, Debug)]
+pub struct GpuOptions {
+    /// Use filtering of 32-bit float textures where the adapter has it. Off, every such read is written by hand: how the
+    /// fallback is tested on a device that needs none.
+    pub use_float32_filtering: bool,
+    /// Use timestamp queries where the adapter has them.
+    pub use_timestamps: bool,
+}
+
+impl Default for GpuOptions {
+    fn default() -> Self {
+        Self { use_float32_filtering: true, use_timestamps: true }
+    }
+}
+
+/// The machine cannot do what was asked.
+#[derive(Debug, thiserror::Error)]
+pub enum GpuError {
+    #[error(
+        "no graphics device was found ({0}). On Debian or Ubuntu `apt-get install mesa-vulkan-drivers` brings one that runs on the processor"
+    )]
+    NoAdapter(String),
+    #[error("{adapter} did not give a device: {reason}")]
+    NoDevice { adapter: String, reason: String },
+    #[error("{what} of {width}x{height} pixels: this device draws at most {limit}x{limit}")]
+    TooLarge { what: String, width: u32, height: u32, limit: u32 },
+    #[error("{what} of {width}x{height} pixels: a size of 0 holds no pixel")]
+    Empty { what: String, width: u32, height: u32 },
+    #[error("the graphics device ran out of memory for {0}")]
+    OutOfMemory(String),
+    #[error("the graphics device was lost: {0}")]
+    Lost(String),
+    /// wgpu refused something Eddy made: Eddy's own bug.
+    #[error("this is a bug in Eddy: the graphics layer refused {what}: {reason}")]
+    Refused { what: String, reason: String },
+}
+
+/// One device and its queue. Cheap to clone; every clone is the same device.
+#[derive(Clone)]
+pub struct Gpu {
+    pub device: wgpu::Device,
+    pub queue: wgpu::Queue,
+    pub info: wgpu::AdapterInfo,
+    /// A linear sampler may read an rgba32f texture.
+    pub filters_float32: bool,
+    /// Fragment shaders can read storage buffers.
+    pub has_storage_buffers: bool,
+    /// Timestamps can be written between passes.
+    pub has_timestamps: bool,
+    state: Arc<State>,
+}
+
+#[derive(Default)]
+struct State {
+    lost: AtomicBool,
+    /// The first error nobody asked for, kept until somebody takes it.
+    uncaptured: Mutex<Option<String>>,
+}
+
+impl Gpu {
+    /// A device of its own, for use without a window.
+    pub fn new(options: &GpuOptions) -> Result<Gpu, GpuError> {
+        let mut reasons = Vec::new();
+        for descriptor in Self::instance_descriptors() {
+            let instance = wgpu::Instance::new(descriptor);
+            let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions {
+                power_preference: wgpu::PowerPreference::HighPerformance,
+                ..Default::default()
+            }));
+            match adapter {
+                Ok(adapter) => return Self::from_adapter(&adapter, options),
+                Err(e) => reasons.push(e.to_string()),
+            }
+        }
+        Err(GpuError::NoAdapter(reasons.join("; ")))
+    }
+
+    /// How to make the instance, best first, also where a window's surface must be made from it: Vulkan, Metal or DX12, and
+    /// OpenGL only where none of them has a device, since merely opening it costs start-up time. `WGPU_BACKEND` overrides both.
+    pub fn instance_descriptors() -> [wgpu::InstanceDescriptor; 2] {
+        [wgpu::Backends::PRIMARY, wgpu::Backends::GL].map(|backends| {
+            let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+            // Validation layers cost a start-up second and are for people who debug Eddy itself: WGPU_VALIDATION turns them on.
+            descriptor.flags = wgpu::InstanceFlags::empty();
+            descriptor.backends = backends;
+            descriptor.with_env()
+        })
+    }
+
+    /// A device of the given adapter: the window's, for example.
+    pub fn from_adapter(adapter: &wgpu::Adapter, options: &GpuOptions) -> Result<Gpu, GpuError> {
+        let info = adapter.get_info();
+        let offered = adapter.features();
+        let mut features = wgpu::Features::empty();
+        if options.use_float32_filtering {
+            features |= offered & wgpu::Features::FLOAT32_FILTERABLE;
+        }
+        if options.use_timestamps {
+            features |= offered & wgpu::Features::TIMESTAMP_QUERY;
+        }
+        let float = adapter.get_texture_format_features(wgpu::TextureFormat::Rgba32Float).allowed_usages;
+        if !float.contains(wgpu::TextureUsages::RENDER_ATTACHMENT) {
+            let reason = "it cannot draw into 32-bit float textures".to_owned();
+            return Err(GpuError::NoDevice { adapter: info.name, reason });
+        }
+        let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
+            label: Some("eddy"),
+            required_features: features,
+            required_limits: adapter.limits(),
+            ..Default::default()
+        }))
+        .map_err(|e| GpuError::NoDevice { adapter: info.name.clone(), reason: e.to_string() })?;
+        if !features.contains(wgpu::Features::FLOAT32_FILTERABLE) {
+            log::warn!("{} cannot filter 32-bit float textures: such reads are written as four fetches", info.name);
+        }
+        let state = Arc::new(State::default());
+        let lost = state.clone();
+        device.set_device_lost_callback(move |reason, message| {
+            if reason != wgpu::DeviceLostReason::Destroyed {
+                log::error!("graphics device lost: {message}");
+                lost.lost.store(true, Ordering::Relaxed);
+            }
+        });
+        let errors = state.clone();
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            log::error!("graphics layer: {error}");
+            errors.uncaptured.lock().unwrap_or_else(|e| e.into_inner()).get_or_insert(error.to_string());
+        }));
+        Ok(Gpu {
+            has_storage_buffers: device.limits().max_storage_buffers_per_shader_stage > 0,
+            filters_float32: features.contains(wgpu::Features::FLOAT32_FILTERABLE),
+            has_timestamps: features.contains(wgpu::Features::TIMESTAMP_QUERY),
+            device,
+            queue,
+            info,
+            state,
+        })
+    }
+
+    /// One line for people: the adapter's name, the backend and the driver.
+    pub fn describe(&self) -> String {
+        format!("{} ({}, {})", self.info.name, self.info.backend, self.info.driver_info)
+    }
+
+    /// Refuses a size that no target can have, before the graphics layer does it with less grace.
+    pub fn check_size(&self, what: &str, width: u32, height: u32) -> Result<(), GpuError> {
+        if width == 0 || height == 0 {
+            return Err(GpuError::Empty { what: what.into(), width, height });
+        }
+        let limit = self.device.limits().max_texture_dimension_2d;
+        if width > limit || height > limit {
+            return Err(GpuError::TooLarge { what: what.into(), width, height, limit });
+        }
+        Ok(())
+    }
+
+    /// Runs code that makes graphics objects and turns what the graphics layer says of it into an error, instead of leaving a
+    /// broken object behind.
+    pub(super) fn guarded<T>(&self, what: &str, make: impl FnOnce() -> T) -> Result<T, GpuError> {
+        let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);
+        let internal = self.device.push_error_scope(wgpu::ErrorFilter::Internal);
+        let made = make();
+        let refused = |reason: String| GpuError::Refused { what: what.into(), reason };
+        let internal = pollster::block_on(internal.pop()).map(|e| refused(e.to_string()));
+        let memory = pollster::block_on(memory.pop()).map(|_| GpuError::OutOfMemory(what.into()));
+        let validation = pollster::block_on(validation.pop()).map(|e| refused(e.to_string()));
+        match memory.or(validation).or(internal) {
+            Some(error) => Err(error),
+            None => Ok(made),
+        }
+    }
+
+    /// Waits until the device has done everything it was given.
+    pub fn wait(&self) -> Result<(), GpuError> {
+        self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| GpuError::Lost(e.to_string()))?;
+        self.take_trouble("a frame")
+    }
+
+    /// What went wrong since the last call, if anything did.
+    pub fn take_trouble(&self, what: &str) -> Result<(), GpuError> {
+        if self.state.lost.load(Ordering::Relaxed) {
+            return Err(GpuError::Lost("the driver gave up, often because a shader ran too long".into()));
+        }
+        match self.state.uncaptured.lock().unwrap_or_else(|e| e.into_inner()).take() {
+            None => Ok(()),
+            Some(reason) => Err(GpuError::Refused { what: what.into(), reason }),
+        }
+    }
+}

@@ -1,0 +1,129 @@
+//! Mip chains, level by level: each texel is the bilinear read of the finer level at its centre, which is what GL drivers'
+//! `glGenerateMipmap` does. Read by hand, so it works where 32-bit floats cannot be filtered, too.
+
+use super::{Gpu, Texture};
+use std::collections::HashMap;
+
+const SHADER: &str = "
+@group(0) @binding(0) var finer: texture_2d<f32>;
+
+@vertex fn vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4<f32> {
+    return vec4(f32(i & 1u) * 4.0 - 1.0, f32(i >> 1u) * 4.0 - 1.0, 0.0, 1.0);
+}
+
+@fragment fn fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
+    let size = vec2<i32>(textureDimensions(finer));
+    let coarse = max(size / 2, vec2(1));
+    let centre = position.xy * vec2<f32>(size) / vec2<f32>(coarse) - 0.5;
+    let low = vec2<i32>(floor(centre));
+    let weight = centre - vec2<f32>(low);
+    let last = size - 1;
+    let a = clamp(low, vec2(0), last);
+    let b = clamp(low + 1, vec2(0), last);
+    let bottom = mix(textureLoad(finer, a, 0), textureLoad(finer, vec2(b.x, a.y), 0), weight.x);
+    let top = mix(textureLoad(finer, vec2(a.x, b.y), 0), textureLoad(finer, b, 0), weight.x);
+    return mix(bottom, top, weight.y);
+}
+";
+
+/// Builds mip chains of colour formats. One for each engine.
+pub struct MipMaker {
+    layout: wgpu::BindGroupLayout,
+    pipeline_layout: wgpu::PipelineLayout,
+    shader: wgpu::ShaderModule,
+    pipelines: HashMap<wgpu::TextureFormat, wgpu::RenderPipeline>,
+}
+
+/// The draws that fill one texture's chain: views and bind groups, made once.
+pub struct MipChain {
+    steps: Vec<(wgpu::TextureView, wgpu::BindGroup)>,
+    format: wgpu::TextureFormat,
+}
+
+impl MipMaker {
+    pub fn new(gpu: &Gpu) -> Self {
+        let shader = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some("mips"),
+            source: wgpu::ShaderSource::Wgsl(SHADER.into()),
+        });
+        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("mips"),
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::FRAGMENT,
+                ty: wgpu::BindingType::Texture {
+                    sample_type: wgpu::TextureSampleType::Float { filterable: false },
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                    multisampled: false,
+                },
+                count: None,
+            }],
+        });
+        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("mips"),
+            bind_group_layouts: &[Some(&layout)],
+            immediate_size: 0,
+        });
+        Self { layout, pipeline_layout, shader, pipelines: HashMap::new() }
+    }
+
+    /// Prepares the chain of a texture.
+    pub fn chain(&mut self, gpu: &Gpu, texture: &Texture) -> MipChain {
+        let format = texture.raw.format();
+        self.pipelines.entry(format).or_insert_with(|| {
+            super::pipeline::full_screen(
+                gpu,
+                "mips",
+                &self.pipeline_layout,
+                &self.shader,
+                &self.shader,
+                "fragment",
+                format,
+            )
+        });
+        let view = |level| {
+            texture.raw.create_view(&wgpu::TextureViewDescriptor {
+                label: Some("mip level"),
+                base_mip_level: level,
+                mip_level_count: Some(1),
+                ..Default::default()
+            })
+        };
+        let steps = (1..texture.levels())
+            .map(|level| {
+                let finer = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                    label: Some("mips"),
+                    layout: &self.layout,
+                    entries: &[wgpu::BindGroupEntry {
+                        binding: 0,
+                        resource: wgpu::BindingResource::TextureView(&view(level - 1)),
+                    }],
+                });
+                (view(level), finer)
+            })
+            .collect();
+        MipChain { steps, format }
+    }
+
+    /// Encodes the draws that make every level anew from level 0.
+    pub fn build(&self, encoder: &mut wgpu::CommandEncoder, chain: &MipChain) {
+        for (target, finer) in &chain.steps {
+            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("mips"),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: target,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                        store: wgpu::StoreOp::Store,
+                    },
+                })],
+                ..Default::default()
+            });
+            pass.set_pipeline(&self.pipelines[&chain.format]);
+            pass.set_bind_group(0, finer, &[]);
+            pass.draw(0..3, 0..1);
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! Pipelines that draw one triangle over the whole target.
+
+use super::{Gpu, GpuError};
+
+const VERTEX: &str = "
+@vertex fn vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4<f32> {
+    return vec4(f32(i & 1u) * 4.0 - 1.0, f32(i >> 1u) * 4.0 - 1.0, 0.0, 1.0);
+}
+";
+
+/// One slot of a bind group.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Binding {
+    /// A uniform buffer of at least so many bytes.
+    Uniform { bytes: u64 },
+    /// A storage buffer that is only read.
+    Storage,
+    /// A sampled float texture.
+    Texture { dimension: wgpu::TextureViewDimension, filterable: bool },
+    /// `filtering`: may filter, and so only read filterable textures.
+    Sampler { filtering: bool },
+}
+
+impl Binding {
+    fn entry(self, binding: u32) -> wgpu::BindGroupLayoutEntry {
+        let ty = match self {
+            Binding::Uniform { bytes } => wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Uniform,
+                has_dynamic_offset: false,
+                min_binding_size: std::num::NonZero::new(bytes),
+            },
+            Binding::Storage => wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only: true },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            Binding::Texture { dimension, filterable } => wgpu::BindingType::Texture {
+                sample_type: wgpu::TextureSampleType::Float { filterable },
+                view_dimension: dimension,
+                multisampled: false,
+            },
+            Binding::Sampler { filtering } => wgpu::BindingType::Sampler(if filtering {
+                wgpu::SamplerBindingType::Filtering
+            } else {
+                wgpu::SamplerBindingType::NonFiltering
+            }),
+        };
+        wgpu::BindGroupLayoutEntry { binding, visibility: wgpu::ShaderStages::FRAGMENT, ty, count: None }
+    }
+}
+
+/// A fragment shader over the whole target.
+pub struct FragmentPipelineDescriptor<'a> {
+    pub label: &'a str,
+    pub module: naga::Module,
+    pub entry_point: &'a str,
+    /// Bind groups from 0 on: binding number and what lies there.
+    pub groups: &'a [Vec<(u32, Binding)>],
+    pub target: wgpu::TextureFormat,
+}
+
+/// A compiled pipeline and the layouts its bind groups are made with.
+pub struct FragmentPipeline {
+    pub raw: wgpu::RenderPipeline,
+    pub layouts: Vec<wgpu::BindGroupLayout>,
+}
+
+impl FragmentPipeline {
+    /// Compiles. The module must be valid and clamp its indices itself; what the graphics layer refuses all the same is
+    /// Eddy's bug and comes back as [`GpuError::Refused`].
+    pub fn new(gpu: &Gpu, descriptor: FragmentPipelineDescriptor<'_>) -> Result<FragmentPipeline, GpuError> {
+        let FragmentPipelineDescriptor { label, module, entry_point, groups, target } = descriptor;
+        let layouts: Vec<_> = groups
+            .iter()
+            .map(|bindings| {
+                let entries: Vec<_> = bindings.iter().map(|(binding, kind)| kind.entry(*binding)).collect();
+                gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+                    label: Some(label),
+                    entries: &entries,
+                })
+            })
+            .collect();
+        let raw = gpu.guarded(label, || {
+            let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+                label: Some(label),
+                bind_group_layouts: &layouts.iter().map(Some).collect::<Vec<_>>(),
+                immediate_size: 0,
+            });
+            let vertex = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+                label: Some("full-screen triangle"),
+                source: wgpu::ShaderSource::Wgsl(VERTEX.into()),
+            });
+            let mut checks = wgpu::ShaderRuntimeChecks::checked();
+            // Counting every loop's turns up to 2^64 costs time in each and keeps no shader from running for hours.
+            checks.force_loop_bounding = false;
+            // No device of wgpu's traps on a division by zero; GLSL leaves the result open.
+            checks.int_div_checks = false;
+            // Indices come clamped from the front end where they are not known to be in range. Fetches outside a texture give
+            // zeros by the hardware or the driver's image robustness everywhere but on Metal.
+            checks.bounds_checks = gpu.info.backend == wgpu::Backend::Metal;
+            // SAFETY: as said above, what the checks leave out is guarded elsewhere, but for the loop counter. A loop that never
+            // ends keeps the device busy until the driver's watchdog ends it, with the counter as without.
+            let fragment = unsafe {
+                gpu.device.create_shader_module_trusted(
+                    wgpu::ShaderModuleDescriptor {
+                        label: Some(label),
+                        source: wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(module)),
+                    },
+                    checks,
+                )
+            };
+            full_screen(gpu, label, &layout, &vertex, &fragment, entry_point, target)
+        })?;
+        Ok(FragmentPipeline { raw, layouts })
+    }
+}
+
+/// A pipeline of one triangle over the whole target, no blending, no depth.
+pub(super) fn full_screen(
+    gpu: &Gpu,
+    label: &str,
+    layout: &wgpu::PipelineLayout,
+    vertex: &wgpu::ShaderModule,
+    fragment: &wgpu::ShaderModule,
+    entry_point: &str,
+    target: wgpu::TextureFormat,
+) -> wgpu::RenderPipeline {
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(label),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module: vertex,
+            entry_point: Some("vertex"),
+            compilation_options: Default::default(),
+            buffers: &[],
+        },
+        primitive: Default::default(),
+        depth_stencil: None,
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: fragment,
+            entry_point: Some(entry_point),
+            // Textures and private variables start as zeros without this; workgroup memory there is none.
+            compilation_options: Default::default(),
+            targets: &[Some(wgpu::ColorTargetState {
+                format: target,
+                blend: None,
+                write_mask: wgpu::ColorWrites::ALL,
+            })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

@@ -1,0 +1,144 @@
+//! Device time of each pass by timestamp queries, read without waiting.
+
+use super::Gpu;
+use std::sync::{
+    Arc,
+    atomic::{AtomicBool, Ordering},
+};
+
+/// Frames whose times may be on their way at once. A frame that finds no free slot is not timed.
+const SLOTS: usize = 4;
+
+/// Begin and end stamps of up to `capacity` passes a frame.
+pub struct PassTimer {
+    capacity: u32,
+    period_nanos: f64,
+    slots: Vec<Slot>,
+    recording: Option<usize>,
+    newest: u64,
+}
+
+struct Slot {
+    queries: wgpu::QuerySet,
+    resolved: wgpu::Buffer,
+    mapped: wgpu::Buffer,
+    state: State,
+    frame: u64,
+    passes: u32,
+}
+
+enum State {
+    Free,
+    Recorded,
+    Mapping(Arc<AtomicBool>),
+}
+
+impl PassTimer {
+    /// `None` where the device has no timestamps, or more passes are asked for than a query set holds.
+    pub fn new(gpu: &Gpu, capacity: u32) -> Option<Self> {
+        if !gpu.has_timestamps || capacity == 0 || capacity * 2 > wgpu::QUERY_SET_MAX_QUERIES {
+            return None;
+        }
+        let bytes = u64::from(capacity) * 16;
+        let buffer = |label, usage| {
+            gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size: bytes,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
+        let slots = (0..SLOTS)
+            .map(|_| Slot {
+                queries: gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
+                    label: Some("pass times"),
+                    ty: wgpu::QueryType::Timestamp,
+                    count: capacity * 2,
+                }),
+                resolved: buffer(
+                    "pass times, resolved",
+                    wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
+                ),
+                mapped: buffer("pass times, mapped", wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ),
+                state: State::Free,
+                frame: 0,
+                passes: 0,
+            })
+            .collect();
+        Some(Self {
+            capacity,
+            period_nanos: f64::from(gpu.queue.get_timestamp_period()),
+            slots,
+            recording: None,
+            newest: 0,
+        })
+    }
+
+    /// Begins a frame of `passes` passes.
+    pub fn begin(&mut self, passes: u32) {
+        self.recording =
+            self.slots.iter().position(|s| matches!(s.state, State::Free)).filter(|_| passes <= self.capacity);
+        if let Some(i) = self.recording {
+            self.newest += 1;
+            (self.slots[i].frame, self.slots[i].passes) = (self.newest, passes);
+        }
+    }
+
+    /// Where pass `index` of the frame writes its stamps.
+    pub fn writes(&self, index: u32) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
+        let slot = &self.slots[self.recording?];
+        Some(wgpu::RenderPassTimestampWrites {
+            query_set: &slot.queries,
+            beginning_of_pass_write_index: Some(index * 2),
+            end_of_pass_write_index: Some(index * 2 + 1),
+        })
+    }
+
+    /// After the frame's last pass, in the same encoder.
+    pub fn resolve(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        let Some(i) = self.recording else { return };
+        let slot = &mut self.slots[i];
+        encoder.resolve_query_set(&slot.queries, 0..slot.passes * 2, &slot.resolved, 0);
+        encoder.copy_buffer_to_buffer(&slot.resolved, 0, &slot.mapped, 0, u64::from(slot.passes) * 16);
+        slot.state = State::Recorded;
+    }
+
+    /// After the frame was submitted.
+    pub fn submitted(&mut self) {
+        let Some(i) = self.recording.take() else { return };
+        let slot = &mut self.slots[i];
+        let done = Arc::new(AtomicBool::new(false));
+        let signal = done.clone();
+        slot.mapped.slice(..).map_async(wgpu::MapMode::Read, move |result| {
+            signal.store(result.is_ok(), Ordering::Release);
+        });
+        slot.state = State::Mapping(done);
+    }
+
+    /// Milliseconds of each pass of the newest frame the device has finished since the last call. Does not wait.
+    pub fn newest(&mut self, gpu: &Gpu) -> Option<Vec<f64>> {
+        // The error is the device's loss, which drawing reports.
+        let _ = gpu.device.poll(wgpu::PollType::Poll);
+        let mut best: Option<(u64, Vec<f64>)> = None;
+        for slot in &mut self.slots {
+            let State::Mapping(done) = &slot.state else { continue };
+            if !done.load(Ordering::Acquire) {
+                continue;
+            }
+            if let Ok(bytes) = slot.mapped.slice(..).get_mapped_range() {
+                let stamps: Vec<u64> =
+                    bytes.chunks_exact(8).take(slot.passes as usize * 2).map(bytemuck::pod_read_unaligned).collect();
+                let millis = stamps
+                    .chunks_exact(2)
+                    .map(|s| s[1].saturating_sub(s[0]) as f64 * self.period_nanos / 1e6)
+                    .collect();
+                if best.as_ref().is_none_or(|(frame, _)| *frame < slot.frame) {
+                    best = Some((slot.frame, millis));
+                }
+            }
+            slot.mapped.unmap();
+            slot.state = State::Free;
+        }
+        best.map(|(_, millis)| millis)
+    }
+}

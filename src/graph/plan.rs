@@ -1,0 +1,261 @@
+//! The plan of a frame.
+
+use super::effective_sampler;
+use crate::project::{Filter, Input, PassId, Project, Sampler};
+use std::collections::BTreeSet;
+
+/// What a pass does with one channel, as its compiled form says.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ChannelFacts {
+    /// Some read of it can be reached.
+    pub is_read: bool,
+    /// Some read can reach a mip level other than 0.
+    pub reaches_mips: bool,
+}
+
+/// What the planner has to know of a compiled pass. Conservative: what may happen counts as happening.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PassFacts {
+    pub channels: [ChannelFacts; 4],
+    /// `discard` can be reached, so what the target held before can stay visible.
+    pub discards: bool,
+}
+
+impl PassFacts {
+    /// Reads every channel at every level and discards: what to assume of a pass of which nothing is known.
+    pub const ANYTHING: PassFacts =
+        PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: true }; 4], discards: true };
+}
+
+/// Which frame's picture of a target a read sees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum When {
+    /// What has been drawn in this frame already.
+    ThisFrame,
+    /// What the frame before left: the reader is the target itself, or is drawn before it.
+    LastFrame,
+}
+
+/// What a channel reads.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// An index into [`FramePlan::targets`].
+    Target {
+        index: usize,
+        when: When,
+    },
+    Keyboard,
+    /// The media the project names for this channel.
+    Media,
+    /// No input, or one that no texture can be had for: black, of size 0.
+    Nothing,
+}
+
+/// A channel of a draw: what it reads and how.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Read {
+    pub source: Source,
+    pub sampler: Sampler,
+    /// Levels beyond 0 may be sampled: the sampler asks for them and the source has them.
+    pub mips: bool,
+}
+
+/// What kind of texture a target needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum TargetKind {
+    /// A canvas-sized picture.
+    Canvas,
+    /// Six square faces.
+    Cube,
+}
+
+/// A texture, or a pair of them, that passes draw into or read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Target {
+    pub id: PassId,
+    pub kind: TargetKind,
+    /// Two textures that take turns: somebody reads last frame's picture, or a `discard` can show the one before it.
+    pub doubled: bool,
+    /// A mip chain is built after each draw.
+    pub mips: bool,
+    /// No pass draws it: it stays zero.
+    pub undrawn: bool,
+}
+
+/// One pass of a frame.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Draw {
+    /// Index into [`Project::passes`].
+    pub pass: usize,
+    /// Index into [`FramePlan::targets`].
+    pub target: usize,
+    /// `None` where the compiled pass does not read the channel.
+    pub reads: [Option<Read>; 4],
+    /// What the target held must still be there as the pass begins.
+    pub keeps_content: bool,
+}
+
+/// Everything about a frame that can be known before it is drawn.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct FramePlan {
+    pub targets: Vec<Target>,
+    /// In drawing order.
+    pub draws: Vec<Draw>,
+    /// Passes of the project that no wanted picture needs, as indices into [`Project::passes`].
+    pub skipped: Vec<usize>,
+}
+
+impl FramePlan {
+    /// Plans a frame of `project`. `facts[i]` belongs to `project.passes[i]`. `wanted` are the passes whose pictures somebody
+    /// will look at; empty means Image. Without `skip` everything is drawn, doubled and mipped as the site would.
+    ///
+    /// # Panics
+    /// If `facts` and the project's passes differ in length.
+    pub fn new(project: &Project, facts: &[PassFacts], wanted: &[PassId], skip: bool) -> FramePlan {
+        assert_eq!(facts.len(), project.passes.len(), "one PassFacts for each pass");
+        let order = drawing_order(project);
+        let reached = if skip { reached_from(project, facts, wanted) } else { order.iter().copied().collect() };
+        let mut plan = FramePlan {
+            skipped: order.iter().copied().filter(|i| !reached.contains(i)).collect(),
+            ..Default::default()
+        };
+        let drawn: Vec<usize> = order.into_iter().filter(|i| reached.contains(i)).collect();
+        for &pass in &drawn {
+            plan.target(&project.passes[pass].id);
+        }
+        for (place, &pass) in drawn.iter().enumerate() {
+            let target = plan.target(&project.passes[pass].id);
+            let reads = std::array::from_fn(|channel| {
+                let used = facts[pass].channels[channel].is_read || !skip;
+                used.then(|| plan.read(project, &drawn, place, channel)).flatten()
+            });
+            plan.draws.push(Draw { pass, target, reads, keeps_content: facts[pass].discards || !skip });
+        }
+        plan.settle(project, facts, skip);
+        plan
+    }
+
+    /// Index of the target of `id`, made if there is none.
+    fn target(&mut self, id: &PassId) -> usize {
+        self.targets.iter().position(|t| t.id == *id).unwrap_or_else(|| {
+            let kind = if *id == PassId::Cubemap { TargetKind::Cube } else { TargetKind::Canvas };
+            self.targets.push(Target { id: id.clone(), kind, doubled: false, mips: false, undrawn: true });
+            self.targets.len() - 1
+        })
+    }
+
+    fn read(&mut self, project: &Project, drawn: &[usize], place: usize, channel: usize) -> Option<Read> {
+        let pass = drawn[place];
+        let sampler = effective_sampler(project, pass, channel);
+        let source = match project.passes[pass].channels[channel].as_ref().map(|c| &c.input) {
+            None => Source::Nothing,
+            Some(Input::Keyboard) => Source::Keyboard,
+            Some(Input::Texture(_)) => Source::Media,
+            Some(Input::Buffer(name)) => self.target_read(project, drawn, place, PassId::Buffer(name.clone())),
+            Some(Input::CubemapPass) => self.target_read(project, drawn, place, PassId::Cubemap),
+            Some(
+                Input::Cubemap(_)
+                | Input::Volume(_)
+                | Input::Video(_)
+                | Input::Music(_)
+                | Input::Microphone
+                | Input::Webcam,
+            ) => Source::Nothing,
+        };
+        Some(Read { source, sampler: sampler.unwrap_or(Sampler::BUFFER), mips: false })
+    }
+
+    fn target_read(&mut self, project: &Project, drawn: &[usize], place: usize, id: PassId) -> Source {
+        let earlier = drawn[..place].iter().any(|&p| project.passes[p].id == id);
+        let index = self.target(&id);
+        Source::Target { index, when: if earlier { When::ThisFrame } else { When::LastFrame } }
+    }
+
+    /// What each target needs, now that every read is known.
+    fn settle(&mut self, project: &Project, facts: &[PassFacts], skip: bool) {
+        for index in 0..self.targets.len() {
+            let id = self.targets[index].id.clone();
+            let reads_of = |when: Option<When>| {
+                self.draws
+                    .iter()
+                    .flat_map(|d| d.reads.iter().enumerate().map(move |(c, r)| (d.pass, c, r)))
+                    .filter(move |(_, _, r)| {
+                        matches!(r, Some(Read { source: Source::Target { index: i, when: w }, .. })
+                            if *i == index && when.is_none_or(|when| when == *w))
+                    })
+                    .map(|(pass, channel, _)| (pass, channel))
+                    .collect::<Vec<_>>()
+            };
+            let drawn_by = self.draws.iter().find(|d| d.target == index).map(|d| d.pass);
+            let discards = drawn_by.is_some_and(|p| facts[p].discards);
+            // Image keeps the canvas of one frame before; only buffers take turns.
+            let takes_turns = id != PassId::Image && drawn_by.is_some();
+            let doubled = takes_turns && (!skip || discards || !reads_of(Some(When::LastFrame)).is_empty());
+            // The site asks every pass of the project, also one that nobody looks at.
+            let sampler_asks = (0..project.passes.len()).any(|p| {
+                (0..4).any(|c| {
+                    project.passes[p].channels[c].as_ref().is_some_and(|ch| input_is(&ch.input, &id))
+                        && effective_sampler(project, p, c).is_some_and(|s| s.filter == Filter::Mipmap)
+                })
+            });
+            let reached = reads_of(None).iter().any(|&(p, c)| facts[p].channels[c].reaches_mips);
+            let mips = sampler_asks && (reached || !skip);
+            let target = &mut self.targets[index];
+            (target.doubled, target.mips, target.undrawn) = (doubled, mips, drawn_by.is_none());
+        }
+        for draw in &mut self.draws {
+            for read in draw.reads.iter_mut().flatten() {
+                read.mips = read.sampler.filter == Filter::Mipmap
+                    && match read.source {
+                        Source::Target { index, .. } => self.targets[index].mips,
+                        Source::Media => true,
+                        Source::Keyboard | Source::Nothing => false,
+                    };
+            }
+        }
+    }
+}
+
+fn input_is(input: &Input, id: &PassId) -> bool {
+    match (input, id) {
+        (Input::Buffer(name), PassId::Buffer(other)) => name == other,
+        (Input::CubemapPass, PassId::Cubemap) => true,
+        _ => false,
+    }
+}
+
+/// Buffers in the project's order, then the cubemap, then Image. Sound makes no picture.
+fn drawing_order(project: &Project) -> Vec<usize> {
+    let rank = |i: usize| match project.passes[i].id {
+        PassId::Buffer(_) => Some(0),
+        PassId::Cubemap => Some(1),
+        PassId::Image => Some(2),
+        PassId::Sound => None,
+    };
+    let mut order: Vec<usize> = (0..project.passes.len()).filter(|&i| rank(i).is_some()).collect();
+    order.sort_by_key(|&i| rank(i));
+    order
+}
+
+/// Passes that some wanted picture needs, now or in a frame to come.
+fn reached_from(project: &Project, facts: &[PassFacts], wanted: &[PassId]) -> BTreeSet<usize> {
+    let index_of = |id: &PassId| project.passes.iter().position(|p| p.id == *id);
+    let image = [PassId::Image];
+    let mut todo: Vec<usize> =
+        if wanted.is_empty() { &image[..] } else { wanted }.iter().filter_map(index_of).collect();
+    let mut reached = BTreeSet::new();
+    while let Some(pass) = todo.pop() {
+        if !reached.insert(pass) {
+            continue;
+        }
+        for (channel, fact) in project.passes[pass].channels.iter().zip(facts[pass].channels) {
+            let id = match channel.as_ref().map(|c| &c.input) {
+                Some(Input::Buffer(name)) if fact.is_read => PassId::Buffer(name.clone()),
+                Some(Input::CubemapPass) if fact.is_read => PassId::Cubemap,
+                _ => continue,
+            };
+            todo.extend(index_of(&id));
+        }
+    }
+    reached
+}

@@ -1,0 +1,26 @@
+//! Which sampler counts where several channels read one buffer (`shadertoy.md`, section 7).
+
+use crate::project::{Filter, Input, Project, Sampler, SamplerRules, Wrap};
+
+/// The sampler with which `pass`'s channel `index` is really read; `None` where the channel is empty.
+///
+/// A keyboard is always nearest and clamped. Under [`SamplerRules::Site`] a buffer's filter is that of the last channel of the
+/// same pass that reads it, because the site sets it on the texture just before the pass draws, and its wrap that of the last
+/// channel of the whole project, because the site sets it once as channels load.
+pub fn effective_sampler(project: &Project, pass: usize, index: usize) -> Option<Sampler> {
+    let pass = &project.passes[pass];
+    let channel = pass.channels[index].as_ref()?;
+    if channel.input == Input::Keyboard {
+        return Some(Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: false });
+    }
+    let shared = matches!(channel.input, Input::Buffer(_) | Input::CubemapPass);
+    if !shared || project.sampler_rules == SamplerRules::PerChannel {
+        return Some(channel.sampler);
+    }
+    let same = |channels: &[Option<crate::project::Channel>; 4]| {
+        channels.iter().flatten().rfind(|c| c.input == channel.input).map(|c| c.sampler)
+    };
+    let filter = same(&pass.channels)?.filter;
+    let wrap = project.passes.iter().rev().find_map(|p| same(&p.channels))?.wrap;
+    Some(Sampler { filter, wrap, ..channel.sampler })
+}

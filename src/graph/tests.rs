@@ -1,0 +1,186 @@
+//! The plan's rules, with no device.
+
+use super::{ChannelFacts, FramePlan, PassFacts, Source, TargetKind, When, effective_sampler};
+use crate::project::{Channel, Filter, Info, Input, Origin, Pass, PassId, Project, Sampler, SamplerRules, Wrap};
+
+const LETTERS: [&str; 4] = ["A", "B", "C", "D"];
+
+fn channel(input: Input, filter: Filter, wrap: Wrap) -> Option<Channel> {
+    Some(Channel { input, sampler: Sampler { filter, wrap, vflip: true } })
+}
+
+fn buffer(name: &str) -> Option<Channel> {
+    channel(Input::Buffer(name.into()), Filter::Linear, Wrap::Clamp)
+}
+
+fn pass(id: PassId, channels: [Option<Channel>; 4]) -> Pass {
+    Pass { source: source(&id), id, channels }
+}
+
+fn source(id: &PassId) -> crate::project::Source {
+    crate::project::Source { name: id.title(), path: None, text: "".into() }
+}
+
+fn project(passes: Vec<Pass>) -> Project {
+    Project {
+        name: "test".into(),
+        info: Info::default(),
+        common: None,
+        passes,
+        sampler_rules: SamplerRules::PerChannel,
+        origin: Origin::Unsaved,
+    }
+}
+
+fn reads_all() -> PassFacts {
+    PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: true }; 4], discards: false }
+}
+
+fn plan(project: &Project) -> FramePlan {
+    FramePlan::new(project, &vec![reads_all(); project.passes.len()], &[], true)
+}
+
+/// What `reader`'s channel `c` sees in `plan`: the target's title and the frame.
+fn seen(project: &Project, plan: &FramePlan, reader: &PassId, c: usize) -> Option<(String, When)> {
+    let draw = plan.draws.iter().find(|d| project.passes[d.pass].id == *reader)?;
+    match &draw.reads[c].as_ref()?.source {
+        Source::Target { index, when } => Some((plan.targets[*index].id.title(), *when)),
+        _ => None,
+    }
+}
+
+#[test]
+fn truth_table_of_reads() {
+    // Every buffer and Image read all four buffers; the buffers are listed in an order that is not the alphabet's.
+    for order in [[0, 1, 2, 3], [3, 1, 0, 2], [2, 3, 0, 1]] {
+        let everything = || LETTERS.map(buffer);
+        let mut passes: Vec<_> =
+            order.map(|i| pass(PassId::Buffer(LETTERS[i].into()), everything())).into_iter().collect();
+        passes.push(pass(PassId::Image, everything()));
+        let project = project(passes);
+        let plan = plan(&project);
+        for (place, &reader) in order.iter().enumerate() {
+            for (source, letter) in LETTERS.iter().enumerate() {
+                let source_place = order.iter().position(|&i| i == source).unwrap();
+                let when = if source_place < place { When::ThisFrame } else { When::LastFrame };
+                let id = PassId::Buffer(LETTERS[reader].into());
+                assert_eq!(seen(&project, &plan, &id, source), Some((format!("Buffer {letter}"), when)), "{order:?}");
+            }
+        }
+        for (source, letter) in LETTERS.iter().enumerate() {
+            let expected = Some((format!("Buffer {letter}"), When::ThisFrame));
+            assert_eq!(seen(&project, &plan, &PassId::Image, source), expected);
+        }
+    }
+}
+
+#[test]
+fn buffers_see_last_frames_cubemap_and_image_this_frames() {
+    let cube = || channel(Input::CubemapPass, Filter::Linear, Wrap::Clamp);
+    let project = project(vec![
+        pass(PassId::Buffer("A".into()), [cube(), None, None, None]),
+        pass(PassId::Cubemap, [buffer("A"), cube(), None, None]),
+        pass(PassId::Image, [cube(), buffer("A"), None, None]),
+    ]);
+    let plan = plan(&project);
+    let see = |id: PassId, c| seen(&project, &plan, &id, c).unwrap().1;
+    assert_eq!(see(PassId::Buffer("A".into()), 0), When::LastFrame);
+    assert_eq!(see(PassId::Cubemap, 0), When::ThisFrame);
+    assert_eq!(see(PassId::Cubemap, 1), When::LastFrame);
+    assert_eq!(see(PassId::Image, 0), When::ThisFrame);
+    assert_eq!(plan.targets.iter().find(|t| t.id == PassId::Cubemap).unwrap().kind, TargetKind::Cube);
+}
+
+#[test]
+fn unreachable_passes_are_not_drawn_and_unread_channels_reach_nothing() {
+    let project = project(vec![
+        pass(PassId::Buffer("A".into()), [None, None, None, None]),
+        pass(PassId::Buffer("B".into()), [buffer("A"), None, None, None]),
+        pass(PassId::Image, [buffer("B"), buffer("A"), None, None]),
+    ]);
+    let mut facts = vec![reads_all(); 3];
+    facts[2].channels[0].is_read = false;
+    let plan = FramePlan::new(&project, &facts, &[], true);
+    assert_eq!(plan.draws.iter().map(|d| d.pass).collect::<Vec<_>>(), [0, 2], "Image only names B");
+    assert_eq!(plan.skipped, [1]);
+    let all = FramePlan::new(&project, &facts, &[], false);
+    assert_eq!(all.draws.len(), 3);
+    assert!(all.skipped.is_empty());
+    let wanted = FramePlan::new(&project, &facts, &[PassId::Buffer("B".into())], true);
+    assert_eq!(wanted.draws.iter().map(|d| d.pass).collect::<Vec<_>>(), [0, 1], "Image is not wanted");
+}
+
+#[test]
+fn only_buffers_read_back_or_discarded_are_doubled() {
+    let project = project(vec![
+        pass(PassId::Buffer("A".into()), [buffer("C"), None, None, None]),
+        pass(PassId::Buffer("B".into()), [buffer("A"), None, None, None]),
+        pass(PassId::Buffer("C".into()), [buffer("B"), None, None, None]),
+        pass(PassId::Buffer("D".into()), [None, None, None, None]),
+        pass(PassId::Image, [buffer("C"), buffer("D"), None, None]),
+    ]);
+    let doubled = |facts: &[PassFacts], skip| {
+        let plan = FramePlan::new(&project, facts, &[], skip);
+        plan.targets.iter().filter(|t| t.doubled).map(|t| t.id.key()).collect::<Vec<_>>()
+    };
+    let mut facts = vec![reads_all(); 5];
+    assert_eq!(doubled(&facts, true), ["buffer_c"]);
+    facts[3].discards = true;
+    assert_eq!(doubled(&facts, true), ["buffer_c", "buffer_d"], "discard shows what lay there two frames ago");
+    facts[4].discards = true;
+    assert!(!doubled(&facts, false).contains(&"image".to_string()), "Image keeps one canvas");
+    assert_eq!(doubled(&facts, false).len(), 4);
+}
+
+#[test]
+fn mips_exist_only_where_a_sampler_asks_and_a_read_can_reach_them() {
+    let mip = |name: &str| channel(Input::Buffer(name.into()), Filter::Mipmap, Wrap::Clamp);
+    let project = project(vec![
+        pass(PassId::Buffer("A".into()), [None, None, None, None]),
+        pass(PassId::Buffer("B".into()), [None, None, None, None]),
+        pass(PassId::Image, [mip("A"), buffer("A"), buffer("B"), None]),
+    ]);
+    let mut facts = vec![reads_all(); 3];
+    let mips = |facts: &[PassFacts]| {
+        let plan = FramePlan::new(&project, facts, &[], true);
+        let image = plan.draws.last().unwrap().reads.clone();
+        (plan.targets.iter().map(|t| t.mips).collect::<Vec<_>>(), image.map(|r| r.is_some_and(|r| r.mips)))
+    };
+    assert_eq!(mips(&facts), (vec![true, false, false], [true, false, false, false]));
+    facts[2].channels[0].reaches_mips = false;
+    facts[2].channels[1].reaches_mips = false;
+    assert_eq!(mips(&facts).0, [false, false, false]);
+}
+
+#[test]
+fn site_rules_share_filter_in_a_pass_and_wrap_in_the_project() {
+    let a = |filter, wrap| channel(Input::Buffer("A".into()), filter, wrap);
+    let mut project = project(vec![
+        pass(PassId::Buffer("A".into()), [a(Filter::Nearest, Wrap::Clamp), None, None, None]),
+        pass(PassId::Image, [a(Filter::Nearest, Wrap::Clamp), a(Filter::Linear, Wrap::Repeat), None, None]),
+    ]);
+    let sampler = |project: &Project, p, c| {
+        let s = effective_sampler(project, p, c).unwrap();
+        (s.filter, s.wrap)
+    };
+    assert_eq!(sampler(&project, 1, 0), (Filter::Nearest, Wrap::Clamp));
+    project.sampler_rules = SamplerRules::Site;
+    assert_eq!(sampler(&project, 1, 0), (Filter::Linear, Wrap::Repeat));
+    assert_eq!(sampler(&project, 0, 0), (Filter::Nearest, Wrap::Repeat));
+}
+
+#[test]
+fn keyboard_is_nearest_and_clamped_whatever_the_project_says() {
+    let project =
+        project(vec![pass(PassId::Image, [channel(Input::Keyboard, Filter::Linear, Wrap::Repeat), None, None, None])]);
+    let read = plan(&project).draws[0].reads[0].clone().unwrap();
+    assert_eq!((read.sampler.filter, read.sampler.wrap, read.source), (Filter::Nearest, Wrap::Clamp, Source::Keyboard));
+}
+
+#[test]
+fn a_buffer_without_a_pass_is_a_target_nobody_draws() {
+    let project = project(vec![pass(PassId::Image, [buffer("C"), None, None, None])]);
+    let plan = plan(&project);
+    let target = plan.targets.iter().find(|t| t.id == PassId::Buffer("C".into())).unwrap();
+    assert!(target.undrawn && !target.doubled);
+}
