@@ -1,0 +1,218 @@
+//! Commands of the front ends that concern the open project, its picture and its input. Those about files are in `files`.
+
+use super::{
+    Session,
+    command::{Command, Question},
+    template,
+    view::Level,
+};
+use crate::{
+    media::Keyboard,
+    project::{self, Channel, Origin, PassId, Tab},
+};
+
+impl Session {
+    /// Does what the user asked. Never fails: trouble becomes a notice.
+    pub fn apply(&mut self, command: Command) {
+        self.changed = true;
+        match command {
+            Command::Open(_)
+            | Command::New
+            | Command::Save
+            | Command::SaveAs(_)
+            | Command::SaveAsCancelled
+            | Command::Close
+            | Command::Answer(_) => self.apply_to_files(command),
+            Command::EditText { tab, text } => self.edit_text(&tab, &text),
+            Command::CompileNow => self.compile_soon(),
+            Command::Play => self.play(),
+            Command::Pause => self.run.clock.pause(),
+            Command::TogglePlay if self.run.clock.is_playing() => self.run.clock.pause(),
+            Command::TogglePlay => self.play(),
+            Command::Step => {
+                self.run.clock.pause();
+                self.run.steps = self.run.steps.saturating_add(1);
+            }
+            Command::Reset => self.reset(),
+            // Minimised windows have no area; the picture keeps its size.
+            Command::SetViewport { width: 0, .. } | Command::SetViewport { height: 0, .. } => {}
+            Command::SetViewport { width, height } => {
+                if self.canvas.viewport != Some((width, height)) {
+                    self.canvas.viewport = Some((width, height));
+                    self.canvas.refused = None;
+                }
+            }
+            Command::SetScale(scale) => self.set_scale(scale),
+            Command::SetFixedSize(size) => {
+                self.canvas.fixed = size;
+                self.canvas.refused = None;
+            }
+            Command::SetChannel { pass, index, channel } => {
+                let slot = self.documents.current_mut().pass_mut(&pass).and_then(|p| p.channels.get_mut(index));
+                if let Some(slot) = slot
+                    && *slot != channel
+                {
+                    *slot = channel;
+                    self.look_at_media();
+                    self.compile_soon();
+                }
+            }
+            Command::AddTab(tab) => {
+                if template::add(self.documents.current_mut(), &tab) {
+                    self.text_generation += 1;
+                    self.compile_soon();
+                }
+            }
+            Command::RemoveTab(tab) => self.ask_to_remove(tab),
+            Command::MouseDown { x, y } => self.input(|run| run.mouse.press(x, y)),
+            Command::MouseMove { x, y } if self.run.mouse.is_down() => self.input(|run| run.mouse.move_to(x, y)),
+            Command::MouseMove { .. } => {}
+            Command::MouseUp => self.input(|run| run.mouse.release()),
+            Command::KeyDown(code) if self.run.keyboard.is_held(code) => {}
+            Command::KeyDown(code) => self.key(code, |keyboard| keyboard.press(code)),
+            Command::KeyUp(code) => self.key(code, |keyboard| keyboard.release(code)),
+            Command::Focus(focused) => self.focus(focused),
+            Command::Screenshot => self.capture(super::capture::Format::Png),
+            Command::SaveTexels => self.capture(super::capture::Format::Npy),
+            Command::ShowPass(pass) => self.show_pass(pass),
+            Command::SetResetOnReload(on) => self.disk.reset_on_reload = on,
+            Command::DismissNotice(id) => self.notices.retain(|n| n.id != id),
+        }
+    }
+
+    /// Compiles in the next tick.
+    pub(super) fn compile_soon(&mut self) {
+        self.compile.is_wanted = true;
+        self.compile.state.compiling = true;
+    }
+
+    fn edit_text(&mut self, tab: &Tab, text: &str) {
+        let Some(source) = self.documents.current().source(tab) else { return };
+        if *source.text == *text {
+            return;
+        }
+        // Without `eddy.toml` the text says what its channels read; with one these lines count for nothing.
+        let declares = |text: &str| text.contains("#iChannel");
+        let is_asked = !has_manifest(&self.project().origin) && (declares(&source.text) || declares(text));
+        let before = is_asked.then(|| self.declared_channels(tab));
+        if let Some(source) = self.documents.current_mut().source_mut(tab) {
+            source.text = text.into();
+        }
+        if let (Some(before), Tab::Pass(id)) = (before, tab) {
+            let now = self.declared_channels(tab);
+            if before != now
+                && let (Some(now), Some(pass)) = (now, self.documents.current_mut().pass_mut(id))
+            {
+                pass.channels = now;
+                self.look_at_media();
+            }
+        }
+        self.compile.edited = true;
+        self.compile.state.compiling = true;
+    }
+
+    /// What the tab's pass reads by its text alone.
+    fn declared_channels(&self, tab: &Tab) -> Option<[Option<Channel>; 4]> {
+        let Tab::Pass(id) = tab else { return None };
+        let mut project = self.project().clone();
+        project::declare_channels(&mut project);
+        project.pass(id).map(|p| p.channels.clone())
+    }
+
+    fn play(&mut self) {
+        self.run.clock.play();
+        self.run.fps.restart();
+    }
+
+    pub(super) fn reset(&mut self) {
+        self.engine.reset();
+        self.run.clock.reset();
+        self.run.fps.restart();
+        self.run.steps = 0;
+        self.run.is_frame_due = true;
+    }
+
+    fn set_scale(&mut self, scale: f32) {
+        if scale.is_finite() && scale > 0.0 {
+            self.canvas.scale = scale;
+            self.canvas.refused = None;
+        } else {
+            self.notice(Level::Error, format!("a resolution scale of {scale} draws nothing; it must be above 0"));
+        }
+    }
+
+    /// Input forces a frame while paused.
+    fn input(&mut self, change: impl FnOnce(&mut super::state::Run)) {
+        change(&mut self.run);
+        self.run.is_frame_due = true;
+    }
+
+    /// A key forces a frame too, unless it is half of a shortcut: stepping with Alt held must step by one.
+    fn key(&mut self, code: u8, change: impl FnOnce(&mut Keyboard)) {
+        change(&mut self.run.keyboard);
+        const MODIFIERS: [u8; 7] = [16, 17, 18, 91, 92, 93, 224];
+        self.run.is_frame_due |= !MODIFIERS.contains(&code);
+    }
+
+    fn focus(&mut self, focused: bool) {
+        if focused {
+            self.run.clock.rebase();
+            self.run.fps.restart();
+            // A watch can miss things (a network drive, a folder that was replaced); coming back is a good time to look.
+            self.disk.is_check_wanted = true;
+        } else if self.run.keyboard.bytes()[..2 * Keyboard::WIDTH].iter().any(|b| *b != 0) {
+            // The key-up of a key held now will go to another window.
+            self.input(|run| run.keyboard.release_all());
+        }
+    }
+
+    fn show_pass(&mut self, pass: PassId) {
+        if self.run.shown == pass || self.project().pass(&pass).is_none() {
+            return;
+        }
+        let is_drawn = self.engine.program().is_some_and(|p| p.plan().targets.iter().any(|t| t.id == pass));
+        self.engine.show(pass.clone());
+        self.display_generation += 1;
+        self.run.shown = pass;
+        if !is_drawn {
+            // A pass that nothing reads is in the program only while it is shown.
+            self.compile_soon();
+        }
+    }
+
+    fn ask_to_remove(&mut self, tab: Tab) {
+        match self.project().source(&tab) {
+            _ if tab == Tab::Pass(PassId::Image) => {
+                self.notice(Level::Warning, "Image is what a project shows; it cannot be removed");
+            }
+            None => {}
+            Some(source) if source.text.trim().is_empty() || *source.text == *template::text(&tab) => {
+                self.remove_tab(&tab);
+            }
+            Some(_) => self.ask(Question::RemoveTab(tab)),
+        }
+    }
+
+    pub(super) fn remove_tab(&mut self, tab: &Tab) {
+        let project = self.documents.current_mut();
+        match tab {
+            Tab::Common => project.common = None,
+            Tab::Pass(id) => project.passes.retain(|p| p.id != *id),
+        }
+        self.text_generation += 1;
+        self.show_image_if_gone();
+        self.compile_soon();
+    }
+
+    /// Shows Image where the shown pass is no more.
+    pub(super) fn show_image_if_gone(&mut self) {
+        if self.project().pass(&self.run.shown).is_none() {
+            self.run.shown = PassId::Image;
+        }
+    }
+}
+
+/// Whether something other than the texts says what channels read.
+pub(super) fn has_manifest(origin: &Origin) -> bool {
+    !matches!(origin, Origin::File(_) | Origin::Folder { has_manifest: false, .. })
+}

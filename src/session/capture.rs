@@ -1,0 +1,197 @@
+//! Pictures written to disk, never over anything that is there.
+//!
+//! Where to: a project on disk keeps its pictures in its own folder, beside its sources; one that is not (new, a preset) in
+//! the user's pictures folder, or where there is none in the home folder. The file is `NAME-0001.png`, with the first
+//! number that is free; NAME is the project's, with `-buffer_a` for a pass other than Image.
+
+use super::npy;
+use crate::{
+    engine::Pixels,
+    project::{Origin, PassId, Project},
+};
+use std::{
+    fs::{self, File, OpenOptions},
+    io::{self, BufWriter, Write},
+    path::{Path, PathBuf},
+};
+
+/// What a picture is written as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// 8 bits a channel, as the screen shows it.
+    Png,
+    /// The texels as they are.
+    Npy,
+}
+
+impl Format {
+    pub fn extension(self) -> &'static str {
+        match self {
+            Format::Png => "png",
+            Format::Npy => "npy",
+        }
+    }
+}
+
+/// A picture could not be written. Nothing that was there has been touched.
+#[derive(Debug, thiserror::Error)]
+pub enum CaptureError {
+    #[error("cannot write {}: {source}", path.display())]
+    Io { path: PathBuf, source: io::Error },
+    #[error("{} already holds every number up to {NAME_LIMIT} of {stem}; move some away", folder.display())]
+    NoNameLeft { folder: PathBuf, stem: String },
+}
+
+const NAME_LIMIT: u32 = 999_999;
+
+/// Writes pixels in the given format to any writer: one way for screenshots and `eddy render`.
+pub fn encode(out: &mut impl Write, pixels: &Pixels, format: Format) -> io::Result<()> {
+    match format {
+        Format::Npy => npy::write(out, pixels),
+        Format::Png => {
+            use image::ImageEncoder;
+            image::codecs::png::PngEncoder::new(out)
+                .write_image(&pixels.to_rgba8(), pixels.width, pixels.height, image::ExtendedColorType::Rgba8)
+                .map_err(|e| match e {
+                    image::ImageError::IoError(e) => e,
+                    other => io::Error::other(other),
+                })
+        }
+    }
+}
+
+/// Writes to a new numbered file in `folder` (made if it is not there) and gives its path.
+pub fn save_new(folder: &Path, stem: &str, pixels: &Pixels, format: Format) -> Result<PathBuf, CaptureError> {
+    write_new(folder, |n| format!("{stem}-{n:04}.{}", format.extension()), stem, |out| encode(out, pixels, format))
+}
+
+/// Writes to the first file of `name(1)`, `name(2)` … that is not there yet.
+pub(super) fn write_new(
+    folder: &Path,
+    name: impl Fn(u32) -> String,
+    stem: &str,
+    write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
+) -> Result<PathBuf, CaptureError> {
+    let failed = |path: &Path| {
+        let path = path.to_owned();
+        move |source| CaptureError::Io { path, source }
+    };
+    fs::create_dir_all(folder).map_err(failed(folder))?;
+    for n in 1..=NAME_LIMIT {
+        let path = folder.join(name(n));
+        match OpenOptions::new().write(true).create_new(true).open(&path) {
+            Err(e) if e.kind() == io::ErrorKind::AlreadyExists => {}
+            Err(e) => return Err(failed(&path)(e)),
+            Ok(file) => {
+                let mut out = BufWriter::new(file);
+                let written = write(&mut out).and_then(|()| out.flush());
+                drop(out);
+                return match written {
+                    Ok(()) => Ok(path),
+                    Err(e) => {
+                        // Half a picture is none; the name was free before.
+                        let _ = fs::remove_file(&path);
+                        Err(failed(&path)(e))
+                    }
+                };
+            }
+        }
+    }
+    Err(CaptureError::NoNameLeft { folder: folder.to_owned(), stem: stem.to_owned() })
+}
+
+/// The folder for pictures of this project; `pictures` where it has none of its own.
+pub fn folder_for(project: &Project, pictures: &Path) -> PathBuf {
+    base_folder(project).unwrap_or_else(|| pictures.to_owned())
+}
+
+/// The folder a project on disk lies in.
+pub(super) fn base_folder(project: &Project) -> Option<PathBuf> {
+    let dir = match &project.origin {
+        Origin::Unsaved | Origin::Preset(_) => return None,
+        Origin::Folder { path, .. } => path.as_path(),
+        Origin::File(path) | Origin::Json(path) => path.parent()?,
+    };
+    // The parent of a bare file name is the empty path, which stands for the current folder.
+    Some(if dir.as_os_str().is_empty() { PathBuf::from(".") } else { dir.to_owned() })
+}
+
+/// The name of this project's pictures without their number, safe in any file system.
+pub fn stem_for(project: &Project, pass: &PassId) -> String {
+    let mut stem = file_stem(&project.name);
+    if *pass != PassId::Image {
+        stem.push('-');
+        stem.push_str(&pass.key());
+    }
+    stem
+}
+
+/// A name that any file system takes: letters, digits, `-`, `_` and `.`; other runs become one `-`.
+pub fn file_stem(name: &str) -> String {
+    let mut stem = String::new();
+    for c in name.chars().take(100) {
+        if c.is_alphanumeric() || matches!(c, '_' | '.' | '-') {
+            stem.push(c);
+        } else if !stem.ends_with('-') {
+            stem.push('-');
+        }
+    }
+    let stem = stem.trim_matches(['-', '.']);
+    if stem.is_empty() { "picture".into() } else { stem.into() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pixels() -> Pixels {
+        Pixels { width: 1, height: 2, texels: vec![[1.0, 0.0, 0.0, 1.0], [0.0, 2.0, f32::NAN, 1.0]] }
+    }
+
+    #[test]
+    fn numbers_go_on_and_nothing_is_overwritten() {
+        let dir = tempfile::tempdir().unwrap();
+        fs::write(dir.path().join("a-0001.png"), "mine").unwrap();
+        fs::write(dir.path().join("a-0003.png"), "mine too").unwrap();
+        let save = || save_new(dir.path(), "a", &pixels(), Format::Png).unwrap();
+        let names: Vec<_> = [save(), save()].iter().map(|p| p.file_name().unwrap().to_owned()).collect();
+        assert_eq!(names, ["a-0002.png", "a-0004.png"]);
+        assert_eq!(fs::read_to_string(dir.path().join("a-0001.png")).unwrap(), "mine");
+        assert_eq!(fs::read_to_string(dir.path().join("a-0003.png")).unwrap(), "mine too");
+    }
+
+    #[test]
+    fn a_png_has_the_top_row_first() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = save_new(&dir.path().join("new folder"), "a", &pixels(), Format::Png).unwrap();
+        let image = image::open(path).unwrap().to_rgba8();
+        assert_eq!(image.dimensions(), (1, 2));
+        assert_eq!(image.as_raw()[..], [0, 255, 0, 255, 255, 0, 0, 255]);
+    }
+
+    #[test]
+    fn a_failed_write_leaves_no_half_file() {
+        let dir = tempfile::tempdir().unwrap();
+        let result = write_new(
+            dir.path(),
+            |n| format!("a-{n}"),
+            "a",
+            |out| {
+                out.write_all(b"half")?;
+                Err(io::Error::from(io::ErrorKind::StorageFull))
+            },
+        );
+        assert!(matches!(result, Err(CaptureError::Io { .. })));
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0);
+        let file = dir.path().join("file");
+        fs::write(&file, "").unwrap();
+        assert!(save_new(&file, "a", &pixels(), Format::Png).is_err(), "a file is no folder");
+    }
+
+    #[test]
+    fn names_are_safe() {
+        assert_eq!(file_stem("Fluid / Stars: 2"), "Fluid-Stars-2");
+        assert_eq!(file_stem("../.."), "picture");
+        assert_eq!(file_stem("Höhle"), "Höhle");
+    }
+}

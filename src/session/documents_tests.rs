@@ -1,0 +1,163 @@
+use super::*;
+use crate::project::{Channel, Info, Input, Sampler, SamplerRules};
+
+fn project(texts: &[(&str, &str)], has_manifest: bool) -> Project {
+    let mut project = Project {
+        name: "p".into(),
+        info: Info::default(),
+        common: None,
+        passes: Vec::new(),
+        sampler_rules: SamplerRules::PerChannel,
+        origin: Origin::Folder { path: "/p".into(), has_manifest },
+    };
+    for (key, text) in texts {
+        let name = format!("{key}.glsl");
+        let source = Source { path: Some(PathBuf::from("/p").join(&name)), name, text: (*text).into() };
+        match *key {
+            "common" => project.common = Some(source),
+            key => {
+                let pass = Pass { id: PassId::parse(key).unwrap(), source, channels: Default::default() };
+                insert_pass(&mut project, pass);
+            }
+        }
+    }
+    project
+}
+
+fn pass(key: &str) -> Tab {
+    Tab::Pass(PassId::parse(key).unwrap())
+}
+
+fn edit(d: &mut Documents, tab: &Tab, text: &str) {
+    d.current_mut().source_mut(tab).unwrap().text = text.into();
+}
+
+fn text<'a>(d: &'a Documents, tab: &Tab) -> &'a str {
+    &d.current().source(tab).unwrap().text
+}
+
+fn rebind(project: &mut Project) {
+    let channel = Channel { input: Input::Keyboard, sampler: Sampler::BUFFER };
+    project.pass_mut(&PassId::Image).unwrap().channels[0] = Some(channel);
+}
+
+#[test]
+fn edits_make_a_tab_dirty_and_undoing_them_makes_it_clean() {
+    let mut d = Documents::new(project(&[("common", "c"), ("image", "i")], true));
+    assert!(!d.is_dirty());
+    edit(&mut d, &Tab::Common, "c2");
+    assert_eq!(d.dirty_tabs(), [Tab::Common]);
+    assert!(d.is_dirty() && !d.is_tab_dirty(&pass("image")));
+    edit(&mut d, &Tab::Common, "c");
+    assert!(!d.is_dirty());
+    rebind(d.current_mut());
+    assert!(d.is_dirty() && d.dirty_tabs().is_empty(), "a channel is no tab's text");
+}
+
+#[test]
+fn what_was_not_edited_follows_the_disk() {
+    let mut d = Documents::new(project(&[("buffer_a", "a"), ("image", "i")], true));
+    edit(&mut d, &pass("buffer_a"), "a mine");
+    let m = d.merge(project(&[("buffer_a", "a"), ("image", "i2")], true));
+    assert_eq!(m, Merge { taken: vec![pass("image")], ..Merge::default() });
+    assert_eq!((text(&d, &pass("image")), text(&d, &pass("buffer_a"))), ("i2", "a mine"));
+    assert_eq!(d.dirty_tabs(), [pass("buffer_a")]);
+}
+
+#[test]
+fn the_same_content_again_changes_nothing() {
+    let mut d = Documents::new(project(&[("image", "i")], true));
+    assert_eq!(d.merge(project(&[("image", "i")], true)), Merge::default());
+    edit(&mut d, &pass("image"), "i2");
+    assert_eq!(d.merge(project(&[("image", "i2")], true)), Merge::default(), "the disk came to what is here");
+    assert!(!d.is_dirty());
+}
+
+#[test]
+fn an_edit_on_both_sides_is_a_conflict_and_keeps_mine_until_it_is_settled() {
+    let mut d = Documents::new(project(&[("image", "i")], true));
+    edit(&mut d, &pass("image"), "mine");
+    let m = d.merge(project(&[("image", "disk")], true));
+    assert_eq!(m.conflicts.len(), 1);
+    assert_eq!((&*m.conflicts[0].mine, &*m.conflicts[0].disk), ("mine", "disk"));
+    assert!(!m.changes_project());
+    assert_eq!(text(&d, &pass("image")), "mine");
+    assert!(d.is_dirty());
+    d.take_text_of_saved(&pass("image"));
+    assert_eq!(text(&d, &pass("image")), "disk");
+    assert!(!d.is_dirty());
+}
+
+#[test]
+fn structure_follows_the_disk_and_edited_texts_stay() {
+    let mut d = Documents::new(project(&[("image", "i")], true));
+    edit(&mut d, &pass("image"), "mine");
+    let mut disk = project(&[("buffer_a", "a"), ("image", "i")], true);
+    rebind(&mut disk);
+    let m = d.merge(disk);
+    assert!(m.took_structure && m.conflicts.is_empty() && !m.structure_conflict);
+    assert_eq!(text(&d, &pass("buffer_a")), "a");
+    assert_eq!(text(&d, &pass("image")), "mine");
+    assert!(d.current().pass(&PassId::Image).unwrap().channels[0].is_some());
+    assert_eq!(d.dirty_tabs(), [pass("image")]);
+}
+
+#[test]
+fn structure_changed_on_both_sides_is_a_conflict() {
+    let mut d = Documents::new(project(&[("image", "i")], true));
+    insert_pass(d.current_mut(), project(&[("buffer_b", "b")], true).passes.remove(0));
+    let mut disk = project(&[("image", "i")], true);
+    rebind(&mut disk);
+    let m = d.merge(disk);
+    assert!(m.structure_conflict && !m.took_structure);
+    d.take_structure_of_saved();
+    assert!(d.current().pass(&PassId::Image).unwrap().channels[0].is_some());
+    assert_eq!(text(&d, &pass("buffer_b")), "b", "a text that is nowhere else is not dropped");
+}
+
+#[test]
+fn a_deleted_file_keeps_its_text_and_is_told_once() {
+    let mut both = project(&[("buffer_a", "a"), ("image", "i")], false);
+    rebind(&mut both);
+    let mut d = Documents::new(both.clone());
+    let m = d.merge(project(&[("image", "i")], false));
+    assert!(!m.took_structure, "its readers still read it");
+    assert_eq!(m.gone, [pass("buffer_a")]);
+    assert_eq!(text(&d, &pass("buffer_a")), "a");
+    assert!(d.is_tab_dirty(&pass("buffer_a")));
+    assert_eq!(d.merge(project(&[("image", "i")], false)), Merge::default(), "told once");
+    d.merge(both);
+    assert!(!d.is_dirty(), "it came back");
+}
+
+#[test]
+fn a_pass_taken_out_of_the_manifest_goes_unless_its_text_is_unsaved() {
+    let both = [("buffer_a", "a"), ("image", "i")];
+    let mut d = Documents::new(project(&both, true));
+    let m = d.merge(project(&[("image", "i")], true));
+    assert!(m.took_structure && m.gone.is_empty());
+    assert_eq!(d.current().passes.len(), 1);
+
+    let mut d = Documents::new(project(&both, true));
+    edit(&mut d, &pass("buffer_a"), "mine");
+    let m = d.merge(project(&[("image", "i")], true));
+    assert_eq!(m.gone, [pass("buffer_a")]);
+    assert_eq!(text(&d, &pass("buffer_a")), "mine");
+}
+
+#[test]
+fn passes_are_put_where_the_drawing_order_wants_them() {
+    let p = project(
+        &[("image", ""), ("sound", ""), ("buffer_c", ""), ("cube_a", ""), ("buffer_a", ""), ("buffer_b", "")],
+        true,
+    );
+    let keys: Vec<String> = p.passes.iter().map(|p| p.id.key()).collect();
+    assert_eq!(keys, ["buffer_a", "buffer_b", "buffer_c", "cube_a", "image", "sound"]);
+}
+
+#[test]
+fn a_diff_names_each_side() {
+    let lines = diff("a\nb\nc\n", "a\nB\nc\r\n");
+    assert!(lines.contains(&DiffLine::Both("a".into())));
+    assert!(lines.contains(&DiffLine::Disk("b".into())) && lines.contains(&DiffLine::Mine("B".into())));
+}

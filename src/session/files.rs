@@ -1,0 +1,271 @@
+//! Opening, saving, leaving; the questions that keep anything unsaved from being lost, and their answers.
+
+use super::{
+    Session, capture,
+    command::{Answer, Command, Question, Request, Then},
+    documents::Documents,
+    template,
+    view::Level,
+};
+use crate::{
+    diag::{Diagnostic, SourceMap},
+    engine::Engine,
+    media::Keyboard,
+    project::{self, Origin, Overwrite, PassId, Project, ProjectError, Tab},
+};
+use std::{
+    fs,
+    io::Write,
+    path::{Path, PathBuf},
+};
+
+impl Session {
+    pub(super) fn apply_to_files(&mut self, command: Command) {
+        match command {
+            Command::Answer(answer) => self.answer(answer),
+            // A front end shows nothing else while a question stands; a script may still try.
+            _ if self.question().is_some() => {
+                self.notice(Level::Warning, "answer the question that stands first");
+            }
+            Command::Open(spec) => self.unless_unsaved(Then::Open(spec)),
+            Command::New => self.unless_unsaved(Then::New),
+            Command::Close => self.unless_unsaved(Then::Close),
+            Command::Save => {
+                self.save();
+            }
+            Command::SaveAs(folder) => self.save_as(&folder, Overwrite::Refuse),
+            _ => self.dialog.after_save = None,
+        }
+    }
+
+    pub(super) fn ask(&mut self, question: Question) {
+        self.dialog.questions.push_back(question);
+        self.changed = true;
+    }
+
+    fn unless_unsaved(&mut self, then: Then) {
+        if self.is_dirty() {
+            let tabs = self.documents.dirty_tabs();
+            self.ask(Question::Unsaved { then, tabs });
+        } else {
+            self.go_on(then);
+        }
+    }
+
+    fn go_on(&mut self, then: Then) {
+        match then {
+            Then::Open(spec) => self.open(&spec),
+            Then::New => self.replace(template::project()),
+            Then::Close => self.dialog.requests.push_back(Request::Exit),
+        }
+    }
+
+    fn open(&mut self, spec: &str) {
+        match project::load(spec) {
+            Ok(loaded) => {
+                self.replace(loaded.project);
+                self.tell_diagnostics(&loaded.warnings, &loaded.sources);
+            }
+            Err(e) => self.notice(Level::Error, format!("{spec} was not opened: {e}")),
+        }
+    }
+
+    /// Another project takes the place of this one, from time 0.
+    fn replace(&mut self, project: Project) {
+        let (width, height) = self.engine.size();
+        match Engine::new(self.engine.gpu().clone(), width, height) {
+            Ok(engine) => self.engine = engine,
+            Err(e) => {
+                self.notice(Level::Error, format!("{} was not opened: {e}", project.name));
+                return;
+            }
+        }
+        self.engine.set_timing(true);
+        self.documents = Documents::new(project);
+        // Conflicts of the project that goes.
+        self.dialog.questions.clear();
+        self.compile.has_program = false;
+        self.compile.diagnostics.clear();
+        self.compile.state = super::view::CompileState::default();
+        self.disk.media.opened += 1;
+        self.compile.reset_when_built = false;
+        self.run.steps = 0;
+        self.run.shown = PassId::Image;
+        self.run.mouse = super::mouse::Mouse::default();
+        self.run.keyboard = Keyboard::default();
+        self.run.clock = super::clock::Clock::default();
+        self.run.fps.restart();
+        self.run.pass_times.clear();
+        self.text_generation += 1;
+        self.display_generation += 1;
+        self.disk_is_known();
+        self.compile_soon();
+    }
+
+    /// Writes the project where it came from. True if nothing unsaved is left.
+    fn save(&mut self) -> bool {
+        let home = match &self.project().origin {
+            Origin::Folder { path, .. } | Origin::File(path) => path.clone(),
+            Origin::Unsaved | Origin::Preset(_) | Origin::Json(_) => {
+                self.request_save_as();
+                return false;
+            }
+        };
+        if !self.may_overwrite() {
+            return false;
+        }
+        if !self.is_dirty() {
+            self.notice(Level::Info, "nothing to save: the disk holds the same");
+            return true;
+        }
+        match project::save(self.project(), &home, Overwrite::Refuse) {
+            Ok(saved) => {
+                self.saved(saved);
+                true
+            }
+            // A pass that was added here has the name of a file that is not this project's.
+            Err(ProjectError::WouldOverwrite { path }) => {
+                self.ask(Question::Overwrite { folder: home, files: vec![path] });
+                false
+            }
+            Err(e @ ProjectError::CannotHold { .. }) => {
+                self.notice(Level::Warning, e.to_string());
+                self.request_save_as();
+                false
+            }
+            Err(e) => {
+                self.save_failed(&e);
+                false
+            }
+        }
+    }
+
+    /// Whether the project's own files hold nothing that the user has not seen.
+    fn may_overwrite(&mut self) -> bool {
+        let is_asked = self.dialog.questions.iter().any(|q| matches!(q, Question::Conflict { .. }));
+        let may = !is_asked && self.disk_is_as_read();
+        if !may {
+            self.dialog.after_save = None;
+        }
+        may
+    }
+
+    fn save_as(&mut self, folder: &Path, overwrite: Overwrite) {
+        let home = capture::base_folder(self.project()).and_then(|home| home.canonicalize().ok());
+        if home.is_some_and(|home| folder.canonicalize().is_ok_and(|folder| folder == home)) && !self.may_overwrite() {
+            return;
+        }
+        match project::save(self.project(), folder, overwrite) {
+            Ok(saved) => {
+                self.saved(saved);
+                // Pictures are read from the new place, and the compile's texts have new names.
+                self.disk.media.opened += 1;
+                self.compile_soon();
+                self.finish_save();
+            }
+            Err(ProjectError::WouldOverwrite { path }) => {
+                self.ask(Question::Overwrite { folder: folder.to_owned(), files: vec![path] });
+            }
+            Err(e) => self.save_failed(&e),
+        }
+    }
+
+    fn request_save_as(&mut self) {
+        let suggested_name = capture::file_stem(&self.project().name);
+        self.dialog.requests.push_back(Request::SaveAs { suggested_name });
+    }
+
+    fn save_failed(&mut self, error: &ProjectError) {
+        self.dialog.after_save = None;
+        self.notice(Level::Error, format!("not saved: {error}; your changes are still here"));
+    }
+
+    fn saved(&mut self, project: Project) {
+        let place = match &project.origin {
+            Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => path.display().to_string(),
+            Origin::Unsaved | Origin::Preset(_) => project.name.clone(),
+        };
+        self.documents.set_saved(project);
+        self.disk_is_known();
+        self.notice(Level::Info, format!("saved {place}"));
+    }
+
+    fn finish_save(&mut self) {
+        if let Some(then) = self.dialog.after_save.take() {
+            self.go_on(then);
+        }
+    }
+
+    fn answer(&mut self, answer: Answer) {
+        let Some(question) = self.dialog.questions.pop_front() else { return };
+        match (question, answer) {
+            (Question::Unsaved { then, .. }, Answer::Save) => {
+                self.dialog.after_save = Some(then);
+                if self.save() {
+                    self.finish_save();
+                }
+            }
+            (Question::Unsaved { then, .. }, Answer::Discard) => self.go_on(then),
+            (Question::Overwrite { folder, .. }, Answer::Overwrite) => self.save_as(&folder, Overwrite::Allow),
+            (Question::Unsaved { .. } | Question::Overwrite { .. }, Answer::Cancel) => self.dialog.after_save = None,
+            (Question::RemoveTab(tab), Answer::Remove) => self.remove_tab(&tab),
+            (Question::RemoveTab(_), Answer::Cancel) => {}
+            (Question::Conflict { tab, file, mine, disk, diff }, answer) => {
+                // The text may have been edited since the question was put.
+                let mine_now = tab.as_ref().map_or_else(|| mine.to_string(), |t| self.text(t).to_owned());
+                if let Err(why) = self.settle(tab.as_ref(), &file, &mine_now, &disk, answer) {
+                    if let Some(why) = why {
+                        self.notice(Level::Error, why);
+                    }
+                    self.dialog.questions.push_front(Question::Conflict { tab, file, mine, disk, diff });
+                }
+            }
+            (question, _) => self.dialog.questions.push_front(question),
+        }
+    }
+
+    /// Settles a conflict, with the other text in a file of its own first. Fails with what to say, or silently for an answer
+    /// that does not fit; then the question stands on.
+    fn settle(
+        &mut self,
+        tab: Option<&Tab>,
+        file: &Path,
+        mine: &str,
+        disk: &str,
+        answer: Answer,
+    ) -> Result<(), Option<String>> {
+        let kept = match &answer {
+            Answer::KeepMine => keep_beside(file, "disk", disk)?,
+            Answer::TakeDisk => keep_beside(file, "mine", mine)?,
+            Answer::SaveMineAs(path) => {
+                let written = fs::File::create_new(path).and_then(|mut f| f.write_all(mine.as_bytes()));
+                written.map_err(|e| format!("cannot write {}: {e}", path.display()))?;
+                path.clone()
+            }
+            _ => return Err(None),
+        };
+        if answer != Answer::KeepMine {
+            match tab {
+                Some(tab) => self.documents.take_text_of_saved(tab),
+                None => self.documents.take_structure_of_saved(),
+            }
+            self.after_reload();
+        }
+        self.notice(Level::Info, format!("the other text is kept in {}", kept.display()));
+        Ok(())
+    }
+
+    pub(super) fn tell_diagnostics(&mut self, diagnostics: &[Diagnostic], sources: &SourceMap) {
+        for d in diagnostics {
+            self.notice(Level::Warning, crate::diag::render(d, sources).trim_end());
+        }
+    }
+}
+
+/// Writes a text to a new numbered file beside `file`; its ending keeps it from being taken for a pass.
+fn keep_beside(file: &Path, whose: &str, text: &str) -> Result<PathBuf, String> {
+    let folder = file.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let numbered = |n: u32| format!("{name}.{whose}-{n:04}");
+    capture::write_new(folder, numbered, &name, |out| out.write_all(text.as_bytes())).map_err(|e| e.to_string())
+}

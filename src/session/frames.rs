@@ -1,0 +1,225 @@
+//! The tick: finished compiles, changes on disk, and at most the frames that are due.
+
+use super::{
+    Session, capture,
+    clock::FrameTime,
+    compile::{Done, Job},
+    date,
+    view::{Level, Outcome, Tick},
+    worker::Panicked,
+};
+use crate::{
+    diag::Severity,
+    engine::{EngineError, FrameInputs},
+    gpu::GpuError,
+};
+use std::time::Instant;
+
+impl Session {
+    /// Takes finished compiles and changes on disk, and draws a frame if one is due: while playing one a call, while paused
+    /// only when something the picture depends on has changed. Call it once for each frame shown.
+    pub fn tick(&mut self, now: Instant) -> Tick {
+        self.now = now;
+        self.check_disk();
+        self.start_compile();
+        self.take_compiled();
+        self.fit_canvas();
+        let frame_drawn = self.draw_due_frames();
+        Tick { frame_drawn, wake_at: self.wake_at(), changed: std::mem::take(&mut self.changed) }
+    }
+
+    fn wake_at(&self) -> Option<Instant> {
+        let is_running = self.run.clock.is_playing() && self.compile.has_program && !self.run.is_device_lost;
+        [is_running.then_some(self.now), self.compile.edits.deadline(), self.disk.changes.deadline()]
+            .into_iter()
+            .flatten()
+            .min()
+    }
+
+    fn start_compile(&mut self) {
+        if std::mem::take(&mut self.compile.edited) {
+            self.compile.edits.touch(self.now);
+        }
+        let is_due = self.compile.edits.take_due(self.now);
+        if !(std::mem::take(&mut self.compile.is_wanted) || is_due) {
+            return;
+        }
+        self.compile.edits.cancel();
+        self.compiler.submit(Job {
+            project: self.documents.current().clone(),
+            shown: self.run.shown.clone(),
+            media: self.disk.media.clone(),
+        });
+        self.changed = true;
+    }
+
+    fn take_compiled(&mut self) {
+        let Some(result) = self.compiler.take() else { return };
+        self.changed = true;
+        self.compile.state.compiling = self.is_compile_due() || self.compiler.is_busy();
+        match result {
+            Err(Panicked(reason)) => {
+                self.compile.state.last = Some(Outcome::Failed { errors: 0 });
+                self.notice(
+                    Level::Error,
+                    format!("this is a bug in Eddy: the compiler gave up ({reason}); the last good picture goes on"),
+                );
+            }
+            Ok(done) => self.take_done(done),
+        }
+    }
+
+    fn is_compile_due(&self) -> bool {
+        self.compile.edited || self.compile.is_wanted || self.compile.edits.is_waiting()
+    }
+
+    fn take_done(&mut self, done: Done) {
+        let count = |s| done.diagnostics.iter().filter(|d| d.severity == s).count();
+        let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
+        self.compile.diagnostics = done.diagnostics;
+        let (program, millis) = match done.program {
+            Ok(Some(built)) => built,
+            Ok(None) => {
+                self.compile.state.last = Some(Outcome::Failed { errors });
+                return;
+            }
+            Err(e) => {
+                self.compile.state.last = Some(Outcome::Failed { errors });
+                self.stop_drawing(&e);
+                return;
+            }
+        };
+        // Errors here are of passes that the picture does not reach.
+        self.compile.state.last =
+            Some(if errors > 0 { Outcome::Failed { errors } } else { Outcome::Ok { millis, warnings } });
+        if let Err(e) = self.engine.set_program(program) {
+            self.stop_drawing(&e);
+            return;
+        }
+        self.engine.show(self.run.shown.clone());
+        self.display_generation += 1;
+        self.compile.has_program = true;
+        self.run.is_frame_due = true;
+        if std::mem::take(&mut self.compile.reset_when_built) {
+            self.reset();
+        }
+    }
+
+    /// Gives the engine the size the canvas shall have.
+    fn fit_canvas(&mut self) {
+        let Some(size) = self.canvas.size() else { return };
+        if size == self.engine.size() || self.canvas.refused == Some(size) {
+            return;
+        }
+        match self.engine.resize(size.0, size.1) {
+            Ok(()) => {
+                self.run.is_frame_due = true;
+                self.display_generation += 1;
+                self.changed = true;
+            }
+            Err(e) => {
+                self.canvas.refused = Some(size);
+                let (width, height) = self.engine.size();
+                self.notice(Level::Error, format!("{e}; the picture stays at {width}x{height}"));
+            }
+        }
+    }
+
+    fn draw_due_frames(&mut self) -> bool {
+        if !self.compile.has_program || self.run.is_device_lost {
+            return false;
+        }
+        let mut drawn = false;
+        for _ in 0..std::mem::take(&mut self.run.steps) {
+            let time = self.run.clock.step_frame();
+            drawn |= self.draw(time);
+        }
+        if self.run.clock.is_playing() {
+            let time = self.run.clock.running_frame(self.now);
+            drawn |= self.draw(time);
+            self.changed |= self.run.fps.frame(self.now);
+        } else if self.run.is_frame_due {
+            let time = self.run.clock.forced_frame();
+            drawn |= self.draw(time);
+        }
+        drawn
+    }
+
+    fn draw(&mut self, time: FrameTime) -> bool {
+        let inputs = FrameInputs {
+            frame: time.frame,
+            time_secs: time.time_secs,
+            time_delta_secs: time.time_delta_secs,
+            frame_rate: time.frame_rate,
+            mouse: self.run.mouse.next_frame(),
+            date: date::i_date(date::now()),
+            keyboard: self.run.keyboard.clone(),
+        };
+        self.run.is_frame_due = false;
+        self.run.keyboard.frame_painted();
+        let start = Instant::now();
+        match self.engine.draw(&inputs) {
+            Ok(_) => {
+                self.run.cpu_micros = start.elapsed().as_secs_f64() * 1e6;
+                if let Some(times) = self.engine.pass_times() {
+                    self.run.pass_times = times;
+                }
+                self.changed |= !self.run.clock.is_playing();
+                true
+            }
+            Err(e) => {
+                self.stop_drawing(&e);
+                false
+            }
+        }
+    }
+
+    /// A frame could not be drawn: the picture stands, everything else goes on.
+    fn stop_drawing(&mut self, error: &EngineError) {
+        self.run.clock.pause();
+        self.run.is_frame_due = false;
+        if !matches!(error, EngineError::Gpu(GpuError::Lost(_))) {
+            self.notice(Level::Error, format!("{error}; the picture is paused"));
+        } else if !std::mem::replace(&mut self.run.is_device_lost, true) {
+            self.notice(
+                Level::Error,
+                format!("{error}. Your texts are all here: save them, then start Eddy again to go on drawing"),
+            );
+        }
+    }
+
+    /// Writes the shown pass to a new file.
+    pub(super) fn capture(&mut self, format: capture::Format) {
+        if !self.compile.has_program {
+            self.notice(Level::Warning, "there is no picture to save yet");
+            return;
+        }
+        let pixels = match self.engine.read(&self.run.shown) {
+            Ok(pixels) => pixels,
+            Err(e) => {
+                self.notice(Level::Error, format!("no picture was saved: {e}"));
+                return;
+            }
+        };
+        let project = self.documents.current();
+        let folder = capture::folder_for(project, &self.options.pictures);
+        let stem = capture::stem_for(project, &self.run.shown);
+        match capture::save_new(&folder, &stem, &pixels, format) {
+            Ok(path) => {
+                self.notice(Level::Info, format!("saved {}", path.display()));
+                if let Some(notice) = self.notices.last_mut() {
+                    notice.path = Some(path);
+                }
+            }
+            Err(e) => self.notice(Level::Error, e.to_string()),
+        }
+    }
+}
+
+impl super::state::Canvas {
+    /// Pixels, at least one each way; `None` before the viewport is known.
+    fn size(&self) -> Option<(u32, u32)> {
+        let scaled = |v: u32| ((f64::from(v) * f64::from(self.scale)).floor() as u32).max(1);
+        self.fixed.or_else(|| self.viewport.map(|(w, h)| (scaled(w), scaled(h))))
+    }
+}

@@ -1,0 +1,31 @@
+//! An open project over time.
+//!
+//! Owns the clock, the mouse and the keyboard as Shadertoy's uniforms show them; the open documents and what of them is
+//! unsaved; the compile worker; the watch on the project's folder; pictures written to disk; scripted runs without a
+//! window. A front end hands it [`Command`]s and calls [`Session::tick`]; everything it shows it reads from
+//! `&Session`. Draws no widget and knows no window.
+
+mod apply;
+pub mod capture;
+pub mod clock;
+pub mod command;
+mod compile;
+pub mod date;
+mod debounce;
+mod documents;
+mod files;
+mod frames;
+pub mod mouse;
+pub mod npy;
+pub mod offline;
+mod reload;
+pub mod script;
+mod state;
+mod template;
+pub mod view;
+mod watch;
+mod worker;
+
+pub use command::{Answer, Command, DiffLine, Question, Request, Then};
+pub use state::{Session, SessionError, SessionOptions};
+pub use view::{CompileState, Level, Notice, Outcome, TabDiagnostic, Tick, Transport};

@@ -1,0 +1,100 @@
+//! `iMouse` over time, as `shadertoy.md` section 5 has it.
+
+/// The mouse's state between frames. Points are canvas pixels from the bottom left.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mouse {
+    at: [f32; 2],
+    pressed_at: [f32; 2],
+    is_down: bool,
+    /// No frame has been rendered since the press.
+    is_fresh: bool,
+}
+
+impl Mouse {
+    pub fn press(&mut self, x: f32, y: f32) {
+        self.at = whole(x, y);
+        self.pressed_at = self.at;
+        self.is_down = true;
+        self.is_fresh = true;
+    }
+
+    /// Counts only while the button is down.
+    pub fn move_to(&mut self, x: f32, y: f32) {
+        if self.is_down {
+            self.at = whole(x, y);
+        }
+    }
+
+    pub fn release(&mut self) {
+        self.is_down = false;
+    }
+
+    pub fn is_down(&self) -> bool {
+        self.is_down
+    }
+
+    /// `iMouse` of the frame that is drawn now, which uses up the press. A press that was released before any frame saw it
+    /// shows in w alone, as on the site.
+    pub fn next_frame(&mut self) -> [f32; 4] {
+        let sign = |positive, v: f32| if positive { v.abs() } else { -v.abs() };
+        let z = sign(self.is_down, self.pressed_at[0]);
+        let w = sign(std::mem::take(&mut self.is_fresh), self.pressed_at[1]);
+        [self.at[0], self.at[1], z, w]
+    }
+}
+
+/// The site counts whole pixels from the bottom left; a point that is no number stands at 0.
+fn whole(x: f32, y: f32) -> [f32; 2] {
+    [x, y].map(|v| if v.is_finite() { v.floor() } else { 0.0 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Bits, because 0.0 and -0.0 are the same number and not the same sign.
+    fn bits(v: [f32; 4]) -> [u32; 4] {
+        v.map(f32::to_bits)
+    }
+
+    #[test]
+    fn follows_the_sites_table() {
+        let mut m = Mouse::default();
+        assert_eq!(bits(m.next_frame()), bits([0.0, 0.0, -0.0, -0.0]), "never clicked");
+        m.move_to(5.0, 6.0);
+        assert_eq!(bits(m.next_frame()), bits([0.0, 0.0, -0.0, -0.0]), "moves count only while down");
+        m.press(40.9, 30.2);
+        assert_eq!(m.next_frame(), [40.0, 30.0, 40.0, 30.0], "first frame of a press");
+        assert_eq!(m.next_frame(), [40.0, 30.0, 40.0, -30.0], "held");
+        m.move_to(80.5, 45.99);
+        assert_eq!(m.next_frame(), [80.0, 45.0, 40.0, -30.0], "dragged");
+        m.release();
+        m.move_to(1.0, 1.0);
+        assert_eq!(m.next_frame(), [80.0, 45.0, -40.0, -30.0], "released");
+    }
+
+    #[test]
+    fn a_press_at_the_edge_has_no_sign_to_see() {
+        let mut m = Mouse::default();
+        m.press(0.4, 0.0);
+        assert_eq!(bits(m.next_frame()), bits([0.0; 4]));
+        assert_eq!(bits(m.next_frame()), bits([0.0, 0.0, 0.0, -0.0]));
+    }
+
+    #[test]
+    fn a_click_between_two_frames_shows_in_w_alone() {
+        let mut m = Mouse::default();
+        m.press(7.0, 9.0);
+        m.release();
+        assert_eq!(m.next_frame(), [7.0, 9.0, -7.0, 9.0]);
+        assert_eq!(m.next_frame(), [7.0, 9.0, -7.0, -9.0]);
+    }
+
+    #[test]
+    fn a_drag_out_of_the_picture_goes_below_zero_and_never_to_nan() {
+        let mut m = Mouse::default();
+        m.press(3.0, 3.0);
+        m.move_to(-0.5, f32::NAN);
+        assert_eq!(m.next_frame(), [-1.0, 0.0, 3.0, 3.0]);
+    }
+}

@@ -1,0 +1,357 @@
+//! [`Session`] itself: what it is made of, how it starts, and what can be read of it. What it does is in `apply`, `frames`,
+//! `files` and `reload`.
+
+use super::{
+    clock::Clock,
+    command::{Question, Request, Then},
+    compile::{self, MediaState},
+    debounce::Debounce,
+    documents::Documents,
+    mouse::Mouse,
+    view::{CompileState, Level, Notice, TabDiagnostic, Transport},
+    watch::Watch,
+    worker::Worker,
+};
+use crate::{
+    engine::{Engine, EngineError, PassTime},
+    gpu::Gpu,
+    media::Keyboard,
+    project::{PassId, Project, Tab},
+};
+use std::{
+    collections::VecDeque,
+    path::PathBuf,
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+/// How a session is set up. The defaults are what the window uses.
+#[derive(Clone, Debug)]
+pub struct SessionOptions {
+    /// Quiet time after the last keystroke before a compile.
+    pub edit_debounce: Duration,
+    /// Quiet time after the last change on disk before a reload.
+    pub watch_debounce: Duration,
+    /// How long files that make no whole project are read again before the user hears of it: an editor may be half way
+    /// through writing them.
+    pub retry_for: Duration,
+    /// Where pictures of a project without a folder of its own go.
+    pub pictures: PathBuf,
+    /// The user's own copies of the site's stock files.
+    pub media_dir: Option<PathBuf>,
+}
+
+impl Default for SessionOptions {
+    fn default() -> Self {
+        Self {
+            edit_debounce: Duration::from_millis(200),
+            watch_debounce: Duration::from_millis(120),
+            retry_for: Duration::from_secs(2),
+            pictures: dirs::picture_dir().or_else(dirs::home_dir).unwrap_or_else(|| PathBuf::from(".")),
+            media_dir: None,
+        }
+    }
+}
+
+/// The session cannot start.
+#[derive(Debug, thiserror::Error)]
+pub enum SessionError {
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    #[error("no thread for compiling: {0}")]
+    Thread(std::io::Error),
+}
+
+/// An open project over time.
+pub struct Session {
+    pub(super) options: SessionOptions,
+    pub(super) wake: Arc<dyn Fn() + Send + Sync>,
+    // Before the engine: its thread uses the device until it has ended.
+    pub(super) compiler: Worker<compile::Job, compile::Done>,
+    pub(super) engine: Engine,
+    pub(super) documents: Documents,
+    pub(super) canvas: Canvas,
+    pub(super) compile: Compile,
+    pub(super) disk: Disk,
+    pub(super) dialog: Dialog,
+    pub(super) run: Run,
+    pub(super) notices: Vec<Notice>,
+    pub(super) next_notice: u64,
+    pub(super) text_generation: u64,
+    pub(super) display_generation: u64,
+    /// Something a panel shows has changed since the last tick.
+    pub(super) changed: bool,
+    /// When the newest tick was: the only time there is between ticks.
+    pub(super) now: Instant,
+}
+
+/// What size the picture shall have.
+pub(super) struct Canvas {
+    pub viewport: Option<(u32, u32)>,
+    pub scale: f32,
+    pub fixed: Option<(u32, u32)>,
+    /// A size the device did not take; not tried again.
+    pub refused: Option<(u32, u32)>,
+}
+
+/// From texts to the running program.
+pub(super) struct Compile {
+    pub edits: Debounce,
+    /// A text was edited since the last tick.
+    pub edited: bool,
+    /// Compile in the next tick, whatever the debounce says.
+    pub is_wanted: bool,
+    /// The program under way shall start from zero.
+    pub reset_when_built: bool,
+    pub state: CompileState,
+    pub diagnostics: Vec<TabDiagnostic>,
+    /// A program draws.
+    pub has_program: bool,
+}
+
+/// The project's files.
+pub(super) struct Disk {
+    pub watch: Option<Watch>,
+    pub changes: Debounce,
+    /// Look in the next tick, whatever the watch says.
+    pub is_check_wanted: bool,
+    /// Since when what is on disk makes no whole project.
+    pub unsettled_since: Option<Instant>,
+    /// What was said last of such files, so that it is said once.
+    pub told: Option<String>,
+    /// `eddy.toml` as it was last read or written.
+    pub manifest: Option<Vec<u8>>,
+    /// The pictures as they were last looked at.
+    pub media: MediaState,
+    pub reset_on_reload: bool,
+}
+
+/// What is asked of the user and of the front end.
+#[derive(Default)]
+pub(super) struct Dialog {
+    pub questions: VecDeque<Question>,
+    pub requests: VecDeque<Request>,
+    /// What goes on after a Save As that a question led to.
+    pub after_save: Option<Then>,
+}
+
+/// The picture over time.
+pub(super) struct Run {
+    pub clock: Clock,
+    pub mouse: Mouse,
+    pub keyboard: Keyboard,
+    pub shown: PassId,
+    /// A frame must be drawn though time stands still.
+    pub is_frame_due: bool,
+    pub steps: u32,
+    /// The device is gone for good.
+    pub is_device_lost: bool,
+    pub fps: FpsMeter,
+    pub cpu_micros: f64,
+    pub pass_times: Vec<PassTime>,
+}
+
+impl Session {
+    /// A session with a new project, playing. `wake` is called from other threads when a tick is worth it (a compile has
+    /// ended, a file has changed).
+    pub fn new(gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>) -> Result<Session, SessionError> {
+        Self::with_options(gpu, wake, SessionOptions::default())
+    }
+
+    pub fn with_options(
+        gpu: Gpu,
+        wake: Arc<dyn Fn() + Send + Sync>,
+        options: SessionOptions,
+    ) -> Result<Session, SessionError> {
+        let compiler = Worker::new("compile", wake.clone(), compile::work(gpu.clone(), options.media_dir.clone()))
+            .map_err(SessionError::Thread)?;
+        // Any size does until the first tick, which knows the viewport.
+        let mut engine = Engine::new(gpu, 640, 360)?;
+        engine.set_timing(true);
+        let mut session = Session {
+            wake,
+            compiler,
+            engine,
+            documents: Documents::new(super::template::project()),
+            canvas: Canvas { viewport: None, scale: 1.0, fixed: None, refused: None },
+            compile: Compile {
+                edits: Debounce::new(options.edit_debounce),
+                edited: false,
+                is_wanted: true,
+                reset_when_built: false,
+                state: CompileState::default(),
+                diagnostics: Vec::new(),
+                has_program: false,
+            },
+            disk: Disk {
+                watch: None,
+                changes: Debounce::new(options.watch_debounce),
+                is_check_wanted: false,
+                unsettled_since: None,
+                told: None,
+                manifest: None,
+                media: MediaState::default(),
+                reset_on_reload: false,
+            },
+            dialog: Dialog::default(),
+            run: Run {
+                clock: Clock::default(),
+                mouse: Mouse::default(),
+                keyboard: Keyboard::default(),
+                shown: PassId::Image,
+                is_frame_due: false,
+                steps: 0,
+                is_device_lost: false,
+                fps: FpsMeter::default(),
+                cpu_micros: 0.0,
+                pass_times: Vec::new(),
+            },
+            notices: Vec::new(),
+            next_notice: 0,
+            text_generation: 0,
+            display_generation: 0,
+            changed: true,
+            now: Instant::now(),
+            options,
+        };
+        session.compile.state.compiling = true;
+        Ok(session)
+    }
+
+    /// The newest picture of the shown pass; see [`Engine::display`]. Ask anew after each tick: a resize makes another one.
+    pub fn display(&self) -> &wgpu::TextureView {
+        self.engine.display()
+    }
+
+    /// Grows whenever [`Session::display`] may have become another texture.
+    pub fn display_generation(&self) -> u64 {
+        self.display_generation
+    }
+
+    pub fn gpu(&self) -> &Gpu {
+        self.engine.gpu()
+    }
+
+    pub fn project(&self) -> &Project {
+        self.documents.current()
+    }
+
+    /// Every tab in the site's order.
+    pub fn tabs(&self) -> Vec<Tab> {
+        self.project().tabs()
+    }
+
+    /// A tab's text; empty for a tab there is not.
+    pub fn text(&self, tab: &Tab) -> &str {
+        self.project().source(tab).map_or("", |s| &s.text)
+    }
+
+    /// Grows whenever a text was changed by something else than [`Command::EditText`] (opened, reloaded, taken from disk):
+    /// then an editor must take it anew.
+    pub fn text_generation(&self) -> u64 {
+        self.text_generation
+    }
+
+    /// The tab's text differs from the one on disk.
+    pub fn is_tab_dirty(&self, tab: &Tab) -> bool {
+        self.documents.is_tab_dirty(tab)
+    }
+
+    /// Anything at all differs from what is on disk: texts, passes, channels.
+    pub fn is_dirty(&self) -> bool {
+        self.documents.is_dirty()
+    }
+
+    /// Of the newest finished compile, all tabs, errors first.
+    pub fn diagnostics(&self) -> &[TabDiagnostic] {
+        &self.compile.diagnostics
+    }
+
+    pub fn compile_state(&self) -> &CompileState {
+        &self.compile.state
+    }
+
+    pub fn transport(&self) -> Transport {
+        let times = &self.run.pass_times;
+        Transport {
+            playing: self.run.clock.is_playing(),
+            time_secs: self.run.clock.time_secs(),
+            frame: (self.run.clock.next_frame_number() - 1).max(0),
+            fps: self.run.fps.fps,
+            gpu_millis: (!times.is_empty()).then(|| times.iter().map(|t| t.gpu_millis).sum()),
+            cpu_micros: self.run.cpu_micros,
+            resolution: self.engine.size(),
+            scale: self.canvas.scale,
+            fixed_size: self.canvas.fixed,
+        }
+    }
+
+    /// Device time of each pass, of the newest frame the device has finished; empty where it cannot tell.
+    pub fn pass_times(&self) -> &[PassTime] {
+        &self.run.pass_times
+    }
+
+    pub fn shown_pass(&self) -> &PassId {
+        &self.run.shown
+    }
+
+    pub fn reset_on_reload(&self) -> bool {
+        self.disk.reset_on_reload
+    }
+
+    /// Oldest first; stay until dismissed.
+    pub fn notices(&self) -> &[Notice] {
+        &self.notices
+    }
+
+    /// What must be answered before anything else.
+    pub fn question(&self) -> Option<&Question> {
+        self.dialog.questions.front()
+    }
+
+    pub fn take_request(&mut self) -> Option<Request> {
+        self.dialog.requests.pop_front()
+    }
+
+    pub(super) fn notice(&mut self, level: Level, text: impl Into<String>) {
+        let text = text.into();
+        log::log!(
+            match level {
+                Level::Info => log::Level::Info,
+                Level::Warning => log::Level::Warn,
+                Level::Error => log::Level::Error,
+            },
+            "{text}"
+        );
+        self.notices.push(Notice { id: self.next_notice, level, text, path: None, at: self.now });
+        self.next_notice += 1;
+        self.changed = true;
+    }
+}
+
+/// Frames a second as people read it: over half a second, as the site shows it.
+#[derive(Default)]
+pub(super) struct FpsMeter {
+    pub fps: f64,
+    window: Option<(Instant, u32)>,
+}
+
+impl FpsMeter {
+    /// A frame was drawn while playing. True if the figure has changed.
+    pub fn frame(&mut self, now: Instant) -> bool {
+        let (since, frames) = self.window.get_or_insert((now, 0));
+        let elapsed = now.saturating_duration_since(*since);
+        let full = elapsed >= Duration::from_millis(500);
+        if full {
+            self.fps = f64::from(*frames) / elapsed.as_secs_f64();
+            (*since, *frames) = (now, 0);
+        }
+        *frames += 1;
+        full
+    }
+
+    /// Frames after a pause are not measured against those before it.
+    pub fn restart(&mut self) {
+        self.window = None;
+    }
+}

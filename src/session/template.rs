@@ -1,0 +1,81 @@
+//! What new projects and new passes begin as. Eddy's own text.
+
+use super::documents::insert_pass;
+use crate::project::{Info, Origin, Pass, PassId, Project, SamplerRules, Source, Tab};
+
+const IMAGE: &str = "\
+// fragCoord: pixels from the bottom left.  iResolution, iTime, iMouse, iChannel0 to 3 are there to be read.
+void mainImage(out vec4 fragColor, in vec2 fragCoord)
+{
+    vec2 p = (2.0 * fragCoord - iResolution.xy) / iResolution.y;
+    float wave = sin(8.0 * length(p) - 2.0 * iTime);
+    vec3 color = mix(vec3(0.05, 0.10, 0.25), vec3(0.95, 0.60, 0.25), 0.5 + 0.5 * wave);
+    fragColor = vec4(color / (1.0 + dot(p, p)), 1.0);
+}
+";
+
+const BUFFER: &str = "\
+// What is written here is kept as four floats a pixel and can be read by any pass.
+void mainImage(out vec4 fragColor, in vec2 fragCoord)
+{
+    fragColor = vec4(0.0);
+}
+";
+
+const CUBEMAP: &str = "\
+// rayDir: from the centre of the cube to this pixel of the face being drawn.
+void mainCubemap(out vec4 fragColor, in vec2 fragCoord, in vec3 rayOri, in vec3 rayDir)
+{
+    fragColor = vec4(0.5 + 0.5 * rayDir, 1.0);
+}
+";
+
+const SOUND: &str = "\
+// Left and right, each from -1 to 1.
+vec2 mainSound(int samp, float time)
+{
+    return vec2(0.0);
+}
+";
+
+const COMMON: &str = "\
+// Text put before every pass.
+";
+
+/// A project of one Image pass, nowhere on disk.
+pub(super) fn project() -> Project {
+    let mut project = Project {
+        name: "Untitled".into(),
+        info: Info::default(),
+        common: None,
+        passes: Vec::new(),
+        sampler_rules: SamplerRules::PerChannel,
+        origin: Origin::Unsaved,
+    };
+    add(&mut project, &Tab::Pass(PassId::Image));
+    project
+}
+
+/// What a tab's text begins as.
+pub(super) fn text(tab: &Tab) -> &'static str {
+    match tab {
+        Tab::Common => COMMON,
+        Tab::Pass(PassId::Buffer(_)) => BUFFER,
+        Tab::Pass(PassId::Cubemap) => CUBEMAP,
+        Tab::Pass(PassId::Sound) => SOUND,
+        Tab::Pass(PassId::Image) => IMAGE,
+    }
+}
+
+/// Adds a tab with its starting text; false if it is there already.
+pub(super) fn add(project: &mut Project, tab: &Tab) -> bool {
+    if project.source(tab).is_some() {
+        return false;
+    }
+    let source = Source { name: tab.title(), path: None, text: text(tab).into() };
+    match tab {
+        Tab::Common => project.common = Some(source),
+        Tab::Pass(id) => insert_pass(project, Pass { id: id.clone(), source, channels: Default::default() }),
+    }
+    true
+}
