@@ -1,0 +1,276 @@
+//! What the command line may say, as clap reads it. Scripts rely on it: an option is added here, never changed.
+
+use crate::{
+    project::PassId,
+    session::{
+        capture::Format,
+        date,
+        script::{ScriptedInputs, parse_keys, parse_mouse},
+    },
+};
+use clap::{Args, Parser, Subcommand};
+use jiff::civil::DateTime;
+use std::path::PathBuf;
+
+const PROJECT: &str = "A PROJECT is a folder with eddy.toml, a folder of common.glsl, buffer_a.glsl … image.glsl, one .glsl \
+    file, a preset's name (see `eddy list`) or a Shadertoy API .json. One that is called like a command: `eddy ./render`.";
+
+/// Runs Shadertoy programs unchanged and says how fast and how wrong they are.
+#[derive(Debug, Parser)]
+#[command(name = "eddy", version, args_conflicts_with_subcommands = true, after_help = PROJECT)]
+pub struct Cli {
+    #[command(flatten)]
+    pub window: Window,
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+/// The window that is wanted where no command is given.
+#[derive(Debug, Args)]
+pub struct Window {
+    /// Opens the window on this project; without one, on the gallery of presets
+    pub project: Option<String>,
+    /// Size of the window in pixels [default: what suits the screen]
+    #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
+    pub size: Option<(u32, u32)>,
+    /// Tell on standard output what happens in the window, one JSON object a line
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Draw frames without a window, at a fixed step: frame i has iTime = i/60
+    Render(RenderArgs),
+    /// Compile every pass and say what is wrong with it; needs no graphics device
+    Check(CheckArgs),
+    /// Measure what a frame costs, after a warm-up
+    Bench(BenchArgs),
+    /// Print the presets' names, one a line
+    List,
+    /// Make a project folder of a Shadertoy JSON file
+    Import(ImportArgs),
+    /// Write a project as a Shadertoy JSON file
+    Export(ExportArgs),
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = PROJECT)]
+pub struct RenderArgs {
+    #[arg(required = true)]
+    pub project: Vec<String>,
+    /// Where to: a .png or .npy file, or a folder that gets STEM.png for each project (several --at: STEM_0004.png).
+    /// With --json it may be left out: every frame is drawn and nothing written
+    #[arg(long, value_name = "PATH", required_unless_present = "json")]
+    pub out: Option<PathBuf>,
+    /// Frames to draw [default: 1, or as many as --at needs]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 30))]
+    pub frames: Option<u32>,
+    /// Which frames to write, counted from 0 [default: the last]
+    #[arg(long, value_name = "F[,F...]", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(..1 << 30))]
+    pub at: Vec<u32>,
+    /// Which pass to write: image, buffer_a, a further buffer's name …
+    #[arg(long, value_name = "NAME", default_value = "image", value_parser = pass)]
+    pub pass: PassId,
+    /// png: 8 bits, as shown on a screen. npy: float32, height x width x 4, row 0 at the bottom
+    /// [default: what --out ends in, else png]
+    #[arg(long, value_name = "png|npy", value_parser = format)]
+    pub format: Option<Format>,
+    #[command(flatten)]
+    pub run: RunArgs,
+    /// One JSON object a line instead of words: project, status, diagnostics, compile_ms, frame_ms, frames
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// How frames are drawn, wherever frames are drawn.
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = size, allow_hyphen_values = true)]
+    pub size: (u32, u32),
+    /// Frames in a second of iTime
+    #[arg(long, value_name = "N", default_value = "60", value_parser = fps, allow_hyphen_values = true)]
+    pub fps: f64,
+    /// Mouse events by frame, in canvas pixels from the bottom left: "0:down 40,40; 4:move 80,45; 10:up"
+    #[arg(long, value_name = "SCRIPT", default_value = "")]
+    pub mouse: String,
+    /// Key events by frame, with the site's key codes: "0:down 32; 3:up 32"
+    #[arg(long, value_name = "SCRIPT", default_value = "")]
+    pub keys: String,
+    /// Date and time of frame 0, from which iDate runs on with iTime [default: iDate is (0, 0, 0, iTime)]
+    #[arg(long, value_name = "YYYY-MM-DDTHH:MM:SS", value_parser = date::parse)]
+    pub date: Option<DateTime>,
+    /// A folder with the site's pictures, used instead of Eddy's own where a file has the right name
+    #[arg(long, value_name = "DIR")]
+    pub media: Option<PathBuf>,
+    /// Draw every pass in every frame, needed or not; the pictures stay the same
+    #[arg(long)]
+    pub no_skip: bool,
+}
+
+impl RunArgs {
+    /// What the scripts, the date and the rate make of frame 0, 1, 2 … Err: a script that cannot be read.
+    pub fn inputs(&self) -> Result<ScriptedInputs, String> {
+        let mouse = parse_mouse(&self.mouse).map_err(|e| format!("--mouse: {e}"))?;
+        let keys = parse_keys(&self.keys).map_err(|e| format!("--keys: {e}"))?;
+        Ok(ScriptedInputs::new(self.fps).with_mouse(mouse).with_keys(keys).with_date(self.date))
+    }
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = PROJECT)]
+pub struct CheckArgs {
+    #[arg(required = true)]
+    pub project: Vec<String>,
+    /// One JSON object a line instead of words
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = PROJECT)]
+pub struct BenchArgs {
+    #[arg(required = true)]
+    pub project: Vec<String>,
+    /// Frames to measure, after the warm-up
+    #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=1 << 30))]
+    pub frames: u32,
+    #[command(flatten)]
+    pub run: RunArgs,
+    /// One JSON object a line instead of a table
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct ImportArgs {
+    #[arg(value_name = "FILE.json")]
+    pub file: PathBuf,
+    /// The project's folder; it is made
+    #[arg(long, value_name = "DIR")]
+    pub out: PathBuf,
+    /// Write over a project that is there already
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = PROJECT)]
+pub struct ExportArgs {
+    pub project: String,
+    /// The JSON file to write
+    #[arg(long, value_name = "FILE.json")]
+    pub out: PathBuf,
+    /// Write over a file that is there already
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// The form a file's extension asks for; `None` for an extension that is no picture's. Err: why it is not written.
+pub fn format_of(extension: &str) -> Option<Result<Format, String>> {
+    let extension = extension.to_ascii_lowercase();
+    Some(match extension.as_str() {
+        "png" => Ok(Format::Png),
+        "npy" => Ok(Format::Npy),
+        "exr" | "gif" | "apng" | "mp4" => {
+            Err(format!("this version of Eddy does not write {extension}; it writes png and npy"))
+        }
+        _ => return None,
+    })
+}
+
+fn format(text: &str) -> Result<Format, String> {
+    format_of(text).unwrap_or_else(|| Err("a picture is written as png or npy".into()))
+}
+
+fn pass(text: &str) -> Result<PassId, String> {
+    PassId::parse(text)
+        .ok_or_else(|| "a pass is called image, buffer_a, buffer_b … or by a further buffer's name".into())
+}
+
+fn size(text: &str) -> Result<(u32, u32), String> {
+    let shape = || "a size is written WxH, as in 640x360".to_owned();
+    let (width, height) = text.split_once(['x', 'X']).ok_or_else(shape)?;
+    let number = |s: &str| s.parse::<u32>().map_err(|_| shape());
+    match (number(width)?, number(height)?) {
+        (0, _) | (_, 0) => Err("a size of 0 holds no pixel".into()),
+        size => Ok(size),
+    }
+}
+
+fn fps(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(fps) if fps.is_finite() && fps > 0.0 => Ok(fps),
+        _ => Err("frames a second are a number above 0".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    fn parse(line: &str) -> Result<Cli, String> {
+        Cli::try_parse_from(line.split(' ')).map_err(|e| e.to_string())
+    }
+
+    fn render(line: &str) -> RenderArgs {
+        match parse(line) {
+            Ok(Cli { command: Some(Command::Render(args)), .. }) => args,
+            other => panic!("{line}: {other:?}"),
+        }
+    }
+
+    #[test]
+    fn clap_finds_no_fault_with_the_definitions() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn a_bare_word_is_a_project_and_a_path_may_look_like_a_command() {
+        let project = |line| parse(line).unwrap().window.project;
+        assert_eq!(project("eddy fluid --size 800x600").as_deref(), Some("fluid"));
+        assert_eq!(project("eddy ./render").as_deref(), Some("./render"));
+        assert!(parse("eddy").unwrap().command.is_none());
+        assert!(parse("eddy fluid render").is_err());
+    }
+
+    #[test]
+    fn every_option_of_the_contract_is_read() {
+        let r = render(
+            "eddy render a b --size 320x180 --frames 9 --out o --at 0,4,8 --pass buffer_b --format npy --fps 30 \
+             --date 2024-12-31T23:59:00 --media m --no-skip --json --mouse 0:down --keys 0:up",
+        );
+        assert_eq!(r.project, ["a", "b"]);
+        assert_eq!((r.run.size, r.frames, r.run.fps), ((320, 180), Some(9), 30.0));
+        assert_eq!((r.at.as_slice(), r.pass.key(), r.format), (&[0, 4, 8][..], "buffer_b".into(), Some(Format::Npy)));
+        assert!(r.json && r.run.no_skip && r.run.date.is_some());
+    }
+
+    #[test]
+    fn what_cannot_be_meant_is_refused_with_the_mend() {
+        for (line, hint) in [
+            ("eddy render", "PROJECT"),
+            ("eddy render a", "--out"),
+            ("eddy render a --out o --size 0x10", "holds no pixel"),
+            ("eddy render a --out o --size 10", "640x360"),
+            ("eddy render a --out o --size -1x10", "640x360"),
+            ("eddy render a --out o --size 99999999999x10", "640x360"),
+            ("eddy render a --out o --frames 0", "frames"),
+            ("eddy render a --out o --fps 0", "above 0"),
+            ("eddy render a --out o --fps nan", "above 0"),
+            ("eddy render a --out o --format exr", "it writes png and npy"),
+            ("eddy render a --out o --format bmp", "png or npy"),
+            ("eddy render a --out o --date yesterday", "2024-02-29T13:45:00"),
+            ("eddy render a --out o --date 2024-13-31T23:59:00", "2024-02-29T13:45:00"),
+            ("eddy render a --out o --at 1,,2", "at"),
+            ("eddy bench", "PROJECT"),
+            ("eddy import a.json", "--out"),
+            ("eddy export", "PROJECT"),
+        ] {
+            let message = parse(line).expect_err(line);
+            assert!(message.contains(hint), "{line}\n{message}");
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! `eddy list`, `eddy import`, `eddy export`: presets by name, and projects to and from the site's JSON.
+
+use super::{
+    args::{ExportArgs, ImportArgs},
+    machine::{Machine, Trouble},
+    report::{Printer, Report},
+};
+use crate::project::{self, Origin, Overwrite, Project, ProjectError};
+use std::{
+    io::{self, Write},
+    path::Path,
+};
+
+pub fn list() -> io::Result<u8> {
+    let mut out = io::stdout().lock();
+    for name in project::presets::names() {
+        writeln!(out, "{name}")?;
+    }
+    out.flush()?;
+    Ok(0)
+}
+
+pub fn import(args: &ImportArgs) -> io::Result<u8> {
+    let file = args.file.to_string_lossy();
+    let to = args.out.display();
+    one(&file, |report| {
+        if !args.out.is_dir() && is_file_name(&args.out) {
+            return Err(anyhow::anyhow!("--out {to}: a project is imported into a folder").into());
+        }
+        let project = read(report, &file)?;
+        if !matches!(project.origin, Origin::Json(_)) {
+            return Err(anyhow::anyhow!("{file} is not a Shadertoy .json file").into());
+        }
+        save(&project, &args.out, args.force)?;
+        Ok(format!("{file}: imported into {to}"))
+    })
+}
+
+pub fn export(args: &ExportArgs) -> io::Result<u8> {
+    let to = args.out.display();
+    one(&args.project, |report| {
+        if args.out.extension().is_none_or(|e| !e.eq_ignore_ascii_case("json")) || args.out.is_dir() {
+            return Err(anyhow::anyhow!("--out {to}: a project is exported as a file that ends in .json").into());
+        }
+        let project = read(report, &args.project)?;
+        // A JSON file may be saved over itself in an editor; nobody who exports it means that.
+        if !args.force && args.out.symlink_metadata().is_ok() {
+            return Err(mend(ProjectError::WouldOverwrite { path: args.out.clone() }.into()));
+        }
+        save(&project, &args.out, args.force)?;
+        Ok(format!("{}: exported to {to}", args.project))
+    })
+}
+
+/// Does the work of one project and prints what became of it.
+fn one(spec: &str, work: impl FnOnce(&mut Report) -> Result<String, Trouble>) -> io::Result<u8> {
+    let mut report = Report::new(spec);
+    let words = Machine::default().attempt(&mut report, |_, report| work(report));
+    let mut printer = Printer::new(false);
+    printer.print(&report, &words.unwrap_or_default())?;
+    Ok(printer.exit_code())
+}
+
+fn read(report: &mut Report, spec: &str) -> Result<Project, Trouble> {
+    let loaded = project::load(spec)?;
+    report.diagnose(&loaded.warnings, &loaded.sources, Some(&loaded.project));
+    Ok(loaded.project)
+}
+
+fn save(project: &Project, to: &Path, force: bool) -> Result<(), Trouble> {
+    let overwrite = if force { Overwrite::Allow } else { Overwrite::Refuse };
+    project::save(project, to, overwrite).map(drop).map_err(Trouble::from).map_err(mend)
+}
+
+/// Names the option that allows what was refused.
+fn mend(trouble: Trouble) -> Trouble {
+    match trouble {
+        Trouble::Other(error) if matches!(error.downcast_ref(), Some(ProjectError::WouldOverwrite { .. })) => {
+            Trouble::Other(anyhow::anyhow!("{error} with --force"))
+        }
+        other => other,
+    }
+}
+
+fn is_file_name(path: &Path) -> bool {
+    path.extension().is_some_and(|e| ["json", "glsl", "frag"].iter().any(|known| e.eq_ignore_ascii_case(known)))
+}

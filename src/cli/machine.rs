@@ -1,0 +1,196 @@
+//! What every command that draws shares: the one device of a call, and the trouble a project can bring without taking the
+//! others with it.
+
+use super::{
+    args::RunArgs,
+    report::{Report, Status},
+};
+use crate::{
+    diag::{Diagnostic, SourceMap},
+    engine::{BuildError, BuildOptions, Engine, EngineError, Program},
+    gpu::{Gpu, GpuError, GpuOptions},
+    media,
+    project::{self, PassId, Project, ProjectError},
+};
+use std::{
+    panic::{AssertUnwindSafe, catch_unwind},
+    time::Instant,
+};
+
+/// Why a project came to nothing.
+pub enum Trouble {
+    Diagnostics(Vec<Diagnostic>, SourceMap),
+    Unsupported(String),
+    Other(anyhow::Error),
+}
+
+impl From<ProjectError> for Trouble {
+    fn from(error: ProjectError) -> Self {
+        match error {
+            ProjectError::Invalid { diagnostics, sources, .. } => Trouble::Diagnostics(diagnostics, sources),
+            other => Trouble::Other(other.into()),
+        }
+    }
+}
+
+impl From<BuildError> for Trouble {
+    fn from(error: BuildError) -> Self {
+        match error {
+            BuildError::Diagnostics { diagnostics, sources } => Trouble::Diagnostics(diagnostics, sources),
+            BuildError::Engine(error) => error.into(),
+        }
+    }
+}
+
+impl From<EngineError> for Trouble {
+    fn from(error: EngineError) -> Self {
+        Trouble::Other(error.into())
+    }
+}
+
+impl From<GpuError> for Trouble {
+    fn from(error: GpuError) -> Self {
+        Trouble::Other(EngineError::from(error).into())
+    }
+}
+
+impl From<anyhow::Error> for Trouble {
+    fn from(error: anyhow::Error) -> Self {
+        Trouble::Other(error)
+    }
+}
+
+/// The device of a call, made when the first project needs one.
+#[derive(Default)]
+pub struct Machine {
+    gpu: Option<Gpu>,
+    /// Why there is none; asked once.
+    refusal: Option<String>,
+}
+
+impl Machine {
+    pub fn gpu(&mut self) -> anyhow::Result<Gpu> {
+        if let Some(gpu) = &self.gpu {
+            return Ok(gpu.clone());
+        }
+        if let Some(refusal) = &self.refusal {
+            anyhow::bail!("{refusal}");
+        }
+        match Gpu::new(&GpuOptions::default()) {
+            Ok(gpu) => Ok(self.gpu.insert(gpu).clone()),
+            Err(error) => {
+                self.refusal = Some(error.to_string());
+                Err(error.into())
+            }
+        }
+    }
+
+    /// Does a project's work, and puts what went wrong into its report. A panic is this project's alone, and a device that
+    /// was lost, or may have been left in disorder, is made anew for the next one.
+    pub fn attempt<T>(
+        &mut self,
+        report: &mut Report,
+        work: impl FnOnce(&mut Machine, &mut Report) -> Result<T, Trouble>,
+    ) -> Option<T> {
+        let result = catch_unwind(AssertUnwindSafe(|| work(self, report)));
+        match result {
+            Ok(Ok(done)) => return Some(done),
+            Ok(Err(Trouble::Diagnostics(found, sources))) => report.diagnose(&found, &sources, None),
+            Ok(Err(Trouble::Unsupported(what))) => report.fail(Status::Unsupported, what),
+            Ok(Err(Trouble::Other(error))) => {
+                if let Some(EngineError::Gpu(GpuError::Lost(_) | GpuError::OutOfMemory(_))) = error.downcast_ref() {
+                    self.gpu = None;
+                }
+                report.fail(Status::Error, format!("{error:#}"));
+            }
+            Err(panic) => {
+                self.gpu = None;
+                let said = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
+                let said = said.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default();
+                report.fail(Status::Error, format!("this is a bug in Eddy: {said}"));
+            }
+        }
+        // What the device said too late belongs to this project and not to the next.
+        if let Some(gpu) = &self.gpu
+            && let Err(GpuError::Lost(_)) = gpu.take_trouble("a project that failed")
+        {
+            self.gpu = None;
+        }
+        None
+    }
+}
+
+/// Reads, compiles and sets up a project, its warnings going into the report.
+pub fn open(
+    machine: &mut Machine,
+    report: &mut Report,
+    spec: &str,
+    run: &RunArgs,
+    wanted: &PassId,
+) -> Result<(Project, Engine), Trouble> {
+    let loaded = project::load(spec)?;
+    let project = loaded.project;
+    report.diagnose(&loaded.warnings, &loaded.sources, Some(&project));
+    match project.pass(wanted) {
+        None => {
+            let there: Vec<String> = project.passes.iter().map(|p| p.id.key()).collect();
+            let error = anyhow::anyhow!("there is no pass {}; there are {}", wanted.key(), project::listed(&there));
+            return Err(error.into());
+        }
+        Some(_) if matches!(wanted, PassId::Cubemap | PassId::Sound) => {
+            return Err(Trouble::Unsupported(format!("{} is not drawn by this version of Eddy", wanted.title())));
+        }
+        Some(_) => {}
+    }
+    let (media, missing) = media::gather(&project, run.media.as_deref());
+    report.diagnose(&missing, &loaded.sources, Some(&project));
+    let gpu = machine.gpu()?;
+    let (width, height) = run.size;
+    let mut engine = Engine::new(gpu.clone(), width, height)?;
+    let began = Instant::now();
+    let options = BuildOptions { wanted: vec![wanted.clone()], skip: !run.no_skip };
+    let built = Program::build(&gpu, &project, &media, &options);
+    report.compile_ms = Some(millis_since(began));
+    let built = match built {
+        Err(BuildError::Diagnostics { diagnostics, sources }) => {
+            report.diagnose(&diagnostics, &sources, Some(&project));
+            return Err(Trouble::Diagnostics(Vec::new(), sources));
+        }
+        other => other?,
+    };
+    report.diagnose(&built.diagnostics, &built.sources, Some(&project));
+    engine.set_program(built.program)?;
+    Ok((project, engine))
+}
+
+pub fn millis_since(began: Instant) -> f64 {
+    began.elapsed().as_nanos() as f64 / 1e6
+}
+
+/// The middle one, the upper of two; `None` of none.
+pub fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_one_projects_bug_and_the_next_goes_on() {
+        let mut machine = Machine::default();
+        let mut report = Report::new("x");
+        let done = machine.attempt(&mut report, |_, _| -> Result<(), Trouble> { panic!("by {}", "design") });
+        assert_eq!((done, report.status), (None, Status::Error));
+        assert_eq!(report.diagnostics[0].message, "this is a bug in Eddy: by design");
+        assert_eq!(machine.attempt(&mut Report::new("y"), |_, _| Ok(7)), Some(7));
+    }
+
+    #[test]
+    fn the_median_is_the_middle() {
+        assert_eq!(median(vec![3.0, 1.0, 2.0]), Some(2.0));
+        assert_eq!(median(vec![2.0, 1.0]), Some(2.0));
+        assert_eq!(median(vec![]), None);
+    }
+}

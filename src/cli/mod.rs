@@ -1,0 +1,83 @@
+//! The front end without a window: arguments, words and JSON lines, exit codes.
+//!
+//! Owns what the command line says and prints. Opens no window: [`main`] hands that wish back to the binary, because the
+//! front ends do not know each other. Holds nothing another front end would need too; that lies in `session`.
+
+mod args;
+mod bench;
+mod check;
+mod library;
+mod machine;
+mod render;
+mod report;
+mod targets;
+
+pub use args::Window;
+use args::{Cli, Command};
+use clap::Parser;
+use std::{io, process::ExitCode};
+
+/// Stack of the thread that does the work. Compilers recurse as deep as an expression is nested, and a shader made by a
+/// program nests deeply; pages that are not used cost nothing.
+const STACK_BYTES: usize = 256 << 20;
+
+/// Machine or usage.
+const TROUBLE: u8 = 2;
+
+/// What the binary shall do after [`main`].
+pub enum Next {
+    /// Leave.
+    Exit(ExitCode),
+    Window(Window),
+}
+
+/// Reads the command line and does what it says. Usage errors, `--help` and `--version` end the process.
+pub fn main() -> Next {
+    let Cli { window, command } = Cli::parse();
+    let Some(command) = command else { return Next::Window(window) };
+    let worker = std::thread::Builder::new().name("main".into()).stack_size(STACK_BYTES);
+    let code = match worker.spawn(move || run(&command)).map(std::thread::JoinHandle::join) {
+        Ok(Ok(code)) => code,
+        // The panic has said what it had to.
+        Ok(Err(_)) => TROUBLE,
+        Err(error) => trouble(format_args!("no thread could be started: {error}")),
+    };
+    Next::Exit(ExitCode::from(code))
+}
+
+/// Says what is wrong with the call as a whole.
+pub fn trouble(what: impl std::fmt::Display) -> u8 {
+    // Nobody is left to tell where standard error is closed.
+    let _ = io::Write::write_fmt(&mut io::stderr(), format_args!("error: {what}\n"));
+    TROUBLE
+}
+
+fn run(command: &Command) -> u8 {
+    let printed = match command {
+        Command::Render(args) => {
+            let targets = targets::Targets::of(args).and_then(|t| Ok((t, args.run.inputs()?)));
+            let (targets, inputs) = match targets {
+                Ok(both) => both,
+                Err(usage) => return trouble(usage),
+            };
+            if let Err(error) = targets.prepare() {
+                return trouble(format_args!("{error:#}"));
+            }
+            render::run(args, &targets, &inputs)
+        }
+        Command::Check(args) => check::run(args),
+        Command::Bench(args) => match args.run.inputs() {
+            Ok(inputs) => bench::run(args, &inputs),
+            Err(usage) => return trouble(usage),
+        },
+        Command::List => library::list(),
+        Command::Import(args) => library::import(args),
+        Command::Export(args) => library::export(args),
+    };
+    match printed {
+        Ok(code) => code,
+        // Whoever read along has seen enough.
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => 0,
+        Err(error) => trouble(format_args!("cannot write to standard output: {error}")),
+    }
+}

@@ -1,0 +1,62 @@
+//! `eddy render`: frames of many projects, drawn one after the other on one device and written as pictures.
+
+use super::{
+    args::RenderArgs,
+    machine::{Machine, Trouble, median, millis_since, open},
+    report::{Printer, Report},
+    targets::{self, Targets},
+};
+use crate::session::script::ScriptedInputs;
+use std::{io, path::PathBuf, time::Instant};
+
+pub fn run(args: &RenderArgs, targets: &Targets, inputs: &ScriptedInputs) -> io::Result<u8> {
+    let mut printer = Printer::new(args.json);
+    let mut machine = Machine::default();
+    for (index, spec) in args.project.iter().enumerate() {
+        let mut report = Report::new(spec);
+        let written =
+            machine.attempt(&mut report, |machine, report| draw(machine, report, args, targets, inputs, index));
+        let words = written.map_or(String::new(), |written| {
+            let millis = report.frame_ms.unwrap_or_default();
+            let paths: Vec<String> = written.iter().map(|p| p.display().to_string()).collect();
+            let frames = if report.frames == 1 { "1 frame".into() } else { format!("{} frames", report.frames) };
+            format!("{spec}: {frames}, {millis:.2} ms each: {}", paths.join(" "))
+        });
+        printer.print(&report, &words)?;
+    }
+    Ok(printer.exit_code())
+}
+
+/// Draws one project and gives the files it wrote.
+fn draw(
+    machine: &mut Machine,
+    report: &mut Report,
+    args: &RenderArgs,
+    targets: &Targets,
+    inputs: &ScriptedInputs,
+    index: usize,
+) -> Result<Vec<PathBuf>, Trouble> {
+    let (_, mut engine) = open(machine, report, &args.project[index], &args.run, &args.pass)?;
+    let mut inputs = inputs.clone();
+    let (mut millis, mut written) = (Vec::new(), Vec::new());
+    for frame in 0..targets.frames {
+        let inputs = inputs.next_frame();
+        let began = Instant::now();
+        engine.draw(&inputs)?;
+        engine.gpu().wait()?;
+        millis.push(millis_since(began));
+        report.frames += 1;
+        if targets.at.binary_search(&frame).is_ok()
+            && let Some(path) = targets.path(index, frame)
+        {
+            targets::write(&path, &engine.read(&args.pass)?, targets.format)?;
+            written.push(path);
+        }
+    }
+    // The first frame is not like the others: drivers compile for the machine when a pipeline is first used.
+    if millis.len() > 1 {
+        millis.remove(0);
+    }
+    report.frame_ms = median(millis);
+    Ok(written)
+}

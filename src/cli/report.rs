@@ -1,0 +1,194 @@
+//! What became of one project, in words or as one JSON object a line.
+
+use crate::{
+    diag::{self, Diagnostic, Severity, SourceMap},
+    project::Project,
+};
+use serde::Serialize;
+use std::io::{self, Write};
+
+/// How a project fared. The order is how bad it is for the exit code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    Ok,
+    /// The author has something to mend.
+    Diagnostics,
+    /// Asks for what this version does not draw.
+    Unsupported,
+    /// The machine's trouble, or ours.
+    Error,
+}
+
+impl Status {
+    /// 0 all well, 1 diagnostics, 2 machine or usage.
+    pub fn exit_code(self) -> u8 {
+        match self {
+            Status::Ok => 0,
+            Status::Diagnostics => 1,
+            Status::Unsupported | Status::Error => 2,
+        }
+    }
+}
+
+/// One line of `--json`.
+#[derive(Debug, Serialize)]
+pub struct Report {
+    /// As it was named on the command line.
+    pub project: String,
+    pub status: Status,
+    pub diagnostics: Vec<Message>,
+    /// Milliseconds; `None` where nothing was compiled.
+    pub compile_ms: Option<f64>,
+    /// Median of the frames after the first, finished on the device; of the first where it is the only one.
+    pub frame_ms: Option<f64>,
+    /// Frames drawn.
+    pub frames: u32,
+    /// The same diagnostics for a terminal.
+    #[serde(skip)]
+    pub carets: String,
+}
+
+/// A diagnostic whose place is spelled out.
+#[derive(Debug, PartialEq, Eq, Serialize)]
+pub struct Message {
+    pub severity: &'static str,
+    pub message: String,
+    /// The text's name: a file, or a tab where the text has no file of its own.
+    pub source: Option<String>,
+    /// The tab the text is shown in; `None` for one that is not a tab, as `eddy.toml`.
+    pub tab: Option<String>,
+    /// Counted from 1, in characters.
+    pub line: Option<usize>,
+    pub column: Option<usize>,
+    pub hints: Vec<String>,
+}
+
+impl Message {
+    fn of(d: &Diagnostic, sources: &SourceMap, project: Option<&Project>) -> Message {
+        let at = d.span.and_then(|s| sources.line_column(s));
+        Message {
+            severity: d.severity.name(),
+            message: d.message.clone(),
+            source: d.span.and_then(|s| sources.get(s.source)).map(|s| s.name.clone()),
+            tab: d.span.and_then(|s| project?.tab_of(s.source)).map(|t| t.title()),
+            line: at.map(|at| at.line),
+            column: at.map(|at| at.column),
+            hints: d.hints.clone(),
+        }
+    }
+}
+
+impl Report {
+    pub fn new(project: &str) -> Report {
+        Report {
+            project: project.to_owned(),
+            status: Status::Ok,
+            diagnostics: Vec::new(),
+            compile_ms: None,
+            frame_ms: None,
+            frames: 0,
+            carets: String::new(),
+        }
+    }
+
+    /// Adds diagnostics; an error among them is what became of the project.
+    pub fn diagnose(&mut self, found: &[Diagnostic], sources: &SourceMap, project: Option<&Project>) {
+        self.diagnostics.extend(found.iter().map(|d| Message::of(d, sources, project)));
+        let carets = diag::render_all(found, sources);
+        if !self.carets.is_empty() && !carets.is_empty() {
+            self.carets.push('\n');
+        }
+        self.carets.push_str(&carets);
+        if found.iter().any(Diagnostic::is_error) {
+            self.status = self.status.max(Status::Diagnostics);
+        }
+    }
+
+    /// Trouble that has no place in a text.
+    pub fn fail(&mut self, status: Status, message: impl std::fmt::Display) {
+        self.diagnose(&[Diagnostic::error(None, message.to_string())], &SourceMap::default(), None);
+        self.status = self.status.max(status);
+    }
+
+    pub fn errors(&self) -> usize {
+        self.diagnostics.iter().filter(|m| m.severity == Severity::Error.name()).count()
+    }
+}
+
+/// Prints reports as they come and remembers the worst.
+#[derive(Debug)]
+pub struct Printer {
+    json: bool,
+    worst: Status,
+}
+
+impl Printer {
+    pub fn new(json: bool) -> Printer {
+        Printer { json, worst: Status::Ok }
+    }
+
+    /// One project is done. `words` is its line on standard output without `--json`; diagnostics go to standard error.
+    pub fn print(&mut self, report: &Report, words: &str) -> io::Result<()> {
+        self.print_as(report, report, words)
+    }
+
+    /// The same with a JSON object that says more than the report.
+    pub fn print_as(&mut self, line: &impl Serialize, report: &Report, words: &str) -> io::Result<()> {
+        self.worst = self.worst.max(report.status);
+        let mut out = io::stdout().lock();
+        if self.json {
+            serde_json::to_writer(&mut out, line)?;
+            return out.write_all(b"\n").and_then(|()| out.flush());
+        }
+        if !report.carets.is_empty() {
+            writeln!(io::stderr().lock(), "{}:\n{}", report.project, report.carets)?;
+        }
+        if !words.is_empty() {
+            writeln!(out, "{words}")?;
+        }
+        out.flush()
+    }
+
+    pub fn exit_code(&self) -> u8 {
+        self.worst.exit_code()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diag::Span;
+
+    #[test]
+    fn a_line_has_the_contracts_names_and_places_counted_from_one() {
+        let mut sources = SourceMap::default();
+        let id = sources.add("image.glsl", "void f() {\n  bad\n}");
+        let mut report = Report::new("./x");
+        report.diagnose(&[Diagnostic::error(Span::new(id, 13..16), "no `bad`").hint("good")], &sources, None);
+        let line: serde_json::Value = serde_json::to_value(&report).unwrap();
+        let names: Vec<_> = line.as_object().unwrap().keys().map(String::as_str).collect();
+        assert_eq!(names.len(), 6);
+        for name in ["project", "status", "diagnostics", "compile_ms", "frame_ms", "frames"] {
+            assert!(names.contains(&name), "{name} in {names:?}");
+        }
+        assert_eq!(line["status"], "diagnostics");
+        let d = &line["diagnostics"][0];
+        assert_eq!((&d["source"], &d["line"], &d["column"]), (&"image.glsl".into(), &2.into(), &3.into()));
+        assert_eq!(d["hints"][0], "good");
+    }
+
+    #[test]
+    fn the_worst_counts_and_a_warning_is_no_trouble() {
+        let mut report = Report::new("x");
+        report.diagnose(&[Diagnostic::warning(None, "hm")], &SourceMap::default(), None);
+        assert_eq!((report.status, report.errors()), (Status::Ok, 0));
+        report.fail(Status::Error, "no device");
+        report.diagnose(&[Diagnostic::error(None, "e")], &SourceMap::default(), None);
+        assert_eq!((report.status, report.errors()), (Status::Error, 2));
+        assert_eq!(
+            [Status::Ok, Status::Diagnostics, Status::Unsupported, Status::Error].map(Status::exit_code),
+            [0, 1, 2, 2]
+        );
+    }
+}

@@ -1,0 +1,206 @@
+//! Where pictures go: which file each frame of each project is written to, worked out before anything is drawn, so that no
+//! picture of a call is written over another one of it.
+
+use super::args::{RenderArgs, format_of};
+use crate::{
+    engine::Pixels,
+    project,
+    session::capture::{self, Format},
+};
+use anyhow::Context;
+use std::{
+    collections::HashMap,
+    fs,
+    io::{BufWriter, Write},
+    path::{Path, PathBuf},
+};
+
+/// Where the pictures of one call go.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Targets {
+    pub format: Format,
+    /// Frames to write, rising, each once.
+    pub at: Vec<u32>,
+    /// Frames to draw: past the last one written.
+    pub frames: u32,
+    place: Place,
+}
+
+#[derive(Debug, PartialEq, Eq)]
+enum Place {
+    Nowhere,
+    /// One picture.
+    File(PathBuf),
+    /// A folder, and the stem of each project in it.
+    Folder(PathBuf, Vec<String>),
+}
+
+impl Targets {
+    /// Err: what was asked for cannot be meant.
+    pub fn of(args: &RenderArgs) -> Result<Targets, String> {
+        let (at, frames) = frames(args)?;
+        let Some(out) = &args.out else {
+            return Ok(Targets { format: args.format.unwrap_or(Format::Png), at, frames, place: Place::Nowhere });
+        };
+        let shown = out.display();
+        let named = out.extension().and_then(|e| format_of(&e.to_string_lossy()));
+        let named =
+            if out.is_dir() { None } else { named.transpose().map_err(|why| format!("--out {shown}: {why}"))? };
+        let Some(named) = named else {
+            let place = Place::Folder(out.clone(), stems(&args.project)?);
+            return Ok(Targets { format: args.format.unwrap_or(Format::Png), at, frames, place });
+        };
+        if let Some(format) = args.format
+            && format != named
+        {
+            return Err(format!("--out {shown} and --format {} do not agree", format.extension()));
+        }
+        let pictures = args.project.len() * at.len();
+        if pictures != 1 {
+            return Err(format!("--out {shown} is one file, and {pictures} pictures are to be written: name a folder"));
+        }
+        Ok(Targets { format: named, at, frames, place: Place::File(out.clone()) })
+    }
+
+    /// Makes the folder, so that a place nothing can be written to is known before hours of drawing.
+    pub fn prepare(&self) -> anyhow::Result<()> {
+        match &self.place {
+            Place::Nowhere => Ok(()),
+            Place::File(file) => {
+                let folder = folder_of(file);
+                let what = || format!("cannot write {}: its folder {}", file.display(), folder.display());
+                fs::read_dir(folder).map(drop).with_context(what)
+            }
+            Place::Folder(folder, _) => {
+                fs::create_dir_all(folder).with_context(|| format!("cannot make the folder {}", folder.display()))
+            }
+        }
+    }
+
+    /// The file for a frame of a project, counted as on the command line.
+    pub fn path(&self, project: usize, frame: u32) -> Option<PathBuf> {
+        match &self.place {
+            Place::Nowhere => None,
+            Place::File(file) => Some(file.clone()),
+            Place::Folder(folder, stems) => {
+                let (stem, extension) = (&stems[project], self.format.extension());
+                Some(folder.join(match self.at.len() {
+                    1 => format!("{stem}.{extension}"),
+                    _ => format!("{stem}_{frame:04}.{extension}"),
+                }))
+            }
+        }
+    }
+}
+
+fn frames(args: &RenderArgs) -> Result<(Vec<u32>, u32), String> {
+    let mut at = args.at.clone();
+    at.sort_unstable();
+    at.dedup();
+    let needed = at.last().map_or(1, |last| last + 1);
+    let frames = args.frames.unwrap_or(needed);
+    if frames < needed {
+        return Err(format!("--at {}: with --frames {frames} the last frame is {}", needed - 1, frames - 1));
+    }
+    if at.is_empty() {
+        at.push(frames - 1);
+    }
+    Ok((at, frames))
+}
+
+fn stems(projects: &[String]) -> Result<Vec<String>, String> {
+    let mut first: HashMap<String, &str> = HashMap::new();
+    let mut stems = Vec::with_capacity(projects.len());
+    for project in projects {
+        let stem = project::stem(project);
+        // Some file systems do not tell `Fluid.png` from `fluid.png`.
+        if let Some(other) = first.insert(stem.to_lowercase(), project) {
+            return Err(format!(
+                "{other} and {project} would both be written as {stem}: render them in two calls, to two folders"
+            ));
+        }
+        stems.push(stem);
+    }
+    Ok(stems)
+}
+
+/// Writes a picture whole or not at all: a picture of the same name stays until the new one is complete.
+pub fn write(path: &Path, pixels: &Pixels, format: Format) -> anyhow::Result<()> {
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        // As any new file's: what the user's mask leaves.
+        builder.permissions(fs::Permissions::from_mode(0o666));
+    }
+    let mut inner = || -> anyhow::Result<()> {
+        let mut file = builder.prefix(".eddy-").tempfile_in(folder_of(path))?;
+        let mut out = BufWriter::new(&mut file);
+        capture::encode(&mut out, pixels, format)?;
+        out.flush()?;
+        drop(out);
+        file.persist(path)?;
+        Ok(())
+    };
+    inner().with_context(|| format!("cannot write {}", path.display()))
+}
+
+fn folder_of(file: &Path) -> &Path {
+    file.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::args::{Cli, Command};
+    use clap::Parser;
+
+    fn targets(line: &str) -> Result<Targets, String> {
+        match Cli::parse_from(["eddy", "render"].into_iter().chain(line.split(' '))).command {
+            Some(Command::Render(args)) => Targets::of(&args),
+            _ => unreachable!(),
+        }
+    }
+
+    fn path(line: &str, project: usize, frame: u32) -> String {
+        targets(line).unwrap().path(project, frame).unwrap().to_string_lossy().into_owned()
+    }
+
+    #[test]
+    fn one_frame_has_the_stem_and_several_have_numbers() {
+        assert_eq!(path("fluid x/a.b.json --out o --frames 9", 0, 8), "o/fluid.png");
+        assert_eq!(path("fluid x/a.b.json --out o --frames 9", 1, 8), "o/a.b.png");
+        assert_eq!(path("fluid --out o --at 4,12345 --format npy", 0, 4), "o/fluid_0004.npy");
+        assert_eq!(path("fluid --out o --at 4,12345 --format npy", 0, 12345), "o/fluid_12345.npy");
+        assert_eq!(path("fluid --out a.v1/x.npy", 0, 0), "a.v1/x.npy");
+        assert_eq!(path("src/ --out o", 0, 0), "o/src.png");
+        assert_ne!(path(". --out o", 0, 0), "o/picture.png", "the folder's name is looked up");
+    }
+
+    #[test]
+    fn frames_follow_what_is_written() {
+        let of = |line| targets(line).map(|t| (t.at, t.frames));
+        assert_eq!(of("a --out o"), Ok((vec![0], 1)));
+        assert_eq!(of("a --out o --frames 9"), Ok((vec![8], 9)));
+        assert_eq!(of("a --out o --at 8,2,2"), Ok((vec![2, 8], 9)));
+        assert_eq!(of("a --out o --at 2 --frames 9"), Ok((vec![2], 9)));
+        assert!(of("a --out o --at 9 --frames 9").unwrap_err().contains("the last frame is 8"));
+    }
+
+    #[test]
+    fn no_picture_is_written_over_another_of_the_same_call() {
+        for (line, says) in [
+            ("a b --out x.png", "2 pictures"),
+            ("a --out x.png --at 1,2", "2 pictures"),
+            ("x/a.json y/a.json --out o", "x/a.json and y/a.json"),
+            ("x/a.json x/A.json --out o", "would both be written"),
+            ("fluid fluid --out o", "would both be written"),
+            ("a --out x.png --format npy", "do not agree"),
+            ("a --out x.exr", "does not write exr"),
+        ] {
+            let message = targets(line).expect_err(line);
+            assert!(message.contains(says), "{line}: {message}");
+        }
+        assert_eq!(targets("fluid fluid --json").unwrap().path(0, 0), None);
+    }
+}

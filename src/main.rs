@@ -1,0 +1,29 @@
+//! The binary: hands the command line to `cli`, and the wish for a window to `gui`.
+
+use eddy::cli::{self, Next, Window};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    // What goes wrong inside is worth a line; what other libraries tell of themselves is not.
+    env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("error,naga=off,eddy=warn")).init();
+    match cli::main() {
+        Next::Exit(code) => code,
+        Next::Window(window) => match open(window) {
+            Ok(()) => ExitCode::SUCCESS,
+            Err(why) => ExitCode::from(cli::trouble(format_args!("{why:#}"))),
+        },
+    }
+}
+
+#[cfg(feature = "gui")]
+fn open(window: Window) -> anyhow::Result<()> {
+    let Window { project, size, json } = window;
+    Ok(eddy::gui::run(eddy::gui::Options { project, size, json })?)
+}
+
+#[cfg(not(feature = "gui"))]
+fn open(_: Window) -> anyhow::Result<()> {
+    anyhow::bail!(
+        "this Eddy was built without the feature `gui`, so it has no window; `eddy --help` says what it can do"
+    )
+}
