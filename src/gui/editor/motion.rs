@@ -1,0 +1,188 @@
+//! Where the caret goes: letters, words, lines, pages.
+
+use super::buffer::{Buffer, Selection};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    Left,
+    Right,
+    WordLeft,
+    WordRight,
+    /// Up or down by so many lines.
+    Lines(isize),
+    /// First letter of the line, or its start if the caret is there.
+    Home,
+    End,
+    Start,
+    Finish,
+}
+
+impl Buffer {
+    /// Moves the caret; `selecting` keeps the anchor.
+    pub fn go(&mut self, motion: Motion, selecting: bool) {
+        let range = self.selection.range();
+        let head = match motion {
+            // A selection collapses to the side one goes to.
+            Motion::Left if !selecting && !range.is_empty() => range.start,
+            Motion::Right if !selecting && !range.is_empty() => range.end,
+            Motion::Lines(by) => return self.go_lines(by, selecting),
+            _ => self.target(motion, self.selection.head),
+        };
+        self.select(if selecting { self.selection.anchor } else { head }, head);
+    }
+
+    /// Where a motion leads from `at`. `Lines` counts from the caret's wanted column and is not asked here.
+    pub(super) fn target(&self, motion: Motion, at: usize) -> usize {
+        let text = self.text();
+        match motion {
+            Motion::Left => self.snap(text[..at].char_indices().next_back().map_or(0, |(i, _)| i)),
+            Motion::Right => self.after(at),
+            Motion::WordLeft => {
+                let mut class = None;
+                let mut to = at;
+                for (i, c) in text[..at].char_indices().rev() {
+                    let now = Class::of(c);
+                    match class {
+                        None if now == Class::Space => {}
+                        None => class = Some(now),
+                        Some(was) if was == now => {}
+                        Some(_) => break,
+                    }
+                    to = i;
+                }
+                to
+            }
+            Motion::WordRight => {
+                let mut class = None;
+                for (i, c) in text[at..].char_indices() {
+                    let now = Class::of(c);
+                    match class {
+                        None => class = Some(now),
+                        Some(was) if was == now => {}
+                        Some(_) if now == Class::Space => class = Some(Class::Space),
+                        Some(_) => return at + i,
+                    }
+                }
+                text.len()
+            }
+            Motion::Home => {
+                let range = self.line_range(self.line_of(at));
+                let first = range.end - text[range.clone()].trim_start().len();
+                if at == first { range.start } else { first }
+            }
+            Motion::End => self.line_range(self.line_of(at)).end,
+            Motion::Start => 0,
+            Motion::Finish => text.len(),
+            Motion::Lines(_) => at,
+        }
+    }
+
+    /// The word, run of spaces or punctuation around a position: what a double click takes.
+    pub fn word_at(&self, at: usize) -> std::ops::Range<usize> {
+        let line = self.line_range(self.line_of(at));
+        let text = self.text();
+        let right = text[at..line.end].chars().next().map(Class::of);
+        let left = text[line.start..at].chars().next_back().map(Class::of);
+        // Between two things a word wins over the rest.
+        let class = match (left, right) {
+            (Some(Class::Word), _) | (_, Some(Class::Word)) => Class::Word,
+            (_, Some(class)) | (Some(class), None) => class,
+            (None, None) => return at..at,
+        };
+        let start = text[line.start..at].char_indices().rev().take_while(|(_, c)| Class::of(*c) == class).last();
+        let end = text[at..line.end].char_indices().find(|(_, c)| Class::of(*c) != class);
+        start.map_or(at, |(i, _)| line.start + i)..end.map_or(line.end, |(i, _)| at + i)
+    }
+
+    /// The position behind the character at `at`; a `\r\n` counts as one.
+    fn after(&self, at: usize) -> usize {
+        let rest = &self.text()[at..];
+        at + if rest.starts_with("\r\n") { 2 } else { rest.chars().next().map_or(0, char::len_utf8) }
+    }
+
+    fn go_lines(&mut self, by: isize, selecting: bool) {
+        let (line, column) = self.line_column(self.selection.head);
+        let wanted = self.wanted_column.unwrap_or(column);
+        let last = self.line_count() as isize - 1;
+        let to = line as isize + by;
+        let head = if to < 0 {
+            0
+        } else if to > last {
+            self.text().len()
+        } else {
+            self.position(to as usize, wanted)
+        };
+        let anchor = if selecting { self.selection.anchor } else { head };
+        self.select(anchor, head);
+        self.selection = Selection { anchor, head };
+        self.wanted_column = Some(wanted);
+    }
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Class {
+    Space,
+    Word,
+    Other,
+}
+
+impl Class {
+    fn of(c: char) -> Class {
+        if c.is_whitespace() {
+            Class::Space
+        } else if c.is_alphanumeric() || c == '_' {
+            Class::Word
+        } else {
+            Class::Other
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(text: &str, caret: usize, motion: Motion) -> usize {
+        let mut b = Buffer::new(text);
+        b.select(caret, caret);
+        b.go(motion, false);
+        b.selection().head
+    }
+
+    #[test]
+    fn words_and_lines() {
+        let text = "  vec3 c = f(uv);\n\nend";
+        assert_eq!(at(text, 2, Motion::WordRight), 7);
+        assert_eq!(at(text, 7, Motion::WordLeft), 2);
+        assert_eq!(at(text, 16, Motion::WordLeft), 15);
+        assert_eq!(at(text, 9, Motion::Home), 2);
+        assert_eq!(at(text, 2, Motion::Home), 0);
+        assert_eq!(at(text, 3, Motion::End), 17);
+        assert_eq!(at(text, 3, Motion::Lines(-1)), 0);
+        assert_eq!(at(text, 3, Motion::Lines(9)), text.len());
+        assert_eq!(at("a\r\nb", 1, Motion::Right), 3);
+        assert_eq!(at("a\r\nb", 3, Motion::Left), 1);
+        assert_eq!(at("", 0, Motion::Left), 0);
+        assert_eq!(at("äö", 4, Motion::Left), 2);
+    }
+
+    #[test]
+    fn the_column_is_kept_across_short_lines() {
+        let mut b = Buffer::new("123456\n12\n123456");
+        b.select(5, 5);
+        b.go(Motion::Lines(1), false);
+        assert_eq!(b.line_column(b.selection().head), (1, 2));
+        b.go(Motion::Lines(1), false);
+        assert_eq!(b.line_column(b.selection().head), (2, 5));
+    }
+
+    #[test]
+    fn a_double_click_takes_the_word() {
+        let b = Buffer::new("a = iTime*2.;");
+        assert_eq!(b.word_at(6), 4..9);
+        assert_eq!(b.word_at(9), 4..9);
+        assert_eq!(b.word_at(4), 4..9);
+        assert_eq!(b.word_at(3), 3..4);
+        assert_eq!(Buffer::new("").word_at(0), 0..0);
+    }
+}

@@ -1,0 +1,77 @@
+//! Buttons with drawn signs: no font holds them all in one style.
+
+use egui::{Color32, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Icon {
+    Reset,
+    Play,
+    Pause,
+    Step,
+    Camera,
+    Expand,
+    More,
+    Previous,
+    Next,
+    Close,
+}
+
+/// A button with a sign; `label` is what it is called to those who do not see it.
+pub fn button(ui: &mut Ui, icon: Icon, label: &str) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(28.0, 24.0), Sense::click());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label));
+    let visuals = ui.style().interact(&response);
+    ui.painter().rect(rect, visuals.corner_radius, visuals.weak_bg_fill, visuals.bg_stroke, StrokeKind::Inside);
+    paint(ui, rect, icon, visuals.fg_stroke.color);
+    response
+}
+
+fn paint(ui: &Ui, rect: Rect, icon: Icon, color: Color32) {
+    let painter = ui.painter();
+    let c = rect.center();
+    let at = |x: f32, y: f32| pos2(c.x + x, c.y + y);
+    let line = Stroke::new(1.5, color);
+    let triangle = |points: [Pos2; 3]| painter.add(Shape::convex_polygon(points.to_vec(), color, Stroke::NONE));
+    let bar = |x: f32, width: f32| painter.rect_filled(Rect::from_min_max(at(x, -5.0), at(x + width, 5.0)), 0.5, color);
+    match icon {
+        Icon::Reset => {
+            bar(-5.5, 2.0);
+            triangle([at(5.0, -5.5), at(5.0, 5.5), at(-3.0, 0.0)]);
+        }
+        Icon::Play => {
+            triangle([at(-4.0, -6.0), at(-4.0, 6.0), at(6.0, 0.0)]);
+        }
+        Icon::Pause => {
+            bar(-4.5, 3.0);
+            bar(1.5, 3.0);
+        }
+        Icon::Step => {
+            triangle([at(-5.0, -5.5), at(-5.0, 5.5), at(3.0, 0.0)]);
+            bar(3.5, 2.0);
+        }
+        Icon::Camera => {
+            painter.rect_stroke(Rect::from_min_max(at(-7.0, -3.5), at(7.0, 5.5)), 2.0, line, StrokeKind::Middle);
+            painter.rect_filled(Rect::from_min_max(at(-2.5, -6.0), at(2.5, -3.5)), 1.0, color);
+            painter.circle_stroke(at(0.0, 1.0), 2.5, line);
+        }
+        Icon::Expand => {
+            for (x, y) in [(-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
+                let corner = at(6.0 * x, 5.0 * y);
+                painter.line(vec![corner - vec2(3.5 * x, 0.0), corner, corner - vec2(0.0, 3.0 * y)], line);
+            }
+        }
+        Icon::More => {
+            for x in [-5.0, 0.0, 5.0] {
+                painter.circle_filled(at(x, 0.0), 1.5, color);
+            }
+        }
+        Icon::Previous | Icon::Next => {
+            let up = if icon == Icon::Previous { 1.0 } else { -1.0 };
+            painter.line(vec![at(-4.0, 2.0 * up), at(0.0, -2.5 * up), at(4.0, 2.0 * up)], line);
+        }
+        Icon::Close => {
+            painter.line_segment([at(-3.5, -3.5), at(3.5, 3.5)], line);
+            painter.line_segment([at(3.5, -3.5), at(-3.5, 3.5)], line);
+        }
+    }
+}

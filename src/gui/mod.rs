@@ -1,0 +1,62 @@
+//! The window: panels that show a [`Session`](crate::session::Session) and ask things of it.
+//!
+//! Owns the event loop, the surface, the panels, the code editor and the way from the window system's keys and pointer to
+//! the session's commands. Holds no logic that a command line would need too: a panel reads `&Session` and hands back
+//! commands. Only this module names egui or winit.
+
+mod app;
+mod channels;
+mod code;
+mod editor;
+mod files;
+mod gallery;
+mod geometry;
+mod help;
+mod icons;
+mod keys;
+mod outbox;
+mod problems;
+mod questions;
+mod report;
+mod rescue;
+mod shell;
+mod shortcuts;
+mod surface;
+mod tabs;
+mod theme;
+mod thumbnails;
+mod toasts;
+mod top_bar;
+mod transport;
+mod viewport;
+
+pub use app::run;
+
+use crate::{gpu::GpuError, session::SessionError};
+
+/// What to open, and how.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// What the command line calls PROJECT; none: the gallery.
+    pub project: Option<String>,
+    /// Physical pixels inside the window's frame; none: what suits the screen.
+    pub size: Option<(u32, u32)>,
+    /// Say on standard output what happens, one JSON object a line, for scripts that drive the window.
+    pub json: bool,
+}
+
+/// The window cannot open, or cannot go on.
+#[derive(Debug, thiserror::Error)]
+pub enum GuiError {
+    #[error("no display was found: {0}. Pictures can be drawn without one: use `eddy render`")]
+    NoDisplay(String),
+    /// The device is gone, and with it every picture; `rescue` says what became of unsaved work.
+    #[error("{reason}{rescue}")]
+    Lost { reason: GpuError, rescue: String },
+    #[error("the window's surface: {0}")]
+    Surface(String),
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    #[error(transparent)]
+    Session(#[from] SessionError),
+}

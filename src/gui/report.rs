@@ -1,0 +1,83 @@
+//! Lines of JSON on standard output that say what the window does, for scripts and tests that drive it from outside.
+//!
+//! One object a line with an `event` member. Nothing is written unless asked for (`--json`).
+
+use super::geometry::Area;
+use serde_json::{Value, json};
+use std::{
+    collections::BTreeMap,
+    io::Write,
+    time::{Duration, Instant},
+};
+
+/// Running frames are told of this often; what changes otherwise is told of at once.
+const FRAME_EVERY: Duration = Duration::from_millis(100);
+
+#[derive(Debug, Default)]
+pub struct Report {
+    enabled: bool,
+    /// Last line of each event that is repeated only when it says something new.
+    said: BTreeMap<&'static str, Value>,
+    frame_at: Option<Instant>,
+}
+
+impl Report {
+    pub fn new(enabled: bool) -> Self {
+        Self { enabled, ..Default::default() }
+    }
+
+    pub fn is_enabled(&self) -> bool {
+        self.enabled
+    }
+
+    /// Writes an event.
+    pub fn say(&self, event: Value) {
+        if self.enabled {
+            // A reader that went away is no reason to end a person's session.
+            let mut out = std::io::stdout().lock();
+            let _ = writeln!(out, "{event}").and_then(|()| out.flush());
+        }
+    }
+
+    /// Writes an event if its members differ from those of the last one of this name. Whether it did.
+    pub fn say_if_new(&mut self, name: &'static str, mut members: Value) -> bool {
+        if !self.enabled || self.said.get(name) == Some(&members) {
+            return false;
+        }
+        self.said.insert(name, members.clone());
+        members["event"] = name.into();
+        self.say(members);
+        true
+    }
+
+    /// A frame was drawn. While `running`, only some of them are told of.
+    pub fn frame(&mut self, now: Instant, running: bool, members: Value) {
+        if running && self.frame_at.is_some_and(|at| now - at < FRAME_EVERY) {
+            return;
+        }
+        if self.say_if_new("frame", members) {
+            self.frame_at = Some(now);
+        }
+    }
+
+    /// Where things are, in physical pixels of the window.
+    pub fn layout(&mut self, window: (u32, u32), canvas: (u32, u32), scale: f32, areas: &BTreeMap<String, Area>) {
+        if !self.enabled {
+            return;
+        }
+        let rect = |a: &Area| json!([a.x.round(), a.y.round(), a.width.round(), a.height.round()]);
+        let mut rects = serde_json::Map::new();
+        for (name, area) in areas {
+            rects.insert(name.clone(), rect(area));
+        }
+        let viewport = rects.remove("viewport").unwrap_or(Value::Null);
+        let members = json!({
+            "window": [window.0, window.1],
+            "pixels_per_point": scale,
+            "viewport": viewport,
+            "canvas": [canvas.0, canvas.1],
+            "rects": rects,
+        });
+        self.say_if_new("layout", members);
+    }
+}

@@ -1,0 +1,173 @@
+//! The window's surface: egui's triangles onto the screen.
+//!
+//! Owns the surface and egui's renderer, and gets over a surface that is outdated, lost or hidden. Knows nothing of what is
+//! painted.
+
+use super::GuiError;
+use crate::gpu::{Gpu, GpuOptions};
+use egui_wgpu::{Renderer, RendererOptions, ScreenDescriptor};
+use std::sync::Arc;
+use winit::{event_loop::OwnedDisplayHandle, window::Window};
+
+/// The first instance that has a device for the window.
+fn open(
+    window: &Arc<Window>,
+    display: &OwnedDisplayHandle,
+) -> Result<(wgpu::Instance, wgpu::Surface<'static>, wgpu::Adapter), GuiError> {
+    let mut reasons = Vec::new();
+    for mut descriptor in Gpu::instance_descriptors() {
+        descriptor.display = Some(Box::new(display.clone()));
+        let instance = wgpu::Instance::new(descriptor);
+        let surface = match instance.create_surface(window.clone()) {
+            Ok(surface) => surface,
+            Err(e) => {
+                reasons.push(e.to_string());
+                continue;
+            }
+        };
+        let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions {
+            power_preference: wgpu::PowerPreference::HighPerformance,
+            compatible_surface: Some(&surface),
+            ..Default::default()
+        }));
+        match adapter {
+            Ok(adapter) => return Ok((instance, surface, adapter)),
+            Err(e) => reasons.push(e.to_string()),
+        }
+    }
+    Err(GuiError::Gpu(crate::gpu::GpuError::NoAdapter(reasons.join("; "))))
+}
+
+/// What became of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Presented {
+    Shown,
+    /// Nobody could see it; painting again before the window changes is of no use.
+    Hidden,
+    /// The surface had to be made anew: paint again.
+    Again,
+}
+
+pub struct Surface {
+    instance: wgpu::Instance,
+    surface: wgpu::Surface<'static>,
+    config: wgpu::SurfaceConfiguration,
+    renderer: Renderer,
+    gpu: Gpu,
+    needs_configure: bool,
+}
+
+impl Surface {
+    /// A surface for the window, and the device that can draw on it.
+    pub fn new(window: &Arc<Window>, display: OwnedDisplayHandle) -> Result<Surface, GuiError> {
+        let (instance, surface, adapter) = open(window, &display)?;
+        let gpu = Gpu::from_adapter(&adapter, &GpuOptions::default())?;
+        let size = window.inner_size();
+        let mut config = surface
+            .get_default_config(&adapter, size.width.max(1), size.height.max(1))
+            .ok_or_else(|| GuiError::Surface(format!("{} cannot draw on this window", gpu.info.name)))?;
+        // egui blends in display values, and the picture is to arrive byte for byte: no conversion to sRGB on the way.
+        config.format = egui_wgpu::preferred_framebuffer_format(&surface.get_capabilities(&adapter).formats)
+            .map_err(|e| GuiError::Surface(e.to_string()))?;
+        config.present_mode = wgpu::PresentMode::AutoVsync;
+        config.desired_maximum_frame_latency = 1;
+        surface.configure(&gpu.device, &config);
+        // Dithering would change the picture's own values.
+        let options = RendererOptions { dithering: false, ..Default::default() };
+        let renderer = Renderer::new(&gpu.device, config.format, options);
+        Ok(Surface { instance, surface, config, renderer, gpu, needs_configure: false })
+    }
+
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    pub fn renderer(&mut self) -> &mut Renderer {
+        &mut self.renderer
+    }
+
+    /// Physical pixels.
+    pub fn size(&self) -> (u32, u32) {
+        (self.config.width, self.config.height)
+    }
+
+    /// The window has a new size; one of nothing (minimised) is kept for later.
+    pub fn resize(&mut self, width: u32, height: u32) {
+        if width > 0 && height > 0 && (width, height) != self.size() {
+            let limit = self.gpu.device.limits().max_texture_dimension_2d;
+            (self.config.width, self.config.height) = (width.min(limit), height.min(limit));
+            self.needs_configure = true;
+        }
+    }
+
+    /// Paints a frame of egui's and shows it.
+    pub fn paint(&mut self, window: &Arc<Window>, output: egui::FullOutput, ctx: &egui::Context) -> Presented {
+        let egui::FullOutput { shapes, pixels_per_point, mut textures_delta, .. } = output;
+        let triangles = ctx.tessellate(shapes, pixels_per_point);
+        let (device, queue) = (&self.gpu.device, &self.gpu.queue);
+        // Textures are taken in even if nothing can be shown: egui tells of each change once.
+        for (id, deltas) in textures_delta.set.drain() {
+            for delta in deltas {
+                self.renderer.update_texture(device, queue, id, &delta);
+            }
+        }
+        let presented = self.present(window, &triangles, pixels_per_point);
+        for id in textures_delta.free.drain() {
+            self.renderer.free_texture(&id);
+        }
+        presented
+    }
+
+    fn present(
+        &mut self,
+        window: &Arc<Window>,
+        triangles: &[egui::ClippedPrimitive],
+        pixels_per_point: f32,
+    ) -> Presented {
+        let (device, queue) = (&self.gpu.device, &self.gpu.queue);
+        if std::mem::take(&mut self.needs_configure) {
+            self.surface.configure(device, &self.config);
+        }
+        let frame = match self.surface.get_current_texture() {
+            wgpu::CurrentSurfaceTexture::Success(frame) => frame,
+            wgpu::CurrentSurfaceTexture::Suboptimal(frame) => {
+                self.needs_configure = true;
+                frame
+            }
+            wgpu::CurrentSurfaceTexture::Occluded => return Presented::Hidden,
+            wgpu::CurrentSurfaceTexture::Timeout => return Presented::Again,
+            wgpu::CurrentSurfaceTexture::Outdated | wgpu::CurrentSurfaceTexture::Validation => {
+                self.needs_configure = true;
+                return Presented::Again;
+            }
+            wgpu::CurrentSurfaceTexture::Lost => {
+                match self.instance.create_surface(window.clone()) {
+                    Ok(surface) => self.surface = surface,
+                    Err(e) => log::error!("the window's surface was lost and cannot be made anew: {e}"),
+                }
+                self.needs_configure = true;
+                return Presented::Again;
+            }
+        };
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("window") });
+        let screen = ScreenDescriptor { size_in_pixels: [self.config.width, self.config.height], pixels_per_point };
+        let mut commands = self.renderer.update_buffers(device, queue, &mut encoder, triangles, &screen);
+        let view = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
+        let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("window"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &view,
+                resolve_target: None,
+                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
+                depth_slice: None,
+            })],
+            ..Default::default()
+        });
+        self.renderer.render(&mut pass.forget_lifetime(), triangles, &screen);
+        commands.push(encoder.finish());
+        queue.submit(commands);
+        window.pre_present_notify();
+        queue.present(frame);
+        Presented::Shown
+    }
+}

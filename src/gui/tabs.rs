@@ -1,0 +1,165 @@
+//! The row of tabs over the editor.
+
+use super::{
+    outbox::{Outbox, Wish},
+    theme,
+};
+use crate::{
+    diag::Severity,
+    project::{PassId, Tab},
+    session::{Command, Session},
+};
+use egui::{Align2, Color32, FontId, Id, Rect, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
+
+const HEIGHT: f32 = 32.0;
+
+/// Shows the tabs; `current` has the accent.
+pub fn show(ui: &mut Ui, session: &Session, current: &Tab, out: &mut Outbox) {
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
+    ui.painter().rect_filled(rect, 0.0, theme::PANEL);
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, Stroke::new(1.0, theme::LINE));
+    let mut row =
+        ui.new_child(egui::UiBuilder::new().max_rect(rect).layout(egui::Layout::left_to_right(egui::Align::Center)));
+    ScrollArea::horizontal()
+        .id_salt("tabs")
+        .auto_shrink(false)
+        .scroll_bar_visibility(egui::scroll_area::ScrollBarVisibility::AlwaysHidden)
+        .show(&mut row, |ui| {
+            ui.spacing_mut().item_spacing.x = 0.0;
+            for tab in session.tabs() {
+                show_tab(ui, session, &tab, tab == *current, out);
+            }
+            ui.add_space(4.0);
+            add_menu(ui, session, out);
+        });
+}
+
+fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &mut Outbox) {
+    let here = session.diagnostics().iter().filter(|d| d.tab.as_ref() == Some(tab));
+    let (mut errors, mut warnings) = (0, 0);
+    for d in here {
+        match d.severity {
+            Severity::Error => errors += 1,
+            Severity::Warning => warnings += 1,
+            Severity::Note => {}
+        }
+    }
+    let dirty = session.is_tab_dirty(tab);
+    let color = if is_current { theme::STRONG } else { theme::WEAK };
+    let title = ui.painter().layout_no_wrap(tab.title(), FontId::proportional(13.0), color);
+    let badge = match (errors, warnings) {
+        (0, 0) => None,
+        (0, n) => Some((n, theme::WARNING)),
+        (n, _) => Some((n, theme::ERROR)),
+    };
+    let extra = if badge.is_some() { 24.0 } else { 0.0 } + if dirty { 12.0 } else { 0.0 };
+    let (rect, response) = ui.allocate_exact_size(vec2(title.size().x + 24.0 + extra, HEIGHT), Sense::click());
+    if is_current {
+        // In sight when it comes to the front and when it grows; else people scroll where they like.
+        let id = Id::unique("current tab");
+        let now = (tab.title(), rect.width().to_bits());
+        if ui.data_mut(|d| d.get_temp_mut_or_default::<(String, u32)>(id).clone()) != now {
+            ui.data_mut(|d| d.insert_temp(id, now));
+            response.scroll_to_me(None);
+        }
+        ui.painter().rect_filled(rect, 0.0, theme::BACKGROUND);
+        ui.painter().hline(rect.x_range(), rect.top() + 1.0, Stroke::new(2.0, theme::ACCENT));
+    } else if response.hovered() {
+        ui.painter().rect_filled(rect, 0.0, theme::RAISED);
+    }
+    let mut x = rect.left() + 12.0;
+    let width = title.size().x;
+    ui.painter().galley(pos2(x, rect.center().y - title.size().y / 2.0), title, color);
+    x += width;
+    if dirty {
+        ui.painter().circle_filled(pos2(x + 9.0, rect.center().y), 3.0, theme::ACCENT);
+        x += 12.0;
+    }
+    if let Some((count, fill)) = badge {
+        let place = Rect::from_center_size(pos2(x + 15.0, rect.center().y), vec2(17.0, 15.0));
+        ui.painter().rect_filled(place, 7.0, fill);
+        let text = if count > 99 { "99".to_owned() } else { count.to_string() };
+        ui.painter().text(
+            place.center(),
+            Align2::CENTER_CENTER,
+            text,
+            FontId::proportional(10.5),
+            Color32::from_gray(20),
+        );
+    }
+    if out.clicked(&format!("tab:{}", tab.title()), &response) {
+        out.wishes.push(Wish::GoTo(tab.clone(), None));
+    }
+    response.context_menu(|ui| {
+        if let Tab::Pass(id) = tab
+            && ui.button("Show this pass").clicked()
+        {
+            out.ask(Command::ShowPass(id.clone()));
+        }
+        let can_go = *tab != Tab::Pass(PassId::Image);
+        if ui.add_enabled(can_go, egui::Button::new(format!("Remove {}", tab.title()))).clicked() {
+            out.ask(Command::RemoveTab(tab.clone()));
+        }
+    });
+    let time = session.pass_times().iter().find(|t| *tab == Tab::Pass(t.pass.clone()));
+    let file = session.project().source(tab).and_then(|s| s.path.as_ref());
+    response.on_hover_ui(|ui| {
+        ui.label(tab.title());
+        if let Some(path) = file {
+            ui.colored_label(theme::WEAK, path.display().to_string());
+        }
+        if let Some(time) = time {
+            ui.label(format!("{:.3} ms on the graphics device", time.gpu_millis));
+        }
+        if dirty {
+            ui.colored_label(theme::ACCENT, "Not saved yet");
+        }
+        if *tab != Tab::Pass(PassId::Image) {
+            ui.colored_label(theme::WEAK, "Right click: show, remove");
+        }
+    });
+}
+
+fn add_menu(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+    let tabs = session.tabs();
+    let menu = ui.menu_button("+", |ui| {
+        let add = |ui: &mut Ui, tab: Tab, out: &mut Outbox| {
+            if ui.button(tab.title()).clicked() {
+                out.ask(Command::AddTab(tab.clone()));
+                out.wishes.push(Wish::GoTo(tab, None));
+                ui.close();
+            }
+        };
+        if !tabs.contains(&Tab::Common) {
+            add(ui, Tab::Common, out);
+        }
+        for tab in free_buffers(&tabs) {
+            add(ui, tab, out);
+        }
+    });
+    out.place("button:add-tab", menu.response.rect);
+    menu.response.on_hover_text("Add Common or a buffer");
+}
+
+/// The site's four buffers that are not there yet; when all are, the next letter.
+fn free_buffers(tabs: &[Tab]) -> Vec<Tab> {
+    let tab = |c: char| Tab::Pass(PassId::Buffer(c.to_string()));
+    let free = |c: &char| !tabs.contains(&tab(*c));
+    let mut list: Vec<char> = ('A'..='D').filter(free).collect();
+    if list.is_empty() {
+        list.extend(('E'..='Z').find(free));
+    }
+    list.into_iter().map(tab).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fifth_buffer_is_offered_when_four_are_there() {
+        let buffer = |name: &str| Tab::Pass(PassId::Buffer(name.into()));
+        assert_eq!(free_buffers(&[buffer("B")]), [buffer("A"), buffer("C"), buffer("D")]);
+        assert_eq!(free_buffers(&["A", "B", "C", "D", "E"].map(buffer)), [buffer("F")]);
+    }
+}

@@ -1,0 +1,187 @@
+//! Small pictures of presets and of textures, made in the background and kept while the window is open.
+
+use crate::{
+    engine::{BuildOptions, Engine, FrameInputs, Program},
+    gpu::Gpu,
+    media::{self, TexelFormat, Texels},
+    project::{self, Media, PassId},
+};
+use egui::{ColorImage, TextureHandle, TextureOptions};
+use std::{
+    collections::HashMap,
+    path::PathBuf,
+    sync::{
+        Arc,
+        mpsc::{Receiver, Sender, channel},
+    },
+};
+
+/// Pixels of a preset's picture: sharp on a card at twice the density.
+const SIZE: (u32, u32) = (320, 180);
+/// Frames drawn before the picture is taken, so that what moves has begun to.
+const FRAMES: i32 = 90;
+/// Longest side of a texture's picture.
+const SWATCH: usize = 96;
+
+/// What a picture is of.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum Subject {
+    Preset(String),
+    /// A picture a channel can read; files lie relative to the folder.
+    Texture(Media, Option<PathBuf>),
+}
+
+/// What is known of a picture.
+#[derive(Clone)]
+pub enum Thumbnail {
+    Waiting,
+    Ready(TextureHandle),
+    /// Why there is none.
+    Failed(String),
+}
+
+pub struct Thumbnails {
+    known: HashMap<Subject, Thumbnail>,
+    wanted: Sender<Subject>,
+    made: Receiver<(Subject, Result<ColorImage, String>)>,
+}
+
+impl Thumbnails {
+    /// Starts the thread that makes them. `wake` is called when there is a new one.
+    pub fn new(gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>) -> Self {
+        let (wanted, wanted_here) = channel::<Subject>();
+        let (made_here, made) = channel();
+        let work = move || {
+            while let Ok(subject) = wanted_here.recv() {
+                let image = make(&gpu, &subject);
+                if made_here.send((subject, image)).is_err() {
+                    return;
+                }
+                wake();
+            }
+        };
+        if let Err(e) = std::thread::Builder::new().name("thumbnails".into()).spawn(work) {
+            // The cards then stay without pictures, which is all they lose.
+            log::warn!("no thread for thumbnails: {e}");
+        }
+        Self { known: HashMap::new(), wanted, made }
+    }
+
+    /// Takes in what has been made since.
+    pub fn update(&mut self, ctx: &egui::Context) {
+        while let Ok((subject, image)) = self.made.try_recv() {
+            let thumbnail = match image {
+                Ok(image) => Thumbnail::Ready(ctx.load_texture(format!("{subject:?}"), image, TextureOptions::LINEAR)),
+                Err(e) => Thumbnail::Failed(e),
+            };
+            self.known.insert(subject, thumbnail);
+        }
+    }
+
+    /// The picture, as far as it is known; asks for it the first time.
+    pub fn get(&mut self, subject: Subject) -> Thumbnail {
+        if let Some(known) = self.known.get(&subject) {
+            return known.clone();
+        }
+        if self.wanted.send(subject.clone()).is_err() {
+            self.known.insert(subject, Thumbnail::Failed("no thread makes thumbnails".into()));
+            return Thumbnail::Waiting;
+        }
+        self.known.insert(subject, Thumbnail::Waiting);
+        Thumbnail::Waiting
+    }
+}
+
+fn make(gpu: &Gpu, subject: &Subject) -> Result<ColorImage, String> {
+    match subject {
+        Subject::Preset(name) => preset(gpu, name),
+        Subject::Texture(media, folder) => {
+            let texels = media::load(media, true, folder.as_deref(), None).map_err(|e| e.to_string())?;
+            Ok(swatch(&texels))
+        }
+    }
+}
+
+fn preset(gpu: &Gpu, name: &str) -> Result<ColorImage, String> {
+    let project = project::presets::load(name).map_err(|e| e.to_string())?.project;
+    let (set, _) = media::gather(&project, None);
+    let built = Program::build(gpu, &project, &set, &BuildOptions::default()).map_err(|e| e.to_string())?;
+    let mut engine = Engine::new(gpu.clone(), SIZE.0, SIZE.1).map_err(|e| e.to_string())?;
+    engine.set_program(built.program).map_err(|e| e.to_string())?;
+    for frame in 0..FRAMES {
+        let mut inputs = FrameInputs::at_fixed_step(frame, 60.0);
+        inputs.mouse = stroke(frame);
+        engine.draw(&inputs).map_err(|e| e.to_string())?;
+        // Few frames at a time: the window's own wait for the same device.
+        if frame % 4 == 3 {
+            gpu.wait().map_err(|e| e.to_string())?;
+        }
+    }
+    let pixels = engine.read(&PassId::Image).map_err(|e| e.to_string())?;
+    let size = [pixels.width as usize, pixels.height as usize];
+    let mut bytes = pixels.to_rgba8();
+    bytes.chunks_exact_mut(4).for_each(|texel| texel[3] = 255);
+    Ok(ColorImage::from_rgba_unmultiplied(size, &bytes))
+}
+
+/// A pointer drawn in a wave across the picture, so that what answers to the mouse has something to show.
+fn stroke(frame: i32) -> [f32; 4] {
+    let (width, height) = (SIZE.0 as f32, SIZE.1 as f32);
+    let at = |frame: i32| {
+        let t = (frame as f32 / 70.0).min(1.0);
+        [(width * (0.15 + 0.7 * t)).floor(), (height * (0.5 + 0.22 * (t * 9.0).sin())).floor()]
+    };
+    let ([x, y], [from_x, from_y]) = (at(frame), at(4));
+    match frame {
+        0..4 => [0.0, 0.0, -0.0, -0.0],
+        4 => [x, y, from_x, from_y],
+        5..75 => [x, y, from_x, -from_y],
+        _ => [x, y, -from_x, -from_y],
+    }
+}
+
+/// A texture as a small opaque picture, its top row first.
+fn swatch(texels: &Texels) -> ColorImage {
+    let (width, height) = (texels.width.max(1) as usize, texels.height.max(1) as usize);
+    let step = width.max(height).div_ceil(SWATCH).max(1);
+    let size = [width.div_ceil(step), height.div_ceil(step)];
+    let mut bytes = Vec::with_capacity(size[0] * size[1] * 4);
+    for y in 0..size[1] {
+        for x in 0..size[0] {
+            // Row 0 lies at the bottom.
+            bytes.extend(texel(texels, x * step, height - 1 - y * step));
+        }
+    }
+    ColorImage::from_rgba_unmultiplied(size, &bytes)
+}
+
+fn texel(texels: &Texels, x: usize, y: usize) -> [u8; 4] {
+    let at = (y * texels.width as usize + x) * texels.format.bytes();
+    let Some(bytes) = texels.bytes.get(at..at + texels.format.bytes()) else { return [0, 0, 0, 255] };
+    match texels.format {
+        TexelFormat::R8 => [bytes[0], bytes[0], bytes[0], 255],
+        TexelFormat::Rgba8 => [bytes[0], bytes[1], bytes[2], 255],
+        TexelFormat::Rgba32Float => {
+            let channel = |i: usize| {
+                let value = bytes[4 * i..4 * i + 4].try_into().map_or(0.0, f32::from_le_bytes);
+                (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8
+            };
+            [channel(0), channel(1), channel(2), 255]
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_swatch_is_the_right_way_up_and_opaque() {
+        let bytes = [[1, 2, 3, 0], [4, 5, 6, 0], [7, 8, 9, 0], [10, 11, 12, 0]].concat();
+        let image = swatch(&Texels { width: 2, height: 2, format: TexelFormat::Rgba8, bytes });
+        assert_eq!(image.size, [2, 2]);
+        assert_eq!(image.pixels[0].to_array(), [7, 8, 9, 255]);
+        let wide = Texels { width: 300, height: 1, format: TexelFormat::R8, bytes: vec![9; 300] };
+        assert_eq!(swatch(&wide).size, [75, 1]);
+    }
+}

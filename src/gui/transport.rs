@@ -1,0 +1,183 @@
+//! The bar under the picture: time, speed, size, which pass is shown.
+
+use super::{
+    icons::{self, Icon},
+    outbox::{Outbox, Wish},
+    shortcuts::{self, Action},
+    theme,
+    viewport::Shape,
+};
+use crate::{
+    project::{PassId, Tab},
+    session::{Command, Session},
+};
+use egui::{Button, ComboBox, Popup, RichText, Ui, vec2};
+
+const SCALES: [(f32, &str); 6] = [(2.0, "2x"), (1.0, "1x"), (0.75, "3/4"), (0.5, "1/2"), (0.25, "1/4"), (0.125, "1/8")];
+const SIZES: [(u32, u32); 8] =
+    [(256, 144), (640, 360), (800, 450), (1280, 720), (1920, 1080), (3840, 2160), (512, 512), (1024, 1024)];
+
+pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
+    let transport = session.transport();
+    ui.spacing_mut().item_spacing.x = 4.0;
+    ui.horizontal_centered(|ui| {
+        let mut button = |ui: &mut Ui, name: &str, icon: Icon, tip: &str, action: Action| {
+            let response = icons::button(ui, icon, tip).on_hover_text(format!("{tip} ({})", shortcuts::hint(action)));
+            if out.clicked(name, &response) {
+                out.act(action);
+            }
+        };
+        button(ui, "button:reset", Icon::Reset, "Reset time and buffers", Action::Reset);
+        let (icon, tip) = if transport.playing { (Icon::Pause, "Pause") } else { (Icon::Play, "Play") };
+        button(ui, "button:play", icon, tip, Action::TogglePlay);
+        button(ui, "button:step", Icon::Step, "One frame forward, then pause", Action::Step);
+        button(ui, "button:screenshot", Icon::Camera, "Save a picture of the shown pass as PNG", Action::Screenshot);
+        ui.spacing_mut().item_spacing.x = 10.0;
+        let width = ui.available_width();
+        value(ui, 62.0, &format!("{:.2} s", transport.time_secs), "Time (iTime)");
+        if width > 470.0 {
+            value(ui, 56.0, &format!("#{}", transport.frame), "Frame (iFrame)");
+        }
+        if width > 330.0 {
+            value(ui, 58.0, &format!("{:.1} fps", transport.fps), "Frames a second, over the last half second");
+        }
+        if width > 400.0 {
+            cost(ui, session);
+        }
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.spacing_mut().item_spacing.x = 4.0;
+            options(ui, session, out);
+            shown_pass(ui, session, out);
+            size(ui, session, shape, out);
+        });
+    });
+}
+
+/// A number that keeps its place while it changes.
+fn value(ui: &mut Ui, width: f32, text: &str, tip: &str) {
+    let (rect, response) = ui.allocate_exact_size(vec2(width, 24.0), egui::Sense::hover());
+    let font = egui::FontId::monospace(12.0);
+    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+    painter.text(rect.right_center(), egui::Align2::RIGHT_CENTER, text, font, theme::TEXT);
+    response.on_hover_text(tip);
+}
+
+/// Milliseconds a frame; on hover, where they go.
+fn cost(ui: &mut Ui, session: &Session) {
+    let transport = session.transport();
+    let (text, of) = match transport.gpu_millis {
+        Some(millis) => (format!("{millis:.2} ms"), "graphics device"),
+        None => (format!("{:.2} ms", transport.cpu_micros / 1000.0), "processor"),
+    };
+    let (rect, response) = ui.allocate_exact_size(vec2(70.0, 24.0), egui::Sense::hover());
+    ui.painter().text(
+        rect.right_center(),
+        egui::Align2::RIGHT_CENTER,
+        text,
+        egui::FontId::monospace(12.0),
+        theme::TEXT,
+    );
+    response.on_hover_ui(|ui| {
+        ui.label(format!("A frame's time on the {of}"));
+        egui::Grid::new("costs").num_columns(2).spacing([24.0, 3.0]).show(ui, |ui| {
+            for time in session.pass_times() {
+                ui.label(time.pass.title());
+                ui.monospace(format!("{:.3} ms", time.gpu_millis));
+                ui.end_row();
+            }
+            ui.label("Processor, the engine's part");
+            ui.monospace(format!("{:.0} µs", transport.cpu_micros));
+            ui.end_row();
+        });
+        if session.pass_times().is_empty() {
+            ui.colored_label(theme::WEAK, "This device does not say what each pass takes.");
+        }
+    });
+}
+
+fn size(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
+    let transport = session.transport();
+    let (width, height) = transport.resolution;
+    let response = ComboBox::from_id_salt("size")
+        .width(96.0)
+        .height(360.0)
+        .selected_text(RichText::new(format!("{width}×{height}")).monospace().size(12.0))
+        .show_ui(ui, |ui| {
+            for (choice, name) in [(Shape::Site, "16:9, as on the site"), (Shape::Fill, "Shape of the view")] {
+                let on = transport.fixed_size.is_none() && shape == choice;
+                if ui.selectable_label(on, name).clicked() {
+                    out.ask(Command::SetFixedSize(None));
+                    out.wishes.push(Wish::Shape(choice));
+                }
+            }
+            ui.separator();
+            ui.colored_label(theme::WEAK, "As large as the view, times");
+            for (scale, name) in SCALES {
+                let on = transport.fixed_size.is_none() && (transport.scale - scale).abs() < 1e-3;
+                if ui.selectable_label(on, name).clicked() {
+                    out.ask(Command::SetFixedSize(None));
+                    out.ask(Command::SetScale(scale));
+                }
+            }
+            ui.separator();
+            ui.colored_label(theme::WEAK, "Always");
+            for size in SIZES {
+                if ui.selectable_label(transport.fixed_size == Some(size), format!("{} × {}", size.0, size.1)).clicked()
+                {
+                    out.ask(Command::SetFixedSize(Some(size)));
+                }
+            }
+        })
+        .response
+        .on_hover_text("Size of the picture in pixels (iResolution)");
+    out.place("combo:size", response.rect);
+}
+
+fn shown_pass(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+    let shown = session.shown_pass();
+    let response = ComboBox::from_id_salt("shown pass")
+        .width(76.0)
+        .selected_text(shown.title())
+        .show_ui(ui, |ui| {
+            for tab in session.tabs() {
+                let Tab::Pass(id) = tab else { continue };
+                if id == PassId::Sound {
+                    continue;
+                }
+                let entry = ui.selectable_label(id == *shown, id.title());
+                if out.clicked(&format!("pass:{}", id.title()), &entry) {
+                    out.ask(Command::ShowPass(id));
+                }
+            }
+        })
+        .response
+        .on_hover_text("The pass that is shown, and saved as a picture");
+    out.place("combo:pass", response.rect);
+}
+
+fn options(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+    let more = icons::button(ui, Icon::More, "More");
+    out.place("button:options", more.rect);
+    Popup::menu(&more).show(|ui| {
+        let mut reset = session.reset_on_reload();
+        let switch = ui.checkbox(&mut reset, "Reset when a file is reloaded");
+        out.place("switch:reset-on-reload", switch.rect);
+        if switch.changed() {
+            out.ask(Command::SetResetOnReload(reset));
+        }
+        ui.separator();
+        for (label, action) in [
+            ("Save a picture (PNG)", Action::Screenshot),
+            ("Save float texels (.npy)", Action::SaveTexels),
+            ("Picture alone, full screen", Action::Fullscreen),
+            ("Compile now", Action::Compile),
+        ] {
+            let item = Button::new(label).shortcut_text(shortcuts::hint(action));
+            if ui.add(item).clicked() {
+                out.act(action);
+                ui.close();
+            }
+        }
+    });
+    more.on_hover_text("More");
+}

@@ -1,0 +1,210 @@
+//! The picture, and the mouse over it.
+
+use super::{
+    geometry::{Area, Letterbox},
+    outbox::Outbox,
+    surface::Surface,
+    theme,
+};
+use crate::{
+    project::Input,
+    session::{Command, Outcome, Session},
+};
+use egui::{Align2, Color32, EventFilter, FontId, Id, PointerButton, Pos2, Rect, Sense, TextureId, Ui, pos2, vec2};
+
+/// Left free round the picture, so that the frame of what has the keyboard covers none of it. Physical pixels.
+const RIM: f32 = 3.0;
+
+pub struct Viewport {
+    texture: Option<TextureId>,
+    /// Of the display the texture shows, and whether it is magnified texel by texel.
+    shows: (u64, bool),
+    letterbox: Option<Letterbox>,
+    asked_size: (u32, u32),
+    mouse_is_down: bool,
+    take_focus: bool,
+    shape: Shape,
+}
+
+/// The shape of a picture that follows the view.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// 16:9, which pictures on the site are composed for.
+    Site,
+    /// The view's own.
+    Fill,
+}
+
+impl Viewport {
+    pub fn new() -> Self {
+        Self {
+            texture: None,
+            shows: (0, true),
+            letterbox: None,
+            asked_size: (0, 0),
+            mouse_is_down: false,
+            take_focus: false,
+            shape: Shape::Site,
+        }
+    }
+
+    pub fn id() -> Id {
+        Id::unique("picture")
+    }
+
+    pub fn shape(&self) -> Shape {
+        self.shape
+    }
+
+    pub fn set_shape(&mut self, shape: Shape) {
+        self.shape = shape;
+    }
+
+    pub fn mouse_is_down(&self) -> bool {
+        self.mouse_is_down
+    }
+
+    /// Gives the keyboard to the picture in the next frame.
+    pub fn focus(&mut self) {
+        self.take_focus = true;
+    }
+
+    /// Hands egui the picture as the engine has it now.
+    pub fn prepare(&mut self, session: &Session, surface: &mut Surface) {
+        let whole = self.letterbox.is_none_or(|l| l.shows_whole_texels());
+        let shows = (session.display_generation(), whole);
+        if self.texture.is_some() && shows == self.shows {
+            return;
+        }
+        let filter = if whole { wgpu::FilterMode::Nearest } else { wgpu::FilterMode::Linear };
+        let device = surface.gpu().device.clone();
+        let renderer = surface.renderer();
+        match self.texture {
+            None => self.texture = Some(renderer.register_native_texture(&device, session.display(), filter)),
+            Some(id) => renderer.update_egui_texture_from_wgpu_texture(&device, session.display(), filter, id),
+        }
+        self.shows = shows;
+    }
+
+    /// Fills the space there is. `alone`: nothing is beside it that could have the keyboard.
+    pub fn show(&mut self, ui: &mut Ui, session: &Session, alone: bool, out: &mut Outbox) {
+        let rect = ui.available_rect_before_wrap();
+        let scale = ui.pixels_per_point();
+        let rim = if alone { 0.0 } else { RIM };
+        ui.painter().rect_filled(rect, 0.0, theme::SURROUND);
+        let min = (rect.min.to_vec2() * scale).round() + vec2(rim, rim);
+        let max = (rect.max.to_vec2() * scale).round() - vec2(rim, rim);
+        let area = Area { x: min.x, y: min.y, width: (max.x - min.x).max(0.0), height: (max.y - min.y).max(0.0) };
+        let size = self.shape.within(area.width as u32, area.height as u32);
+        if size != self.asked_size && size.0 > 0 && size.1 > 0 {
+            self.asked_size = size;
+            out.ask(Command::SetViewport { width: size.0, height: size.1 });
+        }
+        let letterbox = Letterbox::new(area, session.transport().resolution);
+        let p = letterbox.picture;
+        let picture = Rect::from_min_size(pos2(p.x, p.y) / scale, vec2(p.width, p.height) / scale);
+        if let Some(texture) = self.texture {
+            ui.painter().image(texture, picture, Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0)), Color32::WHITE);
+        }
+        if self.letterbox.is_none_or(|l| l.shows_whole_texels() != letterbox.shows_whole_texels()) {
+            ui.ctx().request_repaint();
+        }
+        self.letterbox = Some(letterbox);
+        out.place("viewport", picture);
+
+        let response = ui.interact(rect, Self::id(), Sense::click_and_drag());
+        self.mouse(ui, &response, &letterbox, out);
+        if std::mem::take(&mut self.take_focus) {
+            response.request_focus();
+        }
+        if response.has_focus() {
+            let all = EventFilter { tab: true, horizontal_arrows: true, vertical_arrows: true, escape: true };
+            ui.memory_mut(|m| m.set_focus_lock_filter(Self::id(), all));
+            if !alone {
+                ui.painter().rect_stroke(rect, 0.0, theme::FOCUS, egui::StrokeKind::Inside);
+            }
+        } else if reads_keyboard(session) {
+            pill(ui, rect, Align2::RIGHT_TOP, "Click the picture to give it the keyboard", theme::WEAK);
+        }
+        if let Some(Outcome::Failed { errors }) = session.compile_state().last {
+            let noun = if errors == 1 { "error" } else { "errors" };
+            pill(ui, rect, Align2::LEFT_TOP, &format!("{errors} {noun} – the last good picture runs on"), theme::ERROR);
+        }
+    }
+
+    /// Mouse events in their order: a press and a release between two frames are both told of.
+    fn mouse(&mut self, ui: &Ui, response: &egui::Response, letterbox: &Letterbox, out: &mut Outbox) {
+        let scale = ui.pixels_per_point();
+        // Points are pixels divided by the scale; what the way back loses must not lead into the pixel beside it.
+        let pixels = |p: Pos2| ((p.x * scale * 256.0).round() / 256.0, (p.y * scale * 256.0).round() / 256.0);
+        let on_top = |p: Pos2| ui.ctx().layer_id_at(p) == Some(response.layer_id);
+        let events = ui.input(|i| i.events.clone());
+        for event in events {
+            match event {
+                egui::Event::PointerButton { pos, button: PointerButton::Primary, pressed: true, .. } => {
+                    let (x, y) = pixels(pos);
+                    if response.rect.contains(pos) && on_top(pos) {
+                        response.request_focus();
+                        if letterbox.contains(x, y) {
+                            self.mouse_is_down = true;
+                            let (x, y) = letterbox.canvas_from_window(x, y);
+                            out.ask(Command::MouseDown { x, y });
+                        }
+                    }
+                }
+                egui::Event::PointerMoved(pos) if self.mouse_is_down => {
+                    let (x, y) = pixels(pos);
+                    let (x, y) = letterbox.canvas_from_window(x, y);
+                    out.ask(Command::MouseMove { x, y });
+                }
+                egui::Event::PointerButton { button: PointerButton::Primary, pressed: false, .. }
+                | egui::Event::WindowFocused(false)
+                    if self.mouse_is_down =>
+                {
+                    self.mouse_is_down = false;
+                    out.ask(Command::MouseUp);
+                }
+                _ => {}
+            }
+        }
+    }
+}
+
+impl Shape {
+    /// The largest size of this shape in whole pixels.
+    fn within(self, width: u32, height: u32) -> (u32, u32) {
+        match self {
+            Shape::Fill => (width, height),
+            Shape::Site => (width.min(height * 16 / 9), height.min((width * 9).div_ceil(16))),
+        }
+    }
+}
+
+fn reads_keyboard(session: &Session) -> bool {
+    session.project().passes.iter().flat_map(|p| p.channels.iter().flatten()).any(|c| c.input == Input::Keyboard)
+}
+
+/// A line of text over a corner of the picture.
+fn pill(ui: &Ui, rect: Rect, corner: Align2, text: &str, color: Color32) {
+    let room = (rect.width() / 2.0 - 24.0).max(60.0);
+    let mut job = egui::text::LayoutJob::simple_singleline(text.to_owned(), FontId::proportional(12.0), color);
+    job.wrap = egui::text::TextWrapping::truncate_at_width(room);
+    let galley = ui.painter().layout_job(job);
+    let place = corner.align_size_within_rect(galley.size() + vec2(16.0, 8.0), rect.shrink(8.0));
+    ui.painter().rect_filled(place, 5.0, Color32::from_black_alpha(190));
+    ui.painter().galley(place.min + vec2(8.0, 4.0), galley, color);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_sites_shape_fits_whatever_there_is() {
+        assert_eq!(Shape::Site.within(640, 999), (640, 360));
+        assert_eq!(Shape::Site.within(9999, 360), (640, 360));
+        assert_eq!(Shape::Site.within(634, 680), (634, 357));
+        assert_eq!(Shape::Site.within(1, 1), (1, 1));
+        assert_eq!(Shape::Fill.within(634, 680), (634, 680));
+    }
+}
