@@ -1,0 +1,4 @@
+void main()
+{
+    vec2 uv = gl_FragCoord.xy / iResolution.xy;
+}

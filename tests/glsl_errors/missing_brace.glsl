@@ -1,0 +1,11 @@
+float sphere(vec3 p)
+{
+    if (p.x > 0.0) {
+        return length(p) - 1.0;
+    return 0.0;
+}
+
+void mainImage(out vec4 fragColor, in vec2 fragCoord)
+{
+    fragColor = vec4(sphere(vec3(fragCoord, 0.0)));
+}

@@ -1,0 +1,4 @@
+float circle(vec2 p, float r)
+{
+    return length(p) - r;
+}

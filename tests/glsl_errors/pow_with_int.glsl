@@ -1,0 +1,6 @@
+void mainImage(out vec4 fragColor, in vec2 fragCoord)
+{
+    vec3 col = vec3(fragCoord / iResolution.xy, 0.5);
+    col.r = pow(col.r, 2);
+    fragColor = vec4(col, 1.0);
+}

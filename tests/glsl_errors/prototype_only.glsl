@@ -1,0 +1,6 @@
+float scene(vec2 p);
+
+void mainImage(out vec4 fragColor, in vec2 fragCoord)
+{
+    fragColor = vec4(scene(fragCoord));
+}
