@@ -263,7 +263,23 @@ fn a_picture_changed_on_disk_is_read_again() {
     // Before its first compile has read anything.
     stage.session.apply(Command::Open(stage.folder().to_str().unwrap().into()));
     stage.write("pic.png", picture(100));
+    stage.until_compiled();
     until_red(&mut stage, 100);
+}
+
+#[test]
+fn writes_without_an_end_beside_the_sources_do_not_hide_a_change() {
+    let Some(mut stage) = open(&[("image.glsl", &plain(0.2))]) else { return };
+    stage.write("image.glsl", plain(0.4));
+    let end = Instant::now() + Duration::from_secs(30);
+    let mut line = 0;
+    while stage.session.text(&IMAGE) != plain(0.4) {
+        assert!(Instant::now() < end, "the log put the reload off for ever");
+        line += 1;
+        stage.write("run.log", format!("{line}\n"));
+        stage.tick();
+        std::thread::sleep(Duration::from_millis(5));
+    }
 }
 
 #[test]

@@ -6,35 +6,45 @@ use std::time::{Duration, Instant};
 #[derive(Clone, Debug)]
 pub(super) struct Debounce {
     quiet: Duration,
-    last: Option<Instant>,
+    /// How long touches that follow each other closely can put it off.
+    limit: Option<Duration>,
+    /// The first and the last touch.
+    touched: Option<(Instant, Instant)>,
 }
 
 impl Debounce {
     pub fn new(quiet: Duration) -> Self {
-        Self { quiet, last: None }
+        Self { quiet, limit: None, touched: None }
+    }
+
+    /// One that a burst without an end (a log beside the sources, pictures being recorded) cannot put off for ever.
+    pub fn with_limit(quiet: Duration, limit: Duration) -> Self {
+        Self { limit: Some(limit), ..Self::new(quiet) }
     }
 
     pub fn touch(&mut self, now: Instant) {
-        self.last = Some(now);
+        self.touched = Some((self.touched.map_or(now, |t| t.0), now));
     }
 
     pub fn cancel(&mut self) {
-        self.last = None;
+        self.touched = None;
     }
 
     pub fn is_waiting(&self) -> bool {
-        self.last.is_some()
+        self.touched.is_some()
     }
 
     pub fn deadline(&self) -> Option<Instant> {
-        self.last.map(|t| t + self.quiet)
+        let (first, last) = self.touched?;
+        let quiet = last + self.quiet;
+        Some(self.limit.map_or(quiet, |limit| quiet.min(first + limit)))
     }
 
     /// True once, when the quiet has lasted long enough.
     pub fn take_due(&mut self, now: Instant) -> bool {
         let due = self.deadline().is_some_and(|d| now >= d);
         if due {
-            self.last = None;
+            self.touched = None;
         }
         due
     }
@@ -61,5 +71,20 @@ mod tests {
         d.touch(at(6000));
         d.cancel();
         assert!(!d.take_due(at(9000)));
+    }
+
+    #[test]
+    fn a_burst_without_an_end_is_due_at_its_limit() {
+        let start = Instant::now();
+        let at = |ms| start + Duration::from_millis(ms);
+        let mut d = Debounce::with_limit(Duration::from_millis(100), Duration::from_millis(1000));
+        let due: Vec<u64> = (0..50)
+            .map(|i| i * 50)
+            .filter(|ms| {
+                d.touch(at(*ms));
+                d.take_due(at(*ms))
+            })
+            .collect();
+        assert_eq!(due, [1000, 2050]);
     }
 }

@@ -185,7 +185,7 @@ impl Session {
             },
             disk: Disk {
                 watch: None,
-                changes: Debounce::new(options.watch_debounce),
+                changes: Debounce::with_limit(options.watch_debounce, 8 * options.watch_debounce),
                 is_check_wanted: false,
                 unsettled_since: None,
                 told: None,
