@@ -168,8 +168,11 @@ impl<'a> Window<'a> {
         let name = widget.to_owned();
         let has = |e: &Value| e["rects"][&name].is_array();
         let mut layout = self.wait_until(&format!("the widget {widget}"), "layout", has);
-        // A popup finds its place in its second frame: look again until nothing moves any more.
-        while let Ok(event) = self.lines.recv_timeout(SETTLED) {
+        // A popup finds its place in its second frame: look again until nothing moves any more. While a picture plays its
+        // frames tell, however far apart; a paused window says nothing when it has come to rest.
+        let plays = |frame: Option<Value>| frame.is_some_and(|f| f["playing"] == true);
+        let patience = if plays(self.newest("frame")) { PATIENCE } else { SETTLED };
+        while let Ok(event) = self.lines.recv_timeout(patience) {
             self.events.push(event.clone());
             if event["event"] == "layout" && has(&event) {
                 layout = event;
