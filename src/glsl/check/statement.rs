@@ -89,8 +89,12 @@ impl Checker<'_> {
                 let init = self.take_statements(base);
                 let step = step.map(|step| self.expr(step));
                 self.loops += 1;
+                let errors = self.diagnostics.len();
                 let body = self.body(body);
                 self.loops -= 1;
+                if self.diagnostics.len() == errors {
+                    self.expect_end(test, body, loc);
+                }
                 self.pop_scope();
                 self.add_stmt(StmtKind::For { init, test, step, body }, loc);
             }
@@ -100,8 +104,12 @@ impl Checker<'_> {
                 let test = self.condition(cond, "the condition of `while`");
                 let init = self.take_statements(base);
                 self.loops += 1;
+                let errors = self.diagnostics.len();
                 let body = self.body(body);
                 self.loops -= 1;
+                if self.diagnostics.len() == errors {
+                    self.expect_end(test, body, loc);
+                }
                 self.pop_scope();
                 self.add_stmt(StmtKind::For { init, test, step: None, body }, loc);
             }
@@ -145,6 +153,29 @@ impl Checker<'_> {
             }
             S::Discard => self.add_stmt(StmtKind::Discard, loc),
         }
+    }
+
+    /// ANGLE, and with it the site, refuses `for` and `while` whose test is constant and true and that nothing leaves: such a
+    /// program never draws, and takes the device with it. It does not count `discard`.
+    fn expect_end(&mut self, test: Option<ExprId>, body: List<StmtId>, loc: Loc) {
+        let is_endless = test.is_none_or(|test| self.words(test) == Some(&[1]));
+        if is_endless && !self.leaves(body, true) {
+            self.error(loc, "this loop never ends: nothing in it breaks or returns");
+            self.hint("give it a condition, or write `if (...) break;` in it; `discard` does not end it on the site");
+        }
+    }
+
+    /// Whether a statement of the list ends the loop that it is in (`is_own`) or a loop further out.
+    fn leaves(&self, list: List<StmtId>, is_own: bool) -> bool {
+        self.module[list].iter().any(|id| match self.module[*id].kind {
+            StmtKind::Break => is_own,
+            StmtKind::Return(_) => true,
+            StmtKind::Block(list) => self.leaves(list, is_own),
+            StmtKind::If { then, otherwise, .. } => self.leaves(then, is_own) || self.leaves(otherwise, is_own),
+            StmtKind::For { body, .. } | StmtKind::DoWhile { body, .. } => self.leaves(body, false),
+            StmtKind::Switch { cases, .. } => self.module[cases].iter().any(|case| self.leaves(case.body, false)),
+            StmtKind::Expr(_) | StmtKind::Declare { .. } | StmtKind::Continue | StmtKind::Discard => false,
+        })
     }
 
     /// `x == 1;` where `x = 1;` was meant.

@@ -142,3 +142,13 @@ float f() { }
 float f(bool b) { if (b) return 1.0; }
 //error 6.4 array of another size returned | returns `float[2]`
 float[2] f() { return float[3](1.0, 2.0, 3.0); }
+//ok loops without a condition that something leaves
+int f(int n) { for (;;) { if (n > 3) { break; } n++; } while (true) { for (;;) { if (n == 0) return 1; n--; } } return 2; }
+int g(int n) { do { n++; } while (true); return n; }
+void h() { for (;;) { if (true) continue; break; } while (true, true) { } while (bool b = true) { } }
+//error a loop that nothing leaves | this loop never ends
+void f() { for (int i = 0; ; i++) { continue; } }
+//error a break that leaves only what is inside the loop | this loop never ends
+void f(int n) { while (1 < 2) { switch (n) { case 1: break; } for (;;) { break; } do { break; } while (true); } }
+//error discard ends no loop on the site | this loop never ends
+void f() { const bool on = true; while (on) { discard; } }
