@@ -6,7 +6,7 @@
 
 use eddy::{
     diag::SourceId,
-    glsl::{self, ChannelKind, PassKind, PassSource, Text},
+    glsl::{self, ChannelKind, PassKind, PassSource, Text, services::Analysis},
     project::{self, Input, PassId, Project},
 };
 use std::time::{Duration, Instant};
@@ -19,6 +19,10 @@ struct Row {
     lines: usize,
     /// Preprocessing, parsing and checking: what an editor waits for.
     check: Duration,
+    /// The same with all that an editor needs: what it makes anew after each keystroke.
+    analyse: Duration,
+    /// Completion in the last line of code, where most is in scope, and every colour.
+    ask: Duration,
     /// All of it, to the validated module; `None` where the pass has errors.
     compile: Option<Duration>,
 }
@@ -28,7 +32,7 @@ fn main() {
         Ok(list) => std::fs::read_to_string(&list).expect("the list can be read").lines().map(str::to_owned).collect(),
         Err(_) => project::presets::names().iter().map(|n| (*n).to_owned()).collect(),
     };
-    let mut rows = Vec::new();
+    let mut rows = vec![measure_long()];
     let mut unread = 0;
     for spec in &specs {
         match project::load(spec) {
@@ -39,8 +43,16 @@ fn main() {
             }
         }
     }
-    println!("{} projects ({unread} unreadable), {} passes", specs.len(), rows.len());
+    let long = &rows[0];
+    println!(
+        "{} ({} lines): parse and check {:?}, analysed {:?}, colours and a completion {:?}",
+        long.name, long.lines, long.check, long.analyse, long.ask
+    );
+    println!("{} projects ({unread} unreadable), {} passes", specs.len(), rows.len() - 1);
+    rows.remove(0);
     say("parse and check", &rows.iter().map(|r| (r.check, r)).collect::<Vec<_>>());
+    say("analysed for an editor", &rows.iter().map(|r| (r.analyse, r)).collect::<Vec<_>>());
+    say("colours and a completion", &rows.iter().map(|r| (r.ask, r)).collect::<Vec<_>>());
     say("to a validated module", &rows.iter().filter_map(|r| Some((r.compile?, r))).collect::<Vec<_>>());
 }
 
@@ -58,6 +70,26 @@ fn say(what: &str, times: &[(Duration, &Row)]) {
         worst.1.name,
         worst.1.lines
     );
+}
+
+/// A shader of two thousand lines: what an editor must keep up with.
+fn measure_long() -> Row {
+    let function = |i: usize| {
+        let callee = i.saturating_sub(1);
+        format!(
+            "// Distance to part {i}.\nfloat part{i}(vec3 p, float r) {{\n    vec3 q = abs(p - vec3({i}.0, 0.5, sin(iTime))) - r;\n    \
+             float d = length(max(q, 0.0)) + min(max(q.x, max(q.y, q.z)), 0.0);\n    for (int i = 0; i < 3; i++) {{\n        \
+             d = min(d, dot(q.xy, q.yz) * float(i));\n    }}\n    return {}d;\n}}\n\n",
+            if i == 0 { String::new() } else { format!("part{callee}(q, r) + ") }
+        )
+    };
+    let mut text: String = (0..200).map(function).collect();
+    text.push_str("void mainImage(out vec4 o, in vec2 p) {\n    o = vec4(part199(vec3(p, 1.0), 0.5));\n}\n");
+    let mut project = project::presets::load(project::presets::names()[0]).expect("a preset").project;
+    let index = project.passes.iter().position(|p| p.id == PassId::Image).expect("an Image");
+    project.common = None;
+    project.passes[index].source.text = text.into();
+    measure("two thousand lines", &project, index)
 }
 
 fn measure(spec: &str, project: &Project, index: usize) -> Row {
@@ -81,10 +113,18 @@ fn measure(spec: &str, project: &Project, index: usize) -> Row {
         bilinear_by_hand: [false; 4],
         tables_in_memory: false,
     };
+    let analysis = Analysis::new(&source);
+    let last_line = code.trim_end().trim_end_matches('}').len();
+    let ask = || {
+        std::hint::black_box(analysis.classes(SourceId(1)));
+        Some(analysis.completions(SourceId(1), last_line).matching("si"))
+    };
     Row {
         name: format!("{spec} {}", pass.id.title()),
         lines: source.common.iter().chain([&source.code]).map(|t| t.text.lines().count()).sum(),
         check: best(|| Some(glsl::diagnose(&source))).unwrap_or_default(),
+        analyse: best(|| Some(Analysis::new(&source))).unwrap_or_default(),
+        ask: best(ask).unwrap_or_default(),
         compile: best(|| glsl::compile(&source).ok()),
     }
 }

@@ -4,7 +4,7 @@
 
 use eddy::{
     diag::{SourceId, SourceMap, render_all},
-    glsl::{self, ChannelKind, PassKind, PassSource, Text},
+    glsl::{self, ChannelKind, PassKind, PassSource, Text, services::Analysis},
 };
 use std::time::{Duration, Instant};
 
@@ -288,6 +288,55 @@ fn any_text_gets_an_answer() {
     }
     println!("{cases} cases, {compiled} of them compiled");
     assert!(compiled > 0, "the damage leaves nothing to lower");
+}
+
+/// Everything an editor may ask about one place of a text.
+fn ask(analysis: &Analysis, text: &str, at: usize) {
+    let source = SourceId(0);
+    analysis.hover(source, at);
+    analysis.near(source, at);
+    analysis.definition(source, at);
+    for span in analysis.uses(source, at) {
+        assert!(text.get(span.range()).is_some_and(|name| !name.is_empty()), "{span:?} is no name");
+    }
+    analysis.signature_help(source, at);
+    let found = analysis.completions(source, at);
+    if let Some(typed) = text.get(found.replace.clone()) {
+        found.matching(typed);
+    }
+}
+
+#[test]
+fn editors_get_an_answer_at_any_place_of_any_text() {
+    let number = |name: &str| std::env::var(name).ok().and_then(|v| v.parse::<u64>().ok());
+    let seconds = number("EDDY_FUZZ_SECONDS");
+    let mut random = Random(number("EDDY_FUZZ_SEED").unwrap_or(0x9E37_79B9_7F4A_7C15));
+    let seeds = seeds();
+    let begin = Instant::now();
+    let mut cases = 0;
+    while seconds.map_or(cases < 400, |s| begin.elapsed() < Duration::from_secs(s)) {
+        let text = damaged(&mut random, &seeds);
+        cases += 1;
+        let places: Vec<usize> = (0..8).map(|_| random.below(text.len() + 2)).collect();
+        let result = std::panic::catch_unwind(|| {
+            let analysis = Analysis::new(&PassSource {
+                kind: PassKind::Image,
+                common: None,
+                code: Text { id: SourceId(0), text: &text },
+                channels: [ChannelKind::Sampler2D; 4],
+                bilinear_by_hand: [false; 4],
+                tables_in_memory: false,
+            });
+            let mut end = 0;
+            for span in analysis.classes(SourceId(0)) {
+                assert!(span.range.start >= end && span.range.end <= text.len(), "{span:?}");
+                assert!(text.get(span.range.clone()).is_some(), "{span:?} cuts a character");
+                end = span.range.end;
+            }
+            places.iter().for_each(|&at| ask(&analysis, &text, at));
+        });
+        assert!(result.is_ok(), "case {cases}, asked at {places:?}:\n{text}");
+    }
 }
 
 #[test]

@@ -419,6 +419,7 @@ pub enum QualifierKind {
 #[derive(Clone, Copy, Debug)]
 pub struct LayoutItem {
     pub name: Ident,
+    #[expect(dead_code, reason = "a pass has one output, so no location means anything")]
     pub value: Option<ExprId>,
 }
 
@@ -464,6 +465,7 @@ pub struct Field {
     pub qualifiers: List<Qualifier>,
     pub ty: TypeSpecId,
     pub declarators: List<Declarator>,
+    #[expect(dead_code, reason = "every node says where it stands")]
     pub loc: Loc,
 }
 

@@ -384,11 +384,6 @@ impl Swizzle {
         usize::from(self.0 >> 8)
     }
 
-    /// Never: there is at least one.
-    pub fn is_empty(self) -> bool {
-        false
-    }
-
     pub fn get(self, i: usize) -> usize {
         usize::from(self.0 >> (2 * i)) & 3
     }
@@ -417,6 +412,7 @@ impl std::fmt::Debug for Swizzle {
 #[derive(Clone, Copy, Debug)]
 pub struct Stmt {
     pub kind: StmtKind,
+    #[expect(dead_code, reason = "every node says where it stands")]
     pub loc: Loc,
 }
 

@@ -171,6 +171,11 @@ impl<'a> Lexer<'a> {
         Self { text, source, pos, splices, line_start: true, in_directive: false }
     }
 
+    /// The place between what was read and what comes next.
+    pub fn here(&mut self) -> Span {
+        self.span(self.pos, self.pos)
+    }
+
     /// Makes the end of this line a token, once.
     pub fn begin_directive(&mut self) {
         self.in_directive = true;

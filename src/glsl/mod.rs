@@ -5,12 +5,8 @@
 //! clock, and is not told which project a pass belongs to. What the generated module looks like from outside (bind groups,
 //! uniform block, entry point) is fixed in [`interface`], so that the GPU side can be written without reading this one.
 
-// The two trees are written for more readers than compile: editor services look at what lowering does not.
-#[allow(dead_code)]
 pub(crate) mod ast;
-#[allow(dead_code)]
 pub(crate) mod check;
-#[allow(dead_code)]
 pub(crate) mod hir;
 pub mod interface;
 mod lex;
@@ -20,6 +16,7 @@ pub(crate) mod parse;
 mod preprocess;
 pub mod reflection;
 mod report;
+pub mod services;
 
 pub use reflection::{ChannelUse, Reflection, UniformSet};
 

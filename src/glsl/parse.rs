@@ -8,7 +8,7 @@
 //! a statement, a declaration), leaves an `Error` node there and goes on. A message is not repeated for the same token, and
 //! nothing is said about operands that the preprocessor has reported.
 
-mod brackets;
+pub(super) mod brackets;
 mod decl;
 mod expr;
 mod function;

@@ -23,6 +23,8 @@ use super::{
     report::Report,
 };
 use crate::diag::{Diagnostic, Severity, Span};
+#[cfg(test)]
+pub(super) use directive::DIRECTIVES;
 use lines::LineCount;
 pub(super) use lines::Unit;
 

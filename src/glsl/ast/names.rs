@@ -40,10 +40,6 @@ impl Interner {
         self.ends.len()
     }
 
-    pub fn is_empty(&self) -> bool {
-        self.ends.is_empty()
-    }
-
     /// The text of a symbol of this interner.
     #[inline]
     pub fn get(&self, symbol: Symbol) -> &str {
@@ -72,11 +68,6 @@ impl Interner {
             self.grow();
         }
         symbol
-    }
-
-    /// All symbols with their texts, oldest first.
-    pub fn iter(&self) -> impl Iterator<Item = (Symbol, &str)> {
-        (0..self.ends.len() as u32).map(|i| (Symbol(i), self.get(Symbol(i))))
     }
 
     #[inline]

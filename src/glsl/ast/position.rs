@@ -101,6 +101,8 @@ pub struct Origins {
     pub macros: Vec<MacroDef>,
     /// Every macro name used in the running text, in a directive, or in a replacement list that was expanded; for editors.
     pub macro_uses: Vec<(Span, MacroId)>,
+    /// Lines that an `#if` leaves out, its directives not among them; for editors.
+    pub inactive: Vec<Span>,
 }
 
 impl Origins {

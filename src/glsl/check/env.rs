@@ -11,7 +11,7 @@ use scope::Binding;
 
 /// Which header stands before the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Env {
+pub(in crate::glsl) enum Env {
     Pass(PassKind),
     /// Common alone: `iDate` and `iSampleRate`. The rest is in scope too, but naming it is noted.
     Common,
@@ -19,7 +19,7 @@ pub(super) enum Env {
 
 impl Env {
     /// Whether this text may name a uniform.
-    fn has(self, uniform: Uniform) -> bool {
+    pub(in crate::glsl) fn has(self, uniform: Uniform) -> bool {
         use Uniform as U;
         match self {
             Env::Common => uniform != U::ChannelLoaded,
@@ -33,7 +33,7 @@ impl Env {
 }
 
 /// The built-in constants of section 7.3, at the least values the specification promises.
-const LIMITS: [(&str, i32); 11] = [
+pub(in crate::glsl) const LIMITS: [(&str, i32); 11] = [
     ("gl_MaxVertexAttribs", 16),
     ("gl_MaxVertexUniformVectors", 256),
     ("gl_MaxVertexOutputVectors", 16),
@@ -51,25 +51,35 @@ const LIMITS: [(&str, i32); 11] = [
 pub(super) const MIN_OFFSET: i32 = -8;
 pub(super) const MAX_OFFSET: i32 = 7;
 
-const VARIABLES: [(&str, BuiltinVar); 4] = [
+pub(in crate::glsl) const VARIABLES: [(&str, BuiltinVar); 4] = [
     ("gl_FragCoord", BuiltinVar::FragCoord),
     ("gl_FrontFacing", BuiltinVar::FrontFacing),
     ("gl_PointCoord", BuiltinVar::PointCoord),
     ("gl_FragDepth", BuiltinVar::FragDepth),
 ];
 
-const CHANNELS: [&str; 4] = ["iChannel0", "iChannel1", "iChannel2", "iChannel3"];
-const CHANNEL_STRUCTS: [&str; 4] = ["iCh0", "iCh1", "iCh2", "iCh3"];
+pub(in crate::glsl) const CHANNELS: [&str; 4] = ["iChannel0", "iChannel1", "iChannel2", "iChannel3"];
+pub(in crate::glsl) const CHANNEL_STRUCTS: [&str; 4] = ["iCh0", "iCh1", "iCh2", "iCh3"];
+
+/// Names that the language or the site gives besides functions and uniforms.
+#[cfg(test)]
+pub(in crate::glsl) fn names() -> impl Iterator<Item = &'static str> {
+    let entries = [PassKind::Image, PassKind::Cubemap, PassKind::Sound].map(|kind| entry(kind).name);
+    let limits = LIMITS.iter().map(|l| l.0);
+    let variables = VARIABLES.iter().map(|v| v.0);
+    let channels = CHANNELS.into_iter().chain(CHANNEL_STRUCTS);
+    limits.chain(variables).chain(channels).chain(entries).chain(["gl_DepthRange", "iGlobalTime"])
+}
 
 /// Name and signature of a kind's entry point; `usage` is what an author has to write.
-pub(super) struct Entry {
+pub(in crate::glsl) struct Entry {
     pub name: &'static str,
     pub result: TypeId,
     pub params: &'static [(LocalKind, TypeId)],
     pub usage: &'static str,
 }
 
-pub(super) fn entry(kind: PassKind) -> Entry {
+pub(in crate::glsl) fn entry(kind: PassKind) -> Entry {
     use LocalKind::{In, Out};
     match kind {
         PassKind::Image | PassKind::Buffer => Entry {

@@ -8,7 +8,7 @@ use crate::glsl::{
 
 /// A parameter's or result's type in an overload. Sizes and matrices agree within one overload.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Pattern {
+pub(in crate::glsl) enum Pattern {
     /// `genType`, `genIType`, `genUType`, `genBType`: a scalar or vector.
     Gen(Scalar),
     /// `vec`, `ivec`, `uvec`, `bvec`: a vector.
@@ -27,7 +27,7 @@ pub(super) enum Pattern {
 }
 
 #[derive(Debug)]
-pub(super) struct Overload {
+pub(in crate::glsl) struct Overload {
     pub result: Pattern,
     pub params: &'static [Pattern],
 }
@@ -72,7 +72,7 @@ macro_rules! overloads {
 
 /// Every overload of a built-in, the commoner ones first.
 #[rustfmt::skip]
-pub(super) fn of(builtin: Builtin) -> &'static [Overload] {
+pub(in crate::glsl) fn of(builtin: Builtin) -> &'static [Overload] {
     use Builtin as X;
     match builtin {
         X::Radians | X::Degrees | X::Sin | X::Cos | X::Tan | X::Asin | X::Acos | X::Sinh | X::Cosh | X::Tanh | X::Asinh
@@ -203,6 +203,13 @@ impl Overload {
         let mut bound = Bound { size: 0, matrix: TypeId::ERROR, texel: Scalar::Float };
         let fits = self.params.iter().zip(args).all(|(&pattern, &arg)| bind(pattern, arg, &mut bound, types));
         fits.then(|| instance(self.result, bound, types))
+    }
+
+    /// Whether these can be the first arguments.
+    pub fn begins_with(&self, args: &[TypeId], types: &TypeTable) -> bool {
+        let mut bound = Bound { size: 0, matrix: TypeId::ERROR, texel: Scalar::Float };
+        args.len() <= self.params.len()
+            && self.params.iter().zip(args).all(|(&pattern, &arg)| bind(pattern, arg, &mut bound, types))
     }
 
     /// The parameters' types where generic ones have `size` components; samplers and matrices as the arguments have them.

@@ -15,6 +15,7 @@ pub struct Global {
     /// The folded value: always for `Const`; for others where `init` is constant (then lowering may use either).
     pub value: Option<ConstId>,
     /// The whole declaration.
+    #[expect(dead_code, reason = "every node says where it stands")]
     pub loc: Loc,
     pub flags: VarFlags,
 }
@@ -118,11 +119,6 @@ impl LocalKind {
     /// The argument is written at return, and must be a place.
     pub fn copies_out(self) -> bool {
         matches!(self, LocalKind::Out | LocalKind::Inout)
-    }
-
-    /// The argument is read at the call.
-    pub fn copies_in(self) -> bool {
-        matches!(self, LocalKind::In | LocalKind::ConstIn | LocalKind::Inout)
     }
 }
 

@@ -125,10 +125,6 @@ impl TypeTable {
         self.types.len()
     }
 
-    pub fn is_empty(&self) -> bool {
-        self.types.is_empty()
-    }
-
     pub fn array(&mut self, element: TypeId, len: u32) -> TypeId {
         *self.arrays.entry((element, len)).or_insert_with(|| {
             self.types.push(Type::Array { element, len });
@@ -217,6 +213,7 @@ pub struct Struct {
     pub name: Option<Ident>,
     pub ty: TypeId,
     pub members: List<StructMember>,
+    #[expect(dead_code, reason = "every node says where it stands")]
     pub loc: Loc,
 }
 

@@ -68,6 +68,11 @@ const RESERVED: &[&str] = &[
 ];
 
 /// An interner that knows all words of the language.
+/// Every keyword that is no type.
+pub(in crate::glsl) fn keywords() -> impl Iterator<Item = &'static str> {
+    KEYWORDS.iter().map(|k| k.0)
+}
+
 pub(in crate::glsl) fn interner() -> Interner {
     static SEEDED: LazyLock<Interner> = LazyLock::new(|| {
         Interner::seeded(

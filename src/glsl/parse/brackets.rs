@@ -4,12 +4,12 @@
 use super::super::{lex::Kind, preprocess::Tok};
 
 /// The partner of a bracket that has none.
-pub(super) const ALONE: u32 = u32::MAX;
+pub(in crate::glsl) const ALONE: u32 = u32::MAX;
 
 /// Writes into each bracket's value the index of its partner, or [`ALONE`]. Text with mistakes is paired the way its author
 /// most likely meant it: a closing brace closes what is still open inside it, a semicolon or an opening brace ends
 /// parentheses (but those of `for` hold semicolons).
-pub(super) fn pair(tokens: &mut [Tok]) {
+pub(in crate::glsl) fn pair(tokens: &mut [Tok]) {
     let mut open: Vec<u32> = Vec::new();
     for i in 0..tokens.len() {
         match tokens[i].kind {

@@ -4,7 +4,7 @@
 use super::*;
 use crate::glsl::near::nearest;
 
-const DIRECTIVES: [&str; 13] = [
+pub(in crate::glsl) const DIRECTIVES: [&str; 13] = [
     "define",
     "undef",
     "if",
@@ -145,10 +145,15 @@ impl Preprocessor<'_, '_> {
     /// Leaves out lines up to the group of the innermost conditional that is to be compiled, or its end.
     fn skip(&mut self) {
         let mut depth = 0;
+        let mut from = self.lexers[self.current].here();
         loop {
-            if !self.lexers[self.current].skip_to_directive() {
+            let found = self.lexers[self.current].skip_to_directive();
+            let here = self.lexers[self.current].here();
+            if !found {
+                self.leave_out(from.to(here));
                 if self.current + 1 < self.lexers.len() {
                     self.current += 1;
+                    from = self.lexers[self.current].here();
                     continue;
                 }
                 return;
@@ -160,16 +165,26 @@ impl Preprocessor<'_, '_> {
                 "if" | "ifdef" | "ifndef" => depth += 1,
                 "endif" if depth > 0 => depth -= 1,
                 "elif" | "else" | "endif" if depth == 0 => {
+                    // The `#` was read.
+                    self.leave_out(Span { end: here.end.saturating_sub(1).max(from.start), ..from });
                     let line = self.line_tokens();
                     let compiled = self.next_group(&name, &line);
                     self.recycle(line);
                     if compiled {
                         return;
                     }
+                    from = self.lexers[self.current].here();
                 }
                 _ => {}
             }
             self.lexers[self.current].end_directive();
+        }
+    }
+
+    /// Notes text that is not compiled.
+    fn leave_out(&mut self, span: Span) {
+        if span.start < span.end {
+            self.origins.inactive.push(span);
         }
     }
 

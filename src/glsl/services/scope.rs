@@ -1,0 +1,188 @@
+//! Which names mean something at a place, broken text or not.
+//!
+//! The checker's scopes are gone when it is done, and it sees no half statement. What it did understand (functions, their
+//! locals, globals) is joined here with the brackets of the text as written.
+
+use super::{Analysis, symbols::Target, text::Source};
+use crate::glsl::{
+    PassKind,
+    ast::{Symbol, TokenId},
+    check::env::{self, Env},
+    hir::{Builtin, DeclRef, FuncId, GlobalId, LocalId, StructId, Uniform},
+    lex::Kind,
+};
+
+/// A place in the texts of a pass: later texts come after earlier ones.
+pub(super) type Place = (usize, u32);
+
+impl Analysis {
+    /// Place of a token as the compiler reads: for what a macro brought in, where the macro is used.
+    pub(super) fn place_of(&self, token: TokenId) -> Option<Place> {
+        let span = self.origins.token_span(token);
+        Some((self.source_index(span.source)?, span.start))
+    }
+
+    /// The function whose header or body a place is in.
+    pub(super) fn function_at(&self, at: Place) -> Option<FuncId> {
+        let functions = self.module.functions.iter().enumerate().filter(|(_, f)| f.body.is_some());
+        let begun = functions.filter_map(|(i, f)| {
+            let start = self.place_of(f.header.first)?;
+            (start.0 == at.0 && start.1 <= at.1).then_some((start.1, i))
+        });
+        begun.max().map(|(_, i)| FuncId::new(i))
+    }
+
+    /// Locals and parameters that can be named at a place, outermost first; of two of a name the later hides the earlier.
+    pub(super) fn locals_at(&self, at: Place) -> Vec<LocalId> {
+        let Some(function) = self.function_at(at) else { return Vec::new() };
+        let locals = self.module[function].locals.clone();
+        locals.map(|i| LocalId::new(i as usize)).filter(|&id| self.is_visible(id, at)).collect()
+    }
+
+    /// Whether a place lies in the scope of a local of the function around it.
+    fn is_visible(&self, id: LocalId, at: Place) -> bool {
+        let Some(name) = self.module[id].name else { return false };
+        let Some((source, start)) = self.place_of(name.token) else { return false };
+        if source != at.0 || start >= at.1 {
+            return false;
+        }
+        let text = &self.sources[source];
+        let first = text.first_from(start as usize);
+        if text.tokens.get(first).is_none_or(|t| t.start != start) {
+            return false;
+        }
+        let scope = scope_of(text, first);
+        scope.0 <= at.1 && at.1 <= scope.1
+    }
+
+    /// What a name stands for at a place; `called`: it is followed by arguments.
+    pub(super) fn look_up(&self, symbol: Symbol, at: Place, called: bool) -> Option<Target> {
+        if let Some(id) = self.macro_at(symbol, at)
+            && (called || !self.origins[id].function_like)
+        {
+            return Some(Target::Macro(id));
+        }
+        let function = self.function_at(at);
+        let own = function.map(|f| self.module[f].locals.clone()).unwrap_or_default();
+        let local = self
+            .symbols
+            .locals(symbol)
+            .filter(|id| own.contains(&(id.index() as u32)) && self.is_visible(*id, at))
+            .last();
+        if let Some(id) = local {
+            return Some(Target::Decl(DeclRef::Local(id)));
+        }
+        let is_before = |token: TokenId| self.place_of(token).is_some_and(|place| place <= at);
+        let of_structs = self.module.structs.iter().rposition(|s| {
+            s.name.is_some_and(|n| n.symbol == symbol && is_before(n.token))
+                && !self.names.get(symbol).starts_with("gl_")
+        });
+        if let Some(i) = of_structs {
+            return Some(Target::Decl(DeclRef::Struct(StructId::new(i))));
+        }
+        let globals = self.module.globals.iter().rposition(|g| g.name.symbol == symbol && is_before(g.name.token));
+        if let Some(i) = globals {
+            return Some(Target::Decl(DeclRef::Global(GlobalId::new(i))));
+        }
+        if let Some(id) = self.overloads_of(symbol, at).next() {
+            return Some(Target::Decl(DeclRef::Func(id)));
+        }
+        self.given(symbol).map(Target::Decl)
+    }
+
+    /// User functions of a name that are declared before a place.
+    pub(super) fn overloads_of(&self, symbol: Symbol, at: Place) -> impl Iterator<Item = FuncId> {
+        self.functions_before(at).filter(move |&id| self.module[id].name.symbol == symbol)
+    }
+
+    /// User functions that are declared before a place.
+    pub(super) fn functions_before(&self, at: Place) -> impl Iterator<Item = FuncId> {
+        let is_before = move |token: TokenId| self.place_of(token).is_some_and(|place| place <= at);
+        let functions = self.module.functions.iter().enumerate();
+        functions
+            .filter(move |(_, f)| f.declared_at.first().is_some_and(|&token| is_before(token)))
+            .map(|(i, _)| FuncId::new(i))
+    }
+
+    /// The macro of a name that was defined last before a place. An `#undef` in between is passed over: a name that was a
+    /// macro once is more likely meant than none.
+    pub(super) fn macro_at(&self, symbol: Symbol, at: Place) -> Option<crate::glsl::ast::MacroId> {
+        let found = self.origins.macros.iter().rposition(|def| {
+            def.name == symbol
+                && def
+                    .name_at
+                    .is_none_or(|span| self.source_index(span.source).is_some_and(|source| (source, span.start) <= at))
+        })?;
+        Some(crate::glsl::ast::MacroId::new(found))
+    }
+
+    /// What the language and the site give under a name.
+    fn given(&self, symbol: Symbol) -> Option<DeclRef> {
+        if let Some(builtin) = Builtin::from_symbol(symbol) {
+            return (builtin != Builtin::StAssert || self.kind == PassKind::Image).then_some(DeclRef::Builtin(builtin));
+        }
+        if let Some(uniform) = Uniform::from_symbol(symbol) {
+            return Env::Pass(self.kind).has(uniform).then_some(DeclRef::Uniform(uniform));
+        }
+        let name = self.names.get(symbol);
+        if let Some(i) = env::CHANNELS.iter().position(|c| *c == name) {
+            return Some(DeclRef::Channel(i as u8));
+        }
+        if self.kind == PassKind::Image
+            && let Some(i) = env::CHANNEL_STRUCTS.iter().position(|c| *c == name)
+        {
+            return Some(DeclRef::ChannelStruct(i as u8));
+        }
+        if let Some((_, var)) = env::VARIABLES.iter().find(|v| v.0 == name) {
+            return Some(DeclRef::BuiltinVar(*var));
+        }
+        env::LIMITS.iter().any(|l| l.0 == name).then_some(DeclRef::BuiltinConst(symbol))
+    }
+}
+
+/// From where to where a variable can be named whose name is token `name`.
+fn scope_of(text: &Source, name: usize) -> (u32, u32) {
+    let end_of_text = text.text.len() as u32;
+    let mut around = text.around(name);
+    // Its own dimensions or a group inside its declaration.
+    while around.is_some_and(|i| text.kind(i) == Kind::LBracket) {
+        around = around.and_then(|i| text.around(i));
+    }
+    let Some(open) = around else { return (text.tokens[name].end, end_of_text) };
+    if text.kind(open) == Kind::LBrace {
+        let end = text.partner(open).map_or(end_of_text, |close| text.tokens[close].start);
+        return (end_of_declarator(text, name), end);
+    }
+    // A parameter, or what a loop declares: up to the end of the statement behind the parentheses.
+    let from = text.tokens[name].end;
+    let Some(close) = text.partner(open) else { return (from, end_of_text) };
+    let level = text.around(open);
+    for i in close + 1..text.tokens.len() {
+        if text.around(i) != level {
+            continue;
+        }
+        match text.kind(i) {
+            Kind::LBrace => {
+                return (from, text.partner(i).map_or(end_of_text, |end| text.tokens[end].start));
+            }
+            Kind::Semicolon => return (from, text.tokens[i].end),
+            Kind::RBrace => return (from, text.tokens[i].start),
+            _ => {}
+        }
+    }
+    (from, end_of_text)
+}
+
+/// A variable is in scope behind its initialiser (section 4.2.2). Where that is not finished, the next line ends it.
+fn end_of_declarator(text: &Source, name: usize) -> u32 {
+    let level = text.around(name);
+    for i in name + 1..text.tokens.len() {
+        let token = &text.tokens[i];
+        let ends = matches!(token.kind, Kind::Comma | Kind::Semicolon) && text.around(i) == level;
+        let begins = token.starts_line && (token.kind as u8 >= Kind::Type as u8 || token.kind == Kind::RBrace);
+        if ends || begins {
+            return token.start;
+        }
+    }
+    text.tokens[name].end
+}

@@ -1,0 +1,75 @@
+//! Any text, any place: an answer, and no panic.
+
+use super::Marked;
+use crate::glsl::services::Analysis;
+
+/// Asks everything at every place of both texts.
+fn ask_all(m: &Marked) {
+    let analysis: Analysis = m.analysis();
+    for (source, text) in [(super::COMMON, &m.common), (super::CODE, &m.code)] {
+        analysis.classes(source);
+        for at in 0..=text.len() + 2 {
+            analysis.hover(source, at);
+            analysis.near(source, at);
+            let declared = analysis.definition(source, at);
+            let uses = analysis.uses(source, at);
+            assert!(declared.is_none_or(|span| uses.contains(&span) || !uses.is_empty()), "{at} in {text}");
+            let found = analysis.completions(source, at);
+            if text.is_char_boundary(at) && at <= text.len() {
+                found.matching(&text[found.replace.clone()]);
+            }
+            analysis.signature_help(source, at);
+        }
+    }
+}
+
+const WHOLE: &str = "#define R iResolution\n#define F(a, b) (a + b)\nstruct S { vec3 p; float d[2]; };\nfloat g(in vec3 p, inout float t);\nfloat g(in vec3 p, inout float t) { t += p.x; return F(t, R.x); }\n#if 0\nleft out\n#else\nvoid mainImage(out vec4 o, in vec2 u) {\n  S s = S(vec3(u, 1.), float[2](1., 2.)); float t = 0.;\n  for (int i = 0; i < 2; i++) { t += s.d[i]; /* c */ }\n  o = vec4(g(s.p.zyx, t), texture(iChannel0, u / R.xy).rgb);\n}\n#endif\n";
+
+#[test]
+fn every_place_of_a_text_can_be_asked() {
+    ask_all(&Marked::new("const float K = 1.; // é\n", &format!("@{WHOLE}")));
+}
+
+#[test]
+fn a_text_may_end_anywhere() {
+    for end in (0..WHOLE.len()).step_by(7) {
+        ask_all(&Marked::new("#define X", &format!("{}@", &WHOLE[..end])));
+    }
+}
+
+#[test]
+fn odd_texts_are_no_trouble() {
+    for code in [
+        "@",
+        "\u{feff}@",
+        "(@",
+        "}@",
+        ".@",
+        "a.@.b",
+        "#@",
+        "#define",
+        "#define F(",
+        "#define F(a) F(a)\nF(F(1).@",
+        "#define A B.\n#define B A.\nA.@",
+        "f(f(f(f(@",
+        "a[a[a[@",
+        "/*@",
+        "//@",
+        "\"@\"",
+        "é.@x",
+        "x\\\n.@y",
+        "#if\n@",
+        "#if 1\n#else\n@",
+        "struct S { S s; } s; s.@s.s",
+        "float f(float",
+        "void f(a b c) {@",
+        "vec3(vec3(vec3(.@",
+        "iCh0.@.x",
+        "gl_DepthRange.near@",
+    ] {
+        let code = if code.contains('@') { code.to_owned() } else { format!("{code}@") };
+        ask_all(&Marked::code(&code));
+    }
+    ask_all(&Marked::code(&format!("{}@", "(".repeat(500))));
+    ask_all(&Marked::code(&format!("void f() {{ {}x@", "(".repeat(300))));
+}
