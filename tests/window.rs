@@ -77,7 +77,7 @@ fn compiled(window: &mut Window, ok: bool) -> serde_json::Value {
 
 /// The colour in the middle of the picture as the screenshot key saves it.
 fn colour(window: &mut Window) -> [u8; 3] {
-    let picture = image::open(saved(window, "F12")).unwrap().to_rgb8();
+    let picture = image::open(saved(window, "ctrl+p")).unwrap().to_rgb8();
     picture.get_pixel(picture.width() / 2, picture.height() / 2).0
 }
 

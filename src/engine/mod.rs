@@ -10,5 +10,5 @@ mod run;
 mod targets;
 
 pub use inputs::FrameInputs;
-pub use program::{BuildError, BuildOptions, Built, Program, compile_pass};
+pub use program::{BuildError, BuildOptions, Built, Program, channel_kinds, compile_pass, pass_kind};
 pub use run::{Engine, EngineError, FrameStats, PassTime, Pixels};

@@ -193,18 +193,28 @@ pub fn compile_pass(
     let common = project.common.as_ref().map(|c| c.compile_text());
     let code = pass.source.compile_text();
     glsl::compile(&PassSource {
-        kind: match pass.id {
-            PassId::Image => PassKind::Image,
-            PassId::Buffer(_) => PassKind::Buffer,
-            PassId::Cubemap => PassKind::Cubemap,
-            PassId::Sound => PassKind::Sound,
-        },
+        kind: pass_kind(&pass.id),
         common: common.as_deref().map(|text| Text { id: SourceId(0), text }),
         code: Text { id: SourceId(index as u16 + 1), text: &code },
-        channels: std::array::from_fn(|i| kind_of(pass.channels[i].as_ref())),
+        channels: channel_kinds(pass),
         bilinear_by_hand,
         tables_in_memory,
     })
+}
+
+/// What the compiler calls a pass.
+pub fn pass_kind(id: &PassId) -> PassKind {
+    match id {
+        PassId::Image => PassKind::Image,
+        PassId::Buffer(_) => PassKind::Buffer,
+        PassId::Cubemap => PassKind::Cubemap,
+        PassId::Sound => PassKind::Sound,
+    }
+}
+
+/// The types `iChannel0..3` of a pass are declared with.
+pub fn channel_kinds(pass: &crate::project::Pass) -> [ChannelKind; 4] {
+    std::array::from_fn(|i| kind_of(pass.channels[i].as_ref()))
 }
 
 /// A cubemap pass is not drawn, so a channel that reads it is as one whose file is missing.

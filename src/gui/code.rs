@@ -1,10 +1,11 @@
 //! The editor's side of the window: which tab is in front, its text, finding in it, the list of problems below.
 
 use super::{
-    editor::{CodeEditor, Look, Mark, Query},
+    editor::{Ask, CodeEditor, Help, Look, Mark, Query},
     icons::{self, Icon},
     outbox::{Outbox, Wish},
     problems, tabs, theme,
+    uses::Uses,
 };
 use crate::{
     diag::Severity,
@@ -30,6 +31,9 @@ pub struct CodePanel {
     bar_takes_focus: bool,
     /// Which problem was jumped to last.
     problem: Option<usize>,
+    uses: Option<Uses>,
+    /// The tab the session was told is in front.
+    told_front: Option<Tab>,
 }
 
 #[derive(Default)]
@@ -53,11 +57,18 @@ impl CodePanel {
             go_to_line: None,
             bar_takes_focus: false,
             problem: None,
+            uses: None,
+            told_front: None,
         }
     }
 
     pub fn current(&self) -> &Tab {
         &self.current
+    }
+
+    /// The text has the keyboard.
+    pub fn has_keys(&self, ctx: &egui::Context) -> bool {
+        ctx.memory(|m| m.has_focus(Self::id(&self.current)))
     }
 
     pub fn id(tab: &Tab) -> Id {
@@ -131,6 +142,7 @@ impl CodePanel {
             if !kept {
                 self.editors.clear();
                 self.problem = None;
+                self.uses = None;
                 self.current = Tab::Pass(PassId::Image);
             }
             self.project = (project.name.clone(), project.origin.clone());
@@ -174,6 +186,11 @@ impl CodePanel {
             .show_separator_line(false)
             .resizable(false)
             .show(ui, |ui| problems::show(ui, session, (room * 0.35).min(150.0), out));
+        self.show_uses(ui, session, out);
+        if self.told_front.as_ref() != Some(&self.current) {
+            self.told_front = Some(self.current.clone());
+            out.ask(Command::BringToFront(self.current.clone()));
+        }
         self.editor(ui, session, out);
     }
 
@@ -182,7 +199,12 @@ impl CodePanel {
         let matches = self.find.as_ref().map(|f| f.matches.as_slice()).unwrap_or_default();
         let shared = if self.current == Tab::Common { "" } else { session.text(&Tab::Common) };
         let Some(editor) = self.editors.get_mut(&self.current) else { return };
-        let look = Look { font_size: self.font_size, marks: &marks, matches, shared };
+        let analysis = session.analysis().filter(|a| a.front == self.current);
+        let help = analysis.and_then(|a| {
+            let source = a.source_of(&self.current)?;
+            Some(Help { analysis: &a.analysis, source, classes: &a.classes, text: a.text() })
+        });
+        let look = Look { font_size: self.font_size, marks: &marks, matches, shared, help };
         let shown = editor.show(ui, Self::id(&self.current), look);
         out.place("editor", shown.text_rect);
         for (line, rect) in shown.marked {
@@ -191,6 +213,46 @@ impl CodePanel {
         if shown.changed {
             out.ask(Command::EditText { tab: self.current.clone(), text: editor.buffer.text().to_owned() });
             self.problem = None;
+            // Its places are of the old text.
+            self.uses = None;
+        }
+        for (name, rect) in shown.placed {
+            out.place(name, rect);
+        }
+        for ask in shown.asks {
+            let (Some(analysis), Some(help)) = (analysis, help) else { break };
+            match ask {
+                Ask::GoTo(span) => self.show_range(analysis.tab_of(span.source), span.range()),
+                Ask::ListUses(at) => self.uses = Uses::new(session, session.uses(analysis, help.source, at)),
+            }
+            ui.ctx().request_repaint();
+        }
+    }
+
+    /// Selects bytes of a tab's text.
+    fn show_range(&mut self, tab: Tab, range: Range<usize>) {
+        if let Some(editor) = self.editors.get_mut(&tab) {
+            editor.show_range(range);
+            self.current = tab;
+        }
+    }
+
+    fn show_uses(&mut self, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+        let Some(uses) = &mut self.uses else { return };
+        let frame = Frame::NONE.fill(theme::PANEL);
+        let limit = (ui.available_height() * 0.35).min(160.0);
+        let shown = Panel::bottom("uses")
+            .frame(frame)
+            .show_separator_line(false)
+            .resizable(false)
+            .show(ui, |ui| uses.show(ui, session, limit, out));
+        let shown = shown.inner;
+        if let Some((tab, range)) = shown.go_to {
+            self.show_range(tab, range);
+        }
+        if shown.closed {
+            self.uses = None;
+            self.focus();
         }
     }
 

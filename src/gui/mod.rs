@@ -28,6 +28,7 @@ mod thumbnails;
 mod toasts;
 mod top_bar;
 mod transport;
+mod uses;
 mod viewport;
 
 pub use app::run;

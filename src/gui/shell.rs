@@ -162,10 +162,15 @@ impl Shell {
 
     /// The window's own keys, taken before any widget sees them.
     fn keys(&self, ui: &Ui, out: &mut Outbox) {
+        let code_has_keys = self.code.has_keys(ui.ctx());
         ui.input_mut(|i| {
             i.events.retain(|event| {
                 let egui::Event::Key { key, modifiers, pressed: true, repeat, .. } = event else { return true };
                 let Some(action) = shortcuts::action(*key, *modifiers) else { return true };
+                // The code's own meaning of a key comes first while one types.
+                if code_has_keys && shortcuts::is_of_editor(*key, *modifiers) {
+                    return true;
+                }
                 let repeats = matches!(action, Action::Step | Action::FontLarger | Action::FontSmaller);
                 if !repeat || repeats {
                     out.wishes.push(Wish::Act(action));

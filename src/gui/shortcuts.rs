@@ -55,7 +55,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
     shortcut(ALT, Key::Period, Action::Step, "One frame forward"),
     shortcut(ALT, Key::ArrowLeft, Action::TabLeft, "Tab to the left"),
     shortcut(ALT, Key::ArrowRight, Action::TabRight, "Tab to the right"),
-    shortcut(NONE, Key::F12, Action::Screenshot, "Save a picture (PNG) of the shown pass"),
+    shortcut(NONE, Key::F12, Action::Screenshot, "Save a picture (PNG) of the shown pass (F12: not while typing)"),
     shortcut(CTRL, Key::P, Action::Screenshot, ""),
     shortcut(CTRL_SHIFT, Key::S, Action::SaveTexels, "Save the shown pass's float texels (.npy)"),
     shortcut(NONE, Key::F11, Action::Fullscreen, "Picture alone, full screen"),
@@ -80,6 +80,10 @@ pub const SHORTCUTS: &[Shortcut] = &[
 
 /// Keys of the editor itself, for the help.
 pub const EDITOR_KEYS: &[(&str, &str)] = &[
+    ("F12, Ctrl+click", "In the code: go to where a name is declared"),
+    ("Shift+F12", "List every use of a name"),
+    ("Ctrl+Space", "Propose names; Enter or Tab takes one, Escape closes"),
+    ("Ctrl+Shift+Space", "Show what the call around the caret takes"),
     ("Ctrl+/", "Comment lines in or out"),
     ("Tab, Shift+Tab", "Indent or unindent lines"),
     ("Ctrl+Z, Ctrl+Shift+Z", "Undo, redo"),
@@ -87,6 +91,11 @@ pub const EDITOR_KEYS: &[(&str, &str)] = &[
     ("Ctrl+L", "Select the line"),
     ("Ctrl+Left, Ctrl+Right", "Word by word"),
 ];
+
+/// Whether the code has a meaning of its own for a key that otherwise is the window's.
+pub fn is_of_editor(key: Key, modifiers: Modifiers) -> bool {
+    key == Key::F12 && (modifiers.is_none() || modifiers.shift_only())
+}
 
 /// What a key press means to the window.
 pub fn action(key: Key, modifiers: Modifiers) -> Option<Action> {

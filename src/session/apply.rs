@@ -23,7 +23,14 @@ impl Session {
             | Command::SaveAsCancelled
             | Command::Close
             | Command::Answer(_) => self.apply_to_files(command),
-            Command::EditText { tab, text } => self.edit_text(&tab, &text),
+            Command::EditText { tab, text } => {
+                self.edit_text(&tab, &text);
+                self.analyse();
+            }
+            Command::BringToFront(tab) => {
+                self.bring_to_front(tab);
+                self.analyse();
+            }
             Command::CompileNow => self.compile_soon(),
             Command::Play => self.play(),
             Command::Pause => self.run.clock.pause(),

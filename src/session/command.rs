@@ -24,6 +24,9 @@ pub enum Command {
         tab: Tab,
         text: String,
     },
+    /// The tab that is being edited: its text is analysed after each change, see
+    /// [`Session::analysis`](super::Session::analysis).
+    BringToFront(Tab),
     /// Compiles at once.
     CompileNow,
     Play,

@@ -23,6 +23,8 @@ impl Session {
         self.check_disk();
         self.start_compile();
         self.take_compiled();
+        self.analyse();
+        self.take_analysed();
         self.fit_canvas();
         let frame_drawn = self.draw_due_frames();
         Tick { frame_drawn, wake_at: self.wake_at(), changed: std::mem::take(&mut self.changed) }

@@ -5,6 +5,7 @@
 //! window. A front end hands it [`Command`]s and calls [`Session::tick`]; everything it shows it reads from
 //! `&Session`. Draws no widget and knows no window.
 
+mod analysis;
 mod apply;
 pub mod capture;
 pub mod clock;
@@ -26,6 +27,7 @@ pub mod view;
 mod watch;
 mod worker;
 
+pub use analysis::TabAnalysis;
 pub use command::{Answer, Command, DiffLine, Question, Request, Then};
 pub use state::{Session, SessionError, SessionOptions};
 pub use view::{CompileState, Level, Notice, Outcome, TabDiagnostic, Tick, Transport};

@@ -2,6 +2,7 @@
 //! `files` and `reload`.
 
 use super::{
+    analysis::Analyst,
     clock::Clock,
     command::{Question, Request, Then},
     compile::{self, MediaState},
@@ -68,6 +69,7 @@ pub struct Session {
     pub(super) wake: Arc<dyn Fn() + Send + Sync>,
     // Before the engine: its thread uses the device until it has ended.
     pub(super) compiler: Worker<compile::Job, compile::Done>,
+    pub(super) analyst: Analyst,
     pub(super) engine: Engine,
     pub(super) documents: Documents,
     pub(super) canvas: Canvas,
@@ -165,12 +167,14 @@ impl Session {
     ) -> Result<Session, SessionError> {
         let compiler = Worker::new("compile", wake.clone(), compile::work(gpu.clone(), options.media_dir.clone()))
             .map_err(SessionError::Thread)?;
+        let analyst = Analyst::new(wake.clone()).map_err(SessionError::Thread)?;
         // Any size does until the first tick, which knows the viewport.
         let mut engine = Engine::new(gpu, 640, 360)?;
         engine.set_timing(true);
         let mut session = Session {
             wake,
             compiler,
+            analyst,
             engine,
             documents: Documents::new(super::template::project()),
             canvas: Canvas { viewport: None, scale: 1.0, fixed: None, refused: None },

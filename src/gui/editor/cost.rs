@@ -7,7 +7,7 @@ use egui::{Event, Id, RawInput, Rect, pos2, vec2};
 use std::time::Instant;
 
 fn frame(ctx: &egui::Context, editor: &mut CodeEditor, events: Vec<Event>) -> f64 {
-    let look = Look { font_size: 13.0, marks: &[], matches: &[], shared: "" };
+    let look = Look { font_size: 13.0, marks: &[], matches: &[], shared: "", help: None };
     let screen_rect = Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(700.0, 700.0)));
     let input = RawInput { screen_rect, events, focused: true, ..Default::default() };
     let began = Instant::now();

@@ -29,6 +29,11 @@ pub enum TokenKind {
     Macro,
     /// A name that is called or declared as a function.
     Function,
+    Parameter,
+    Global,
+    Field,
+    /// Left out by an `#if`.
+    Inactive,
     Number,
     Comment,
     Directive,

@@ -1,9 +1,11 @@
 //! The code editor: a widget for GLSL that lays out only the lines it shows.
 //!
-//! Owns the text while it is being edited (with its undo), its colours, the caret and the marks beside lines. Knows nothing
-//! of projects or of compiling: it is handed marks and hands back that its text changed. egui's own `TextEdit` lays the
+//! Owns the text while it is being edited (with its undo), its colours, the caret, the marks beside lines and the help while
+//! writing. Knows nothing of projects or of compiling: it is handed marks and an analysis of its text, and hands back that
+//! the text changed and where it wants to go. egui's own `TextEdit` lays the
 //! whole text out on every change, 11 ms a keystroke at 2,000 lines; this one costs the same at 142 and at 17,000.
 
+mod assist;
 mod buffer;
 #[cfg(test)]
 mod cost;
@@ -15,9 +17,11 @@ mod input;
 mod lexer;
 mod motion;
 mod paint;
+mod semantic;
 mod view;
 mod words;
 
+pub use assist::{Ask, Help};
 pub use find::Query;
 pub use lexer::TokenKind;
 pub use view::{CodeEditor, Look, Mark};

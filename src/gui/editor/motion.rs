@@ -94,6 +94,14 @@ impl Buffer {
         start.map_or(at, |(i, _)| line.start + i)..end.map_or(line.end, |(i, _)| at + i)
     }
 
+    /// The part of a name that ends at the caret; empty where there is none.
+    pub fn word_before_caret(&self) -> std::ops::Range<usize> {
+        let caret = self.selection().head;
+        let is_part = |c: &(usize, char)| c.1.is_ascii_alphanumeric() || c.1 == '_';
+        let start = self.text()[..caret].char_indices().rev().take_while(is_part).last();
+        start.map_or(caret, |(i, _)| i)..caret
+    }
+
     /// The position behind the character at `at`; a `\r\n` counts as one.
     fn after(&self, at: usize) -> usize {
         let rest = &self.text()[at..];

@@ -3,6 +3,7 @@
 use super::{
     buffer::Buffer,
     highlight::Highlight,
+    semantic::Semantic,
     view::{Look, Mark},
 };
 use crate::{diag::Severity, gui::theme};
@@ -54,7 +55,15 @@ impl Default for Painted {
 
 impl Lines {
     /// Lays lines out; egui keeps those it has seen in the last frame, so a still line costs its lexing.
-    pub fn lay_out(&mut self, ui: &Ui, buffer: &Buffer, highlight: &Highlight, preedit: &str, range: Range<usize>) {
+    pub fn lay_out(
+        &mut self,
+        ui: &Ui,
+        buffer: &Buffer,
+        highlight: &Highlight,
+        semantic: Option<&Semantic<'_>>,
+        preedit: &str,
+        range: Range<usize>,
+    ) {
         let caret_line = buffer.line_of(buffer.selection().head);
         for line in range {
             let text = buffer.line(line);
@@ -64,7 +73,8 @@ impl Lines {
             let mut at = 0;
             let composing = (line == caret_line && !preedit.is_empty())
                 .then(|| buffer.selection().head - buffer.line_range(line).start);
-            for token in highlight.tokens(line, text) {
+            let known = semantic.and_then(|s| s.tokens(buffer.line_range(line), text));
+            for token in known.unwrap_or_else(|| highlight.tokens(line, text)) {
                 let piece = &text[at..at + token.len];
                 let format = TextFormat::simple(self.font.clone(), theme::code_color(token.kind));
                 match composing.filter(|c| (at..at + token.len).contains(c)) {
@@ -103,7 +113,12 @@ impl Lines {
     }
 
     pub fn caret_rect(&self, buffer: &Buffer) -> Rect {
-        let (line, column) = buffer.line_column(buffer.selection().head);
+        self.rect_of(buffer, buffer.selection().head)
+    }
+
+    /// A caret at a position.
+    pub fn rect_of(&self, buffer: &Buffer, at: usize) -> Rect {
+        let (line, column) = buffer.line_column(buffer.snap(at));
         Rect::from_min_size(pos2(self.x(line, column), self.top(line)), vec2(1.0, self.row_height))
     }
 
@@ -132,6 +147,7 @@ pub(super) fn text(
     lines: &Lines,
     buffer: &Buffer,
     look: &Look<'_>,
+    uses: &[Range<usize>],
     caret_lit: bool,
     has_focus: bool,
     shown: Rect,
@@ -151,6 +167,9 @@ pub(super) fn text(
             painted.marked.push((line, row));
         } else if has_focus && line == caret_line {
             painter.rect_filled(row, 0.0, Color32::from_white_alpha(8));
+        }
+        for used in uses {
+            fill_range(ui, lines, buffer, line, used, Color32::from_rgb(52, 60, 74));
         }
         for found in look.matches {
             fill_range(ui, lines, buffer, line, found, Color32::from_rgb(94, 80, 36));

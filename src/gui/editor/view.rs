@@ -1,10 +1,12 @@
 //! The widget: scrolling, pointer, focus, input methods.
 
 use super::{
+    assist::{Ask, Assist, Help},
     buffer::Buffer,
     highlight::Highlight,
     input,
     paint::{self, Painted},
+    semantic::Semantic,
 };
 use crate::diag::Severity;
 use egui::{EventFilter, FontId, Id, Rect, ScrollArea, Sense, Ui, emath::GuiRounding as _, pos2, vec2};
@@ -31,6 +33,8 @@ pub struct Look<'a> {
     pub matches: &'a [Range<usize>],
     /// A text whose macros count in this one.
     pub shared: &'a str,
+    /// What is known of the text, or of what it was a moment ago.
+    pub help: Option<Help<'a>>,
 }
 
 /// What happened in a frame.
@@ -41,6 +45,10 @@ pub struct EditorOutput {
     pub text_rect: Rect,
     /// Lines with a mark that are in sight, counted from 0, and where they are.
     pub marked: Vec<(usize, Rect)>,
+    /// What the author asked for that concerns other texts.
+    pub asks: Vec<Ask>,
+    /// Popups and tips that are open, and where.
+    pub placed: Vec<(String, Rect)>,
 }
 
 /// A text being edited, with all that outlives a frame.
@@ -48,6 +56,7 @@ pub struct EditorOutput {
 pub struct CodeEditor {
     pub buffer: Buffer,
     highlight: Highlight,
+    assist: Assist,
     /// What an input method is composing.
     preedit: String,
     follow_caret: bool,
@@ -71,6 +80,7 @@ impl CodeEditor {
         Self {
             buffer: Buffer::new(text),
             highlight: Highlight::default(),
+            assist: Assist::default(),
             preedit: String::new(),
             follow_caret: false,
             take_focus: false,
@@ -98,6 +108,14 @@ impl CodeEditor {
         self.focus();
     }
 
+    /// Selects bytes of the text, in sight and ready to type.
+    pub fn show_range(&mut self, range: Range<usize>) {
+        self.buffer.select(range.start, range.end);
+        self.assist.close_all();
+        self.reveal();
+        self.focus();
+    }
+
     /// Fills the space there is. `id` is the widget's own, the same in every frame.
     pub fn show(&mut self, ui: &mut Ui, id: Id, look: Look<'_>) -> EditorOutput {
         let revision = self.buffer.revision();
@@ -106,8 +124,12 @@ impl CodeEditor {
         let row_height = (row_height * 1.12).round_to_pixels(ui.pixels_per_point());
         let has_focus = ui.memory(|m| m.has_focus(id));
         if has_focus {
-            self.take_keys(ui, id);
+            self.take_keys(ui, id, look.help);
+        } else {
+            self.assist.close_all();
         }
+        let help = self.fresh(look.help);
+        self.assist.update(&self.buffer, help);
         self.highlight.update(&mut self.buffer, look.shared);
 
         let whole = ui.available_rect_before_wrap();
@@ -138,14 +160,22 @@ impl CodeEditor {
                 let last = ((viewport.bottom() / row_height).ceil() as usize).min(self.buffer.line_count());
                 let mut lines =
                     paint::Lines { origin, row_height, glyph, font: font.clone(), first, galleys: Vec::new() };
-                lines.lay_out(ui, &self.buffer, &self.highlight, &self.preedit, first..last.max(first));
-                self.pointer(ui, &response, &lines);
+                let semantic = look.help.map(|help| Semantic::new(help, self.buffer.text()));
+                let range = first..last.max(first);
+                lines.lay_out(ui, &self.buffer, &self.highlight, semantic.as_ref(), &self.preedit, range);
+                self.pointer(ui, &response, &lines, help);
                 if std::mem::take(&mut self.take_focus) {
                     response.request_focus();
                 }
                 // The pointer may have moved the caret; what is painted must be where it is now.
                 let caret_shown = has_focus && self.caret_is_lit(ui);
-                let p = paint::text(ui, &lines, &self.buffer, &look, caret_shown, has_focus, shown);
+                let uses = if has_focus { self.assist.uses() } else { &[] };
+                let mut p = paint::text(ui, &lines, &self.buffer, &look, uses, caret_shown, has_focus, shown);
+                self.assist.show(ui, &lines, &mut self.buffer, shown);
+                if self.assist.show_hover(ui, &lines, &self.buffer, help, shown) {
+                    // Both would hang from the same line.
+                    p.popup = None;
+                }
                 if std::mem::take(&mut self.follow_caret) {
                     let caret = lines.caret_rect(&self.buffer);
                     ui.scroll_to_rect_animation(
@@ -159,7 +189,9 @@ impl CodeEditor {
                 if has_focus {
                     self.tell_input_method(ui, id, text_rect, p.caret);
                 }
-                response.on_hover_cursor(egui::CursorIcon::Text);
+                if !ui.input(|i| i.modifiers.command) {
+                    response.on_hover_cursor(egui::CursorIcon::Text);
+                }
                 painted = Some(p);
             },
         );
@@ -175,32 +207,60 @@ impl CodeEditor {
             ui.painter().rect_stroke(ring, 0.0, super::super::theme::FOCUS, egui::StrokeKind::Middle);
         }
         ui.allocate_rect(whole, Sense::hover());
-        EditorOutput { changed: self.buffer.revision() != revision, text_rect, marked: painted.marked }
+        EditorOutput {
+            changed: self.buffer.revision() != revision,
+            text_rect,
+            marked: painted.marked,
+            asks: std::mem::take(&mut self.assist.asks),
+            placed: std::mem::take(&mut self.assist.placed),
+        }
     }
 
-    fn take_keys(&mut self, ui: &mut Ui, id: Id) {
+    /// Help that is of the text as it is.
+    fn fresh<'a>(&self, help: Option<Help<'a>>) -> Option<Help<'a>> {
+        help.filter(|help| help.text == self.buffer.text())
+    }
+
+    fn take_keys(&mut self, ui: &mut Ui, id: Id, help: Option<Help<'_>>) {
         let filter = EventFilter { tab: true, horizontal_arrows: true, vertical_arrows: true, escape: true };
         ui.memory_mut(|m| m.set_focus_lock_filter(id, filter));
         let events = ui.input(|i| i.filtered_events(&filter));
-        let handled = input::handle(&mut self.buffer, &mut self.preedit, self.page, &events);
-        if let Some(text) = handled.copied.filter(|t| !t.is_empty()) {
-            ui.ctx().copy_text(text);
-        }
-        if handled.follow_caret {
-            self.follow_caret = true;
-            self.moved_at = ui.input(|i| i.time);
+        for event in &events {
+            let before = self.buffer.revision();
+            let help = self.fresh(help);
+            if self.assist.take(event, &mut self.buffer, help) {
+                self.follow_caret |= self.buffer.revision() != before;
+                continue;
+            }
+            let handled = input::handle(&mut self.buffer, &mut self.preedit, self.page, std::slice::from_ref(event));
+            self.assist.after(event, &self.buffer);
+            if let Some(text) = handled.copied.filter(|t| !t.is_empty()) {
+                ui.ctx().copy_text(text);
+            }
+            if handled.follow_caret {
+                self.follow_caret = true;
+                self.moved_at = ui.input(|i| i.time);
+            }
         }
     }
 
-    fn pointer(&mut self, ui: &Ui, response: &egui::Response, lines: &paint::Lines) {
+    fn pointer(&mut self, ui: &Ui, response: &egui::Response, lines: &paint::Lines, help: Option<Help<'_>>) {
         let Some(pointer) = response.interact_pointer_pos().or_else(|| response.hover_pos()) else { return };
-        let (pressed, shift) = ui.input(|i| (i.pointer.primary_pressed(), i.modifiers.shift));
+        let (pressed, shift, command) =
+            ui.input(|i| (i.pointer.primary_pressed(), i.modifiers.shift, i.modifiers.command));
         let at = lines.position_at(&self.buffer, pointer);
         // A press and its release can come between two frames: then there is only the click.
         let clicked_between = response.clicked() && ui.input(|i| i.pointer.primary_pressed());
         if (pressed && response.is_pointer_button_down_on()) || clicked_between {
             response.request_focus();
             self.moved_at = ui.input(|i| i.time);
+            self.assist.close_all();
+            if command && !shift {
+                self.drag = None;
+                self.buffer.select(at, at);
+                self.assist.go_to_definition(at, help);
+                return;
+            }
             if shift {
                 self.buffer.select(self.buffer.selection().anchor, at);
                 self.drag = Some((self.buffer.selection().anchor..self.buffer.selection().anchor, Granularity::Letter));
@@ -232,6 +292,9 @@ impl CodeEditor {
             }
             self.moved_at = ui.input(|i| i.time);
             self.follow_caret = !ui.clip_rect().contains(pointer);
+        }
+        if command && response.hovered() && help.is_some_and(|h| h.analysis.definition(h.source, at).is_some()) {
+            ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
         }
         let pasted = ui.input(|i| {
             i.events.iter().find_map(|e| match e {

@@ -1,0 +1,69 @@
+//! Code in tips, and signs of what a name is.
+
+use crate::{
+    glsl::services::CompletionKind,
+    gui::{
+        editor::lexer::{self, LineState, TokenKind},
+        theme,
+    },
+};
+use egui::{
+    Color32, FontId,
+    text::{LayoutJob, TextFormat},
+};
+use std::{collections::HashSet, ops::Range};
+
+/// A letter and a colour.
+pub(super) fn sign(kind: CompletionKind) -> (&'static str, Color32) {
+    use CompletionKind as K;
+    let (sign, token) = match kind {
+        K::Local => ("v", TokenKind::Plain),
+        K::Parameter => ("p", TokenKind::Parameter),
+        K::Global => ("g", TokenKind::Global),
+        K::Constant => ("c", TokenKind::Number),
+        K::Function => ("f", TokenKind::Function),
+        K::Builtin => ("f", TokenKind::Builtin),
+        K::Struct => ("S", TokenKind::Type),
+        K::Type => ("T", TokenKind::Type),
+        K::Field => (".", TokenKind::Field),
+        K::Macro => ("#", TokenKind::Macro),
+        K::Uniform => ("u", TokenKind::Uniform),
+        K::Keyword => ("k", TokenKind::Keyword),
+    };
+    (sign, theme::code_color(token))
+}
+
+/// Lines of GLSL in colour; `strong` is set off from the rest of them.
+pub(super) fn code(lines: &[String], font: &FontId, strong: Option<Range<usize>>) -> LayoutJob {
+    let mut job = LayoutJob::default();
+    for (i, line) in lines.iter().enumerate() {
+        if i > 0 {
+            job.append("\n", 0.0, TextFormat::simple(font.clone(), theme::TEXT));
+        }
+        let mut at = 0;
+        for token in lexer::lex_line(line, LineState::default(), &HashSet::new()).0 {
+            let range = at..at + token.len;
+            at = range.end;
+            let color = theme::code_color(token.kind);
+            let format = |is_strong: bool| {
+                let mut format = TextFormat::simple(font.clone(), if is_strong { theme::STRONG } else { color });
+                if is_strong {
+                    format.background = theme::ACCENT_FILL;
+                    format.expand_bg = 2.0;
+                }
+                format
+            };
+            let Some(strong) = strong.as_ref().filter(|s| s.start < range.end && range.start < s.end) else {
+                job.append(&line[range], 0.0, format(false));
+                continue;
+            };
+            let (from, to) = (strong.start.max(range.start), strong.end.min(range.end));
+            for (part, is_strong) in [(range.start..from, false), (from..to, true), (to..range.end, false)] {
+                if !part.is_empty() {
+                    job.append(&line[part], 0.0, format(is_strong));
+                }
+            }
+        }
+    }
+    job
+}

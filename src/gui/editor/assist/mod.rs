@@ -1,0 +1,239 @@
+//! Help while writing: proposals at the caret, the signature of the call around it, what the name under the pointer is, where
+//! it is declared and used.
+//!
+//! Owns what is open and which keys go to it. What is shown is asked of an [`Analysis`], which is of the text as it is only a
+//! moment after each change: until then what is open stays, and nothing new opens.
+
+mod completion;
+mod draw;
+mod tips;
+
+use super::{buffer::Buffer, history, paint::Lines};
+use crate::{
+    diag::{SourceId, Span},
+    glsl::services::{Analysis, ClassSpan, SignatureHelp},
+};
+use completion::Popup;
+use egui::{Event, Key, Rect, Ui};
+use std::ops::Range;
+
+/// What is known of the text that an editor shows.
+#[derive(Clone, Copy, Debug)]
+pub struct Help<'a> {
+    pub analysis: &'a Analysis,
+    /// The editor's text in `analysis`.
+    pub source: SourceId,
+    pub classes: &'a [ClassSpan],
+    /// The text it was made of; where it is not the editor's, it is older.
+    pub text: &'a str,
+}
+
+/// Something the editor wants of those who know the other tabs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Ask {
+    /// To a place of some text of the analysis.
+    GoTo(Span),
+    /// A list of all uses of what is named at this byte.
+    ListUses(usize),
+}
+
+#[derive(Debug, Default)]
+pub(super) struct Assist {
+    popup: Option<Popup>,
+    /// Proposals are to be asked for as soon as the analysis is of this text; `true`: by Ctrl+Space.
+    wanted: Option<bool>,
+    /// Where a word begins for which the popup was closed by Escape.
+    dismissed: Option<usize>,
+    signature: Option<SignatureHelp>,
+    signature_is_on: bool,
+    hover: tips::Pointer,
+    /// Uses of the name at the caret, and for which revision and caret they were found.
+    uses: Vec<Range<usize>>,
+    uses_of: Option<(u64, usize)>,
+    pub asks: Vec<Ask>,
+    /// What is open, and where.
+    pub placed: Vec<(String, Rect)>,
+}
+
+impl Assist {
+    /// Takes an event if it is for what is open, or asks for help. Otherwise the editor gets it.
+    pub fn take(&mut self, event: &Event, buffer: &mut Buffer, help: Option<Help<'_>>) -> bool {
+        let Event::Key { key, pressed: true, modifiers: m, .. } = *event else { return false };
+        self.hover.close();
+        let plain = m.is_none();
+        if let Some(popup) = &mut self.popup {
+            let step = match key {
+                Key::ArrowDown if plain => Some(1),
+                Key::ArrowUp if plain => Some(-1),
+                Key::PageDown if plain => Some(completion::ROWS as isize),
+                Key::PageUp if plain => Some(-(completion::ROWS as isize)),
+                _ => None,
+            };
+            if let Some(step) = step {
+                popup.step(step);
+                return true;
+            }
+            let accepts = key == Key::Tab || (key == Key::Enter && popup.enter_accepts(buffer));
+            if plain && accepts {
+                self.accept(buffer);
+                return true;
+            }
+            if key == Key::Escape {
+                self.dismissed = Some(popup.start());
+                self.close();
+                return true;
+            }
+        }
+        match key {
+            Key::Escape if self.signature.is_some() => self.close_signature(),
+            Key::Space if m.command && m.shift => self.signature_is_on = true,
+            Key::Space if m.command => {
+                self.wanted = Some(true);
+                self.dismissed = None;
+            }
+            Key::F12 if m.shift => self.asks.push(Ask::ListUses(buffer.selection().head)),
+            Key::F12 if plain => self.go_to_definition(buffer.selection().head, help),
+            _ => return false,
+        }
+        true
+    }
+
+    /// After the editor has taken an event: what opens, goes on or closes by it.
+    pub fn after(&mut self, event: &Event, buffer: &Buffer) {
+        match event {
+            Event::Text(text) => self.typed(text, buffer),
+            Event::Key { key: Key::Backspace | Key::Delete, pressed: true, .. } => {
+                self.wanted = None;
+                self.dismissed = None;
+                self.go_on(buffer);
+            }
+            Event::Key { key: Key::Enter, pressed: true, .. } => {
+                self.close();
+                self.close_signature();
+            }
+            // A letter's key comes with its text; any other moves the caret or changes the text elsewhere.
+            Event::Key { key, pressed: true, modifiers, .. } => {
+                let is_typing = !modifiers.command && !modifiers.alt && key.name().chars().count() == 1;
+                if !is_typing {
+                    self.close();
+                }
+            }
+            Event::Paste(_) | Event::Cut => self.close(),
+            _ => {}
+        }
+    }
+
+    fn typed(&mut self, text: &str, buffer: &Buffer) {
+        self.hover.close();
+        let word = buffer.word_before_caret();
+        if self.dismissed.is_some_and(|start| start != word.start) {
+            self.dismissed = None;
+        }
+        let continues = text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+        if continues {
+            self.go_on(buffer);
+            let begins = buffer.text()[word.clone()].starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+            if self.popup.is_none() && word.len() >= 2 && begins && self.dismissed.is_none() {
+                self.wanted = Some(false);
+            }
+            return;
+        }
+        self.close();
+        match text {
+            "." => self.wanted = Some(false),
+            "(" | "," => self.signature_is_on = true,
+            _ => {}
+        }
+    }
+
+    /// The word before the caret has changed under an open popup.
+    fn go_on(&mut self, buffer: &Buffer) {
+        if self.popup.as_mut().is_some_and(|popup| !popup.filter(buffer)) {
+            self.popup = None;
+        }
+    }
+
+    pub fn close(&mut self) {
+        self.popup = None;
+        self.wanted = None;
+    }
+
+    fn close_signature(&mut self) {
+        self.signature = None;
+        self.signature_is_on = false;
+    }
+
+    /// The keyboard or the text went elsewhere.
+    pub fn close_all(&mut self) {
+        self.close();
+        self.close_signature();
+        self.hover.close();
+    }
+
+    fn accept(&mut self, buffer: &mut Buffer) {
+        let Some((range, label)) = self.popup.as_ref().and_then(|popup| popup.choice(buffer)) else { return };
+        buffer.replace(range, &label, history::Kind::Other);
+        self.close();
+    }
+
+    pub fn go_to_definition(&mut self, at: usize, help: Option<Help<'_>>) {
+        let declared = help.and_then(|h| h.analysis.definition(h.source, at));
+        self.asks.extend(declared.map(Ask::GoTo));
+    }
+
+    /// Once a frame: opens what was wanted, if `help` is of the text as it is.
+    pub fn update(&mut self, buffer: &Buffer, help: Option<Help<'_>>) {
+        let Some(help) = help else {
+            self.uses_of = None;
+            self.uses.clear();
+            return;
+        };
+        let caret = buffer.selection().head;
+        if let Some(asked_for) = self.wanted.take() {
+            self.popup = Popup::open(help.analysis.completions(help.source, caret), buffer, asked_for);
+        }
+        if self.signature_is_on {
+            self.signature = help.analysis.signature_help(help.source, caret);
+            self.signature_is_on = self.signature.is_some();
+        }
+        let now = (buffer.revision(), caret);
+        if self.uses_of != Some(now) {
+            self.uses_of = Some(now);
+            let same = buffer.selection().is_empty();
+            let found = if same { help.analysis.uses(help.source, caret) } else { Vec::new() };
+            self.uses = found.iter().filter(|s| s.source == help.source).map(|s| s.range()).collect();
+        }
+    }
+
+    /// Uses of the name at the caret in this text.
+    pub fn uses(&self) -> &[Range<usize>] {
+        &self.uses
+    }
+
+    /// Shows what is open. A proposal that was clicked is taken.
+    pub fn show(&mut self, ui: &Ui, lines: &Lines, buffer: &mut Buffer, shown: Rect) {
+        let caret = lines.caret_rect(buffer);
+        let is_in_sight = shown.intersects(caret);
+        if let Some(popup) = self.popup.as_mut().filter(|_| is_in_sight) {
+            let at = lines.rect_of(buffer, popup.start());
+            if popup.show(ui, at, &lines.font, &mut self.placed) {
+                self.accept(buffer);
+            }
+        }
+        if let Some(signature) = self.signature.as_ref().filter(|_| is_in_sight) {
+            let start = buffer.snap(signature.name_start);
+            let same_line = buffer.line_of(start) == buffer.line_of(buffer.selection().head);
+            let at = if same_line { lines.rect_of(buffer, start) } else { caret };
+            tips::signature(ui, signature, at, &lines.font, &mut self.placed);
+        }
+    }
+
+    /// What the name under the pointer is, once the pointer rests. True if the tip hangs below its line.
+    pub fn show_hover(&mut self, ui: &Ui, lines: &Lines, buffer: &Buffer, help: Option<Help<'_>>, shown: Rect) -> bool {
+        if self.popup.is_some() {
+            self.hover.close();
+            return false;
+        }
+        self.hover.show(ui, lines, buffer, help, shown, &mut self.placed)
+    }
+}

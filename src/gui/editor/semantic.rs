@@ -1,0 +1,85 @@
+//! Colours by meaning, from an analysis that may be of a slightly older text.
+
+use super::{
+    assist::Help,
+    lexer::{Token, TokenKind},
+};
+use crate::glsl::services::{Class, ClassSpan};
+use std::ops::Range;
+
+/// The classes of a text and how far they hold: before the first and behind the last byte that has changed since.
+pub(super) struct Semantic<'a> {
+    classes: &'a [ClassSpan],
+    /// Length of what is equal at the beginning.
+    head: usize,
+    /// Where what is equal at the end begins in the text as it is, and what is to be taken from its positions there.
+    tail: usize,
+    shift: isize,
+}
+
+impl<'a> Semantic<'a> {
+    pub fn new(help: Help<'a>, text: &str) -> Self {
+        let (old, new) = (help.text.as_bytes(), text.as_bytes());
+        if old == new {
+            return Self { classes: help.classes, head: new.len(), tail: 0, shift: 0 };
+        }
+        let head = old.iter().zip(new).take_while(|(a, b)| a == b).count();
+        let limit = (old.len() - head).min(new.len() - head);
+        let same = old.iter().rev().zip(new.iter().rev()).take(limit).take_while(|(a, b)| a == b).count();
+        let shift = new.len() as isize - old.len() as isize;
+        Self { classes: help.classes, head, tail: new.len() - same, shift }
+    }
+
+    /// Tokens that cover a line whose bytes are `range`; `None` for one that was changed.
+    pub fn tokens(&self, range: Range<usize>, line: &str) -> Option<Vec<Token>> {
+        let shift = match () {
+            // The line's end counts as a part of it: where it is new, so is the line.
+            () if range.end < self.head || (self.shift == 0 && self.tail == 0) => 0,
+            () if range.start > self.tail => self.shift,
+            () => return None,
+        };
+        let old = range.start.checked_add_signed(-shift)?..range.end.checked_add_signed(-shift)?;
+        let first = self.classes.partition_point(|c| c.range.end <= old.start);
+        let mut tokens = Vec::new();
+        let mut at = old.start;
+        for span in self.classes[first..].iter().take_while(|c| c.range.start < old.end) {
+            let (start, end) = (span.range.start.max(old.start), span.range.end.min(old.end));
+            push(&mut tokens, start - at, TokenKind::Operator);
+            push(&mut tokens, end - start, kind(span.class));
+            at = end;
+        }
+        push(&mut tokens, old.end - at, TokenKind::Operator);
+        // A line that was not what it seems must not cut a character.
+        let mut at = 0;
+        let fits = tokens.iter().all(|token| {
+            at += token.len;
+            line.is_char_boundary(at)
+        });
+        (fits && at == line.len()).then_some(tokens)
+    }
+}
+
+fn push(tokens: &mut Vec<Token>, len: usize, kind: TokenKind) {
+    if len > 0 {
+        tokens.push(Token { len, kind });
+    }
+}
+
+fn kind(class: Class) -> TokenKind {
+    match class {
+        Class::Keyword => TokenKind::Keyword,
+        Class::Type => TokenKind::Type,
+        Class::Builtin => TokenKind::Builtin,
+        Class::Function => TokenKind::Function,
+        Class::Uniform => TokenKind::Uniform,
+        Class::Macro => TokenKind::Macro,
+        Class::Parameter => TokenKind::Parameter,
+        Class::Global => TokenKind::Global,
+        Class::Field => TokenKind::Field,
+        Class::Number => TokenKind::Number,
+        Class::Comment => TokenKind::Comment,
+        Class::Preprocessor => TokenKind::Directive,
+        Class::Inactive => TokenKind::Inactive,
+        Class::Local | Class::Unknown => TokenKind::Plain,
+    }
+}

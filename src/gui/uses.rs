@@ -1,0 +1,131 @@
+//! The list of all uses of a name, below the code.
+
+use super::{
+    icons::{self, Icon},
+    outbox::Outbox,
+    theme,
+};
+use crate::{project::Tab, session::Session};
+use egui::{Align2, FontId, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
+use std::ops::Range;
+
+const ROW: f32 = 21.0;
+
+pub struct Uses {
+    name: String,
+    places: Vec<Place>,
+    selected: Option<usize>,
+}
+
+struct Place {
+    tab: Tab,
+    range: Range<usize>,
+    /// From 1.
+    line: usize,
+    /// The line without its indent, and the name in it.
+    text: String,
+    name: Range<usize>,
+}
+
+/// What a frame of the list led to.
+#[derive(Default)]
+pub struct Shown {
+    pub go_to: Option<(Tab, Range<usize>)>,
+    pub closed: bool,
+}
+
+impl Uses {
+    /// `None` where there is nothing to list.
+    pub fn new(session: &Session, places: Vec<(Tab, Range<usize>)>) -> Option<Self> {
+        let places: Vec<Place> =
+            places.into_iter().filter_map(|(tab, range)| place(session.text(&tab), tab.clone(), range)).collect();
+        let first = places.first()?;
+        Some(Self { name: first.text[first.name.clone()].to_owned(), places, selected: None })
+    }
+
+    /// `limit`: how high the list may be.
+    pub fn show(&mut self, ui: &mut Ui, session: &Session, limit: f32, out: &mut Outbox) -> Shown {
+        let mut shown = Shown::default();
+        let top = ui.max_rect().top() + 0.5;
+        ui.painter().hline(ui.max_rect().x_range(), top, Stroke::new(1.0, theme::LINE));
+        ui.add_space(3.0);
+        ui.horizontal(|ui| {
+            ui.add_space(12.0);
+            let count = self.places.len();
+            ui.monospace(&self.name);
+            ui.colored_label(theme::WEAK, if count == 1 { "1 place".into() } else { format!("{count} places") });
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                let close = icons::button(ui, Icon::Close, "Close the list").on_hover_text("Close (Esc)");
+                shown.closed = out.clicked("button:close-uses", &close);
+            });
+        });
+        shown.closed |= ui.input(|i| i.key_pressed(egui::Key::Escape));
+        let several = session.tabs().len() > 1;
+        ScrollArea::vertical().id_salt("use list").max_height(limit).auto_shrink([false, true]).show_rows(
+            ui,
+            ROW,
+            self.places.len(),
+            |ui, rows| {
+                ui.spacing_mut().item_spacing.y = 0.0;
+                for i in rows {
+                    if self.row(ui, i, several, out) {
+                        self.selected = Some(i);
+                        shown.go_to = Some((self.places[i].tab.clone(), self.places[i].range.clone()));
+                    }
+                }
+            },
+        );
+        ui.add_space(4.0);
+        shown
+    }
+
+    fn row(&self, ui: &mut Ui, index: usize, several: bool, out: &mut Outbox) -> bool {
+        let place = &self.places[index];
+        let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
+        if self.selected == Some(index) || response.hovered() {
+            let fill = if response.hovered() { theme::RAISED } else { theme::ACCENT_FILL.gamma_multiply(0.5) };
+            ui.painter().rect_filled(rect, 0.0, fill);
+        }
+        let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+        let at = if several { format!("{} {}", place.tab.title(), place.line) } else { format!("line {}", place.line) };
+        let font = FontId::proportional(12.0);
+        let end = painter.text(pos2(rect.left() + 14.0, rect.center().y), Align2::LEFT_CENTER, at, font, theme::WEAK);
+        let mut job = egui::text::LayoutJob::default();
+        let format = |color| egui::TextFormat::simple(FontId::monospace(12.0), color);
+        job.append(&place.text[..place.name.start], 0.0, format(theme::TEXT));
+        job.append(&place.text[place.name.clone()], 0.0, format(theme::ACCENT));
+        job.append(&place.text[place.name.end..], 0.0, format(theme::TEXT));
+        job.break_on_newline = false;
+        let galley = painter.layout_job(job);
+        let x = end.right().max(rect.left() + 90.0) + 12.0;
+        painter.galley(pos2(x, rect.center().y - galley.size().y / 2.0), galley, theme::TEXT);
+        let clicked = out.clicked(&format!("use:{index}"), &response);
+        response.on_hover_cursor(egui::CursorIcon::PointingHand);
+        clicked
+    }
+}
+
+fn place(text: &str, tab: Tab, range: Range<usize>) -> Option<Place> {
+    text.get(range.clone())?;
+    let start = text[..range.start].rfind('\n').map_or(0, |i| i + 1);
+    let end = text[range.end..].find(['\n', '\r']).map_or(text.len(), |i| range.end + i);
+    let line = &text[start..end];
+    let indent = line.len() - line.trim_start().len();
+    let name = range.start.checked_sub(start + indent)?..range.end.checked_sub(start + indent)?;
+    Some(Place { tab, line: text[..start].matches('\n').count() + 1, text: line[indent..].to_owned(), name, range })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::project::PassId;
+
+    #[test]
+    fn a_place_is_shown_with_its_line() {
+        let text = "float a;\r\n    b = a * a; // x\r\n";
+        let at = text.rfind("a;").unwrap();
+        let found = place(text, Tab::Pass(PassId::Image), at..at + 1).unwrap();
+        assert_eq!((found.line, found.text.as_str(), &found.text[found.name]), (2, "b = a * a; // x", "a"));
+        assert!(place(text, Tab::Common, 90..91).is_none(), "the text has changed meanwhile");
+    }
+}
