@@ -1,7 +1,8 @@
 //! End to end: help while writing, in the real window, by real key events, judged by the files it saves.
 
-mod support;
 #[path = "support/window.rs"]
+// Shared with tests that also use the mouse's buttons.
+#[allow(dead_code)]
 mod window;
 
 use std::{fs, path::Path};
@@ -23,14 +24,15 @@ fn open<'a>(display: &'a Display, home: &Path) -> Window<'a> {
 }
 
 /// Puts the caret at a line and column, both from 1.
-fn go_to(window: &mut Window, place: &str) {
-    window.keys(&["ctrl+g"]);
-    window.type_text(place);
-    window.keys(&["Return"]);
+fn go_to(window: &mut Window, line: usize, column: usize) {
+    window.keys(&["ctrl+Home"]);
+    window.keys(&vec!["Down"; line - 1]);
+    window.keys(&vec!["Right"; column - 1]);
 }
 
 /// Saves, and gives a file's text.
 fn saved(window: &mut Window, home: &Path, file: &str) -> String {
+    window.wait_until("the text to be unsaved", "dirty", |e| e["dirty"] == true);
     window.keys(&["ctrl+s"]);
     window.wait_until("the project to be saved", "dirty", |e| e["dirty"] == false);
     fs::read_to_string(home.join("project").join(file)).unwrap()
@@ -47,6 +49,8 @@ fn hides(window: &mut Window, what: &str) {
 /// Where `EDDY_SHOTS` says: pictures for a person to look at.
 fn photograph(display: &Display, name: &str) {
     if let Some(folder) = std::env::var_os("EDDY_SHOTS") {
+        // Popups fade in.
+        std::thread::sleep(std::time::Duration::from_millis(600));
         display.photograph(&Path::new(&folder).join(name));
     }
 }
@@ -56,7 +60,7 @@ fn a_proposal_is_taken_by_enter_and_a_call_shows_what_it_takes() {
     let Some(display) = Display::open() else { return };
     let home = tempfile::tempdir().unwrap();
     let mut window = open(&display, home.path());
-    go_to(&mut window, "5:5");
+    go_to(&mut window, 5, 5);
     window.type_text("vec3 n = norm");
     shows(&mut window, "completion:normalize");
     photograph(&display, "completion.png");
@@ -94,7 +98,7 @@ fn the_way_leads_from_a_name_to_its_declaration_and_to_its_uses() {
     let Some(display) = Display::open() else { return };
     let home = tempfile::tempdir().unwrap();
     let mut window = open(&display, home.path());
-    go_to(&mut window, "4:25");
+    go_to(&mut window, 4, 25);
     // The list has the declaration in Common and the use here.
     window.keys(&["shift+F12"]);
     shows(&mut window, "use:1");
@@ -103,6 +107,8 @@ fn the_way_leads_from_a_name_to_its_declaration_and_to_its_uses() {
     window.keys(&["Escape"]);
     hides(&mut window, "use:0");
     window.keys(&["F12"]);
+    // Common has no channels.
+    hides(&mut window, "channel:0");
     // The name in Common is selected now: typing replaces it there.
     window.type_text("glow");
     let text = saved(&mut window, home.path(), "common.glsl");

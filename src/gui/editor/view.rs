@@ -124,7 +124,7 @@ impl CodeEditor {
         let row_height = (row_height * 1.12).round_to_pixels(ui.pixels_per_point());
         let has_focus = ui.memory(|m| m.has_focus(id));
         if has_focus {
-            self.take_keys(ui, id, look.help);
+            self.take_keys(ui, id);
         } else {
             self.assist.close_all();
         }
@@ -172,7 +172,8 @@ impl CodeEditor {
                 let uses = if has_focus { self.assist.uses() } else { &[] };
                 let mut p = paint::text(ui, &lines, &self.buffer, &look, uses, caret_shown, has_focus, shown);
                 self.assist.show(ui, &lines, &mut self.buffer, shown);
-                if self.assist.show_hover(ui, &lines, &self.buffer, help, shown) {
+                let hangs = self.assist.show_hover(ui, &lines, &self.buffer, help, shown);
+                if hangs || self.assist.is_open() {
                     // Both would hang from the same line.
                     p.popup = None;
                 }
@@ -221,14 +222,13 @@ impl CodeEditor {
         help.filter(|help| help.text == self.buffer.text())
     }
 
-    fn take_keys(&mut self, ui: &mut Ui, id: Id, help: Option<Help<'_>>) {
+    fn take_keys(&mut self, ui: &mut Ui, id: Id) {
         let filter = EventFilter { tab: true, horizontal_arrows: true, vertical_arrows: true, escape: true };
         ui.memory_mut(|m| m.set_focus_lock_filter(id, filter));
         let events = ui.input(|i| i.filtered_events(&filter));
         for event in &events {
             let before = self.buffer.revision();
-            let help = self.fresh(help);
-            if self.assist.take(event, &mut self.buffer, help) {
+            if self.assist.take(event, &mut self.buffer) {
                 self.follow_caret |= self.buffer.revision() != before;
                 continue;
             }
@@ -258,7 +258,8 @@ impl CodeEditor {
             if command && !shift {
                 self.drag = None;
                 self.buffer.select(at, at);
-                self.assist.go_to_definition(at, help);
+                self.assist.go_to_definition();
+                ui.ctx().request_repaint();
                 return;
             }
             if shift {

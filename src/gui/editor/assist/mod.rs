@@ -37,6 +37,12 @@ pub enum Ask {
     ListUses(usize),
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Question {
+    Definition,
+    Uses,
+}
+
 #[derive(Debug, Default)]
 pub(super) struct Assist {
     popup: Option<Popup>,
@@ -50,6 +56,8 @@ pub(super) struct Assist {
     /// Uses of the name at the caret, and for which revision and caret they were found.
     uses: Vec<Range<usize>>,
     uses_of: Option<(u64, usize)>,
+    /// What was asked for about the caret's name; it waits for the analysis.
+    question: Option<Question>,
     pub asks: Vec<Ask>,
     /// What is open, and where.
     pub placed: Vec<(String, Rect)>,
@@ -57,9 +65,10 @@ pub(super) struct Assist {
 
 impl Assist {
     /// Takes an event if it is for what is open, or asks for help. Otherwise the editor gets it.
-    pub fn take(&mut self, event: &Event, buffer: &mut Buffer, help: Option<Help<'_>>) -> bool {
+    pub fn take(&mut self, event: &Event, buffer: &mut Buffer) -> bool {
         let Event::Key { key, pressed: true, modifiers: m, .. } = *event else { return false };
         self.hover.close();
+        self.question = None;
         let plain = m.is_none();
         if let Some(popup) = &mut self.popup {
             let step = match key {
@@ -91,8 +100,8 @@ impl Assist {
                 self.wanted = Some(true);
                 self.dismissed = None;
             }
-            Key::F12 if m.shift => self.asks.push(Ask::ListUses(buffer.selection().head)),
-            Key::F12 if plain => self.go_to_definition(buffer.selection().head, help),
+            Key::F12 if m.shift => self.question = Some(Question::Uses),
+            Key::F12 if plain => self.go_to_definition(),
             _ => return false,
         }
         true
@@ -168,6 +177,7 @@ impl Assist {
         self.close();
         self.close_signature();
         self.hover.close();
+        self.question = None;
     }
 
     fn accept(&mut self, buffer: &mut Buffer) {
@@ -176,9 +186,9 @@ impl Assist {
         self.close();
     }
 
-    pub fn go_to_definition(&mut self, at: usize, help: Option<Help<'_>>) {
-        let declared = help.and_then(|h| h.analysis.definition(h.source, at));
-        self.asks.extend(declared.map(Ask::GoTo));
+    /// Of the name at the caret, as soon as it is known.
+    pub fn go_to_definition(&mut self) {
+        self.question = Some(Question::Definition);
     }
 
     /// Once a frame: opens what was wanted, if `help` is of the text as it is.
@@ -189,6 +199,13 @@ impl Assist {
             return;
         };
         let caret = buffer.selection().head;
+        match self.question.take() {
+            Some(Question::Definition) => {
+                self.asks.extend(help.analysis.definition(help.source, caret).map(Ask::GoTo));
+            }
+            Some(Question::Uses) => self.asks.push(Ask::ListUses(caret)),
+            None => {}
+        }
         if let Some(asked_for) = self.wanted.take() {
             self.popup = Popup::open(help.analysis.completions(help.source, caret), buffer, asked_for);
         }
@@ -203,6 +220,11 @@ impl Assist {
             let found = if same { help.analysis.uses(help.source, caret) } else { Vec::new() };
             self.uses = found.iter().filter(|s| s.source == help.source).map(|s| s.range()).collect();
         }
+    }
+
+    /// The list of proposals is open.
+    pub fn is_open(&self) -> bool {
+        self.popup.is_some()
     }
 
     /// Uses of the name at the caret in this text.
