@@ -29,6 +29,16 @@ pub(super) struct Lines {
 /// Left of every line.
 const MARGIN: f32 = 6.0;
 
+/// The caret's part in the picture.
+#[derive(Clone, Copy)]
+pub(super) struct Caret<'a> {
+    pub has_focus: bool,
+    /// It is in the lit half of its blinking.
+    pub is_lit: bool,
+    /// Places of the name it is on.
+    pub uses: &'a [Range<usize>],
+}
+
 /// What painting found out.
 #[derive(Debug)]
 pub(super) struct Painted {
@@ -142,17 +152,9 @@ impl Lines {
 }
 
 /// Paints the lines in sight and what lies behind and beside them.
-pub(super) fn text(
-    ui: &Ui,
-    lines: &Lines,
-    buffer: &Buffer,
-    look: &Look<'_>,
-    uses: &[Range<usize>],
-    caret_lit: bool,
-    has_focus: bool,
-    shown: Rect,
-) -> Painted {
+pub(super) fn text(ui: &Ui, lines: &Lines, buffer: &Buffer, look: &Look<'_>, caret: Caret<'_>, shown: Rect) -> Painted {
     let painter = ui.painter();
+    let Caret { has_focus, is_lit, uses } = caret;
     let caret = lines.caret_rect(buffer);
     let caret_line = buffer.line_of(buffer.selection().head);
     let hovered = ui.ctx().pointer_latest_pos().filter(|p| shown.contains(*p) && !ui.ctx().any_popup_open());
@@ -196,7 +198,7 @@ pub(super) fn text(
             }
         }
     }
-    if caret_lit {
+    if is_lit {
         let x = caret.left().round_to_pixels(ui.pixels_per_point());
         painter.rect_filled(
             Rect::from_min_size(pos2(x - 0.5, caret.top()), vec2(2.0, caret.height())),

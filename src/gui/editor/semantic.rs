@@ -35,7 +35,7 @@ impl<'a> Semantic<'a> {
         let shift = match () {
             // The line's end counts as a part of it: where it is new, so is the line.
             () if range.end < self.head || (self.shift == 0 && self.tail == 0) => 0,
-            () if range.start > self.tail => self.shift,
+            () if range.start >= self.tail => self.shift,
             () => return None,
         };
         let old = range.start.checked_add_signed(-shift)?..range.end.checked_add_signed(-shift)?;
@@ -81,5 +81,52 @@ fn kind(class: Class) -> TokenKind {
         Class::Preprocessor => TokenKind::Directive,
         Class::Inactive => TokenKind::Inactive,
         Class::Local | Class::Unknown => TokenKind::Plain,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        diag::SourceId,
+        glsl::{ChannelKind, PassKind, PassSource, Text, services::Analysis},
+    };
+
+    const TEXT: &str = "float g;\n/* é */ void f(float par) {\n    par = g;\n}\n#if 0\nout\n#endif";
+
+    fn kinds(now: &str, line: usize) -> Option<Vec<TokenKind>> {
+        let id = SourceId(0);
+        let analysis = Analysis::new(&PassSource {
+            kind: PassKind::Buffer,
+            common: None,
+            code: Text { id, text: TEXT },
+            channels: [ChannelKind::Sampler2D; 4],
+            bilinear_by_hand: [false; 4],
+            tables_in_memory: false,
+        });
+        let classes = analysis.classes(id);
+        let help = Help { analysis: &analysis, source: id, classes: &classes, text: TEXT };
+        let start = now.split_inclusive('\n').take(line).map(str::len).sum::<usize>();
+        let text = now[start..].lines().next().unwrap_or("");
+        let tokens = Semantic::new(help, now).tokens(start..start + text.len(), text)?;
+        assert_eq!(tokens.iter().map(|t| t.len).sum::<usize>(), text.len(), "tokens cover {text:?}");
+        Some(tokens.into_iter().map(|t| t.kind).filter(|k| *k != TokenKind::Operator).collect())
+    }
+
+    #[test]
+    fn lines_that_did_not_change_keep_their_colours() {
+        let body = Some(vec![TokenKind::Parameter, TokenKind::Global]);
+        assert_eq!(kinds(TEXT, 2), body);
+        assert_eq!(kinds(TEXT, 5), Some(vec![TokenKind::Inactive]));
+        // The line that changed is for the line lexer, those around it are not.
+        let changed = TEXT.replace("float g;", "float g; float hé;");
+        assert_eq!((kinds(&changed, 0), kinds(&changed, 2)), (None, body.clone()));
+        let changed = TEXT.replace("par = g;", "par = gg;");
+        assert_eq!(kinds(&changed, 2), None);
+        assert_eq!(kinds(&changed, 0), Some(vec![TokenKind::Type, TokenKind::Global]));
+        assert_eq!(kinds(&changed, 5), Some(vec![TokenKind::Inactive]));
+        let inserted = TEXT.replace("    par", "\n\n    par");
+        assert_eq!(kinds(&inserted, 4), body);
+        assert_eq!(kinds(&format!("{TEXT}\nx"), 7), None);
     }
 }

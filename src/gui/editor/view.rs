@@ -170,7 +170,8 @@ impl CodeEditor {
                 // The pointer may have moved the caret; what is painted must be where it is now.
                 let caret_shown = has_focus && self.caret_is_lit(ui);
                 let uses = if has_focus { self.assist.uses() } else { &[] };
-                let mut p = paint::text(ui, &lines, &self.buffer, &look, uses, caret_shown, has_focus, shown);
+                let caret = paint::Caret { has_focus, is_lit: caret_shown, uses };
+                let mut p = paint::text(ui, &lines, &self.buffer, &look, caret, shown);
                 self.assist.show(ui, &lines, &mut self.buffer, shown);
                 let hangs = self.assist.show_hover(ui, &lines, &self.buffer, help, shown);
                 if hangs || self.assist.is_open() {

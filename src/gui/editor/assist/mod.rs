@@ -259,3 +259,6 @@ impl Assist {
         self.hover.show(ui, lines, buffer, help, shown, &mut self.placed)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,125 @@
+//! Which keys go to what is open, and when it opens.
+
+use super::*;
+use crate::glsl::{ChannelKind, PassKind, PassSource, Text};
+use egui::Modifiers;
+
+const ID: SourceId = SourceId(0);
+
+/// Feeds keys as the editor does, with an analysis after each: `<Enter>` and its like are keys, the rest is typed.
+fn type_into(text: &str, input: &str) -> (Assist, String) {
+    let mut buffer = Buffer::new(&text.replace('@', ""));
+    let at = text.find('@').unwrap();
+    buffer.select(at, at);
+    let mut assist = Assist::default();
+    let mut rest = input;
+    while let Some(first) = rest.chars().next() {
+        let named = rest.strip_prefix('<').and_then(|r| r.split_once('>'));
+        let (event, behind) = match named {
+            Some((name, behind)) => {
+                let ctrl = Modifiers { ctrl: true, command: true, ..Modifiers::NONE };
+                let (key, modifiers) = match name {
+                    "Ctrl+Space" => (Key::Space, ctrl),
+                    name => (Key::from_name(name).unwrap(), Modifiers::NONE),
+                };
+                (Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers }, behind)
+            }
+            None => (Event::Text(first.to_string()), &rest[first.len_utf8()..]),
+        };
+        rest = behind;
+        if !assist.take(&event, &mut buffer) {
+            super::super::input::handle(&mut buffer, &mut String::new(), 20, std::slice::from_ref(&event));
+            assist.after(&event, &buffer);
+        }
+        let now = buffer.text().to_owned();
+        let analysis = Analysis::new(&PassSource {
+            kind: PassKind::Image,
+            common: None,
+            code: Text { id: ID, text: &now },
+            channels: [ChannelKind::Sampler2D; 4],
+            bilinear_by_hand: [false; 4],
+            tables_in_memory: false,
+        });
+        assist.update(&buffer, Some(Help { analysis: &analysis, source: ID, classes: &[], text: &now }));
+    }
+    (assist, buffer.text().to_owned())
+}
+
+#[test]
+fn keys_go_where_they_are_meant() {
+    for (input, text) in [
+        ("nor<Enter>", "x = normalize; }"),
+        ("nor<Tab>", "x = normalize; }"),
+        // A word that is whole: Enter is for the text.
+        ("normalize<Enter>", "x = normalize\n; }"),
+        ("sin<Enter>", "x = sin\n; }"),
+        // Picked by hand: it is meant.
+        ("sin<Down><Up><Down><Enter>", "x = sinh; }"),
+        // Not begun with these letters, so Enter takes it only where it was picked; Tab always does.
+        ("sms<Enter>", "x = sms\n; }"),
+        ("sms<Tab>", "x = smoothstep; }"),
+        ("sms<Down><Up><Enter>", "x = smoothstep; }"),
+        // Closed by Escape, and it stays closed for this word.
+        ("nor<Escape>m<Enter>", "x = norm\n; }"),
+        ("nor<Escape> + nor<Tab>", "x = nor + normalize; }"),
+        ("n<Enter>", "x = n\n; }"),
+        ("n<Ctrl+Space><Enter>", "x = normalize; }"),
+        ("norx<Backspace><Enter>", "x = nor\n; }"),
+        ("p.<Enter>", "x = p.\n; }"),
+        ("p.<Tab>", "x = p.x; }"),
+        ("p.<Down><Enter>", "x = p.y; }"),
+        ("p.xy<Enter>", "x = p.xy\n; }"),
+        ("1.5<Enter>", "x = 1.5\n; }"),
+        ("nor<Left><Enter>", "x = no\nr; }"),
+    ] {
+        let (_, found) = type_into("void f(vec2 p) { x = @; }", input);
+        let found = found.trim_start_matches("void f(vec2 p) { ").replace("\n    ", "\n").to_owned();
+        assert_eq!(found, text, "{input}");
+    }
+}
+
+#[test]
+fn the_list_opens_while_a_name_is_typed() {
+    for (input, is_open) in [
+        ("n", false),
+        ("no", true),
+        ("no ", false),
+        ("qqqq", false),
+        ("p.", true),
+        ("p.x", true),
+        ("12", false),
+        ("vec3 no", false),
+        ("// no", false),
+        ("sin(", false),
+        ("<Ctrl+Space>", true),
+        ("no<Backspace><Backspace>", false),
+    ] {
+        let (assist, _) = type_into("void f(vec2 p) { @\n}", input);
+        assert_eq!(assist.is_open(), is_open, "{input}");
+    }
+}
+
+#[test]
+fn the_signature_stays_as_long_as_the_call() {
+    for (input, parameter) in [
+        ("clamp(", Some(0)),
+        ("clamp(1.0, ", Some(1)),
+        ("clamp(1.0, sin(", Some(0)),
+        ("clamp(1.0, sin(2.0), ", Some(2)),
+        ("clamp(1.0, 2.0)", None),
+        ("clamp(<Escape>1.0", None),
+        ("clamp(<Enter>", None),
+    ] {
+        let (assist, _) = type_into("void f(vec2 p) { @\n}", input);
+        assert_eq!(assist.signature.map(|s| s.parameter), parameter, "{input}");
+    }
+}
+
+#[test]
+fn a_question_is_about_the_name_at_the_caret() {
+    let (assist, _) = type_into("float g;\nvoid f() { g@; }", "<F12>");
+    assert_eq!(assist.asks, [Ask::GoTo(Span::new(ID, 6..7))]);
+    assert_eq!(assist.uses(), [6..7, 20..21]);
+    let (assist, _) = type_into("void f() { sin@(1.0); }", "<F12>");
+    assert_eq!(assist.asks, []);
+}
