@@ -89,7 +89,7 @@ impl Analysis {
         let none = Completions { replace: offset..offset, ..Completions::default() };
         let Some(source) = self.source_index(source) else { return none };
         let text = &self.sources[source];
-        if offset > text.text.len() || text.is_comment(offset) || text.is_inactive(offset) {
+        if !text.text.is_char_boundary(offset) || text.is_comment(offset) || text.is_inactive(offset) {
             return none;
         }
         // Behind the caret's word: `next` is the first token that is not before it.
@@ -104,6 +104,9 @@ impl Analysis {
                 text.kind(last),
                 Token::Int | Token::Uint | Token::Float | Token::BadNumber | Token::Text
             ) {
+                return none;
+            } else if text.tokens[last].end as usize > offset {
+                // Between the signs of an operator.
                 return none;
             }
         }

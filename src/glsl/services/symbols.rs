@@ -4,7 +4,7 @@ use super::Analysis;
 use crate::{
     diag::Span,
     glsl::{
-        ast::{MacroId, Symbol, TokenId},
+        ast::{Ident, MacroId, Symbol, TokenId},
         hir::{DeclRef, FuncId, GlobalId, LocalId, StructId},
     },
 };
@@ -44,12 +44,14 @@ impl Symbols {
         for used in &module.uses {
             let target = match used.target {
                 DeclRef::Uniform(_) if a.word(used.token) == "iGlobalTime" => Target::OldTime,
+                // What stands for an entry point that is a macro has names that nobody wrote.
+                DeclRef::Local(id) if !a.is_written(module[id].name) => continue,
                 target => Target::Decl(target),
             };
             new.add(a, a.spelled(used.token), target, false);
         }
         for (i, local) in module.locals.iter().enumerate() {
-            if let Some(name) = local.name {
+            if let Some(name) = local.name.filter(|_| a.is_written(local.name)) {
                 let id = LocalId::new(i);
                 new.add(a, a.spelled(name.token), Target::Decl(DeclRef::Local(id)), true);
                 new.locals.push((name.symbol, id));
@@ -85,7 +87,8 @@ impl Symbols {
                 new.add(a, span, Target::Macro(MacroId::new(i)), true);
             }
         }
-        new.list.sort_by_key(|o| (o.source, o.start, !o.is_declaration));
+        // A macro's name is the macro, whatever it is expanded to at that place.
+        new.list.sort_by_key(|o| (o.source, o.start, !matches!(o.target, Target::Macro(_)), !o.is_declaration));
         new.locals.sort_by_key(|l| l.0);
         new
     }
@@ -129,6 +132,11 @@ impl Analysis {
     /// Where a token's characters are: in a macro's replacement list for what came out of one.
     pub(super) fn spelled(&self, token: TokenId) -> Span {
         self.origins.tokens[token.0 as usize].spelled
+    }
+
+    /// Whether a name stands in the text where it is said to.
+    fn is_written(&self, name: Option<Ident>) -> bool {
+        name.is_some_and(|name| self.word(name.token) == self.names.get(name.symbol))
     }
 
     fn word(&self, token: TokenId) -> &str {

@@ -12,6 +12,7 @@ fn hover(m: &Marked) -> (&'static str, String, String) {
 #[test]
 fn hover_shows_what_a_name_is() {
     for (code, kind, signature, doc) in [
+        ("#define mainImage@(o, u) o = vec4(1)", "macro", "#define mainImage(o, u) o = vec4(1)", ""),
         ("float f(vec3 p) { return p@.x; }", "parameter", "vec3 p", ""),
         ("void f(inout vec2 q) { q@ *= 2.; }", "parameter", "inout vec2 q", ""),
         ("const float K@ = 1.5 * 2.;", "global", "const float K = 3.0", ""),

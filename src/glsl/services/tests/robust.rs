@@ -66,6 +66,7 @@ fn odd_texts_are_no_trouble() {
         "vec3(vec3(vec3(.@",
         "iCh0.@.x",
         "gl_DepthRange.near@",
+        "#define mainImage(o, u) vec2 p = 1 / u; o /= @",
     ] {
         let code = if code.contains('@') { code.to_owned() } else { format!("{code}@") };
         ask_all(&Marked::code(&code));
