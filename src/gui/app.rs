@@ -9,7 +9,7 @@ use super::{
     report::Report,
     rescue,
     shell::Shell,
-    shortcuts,
+    shortcuts, steps,
     surface::{Presented, Surface},
     theme,
 };
@@ -257,13 +257,16 @@ impl Running {
         }
         let began = Instant::now();
         let tick = self.session.tick(began);
-        self.shell.prepare(&self.session, &mut self.surface);
-        let raw = self.input.take_egui_input(&self.window);
-        let mut commands = Vec::new();
-        let output = self.ctx.run_ui(raw, |ui| commands.extend(self.shell.show(ui, &self.session)));
-        let asked = !commands.is_empty();
-        for command in commands {
-            self.session.apply(command);
+        let mut output = egui::FullOutput::default();
+        let mut asked = false;
+        for raw in steps::split(self.input.take_egui_input(&self.window)) {
+            self.shell.prepare(&self.session, &mut self.surface);
+            let mut commands = Vec::new();
+            output.append(self.ctx.run_ui(raw, |ui| commands.extend(self.shell.show(ui, &self.session))));
+            asked |= !commands.is_empty();
+            for command in commands {
+                self.session.apply(command);
+            }
         }
         self.input.handle_platform_output(&self.window, output.platform_output.clone());
         let delay = output.viewport_output.values().map(|v| v.repaint_delay).min().unwrap_or(Duration::MAX);

@@ -21,6 +21,7 @@ mod report;
 mod rescue;
 mod shell;
 mod shortcuts;
+mod steps;
 mod surface;
 mod tabs;
 mod theme;
