@@ -72,6 +72,13 @@ impl Builder<'_, '_> {
             }
             _ => {}
         }
+        let (vector_ty, scalar) = match shape {
+            Shape::ScalarLeft => (right.0, left.1),
+            _ => (left.0, right.1),
+        };
+        if matches!(shape, Shape::ScalarLeft | Shape::ScalarRight) && self.is_arithmetic(vector_ty, scalar) {
+            return self.by_component(op, shape, vector_ty, left.1, right.1);
+        }
         // naga multiplies matrices and scalars itself, and vectors and scalars of floats.
         if op == Op::Multiply {
             let scaled = if shape == Shape::ScalarLeft { right.0 } else { left.0 };
@@ -134,6 +141,30 @@ impl Builder<'_, '_> {
         };
         let moved = self.op(Op::Add, rest, right);
         self.select(wrong_side, moved, rest)
+    }
+
+    /// Whether `scalar`, the other side of a float vector, is itself a sum, difference or product.
+    fn is_arithmetic(&self, vector: TypeId, scalar: Value) -> bool {
+        let is_float = matches!(self.cx.hir.types.get(vector), Type::Vector { scalar: Scalar::Float, .. });
+        let is_term = |op| matches!(op, Op::Add | Op::Subtract | Op::Multiply);
+        is_float && matches!(self.f.expressions[scalar], Expression::Binary { op, .. } if is_term(op))
+    }
+
+    /// A vector and a scalar, written out by component.
+    ///
+    /// As a vector operation it would use the scalar once, and drivers take sums and products that are used once apart to
+    /// regroup their terms, vectors first and scalars later. Their OpenGL siblings split vectors before they look, so that they
+    /// see a scalar with several uses and leave it whole: `p + dot(p, q)` would end in other last bits.
+    fn by_component(&mut self, op: Op, shape: Shape, ty: TypeId, left: Value, right: Value) -> Value {
+        let parts = (0..self.extent(ty)).map(|index| {
+            let (l, r) = match shape {
+                Shape::ScalarLeft => (left, self.add(Expression::AccessIndex { base: right, index })),
+                _ => (self.add(Expression::AccessIndex { base: left, index }), right),
+            };
+            self.op(op, l, r)
+        });
+        let parts = parts.collect();
+        self.compose(ty, parts)
     }
 
     /// Component by component on matrices, where naga has no operator for it.
