@@ -401,6 +401,11 @@ fn floats() {
             [0.5, 0.84375, 0.5, 0.5],
         ),
         case("r = vec4(step(vec2(1, 3), vec2(2.0 + Z)), smoothstep(0.0, 2.0, vec2(0.0, 1.0) + Z));", [1., 0., 0., 0.5]),
+        // Of no width: a step, also where the driver finds that out by itself.
+        case(
+            "float e = Z + 0.5; r = vec4(smoothstep(e, e, Z + vec2(0.25, 0.75)), smoothstep(0.5, 0.5, Z + vec2(0.25, 0.75)));",
+            [0., 1., 0., 1.],
+        ),
         case(
             "r = vec4(length(Z - 3.0), distance(Z + 1.0, 4.0), dot(Z + 2.0, 3.0), normalize(Z - 5.0));",
             [3., 3., 6., -1.],
@@ -560,6 +565,36 @@ fn large_constant_tables_of_every_layout() {
             before,
             "r = vec4(NUMBERS[I + 99], NUMBERS[I - 9], THREES[I - 1].x, THREES[I + 40].x);",
             [39., 0., 0., 39.],
+        ),
+    ]);
+}
+
+/// Which last bits come out, on drivers that neither fuse nor round otherwise: those of OpenGL's compilers.
+#[test]
+fn order_of_evaluation() {
+    let Some(gpu) = gpu() else { return };
+    if gpu.info.device_type != wgpu::DeviceType::Cpu {
+        return;
+    }
+    check(&[
+        // The constants of a product are multiplied first: (0.3 * 0.7) * b * a.
+        case("float a = Z + 2.15, b = Z + 8.59; r = vec4(floatBitsToUint(0.3 * a * b * 0.7) - 0x40783778u);", [0.; 4]),
+        // A scalar that is added to a vector stays whole: p + (p.x q.x + p.y q.y).
+        case(
+            "vec2 p = Z + vec2(8.69, 6.8), q = Z + vec2(5.33, 3.22);\n\
+             r = vec4(floatBitsToUint(p + dot(p, q)) - uvec2(0x4299ceb2u, 0x42960704u), 0, 0);",
+            [0.; 4],
+        ),
+        // Matrices are applied one after the other: m * (n * v).
+        case(
+            "mat2 m = mat2(2.18, 7.56, 6.47, 7.3), n = mat2(2.53, 7.42, 2.53, 1.65); m[0] += Z; n[0] += Z;\n\
+             r = vec4(floatBitsToUint(m * n * (Z + vec2(7.84, 7.89))) - uvec2(0x4408d75bu, 0x444d23e8u), 0, 0);",
+            [0.; 4],
+        ),
+        // x (1 - a) + y a where the components share x (1 - a).
+        case(
+            "vec3 y = Z + vec3(4.25, 1.0, 2.0); r = vec4(floatBitsToUint(mix(vec3(0.3), y, Z + 0.27).x) - 0x3faee979u);",
+            [0.; 4],
         ),
     ]);
 }

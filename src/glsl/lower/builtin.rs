@@ -192,7 +192,7 @@ impl Builder<'_, '_> {
                 // The edges have one type; the third argument has the result's.
                 let spread = a_ty != ty;
                 let (a, b) = if spread { (self.splat(a, ty), self.splat(b, ty)) } else { (a, b) };
-                self.math3(Math::SmoothStep, a, b, c)
+                self.smoothstep(ty, a, b, c)
             }
             B::FaceForward if ty == TypeId::FLOAT => {
                 let product = self.op(Op::Multiply, c, b);

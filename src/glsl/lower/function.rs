@@ -49,6 +49,10 @@ pub(super) struct Builder<'m, 'a> {
     zeros: Map<Handle<naga::Type>, Value>,
     constants: Map<u32, Value>,
     globals: Map<Handle<naga::GlobalVariable>, Value>,
+    /// The factors of each product of matrices: how many columns the left one has, left, right.
+    pub matrix_products: Map<Value, (u8, Value, Value)>,
+    /// Values that variables stand for.
+    named: std::collections::HashSet<Value>,
     pub loops: Vec<Loop>,
     /// What is known of int locals at this place: least and greatest value.
     pub known: Map<u32, (i64, i64)>,
@@ -91,6 +95,8 @@ impl<'m, 'a> Builder<'m, 'a> {
             zeros: Map::default(),
             constants: Map::default(),
             globals: Map::default(),
+            matrix_products: Map::default(),
+            named: Default::default(),
             loops: Vec::new(),
             known: Map::default(),
             result: TypeId::VOID,
@@ -151,8 +157,14 @@ impl<'m, 'a> Builder<'m, 'a> {
             let pointer = self.memory(local);
             self.store(pointer, value);
         } else {
+            self.named.insert(value);
             self.set_slot(local, Slot::Value(value));
         }
+    }
+
+    /// Whether a variable stands for a value: then it may be used more than once.
+    pub fn is_named(&self, value: Value) -> bool {
+        self.named.contains(&value)
     }
 
     /// Whether a local is written, or indexed in a way values cannot be.

@@ -70,25 +70,18 @@ impl Builder<'_, '_> {
         self.select(total, zero, refracted)
     }
 
-    /// `x + a (y - x)`, as OpenGL's compilers and the site's evaluate it; for a constant `a`, `x (1 - a) + y a` as in section 8.3.
-    pub fn mix(&mut self, ty: TypeId, x: Value, y: Value, a: Value) -> Value {
-        if self.is_literal(a) {
-            let one = self.float_of(ty, 1.0);
-            let rest = self.op(Op::Subtract, one, a);
-            let (left, right) = (self.op(Op::Multiply, x, rest), self.op(Op::Multiply, y, a));
-            return self.op(Op::Add, left, right);
+    /// `m1 * m2 * v` as `m1 * (m2 * v)`, which is less work: GLSL leaves the order open.
+    pub fn matrices_times_vector(&mut self, columns: u8, matrix: Value, vector: Value) -> Value {
+        let mut factors = vec![(columns, matrix)];
+        while let Some(&(_, last)) = factors.last()
+            && let Some(&(inner, left, right)) = self.matrix_products.get(&last)
+            && !self.is_named(last)
+        {
+            let (columns, _) = factors.pop().expect("seen above");
+            factors.extend([(inner, left), (columns, right)]);
         }
-        let difference = self.op(Op::Subtract, y, x);
-        let part = self.op(Op::Multiply, a, difference);
-        self.op(Op::Add, x, part)
-    }
-
-    fn is_literal(&self, value: Value) -> bool {
-        match self.f.expressions[value] {
-            Expression::Literal(_) | Expression::Constant(_) | Expression::ZeroValue(_) => true,
-            Expression::Splat { value, .. } => self.is_literal(value),
-            _ => false,
-        }
+        let product = |vector, (columns, matrix)| self.matrix_times_vector(columns, matrix, vector);
+        factors.into_iter().rev().fold(vector, product)
     }
 
     /// `matCxR * vecC`: columns times components, added from the first on.
@@ -125,6 +118,8 @@ impl Builder<'_, '_> {
             self.matrix_times_vector(inner, left, column)
         });
         let columns = columns.collect();
-        self.compose(ty, columns)
+        let product = self.compose(ty, columns);
+        self.matrix_products.insert(product, (inner, left, right));
+        product
     }
 }

@@ -31,6 +31,7 @@ mod matrix;
 mod operators;
 mod ranges;
 mod reach;
+mod regroup;
 mod resources;
 mod tables;
 mod texture;

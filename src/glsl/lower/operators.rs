@@ -62,7 +62,7 @@ impl Builder<'_, '_> {
         };
         match (shape, types.get(left.0), types.get(right.0)) {
             (Shape::MatVec, Type::Matrix { columns, .. }, _) => {
-                return self.matrix_times_vector(columns, left.1, right.1);
+                return self.matrices_times_vector(columns, left.1, right.1);
             }
             (Shape::VecMat, _, Type::Matrix { columns, rows }) => {
                 return self.vector_times_matrix((columns, rows), left.1, right.1);
@@ -76,6 +76,11 @@ impl Builder<'_, '_> {
             Shape::ScalarLeft => (right.0, left.1),
             _ => (left.0, right.1),
         };
+        if matches!(op, Op::Multiply | Op::Add)
+            && let Some(regrouped) = self.with_constants_joined(op, vector_ty, left, right)
+        {
+            return regrouped;
+        }
         if matches!(shape, Shape::ScalarLeft | Shape::ScalarRight) && self.is_arithmetic(vector_ty, scalar) {
             return self.by_component(op, shape, vector_ty, left.1, right.1);
         }

@@ -1,0 +1,212 @@
+//! Sums, products and mixes in the order in which OpenGL's compilers evaluate them.
+//!
+//! GLSL leaves the order open, and every driver regroups; which last bits come out depends on who does it first. Real shaders
+//! blow up last bits (`fract(sin(x) * 43758.5453)`), so the constants of a chain are joined here, as the GLSL compilers people
+//! write their shaders on join them, before a SPIR-V driver joins them in another order.
+
+use naga::{BinaryOperator as Op, Expression, Literal, MathFunction as Math};
+
+use super::{
+    function::{Builder, Value},
+    operators::Typed,
+};
+use crate::glsl::hir::{Scalar, TypeId};
+
+/// One component of a value, as far as it can be told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Part {
+    Known(f32),
+    /// Component `.1` of a vector, or a scalar.
+    Of(Value, u32),
+}
+
+impl Builder<'_, '_> {
+    /// `left op right`, a sum or product of type `ty`, where one side is constant and the other has a constant deeper in its
+    /// own chain of `op`: `(a * 2.0) * 3.0` becomes `a * 6.0`. `None` where there is nothing to join.
+    pub fn with_constants_joined(&mut self, op: Op, ty: TypeId, left: Typed, right: Typed) -> Option<Value> {
+        if self.cx.hir.types.scalar(ty) != Some(Scalar::Float) || !self.is_vector_or_scalar(ty) {
+            return None;
+        }
+        let ((chain_ty, chain), constant) = match (self.floats(left.1), self.floats(right.1)) {
+            (None, Some(constant)) => (left, constant),
+            (Some(constant), None) => (right, constant),
+            _ => return None,
+        };
+        // Unlike its products, naga's sums have sides of one type, and what is a scalar within a chain is not known there.
+        if op == Op::Add && chain_ty != ty {
+            return None;
+        }
+        let (chain, freed) = self.join(op, ty, chain, &constant, 0)?;
+        Some(self.sum_or_product(op, ty, chain, freed))
+    }
+
+    /// Puts a constant beside the first one of a chain, in the place of that one's neighbour: the chain and the neighbour.
+    fn join(&mut self, op: Op, ty: TypeId, chain: Value, constant: &[f32], depth: u32) -> Option<(Value, Value)> {
+        /// Chains are short; without a limit a long one would be searched for each of its links.
+        const DEEP: u32 = 8;
+        let Expression::Binary { op: inner, left, right } = self.f.expressions[chain] else { return None };
+        if inner != op || depth > DEEP || (depth > 0 && self.is_named(chain)) {
+            return None;
+        }
+        let (known, neighbour) = match (self.floats(left), self.floats(right)) {
+            (Some(known), None) => (known, right),
+            (None, Some(known)) => (known, left),
+            (Some(_), Some(_)) => return None,
+            (None, None) => {
+                if let Some((part, freed)) = self.join(op, ty, left, constant, depth + 1) {
+                    return Some((self.sum_or_product(op, ty, part, right), freed));
+                }
+                let (part, freed) = self.join(op, ty, right, constant, depth + 1)?;
+                return Some((self.sum_or_product(op, ty, left, part), freed));
+            }
+        };
+        let size = known.len().max(constant.len());
+        let at = |side: &[f32], i: usize| side[i.min(side.len() - 1)];
+        let joined: Vec<f32> = (0..size)
+            .map(|i| match op {
+                Op::Multiply => at(&known, i) * at(constant, i),
+                _ => at(&known, i) + at(constant, i),
+            })
+            .collect();
+        // What overflows only in this order must not.
+        if joined.iter().any(|number| !number.is_finite()) {
+            return None;
+        }
+        let parts: Vec<Value> = joined.into_iter().map(|number| self.float(number)).collect();
+        let joined = match parts[..] {
+            [scalar] => scalar,
+            _ => self.compose(TypeId::vector(Scalar::Float, size as u8), parts),
+        };
+        Some((joined, neighbour))
+    }
+
+    /// Of floats; a literal counts for every component of `ty`.
+    fn sum_or_product(&mut self, op: Op, ty: TypeId, left: Value, right: Value) -> Value {
+        if op == Op::Multiply || ty == TypeId::FLOAT {
+            return self.op(op, left, right);
+        }
+        let [left, right] = [left, right].map(|side| match self.f.expressions[side] {
+            Expression::Literal(_) => self.splat(side, ty),
+            _ => side,
+        });
+        self.op(op, left, right)
+    }
+
+    /// The components of a float constant; one for a scalar or a repeated one.
+    fn floats(&self, value: Value) -> Option<Vec<f32>> {
+        let float = |literal: &Literal| match literal {
+            Literal::F32(number) => Some(*number),
+            _ => None,
+        };
+        match &self.f.expressions[value] {
+            Expression::Literal(literal) => Some(vec![float(literal)?]),
+            Expression::Splat { value, .. } => self.floats(*value),
+            Expression::Compose { components, .. } => {
+                let parts = components.iter().map(|&part| match &self.f.expressions[part] {
+                    Expression::Literal(literal) => float(literal),
+                    _ => None,
+                });
+                parts.collect()
+            }
+            Expression::Constant(constant) => {
+                let expressions = &self.cx.out.global_expressions;
+                let Expression::Compose { components, .. } = &expressions[self.cx.out.constants[*constant].init] else {
+                    return None;
+                };
+                let parts = components.iter().map(|&part| match &expressions[part] {
+                    Expression::Literal(literal) => float(literal),
+                    _ => None,
+                });
+                parts.collect()
+            }
+            _ => None,
+        }
+    }
+
+    fn part(&self, value: Value, index: u32) -> Part {
+        if let Some(floats) = self.floats(value) {
+            return Part::Known(floats[(index as usize).min(floats.len() - 1)]);
+        }
+        match self.f.expressions[value] {
+            Expression::Splat { value, .. } => Part::Of(value, 0),
+            _ => Part::Of(value, index),
+        }
+    }
+
+    /// `x (1 - a) + y a` or `x + a (y - x)`: the first, of section 8.3, where that shares work between components or with
+    /// constants, the second, which is shorter, elsewhere.
+    pub fn mix(&mut self, ty: TypeId, x: Value, y: Value, a: Value) -> Value {
+        let size = self.extent(ty);
+        let shared: Vec<bool> = (0..size).map(|index| self.mix_shares_work(size, index, x, y, a)).collect();
+        match (shared.iter().any(|shared| *shared), shared.iter().all(|shared| *shared)) {
+            (false, _) => self.short_mix(x, y, a),
+            (true, true) => self.full_mix(ty, x, y, a),
+            _ => {
+                let (short, full) = (self.short_mix(x, y, a), self.full_mix(ty, x, y, a));
+                let parts = shared.into_iter().zip(0..).map(|(shared, index)| {
+                    self.add(Expression::AccessIndex { base: if shared { full } else { short }, index })
+                });
+                let parts = parts.collect();
+                self.compose(ty, parts)
+            }
+        }
+    }
+
+    /// Section 8.3: `t = clamp((x - a) / (b - a), 0, 1)`, then `t t (3 - 2 t)`.
+    ///
+    /// Undefined for `a == b`, but shaders use it as a step: infinities clamp to 0 and 1. Drivers that find a divisor to be zero as
+    /// they compile may take the quotient for anything (Mesa's llvmpipe does), so it is never zero.
+    pub fn smoothstep(&mut self, ty: TypeId, a: Value, b: Value, x: Value) -> Value {
+        let differ = |index| match (self.part(a, index), self.part(b, index)) {
+            (Part::Known(a), Part::Known(b)) => a != b,
+            _ => false,
+        };
+        if (0..self.extent(ty)).all(differ) {
+            return self.math3(Math::SmoothStep, a, b, x);
+        }
+        let width = self.op(Op::Subtract, b, a);
+        let (none, least) = (self.float_of(ty, 0.0), self.float_of(ty, f32::MIN_POSITIVE));
+        let is_step = self.op(Op::Equal, width, none);
+        let width = self.select(is_step, least, width);
+        let distance = self.op(Op::Subtract, x, a);
+        let quotient = self.op(Op::Divide, distance, width);
+        let t = self.math(Math::Saturate, quotient);
+        let (two, three) = (self.float_of(ty, 2.0), self.float_of(ty, 3.0));
+        let twice = self.op(Op::Multiply, two, t);
+        let slope = self.op(Op::Subtract, three, twice);
+        let product = self.op(Op::Multiply, t, slope);
+        self.op(Op::Multiply, t, product)
+    }
+
+    fn mix_shares_work(&self, size: u32, index: u32, x: Value, y: Value, a: Value) -> bool {
+        let (from, to, share) = (self.part(x, index), self.part(y, index), self.part(a, index));
+        match (from, to) {
+            (Part::Known(from), Part::Known(to)) if similar(from, to) => return false,
+            (Part::Known(from), _) if from.abs() == 1.0 || from == 0.0 => return false,
+            (_, Part::Known(to)) if to.abs() == 1.0 || to == 0.0 => return true,
+            _ => {}
+        }
+        let mut others = (0..size).filter(|&other| other != index);
+        let alike = |other| self.part(a, other) == share && (self.part(x, other) == from || self.part(y, other) == to);
+        matches!(share, Part::Known(_)) || others.any(alike)
+    }
+
+    fn short_mix(&mut self, x: Value, y: Value, a: Value) -> Value {
+        let difference = self.op(Op::Subtract, y, x);
+        let part = self.op(Op::Multiply, a, difference);
+        self.op(Op::Add, x, part)
+    }
+
+    fn full_mix(&mut self, ty: TypeId, x: Value, y: Value, a: Value) -> Value {
+        let one = self.float_of(ty, 1.0);
+        let rest = self.op(Op::Subtract, one, a);
+        let (left, right) = (self.op(Op::Multiply, x, rest), self.op(Op::Multiply, y, a));
+        self.op(Op::Add, left, right)
+    }
+}
+
+/// Whether the difference of two numbers keeps enough of the smaller one.
+fn similar(a: f32, b: f32) -> bool {
+    let exponent = |number: f32| if number == 0.0 { 0 } else { number.abs().log2().floor() as i32 + 1 };
+    (exponent(a) - exponent(b)).abs() <= 11
+}
