@@ -165,6 +165,22 @@ fn order_of_evaluation_and_effects() {
 #[test]
 fn copies_in_and_out() {
     check(&[
+        // A parameter that is only read sees what was passed, whatever happens to the variable meanwhile.
+        with(
+            "float f(float a[3], inout float b[3]) { b[I + 1] = 9.0; return a[I + 1]; }",
+            "float x[3] = float[3](1.0, 2.0, 3.0); r.x = f(x, x); r.y = x[1]; r.zw = vec2(0);",
+            [2., 9., 0., 0.],
+        ),
+        with(
+            "float g[3] = float[3](1.0, 2.0, 3.0);\nfloat f(float a[3]) { g[I + 1] = 5.0; return a[I + 1]; }",
+            "r = vec4(f(g), g[1], f(g), 0.0);",
+            [2., 5., 5., 0.],
+        ),
+        with(
+            "float f(float a[3], float b) { return a[I + 2] + b; }\nfloat h(float a[3]) { return f(a, a[I]); }",
+            "float x[3] = float[3](1.0, 2.0, 3.0); r.x = h(x); x[I + 2] = 7.0; r.y = h(x); r.z = f(x, x[2] = 4.0); r.w = f(float[3](6.0, 6.0, 6.0), 1.0);",
+            [4., 8., 11., 7.],
+        ),
         with(
             "void f(inout float a, inout float b) { a += 1.0; b *= 3.0; }",
             "float x = 2.0; f(x, x); r = vec4(x);",

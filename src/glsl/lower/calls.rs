@@ -25,7 +25,8 @@ impl Builder<'_, '_> {
                 channels.push(self.channel(arg));
                 continue;
             }
-            if !param.kind.copies_out() {
+            let in_place = self.reads_in_place(param);
+            if !param.kind.copies_out() && !in_place {
                 arguments.push(self.value(arg));
                 continue;
             }
@@ -33,6 +34,13 @@ impl Builder<'_, '_> {
                 && self.is_private_to_call(local, i, params, args)
             {
                 arguments.push(pointer);
+                continue;
+            }
+            if in_place && !param.kind.copies_out() {
+                let value = self.value(arg);
+                let copy = self.temporary(param.ty);
+                self.store(copy, value);
+                arguments.push(copy);
                 continue;
             }
             let place = self.place(arg);

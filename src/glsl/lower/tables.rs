@@ -17,8 +17,9 @@ use crate::glsl::{
     interface,
 };
 
-/// Scalars from which on a table goes into the buffer.
-const LARGE: usize = 32;
+/// Scalars from which on a table goes into the buffer. A buffer's load is slow where neighbours read different places (five times
+/// the frame of a loop over 14 triangles on llvmpipe), and a driver that unrolls such a loop folds reads of memory away.
+const LARGE: usize = 256;
 
 /// Tables found so far.
 #[derive(Default)]
