@@ -36,7 +36,7 @@ impl Builder<'_, '_> {
                 arguments.push(pointer);
                 continue;
             }
-            if in_place && !param.kind.copies_out() {
+            if in_place {
                 let value = self.value(arg);
                 let copy = self.temporary(param.ty);
                 self.store(copy, value);

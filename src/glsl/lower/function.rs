@@ -178,7 +178,7 @@ impl<'m, 'a> Builder<'m, 'a> {
     /// Whether a parameter is only read, but indexed in a way values cannot be: then it is a pointer to what the caller has, not
     /// a copy that each call fills anew, element by element.
     pub fn reads_in_place(&self, param: &Local) -> bool {
-        param.kind.copies_in()
+        !param.kind.copies_out()
             && param.flags.contains(VarFlags::INDEXED)
             && !param.flags.contains(VarFlags::WRITTEN)
             && !self.is_vector_or_scalar(param.ty)
