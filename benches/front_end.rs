@@ -112,6 +112,8 @@ fn measure(spec: &str, project: &Project, index: usize) -> Row {
         }),
         bilinear_by_hand: [false; 4],
         tables_in_memory: false,
+        knobs: &[],
+        includes: &[],
     };
     let analysis = Analysis::new(&source);
     let last_line = code.trim_end().trim_end_matches('}').len();

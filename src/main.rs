@@ -17,8 +17,8 @@ fn main() -> ExitCode {
 
 #[cfg(feature = "gui")]
 fn open(window: Window) -> anyhow::Result<()> {
-    let Window { project, size, json } = window;
-    Ok(eddy::gui::run(eddy::gui::Options { project, size, json })?)
+    let Window { project, size, set, json } = window;
+    Ok(eddy::gui::run(eddy::gui::Options { project, size, set, json })?)
 }
 
 #[cfg(not(feature = "gui"))]

@@ -223,3 +223,29 @@ fn a_closed_or_full_standard_output_is_no_panic() {
     let err = String::from_utf8_lossy(&output.stderr);
     assert!(!err.contains("panicked"), "{err}");
 }
+
+#[test]
+fn uniforms_are_set_on_the_command_line_and_become_constants_of_an_export() {
+    let b = Bench::new();
+    let code = "#iUniform float red = 0.2 in { 0.0, 1.0 }\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(red); }\n";
+    b.write("p/image.glsl", code);
+    b.write("p/eddy.toml", "eddy = 1\n[uniforms]\nred = 0.4\nreed = 1\n[passes.image]\n");
+    let check = b.line("check p").expect(0);
+    assert!(check.err.contains("eddy.toml:4:1") && check.err.contains("did you mean red?"), "{}", check.err);
+    let exported = b.line("export p --out p.json").expect(0);
+    assert!(exported.out.contains("red is a constant there"), "{}", exported.out);
+    assert!(String::from_utf8(b.bytes("p.json")).unwrap().contains("const float red = 0.4;\\n// #iUniform float red"));
+    b.line("check p.json").expect(0);
+    for (args, says) in [
+        ("rde=1", "did you mean red?"),
+        ("red=2", "outside of its range, 0.0 to 1.0"),
+        ("red=1,2", "is a float and takes a number"),
+        ("red", "viscosity=0.3"),
+    ] {
+        let run = b.line(&format!("render p --size 4x4 --out o.png --set {args}")).expect(2);
+        assert!(run.err.contains("--set ") && run.err.contains(says), "{args}: {}", run.err);
+    }
+    b.write("p/eddy.toml", "eddy = 1\n[uniforms]\nred = \"x\"\n[passes.image]\n");
+    let refused = b.line("check p").expect(1);
+    assert!(refused.err.contains("eddy.toml:3:7") && refused.err.contains("true, false, a number"), "{}", refused.err);
+}

@@ -240,3 +240,47 @@ fn bench_tells_what_a_frame_costs() {
     let words = b.line("bench count --size 16x16 --frames 5").expect(0).out;
     assert!(words.contains("Buffer A") && words.contains("ms"), "{words}");
 }
+
+#[test]
+fn a_set_uniform_shows_in_the_picture_and_in_what_bench_draws() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    b.write(
+        "a.glsl",
+        "#iUniform vec2 both = vec2(0.25, 0.5)\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(both, 0.0, 1.0); }\n",
+    );
+    b.line("render a.glsl --size 1x1 --out a.npy").expect(0);
+    assert_eq!(b.npy("a.npy").at(0, 0), [0.25, 0.5, 0.0, 1.0]);
+    b.line("render a.glsl --size 1x1 --out b.npy --set both=-1,7").expect(0);
+    assert_eq!(b.npy("b.npy").at(0, 0), [-1.0, 7.0, 0.0, 1.0]);
+    b.line("bench a.glsl --size 1x1 --frames 1 --set both=1,2").expect(0);
+    assert!(b.line("bench a.glsl --size 1x1 --frames 1 --set bott=1,2").expect(2).err.contains("did you mean both?"));
+}
+
+#[test]
+fn bench_says_what_rests_and_no_skip_draws_it_all_the_same() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    b.image("p/buffer_a.glsl", "fragColor = vec4(fragCoord, iResolution.xy);");
+    b.image("p/buffer_b.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0) + iTime;");
+    b.image("p/image.glsl", "fragColor = texelFetch(iChannel1, ivec2(fragCoord), 0);");
+    b.write(
+        "p/eddy.toml",
+        "[passes.buffer_a]\nsize = [4, 2]\nformat = \"rg16f\"\n[passes.buffer_b]\nchannels.0 = { buffer = \"A\" }\n\
+         [passes.image]\nchannels.1 = { buffer = \"B\" }\n",
+    );
+    let bench = |args: &str| b.line(&format!("bench p --size 8x4 --frames 5 {args}")).expect(0);
+    assert!(bench("").out.contains("at rest"));
+    let json = &bench("--json").json()[0];
+    assert_eq!((json["passes_rested"].as_f64(), json["bytes_rested"].as_f64()), (Some(1.0), Some(4.0 * 2.0 * 4.0)));
+    let full = &bench("--json --no-skip").json()[0];
+    assert_eq!(full["passes_rested"].as_f64(), Some(0.0));
+    assert!(!bench("--no-skip").out.contains("at rest"));
+    b.line("render p --size 8x4 --frames 4 --out a.npy").expect(0);
+    b.line("render p --size 8x4 --frames 4 --out b.npy --no-skip").expect(0);
+    assert_eq!(b.bytes("a.npy"), b.bytes("b.npy"));
+    b.line("render p --size 8x4 --pass buffer_a --out c.npy").expect(0);
+    assert_eq!((b.npy("c.npy").width, b.npy("c.npy").at(3, 1)), (4, [3.5, 1.5, 0.0, 1.0]));
+    let exported = b.line("export p --out p.json").expect(0);
+    assert!(exported.out.contains("the site has none"), "{}", exported.out);
+}

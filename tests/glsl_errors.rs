@@ -25,6 +25,8 @@ fn messages(name: &str, code: &str) -> String {
         channels,
         bilinear_by_hand: [false; 4],
         tables_in_memory: false,
+        knobs: &[],
+        includes: &[],
     };
     match glsl::compile(&source) {
         Ok(_) => String::from("it compiles\n"),

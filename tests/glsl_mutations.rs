@@ -271,6 +271,8 @@ fn any_text_gets_an_answer() {
                 channels: [ChannelKind::Sampler2D; 4],
                 bilinear_by_hand: [false; 4],
                 tables_in_memory: false,
+                knobs: &[],
+                includes: &[],
             });
             if let Err(errors) = &result {
                 assert!(errors.iter().any(|d| d.is_error()), "refused without an error");
@@ -326,6 +328,8 @@ fn editors_get_an_answer_at_any_place_of_any_text() {
                 channels: [ChannelKind::Sampler2D; 4],
                 bilinear_by_hand: [false; 4],
                 tables_in_memory: false,
+                knobs: &[],
+                includes: &[],
             });
             let mut end = 0;
             for span in analysis.classes(SourceId(0)) {
@@ -350,6 +354,8 @@ fn huge_texts_get_an_answer() {
             channels: [ChannelKind::Sampler2D; 4],
             bilinear_by_hand: [false; 4],
             tables_in_memory: false,
+            knobs: &[],
+            includes: &[],
         });
         // Far above what it takes, far below what a quadratic algorithm would.
         assert!(begin.elapsed() < Duration::from_secs(20), "{:?}: {}", begin.elapsed(), &text[..40]);

@@ -227,3 +227,37 @@ fn dragging_in_brick_breaker_moves_the_paddle() {
     let (left, right) = (paddle_at(0.3), paddle_at(0.7));
     assert!(right > left + 10.0, "the paddle went from {left} to {right}");
 }
+
+#[test]
+fn a_slider_changes_the_picture_while_it_is_paused_and_resets() {
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let code = "#iUniform float red = 0.0 in { 0.0, 1.0 }\n#iUniform color3 tint\n#iUniform bool on\n#iUniform vec3 at\n\
+                void mainImage(out vec4 o, in vec2 p) { o = vec4(red, tint.g, on ? 1.0 : 0.0, 1.0); }";
+    let folder = one_pass_project(home.path(), code);
+    let folder = folder.to_str().unwrap();
+    let mut window = Window::open(&display, home.path(), &[folder, "--set", "tint=0,1,0"]);
+    compiled(&mut window, true);
+    window.keys(&["alt+Up"]);
+    window.wait_until("the pause", "frame", |e| e["playing"] == false);
+    // Held until it shows: a press and a release between two frames drag nothing.
+    let slider = window.centre("knob:red");
+    window.move_to(slider);
+    window.press();
+    window.wait_until("the slider", "uniforms", |e| e["values"]["red"][0].as_f64().is_some_and(|x| x > 0.0));
+    window.release();
+    window.click_on("knob:on");
+    window.wait_until("the switch", "uniforms", |e| e["values"]["on"][0] == 1.0);
+    // Notices of saved pictures lie over the lower rows for a while: the first picture comes after the last click there.
+    let [red, green, blue] = colour(&mut window);
+    assert!((20..=235).contains(&red), "red is {red} with the slider about half way");
+    assert_eq!([green, blue], [255, 255]);
+    if let Some(path) = std::env::var_os("EDDY_PHOTOGRAPH") {
+        display.photograph(Path::new(&path));
+    }
+    window.click_on("knob:reset:red");
+    window.wait_until("the default", "uniforms", |e| e["values"]["red"][0] == 0.0);
+    window.click_on("knobs:reset");
+    window.wait_until("all defaults", "uniforms", |e| e["values"]["tint"][1] == 0.0 && e["values"]["on"][0] == 0.0);
+    assert_eq!(colour(&mut window), [0, 0, 0]);
+}

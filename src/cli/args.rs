@@ -33,6 +33,9 @@ pub struct Window {
     /// Size of the window in pixels [default: what suits the screen]
     #[arg(long, value_name = "WxH", value_parser = size, allow_hyphen_values = true)]
     pub size: Option<(u32, u32)>,
+    /// Set a uniform that an #iUniform line declares, as in viscosity=0.3 or tint=1,0.5,0; may be repeated
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
     /// Tell on standard output what happens in the window, one JSON object a line
     #[arg(long)]
     pub json: bool,
@@ -104,6 +107,9 @@ pub struct RunArgs {
     /// A folder with the site's pictures, used instead of Eddy's own where a file has the right name
     #[arg(long, value_name = "DIR")]
     pub media: Option<PathBuf>,
+    /// Set a uniform that an #iUniform line declares, as in viscosity=0.3 or tint=1,0.5,0; may be repeated
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
     /// Draw every pass in every frame, needed or not; the pictures stay the same
     #[arg(long)]
     pub no_skip: bool,
@@ -240,11 +246,12 @@ mod tests {
     fn every_option_of_the_contract_is_read() {
         let r = render(
             "eddy render a b --size 320x180 --frames 9 --out o --at 0,4,8 --pass buffer_b --format npy --fps 30 \
-             --date 2024-12-31T23:59:00 --media m --no-skip --json --mouse 0:down --keys 0:up",
+             --date 2024-12-31T23:59:00 --media m --no-skip --json --mouse 0:down --keys 0:up --set a=1 --set b=1,2",
         );
         assert_eq!(r.project, ["a", "b"]);
         assert_eq!((r.run.size, r.frames, r.run.fps), ((320, 180), Some(9), 30.0));
         assert_eq!((r.at.as_slice(), r.pass.key(), r.format), (&[0, 4, 8][..], "buffer_b".into(), Some(Format::Npy)));
+        assert_eq!(r.run.set, ["a=1", "b=1,2"]);
         assert!(r.json && r.run.no_skip && r.run.date.is_some());
     }
 

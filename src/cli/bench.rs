@@ -35,6 +35,10 @@ struct Costs {
     /// Bytes of the targets, and how many more they were if nothing were left out.
     target_bytes: u64,
     target_bytes_saved: u64,
+    /// Passes that a frame left out because nothing they read had changed, and the bytes of texels not written for it; means
+    /// over the measured frames.
+    passes_rested: f64,
+    bytes_rested: f64,
 }
 
 #[derive(Debug, Serialize)]
@@ -81,10 +85,14 @@ fn measure(
         engine.gpu().wait()?;
     }
     let (mut millis, mut cpu) = (Vec::new(), Vec::new());
+    let (mut passes_rested, mut bytes_rested) = (0, 0);
     for _ in 0..args.frames {
         let inputs = inputs.next_frame();
         let began = Instant::now();
-        let drawn = engine.draw(&inputs)?.passes_drawn;
+        let stats = engine.draw(&inputs)?;
+        let drawn = stats.passes_drawn;
+        passes_rested += stats.passes_rested;
+        bytes_rested += stats.bytes_rested;
         cpu.push(millis_since(began) * 1000.0 / drawn.max(1) as f64);
         engine.gpu().wait()?;
         millis.push(millis_since(began));
@@ -112,6 +120,8 @@ fn measure(
         passes_skipped: plan.skipped.iter().map(|i| drawable.passes[*i].id.key()).collect(),
         target_bytes,
         target_bytes_saved: bytes(&everything, width, height).saturating_sub(target_bytes),
+        passes_rested: passes_rested as f64 / f64::from(args.frames),
+        bytes_rested: bytes_rested as f64 / f64::from(args.frames),
     })
 }
 
@@ -137,14 +147,17 @@ fn drawable(project: &Project) -> Project {
     drawable
 }
 
-/// What the targets of a plan take on the device: four floats a texel.
+/// What the targets of a plan take on the device.
 fn bytes(plan: &FramePlan, width: u32, height: u32) -> u64 {
-    let level = |w: u32, h: u32| u64::from(w) * u64::from(h) * 16;
     let of = |target: &crate::graph::Target| {
         let (mut w, mut h, faces) = match target.kind {
-            TargetKind::Canvas => (width, height, 1),
+            TargetKind::Canvas => {
+                let (w, h) = target.size.of((width, height));
+                (w, h, 1)
+            }
             TargetKind::Cube => (1024, 1024, 6),
         };
+        let level = |w: u32, h: u32| u64::from(w) * u64::from(h) * target.format.bytes();
         let mut sum = level(w, h);
         while target.mips && (w, h) != (1, 1) {
             (w, h) = ((w / 2).max(1), (h / 2).max(1));
@@ -157,7 +170,7 @@ fn bytes(plan: &FramePlan, width: u32, height: u32) -> u64 {
 
 fn words(report: &Report, costs: &Costs) -> String {
     let mut out = String::new();
-    let mib = |bytes: u64| bytes as f64 / f64::from(1 << 20);
+    let mib = |bytes: f64| bytes / f64::from(1 << 20);
     let _ = writeln!(
         out,
         "{}: {:.3} ms a frame (slowest {:.3}), {} frames of {}x{} on {}",
@@ -174,7 +187,7 @@ fn words(report: &Report, costs: &Costs) -> String {
         let _ = writeln!(out, "  {:12} {time:>14}", pass.title);
     }
     let _ = writeln!(out, "  {:12} {:>11.1} µs a pass a frame", "engine", costs.cpu_us_per_pass);
-    let _ = writeln!(out, "  {:12} {:>10.1} MiB", "targets", mib(costs.target_bytes));
+    let _ = writeln!(out, "  {:12} {:>10.1} MiB", "targets", mib(costs.target_bytes as f64));
     if costs.target_bytes_saved > 0 || !costs.passes_skipped.is_empty() {
         let _ = writeln!(
             out,
@@ -182,7 +195,16 @@ fn words(report: &Report, costs: &Costs) -> String {
             "left out",
             costs.passes_skipped.len(),
             costs.passes_skipped.len() + costs.passes.len(),
-            mib(costs.target_bytes_saved)
+            mib(costs.target_bytes_saved as f64)
+        );
+    }
+    if costs.passes_rested > 0.0 {
+        let _ = writeln!(
+            out,
+            "  {:12} {:.1} passes a frame, nothing they read having changed: {:.1} MiB not written",
+            "at rest",
+            costs.passes_rested,
+            mib(costs.bytes_rested)
         );
     }
     out
@@ -191,15 +213,27 @@ fn words(report: &Report, costs: &Costs) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::graph::Target;
+    use crate::{
+        graph::Target,
+        project::{PassFormat, PassSize},
+    };
 
     #[test]
     fn a_mip_chain_and_a_second_texture_are_counted() {
-        let target =
-            |doubled, mips| Target { id: PassId::Image, kind: TargetKind::Canvas, doubled, mips, undrawn: false };
+        let target = |doubled, mips| Target {
+            id: PassId::Image,
+            kind: TargetKind::Canvas,
+            size: Default::default(),
+            format: Default::default(),
+            doubled,
+            mips,
+            undrawn: false,
+        };
         let plan = |t| FramePlan { targets: vec![t], ..Default::default() };
         assert_eq!(bytes(&plan(target(false, false)), 4, 2), 8 * 16);
         assert_eq!(bytes(&plan(target(true, false)), 4, 2), 2 * 8 * 16);
         assert_eq!(bytes(&plan(target(true, true)), 4, 2), 2 * (8 + 2 + 1) * 16);
+        let half = Target { size: PassSize::Scale(0.5), format: PassFormat::R16f, ..target(false, false) };
+        assert_eq!(bytes(&plan(half), 4, 2), 2 * 2);
     }
 }

@@ -7,8 +7,8 @@ use super::{
     report::{Printer, Report},
 };
 use crate::{
-    diag::{Diagnostic, SourceId},
-    engine, glsl,
+    diag::Diagnostic,
+    engine,
     project::{self, Filter, Input, Project, SamplerRules, Wrap},
 };
 use std::{collections::BTreeMap, io, time::Instant};
@@ -49,12 +49,11 @@ fn check(report: &mut Report, spec: &str) -> Result<(), Trouble> {
 /// Everything the compiler says of Common alone and of every pass, each once.
 fn compile(project: &Project) -> Vec<Diagnostic> {
     let mut found: Vec<Diagnostic> = Vec::new();
-    if let Some(common) = &project.common {
-        found.extend(glsl::check_common(glsl::Text { id: SourceId(0), text: &common.compile_text() }));
-    }
+    let texts = engine::Sources::new(project);
+    found.extend(texts.diagnostics.iter().cloned());
+    found.extend(texts.check_common());
     for index in 0..project.passes.len() {
-        let said = engine::compile_pass(project, index, [false; 4], false)
-            .map_or_else(|errors| errors, |done| done.diagnostics);
+        let said = texts.compile_pass(index, [false; 4], false).map_or_else(|errors| errors, |done| done.diagnostics);
         for d in said {
             // What is wrong in Common is found again in every pass.
             if !found.contains(&d) {

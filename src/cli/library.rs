@@ -48,7 +48,20 @@ pub fn export(args: &ExportArgs) -> io::Result<u8> {
             return Err(mend(ProjectError::WouldOverwrite { path: args.out.clone() }.into()));
         }
         save(&project, &args.out, args.force)?;
-        Ok(format!("{}: exported to {to}", args.project))
+        let knobs: Vec<String> = project.knobs().list.into_iter().map(|k| k.name).collect();
+        let note = match knobs.len() {
+            0 => String::new(),
+            1 => format!("; {} is a constant there", knobs[0]),
+            _ => format!("; {} are constants there", project::listed(&knobs)),
+        };
+        let has_settings =
+            !project.groups.is_empty() || project.passes.iter().any(|p| p.settings != Default::default());
+        let lost = if has_settings {
+            "; the sizes, formats, regions and groups of passes are left out: the site has none"
+        } else {
+            ""
+        };
+        Ok(format!("{}: exported to {to}{note}{lost}", args.project))
     })
 }
 

@@ -129,7 +129,7 @@ pub fn open(
     wanted: &PassId,
 ) -> Result<(Project, Engine), Trouble> {
     let loaded = project::load(spec)?;
-    let project = loaded.project;
+    let mut project = loaded.project;
     report.diagnose(&loaded.warnings, &loaded.sources, Some(&project));
     match project.pass(wanted) {
         None => {
@@ -141,6 +141,9 @@ pub fn open(
             return Err(Trouble::Unsupported(format!("{} is not drawn by this version of Eddy", wanted.title())));
         }
         Some(_) => {}
+    }
+    for assignment in &run.set {
+        project.set_knob(assignment).map_err(|why| anyhow::anyhow!("--set {why}"))?;
     }
     let (media, missing) = media::gather(&project, run.media.as_deref());
     report.diagnose(&missing, &loaded.sources, Some(&project));

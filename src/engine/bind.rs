@@ -1,5 +1,5 @@
-//! Bind groups: which texture each channel of each draw sees in each phase. Made once for a program and a size, so that a
-//! frame only sets them.
+//! Bind groups: which textures the channels of each draw see. Made when first needed and kept for a program and a size, so
+//! that a frame only sets them.
 
 use super::{
     program::{BoundChannel, CompiledDraw, Program},
@@ -11,7 +11,7 @@ use crate::{
         interface::{self, UniformBlock},
     },
     gpu::{Address, Filtering, Gpu, Samplers, Texture},
-    graph::{Draw, Read, Source, When},
+    graph::{Draw, Read, Source},
     project::{Filter, Wrap},
 };
 
@@ -62,36 +62,58 @@ impl Stock {
 
 /// The bind groups of one draw.
 pub(super) struct DrawBindings {
-    pub uniforms: wgpu::BindGroup,
-    /// By phase.
-    pub channels: [wgpu::BindGroup; 2],
+    uniforms: wgpu::BindGroup,
+    /// By which of its two textures each channel's target shows, a bit for each; made when first needed.
+    channels: [Option<wgpu::BindGroup>; 16],
 }
 
-pub(super) fn make(
-    gpu: &Gpu,
-    stock: &Stock,
-    program: &Program,
-    targets: &[Target],
-    uniforms: &wgpu::Buffer,
-) -> Vec<DrawBindings> {
+impl DrawBindings {
+    /// Uniforms, and the channels as the targets stand now.
+    pub fn groups(
+        &mut self,
+        gpu: &Gpu,
+        stock: &Stock,
+        compiled: &CompiledDraw,
+        draw: &Draw,
+        targets: &[Target],
+    ) -> [&wgpu::BindGroup; 2] {
+        let front = |read: &Option<Read>| match read.as_ref().map(|r| &r.source) {
+            Some(Source::Target { index, .. }) => targets[*index].front,
+            _ => 0,
+        };
+        let key = draw.reads.iter().enumerate().fold(0, |key, (i, read)| key | front(read) << i);
+        let make = || channel_group(gpu, stock, compiled, draw, targets);
+        [&self.uniforms, self.channels[key].get_or_insert_with(make)]
+    }
+}
+
+pub(super) fn make(gpu: &Gpu, program: &Program, uniforms: &wgpu::Buffer, knobs: &wgpu::Buffer) -> Vec<DrawBindings> {
     program
         .draws
         .iter()
-        .zip(&program.plan.draws)
         .enumerate()
-        .map(|(index, (compiled, draw))| DrawBindings {
-            uniforms: uniform_group(gpu, compiled, uniforms, index as u64 * UNIFORM_STRIDE),
-            channels: [0, 1].map(|phase| channel_group(gpu, stock, compiled, draw, targets, phase)),
+        .map(|(index, compiled)| DrawBindings {
+            uniforms: uniform_group(gpu, compiled, uniforms, index as u64 * UNIFORM_STRIDE, knobs),
+            channels: Default::default(),
         })
         .collect()
 }
 
-fn uniform_group(gpu: &Gpu, compiled: &CompiledDraw, uniforms: &wgpu::Buffer, offset: u64) -> wgpu::BindGroup {
+fn uniform_group(
+    gpu: &Gpu,
+    compiled: &CompiledDraw,
+    uniforms: &wgpu::Buffer,
+    offset: u64,
+    knobs: &wgpu::Buffer,
+) -> wgpu::BindGroup {
     let size = std::num::NonZero::new(size_of::<UniformBlock>() as u64);
     let block = wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer: uniforms, offset, size });
     let mut entries = vec![wgpu::BindGroupEntry { binding: 0, resource: block }];
     if let Some(tables) = &compiled.tables {
         entries.push(wgpu::BindGroupEntry { binding: interface::TABLE_BINDING, resource: tables.as_entire_binding() });
+    }
+    if !compiled.knobs.is_empty() {
+        entries.push(wgpu::BindGroupEntry { binding: interface::KNOB_BINDING, resource: knobs.as_entire_binding() });
     }
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("uniforms"),
@@ -106,7 +128,6 @@ fn channel_group(
     compiled: &CompiledDraw,
     draw: &Draw,
     targets: &[Target],
-    phase: usize,
 ) -> wgpu::BindGroup {
     let mut entries = Vec::new();
     for (index, channel) in compiled.channels.iter().enumerate() {
@@ -114,7 +135,7 @@ fn channel_group(
         if channel.texture {
             entries.push(wgpu::BindGroupEntry {
                 binding: interface::texture_binding(index),
-                resource: wgpu::BindingResource::TextureView(view(stock, channel, read, targets, phase)),
+                resource: wgpu::BindingResource::TextureView(view(stock, channel, read, targets)),
             });
         }
         if channel.sampler {
@@ -136,15 +157,11 @@ fn view<'a>(
     channel: &'a BoundChannel,
     read: Option<&Read>,
     targets: &'a [Target],
-    phase: usize,
 ) -> &'a wgpu::TextureView {
     match (read.map(|r| &r.source), channel.kind) {
-        (Some(Source::Target { index, when }), _) => {
-            let phase = match when {
-                When::ThisFrame => phase,
-                When::LastFrame => 1 - phase,
-            };
-            let texture = targets[*index].at(phase);
+        // Whether that is this frame's or one before it is the plan's order.
+        (Some(Source::Target { index, .. }), _) => {
+            let texture = targets[*index].newest();
             // Filtering by hand goes by the levels it finds.
             let by_hand = read.is_some_and(|r| r.sampler.filter == Filter::Linear) && !channel.filters;
             if by_hand { &texture.level_0 } else { &texture.all_levels }

@@ -4,11 +4,16 @@
 //! frame. Reads no clock, no file and no environment variable: same project, same inputs, same bytes. Knows no window.
 
 mod bind;
+mod compile;
+mod frame;
 mod inputs;
+mod knobs;
 mod program;
 mod run;
 mod targets;
+mod uniforms;
 
+pub use compile::{Sources, channel_kinds, pass_kind};
 pub use inputs::FrameInputs;
-pub use program::{BuildError, BuildOptions, Built, Program, channel_kinds, compile_pass, pass_kind};
+pub use program::{BuildError, BuildOptions, Built, Program};
 pub use run::{Engine, EngineError, FrameStats, PassTime, Pixels};

@@ -1,16 +1,16 @@
 //! From a project to everything a frame needs that does not change from frame to frame.
 
-use super::EngineError;
+use super::{EngineError, Sources, targets::texture_format};
 use crate::{
-    diag::{Diagnostic, SourceId, SourceMap},
-    glsl::{self, ChannelKind, Compiled, PassKind, PassSource, Text, interface},
+    diag::{Diagnostic, SourceMap},
+    glsl::{ChannelKind, Compiled, KnobSet, UniformSet, interface},
     gpu::{
         Binding, FragmentPipeline, FragmentPipelineDescriptor, Gpu, MipMaker, Texture, TextureDescriptor,
         constant_buffer, mip_levels,
     },
     graph::{ChannelFacts, Draw, FramePlan, PassFacts, Source},
     media::{MediaKey, MediaSet, TexelFormat, Texels},
-    project::{Channel, Filter, Input, PassId, Project},
+    project::{Channel, Filter, Input, Knob, KnobValues, PassFormat, PassId, PassSettings, PassSize, Project},
 };
 use std::{collections::HashMap, sync::Arc};
 
@@ -34,6 +34,10 @@ pub struct Program {
     pub(super) plan: FramePlan,
     /// One for each of the plan's draws.
     pub(super) draws: Vec<CompiledDraw>,
+    /// The author's own uniforms, in the order of their slots.
+    pub(super) knobs: Vec<Knob>,
+    /// As they stand when the program is taken up.
+    pub(super) knob_values: KnobValues,
 }
 
 /// The pipeline of one draw and what its channels are bound to.
@@ -43,6 +47,9 @@ pub(super) struct CompiledDraw {
     pub channels: [BoundChannel; 4],
     /// The constant tables of the shader, where it has any.
     pub tables: Option<wgpu::Buffer>,
+    /// The uniforms that are read: the site's, and the author's own by their slots.
+    pub uniforms: UniformSet,
+    pub knobs: KnobSet,
 }
 
 /// One channel of a compiled pass.
@@ -57,8 +64,8 @@ pub(super) struct BoundChannel {
     pub media: Option<Texture>,
     /// What `iChannelResolution` says of the channel if it does not read a buffer.
     pub resolution: [f32; 3],
-    /// The channel names a buffer, whose size is the canvas's.
-    pub is_canvas_sized: bool,
+    /// The size of the buffer the channel names, if it names one.
+    pub buffer: Option<PassSize>,
 }
 
 /// A program and what the compiler wants to say of it.
@@ -84,7 +91,8 @@ impl Program {
     /// channels name; one that is missing reads as the site's unloaded channel.
     pub fn build(gpu: &Gpu, project: &Project, media: &MediaSet, options: &BuildOptions) -> Result<Built, BuildError> {
         let sources = project.sources();
-        let (drawable, compiled, diagnostics) = match compile(gpu, project, media) {
+        let texts = Sources::new(project);
+        let (drawable, compiled, diagnostics) = match compile(gpu, project, &texts, media) {
             Ok(done) => done,
             Err(diagnostics) => return Err(BuildError::Diagnostics { diagnostics, sources }),
         };
@@ -108,7 +116,7 @@ impl Program {
                 (bound.texture, bound.sampler) = (used.texture, used.sampler);
                 bound.kind = kind_of(channel);
                 let texels = channel.and_then(media_key).and_then(|key| media.get(&key).map(|t| (key, t)));
-                let float = is_float(channel, texels.as_ref().map(|(_, t)| &***t));
+                let float = is_float(&drawable, channel, texels.as_ref().map(|(_, t)| &***t));
                 let read = draw.reads[index].as_ref();
                 bound.filters =
                     read.is_some_and(|r| r.sampler.filter != Filter::Nearest) && (!float || gpu.filters_float32);
@@ -116,7 +124,7 @@ impl Program {
                     Some(Input::Keyboard) => [256.0, 3.0, 1.0],
                     _ => texels.as_ref().map_or([0.0; 3], |(_, t)| [t.width as f32, t.height as f32, 1.0]),
                 };
-                bound.is_canvas_sized = matches!(channel.map(|c| &c.input), Some(Input::Buffer(_)));
+                bound.buffer = channel.and_then(|c| settings_of(&drawable, c)).map(|s| s.size);
                 if let Some((key, texels)) = texels
                     && (used.texture || used.sampler)
                 {
@@ -124,10 +132,17 @@ impl Program {
                     bound.media = Some(uploads.get(key, texels, mips).map_err(EngineError::from)?);
                 }
             }
-            jobs.push((pass.id.clone(), compiled, channels, draw));
+            jobs.push((pass.id.clone(), compiled, channels, draw, plan.targets[draw.target].format));
         }
         let draws = make_pipelines(gpu, jobs)?;
-        Ok(Built { program: Program { plan, draws }, diagnostics, sources })
+        let program =
+            Program { plan, draws, knobs: texts.knobs().list.clone(), knob_values: project.knob_values.clone() };
+        Ok(Built { program, diagnostics, sources })
+    }
+
+    /// The author's own uniforms, in the order they are declared.
+    pub fn knobs(&self) -> &[Knob] {
+        &self.knobs
     }
 
     /// What is drawn, read and kept in each frame.
@@ -139,11 +154,16 @@ impl Program {
 /// The passes that can be drawn, compiled; `project` with only these, and every warning.
 type Compilation = (Project, Vec<Compiled>, Vec<Diagnostic>);
 
-fn compile(gpu: &Gpu, project: &Project, media: &MediaSet) -> Result<Compilation, Vec<Diagnostic>> {
+fn compile(
+    gpu: &Gpu,
+    project: &Project,
+    texts: &Sources<'_>,
+    media: &MediaSet,
+) -> Result<Compilation, Vec<Diagnostic>> {
     let mut drawable = project.clone();
     drawable.passes.clear();
     let mut compiled = Vec::new();
-    let mut diagnostics: Vec<Diagnostic> = Vec::new();
+    let mut diagnostics: Vec<Diagnostic> = texts.diagnostics.clone();
     for (index, pass) in project.passes.iter().enumerate() {
         if matches!(pass.id, PassId::Cubemap | PassId::Sound) {
             let what = pass.id.title();
@@ -156,10 +176,10 @@ fn compile(gpu: &Gpu, project: &Project, media: &MediaSet) -> Result<Compilation
             let texels = channel.and_then(media_key).and_then(|k| media.get(&k));
             let filter = crate::graph::effective_sampler(project, index, i).map(|s| s.filter);
             !gpu.filters_float32
-                && is_float(channel, texels.map(|t| &**t))
+                && is_float(project, channel, texels.map(|t| &**t))
                 && filter.is_some_and(|f| f != Filter::Nearest)
         });
-        let said = match compile_pass(project, index, bilinear_by_hand, !gpu.has_storage_buffers) {
+        let said = match texts.compile_pass(index, bilinear_by_hand, !gpu.has_storage_buffers) {
             Ok(mut done) => {
                 let said = std::mem::take(&mut done.diagnostics);
                 drawable.passes.push(without_cubemap_passes(pass.clone()));
@@ -176,45 +196,6 @@ fn compile(gpu: &Gpu, project: &Project, media: &MediaSet) -> Result<Compilation
         }
     }
     if diagnostics.iter().any(Diagnostic::is_error) { Err(diagnostics) } else { Ok((drawable, compiled, diagnostics)) }
-}
-
-/// Compiles `project.passes[index]` as it is, of whichever kind and reached or not. Needs no device, but is told which
-/// channels the device that shall run it cannot filter, and whether it has no storage buffers.
-///
-/// # Panics
-/// If there is no such pass.
-pub fn compile_pass(
-    project: &Project,
-    index: usize,
-    bilinear_by_hand: [bool; 4],
-    tables_in_memory: bool,
-) -> Result<Compiled, Vec<Diagnostic>> {
-    let pass = &project.passes[index];
-    let common = project.common.as_ref().map(|c| c.compile_text());
-    let code = pass.source.compile_text();
-    glsl::compile(&PassSource {
-        kind: pass_kind(&pass.id),
-        common: common.as_deref().map(|text| Text { id: SourceId(0), text }),
-        code: Text { id: SourceId(index as u16 + 1), text: &code },
-        channels: channel_kinds(pass),
-        bilinear_by_hand,
-        tables_in_memory,
-    })
-}
-
-/// What the compiler calls a pass.
-pub fn pass_kind(id: &PassId) -> PassKind {
-    match id {
-        PassId::Image => PassKind::Image,
-        PassId::Buffer(_) => PassKind::Buffer,
-        PassId::Cubemap => PassKind::Cubemap,
-        PassId::Sound => PassKind::Sound,
-    }
-}
-
-/// The types `iChannel0..3` of a pass are declared with.
-pub fn channel_kinds(pass: &crate::project::Pass) -> [ChannelKind; 4] {
-    std::array::from_fn(|i| kind_of(pass.channels[i].as_ref()))
 }
 
 /// A cubemap pass is not drawn, so a channel that reads it is as one whose file is missing.
@@ -234,7 +215,7 @@ fn facts(compiled: &Compiled) -> PassFacts {
     }
 }
 
-fn kind_of(channel: Option<&Channel>) -> ChannelKind {
+pub(super) fn kind_of(channel: Option<&Channel>) -> ChannelKind {
     match channel.map(|c| &c.input) {
         Some(Input::Cubemap(_) | Input::CubemapPass) => ChannelKind::SamplerCube,
         Some(Input::Volume(_)) => ChannelKind::Sampler3D,
@@ -249,9 +230,15 @@ fn media_key(channel: &Channel) -> Option<MediaKey> {
     }
 }
 
+/// How the buffer is drawn that the channel names, if it names one.
+fn settings_of(project: &Project, channel: &Channel) -> Option<PassSettings> {
+    let Input::Buffer(name) = &channel.input else { return None };
+    Some(project.pass(&PassId::Buffer(name.clone())).map(|p| p.settings.clone()).unwrap_or_default())
+}
+
 /// Whether what the channel reads holds 32-bit floats.
-fn is_float(channel: Option<&Channel>, texels: Option<&Texels>) -> bool {
-    matches!(channel.map(|c| &c.input), Some(Input::Buffer(_)))
+fn is_float(project: &Project, channel: Option<&Channel>, texels: Option<&Texels>) -> bool {
+    channel.and_then(|c| settings_of(project, c)).is_some_and(|s| s.format.is_32_bit())
         || texels.is_some_and(|t| t.format == TexelFormat::Rgba32Float)
 }
 
@@ -296,15 +283,19 @@ impl Uploads<'_> {
     }
 }
 
-type Job<'a> = (PassId, Compiled, [BoundChannel; 4], &'a Draw);
+type Job<'a> = (PassId, Compiled, [BoundChannel; 4], &'a Draw, PassFormat);
 
 /// Pipelines side by side: a driver takes a tenth of a second for one.
 fn make_pipelines(gpu: &Gpu, jobs: Vec<Job<'_>>) -> Result<Vec<CompiledDraw>, EngineError> {
-    let make = |(id, compiled, channels, draw): Job<'_>| {
+    let make = |(id, compiled, channels, draw, format): Job<'_>| {
         let mut uniforms = vec![(0, Binding::Uniform { bytes: size_of::<interface::UniformBlock>() as u64 })];
         let tables = (!compiled.tables.is_empty()).then(|| constant_buffer(gpu, "constant tables", &compiled.tables));
         if tables.is_some() {
             uniforms.push((interface::TABLE_BINDING, Binding::Storage));
+        }
+        let (read, knobs) = (compiled.reflection.uniforms, compiled.reflection.knobs);
+        if compiled.knob_bytes > 0 {
+            uniforms.push((interface::KNOB_BINDING, Binding::Uniform { bytes: compiled.knob_bytes }));
         }
         let groups = [uniforms, channel_bindings(&channels, draw)];
         let pipeline = FragmentPipeline::new(
@@ -314,10 +305,10 @@ fn make_pipelines(gpu: &Gpu, jobs: Vec<Job<'_>>) -> Result<Vec<CompiledDraw>, En
                 module: compiled.module,
                 entry_point: interface::ENTRY_POINT,
                 groups: &groups,
-                target: super::targets::FORMAT,
+                target: texture_format(format),
             },
         )?;
-        Ok(CompiledDraw { id, pipeline, channels, tables: tables.transpose()? })
+        Ok(CompiledDraw { id, pipeline, channels, tables: tables.transpose()?, uniforms: read, knobs })
     };
     if jobs.len() == 1 {
         return jobs.into_iter().map(make).collect();

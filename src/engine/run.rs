@@ -1,14 +1,16 @@
-//! Frames: the loop that executes a plan.
+//! The engine: a program, its textures over time, and what can be asked of them. How a frame is drawn is in `frame`.
 
 use super::{
-    FrameInputs, Program,
-    bind::{self, DrawBindings, Stock, UNIFORM_STRIDE},
+    Program,
+    bind::{self, DrawBindings, Stock},
+    knobs,
     targets::{self, Target},
+    uniforms::Uniforms,
 };
 use crate::{
-    glsl::interface::UniformBlock,
-    gpu::{Gpu, GpuError, MipMaker, PassTimer, Presenter, Texture, read_rgba32float},
-    project::PassId,
+    gpu::{Gpu, GpuError, MipMaker, PassTimer, Presenter, Texture, read_rgba32float, to_rgba32float},
+    graph::Ledger,
+    project::{KnobValues, PassId},
 };
 
 /// Why a frame could not be drawn or read.
@@ -30,8 +32,12 @@ pub struct PassTime {
 /// What one frame was.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FrameStats {
-    /// Passes drawn in this frame.
-    pub passes_drawn: usize,
+    /// Passes drawn in this frame, every step of a group counted.
+    pub passes_drawn: u64,
+    /// Passes left out because nothing they read has changed since they were drawn, and the bytes of texels that were not
+    /// written for it.
+    pub passes_rested: u64,
+    pub bytes_rested: u64,
 }
 
 /// A pass's texels. Row 0 is the bottom; no padding.
@@ -44,48 +50,33 @@ pub struct Pixels {
 
 /// Textures, their state over time, and the program that draws them.
 pub struct Engine {
-    gpu: Gpu,
-    size: (u32, u32),
-    program: Option<Program>,
-    targets: Vec<Target>,
-    bindings: Vec<DrawBindings>,
-    uniforms: Uniforms,
-    stock: Stock,
-    mips: MipMaker,
-    /// Which texture of a doubled target the next frame draws into.
-    phase: usize,
-    shown_keys: Vec<u8>,
-    display: Display,
-    timer: Option<PassTimer>,
-}
-
-/// All passes' uniform blocks in one buffer, written once a frame.
-struct Uniforms {
-    buffer: wgpu::Buffer,
-    bytes: Vec<u8>,
-}
-
-impl Uniforms {
-    fn new(gpu: &Gpu, passes: usize) -> Self {
-        let bytes = vec![0; passes.max(1) * UNIFORM_STRIDE as usize];
-        let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("uniforms"),
-            size: bytes.len() as u64,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        Self { buffer, bytes }
-    }
+    pub(super) gpu: Gpu,
+    pub(super) size: (u32, u32),
+    pub(super) program: Option<Program>,
+    pub(super) targets: Vec<Target>,
+    pub(super) bindings: Vec<DrawBindings>,
+    pub(super) uniforms: Uniforms,
+    pub(super) stock: Stock,
+    pub(super) mips: MipMaker,
+    /// What need not be drawn again.
+    pub(super) ledger: Ledger,
+    pub(super) shown_keys: Vec<u8>,
+    /// How often the keyboard has changed.
+    pub(super) key_changes: u64,
+    pub(super) display: Display,
+    pub(super) timer: Option<PassTimer>,
 }
 
 /// The 8-bit picture a window shows.
-struct Display {
-    presenter: Presenter,
-    texture: Texture,
+pub(super) struct Display {
+    pub presenter: Presenter,
+    pub texture: Texture,
     /// `None`: nobody looks.
     shown: Option<PassId>,
-    /// The shown target's textures, by phase, bound for presenting.
-    bound: Vec<wgpu::BindGroup>,
+    /// The shown target's textures, bound for presenting.
+    pub bound: Vec<wgpu::BindGroup>,
+    /// Which target that is.
+    pub target: usize,
 }
 
 impl Engine {
@@ -99,12 +90,13 @@ impl Engine {
             program: None,
             targets: Vec::new(),
             bindings: Vec::new(),
-            uniforms: Uniforms::new(&gpu, 0),
+            uniforms: Uniforms::new(&gpu, 0, 0),
             stock: Stock::new(&gpu)?,
             mips: MipMaker::new(&gpu),
-            phase: 0,
+            ledger: Ledger::default(),
             shown_keys: Vec::new(),
-            display: Display { presenter, texture, shown: None, bound: Vec::new() },
+            key_changes: 0,
+            display: Display { presenter, texture, shown: None, bound: Vec::new(), target: 0 },
             timer: None,
             gpu,
         })
@@ -114,11 +106,27 @@ impl Engine {
     /// new ones start as zeros. On an error the old program goes on.
     pub fn set_program(&mut self, program: Program) -> Result<(), EngineError> {
         self.remake_targets(&program, self.size)?;
-        self.uniforms = Uniforms::new(&self.gpu, program.draws.len());
-        self.timer = self.timer.is_some().then(|| PassTimer::new(&self.gpu, program.draws.len() as u32)).flatten();
+        self.uniforms = Uniforms::new(&self.gpu, program.draws.len(), program.knobs.len());
+        self.ledger = Ledger::new(&program.plan);
+        self.timer = self.timer.is_some().then(|| timer(&self.gpu, Some(&program))).flatten();
+        let values = program.knob_values.clone();
         self.program = Some(program);
+        self.set_knobs(&values);
         self.rebind();
         Ok(())
+    }
+
+    /// Values of the author's own uniforms from the next frame on; what `values` does not name stands at its default. Compiles
+    /// nothing. Says whether anything is different now.
+    pub fn set_knobs(&mut self, values: &KnobValues) -> bool {
+        let knobs = self.program.as_ref().map_or(&[][..], |p| &p.knobs);
+        let slots = knobs::block(knobs, values);
+        if slots == self.uniforms.knob_slots {
+            return false;
+        }
+        self.gpu.queue.write_buffer(&self.uniforms.knobs, 0, bytemuck::cast_slice(&slots));
+        self.uniforms.knob_slots = slots;
+        true
     }
 
     /// New canvas size. Every buffer keeps the overlap, texel for texel from the bottom left; the rest is 0. On an error
@@ -135,6 +143,7 @@ impl Engine {
             result?;
         }
         (self.size, self.display.texture) = ((width, height), texture);
+        self.ledger.forget();
         self.rebind();
         Ok(())
     }
@@ -147,66 +156,7 @@ impl Engine {
             target.clear(&mut encoder, &self.mips);
         }
         self.gpu.queue.submit([encoder.finish()]);
-    }
-
-    /// Draws one frame. Does not wait for the device.
-    pub fn draw(&mut self, inputs: &FrameInputs) -> Result<FrameStats, EngineError> {
-        let Some(program) = &self.program else { return Ok(FrameStats::default()) };
-        if self.shown_keys != inputs.keyboard.bytes() {
-            self.stock.keyboard.write(&self.gpu, inputs.keyboard.bytes());
-            self.shown_keys = inputs.keyboard.bytes().to_vec();
-        }
-        for (compiled, slot) in program.draws.iter().zip(self.uniforms.bytes.chunks_exact_mut(UNIFORM_STRIDE as usize))
-        {
-            let block = uniform_block(inputs, self.size, &compiled.channels);
-            slot[..size_of::<UniformBlock>()].copy_from_slice(bytemuck::bytes_of(&block));
-        }
-        self.gpu.queue.write_buffer(&self.uniforms.buffer, 0, &self.uniforms.bytes);
-        let mut encoder =
-            self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
-        if let Some(timer) = &mut self.timer {
-            timer.begin(program.draws.len() as u32);
-        }
-        for (index, ((compiled, draw), bindings)) in
-            program.draws.iter().zip(&program.plan.draws).zip(&self.bindings).enumerate()
-        {
-            let target = &self.targets[draw.target];
-            let load =
-                if draw.keeps_content { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) };
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: None,
-                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                    view: &target.at(self.phase).level_0,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
-                })],
-                timestamp_writes: self.timer.as_ref().and_then(|t| t.writes(index as u32)),
-                ..Default::default()
-            });
-            pass.set_pipeline(&compiled.pipeline.raw);
-            pass.set_bind_group(crate::glsl::interface::UNIFORM_GROUP, &bindings.uniforms, &[]);
-            pass.set_bind_group(crate::glsl::interface::CHANNEL_GROUP, &bindings.channels[self.phase], &[]);
-            pass.draw(0..3, 0..1);
-            drop(pass);
-            if let Some(chain) = target.chain_at(self.phase) {
-                self.mips.build(&mut encoder, chain);
-            }
-        }
-        if let Some(timer) = &mut self.timer {
-            timer.resolve(&mut encoder);
-        }
-        if !self.display.bound.is_empty() {
-            let bound = &self.display.bound[self.phase % self.display.bound.len()];
-            self.display.presenter.present(&mut encoder, bound, &self.display.texture);
-        }
-        self.gpu.queue.submit([encoder.finish()]);
-        if let Some(timer) = &mut self.timer {
-            timer.submitted();
-        }
-        self.phase = 1 - self.phase;
-        self.gpu.take_trouble("a frame")?;
-        Ok(FrameStats { passes_drawn: program.draws.len() })
+        self.ledger.forget();
     }
 
     pub fn size(&self) -> (u32, u32) {
@@ -225,15 +175,14 @@ impl Engine {
     /// Measures the device's time of each pass from the next frame on, where it has timestamps. Off at first, as it costs a
     /// little in every frame. Says whether it can.
     pub fn set_timing(&mut self, on: bool) -> bool {
-        let passes = self.program.as_ref().map_or(0, |p| p.draws.len() as u32);
-        self.timer = if on { PassTimer::new(&self.gpu, passes.max(1)) } else { None };
+        self.timer = if on { timer(&self.gpu, self.program.as_ref()) } else { None };
         self.timer.is_some()
     }
 
-    /// GPU times of the passes of the newest frame the device has finished, where it has timestamps. Does not wait.
+    /// GPU times of the passes, all steps of each together, of the newest frame the device has finished, where it has timestamps. Does not wait.
     pub fn pass_times(&mut self) -> Option<Vec<PassTime>> {
-        let millis = self.timer.as_mut()?.newest(&self.gpu)?;
         let draws = &self.program.as_ref()?.draws;
+        let millis = self.timer.as_mut()?.newest(&self.gpu, draws.len())?;
         Some(draws.iter().zip(millis).map(|(d, gpu_millis)| PassTime { pass: d.id.clone(), gpu_millis }).collect())
     }
 
@@ -250,7 +199,8 @@ impl Engine {
         self.bind_display();
         let mut encoder =
             self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("show") });
-        match self.display.bound.get((1 - self.phase) % self.display.bound.len().max(1)) {
+        let newest = self.targets.get(self.display.target).map_or(0, |t| t.front);
+        match self.display.bound.get(newest) {
             Some(bound) => self.display.presenter.present(&mut encoder, bound, &self.display.texture),
             None => self.display.texture.clear(&mut encoder),
         }
@@ -260,14 +210,20 @@ impl Engine {
     /// Reads a pass's newest texels back; waits for the device.
     pub fn read(&mut self, pass: &PassId) -> Result<Pixels, EngineError> {
         let target = self.targets.iter().find(|t| t.id == *pass).ok_or(EngineError::NoSuchPass(pass.title()))?;
-        let texels = read_rgba32float(&self.gpu, target.at(1 - self.phase))?;
-        Ok(Pixels { width: self.size.0, height: self.size.1, texels })
+        let newest = target.newest();
+        let (width, height) = (newest.width(), newest.height());
+        let texels = if newest.raw.format() == wgpu::TextureFormat::Rgba32Float {
+            read_rgba32float(&self.gpu, newest)?
+        } else {
+            read_rgba32float(&self.gpu, &to_rgba32float(&self.gpu, newest)?)?
+        };
+        Ok(Pixels { width, height, texels })
     }
 
     /// Targets of `program` at `size`, holding what the present ones hold.
     fn remake_targets(&mut self, program: &Program, size: (u32, u32)) -> Result<(), EngineError> {
         let old = std::mem::take(&mut self.targets);
-        match targets::make(&self.gpu, &mut self.mips, &program.plan, size, old, self.phase) {
+        match targets::make(&self.gpu, &mut self.mips, &program.plan, size, old) {
             Ok(made) => self.targets = made,
             Err((error, old)) => {
                 self.targets = old;
@@ -279,7 +235,7 @@ impl Engine {
 
     fn rebind(&mut self) {
         if let Some(program) = &self.program {
-            self.bindings = bind::make(&self.gpu, &self.stock, program, &self.targets, &self.uniforms.buffer);
+            self.bindings = bind::make(&self.gpu, program, &self.uniforms.buffer, &self.uniforms.knobs);
         }
         if let Some(shown) = self.display.shown.clone() {
             self.show(shown);
@@ -287,39 +243,30 @@ impl Engine {
     }
 
     fn bind_display(&mut self) {
-        let shown = self.targets.iter().find(|t| Some(&t.id) == self.display.shown.as_ref());
-        self.display.bound = shown.map_or(Vec::new(), |target| {
-            target.textures.iter().map(|t| self.display.presenter.bind(&self.gpu, t)).collect()
-        });
+        self.display.bound.clear();
+        let shown = self.targets.iter().position(|t| Some(&t.id) == self.display.shown.as_ref());
+        let size = shown.map_or(self.size, |i| self.targets[i].size());
+        if (self.display.texture.width(), self.display.texture.height()) != size {
+            match Presenter::texture(&self.gpu, size.0, size.1) {
+                Ok(texture) => self.display.texture = texture,
+                Err(error) => {
+                    log::error!("the picture cannot be shown: {error}");
+                    return;
+                }
+            }
+        }
+        if let Some(i) = shown {
+            self.display.target = i;
+            self.display.bound =
+                self.targets[i].textures.iter().map(|t| self.display.presenter.bind(&self.gpu, t)).collect();
+        }
     }
 }
 
-fn uniform_block(
-    inputs: &FrameInputs,
-    (width, height): (u32, u32),
-    channels: &[super::program::BoundChannel; 4],
-) -> UniformBlock {
-    let canvas = [width as f32, height as f32, 1.0];
-    let resolution = |c: &super::program::BoundChannel| if c.is_canvas_sized { canvas } else { c.resolution };
-    UniformBlock {
-        resolution: canvas,
-        time: inputs.time_secs as f32,
-        mouse: inputs.mouse,
-        date: inputs.date,
-        time_delta: inputs.time_delta_secs,
-        frame_rate: inputs.frame_rate,
-        sample_rate: 44100.0,
-        frame: inputs.frame,
-        channel_time: [[0.0; 4]; 4],
-        channel_resolution: std::array::from_fn(|i| {
-            let [x, y, z] = resolution(&channels[i]);
-            [x, y, z, 0.0]
-        }),
-        time_offset: 0.0,
-        sample_offset: 0,
-        pad: [0; 2],
-        channel_loaded: std::array::from_fn(|i| i32::from(resolution(&channels[i])[0] > 0.0)),
-    }
+/// Room for every draw of a frame.
+fn timer(gpu: &Gpu, program: Option<&Program>) -> Option<PassTimer> {
+    let draws = program.map_or(1, |p| p.plan.draws_a_frame());
+    PassTimer::new(gpu, u32::try_from(draws.max(1)).unwrap_or(u32::MAX))
 }
 
 impl Pixels {

@@ -3,20 +3,33 @@
 use crate::{
     gpu::{Gpu, GpuError, MipChain, MipMaker, Texture, TextureDescriptor, mip_levels},
     graph::FramePlan,
-    project::PassId,
+    project::{PassFormat, PassId},
 };
 
-/// Buffers hold what was written: 32-bit floats, as on the site. Image has the same, so that a picture loses nothing before
-/// it is shown or saved.
-pub(super) const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
+pub(super) fn texture_format(format: PassFormat) -> wgpu::TextureFormat {
+    use wgpu::TextureFormat as T;
+    match format {
+        PassFormat::R8 => T::R8Unorm,
+        PassFormat::Rg8 => T::Rg8Unorm,
+        PassFormat::Rgba8 => T::Rgba8Unorm,
+        PassFormat::R16f => T::R16Float,
+        PassFormat::Rg16f => T::Rg16Float,
+        PassFormat::Rgba16f => T::Rgba16Float,
+        PassFormat::R32f => T::R32Float,
+        PassFormat::Rg32f => T::Rg32Float,
+        PassFormat::Rgba32f => T::Rgba32Float,
+    }
+}
 
-/// One or two textures of a pass, which take turns: frame by frame the engine's phase is 0, 1, 0, 1, …; a doubled target is
-/// drawn into texture `phase`, so that texture `1 - phase` holds last frame's picture.
+/// One or two textures of a pass. Of two, one holds what was drawn last and is read; the next draw goes into the other, and
+/// then they change places.
 pub(super) struct Target {
     pub id: PassId,
     pub textures: Vec<Texture>,
     /// For each texture, where the plan asks for mips.
     pub chains: Vec<MipChain>,
+    /// Which texture was drawn last.
+    pub front: usize,
 }
 
 impl Target {
@@ -24,32 +37,42 @@ impl Target {
         gpu: &Gpu,
         mips: &mut MipMaker,
         planned: &crate::graph::Target,
-        (width, height): (u32, u32),
+        canvas: (u32, u32),
     ) -> Result<Target, GpuError> {
+        let (width, height) = planned.size.of(canvas);
+        let format = texture_format(planned.format);
         let label = planned.id.title();
         let levels = if planned.mips { mip_levels(width, height) } else { 1 };
-        let descriptor = TextureDescriptor { label: &label, width, height, format: FORMAT, levels, is_target: true };
+        let descriptor = TextureDescriptor { label: &label, width, height, format, levels, is_target: true };
         let count = if planned.doubled { 2 } else { 1 };
         let textures = (0..count).map(|_| Texture::new(gpu, &descriptor)).collect::<Result<Vec<_>, _>>()?;
         let chains = if planned.mips { textures.iter().map(|t| mips.chain(gpu, t)).collect() } else { Vec::new() };
-        Ok(Target { id: planned.id.clone(), textures, chains })
+        Ok(Target { id: planned.id.clone(), textures, chains, front: 0 })
     }
 
-    /// The texture that a frame of the given phase draws into.
-    pub fn at(&self, phase: usize) -> &Texture {
-        &self.textures[phase % self.textures.len()]
+    /// What was drawn last.
+    pub fn newest(&self) -> &Texture {
+        &self.textures[self.front]
     }
 
-    /// The mip chain of [`Target::at`].
-    pub fn chain_at(&self, phase: usize) -> Option<&MipChain> {
-        self.chains.get(phase % self.textures.len())
+    /// Index of the texture that the next draw goes into.
+    pub fn back(&self) -> usize {
+        (self.front + 1) % self.textures.len()
     }
 
-    /// Takes over what `old` held. `next_phase` is that of the frame to come, so the newest picture lies at the other one.
-    fn take_over(&self, gpu: &Gpu, mips: &MipMaker, old: &Target, next_phase: usize) {
+    pub fn size(&self) -> (u32, u32) {
+        (self.textures[0].width(), self.textures[0].height())
+    }
+
+    /// Takes over what `old` held, if its texels are of the same kind.
+    fn take_over(&mut self, gpu: &Gpu, mips: &MipMaker, old: &Target) {
+        if old.textures[0].raw.format() != self.textures[0].raw.format() {
+            return;
+        }
+        self.front = old.front % self.textures.len();
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("keep") });
         for (index, texture) in self.textures.iter().enumerate() {
-            let from = if self.textures.len() == 1 { old.at(1 - next_phase) } else { old.at(index) };
+            let from = if self.textures.len() == 1 { old.newest() } else { &old.textures[index % old.textures.len()] };
             from.copy_overlap(&mut encoder, texture);
         }
         for chain in &self.chains {
@@ -68,25 +91,24 @@ impl Target {
     }
 }
 
-/// Targets for a plan at a size. What `old` has of the same pass is kept, texel for texel from the bottom left.
+/// Targets for a plan on a canvas. What `old` has of the same pass is kept, texel for texel from the bottom left.
 pub(super) fn make(
     gpu: &Gpu,
     mips: &mut MipMaker,
     plan: &FramePlan,
-    size: (u32, u32),
+    canvas: (u32, u32),
     old: Vec<Target>,
-    next_phase: usize,
 ) -> Result<Vec<Target>, (GpuError, Vec<Target>)> {
     let mut made = Vec::with_capacity(plan.targets.len());
     for planned in &plan.targets {
-        match Target::new(gpu, mips, planned, size) {
+        match Target::new(gpu, mips, planned, canvas) {
             Ok(target) => made.push(target),
             Err(error) => return Err((error, old)),
         }
     }
-    for target in &made {
+    for target in &mut made {
         if let Some(before) = old.iter().find(|t| t.id == target.id) {
-            target.take_over(gpu, mips, before, next_phase);
+            target.take_over(gpu, mips, before);
         }
     }
     Ok(made)

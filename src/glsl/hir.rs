@@ -182,6 +182,8 @@ pub enum ExprKind {
     Global(GlobalId),
     /// A uniform of the site. `ty` is [`Uniform::ty`]; the arrays are mostly followed by an `Index`.
     Uniform(Uniform),
+    /// One of the author's own uniforms, by its place among the pass's.
+    Knob(u16),
     /// `iChannel0` to `iChannel3` (also `iCh0.sampler`); `ty` is the sampler type. Occurs only as an argument.
     Channel(u8),
     BuiltinVar(BuiltinVar),
@@ -497,6 +499,7 @@ pub enum DeclRef {
     /// A `gl_Max..` constant.
     BuiltinConst(Symbol),
     Uniform(Uniform),
+    Knob(u16),
     /// `iChannel0` to `iChannel3`.
     Channel(u8),
     /// `iCh0` to `iCh3`.

@@ -6,6 +6,8 @@
 //! - Group 0, binding 0: the uniform block [`UniformBlock`], 16-byte aligned, std140. Absent when nothing of it is read.
 //! - Group 0, binding 1: a read-only storage buffer with the author's large constant tables, whose bytes come with the module
 //!   ([`crate::glsl::Compiled::tables`]). Absent when there are none.
+//! - Group 0, binding 2: the author's own uniforms ([`crate::glsl::Knob`]), an array of `vec4<u32>`: each has a slot of 16 bytes
+//!   whose first words hold its components bit for bit (a bool as 0 or 1). Absent when none is read.
 //! - Group 1, binding 2i: the texture of `iChannel`i, binding 2i+1: its sampler. Each is declared only where it is reached from
 //!   the entry point ([`crate::glsl::Reflection::channels`] says which), so the bind group layout follows the reflection.
 
@@ -17,6 +19,10 @@ pub const ENTRY_POINT: &str = "main";
 pub const UNIFORM_GROUP: u32 = 0;
 /// Binding of the constant tables in [`UNIFORM_GROUP`].
 pub const TABLE_BINDING: u32 = 1;
+/// Binding of the author's own uniforms in [`UNIFORM_GROUP`].
+pub const KNOB_BINDING: u32 = 2;
+/// Bytes of a slot there.
+pub const KNOB_BYTES: u64 = 16;
 /// Bind group of channel textures and samplers.
 pub const CHANNEL_GROUP: u32 = 1;
 

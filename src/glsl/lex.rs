@@ -16,7 +16,7 @@ use super::ast::{ExpansionId, Interner};
 use crate::diag::{SourceId, Span};
 pub(super) use number::bad_number;
 use splice::{Splices, join_lines};
-use std::borrow::Cow;
+use std::{borrow::Cow, ops::Range};
 
 /// What a token is. Keywords appear only behind the preprocessor, to which they are names like any other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -157,6 +157,8 @@ pub(super) struct Lexer<'a> {
     text: Cow<'a, str>,
     source: SourceId,
     pos: usize,
+    /// Where `text` begins in its source.
+    base: u32,
     splices: Splices,
     line_start: bool,
     /// Ends of lines are tokens.
@@ -165,10 +167,16 @@ pub(super) struct Lexer<'a> {
 
 impl<'a> Lexer<'a> {
     pub fn new(source: SourceId, text: &'a str) -> Self {
-        let (text, splices) = join_lines(text);
+        Self::part(source, text, 0..text.len())
+    }
+
+    /// Reads a stretch of a text, as if nothing stood around it.
+    pub fn part(source: SourceId, text: &'a str, range: Range<usize>) -> Self {
+        let base = range.start as u32;
+        let (text, splices) = join_lines(&text[range]);
         // A byte order mark is not part of the text.
         let pos = if text.starts_with('\u{feff}') { 3 } else { 0 };
-        Self { text, source, pos, splices, line_start: true, in_directive: false }
+        Self { text, source, pos, base, splices, line_start: true, in_directive: false }
     }
 
     /// The place between what was read and what comes next.
@@ -205,10 +213,10 @@ impl<'a> Lexer<'a> {
     #[inline]
     fn span(&mut self, start: usize, end: usize) -> Span {
         if self.splices.is_empty() {
-            return Span { source: self.source, start: start as u32, end: end as u32 };
+            return Span { source: self.source, start: self.base + start as u32, end: self.base + end as u32 };
         }
         let (start, end) = self.splices.original(start as u32, end as u32);
-        Span { source: self.source, start, end }
+        Span { source: self.source, start: self.base + start, end: self.base + end }
     }
 
     /// Leaves out the lines of a group that is not compiled: stops after the `#` that begins a directive (true), or at the

@@ -13,14 +13,15 @@ mod lex;
 pub(crate) mod lower;
 mod near;
 pub(crate) mod parse;
+mod pieces;
 mod preprocess;
 pub mod reflection;
 mod report;
 pub mod services;
 
-pub use reflection::{ChannelUse, Reflection, UniformSet};
+pub use reflection::{ChannelUse, KnobSet, Reflection, UniformSet};
 
-use crate::diag::{Diagnostic, SourceId};
+use crate::diag::{Diagnostic, SourceId, Span};
 
 /// Which entry point a pass defines, and which uniforms it may name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -51,13 +52,50 @@ pub struct Text<'a> {
     pub text: &'a str,
 }
 
+/// A line of a text in whose place another text stands.
+#[derive(Clone, Copy, Debug)]
+pub struct Include<'a> {
+    pub line: Span,
+    pub text: Text<'a>,
+}
+
+/// A uniform that the author declares beside the language, in an `#iUniform` line. It is in scope everywhere in the texts of
+/// the pass, as the site's own uniforms are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Knob<'a> {
+    pub name: &'a str,
+    pub kind: KnobKind,
+    /// Where its value lies in the block at [`interface::KNOB_BINDING`], in slots of [`interface::KNOB_BYTES`].
+    pub slot: u16,
+}
+
+/// What a [`Knob`] is in GLSL.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum KnobKind {
+    Bool,
+    Int,
+    Float,
+    Vec2,
+    Vec3,
+    Vec4,
+}
+
+/// Why nothing can be declared by `name`, if nothing can: it is a keyword, or the language or the site has it already.
+pub fn taken(name: &str) -> Option<&'static str> {
+    check::taken(name)
+}
+
 /// Everything the front end needs to know of a pass.
 #[derive(Clone, Copy, Debug)]
 pub struct PassSource<'a> {
     pub kind: PassKind,
     pub common: Option<Text<'a>>,
     pub code: Text<'a>,
+    /// Of all texts of the pass, those in includes among them; no text includes itself.
+    pub includes: &'a [Include<'a>],
     pub channels: [ChannelKind; 4],
+    /// Of all texts of the pass, each name once.
+    pub knobs: &'a [Knob<'a>],
     /// Channels whose texture this device cannot filter though the project asks for it: every filtered read of them is
     /// written as four fetches and a mix (section 8.13 of the OpenGL ES 3.0 specification gives the weights).
     pub bilinear_by_hand: [bool; 4],
@@ -74,6 +112,8 @@ pub struct Compiled {
     pub reflection: Reflection,
     /// What the storage buffer at [`interface::TABLE_BINDING`] holds; empty: the module declares none.
     pub tables: Vec<u8>,
+    /// Bytes that the module reads at [`interface::KNOB_BINDING`]; 0: it declares nothing there.
+    pub knob_bytes: u64,
     /// Warnings and notes; never an error.
     pub diagnostics: Vec<Diagnostic>,
 }
@@ -86,7 +126,7 @@ pub fn diagnose(source: &PassSource<'_>) -> Vec<Diagnostic> {
 
 fn check_pass(source: &PassSource<'_>) -> (hir::Module, Vec<Diagnostic>) {
     let parsed = parse::parse(source);
-    let checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source.kind, source.channels);
+    let checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source);
     let mut all = report::Report::default();
     parsed.diagnostics.into_iter().chain(checked.diagnostics).for_each(|d| all.add(d));
     // As the author reads the text.
@@ -100,21 +140,22 @@ pub fn compile(source: &PassSource<'_>) -> Result<Compiled, Vec<Diagnostic>> {
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(diagnostics);
     }
-    let lower::Lowered { module, reflection, tables } = lower::lower(&checked, source);
+    let lower::Lowered { module, reflection, tables, knob_bytes } = lower::lower(&checked, source);
     if let Err(reason) = lower::validate(&module) {
         let bug =
             Diagnostic::error(None, format!("this is a bug in Eddy: the generated program is not valid: {reason}"));
         diagnostics.push(bug.hint("the program itself is right; please report it with this text"));
         return Err(diagnostics);
     }
-    Ok(Compiled { module, reflection, tables, diagnostics })
+    Ok(Compiled { module, reflection, tables, knob_bytes, diagnostics })
 }
 
 /// Checks Common the way the site does: alone, with only `iDate` and `iSampleRate` in scope. An empty list means that the
-/// site would accept it; what it would refuse comes back as warnings, because Eddy runs such a project all the same.
-pub fn check_common(common: Text<'_>) -> Vec<Diagnostic> {
-    let parsed = parse::parse_texts(&[common], preprocess::Unit::CommonAlone);
+/// site would accept it; what it would refuse comes back as warnings, because Eddy runs such a project all the same. `knobs` are those Common declares.
+pub fn check_common(common: Text<'_>, includes: &[Include<'_>], knobs: &[Knob<'_>]) -> Vec<Diagnostic> {
+    let pieces = pieces::of(&[common], includes);
+    let parsed = parse::parse_texts(&pieces, preprocess::Unit::CommonAlone);
     let refused = parsed.diagnostics.iter().any(Diagnostic::is_error);
     // A Common that cannot be read is reported with each pass; only what is wrong with it alone is said here.
-    if refused { Vec::new() } else { check::check_common(&parsed.ast, &parsed.origins, &parsed.names) }
+    if refused { Vec::new() } else { check::check_common(&parsed.ast, &parsed.origins, &parsed.names, knobs) }
 }

@@ -21,9 +21,10 @@ mod types;
 pub(super) use hint::foreign_type;
 
 use super::{
-    PassSource, Text,
+    PassSource,
     ast::{Ast, Declarator, ExprId, ExprKind, Ident, Interner, Loc, MAX_NESTING, Origins, StmtId, Symbol, TokenId},
     lex::{Kind, words},
+    pieces::{self, Piece},
     preprocess::{Tok, Unit, preprocess},
     report::Report,
 };
@@ -42,14 +43,14 @@ pub(crate) struct Parsed {
 /// Preprocesses and parses a pass behind its Common. Any text gives a tree.
 pub(crate) fn parse(source: &PassSource<'_>) -> Parsed {
     let texts: Vec<_> = source.common.into_iter().chain([source.code]).collect();
-    parse_texts(&texts, Unit::Pass(source.kind))
+    parse_texts(&pieces::of(&texts, source.includes), Unit::Pass(source.kind))
 }
 
 /// Preprocesses and parses texts that follow each other.
-pub(super) fn parse_texts(texts: &[Text<'_>], unit: Unit) -> Parsed {
+pub(super) fn parse_texts(pieces: &[Piece<'_>], unit: Unit) -> Parsed {
     let mut names = words::interner();
     let mut report = Report::default();
-    let pre = preprocess(texts, unit, &mut names, &mut report);
+    let pre = preprocess(pieces, unit, &mut names, &mut report);
     let mut tokens = pre.tokens;
     brackets::pair(&mut tokens);
     let count = tokens.len();
@@ -60,7 +61,7 @@ pub(super) fn parse_texts(texts: &[Text<'_>], unit: Unit) -> Parsed {
         origins: pre.origins,
         names: &names,
         report: &mut report,
-        texts,
+        pieces,
         depth: 0,
         deepest: 0,
         expr_stack: Vec::new(),
@@ -92,7 +93,7 @@ struct Parser<'p> {
     origins: Origins,
     names: &'p Interner,
     report: &'p mut Report,
-    texts: &'p [Text<'p>],
+    pieces: &'p [Piece<'p>],
     /// Statements and expressions around the next token.
     depth: u32,
     /// The greatest `depth` since it was last looked at.

@@ -1,7 +1,7 @@
 //! The preprocessor (section 3.4): directives and macros, from the texts of a pass to the tokens the parser reads.
 //!
 //! Owns [`preprocess`], [`Origins`] as it fills them, and every message about directives, macros and characters. It sees the
-//! texts one after another as the site does (Common, then the pass's code): macros and open conditionals carry over.
+//! texts one after another as the site does (Common, then the pass's code, and in them what they include): macros and open conditionals carry over.
 //!
 //! Follows ANGLE, which compiles for every browser, in what the specification leaves open: an unknown name in an `#if` is an
 //! error unless `&&` or `||` passes it by; there is no pasting with `##`; a macro's name met while the macro is being expanded
@@ -17,9 +17,10 @@ mod lines;
 mod tests;
 
 use super::{
-    PassKind, Text,
+    PassKind,
     ast::{Expansion, ExpansionId, Interner, MacroDef, MacroId, Origin, Origins, Symbol},
     lex::{Kind, LINE_START, Lexer, Token, bad_number, words},
+    pieces::Piece,
     report::Report,
 };
 use crate::diag::{Diagnostic, Severity, Span};
@@ -52,8 +53,8 @@ pub(super) struct Preprocessed {
 }
 
 /// Runs the texts through.
-pub(super) fn preprocess(texts: &[Text<'_>], unit: Unit, names: &mut Interner, report: &mut Report) -> Preprocessed {
-    let mut all = Preprocessor::new(texts, unit, names, report);
+pub(super) fn preprocess(pieces: &[Piece<'_>], unit: Unit, names: &mut Interner, report: &mut Report) -> Preprocessed {
+    let mut all = Preprocessor::new(pieces, unit, names, report);
     all.run(unit);
     Preprocessed { tokens: all.tokens, origins: all.origins, is_cut: all.is_cut }
 }
@@ -102,7 +103,7 @@ struct Context {
 }
 
 struct Preprocessor<'a, 'r> {
-    texts: &'r [Text<'a>],
+    pieces: &'r [Piece<'a>],
     lexers: Vec<Lexer<'a>>,
     current: usize,
     names: &'r mut Interner,
@@ -135,11 +136,11 @@ struct Preprocessor<'a, 'r> {
 }
 
 impl<'a, 'r> Preprocessor<'a, 'r> {
-    fn new(texts: &'r [Text<'a>], unit: Unit, names: &'r mut Interner, report: &'r mut Report) -> Self {
-        let bytes: usize = texts.iter().map(|t| t.text.len()).sum();
+    fn new(pieces: &'r [Piece<'a>], unit: Unit, names: &'r mut Interner, report: &'r mut Report) -> Self {
+        let bytes: usize = pieces.iter().map(|p| p.range.len()).sum();
         let mut new = Self {
-            texts,
-            lexers: texts.iter().map(|t| Lexer::new(t.id, t.text)).collect(),
+            pieces,
+            lexers: pieces.iter().map(|p| Lexer::part(p.text.id, p.text.text, p.range.clone())).collect(),
             current: 0,
             names,
             report,
@@ -205,7 +206,10 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
             self.tokens.clear();
             self.origins.tokens.clear();
         }
-        let last = self.texts.last().map_or(Span::at(crate::diag::SourceId(0), 0), |t| Span::at(t.id, t.text.len()));
+        let last = self
+            .pieces
+            .last()
+            .map_or(Span::at(crate::diag::SourceId(0), 0), |p| Span::at(p.text.id, p.text.text.len()));
         self.tokens.push(Tok { kind: Kind::Eof, value: 0 });
         self.origins.tokens.push(Origin { spelled: last, expansion: None });
     }
@@ -277,7 +281,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
     }
 
     fn text(&self, span: Span) -> &'a str {
-        self.texts.iter().find(|t| t.id == span.source).and_then(|t| t.text.get(span.range())).unwrap_or("")
+        self.pieces.iter().find(|p| p.text.id == span.source).and_then(|p| p.text.text.get(span.range())).unwrap_or("")
     }
 
     /// Where the author wrote what became this token.

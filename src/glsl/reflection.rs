@@ -48,8 +48,36 @@ impl UniformSet {
         self.0 |= other.0;
     }
 
+    /// The uniform of a bit, in the order of the block; nothing beyond the last.
+    pub fn from_bit(bit: u32) -> UniformSet {
+        UniformSet(1u16.checked_shl(bit).unwrap_or(0))
+    }
+
     pub fn is_empty(self) -> bool {
         self.0 == 0
+    }
+}
+
+/// The author's own uniforms as a set of their slots.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
+pub struct KnobSet(std::collections::BTreeSet<u16>);
+
+impl KnobSet {
+    pub fn insert(&mut self, slot: u16) {
+        self.0.insert(slot);
+    }
+
+    pub fn contains(&self, slot: u16) -> bool {
+        self.0.contains(&slot)
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Slots, rising.
+    pub fn iter(&self) -> impl Iterator<Item = u16> {
+        self.0.iter().copied()
     }
 }
 
@@ -75,6 +103,7 @@ impl ChannelUse {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Reflection {
     pub uniforms: UniformSet,
+    pub knobs: KnobSet,
     pub channels: [ChannelUse; 4],
     /// `discard` can be reached: the target keeps what it held, so the planner must not pretend it is overwritten.
     pub discards: bool,

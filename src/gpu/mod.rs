@@ -3,6 +3,7 @@
 //! Every object carries a label. Knows nothing of shaders' languages, of projects or of who draws what.
 
 mod buffer;
+mod convert;
 mod device;
 mod mips;
 mod pipeline;
@@ -13,6 +14,7 @@ mod texture;
 mod timer;
 
 pub use buffer::constant_buffer;
+pub use convert::to_rgba32float;
 pub use device::{Gpu, GpuError, GpuOptions};
 pub use mips::{MipChain, MipMaker};
 pub use pipeline::{Binding, FragmentPipeline, FragmentPipelineDescriptor};

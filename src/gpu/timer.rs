@@ -9,7 +9,7 @@ use std::sync::{
 /// Frames whose times may be on their way at once. A frame that finds no free slot is not timed.
 const SLOTS: usize = 4;
 
-/// Begin and end stamps of up to `capacity` passes a frame.
+/// Begin and end stamps of the first `capacity` passes of a frame.
 pub struct PassTimer {
     capacity: u32,
     period_nanos: f64,
@@ -24,7 +24,8 @@ struct Slot {
     mapped: wgpu::Buffer,
     state: State,
     frame: u64,
-    passes: u32,
+    /// Which draw each pair of stamps is of.
+    draws: Vec<usize>,
 }
 
 enum State {
@@ -34,11 +35,13 @@ enum State {
 }
 
 impl PassTimer {
-    /// `None` where the device has no timestamps, or more passes are asked for than a query set holds.
+    /// `None` where the device has no timestamps, or none is to be timed. More passes than a query set holds
+    /// are not all timed.
     pub fn new(gpu: &Gpu, capacity: u32) -> Option<Self> {
-        if !gpu.has_timestamps || capacity == 0 || capacity * 2 > wgpu::QUERY_SET_MAX_QUERIES {
+        if !gpu.has_timestamps || capacity == 0 {
             return None;
         }
+        let capacity = capacity.min(wgpu::QUERY_SET_MAX_QUERIES / 2);
         let bytes = u64::from(capacity) * 16;
         let buffer = |label, usage| {
             gpu.device.create_buffer(&wgpu::BufferDescriptor {
@@ -62,7 +65,7 @@ impl PassTimer {
                 mapped: buffer("pass times, mapped", wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ),
                 state: State::Free,
                 frame: 0,
-                passes: 0,
+                draws: Vec::new(),
             })
             .collect();
         Some(Self {
@@ -74,19 +77,24 @@ impl PassTimer {
         })
     }
 
-    /// Begins a frame of `passes` passes.
-    pub fn begin(&mut self, passes: u32) {
-        self.recording =
-            self.slots.iter().position(|s| matches!(s.state, State::Free)).filter(|_| passes <= self.capacity);
+    /// Begins a frame.
+    pub fn begin(&mut self) {
+        self.recording = self.slots.iter().position(|s| matches!(s.state, State::Free));
         if let Some(i) = self.recording {
             self.newest += 1;
-            (self.slots[i].frame, self.slots[i].passes) = (self.newest, passes);
+            self.slots[i].frame = self.newest;
+            self.slots[i].draws.clear();
         }
     }
 
-    /// Where pass `index` of the frame writes its stamps.
-    pub fn writes(&self, index: u32) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
-        let slot = &self.slots[self.recording?];
+    /// Where the frame's next pass writes its stamps; `draw` is what its time is added to. `None` past the capacity.
+    pub fn writes(&mut self, draw: usize) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
+        let slot = &mut self.slots[self.recording?];
+        let index = slot.draws.len() as u32;
+        if index >= self.capacity {
+            return None;
+        }
+        slot.draws.push(draw);
         Some(wgpu::RenderPassTimestampWrites {
             query_set: &slot.queries,
             beginning_of_pass_write_index: Some(index * 2),
@@ -98,8 +106,11 @@ impl PassTimer {
     pub fn resolve(&mut self, encoder: &mut wgpu::CommandEncoder) {
         let Some(i) = self.recording else { return };
         let slot = &mut self.slots[i];
-        encoder.resolve_query_set(&slot.queries, 0..slot.passes * 2, &slot.resolved, 0);
-        encoder.copy_buffer_to_buffer(&slot.resolved, 0, &slot.mapped, 0, u64::from(slot.passes) * 16);
+        let passes = slot.draws.len() as u32;
+        if passes > 0 {
+            encoder.resolve_query_set(&slot.queries, 0..passes * 2, &slot.resolved, 0);
+            encoder.copy_buffer_to_buffer(&slot.resolved, 0, &slot.mapped, 0, u64::from(passes) * 16);
+        }
         slot.state = State::Recorded;
     }
 
@@ -115,8 +126,9 @@ impl PassTimer {
         slot.state = State::Mapping(done);
     }
 
-    /// Milliseconds of each pass of the newest frame the device has finished since the last call. Does not wait.
-    pub fn newest(&mut self, gpu: &Gpu) -> Option<Vec<f64>> {
+    /// Milliseconds of each of so many draws in the newest frame the device has finished since the last call; 0 for one that
+    /// was left out. Does not wait.
+    pub fn newest(&mut self, gpu: &Gpu, draws: usize) -> Option<Vec<f64>> {
         // The error is the device's loss, which drawing reports.
         let _ = gpu.device.poll(wgpu::PollType::Poll);
         let mut best: Option<(u64, Vec<f64>)> = None;
@@ -127,11 +139,14 @@ impl PassTimer {
             }
             if let Ok(bytes) = slot.mapped.slice(..).get_mapped_range() {
                 let stamps: Vec<u64> =
-                    bytes.chunks_exact(8).take(slot.passes as usize * 2).map(bytemuck::pod_read_unaligned).collect();
-                let millis = stamps
-                    .chunks_exact(2)
-                    .map(|s| s[1].saturating_sub(s[0]) as f64 * self.period_nanos / 1e6)
-                    .collect();
+                    bytes.chunks_exact(8).take(slot.draws.len() * 2).map(bytemuck::pod_read_unaligned).collect();
+                let mut millis = vec![0.0; draws];
+                for (draw, s) in slot.draws.iter().zip(stamps.chunks_exact(2)) {
+                    // A program of fewer passes may have come since.
+                    if let Some(sum) = millis.get_mut(*draw) {
+                        *sum += s[1].saturating_sub(s[0]) as f64 * self.period_nanos / 1e6;
+                    }
+                }
                 if best.as_ref().is_none_or(|(frame, _)| *frame < slot.frame) {
                     best = Some((slot.frame, millis));
                 }

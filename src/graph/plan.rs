@@ -1,8 +1,8 @@
 //! The plan of a frame.
 
 use super::effective_sampler;
-use crate::project::{Filter, Input, PassId, Project, Sampler};
-use std::collections::BTreeSet;
+use crate::project::{Filter, Input, PassFormat, PassId, PassSize, Project, Region, Sampler};
+use std::{collections::BTreeSet, ops::Range};
 
 /// What a pass does with one channel, as its compiled form says.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -32,7 +32,8 @@ impl PassFacts {
 pub enum When {
     /// What has been drawn in this frame already.
     ThisFrame,
-    /// What the frame before left: the reader is the target itself, or is drawn before it.
+    /// What was drawn last before that: the reader is the target itself, or is drawn before it. In a group that is the step
+    /// before, at its first step the frame before.
     LastFrame,
 }
 
@@ -63,17 +64,19 @@ pub struct Read {
 /// What kind of texture a target needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum TargetKind {
-    /// A canvas-sized picture.
+    /// One picture.
     Canvas,
     /// Six square faces.
     Cube,
 }
 
 /// A texture, or a pair of them, that passes draw into or read.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Target {
     pub id: PassId,
     pub kind: TargetKind,
+    pub size: PassSize,
+    pub format: PassFormat,
     /// Two textures that take turns: somebody reads last frame's picture, or a `discard` can show the one before it.
     pub doubled: bool,
     /// A mip chain is built after each draw.
@@ -93,14 +96,30 @@ pub struct Draw {
     pub reads: [Option<Read>; 4],
     /// What the target held must still be there as the pass begins.
     pub keeps_content: bool,
+    /// Only these texels are drawn; the others are as they were drawn last.
+    pub region: Option<Region>,
+    /// It need not be drawn while nothing it reads has changed: what it draws depends on nothing else, and on its own picture
+    /// of before it does not depend.
+    pub can_rest: bool,
+}
+
+/// Draws that follow each other, all done once in order, then again.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Run {
+    /// Of [`FramePlan::draws`].
+    pub draws: Range<usize>,
+    /// At least 1.
+    pub steps: u32,
 }
 
 /// Everything about a frame that can be known before it is drawn.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct FramePlan {
     pub targets: Vec<Target>,
     /// In drawing order.
     pub draws: Vec<Draw>,
+    /// How the draws are gone through: every draw in one run, in order.
+    pub runs: Vec<Run>,
     /// Passes of the project that no wanted picture needs, as indices into [`Project::passes`].
     pub skipped: Vec<usize>,
 }
@@ -121,27 +140,68 @@ impl FramePlan {
         };
         let drawn: Vec<usize> = order.into_iter().filter(|i| reached.contains(i)).collect();
         for &pass in &drawn {
-            plan.target(&project.passes[pass].id);
+            plan.target(project, &project.passes[pass].id);
         }
         for (place, &pass) in drawn.iter().enumerate() {
-            let target = plan.target(&project.passes[pass].id);
+            let target = plan.target(project, &project.passes[pass].id);
             let reads = std::array::from_fn(|channel| {
                 let used = facts[pass].channels[channel].is_read || !skip;
                 used.then(|| plan.read(project, &drawn, place, channel)).flatten()
             });
-            plan.draws.push(Draw { pass, target, reads, keeps_content: facts[pass].discards || !skip });
+            let region = project.passes[pass].settings.region;
+            plan.draws.push(Draw {
+                pass,
+                target,
+                reads,
+                keeps_content: facts[pass].discards || region.is_some() || !skip,
+                region,
+                can_rest: false,
+            });
         }
+        plan.runs(project);
         plan.settle(project, facts, skip);
         plan
     }
 
     /// Index of the target of `id`, made if there is none.
-    fn target(&mut self, id: &PassId) -> usize {
+    fn target(&mut self, project: &Project, id: &PassId) -> usize {
         self.targets.iter().position(|t| t.id == *id).unwrap_or_else(|| {
             let kind = if *id == PassId::Cubemap { TargetKind::Cube } else { TargetKind::Canvas };
-            self.targets.push(Target { id: id.clone(), kind, doubled: false, mips: false, undrawn: true });
+            let settings = project.pass(id).map(|p| p.settings.clone()).unwrap_or_default();
+            let (size, format) = (settings.size, settings.format);
+            self.targets.push(Target {
+                id: id.clone(),
+                kind,
+                size,
+                format,
+                doubled: false,
+                mips: false,
+                undrawn: true,
+            });
             self.targets.len() - 1
         })
+    }
+
+    /// Groups of the project, and each other draw by itself. What nobody reaches is left out of a group.
+    fn runs(&mut self, project: &Project) {
+        let group_of = |draw: &Draw| {
+            let id = &project.passes[draw.pass].id;
+            project.groups.iter().position(|g| g.passes.contains(id))
+        };
+        let mut begin = 0;
+        while begin < self.draws.len() {
+            let group = group_of(&self.draws[begin]);
+            let same = |draw: &&Draw| group.is_some() && group_of(draw) == group;
+            let end = begin + self.draws[begin..].iter().take_while(same).count().max(1);
+            let steps = group.map_or(1, |g| project.groups[g].steps.max(1));
+            self.runs.push(Run { draws: begin..end, steps });
+            begin = end;
+        }
+    }
+
+    /// Draws of a frame in which nothing rests, each step counted.
+    pub fn draws_a_frame(&self) -> u64 {
+        self.runs.iter().map(|r| r.draws.len() as u64 * u64::from(r.steps)).sum()
     }
 
     fn read(&mut self, project: &Project, drawn: &[usize], place: usize, channel: usize) -> Option<Read> {
@@ -167,7 +227,7 @@ impl FramePlan {
 
     fn target_read(&mut self, project: &Project, drawn: &[usize], place: usize, id: PassId) -> Source {
         let earlier = drawn[..place].iter().any(|&p| project.passes[p].id == id);
-        let index = self.target(&id);
+        let index = self.target(project, &id);
         Source::Target { index, when: if earlier { When::ThisFrame } else { When::LastFrame } }
     }
 
@@ -204,6 +264,10 @@ impl FramePlan {
             (target.doubled, target.mips, target.undrawn) = (doubled, mips, drawn_by.is_none());
         }
         for draw in &mut self.draws {
+            let own = draw.target;
+            let reads_itself =
+                draw.reads.iter().flatten().any(|r| matches!(r.source, Source::Target { index, .. } if index == own));
+            draw.can_rest = skip && !facts[draw.pass].discards && !reads_itself;
             for read in draw.reads.iter_mut().flatten() {
                 read.mips = read.sampler.filter == Filter::Mipmap
                     && match read.source {

@@ -1,7 +1,10 @@
 //! The plan's rules, with no device.
 
-use super::{ChannelFacts, FramePlan, PassFacts, Source, TargetKind, When, effective_sampler};
-use crate::project::{Channel, Filter, Info, Input, Origin, Pass, PassId, Project, Sampler, SamplerRules, Wrap};
+use super::{ChannelFacts, FramePlan, Ledger, PassFacts, Source, TargetKind, When, effective_sampler};
+use crate::project::{
+    Channel, Filter, Group, Info, Input, Origin, Pass, PassFormat, PassId, PassSize, Project, Region, Sampler,
+    SamplerRules, Wrap,
+};
 
 const LETTERS: [&str; 4] = ["A", "B", "C", "D"];
 
@@ -14,7 +17,7 @@ fn buffer(name: &str) -> Option<Channel> {
 }
 
 fn pass(id: PassId, channels: [Option<Channel>; 4]) -> Pass {
-    Pass { source: source(&id), id, channels }
+    Pass { source: source(&id), id, channels, settings: Default::default() }
 }
 
 fn source(id: &PassId) -> crate::project::Source {
@@ -28,6 +31,9 @@ fn project(passes: Vec<Pass>) -> Project {
         common: None,
         passes,
         sampler_rules: SamplerRules::PerChannel,
+        knob_values: Default::default(),
+        groups: Vec::new(),
+        includes: Vec::new(),
         origin: Origin::Unsaved,
     }
 }
@@ -183,4 +189,91 @@ fn a_buffer_without_a_pass_is_a_target_nobody_draws() {
     let plan = plan(&project);
     let target = plan.targets.iter().find(|t| t.id == PassId::Buffer("C".into())).unwrap();
     assert!(target.undrawn && !target.doubled);
+}
+
+fn id(letter: &str) -> PassId {
+    PassId::Buffer(letter.into())
+}
+
+#[test]
+fn a_group_is_one_run_of_many_steps_and_every_other_draw_a_run_of_one() {
+    let mut project = project(vec![
+        pass(id("A"), Default::default()),
+        pass(id("B"), [buffer("C"), buffer("A"), None, None]),
+        pass(id("C"), [buffer("B"), None, None, None]),
+        pass(id("D"), Default::default()),
+        pass(PassId::Image, [buffer("C"), buffer("D"), None, None]),
+    ]);
+    project.groups = vec![Group { name: "solver".into(), passes: vec![id("B"), id("C")], steps: 20 }];
+    let runs = |plan: &FramePlan| plan.runs.iter().map(|r| (r.draws.clone(), r.steps)).collect::<Vec<_>>();
+    let whole = plan(&project);
+    assert_eq!(runs(&whole), [(0..1, 1), (1..3, 20), (3..4, 1), (4..5, 1)]);
+    assert_eq!(whole.draws_a_frame(), 43);
+    let mut facts = vec![reads_all(); 5];
+    facts[4].channels[0].is_read = false;
+    let less = FramePlan::new(&project, &facts, &[], true);
+    assert_eq!(
+        (runs(&less), less.draws_a_frame()),
+        (vec![(0..1, 1), (1..2, 1)], 2),
+        "what nobody reaches has no steps"
+    );
+}
+
+#[test]
+fn targets_have_their_passes_sizes_formats_and_regions() {
+    let mut project =
+        project(vec![pass(id("A"), Default::default()), pass(PassId::Image, [buffer("A"), buffer("D"), None, None])]);
+    let region = Region { x: 3, y: 1, width: 9, height: 2 };
+    let settings = &mut project.passes[0].settings;
+    (settings.size, settings.format, settings.region) = (PassSize::Scale(0.5), PassFormat::Rg16f, Some(region));
+    let plan = plan(&project);
+    assert_eq!((plan.targets[0].size, plan.targets[0].format), (PassSize::Scale(0.5), PassFormat::Rg16f));
+    assert_eq!((plan.draws[0].region, plan.draws[0].keeps_content), (Some(region), true));
+    assert_eq!((plan.targets[2].size, plan.draws[1].keeps_content), (PassSize::Canvas, false), "D, which has no pass");
+    assert_eq!([(7, 5), (1, 1)].map(|c| PassSize::Scale(0.5).of(c)), [(4, 3), (1, 1)]);
+    assert_eq!(PassSize::Fixed(2, 3).of((7, 5)), (2, 3));
+    assert_eq!(region.within((8, 2)), Some(Region { width: 5, height: 1, ..region }));
+    assert_eq!(region.within((3, 9)), None);
+}
+
+#[test]
+fn only_what_depends_on_nothing_of_its_own_may_rest() {
+    let project = project(vec![
+        pass(id("A"), Default::default()),
+        pass(id("B"), [buffer("B"), None, None, None]),
+        pass(id("C"), Default::default()),
+        pass(PassId::Image, [buffer("A"), buffer("B"), buffer("C"), None]),
+    ]);
+    let mut facts = vec![reads_all(); 4];
+    facts[2].discards = true;
+    let rests = |skip| FramePlan::new(&project, &facts, &[], skip).draws.iter().map(|d| d.can_rest).collect::<Vec<_>>();
+    assert_eq!(rests(true), [true, false, false, true]);
+    assert_eq!(rests(false), [false; 4], "--no-skip draws everything");
+}
+
+#[test]
+fn a_draw_rests_until_something_it_reads_has_changed_however_far_away() {
+    // A -> B -> Image, and C reads Image's sources of the frame before.
+    let project = project(vec![
+        pass(id("C"), [buffer("B"), None, None, None]),
+        pass(id("A"), Default::default()),
+        pass(id("B"), [buffer("A"), None, None, None]),
+        pass(PassId::Image, [buffer("B"), buffer("C"), None, None]),
+    ]);
+    let plan = plan(&project);
+    let mut ledger = Ledger::new(&plan);
+    let frame = |ledger: &mut Ledger, outside: [u8; 4]| -> String {
+        let due =
+            |(i, draw)| ledger.is_due(i, draw, &outside[i..=i]).then(|| project.passes[plan.draws[i].pass].id.title());
+        let titles: Vec<String> = plan.draws.iter().enumerate().filter_map(due).collect();
+        titles.iter().map(|t| t.chars().last().unwrap()).collect()
+    };
+    assert_eq!(frame(&mut ledger, [0; 4]), "CABe");
+    assert_eq!(frame(&mut ledger, [0; 4]), "Ce", "C sees the B of the frame before");
+    assert_eq!(frame(&mut ledger, [0; 4]), "");
+    assert_eq!(frame(&mut ledger, [0, 1, 0, 0]), "ABe", "A's uniform");
+    assert_eq!(frame(&mut ledger, [0, 1, 0, 0]), "Ce");
+    assert_eq!(frame(&mut ledger, [0, 1, 0, 7]), "e");
+    ledger.forget();
+    assert_eq!(frame(&mut ledger, [0, 1, 0, 7]), "CABe");
 }

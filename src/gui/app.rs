@@ -170,6 +170,7 @@ impl Running {
         let report = Report::new(options.json);
         if let Some(project) = &options.project {
             session.apply(Command::Open(project.clone()));
+            options.set.iter().for_each(|s| session.apply(Command::AssignKnob(s.clone())));
         } else {
             // The gallery covers the picture.
             session.apply(Command::Pause);

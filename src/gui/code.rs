@@ -222,7 +222,11 @@ impl CodePanel {
         for ask in shown.asks {
             let (Some(analysis), Some(help)) = (analysis, help) else { break };
             match ask {
-                Ask::GoTo(span) => self.show_range(analysis.tab_of(span.source), span.range()),
+                Ask::GoTo(span) => {
+                    if let Some(tab) = analysis.tab_of(span.source) {
+                        self.show_range(tab, span.range());
+                    }
+                }
                 Ask::ListUses(at) => self.uses = Uses::new(session, session.uses(analysis, help.source, at)),
             }
             ui.ctx().request_repaint();

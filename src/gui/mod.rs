@@ -14,6 +14,7 @@ mod geometry;
 mod help;
 mod icons;
 mod keys;
+mod knobs;
 mod outbox;
 mod problems;
 mod questions;
@@ -43,6 +44,8 @@ pub struct Options {
     pub project: Option<String>,
     /// Physical pixels inside the window's frame; none: what suits the screen.
     pub size: Option<(u32, u32)>,
+    /// Values for the project's own uniforms, as [`crate::session::Command::AssignKnob`] takes them.
+    pub set: Vec<String>,
     /// Say on standard output what happens, one JSON object a line, for scripts that drive the window.
     pub json: bool,
 }

@@ -24,6 +24,14 @@ pub fn show(ui: &mut Ui, session: &Session, limit: f32, out: &mut Outbox) {
         FontId::proportional(12.0),
         theme::TEXT,
     );
+    let includes: Vec<&str> = session.project().includes.iter().map(|i| i.source.name.as_str()).collect();
+    if !includes.is_empty() {
+        let shown = format!("with {}", crate::project::listed(&includes));
+        let font = FontId::proportional(12.0);
+        let end =
+            painter.text(pos2(rect.right() - 8.0, rect.center().y), Align2::RIGHT_CENTER, shown, font, theme::WEAK);
+        out.place("includes", end);
+    }
     out.place("compile-state", rect);
     let list = session.diagnostics();
     if list.is_empty() {
@@ -75,10 +83,11 @@ fn row(ui: &mut Ui, index: usize, d: &TabDiagnostic, out: &mut Outbox) {
     };
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
     painter.circle_filled(pos2(rect.left() + 13.0, rect.center().y), 3.0, color);
-    let place = match (&d.tab, d.line) {
+    let text = d.tab.as_ref().map(crate::project::Tab::title).or_else(|| d.file.clone());
+    let place = match (text, d.line) {
         (None, _) => String::new(),
-        (Some(tab), 0) => tab.title(),
-        (Some(tab), line) => format!("{} {line}:{}", tab.title(), d.column),
+        (Some(text), 0) => text,
+        (Some(text), line) => format!("{text} {line}:{}", d.column),
     };
     let mut x = rect.left() + 25.0;
     if !place.is_empty() {

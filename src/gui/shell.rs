@@ -4,7 +4,7 @@ use super::{
     channels,
     code::CodePanel,
     files::{Files, Picked},
-    gallery, help,
+    gallery, help, knobs,
     outbox::{Outbox, Pick, Wish},
     problems, questions,
     report::Report,
@@ -155,6 +155,13 @@ impl Shell {
                 .frame(Frame::NONE.fill(theme::PANEL))
                 .show_separator_line(false)
                 .show(ui, |ui| channels::show(ui, session, self.code.current(), &mut self.thumbnails, out));
+            if let Some(height) = knobs::height(ui, session, window.height()) {
+                Panel::bottom("knobs")
+                    .exact_size(height)
+                    .frame(Frame::NONE.fill(theme::PANEL).inner_margin(Margin::symmetric(8, 0)))
+                    .show_separator_line(false)
+                    .show(ui, |ui| knobs::show(ui, session, out));
+            }
             CentralPanel::default().frame(Frame::NONE).show(ui, |ui| self.code.show(ui, session, out));
         });
         CentralPanel::default().frame(Frame::NONE).show(ui, |ui| self.viewport.show(ui, session, false, out));
@@ -290,6 +297,9 @@ impl Shell {
             report.say(json!({ "event": "reloaded", "name": project.name }));
         }
         report.say_if_new("compiled", compiled(session));
+        let values: serde_json::Map<String, Value> =
+            session.knobs().iter().map(|k| (k.name.clone(), json!(session.knob_value(k).components()))).collect();
+        report.say_if_new("uniforms", json!({ "values": values }));
         report.say_if_new("shown", json!({ "pass": session.shown_pass().title() }));
         for notice in session.notices() {
             if self.reported_notice.is_none_or(|id| notice.id > id) {
@@ -325,6 +335,7 @@ fn compiled(session: &Session) -> Value {
             json!({
                 "severity": d.severity.name(),
                 "tab": d.tab.as_ref().map(Tab::title),
+                "file": d.file,
                 "line": d.line,
                 "column": d.column,
                 "message": d.message,

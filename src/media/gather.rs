@@ -87,8 +87,11 @@ mod tests {
             name: "p".into(),
             info: Info::default(),
             common: None,
-            passes: vec![Pass { id: PassId::Image, source, channels }],
+            passes: vec![Pass { id: PassId::Image, source, channels, settings: Default::default() }],
             sampler_rules: SamplerRules::PerChannel,
+            knob_values: Default::default(),
+            groups: Vec::new(),
+            includes: Vec::new(),
             origin: Origin::Unsaved,
         }
     }

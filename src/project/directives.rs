@@ -16,65 +16,25 @@
 //! #iChannel3::WrapMode "Clamp"        // or "Repeat"
 //! ```
 
-use super::{Channel, Filter, Input, Media, PassId, Sampler, Wrap, nearest};
+use super::{
+    Channel, Filter, Input, Media, PassId, Sampler, Wrap, includes, knobs,
+    lines::{HashLine, hash_lines},
+    nearest,
+};
 use crate::diag::{Diagnostic, SourceId, Span};
 use std::{borrow::Cow, ops::Range, path::PathBuf};
 
-/// One line that begins with `#`, outside comments.
-struct HashLine<'a> {
-    /// The whole line without its line break.
-    range: Range<usize>,
-    /// What follows `#`, without blanks around it.
-    body: &'a str,
+fn is_channel(line: &HashLine<'_>) -> bool {
+    line.body.strip_prefix("iChannel").is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
 }
 
-/// Lines whose first character that is neither blank nor comment is `#`.
-fn hash_lines(text: &str) -> Vec<HashLine<'_>> {
-    let mut lines = Vec::new();
-    let mut in_comment = false;
-    let mut start = 0;
-    for line in text.split_inclusive('\n') {
-        let content = line.trim_end_matches(['\n', '\r']);
-        let mut first = None;
-        let mut rest = 0;
-        while let Some(c) = content[rest..].chars().next() {
-            if in_comment {
-                match content[rest..].find("*/") {
-                    Some(i) => (in_comment, rest) = (false, rest + i + 2),
-                    None => break,
-                }
-            } else if content[rest..].starts_with("//") {
-                break;
-            } else if content[rest..].starts_with("/*") {
-                (in_comment, rest) = (true, rest + 2);
-            } else {
-                if first.is_none() && !c.is_whitespace() && c != '\u{feff}' {
-                    first = Some((rest, c));
-                }
-                // A quoted "file://…" is no comment. GLSL proper has no strings, so this touches directives only.
-                let closing =
-                    (c == '"' && matches!(first, Some((_, '#')))).then(|| content[rest + 1..].find('"')).flatten();
-                rest += closing.map_or(c.len_utf8(), |i| i + 2);
-            }
-        }
-        if let Some((at, '#')) = first {
-            lines.push(HashLine { range: start..start + content.len(), body: content[at + 1..].trim() });
-        }
-        start += line.len();
-    }
-    lines
-}
-
-impl HashLine<'_> {
-    fn is_channel(&self) -> bool {
-        self.body.strip_prefix("iChannel").is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
-    }
-}
-
-/// `text` with channel directives and a byte order mark overwritten with spaces, byte for byte.
+/// `text` with `#iChannel`, `#iUniform` and `#include` lines and a byte order mark overwritten with spaces, byte for byte.
 pub fn blank(text: &str) -> Cow<'_, str> {
-    let mut ranges: Vec<Range<usize>> =
-        hash_lines(text).into_iter().filter(HashLine::is_channel).map(|l| l.range).collect();
+    let mut ranges: Vec<Range<usize>> = hash_lines(text)
+        .into_iter()
+        .filter(|l| is_channel(l) || knobs::is_declaration(l) || includes::is_include(l))
+        .map(|l| l.range)
+        .collect();
     if text.starts_with('\u{feff}') {
         ranges.insert(0, 0..'\u{feff}'.len_utf8());
     }
@@ -107,7 +67,7 @@ pub(super) fn read(text: &str, source: SourceId, id: &PassId) -> Declared {
     // Inputs first, settings after: a setting may stand above the line that names the input.
     let mut settings = Vec::new();
     let mut channels: [Option<Channel>; 4] = Default::default();
-    for line in hash_lines(text).into_iter().filter(HashLine::is_channel) {
+    for line in hash_lines(text).into_iter().filter(is_channel) {
         let span = Span::new(source, line.range.clone());
         match parse(&line) {
             Ok((n, None, value)) => {
@@ -275,25 +235,6 @@ fn set(sampler: &mut Sampler, setting: &str, value: &str, span: Span, diagnostic
     }
 }
 
-/// Errors for `#include` lines, which are not read: the compiler would only say that it does not know the word.
-pub(super) fn includes(text: &str, source: SourceId, exists: impl Fn(&str) -> bool) -> Vec<Diagnostic> {
-    let mut found = Vec::new();
-    for line in hash_lines(text) {
-        let Some(rest) = line.body.strip_prefix("include") else { continue };
-        let name = rest.trim().trim_matches(['"', '<', '>']);
-        let message = if exists(name) {
-            format!("#include \"{name}\" is not read: a project shares text through Common alone")
-        } else {
-            format!("#include \"{name}\": there is no such file beside the shader")
-        };
-        found.push(
-            Diagnostic::error(Span::new(source, line.range), message)
-                .hint("put the shared text into common.glsl, which stands before every pass"),
-        );
-    }
-    found
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -366,14 +307,5 @@ mod tests {
             let span = d[0].span.unwrap();
             assert!(text[span.range()].starts_with("#iChannel") && span.source == SourceId(3));
         }
-    }
-
-    #[test]
-    fn an_include_is_an_error_at_its_line_and_not_in_a_comment() {
-        let text = "// #include \"a\"\n/* \n#include \"b\" */\n  #include \"c.glsl\"\n";
-        let d = includes(text, SourceId(0), |_| false);
-        assert_eq!(d.len(), 1);
-        assert_eq!(&text[d[0].span.unwrap().range()], "  #include \"c.glsl\"");
-        assert!(d[0].message.contains("no such file"));
     }
 }

@@ -76,10 +76,10 @@ impl Files<'_> {
                     Err(source) => Err(ProjectError::Io { action: "read", path, source }),
                 }
             }
-            Files::Embedded(dir) => Ok(dir
-                .files()
-                .find(|f| f.path().file_name() == Some(OsStr::new(name)))
-                .map_or(Read::Missing, |f| decode(f.contents().to_vec()))),
+            Files::Embedded(dir) => {
+                let file = dir.get_file(dir.path().join(name));
+                Ok(file.map_or(Read::Missing, |f| decode(f.contents().to_vec())))
+            }
             Files::Memory(files) => Ok(files.get(name).map_or(Read::Missing, |bytes| decode(bytes.clone()))),
         }
     }
@@ -179,7 +179,9 @@ pub(super) fn by_convention(files: Vec<Source>) -> ByConvention {
                     let diagnostic = two_files(&id.title(), &first.source.name, &source.name);
                     found.diagnostics.push(diagnostic);
                 }
-                None => found.passes.push(Pass { id, source, channels: Default::default() }),
+                None => {
+                    found.passes.push(Pass { id, source, channels: Default::default(), settings: Default::default() })
+                }
             },
         }
     }
@@ -213,8 +215,17 @@ pub fn declare_channels(project: &mut Project) -> Vec<Diagnostic> {
 /// A folder without `eddy.toml`, its texts already read.
 pub(super) fn project(name: String, files: Vec<Source>, origin: Origin) -> (Project, Vec<Diagnostic>) {
     let ByConvention { common, passes, mut diagnostics } = by_convention(files);
-    let mut project =
-        Project { name, info: Info::default(), common, passes, sampler_rules: SamplerRules::PerChannel, origin };
+    let mut project = Project {
+        name,
+        info: Info::default(),
+        common,
+        passes,
+        sampler_rules: SamplerRules::PerChannel,
+        knob_values: Default::default(),
+        groups: Vec::new(),
+        includes: Vec::new(),
+        origin,
+    };
     if project.pass(&PassId::Image).is_none() {
         diagnostics
             .push(Diagnostic::error(None, "there is no Image pass").hint("add image.glsl with a mainImage function"));

@@ -1,9 +1,9 @@
 //! From what a person names on the command line to a [`Project`].
 
 use super::{
-    Info, Origin, Pass, PassId, Project, ProjectError, SamplerRules, Source, directives,
+    Info, Origin, Pass, PassId, Project, ProjectError, SamplerRules, Source,
     folder::{self, Files, Read},
-    json, manifest, nearest, presets,
+    includes, json, manifest, nearest, presets,
 };
 use crate::diag::{Diagnostic, SourceMap};
 use std::{
@@ -116,7 +116,7 @@ fn load_folder(path: &Path) -> Result<Loaded, ProjectError> {
 /// A folder on disk or in the binary. `what` names it in errors.
 pub(super) fn load_files(what: &str, name: String, files: &Files<'_>, origin: Origin) -> Result<Loaded, ProjectError> {
     let manifest_text = match files.read(MANIFEST)? {
-        Read::Missing => return finish(what, by_convention(what, name, files, origin)?, files),
+        Read::Missing => return finish(what, by_convention(what, name, files, origin)?),
         Read::Text(text) => text,
         Read::NotUtf8(at, lossy) => {
             let mut sources = SourceMap::default();
@@ -124,7 +124,7 @@ pub(super) fn load_files(what: &str, name: String, files: &Files<'_>, origin: Or
             return Err(ProjectError::Invalid { what: what.to_owned(), diagnostics, sources });
         }
     };
-    finish(what, manifest::project(what, name, &manifest_text, files, origin)?, files)
+    finish(what, manifest::project(what, name, &manifest_text, files, origin)?)
 }
 
 fn by_convention(what: &str, name: String, files: &Files<'_>, origin: Origin) -> Result<Loaded, ProjectError> {
@@ -145,7 +145,8 @@ fn by_convention(what: &str, name: String, files: &Files<'_>, origin: Origin) ->
     if !diagnostics.is_empty() {
         return Err(ProjectError::Invalid { what: what.to_owned(), diagnostics, sources });
     }
-    let (project, warnings) = folder::project(name, texts, origin);
+    let (mut project, warnings) = folder::project(name, texts, origin);
+    includes::read(&mut project, Some(files));
     Ok(Loaded { sources: project.sources(), project, warnings })
 }
 
@@ -161,13 +162,17 @@ fn load_glsl(path: &Path) -> Result<Loaded, ProjectError> {
             id: PassId::Image,
             source: Source { name, path: Some(path.to_owned()), text: text.into() },
             channels: Default::default(),
+            settings: Default::default(),
         }],
         sampler_rules: SamplerRules::PerChannel,
+        knob_values: Default::default(),
+        groups: Vec::new(),
+        includes: Vec::new(),
         origin: Origin::File(path.to_owned()),
     };
     let warnings = folder::declare_channels(&mut project);
-    let parent = path.parent().unwrap_or(Path::new(""));
-    finish(&what, Loaded { sources: project.sources(), project, warnings }, &Files::Disk(parent))
+    project.read_includes();
+    finish(&what, Loaded { sources: project.sources(), project, warnings })
 }
 
 fn load_json(path: &Path) -> Result<Loaded, ProjectError> {
@@ -178,6 +183,7 @@ fn load_json(path: &Path) -> Result<Loaded, ProjectError> {
         project.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     }
     project.origin = Origin::Json(path.to_owned());
+    project.read_includes();
     Ok(Loaded { sources: project.sources(), project, warnings })
 }
 
@@ -193,11 +199,8 @@ fn read_text(path: &Path, name: &str) -> Result<String, ProjectError> {
     }
 }
 
-/// Checks what every form on disk shares, and turns errors among the diagnostics into a refusal.
-fn finish(what: &str, mut loaded: Loaded, files: &Files<'_>) -> Result<Loaded, ProjectError> {
-    for (id, source) in loaded.project.sources().iter() {
-        loaded.warnings.extend(directives::includes(&source.text, id, |name| files.exists(name)));
-    }
+/// Turns errors among the diagnostics into a refusal.
+fn finish(what: &str, loaded: Loaded) -> Result<Loaded, ProjectError> {
     if loaded.warnings.iter().any(Diagnostic::is_error) {
         let Loaded { warnings: diagnostics, sources, .. } = loaded;
         return Err(ProjectError::Invalid { what: what.to_owned(), diagnostics, sources });

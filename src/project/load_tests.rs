@@ -1,5 +1,5 @@
 use super::*;
-use crate::project::{Channel, Filter, Input, Media, Sampler, Wrap};
+use crate::project::{Channel, Filter, Input, Media, PassFormat, PassSize, Region, Sampler, Wrap};
 use std::{fs, path::Path};
 use tempfile::TempDir;
 
@@ -162,13 +162,6 @@ fn a_text_that_is_not_utf8_is_named_with_its_line() {
 }
 
 #[test]
-fn an_include_is_refused_with_its_line() {
-    let dir = folder(&[("image.glsl", "\n#include \"noise.glsl\"\n")]);
-    let said = complaint(dir.path());
-    assert!(said.contains("image.glsl:2:1") && said.contains("no such file") && said.contains("common.glsl"), "{said}");
-}
-
-#[test]
 fn what_is_no_project_says_what_would_be_one() {
     let error = load("flooid-that-is-not").unwrap_err().to_string();
     assert!(error.starts_with("flooid-that-is-not: neither a file, a folder nor a preset"), "{error}");
@@ -192,4 +185,51 @@ fn the_stem_names_outputs() {
     assert_eq!(stem(dir.path().join("a.b.json").to_str().unwrap()), "a.b");
     assert_eq!(stem("nowhere/shader.glsl"), "shader");
     assert!(!stem(".").is_empty() && stem(".") != ".");
+}
+
+#[test]
+fn eddy_toml_says_how_passes_are_drawn() {
+    let toml = "[passes.buffer_a]\nsize = 0.5\nformat = \"rgba16f\"\n[passes.buffer_b]\nsize = [256, 1]\n[passes.image]\nregion = [1, 2, 3, 4]\n\
+                [groups.solver]\npasses = [\"buffer_a\", \"buffer_b\"]\nsteps = 20\n";
+    let dir = folder(&[
+        ("eddy.toml", toml),
+        ("buffer_a.glsl", ""),
+        ("buffer_b.glsl", ""),
+        ("buffer_c.glsl", ""),
+        ("image.glsl", ""),
+    ]);
+    let project = load_path(dir.path()).unwrap().project;
+    let [a, b, image] = project.passes.as_slice() else { panic!() };
+    assert_eq!((a.settings.size, a.settings.format), (PassSize::Scale(0.5), PassFormat::Rgba16f));
+    assert_eq!((b.settings.size, b.settings.format), (PassSize::Fixed(256, 1), PassFormat::Rgba32f));
+    assert_eq!(image.settings.region, Some(Region { x: 1, y: 2, width: 3, height: 4 }));
+    assert_eq!((project.groups[0].passes.len(), project.groups[0].steps), (2, 20));
+    for (key, pass, message) in [
+        ("sise = 1", "buffer_a", "did you mean size?"),
+        ("size = 0", "buffer_a", "above 0"),
+        ("size = [0, 4]", "buffer_a", "above 0"),
+        ("size = [4]", "buffer_a", "[width, height]"),
+        ("size = 0.5", "image", "Image has no size"),
+        ("format = \"r8\"", "image", "Image has no format"),
+        ("format = \"rgba16\"", "buffer_a", "did you mean \"rgba16f\"?"),
+        ("region = [1, 2, 0, 4]", "buffer_a", "[x, y, width, height]"),
+        ("region = [1, 2, 3]", "buffer_a", "[x, y, width, height]"),
+        ("region = [-1, 2, 3, 4]", "buffer_a", "[x, y, width, height]"),
+        ("[groups.g]\npasses = [\"buffer_a\"]\nstep = 2", "buffer_a", "did you mean steps?"),
+        ("[groups.g]\npasses = [\"buffer_a\"]\nsteps = 0", "buffer_a", "above 0"),
+        ("[groups.g]\nsteps = 2", "buffer_a", "names no passes"),
+        ("[groups.g]\npasses = [\"bufer_a\"]", "buffer_a", "did you mean buffer_a?"),
+        ("[groups.g]\npasses = [\"image\"]", "buffer_a", "there is no buffer"),
+        ("[groups.g]\npasses = []", "buffer_a", "no passes"),
+        ("[groups.g]\npasses = [\"buffer_b\", \"buffer_a\"]", "buffer_a", "one after the other"),
+        ("[groups.g]\npasses = [\"buffer_a\", \"buffer_c\"]", "buffer_a", "one after the other"),
+        ("[groups.g]\npasses = [\"buffer_a\"]\n[groups.h]\npasses = [\"buffer_a\"]", "buffer_a", "in another group"),
+    ] {
+        let tables = ["buffer_a", "buffer_b", "buffer_c", "image"]
+            .map(|p| format!("[passes.{p}]\n{}\n", if p == pass && !key.starts_with('[') { key } else { "" }));
+        let toml = format!("{}{}\n", tables.concat(), if key.starts_with('[') { key } else { "" });
+        fs::write(dir.path().join("eddy.toml"), toml).unwrap();
+        let said = complaint(dir.path());
+        assert!(said.contains(message) && said.contains("eddy.toml:"), "{key}: {said}");
+    }
 }

@@ -7,16 +7,22 @@ mod atomic;
 pub mod directives;
 mod error;
 mod folder;
+mod includes;
 pub mod json;
+mod knobs;
+mod lines;
 mod load;
 mod manifest;
 mod model;
 mod names;
 pub mod presets;
 mod save;
+mod settings;
 
 pub use error::ProjectError;
 pub use folder::declare_channels;
+pub use includes::{IncludeLines, Included};
+pub use knobs::{Knob, KnobRange, KnobType, KnobValue, KnobValues, Knobs};
 pub use load::{Loaded, load, stem};
 pub use manifest::write as write_manifest;
 pub use model::{
@@ -24,3 +30,4 @@ pub use model::{
 };
 pub use names::{listed, nearest};
 pub use save::{Overwrite, save};
+pub use settings::{Group, PassFormat, PassSettings, PassSize, Region};

@@ -1,5 +1,6 @@
 //! A project as pure data: passes in their drawing order, what each channel reads, and where the texts came from.
 
+use super::{Group, Included, KnobValues, PassSettings};
 use std::{path::PathBuf, sync::Arc};
 
 /// What the author wrote, whole: enough to compile, plan and draw, and to write it back unchanged.
@@ -14,6 +15,12 @@ pub struct Project {
     /// not drawn.) Exactly one Image.
     pub passes: Vec<Pass>,
     pub sampler_rules: SamplerRules,
+    /// Passes drawn several times a frame; those in none are drawn once.
+    pub groups: Vec<Group>,
+    /// Values of the author's own uniforms ([`Project::knobs`]) that differ from the default, by name.
+    pub knob_values: KnobValues,
+    /// Files that the texts have in them, as [`Project::read_includes`] last found them.
+    pub includes: Vec<Included>,
     pub origin: Origin,
 }
 
@@ -55,7 +62,7 @@ pub struct Source {
 }
 
 impl Source {
-    /// What a compiler gets: the text with every `#iChannel` line (see [`crate::project::directives`]) and a byte order mark
+    /// What a compiler gets: the text with every `#iChannel`, `#iUniform` and `#include` line (see [`crate::project::directives`]) and a byte order mark
     /// overwritten with spaces, byte for byte, so that offsets and lines are those of `text`.
     pub fn compile_text(&self) -> std::borrow::Cow<'_, str> {
         super::directives::blank(&self.text)
@@ -69,6 +76,7 @@ pub struct Pass {
     pub source: Source,
     /// `iChannel0..3`; `None` reads as a 2D texture that is black and of size 0.
     pub channels: [Option<Channel>; 4],
+    pub settings: PassSettings,
 }
 
 /// Which pass. Buffers are told apart by name: `A`..`D` as on the site, or any further name a project gives.
@@ -240,7 +248,8 @@ impl Tab {
     }
 }
 
-/// Sources of a project by [`crate::diag::SourceId`]: 0 is Common (an empty text where there is none), then the passes in order.
+/// Sources of a project by [`crate::diag::SourceId`]: 0 is Common (an empty text where there is none), then the passes in order,
+/// then the files they include.
 impl Project {
     pub fn sources(&self) -> crate::diag::SourceMap {
         let mut map = crate::diag::SourceMap::default();
@@ -250,6 +259,9 @@ impl Project {
         };
         for pass in &self.passes {
             map.add(pass.source.name.clone(), pass.source.text.clone());
+        }
+        for included in &self.includes {
+            map.add(included.source.name.clone(), included.source.text.clone());
         }
         map
     }

@@ -34,6 +34,11 @@ pub fn names() -> &'static [&'static str] {
     &NAMES
 }
 
+/// The folder of a preset.
+pub(super) fn folder(name: &str) -> Option<&'static Dir<'static>> {
+    PRESETS.get_dir(name)
+}
+
 /// Reads a preset by name.
 pub fn load(name: &str) -> Result<Loaded, ProjectError> {
     let dir = PRESETS.get_dir(name).filter(|_| names().contains(&name)).ok_or_else(|| ProjectError::NotFound {

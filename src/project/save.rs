@@ -67,6 +67,13 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite) -> Result<P
     if saved.passes[0].channels != image.channels {
         return cannot("channels that its text does not declare in #iChannel lines");
     }
+    if !project.knob_values.is_empty() {
+        return cannot("values of sliders that are not their defaults");
+    }
+    let has_moved = project.origin.base_dir() != target.parent();
+    if has_moved && !project.includes.is_empty() {
+        return cannot("the files that its text includes");
+    }
     let own = matches!(&project.origin, Origin::File(path) if is_same(path, target));
     let bytes = image.source.text.as_bytes().to_vec();
     write(BTreeMap::from([(target.to_owned(), Content::Bytes(bytes))]), |_| own, overwrite)?;
@@ -100,10 +107,18 @@ fn save_folder(project: &Project, target: &Path, overwrite: Overwrite) -> Result
     }
     let mut texts: BTreeMap<String, Vec<u8>> = BTreeMap::new();
     if let Some(common) = &mut saved.common {
-        place(common, "common.glsl".into(), is_home, target, &mut texts);
+        let name = usual(common, "common");
+        place(common, name, is_home, target, &mut texts);
     }
     for pass in &mut saved.passes {
-        place(&mut pass.source, format!("{}.glsl", pass.id.key()), is_home, target, &mut texts);
+        let name = usual(&pass.source, &pass.id.key());
+        place(&mut pass.source, name, is_home, target, &mut texts);
+    }
+    if !is_home {
+        // Under their own names, which the lines that include them say.
+        for included in project.includes.iter().filter(|i| i.trouble.is_none()) {
+            texts.insert(included.source.name.clone(), included.source.text.as_bytes().to_vec());
+        }
     }
     let mut writes: BTreeMap<PathBuf, Content> = BTreeMap::new();
     if !is_home {
@@ -121,7 +136,14 @@ fn save_folder(project: &Project, target: &Path, overwrite: Overwrite) -> Result
     writes.extend(texts.into_iter().map(|(name, bytes)| (target.join(name), Content::Bytes(bytes))));
     let own: Vec<PathBuf> = own.into_iter().map(|name| target.join(name)).collect();
     write(writes, |path| own.iter().any(|o| o == path), overwrite)?;
+    saved.read_includes();
     Ok(saved)
+}
+
+/// The file a text has in a new folder. One that includes others stays where it was among them.
+fn usual(source: &Source, key: &str) -> String {
+    let includes = source.path.is_some() && source.text.contains("#include");
+    if includes { source.name.clone() } else { format!("{key}.glsl") }
 }
 
 /// Gives a text its file: the one it has in this folder, else the one of its name. Two passes may share a file as long as
@@ -193,6 +215,7 @@ fn is_equal_but_for_places(a: &Project, b: &Project) -> bool {
     let bare = |p: &Project| {
         let mut p = p.clone();
         p.origin = Origin::Unsaved;
+        p.includes.clear();
         for source in p.common.iter_mut().chain(p.passes.iter_mut().map(|p| &mut p.source)) {
             source.path = None;
         }

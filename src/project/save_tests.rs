@@ -1,5 +1,5 @@
 use super::*;
-use crate::project::{Channel, Filter, Info, Pass, Sampler, Wrap, load};
+use crate::project::{Channel, Filter, Info, Pass, PassFormat, PassSettings, PassSize, Region, Sampler, Wrap, load};
 use std::collections::BTreeSet;
 
 /// A small generator of numbers, so that a failing case comes back with its seed.
@@ -38,6 +38,23 @@ impl Random {
     }
 }
 
+/// Settings the file may have for a pass.
+fn any_settings(r: &mut Random, id: &PassId) -> PassSettings {
+    let mut settings = PassSettings::default();
+    if matches!(id, PassId::Buffer(_)) {
+        settings.size = match r.below(3) {
+            0 => PassSize::Canvas,
+            1 => PassSize::Scale(0.25 + r.below(3) as f64),
+            _ => PassSize::Fixed(1 + r.below(99) as u32, 7),
+        };
+        settings.format = PassFormat::ALL[r.below(PassFormat::ALL.len())];
+    }
+    if matches!(id, PassId::Buffer(_) | PassId::Image) && r.below(2) == 0 {
+        settings.region = Some(Region { x: r.below(9) as u32, y: 0, width: 1, height: 5 });
+    }
+    settings
+}
+
 fn any_project(seed: u64) -> Project {
     let r = &mut Random(seed);
     let mut ids: BTreeSet<PassId> = BTreeSet::new();
@@ -58,6 +75,7 @@ fn any_project(seed: u64) -> Project {
         .map(|id| Pass {
             source: source(r, id.title()),
             channels: std::array::from_fn(|_| (r.below(2) == 0).then(|| any_channel(r))),
+            settings: any_settings(r, &id),
             id,
         })
         .collect();
@@ -74,6 +92,9 @@ fn any_project(seed: u64) -> Project {
         common: (r.below(2) == 0).then(|| source(r, "Common".into())),
         passes,
         sampler_rules: if r.below(2) == 0 { SamplerRules::Site } else { SamplerRules::PerChannel },
+        knob_values: Default::default(),
+        groups: Vec::new(),
+        includes: Vec::new(),
         origin: Origin::Unsaved,
     }
 }
@@ -249,7 +270,10 @@ fn what_is_not_the_projects_own_is_not_overwritten_unasked() {
     let mut grown = project.clone();
     fs::write(dir.path().join("mine/buffer_b.glsl"), "precious").unwrap();
     let source = Source { name: "Buffer B".into(), path: None, text: "b".into() };
-    grown.passes.insert(1, Pass { id: PassId::Buffer("B".into()), source, channels: Default::default() });
+    grown.passes.insert(
+        1,
+        Pass { id: PassId::Buffer("B".into()), source, channels: Default::default(), settings: Default::default() },
+    );
     assert!(matches!(
         save(&grown, &dir.path().join("mine"), Overwrite::Refuse),
         Err(ProjectError::WouldOverwrite { .. })

@@ -5,16 +5,12 @@ use super::{Session, worker::Worker};
 use crate::{
     diag::{SourceId, Span},
     engine,
-    glsl::{
-        ChannelKind, PassKind, PassSource, Text,
-        services::{Analysis, ClassSpan},
-    },
-    project::{Pass, PassId, Project, Source, Tab},
+    glsl::services::{Analysis, ClassSpan},
+    project::{Pass, PassId, Project, Tab},
 };
 use std::{ops::Range, sync::Arc};
 
 const COMMON: SourceId = SourceId(0);
-const CODE: SourceId = SourceId(1);
 
 /// What an editor can ask of a tab; see [`Analysis`].
 #[derive(Debug)]
@@ -26,49 +22,42 @@ pub struct TabAnalysis {
     texts: Texts,
 }
 
-/// One pass behind its Common.
+/// One pass of a project.
 #[derive(Clone, Debug)]
 struct Texts {
-    pass: PassId,
-    kind: PassKind,
-    channels: [ChannelKind; 4],
-    common: Option<Source>,
-    code: Source,
+    project: Project,
+    index: usize,
 }
 
 impl Texts {
-    fn of(project: &Project, pass: &Pass) -> Self {
-        Self {
-            pass: pass.id.clone(),
-            kind: engine::pass_kind(&pass.id),
-            channels: engine::channel_kinds(pass),
-            common: project.common.clone(),
-            code: pass.source.clone(),
-        }
+    fn of(project: &Project, index: usize) -> Self {
+        Self { project: project.clone(), index }
+    }
+
+    fn pass(&self) -> &Pass {
+        &self.project.passes[self.index]
+    }
+
+    fn code(&self) -> SourceId {
+        SourceId(self.index as u16 + 1)
     }
 
     /// Whether nothing has changed. Texts are shared until they are edited, so looking at where they are is enough.
     fn is_same(&self, other: &Self) -> bool {
-        let text = |s: &Source| s.text.clone();
-        let same = |a: &Arc<str>, b: &Arc<str>| Arc::ptr_eq(a, b);
-        let common = match (self.common.as_ref().map(text), other.common.as_ref().map(text)) {
-            (Some(a), Some(b)) => same(&a, &b),
-            (a, b) => a.is_none() == b.is_none(),
+        let all = |p: &Project| -> Vec<Arc<str>> {
+            let texts = p.common.iter().chain(p.passes.iter().map(|p| &p.source));
+            texts.chain(p.includes.iter().map(|i| &i.source)).map(|s| s.text.clone()).collect()
         };
-        common && same(&self.code.text, &other.code.text) && self.pass == other.pass && self.channels == other.channels
+        let (mine, theirs) = (all(&self.project), all(&other.project));
+        self.project.common.is_some() == other.project.common.is_some()
+            && mine.len() == theirs.len()
+            && mine.iter().zip(&theirs).all(|(a, b)| Arc::ptr_eq(a, b))
+            && self.pass().id == other.pass().id
+            && engine::channel_kinds(self.pass()) == engine::channel_kinds(other.pass())
     }
 
     fn analyse(&self) -> Analysis {
-        let common = self.common.as_ref().map(Source::compile_text);
-        let code = self.code.compile_text();
-        Analysis::new(&PassSource {
-            kind: self.kind,
-            common: common.as_deref().map(|text| Text { id: COMMON, text }),
-            code: Text { id: CODE, text: &code },
-            channels: self.channels,
-            bilinear_by_hand: [false; 4],
-            tables_in_memory: false,
-        })
+        engine::Sources::new(&self.project).analyse(self.index)
     }
 }
 
@@ -76,20 +65,21 @@ impl TabAnalysis {
     /// The source of a tab in [`TabAnalysis::analysis`]; `None` for a tab it knows nothing of.
     pub fn source_of(&self, tab: &Tab) -> Option<SourceId> {
         match tab {
-            Tab::Common => self.texts.common.as_ref().map(|_| COMMON),
-            Tab::Pass(id) => (*id == self.texts.pass).then_some(CODE),
+            Tab::Common => self.texts.project.common.as_ref().map(|_| COMMON),
+            Tab::Pass(id) => (*id == self.texts.pass().id).then(|| self.texts.code()),
         }
     }
 
-    pub fn tab_of(&self, source: SourceId) -> Tab {
-        if source == COMMON { Tab::Common } else { Tab::Pass(self.texts.pass.clone()) }
+    /// `None`: an included file, which has no tab.
+    pub fn tab_of(&self, source: SourceId) -> Option<Tab> {
+        self.texts.project.tab_of(source)
     }
 
     /// The text of the tab in front that the answers are about: where it is not the editor's, it is older.
     pub fn text(&self) -> &Arc<str> {
         match &self.front {
-            Tab::Common => self.texts.common.as_ref().map_or(&self.texts.code.text, |common| &common.text),
-            Tab::Pass(_) => &self.texts.code.text,
+            Tab::Common => self.texts.project.common.as_ref().map_or(&self.texts.pass().source.text, |c| &c.text),
+            Tab::Pass(_) => &self.texts.pass().source.text,
         }
     }
 }
@@ -108,7 +98,7 @@ impl Analyst {
     pub fn new(wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
         let work = |(texts, front): (Texts, Tab)| {
             let analysis = texts.analyse();
-            let classes = analysis.classes(if front == Tab::Common { COMMON } else { CODE });
+            let classes = analysis.classes(if front == Tab::Common { COMMON } else { texts.code() });
             TabAnalysis { analysis, front, classes, texts }
         };
         let worker = Worker::new("analysis", wake, work)?;
@@ -126,14 +116,16 @@ impl Session {
     /// every pass, which takes about a millisecond for a thousand lines.
     pub fn uses(&self, of: &TabAnalysis, source: SourceId, offset: usize) -> Vec<(Tab, Range<usize>)> {
         let here = of.analysis.uses(source, offset);
-        let mut found: Vec<(Tab, Range<usize>)> = here.iter().map(|s| (of.tab_of(s.source), s.range())).collect();
+        let mut found: Vec<(Tab, Range<usize>)> =
+            here.iter().filter_map(|s| Some((of.tab_of(s.source)?, s.range()))).collect();
         let declared = of.analysis.definition(source, offset);
         let shared: Option<Span> = here.iter().copied().find(|s| s.source == COMMON).or(declared);
         if let Some(shared) = shared.filter(|s| s.source == COMMON) {
             let project = self.project();
-            for pass in project.passes.iter().filter(|p| p.id != of.texts.pass) {
-                let uses = Texts::of(project, pass).analyse().uses(COMMON, shared.start as usize);
-                let there = uses.iter().filter(|s| s.source == CODE);
+            let texts = engine::Sources::new(project);
+            for (index, pass) in project.passes.iter().enumerate().filter(|(_, p)| p.id != of.texts.pass().id) {
+                let uses = texts.analyse(index).uses(COMMON, shared.start as usize);
+                let there = uses.iter().filter(|s| s.source == SourceId(index as u16 + 1));
                 found.extend(there.map(|s| (Tab::Pass(pass.id.clone()), s.range())));
             }
         }
@@ -152,9 +144,12 @@ impl Session {
     pub(super) fn analyse(&mut self) {
         let Some(front) = self.analyst.front.clone() else { return };
         let project = self.documents.current();
-        let pass = project.pass(&self.analyst.pass).or_else(|| project.pass(&PassId::Image));
-        let Some(pass) = pass.or(project.passes.first()) else { return };
-        let texts = Texts::of(project, pass);
+        let place = |id: &PassId| project.passes.iter().position(|p| p.id == *id);
+        let index = place(&self.analyst.pass).or_else(|| place(&PassId::Image)).unwrap_or(0);
+        if project.passes.is_empty() {
+            return;
+        }
+        let texts = Texts::of(project, index);
         let is_known = self.analyst.asked.as_ref().is_some_and(|(old, tab)| *tab == front && old.is_same(&texts));
         if !is_known {
             self.analyst.asked = Some((texts.clone(), front.clone()));

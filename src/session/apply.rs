@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     media::Keyboard,
-    project::{self, Channel, Origin, PassId, Tab},
+    project::{self, Channel, KnobValue, KnobValues, Origin, PassId, Tab},
 };
 
 impl Session {
@@ -64,6 +64,15 @@ impl Session {
                     self.compile_soon();
                 }
             }
+            Command::SetKnob { name, value } => self.set_knob(&name, value),
+            Command::AssignKnob(assignment) => match self.documents.current_mut().set_knob(&assignment) {
+                Ok(()) => self.knobs_turned(),
+                Err(why) => self.notice(Level::Error, format!("not set: {why}")),
+            },
+            Command::ResetKnobs => {
+                self.documents.current_mut().knob_values.clear();
+                self.knobs_turned();
+            }
             Command::AddTab(tab) => {
                 if template::add(self.documents.current_mut(), &tab) {
                     self.text_generation += 1;
@@ -114,8 +123,27 @@ impl Session {
                 self.look_at_media();
             }
         }
+        self.refresh_includes();
         self.compile.edited = true;
         self.compile.state.compiling = true;
+    }
+
+    fn set_knob(&mut self, name: &str, value: Option<KnobValue>) {
+        let Some(knob) = self.knobs().iter().find(|k| k.name == name).cloned() else { return };
+        let project = self.documents.current_mut();
+        match value {
+            None => drop(project.knob_values.remove(name)),
+            Some(value) => {
+                let within = knob.value(&KnobValues::from([(name.to_owned(), value)]));
+                project.turn_knob(&knob, within);
+            }
+        }
+        self.knobs_turned();
+    }
+
+    /// The values go to the running program; while paused, one frame shows them.
+    pub(super) fn knobs_turned(&mut self) {
+        self.run.is_frame_due |= self.engine.set_knobs(&self.documents.current().knob_values);
     }
 
     /// What the tab's pass reads by its text alone.
@@ -204,7 +232,11 @@ impl Session {
         let project = self.documents.current_mut();
         match tab {
             Tab::Common => project.common = None,
-            Tab::Pass(id) => project.passes.retain(|p| p.id != *id),
+            Tab::Pass(id) => {
+                project.passes.retain(|p| p.id != *id);
+                project.groups.iter_mut().for_each(|g| g.passes.retain(|p| p != id));
+                project.groups.retain(|g| !g.passes.is_empty());
+            }
         }
         self.text_generation += 1;
         self.show_image_if_gone();

@@ -1,6 +1,6 @@
 //! What a front end may ask of a [`Session`](super::Session), and what the session may ask back.
 
-use crate::project::{Channel, PassId, Tab};
+use crate::project::{Channel, KnobValue, PassId, Tab};
 use std::{path::PathBuf, sync::Arc};
 
 /// Something the user did. Takes effect in [`Session::apply`](super::Session::apply); what needs time (compiling,
@@ -51,6 +51,15 @@ pub enum Command {
         index: usize,
         channel: Option<Channel>,
     },
+    /// Turns one of the author's own uniforms, within its range; `None` is the default. Compiles nothing.
+    SetKnob {
+        name: String,
+        value: Option<KnobValue>,
+    },
+    /// The same as a person writes it: `viscosity=0.3`. What cannot be set so is told in a notice.
+    AssignKnob(String),
+    /// All of them to their defaults.
+    ResetKnobs,
     /// Adds Common or a pass with a starting text. One that exists already stays as it is.
     AddTab(Tab),
     /// Removes Common or a pass; one with a text of its own leads to [`Question::RemoveTab`]. Image stays.

@@ -202,6 +202,7 @@ impl Documents {
 fn structure(project: &Project) -> Project {
     let mut bare = project.clone();
     bare.origin = Origin::Unsaved;
+    bare.includes.clear();
     let sources = bare.common.iter_mut().chain(bare.passes.iter_mut().map(|p| &mut p.source));
     for source in sources {
         *source = Source { name: String::new(), path: None, text: "".into() };
@@ -234,7 +235,12 @@ pub(super) fn insert_pass(project: &mut Project, pass: Pass) {
         std::cmp::Ordering::Equal => other.id < pass.id,
         order => order.is_lt(),
     };
-    let at = project.passes.iter().rposition(is_before).map_or(0, |i| i + 1);
+    let mut at = project.passes.iter().rposition(is_before).map_or(0, |i| i + 1);
+    // Not between the passes of a group, which are drawn one after the other.
+    let group_of = |p: Option<&Pass>| project.groups.iter().position(|g| p.is_some_and(|p| g.passes.contains(&p.id)));
+    while at > 0 && group_of(project.passes.get(at)).is_some_and(|g| group_of(project.passes.get(at - 1)) == Some(g)) {
+        at += 1;
+    }
     project.passes.insert(at, pass);
 }
 

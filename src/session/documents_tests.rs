@@ -8,6 +8,9 @@ fn project(texts: &[(&str, &str)], has_manifest: bool) -> Project {
         common: None,
         passes: Vec::new(),
         sampler_rules: SamplerRules::PerChannel,
+        knob_values: Default::default(),
+        groups: Vec::new(),
+        includes: Vec::new(),
         origin: Origin::Folder { path: "/p".into(), has_manifest },
     };
     for (key, text) in texts {
@@ -16,7 +19,12 @@ fn project(texts: &[(&str, &str)], has_manifest: bool) -> Project {
         match *key {
             "common" => project.common = Some(source),
             key => {
-                let pass = Pass { id: PassId::parse(key).unwrap(), source, channels: Default::default() };
+                let pass = Pass {
+                    id: PassId::parse(key).unwrap(),
+                    source,
+                    channels: Default::default(),
+                    settings: Default::default(),
+                };
                 insert_pass(&mut project, pass);
             }
         }

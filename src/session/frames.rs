@@ -98,6 +98,8 @@ impl Session {
             self.stop_drawing(&e);
             return;
         }
+        // They may have been turned while it was being compiled.
+        self.knobs_turned();
         self.engine.show(self.run.shown.clone());
         self.display_generation += 1;
         self.compile.has_program = true;

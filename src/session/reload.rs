@@ -15,7 +15,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// What the pictures a project names held on disk, as a hash of the whole content: enough to see that one has changed. A time
+/// What the pictures a project names and the files its texts include held on disk, as a hash of the whole content: enough to see that one has changed. A time
 /// of change is not, as it stands still for milliseconds and the new picture can be as long as the old.
 pub(super) type MediaStamps = Vec<(PathBuf, Option<u64>)>;
 
@@ -103,6 +103,7 @@ impl Session {
             self.compile.reset_when_built |= self.disk.reset_on_reload;
             self.after_reload();
         }
+        self.documents.current_mut().read_includes();
         let before = std::mem::take(&mut self.disk.media.stamps);
         self.disk_is_known();
         if self.disk.media.stamps != before {
@@ -199,6 +200,16 @@ impl Session {
         self.disk.manifest = read_manifest(self.documents.saved());
     }
 
+    /// Reads what the texts include now; the compile to come takes it.
+    pub(super) fn refresh_includes(&mut self) {
+        let project = self.documents.current();
+        let mut texts = project.common.iter().chain(project.passes.iter().map(|p| &p.source));
+        if !project.includes.is_empty() || texts.any(|s| s.text.contains("#include")) {
+            self.documents.current_mut().read_includes();
+            self.look_at_media();
+        }
+    }
+
     /// Watches what the project reads now, and remembers how its pictures look.
     pub(super) fn look_at_media(&mut self) {
         let folders = folders(self.project());
@@ -259,20 +270,25 @@ fn media_files(project: &Project) -> impl Iterator<Item = PathBuf> {
     })
 }
 
+/// Files that texts include, those that are not there among them.
+fn included_files(project: &Project) -> impl Iterator<Item = PathBuf> {
+    project.includes.iter().filter_map(|i| i.source.path.clone())
+}
+
 fn media_stamps(project: &Project) -> MediaStamps {
     let stamp = |path: &Path| {
         let mut hasher = DefaultHasher::new();
         fs::read(path).ok()?.hash(&mut hasher);
         Some(hasher.finish())
     };
-    media_files(project).map(|p| (p.clone(), stamp(&p))).collect()
+    media_files(project).chain(included_files(project)).map(|p| (p.clone(), stamp(&p))).collect()
 }
 
 /// Every folder a file of the project lies in; none for a project that lies nowhere.
 fn folders(project: &Project) -> BTreeSet<PathBuf> {
     let Some(base) = capture::base_folder(project) else { return BTreeSet::new() };
     let sources = project.common.iter().chain(project.passes.iter().map(|p| &p.source));
-    let files = sources.filter_map(|s| s.path.clone()).chain(media_files(project));
+    let files = sources.filter_map(|s| s.path.clone()).chain(media_files(project)).chain(included_files(project));
     let parents = files.filter_map(|f| f.parent().map(Path::to_owned)).filter(|p| p.is_dir());
     parents.chain([base]).collect()
 }

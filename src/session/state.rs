@@ -17,7 +17,7 @@ use crate::{
     engine::{Engine, EngineError, PassTime},
     gpu::Gpu,
     media::Keyboard,
-    project::{PassId, Project, Tab},
+    project::{Knob, KnobValue, PassId, Project, Tab},
 };
 use std::{
     collections::VecDeque,
@@ -254,6 +254,16 @@ impl Session {
     /// then an editor must take it anew.
     pub fn text_generation(&self) -> u64 {
         self.text_generation
+    }
+
+    /// The author's own uniforms, as the running program declares them.
+    pub fn knobs(&self) -> &[Knob] {
+        self.engine.program().map_or(&[], |p| p.knobs())
+    }
+
+    /// Where one of them stands.
+    pub fn knob_value(&self, knob: &Knob) -> KnobValue {
+        knob.value(&self.project().knob_values)
     }
 
     /// The tab's text differs from the one on disk.

@@ -50,6 +50,9 @@ pub(super) fn project() -> Project {
         common: None,
         passes: Vec::new(),
         sampler_rules: SamplerRules::PerChannel,
+        knob_values: Default::default(),
+        groups: Vec::new(),
+        includes: Vec::new(),
         origin: Origin::Unsaved,
     };
     add(&mut project, &Tab::Pass(PassId::Image));
@@ -75,7 +78,10 @@ pub(super) fn add(project: &mut Project, tab: &Tab) -> bool {
     let source = Source { name: tab.title(), path: None, text: text(tab).into() };
     match tab {
         Tab::Common => project.common = Some(source),
-        Tab::Pass(id) => insert_pass(project, Pass { id: id.clone(), source, channels: Default::default() }),
+        Tab::Pass(id) => insert_pass(
+            project,
+            Pass { id: id.clone(), source, channels: Default::default(), settings: Default::default() },
+        ),
     }
     true
 }

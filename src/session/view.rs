@@ -41,8 +41,10 @@ pub struct Notice {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TabDiagnostic {
     pub severity: Severity,
-    /// `None`: in no text of the project, or in none at all.
+    /// `None`: in no tab of the project, or in no text at all.
     pub tab: Option<Tab>,
+    /// What the text is called that it is in, where that is no tab: an included file.
+    pub file: Option<String>,
     /// First and last line, counted from 1; 0 where there is no place.
     pub line: usize,
     pub end_line: usize,
@@ -73,6 +75,7 @@ impl TabDiagnostic {
         Self {
             severity: d.severity,
             tab: d.span.and_then(|s| tab_of(s.source)),
+            file: d.span.filter(|s| tab_of(s.source).is_none()).and_then(|s| Some(sources.get(s.source)?.name.clone())),
             line: start.map_or(0, |at| at.line),
             end_line: end.map_or(0, |at| at.line),
             column: start.map_or(0, |at| at.column),

@@ -53,7 +53,12 @@ pub fn nearest(name: &str) -> Option<Channel> {
 }
 
 pub fn pass(id: PassId, code: &str, channels: [Option<Channel>; 4]) -> Pass {
-    Pass { source: Source { name: id.title(), path: None, text: code.into() }, id, channels }
+    Pass {
+        source: Source { name: id.title(), path: None, text: code.into() },
+        id,
+        channels,
+        settings: Default::default(),
+    }
 }
 
 pub fn image(code: &str, channels: [Option<Channel>; 4]) -> Pass {
@@ -67,6 +72,9 @@ pub fn project(passes: Vec<Pass>) -> Project {
         common: None,
         passes,
         sampler_rules: SamplerRules::PerChannel,
+        knob_values: Default::default(),
+        groups: Vec::new(),
+        includes: Vec::new(),
         origin: Origin::Unsaved,
     }
 }

@@ -3,7 +3,7 @@
 
 use super::{Checker, function::FunctionSign, scope};
 use crate::glsl::{
-    PassKind,
+    KnobKind, PassKind,
     ast::{BasicType, Loc, Precision, TokenId},
     hir::{Builtin, BuiltinVar, DeclRef, LocalKind, TypeId, Uniform},
 };
@@ -103,6 +103,35 @@ pub(in crate::glsl) fn entry(kind: PassKind) -> Entry {
     }
 }
 
+pub(crate) fn knob_type(kind: KnobKind) -> TypeId {
+    match kind {
+        KnobKind::Bool => TypeId::BOOL,
+        KnobKind::Int => TypeId::INT,
+        KnobKind::Float => TypeId::FLOAT,
+        KnobKind::Vec2 => TypeId::VEC2,
+        KnobKind::Vec3 => TypeId::VEC3,
+        KnobKind::Vec4 => TypeId::VEC4,
+    }
+}
+
+/// Who has a name already that an author's own uniform would need at file scope.
+pub(super) fn taken(name: &str) -> Option<&'static str> {
+    let entries = [PassKind::Image, PassKind::Cubemap, PassKind::Sound].map(|kind| entry(kind).name);
+    if Uniform::ALL.iter().any(|u| u.name() == name) || CHANNELS.contains(&name) || CHANNEL_STRUCTS.contains(&name) {
+        Some("Shadertoy's header has a uniform of this name")
+    } else if entries.contains(&name) {
+        Some("it is the name of an entry point")
+    } else if Builtin::ALL.iter().any(|b| b.name() == name) {
+        Some("GLSL has a function of this name")
+    } else if name.starts_with("gl_") || name.contains("__") {
+        Some("GLSL keeps names that begin with `gl_` or hold `__` for itself")
+    } else if crate::glsl::lex::words::is_word(name) {
+        Some("it is a word of GLSL's own")
+    } else {
+        None
+    }
+}
+
 impl Checker<'_> {
     /// Fills the scopes before the first declaration is read.
     pub(super) fn declare_environment(&mut self) {
@@ -160,6 +189,13 @@ impl Checker<'_> {
                     Loc::from(nowhere),
                 );
             }
+        }
+    }
+
+    /// Called after the environment is there: an author's own uniform hides what only the language gives, as a global would.
+    pub(super) fn declare_knobs(&mut self) {
+        for (i, knob) in self.knobs.iter().enumerate() {
+            self.give(knob.name, Binding::Knob(i as u16), scope::FILE);
         }
     }
 

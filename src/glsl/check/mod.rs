@@ -33,12 +33,13 @@ mod words;
 mod tests;
 
 use super::{
-    ChannelKind, PassKind,
+    ChannelKind, Knob, PassSource,
     ast::{self, Ast, Interner, Loc, Origins, Precision, Symbol},
     hir::{self, FuncId, Module, TypeId},
 };
 use crate::diag::Diagnostic;
 use env::Env;
+pub(crate) use env::knob_type;
 use scope::Scopes;
 
 /// A program, right or wrong: the module exists for any tree, lowering wants one without errors.
@@ -49,23 +50,22 @@ pub(crate) struct Checked {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Checks one pass. `channels` are the types `iChannel0..3` are declared with.
-pub(crate) fn check(
-    ast: &Ast,
-    origins: &Origins,
-    names: &Interner,
-    kind: PassKind,
-    channels: [ChannelKind; 4],
-) -> Checked {
-    let mut checker = Checker::new(ast, origins, names, Env::Pass(kind), channels);
+/// Who has a name already that an author's own uniform would need.
+pub(crate) fn taken(name: &str) -> Option<&'static str> {
+    env::taken(name)
+}
+
+/// Checks one pass, whose texts `ast` is of.
+pub(crate) fn check(ast: &Ast, origins: &Origins, names: &Interner, source: &PassSource<'_>) -> Checked {
+    let mut checker = Checker::new(ast, origins, names, Env::Pass(source.kind), source.channels, source.knobs);
     checker.unit();
     Checked { module: checker.module, diagnostics: checker.diagnostics }
 }
 
 /// What the site would refuse in Common because it compiles it alone, where only `iDate` and `iSampleRate` exist: one warning
 /// for each name that only passes have. What is wrong in any case is left to the passes, which report it.
-pub(crate) fn check_common(ast: &Ast, origins: &Origins, names: &Interner) -> Vec<Diagnostic> {
-    let mut checker = Checker::new(ast, origins, names, Env::Common, [ChannelKind::Sampler2D; 4]);
+pub(crate) fn check_common(ast: &Ast, origins: &Origins, names: &Interner, knobs: &[Knob<'_>]) -> Vec<Diagnostic> {
+    let mut checker = Checker::new(ast, origins, names, Env::Common, [ChannelKind::Sampler2D; 4], knobs);
     checker.unit();
     checker.refused_in_common
 }
@@ -99,6 +99,7 @@ struct Checker<'a> {
     names: &'a Interner,
     env: Env,
     channels: [ChannelKind; 4],
+    knobs: &'a [Knob<'a>],
     /// The parser reported something, so nodes may lie between others without belonging to the tree.
     broken_tree: bool,
     module: Module,
@@ -137,7 +138,14 @@ struct Checker<'a> {
 }
 
 impl<'a> Checker<'a> {
-    fn new(ast: &'a Ast, origins: &'a Origins, names: &'a Interner, env: Env, channels: [ChannelKind; 4]) -> Self {
+    fn new(
+        ast: &'a Ast,
+        origins: &'a Origins,
+        names: &'a Interner,
+        env: Env,
+        channels: [ChannelKind; 4],
+        knobs: &'a [Knob<'a>],
+    ) -> Self {
         let broken_tree = ast.exprs.iter().any(|e| matches!(e.kind, ast::ExprKind::Error))
             || ast.stmts.iter().any(|s| matches!(s.kind, ast::StmtKind::Error))
             || ast.decls.iter().any(|d| matches!(d.kind, ast::DeclKind::Error))
@@ -153,6 +161,7 @@ impl<'a> Checker<'a> {
             names,
             env,
             channels,
+            knobs,
             broken_tree,
             module,
             diagnostics: Vec::new(),
@@ -178,6 +187,7 @@ impl<'a> Checker<'a> {
             entry_symbol: None,
         };
         checker.declare_environment();
+        checker.declare_knobs();
         checker
     }
 

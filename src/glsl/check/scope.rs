@@ -18,6 +18,8 @@ pub(super) enum Binding {
     BuiltinConst(i32),
     DepthRange,
     Uniform(Uniform),
+    /// One of the author's own uniforms, by its place among the pass's.
+    Knob(u16),
     /// `iGlobalTime`, which became `iTime`.
     OldTime,
     Channel(u8),

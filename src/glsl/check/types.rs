@@ -284,6 +284,11 @@ impl<'a> Checker<'a> {
             previous,
             Binding::Uniform(_) | Binding::Channel(_) | Binding::ChannelStruct(_) | Binding::BuiltinVar(_)
         );
+        if matches!(previous, Binding::Knob(_)) {
+            self.error(name, format!("`{text}` is already declared: an #iUniform line has it"));
+            self.hint("remove this declaration, or choose another name");
+            return;
+        }
         if given {
             self.error(name, format!("`{text}` is already declared: Shadertoy's header gives it"));
             self.hint("remove this declaration, or choose another name");
@@ -323,7 +328,11 @@ impl<'a> Checker<'a> {
             Binding::Struct(_) => "a struct",
             Binding::Local(id) if self.module[id].kind.is_param() => "a parameter",
             Binding::Channel(_) => "a channel's sampler",
-            Binding::Uniform(_) | Binding::OldTime | Binding::ChannelStruct(_) | Binding::DepthRange => "a uniform",
+            Binding::Uniform(_)
+            | Binding::Knob(_)
+            | Binding::OldTime
+            | Binding::ChannelStruct(_)
+            | Binding::DepthRange => "a uniform",
             Binding::BuiltinConst(_) => "a constant",
             _ => "a variable",
         }

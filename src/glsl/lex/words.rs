@@ -67,6 +67,11 @@ const RESERVED: &[&str] = &[
     "image2DShadow", "image1DArrayShadow", "image2DArrayShadow", "sizeof", "cast", "namespace", "using",
 ];
 
+/// Whether the language knows the word, as a keyword, a type or by any other meaning.
+pub(in crate::glsl) fn is_word(name: &str) -> bool {
+    interner().find(name).is_some()
+}
+
 /// An interner that knows all words of the language.
 /// Every keyword that is no type.
 pub(in crate::glsl) fn keywords() -> impl Iterator<Item = &'static str> {

@@ -113,6 +113,27 @@ impl Builder<'_, '_> {
         self.add(Expression::AccessIndex { base, index })
     }
 
+    /// The value of one of the author's own uniforms: words of its slot, read as what it is.
+    fn knob(&mut self, index: u16, ty: TypeId) -> Value {
+        let slot = self.cx.source.knobs[usize::from(index)].slot;
+        self.cx.reflection.knobs.insert(slot);
+        let block = self.cx.knob_block();
+        let base = self.global(block);
+        let pointer = self.add(Expression::AccessIndex { base, index: slot.into() });
+        let words = self.load(pointer);
+        let size = self.cx.hir.types.components(ty).expect("a scalar or a vector") as usize;
+        let words = self.swizzle(words, TypeId::vector(Scalar::Uint, 4), Swizzle::new(&[0, 1, 2, 3][..size]));
+        match self.cx.hir.types.scalar(ty) {
+            Some(Scalar::Bool) => {
+                let zero = self.literal(Scalar::Uint, 0);
+                self.op(naga::BinaryOperator::NotEqual, words, zero)
+            }
+            Some(Scalar::Int) => self.bitcast(words, ScalarKind::Sint),
+            Some(Scalar::Uint) => words,
+            _ => self.bitcast(words, ScalarKind::Float),
+        }
+    }
+
     /// The value a root that is not in memory has.
     pub fn root_value(&mut self, root: ExprId) -> Value {
         let hir = self.cx.hir;
@@ -127,6 +148,7 @@ impl Builder<'_, '_> {
                 Some(value) if hir[id].storage == GlobalStorage::Private => self.folded(value),
                 _ => self.zero(ty),
             },
+            ExprKind::Knob(index) => self.knob(index, ty),
             ExprKind::BuiltinVar(BuiltinVar::FrontFacing) => self.literal(Scalar::Bool, 1),
             _ => self.zero(ty),
         }

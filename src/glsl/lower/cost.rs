@@ -22,6 +22,7 @@ pub(super) fn costs(module: &Module) -> Vec<u16> {
             | ExprKind::Local(_)
             | ExprKind::Global(_)
             | ExprKind::Uniform(_)
+            | ExprKind::Knob(_)
             | ExprKind::Channel(_)
             | ExprKind::BuiltinVar(_) => 0,
             ExprKind::Member { base, .. } | ExprKind::Swizzle { base, .. } => at(base),

@@ -66,9 +66,11 @@ impl Builder<'_, '_> {
         match hir[expr].kind {
             ExprKind::Literal(bits) => self.scalar_literal(ty, bits),
             ExprKind::Const(id) => self.folded(id),
-            ExprKind::Local(_) | ExprKind::Global(_) | ExprKind::Uniform(_) | ExprKind::BuiltinVar(_) => {
-                self.read(expr).unwrap_or_else(|_| self.root_value(expr))
-            }
+            ExprKind::Local(_)
+            | ExprKind::Global(_)
+            | ExprKind::Uniform(_)
+            | ExprKind::Knob(_)
+            | ExprKind::BuiltinVar(_) => self.read(expr).unwrap_or_else(|_| self.root_value(expr)),
             ExprKind::Unary { op, operand } => {
                 let value = self.value(operand);
                 self.unary(op, ty, value)

@@ -42,7 +42,7 @@ use std::collections::HashMap;
 use naga::{FastHashMap, Handle};
 
 use self::{consts::Constants, reach::Reach, resources::Resources, tables::Tables, types::Types};
-use super::{PassSource, Reflection, hir};
+use super::{PassSource, Reflection, hir, interface::KNOB_BYTES};
 
 /// What lowering makes.
 pub(crate) struct Lowered {
@@ -50,6 +50,8 @@ pub(crate) struct Lowered {
     pub reflection: Reflection,
     /// Bytes of the storage buffer with constant tables; empty if the module has none.
     pub tables: Vec<u8>,
+    /// Size of the array of the author's own uniforms; 0 if the module has none.
+    pub knob_bytes: u64,
 }
 
 /// Lowers a program without errors. The result validates; a validation error is a bug of this module.
@@ -78,7 +80,8 @@ pub(crate) fn lower(module: &hir::Module, source: &PassSource<'_>) -> Lowered {
     }
     entry::lower(&mut cx, &reach);
     let tables = cx.finish_tables();
-    Lowered { module: cx.out, reflection: cx.reflection, tables }
+    let knob_bytes = if cx.reflection.knobs.is_empty() { 0 } else { u64::from(cx.knob_slots()) * KNOB_BYTES };
+    Lowered { module: cx.out, reflection: cx.reflection, tables, knob_bytes }
 }
 
 /// Checks a lowered module. An error is a bug of this module, never the author's.

@@ -181,6 +181,7 @@ impl<'a> Walk<'a> {
             | ExprKind::Const(_)
             | ExprKind::Local(_)
             | ExprKind::Uniform(_)
+            | ExprKind::Knob(_)
             | ExprKind::Channel(_)
             | ExprKind::BuiltinVar(_) => {}
             ExprKind::Global(global) => self.facts.globals.push(global),

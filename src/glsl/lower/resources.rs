@@ -12,13 +12,14 @@ use naga::{
 use super::Lowering;
 use crate::glsl::{
     ChannelKind, UniformSet,
-    hir::{GlobalId, TypeId, Uniform},
+    hir::{GlobalId, Scalar, TypeId, Uniform},
     interface::{self, UniformBlock},
 };
 
 /// Variables declared so far.
 pub(super) struct Resources {
     block: Option<Handle<GlobalVariable>>,
+    knob_block: Option<Handle<GlobalVariable>>,
     textures: [Option<Handle<GlobalVariable>>; 4],
     samplers: [Option<Handle<GlobalVariable>>; 4],
     /// By [`GlobalId::index`].
@@ -34,6 +35,7 @@ impl Resources {
     pub fn new(globals: usize) -> Self {
         Self {
             block: None,
+            knob_block: None,
             textures: [None; 4],
             samplers: [None; 4],
             globals: vec![None; globals],
@@ -153,6 +155,25 @@ impl Lowering<'_> {
         let binding = ResourceBinding { group: interface::UNIFORM_GROUP, binding: 0 };
         let block = self.variable(AddressSpace::Uniform, ty, Some(binding), None);
         self.resources.block = Some(block);
+        block
+    }
+
+    /// Slots up to the last that the pass may name.
+    pub fn knob_slots(&self) -> u32 {
+        self.source.knobs.iter().map(|k| u32::from(k.slot) + 1).max().unwrap_or(0)
+    }
+
+    /// The author's own uniforms: an array of slots, because every backend lays that out alike.
+    pub fn knob_block(&mut self) -> Handle<GlobalVariable> {
+        if let Some(block) = self.resources.knob_block {
+            return block;
+        }
+        let base = self.ty(TypeId::vector(Scalar::Uint, 4));
+        let size = ArraySize::Constant(NonZeroU32::new(self.knob_slots()).expect("at least one"));
+        let ty = self.insert_type(TypeInner::Array { base, size, stride: interface::KNOB_BYTES as u32 });
+        let binding = ResourceBinding { group: interface::UNIFORM_GROUP, binding: interface::KNOB_BINDING };
+        let block = self.variable(AddressSpace::Uniform, ty, Some(binding), None);
+        self.resources.knob_block = Some(block);
         block
     }
 

@@ -16,7 +16,7 @@ impl Parser<'_> {
     /// The token as the author wrote it.
     pub(super) fn text(&self, i: usize) -> &str {
         let span = self.origins.tokens[i].spelled;
-        self.texts.iter().find(|t| t.id == span.source).and_then(|t| t.text.get(span.range())).unwrap_or("")
+        self.pieces.iter().find(|p| p.text.id == span.source).and_then(|p| p.text.text.get(span.range())).unwrap_or("")
     }
 
     /// The token for a message.
@@ -33,7 +33,7 @@ impl Parser<'_> {
         if before.source != here.source {
             return true;
         }
-        let text = self.texts.iter().find(|t| t.id == here.source).map_or("", |t| t.text);
+        let text = self.pieces.iter().find(|p| p.text.id == here.source).map_or("", |p| p.text.text);
         text.get(before.end as usize..here.start as usize).is_some_and(|between| between.contains(['\n', '\r']))
     }
 

@@ -18,6 +18,8 @@ fn parse_text(text: &str) -> Parsed {
         channels: [ChannelKind::Sampler2D; 4],
         bilinear_by_hand: [false; 4],
         tables_in_memory: false,
+        knobs: &[],
+        includes: &[],
     })
 }
 

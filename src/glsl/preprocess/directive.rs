@@ -78,9 +78,11 @@ impl Preprocessor<'_, '_> {
                 Some("delete the line: what it asks for is in GLSL ES 3.00 or cannot be had".into()),
             ),
             "pragma" => self.pragma(line),
-            "include" => {
-                self.error(name, "GLSL ES has no `#include`", Some("put what several passes share into Common".into()))
-            }
+            "include" => self.error(
+                name,
+                "GLSL ES has no `#include`",
+                Some("an #include line has one file in double quotes".into()),
+            ),
             other => {
                 let message = format!("there is no directive `#{other}`");
                 let hint = match other {

@@ -29,7 +29,7 @@ impl Unit {
 
 /// Counts lines up to where it was last asked for.
 pub(super) struct LineCount {
-    text: usize,
+    piece: usize,
     offset: usize,
     /// Line of `offset`, from 0, through all texts.
     line: i32,
@@ -40,33 +40,41 @@ pub(super) struct LineCount {
 
 impl LineCount {
     pub fn new(unit: Unit) -> Self {
-        Self { text: 0, offset: 0, line: 0, shift: unit.header_lines(), file: 0 }
+        Self { piece: 0, offset: 0, line: 0, shift: unit.header_lines(), file: 0 }
     }
 }
 
 impl Preprocessor<'_, '_> {
     /// What `__LINE__` is at a place.
     pub(super) fn line_number(&mut self, place: Span) -> i32 {
-        let Some(text) = self.texts.iter().position(|t| t.id == place.source) else { return 1 };
-        let offset = (place.start as usize).min(self.texts[text].text.len());
-        if (text, offset) < (self.line.text, self.line.offset) {
-            (self.line.text, self.line.offset, self.line.line) = (0, 0, 0);
+        // The newest piece there it lies in: an included text may have been read before.
+        let holds = |piece: &Piece<'_>| {
+            piece.text.id == place.source && (piece.range.start..=piece.range.end).contains(&(place.start as usize))
+        };
+        let read = &self.pieces[..=self.current];
+        let Some(piece) = read.iter().rposition(holds) else { return 1 };
+        let offset = place.start as usize;
+        if (piece, offset) < (self.line.piece, self.line.offset) {
+            (self.line.piece, self.line.offset, self.line.line) = (0, 0, 0);
         }
-        while self.line.text < text {
+        while self.line.piece < piece {
             // The site puts a line's end behind Common.
-            self.line.line += self.ends(self.line.text, self.line.offset, usize::MAX) + 1;
-            self.line.text += 1;
+            let end = i32::from(self.pieces[self.line.piece + 1].begins_text);
+            self.line.line += self.ends(self.line.piece, self.line.offset, usize::MAX) + end;
+            self.line.piece += 1;
             self.line.offset = 0;
         }
-        self.line.line += self.ends(text, self.line.offset, offset);
+        self.line.line += self.ends(piece, self.line.offset, offset);
         self.line.offset = offset;
         self.line.line.wrapping_add(1).wrapping_add(self.line.shift)
     }
 
-    /// Ends of lines in a part of a text.
-    fn ends(&self, text: usize, from: usize, to: usize) -> i32 {
-        let bytes = self.texts[text].text.as_bytes();
-        bytes[from..to.min(bytes.len())].iter().filter(|&&b| b == b'\n').count() as i32
+    /// Ends of lines in a part of a piece, whose bounds are those of its text.
+    fn ends(&self, piece: usize, from: usize, to: usize) -> i32 {
+        let Piece { text, range, .. } = &self.pieces[piece];
+        let from = from.max(range.start);
+        let part = &text.text.as_bytes()[from..to.min(range.end).max(from)];
+        part.iter().filter(|&&b| b == b'\n').count() as i32
     }
 
     /// `#line number` or `#line number file`: the line behind the directive has the number (section 3.4).

@@ -28,7 +28,7 @@ pub use signature::{Signature, SignatureHelp};
 use super::{
     ChannelKind, PassKind, PassSource,
     ast::{Interner, Origins},
-    check,
+    check::{self, knob_type},
     hir::{DeclRef, Module, TypeId, Uniform},
     parse,
 };
@@ -42,7 +42,7 @@ use text::Source;
 pub struct Analysis {
     kind: PassKind,
     channels: [ChannelKind; 4],
-    /// Common, if there is one, then the pass's text.
+    /// Common, if there is one, what is included anywhere, then the pass's text: what comes later may name what is before it.
     sources: Vec<Source>,
     origins: Origins,
     names: Interner,
@@ -50,6 +50,8 @@ pub struct Analysis {
     symbols: Symbols,
     /// Types of [`Uniform::ALL`].
     uniform_types: Vec<TypeId>,
+    /// Name and type of the author's own uniforms.
+    knobs: Vec<(String, TypeId)>,
 }
 
 impl std::fmt::Debug for Analysis {
@@ -61,11 +63,17 @@ impl std::fmt::Debug for Analysis {
 impl Analysis {
     pub fn new(source: &PassSource<'_>) -> Self {
         let mut parsed = parse::parse(source);
-        let checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source.kind, source.channels);
+        let checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source);
         let mut module = checked.module;
         let uniform_types = Uniform::ALL.iter().map(|uniform| uniform.ty(&mut module.types)).collect();
-        let texts = source.common.into_iter().chain([source.code]);
-        let sources = texts.map(|text| Source::new(text, &parsed.origins, &mut parsed.names)).collect();
+        let mut texts: Vec<_> = source.common.into_iter().collect();
+        for text in source.includes.iter().map(|i| i.text).chain([source.code]) {
+            if !texts.iter().any(|t| t.id == text.id) {
+                texts.push(text);
+            }
+        }
+        let knobs = source.knobs.iter().map(|k| (k.name.to_owned(), knob_type(k.kind))).collect();
+        let sources = texts.into_iter().map(|text| Source::new(text, &parsed.origins, &mut parsed.names)).collect();
         let mut analysis = Self {
             kind: source.kind,
             channels: source.channels,
@@ -75,6 +83,7 @@ impl Analysis {
             module,
             symbols: Symbols::default(),
             uniform_types,
+            knobs,
         };
         analysis.symbols = Symbols::new(&analysis);
         analysis

@@ -103,6 +103,8 @@ mod tests {
             channels: [ChannelKind::Sampler2D; 4],
             bilinear_by_hand: [false; 4],
             tables_in_memory: false,
+            knobs: &[],
+            includes: &[],
         });
         let classes = analysis.classes(id);
         let help = Help { analysis: &analysis, source: id, classes: &classes, text: TEXT };

@@ -1,11 +1,16 @@
 //! [`Project`] to the site's own JSON.
 
 use super::ids;
-use crate::project::{Channel, Filter, Input, Media, Pass, PassId, Project, Wrap};
+use crate::{
+    diag::SourceId,
+    project::{Channel, Filter, Input, Knob, Media, Pass, PassId, Project, Wrap, knobs::constants},
+};
 use serde_json::{Map, Value, json};
+use std::collections::BTreeSet;
 
 /// The project as the site's own export writes it. A picture that the site does not have (a file, one of Eddy's own) is
-/// written as an address of its own kind, which [`super::import`] reads and the site does not; so is a fifth buffer.
+/// written as an address of its own kind, which [`super::import`] reads and the site does not; so is a fifth buffer. The
+/// author's own uniforms become constants of the value they have, and included files stand in place of their lines.
 pub fn export(project: &Project) -> String {
     let mut info: Map<String, Value> = project.info.extra.clone();
     info.insert("id".into(), json!(project.info.id));
@@ -13,19 +18,27 @@ pub fn export(project: &Project) -> String {
     info.insert("username".into(), json!(project.info.author));
     info.insert("description".into(), json!(project.info.description));
     info.insert("tags".into(), json!(project.info.tags));
+    let (knobs, includes) = (project.knobs(), project.include_lines());
+    let text = |id: u16| {
+        let (common, own) = (includes.reach(SourceId(0)), includes.reach(SourceId(id)));
+        let declared = |knob: &Knob, within: &BTreeSet<SourceId>| knob.declared_in.iter().any(|id| within.contains(id));
+        let here = knobs.list.iter().filter(|k| declared(k, &own) && (id == 0 || !declared(k, &common)));
+        constants::text(&project.inlined(SourceId(id), &includes), here, &project.knob_values)
+    };
+    let pass = |(index, pass): (usize, &Pass)| self::pass(pass, text(index as u16 + 1));
     // Image first, as the site writes it.
-    let image = project.passes.iter().filter(|p| p.id == PassId::Image);
-    let others = project.passes.iter().filter(|p| p.id != PassId::Image);
+    let image = project.passes.iter().enumerate().filter(|(_, p)| p.id == PassId::Image);
+    let others = project.passes.iter().enumerate().filter(|(_, p)| p.id != PassId::Image);
     let mut passes: Vec<Value> = image.map(pass).collect();
-    passes.extend(project.common.iter().map(|c| {
-        json!({ "inputs": [], "outputs": [], "code": &*c.text, "name": "Common", "description": "", "type": "common" })
+    passes.extend(project.common.iter().map(|_| {
+        json!({ "inputs": [], "outputs": [], "code": text(0), "name": "Common", "description": "", "type": "common" })
     }));
     passes.extend(others.map(pass));
     let shader = json!({ "ver": "0.1", "info": info, "renderpass": passes });
     format!("{shader:#}\n")
 }
 
-fn pass(pass: &Pass) -> Value {
+fn pass(pass: &Pass, code: String) -> Value {
     let inputs: Vec<Value> =
         pass.channels.iter().enumerate().filter_map(|(n, c)| Some(input(n, c.as_ref()?))).collect();
     let (kind, output) = match &pass.id {
@@ -37,7 +50,7 @@ fn pass(pass: &Pass) -> Value {
     json!({
         "inputs": inputs,
         "outputs": [{ "id": output, "channel": 0 }],
-        "code": &*pass.source.text,
+        "code": code,
         "name": pass.id.title(),
         "description": "",
         "type": kind,

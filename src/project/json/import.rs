@@ -226,7 +226,7 @@ fn project(shader: Shader, stem: &str, warnings: &mut Vec<Diagnostic>) -> Result
             }
         }
         let source = Source { name: id.title(), path: None, text: pass.code.as_str().into() };
-        passes.push(Pass { id, source, channels });
+        passes.push(Pass { id, source, channels, settings: Default::default() });
     }
     if !passes.iter().any(|p| p.id == PassId::Image) {
         return Err(Diagnostic::error(None, "the shader has no Image pass")
@@ -254,6 +254,9 @@ fn project(shader: Shader, stem: &str, warnings: &mut Vec<Diagnostic>) -> Result
         common,
         passes,
         sampler_rules: SamplerRules::Site,
+        knob_values: Default::default(),
+        groups: Vec::new(),
+        includes: Vec::new(),
         origin: Origin::Unsaved,
     })
 }

@@ -150,8 +150,12 @@ fn an_export_reads_back_as_the_same_project() {
     let channel = |input, filter, wrap, vflip| Some(Channel { input, sampler: Sampler { filter, wrap, vflip } });
     let site = |id: &str, path: &str| Media::Site { id: id.into(), path: path.into() };
     let source = |name: &str, text: &str| Source { name: name.into(), path: None, text: text.into() };
-    let pass =
-        |id: PassId, channels| Pass { source: source(&id.title(), "void f() { \"\u{e9}\\n\" }\r\n"), id, channels };
+    let pass = |id: PassId, channels| Pass {
+        source: source(&id.title(), "void f() { \"\u{e9}\\n\" }\r\n"),
+        id,
+        channels,
+        settings: Default::default(),
+    };
     let (n, l, m) = (Filter::Nearest, Filter::Linear, Filter::Mipmap);
     let project = Project {
         name: "A name".into(),
@@ -195,6 +199,9 @@ fn an_export_reads_back_as_the_same_project() {
             pass(PassId::Sound, Default::default()),
         ],
         sampler_rules: SamplerRules::Site,
+        knob_values: Default::default(),
+        groups: Vec::new(),
+        includes: Vec::new(),
         origin: Origin::Unsaved,
     };
     let text = export(&project);

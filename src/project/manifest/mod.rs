@@ -10,6 +10,10 @@
 //! tags = ["fluid"]
 //! sampler_rules = "site"          # default "channel"; "site" as projects from the site's JSON have it
 //!
+//! [uniforms]                      # values of `#iUniform` lines that differ from the default
+//! viscosity = 0.4
+//! tint = [1.0, 0.5, 0.0]
+//!
 //! [common]
 //! file = "common.glsl"            # without this table, common.glsl is read where there is one; common = false: none
 //!
@@ -17,6 +21,13 @@
 //! [passes.buffer_a]
 //! file = "buffer_a.glsl"          # default: the pass's name and .glsl
 //! channels.0 = { buffer = "A", filter = "nearest", wrap = "repeat" }
+//! size = 0.5                      # a factor of the canvas, or [256, 256]; iResolution there; default: the canvas
+//! format = "rgba16f"              # or rgba8, rg32f, rg16f, rg8, r32f, r16f, r8; default "rgba32f"
+//! region = [0, 0, 64, 1]          # only these texels are drawn (x, y, width, height); the others keep what they held
+//!
+//! [groups.solver]                 # buffers that follow each other, drawn 20 times a frame, in order
+//! passes = ["buffer_b", "buffer_c"]
+//! steps = 20
 //!
 //! [passes.image]
 //! channels.0 = { buffer = "A" }
@@ -25,10 +36,14 @@
 //! channels.3 = { keyboard = true }                # also cube_a, microphone, webcam
 //! ```
 //!
+//! A pass of its own size has that as `iResolution`, and its readers as `iChannelResolution`; `iMouse` stays in canvas pixels. What a
+//! format lacks is read as 0, alpha as 1. The steps of a group see the same uniforms, and of each other what was drawn last.
+//!
 //! A `file` is a picture unless `kind` says otherwise (`"cubemap"`, `"volume"`, `"video"`, `"music"`); a stock file of the
 //! site is `site = "/media/a/…"` with its `site_id`. `[shadertoy]` keeps what the site's JSON said and Eddy has no use for.
 
 mod read;
+mod settings;
 mod write;
 
 pub(super) use read::project;

@@ -1,13 +1,13 @@
 //! Reading `eddy.toml`. Every complaint is a diagnostic at its place, and all of them come at once.
 
-use super::{KINDS, VERSION, default_sampler};
+use super::{KINDS, VERSION, default_sampler, settings};
 use crate::{
     diag::{Diagnostic, SourceId, SourceMap, Span},
     project::{
-        Channel, Filter, Info, Input, Loaded, Media, Origin, Pass, PassId, Project, ProjectError, SamplerRules, Source,
-        Wrap,
+        Channel, Filter, Info, Input, KnobValue, KnobValues, Loaded, Media, Origin, Pass, PassId, Project,
+        ProjectError, SamplerRules, Source, Wrap,
         folder::{self, Files, Read, Role},
-        listed,
+        includes, listed,
         load::MANIFEST,
         nearest,
     },
@@ -15,8 +15,20 @@ use crate::{
 use std::{collections::BTreeMap, ops::Range, path::PathBuf};
 use toml_edit::{Document, Item, TableLike};
 
-const TOP: [&str; 10] =
-    ["eddy", "name", "description", "author", "tags", "id", "sampler_rules", "common", "passes", "shadertoy"];
+const TOP: [&str; 12] = [
+    "eddy",
+    "name",
+    "description",
+    "author",
+    "tags",
+    "id",
+    "sampler_rules",
+    "uniforms",
+    "common",
+    "passes",
+    "groups",
+    "shadertoy",
+];
 const INPUTS: [&str; 12] = [
     "buffer",
     "cube_a",
@@ -59,7 +71,7 @@ pub fn project(
     Ok(Loaded { project, warnings: diagnostics, sources })
 }
 
-struct Reader<'a> {
+pub(super) struct Reader<'a> {
     files: &'a Files<'a>,
     sources: SourceMap,
     id: SourceId,
@@ -71,7 +83,7 @@ impl Reader<'_> {
         range.map(|r| Span::new(self.id, r))
     }
 
-    fn error(&mut self, range: Option<Range<usize>>, message: impl Into<String>, hint: impl Into<String>) {
+    pub(super) fn error(&mut self, range: Option<Range<usize>>, message: impl Into<String>, hint: impl Into<String>) {
         let span = self.span(range);
         self.diagnostics.push(Diagnostic::error(span, message).hint(hint));
     }
@@ -122,7 +134,13 @@ impl Reader<'_> {
         };
         let common = self.common(root)?;
         let passes = self.passes(root)?;
-        Ok(Some(Project { name, info, common, passes, sampler_rules, origin }))
+        let groups = self.groups(root, &passes);
+        let knob_values = self.uniforms(root);
+        let mut project =
+            Project { name, info, common, passes, sampler_rules, groups, knob_values, includes: Vec::new(), origin };
+        includes::read(&mut project, Some(self.files));
+        self.check_uniforms(root, &project);
+        Ok(Some(project))
     }
 
     fn common(&mut self, root: &dyn TableLike) -> Result<Option<Source>, ProjectError> {
@@ -177,13 +195,14 @@ impl Reader<'_> {
                 continue;
             }
             let Some(table) = self.table(name, item) else { continue };
-            self.check_keys(&format!("[passes.{name}]"), table, &[&["file", "channels"]]);
+            self.check_keys(&format!("[passes.{name}]"), table, &[&["file", "channels"], &settings::KEYS]);
             let file = self.string(table, "file").unwrap_or_else(|| self.conventional(&Role::Pass(id.clone())));
             let file_at = table.get("file").and_then(Item::span).or(at);
             let source = self.source(&file, &id.title(), file_at)?;
             let channels = self.channels(table);
+            let settings = self.settings(&id, table);
             if let Some(source) = source {
-                passes.push(Pass { id, source, channels });
+                passes.push(Pass { id, source, channels, settings });
             }
         }
         if !table.iter().any(|(name, _)| folder::pass_of_stem(name) == Some(PassId::Image)) {
@@ -329,6 +348,34 @@ impl Reader<'_> {
         }
     }
 
+    fn uniforms(&mut self, root: &dyn TableLike) -> KnobValues {
+        let mut values = KnobValues::new();
+        let Some(table) = root.get("uniforms").and_then(|item| self.table("uniforms", item)) else { return values };
+        for (name, item) in table.iter() {
+            match knob_value(item) {
+                Some(value) => drop(values.insert(name.to_owned(), value)),
+                None => self.wrong_type(name, item, "true, false, a number, or 2 to 4 numbers in brackets"),
+            }
+        }
+        values
+    }
+
+    /// Values that no knob takes. Only warnings: a text may be changed so at any time, and the project must go on opening.
+    fn check_uniforms(&mut self, root: &dyn TableLike, project: &Project) {
+        let Some(table) = root.get("uniforms").and_then(Item::as_table_like) else { return };
+        let knobs = project.knobs();
+        for (name, value) in &project.knob_values {
+            let (message, hint) = match knobs.get(name).map(|knob| knob.fit(value)) {
+                Some(Ok(_)) => continue,
+                Some(Err(why)) => (format!("{name} {why}"), "it is kept in the file, and not used as it is".to_owned()),
+                None => knobs.unknown(name),
+            };
+            let at = table.key(name).and_then(toml_edit::Key::span).or_else(|| table.get(name).and_then(Item::span));
+            let span = self.span(at);
+            self.diagnostics.push(Diagnostic::warning(span, message).hint(hint));
+        }
+    }
+
     fn tags(&mut self, root: &dyn TableLike) -> Vec<String> {
         let Some(item) = root.get("tags") else { return Vec::new() };
         let tags: Option<Vec<String>> =
@@ -353,7 +400,7 @@ impl Reader<'_> {
         })
     }
 
-    fn table<'i>(&mut self, key: &str, item: &'i Item) -> Option<&'i dyn TableLike> {
+    pub(super) fn table<'i>(&mut self, key: &str, item: &'i Item) -> Option<&'i dyn TableLike> {
         let table = item.as_table_like();
         if table.is_none() {
             self.wrong_type(key, item, "a table");
@@ -378,7 +425,7 @@ impl Reader<'_> {
         item.as_bool()
     }
 
-    fn one_of<'k>(&mut self, table: &dyn TableLike, key: &str, known: &[&'k str]) -> Option<&'k str> {
+    pub(super) fn one_of<'k>(&mut self, table: &dyn TableLike, key: &str, known: &[&'k str]) -> Option<&'k str> {
         let text = self.string(table, key)?;
         let found = known.iter().copied().find(|k| k.eq_ignore_ascii_case(&text));
         if found.is_none() {
@@ -391,12 +438,12 @@ impl Reader<'_> {
         found
     }
 
-    fn wrong_type(&mut self, key: &str, item: &Item, expected: &str) {
+    pub(super) fn wrong_type(&mut self, key: &str, item: &Item, expected: &str) {
         let message = format!("{key} is {}, not {expected}", article(item.type_name()));
         self.error(item.span(), message, format!("write {expected}"));
     }
 
-    fn check_keys(&mut self, place: &str, table: &dyn TableLike, known: &[&[&'static str]]) {
+    pub(super) fn check_keys(&mut self, place: &str, table: &dyn TableLike, known: &[&[&'static str]]) {
         let known: Vec<&'static str> = known.iter().flat_map(|k| k.iter().copied()).collect();
         let unknown: Vec<(String, Option<Range<usize>>)> = table
             .iter()
@@ -410,6 +457,24 @@ impl Reader<'_> {
             };
             self.error(at, format!("{place} has no key {key}"), hint);
         }
+    }
+}
+
+/// The value an entry of `[uniforms]` says.
+pub fn knob_value(item: &Item) -> Option<KnobValue> {
+    let number = |v: &toml_edit::Value| v.as_float().or_else(|| v.as_integer().map(|i| i as f64));
+    match item.as_value()? {
+        toml_edit::Value::Boolean(on) => Some(KnobValue::Bool(*on.value())),
+        toml_edit::Value::Integer(n) => {
+            let n = *n.value();
+            Some(i32::try_from(n).map_or(KnobValue::Float(n as f64), KnobValue::Int))
+        }
+        toml_edit::Value::Float(x) => x.value().is_finite().then_some(KnobValue::Float(*x.value())),
+        toml_edit::Value::Array(all) if (2..=4).contains(&all.len()) => {
+            let all: Option<Vec<f64>> = all.iter().map(number).collect();
+            all.filter(|all| all.iter().all(|x| x.is_finite())).map(KnobValue::Vector)
+        }
+        _ => None,
     }
 }
 

@@ -1,7 +1,9 @@
 //! Writing `eddy.toml`: an old text changed no more than needed, so that the author's comments and order stay.
 
-use super::{VERSION, default_sampler, read};
-use crate::project::{Channel, Filter, Input, Media, PassId, Project, SamplerRules, Wrap, folder::pass_of_stem};
+use super::{VERSION, default_sampler, read, settings};
+use crate::project::{
+    Channel, Filter, Input, KnobValue, Media, PassId, Project, SamplerRules, Wrap, folder::pass_of_stem,
+};
 use toml_edit::{DocumentMut, InlineTable, Item, Key, Table, TableLike, Value};
 
 /// The text of `eddy.toml` for a project whose sources are called by their file names. `old` is the text it had; where the
@@ -24,8 +26,10 @@ pub fn write(project: &Project, old: Option<&str>, folder_name: &str, has_common
     set(root, "tags", (!tags.is_empty()).then(|| tags.iter().collect()));
     set(root, "id", text(&project.info.id));
     set(root, "sampler_rules", (project.sampler_rules == SamplerRules::Site).then(|| "site".into()));
+    uniforms(root, project);
     common(root, project, has_common_file);
     passes(root, project);
+    settings::write_groups(root, project);
     let extra = &project.info.extra;
     if extra.is_empty() {
         root.remove("shadertoy");
@@ -41,7 +45,7 @@ pub fn write(project: &Project, old: Option<&str>, folder_name: &str, has_common
 }
 
 /// Sets, replaces or removes a value. One that says the same stays as it is written; a comment beside it stays in any case.
-fn set(table: &mut dyn TableLike, key: &str, value: Option<Value>) {
+pub(super) fn set(table: &mut dyn TableLike, key: &str, value: Option<Value>) {
     let Some(mut value) = value else {
         table.remove(key);
         return;
@@ -70,13 +74,38 @@ fn plain(value: &Value) -> String {
 }
 
 /// The table at `key`, made where there is none.
-fn child<'t>(table: &'t mut dyn TableLike, key: &str, is_implicit: bool) -> Option<&'t mut dyn TableLike> {
+pub(super) fn child<'t>(table: &'t mut dyn TableLike, key: &str, is_implicit: bool) -> Option<&'t mut dyn TableLike> {
     if table.get(key).is_none_or(|item| !item.is_table_like()) {
         let mut new = Table::new();
         new.set_implicit(is_implicit);
         table.insert(key, Item::Table(new));
     }
     table.get_mut(key)?.as_table_like_mut()
+}
+
+fn uniforms(root: &mut Table, project: &Project) {
+    let values = &project.knob_values;
+    if values.is_empty() {
+        root.remove("uniforms");
+        return;
+    }
+    let Some(table) = child(root, "uniforms", false) else { return };
+    let gone: Vec<String> = table.iter().map(|(k, _)| k.to_owned()).filter(|k| !values.contains_key(k)).collect();
+    for key in gone {
+        table.remove(&key);
+    }
+    for (name, value) in values {
+        if table.get(name).and_then(read::knob_value).as_ref() == Some(value) {
+            continue;
+        }
+        let value = match value {
+            KnobValue::Bool(on) => Value::from(*on),
+            KnobValue::Int(n) => Value::from(i64::from(*n)),
+            KnobValue::Float(x) => Value::from(*x),
+            KnobValue::Vector(all) => Value::Array(all.iter().copied().collect()),
+        };
+        set(table, name, Some(value));
+    }
 }
 
 fn common(root: &mut Table, project: &Project, has_common_file: bool) {
@@ -117,12 +146,13 @@ fn passes(root: &mut Table, project: &Project) {
             set(entry, "file", Some(pass.source.name.as_str().into()));
         }
         channels(entry, &pass.channels);
+        settings::write_settings(entry, &pass.settings);
     }
     order(table, project);
 }
 
 /// The key by which a table has a pass already, or the one it shall get.
-fn key_of(table: &dyn TableLike, id: &PassId) -> String {
+pub(super) fn key_of(table: &dyn TableLike, id: &PassId) -> String {
     let old = table.iter().map(|(key, _)| key).find(|key| pass_of_stem(key).as_ref() == Some(id));
     old.map_or_else(|| id.key(), str::to_owned)
 }

@@ -24,9 +24,11 @@ fn checked(kind: PassKind, channels: [ChannelKind; 4], common: Option<&str>, cod
         channels,
         bilinear_by_hand: [false; 4],
         tables_in_memory: false,
+        knobs: &[],
+        includes: &[],
     };
     let parsed = parse::parse(&source);
-    let checked = check(&parsed.ast, &parsed.origins, &parsed.names, kind, channels);
+    let checked = check(&parsed.ast, &parsed.origins, &parsed.names, &source);
     let all: Vec<_> = parsed.diagnostics.iter().chain(&checked.diagnostics).cloned().collect();
     let failed = all.iter().any(|d| d.is_error());
     if !failed {

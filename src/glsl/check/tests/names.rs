@@ -26,6 +26,8 @@ fn every_use_names_its_declaration() {
         channels: [ChannelKind::Sampler2D; 4],
         bilinear_by_hand: [false; 4],
         tables_in_memory: false,
+        knobs: &[],
+        includes: &[],
     };
     let parsed = crate::glsl::parse::parse(&source);
     let (checked, failed, _) = checked(source.kind, source.channels, None, CODE);
@@ -86,12 +88,17 @@ fn common_alone_knows_two_uniforms() {
     let common = "#define NOW iTime\nfloat f() { return iDate.w + iSampleRate; }\nfloat g() { return iTime; }\n\
                   vec4 h(vec2 p) { return texture(iChannel0, p) + iResolution.x + iTime; }\n\
                   void i(out vec4 c) { mainImage(c, vec2(0)); }\n";
-    let warnings = crate::glsl::check_common(crate::glsl::Text { id: crate::diag::SourceId(0), text: common });
+    let warnings =
+        crate::glsl::check_common(crate::glsl::Text { id: crate::diag::SourceId(0), text: common }, &[], &[]);
     let named: Vec<&str> = warnings.iter().map(|d| &common[d.span.unwrap().range()]).collect();
     assert_eq!(named, ["iTime", "iChannel0", "iResolution", "mainImage(c, vec2(0))"]);
     assert!(warnings.iter().all(|d| !d.is_error()));
     assert!(
-        crate::glsl::check_common(crate::glsl::Text { id: crate::diag::SourceId(0), text: "int f() { return x }" })
-            .is_empty()
+        crate::glsl::check_common(
+            crate::glsl::Text { id: crate::diag::SourceId(0), text: "int f() { return x }" },
+            &[],
+            &[]
+        )
+        .is_empty()
     );
 }

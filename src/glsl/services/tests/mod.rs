@@ -47,6 +47,8 @@ impl Marked {
             ],
             bilinear_by_hand: [false; 4],
             tables_in_memory: false,
+            knobs: &[],
+            includes: &[],
         })
     }
 

@@ -39,6 +39,8 @@ fn type_into(text: &str, input: &str) -> (Assist, String) {
             channels: [ChannelKind::Sampler2D; 4],
             bilinear_by_hand: [false; 4],
             tables_in_memory: false,
+            knobs: &[],
+            includes: &[],
         });
         assist.update(&buffer, Some(Help { analysis: &analysis, source: ID, classes: &[], text: &now }));
     }

@@ -1,0 +1,138 @@
+//! A frame: the loop that executes a plan. The only place where passes are encoded.
+
+use super::{
+    Engine, EngineError, FrameInputs, FrameStats,
+    program::{CompiledDraw, Program},
+    uniforms,
+};
+use crate::{
+    glsl::interface::{CHANNEL_GROUP, UNIFORM_GROUP},
+    graph::{Draw, Source},
+};
+
+impl Engine {
+    /// Draws one frame. Does not wait for the device.
+    pub fn draw(&mut self, inputs: &FrameInputs) -> Result<FrameStats, EngineError> {
+        let Some(program) = self.program.take() else { return Ok(FrameStats::default()) };
+        let stats = self.draw_program(&program, inputs);
+        self.program = Some(program);
+        self.gpu.take_trouble("a frame")?;
+        Ok(stats)
+    }
+
+    fn draw_program(&mut self, program: &Program, inputs: &FrameInputs) -> FrameStats {
+        if self.shown_keys != inputs.keyboard.bytes() {
+            self.stock.keyboard.write(&self.gpu, inputs.keyboard.bytes());
+            self.shown_keys = inputs.keyboard.bytes().to_vec();
+            self.key_changes += 1;
+        }
+        for (index, (compiled, draw)) in program.draws.iter().zip(&program.plan.draws).enumerate() {
+            let own = self.targets[draw.target].size();
+            self.uniforms.set(index, &uniforms::block(inputs, own, self.size, &compiled.channels));
+        }
+        self.uniforms.write(&self.gpu);
+        // The same at every step.
+        let outside: Vec<Vec<u8>> = program
+            .draws
+            .iter()
+            .zip(&program.plan.draws)
+            .enumerate()
+            .map(|(index, (compiled, draw))| self.outside(index, compiled, draw))
+            .collect();
+        let mut encoder =
+            self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
+        if let Some(timer) = &mut self.timer {
+            timer.begin();
+        }
+        let mut stats = FrameStats::default();
+        for run in &program.plan.runs {
+            for _ in 0..run.steps {
+                for index in run.draws.clone() {
+                    self.step(&mut encoder, program, index, &outside[index], &mut stats);
+                }
+            }
+        }
+        if let Some(timer) = &mut self.timer {
+            timer.resolve(&mut encoder);
+        }
+        let newest = self.targets.get(self.display.target).map_or(0, |t| t.front);
+        if let Some(bound) = self.display.bound.get(newest) {
+            self.display.presenter.present(&mut encoder, bound, &self.display.texture);
+        }
+        self.gpu.queue.submit([encoder.finish()]);
+        if let Some(timer) = &mut self.timer {
+            timer.submitted();
+        }
+        stats
+    }
+
+    /// Everything a draw reads that is no target; for [`crate::graph::Ledger::is_due`].
+    fn outside(&self, index: usize, compiled: &CompiledDraw, draw: &Draw) -> Vec<u8> {
+        if !draw.can_rest {
+            return Vec::new();
+        }
+        let mut seen = self.uniforms.seen_by(index, compiled);
+        if draw.reads.iter().flatten().any(|r| r.source == Source::Keyboard) {
+            seen.extend(self.key_changes.to_le_bytes());
+        }
+        seen
+    }
+
+    /// Does one draw, if it is due.
+    fn step(
+        &mut self,
+        encoder: &mut wgpu::CommandEncoder,
+        program: &Program,
+        index: usize,
+        outside: &[u8],
+        stats: &mut FrameStats,
+    ) {
+        let (compiled, draw) = (&program.draws[index], &program.plan.draws[index]);
+        let size = self.targets[draw.target].size();
+        let texels = match draw.region {
+            None => u64::from(size.0) * u64::from(size.1),
+            Some(region) => match region.within(size) {
+                Some(region) => u64::from(region.width) * u64::from(region.height),
+                None => return,
+            },
+        };
+        if !self.ledger.is_due(index, draw, outside) {
+            stats.passes_rested += 1;
+            stats.bytes_rested += texels * program.plan.targets[draw.target].format.bytes();
+            return;
+        }
+        stats.passes_drawn += 1;
+        let [uniforms, channels] = self.bindings[index].groups(&self.gpu, &self.stock, compiled, draw, &self.targets);
+        let target = &self.targets[draw.target];
+        let back = target.back();
+        if draw.region.is_some() && back != target.front {
+            target.newest().copy_overlap(encoder, &target.textures[back]);
+        }
+        let load = if draw.keeps_content { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) };
+        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: None,
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &target.textures[back].level_0,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
+            })],
+            timestamp_writes: self.timer.as_mut().and_then(|t| t.writes(index)),
+            ..Default::default()
+        });
+        pass.set_pipeline(&compiled.pipeline.raw);
+        pass.set_bind_group(UNIFORM_GROUP, uniforms, &[]);
+        pass.set_bind_group(CHANNEL_GROUP, channels, &[]);
+        // Row 0 is the bottom, for a scissor too.
+        if let Some(region) = draw.region.and_then(|r| r.within(size)) {
+            pass.set_scissor_rect(region.x, region.y, region.width, region.height);
+        }
+        pass.draw(0..3, 0..1);
+        drop(pass);
+        let target = &mut self.targets[draw.target];
+        target.front = back;
+        if let Some(chain) = target.chains.get(back) {
+            self.mips.build(encoder, chain);
+        }
+    }
+}

@@ -1,0 +1,76 @@
+//! The author's own uniforms on their way into shaders: which a pass may name, and the block their values lie in.
+
+use crate::{
+    diag::{Diagnostic, SourceId},
+    glsl::{self, KnobKind, interface::KNOB_BYTES},
+    project::{IncludeLines, Knob, KnobType, KnobValue, KnobValues, Knobs, Project},
+};
+
+/// Slots in the 64 KiB that a uniform buffer has on every device.
+const MAX_KNOBS: usize = (64 << 10) / KNOB_BYTES as usize;
+
+/// What the texts of a project declare, with what the language has against it.
+pub(super) fn knobs(project: &Project) -> Knobs {
+    let mut knobs = project.knobs();
+    for knob in &knobs.list {
+        if let Some(why) = glsl::taken(&knob.name) {
+            knobs.diagnostics.push(
+                Diagnostic::error(knob.span, format!("no uniform can be called `{}`: {why}", knob.name))
+                    .hint("choose another name"),
+            );
+        }
+    }
+    if let Some(knob) = knobs.list.get(MAX_KNOBS) {
+        knobs.diagnostics.push(
+            Diagnostic::error(knob.span, format!("a project has at most {MAX_KNOBS} uniforms of its own")).hint(
+                "that is what a uniform buffer holds on every device; put some of them into a picture or a buffer",
+            ),
+        );
+    }
+    knobs
+}
+
+/// Those that the texts of a pass may name: its own, Common's, and those of what they include. `None`: Common alone.
+pub(super) fn in_scope<'k>(knobs: &'k Knobs, lines: &IncludeLines, pass: Option<SourceId>) -> Vec<glsl::Knob<'k>> {
+    let mut texts = lines.reach(SourceId(0));
+    texts.extend(pass.map(|id| lines.reach(id)).unwrap_or_default());
+    let is_there = |knob: &Knob| knob.declared_in.iter().any(|id| texts.contains(id));
+    knobs
+        .list
+        .iter()
+        .enumerate()
+        .take(MAX_KNOBS)
+        .filter(|(_, knob)| is_there(knob) && glsl::taken(&knob.name).is_none())
+        .map(|(slot, knob)| glsl::Knob { name: &knob.name, kind: kind(knob.ty), slot: slot as u16 })
+        .collect()
+}
+
+fn kind(ty: KnobType) -> KnobKind {
+    match ty {
+        KnobType::Bool => KnobKind::Bool,
+        KnobType::Int => KnobKind::Int,
+        KnobType::Float => KnobKind::Float,
+        KnobType::Vec2 => KnobKind::Vec2,
+        KnobType::Vec3 | KnobType::Color3 => KnobKind::Vec3,
+        KnobType::Vec4 => KnobKind::Vec4,
+    }
+}
+
+/// The block's slots, for knobs at these values.
+pub(super) fn block(knobs: &[Knob], values: &KnobValues) -> Vec<[u32; 4]> {
+    let slot = |knob: &Knob| {
+        let mut words = [0; 4];
+        match knob.value(values) {
+            KnobValue::Bool(on) => words[0] = u32::from(on),
+            KnobValue::Int(n) => words[0] = n as u32,
+            KnobValue::Float(x) => words[0] = (x as f32).to_bits(),
+            KnobValue::Vector(all) => {
+                for (word, x) in words.iter_mut().zip(all) {
+                    *word = (x as f32).to_bits();
+                }
+            }
+        }
+        words
+    };
+    knobs.iter().map(slot).collect()
+}

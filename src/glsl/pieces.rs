@@ -1,0 +1,37 @@
+//! A pass's texts in the order they are read: what stands before an include, the included text, what stands behind.
+
+use super::{Include, Text};
+use std::ops::Range;
+
+/// A stretch of a text.
+#[derive(Clone, Debug)]
+pub(super) struct Piece<'a> {
+    pub text: Text<'a>,
+    pub range: Range<usize>,
+    /// A text of its own begins here, and no include: the site puts a line's end before it.
+    pub begins_text: bool,
+}
+
+/// The pieces of texts that follow each other.
+pub(super) fn of<'a>(texts: &[Text<'a>], includes: &[Include<'a>]) -> Vec<Piece<'a>> {
+    let mut lines: Vec<&Include<'a>> = includes.iter().collect();
+    lines.sort_by_key(|i| (i.line.source, i.line.start));
+    let mut pieces = Vec::new();
+    for text in texts {
+        let first = pieces.len();
+        add(*text, &lines, &mut pieces);
+        pieces[first].begins_text = true;
+    }
+    pieces
+}
+
+fn add<'a>(text: Text<'a>, lines: &[&Include<'a>], pieces: &mut Vec<Piece<'a>>) {
+    let begin = lines.partition_point(|i| i.line.source < text.id);
+    let mut done = 0;
+    for include in lines[begin..].iter().take_while(|i| i.line.source == text.id) {
+        pieces.push(Piece { text, range: done..include.line.range().start, begins_text: false });
+        add(include.text, lines, pieces);
+        done = include.line.range().end;
+    }
+    pieces.push(Piece { text, range: done..text.text.len(), begins_text: false });
+}

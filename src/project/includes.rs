@@ -1,0 +1,301 @@
+//! `#include "file"` lines: texts inside texts.
+//!
+//! A path is relative to the file whose line names it, and stays within the project's folder; an included file may include
+//! others. The lines count wherever they stand outside comments, in conditionals too. A file that is a tab of the project is
+//! taken as the tab has it; Common, which stands before every pass anyway, is not put in again.
+//!
+//! Owns which files are read ([`Project::read_includes`]), what the lines lead to ([`Project::include_lines`]) and the text
+//! that comes of it ([`Project::inlined`]).
+
+use super::{
+    Project, Source,
+    folder::{Files, Read},
+    lines::{HashLine, hash_lines},
+    nearest, presets,
+};
+use crate::diag::{Diagnostic, SourceId, Span};
+use std::{
+    borrow::Cow,
+    collections::{BTreeMap, BTreeSet, VecDeque},
+    path::Path,
+};
+
+/// Files a program may have in it, each counted as often as it is included: far beyond any program, and near enough to end
+/// files that include each other twice, and so on.
+const MAX_INCLUDED: u64 = 10_000;
+
+/// A file that some text names in an `#include` line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Included {
+    /// Called by its path from the project's folder, with `/`.
+    pub source: Source,
+    /// Why it has no text, if it has none.
+    pub trouble: Option<String>,
+}
+
+/// What the `#include` lines of a project lead to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct IncludeLines {
+    /// A line, and the text that stands in its place; no text leads to itself.
+    pub lines: Vec<(Span, SourceId)>,
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+pub(super) fn is_include(line: &HashLine<'_>) -> bool {
+    line.body.strip_prefix("include").is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
+}
+
+/// The path a line names.
+fn named<'t>(line: &HashLine<'t>) -> Option<&'t str> {
+    let rest = line.body.strip_prefix("include")?.trim_start().strip_prefix('"')?;
+    let (path, after) = rest.split_once('"')?;
+    let after = after.trim_start();
+    (!path.trim().is_empty() && (after.is_empty() || after.starts_with("//") || after.starts_with("/*")))
+        .then_some(path)
+}
+
+/// The name, from the project's folder, of what the file `from` calls `path`. `None`: it leads out of that folder.
+fn resolve(from: &str, path: &str) -> Option<String> {
+    let path = path.trim();
+    if path.starts_with('/') || path.contains(['\\', ':']) {
+        return None;
+    }
+    let mut parts: Vec<&str> = from.rsplit_once('/').map_or(Vec::new(), |(folder, _)| folder.split('/').collect());
+    for part in path.split('/') {
+        match part {
+            "" | "." => {}
+            ".." => drop(parts.pop()?),
+            name => parts.push(name),
+        }
+    }
+    Some(parts.join("/"))
+}
+
+/// Reads every file that texts of the project name, and those that these name.
+pub(super) fn read(project: &mut Project, files: Option<&Files<'_>>) {
+    let tabs: BTreeSet<String> = tab_sources(project).map(|s| s.name.clone()).collect();
+    let mut queue: VecDeque<(String, std::sync::Arc<str>)> =
+        tab_sources(project).map(|s| (s.name.clone(), s.text.clone())).collect();
+    let mut found: Vec<Included> = Vec::new();
+    while let Some((from, text)) = queue.pop_front() {
+        for line in hash_lines(&text).iter().filter(|l| is_include(l)) {
+            let Some(name) = named(line).and_then(|path| resolve(&from, path)) else { continue };
+            if tabs.contains(&name) || found.iter().any(|i| i.source.name == name) {
+                continue;
+            }
+            let (text, trouble) = match content(files, &name) {
+                Ok(text) => (text, None),
+                Err(why) => (String::new(), Some(why)),
+            };
+            let path = files.and_then(|f| f.path(&name));
+            let source = Source { name: name.clone(), path, text: text.into() };
+            queue.push_back((name, source.text.clone()));
+            found.push(Included { source, trouble });
+        }
+    }
+    project.includes = found;
+}
+
+fn content(files: Option<&Files<'_>>, name: &str) -> Result<String, String> {
+    let Some(files) = files else {
+        return Err(format!("{name} is nowhere: this project has no folder yet; save it into one first"));
+    };
+    if let Files::Disk(folder) = files {
+        // A symbolic link may lead anywhere.
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        if let (Ok(file), Ok(folder)) = (folder.join(name).canonicalize(), folder.canonicalize())
+            && !file.starts_with(&folder)
+        {
+            return Err(format!("{name} is a link that leads out of the project's folder"));
+        }
+    }
+    match files.read(name) {
+        Ok(Read::Text(text)) => Ok(text),
+        Ok(Read::NotUtf8(at, _)) => {
+            Err(format!("{name} is not UTF-8 text (byte {at}); save it as UTF-8 in your editor"))
+        }
+        Ok(Read::Missing) => {
+            let folder = name.rsplit_once('/').map_or("", |(folder, _)| folder);
+            let beside = if folder.is_empty() { files.names().unwrap_or_default() } else { Vec::new() };
+            let near = nearest(name, beside.iter().map(String::as_str));
+            Err(format!("there is no file {name}{}", near.map(|n| format!("; did you mean {n}?")).unwrap_or_default()))
+        }
+        Err(e) => Err(e.to_string()),
+    }
+}
+
+fn tab_sources(project: &Project) -> impl Iterator<Item = &Source> {
+    project.common.iter().chain(project.passes.iter().map(|p| &p.source))
+}
+
+impl Project {
+    /// Reads the files that the texts include, from where the project lies.
+    pub fn read_includes(&mut self) {
+        match &self.origin {
+            super::Origin::Preset(name) => {
+                let dir = presets::folder(name);
+                read(self, dir.map(Files::Embedded).as_ref());
+            }
+            other => {
+                let base = other.base_dir().map(Path::to_owned);
+                read(self, base.as_deref().map(Files::Disk).as_ref());
+            }
+        }
+    }
+
+    /// What every `#include` line leads to, and what is wrong with those that lead nowhere. Spans and ids are of
+    /// [`Project::sources`].
+    pub fn include_lines(&self) -> IncludeLines {
+        let mut found = IncludeLines::default();
+        let sources = self.sources();
+        // A buffer and another may share a file: the first is as good as the second.
+        let mut ids: BTreeMap<&str, SourceId> = BTreeMap::new();
+        for (id, source) in sources.iter().filter(|(id, _)| id.0 > 0 || self.common.is_some()) {
+            ids.entry(&source.name).or_insert(id);
+        }
+        for (id, source) in sources.iter() {
+            for line in hash_lines(&source.text).iter().filter(|l| is_include(l)) {
+                let span = Span::new(id, line.range.clone());
+                let Some(path) = named(line) else {
+                    let message = "an #include line names one file in double quotes";
+                    found
+                        .diagnostics
+                        .push(Diagnostic::error(span, message).hint("the form is #include \"noise.glsl\""));
+                    continue;
+                };
+                let Some(name) = resolve(&source.name, path) else {
+                    found.diagnostics.push(
+                        Diagnostic::error(span, format!("#include \"{path}\" leads out of the project's folder")).hint(
+                            "copy the file into the folder, and name it relative to the file with this line, with /",
+                        ),
+                    );
+                    continue;
+                };
+                match ids.get(name.as_str()) {
+                    Some(SourceId(0)) if id.0 != 0 => found.diagnostics.push(
+                        Diagnostic::warning(
+                            span,
+                            format!("{name} is Common, which stands before every pass: it is not put in again"),
+                        )
+                        .hint("remove this line"),
+                    ),
+                    Some(&target) => match self.included(target).and_then(|i| i.trouble.as_ref()) {
+                        Some(why) => {
+                            found.diagnostics.push(Diagnostic::error(span, format!("#include \"{path}\": {why}")))
+                        }
+                        None => found.lines.push((span, target)),
+                    },
+                    None => found
+                        .diagnostics
+                        .push(Diagnostic::error(span, format!("#include \"{path}\": there is no file {name}"))),
+                }
+            }
+        }
+        self.cut_cycles(&mut found);
+        found
+    }
+
+    fn included(&self, id: SourceId) -> Option<&Included> {
+        self.includes.get(usize::from(id.0).checked_sub(self.passes.len() + 1)?)
+    }
+
+    /// Takes out lines that lead back to a text they stand in, each with an error that shows the way.
+    fn cut_cycles(&self, found: &mut IncludeLines) {
+        let sources = self.sources();
+        let count = sources.iter().count();
+        let name = |id: usize| sources.get(SourceId(id as u16)).map_or("", |s| s.name.as_str());
+        let mut lines: Vec<Vec<(Span, usize)>> = vec![Vec::new(); count];
+        for &(span, target) in &found.lines {
+            lines[usize::from(span.source.0)].push((span, usize::from(target.0)));
+        }
+        let mut cut: BTreeSet<(u16, u32)> = BTreeSet::new();
+        // How many texts each has in it, itself counted; 0: not known yet.
+        let mut sizes = vec![0u64; count];
+        for root in 0..count {
+            // Depth first, without recursion: chains may be long.
+            let mut way: Vec<(usize, usize)> = vec![(root, 0)];
+            while let Some(&(at, next)) = way.last() {
+                if sizes[at] > 0 {
+                    way.pop();
+                } else if let Some(&(span, target)) = lines[at].get(next) {
+                    if let Some(last) = way.last_mut() {
+                        last.1 += 1;
+                    }
+                    match way.iter().position(|(id, _)| *id == target) {
+                        Some(begin) => {
+                            let chain: Vec<&str> =
+                                way[begin..].iter().map(|(id, _)| name(*id)).chain([name(target)]).collect();
+                            let message = format!("this #include goes round in a circle: {}", chain.join(" -> "));
+                            found
+                                .diagnostics
+                                .push(Diagnostic::error(span, message).hint("take one of these lines out"));
+                            cut.insert((span.source.0, span.start));
+                        }
+                        None => way.push((target, 0)),
+                    }
+                } else {
+                    let inner = lines[at].iter().filter(|(s, _)| !cut.contains(&(s.source.0, s.start)));
+                    sizes[at] = inner.fold(1u64, |sum, (_, target)| sum.saturating_add(sizes[*target]));
+                    way.pop();
+                }
+            }
+        }
+        found.lines.retain(|(s, _)| !cut.contains(&(s.source.0, s.start)));
+        if let Some(at) = (0..count).find(|at| sizes[*at] > MAX_INCLUDED) {
+            let message = format!(
+                "{} has more than {MAX_INCLUDED} files in it, each counted as often as it is included",
+                name(at)
+            );
+            found.diagnostics.push(Diagnostic::error(
+                found.lines.iter().find(|(s, _)| usize::from(s.source.0) == at).map(|l| l.0),
+                message,
+            ));
+            found.lines.clear();
+        }
+    }
+
+    /// A text with every file it includes in the place of its line.
+    pub fn inlined(&self, id: SourceId, lines: &IncludeLines) -> Cow<'_, str> {
+        let text = self.source_text(id);
+        let mut own = lines.lines.iter().filter(|(span, _)| span.source == id).peekable();
+        if own.peek().is_none() {
+            return Cow::Borrowed(text);
+        }
+        let (mut out, mut done) = (String::new(), 0);
+        for (span, target) in own {
+            out.push_str(&text[done..span.range().start]);
+            out.push_str(self.inlined(*target, lines).trim_start_matches('\u{feff}'));
+            done = span.range().end;
+        }
+        out.push_str(&text[done..]);
+        Cow::Owned(out)
+    }
+
+    fn source_text(&self, id: SourceId) -> &str {
+        match (usize::from(id.0), &self.common) {
+            (0, common) => common.as_ref().map_or("", |c| &c.text),
+            (i, _) => match self.passes.get(i - 1) {
+                Some(pass) => &pass.source.text,
+                None => self.included(id).map_or("", |i| &i.source.text),
+            },
+        }
+    }
+}
+
+impl IncludeLines {
+    /// The text `id` and all that it has in it.
+    pub fn reach(&self, id: SourceId) -> BTreeSet<SourceId> {
+        let mut reached = BTreeSet::new();
+        let mut todo = vec![id];
+        while let Some(id) = todo.pop() {
+            if reached.insert(id) {
+                todo.extend(self.lines.iter().filter(|(span, _)| span.source == id).map(|(_, target)| *target));
+            }
+        }
+        reached
+    }
+}
+
+#[cfg(test)]
+#[path = "includes_tests.rs"]
+mod tests;

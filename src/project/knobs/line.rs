@@ -1,0 +1,390 @@
+//! One `#iUniform` line, in the form the VS Code extension "Shader Toy" made common.
+//!
+//! ```glsl
+//! #iUniform float speed = 1.0 in { 0.0, 5.0 }             // a slider
+//! #iUniform float dent = 1.0 in { 0.0, 5.0 } step 0.2     // one that moves by steps
+//! #iUniform int rings = 5                                 // a number without limits
+//! #iUniform color3 tint = color3(1.0, 0.5, 0.0)           // a colour; a vec3 in GLSL
+//! #iUniform vec4 gains = vec4(1.0) in { 0.0, 1.0 }        // four sliders; one number stands for all components
+//! #iUniform bool wrapped = true                           // this type the extension does not have
+//! ```
+//!
+//! Without a default it is the least of the range, else zero.
+
+use super::{Knob, KnobRange, KnobType, KnobValue};
+use crate::{
+    diag::{Diagnostic, SourceId, Span},
+    project::{lines::HashLine, listed, nearest},
+};
+use std::ops::Range;
+
+const FORM: &str =
+    "the form is #iUniform float speed = 1.0 in { 0.0, 5.0 } step 0.1; default, range and step may be left out";
+
+pub(in crate::project) fn is_declaration(line: &HashLine<'_>) -> bool {
+    line.body.strip_prefix("iUniform").is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
+}
+
+/// What a line says; what it leaves out is `None`.
+pub(super) struct Line {
+    pub name: String,
+    pub ty: KnobType,
+    pub default: Option<[f64; 4]>,
+    pub range: Option<KnobRange>,
+    pub step: Option<[f64; 4]>,
+    /// The name.
+    pub span: Span,
+}
+
+impl Line {
+    pub fn knob(&self, source: SourceId) -> Knob {
+        Knob {
+            name: self.name.clone(),
+            ty: self.ty,
+            default: KnobValue::new(self.ty, &[0.0; 4]),
+            range: None,
+            step: None,
+            span: self.span,
+            declared_in: vec![source],
+        }
+    }
+
+    /// Takes over what only `other` says. Err: what both say, and differently.
+    pub fn join(&mut self, other: &Line) -> Result<(), &'static str> {
+        fn one<T: Copy + PartialEq>(
+            mine: &mut Option<T>,
+            theirs: Option<T>,
+            what: &'static str,
+        ) -> Result<(), &'static str> {
+            match (*mine, theirs) {
+                (Some(a), Some(b)) if a != b => Err(what),
+                (None, Some(_)) => {
+                    *mine = theirs;
+                    Ok(())
+                }
+                _ => Ok(()),
+            }
+        }
+        one(&mut self.default, other.default, "default")?;
+        one(&mut self.range, other.range, "range")?;
+        one(&mut self.step, other.step, "step")
+    }
+
+    /// Gives a knob everything, now that all lines are read.
+    pub fn complete(&self, knob: &mut Knob, diagnostics: &mut Vec<Diagnostic>) {
+        knob.step = self.step;
+        let unit = KnobRange { min: [0.0; 4], max: [1.0; 4] };
+        knob.range = self.range.or((self.ty == KnobType::Color3).then_some(unit));
+        let default = self.default.or(self.range.map(|r| r.min)).unwrap_or_default();
+        let wanted = KnobValue::new(self.ty, &default);
+        knob.default = knob.clamped(&wanted);
+        if knob.default != wanted {
+            let shown = knob.default.glsl(self.ty);
+            diagnostics.push(
+                Diagnostic::warning(self.span, format!("the default of `{}` lies outside of its range", self.name))
+                    .hint(format!("it starts at {shown}; change the default or the range")),
+            );
+        }
+    }
+}
+
+/// A value as a person writes it outside of a line: `0.3`, `true`, `1,0.5,0`, `vec3(1)` (which is one number for all).
+pub(super) fn value(text: &str) -> Option<KnobValue> {
+    let text = text.trim();
+    match text {
+        "true" => return Some(KnobValue::Bool(true)),
+        "false" => return Some(KnobValue::Bool(false)),
+        _ => {}
+    }
+    if let Ok(n) = text.parse::<i32>() {
+        return Some(KnobValue::Int(n));
+    }
+    let mut words = Words::new(text, 0, SourceId(0));
+    let (mut all, size) = match words.peek() {
+        Word::Name(name) => {
+            let ty = KnobType::ALL.into_iter().find(|t| t.name() == name)?;
+            words.next();
+            (words.arguments().ok()?, ty.components())
+        }
+        _ => {
+            let mut all = vec![words.number().ok()?];
+            while words.peek() == Word::Sign(',') {
+                words.next();
+                all.push(words.number().ok()?);
+            }
+            let size = all.len();
+            (all, size)
+        }
+    };
+    if words.peek() != Word::End {
+        return None;
+    }
+    if all.len() == 1 {
+        all = vec![all[0]; size];
+    }
+    match (all.len(), size) {
+        (1, 1) => Some(KnobValue::Float(all[0])),
+        (n, size) if n == size && n <= 4 => Some(KnobValue::Vector(all)),
+        _ => None,
+    }
+}
+
+/// Reads a line that [`is_declaration`].
+pub(super) fn parse(line: &HashLine<'_>, source: SourceId) -> Result<Line, Diagnostic> {
+    let skipped = "iUniform".len();
+    let mut words = Words::new(&line.body[skipped..], line.body_at + skipped, source);
+    let ty = words.ty()?;
+    let (name, span) = words.name()?;
+    let mut out = Line { name, ty, default: None, range: None, step: None, span };
+    if words.peek() == Word::Sign('=') {
+        words.next();
+        out.default = Some(words.value(ty)?);
+    }
+    if words.peek() == Word::Name("in") {
+        words.next();
+        out.range = Some(words.range(ty)?);
+    }
+    if words.peek() == Word::Name("step") {
+        words.next();
+        let step = words.value(ty)?;
+        if step[..ty.components()].iter().any(|s| *s <= 0.0) {
+            return Err(words.error("a step is a number above 0"));
+        }
+        out.step = Some(step);
+    }
+    match words.peek() {
+        // Some write it as the end of a declaration.
+        Word::End | Word::Sign(';') => Ok(out),
+        // The extension's tag for its own time line, in both spellings it reads.
+        Word::Name("sequencer" | "sequncer") => Ok(out),
+        _ => {
+            words.next();
+            Err(words.error(match (out.default, out.range) {
+                (None, None) => "expected `=`, `in` or the end of the line",
+                (_, None) => "expected `in`, `step` or the end of the line",
+                _ => "expected `step` or the end of the line",
+            }))
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Word<'a> {
+    Name(&'a str),
+    Number(f64),
+    Sign(char),
+    End,
+}
+
+/// The words of a line.
+struct Words<'a> {
+    text: &'a str,
+    /// Place of the next word, and of the one before it.
+    at: usize,
+    last: Range<usize>,
+    /// Where `text` begins in its source.
+    base: usize,
+    source: SourceId,
+}
+
+impl<'a> Words<'a> {
+    fn new(text: &'a str, base: usize, source: SourceId) -> Self {
+        Self { text, at: 0, last: 0..0, base, source }
+    }
+
+    fn look(&self) -> (Word<'a>, Range<usize>) {
+        let mut at = self.at;
+        loop {
+            at += self.text[at..].len() - self.text[at..].trim_start().len();
+            let rest = &self.text[at..];
+            if rest.starts_with("//") {
+                return (Word::End, at..at);
+            }
+            match rest.strip_prefix("/*").map(|r| r.find("*/")) {
+                Some(Some(end)) => at += end + 4,
+                Some(None) => return (Word::End, at..at),
+                None => break,
+            }
+        }
+        let rest = &self.text[at..];
+        let Some(first) = rest.chars().next() else { return (Word::End, at..at) };
+        if first.is_alphabetic() || first == '_' {
+            let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
+            return (Word::Name(&rest[..end]), at..at + end);
+        }
+        let end = number_end(rest);
+        match rest[..end].parse() {
+            Ok(number) if end > 0 => (Word::Number(number), at..at + end),
+            _ => (Word::Sign(first), at..at + first.len_utf8()),
+        }
+    }
+
+    fn peek(&self) -> Word<'a> {
+        self.look().0
+    }
+
+    fn next(&mut self) -> Word<'a> {
+        let (word, place) = self.look();
+        self.at = place.end;
+        self.last = place;
+        word
+    }
+
+    /// At the word that was read last.
+    fn error(&self, message: impl Into<String>) -> Diagnostic {
+        // At the end of the line there is nothing to mark but what stands before it.
+        let place = if self.last.is_empty() {
+            let before = self.text[..self.last.start].trim_end().len();
+            before.saturating_sub(1)..before
+        } else {
+            self.last.clone()
+        };
+        let start = (0..=place.start).rev().find(|i| self.text.is_char_boundary(*i)).unwrap_or(0);
+        Diagnostic::error(Span::new(self.source, self.base + start..self.base + place.end), message).hint(FORM)
+    }
+
+    fn expect(&mut self, sign: char, what: &str) -> Result<(), Diagnostic> {
+        if self.next() == Word::Sign(sign) { Ok(()) } else { Err(self.error(format!("expected `{sign}` {what}"))) }
+    }
+
+    fn ty(&mut self) -> Result<KnobType, Diagnostic> {
+        let names = KnobType::ALL.map(KnobType::name);
+        let Word::Name(word) = self.next() else {
+            return Err(self.error(format!("expected a type: {}", listed(&names))));
+        };
+        KnobType::ALL.into_iter().find(|t| t.name() == word).ok_or_else(|| {
+            let known = match nearest(word, names) {
+                Some(near) => format!("did you mean {near}?"),
+                None => format!("there are {}", listed(&names)),
+            };
+            self.error(format!("there is no uniform of type {word} to set by hand")).hint(known)
+        })
+    }
+
+    fn name(&mut self) -> Result<(String, Span), Diagnostic> {
+        match self.next() {
+            Word::Name(name) if name.is_ascii() => {
+                let place = self.base + self.last.start..self.base + self.last.end;
+                Ok((name.to_owned(), Span::new(self.source, place)))
+            }
+            _ => Err(self.error("expected the uniform's name, in letters of GLSL: a to z, digits and _")),
+        }
+    }
+
+    fn number(&mut self) -> Result<f64, Diagnostic> {
+        match self.next() {
+            Word::Number(x) if (x as f32).is_finite() => Ok(x),
+            Word::Number(_) => Err(self.error("this number is too large for a float")),
+            Word::Name("true") => Ok(1.0),
+            Word::Name("false") => Ok(0.0),
+            _ => Err(self.error("expected a number")),
+        }
+    }
+
+    /// Numbers in parentheses; constructors among them count as the numbers they hold.
+    fn arguments(&mut self) -> Result<Vec<f64>, Diagnostic> {
+        self.expect('(', "behind the type")?;
+        let mut depth = 1;
+        let mut all = Vec::new();
+        loop {
+            match self.peek() {
+                Word::Name(name) if KnobType::ALL.iter().any(|t| t.name() == name) => {
+                    self.next();
+                    self.expect('(', "behind the type")?;
+                    depth += 1;
+                    continue;
+                }
+                _ => all.push(self.number()?),
+            }
+            while self.peek() == Word::Sign(')') {
+                self.next();
+                depth -= 1;
+                if depth == 0 {
+                    return Ok(all);
+                }
+            }
+            self.expect(',', "or `)`")?;
+        }
+    }
+
+    /// A value of a type; one number stands for all components.
+    fn value(&mut self, ty: KnobType) -> Result<[f64; 4], Diagnostic> {
+        let begin = self.look().1.start;
+        let mut all = match self.peek() {
+            Word::Name(name) if name != "true" && name != "false" => {
+                self.next();
+                if !KnobType::ALL.iter().any(|t| t.name() == name) {
+                    return Err(self.error("expected a number, or a constructor of numbers"));
+                }
+                self.arguments()?
+            }
+            _ => vec![self.number()?],
+        };
+        let n = ty.components();
+        let end = self.last.end;
+        self.last = begin..end;
+        if all.len() == 1 {
+            all = vec![all[0]; n];
+        }
+        if all.len() != n {
+            let wants = if n == 1 { "one number".into() } else { format!("{n} numbers, or one for all") };
+            return Err(self.error(format!("a {} takes {wants}, not {}", ty.name(), all.len())));
+        }
+        if ty == KnobType::Int && all[0].fract() != 0.0 {
+            return Err(self.error("an int takes whole numbers"));
+        }
+        if ty == KnobType::Bool && all[0] != 0.0 && all[0] != 1.0 {
+            return Err(self.error("a bool is true or false"));
+        }
+        let mut out = [0.0; 4];
+        out[..n].copy_from_slice(&all);
+        Ok(out)
+    }
+
+    fn range(&mut self, ty: KnobType) -> Result<KnobRange, Diagnostic> {
+        if ty == KnobType::Bool {
+            return Err(self.error("a bool has no range"));
+        }
+        self.expect('{', "before the least value")?;
+        let begin = self.last.start;
+        let min = self.value(ty)?;
+        self.expect(',', "between the least and the greatest value")?;
+        let max = self.value(ty)?;
+        self.expect('}', "behind the greatest value")?;
+        if min.iter().zip(max).any(|(a, b)| *a > b) {
+            self.last.start = begin;
+            return Err(self.error("the range ends below its beginning"));
+        }
+        Ok(KnobRange { min, max })
+    }
+}
+
+/// Length of the number a text begins with, as GLSL writes it, with a sign.
+fn number_end(text: &str) -> usize {
+    let bytes = text.as_bytes();
+    let digits = |mut i: usize| {
+        while bytes.get(i).is_some_and(u8::is_ascii_digit) {
+            i += 1;
+        }
+        i
+    };
+    let start = usize::from(matches!(bytes.first(), Some(b'-' | b'+')));
+    let mut end = digits(start);
+    let mut any = end > start;
+    if bytes.get(end) == Some(&b'.') {
+        let after = digits(end + 1);
+        any |= after > end + 1;
+        end = after;
+    }
+    if !any {
+        return 0;
+    }
+    if matches!(bytes.get(end), Some(b'e' | b'E')) {
+        let sign = usize::from(matches!(bytes.get(end + 1), Some(b'-' | b'+')));
+        let after = digits(end + 1 + sign);
+        if after > end + 1 + sign {
+            end = after;
+        }
+    }
+    end
+}

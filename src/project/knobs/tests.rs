@@ -1,0 +1,193 @@
+//! What `#iUniform` lines say, alone and together, and what fits them.
+
+use super::*;
+use crate::{
+    diag::{SourceMap, render_all},
+    project::{Info, Origin, Pass, PassId, SamplerRules, Source, json},
+};
+
+fn read(texts: &[&str]) -> Knobs {
+    Knobs::read(texts.iter().enumerate().map(|(i, t)| (SourceId(i as u16), *t)))
+}
+
+#[track_caller]
+fn one(line: &str) -> Knob {
+    let knobs = read(&[line]);
+    assert_eq!(knobs.diagnostics, [], "{line}");
+    assert_eq!(knobs.list.len(), 1, "{line}");
+    knobs.list.into_iter().next().unwrap()
+}
+
+fn range(min: [f64; 4], max: [f64; 4]) -> Option<KnobRange> {
+    Some(KnobRange { min, max })
+}
+
+fn project(common: Option<&str>, image: &str) -> Project {
+    let source = |name: &str, text: &str| Source { name: name.into(), path: None, text: text.into() };
+    Project {
+        name: "p".into(),
+        info: Info::default(),
+        common: common.map(|t| source("common.glsl", t)),
+        passes: vec![Pass {
+            id: PassId::Image,
+            source: source("image.glsl", image),
+            channels: Default::default(),
+            settings: Default::default(),
+        }],
+        sampler_rules: SamplerRules::PerChannel,
+        knob_values: Default::default(),
+        groups: Vec::new(),
+        includes: Vec::new(),
+        origin: Origin::Unsaved,
+    }
+}
+
+#[test]
+fn lines_as_the_extension_has_them() {
+    let k = one("  #iUniform float speed = 1.5 in { 0.0, 5.0 } step 0.25 // note");
+    assert_eq!((k.name.as_str(), k.ty, k.default), ("speed", KnobType::Float, KnobValue::Float(1.5)));
+    assert_eq!((k.range, k.step), (range([0.0; 4], [5.0, 0.0, 0.0, 0.0]), Some([0.25, 0.0, 0.0, 0.0])));
+    assert_eq!((k.span.start, k.span.end), (18, 23));
+    let k = one("#iUniform float a=0.in{0.,6.5}");
+    assert_eq!((k.default, k.range), (KnobValue::Float(0.0), range([0.0; 4], [6.5, 0.0, 0.0, 0.0])));
+    let k = one("# iUniform vec4 c = vec4(1.0) in { 0.0, 1.0 }");
+    assert_eq!((k.default, k.range), (KnobValue::Vector(vec![1.0; 4]), range([0.0; 4], [1.0; 4])));
+    let k = one("#iUniform color3 tint = color3(1, .5, 0)");
+    assert_eq!((k.default, k.range), (KnobValue::Vector(vec![1.0, 0.5, 0.0]), range([0.0; 4], [1.0; 4])));
+    let k = one("#iUniform vec2 at in { vec2(-1, -2), vec2(1, 2) }");
+    assert_eq!(k.default, KnobValue::Vector(vec![-1.0, -2.0]), "the least of the range where there is no default");
+    assert_eq!(one("#iUniform int n").default, KnobValue::Int(0));
+    assert_eq!(one("#iUniform bool on = true").default, KnobValue::Bool(true));
+    assert_eq!(one("#iUniform vec3 v = vec3(vec2(1, 2), -3e1);").default, KnobValue::Vector(vec![1.0, 2.0, -30.0]));
+    assert_eq!(read(&["/*\n#iUniform float a\n*/ // #iUniform float b\n#iUniforms float c"]).list, []);
+}
+
+#[test]
+fn a_wrong_line_says_where_and_how_to_mend_it() {
+    for (line, marked, message) in [
+        ("#iUniform flaot a", "flaot", "no uniform of type flaot"),
+        ("#iUniform float", "t", "the uniform's name"),
+        ("#iUniform float 3", "3", "the uniform's name"),
+        ("#iUniform float a 1.0", "1.0", "expected `=`, `in` or the end"),
+        ("#iUniform float a = ", "=", "expected a number"),
+        ("#iUniform float a = b", "b", "expected a number"),
+        ("#iUniform float a = 1 at", "at", "expected `in`, `step` or the end"),
+        ("#iUniform float a = 1 in [0, 1]", "[", "expected `{`"),
+        ("#iUniform float a = 1 in { 0, 1", "1", "expected `}`"),
+        ("#iUniform float a in { 1, 0 }", "{ 1, 0 }", "ends below its beginning"),
+        ("#iUniform float a = vec2(1, 2)", "vec2(1, 2)", "a float takes one number, not 2"),
+        ("#iUniform vec3 a = vec3(1, 2)", "vec3(1, 2)", "a vec3 takes 3 numbers, or one for all, not 2"),
+        ("#iUniform int a = 1.5", "1.5", "whole numbers"),
+        ("#iUniform bool a = 2", "2", "true or false"),
+        ("#iUniform bool a in { 0, 1 }", "in", "no range"),
+        ("#iUniform float a step 0", "0", "above 0"),
+        ("#iUniform float a = 1e99", "1e99", "too large"),
+    ] {
+        let found = read(&[line]).diagnostics;
+        assert_eq!(found.len(), 1, "{line}");
+        assert!(found[0].message.contains(message) && found[0].is_error(), "{line}: {:?}", found[0].message);
+        assert_eq!(&line[found[0].span.unwrap().range()], marked, "{line}");
+        assert!(!found[0].hints.is_empty(), "{line}");
+    }
+    let odd = read(&["#iUniform float a = 9 in { 0, 1 }"]);
+    assert_eq!(odd.list[0].default, KnobValue::Float(1.0));
+    assert!(!odd.diagnostics[0].is_error() && odd.diagnostics[0].message.contains("outside"));
+    for end in 0.."#iUniform vec3 é = vec3(1, 2.5e-3, é) in { 0, 1 } step 0.1 /* é".len() {
+        let text = "#iUniform vec3 é = vec3(1, 2.5e-3, é) in { 0, 1 } step 0.1 /* é";
+        if let Some(text) = text.get(..end) {
+            let mut sources = SourceMap::default();
+            sources.add("a", text);
+            render_all(&read(&[text]).diagnostics, &sources);
+        }
+    }
+}
+
+#[test]
+fn one_name_is_one_knob_and_a_contradiction_is_told_at_its_line() {
+    let a = "#iUniform float a = 1.0";
+    let knobs = read(&[a, "#iUniform float b\n#iUniform float a in { 0, 2 }", a]);
+    assert_eq!(knobs.diagnostics, []);
+    let names: Vec<&str> = knobs.list.iter().map(|k| k.name.as_str()).collect();
+    assert_eq!(names, ["a", "b"]);
+    assert_eq!(knobs.list[0].declared_in, [SourceId(0), SourceId(1), SourceId(2)]);
+    assert_eq!((&knobs.list[0].default, knobs.list[0].range.is_some()), (&KnobValue::Float(1.0), true));
+    for (other, message) in [
+        ("#iUniform int a", "`a` is a int here and a float elsewhere"),
+        ("#iUniform float a = 2", "`a` has another default elsewhere"),
+    ] {
+        let found = read(&[a, other]).diagnostics;
+        assert_eq!(found.len(), 1);
+        assert_eq!(found[0].message, message);
+        assert_eq!((found[0].span.unwrap().source, found[0].labels[0].span.source), (SourceId(1), SourceId(0)));
+    }
+}
+
+#[test]
+fn values_are_set_as_people_write_them() {
+    let lines = "#iUniform float speed = 1.0 in { 0.0, 5.0 }\n#iUniform color3 tint\n#iUniform bool on\n#iUniform int n in { 1, 9 }\n#iUniform vec2 at";
+    let mut p = project(Some(lines), "");
+    for (set, name, value) in [
+        ("speed=2", "speed", KnobValue::Float(2.0)),
+        (" speed = .5 ", "speed", KnobValue::Float(0.5)),
+        ("tint=1,0.5, 0", "tint", KnobValue::Vector(vec![1.0, 0.5, 0.0])),
+        ("tint=color3(1, .5, .25)", "tint", KnobValue::Vector(vec![1.0, 0.5, 0.25])),
+        ("at=vec2(3)", "at", KnobValue::Vector(vec![3.0; 2])),
+        ("on=true", "on", KnobValue::Bool(true)),
+        ("n=3", "n", KnobValue::Int(3)),
+    ] {
+        p.set_knob(set).unwrap_or_else(|e| panic!("{set}: {e}"));
+        assert_eq!(p.knob_values[name], value, "{set}");
+    }
+    let before = p.knob_values.clone();
+    for (set, message) in [
+        ("sped=1", "did you mean speed?"),
+        ("colour=1", "there are speed, tint, on, n and at"),
+        ("speed", "viscosity=0.3"),
+        ("speed=fast", "viscosity=0.3"),
+        ("speed=7", "speed lies outside of its range, 0.0 to 5.0"),
+        ("speed=1,2", "is a float and takes a number"),
+        ("speed=true", "takes a number"),
+        ("speed=nan", "viscosity=0.3"),
+        ("tint=1", "is a color3 and takes 3 numbers"),
+        ("tint=1,2,3", "outside of its range, 0.0 to 1.0"),
+        ("n=1.5", "a whole number"),
+        ("n=0", "outside of its range"),
+        ("on=1", "true or false"),
+    ] {
+        let said = p.set_knob(set).expect_err(set);
+        assert!(said.contains(message), "{set}: {said}");
+    }
+    assert_eq!(p.knob_values, before);
+    p.set_knob("speed=1").unwrap();
+    assert!(!p.knob_values.contains_key("speed"), "the default follows the text");
+}
+
+#[test]
+fn a_value_the_text_no_longer_allows_is_kept_and_stands_within_the_range() {
+    let mut p = project(None, "#iUniform float a = 1 in { 0, 9 }");
+    p.set_knob("a=7").unwrap();
+    let narrower = read(&["#iUniform float a = 1 in { 0, 3 }"]);
+    assert_eq!(narrower.list[0].value(&p.knob_values), KnobValue::Float(3.0));
+    let other = read(&["#iUniform vec2 a = vec2(1, 2)"]);
+    assert_eq!(other.list[0].value(&p.knob_values), other.list[0].default);
+}
+
+#[test]
+fn the_sites_json_has_constants_with_the_values() {
+    let mut p = project(
+        Some("float f() { return speed; }\n#iUniform float speed = 1.0 in { 0.0, 5.0 } // how fast\n"),
+        "\u{feff}#iUniform color3 tint\n#iUniform float speed\n#ifdef X\n#iUniform bool on = true\n#endif\nint i;",
+    );
+    p.set_knob("speed=0.25").unwrap();
+    let (read, _) = json::import(&json::export(&p), "x.json").unwrap();
+    assert_eq!(
+        &*read.common.unwrap().text,
+        "const float speed = 0.25;\nfloat f() { return speed; }\n// #iUniform float speed = 1.0 in { 0.0, 5.0 } // how fast\n"
+    );
+    let image = &*read.passes[0].source.text;
+    assert_eq!(
+        image.trim_start_matches('\u{feff}'),
+        "const vec3 tint = vec3(0.0, 0.0, 0.0);\nconst bool on = true;\n// #iUniform color3 tint\n// #iUniform float speed\n\
+         #ifdef X\n// #iUniform bool on = true\n#endif\nint i;"
+    );
+}

@@ -1,0 +1,220 @@
+//! The keys of `eddy.toml` that say how passes are drawn: `size`, `format`, `region` of a pass, and `[groups]`.
+
+use super::{
+    read::Reader,
+    write::{child, key_of, set},
+};
+use crate::project::{
+    Group, Pass, PassFormat, PassId, PassSettings, PassSize, Project, Region, folder, listed, nearest,
+};
+use toml_edit::{Item, Table, TableLike, Value};
+
+/// The keys of a pass's table that this module reads.
+pub(super) const KEYS: [&str; 3] = ["size", "format", "region"];
+
+fn whole(value: &Value) -> Option<u32> {
+    value.as_integer().and_then(|n| u32::try_from(n).ok())
+}
+
+impl Reader<'_> {
+    pub(super) fn settings(&mut self, id: &PassId, table: &dyn TableLike) -> PassSettings {
+        let mut settings = PassSettings::default();
+        let refused: &[&str] = match id {
+            PassId::Buffer(_) => &[],
+            PassId::Image => &["size", "format"],
+            PassId::Cubemap | PassId::Sound => &KEYS,
+        };
+        for key in refused {
+            if let Some(item) = table.get(key) {
+                let why = match id {
+                    PassId::Image => "Image is the canvas, of 32-bit floats; give a buffer this key and show it",
+                    _ => "only buffers have it",
+                };
+                self.error(item.span(), format!("{} has no {key}", id.title()), why);
+                return settings;
+            }
+        }
+        if let Some(item) = table.get("size") {
+            match size(item) {
+                Some(size) => settings.size = size,
+                None => {
+                    self.wrong_type("size", item, "a factor of the canvas above 0 (0.5), or [width, height] in texels")
+                }
+            }
+        }
+        if let Some(name) = self.one_of(table, "format", &PassFormat::ALL.map(PassFormat::name)) {
+            settings.format = PassFormat::ALL.into_iter().find(|f| f.name() == name).unwrap_or_default();
+        }
+        if let Some(item) = table.get("region") {
+            match region(item) {
+                Some(region) => settings.region = Some(region),
+                None => self.wrong_type(
+                    "region",
+                    item,
+                    "[x, y, width, height] in texels from the bottom left, none of them empty",
+                ),
+            }
+        }
+        settings
+    }
+
+    /// `[groups.NAME]`: passes that are drawn several times a frame.
+    pub(super) fn groups(&mut self, root: &dyn TableLike, passes: &[Pass]) -> Vec<Group> {
+        let mut groups: Vec<Group> = Vec::new();
+        let Some(table) = root.get("groups").and_then(|item| self.table("groups", item)) else { return groups };
+        let order: Vec<&PassId> = passes.iter().map(|p| &p.id).filter(|id| matches!(id, PassId::Buffer(_))).collect();
+        for (name, item) in table.iter() {
+            let Some(table) = self.table(name, item) else { continue };
+            self.check_keys(&format!("[groups.{name}]"), table, &[&["passes", "steps"]]);
+            let steps = match table.get("steps") {
+                None => 1,
+                Some(item) => match item.as_value().and_then(whole).filter(|n| *n > 0) {
+                    Some(steps) => steps,
+                    None => {
+                        self.wrong_type("steps", item, "a whole number above 0");
+                        continue;
+                    }
+                },
+            };
+            let Some(item) = table.get("passes") else {
+                self.error(
+                    table_span(item),
+                    format!("the group {name} names no passes"),
+                    "write passes = [\"buffer_a\"]",
+                );
+                continue;
+            };
+            let Some(names) = item.as_array().and_then(|a| a.iter().map(Value::as_str).collect::<Option<Vec<_>>>())
+            else {
+                self.wrong_type("passes", item, "a list of buffers in quotes");
+                continue;
+            };
+            if let Some(passes) = self.group_passes(item, &names, &order, &groups) {
+                groups.push(Group { name: name.to_owned(), passes, steps });
+            }
+        }
+        groups
+    }
+
+    /// The passes of a group, in the order they are drawn, which the list must be in.
+    fn group_passes(
+        &mut self,
+        item: &Item,
+        names: &[&str],
+        order: &[&PassId],
+        others: &[Group],
+    ) -> Option<Vec<PassId>> {
+        let mut places = Vec::new();
+        for name in names {
+            let Some(place) = folder::pass_of_stem(name).and_then(|id| order.iter().position(|o| **o == id)) else {
+                let known: Vec<String> = order.iter().map(|id| id.key()).collect();
+                let hint = match nearest(name, known.iter().map(String::as_str)) {
+                    Some(near) => format!("did you mean {near}?"),
+                    None => format!("there are {}", listed(&known)),
+                };
+                self.error(item.span(), format!("there is no buffer \"{name}\" to draw several times"), hint);
+                return None;
+            };
+            places.push(place);
+        }
+        let Some(&first) = places.first() else {
+            self.error(item.span(), "a group of no passes", "name some, or remove the group");
+            return None;
+        };
+        if !places.iter().enumerate().all(|(i, place)| *place == first + i) {
+            let hint = "list buffers that follow each other in [passes], in that order";
+            self.error(item.span(), "the passes of a group are drawn one after the other", hint);
+            return None;
+        }
+        let passes: Vec<PassId> = places.iter().map(|p| order[*p].clone()).collect();
+        if let Some(twice) = passes.iter().find(|id| others.iter().any(|g| g.passes.contains(id))) {
+            self.error(item.span(), format!("{} is in another group already", twice.title()), "name it once");
+            return None;
+        }
+        Some(passes)
+    }
+}
+
+fn table_span(item: &Item) -> Option<std::ops::Range<usize>> {
+    item.span()
+}
+
+fn size(item: &Item) -> Option<PassSize> {
+    let value = item.as_value()?;
+    if let Some(all) = value.as_array() {
+        let all: Vec<u32> = all.iter().map(whole).collect::<Option<_>>()?;
+        return match all[..] {
+            [width, height] if width > 0 && height > 0 => Some(PassSize::Fixed(width, height)),
+            _ => None,
+        };
+    }
+    let factor = value.as_float().or_else(|| value.as_integer().map(|n| n as f64))?;
+    (factor.is_finite() && factor > 0.0).then_some(if factor == 1.0 {
+        PassSize::Canvas
+    } else {
+        PassSize::Scale(factor)
+    })
+}
+
+fn region(item: &Item) -> Option<Region> {
+    let all: Vec<u32> = item.as_array()?.iter().map(whole).collect::<Option<_>>()?;
+    match all[..] {
+        [x, y, width, height] if width > 0 && height > 0 => Some(Region { x, y, width, height }),
+        _ => None,
+    }
+}
+
+pub(super) fn write_settings(table: &mut dyn TableLike, settings: &PassSettings) {
+    if table.get("size").and_then(size).unwrap_or_default() != settings.size {
+        set(
+            table,
+            "size",
+            match settings.size {
+                PassSize::Canvas => None,
+                PassSize::Scale(by) => Some(by.into()),
+                PassSize::Fixed(w, h) => Some([w, h].into_iter().map(i64::from).collect()),
+            },
+        );
+    }
+    let written = table.get("format").and_then(Item::as_str).map(str::to_ascii_lowercase);
+    if written.as_deref().unwrap_or(PassFormat::default().name()) != settings.format.name() {
+        set(table, "format", (settings.format != PassFormat::default()).then(|| settings.format.name().into()));
+    }
+    if table.get("region").and_then(region) != settings.region {
+        let numbers = settings.region.map(|r| [r.x, r.y, r.width, r.height].into_iter().map(i64::from).collect());
+        set(table, "region", numbers);
+    }
+}
+
+pub(super) fn write_groups(root: &mut Table, project: &Project) {
+    if project.groups.is_empty() {
+        root.remove("groups");
+        return;
+    }
+    let passes = root.get("passes").and_then(Item::as_table_like);
+    let keys: Vec<Vec<String>> = project
+        .groups
+        .iter()
+        .map(|g| g.passes.iter().map(|id| passes.map_or_else(|| id.key(), |t| key_of(t, id))).collect())
+        .collect();
+    let Some(table) = child(root, "groups", true) else { return };
+    let is_gone = |key: &str| !project.groups.iter().any(|g| g.name == key);
+    let gone: Vec<String> = table.iter().map(|(k, _)| k.to_owned()).filter(|k| is_gone(k)).collect();
+    for key in gone {
+        table.remove(&key);
+    }
+    for (group, keys) in project.groups.iter().zip(keys) {
+        let Some(entry) = child(table, &group.name, false) else { continue };
+        let written: Option<Vec<PassId>> = entry
+            .get("passes")
+            .and_then(Item::as_array)
+            .map(|a| a.iter().filter_map(|v| folder::pass_of_stem(v.as_str()?)).collect());
+        if written.as_ref() != Some(&group.passes) {
+            set(entry, "passes", Some(keys.iter().map(String::as_str).collect()));
+        }
+        let steps = entry.get("steps").and_then(Item::as_value).and_then(whole).unwrap_or(1);
+        if steps != group.steps {
+            set(entry, "steps", Some(i64::from(group.steps).into()));
+        }
+    }
+}

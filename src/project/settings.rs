@@ -1,0 +1,124 @@
+//! What `eddy.toml` may say of how a pass is drawn: its size, what a texel holds, which of them are drawn, how often a frame.
+
+/// How a pass is drawn. The default is what the site does.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PassSettings {
+    pub size: PassSize,
+    pub format: PassFormat,
+    /// Only these texels are drawn, as far as the pass has them; the others keep what they held. `None`: all.
+    pub region: Option<Region>,
+}
+
+/// Size of a pass's picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum PassSize {
+    #[default]
+    Canvas,
+    /// The canvas times this, rounded, at least one texel each way.
+    Scale(f64),
+    /// Width and height in texels, whatever the canvas.
+    Fixed(u32, u32),
+}
+
+impl PassSize {
+    /// Width and height in texels for a canvas.
+    pub fn of(self, (width, height): (u32, u32)) -> (u32, u32) {
+        // `as` keeps within u32; a size no device has is refused where textures are made.
+        let scaled = |v: u32, by: f64| ((f64::from(v) * by).round() as u32).max(1);
+        match self {
+            PassSize::Canvas => (width, height),
+            PassSize::Scale(by) => (scaled(width, by), scaled(height, by)),
+            PassSize::Fixed(width, height) => (width, height),
+        }
+    }
+}
+
+/// What a texel of a pass holds. Components a format lacks are read as 0, alpha as 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum PassFormat {
+    R8,
+    Rg8,
+    Rgba8,
+    R16f,
+    Rg16f,
+    Rgba16f,
+    R32f,
+    Rg32f,
+    #[default]
+    Rgba32f,
+}
+
+impl PassFormat {
+    pub const ALL: [PassFormat; 9] = [
+        PassFormat::Rgba32f,
+        PassFormat::Rgba16f,
+        PassFormat::Rgba8,
+        PassFormat::Rg32f,
+        PassFormat::Rg16f,
+        PassFormat::Rg8,
+        PassFormat::R32f,
+        PassFormat::R16f,
+        PassFormat::R8,
+    ];
+
+    /// As `eddy.toml` spells it.
+    pub fn name(self) -> &'static str {
+        match self {
+            PassFormat::R8 => "r8",
+            PassFormat::Rg8 => "rg8",
+            PassFormat::Rgba8 => "rgba8",
+            PassFormat::R16f => "r16f",
+            PassFormat::Rg16f => "rg16f",
+            PassFormat::Rgba16f => "rgba16f",
+            PassFormat::R32f => "r32f",
+            PassFormat::Rg32f => "rg32f",
+            PassFormat::Rgba32f => "rgba32f",
+        }
+    }
+
+    /// Bytes of a texel.
+    pub fn bytes(self) -> u64 {
+        match self {
+            PassFormat::R8 => 1,
+            PassFormat::Rg8 | PassFormat::R16f => 2,
+            PassFormat::Rgba8 | PassFormat::Rg16f | PassFormat::R32f => 4,
+            PassFormat::Rgba16f | PassFormat::Rg32f => 8,
+            PassFormat::Rgba32f => 16,
+        }
+    }
+
+    /// Holds 32-bit floats, which not every device filters.
+    pub fn is_32_bit(self) -> bool {
+        matches!(self, PassFormat::R32f | PassFormat::Rg32f | PassFormat::Rgba32f)
+    }
+}
+
+/// A rectangle of texels, from the bottom left.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Region {
+    pub x: u32,
+    pub y: u32,
+    pub width: u32,
+    pub height: u32,
+}
+
+impl Region {
+    /// The part of it that a picture of this size has; `None` if that is no texel.
+    pub fn within(self, (width, height): (u32, u32)) -> Option<Region> {
+        let w = width.saturating_sub(self.x).min(self.width);
+        let h = height.saturating_sub(self.y).min(self.height);
+        (w > 0 && h > 0).then_some(Region { width: w, height: h, ..self })
+    }
+}
+
+/// Passes that follow each other and are drawn several times a frame: all once, in order, then all again. Every time they see
+/// the same uniforms, and of each other what was drawn last.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Group {
+    /// What the file calls it.
+    pub name: String,
+    /// In the order they are drawn; each of them buffers of the project, without another pass between them.
+    pub passes: Vec<super::PassId>,
+    /// At least 1.
+    pub steps: u32,
+}
