@@ -47,7 +47,7 @@ impl Targets {
         let named =
             if out.is_dir() { None } else { named.transpose().map_err(|why| format!("--out {shown}: {why}"))? };
         let Some(named) = named else {
-            let place = Place::Folder(out.clone(), stems(&args.project)?);
+            let place = Place::Folder(out.clone(), stems(&args.project, || tells_case_apart(out))?);
             return Ok(Targets { format: args.format.unwrap_or(Format::Png), at, frames, place });
         };
         if let Some(format) = args.format
@@ -108,20 +108,33 @@ fn frames(args: &RenderArgs) -> Result<(Vec<u32>, u32), String> {
     Ok((at, frames))
 }
 
-fn stems(projects: &[String]) -> Result<Vec<String>, String> {
-    let mut first: HashMap<String, &str> = HashMap::new();
-    let mut stems = Vec::with_capacity(projects.len());
-    for project in projects {
-        let stem = project::stem(project);
-        // Some file systems do not tell `Fluid.png` from `fluid.png`.
-        if let Some(other) = first.insert(stem.to_lowercase(), project) {
-            return Err(format!(
-                "{other} and {project} would both be written as {stem}: render them in two calls, to two folders"
-            ));
-        }
-        stems.push(stem);
+/// `case_counts`: whether the file system tells `Fluid.png` from `fluid.png`; asked only where it matters.
+fn stems(projects: &[String], case_counts: impl Fn() -> bool) -> Result<Vec<String>, String> {
+    let stems: Vec<String> = projects.iter().map(|p| project::stem(p)).collect();
+    let twice = |key: fn(&str) -> String| {
+        let mut first = HashMap::new();
+        let mut pairs = projects.iter().zip(&stems);
+        pairs.find_map(|(project, stem)| Some((first.insert(key(stem), project)?, project, stem)))
+    };
+    let clash = twice(str::to_owned).or_else(|| twice(|stem| stem.to_lowercase()).filter(|_| !case_counts()));
+    if let Some((other, project, stem)) = clash {
+        return Err(format!(
+            "{other} and {project} would both be written as {stem}: render them in two calls, to two folders"
+        ));
     }
     Ok(stems)
+}
+
+/// Whether files whose names differ by case alone are two files in a folder that may not be there yet. Tried out, as one
+/// machine can have both kinds of file systems; where nothing can be written, no.
+fn tells_case_apart(folder: &Path) -> bool {
+    let there =
+        folder.ancestors().map(|p| if p.as_os_str().is_empty() { Path::new(".") } else { p }).find(|p| p.is_dir());
+    let file = there.and_then(|there| tempfile::Builder::new().prefix(".eddy-Case-").tempfile_in(there).ok());
+    file.is_some_and(|file| {
+        let name = file.path().file_name().map(|n| n.to_string_lossy().to_lowercase());
+        name.is_some_and(|name| !file.path().with_file_name(name).exists())
+    })
 }
 
 /// Writes a picture whole or not at all: a picture of the same name stays until the new one is complete.
@@ -193,7 +206,6 @@ mod tests {
             ("a b --out x.png", "2 pictures"),
             ("a --out x.png --at 1,2", "2 pictures"),
             ("x/a.json y/a.json --out o", "x/a.json and y/a.json"),
-            ("x/a.json x/A.json --out o", "would both be written"),
             ("fluid fluid --out o", "would both be written"),
             ("a --out x.png --format npy", "do not agree"),
             ("a --out x.exr", "does not write exr"),
@@ -202,5 +214,23 @@ mod tests {
             assert!(message.contains(says), "{line}: {message}");
         }
         assert_eq!(targets("fluid fluid --json").unwrap().path(0, 0), None);
+    }
+
+    #[test]
+    fn names_that_differ_by_case_alone_are_two_where_the_files_are() {
+        let list = |names: &[&str]| -> Vec<String> { names.iter().map(|n| (*n).to_owned()).collect() };
+        let pair = list(&["x/a.json", "x/A.json"]);
+        assert_eq!(stems(&pair, || true), Ok(list(&["a", "A"])));
+        assert!(stems(&pair, || false).unwrap_err().contains("would both be written as A"));
+        let three = list(&["x/a.json", "x/A.json", "y/a.json"]);
+        assert!(stems(&three, || true).unwrap_err().contains("x/a.json and y/a.json"));
+        assert!(stems(&list(&["a", "b"]), || panic!("nothing to ask")).is_ok());
+
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join("a"), "1").unwrap();
+        fs::write(folder.path().join("A"), "2").unwrap();
+        let are_two = fs::read_to_string(folder.path().join("a")).unwrap() == "1";
+        assert_eq!(tells_case_apart(&folder.path().join("not/there/yet")), are_two);
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1 + usize::from(are_two), "nothing is left behind");
     }
 }
