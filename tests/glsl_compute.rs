@@ -2,67 +2,12 @@
 //!
 //! `Z`, `I` and `U` are zeros no compiler can see through, so that nothing here is folded before it runs.
 
+#[path = "support/compute.rs"]
+mod compute;
 mod support;
 
+use compute::*;
 use support::*;
-
-/// Where a program says what it computed.
-struct Case {
-    /// Declarations at file scope.
-    before: &'static str,
-    /// Statements that set `vec4 r`.
-    body: &'static str,
-    expected: [f32; 4],
-}
-
-const fn case(body: &'static str, expected: [f32; 4]) -> Case {
-    Case { before: "", body, expected }
-}
-
-const fn with(before: &'static str, body: &'static str, expected: [f32; 4]) -> Case {
-    Case { before, body, expected }
-}
-
-/// Draws each case alone and tells of all that differ.
-#[track_caller]
-fn check(cases: &[Case]) {
-    let Some(gpu) = gpu() else { return };
-    let mut wrong = Vec::new();
-    for case in cases {
-        let code = format!(
-            "#define Z (iTime)\n#define I (iFrame)\n#define U uint(iFrame)\n{}\n\
-             vec4 compute() {{ vec4 r = vec4(-77.0); {} return r; }}\n\
-             void mainImage(out vec4 o, in vec2 p) {{ o = compute(); }}",
-            case.before, case.body
-        );
-        let show = image(
-            "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }",
-            [nearest("A"), None, None, None],
-        );
-        let project = project(vec![pass(buffer("A"), &code, Default::default()), show]);
-        let built = eddy::engine::Program::build(&gpu, &project, &Default::default(), &Default::default());
-        let built = match built {
-            Ok(built) => built,
-            Err(eddy::engine::BuildError::Diagnostics { diagnostics, sources }) => {
-                let text = eddy::diag::render_all(&diagnostics, &sources);
-                wrong.push(format!("does not compile: {}\n{text}", case.body));
-                continue;
-            }
-            Err(error) => panic!("{}: {error}", case.body),
-        };
-        let mut engine = eddy::engine::Engine::new(gpu.clone(), 1, 1).unwrap();
-        engine.set_program(built.program).unwrap();
-        run(&mut engine, 0, 1);
-        let got = texel(&engine.read(&buffer("A")).unwrap(), 0, 0);
-        let close = |(&got, &want): (&f32, &f32)| {
-            got == want || (got.is_nan() && want.is_nan()) || (got - want).abs() <= 2e-5 * want.abs().max(1.0)
-        };
-        if !got.iter().zip(&case.expected).all(close) {
-            wrong.push(format!("{:?}, not {:?}: {} {}", got, case.expected, case.before, case.body));
-        }
-    }
-    assert!(wrong.is_empty(), "{} of {} cases:\n{}", wrong.len(), cases.len(), wrong.join("\n"));
-}
 
 const INF: f32 = f32::INFINITY;
 const NAN: f32 = f32::NAN;
@@ -550,24 +495,31 @@ fn aggregates() {
     ]);
 }
 
+/// In memory, and as the buffer that tables of 256 scalars and more lie in.
 #[test]
-fn large_constant_tables_of_every_layout() {
+fn constant_tables_of_every_layout() {
+    tables(8, 40);
+    tables(40, 300);
+}
+
+fn tables(records: usize, others: usize) {
     let list = |count: usize, element: &dyn Fn(usize) -> String| (0..count).map(element).collect::<Vec<_>>().join(", ");
-    let records = list(8, &|i| {
+    let structs = list(records, &|i| {
         format!("S(vec3({i}, {i}.25, {i}.5), {i}0.0, mat2x3({}))", list(6, &|k| format!("{}.0", i + k + 1)))
     });
-    let threes = list(40, &|i| format!("vec3({i}, {}, {})", i * 2, i * 3));
-    let flags = list(40, &|i| (i % 3 == 0).to_string());
-    let numbers = list(40, &|i| format!("{i}u"));
+    let threes = list(others, &|i| format!("vec3({i}, {}, {})", i * 2, i * 3));
+    let flags = list(others, &|i| (i % 3 == 0).to_string());
+    let numbers = list(others, &|i| format!("{i}u"));
     // A few programs for the life of the test: a case holds text that lives as long as the program.
     let before: &'static str = Box::leak(
         format!(
-            "struct S {{ vec3 v; float f; mat2x3 m; }};\nconst S RECORDS[8] = S[8]({records});\n\
-             const vec3 THREES[40] = vec3[40]({threes});\nconst bool FLAGS[40] = bool[40]({flags});\n\
-             const uint NUMBERS[40] = uint[40]({numbers});\nuint unwritten[40] = uint[40]({numbers});"
+            "struct S {{ vec3 v; float f; mat2x3 m; }};\nconst S RECORDS[{records}] = S[]({structs});\n\
+             const vec3 THREES[{others}] = vec3[]({threes});\nconst bool FLAGS[{others}] = bool[]({flags});\n\
+             const uint NUMBERS[{others}] = uint[]({numbers});\nuint unwritten[{others}] = uint[]({numbers});"
         )
         .into_boxed_str(),
     );
+    let last = (others - 1) as f32;
     check(&[
         with(
             before,
@@ -579,8 +531,8 @@ fn large_constant_tables_of_every_layout() {
         // Beyond either end an index is clamped, as WebGL promises.
         with(
             before,
-            "r = vec4(NUMBERS[I + 99], NUMBERS[I - 9], THREES[I - 1].x, THREES[I + 40].x);",
-            [39., 0., 0., 39.],
+            "r = vec4(NUMBERS[I + 999], NUMBERS[I - 9], THREES[I - 1].x, THREES[I + 300].x);",
+            [last, 0., 0., last],
         ),
     ]);
 }

@@ -1,0 +1,61 @@
+//! One texel of a buffer for each small program: what it computes on a device, held against what it should.
+
+use crate::support::*;
+
+/// Where a program says what it computed.
+pub struct Case {
+    /// Declarations at file scope.
+    pub before: &'static str,
+    /// Statements that set `vec4 r`.
+    pub body: &'static str,
+    pub expected: [f32; 4],
+}
+
+pub const fn case(body: &'static str, expected: [f32; 4]) -> Case {
+    Case { before: "", body, expected }
+}
+
+pub const fn with(before: &'static str, body: &'static str, expected: [f32; 4]) -> Case {
+    Case { before, body, expected }
+}
+
+/// Draws each case alone and tells of all that differ.
+#[track_caller]
+pub fn check(cases: &[Case]) {
+    let Some(gpu) = gpu() else { return };
+    let mut wrong = Vec::new();
+    for case in cases {
+        let code = format!(
+            "#define Z (iTime)\n#define I (iFrame)\n#define U uint(iFrame)\n{}\n\
+             vec4 compute() {{ vec4 r = vec4(-77.0); {} return r; }}\n\
+             void mainImage(out vec4 o, in vec2 p) {{ o = compute(); }}",
+            case.before, case.body
+        );
+        let show = image(
+            "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }",
+            [nearest("A"), None, None, None],
+        );
+        let project = project(vec![pass(buffer("A"), &code, Default::default()), show]);
+        let built = eddy::engine::Program::build(&gpu, &project, &Default::default(), &Default::default());
+        let built = match built {
+            Ok(built) => built,
+            Err(eddy::engine::BuildError::Diagnostics { diagnostics, sources }) => {
+                let text = eddy::diag::render_all(&diagnostics, &sources);
+                wrong.push(format!("does not compile: {}\n{text}", case.body));
+                continue;
+            }
+            Err(error) => panic!("{}: {error}", case.body),
+        };
+        let mut engine = eddy::engine::Engine::new(gpu.clone(), 1, 1).unwrap();
+        engine.set_program(built.program).unwrap();
+        run(&mut engine, 0, 1);
+        let got = texel(&engine.read(&buffer("A")).unwrap(), 0, 0);
+        let close = |(&got, &want): (&f32, &f32)| {
+            got == want || (got.is_nan() && want.is_nan()) || (got - want).abs() <= 2e-5 * want.abs().max(1.0)
+        };
+        if !got.iter().zip(&case.expected).all(close) {
+            wrong.push(format!("{:?}, not {:?}: {} {}", got, case.expected, case.before, case.body));
+        }
+    }
+    assert!(wrong.is_empty(), "{} of {} cases:\n{}", wrong.len(), cases.len(), wrong.join("\n"));
+}
