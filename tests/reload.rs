@@ -234,15 +234,6 @@ fn picture(red: u8) -> Vec<u8> {
     bytes
 }
 
-/// Ticks until the picture is so red. A compile cannot be waited for: it can begin and end within one tick.
-fn until_red(stage: &mut Stage, red: u8) {
-    let end = Instant::now() + Duration::from_secs(30);
-    while stage.red() != red {
-        assert!(Instant::now() < end, "never {red}; notices: {:#?}", stage.session.notices());
-        stage.for_a_while();
-    }
-}
-
 #[test]
 fn a_picture_changed_on_disk_is_read_again() {
     let shader = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(0), 0); }\n";
@@ -259,12 +250,12 @@ fn a_picture_changed_on_disk_is_read_again() {
     let mut file = fs::File::create(stage.path("pic.png")).unwrap();
     file.write_all(&picture(200)).unwrap();
     drop(file);
-    until_red(&mut stage, 200);
+    stage.until_red(200);
     // Before its first compile has read anything.
     stage.session.apply(Command::Open(stage.folder().to_str().unwrap().into()));
     stage.write("pic.png", picture(100));
     stage.until_compiled();
-    until_red(&mut stage, 100);
+    stage.until_red(100);
 }
 
 #[test]
@@ -292,9 +283,9 @@ fn a_picture_chosen_here_is_watched_wherever_it_lies() {
     let input = Input::Texture(Media::File(path.clone()));
     let channel = Channel { input, sampler: Sampler { filter: eddy::project::Filter::Nearest, ..Sampler::TEXTURE } };
     stage.session.apply(Command::SetChannel { pass: PassId::Image, index: 0, channel: Some(channel) });
-    until_red(&mut stage, 50);
+    stage.until_red(50);
     fs::write(&path, picture(200)).unwrap();
-    until_red(&mut stage, 200);
+    stage.until_red(200);
 }
 
 #[test]
@@ -322,6 +313,6 @@ fn a_picture_read_by_a_compile_that_was_overtaken_is_not_forgotten() {
             stage.session.apply(Command::CompileNow);
             stage.tick();
         }
-        until_red(&mut stage, red);
+        stage.until_red(red);
     }
 }

@@ -136,6 +136,16 @@ impl Stage {
         image::open(&path).unwrap().to_rgba8().get_pixel(0, 0).0[0]
     }
 
+    /// Ticks until the picture's first pixel is so red. A compile can begin and end within one tick, so to wait for one to
+    /// begin can be to wait for ever: what it leads to is what to wait for.
+    pub fn until_red(&mut self, red: u8) {
+        let end = Instant::now() + Duration::from_secs(30);
+        while self.red() != red {
+            assert!(Instant::now() < end, "never {red}; notices: {:#?}", self.session.notices());
+            self.for_a_while();
+        }
+    }
+
     pub fn screenshot(&mut self) -> PathBuf {
         self.session.apply(Command::Screenshot);
         let notice = self.session.notices().last().unwrap();
