@@ -28,7 +28,8 @@ pub fn split(input: RawInput) -> Vec<RawInput> {
 
 fn ends_step(event: &Event) -> bool {
     match event {
-        Event::PointerButton { pressed, .. } => !pressed,
+        // A press too: a slider moves to where the pointer is held, and held it is in no pass that sees the release as well.
+        Event::PointerButton { .. } => true,
         Event::Key { key, pressed: true, modifiers, .. } => {
             let is_command = modifiers.contains(Modifiers::COMMAND) || modifiers.alt;
             is_command || matches!(key, Key::Enter | Key::Escape | Key::Tab) || is_function(*key)
@@ -66,9 +67,11 @@ mod tests {
         let typed =
             || vec![key(Key::ArrowDown, Modifiers::NONE), Event::Text("f".into()), key(Key::F, Modifiers::SHIFT)];
         let click = || vec![Event::PointerMoved(egui::Pos2::ZERO), button(true), button(false)];
-        assert_eq!(steps([click(), typed()].concat()), [3, 0, 3]);
+        assert_eq!(steps([click(), typed()].concat()), [2, 0, 1, 0, 3]);
         assert_eq!(steps([vec![key(Key::G, Modifiers::COMMAND)], typed()].concat()), [1, 0, 3]);
         assert_eq!(steps([typed(), vec![key(Key::F12, Modifiers::SHIFT)]].concat()), [4, 0]);
-        assert_eq!(steps([vec![key(Key::Enter, Modifiers::NONE)], click(), click()].concat()), [1, 0, 3, 0, 3, 0]);
+        assert_eq!(steps([vec![key(Key::Enter, Modifiers::NONE)], click(), click()].concat()), [1, 0, 2, 0, 1, 0, 2, 0, 1, 0]);
+        let drag = vec![button(true), Event::PointerMoved(egui::Pos2::ZERO), button(false)];
+        assert_eq!(steps(drag), [1, 0, 2, 0]);
     }
 }

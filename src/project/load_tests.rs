@@ -1,3 +1,5 @@
+//! Tests of opening: every kind of project, and what is said of those that are broken.
+
 use super::*;
 use crate::project::{Channel, Filter, Input, Media, PassFormat, PassSize, Region, Sampler, Wrap};
 use std::{fs, path::Path};

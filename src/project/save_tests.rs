@@ -1,3 +1,5 @@
+//! Tests of saving: what is written reads back the same, and nothing else is touched.
+
 use super::*;
 use crate::project::{Channel, Filter, Info, Pass, PassFormat, PassSettings, PassSize, Region, Sampler, Wrap, load};
 use std::collections::BTreeSet;

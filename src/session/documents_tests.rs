@@ -1,3 +1,5 @@
+//! Tests of merging what was edited with what changed on disk.
+
 use super::*;
 use crate::project::{Channel, Info, Input, Sampler, SamplerRules};
 

@@ -1,3 +1,5 @@
+//! Tests of mouse and key scripts.
+
 use super::*;
 
 #[test]

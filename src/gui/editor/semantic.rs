@@ -40,6 +40,10 @@ impl<'a> Semantic<'a> {
         };
         let old = range.start.checked_add_signed(-shift)?..range.end.checked_add_signed(-shift)?;
         let first = self.classes.partition_point(|c| c.range.end <= old.start);
+        // Eddy's own lines (`#iUniform`, `#include`) are blank to the analysis: a `#` that it knows nothing of.
+        if line.trim_start().starts_with('#') && self.classes.get(first).is_none_or(|c| c.range.start >= old.end) {
+            return None;
+        }
         let mut tokens = Vec::new();
         let mut at = old.start;
         for span in self.classes[first..].iter().take_while(|c| c.range.start < old.end) {
@@ -130,5 +134,15 @@ mod tests {
         let inserted = TEXT.replace("    par", "\n\n    par");
         assert_eq!(kinds(&inserted, 4), body);
         assert_eq!(kinds(&format!("{TEXT}\nx"), 7), None);
+    }
+
+    #[test]
+    fn lines_that_are_blank_to_the_analysis_are_for_the_line_lexer() {
+        let now = TEXT.replace("float g;", "#iUnif g");
+        let classes = [ClassSpan { range: 9..17, class: Class::Comment }];
+        let semantic = Semantic { classes: &classes, head: now.len(), tail: 0, shift: 0 };
+        assert_eq!(semantic.tokens(0..8, &now[..8]), None);
+        let inactive = Semantic { classes: &[ClassSpan { range: 0..30, class: Class::Inactive }], ..semantic };
+        assert!(inactive.tokens(0..8, &now[..8]).is_some());
     }
 }

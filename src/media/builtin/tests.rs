@@ -1,3 +1,5 @@
+//! Tests of the built-in pictures: sizes, ranges, spectra, and the same bytes each time.
+
 use super::*;
 use crate::media::site::STOCK;
 use std::{collections::BTreeMap, sync::LazyLock};

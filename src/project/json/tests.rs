@@ -1,3 +1,5 @@
+//! Tests of the site's JSON: what is read, what is written, and that nothing is lost on the way there and back.
+
 use super::{export, import};
 use crate::project::{
     Channel, Filter, Info, Input, Media, Origin, Pass, PassId, Project, Sampler, SamplerRules, Source, Wrap,
