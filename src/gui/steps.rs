@@ -70,7 +70,10 @@ mod tests {
         assert_eq!(steps([click(), typed()].concat()), [2, 0, 1, 0, 3]);
         assert_eq!(steps([vec![key(Key::G, Modifiers::COMMAND)], typed()].concat()), [1, 0, 3]);
         assert_eq!(steps([typed(), vec![key(Key::F12, Modifiers::SHIFT)]].concat()), [4, 0]);
-        assert_eq!(steps([vec![key(Key::Enter, Modifiers::NONE)], click(), click()].concat()), [1, 0, 2, 0, 1, 0, 2, 0, 1, 0]);
+        assert_eq!(
+            steps([vec![key(Key::Enter, Modifiers::NONE)], click(), click()].concat()),
+            [1, 0, 2, 0, 1, 0, 2, 0, 1, 0]
+        );
         let drag = vec![button(true), Event::PointerMoved(egui::Pos2::ZERO), button(false)];
         assert_eq!(steps(drag), [1, 0, 2, 0]);
     }
