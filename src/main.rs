@@ -10,7 +10,7 @@ fn main() -> ExitCode {
         Next::Exit(code) => code,
         Next::Window(window) => match open(window) {
             Ok(()) => ExitCode::SUCCESS,
-            Err(why) => ExitCode::from(cli::trouble(format_args!("{why:#}"))),
+            Err(why) => ExitCode::from(cli::trouble(cli::told(&why))),
         },
     }
 }

@@ -209,6 +209,22 @@ fn a_window_that_cannot_open_says_what_works_without_one() {
     assert!(run.err.contains("eddy render") || run.err.contains("eddy --help"), "{}", run.err);
 }
 
+/// A limit on the size of files stands for a full disk: both fail in the middle of a write.
+#[test]
+#[cfg(unix)]
+fn an_export_that_does_not_fit_says_why_once_and_leaves_nothing() {
+    let b = Bench::new();
+    let mut shell = std::process::Command::new("sh");
+    shell
+        .args(["-c", "trap '' XFSZ; ulimit -f 8; exec \"$@\"", "sh", env!("CARGO_BIN_EXE_eddy")])
+        .args(["export", "fluid", "--out", "fluid.json"])
+        .current_dir(b.path("."));
+    let r = run(&mut shell).expect(2);
+    assert_eq!(r.err.matches("cannot write fluid.json: ").count(), 1, "{}", r.err);
+    assert!(r.err.matches("os error").count() == 1 && !r.err.contains(".eddy-"), "{}", r.err);
+    assert_eq!(b.names("."), [""; 0]);
+}
+
 #[test]
 fn a_closed_or_full_standard_output_is_no_panic() {
     let b = Bench::new();

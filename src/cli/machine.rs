@@ -101,7 +101,7 @@ impl Machine {
                 if let Some(EngineError::Gpu(GpuError::Lost(_) | GpuError::OutOfMemory(_))) = error.downcast_ref() {
                     self.gpu = None;
                 }
-                report.fail(Status::Error, format!("{error:#}"));
+                report.fail(Status::Error, super::told(&error));
             }
             Err(panic) => {
                 self.gpu = None;

@@ -52,6 +52,17 @@ pub fn trouble(what: impl std::fmt::Display) -> u8 {
     TROUBLE
 }
 
+/// An error with its causes, each said once: many an error's own text already ends in what caused it.
+pub fn told(error: &anyhow::Error) -> String {
+    let mut text = error.to_string();
+    for cause in error.chain().skip(1).map(ToString::to_string) {
+        if !text.contains(&cause) {
+            text.push_str(&format!(": {cause}"));
+        }
+    }
+    text
+}
+
 fn run(command: &Command) -> u8 {
     let printed = match command {
         Command::Render(args) => {
@@ -61,7 +72,7 @@ fn run(command: &Command) -> u8 {
                 Err(usage) => return trouble(usage),
             };
             if let Err(error) = targets.prepare() {
-                return trouble(format_args!("{error:#}"));
+                return trouble(told(&error));
             }
             render::run(args, &targets, &inputs)
         }

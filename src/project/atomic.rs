@@ -75,8 +75,9 @@ fn stage(path: &Path, bytes: &[u8]) -> io::Result<NamedTempFile> {
         // What the user's umask gives any new file; a temporary one would be its owner's alone.
         builder.permissions(<fs::Permissions as std::os::unix::fs::PermissionsExt>::from_mode(0o666));
     }
-    let mut file = builder.tempfile_in(folder)?;
-    file.write_all(bytes)?;
+    // Past the wrapper, whose errors name the temporary file: nobody has ever heard of that one.
+    let file = builder.tempfile_in(folder)?;
+    file.as_file().write_all(bytes)?;
     if let Some(old) = old {
         file.as_file().set_permissions(old.permissions())?;
     }
