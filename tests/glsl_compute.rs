@@ -495,7 +495,7 @@ fn aggregates() {
     ]);
 }
 
-/// In memory, and as the buffer that tables of 256 scalars and more lie in.
+/// In memory, in the uniform buffer (arrays of more than 32 elements), and in the storage buffer (256 scalars and more).
 #[test]
 fn constant_tables_of_every_layout() {
     tables(8, 40);

@@ -109,8 +109,8 @@ fn uniform_group(
     let size = std::num::NonZero::new(size_of::<UniformBlock>() as u64);
     let block = wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer: uniforms, offset, size });
     let mut entries = vec![wgpu::BindGroupEntry { binding: 0, resource: block }];
-    if let Some(tables) = &compiled.tables {
-        entries.push(wgpu::BindGroupEntry { binding: interface::TABLE_BINDING, resource: tables.as_entire_binding() });
+    for (binding, table) in &compiled.tables {
+        entries.push(wgpu::BindGroupEntry { binding: *binding, resource: table.as_entire_binding() });
     }
     if !compiled.knobs.is_empty() {
         entries.push(wgpu::BindGroupEntry { binding: interface::KNOB_BINDING, resource: knobs.as_entire_binding() });

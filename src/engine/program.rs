@@ -46,7 +46,7 @@ pub(super) struct CompiledDraw {
     pub pipeline: FragmentPipeline,
     pub channels: [BoundChannel; 4],
     /// The constant tables of the shader, where it has any.
-    pub tables: Option<wgpu::Buffer>,
+    pub tables: Vec<(u32, wgpu::Buffer)>,
     /// The uniforms that are read: the site's, and the author's own by their slots.
     pub uniforms: UniformSet,
     pub knobs: KnobSet,
@@ -289,10 +289,18 @@ type Job<'a> = (PassId, Compiled, [BoundChannel; 4], &'a Draw, PassFormat);
 fn make_pipelines(gpu: &Gpu, jobs: Vec<Job<'_>>) -> Result<Vec<CompiledDraw>, EngineError> {
     let make = |(id, compiled, channels, draw, format): Job<'_>| {
         let mut uniforms = vec![(0, Binding::Uniform { bytes: size_of::<interface::UniformBlock>() as u64 })];
-        let tables = (!compiled.tables.is_empty()).then(|| constant_buffer(gpu, "constant tables", &compiled.tables));
-        if tables.is_some() {
-            uniforms.push((interface::TABLE_BINDING, Binding::Storage));
-        }
+        let mut tables = Vec::new();
+        let mut add_table = |number, kind, usage, bytes: &[u8]| -> Result<(), crate::gpu::GpuError> {
+            if !bytes.is_empty() {
+                tables.push((number, constant_buffer(gpu, "constant tables", usage, bytes)?));
+                uniforms.push((number, kind));
+            }
+            Ok(())
+        };
+        add_table(interface::TABLE_BINDING, Binding::Storage, wgpu::BufferUsages::STORAGE, &compiled.tables)?;
+        let uniform = Binding::Uniform { bytes: compiled.uniform_tables.len() as u64 };
+        let bytes = &compiled.uniform_tables;
+        add_table(interface::UNIFORM_TABLE_BINDING, uniform, wgpu::BufferUsages::UNIFORM, bytes)?;
         let (read, knobs) = (compiled.reflection.uniforms, compiled.reflection.knobs);
         if compiled.knob_bytes > 0 {
             uniforms.push((interface::KNOB_BINDING, Binding::Uniform { bytes: compiled.knob_bytes }));
@@ -308,7 +316,7 @@ fn make_pipelines(gpu: &Gpu, jobs: Vec<Job<'_>>) -> Result<Vec<CompiledDraw>, En
                 target: texture_format(format),
             },
         )?;
-        Ok(CompiledDraw { id, pipeline, channels, tables: tables.transpose()?, uniforms: read, knobs })
+        Ok(CompiledDraw { id, pipeline, channels, tables, uniforms: read, knobs })
     };
     if jobs.len() == 1 {
         return jobs.into_iter().map(make).collect();

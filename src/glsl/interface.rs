@@ -6,6 +6,8 @@
 //! - Group 0, binding 0: the uniform block [`UniformBlock`], 16-byte aligned, std140. Absent when nothing of it is read.
 //! - Group 0, binding 1: a read-only storage buffer with the author's large constant tables, whose bytes come with the module
 //!   ([`crate::glsl::Compiled::tables`]). Absent when there are none.
+//! - Group 0, binding 3: a uniform buffer with those constant tables that fit into [`UNIFORM_TABLE_BYTES`] together
+//!   ([`crate::glsl::Compiled::uniform_tables`]). Absent when there are none.
 //! - Group 0, binding 2: the author's own uniforms ([`crate::glsl::Knob`]), an array of `vec4<u32>`: each has a slot of 16 bytes
 //!   whose first words hold its components bit for bit (a bool as 0 or 1). Absent when none is read.
 //! - Group 1, binding 2i: the texture of `iChannel`i, binding 2i+1: its sampler. Each is declared only where it is reached from
@@ -17,8 +19,12 @@ use bytemuck::{Pod, Zeroable};
 pub const ENTRY_POINT: &str = "main";
 /// Bind group of the uniform block.
 pub const UNIFORM_GROUP: u32 = 0;
-/// Binding of the constant tables in [`UNIFORM_GROUP`].
+/// Binding of the storage buffer with constant tables in [`UNIFORM_GROUP`].
 pub const TABLE_BINDING: u32 = 1;
+/// Binding of the uniform buffer with constant tables in [`UNIFORM_GROUP`].
+pub const UNIFORM_TABLE_BINDING: u32 = 3;
+/// Most bytes there: what every device has (OpenGL ES 3.0, table 6.31, `MAX_UNIFORM_BLOCK_SIZE`).
+pub const UNIFORM_TABLE_BYTES: usize = 16384;
 /// Binding of the author's own uniforms in [`UNIFORM_GROUP`].
 pub const KNOB_BINDING: u32 = 2;
 /// Bytes of a slot there.

@@ -112,6 +112,8 @@ pub struct Compiled {
     pub reflection: Reflection,
     /// What the storage buffer at [`interface::TABLE_BINDING`] holds; empty: the module declares none.
     pub tables: Vec<u8>,
+    /// What the uniform buffer at [`interface::UNIFORM_TABLE_BINDING`] holds; empty: the module declares none.
+    pub uniform_tables: Vec<u8>,
     /// Bytes that the module reads at [`interface::KNOB_BINDING`]; 0: it declares nothing there.
     pub knob_bytes: u64,
     /// Warnings and notes; never an error.
@@ -147,7 +149,8 @@ pub fn compile(source: &PassSource<'_>) -> Result<Compiled, Vec<Diagnostic>> {
         diagnostics.push(bug.hint("the program itself is right; please report it with this text"));
         return Err(diagnostics);
     }
-    Ok(Compiled { module, reflection, tables, knob_bytes, diagnostics })
+    let lower::TableBytes { uniform: uniform_tables, storage: tables } = tables;
+    Ok(Compiled { module, reflection, tables, uniform_tables, knob_bytes, diagnostics })
 }
 
 /// Checks Common the way the site does: alone, with only `iDate` and `iSampleRate` in scope. An empty list means that the

@@ -2,13 +2,18 @@
 
 use super::{Gpu, GpuError};
 
-/// A read-only storage buffer with the given content, a multiple of 4 bytes.
-pub fn constant_buffer(gpu: &Gpu, label: &str, bytes: &[u8]) -> Result<wgpu::Buffer, GpuError> {
+/// A buffer for `usage` with the given content, a multiple of 4 bytes.
+pub fn constant_buffer(
+    gpu: &Gpu,
+    label: &str,
+    usage: wgpu::BufferUsages,
+    bytes: &[u8],
+) -> Result<wgpu::Buffer, GpuError> {
     let buffer = gpu.guarded(label, || {
         gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(label),
             size: bytes.len() as u64,
-            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+            usage: usage | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         })
     })?;

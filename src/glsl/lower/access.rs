@@ -18,8 +18,9 @@ pub(super) struct Place {
     pub ty: TypeId,
     /// Components of it that are meant; none: all of it.
     pub swizzle: Option<Swizzle>,
-    /// Points to slots of 16 bytes, of which the first component counts (`iChannelTime`).
-    padded: bool,
+    /// Points to an array whose scalars and vectors lie in slots of 16 bytes, of which the first components count
+    /// (`iChannelTime`, constant tables in a uniform buffer).
+    pub padded: bool,
 }
 
 impl Place {
@@ -69,7 +70,7 @@ impl Builder<'_, '_> {
         let global = match hir[root].kind {
             ExprKind::Local(local) => match self.slot(local) {
                 Slot::Memory(pointer) => return Some(Place::of(pointer, ty)),
-                Slot::Table(id) => return Some(Place::of(self.table(id), ty)),
+                Slot::Table(id) => return Some(self.table(id, ty)),
                 Slot::Unset if self.needs_memory(local) => {
                     let pointer = self.memory(local);
                     return Some(Place::of(pointer, ty));
@@ -88,7 +89,7 @@ impl Builder<'_, '_> {
                     return None;
                 }
                 if let (false, Some(value)) = (varies, global.value) {
-                    return Some(Place::of(self.table(value), ty));
+                    return Some(self.table(value, ty));
                 }
                 self.cx.global(id)
             }
@@ -100,7 +101,7 @@ impl Builder<'_, '_> {
             }
             ExprKind::BuiltinVar(BuiltinVar::FragCoord) => self.cx.frag_coord(),
             ExprKind::BuiltinVar(BuiltinVar::FragDepth) => self.cx.frag_depth(),
-            ExprKind::Const(id) if self.indexes_aggregate(links) => return Some(Place::of(self.table(id), ty)),
+            ExprKind::Const(id) if self.indexes_aggregate(links) => return Some(self.table(id, ty)),
             _ => return None,
         };
         Some(Place::of(self.global(global), ty))
@@ -199,22 +200,33 @@ impl Builder<'_, '_> {
                         self.add(Expression::Access { base, index })
                     }
                 };
-                match place.padded {
-                    true => self.add(Expression::AccessIndex { base: pointer, index: 0 }),
-                    false => pointer,
-                }
+                return match place.padded {
+                    true => self.slot_of_array(pointer, ty),
+                    false => Place::of(pointer, ty),
+                };
             }
             other => unreachable!("{other:?} is no part"),
         };
         Place::of(pointer, ty)
     }
 
+    /// The element of type `ty` in what an element of an array of slots holds.
+    fn slot_of_array(&mut self, pointer: Value, ty: TypeId) -> Place {
+        match self.cx.hir.types.get(ty) {
+            Type::Scalar(_) => Place::of(self.add(Expression::AccessIndex { base: pointer, index: 0 }), ty),
+            Type::Vector { scalar, size: 2 } => {
+                Place { swizzle: Some(Swizzle::new(&[0, 1])), ..Place::of(pointer, TypeId::vector(scalar, 4)) }
+            }
+            _ => Place::of(pointer, ty),
+        }
+    }
+
     pub fn load_place(&mut self, place: Place) -> Value {
-        if place.padded {
-            let parts = (0..self.extent(place.ty)).map(|index| {
+        if let (true, Type::Array { element, len }) = (place.padded, self.cx.hir.types.get(place.ty)) {
+            let parts = (0..len).map(|index| {
                 let slot = self.add(Expression::AccessIndex { base: place.pointer, index });
-                let first = self.add(Expression::AccessIndex { base: slot, index: 0 });
-                self.load(first)
+                let part = self.slot_of_array(slot, element);
+                self.load_place(part)
             });
             let parts = parts.collect();
             return self.compose(place.ty, parts);

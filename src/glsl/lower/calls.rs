@@ -7,7 +7,33 @@ use super::{
     access::Place,
     function::{Builder, Slot, Value},
 };
-use crate::glsl::hir::{ExprFlags, ExprId, ExprKind, FuncId, Local, LocalId, LocalKind, Type, TypeId};
+use crate::glsl::hir::{
+    ExprFlags, ExprId, ExprKind, FuncId, Local, LocalId, LocalKind, Module, Type, TypeId, VarFlags,
+};
+
+/// Which locals some call takes as a whole for a parameter that is indexed, there or in what it calls in turn; by
+/// [`LocalId::index`]. They are memory, as if they were indexed themselves: the call then reads them where they are.
+pub(super) fn handed_on(module: &Module) -> Vec<bool> {
+    let mut found = vec![false; module.locals.len()];
+    // Once more for each call that a local is handed on through; there is no recursion.
+    loop {
+        let mut grows = false;
+        for expr in &module.exprs {
+            let ExprKind::Call { func, args } = expr.kind else { continue };
+            let first = module[func].locals.start as usize;
+            for (i, &arg) in module[args].iter().enumerate() {
+                let param = LocalId::new(first + i);
+                let indexed = module[param].flags.contains(VarFlags::INDEXED) || found[param.index()];
+                if let (true, ExprKind::Local(local)) = (indexed, module[arg].kind) {
+                    grows |= !std::mem::replace(&mut found[local.index()], true);
+                }
+            }
+        }
+        if !grows {
+            return found;
+        }
+    }
+}
 
 impl Builder<'_, '_> {
     /// Calls a function; `None` if it is void.
@@ -25,7 +51,7 @@ impl Builder<'_, '_> {
                 channels.push(self.channel(arg));
                 continue;
             }
-            let in_place = self.reads_in_place(param);
+            let in_place = self.reads_in_place(LocalId::new(hir[func].locals.start as usize + i));
             if !param.kind.copies_out() && !in_place {
                 arguments.push(self.value(arg));
                 continue;

@@ -1,6 +1,6 @@
 //! Statements: declarations, branches, loops, switches, jumps.
 
-use naga::{Block, Span, Statement, SwitchCase, SwitchValue};
+use naga::{Block, Expression, Span, Statement, SwitchCase, SwitchValue};
 
 use super::{
     cost::CHEAP,
@@ -60,12 +60,15 @@ impl Builder<'_, '_> {
 
     fn declaration(&mut self, local: LocalId, init: Option<ExprId>) {
         let hir = self.cx.hir;
-        // A table that is only read needs no copy.
-        if let (Some(init), true) = (init, self.needs_memory(local))
+        // A table that is only read here needs no copy.
+        if let (Some(init), true, false) = (init, self.needs_memory(local), self.cx.handed_on[local.index()])
             && let (ExprKind::Const(id), 0) = (hir[init].kind, self.cx.writes[local.index()])
             && !self.is_vector_or_scalar(hir[local].ty)
         {
             self.set_slot(local, Slot::Table(id));
+            return;
+        }
+        if self.starts_with_value(local, init) {
             return;
         }
         let value = match init {
@@ -73,6 +76,25 @@ impl Builder<'_, '_> {
             None => self.zero(hir[local].ty),
         };
         self.declare(local, value);
+    }
+
+    /// Lets an array, matrix or structure that is declared once a call begin with its value, and not with zeros before that: to
+    /// fill memory twice is dear, and not every driver sees that the first time is for nothing.
+    fn starts_with_value(&mut self, local: LocalId, init: Option<ExprId>) -> bool {
+        let hir = self.cx.hir;
+        if !self.loops.is_empty() || !self.needs_memory(local) || self.is_vector_or_scalar(hir[local].ty) {
+            return false;
+        }
+        let value = match init.map(|init| hir[init].kind) {
+            None => None,
+            Some(ExprKind::Const(id)) if self.cx.constant(id).is_some() => Some(self.constant(id)),
+            Some(_) => return false,
+        };
+        let pointer = self.memory(local);
+        if let Expression::LocalVariable(variable) = self.f.expressions[pointer] {
+            self.f.local_variables[variable].init = value;
+        }
+        true
     }
 
     fn branch(&mut self, cond: ExprId, then: List<StmtId>, otherwise: List<StmtId>) {

@@ -5,7 +5,7 @@ use naga::{Block, Expression, FunctionArgument, FunctionResult, Handle, LocalVar
 use super::{Instance, Lowering, Map, consts};
 use crate::glsl::{
     ast::List,
-    hir::{ConstId, ExprId, FuncId, Local, LocalId, LocalKind, Scalar, Type, TypeId, VarFlags},
+    hir::{ConstId, ExprId, FuncId, LocalId, LocalKind, Scalar, Type, TypeId, VarFlags},
 };
 
 /// An expression of the function being built.
@@ -119,7 +119,7 @@ impl<'m, 'a> Builder<'m, 'a> {
                 self.set_slot(local, Slot::Channel(*channel));
                 continue;
             }
-            let by_pointer = param.kind.copies_out() || self.reads_in_place(param);
+            let by_pointer = param.kind.copies_out() || self.reads_in_place(local);
             let ty = if by_pointer { self.cx.pointer_ty(param.ty) } else { self.cx.ty(param.ty) };
             let index = self.f.arguments.len() as u32;
             self.f.arguments.push(FunctionArgument { name: None, ty, binding: None });
@@ -172,16 +172,22 @@ impl<'m, 'a> Builder<'m, 'a> {
         let declared = self.cx.hir[local];
         declared.flags.contains(VarFlags::WRITTEN)
             || self.forced[local.index() - self.first_local]
-            || (declared.flags.contains(VarFlags::INDEXED) && !self.is_vector_or_scalar(declared.ty))
+            || (self.is_indexed(local) && !self.is_vector_or_scalar(declared.ty))
     }
 
     /// Whether a parameter is only read, but indexed in a way values cannot be: then it is a pointer to what the caller has, not
     /// a copy that each call fills anew, element by element.
-    pub fn reads_in_place(&self, param: &Local) -> bool {
+    pub fn reads_in_place(&self, local: LocalId) -> bool {
+        let param = self.cx.hir[local];
         !param.kind.copies_out()
-            && param.flags.contains(VarFlags::INDEXED)
+            && self.is_indexed(local)
             && !param.flags.contains(VarFlags::WRITTEN)
             && !self.is_vector_or_scalar(param.ty)
+    }
+
+    /// Whether a local is indexed, here or in a function it is handed to as a whole.
+    fn is_indexed(&self, local: LocalId) -> bool {
+        self.cx.hir[local].flags.contains(VarFlags::INDEXED) || self.cx.handed_on[local.index()]
     }
 
     /// The pointer to a local that is memory.

@@ -9,7 +9,7 @@
 //! - Only what the entry point reaches is lowered ([`reach`]). A branch whose condition is a literal is not reached.
 //! - A variable nobody writes is a value, not memory. All others are `LocalVariable`s or private globals; drivers turn them into
 //!   registers, so no effort goes into values across statements.
-//! - A constant table that is indexed at run time lives in a storage buffer ([`tables`]); a small one once in a private global
+//! - A constant table that is indexed at run time lives in a buffer ([`tables`]); a small one once in a private global
 //!   with an initialiser: naga's SPIR-V writer would otherwise copy the whole table to the stack at each access.
 //! - Every index that is not provably in range is clamped here, as WebGL does; the modules need no bounds checks from naga.
 //!   Fetches outside a texture are left to the driver's image robustness, which gives the zeros WebGL promises.
@@ -41,6 +41,7 @@ use std::collections::HashMap;
 
 use naga::{FastHashMap, Handle};
 
+pub(crate) use self::tables::TableBytes;
 use self::{consts::Constants, reach::Reach, resources::Resources, tables::Tables, types::Types};
 use super::{PassSource, Reflection, hir, interface::KNOB_BYTES};
 
@@ -48,8 +49,7 @@ use super::{PassSource, Reflection, hir, interface::KNOB_BYTES};
 pub(crate) struct Lowered {
     pub module: naga::Module,
     pub reflection: Reflection,
-    /// Bytes of the storage buffer with constant tables; empty if the module has none.
-    pub tables: Vec<u8>,
+    pub tables: TableBytes,
     /// Size of the array of the author's own uniforms; 0 if the module has none.
     pub knob_bytes: u64,
 }
@@ -70,6 +70,7 @@ pub(crate) fn lower(module: &hir::Module, source: &PassSource<'_>) -> Lowered {
         resources: Resources::new(module.globals.len()),
         costs: cost::costs(module),
         writes: ranges::write_counts(module),
+        handed_on: calls::handed_on(module),
         functions: HashMap::with_capacity(reach.instances.len()),
         reflection: Reflection::default(),
     };
@@ -122,6 +123,8 @@ struct Lowering<'a> {
     costs: Vec<u16>,
     /// How many expressions write each local, by [`hir::LocalId::index`].
     writes: Vec<u32>,
+    /// Locals that calls take as a whole and index, by [`hir::LocalId::index`].
+    handed_on: Vec<bool>,
     functions: HashMap<Instance, Handle<naga::Function>>,
     reflection: Reflection,
 }

@@ -1,53 +1,77 @@
-//! Constant tables that are indexed at run time, in one read-only storage buffer.
+//! Constant tables that are indexed at run time, in read-only buffers.
 //!
-//! As memory of each invocation a table must be filled before the first read, texel by texel, and a driver's compiler takes
+//! As memory of each invocation a table must be filled before the first read, element by element, and a driver's compiler takes
 //! minutes over a table of some thousand entries. In a buffer it costs a load. GLSL drivers do the same: Mesa's turns constant
-//! arrays into uniforms. Small tables stay in memory, where a driver can turn them into selects; so do those that hold
-//! booleans, which no buffer may.
+//! arrays into uniforms. Arrays of numbers and vectors lie in a uniform buffer until it is full; what a uniform buffer cannot hold
+//! lies in a storage buffer if it is large. All else stays in memory: small tables, which a driver turns into selects, and those
+//! that hold booleans, which no buffer may.
 
-use naga::{AddressSpace, Expression, GlobalVariable, Handle, ResourceBinding, StorageAccess, StructMember, TypeInner};
+use std::num::NonZeroU32;
 
-use super::{
-    Lowering, Map,
-    function::{Builder, Value},
-    types::round_up,
+use naga::{
+    AddressSpace, ArraySize, Expression, GlobalVariable, Handle, ResourceBinding, StorageAccess, StructMember,
+    TypeInner,
 };
+
+use super::{Lowering, Map, access::Place, function::Builder, types::round_up};
 use crate::glsl::{
     hir::{ConstId, Scalar, Type, TypeId},
     interface,
 };
 
-/// Scalars from which on a table goes into the buffer. A buffer's load is slow where neighbours read different places (five times
+/// Scalars from which on a table goes into the storage buffer. Its load is slow where neighbours read different places (five times
 /// the frame of a loop over 14 triangles on llvmpipe), and a driver that unrolls such a loop folds reads of memory away.
 const LARGE: usize = 256;
+
+/// Elements from which on an array goes into the uniform buffer. To fill memory takes llvmpipe a store for each pixel and component
+/// at every start of the program; but Mesa unrolls loops of up to 32 turns, and then folds what they read of memory away.
+const NOT_UNROLLED: u32 = 33;
+
+/// Bytes of a slot there: what a uniform buffer's array elements lie apart at least.
+const SLOT: u32 = 16;
 
 /// Tables found so far.
 #[derive(Default)]
 pub(super) struct Tables {
     places: Map<u32, TablePlace>,
-    buffer: Option<Handle<GlobalVariable>>,
+    uniform: Buffer,
+    storage: Buffer,
+}
+
+/// A buffer under construction: a structure with a member for each table.
+#[derive(Default)]
+struct Buffer {
+    variable: Option<Handle<GlobalVariable>>,
     members: Vec<StructMember>,
     bytes: Vec<u8>,
+}
+
+/// What the buffers with constant tables hold; empty: the module has none of that kind.
+pub(crate) struct TableBytes {
+    pub uniform: Vec<u8>,
+    pub storage: Vec<u8>,
 }
 
 #[derive(Clone, Copy)]
 enum TablePlace {
     Private(Handle<GlobalVariable>),
-    /// A member of the buffer.
-    Member(u32),
+    /// A member of the uniform buffer.
+    Uniform(u32),
+    /// A member of the storage buffer.
+    Storage(u32),
 }
 
 impl Builder<'_, '_> {
-    /// A pointer to memory that holds a folded value, for indexing.
-    pub fn table(&mut self, id: ConstId) -> Value {
-        match self.cx.table_place(id) {
-            TablePlace::Private(global) => self.global(global),
-            TablePlace::Member(index) => {
-                let buffer = self.cx.table_buffer();
-                let base = self.global(buffer);
-                self.add(Expression::AccessIndex { base, index })
-            }
-        }
+    /// Memory that holds a folded value of type `ty`, for indexing.
+    pub fn table(&mut self, id: ConstId, ty: TypeId) -> Place {
+        let (buffer, index, padded) = match self.cx.table_place(id) {
+            TablePlace::Private(global) => return Place::of(self.global(global), ty),
+            TablePlace::Uniform(index) => (self.cx.uniform_tables(), index, true),
+            TablePlace::Storage(index) => (self.cx.storage_tables(), index, false),
+        };
+        let base = self.global(buffer);
+        let pointer = self.add(Expression::AccessIndex { base, index });
+        Place { padded, ..Place::of(pointer, ty) }
     }
 }
 
@@ -58,9 +82,13 @@ impl Lowering<'_> {
             return place;
         }
         let constant = self.hir[id];
-        let is_large = self.hir[constant.words].len() >= LARGE;
-        let place = if is_large && !self.source.tables_in_memory && !self.holds_booleans(constant.ty) {
-            TablePlace::Member(self.append_table(id))
+        let scalars = self.hir[constant.words].len();
+        let place = if let Some((ty, size)) = self.in_slots(constant.ty)
+            && self.tables.uniform.bytes.len() + size as usize <= interface::UNIFORM_TABLE_BYTES
+        {
+            TablePlace::Uniform(self.append_to_uniform(id, ty, size))
+        } else if scalars >= LARGE && !self.source.tables_in_memory && !self.holds_booleans(constant.ty) {
+            TablePlace::Storage(self.append_to_storage(id))
         } else {
             TablePlace::Private(self.private_table(id))
         };
@@ -68,17 +96,47 @@ impl Lowering<'_> {
         place
     }
 
-    fn append_table(&mut self, id: ConstId) -> u32 {
+    /// An array as a uniform buffer has it, and its bytes: its scalars and vectors lie in slots of 16 bytes, in the first
+    /// components of vectors of three or four. `None` for what is no array of these, or too short to be worth it.
+    fn in_slots(&mut self, ty: TypeId) -> Option<(Handle<naga::Type>, u32)> {
+        let Type::Array { element, len: len @ NOT_UNROLLED.. } = self.hir.types.get(ty) else { return None };
+        let base = match self.hir.types.get(element) {
+            Type::Scalar(Scalar::Bool) | Type::Vector { scalar: Scalar::Bool, .. } => return None,
+            Type::Vector { size: 3.., .. } => self.ty(element),
+            Type::Scalar(scalar) | Type::Vector { scalar, .. } => self.ty(TypeId::vector(scalar, 4)),
+            _ => return None,
+        };
+        let size = ArraySize::Constant(NonZeroU32::new(len)?);
+        Some((self.insert_type(TypeInner::Array { base, size, stride: SLOT }), SLOT.checked_mul(len)?))
+    }
+
+    fn append_to_uniform(&mut self, id: ConstId, ty: Handle<naga::Type>, size: u32) -> u32 {
+        let constant = self.hir[id];
+        let words = &self.hir[constant.words];
+        let slots = size / SLOT;
+        let buffer = &mut self.tables.uniform;
+        let offset = buffer.bytes.len() as u32;
+        buffer.members.push(StructMember { name: None, ty, binding: None, offset });
+        for slot in words.chunks(words.len() / slots as usize) {
+            let end = buffer.bytes.len() + SLOT as usize;
+            slot.iter().for_each(|word| buffer.bytes.extend(word.to_ne_bytes()));
+            buffer.bytes.resize(end, 0);
+        }
+        buffer.members.len() as u32 - 1
+    }
+
+    fn append_to_storage(&mut self, id: ConstId) -> u32 {
         let constant = self.hir[id];
         let (ty, layout) = self.laid_out(constant.ty);
-        let offset = round_up(layout.align, self.tables.bytes.len() as u32);
-        self.tables.members.push(StructMember { name: None, ty, binding: None, offset });
-        let mut bytes = std::mem::take(&mut self.tables.bytes);
+        let buffer = &mut self.tables.storage;
+        let offset = round_up(layout.align, buffer.bytes.len() as u32);
+        buffer.members.push(StructMember { name: None, ty, binding: None, offset });
+        let mut bytes = std::mem::take(&mut buffer.bytes);
         bytes.resize((offset + layout.size) as usize, 0);
         let mut words = self.hir[constant.words].iter().copied();
         self.write(constant.ty, offset as usize, &mut words, &mut bytes);
-        self.tables.bytes = bytes;
-        self.tables.members.len() as u32 - 1
+        self.tables.storage.bytes = bytes;
+        self.tables.storage.members.len() as u32 - 1
     }
 
     /// Puts a value's words where its layout has them.
@@ -124,28 +182,41 @@ impl Lowering<'_> {
         }
     }
 
-    /// The buffer; its type is not known before the last table is.
-    fn table_buffer(&mut self) -> Handle<GlobalVariable> {
-        if let Some(buffer) = self.tables.buffer {
-            return buffer;
+    fn uniform_tables(&mut self) -> Handle<GlobalVariable> {
+        if let Some(made) = self.tables.uniform.variable {
+            return made;
         }
-        let binding = ResourceBinding { group: interface::UNIFORM_GROUP, binding: interface::TABLE_BINDING };
-        let ty = self.ty(TypeId::UINT);
-        let buffer = self.variable(AddressSpace::Storage { access: StorageAccess::LOAD }, ty, Some(binding), None);
-        self.tables.buffer = Some(buffer);
-        buffer
+        let made = self.table_buffer(AddressSpace::Uniform, interface::UNIFORM_TABLE_BINDING);
+        *self.tables.uniform.variable.insert(made)
     }
 
-    /// Gives the buffer its type; its bytes.
-    pub fn finish_tables(&mut self) -> Vec<u8> {
-        let Some(buffer) = self.tables.buffer else { return Vec::new() };
-        let members = std::mem::take(&mut self.tables.members);
-        let align = members.iter().map(|m| self.alignment(m.ty)).max().unwrap_or(4);
-        let mut bytes = std::mem::take(&mut self.tables.bytes);
+    fn storage_tables(&mut self) -> Handle<GlobalVariable> {
+        if let Some(made) = self.tables.storage.variable {
+            return made;
+        }
+        let made = self.table_buffer(AddressSpace::Storage { access: StorageAccess::LOAD }, interface::TABLE_BINDING);
+        *self.tables.storage.variable.insert(made)
+    }
+
+    /// A buffer; its type is not known before the last table is.
+    fn table_buffer(&mut self, space: AddressSpace, binding: u32) -> Handle<GlobalVariable> {
+        let ty = self.ty(TypeId::UINT);
+        self.variable(space, ty, Some(ResourceBinding { group: interface::UNIFORM_GROUP, binding }), None)
+    }
+
+    /// Gives the buffers their types; their bytes.
+    pub fn finish_tables(&mut self) -> TableBytes {
+        let (uniform, storage) = (std::mem::take(&mut self.tables.uniform), std::mem::take(&mut self.tables.storage));
+        let align = storage.members.iter().map(|m| self.alignment(m.ty)).max().unwrap_or(4);
+        TableBytes { uniform: self.finish_buffer(uniform, SLOT), storage: self.finish_buffer(storage, align) }
+    }
+
+    fn finish_buffer(&mut self, buffer: Buffer, align: u32) -> Vec<u8> {
+        let Buffer { variable: Some(variable), members, mut bytes } = buffer else { return Vec::new() };
         let span = round_up(align, bytes.len() as u32);
         bytes.resize(span as usize, 0);
         let ty = self.insert_type(TypeInner::Struct { members, span });
-        self.out.global_variables[buffer].ty = ty;
+        self.out.global_variables[variable].ty = ty;
         bytes
     }
 

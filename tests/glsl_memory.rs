@@ -1,0 +1,156 @@
+//! Arrays and tables: where they lie, how often they are filled, and that what is read from them is right all the same.
+//!
+//! To fill or copy memory is what costs: a software driver stores each element once for each pixel and component.
+
+#[path = "support/compute.rs"]
+mod compute;
+mod support;
+
+use compute::*;
+use eddy::glsl::{ChannelKind, Compiled, PassKind, PassSource, Text};
+
+/// The module of an Image pass.
+fn compiled(code: &str) -> Compiled {
+    let source = PassSource {
+        kind: PassKind::Image,
+        common: None,
+        code: Text { id: eddy::diag::SourceId(0), text: code },
+        includes: &[],
+        channels: [ChannelKind::Sampler2D; 4],
+        knobs: &[],
+        bilinear_by_hand: [false; 4],
+        tables_in_memory: false,
+    };
+    eddy::glsl::compile(&source).expect("it compiles")
+}
+
+fn list(count: usize, element: &dyn Fn(usize) -> String) -> String {
+    (0..count).map(element).collect::<Vec<_>>().join(", ")
+}
+
+/// The user function that returns a value, and how many statements store at its top level.
+fn stores(compiled: &Compiled) -> (&naga::Function, usize) {
+    let (_, function) = compiled.module.functions.iter().find(|(_, f)| f.result.is_some()).expect("a function");
+    let stores = function.body.iter().filter(|s| matches!(s, naga::Statement::Store { .. })).count();
+    (function, stores)
+}
+
+#[test]
+fn tables_of_numbers_lie_in_slots_of_a_uniform_buffer() {
+    for (count, bytes) in [(33, 33 * 16), (32, 0)] {
+        let table = compiled(&format!(
+            "const float T[{count}] = float[]({}); void mainImage(out vec4 o, vec2 p) {{ o = vec4(T[int(p.x)]); }}",
+            list(count, &|i| format!("{i}."))
+        ));
+        assert_eq!(table.uniform_tables.len(), bytes, "{count}");
+        // The first word of the sixth slot.
+        assert!(table.uniform_tables.get(80..84).is_none_or(|word| word == 5f32.to_ne_bytes()));
+        assert!(table.tables.is_empty());
+    }
+}
+
+#[test]
+fn what_fills_the_uniform_buffer_leaves_the_next_table_to_the_storage_buffer() {
+    let full = compiled(&format!(
+        "const float T[1024] = float[]({}); const float N[300] = float[]({});\n\
+         void mainImage(out vec4 o, vec2 p) {{ o = vec4(T[int(p.x)], N[int(p.x)], 0, 0); }}",
+        list(1024, &|i| format!("{i}.")),
+        list(300, &|i| format!("{i}."))
+    ));
+    assert_eq!((full.uniform_tables.len(), full.tables.len()), (1024 * 16, 300 * 4));
+}
+
+#[test]
+fn an_array_begins_with_its_value_where_it_is_declared_once_a_call() {
+    let code = |declared: &str| {
+        format!(
+            "float f(int i) {{ {declared} a[i] += 1.0; return a[i + 1]; }}\n\
+                 void mainImage(out vec4 o, vec2 p) {{ o = vec4(f(int(p.x))); }}"
+        )
+    };
+    for (declared, begins_with_value) in [("float a[3] = float[](1., 2., 3.);", true), ("float a[3];", false)] {
+        let compiled = compiled(&code(declared));
+        let (function, stores) = stores(&compiled);
+        let inits = function.local_variables.iter().filter(|(_, v)| v.init.is_some()).count();
+        // The one store is `+=`.
+        assert_eq!((inits > 0, stores), (begins_with_value, 1), "{declared}");
+    }
+}
+
+#[test]
+fn an_array_handed_on_through_calls_is_not_copied_on_the_way() {
+    let compiled = compiled(
+        "float last(float a[4], int i) { return a[i]; }\n\
+         float middle(float a[4], int i) { return last(a, i) + last(a, i + 1); }\n\
+         void mainImage(out vec4 o, vec2 p) { float a[4]; a[1] = p.x; o = vec4(middle(a, int(p.y))); }",
+    );
+    let memory: Vec<usize> = compiled.module.functions.iter().map(|(_, f)| f.local_variables.len()).collect();
+    // `last`, `middle`, `mainImage` with `a` alone.
+    assert_eq!(memory, [0, 0, 1]);
+}
+
+#[test]
+fn tables_are_read_right_from_slots() {
+    // For the life of the test: a case holds text that lives as long as the program.
+    let tables: &'static str = Box::leak(
+        format!(
+            "const float F[40] = float[]({});\nconst int N[40] = int[]({});\nconst vec2 TWO[40] = vec2[]({});\n\
+             const uvec3 THREE[40] = uvec3[]({});\nconst vec4 FOUR[40] = vec4[]({});\n\
+             float total(float a[40]) {{ float s = 0.0; for (int i = 0; i < 40; i++) s += a[i]; return s; }}",
+            list(40, &|i| format!("{i}.")),
+            list(40, &|i| format!("-{i}")),
+            list(40, &|i| format!("vec2({i}, {i}.5)")),
+            list(40, &|i| format!("uvec3({i}, {}, {})", i + 1, i + 2)),
+            list(40, &|i| format!("vec4({i}, {}, {}, {})", i + 1, i + 2, i + 3)),
+        )
+        .into_boxed_str(),
+    );
+    check(&[
+        with(tables, "r = vec4(F[I + 6], N[I + 3], TWO[I + 2].y, TWO[I + 3][I]);", [6., -3., 2.5, 3.]),
+        with(tables, "r = vec4(TWO[I + 1].yx, THREE[I + 2].zx);", [1.5, 1., 4., 2.]),
+        with(tables, "r = FOUR[I + 1].wzyx + vec4(FOUR[I].x, FOUR[I][I + 1], 0, 0);", [4., 4., 2., 1.]),
+        with(tables, "r = vec4(TWO[I + 99].y, F[I + 99], F[I - 5], total(F));", [39.5, 39., 0., 780.]),
+        with(
+            tables,
+            "float a[40] = F; a[I + 2] = 9.0; r = vec4(a[I + 2], a[I + 3], a == F, F == F);",
+            [9., 3., 0., 1.],
+        ),
+    ]);
+}
+
+#[test]
+fn arrays_begin_anew_and_keep_what_is_theirs() {
+    const CALLS: &str = "float last(float a[3], int i) { return a[i]; }\n\
+        float middle(float a[3], int i) { return last(a, i) * 10.0 + last(a, i + 1); }\n\
+        float change(float a[3], int i) { a[i] = 7.0; return last(a, i); }\n\
+        float counted(int i) { float a[3]; a[i] += 1.0; return a[i]; }\n\
+        float both(inout float a[3], float b[3], int i) { a[i] = 9.0; return last(b, i); }";
+    check(&[
+        with(
+            CALLS,
+            "float a[3] = float[](1.0, 2.0, 3.0); float m = middle(a, I); a[I] = 5.0; r = vec4(m, middle(a, I), 0, 0);",
+            [12., 52., 0., 0.],
+        ),
+        with(
+            CALLS,
+            "float a[3] = float[](1.0, 2.0, 3.0); float c = change(a, I); r = vec4(c, a[I], middle(a, I + 1), 0);",
+            [7., 1., 23., 0.],
+        ),
+        with(
+            CALLS,
+            "for (int k = 0; k < 3; k++) { r.x = counted(I); float a[2]; a[I] += 1.0; r.y = a[I]; } r.zw = vec2(0);",
+            [1., 1., 0., 0.],
+        ),
+        // The copy of the second argument is made before the first is written.
+        with(
+            CALLS,
+            "float a[3] = float[](1.0, 2.0, 3.0); float b = both(a, a, I); r = vec4(b, a[I], 0, 0);",
+            [1., 9., 0., 0.],
+        ),
+        with(CALLS, "r = vec4(middle(float[](4.0, 5.0, 6.0), I), 0, 0, 0);", [45., 0., 0., 0.]),
+        case(
+            "float a[3]; mat2 m; m[I][I] += 2.0; r = vec4(a[I + 2], m[I], 0); m = mat2(1); r.w = m[I + 1].y;",
+            [0., 2., 0., 1.],
+        ),
+    ]);
+}
