@@ -40,6 +40,9 @@ impl Builder<'_, '_> {
             *value = Some((hir[arg].ty, self.value(arg)));
         }
         let (first_ty, a) = values[0].expect("every built-in has an argument");
+        if let (Builtin::Mod, Some((_, divisor))) = (builtin, &mut values[1]) {
+            *divisor = self.divisor(args[1], *divisor);
+        }
         Some(match (values[1], values[2]) {
             (None, _) => self.unary_builtin(builtin, first_ty, a),
             (Some(b), None) => self.binary_builtin(builtin, ty, (first_ty, a), b),
@@ -125,6 +128,9 @@ impl Builder<'_, '_> {
             B::Pow => self.math2(Math::Pow, a, b),
             B::Min | B::Max => {
                 let b = fit(self, b, b_ty);
+                if let (B::Max, Some(inner)) = (builtin, self.cut_to_unit(a, b)) {
+                    return self.math(Math::Saturate, inner);
+                }
                 self.math2(if builtin == B::Min { Math::Min } else { Math::Max }, a, b)
             }
             B::Step => {

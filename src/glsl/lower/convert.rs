@@ -1,31 +1,21 @@
 //! Constructors and conversions (section 5.4).
 
-use naga::{BinaryOperator as Op, Expression, ScalarKind};
+use naga::{Expression, ScalarKind};
 
 use super::function::{Builder, Value};
 use crate::glsl::hir::{ExprId, Scalar, Type, TypeId};
 
 impl Builder<'_, '_> {
     /// A scalar or vector to the same size of another component type.
-    pub fn convert(&mut self, value: Value, from: TypeId, to: TypeId) -> Value {
-        let types = &self.cx.hir.types;
-        let (source, target) = (types.scalar(from), types.scalar(to).expect("a scalar or vector"));
-        let (kind, width) = match target {
+    pub fn convert(&mut self, value: Value, to: TypeId) -> Value {
+        let (kind, width) = match self.cx.hir.types.scalar(to).expect("a scalar or vector") {
             Scalar::Bool => (ScalarKind::Bool, 1),
             Scalar::Int => (ScalarKind::Sint, 4),
             Scalar::Uint => (ScalarKind::Uint, 4),
             Scalar::Float => (ScalarKind::Float, 4),
         };
-        let converted = self.add(Expression::As { expr: value, kind, convert: Some(width) });
-        if (source, target) != (Some(Scalar::Float), Scalar::Uint) {
-            return converted;
-        }
-        // Undefined for negative numbers, where naga gives zero. Shaders rely on what desktop drivers do: wrap, like an int.
-        let int = self.add(Expression::As { expr: value, kind: ScalarKind::Sint, convert: Some(4) });
-        let wrapped = self.bitcast(int, ScalarKind::Uint);
-        let zero = self.zero(from);
-        let negative = self.op(Op::Less, value, zero);
-        self.select(negative, wrapped, converted)
+        // From float to uint, negative numbers give zero: GLSL leaves it open, Direct3D asks for it, and devices do it.
+        self.add(Expression::As { expr: value, kind, convert: Some(width) })
     }
 
     /// `vecN(..)` of scalars, vectors and matrices.

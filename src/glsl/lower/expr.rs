@@ -7,7 +7,7 @@ use super::{
     function::{Builder, Value},
     reach::known_bool,
 };
-use crate::glsl::hir::{ConstId, ExprFlags, ExprId, ExprKind, LogicalOp, Scalar, Type, TypeId};
+use crate::glsl::hir::{BinaryOp, ConstId, ExprFlags, ExprId, ExprKind, LogicalOp, Scalar, Type, TypeId};
 
 impl Builder<'_, '_> {
     /// The value of an expression that is not void.
@@ -31,9 +31,14 @@ impl Builder<'_, '_> {
                         };
                     }
                 },
-                ExprKind::Binary { lhs: inner, .. }
-                | ExprKind::Logical { lhs: inner, .. }
-                | ExprKind::Convert(inner) => {
+                ExprKind::Binary { lhs: inner, .. } => {
+                    if let Some(value) = self.balanced(at) {
+                        break value;
+                    }
+                    spine.push(at);
+                    at = inner;
+                }
+                ExprKind::Logical { lhs: inner, .. } | ExprKind::Convert(inner) => {
                     spine.push(at);
                     at = inner;
                 }
@@ -51,11 +56,14 @@ impl Builder<'_, '_> {
         let hir = self.cx.hir;
         match hir[link].kind {
             ExprKind::Binary { op, shape, lhs, rhs } => {
-                let right = self.value(rhs);
+                let mut right = self.value(rhs);
+                if op == BinaryOp::Div {
+                    right = self.divisor(rhs, right);
+                }
                 self.binary(op, shape, (hir[lhs].ty, value), (hir[rhs].ty, right))
             }
             ExprKind::Logical { op, lhs, rhs } => self.logical(op, lhs, value, rhs),
-            ExprKind::Convert(inner) => self.convert(value, hir[inner].ty, hir[link].ty),
+            ExprKind::Convert(_) => self.convert(value, hir[link].ty),
             _ => self.part_of_value(value, link),
         }
     }

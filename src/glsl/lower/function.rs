@@ -167,6 +167,21 @@ impl<'m, 'a> Builder<'m, 'a> {
         self.named.contains(&value)
     }
 
+    /// Whether a value is the result of an operation, and no variable, argument or part of one.
+    pub fn is_computed(&self, value: Value) -> bool {
+        use Expression as E;
+        match self.f.expressions[value] {
+            E::Swizzle { vector: of, .. } | E::AccessIndex { base: of, .. } => self.is_computed(of),
+            E::Binary { .. }
+            | E::Unary { .. }
+            | E::Math { .. }
+            | E::Select { .. }
+            | E::As { .. }
+            | E::CallResult(_) => true,
+            _ => false,
+        }
+    }
+
     /// Whether a local is written, or indexed in a way values cannot be.
     pub fn needs_memory(&self, local: LocalId) -> bool {
         let declared = self.cx.hir[local];

@@ -10,7 +10,7 @@ use super::function::{Builder, Value};
 use crate::glsl::hir::TypeId;
 
 impl Builder<'_, '_> {
-    /// `x x' + (y y' + (z z' + w w'))`.
+    /// `((w w' + z z') + y y') + x x'`: the side the sum is on matters to what drivers join it with.
     pub fn dot(&mut self, ty: TypeId, a: Value, b: Value) -> Value {
         let products = self.op(Op::Multiply, a, b);
         let size = self.extent(ty);
@@ -21,7 +21,7 @@ impl Builder<'_, '_> {
         let mut sum = part(self, size - 1);
         for index in (0..size - 1).rev() {
             let term = part(self, index);
-            sum = self.op(Op::Add, term, sum);
+            sum = self.op(Op::Add, sum, term);
         }
         sum
     }

@@ -16,6 +16,7 @@
 //! - `&&`, `||` and `?:` become selects where both sides are cheap and have no effects, branches elsewhere.
 
 mod access;
+mod balance;
 mod bilinear;
 mod builtin;
 mod calls;
@@ -36,13 +37,14 @@ mod resources;
 mod tables;
 mod texture;
 mod types;
+mod zeros;
 
 use std::collections::HashMap;
 
 use naga::{FastHashMap, Handle};
 
 pub(crate) use self::tables::TableBytes;
-use self::{consts::Constants, reach::Reach, resources::Resources, tables::Tables, types::Types};
+use self::{consts::Constants, reach::Reach, resources::Resources, tables::Tables, types::Types, zeros::Zeros};
 use super::{PassSource, Reflection, hir, interface::KNOB_BYTES};
 
 /// What lowering makes.
@@ -71,6 +73,8 @@ pub(crate) fn lower(module: &hir::Module, source: &PassSource<'_>) -> Lowered {
         costs: cost::costs(module),
         writes: ranges::write_counts(module),
         handed_on: calls::handed_on(module),
+        uses: ranges::use_counts(module),
+        zeros: Zeros::new(module),
         functions: HashMap::with_capacity(reach.instances.len()),
         reflection: Reflection::default(),
     };
@@ -125,6 +129,9 @@ struct Lowering<'a> {
     writes: Vec<u32>,
     /// Locals that calls take as a whole and index, by [`hir::LocalId::index`].
     handed_on: Vec<bool>,
+    /// How many expressions name each local, by [`hir::LocalId::index`].
+    uses: Vec<u32>,
+    zeros: Zeros,
     functions: HashMap<Instance, Handle<naga::Function>>,
     reflection: Reflection,
 }

@@ -72,6 +72,9 @@ impl Builder<'_, '_> {
             }
             _ => {}
         }
+        if matches!(op, Op::Less | Op::LessEqual | Op::Greater | Op::GreaterEqual) && left.0 == TypeId::FLOAT {
+            return self.order(op, left.1, right.1);
+        }
         let (vector_ty, scalar) = match shape {
             Shape::ScalarLeft => (right.0, left.1),
             _ => (left.0, right.1),
@@ -293,7 +296,10 @@ impl Builder<'_, '_> {
         let hir = self.cx.hir;
         let (place_ty, value_ty) = (hir[place].ty, hir[value].ty);
         let place = self.place(place);
-        let right = self.value(value);
+        let mut right = self.value(value);
+        if op == BinaryOp::Div {
+            right = self.divisor(value, right);
+        }
         let left = self.load_place(place);
         let result = self.binary(op, shape, (place_ty, left), (value_ty, right));
         self.store_place(place, result);

@@ -92,6 +92,81 @@ impl Builder<'_, '_> {
         self.op(op, left, right)
     }
 
+    /// An order of two floats as OpenGL's compilers have it, which take comparisons for inexact: `a + 2.0 < 3.0` is `a < 1.0`, and
+    /// `abs(a) > 0.0` is `a != 0.0`, which NaN is.
+    pub fn order(&mut self, op: Op, left: Value, right: Value) -> Value {
+        // Only where the sum is on the side that NIR's `flt` and `fge` have first.
+        let (first, constant) = match op {
+            Op::Less | Op::GreaterEqual => (left, right),
+            _ => (right, left),
+        };
+        let positive = match op {
+            Op::Less => self.magnitude_above_zero(right, left),
+            Op::Greater => self.magnitude_above_zero(left, right),
+            _ => None,
+        };
+        if let Some(number) = positive {
+            let zero = self.float(0.0);
+            let equal = self.op(Op::Equal, number, zero);
+            return self.not(equal);
+        }
+        let Some((first, limit)) = self.moved_constant(first, constant) else { return self.op(op, left, right) };
+        let limit = self.float(limit);
+        match op {
+            Op::Less | Op::GreaterEqual => self.op(op, first, limit),
+            _ => self.op(op, limit, first),
+        }
+    }
+
+    /// What `abs` is taken of, in `abs(..) > 0.0`.
+    fn magnitude_above_zero(&self, magnitude: Value, zero: Value) -> Option<Value> {
+        let Expression::Math { fun: Math::Abs, arg, .. } = self.f.expressions[magnitude] else { return None };
+        (self.floats(zero)?[..] == [0.0]).then_some(arg)
+    }
+
+    /// From a sum with a constant, compared to a constant: what is left of the sum, and what that is to be compared to.
+    fn moved_constant(&mut self, sum: Value, constant: Value) -> Option<(Value, f32)> {
+        let &[limit] = &self.floats(constant)?[..] else { return None };
+        let Expression::Binary { op: op @ (Op::Add | Op::Subtract), left, right } = self.f.expressions[sum] else {
+            return None;
+        };
+        if self.is_named(sum) {
+            return None;
+        }
+        let known = |this: &Self, side| match this.floats(side).as_deref() {
+            Some(&[number]) => Some(number),
+            _ => None,
+        };
+        let (rest, limit) = match (known(self, left), op, known(self, right)) {
+            (None, Op::Add, Some(number)) | (Some(number), Op::Add, None) => {
+                (if known(self, left).is_some() { right } else { left }, limit - number)
+            }
+            (None, _, Some(number)) => (left, limit + number),
+            (Some(number), _, None) => {
+                (self.add(Expression::Unary { op: naga::UnaryOperator::Negate, expr: right }), limit - number)
+            }
+            _ => return None,
+        };
+        limit.is_finite().then_some((rest, limit))
+    }
+
+    /// `x` of `max(min(x, 1.0), 0.0)`, which OpenGL's compilers take for `clamp(x, 0.0, 1.0)`: that says another thing of NaN.
+    pub fn cut_to_unit(&self, a: Value, b: Value) -> Option<Value> {
+        let is = |value, number: f32| self.floats(value).is_some_and(|all| all.iter().all(|&one| one == number));
+        let inner = if is(b, 0.0) { a } else { b };
+        if !is(a, 0.0) && !is(b, 0.0) {
+            return None;
+        }
+        let Expression::Math { fun: Math::Min, arg, arg1: Some(arg1), .. } = self.f.expressions[inner] else {
+            return None;
+        };
+        match (is(arg, 1.0), is(arg1, 1.0)) {
+            (false, true) => Some(arg),
+            (true, false) => Some(arg1),
+            _ => None,
+        }
+    }
+
     /// The components of a float constant; one for a scalar or a repeated one.
     fn floats(&self, value: Value) -> Option<Vec<f32>> {
         let float = |literal: &Literal| match literal {
@@ -154,8 +229,8 @@ impl Builder<'_, '_> {
 
     /// Section 8.3: `t = clamp((x - a) / (b - a), 0, 1)`, then `t t (3 - 2 t)`.
     ///
-    /// Undefined for `a == b`, but shaders use it as a step: infinities clamp to 0 and 1. Drivers that find a divisor to be zero as
-    /// they compile may take the quotient for anything (Mesa's llvmpipe does), so it is never zero.
+    /// Undefined for `a == b`, but shaders use it as a step: infinities clamp to 0 and 1. So no driver must see that the divisor
+    /// is zero ([`super::zeros`]).
     pub fn smoothstep(&mut self, ty: TypeId, a: Value, b: Value, x: Value) -> Value {
         let differ = |index| match (self.part(a, index), self.part(b, index)) {
             (Part::Known(a), Part::Known(b)) => a != b,
@@ -165,9 +240,7 @@ impl Builder<'_, '_> {
             return self.math3(Math::SmoothStep, a, b, x);
         }
         let width = self.op(Op::Subtract, b, a);
-        let (none, least) = (self.float_of(ty, 0.0), self.float_of(ty, f32::MIN_POSITIVE));
-        let is_step = self.op(Op::Equal, width, none);
-        let width = self.select(is_step, least, width);
+        let width = self.hidden(ty, width);
         let distance = self.op(Op::Subtract, x, a);
         let quotient = self.op(Op::Divide, distance, width);
         let t = self.math(Math::Saturate, quotient);
