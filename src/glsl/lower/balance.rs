@@ -36,7 +36,15 @@ impl Builder<'_, '_> {
         if leaves.len() < SHORTEST || constants > 1 {
             return None;
         }
-        let values = leaves.into_iter().map(|leaf| Tree::Leaf((hir[leaf].ty, self.value(leaf)))).collect();
+        // A variable is read once: then drivers see which products of it are the same.
+        let mut read: Vec<(ExprId, Value)> = Vec::new();
+        let mut values = Vec::with_capacity(leaves.len());
+        for leaf in leaves {
+            let same = read.iter().find(|(other, _)| self.is_same_variable(leaf, *other)).map(|&(_, value)| value);
+            let value = same.unwrap_or_else(|| self.value(leaf));
+            read.push((leaf, value));
+            values.push(Tree::Leaf((hir[leaf].ty, value)));
+        }
         Some(self.tree(op, balance(values)).1)
     }
 
@@ -62,6 +70,18 @@ impl Builder<'_, '_> {
             }
         }
         Some(())
+    }
+
+    fn is_same_variable(&self, a: ExprId, b: ExprId) -> bool {
+        let hir = self.cx.hir;
+        match (hir[a].kind, hir[b].kind) {
+            (ExprKind::Local(a), ExprKind::Local(b)) => a == b,
+            (ExprKind::Global(a), ExprKind::Global(b)) => a == b,
+            (ExprKind::Swizzle { base: a, swizzle }, ExprKind::Swizzle { base: b, swizzle: other }) => {
+                swizzle == other && self.is_same_variable(a, b)
+            }
+            _ => false,
+        }
     }
 
     fn is_folded(&self, expr: ExprId) -> bool {
@@ -147,7 +167,7 @@ mod tests {
         for (count, expected) in [
             (1, "x"),
             (2, "(xx)"),
-            (3, "(x(xx))"),
+            (3, "((xx)x)"),
             (4, "((xx)(xx))"),
             (5, "((xx)((xx)x))"),
             (8, "(((xx)(xx))((xx)(xx)))"),

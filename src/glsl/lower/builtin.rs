@@ -5,7 +5,10 @@ use naga::{
     ScalarKind, Statement,
 };
 
-use super::function::{Builder, Value};
+use super::{
+    function::{Builder, Value},
+    scalars,
+};
 use crate::glsl::hir::{Builtin, ExprId, Scalar, TypeId};
 
 impl Builder<'_, '_> {
@@ -40,8 +43,19 @@ impl Builder<'_, '_> {
             *value = Some((hir[arg].ty, self.value(arg)));
         }
         let (first_ty, a) = values[0].expect("every built-in has an argument");
-        if let (Builtin::Mod, Some((_, divisor))) = (builtin, &mut values[1]) {
-            *divisor = self.divisor(args[1], *divisor);
+        if self.is_float_vector(ty) && scalars::is_by_component(builtin) {
+            let [first, second, third] = values;
+            let float = TypeId::FLOAT;
+            let first = first.expect("every built-in has an argument");
+            return Some(match (second, third) {
+                (None, _) => self.each(ty, [first], |b, [x]| b.unary_builtin(builtin, float, x)),
+                (Some(second), None) => {
+                    self.each(ty, [first, second], |b, [x, y]| b.binary_builtin(builtin, float, (float, x), (float, y)))
+                }
+                (Some(second), Some(third)) => self.each(ty, [first, second, third], |b, [x, y, z]| {
+                    b.ternary_builtin(builtin, float, (float, x), y, (float, z))
+                }),
+            });
         }
         Some(match (values[1], values[2]) {
             (None, _) => self.unary_builtin(builtin, first_ty, a),
@@ -140,7 +154,8 @@ impl Builder<'_, '_> {
                 self.add(Expression::As { expr: reached, kind: ScalarKind::Float, convert: Some(4) })
             }
             B::Mod => {
-                // x - y * floor(x / y): naga's remainder truncates.
+                // x - y * floor(x / y): naga's remainder truncates. Where y is a constant zero drivers drop the product, and x is
+                // left: shaders repeat space along some axes alone by it, so that divisor must stay in sight.
                 let b = fit(self, b, b_ty);
                 let quotient = self.op(Op::Divide, a, b);
                 let whole = self.math(Math::Floor, quotient);

@@ -2,7 +2,7 @@
 
 use naga::{Block, Expression, FunctionArgument, FunctionResult, Handle, LocalVariable, Range, Span, Statement};
 
-use super::{Instance, Lowering, Map, consts};
+use super::{Instance, Lowering, Map, consts, scalars};
 use crate::glsl::{
     ast::List,
     hir::{ConstId, ExprId, FuncId, LocalId, LocalKind, Scalar, Type, TypeId, VarFlags},
@@ -53,6 +53,9 @@ pub(super) struct Builder<'m, 'a> {
     pub matrix_products: Map<Value, (u8, Value, Value)>,
     /// Values that variables stand for.
     named: std::collections::HashSet<Value>,
+    /// Pure operations of the blocks at hand, from the outermost on, and where to find them.
+    made: Map<scalars::Key, Value>,
+    made_in_order: Vec<scalars::Key>,
     pub loops: Vec<Loop>,
     /// What is known of int locals at this place: least and greatest value.
     pub known: Map<u32, (i64, i64)>,
@@ -97,6 +100,8 @@ impl<'m, 'a> Builder<'m, 'a> {
             globals: Map::default(),
             matrix_products: Map::default(),
             named: Default::default(),
+            made: Map::default(),
+            made_in_order: Vec::new(),
             loops: Vec::new(),
             known: Map::default(),
             result: TypeId::VOID,
@@ -158,6 +163,9 @@ impl<'m, 'a> Builder<'m, 'a> {
             self.store(pointer, value);
         } else {
             self.named.insert(value);
+            if let Expression::Compose { components, .. } = &self.f.expressions[value] {
+                self.named.extend(components);
+            }
             self.set_slot(local, Slot::Value(value));
         }
     }
@@ -224,11 +232,24 @@ impl<'m, 'a> Builder<'m, 'a> {
 
     // ----------------------------------------------------------------------------------------------- expressions
 
-    /// An expression to be computed here.
+    /// An expression to be computed here, if it was not yet.
     pub fn add(&mut self, expression: Expression) -> Value {
+        if let Expression::AccessIndex { base, index } = expression
+            && let Some(component) = self.known_component(base, index)
+        {
+            return component;
+        }
+        let key = scalars::key(&expression);
+        if let Some(&made) = key.as_ref().and_then(|key| self.made.get(key)) {
+            return made;
+        }
         let value = self.f.expressions.append(expression, Span::UNDEFINED);
         let first = self.unemitted.map_or(value, |(first, _)| first);
         self.unemitted = Some((first, value));
+        if let Some(key) = key {
+            self.made.insert(key, value);
+            self.made_in_order.push(key);
+        }
         value
     }
 
@@ -263,8 +284,12 @@ impl<'m, 'a> Builder<'m, 'a> {
         self.emit();
         let outer = std::mem::take(&mut self.block);
         let outer_ended = std::mem::take(&mut self.ended);
+        let made = self.made_in_order.len();
         fill(self);
         self.emit();
+        for key in self.made_in_order.drain(made..) {
+            self.made.remove(&key);
+        }
         let ended = std::mem::replace(&mut self.ended, outer_ended);
         (std::mem::replace(&mut self.block, outer), ended)
     }

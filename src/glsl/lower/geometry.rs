@@ -7,20 +7,23 @@
 use naga::{BinaryOperator as Op, Expression, MathFunction as Math};
 
 use super::function::{Builder, Value};
-use crate::glsl::hir::TypeId;
+use crate::glsl::hir::{Scalar, TypeId};
 
 impl Builder<'_, '_> {
     /// `((w w' + z z') + y y') + x x'`: the side the sum is on matters to what drivers join it with.
     pub fn dot(&mut self, ty: TypeId, a: Value, b: Value) -> Value {
-        let products = self.op(Op::Multiply, a, b);
         let size = self.extent(ty);
         if size == 1 {
-            return products;
+            return self.op(Op::Multiply, a, b);
         }
-        let part = |this: &mut Self, index| this.add(Expression::AccessIndex { base: products, index });
-        let mut sum = part(self, size - 1);
+        let product = |this: &mut Self, index| {
+            let a = this.add(Expression::AccessIndex { base: a, index });
+            let b = this.add(Expression::AccessIndex { base: b, index });
+            this.op(Op::Multiply, a, b)
+        };
+        let mut sum = product(self, size - 1);
         for index in (0..size - 1).rev() {
-            let term = part(self, index);
+            let term = product(self, index);
             sum = self.op(Op::Add, sum, term);
         }
         sum
@@ -37,7 +40,7 @@ impl Builder<'_, '_> {
     pub fn normalize(&mut self, ty: TypeId, vector: Value) -> Value {
         let square = self.dot(ty, vector, vector);
         let scale = self.math(Math::InverseSqrt, square);
-        self.op(Op::Multiply, vector, scale)
+        self.each(ty, [(ty, vector), (TypeId::FLOAT, scale)], |b, [x, scale]| b.op(Op::Multiply, x, scale))
     }
 
     /// `i - 2 dot(n, i) n`.
@@ -45,8 +48,10 @@ impl Builder<'_, '_> {
         let dot = self.dot(ty, n, i);
         let two = self.float(2.0);
         let twice = self.op(Op::Multiply, two, dot);
-        let along = self.op(Op::Multiply, n, twice);
-        self.op(Op::Subtract, i, along)
+        self.each(ty, [(ty, i), (ty, n), (TypeId::FLOAT, twice)], |b, [i, n, twice]| {
+            let along = b.op(Op::Multiply, n, twice);
+            b.op(Op::Subtract, i, along)
+        })
     }
 
     /// Section 8.5: zero where all light is reflected.
@@ -61,9 +66,12 @@ impl Builder<'_, '_> {
         let root = self.math(Math::Sqrt, k);
         let along = self.op(Op::Multiply, eta, dot);
         let sum = self.op(Op::Add, along, root);
-        let normal = self.op(Op::Multiply, n, sum);
-        let scaled = self.op(Op::Multiply, i, eta);
-        let refracted = self.op(Op::Subtract, scaled, normal);
+        let float = TypeId::FLOAT;
+        let refracted = self.each(ty, [(ty, i), (float, eta), (ty, n), (float, sum)], |b, [i, eta, n, sum]| {
+            let normal = b.op(Op::Multiply, n, sum);
+            let scaled = b.op(Op::Multiply, i, eta);
+            b.op(Op::Subtract, scaled, normal)
+        });
         let zero_k = self.float(0.0);
         let total = self.op(Op::Less, k, zero_k);
         let zero = self.zero(ty);
@@ -71,28 +79,30 @@ impl Builder<'_, '_> {
     }
 
     /// `m1 * m2 * v` as `m1 * (m2 * v)`, which is less work: GLSL leaves the order open.
-    pub fn matrices_times_vector(&mut self, columns: u8, matrix: Value, vector: Value) -> Value {
-        let mut factors = vec![(columns, matrix)];
+    pub fn matrices_times_vector(&mut self, size: (u8, u8), matrix: Value, vector: Value) -> Value {
+        let mut factors = vec![(size, matrix)];
         while let Some(&(_, last)) = factors.last()
             && let Some(&(inner, left, right)) = self.matrix_products.get(&last)
             && !self.is_named(last)
         {
-            let (columns, _) = factors.pop().expect("seen above");
-            factors.extend([(inner, left), (columns, right)]);
+            let ((columns, rows), _) = factors.pop().expect("seen above");
+            factors.extend([((inner, rows), left), ((columns, inner), right)]);
         }
-        let product = |vector, (columns, matrix)| self.matrix_times_vector(columns, matrix, vector);
+        let product = |vector, (size, matrix)| self.matrix_times_vector(size, matrix, vector);
         factors.into_iter().rev().fold(vector, product)
     }
 
     /// `matCxR * vecC`: columns times components, added from the first on.
-    pub fn matrix_times_vector(&mut self, columns: u8, matrix: Value, vector: Value) -> Value {
+    pub fn matrix_times_vector(&mut self, (columns, rows): (u8, u8), matrix: Value, vector: Value) -> Value {
+        let ty = TypeId::vector(Scalar::Float, rows);
         let mut sum = None;
         for index in 0..u32::from(columns) {
             let column = self.add(Expression::AccessIndex { base: matrix, index });
             let factor = self.add(Expression::AccessIndex { base: vector, index });
-            let term = self.op(Op::Multiply, column, factor);
+            let term =
+                self.each(ty, [(ty, column), (TypeId::FLOAT, factor)], |b, [x, factor]| b.op(Op::Multiply, x, factor));
             sum = Some(match sum {
-                Some(sum) => self.op(Op::Add, sum, term),
+                Some(sum) => self.each(ty, [(ty, sum), (ty, term)], |b, [sum, term]| b.op(Op::Add, sum, term)),
                 None => term,
             });
         }
@@ -101,21 +111,21 @@ impl Builder<'_, '_> {
 
     /// `vecR * matCxR`: the dot product with each column.
     pub fn vector_times_matrix(&mut self, (columns, rows): (u8, u8), vector: Value, matrix: Value) -> Value {
-        use crate::glsl::hir::Scalar::Float;
-        let column_ty = TypeId::vector(Float, rows);
+        let column_ty = TypeId::vector(Scalar::Float, rows);
         let parts = (0..u32::from(columns)).map(|index| {
             let column = self.add(Expression::AccessIndex { base: matrix, index });
             self.dot(column_ty, vector, column)
         });
         let parts = parts.collect();
-        self.compose(TypeId::vector(Float, columns), parts)
+        self.compose(TypeId::vector(Scalar::Float, columns), parts)
     }
 
     /// `matKxR * matCxK`: the left one times each column of the right one.
-    pub fn matrix_times_matrix(&mut self, ty: TypeId, inner: u8, left: Value, right: Value) -> Value {
-        let columns = (0..self.extent(ty)).map(|index| {
+    pub fn matrix_times_matrix(&mut self, (columns, rows): (u8, u8), inner: u8, left: Value, right: Value) -> Value {
+        let ty = TypeId::matrix(columns, rows);
+        let columns = (0..u32::from(columns)).map(|index| {
             let column = self.add(Expression::AccessIndex { base: right, index });
-            self.matrix_times_vector(inner, left, column)
+            self.matrix_times_vector((inner, rows), left, column)
         });
         let columns = columns.collect();
         let product = self.compose(ty, columns);

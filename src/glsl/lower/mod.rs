@@ -34,6 +34,7 @@ mod ranges;
 mod reach;
 mod regroup;
 mod resources;
+mod scalars;
 mod tables;
 mod texture;
 mod types;

@@ -8,6 +8,11 @@ use crate::glsl::hir::{BinaryOp, ExprId, ExprKind, IncDec, Scalar, Shape, Type, 
 /// A value and its type.
 pub(super) type Typed = (TypeId, Value);
 
+/// Whether an operator gives a number for each component.
+fn is_arithmetic(op: Op) -> bool {
+    matches!(op, Op::Add | Op::Subtract | Op::Multiply | Op::Divide)
+}
+
 impl Builder<'_, '_> {
     pub fn unary(&mut self, op: UnaryOp, ty: TypeId, expr: Value) -> Value {
         let types = &self.cx.hir.types;
@@ -22,12 +27,18 @@ impl Builder<'_, '_> {
                 let zero = self.zero(ty);
                 self.op(Op::Subtract, zero, expr)
             }
-            UnaryOp::Negate => self.add(Expression::Unary { op: UnaryOperator::Negate, expr }),
+            UnaryOp::Negate if self.is_float_vector(ty) => self.each(ty, [(ty, expr)], |b, [expr]| b.negate(expr)),
+            UnaryOp::Negate => self.negate(expr),
         }
     }
 
-    pub fn binary(&mut self, op: BinaryOp, shape: Shape, left: Typed, right: Typed) -> Value {
+    fn negate(&mut self, expr: Value) -> Value {
+        self.add(Expression::Unary { op: UnaryOperator::Negate, expr })
+    }
+
+    pub fn binary(&mut self, source: BinaryOp, shape: Shape, left: Typed, right: Typed) -> Value {
         use BinaryOp as B;
+        let op = source;
         let types = &self.cx.hir.types;
         match op {
             B::Equal => return self.equal(left.0, left.1, right.1),
@@ -61,31 +72,33 @@ impl Builder<'_, '_> {
             _ => types.get(left.0),
         };
         match (shape, types.get(left.0), types.get(right.0)) {
-            (Shape::MatVec, Type::Matrix { columns, .. }, _) => {
-                return self.matrices_times_vector(columns, left.1, right.1);
+            (Shape::MatVec, Type::Matrix { columns, rows }, _) => {
+                return self.matrices_times_vector((columns, rows), left.1, right.1);
             }
             (Shape::VecMat, _, Type::Matrix { columns, rows }) => {
                 return self.vector_times_matrix((columns, rows), left.1, right.1);
             }
             (Shape::MatMat, Type::Matrix { columns: inner, rows }, Type::Matrix { columns, .. }) => {
-                return self.matrix_times_matrix(TypeId::matrix(columns, rows), inner, left.1, right.1);
+                return self.matrix_times_matrix((columns, rows), inner, left.1, right.1);
             }
             _ => {}
         }
         if matches!(op, Op::Less | Op::LessEqual | Op::Greater | Op::GreaterEqual) && left.0 == TypeId::FLOAT {
             return self.order(op, left.1, right.1);
         }
-        let (vector_ty, scalar) = match shape {
-            Shape::ScalarLeft => (right.0, left.1),
-            _ => (left.0, right.1),
+        let vector_ty = match shape {
+            Shape::ScalarLeft => right.0,
+            _ => left.0,
         };
         if matches!(op, Op::Multiply | Op::Add)
             && let Some(regrouped) = self.with_constants_joined(op, vector_ty, left, right)
         {
             return regrouped;
         }
-        if matches!(shape, Shape::ScalarLeft | Shape::ScalarRight) && self.is_arithmetic(vector_ty, scalar) {
-            return self.by_component(op, shape, vector_ty, left.1, right.1);
+        if is_arithmetic(op) && self.is_float_vector(vector_ty) {
+            let float = TypeId::FLOAT;
+            return self
+                .each(vector_ty, [left, right], |b, [l, r]| b.binary(source, Shape::Same, (float, l), (float, r)));
         }
         // naga multiplies matrices and scalars itself, and vectors and scalars of floats.
         if op == Op::Multiply {
@@ -151,30 +164,6 @@ impl Builder<'_, '_> {
         self.select(wrong_side, moved, rest)
     }
 
-    /// Whether `scalar`, the other side of a float vector, is itself a sum, difference or product.
-    fn is_arithmetic(&self, vector: TypeId, scalar: Value) -> bool {
-        let is_float = matches!(self.cx.hir.types.get(vector), Type::Vector { scalar: Scalar::Float, .. });
-        let is_term = |op| matches!(op, Op::Add | Op::Subtract | Op::Multiply);
-        is_float && matches!(self.f.expressions[scalar], Expression::Binary { op, .. } if is_term(op))
-    }
-
-    /// A vector and a scalar, written out by component.
-    ///
-    /// As a vector operation it would use the scalar once, and drivers take sums and products that are used once apart to
-    /// regroup their terms, vectors first and scalars later. Their OpenGL siblings split vectors before they look, so that they
-    /// see a scalar with several uses and leave it whole: `p + dot(p, q)` would end in other last bits.
-    fn by_component(&mut self, op: Op, shape: Shape, ty: TypeId, left: Value, right: Value) -> Value {
-        let parts = (0..self.extent(ty)).map(|index| {
-            let (l, r) = match shape {
-                Shape::ScalarLeft => (left, self.add(Expression::AccessIndex { base: right, index })),
-                _ => (self.add(Expression::AccessIndex { base: left, index }), right),
-            };
-            self.op(op, l, r)
-        });
-        let parts = parts.collect();
-        self.compose(ty, parts)
-    }
-
     /// Component by component on matrices, where naga has no operator for it.
     fn by_column(&mut self, op: Op, shape: Shape, (columns, rows): (u8, u8), left: Value, right: Value) -> Value {
         let column_ty = TypeId::vector(Scalar::Float, rows);
@@ -193,7 +182,7 @@ impl Builder<'_, '_> {
                 (Shape::ScalarRight, Some(scalar)) => scalar,
                 _ => self.add(Expression::AccessIndex { base: right, index }),
             };
-            out.push(self.op(op, l, r));
+            out.push(self.each(column_ty, [(column_ty, l), (column_ty, r)], |b, [l, r]| b.op(op, l, r)));
         }
         self.compose(TypeId::matrix(columns, rows), out)
     }

@@ -92,62 +92,24 @@ impl Builder<'_, '_> {
         self.op(op, left, right)
     }
 
-    /// An order of two floats as OpenGL's compilers have it, which take comparisons for inexact: `a + 2.0 < 3.0` is `a < 1.0`, and
-    /// `abs(a) > 0.0` is `a != 0.0`, which NaN is.
+    /// An order of two floats as OpenGL's compilers have it, which take comparisons for inexact: `abs(a) > 0.0` is `a != 0.0`,
+    /// which NaN is.
     pub fn order(&mut self, op: Op, left: Value, right: Value) -> Value {
-        // Only where the sum is on the side that NIR's `flt` and `fge` have first.
-        let (first, constant) = match op {
-            Op::Less | Op::GreaterEqual => (left, right),
-            _ => (right, left),
-        };
         let positive = match op {
             Op::Less => self.magnitude_above_zero(right, left),
             Op::Greater => self.magnitude_above_zero(left, right),
             _ => None,
         };
-        if let Some(number) = positive {
-            let zero = self.float(0.0);
-            let equal = self.op(Op::Equal, number, zero);
-            return self.not(equal);
-        }
-        let Some((first, limit)) = self.moved_constant(first, constant) else { return self.op(op, left, right) };
-        let limit = self.float(limit);
-        match op {
-            Op::Less | Op::GreaterEqual => self.op(op, first, limit),
-            _ => self.op(op, limit, first),
-        }
+        let Some(number) = positive else { return self.op(op, left, right) };
+        let zero = self.float(0.0);
+        let equal = self.op(Op::Equal, number, zero);
+        self.not(equal)
     }
 
     /// What `abs` is taken of, in `abs(..) > 0.0`.
     fn magnitude_above_zero(&self, magnitude: Value, zero: Value) -> Option<Value> {
         let Expression::Math { fun: Math::Abs, arg, .. } = self.f.expressions[magnitude] else { return None };
         (self.floats(zero)?[..] == [0.0]).then_some(arg)
-    }
-
-    /// From a sum with a constant, compared to a constant: what is left of the sum, and what that is to be compared to.
-    fn moved_constant(&mut self, sum: Value, constant: Value) -> Option<(Value, f32)> {
-        let &[limit] = &self.floats(constant)?[..] else { return None };
-        let Expression::Binary { op: op @ (Op::Add | Op::Subtract), left, right } = self.f.expressions[sum] else {
-            return None;
-        };
-        if self.is_named(sum) {
-            return None;
-        }
-        let known = |this: &Self, side| match this.floats(side).as_deref() {
-            Some(&[number]) => Some(number),
-            _ => None,
-        };
-        let (rest, limit) = match (known(self, left), op, known(self, right)) {
-            (None, Op::Add, Some(number)) | (Some(number), Op::Add, None) => {
-                (if known(self, left).is_some() { right } else { left }, limit - number)
-            }
-            (None, _, Some(number)) => (left, limit + number),
-            (Some(number), _, None) => {
-                (self.add(Expression::Unary { op: naga::UnaryOperator::Negate, expr: right }), limit - number)
-            }
-            _ => return None,
-        };
-        limit.is_finite().then_some((rest, limit))
     }
 
     /// `x` of `max(min(x, 1.0), 0.0)`, which OpenGL's compilers take for `clamp(x, 0.0, 1.0)`: that says another thing of NaN.
@@ -168,7 +130,7 @@ impl Builder<'_, '_> {
     }
 
     /// The components of a float constant; one for a scalar or a repeated one.
-    fn floats(&self, value: Value) -> Option<Vec<f32>> {
+    pub fn floats(&self, value: Value) -> Option<Vec<f32>> {
         let float = |literal: &Literal| match literal {
             Literal::F32(number) => Some(*number),
             _ => None,
@@ -213,18 +175,11 @@ impl Builder<'_, '_> {
     pub fn mix(&mut self, ty: TypeId, x: Value, y: Value, a: Value) -> Value {
         let size = self.extent(ty);
         let shared: Vec<bool> = (0..size).map(|index| self.mix_shares_work(size, index, x, y, a)).collect();
-        match (shared.iter().any(|shared| *shared), shared.iter().all(|shared| *shared)) {
-            (false, _) => self.short_mix(x, y, a),
-            (true, true) => self.full_mix(ty, x, y, a),
-            _ => {
-                let (short, full) = (self.short_mix(x, y, a), self.full_mix(ty, x, y, a));
-                let parts = shared.into_iter().zip(0..).map(|(shared, index)| {
-                    self.add(Expression::AccessIndex { base: if shared { full } else { short }, index })
-                });
-                let parts = parts.collect();
-                self.compose(ty, parts)
-            }
-        }
+        let mut shared = shared.into_iter();
+        self.each(ty, [(ty, x), (ty, y), (ty, a)], |b, [x, y, a]| match shared.next() {
+            Some(true) => b.full_mix(x, y, a),
+            _ => b.short_mix(x, y, a),
+        })
     }
 
     /// Section 8.3: `t = clamp((x - a) / (b - a), 0, 1)`, then `t t (3 - 2 t)`.
@@ -270,8 +225,8 @@ impl Builder<'_, '_> {
         self.op(Op::Add, x, part)
     }
 
-    fn full_mix(&mut self, ty: TypeId, x: Value, y: Value, a: Value) -> Value {
-        let one = self.float_of(ty, 1.0);
+    fn full_mix(&mut self, x: Value, y: Value, a: Value) -> Value {
+        let one = self.float(1.0);
         let rest = self.op(Op::Subtract, one, a);
         let (left, right) = (self.op(Op::Multiply, x, rest), self.op(Op::Multiply, y, a));
         self.op(Op::Add, left, right)

@@ -1,0 +1,116 @@
+//! Vector arithmetic, written out by component, each operation once.
+//!
+//! Which terms of sums and products a driver joins depends on whether it looks before or after it splits vectors and finds what
+//! is computed twice. OpenGL drivers do both first, Vulkan ones later, so last bits differ (see [`super::regroup`]); here both is
+//! done beforehand. Devices that compute by component have as much to do either way.
+
+use naga::{Expression, TypeInner};
+
+use super::{
+    function::{Builder, Value},
+    operators::Typed,
+};
+use crate::glsl::hir::{Builtin, Scalar, Type, TypeId};
+
+/// What tells pure operations apart: kind, operator, operands.
+pub(super) type Key = (u8, u32, [Option<Value>; 4]);
+
+/// `None` for what may be another value each time.
+pub(super) fn key(expression: &Expression) -> Option<Key> {
+    use Expression as E;
+    Some(match *expression {
+        E::Binary { op, left, right } => (0, op as u32, [Some(left), Some(right), None, None]),
+        E::AccessIndex { base, index } => (1, index, [Some(base), None, None, None]),
+        E::Unary { op, expr } => (2, op as u32, [Some(expr), None, None, None]),
+        E::Math { fun, arg, arg1, arg2, arg3 } => (3, fun as u32, [Some(arg), arg1, arg2, arg3]),
+        E::Splat { size, value } => (4, size as u32, [Some(value), None, None, None]),
+        _ => return None,
+    })
+}
+
+impl Builder<'_, '_> {
+    pub fn is_float_vector(&self, ty: TypeId) -> bool {
+        matches!(self.cx.hir.types.get(ty), Type::Vector { scalar: Scalar::Float, .. })
+    }
+
+    /// Applies `f` to the components of vectors, and to scalars as they are; `ty` is the result's type.
+    pub fn each<const N: usize>(
+        &mut self,
+        ty: TypeId,
+        operands: [Typed; N],
+        mut f: impl FnMut(&mut Self, [Value; N]) -> Value,
+    ) -> Value {
+        let size = self.extent(ty);
+        if size == 1 {
+            return f(self, operands.map(|(_, value)| value));
+        }
+        let mut parts = Vec::with_capacity(size as usize);
+        for index in 0..size {
+            let values = operands.map(|(ty, value)| match self.extent(ty) {
+                1 => value,
+                _ => self.add(Expression::AccessIndex { base: value, index }),
+            });
+            parts.push(f(self, values));
+        }
+        self.compose(ty, parts)
+    }
+
+    /// What a component of a value is, if no instruction is needed to take it out.
+    pub fn known_component(&mut self, base: Value, index: u32) -> Option<Value> {
+        match self.f.expressions[base] {
+            Expression::Splat { value, .. } => Some(value),
+            Expression::Compose { ty, ref components } => {
+                let whole = match self.cx.out.types[ty].inner {
+                    TypeInner::Vector { size, .. } => components.len() == size as usize,
+                    _ => true,
+                };
+                whole.then(|| components[index as usize])
+            }
+            Expression::Constant(_) => match self.floats(base)?[..] {
+                [] | [_] => None,
+                ref all => {
+                    let number = all[index as usize];
+                    Some(self.float(number))
+                }
+            },
+            _ => None,
+        }
+    }
+}
+
+/// Whether a built-in works on each component alone, by the type of its result where that is of floats.
+pub(super) fn is_by_component(builtin: Builtin) -> bool {
+    use Builtin as B;
+    matches!(
+        builtin,
+        B::Radians
+            | B::Degrees
+            | B::Sin
+            | B::Cos
+            | B::Tan
+            | B::Asin
+            | B::Acos
+            | B::Atan
+            | B::Exp
+            | B::Log
+            | B::Exp2
+            | B::Log2
+            | B::Sqrt
+            | B::InverseSqrt
+            | B::Abs
+            | B::Sign
+            | B::Floor
+            | B::Trunc
+            | B::Round
+            | B::RoundEven
+            | B::Ceil
+            | B::Fract
+            | B::Pow
+            | B::Min
+            | B::Max
+            | B::Mod
+            | B::Step
+            | B::Clamp
+            | B::Smoothstep
+    )
+}

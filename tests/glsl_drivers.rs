@@ -1,0 +1,115 @@
+//! What the specification leaves open and pictures lean on: as OpenGL drivers and browsers have it, on whatever driver draws.
+//!
+//! `Z` is a zero no compiler can see through, so that nothing here is folded before it runs.
+
+#[path = "support/compute.rs"]
+mod compute;
+mod support;
+
+use compute::*;
+use support::*;
+
+/// Drivers take a quotient by a zero they can see for anything.
+#[test]
+fn a_constant_zero_divides() {
+    check(&[
+        with(
+            "float unite(float a, float b, float k) {\n\
+             float h = clamp(0.5 + 0.5 * (b - a) / k, 0.0, 1.0); return mix(b, a, h) - k * h * (1.0 - h); }",
+            "r = vec4(unite(Z + 1.0, Z + 2.0, 0.0), unite(Z + 4.0, Z + 3.0, 0.0), 0, 0);",
+            [1., 3., 0., 0.],
+        ),
+        with(
+            "struct S { vec2 blur; float width; }; S s;\n\
+             void set(float b) { s.blur = b == 0.0 ? vec2(0.0, 1.0) : vec2(b, 0.0); }\n\
+             float edge(float w) { return clamp(-w / s.blur.x + s.blur.y, 0.0, 1.0); }",
+            "set(0.0); r = vec4(edge(Z + 1.0), edge(Z - 1.0), 0, 0);",
+            [0., 1., 0., 0.],
+        ),
+        with(
+            "float over(float k) { return (Z + 3.0) / k; } float zero() { return 0.0; }",
+            "float unset, a = Z - 2.0; a /= 0.0;\n\
+             r = vec4(min(over(0.0), 5.0), min((Z + 2.0) / unset, 6.0), max(a, -7.0), max((Z - 1.0) / zero(), -8.0));",
+            [5., 6., -7., -8.],
+        ),
+        with(
+            "void give(out vec2 v) { v = vec2(1.0, 0.0); }",
+            "vec2 v; give(v); vec2 q = (Z + vec2(3.0)) / v; r = vec4(q.x, min(q.y, 9.0), 0, 0);",
+            [3., 9., 0., 0.],
+        ),
+        // Space is repeated along some axes alone by this.
+        case("r = vec4(mod(Z + 5.5, 0.0), mod(vec2(Z + 5.5), vec2(0.0, 2.0)), 0);", [5.5, 5.5, 1.5, 0.]),
+    ]);
+}
+
+/// What is not a number is not nothing, and is cut to zero.
+#[test]
+fn comparisons_of_nan() {
+    check(&[
+        case(
+            "float n = uintBitsToFloat(0x7fc00000u + uint(iFrame));\n\
+             r = vec4(abs(n) > 0.0, 0.0 < abs(n), max(min(n, 1.0), 0.0), max(0.0, min(1.0, n)));",
+            [1., 1., 0., 0.],
+        ),
+        case(
+            "float z = Z * 3.0; r = vec4(abs(z) > 0.0, 0.0 < abs(z - 2.0), abs(z) < 0.0, abs(z) > 1.0);",
+            [0., 1., 0., 0.],
+        ),
+    ]);
+}
+
+#[test]
+fn negative_floats_as_uints() {
+    check(&[case(
+        "r = vec4(uint(Z - 1.5), uint(Z - 3000.0), uint(Z + 7.9), uvec2(Z - 4.0, Z + 4.0).y);",
+        [0., 0., 7., 4.],
+    )]);
+}
+
+/// Which last bits come out, on drivers that neither fuse nor round otherwise: those of OpenGL's compilers.
+#[test]
+fn order_of_evaluation() {
+    let Some(gpu) = gpu() else { return };
+    if gpu.info.device_type != wgpu::DeviceType::Cpu {
+        return;
+    }
+    check(&[
+        // Balanced: (t t) (t t).
+        case("float t = Z + 0.337; r = vec4(floatBitsToUint(t * t * t * t) - 0x3c5351cbu);", [0.; 4]),
+        // What is added to a dot product goes to its last term: x x' + (y y' + 0.6).
+        case(
+            "vec2 p = Z + vec2(3.69, 6.83); r = vec4(floatBitsToUint(dot(p, vec2(12.98, 96.77)) + 0.6) - 0x44315bdbu);",
+            [0.; 4],
+        ),
+        // Constants reach into vectors: (13.46 t) p.x + (41.74 t) p.y.
+        case(
+            "vec2 p = Z + vec2(2.59, 8.26); float t = Z + 6.91;\n\
+             r = vec4(floatBitsToUint(dot(t * p, vec2(13.46, 41.74)) + 17.34) - 0x452509c2u);",
+            [0.; 4],
+        ),
+        // The width of this step is a negative zero.
+        case(
+            "float a = Z; r = vec4(smoothstep(a, 0.0, Z - 1.0), smoothstep(a, 0.0, Z + 1.0), 0, 0);",
+            [1., 0., 0., 0.],
+        ),
+        // The constants of a product are multiplied first: (0.3 * 0.7) * b * a.
+        case("float a = Z + 2.15, b = Z + 8.59; r = vec4(floatBitsToUint(0.3 * a * b * 0.7) - 0x40783778u);", [0.; 4]),
+        // A scalar that is added to a vector stays whole: p + (p.x q.x + p.y q.y).
+        case(
+            "vec2 p = Z + vec2(8.69, 6.8), q = Z + vec2(5.33, 3.22);\n\
+             r = vec4(floatBitsToUint(p + dot(p, q)) - uvec2(0x4299ceb2u, 0x42960704u), 0, 0);",
+            [0.; 4],
+        ),
+        // Matrices are applied one after the other: m * (n * v).
+        case(
+            "mat2 m = mat2(2.18, 7.56, 6.47, 7.3), n = mat2(2.53, 7.42, 2.53, 1.65); m[0] += Z; n[0] += Z;\n\
+             r = vec4(floatBitsToUint(m * n * (Z + vec2(7.84, 7.89))) - uvec2(0x4408d75bu, 0x444d23e8u), 0, 0);",
+            [0.; 4],
+        ),
+        // x (1 - a) + y a where the components share x (1 - a).
+        case(
+            "vec3 y = Z + vec3(4.25, 1.0, 2.0); r = vec4(floatBitsToUint(mix(vec3(0.3), y, Z + 0.27).x) - 0x3faee979u);",
+            [0.; 4],
+        ),
+    ]);
+}
