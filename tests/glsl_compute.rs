@@ -7,7 +7,6 @@ mod compute;
 mod support;
 
 use compute::*;
-use support::*;
 
 const INF: f32 = f32::INFINITY;
 const NAN: f32 = f32::NAN;
