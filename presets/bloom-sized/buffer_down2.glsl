@@ -1,0 +1,5 @@
+// Level 2 of the pyramid: 1/4 of the canvas. Channel 0 is the level before.
+
+void mainImage(out vec4 light, in vec2 fragCoord) {
+    light = down13(iChannel0, fragCoord / iResolution.xy, 1.0 / iChannelResolution[0].xy, false);
+}
