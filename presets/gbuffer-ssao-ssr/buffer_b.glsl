@@ -6,8 +6,8 @@
 // what is left is noise (few slices, few steps) and what no depth buffer knows: the far side of things.
 
 #iUniform float radius = 0.8 in { 0.05, 4.0 } // how far away something may be to hide the sky, in units of the scene
-#iUniform int slices = 1 in { 1, 8 }
-#iUniform int steps = 4 in { 2, 16 }          // on either side of a slice
+#iUniform int slices = 2 in { 1, 8 }
+#iUniform int steps = 3 in { 2, 16 }          // on either side of a slice
 
 // The sine over a surface's plane below which a point counts as part of it: the rounding of depths to texels would else make a
 // plane hide a little of its own sky. It is also what the walls of a corner lose: 2 degrees.
@@ -57,5 +57,5 @@ void mainImage(out vec4 occluded, in vec2 fragCoord) {
             seen += share * 0.25 * (cos(n) + 2.0 * h * sin(n) - cos(2.0 * h - n));
         }
     }
-    occluded.r = clamp(1.0 - seen / float(slices), 0.0, 1.0);
+    occluded.r = 1.0 - seen / float(slices); // of one slice, below zero too: only the mean over all is a part of the sky
 }

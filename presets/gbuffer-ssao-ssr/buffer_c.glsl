@@ -15,5 +15,5 @@ void mainImage(out vec4 occluded, in vec2 fragCoord) {
             weights += near;
         }
     }
-    occluded = vec4(weights > 0.0 ? sum / weights : 0.0, 0.0, 0.0, 1.0);
+    occluded = vec4(clamp(sum / max(weights, 1e-6), 0.0, 1.0), 0.0, 0.0, 1.0);
 }
