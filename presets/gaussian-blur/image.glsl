@@ -12,7 +12,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     vec3 light = texelFetch(iChannel0, p, 0).rgb;
 
     float reach = float(2 * REACH + 3); // texels shown across
-    float zoom = 0.225 * iResolution.y / reach;
+    float zoom = min(0.225 * iResolution.y, 0.45 * float(panel.y)) / reach;
     vec2 q = fragCoord - middle;
     if (fragCoord.y < 0.25 * iResolution.y) {
         ivec2 impulse = impulseOf(panel, size.y);

@@ -24,7 +24,7 @@ void mainImage(out vec4 occluded, in vec2 fragCoord) {
     occluded = vec4(0.0, 0.0, 0.0, 1.0);
     if (isNothing(g)) return;
     vec3 at = viewFromPixel(fragCoord, g.z, iResolution.xy), normal = unpackNormal(g.xy), view = normalize(-at);
-    float pixels = min(radius * FOCAL * iResolution.y / g.z, iResolution.y);
+    float pixels = min(radius * FOCAL * unit(iResolution.xy) / g.z, iResolution.y);
     if (pixels < 2.0) return; // the radius is smaller than what a pixel shows
 
     // 16 directions and 4 distances in a square of 4 x 4 texels, each once: the blur of Buffer C sees them all.

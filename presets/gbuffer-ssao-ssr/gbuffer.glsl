@@ -7,7 +7,12 @@
 //   w      material + diffuse: a whole number, and as its fraction how bright the diffuse light is, 0 to 0.999
 
 const float FAR = 100.0;
-const float FOCAL = 1.8; // in picture heights
+const float FOCAL = 1.8; // in units of a picture
+
+// Pixels in a unit: the height, or less where the canvas is too narrow for the scene.
+float unit(vec2 resolution) {
+    return min(resolution.y, 0.8 * resolution.x);
+}
 
 vec2 packNormal(vec3 n) {
     return n.xy * inversesqrt(max(8.0 * n.z + 8.0, 1e-6));
@@ -21,9 +26,9 @@ vec3 unpackNormal(vec2 e) {
 
 // A pixel and its depth to a point as the camera sees it (x right, y up, z towards the camera, so -depth), and back.
 vec3 viewFromPixel(vec2 pixel, float depth, vec2 resolution) {
-    return depth * vec3((pixel - 0.5 * resolution) / (resolution.y * FOCAL), -1.0);
+    return depth * vec3((pixel - 0.5 * resolution) / (unit(resolution) * FOCAL), -1.0);
 }
 
 vec2 pixelFromView(vec3 p, vec2 resolution) {
-    return 0.5 * resolution + resolution.y * FOCAL * p.xy / max(-p.z, 1e-4);
+    return 0.5 * resolution + unit(resolution) * FOCAL * p.xy / max(-p.z, 1e-4);
 }

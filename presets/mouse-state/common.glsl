@@ -23,7 +23,7 @@ float signature(vec2 resolution) {
 // The mouse, or while nobody has touched it a hand on a rose curve. x, y in pixels, z 1 while held.
 vec3 hand(vec4 mouse, float time, vec2 resolution) {
     if (mouse.z > 0.0 || abs(mouse.x) + abs(mouse.y) > 0.0) return vec3(mouse.xy, mouse.z > 0.0 ? 1.0 : 0.0);
-    float r = 0.42 * min(resolution.x, resolution.y) * cos(2.5 * 0.9 * time);
+    float r = 0.42 * min(resolution.x / 1.6, resolution.y) * cos(2.5 * 0.9 * time);
     return vec3(0.5 * resolution + r * vec2(1.6, 1.0) * vec2(cos(0.9 * time), sin(0.9 * time)), 1.0);
 }
 

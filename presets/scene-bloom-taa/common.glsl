@@ -15,7 +15,12 @@ struct Camera {
     vec3 from, right, up, ahead;
 };
 
-const float FOCAL = 1.55; // in picture heights
+const float FOCAL = 1.55; // in units of a picture
+
+// Pixels in a unit: the height, or less where the canvas is too narrow for the scene.
+float unit(vec2 resolution) {
+    return min(resolution.y, 0.7 * resolution.x);
+}
 
 // The mouse turns the camera while it is held, and leaves it there.
 Camera camera(float time, vec4 mouse, vec2 resolution) {
@@ -31,14 +36,14 @@ Camera camera(float time, vec4 mouse, vec2 resolution) {
 
 // Pixels to a direction (not of length 1: one unit ahead), and a point back to pixels.
 vec3 rayThrough(Camera c, vec2 pixel, vec2 resolution) {
-    vec2 q = (pixel - 0.5 * resolution) / resolution.y;
+    vec2 q = (pixel - 0.5 * resolution) / unit(resolution);
     return FOCAL * c.ahead + q.x * c.right + q.y * c.up;
 }
 
 vec2 pixelOf(Camera c, vec3 p, vec2 resolution) {
     vec3 q = p - c.from;
     float z = max(dot(q, c.ahead), 1e-3);
-    return 0.5 * resolution + resolution.y * FOCAL / z * vec2(dot(q, c.right), dot(q, c.up));
+    return 0.5 * resolution + unit(resolution) * FOCAL / z * vec2(dot(q, c.right), dot(q, c.up));
 }
 
 bool isFinite(vec4 q) {

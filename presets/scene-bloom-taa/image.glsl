@@ -26,7 +26,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     // A simple lens magnifies each colour a little differently: rims at the picture's edge go apart, its middle stays.
     float step_ = 0.005 * aberration;
     vec3 light = vec3(at(0.5 + out_ * (1.0 + step_)).r, at(uv).g, at(0.5 + out_ * (1.0 - step_)).b);
-    vec2 q = out_ * iResolution.xy / iResolution.y / FOCAL;
+    vec2 q = out_ * iResolution.xy / unit(iResolution.xy) / FOCAL;
     light *= pow(1.0 + dot(q, q), -2.0 * vignette); // cos^4 of the angle, where the slider stands at 1
     vec3 shown = pow(film(light * exp2(exposure)), vec3(1.0 / 2.2));
     shown += grain / 255.0 * (hash(vec3(fragCoord, float(iFrame % 1024))) - 0.5) * 2.0;

@@ -29,7 +29,7 @@ float cogRadius(vec2 q) {
 }
 
 void mainImage(out vec4 sampled, in vec2 fragCoord) {
-    vec2 p = (fragCoord + jitter(iFrame) - 0.5 * iResolution.xy) / iResolution.y;
+    vec2 p = (fragCoord + jitter(iFrame) - 0.5 * iResolution.xy) / unit(iResolution.xy);
     float t = speed * iTime;
     vec2 q = toObject(COG, p, t), w = toObject(WHEEL, p, t);
     if (length(q) < cogRadius(q)) {

@@ -49,9 +49,9 @@ void mainImage(out vec4 resolved, in vec2 fragCoord) {
     vec2 from = fragCoord;
     if (motionVectors) {
         int id = int(now.a + 0.5);
-        vec2 here = (fragCoord - 0.5 * iResolution.xy) / iResolution.y;
+        vec2 here = (fragCoord - 0.5 * iResolution.xy) / unit(iResolution.xy);
         vec2 there = fromObject(id, toObject(id, here, speed * iTime), speed * (before.a - 1.0));
-        from += (there - here) * iResolution.y;
+        from += (there - here) * unit(iResolution.xy);
     }
     if (any(lessThan(from, vec2(0.0))) || any(greaterThan(from, iResolution.xy))) return; // it came in over the edge
 

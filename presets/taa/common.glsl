@@ -35,6 +35,11 @@ vec2 jitter(int i) {
 
 // ---------------------------------------------------------------------------------------------------- what moves, and how
 
+// Pixels in a unit: the height, or less on a narrow canvas.
+float unit(vec2 resolution) {
+    return min(resolution.y, 0.7 * resolution.x);
+}
+
 const int WALL = 0, WHEEL = 1, COG = 2;
 
 mat2 turned(float angle) {

@@ -6,7 +6,7 @@
 
 void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     vec2 mouse = iMouse.z > 0.0 || abs(iMouse.x) + abs(iMouse.y) > 0.0 ? iMouse.xy + 0.5 : vec2(split, 0.58) * iResolution.xy;
-    float radius = 0.17 * iResolution.y;
+    float radius = 0.17 * unit(iResolution.xy);
     vec2 toLens = fragCoord - mouse;
     bool lens = split > 0.0 && split < 1.0 && zoom > 1.0 && length(toLens) < radius;
     vec2 from = lens ? mouse + toLens / zoom : fragCoord;
