@@ -241,7 +241,10 @@ fn one_bad_number_in_a_history_heals() {
             draw(&mut engine, 0..6);
             assert!(!all_finite(&read(&mut engine, "B")), "{name}: {number} did not arrive");
             draw(&mut engine, 6..8);
-            assert!(all_finite(&read(&mut engine, "B")) && all_finite(&picture(&mut engine)), "{name}: {number} lives on");
+            assert!(
+                all_finite(&read(&mut engine, "B")) && all_finite(&picture(&mut engine)),
+                "{name}: {number} lives on"
+            );
         }
     }
 }

@@ -51,11 +51,7 @@ fn a_step_and_a_crease_are_lines_as_wide_as_stated() {
         assert_eq!(widths(&step, 0), vec![thickness as usize; 24], "a step in depth");
         assert_eq!(widths(&step, 1), vec![0; 24], "both sides of it face the same way");
         // A roof: two planes that meet in column 32, with a turn of 74 degrees.
-        let roof = lines(
-            &gpu,
-            thickness,
-            "n = vec3(p.x < 32.0 ? -0.6 : 0.6, 0.0, 0.8); depth = plane(n, 4.0, p);",
-        );
+        let roof = lines(&gpu, thickness, "n = vec3(p.x < 32.0 ? -0.6 : 0.6, 0.0, 0.8); depth = plane(n, 4.0, p);");
         assert_eq!(widths(&roof, 1), vec![thickness as usize; 24], "a crease");
         assert_eq!(widths(&roof, 0), vec![0; 24], "whose depth has no step");
     }
@@ -134,16 +130,13 @@ fn occlusion(gpu: &eddy::gpu::Gpu, height: f64, knobs: &[&str], size: (u32, u32)
 #[test]
 fn an_open_plane_sees_its_whole_sky() {
     let Some(gpu) = gpu() else { return };
-    // One slice leaves the mean over a hemisphere to 16 directions: at a low angle that is good to a few percent.
-    for (knobs, bias) in
-        [(&[][..], 0.01), (&["radius=4", "slices=1"], 0.05), (&["radius=4", "slices=8", "steps=16"], 0.01)]
-    {
+    for knobs in [&[][..], &["radius=4", "slices=1"], &["radius=4", "slices=8", "steps=16"]] {
         let open = occlusion(&gpu, 0.0, knobs, (160, 90));
         // The square of 4 x 4 texels whose mean is taken must be whole.
         let inside = (3..86).flat_map(|y| (3..156).map(move |x| (x, y)));
         let most = inside.map(|(x, y)| texel(&open, x, y)[0]).fold(0.0, f32::max);
         println!("open plane, {knobs:?}: at most {most}");
-        assert!(most < bias, "{knobs:?}: a plane hides {most} of its own sky");
+        assert!(most < 0.01, "{knobs:?}: a plane hides {most} of its own sky");
     }
 }
 
@@ -151,11 +144,13 @@ fn an_open_plane_sees_its_whole_sky() {
 fn beside_a_wall_the_hidden_part_of_the_sky_is_the_analytic_one() {
     let Some(gpu) = gpu() else { return };
     let size = [320.0, 180.0];
-    let height = 0.8;
+    let height = 0.8f64;
     let pixels = occlusion(&gpu, height, &["radius=4", "slices=8", "steps=16"], (320, 180));
     // A wall without ends hides (1 - cos t) / 2 of the cosine-weighted sky, t = atan(height / distance).
-    for (distance, bias) in [(0.3, 0.03), (0.4, 0.03), (0.8, 0.03), (1.2, 0.03)] {
-        let expected = 0.5 * (1.0 - (height / distance as f64).atan().cos());
+    // Stated bias: up to 0.04 too little. The picture has an end and the wall has none, what is far counts less, and the
+    // march finds the wall's upper edge only nearly.
+    for distance in [0.3, 0.4, 0.8, 1.2] {
+        let expected = 0.5 * (1.0 - (height / distance).atan().cos());
         let (mut sum, mut n) = (0.0, 0);
         for i in -8..=8 {
             let [x, y] = pixel_of([0.04 * f64::from(i), 0.0, WALL_Z + distance], size);
@@ -164,7 +159,7 @@ fn beside_a_wall_the_hidden_part_of_the_sky_is_the_analytic_one() {
         }
         let measured = sum / f64::from(n);
         println!("wall {height} high, {distance} away: {measured:.4}, analytic {expected:.4}");
-        assert!((measured - expected).abs() < bias, "{distance}: {measured}, analytic {expected}");
+        assert!(measured < expected + 0.01 && measured > expected - 0.04, "{distance}: {measured}, not {expected}");
     }
 }
 

@@ -146,7 +146,11 @@ fn waves_die_in_a_soft_wall_and_live_on_in_a_hard_one() {
     assert!(begin[0] > 0.1 && (begin[0] / begin[1] - 1.0).abs() < 1e-3, "{begin:?}");
     draw(&mut engine, 13..160);
     let end = [false, true].map(|works| energy(&read(&mut engine, "waves"), works));
-    println!("waves: {:.3} of the energy is left in hard walls, {:.2e} in soft ones", end[0] / begin[0], end[1] / begin[1]);
+    println!(
+        "waves: {:.3} of the energy is left in hard walls, {:.2e} in soft ones",
+        end[0] / begin[0],
+        end[1] / begin[1]
+    );
     assert!((end[0] / begin[0] - 1.0).abs() < 1e-3, "hard: {} of {}", end[0], begin[0]);
     assert!(end[1] < 0.02 * begin[1], "soft: {} of {}", end[1], begin[1]);
 }

@@ -2,8 +2,8 @@
 //
 // Method: J. Jimenez, "Next Generation Post Processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014 courses. Down by 13
 // bilinear fetches, which are five overlapping 4 x 4 boxes: a 2 x 2 mean alone shimmers when a small light moves. Up by a
-// 3 x 3 tent: what a bilinear sampler alone leaves of the coarse grid is gone. Half the time and a third of the
-// memory of the packed pyramid, and every level is blurred by all the coarser ones.
+// 3 x 3 tent: what a bilinear sampler alone leaves of the coarse grid is gone. A third of the memory of the packed pyramid,
+// and every level is blurred by all the wider ones.
 //
 // All weights of a filter sum to one, and every step is a mean of two pictures: a wall of one colour stays that colour.
 
