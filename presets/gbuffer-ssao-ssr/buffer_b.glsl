@@ -15,16 +15,18 @@ const float BIAS = 0.035;
 const float HALF_PI = 1.57079633;
 
 vec3 pointAt(ivec2 p) {
-    return viewFromPixel(vec2(p) + 0.5, texelFetch(iChannel0, p, 0).z, iResolution.xy);
+    return viewFromPixel(vec2(p) + 0.5, texelFetch(iChannel0, p, 0).z, iChannelResolution[0].xy);
 }
 
 void mainImage(out vec4 occluded, in vec2 fragCoord) {
-    ivec2 p = ivec2(fragCoord), size = ivec2(iResolution.xy);
-    vec4 g = texelFetch(iChannel0, p, 0);
+    vec2 canvas = iChannelResolution[0].xy;
+    ivec2 p = ivec2(fragCoord), size = ivec2(canvas), full = fullTexel(p, iResolution.xy, canvas);
+    vec2 pixel = vec2(full) + 0.5;
+    vec4 g = texelFetch(iChannel0, full, 0);
     occluded = vec4(0.0, 0.0, 0.0, 1.0);
     if (isNothing(g)) return;
-    vec3 at = viewFromPixel(fragCoord, g.z, iResolution.xy), normal = unpackNormal(g.xy), view = normalize(-at);
-    float pixels = min(radius * FOCAL * unit(iResolution.xy) / g.z, iResolution.y);
+    vec3 at = viewFromPixel(pixel, g.z, canvas), normal = unpackNormal(g.xy), view = normalize(-at);
+    float pixels = min(radius * FOCAL * unit(canvas) / g.z, canvas.y);
     if (pixels < 2.0) return; // the radius is smaller than what a pixel shows
 
     // 16 directions and 4 distances in a square of 4 x 4 texels, each once: the blur of Buffer C sees them all.
@@ -44,7 +46,7 @@ void mainImage(out vec4 occluded, in vec2 fragCoord) {
             float low = cos(n + float(side) * HALF_PI), horizon = low;
             for (int j = 0; j < steps; j++) {
                 float s = (float(j) + (float(step_) + 0.5) / 4.0) / float(steps);
-                ivec2 q = ivec2(floor(fragCoord + float(side) * along * max(s * s * pixels, float(j) + 1.0)));
+                ivec2 q = ivec2(floor(pixel + float(side) * along * max(s * s * pixels, float(j) + 1.0)));
                 if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, size))) break;
                 vec3 delta = pointAt(q) - at;
                 float far = max(length(delta), 1e-5);
