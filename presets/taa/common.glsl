@@ -10,8 +10,8 @@
 //
 // B. Karis, "High-Quality Temporal Supersampling", SIGGRAPH 2014 courses; M. Salvi, "An Excursion in Temporal
 // Supersampling", GDC 2016 (the clamp by variance); J. Jimenez, "Filmic SMAA", SIGGRAPH 2016 courses (the filter).
-// A small gamma kills ghosts and costs detail at rest: 0.75 loses 3 to 5 dB there against 1.25, and gains 7 against the
-// ghosts that come without motion vectors.
+// A small gamma kills ghosts and costs detail at rest: here 0.75 comes 23.3 dB near 64 samples a pixel, 1.25 24.7. In motion
+// it is 20.5 dB, 18.5 without motion vectors, 19.7 with a linear filter, 14.4 with one sample (tests/preset_filters.rs).
 
 #iUniform float speed = 1.0 in { 0.0, 4.0 }   // 0: everything stands still
 #iUniform bool jittered = true

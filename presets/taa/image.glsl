@@ -11,7 +11,6 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     bool lens = split > 0.0 && split < 1.0 && zoom > 1.0 && length(toLens) < radius;
     vec2 from = lens ? mouse + toLens / zoom : fragCoord;
     ivec2 p = clamp(ivec2(floor(from)), ivec2(0), ivec2(iResolution.xy) - 1);
-    // What is compared lies on both sides of the line at the same place: the lens shows the one place twice.
     bool right = fragCoord.x >= (split <= 0.0 || split >= 1.0 ? split * iResolution.x : mouse.x);
     vec3 colour = right ? texelFetch(iChannel1, p, 0).rgb : texelFetch(iChannel0, p, 0).rgb;
     if (split > 0.0 && split < 1.0) {
