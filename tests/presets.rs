@@ -4,61 +4,13 @@ mod support;
 
 use eddy::{
     engine::{BuildOptions, Engine, FrameInputs, Pixels},
-    gpu::Gpu,
     media::{Keyboard, MediaSet},
-    project::{PassId, Project, presets},
+    project::{PassId, presets},
 };
-use support::*;
+use support::{presets::*, *};
 
 const LEFT_ARROW: u8 = 37;
 const SPACE: u8 = 32;
-
-fn preset(name: &str) -> Project {
-    presets::load(name).unwrap_or_else(|e| panic!("{e}")).project
-}
-
-/// Puts `new` in place of `old` in a pass's text, which must have it: a preset that changed shall not pass by accident.
-fn patch(project: &mut Project, id: &PassId, old: &str, new: &str) {
-    let source = &mut project.pass_mut(id).unwrap().source;
-    assert!(source.text.contains(old), "{} no longer says `{old}`", source.name);
-    source.text = source.text.replace(old, new).into();
-}
-
-/// Frame `frame` with the mouse held at `at` since it was pressed at `from`, or never touched.
-fn held(frame: i32, mouse: Option<([f32; 2], [f32; 2])>) -> FrameInputs {
-    let mut inputs = FrameInputs::at_fixed_step(frame, 60.0);
-    inputs.mouse = match mouse {
-        Some((from, at)) => [at[0], at[1], from[0], -from[1]],
-        None => [0.0, 0.0, -0.0, -0.0],
-    };
-    inputs
-}
-
-/// A drag from (12, 9) to the right, pressed in frames 10 to 24 and never released before.
-fn drag(frame: i32) -> FrameInputs {
-    let moved = (frame - 10).clamp(0, 14) as f32;
-    held(frame, (10..25).contains(&frame).then_some(([12.0, 9.0], [12.0 + moved, 9.0])))
-}
-
-fn draw(engine: &mut Engine, frames: std::ops::Range<i32>, inputs: impl Fn(i32) -> FrameInputs) {
-    for frame in frames {
-        engine.draw(&inputs(frame)).unwrap();
-    }
-}
-
-fn bits(pixels: &Pixels) -> Vec<[u32; 4]> {
-    pixels.texels.iter().map(|t| t.map(f32::to_bits)).collect()
-}
-
-fn buffers(project: &Project) -> impl Iterator<Item = &PassId> {
-    project.passes.iter().map(|p| &p.id)
-}
-
-/// An engine in which every pass can be read.
-fn whole(gpu: &Gpu, project: &Project, skip: bool, size: (u32, u32)) -> Engine {
-    let options = BuildOptions { wanted: buffers(project).cloned().collect(), skip };
-    engine_with(gpu, project, &MediaSet::new(), &options, size)
-}
 
 #[test]
 fn three_chained_sub_steps_are_three_steps_of_one_pass() {
@@ -143,11 +95,8 @@ fn dye_centre(pixels: &Pixels) -> f32 {
 #[test]
 fn a_drag_pushes_the_fluid_along_and_carries_the_dye() {
     let Some(gpu) = gpu() else { return };
-    let mut project = preset("fluid");
     // Still water, so that what moves was moved by the mouse.
-    for letter in ["A", "B", "C", "D"] {
-        patch(&mut project, &buffer(letter), "idleness(before)", "0.0");
-    }
+    let project = preset_with("fluid", &["nozzles=0"]);
     let mut engine = whole(&gpu, &project, true, (64, 36));
     draw(&mut engine, 0..10, drag);
     assert_eq!(mean_on_the_way(&engine.read(&buffer("C")).unwrap(), 0), 0.0);
@@ -159,56 +108,6 @@ fn a_drag_pushes_the_fluid_along_and_carries_the_dye() {
     draw(&mut engine, 25..55, |f| held(f, None));
     let after = dye_centre(&engine.read(&buffer("D")).unwrap());
     assert!(after > before + 0.5, "the dye's centre went from {before} to {after}");
-}
-
-#[test]
-fn still_water_keeps_still_and_keeps_its_mass() {
-    let Some(gpu) = gpu() else { return };
-    let mut project = preset("fluid");
-    for letter in ["A", "B", "C", "D"] {
-        patch(&mut project, &buffer(letter), "idleness(before)", "0.0");
-    }
-    // Noise of 1e-3 in the velocity in frame 1: of every wavelength, so that an instability at any of them would grow.
-    let noise = "if (iFrame == 1) state.xy += 1e-3 * (fract(sin(vec2(p.x * 12 + p.y * 78, p.x * 39 + p.y * 11)) * 43758.5) - 0.5);\n}";
-    let source = &mut project.pass_mut(&buffer("A")).unwrap().source;
-    source.text = format!("{}{noise}", source.text.trim_end().strip_suffix('}').unwrap()).into();
-    let mut engine = whole(&gpu, &project, true, (33, 19));
-    let energy_and_mass = |engine: &mut Engine| {
-        let state = engine.read(&buffer("C")).unwrap();
-        let fluid = &state.texels[33..];
-        let energy: f64 = fluid.iter().map(|t| f64::from(t[0]).powi(2) + f64::from(t[1]).powi(2)).sum();
-        let mass: f64 = fluid.iter().map(|t| f64::from(t[2])).sum();
-        (energy, mass / fluid.len() as f64 - 1.0)
-    };
-    draw(&mut engine, 0..3, |f| held(f, None));
-    let (begin, _) = energy_and_mass(&mut engine);
-    assert!(begin > 1e-6, "{begin}: the noise did not arrive");
-    draw(&mut engine, 3..400, |f| held(f, None));
-    let (end, mass) = energy_and_mass(&mut engine);
-    assert!(end < 1e-2 * begin, "energy went from {begin} to {end}");
-    assert!(mass.abs() < 1e-5, "mass is off by {mass} of itself");
-}
-
-#[test]
-fn one_bad_number_heals() {
-    let Some(gpu) = gpu() else { return };
-    // Made from iFrame, so that no compiler can know it beforehand. A quiet NaN and both infinities.
-    for number in ["0x7fc00000u", "0x7f800000u", "0xff800000u"] {
-        let mut project = preset("fluid");
-        let bad = format!(
-            "if (iFrame == 5 && p == ivec2(20, 10)) state = vec4(uintBitsToFloat({number} + uint(iFrame - 5)));\n}}"
-        );
-        let source = &mut project.pass_mut(&buffer("B")).unwrap().source;
-        source.text = format!("{}{bad}", source.text.trim_end().strip_suffix('}').unwrap()).into();
-        let mut engine = whole(&gpu, &project, true, (48, 27));
-        draw(&mut engine, 0..6, drag);
-        assert!(!texel(&engine.read(&buffer("B")).unwrap(), 20, 10)[0].is_finite(), "{number} did not arrive");
-        draw(&mut engine, 6..8, drag);
-        for letter in ["A", "B", "C", "D"] {
-            let state = engine.read(&buffer(letter)).unwrap();
-            assert!(state.texels.iter().flatten().all(|v| v.is_finite()), "{number} lives on in Buffer {letter}");
-        }
-    }
 }
 
 #[test]

@@ -1,8 +1,6 @@
 // Paint carried by the fluid: rgb its colour times its thickness, a the thickness.
 // Channel 0 is this frame's Buffer C (velocity), channel 1 this buffer in the last frame.
 
-const float FADE_SECONDS = 9.0; // the paint's time constant
-
 vec4 paint(ivec2 p) {
     vec4 q = texelFetch(iChannel1, nearestCell(p, ivec2(iResolution.xy)), 0);
     return isFinite(q) ? q : vec4(0.0);
@@ -63,14 +61,14 @@ void mainImage(out vec4 dye, in vec2 fragCoord) {
     }
 
     // Midpoint rule: look half a frame upstream for the velocity that carries the paint here.
-    float frame = SUBSTEPS * DT;
+    float frame = SUBSTEPS * dt;
     vec2 middle = upstream(p, velocity(vec2(p)), 0.5 * frame, size);
     dye = paintAt(upstream(p, velocity(middle), frame, size));
-    dye *= exp(-iTimeDelta / FADE_SECONDS);
+    dye *= exp(-iTimeDelta / fade_seconds);
 
     for (int i = 0; i < EMITTERS; i++) {
         vec4 nozzle = emitter(i, iTime, iResolution.xy);
-        float w = emitterWeight(fragCoord, nozzle, iResolution.xy) * idleness(before);
+        float w = emitterWeight(fragCoord, nozzle, iResolution.xy) * idleness(before) * nozzles;
         vec3 colour = ink(0.04 * iTime + float(i) / float(EMITTERS));
         dye = mix(dye, vec4(colour, 1.0), 0.5 * w);
     }

@@ -20,7 +20,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     float scale = iResolution.y / 270.0; // as much relief as on a canvas 270 pixels high, whatever the size is
 
     vec2 slope = vec2(height(p - ivec2(1, 0)) - height(p + ivec2(1, 0)), height(p - ivec2(0, 1)) - height(p + ivec2(0, 1)));
-    vec3 n = normalize(vec3(3.5 * scale * slope, 1.0));
+    vec3 n = normalize(vec3(relief * scale * slope, 1.0));
     vec3 eye = normalize(vec3(-uv, 2.0));
 
     // Thick paint on the side of the sun throws its shadow here.
@@ -35,5 +35,11 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     shown *= 0.62 + 0.48 * max(dot(n, SUN), 0.0) / SUN.z;
     float gloss = 1.0 - exp(-5.0 * c.a);
     shown += gloss * 0.55 * pow(max(dot(n, normalize(SUN + eye)), 0.0), 70.0);
-    fragColor = vec4(pow(shown, vec3(0.8)), 1.0);
+    shown = pow(shown, vec3(0.8));
+
+    // Hatched while the sliders ask for what the method cannot do.
+    if (beyondTheMethod() && fragCoord.y < 0.03 * iResolution.y) {
+        shown = mod(fragCoord.x + fragCoord.y, 0.06 * iResolution.y) < 0.03 * iResolution.y ? vec3(0.85, 0.1, 0.1) : shown;
+    }
+    fragColor = vec4(shown, 1.0);
 }

@@ -1,6 +1,7 @@
 //! What several test files need: a device, and projects made in code.
 #![allow(dead_code, reason = "every test file uses its own part")]
 
+pub mod presets;
 pub mod program;
 
 use eddy::{
