@@ -1,0 +1,52 @@
+// What can be turned, and the emitter. The fluid's method is in solver.glsl, one sub-step of it in step.glsl.
+
+// At rest the fluid is stable where viscosity >= stiffness and viscosity * dt <= 1/4 (at the defaults 0.45 >= 0.35 and
+// 0.09 <= 0.25). Beyond, it is held within limits, Image hatches the foot of the picture, and it recovers.
+#iUniform float viscosity = 0.45 in { 0.0, 1.25 }
+#iUniform float stiffness = 0.35 in { 0.0, 1.0 }
+#iUniform float dt = 0.2 in { 0.02, 2.0 }
+#iUniform float confinement = 0.5 in { 0.0, 2.0 }
+#iUniform float edge_cells = 8.0 in { 0.0, 64.0 }
+#iUniform float edge_drag = 0.15 in { 0.0, 1.0 }
+
+// Seconds in which red, green and blue fall to 1/e: dye is white when it is young and blue when it is old.
+#iUniform vec3 decay_seconds = vec3(1.0, 1.9, 6.0) in { 0.1, 30.0 }
+// What an emitter pours out at its middle, in a second.
+#iUniform vec3 pours = vec3(9.0, 3.6, 1.7) in { 0.0, 20.0 }
+// How hard it blows, in pixels a unit of time; 0: the dye just wells up.
+#iUniform float blows = 2.2 in { 0.0, 3.0 }
+#iUniform float exposure = 0.9 in { 0.1, 4.0 }
+
+const float SUBSTEPS = 3.0; // a frame; the same number as in eddy.toml
+
+#include "solver.glsl"
+
+// Two nozzles at the ends of a beam that turns, each blowing across it. (x, y, cos, sin): position in pixels, direction.
+const int EMITTERS = 2;
+
+vec4 emitter(int i, float time, vec2 resolution) {
+    float turn = 0.55 * time + 0.8 * sin(0.23 * time) + 3.14159265 * float(i);
+    float reach = 0.30 * min(resolution.x, resolution.y);
+    vec2 centre = 0.5 * resolution + 0.12 * resolution * vec2(sin(0.31 * time), sin(0.43 * time));
+    float facing = turn + 1.9 + 0.7 * sin(1.3 * time + float(i));
+    return vec4(centre + reach * vec2(1.3 * cos(turn), sin(turn)), cos(facing), sin(facing));
+}
+
+float emitterRadius(vec2 resolution) {
+    return 0.026 * resolution.y + 0.5;
+}
+
+// 1 at the nozzle; over all pixels it sums to pi * emitterRadius^2.
+float emitterWeight(vec2 p, vec4 nozzle, vec2 resolution) {
+    float d = length(p - nozzle.xy) / emitterRadius(resolution);
+    return exp(-d * d);
+}
+
+vec2 emit(vec2 velocity, vec2 p, float time, float strength, vec2 resolution) {
+    for (int i = 0; i < EMITTERS; i++) {
+        vec4 nozzle = emitter(i, time, resolution);
+        float w = blows > 0.0 ? 0.08 * strength * emitterWeight(p, nozzle, resolution) : 0.0;
+        velocity = mix(velocity, blows * nozzle.zw, w);
+    }
+    return velocity;
+}

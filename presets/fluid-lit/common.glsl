@@ -1,0 +1,48 @@
+// What can be turned, and the spoons. The fluid's method is in solver.glsl, one sub-step of it in step.glsl.
+
+// At rest the fluid is stable where viscosity >= stiffness and viscosity * dt <= 1/4 (at the defaults 0.42 >= 0.35 and
+// 0.08 <= 0.25). Beyond, it is held within limits, Image hatches the foot of the picture, and it recovers.
+#iUniform float viscosity = 0.42 in { 0.0, 1.25 }
+#iUniform float stiffness = 0.35 in { 0.0, 1.0 }
+#iUniform float dt = 0.2 in { 0.02, 2.0 }
+#iUniform float confinement = 0.1 in { 0.0, 2.0 }
+#iUniform float edge_cells = 8.0 in { 0.0, 64.0 }
+#iUniform float edge_drag = 0.15 in { 0.0, 1.0 }
+
+// The surface: how deep an eddy dents it, in how many seconds a dent is gone, and how steep it is shown.
+#iUniform float dent = 1.6 in { 0.0, 4.0 }
+#iUniform float settle_seconds = 3.0 in { 0.1, 20.0 }
+// Surface tension: what of a wrinkle one pixel wide is smoothed out in a frame.
+#iUniform float tension = 0.5 in { 0.0, 1.0 }
+#iUniform float relief = 1.0 in { 0.0, 4.0 }
+#iUniform float shininess = 60.0 in { 2.0, 300.0 }
+#iUniform color3 liquid = color3(0.05, 0.16, 0.30)
+#iUniform color3 warm = color3(0.95, 0.42, 0.16)
+#iUniform float spoons = 1.0 in { 0.0, 1.0 }
+
+const float SUBSTEPS = 3.0; // a frame; the same number as in eddy.toml
+
+#include "solver.glsl"
+
+// Two spoons stir while nobody else does. (x, y, cos, sin): position in pixels, direction.
+const int SPOONS = 2;
+
+vec2 spoonAt(int i, float time, vec2 resolution) {
+    float turn = (i == 0 ? 0.9 : -0.7) * time + 2.1 * float(i);
+    return resolution * (0.5 + vec2(0.30 * cos(turn) + (i == 0 ? -0.1 : 0.1), 0.27 * sin(1.3 * turn + 0.4)));
+}
+
+vec4 spoon(int i, float time, vec2 resolution) {
+    vec2 at = spoonAt(i, time, resolution);
+    vec2 along = spoonAt(i, time + 0.05, resolution) - at;
+    return vec4(at, along / max(length(along), 1e-6));
+}
+
+vec2 emit(vec2 velocity, vec2 p, float time, float strength, vec2 resolution) {
+    for (int i = 0; i < SPOONS; i++) {
+        vec4 at = spoon(i, time, resolution);
+        float d = length(p - at.xy) / (0.03 * resolution.y + 0.5);
+        velocity = mix(velocity, 2.2 * at.zw, 0.10 * spoons * strength * exp(-d * d));
+    }
+    return velocity;
+}
