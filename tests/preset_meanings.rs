@@ -140,3 +140,199 @@ fn the_fluid_comes_back_from_sliders_beyond_its_method() {
         assert!(!hatched(&mut engine));
     }
 }
+
+#[test]
+fn the_three_fluids_are_one_solver() {
+    // A preset is a folder that can be taken away, so each has the texts; they must not drift apart.
+    for file in ["solver.glsl", "step.glsl"] {
+        let [fluid, dye, lit] = ["fluid", "fluid-dye", "fluid-lit"].map(|name| {
+            preset(name).includes.iter().find(|i| i.source.name == file).unwrap().source.text.clone()
+        });
+        assert!(fluid == dye && fluid == lit, "{file}");
+    }
+}
+
+// --------------------------------------------------------------------------------------------------- fluid-dye, -lit
+
+#[test]
+fn dye_in_still_fluid_comes_and_goes_as_stated() {
+    let Some(gpu) = gpu() else { return };
+    let project = preset_with("fluid-dye", &["blows=0"]);
+    let (width, height, frames) = (96u32, 54u32, 60);
+    let mut engine = whole(&gpu, &project, true, (width, height));
+    let total = |engine: &mut Engine| {
+        let dye = engine.read(&buffer("dye")).unwrap();
+        [0, 1, 2].map(|c| mean(&dye, c, |_, y| y > 0) * f64::from(width * (height - 1)))
+    };
+    draw(&mut engine, 0..frames, untouched);
+    let poured = total(&mut engine);
+    let (decay, pours, radius) = ([1.0f64, 1.9, 6.0], [9.0f64, 3.6, 1.7], 0.026 * f64::from(height) + 0.5);
+    let (step, area) = (1.0 / 60.0f64, 2.0 * std::f64::consts::PI * radius * radius);
+    for c in 0..3 {
+        let kept = (-step / decay[c]).exp();
+        let expected = area * pours[c] * step * (1.0 - f64::powi(kept, frames)) / (1.0 - kept);
+        assert!((poured[c] / expected - 1.0).abs() < 1e-3, "component {c}: {} poured, not {expected}", poured[c]);
+    }
+    // The mouse is down where it does not matter, so that the emitters rest: what is there only decays.
+    let pressed = |f| held(f, Some(([2.0, 2.0], [2.0, 2.0])));
+    draw(&mut engine, frames..frames + 1, pressed);
+    let before = total_right(&mut engine, width);
+    draw(&mut engine, frames + 1..frames + 31, pressed);
+    let after = total_right(&mut engine, width);
+    for c in 0..3 {
+        let (found, expected) = (after[c] / before[c], (-30.0 * step / decay[c]).exp());
+        assert!((found / expected - 1.0).abs() < 1e-3, "component {c} kept {found}, not {expected}");
+    }
+}
+
+/// Dye away from the bottom left, where the test holds the mouse.
+fn total_right(engine: &mut Engine, width: u32) -> [f64; 3] {
+    let dye = engine.read(&buffer("dye")).unwrap();
+    [0, 1, 2].map(|c| mean(&dye, c, |x, y| x > width / 6 && y > 12))
+}
+
+#[test]
+fn moving_dye_decays_as_stated_too() {
+    let Some(gpu) = gpu() else { return };
+    // Without decay and without an emitter the flow carries dye about and keeps it to a few percent: semi-Lagrangian
+    // advection is not conservative, and this is by how much here.
+    let mut project = preset_with("fluid-dye", &["decay_seconds=30,1,2", "pours=0,0,0"]);
+    overwrite(&mut project, "dye", "if (iFrame == 60 && p.y > 8 && p.y < 46 && p.x > 8 && p.x < 88) o = vec4(1.0);");
+    let mut engine = whole(&gpu, &project, true, (96, 54));
+    let [before, after] = [(0, 61), (61, 121)].map(|(from, to)| {
+        draw(&mut engine, from..to, untouched);
+        let dye = engine.read(&buffer("dye")).unwrap();
+        [0, 1, 2].map(|c| mean(&dye, c, |_, y| y > 0))
+    });
+    for (c, tau) in [30.0f64, 1.0, 2.0].into_iter().enumerate() {
+        let (found, expected) = (after[c] / before[c], (-1.0 / tau).exp());
+        assert!((found / expected - 1.0).abs() < 0.05, "component {c} kept {found}, not {expected}");
+    }
+}
+
+#[test]
+fn normals_are_those_of_a_known_height_field() {
+    let Some(gpu) = gpu() else { return };
+    let (width, height) = (64u32, 48u32);
+    let (kx, ky, a) = (0.21f64, 0.17f64, 0.4f64);
+    let mut project = preset("fluid-lit");
+    overwrite(&mut project, "height", &format!("o = vec4({a} * sin({kx} * float(p.x)) * cos({ky} * float(p.y)));"));
+    let mut engine = whole(&gpu, &project, true, (width, height));
+    draw(&mut engine, 0..1, untouched);
+    let normals = engine.read(&buffer("normal")).unwrap();
+    let mut worst = [0.0f64; 2];
+    for y in 2..height - 1 {
+        for x in 1..width - 1 {
+            let (fx, fy) = (f64::from(x), f64::from(y));
+            let unit = |gx: f64, gy: f64| {
+                let (gx, gy) = (0.1 * f64::from(height) * gx, 0.1 * f64::from(height) * gy);
+                let length = (gx * gx + gy * gy + 1.0).sqrt();
+                [-gx / length, -gy / length, 1.0 / length]
+            };
+            let (cx, cy) = (a * (kx * fx).cos() * (ky * fy).cos(), -a * (kx * fx).sin() * (ky * fy).sin());
+            let found = texel(&normals, x, y);
+            // First as the differences have it, sin k for k, then as calculus does.
+            for (i, n) in [unit(cx * kx.sin(), cy * ky.sin()), unit(cx * kx, cy * ky)].into_iter().enumerate() {
+                worst[i] = (0..3).map(|c| (f64::from(found[c]) - n[c]).abs()).fold(worst[i], f64::max);
+            }
+        }
+    }
+    assert!(worst[0] < 1e-5 && worst[1] < 5e-3, "off by {worst:?}");
+}
+
+// ------------------------------------------------------------------------------------------------ reaction-diffusion
+
+const STILL: [&str; 2] = ["sower=0", "sway=0"];
+
+#[test]
+fn constant_states_of_gray_scott_stay() {
+    let Some(gpu) = gpu() else { return };
+    for diffusion in ["diffusion=0", "diffusion=1", "diffusion=2"] {
+        let mut project = preset_with("reaction-diffusion", &[&STILL[..], &[diffusion]].concat());
+        let mut engine = whole(&gpu, &project, true, (20, 12));
+        draw(&mut engine, 0..20, untouched);
+        let fed = engine.read(&buffer("A")).unwrap();
+        assert!(fed.texels.iter().all(|t| t[..2] == [0.0; 2]), "the fed state");
+        // The other one: u v = F + k, v = F (1 - u) / (F + k). It is a saddle; rounding has not led away from it yet.
+        let (f, k) = (0.0545f64, 0.062f64);
+        let u = 0.5 * (1.0 - (1.0 - 4.0 * (f + k).powi(2) / f).sqrt());
+        let v = f * (1.0 - u) / (f + k);
+        turn(&mut project, &["feed=0.0545", "kill=0.062"]);
+        overwrite(&mut project, "A", &format!("if (iFrame == 0) o = vec4({}, {v}, 0.0, 0.0);", 1.0 - u));
+        let mut engine = whole(&gpu, &project, true, (20, 12));
+        draw(&mut engine, 0..10, untouched);
+        let state = engine.read(&buffer("A")).unwrap();
+        for t in &state.texels {
+            let off = (f64::from(t[0]) - 1.0 + u).abs().max((f64::from(t[1]) - v).abs());
+            assert!(off < 1e-5, "{diffusion}: ({u}, {v}) became {t:?}");
+        }
+    }
+}
+
+#[test]
+fn diffusion_keeps_the_total_and_reaction_the_sum_of_both() {
+    let Some(gpu) = gpu() else { return };
+    for diffusion in ["diffusion=0", "diffusion=1", "diffusion=2"] {
+        let mut project =
+            preset_with("reaction-diffusion", &[&STILL[..], &[diffusion, "feed=0", "kill=0"]].concat());
+        let rough = "if (iFrame == 0) o = vec4(0.3 + 0.4 * fract(sin(float(p.x * 12 + p.y * 78)) * 437.5), \
+                     0.1 * fract(sin(float(p.x * 39 + p.y * 11)) * 437.5), 0.0, 0.0);";
+        overwrite(&mut project, "A", rough);
+        let mut engine = whole(&gpu, &project, true, (37, 23));
+        let sums = |engine: &mut Engine, last| {
+            draw(engine, last..last + 1, untouched);
+            let state = engine.read(&buffer("A")).unwrap();
+            [0, 1].map(|c| mean(&state, c, |_, _| true))
+        };
+        let begin = sums(&mut engine, 0);
+        draw(&mut engine, 1..4, untouched);
+        let end = sums(&mut engine, 4);
+        // u + v is 1 - (1 - u) + v. What v gained u lost.
+        assert!(((end[1] - end[0]) - (begin[1] - begin[0])).abs() < 2e-6, "{diffusion}: {begin:?} became {end:?}");
+        assert!(end[1] - begin[1] > 1e-3, "{diffusion}: nothing reacted");
+    }
+}
+
+#[test]
+fn a_wave_in_gray_scott_grows_at_the_rate_of_linear_theory() {
+    let Some(gpu) = gpu() else { return };
+    let (f, k, width, mode) = (0.0545f64, 0.062f64, 48u32, 7.0);
+    let wave = std::f64::consts::PI * mode / f64::from(width); // 13.7 cells long, near the fastest
+    let laplacian = 2.0 * wave.cos() - 2.0; // of all three kernels, along an axis
+    let u = 0.5 * (1.0 - (1.0 - 4.0 * (f + k).powi(2) / f).sqrt());
+    let v = f * (1.0 - u) / (f + k);
+    let jacobian = [
+        [-v * v - f + 0.209_715_2 * laplacian, -2.0 * u * v],
+        [v * v, 2.0 * u * v - f - k + 0.104_857_6 * laplacian],
+    ];
+    let frames = 12;
+    for diffusion in ["diffusion=0", "diffusion=1", "diffusion=2"] {
+        let mut project =
+            preset_with("reaction-diffusion", &[&STILL[..], &[diffusion, "feed=0.0545", "kill=0.062"]].concat());
+        let seed = format!(
+            "if (iFrame == 0) o = vec4({} - 1e-3 * cos({wave} * (float(p.x) + 0.5)), {v}, 0.0, 0.0);",
+            1.0 - u
+        );
+        overwrite(&mut project, "A", &seed);
+        let mut engine = whole(&gpu, &project, true, (width, 3));
+        // In frame 0 every one of its 8 steps writes the seed.
+        draw(&mut engine, 0..frames + 1, untouched);
+        let state = engine.read(&buffer("A")).unwrap();
+        let mut found = [0.0; 2];
+        for x in 0..width {
+            let phase = 2.0 / f64::from(width) * (wave * (f64::from(x) + 0.5)).cos();
+            let cell = texel(&state, x, 1);
+            found[0] += phase * (1.0 - f64::from(cell[0]) - u);
+            found[1] += phase * (f64::from(cell[1]) - v);
+        }
+        let mut expected = [1e-3, 0.0];
+        for _ in 0..8 * frames {
+            let [a, b] = expected;
+            expected = [0, 1].map(|i| expected[i] + jacobian[i][0] * a + jacobian[i][1] * b);
+        }
+        let size = expected[0].hypot(expected[1]);
+        let off = (found[0] - expected[0]).hypot(found[1] - expected[1]);
+        assert!(off < 0.02 * size, "{diffusion}: {found:?}, not {expected:?}");
+        assert!(size > 1e-3, "{size}: this wave does not grow");
+    }
+}

@@ -1,0 +1,2 @@
+// Grid 2, going up: what grid 3 found.
+#include "add.glsl"

@@ -1,0 +1,2 @@
+// Grid 5, going up: what grid 6 found.
+#include "add.glsl"

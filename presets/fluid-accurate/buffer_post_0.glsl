@@ -1,0 +1,2 @@
+// Grid 0, going up: swept again.
+#include "post.glsl"

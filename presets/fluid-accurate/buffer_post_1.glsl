@@ -1,0 +1,2 @@
+// Grid 1, going up: swept again.
+#include "post.glsl"

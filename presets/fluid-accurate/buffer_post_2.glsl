@@ -1,0 +1,2 @@
+// Grid 2, going up: swept again.
+#include "post.glsl"

@@ -1,0 +1,2 @@
+// Grid 3, going up: swept again.
+#include "post.glsl"

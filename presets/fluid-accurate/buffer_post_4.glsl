@@ -1,0 +1,2 @@
+// Grid 4, going up: swept again.
+#include "post.glsl"

@@ -1,0 +1,2 @@
+// Grid 5, going up: swept again.
+#include "post.glsl"

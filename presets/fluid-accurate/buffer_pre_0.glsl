@@ -1,0 +1,2 @@
+// Grid 0, going down.
+#include "pre.glsl"

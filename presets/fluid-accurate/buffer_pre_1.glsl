@@ -1,0 +1,2 @@
+// Grid 1, going down.
+#include "pre.glsl"

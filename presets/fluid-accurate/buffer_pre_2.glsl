@@ -1,0 +1,2 @@
+// Grid 2, going down.
+#include "pre.glsl"

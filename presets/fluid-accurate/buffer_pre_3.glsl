@@ -1,0 +1,2 @@
+// Grid 3, going down.
+#include "pre.glsl"

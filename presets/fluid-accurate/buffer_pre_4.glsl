@@ -1,0 +1,2 @@
+// Grid 4, going down.
+#include "pre.glsl"

@@ -1,0 +1,2 @@
+// Grid 5, going down.
+#include "pre.glsl"

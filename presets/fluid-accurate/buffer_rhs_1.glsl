@@ -1,0 +1,2 @@
+// f of grid 1, from grid 0.
+#include "rhs.glsl"

@@ -1,0 +1,2 @@
+// f of grid 5, from grid 4.
+#include "rhs.glsl"

@@ -1,0 +1,2 @@
+// f of grid 6, from grid 5.
+#include "rhs.glsl"

@@ -1,0 +1,179 @@
+//! What the presets that solve for a flow mean, measured: self-advection, the accurate fluid, the multi-scale fluid.
+
+mod support;
+
+use eddy::{
+    engine::{Engine, Pixels},
+    project::PassId,
+};
+use std::f64::consts::PI;
+use support::{presets::*, *};
+
+// ---------------------------------------------------------------------------------------------------- self-advection
+
+#[test]
+fn leaving_the_rings_early_changes_nothing_else() {
+    let Some(gpu) = gpu() else { return };
+    // Rings of 2 * 1.25^n pixels on a canvas 36 high: the twelfth has 23 of them, the thirteenth 29, past 0.7 * 36 = 25.
+    let flow = |knobs: &[&str]| {
+        let project = preset_with("self-advection", knobs);
+        let mut engine = whole(&gpu, &project, true, (64, 36));
+        draw(&mut engine, 0..12, drag);
+        [buffer("flow"), PassId::Image].map(|id| bits(&engine.read(&id).unwrap()))
+    };
+    let all = flow(&["growth=1.25", "scales=20"]);
+    assert!(all == flow(&["growth=1.25", "scales=12"]), "a ring past the limit was looked at");
+    assert!(all != flow(&["growth=1.25", "scales=11"]), "a ring within the limit was not");
+    // None of the rings: no flow.
+    assert!(flow(&["scales=0"])[0].iter().all(|t| t[..2] == [0, 0]));
+}
+
+/// The flow that a field of vectors makes; `field` is GLSL in terms of `c`, the pixel's place.
+fn flow_of(engine: impl Fn(&eddy::project::Project) -> Engine, knobs: &[&str], field: &str) -> Pixels {
+    let mut project = preset_with("self-advection", knobs);
+    overwrite(&mut project, "paint", &format!("o = vec4({field}, 0.0, 0.0);"));
+    let mut engine = engine(&project);
+    draw(&mut engine, 0..2, untouched);
+    engine.read(&buffer("flow")).unwrap()
+}
+
+#[test]
+fn what_turns_nothing_and_what_turns_as_one_moves_nothing() {
+    let Some(gpu) = gpu() else { return };
+    let engine = |p: &eddy::project::Project| whole(&gpu, p, true, (128, 128));
+    // Away from the seam where the picture repeats; rings of 2, 4 and 8 pixels reach 16.
+    let inner = |flow: &Pixels| {
+        let mut most = 0.0f32;
+        for y in 6..26 {
+            for x in 6..26 {
+                most = most.max(texel(flow, x, y)[0].hypot(texel(flow, x, y)[1]));
+            }
+        }
+        most
+    };
+    let three = ["scales=3"];
+    assert!(inner(&flow_of(engine, &[], "vec2(0.6, -0.3)")) < 1e-5, "uniform");
+    assert!(inner(&flow_of(engine, &three, "0.01 * perp(c - 64.0)")) < 1e-4, "a rigid rotation");
+    assert!(inner(&flow_of(engine, &three, "vec2(0.01 * (c.y - 64.0), 0.0)")) < 1e-4, "a shear");
+    // An eddy in the middle carries around with it what is about it, the way it turns.
+    let eddy = flow_of(engine, &["scales=5"], "perp(c - 64.0) / 6.0 * exp(-dot(c - 64.0, c - 64.0) / 72.0)");
+    for step in 0..12 {
+        let angle = f64::from(step) * PI / 6.0;
+        let (x, y) = (15.5 + 3.0 * angle.cos(), 15.5 + 3.0 * angle.sin());
+        let at = texel(&eddy, x.round() as u32, y.round() as u32);
+        let along = -angle.sin() * f64::from(at[0]) + angle.cos() * f64::from(at[1]);
+        let outward = angle.cos() * f64::from(at[0]) + angle.sin() * f64::from(at[1]);
+        assert!(along > 0.05 && outward.abs() < 0.5 * along, "{angle}: {along} along, {outward} outward");
+    }
+}
+
+// ---------------------------------------------------------------------------------------------------- fluid-accurate
+
+/// A face's velocity as the texel has it, 0 in the walls.
+fn faces(u: &Pixels, x: u32, y: u32) -> [f64; 2] {
+    let at = |x, y, c: usize| if x < u.width && y < u.height { f64::from(texel(u, x, y)[c]) } else { 0.0 };
+    [if x > 0 { at(x, y, 0) } else { 0.0 }, if y > 0 { at(x, y, 1) } else { 0.0 }]
+}
+
+/// Root mean square of the divergence of a staggered velocity.
+fn divergence(u: &Pixels) -> f64 {
+    let mut sum = 0.0;
+    for y in 0..u.height {
+        for x in 0..u.width {
+            let d = faces(u, x + 1, y)[0] - faces(u, x, y)[0] + faces(u, x, y + 1)[1] - faces(u, x, y)[1];
+            sum += d * d;
+        }
+    }
+    (sum / f64::from(u.width * u.height)).sqrt()
+}
+
+fn energy(u: &Pixels) -> f64 {
+    u.texels.iter().map(|t| f64::from(t[0]).powi(2) + f64::from(t[1]).powi(2)).sum()
+}
+
+#[test]
+fn a_v_cycle_leaves_no_more_divergence_than_stated() {
+    let Some(gpu) = gpu() else { return };
+    // Divergence of every wavelength: noise, and a swelling as long as the canvas, which is what sweeps alone do not see.
+    let seed = "if (iFrame == 0) o.xy = 0.1 * (fract(sin(vec2(p.x * 12 + p.y * 78, p.x * 39 + p.y * 11)) * 4375.8) - 0.5)
+        + sin(3.1416 * vec2(p) / vec2(grid())) * vec2(1.0, 0.5);
+        if (p.x == 0) o.x = 0.0;
+        if (p.y == 0) o.y = 0.0;";
+    for size in [(128, 128), (192, 108), (131, 97), (66, 250), (480, 270), (1024, 64)] {
+        // Time stands, so that a frame is a projection of what the last one left, and nothing else.
+        let mut project = preset_with("fluid-accurate", &["speed=0"]);
+        overwrite(&mut project, "advected", seed);
+        let mut engine = whole(&gpu, &project, true, size);
+        draw(&mut engine, 0..1, untouched);
+        let before = divergence(&engine.read(&buffer("advected")).unwrap());
+        let mut left = vec![before, divergence(&engine.read(&buffer("velocity")).unwrap())];
+        for frame in 1..4 {
+            draw(&mut engine, frame..frame + 1, untouched);
+            left.push(divergence(&engine.read(&buffer("velocity")).unwrap()));
+        }
+        let factors: Vec<f64> = left.windows(2).map(|w| w[1] / w[0]).collect();
+        println!("{size:?}: {factors:.3?}");
+        assert!(factors.iter().all(|f| *f < 0.3), "{size:?}: divergence falls by {factors:?} a cycle");
+    }
+}
+
+/// Taylor's and Green's eddies in a box of free-slip walls, one wave across: u = U sin kx cos ky, v = -U cos kx sin ky.
+fn taylor_green(speed: f64, cells: u32) -> String {
+    let k = 2.0 * PI / f64::from(cells);
+    format!(
+        "if (iFrame == 0) o.xy = {speed} * vec2(sin({k} * float(p.x)) * cos({k} * (float(p.y) + 0.5)), \
+         -cos({k} * (float(p.x) + 0.5)) * sin({k} * float(p.y)));"
+    )
+}
+
+#[test]
+fn eddies_decay_as_taylor_and_green_say() {
+    let Some(gpu) = gpu() else { return };
+    let cells = 64u32;
+    // One pixel of 64 in 0.15 units of time, viscosity 0.55: the case of the reference table, in heights and seconds.
+    let (speed, viscosity) = (0.15 * 60.0 / f64::from(cells), 0.55 * 0.15 * 60.0 / f64::from(cells * cells));
+    let frames = 360;
+    let mut project = preset_with("fluid-accurate", &["jets=0", &format!("viscosity={viscosity}")]);
+    overwrite(&mut project, "advected", &taylor_green(speed, cells));
+    let mut engine = whole(&gpu, &project, true, (2 * cells, 2 * cells));
+    draw(&mut engine, 0..1, untouched);
+    let first = engine.read(&buffer("velocity")).unwrap();
+    draw(&mut engine, 1..frames + 1, untouched);
+    let last = engine.read(&buffer("velocity")).unwrap();
+    let seconds = f64::from(frames) / 60.0;
+    let rate = 2.0 * viscosity * (2.0 * PI).powi(2);
+    let kept = (-rate * seconds).exp();
+    let (mut off, mut all) = (0.0, 0.0);
+    for (a, b) in first.texels.iter().zip(&last.texels) {
+        for c in 0..2 {
+            off += (f64::from(b[c]) - kept * f64::from(a[c])).powi(2);
+            all += (kept * f64::from(a[c])).powi(2);
+        }
+    }
+    let error = (off / all).sqrt();
+    let effective = -(energy(&last) / energy(&first)).ln() / (2.0 * rate * seconds);
+    println!("Taylor-Green at {cells}: relative error {error:.4}, effective viscosity {effective:.4} of the true one");
+    assert!(kept < 0.6, "{kept}: hardly anything decayed");
+    assert!(error < 0.02 && (0.98..1.03).contains(&effective), "error {error}, effective viscosity {effective}");
+}
+
+#[test]
+fn without_viscosity_energy_is_kept_and_never_made() {
+    let Some(gpu) = gpu() else { return };
+    for (speed, least) in [("speed=1", 0.9), ("speed=10", 0.3)] {
+        let mut project = preset_with("fluid-accurate", &["jets=0", "viscosity=0", speed]);
+        overwrite(&mut project, "advected", &taylor_green(0.2, 48));
+        let mut engine = whole(&gpu, &project, true, (96, 96));
+        draw(&mut engine, 0..1, untouched);
+        let begin = energy(&engine.read(&buffer("velocity")).unwrap());
+        let mut before = begin;
+        for part in 0..6 {
+            draw(&mut engine, 1 + 50 * part..51 + 50 * part, untouched);
+            let now = energy(&engine.read(&buffer("velocity")).unwrap());
+            assert!(now <= before * 1.001, "{speed}: energy grew from {before} to {now}");
+            before = now;
+        }
+        println!("{speed}: {:.4} of the energy after 300 frames", before / begin);
+        assert!(before > least * begin, "{speed}: only {} of the energy is left", before / begin);
+    }
+}
