@@ -113,7 +113,7 @@ fn a_v_cycle_leaves_no_more_divergence_than_stated() {
         }
         let factors: Vec<f64> = left.windows(2).map(|w| w[1] / w[0]).collect();
         println!("{size:?}: {factors:.3?}");
-        assert!(factors.iter().all(|f| *f < 0.3), "{size:?}: divergence falls by {factors:?} a cycle");
+        assert!(factors.iter().all(|f| *f < 0.2), "{size:?}: divergence falls by {factors:?} a cycle");
     }
 }
 
@@ -160,7 +160,7 @@ fn eddies_decay_as_taylor_and_green_say() {
 #[test]
 fn without_viscosity_energy_is_kept_and_never_made() {
     let Some(gpu) = gpu() else { return };
-    for (speed, least) in [("speed=1", 0.9), ("speed=10", 0.3)] {
+    for (speed, least) in [("speed=1", 0.9), ("speed=10", 0.05)] {
         let mut project = preset_with("fluid-accurate", &["jets=0", "viscosity=0", speed]);
         overwrite(&mut project, "advected", &taylor_green(0.2, 48));
         let mut engine = whole(&gpu, &project, true, (96, 96));
@@ -175,5 +175,60 @@ fn without_viscosity_energy_is_kept_and_never_made() {
         }
         println!("{speed}: {:.4} of the energy after 300 frames", before / begin);
         assert!(before > least * begin, "{speed}: only {} of the energy is left", before / begin);
+    }
+}
+
+// --------------------------------------------------------------------------------------------------------- mip-fluid
+
+/// The mip fluid's velocity after `frames` frames from one written in frame 0, in GLSL in terms of `c`, the texel's middle.
+fn mip_velocity(gpu: &eddy::gpu::Gpu, knobs: &[&str], size: (u32, u32), field: &str, frames: i32) -> [Pixels; 2] {
+    let mut project = preset_with("mip-fluid", knobs);
+    overwrite(&mut project, "moved", &format!("if (iFrame == 0) o = vec4({field}, 0.0, 0.0);"));
+    let mut engine = whole(gpu, &project, true, size);
+    draw(&mut engine, 0..1, untouched);
+    let begin = engine.read(&buffer("moved")).unwrap();
+    draw(&mut engine, 1..frames, untouched);
+    [begin, engine.read(&buffer("velocity")).unwrap()]
+}
+
+#[test]
+fn a_uniform_flow_stays_uniform_on_every_number_of_scales() {
+    let Some(gpu) = gpu() else { return };
+    for size in [(64, 64), (96, 54), (75, 43), (128, 4)] {
+        for scales in ["scales=0", "scales=1", "scales=5", "scales=12"] {
+            for weights in ["weight_function=0", "weight_function=1"] {
+                let knobs = ["stirring=0", "drag_seconds=60", scales, weights];
+                let [_, flow] = mip_velocity(&gpu, &knobs, size, "vec2(0.3, -0.1)", 30);
+                let kept = (-0.5f64 / 60.0).exp();
+                for t in &flow.texels {
+                    let off = (f64::from(t[0]) / (0.3 * kept) - 1.0).abs().max((f64::from(t[1]) / (-0.1 * kept) - 1.0).abs());
+                    // 29 or 30 frames of drag; the same everywhere.
+                    assert!(off < 1e-3, "{size:?} {scales} {weights}: {t:?}");
+                    assert!((t[0] - flow.texels[0][0]).abs() < 1e-6, "{size:?} {scales} {weights}: not uniform");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_sum_over_mips_takes_from_every_wave_of_divergence() {
+    let Some(gpu) = gpu() else { return };
+    // Sound waves of 2 to 32 lengths across 128 texels, each way; what one frame leaves of their divergence.
+    let left = |knobs: &[&str], wave: i32, axis: &str| {
+        let k = 2.0 * PI * f64::from(wave) / 128.0;
+        let unit = if axis == "x" { "vec2(1.0, 0.0)" } else { "vec2(0.0, 1.0)" };
+        let field = format!("0.1 * {unit} * sin({k} * c.{axis})");
+        let [before, after] = mip_velocity(&gpu, &[&["speed=0"], knobs].concat(), (256, 256), &field, 1);
+        (energy(&after) / energy(&before)).sqrt()
+    };
+    for axis in ["x", "y"] {
+        let of_waves = [1, 2, 4, 8, 16, 32].map(|wave| left(&[], wave, axis));
+        println!("left of waves of 128, 64, 32, 16, 8, 4 texels along {axis}: {of_waves:.3?}");
+        assert!(of_waves.iter().all(|l| *l < 0.8), "{of_waves:?}");
+        // Fewer scales do not reach the long waves.
+        let few = left(&["scales=3"], 1, axis);
+        assert!(few > 0.9, "three scales left {few} of a wave of 128 texels");
+        assert_eq!(left(&["scales=0"], 4, axis), 1.0, "no scales, no pressure");
     }
 }

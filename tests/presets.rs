@@ -224,6 +224,41 @@ fn the_ball_never_tunnels_and_never_changes_speed() {
 }
 
 #[test]
+fn the_ball_follows_the_unfolded_path_for_a_hundred_thousand_bounces() {
+    let Some(gpu) = gpu() else { return };
+    // 10,000 units a frame meet some 70 walls in each. The oracle gets time from iTimeDelta's own bits.
+    let velocity = [0.6f32 * 6e5, 0.8 * 6e5];
+    let mut project = preset("brick-breaker");
+    let a = buffer("A");
+    patch(&mut project, &a, "SOLID_FLOOR = false", "SOLID_FLOOR = true");
+    patch(&mut project, &a, "if (brickInLevel(c, r, level))", "if (c < 0)");
+    patch(&mut project, &a, "abs(ball.x + velocity.x * t - there) <= PADDLE_HALF.x + BALL_RADIUS", "there < -1e6");
+    patch(&mut project, &a, "launch(0.42);", &format!("velocity = vec2({:?}, {:?});", velocity[0], velocity[1]));
+    let mut engine = whole(&gpu, &project, true, (16, 9));
+    draw(&mut engine, 0..1, untouched);
+    let start = texel(&engine.read(&a).unwrap(), 0, 0);
+    let lengths = [317.6 - 2.4, 159.6 - 2.4];
+    let (mut bounces, mut frame, mut worst) = (0.0, 1, 0.0f64);
+    while bounces < 1e5 {
+        draw(&mut engine, frame..frame + 25, untouched);
+        frame += 25;
+        let ball = texel(&engine.read(&a).unwrap(), 0, 0);
+        assert_eq!([ball[2].abs(), ball[3].abs()], velocity, "reflections only turn signs");
+        let seconds = f64::from(frame - 1) * f64::from(1.0f32 / 60.0);
+        bounces = (0..2).map(|k| f64::from(velocity[k]) * seconds / lengths[k]).sum();
+        for k in 0..2 {
+            let along = f64::from(start[k]) + f64::from(velocity[k]) * seconds;
+            let high = 2.4 + lengths[k];
+            let expected = high - (lengths[k] - (along - 2.4).rem_euclid(2.0 * lengths[k])).abs();
+            worst = worst.max((f64::from(ball[k]) - expected).abs());
+        }
+    }
+    // Every impact rounds the place and the time; a field is 320 units wide.
+    println!("{bounces:.0} bounces: {worst:.4} units off at most");
+    assert!(worst < 0.5, "{worst} units off after {bounces:.0} bounces");
+}
+
+#[test]
 fn the_game_survives_a_resize() {
     let Some(gpu) = gpu() else { return };
     let mut engine = whole(&gpu, &preset("brick-breaker"), true, (64, 36));

@@ -11,7 +11,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     vec4 surface = texelFetch(iChannel0, ivec2(fragCoord), 0);
     vec2 uv = (fragCoord - 0.5 * iResolution.xy) / iResolution.y;
     vec3 n = surface.xyz;
-    vec3 toEye = normalize(vec3(-0.35 * uv, 1.0));
+    vec3 toEye = normalize(vec3(-0.35 * clamp(uv, -2.0, 2.0), 1.0));
 
     // Hills are warm, hollows deep.
     float h = surface.a / (0.25 + abs(surface.a));
@@ -25,7 +25,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     vec3 r = reflect(-toEye, n);
     vec3 sky = mix(vec3(0.02, 0.03, 0.06), vec3(0.50, 0.62, 0.78), smoothstep(0.1, 0.9, r.y * 0.6 + 0.4));
     shown += sky * (0.04 + 0.96 * pow(1.0 - max(dot(n, toEye), 0.0), 5.0));
-    shown = pow(shown, vec3(1.0 / 1.9)) * (1.0 - 0.25 * dot(uv, uv));
+    shown = pow(shown, vec3(1.0 / 1.9)) * (1.0 - 0.25 * min(dot(uv, uv), 1.0));
 
     if (beyondTheMethod() && fragCoord.y < 0.03 * iResolution.y && mod(fragCoord.x + fragCoord.y, 0.06 * iResolution.y) < 0.03 * iResolution.y) {
         shown = vec3(0.85, 0.1, 0.1);

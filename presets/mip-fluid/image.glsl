@@ -23,5 +23,5 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     shown = mix(shown, vec3(0.58, 0.10, 0.09), 0.75 * q.z * (1.0 - q.x));
     shown *= 0.45 + 0.65 * max(dot(n, sun), 0.0) + 0.12 * smoothstep(0.0, 0.5, q.w);
     shown += 0.30 * pow(max(dot(n, normalize(sun + eye)), 0.0), 45.0);
-    fragColor = vec4(pow(max(shown, 0.0), vec3(0.8)) * (1.0 - 0.3 * dot(uv, uv)), 1.0);
+    fragColor = vec4(pow(max(shown, 0.0), vec3(0.8)) * (1.0 - 0.3 * min(dot(uv, uv), 1.0)), 1.0);
 }

@@ -8,28 +8,26 @@ vec3 colourOf(vec4 life) {
 }
 
 void mainImage(out vec4 light, in vec2 fragCoord) {
-    ivec2 p = ivec2(fragCoord), texels = textureSize(iChannel1, 0);
-    ivec2 tiles = tileCount(texels), slots = tileSlots(texels);
-    ivec2 tile = min(ivec2(fragCoord * vec2(tiles) / iResolution.xy), tiles - 1);
+    ivec2 p = ivec2(fragCoord);
+    ivec2 tile = min(ivec2(fragCoord * vec2(TILES) / iResolution.xy), TILES - 1);
     vec2 at = (fragCoord - 0.5 * iResolution.xy) / iResolution.y;
     float seconds = clamp(speed * iTimeDelta, 0.0, 0.5);
 
     vec4 before = texelFetch(iChannel0, p, 0);
     vec3 sum = isFinite(before) ? before.rgb * exp(-iTimeDelta / exposure_seconds) : vec3(0.0);
     bool more = true;
-    for (int s = 0; s < 16; s++) {
-        if (s >= slots.x * slots.y || !more) break;
-        vec4 numbers = texelFetch(iChannel1, 4 * tile + ivec2(s % slots.x, s / slots.x), 0);
+    for (int s = 0; s < TILE * TILE; s++) {
+        if (!more) break;
+        vec4 numbers = texelFetch(iChannel1, TILE * tile + ivec2(s % TILE, s / TILE), 0);
         for (int k = 0; k < 4; k++) {
             int n = int(numbers[k]) - 1;
             if (n < 0 || n >= COUNT) { more = false; break; }
             vec4 m = texelFetch(iChannel2, texelOf(n), 0), life = texelFetch(iChannel3, texelOf(n), 0);
             // Drawn as the streak of its last step, unless it was only just born.
             vec2 from = life.x > 0.0 ? m.xy - seconds * m.zw : m.xy;
-            // A pixel's worth of blur at least, so that a small canvas does not lose what falls between its pixels.
-            float radius = max(radiusOf(life.z), 0.7 / iResolution.y);
+            float radius = radiusOf(life.z, iResolution.y), wanted = radiusOf(life.z, 1e9);
             float d = segmentDistance(at, from, m.xy) / radius;
-            sum += brightness * colourOf(life) * exp(-d * d) * min(12.0 * iTimeDelta, 1.0);
+            sum += brightness * wanted / radius * colourOf(life) * exp(-d * d) * min(12.0 * iTimeDelta, 1.0);
         }
     }
     light = vec4(sum, 1.0);

@@ -37,7 +37,11 @@ void mainImage(out vec4 motion, in vec2 fragCoord) {
             float side = more.x < 0.5 ? -1.0 : 1.0;
             vec2 from = mouse.z > 0.0 ? light : vec2(0.27 * aspect * side, FLOOR + 0.005);
             float up = 1.5708 - side * 0.28 * sin(0.9 * iTime) + 0.35 * (chance.x + chance.y - 1.0);
-            motion = vec4(from, (0.50 + 0.25 * more.y) * vec2(cos(up), sin(up)));
+            vec2 fling = (0.50 + 0.25 * more.y) * vec2(cos(up), sin(up));
+            // At the start they are under way already, each as far as its age has it.
+            float t = life.x;
+            motion = vec4(from + t * fling - vec2(0.0, 0.5 * gravity * t * t), fling - vec2(0.0, gravity * t));
+            motion.y = max(motion.y, FLOOR);
         } else {
             motion = vec4(anywhere * 0.9, 0.3 * (more.xy - 0.5));
         }

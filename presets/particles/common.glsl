@@ -2,7 +2,7 @@
 //
 //     life      (age, lifetime) in seconds, type, births so far
 //     motion    place and velocity, in canvas heights from the middle, and seconds
-//     tiles     for each 32 x 32 pixels of canvas the numbers of the particles that shine there
+//     tiles     for each of 16 x 9 parts of the canvas the numbers of the particles that shine there
 //     light     what has been seen, fading: a long exposure
 //
 // A fragment shader cannot scatter, so each pixel gathers; the tiles keep it from asking all thousand. (The usual reference
@@ -56,23 +56,16 @@ vec3 hash(ivec3 of) {
     return vec3(v >> 8u) / 16777216.0;
 }
 
-// How far from its place a particle can be seen, in heights: beyond three radii it has 1e-4 of its light.
-float radiusOf(float type) {
-    return size * (type == DUST ? 0.0045 : type == SPARK ? 0.0040 : 0.0075);
+// In heights. A pixel's worth of blur at least, so that a small canvas does not lose what falls between its pixels.
+float radiusOf(float type, float canvasHeight) {
+    return max(size * (type == DUST ? 0.0045 : type == SPARK ? 0.0040 : 0.0075), 0.7 / canvasHeight);
 }
 
-float reachOf(float type) {
-    return 3.0 * radiusOf(type);
-}
+// Beyond three radii a particle has 1e-4 of its light, and is not looked for.
+const float REACH = 3.0;
 
-// Tiles: as many as there are 4 x 4 texels, at least one. A canvas too small for all its slots shows fewer particles.
-ivec2 tileCount(ivec2 texels) {
-    return max(texels / 4, ivec2(1));
-}
-
-ivec2 tileSlots(ivec2 texels) {
-    return min(texels, ivec2(4));
-}
+const ivec2 TILES = ivec2(16, 9);
+const int TILE = 4; // texels each way
 
 // The lamp: the mouse while it is held, else it wanders.
 vec2 lamp(vec4 mouse, float time, vec2 canvas) {

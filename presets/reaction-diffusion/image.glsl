@@ -26,7 +26,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     float fresnel = 0.04 + 0.5 * pow(1.0 - max(dot(n, eye), 0.0), 3.0);
     colour = mix(colour, sky, fresnel * (1.0 - 0.6 * h));
     colour += 0.55 * pow(max(dot(n, normalize(sun + eye)), 0.0), 60.0);
-    colour *= 1.0 - 0.28 * dot(uv, uv);
+    colour *= 1.0 - 0.28 * min(dot(uv, uv), 1.0);
 
     if (dt > LONGEST_STEP && fragCoord.y < 0.03 * iResolution.y && mod(fragCoord.x + fragCoord.y, 0.06 * iResolution.y) < 0.03 * iResolution.y) {
         colour = vec3(0.85, 0.1, 0.1);

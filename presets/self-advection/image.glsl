@@ -30,5 +30,5 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     vec3 shown = lacquer(q.xy, q.w);
     shown *= 0.35 + 0.80 * max(dot(n, sun), 0.0);
     shown += 0.45 * pow(max(dot(n, normalize(sun + eye)), 0.0), 50.0);
-    fragColor = vec4(pow(max(shown, 0.0), vec3(0.85)) * (1.0 - 0.3 * dot(uv, uv)), 1.0);
+    fragColor = vec4(pow(max(shown, 0.0), vec3(0.85)) * (1.0 - 0.3 * min(dot(uv, uv), 1.0)), 1.0);
 }

@@ -1,0 +1,213 @@
+//! The hard cases, for every simulation among the presets: a violent mouse, long steps, broken numbers, odd sizes, long runs,
+//! sliders at their ends, resizes, pauses. Each must stay finite and within its bound, and come back.
+
+mod support;
+
+use eddy::{
+    engine::{Engine, FrameInputs},
+    project::{KnobType, KnobValue, PassId},
+};
+use support::{presets::*, *};
+
+/// A simulation: the buffer that is its state, the largest number that may ever stand in one of its buffers, and how many
+/// frames a broken number may live on for, through buffers that are read a frame late.
+struct Simulation {
+    name: &'static str,
+    state: &'static str,
+    bound: f32,
+    memory: i32,
+}
+
+const SIMULATIONS: [Simulation; 8] = [
+    Simulation { name: "fluid", state: "A", bound: 4096.0, memory: 2 },
+    Simulation { name: "fluid-dye", state: "A", bound: 4096.0, memory: 2 },
+    Simulation { name: "fluid-lit", state: "A", bound: 4096.0, memory: 2 },
+    Simulation { name: "reaction-diffusion", state: "A", bound: 1e4, memory: 2 },
+    Simulation { name: "self-advection", state: "paint", bound: 1e4, memory: 3 },
+    Simulation { name: "fluid-accurate", state: "velocity", bound: 1e4, memory: 3 },
+    Simulation { name: "mip-fluid", state: "velocity", bound: 1e4, memory: 4 },
+    Simulation { name: "particles", state: "motion", bound: 1e4, memory: 3 },
+];
+
+/// Every buffer and the picture are finite and within the bound.
+fn check(simulation: &Simulation, engine: &mut Engine, when: &str) {
+    for id in buffers(&preset(simulation.name)) {
+        let pixels = engine.read(id).unwrap();
+        let worst = pixels.texels.iter().flatten().fold(0.0f32, |m, v| if v.is_finite() { m.max(v.abs()) } else { f32::NAN.max(1e38) });
+        assert!(worst <= simulation.bound, "{}, {when}: {} holds {worst}", simulation.name, id.title());
+    }
+}
+
+/// Presses and drags across the whole canvas in single frames, from corner to corner.
+fn violent(frame: i32, (w, h): (f32, f32)) -> FrameInputs {
+    let corners = [[1.0, 1.0], [w - 1.0, h - 1.0], [w - 1.0, 1.0], [1.0, h - 1.0]];
+    held(frame, Some(([1.0, 1.0], corners[frame as usize % 4])))
+}
+
+#[test]
+fn a_drag_across_the_whole_canvas_in_one_frame_is_survived() {
+    let Some(gpu) = gpu() else { return };
+    for s in &SIMULATIONS {
+        let mut engine = whole(&gpu, &preset(s.name), true, (48, 27));
+        draw(&mut engine, 0..5, untouched);
+        draw(&mut engine, 5..40, |f| violent(f, (48.0, 27.0)));
+        check(s, &mut engine, "under a violent hand");
+        draw(&mut engine, 40..100, untouched);
+        check(s, &mut engine, "after it");
+    }
+}
+
+#[test]
+fn a_broken_number_in_any_buffer_heals() {
+    let Some(gpu) = gpu() else { return };
+    for s in &SIMULATIONS {
+        let names: Vec<String> = preset(s.name)
+            .passes
+            .iter()
+            .filter_map(|p| if let PassId::Buffer(name) = &p.id { Some(name.to_string()) } else { None })
+            .collect();
+        // Of the grids between the finest and the coarsest one says what all do.
+        let between = |name: &str| ["_1", "_3", "_4", "_5"].iter().any(|level| name.ends_with(level));
+        for (i, name) in names.into_iter().filter(|n| !between(n)).enumerate() {
+            // All three in the state, by turns in the others.
+            let numbers = if name == s.state { &BROKEN[..] } else { &BROKEN[i % 3..=i % 3] };
+            for number in numbers {
+                let mut project = preset(s.name);
+                break_texel(&mut project, &name, (0, 0), 4, number);
+                let mut engine = whole(&gpu, &project, true, (32, 20));
+                draw(&mut engine, 0..5, drag);
+                let broken = engine.read(&buffer(&name)).unwrap();
+                assert!(!all_finite(&broken), "{} {name}: {number} did not arrive", s.name);
+                draw(&mut engine, 5..5 + s.memory, drag);
+                check(s, &mut engine, &format!("{} frames after {number} in {name}", s.memory));
+            }
+        }
+    }
+}
+
+#[test]
+fn every_slider_may_go_to_its_ends_and_come_back() {
+    let Some(gpu) = gpu() else { return };
+    for s in &SIMULATIONS {
+        let project = preset(s.name);
+        let mut engine = whole(&gpu, &project, true, (32, 20));
+        let mut frame = 0;
+        let mut run = |engine: &mut Engine, frames: i32, hand: bool| {
+            draw(engine, frame..frame + frames, |f| if hand { violent(f, (32.0, 20.0)) } else { untouched(f) });
+            frame += frames;
+        };
+        run(&mut engine, 3, false);
+        for knob in project.knobs().list {
+            let Some(range) = &knob.range else { continue };
+            let ends = match knob.ty {
+                KnobType::Bool => continue,
+                _ => [range.min, range.max],
+            };
+            for end in ends {
+                let mut turned = project.clone();
+                turned.turn_knob(&knob, KnobValue::new(knob.ty, &end));
+                engine.set_knobs(&turned.knob_values);
+                run(&mut engine, 12, true);
+                run(&mut engine, 12, false);
+                check(s, &mut engine, &format!("{} at {end:?}", knob.name));
+                engine.set_knobs(&project.knob_values);
+                run(&mut engine, 6, false);
+                check(s, &mut engine, &format!("back from {} at {end:?}", knob.name));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_hitch_a_pause_and_a_single_step_are_frames_like_others() {
+    let Some(gpu) = gpu() else { return };
+    for s in &SIMULATIONS {
+        let mut engine = whole(&gpu, &preset(s.name), true, (32, 20));
+        draw(&mut engine, 0..10, drag);
+        // A quarter of a second passes at once.
+        draw(&mut engine, 10..14, |f| FrameInputs { time_delta_secs: 0.25, ..drag(f) });
+        check(s, &mut engine, "after a hitch");
+        // Time stands: a frame forced while paused has a time step and no time; one with no step at all.
+        let still = |f: i32| FrameInputs { time_secs: 14.0 / 60.0, ..untouched(f) };
+        draw(&mut engine, 14..20, still);
+        draw(&mut engine, 20..24, |f| FrameInputs { time_delta_secs: 0.0, ..still(f) });
+        check(s, &mut engine, "paused");
+        // Frames one by one, each looked at, are the frames of a run.
+        let [mut stepped, mut run] = [(); 2].map(|()| whole(&gpu, &preset(s.name), true, (32, 20)));
+        for frame in 0..12 {
+            draw(&mut stepped, frame..frame + 1, drag);
+            stepped.read(&buffer(s.state)).unwrap();
+        }
+        draw(&mut run, 0..12, drag);
+        let [a, b] = [&mut stepped, &mut run].map(|e| bits(&e.read(&buffer(s.state)).unwrap()));
+        assert!(a == b, "{}: single steps differ from a run", s.name);
+    }
+}
+
+#[test]
+fn a_resize_in_mid_run_leaves_no_undefined_texel() {
+    let Some(gpu) = gpu() else { return };
+    for s in &SIMULATIONS {
+        let mut engine = whole(&gpu, &preset(s.name), true, (48, 27));
+        let mut frame = 0;
+        for (w, h) in [(31, 17), (96, 54), (1, 1), (7, 80), (48, 27)] {
+            draw(&mut engine, frame..frame + 8, drag);
+            frame += 8;
+            engine.resize(w, h).unwrap();
+            draw(&mut engine, frame..frame + 1, drag);
+            frame += 1;
+            check(s, &mut engine, &format!("resized to {w}x{h}"));
+        }
+        // Whatever it has been through, it moves again.
+        draw(&mut engine, frame..frame + 40, untouched);
+        let before = bits(&engine.read(&PassId::Image).unwrap());
+        draw(&mut engine, frame + 40..frame + 60, untouched);
+        assert!(before != bits(&engine.read(&PassId::Image).unwrap()), "{} stands still", s.name);
+    }
+}
+
+#[test]
+fn thin_wide_and_odd_canvases_are_canvases() {
+    let Some(gpu) = gpu() else { return };
+    for s in &SIMULATIONS {
+        for (w, h) in [(1, 1), (2, 1), (1, 2), (3, 3), (17, 31), (1, 4096), (4096, 1), (320, 10), (9, 160), (161, 89)] {
+            let mut engine = whole(&gpu, &preset(s.name), true, (w, h));
+            draw(&mut engine, 0..3, untouched);
+            draw(&mut engine, 3..9, |f| violent(f, (w as f32, h as f32)));
+            check(s, &mut engine, &format!("{w}x{h}"));
+        }
+    }
+}
+
+#[test]
+fn long_runs_neither_burst_nor_fade() {
+    let Some(gpu) = gpu() else { return };
+    long_run(&gpu, 3_000);
+}
+
+#[test]
+#[ignore = "minutes: 100,000 steps of every simulation"]
+fn a_hundred_thousand_steps_neither_burst_nor_fade() {
+    let Some(gpu) = gpu() else { return };
+    long_run(&gpu, 100_000);
+}
+
+/// At 16x9: finite, and as alive at the end as it was.
+fn long_run(gpu: &eddy::gpu::Gpu, steps: i32) {
+    for s in &SIMULATIONS {
+        let project = preset(s.name);
+        let substeps = if s.name == "fluid" { 3 } else { project.groups.iter().filter(|g| g.name != "bottom").map(|g| g.steps as i32).max().unwrap_or(1) };
+        let mut engine = whole(gpu, &project, true, (16, 9));
+        let frames = steps / substeps;
+        let (mut frame, mut last) = (0, Vec::new());
+        while frame < frames {
+            let to = (frame + 500).min(frames);
+            draw(&mut engine, frame..to, untouched);
+            frame = to;
+            check(s, &mut engine, &format!("frame {frame}"));
+            let now = bits(&engine.read(&buffer(s.state)).unwrap());
+            assert!(now != last, "{} stands still at frame {frame}", s.name);
+            last = now;
+        }
+    }
+}
