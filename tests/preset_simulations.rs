@@ -181,33 +181,50 @@ fn thin_wide_and_odd_canvases_are_canvases() {
 
 #[test]
 fn long_runs_neither_burst_nor_fade() {
-    let Some(gpu) = gpu() else { return };
-    long_run(&gpu, 3_000);
-}
-
-#[test]
-#[ignore = "minutes: 100,000 steps of every simulation"]
-fn a_hundred_thousand_steps_neither_burst_nor_fade() {
-    let Some(gpu) = gpu() else { return };
-    long_run(&gpu, 100_000);
-}
-
-/// At 16x9: finite, and as alive at the end as it was.
-fn long_run(gpu: &eddy::gpu::Gpu, steps: i32) {
     for s in &SIMULATIONS {
-        let project = preset(s.name);
-        let substeps = if s.name == "fluid" { 3 } else { project.groups.iter().filter(|g| g.name != "bottom").map(|g| g.steps as i32).max().unwrap_or(1) };
-        let mut engine = whole(gpu, &project, true, (16, 9));
-        let frames = steps / substeps;
-        let (mut frame, mut last) = (0, Vec::new());
-        while frame < frames {
-            let to = (frame + 500).min(frames);
-            draw(&mut engine, frame..to, untouched);
-            frame = to;
-            check(s, &mut engine, &format!("frame {frame}"));
-            let now = bits(&engine.read(&buffer(s.state)).unwrap());
-            assert!(now != last, "{} stands still at frame {frame}", s.name);
-            last = now;
-        }
+        long_run(s.name, 600);
+    }
+}
+
+/// A hundred thousand steps of one simulation, each of which takes minutes: `cargo test --test preset_simulations -- --ignored`.
+macro_rules! hundred_thousand_steps {
+    ($($test:ident: $name:literal,)*) => {
+        $(#[test]
+        #[ignore = "minutes"]
+        fn $test() {
+            long_run($name, 100_000);
+        })*
+    };
+}
+
+hundred_thousand_steps! {
+    a_hundred_thousand_steps_of_fluid: "fluid",
+    a_hundred_thousand_steps_of_fluid_dye: "fluid-dye",
+    a_hundred_thousand_steps_of_fluid_lit: "fluid-lit",
+    a_hundred_thousand_steps_of_reaction_diffusion: "reaction-diffusion",
+    a_hundred_thousand_steps_of_self_advection: "self-advection",
+    a_hundred_thousand_steps_of_fluid_accurate: "fluid-accurate",
+    a_hundred_thousand_steps_of_mip_fluid: "mip-fluid",
+    a_hundred_thousand_steps_of_particles: "particles",
+}
+
+/// At 16x9: finite, within its bound, and moving to the end.
+fn long_run(name: &str, steps: i32) {
+    let Some(gpu) = gpu() else { return };
+    let s = SIMULATIONS.iter().find(|s| s.name == name).unwrap();
+    let project = preset(name);
+    // How many steps a frame is: the fluid's are a chain, others' a group; those at the bottom of a V-cycle are sweeps.
+    let of_groups = project.groups.iter().filter(|g| g.name != "bottom").map(|g| g.steps as i32).max();
+    let frames = steps / if name == "fluid" { 3 } else { of_groups.unwrap_or(1) };
+    let mut engine = whole(&gpu, &project, true, (16, 9));
+    let (mut frame, mut last) = (0, Vec::new());
+    while frame < frames {
+        let to = (frame + 500).min(frames);
+        draw(&mut engine, frame..to, untouched);
+        frame = to;
+        check(s, &mut engine, &format!("frame {frame}"));
+        let now = bits(&engine.read(&buffer(s.state)).unwrap());
+        assert!(now != last, "{name} stands still at frame {frame}");
+        last = now;
     }
 }
