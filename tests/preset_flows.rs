@@ -95,7 +95,8 @@ fn energy(u: &Pixels) -> f64 {
 fn a_v_cycle_leaves_no_more_divergence_than_stated() {
     let Some(gpu) = gpu() else { return };
     // Divergence of every wavelength: noise, and a swelling as long as the canvas, which is what sweeps alone do not see.
-    let seed = "if (iFrame == 0) o.xy = 0.1 * (fract(sin(vec2(p.x * 12 + p.y * 78, p.x * 39 + p.y * 11)) * 4375.8) - 0.5)
+    let seed =
+        "if (iFrame == 0) o.xy = 0.1 * (fract(sin(vec2(p.x * 12 + p.y * 78, p.x * 39 + p.y * 11)) * 4375.8) - 0.5)
         + sin(3.1416 * vec2(p) / vec2(grid())) * vec2(1.0, 0.5);
         if (p.x == 0) o.x = 0.0;
         if (p.y == 0) o.y = 0.0;";
@@ -201,7 +202,8 @@ fn a_uniform_flow_stays_uniform_on_every_number_of_scales() {
                 let [_, flow] = mip_velocity(&gpu, &knobs, size, "vec2(0.3, -0.1)", 30);
                 let kept = (-0.5f64 / 60.0).exp();
                 for t in &flow.texels {
-                    let off = (f64::from(t[0]) / (0.3 * kept) - 1.0).abs().max((f64::from(t[1]) / (-0.1 * kept) - 1.0).abs());
+                    let off =
+                        (f64::from(t[0]) / (0.3 * kept) - 1.0).abs().max((f64::from(t[1]) / (-0.1 * kept) - 1.0).abs());
                     // 29 or 30 frames of drag; the same everywhere.
                     assert!(off < 1e-3, "{size:?} {scales} {weights}: {t:?}");
                     assert!((t[0] - flow.texels[0][0]).abs() < 1e-6, "{size:?} {scales} {weights}: not uniform");

@@ -32,7 +32,10 @@ fn particles_live_as_long_as_they_say_and_none_is_lost() {
                 assert_eq!(b[2], a[2], "particle {n} changed its type");
                 if b[0] + step < b[1] - 1e-5 {
                     // It lives on: older by the step, nothing else different.
-                    assert!((a[0] - b[0] - step).abs() < 1e-5 && a[1] == b[1] && a[3] == b[3], "{n}: {b:?} became {a:?}");
+                    assert!(
+                        (a[0] - b[0] - step).abs() < 1e-5 && a[1] == b[1] && a[3] == b[3],
+                        "{n}: {b:?} became {a:?}"
+                    );
                 } else if b[0] + step > b[1] + 1e-5 {
                     assert!(a[0] == 0.0 && a[1] > 0.0 && a[3] == b[3] + 1.0, "{n} outlived itself: {b:?} became {a:?}");
                     births += 1;
@@ -53,9 +56,7 @@ fn sparks_fall_as_far_as_gravity_says() {
     let project = preset("particles");
     let mut engine = whole(&gpu, &project, true, (64, 36));
     draw(&mut engine, 0..30, untouched);
-    let read = |engine: &mut eddy::engine::Engine| {
-        ["motion", "life"].map(|b| engine.read(&buffer(b)).unwrap().texels)
-    };
+    let read = |engine: &mut eddy::engine::Engine| ["motion", "life"].map(|b| engine.read(&buffer(b)).unwrap().texels);
     let [before, _] = read(&mut engine);
     draw(&mut engine, 30..31, untouched);
     let [after, life] = read(&mut engine);

@@ -33,7 +33,11 @@ const SIMULATIONS: [Simulation; 8] = [
 fn check(simulation: &Simulation, engine: &mut Engine, when: &str) {
     for id in buffers(&preset(simulation.name)) {
         let pixels = engine.read(id).unwrap();
-        let worst = pixels.texels.iter().flatten().fold(0.0f32, |m, v| if v.is_finite() { m.max(v.abs()) } else { f32::NAN.max(1e38) });
+        let worst = pixels
+            .texels
+            .iter()
+            .flatten()
+            .fold(0.0f32, |m, v| if v.is_finite() { m.max(v.abs()) } else { f32::NAN.max(1e38) });
         assert!(worst <= simulation.bound, "{}, {when}: {} holds {worst}", simulation.name, id.title());
     }
 }

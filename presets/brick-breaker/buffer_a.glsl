@@ -19,6 +19,7 @@ const bool SOLID_FLOOR = false;     // true: practice, the ball cannot be lost
 // Impacts a frame, far more than a game needs: at 10,000 units a frame the ball meets about 100 walls. Should they run
 // out, the rest of the frame is dropped: the ball is late, never through.
 const int MAX_IMPACTS = 512;
+const uint TICKS = 0x40000000u; // in a frame
 
 // A ball this close to a face and moving at it touches it. Without the tolerance a ball that meets two faces at once
 // could be past the second by a rounding error when its turn comes, and never be stopped.
@@ -136,11 +137,12 @@ float timeToBox(vec2 centre, vec2 halfSize, out bool throughX) {
 
 // Moves the ball for `seconds`; the paddle glides from where it was to where it is meanwhile.
 void sweep(float seconds) {
-    // The same flight from wall to wall is added again and again, so that rounding errs the same way again and again: 4 units
-    // in 100,000 bounces at 10,000 units a frame. So what a sum drops is carried along (W. Kahan, CACM 8(1), 1965).
-    float passed = 0.0, surplus = 0.0;
+    // Time passed is counted in whole TICKS of the frame. A sum of floats would round the same flight from wall to wall the
+    // same way again and again: 4 units in 100,000 bounces at 10,000 units a frame, against 1 as it is, which is a float's
+    // precision of the path. (Carrying along what a sum drops is no help: compilers may, and some do, find that it is zero.)
+    uint passed = 0u;
     for (int n = 0; n < impacts; n++) {
-        float rest = (seconds - passed) + surplus;
+        float rest = seconds * (float(TICKS - passed) / float(TICKS));
         if (rest <= 0.0) break;
 
         // The earliest face. Of equals the first asked is taken: edges, paddle, bricks from the bottom left.
@@ -157,7 +159,7 @@ void sweep(float seconds) {
             t = timeTo(SOLID_FLOOR ? BALL_RADIUS : -BALL_RADIUS, ball.y, velocity.y);
             if (t < first) { first = t; what = 3; }
             t = timeTo(PADDLE_Y + PADDLE_HALF.y + BALL_RADIUS, ball.y, velocity.y);
-            float there = mix(paddleBefore, paddle, clamp((passed + t) / seconds, 0.0, 1.0));
+            float there = mix(paddleBefore, paddle, clamp(float(passed) / float(TICKS) + t / seconds, 0.0, 1.0));
             if (t < first && abs(ball.x + velocity.x * t - there) <= PADDLE_HALF.x + BALL_RADIUS) { first = t; what = 4; }
         }
 
@@ -174,10 +176,9 @@ void sweep(float seconds) {
         }
 
         ball += velocity * first;
-        float more = first - surplus, sum = passed + more;
-        surplus = (sum - passed) - more;
-        passed = sum;
         if (what == 0) break;
+        passed = min(passed + uint(first / seconds * float(TICKS) + 0.5), TICKS);
+        float part = float(passed) / float(TICKS);
         if (what == 1) {
             ball.x = edge;
             velocity.x = -velocity.x;
@@ -196,7 +197,7 @@ void sweep(float seconds) {
             velocity.y = -velocity.y;
         } else if (what == 4) {
             ball.y = PADDLE_Y + PADDLE_HALF.y + BALL_RADIUS;
-            float there = mix(paddleBefore, paddle, clamp(passed / seconds, 0.0, 1.0));
+            float there = mix(paddleBefore, paddle, part);
             launch((ball.x - there) / (PADDLE_HALF.x + BALL_RADIUS));
             remember(ball - vec2(0.0, BALL_RADIUS), SPARK);
         } else {

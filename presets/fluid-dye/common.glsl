@@ -10,12 +10,12 @@
 #iUniform float edge_drag = 0.15 in { 0.0, 1.0 }
 
 // Seconds in which red, green and blue fall to 1/e: dye is white when it is young and blue when it is old.
-#iUniform vec3 decay_seconds = vec3(1.0, 1.9, 6.0) in { 0.1, 30.0 }
+#iUniform vec3 decay_seconds = vec3(1.3, 2.4, 7.0) in { 0.1, 30.0 }
 // What an emitter pours out at its middle, in a second.
-#iUniform vec3 pours = vec3(9.0, 3.6, 1.7) in { 0.0, 20.0 }
+#iUniform vec3 pours = vec3(14.0, 6.5, 3.4) in { 0.0, 20.0 }
 // How hard it blows, in pixels a unit of time; 0: the dye just wells up.
 #iUniform float blows = 2.2 in { 0.0, 3.0 }
-#iUniform float exposure = 0.9 in { 0.1, 4.0 }
+#iUniform float exposure = 1.2 in { 0.1, 4.0 }
 
 const float SUBSTEPS = 3.0; // a frame; the same number as in eddy.toml
 

@@ -13,7 +13,7 @@
 #iUniform float dent = 1.6 in { 0.0, 4.0 }
 #iUniform float settle_seconds = 3.0 in { 0.1, 20.0 }
 // Surface tension: what of a wrinkle one pixel wide is smoothed out in a frame.
-#iUniform float tension = 0.5 in { 0.0, 1.0 }
+#iUniform float tension = 0.8 in { 0.0, 1.0 }
 #iUniform float relief = 1.0 in { 0.0, 4.0 }
 #iUniform float shininess = 60.0 in { 2.0, 300.0 }
 #iUniform color3 liquid = color3(0.05, 0.16, 0.30)
