@@ -3,7 +3,7 @@
 mod support;
 
 use eddy::{
-    engine::{BuildOptions, Engine, FrameInputs, Pixels},
+    engine::{BuildOptions, FrameInputs, Pixels},
     media::{Keyboard, MediaSet},
     project::{PassId, presets},
 };
