@@ -72,9 +72,9 @@ pub struct RenderArgs {
     /// Which frames to write, counted from 0 [default: the last]
     #[arg(long, value_name = "F[,F...]", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(..1 << 30))]
     pub at: Vec<u32>,
-    /// Which pass to write: image, buffer_a, a further buffer's name …
-    #[arg(long, value_name = "NAME", default_value = "image", value_parser = pass)]
-    pub pass: PassId,
+    /// Which pass to write: image, buffer_a, a further buffer's name …; scene:1 is target 1 of a pass that has several
+    #[arg(long, value_name = "NAME", default_value = "image", value_parser = picture)]
+    pub pass: Picture,
     /// png: 8 bits, as shown on a screen. npy: float32, height x width x 4, row 0 at the bottom
     /// [default: what --out ends in, else png]
     #[arg(long, value_name = "png|npy", value_parser = format)]
@@ -190,6 +190,23 @@ fn format(text: &str) -> Result<Format, String> {
     format_of(text).unwrap_or_else(|| Err("a picture is written as png or npy".into()))
 }
 
+/// A pass, and which of its targets.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    pub pass: PassId,
+    pub target: usize,
+}
+
+fn picture(text: &str) -> Result<Picture, String> {
+    let (name, target) = match text.rsplit_once(':') {
+        Some((name, number)) => {
+            (name, number.parse().map_err(|_| format!("a target is a number from 0, not \"{number}\""))?)
+        }
+        None => (text, 0),
+    };
+    Ok(Picture { pass: pass(name)?, target })
+}
+
 fn pass(text: &str) -> Result<PassId, String> {
     PassId::parse(text)
         .ok_or_else(|| "a pass is called image, buffer_a, buffer_b … or by a further buffer's name".into())
@@ -250,7 +267,13 @@ mod tests {
         );
         assert_eq!(r.project, ["a", "b"]);
         assert_eq!((r.run.size, r.frames, r.run.fps), ((320, 180), Some(9), 30.0));
-        assert_eq!((r.at.as_slice(), r.pass.key(), r.format), (&[0, 4, 8][..], "buffer_b".into(), Some(Format::Npy)));
+        assert_eq!(
+            (r.at.as_slice(), r.pass.pass.key(), r.format),
+            (&[0, 4, 8][..], "buffer_b".into(), Some(Format::Npy))
+        );
+        assert_eq!(r.pass.target, 0);
+        assert_eq!(picture("scene:2"), Ok(Picture { pass: PassId::Buffer("scene".into()), target: 2 }));
+        assert!(picture("scene:x").is_err());
         assert_eq!(r.run.set, ["a=1", "b=1,2"]);
         assert!(r.json && r.run.no_skip && r.run.date.is_some());
     }

@@ -222,6 +222,7 @@ mod tests {
     fn a_mip_chain_and_a_second_texture_are_counted() {
         let target = |doubled, mips| Target {
             id: PassId::Image,
+            index: 0,
             kind: TargetKind::Canvas,
             size: Default::default(),
             format: Default::default(),

@@ -9,6 +9,7 @@ use super::{
 use crate::{
     diag::Diagnostic,
     engine,
+    media::{self, MediaSet},
     project::{self, Filter, Input, Project, SamplerRules, Wrap},
 };
 use std::{collections::BTreeMap, io, time::Instant};
@@ -41,6 +42,9 @@ fn check(report: &mut Report, spec: &str) -> Result<(), Trouble> {
     let began = Instant::now();
     let mut found = compile(project);
     report.compile_ms = Some(millis_since(began));
+    let mut meshes = MediaSet::new();
+    media::meshes(project, &mut meshes);
+    found.extend(meshes.mesh_errors(project));
     found.extend(shared_samplers(project));
     report.diagnose(&found, &project.sources(), Some(project));
     Ok(())

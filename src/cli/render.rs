@@ -36,7 +36,7 @@ fn draw(
     inputs: &ScriptedInputs,
     index: usize,
 ) -> Result<Vec<PathBuf>, Trouble> {
-    let (_, mut engine) = open(machine, report, &args.project[index], &args.run, &args.pass)?;
+    let (_, mut engine) = open(machine, report, &args.project[index], &args.run, &args.pass.pass)?;
     let mut inputs = inputs.clone();
     let (mut millis, mut written) = (Vec::new(), Vec::new());
     for frame in 0..targets.frames {
@@ -49,7 +49,7 @@ fn draw(
         if targets.at.binary_search(&frame).is_ok()
             && let Some(path) = targets.path(index, frame)
         {
-            targets::write(&path, &engine.read(&args.pass)?, targets.format)?;
+            targets::write(&path, &engine.read_target(&args.pass.pass, args.pass.target)?, targets.format)?;
             written.push(path);
         }
     }

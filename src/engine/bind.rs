@@ -4,11 +4,12 @@
 use super::{
     program::{BoundChannel, CompiledDraw, Program},
     targets::Target,
+    uniforms::{GEOMETRY_STRIDE, Uniforms},
 };
 use crate::{
     glsl::{
         ChannelKind,
-        interface::{self, UniformBlock},
+        interface::{self, GeometryBlock, UniformBlock},
     },
     gpu::{Address, Filtering, Gpu, Samplers, Texture},
     graph::{Draw, Read, Source},
@@ -62,7 +63,8 @@ impl Stock {
 
 /// The bind groups of one draw.
 pub(super) struct DrawBindings {
-    uniforms: wgpu::BindGroup,
+    /// Of each program.
+    uniforms: Vec<wgpu::BindGroup>,
     /// By which of its two textures each channel's target shows, a bit for each; made when first needed.
     channels: [Option<wgpu::BindGroup>; 16],
 }
@@ -76,48 +78,54 @@ impl DrawBindings {
         compiled: &CompiledDraw,
         draw: &Draw,
         targets: &[Target],
-    ) -> [&wgpu::BindGroup; 2] {
+    ) -> (&[wgpu::BindGroup], &wgpu::BindGroup) {
         let front = |read: &Option<Read>| match read.as_ref().map(|r| &r.source) {
             Some(Source::Target { index, .. }) => targets[*index].front,
             _ => 0,
         };
         let key = draw.reads.iter().enumerate().fold(0, |key, (i, read)| key | front(read) << i);
         let make = || channel_group(gpu, stock, compiled, draw, targets);
-        [&self.uniforms, self.channels[key].get_or_insert_with(make)]
+        (&self.uniforms, self.channels[key].get_or_insert_with(make))
     }
 }
 
-pub(super) fn make(gpu: &Gpu, program: &Program, uniforms: &wgpu::Buffer, knobs: &wgpu::Buffer) -> Vec<DrawBindings> {
+pub(super) fn make(gpu: &Gpu, program: &Program, uniforms: &Uniforms) -> Vec<DrawBindings> {
     program
         .draws
         .iter()
         .enumerate()
         .map(|(index, compiled)| DrawBindings {
-            uniforms: uniform_group(gpu, compiled, uniforms, index as u64 * UNIFORM_STRIDE, knobs),
+            uniforms: (0..compiled.programs.len()).map(|n| uniform_group(gpu, compiled, n, index, uniforms)).collect(),
             channels: Default::default(),
         })
         .collect()
 }
 
-fn uniform_group(
-    gpu: &Gpu,
-    compiled: &CompiledDraw,
-    uniforms: &wgpu::Buffer,
-    offset: u64,
-    knobs: &wgpu::Buffer,
-) -> wgpu::BindGroup {
+fn uniform_group(gpu: &Gpu, compiled: &CompiledDraw, n: usize, index: usize, uniforms: &Uniforms) -> wgpu::BindGroup {
+    let program = &compiled.programs[n];
+    let offset = index as u64 * UNIFORM_STRIDE;
     let size = std::num::NonZero::new(size_of::<UniformBlock>() as u64);
-    let block = wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer: uniforms, offset, size });
+    let block = wgpu::BindingResource::Buffer(wgpu::BufferBinding { buffer: &uniforms.buffer, offset, size });
     let mut entries = vec![wgpu::BindGroupEntry { binding: 0, resource: block }];
-    for (binding, table) in &compiled.tables {
+    for (binding, table) in &program.tables {
         entries.push(wgpu::BindGroupEntry { binding: *binding, resource: table.as_entire_binding() });
     }
     if !compiled.knobs.is_empty() {
-        entries.push(wgpu::BindGroupEntry { binding: interface::KNOB_BINDING, resource: knobs.as_entire_binding() });
+        entries.push(wgpu::BindGroupEntry {
+            binding: interface::KNOB_BINDING,
+            resource: uniforms.knobs.as_entire_binding(),
+        });
+    }
+    if compiled.reads_geometry {
+        let size = std::num::NonZero::new(size_of::<GeometryBlock>() as u64);
+        let offset = (compiled.first_mesh + n) as u64 * GEOMETRY_STRIDE;
+        let block = wgpu::BufferBinding { buffer: &uniforms.geometry, offset, size };
+        let resource = wgpu::BindingResource::Buffer(block);
+        entries.push(wgpu::BindGroupEntry { binding: interface::GEOMETRY_BINDING, resource });
     }
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("uniforms"),
-        layout: &compiled.pipeline.layouts[interface::UNIFORM_GROUP as usize],
+        layout: &program.pipeline.layouts[interface::UNIFORM_GROUP as usize],
         entries: &entries,
     })
 }
@@ -147,7 +155,8 @@ fn channel_group(
     }
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("channels"),
-        layout: &compiled.pipeline.layouts[interface::CHANNEL_GROUP as usize],
+        // The same for every program of the pass.
+        layout: &compiled.programs[0].pipeline.layouts[interface::CHANNEL_GROUP as usize],
         entries: &entries,
     })
 }

@@ -1,10 +1,10 @@
 //! A project's texts on their way through the compiler.
 
-use super::{knobs, program::kind_of};
+use super::{knobs, program::kind_of, stages::CompiledPass};
 use crate::{
     diag::{Diagnostic, SourceId},
-    glsl::{self, ChannelKind, Compiled, Include, PassKind, PassSource, Text, services::Analysis},
-    project::{IncludeLines, Knobs, Pass, PassId, Project},
+    glsl::{self, ChannelKind, Include, PassKind, PassSource, Text, services::Analysis},
+    project::{Geometry, IncludeLines, Knobs, Pass, PassId, Project, Stage},
 };
 use std::borrow::Cow;
 
@@ -22,11 +22,22 @@ pub struct Sources<'p> {
 impl<'p> Sources<'p> {
     pub fn new(project: &'p Project) -> Self {
         let common = project.common.as_ref().map_or(Cow::Borrowed(""), |c| c.compile_text());
-        let passes = project.passes.iter().map(|p| p.source.compile_text());
+        let of_stage = |source: &'p crate::project::Source| without_version(source.compile_text());
+        let passes = project.passes.iter().map(|p| match &p.settings.geometry {
+            Some(_) => of_stage(&p.source),
+            None => p.source.compile_text(),
+        });
+        let stages = project.stages().map(|(_, s)| of_stage(s));
         let included = project.includes.iter().map(|i| i.source.compile_text());
         let (lines, knobs) = (project.include_lines(), knobs::knobs(project));
         let diagnostics = lines.diagnostics.iter().chain(&knobs.diagnostics).cloned().collect();
-        Self { project, texts: [common].into_iter().chain(passes).chain(included).collect(), lines, knobs, diagnostics }
+        Self {
+            project,
+            texts: [common].into_iter().chain(passes).chain(stages).chain(included).collect(),
+            lines,
+            knobs,
+            diagnostics,
+        }
     }
 
     pub fn knobs(&self) -> &Knobs {
@@ -43,19 +54,43 @@ impl<'p> Sources<'p> {
         index: usize,
         bilinear_by_hand: [bool; 4],
         tables_in_memory: bool,
-    ) -> Result<Compiled, Vec<Diagnostic>> {
+    ) -> Result<CompiledPass, Vec<Diagnostic>> {
         let pass = &self.project.passes[index];
+        if let Some(geometry) = &pass.settings.geometry {
+            return self.compile_geometry(index, geometry, bilinear_by_hand, tables_in_memory);
+        }
         let id = SourceId(index as u16 + 1);
-        glsl::compile(&PassSource {
-            kind: pass_kind(&pass.id),
+        self.with_source(index, id, pass_kind(&pass.id), |source| {
+            glsl::compile(&PassSource { bilinear_by_hand, tables_in_memory, ..*source }).map(CompiledPass::screen)
+        })
+    }
+
+    /// Gives a text of `project.passes[index]` as the compiler takes it.
+    pub(super) fn with_source<T>(
+        &self,
+        index: usize,
+        id: SourceId,
+        kind: PassKind,
+        work: impl FnOnce(&PassSource<'_>) -> T,
+    ) -> T {
+        work(&PassSource {
+            kind,
             common: self.common(),
             code: self.text(id),
             includes: &self.includes(),
-            channels: channel_kinds(pass),
+            channels: channel_kinds(&self.project.passes[index]),
             knobs: &knobs::in_scope(&self.knobs, &self.lines, Some(id)),
-            bilinear_by_hand,
-            tables_in_memory,
+            bilinear_by_hand: [false; 4],
+            tables_in_memory: false,
         })
+    }
+
+    pub(super) fn stage_id(&self, index: usize, stage: Stage) -> SourceId {
+        self.project.stage_id(index, stage)
+    }
+
+    pub(super) fn targets(&self, index: usize) -> usize {
+        self.project.passes[index].settings.formats().len()
     }
 
     /// `project.passes[index]` as an editor understands it, whether it compiles or not.
@@ -63,18 +98,17 @@ impl<'p> Sources<'p> {
     /// # Panics
     /// If there is no such pass.
     pub fn analyse(&self, index: usize) -> Analysis {
+        self.analyse_stage(index, Stage::Own)
+    }
+
+    /// As [`Sources::analyse`], of a stage of a pass that draws meshes.
+    ///
+    /// # Panics
+    /// If there is no such pass or stage.
+    pub fn analyse_stage(&self, index: usize, stage: Stage) -> Analysis {
         let pass = &self.project.passes[index];
-        let id = SourceId(index as u16 + 1);
-        Analysis::new(&PassSource {
-            kind: pass_kind(&pass.id),
-            common: self.common(),
-            code: self.text(id),
-            includes: &self.includes(),
-            channels: channel_kinds(pass),
-            knobs: &knobs::in_scope(&self.knobs, &self.lines, Some(id)),
-            bilinear_by_hand: [false; 4],
-            tables_in_memory: false,
-        })
+        let kind = pass.settings.geometry.as_ref().map_or_else(|| pass_kind(&pass.id), |g| stage_kind(g, stage));
+        self.with_source(index, self.stage_id(index, stage), kind, Analysis::new)
     }
 
     /// What the site would refuse in Common; see [`glsl::check_common`].
@@ -94,6 +128,23 @@ impl<'p> Sources<'p> {
     fn includes(&self) -> Vec<Include<'_>> {
         self.lines.lines.iter().map(|&(line, of)| Include { line, text: self.text(of) }).collect()
     }
+}
+
+/// A stage of GLSL ES 3.00 may begin with its version, which here goes without saying.
+fn without_version(text: Cow<'_, str>) -> Cow<'_, str> {
+    let begin = text.len() - text.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}').len();
+    let line = text[begin..].lines().next().unwrap_or_default();
+    let is_version = line.split_whitespace().eq(["#version", "300", "es"]);
+    if !is_version {
+        return text;
+    }
+    let blank = " ".repeat(line.len());
+    Cow::Owned(format!("{}{blank}{}", &text[..begin], &text[begin + line.len()..]))
+}
+
+/// Which stage a text of a pass is: that of vertices if some draw uses it so.
+pub fn stage_kind(geometry: &Geometry, stage: Stage) -> PassKind {
+    if geometry.draws.iter().any(|d| d.vertex == stage) { PassKind::Vertex } else { PassKind::Fragment }
 }
 
 /// What the compiler calls a pass.

@@ -27,8 +27,13 @@ impl Engine {
             self.key_changes += 1;
         }
         for (index, (compiled, draw)) in program.draws.iter().zip(&program.plan.draws).enumerate() {
-            let own = self.targets[draw.target].size();
+            let own = self.targets[draw.targets.start].size();
             self.uniforms.set(index, &uniforms::block(inputs, own, self.size, &compiled.channels));
+            let Some(camera) = &compiled.camera else { continue };
+            for (n, mesh) in compiled.programs.iter().filter_map(|p| p.mesh.as_ref()).enumerate() {
+                let block = mesh.block(camera, inputs, own, self.size);
+                self.uniforms.set_geometry(compiled.first_mesh + n, &block);
+            }
         }
         self.uniforms.write(&self.gpu);
         // The same at every step.
@@ -88,7 +93,7 @@ impl Engine {
         stats: &mut FrameStats,
     ) {
         let (compiled, draw) = (&program.draws[index], &program.plan.draws[index]);
-        let size = self.targets[draw.target].size();
+        let size = self.targets[draw.targets.start].size();
         let texels = match draw.region {
             None => u64::from(size.0) * u64::from(size.1),
             Some(region) => match region.within(size) {
@@ -98,41 +103,65 @@ impl Engine {
         };
         if !self.ledger.is_due(index, draw, outside) {
             stats.passes_rested += 1;
-            stats.bytes_rested += texels * program.plan.targets[draw.target].format.bytes();
+            let bytes = program.plan.targets[draw.targets.clone()].iter().map(|t| t.format.bytes());
+            stats.bytes_rested += texels * bytes.sum::<u64>();
             return;
         }
         stats.passes_drawn += 1;
-        let [uniforms, channels] = self.bindings[index].groups(&self.gpu, &self.stock, compiled, draw, &self.targets);
-        let target = &self.targets[draw.target];
-        let back = target.back();
-        if draw.region.is_some() && back != target.front {
-            target.newest().copy_overlap(encoder, &target.textures[back]);
+        let (uniforms, channels) = self.bindings[index].groups(&self.gpu, &self.stock, compiled, draw, &self.targets);
+        let targets = &self.targets[draw.targets.clone()];
+        for target in targets {
+            if draw.region.is_some() && target.back() != target.front {
+                target.newest().copy_overlap(encoder, &target.textures[target.back()]);
+            }
         }
         let load = if draw.keeps_content { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) };
+        let attachments: Vec<_> = targets
+            .iter()
+            .map(|target| {
+                Some(wgpu::RenderPassColorAttachment {
+                    view: &target.textures[target.back()].level_0,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
+                })
+            })
+            .collect();
+        let depth = self.depths.get(index).and_then(Option::as_ref);
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: None,
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &target.textures[back].level_0,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
-            })],
+            color_attachments: &attachments,
+            depth_stencil_attachment: depth.map(|view| wgpu::RenderPassDepthStencilAttachment {
+                view,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(1.0), store: wgpu::StoreOp::Discard }),
+                stencil_ops: None,
+            }),
             timestamp_writes: self.timer.as_mut().and_then(|t| t.writes(index)),
             ..Default::default()
         });
-        pass.set_pipeline(&compiled.pipeline.raw);
-        pass.set_bind_group(UNIFORM_GROUP, uniforms, &[]);
-        pass.set_bind_group(CHANNEL_GROUP, channels, &[]);
         // Row 0 is the bottom, for a scissor too.
         if let Some(region) = draw.region.and_then(|r| r.within(size)) {
             pass.set_scissor_rect(region.x, region.y, region.width, region.height);
         }
-        pass.draw(0..3, 0..1);
+        for (program, uniforms) in compiled.programs.iter().zip(uniforms) {
+            pass.set_pipeline(&program.pipeline.raw);
+            pass.set_bind_group(UNIFORM_GROUP, uniforms, &[]);
+            pass.set_bind_group(CHANNEL_GROUP, channels, &[]);
+            match &program.mesh {
+                None => pass.draw(0..3, 0..1),
+                Some(mesh) => {
+                    pass.set_vertex_buffer(0, mesh.buffers.vertices.slice(..));
+                    pass.set_index_buffer(mesh.buffers.indices.slice(..), wgpu::IndexFormat::Uint32);
+                    pass.draw_indexed(0..mesh.buffers.count, 0, 0..1);
+                }
+            }
+        }
         drop(pass);
-        let target = &mut self.targets[draw.target];
-        target.front = back;
-        if let Some(chain) = target.chains.get(back) {
-            self.mips.build(encoder, chain);
+        for target in &mut self.targets[draw.targets.clone()] {
+            target.front = target.back();
+            if let Some(chain) = target.chains.get(target.front) {
+                self.mips.build(encoder, chain);
+            }
         }
     }
 }

@@ -15,6 +15,8 @@ pub struct FrameInputs {
     pub frame_rate: f32,
     /// `iMouse`, canvas pixels from the bottom left.
     pub mouse: [f32; 4],
+    /// Canvas pixels the mouse has been dragged in all, to the right and up: what turns a camera.
+    pub drag: [f32; 2],
     /// `iDate`: year, month 0-11, day 1-31, seconds since local midnight.
     pub date: [f32; 4],
     pub keyboard: Keyboard,
@@ -29,6 +31,7 @@ impl FrameInputs {
             time_delta_secs: (1.0 / fps) as f32,
             frame_rate: fps as f32,
             mouse: [0.0; 4],
+            drag: [0.0; 2],
             date: [0.0; 4],
             keyboard: Keyboard::default(),
         }

@@ -6,14 +6,17 @@
 mod bind;
 mod compile;
 mod frame;
+mod geometry;
 mod inputs;
 mod knobs;
 mod program;
 mod run;
+mod stages;
 mod targets;
 mod uniforms;
 
-pub use compile::{Sources, channel_kinds, pass_kind};
+pub use compile::{Sources, channel_kinds, pass_kind, stage_kind};
 pub use inputs::FrameInputs;
 pub use program::{BuildError, BuildOptions, Built, Program};
 pub use run::{Engine, EngineError, FrameStats, PassTime, Pixels};
+pub use stages::CompiledPass;

@@ -1,16 +1,23 @@
 //! From a project to everything a frame needs that does not change from frame to frame.
 
-use super::{EngineError, Sources, targets::texture_format};
+use super::{
+    EngineError, Sources,
+    geometry::{self, MeshUploads, PlacedMesh},
+    stages::{CompiledPass, CompiledProgram},
+    targets::texture_format,
+};
 use crate::{
     diag::{Diagnostic, SourceMap},
-    glsl::{ChannelKind, Compiled, KnobSet, UniformSet, interface},
+    glsl::{ChannelKind, KnobSet, UniformSet, interface},
     gpu::{
-        Binding, FragmentPipeline, FragmentPipelineDescriptor, Gpu, MipMaker, Texture, TextureDescriptor,
-        constant_buffer, mip_levels,
+        Binding, FragmentPipelineDescriptor, Gpu, MipMaker, Pipeline, Texture, TextureDescriptor, constant_buffer,
+        mip_levels,
     },
     graph::{ChannelFacts, Draw, FramePlan, PassFacts, Source},
     media::{MediaKey, MediaSet, TexelFormat, Texels},
-    project::{Channel, Filter, Input, Knob, KnobValues, PassFormat, PassId, PassSettings, PassSize, Project},
+    project::{
+        Camera, Channel, Filter, Geometry, Input, Knob, KnobValues, PassFormat, PassId, PassSettings, PassSize, Project,
+    },
 };
 use std::{collections::HashMap, sync::Arc};
 
@@ -40,16 +47,30 @@ pub struct Program {
     pub(super) knob_values: KnobValues,
 }
 
-/// The pipeline of one draw and what its channels are bound to.
+/// The pipelines of one draw and what its channels are bound to.
 pub(super) struct CompiledDraw {
     pub id: PassId,
-    pub pipeline: FragmentPipeline,
+    /// One, or one for each mesh the pass draws.
+    pub programs: Vec<DrawProgram>,
+    /// Where meshes are drawn.
+    pub camera: Option<Camera>,
+    /// Place of its first mesh among those of all draws.
+    pub first_mesh: usize,
+    /// Some program reads what meshes are drawn with.
+    pub reads_geometry: bool,
     pub channels: [BoundChannel; 4],
-    /// The constant tables of the shader, where it has any.
-    pub tables: Vec<(u32, wgpu::Buffer)>,
     /// The uniforms that are read: the site's, and the author's own by their slots.
     pub uniforms: UniformSet,
     pub knobs: KnobSet,
+}
+
+/// One program of a draw.
+pub(super) struct DrawProgram {
+    pub pipeline: Pipeline,
+    /// The constant tables of its stages, where they have any, by their bindings.
+    pub tables: Vec<(u32, wgpu::Buffer)>,
+    /// `None`: the triangle over the whole target.
+    pub mesh: Option<PlacedMesh>,
 }
 
 /// One channel of a compiled pass.
@@ -103,8 +124,9 @@ impl Program {
             }
         }
         let plan = FramePlan::new(&drawable, &facts, &options.wanted, options.skip);
-        let mut compiled: Vec<Option<Compiled>> = compiled.into_iter().map(Some).collect();
+        let mut compiled: Vec<Option<CompiledPass>> = compiled.into_iter().map(Some).collect();
         let mut uploads = Uploads { gpu, mips: MipMaker::new(gpu), made: HashMap::new() };
+        let mut meshes = MeshUploads::new(gpu, media);
         let mut jobs = Vec::new();
         for draw in &plan.draws {
             let pass = &drawable.passes[draw.pass];
@@ -132,9 +154,17 @@ impl Program {
                     bound.media = Some(uploads.get(key, texels, mips).map_err(EngineError::from)?);
                 }
             }
-            jobs.push((pass.id.clone(), compiled, channels, draw, plan.targets[draw.target].format));
+            let geometry = pass.settings.geometry.as_ref();
+            let meshes = geometry.map_or(Ok(Vec::new()), |g| meshes.placed(g))?;
+            let formats = plan.targets[draw.targets.clone()].iter().map(|t| t.format).collect();
+            jobs.push(Job { id: pass.id.clone(), compiled, channels, draw, formats, geometry, meshes });
         }
-        let draws = make_pipelines(gpu, jobs)?;
+        let mut draws = make_pipelines(gpu, jobs)?;
+        let mut first_mesh = 0;
+        for draw in draws.iter_mut().filter(|d| d.camera.is_some()) {
+            draw.first_mesh = first_mesh;
+            first_mesh += draw.programs.len();
+        }
         let program =
             Program { plan, draws, knobs: texts.knobs().list.clone(), knob_values: project.knob_values.clone() };
         Ok(Built { program, diagnostics, sources })
@@ -145,6 +175,11 @@ impl Program {
         &self.knobs
     }
 
+    /// Meshes that are drawn, all passes together.
+    pub(super) fn meshes(&self) -> usize {
+        self.draws.iter().filter(|d| d.camera.is_some()).map(|d| d.programs.len()).sum()
+    }
+
     /// What is drawn, read and kept in each frame.
     pub fn plan(&self) -> &FramePlan {
         &self.plan
@@ -152,7 +187,7 @@ impl Program {
 }
 
 /// The passes that can be drawn, compiled; `project` with only these, and every warning.
-type Compilation = (Project, Vec<Compiled>, Vec<Diagnostic>);
+type Compilation = (Project, Vec<CompiledPass>, Vec<Diagnostic>);
 
 fn compile(
     gpu: &Gpu,
@@ -164,6 +199,7 @@ fn compile(
     drawable.passes.clear();
     let mut compiled = Vec::new();
     let mut diagnostics: Vec<Diagnostic> = texts.diagnostics.clone();
+    diagnostics.extend(media.mesh_errors(project));
     for (index, pass) in project.passes.iter().enumerate() {
         if matches!(pass.id, PassId::Cubemap | PassId::Sound) {
             let what = pass.id.title();
@@ -208,7 +244,7 @@ fn without_cubemap_passes(mut pass: crate::project::Pass) -> crate::project::Pas
     pass
 }
 
-fn facts(compiled: &Compiled) -> PassFacts {
+fn facts(compiled: &CompiledPass) -> PassFacts {
     PassFacts {
         channels: compiled.reflection.channels.map(|c| ChannelFacts { is_read: c.is_read(), reaches_mips: c.mips }),
         discards: compiled.reflection.discards,
@@ -232,8 +268,10 @@ fn media_key(channel: &Channel) -> Option<MediaKey> {
 
 /// How the buffer is drawn that the channel names, if it names one.
 fn settings_of(project: &Project, channel: &Channel) -> Option<PassSettings> {
-    let Input::Buffer(name) = &channel.input else { return None };
-    Some(project.pass(&PassId::Buffer(name.clone())).map(|p| p.settings.clone()).unwrap_or_default())
+    let (name, index) = channel.input.buffer()?;
+    let mut settings = project.pass(&PassId::Buffer(name.to_owned())).map(|p| p.settings.clone()).unwrap_or_default();
+    settings.format = settings.formats().get(index).copied().unwrap_or_default();
+    Some(settings)
 }
 
 /// Whether what the channel reads holds 32-bit floats.
@@ -283,41 +321,21 @@ impl Uploads<'_> {
     }
 }
 
-type Job<'a> = (PassId, Compiled, [BoundChannel; 4], &'a Draw, PassFormat);
+/// What the pipelines of a pass are made of.
+struct Job<'a> {
+    id: PassId,
+    compiled: CompiledPass,
+    channels: [BoundChannel; 4],
+    draw: &'a Draw,
+    formats: Vec<PassFormat>,
+    geometry: Option<&'a Geometry>,
+    /// One for each of its draws.
+    meshes: Vec<PlacedMesh>,
+}
 
 /// Pipelines side by side: a driver takes a tenth of a second for one.
 fn make_pipelines(gpu: &Gpu, jobs: Vec<Job<'_>>) -> Result<Vec<CompiledDraw>, EngineError> {
-    let make = |(id, compiled, channels, draw, format): Job<'_>| {
-        let mut uniforms = vec![(0, Binding::Uniform { bytes: size_of::<interface::UniformBlock>() as u64 })];
-        let mut tables = Vec::new();
-        let mut add_table = |number, kind, usage, bytes: &[u8]| -> Result<(), crate::gpu::GpuError> {
-            if !bytes.is_empty() {
-                tables.push((number, constant_buffer(gpu, "constant tables", usage, bytes)?));
-                uniforms.push((number, kind));
-            }
-            Ok(())
-        };
-        add_table(interface::TABLE_BINDING, Binding::Storage, wgpu::BufferUsages::STORAGE, &compiled.tables)?;
-        let uniform = Binding::Uniform { bytes: compiled.uniform_tables.len() as u64 };
-        let bytes = &compiled.uniform_tables;
-        add_table(interface::UNIFORM_TABLE_BINDING, uniform, wgpu::BufferUsages::UNIFORM, bytes)?;
-        let (read, knobs) = (compiled.reflection.uniforms, compiled.reflection.knobs);
-        if compiled.knob_bytes > 0 {
-            uniforms.push((interface::KNOB_BINDING, Binding::Uniform { bytes: compiled.knob_bytes }));
-        }
-        let groups = [uniforms, channel_bindings(&channels, draw)];
-        let pipeline = FragmentPipeline::new(
-            gpu,
-            FragmentPipelineDescriptor {
-                label: &id.title(),
-                module: compiled.module,
-                entry_point: interface::ENTRY_POINT,
-                groups: &groups,
-                target: texture_format(format),
-            },
-        )?;
-        Ok(CompiledDraw { id, pipeline, channels, tables, uniforms: read, knobs })
-    };
+    let make = |job: Job<'_>| job.make(gpu);
     if jobs.len() == 1 {
         return jobs.into_iter().map(make).collect();
     }
@@ -325,6 +343,65 @@ fn make_pipelines(gpu: &Gpu, jobs: Vec<Job<'_>>) -> Result<Vec<CompiledDraw>, En
         let threads: Vec<_> = jobs.into_iter().map(|job| scope.spawn(move || make(job))).collect();
         threads.into_iter().map(|t| t.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))).collect()
     })
+}
+
+impl Job<'_> {
+    fn make(self, gpu: &Gpu) -> Result<CompiledDraw, EngineError> {
+        let Job { id, compiled, channels, draw, formats, geometry, meshes } = self;
+        let CompiledPass { programs, reflection, .. } = compiled;
+        let reads_geometry = reflection.geometry;
+        let channel_group = channel_bindings(&channels, draw);
+        let label = id.title();
+        let groups = |program: &CompiledProgram| {
+            let mut uniforms = vec![(0, Binding::Uniform { bytes: size_of::<interface::UniformBlock>() as u64 })];
+            for (number, bytes) in program.tables() {
+                let uniform = Binding::Uniform { bytes: bytes.len() as u64 };
+                uniforms.push((number, if number == interface::TABLE_BINDING { Binding::Storage } else { uniform }));
+            }
+            if !reflection.knobs.is_empty() {
+                uniforms.push((interface::KNOB_BINDING, Binding::Uniform { bytes: program.knob_bytes() }));
+            }
+            if reads_geometry {
+                let bytes = size_of::<interface::GeometryBlock>() as u64;
+                uniforms.push((interface::GEOMETRY_BINDING, Binding::Uniform { bytes }));
+            }
+            [uniforms, channel_group.clone()]
+        };
+        let mut meshes = meshes.into_iter();
+        let mut made = Vec::with_capacity(programs.len());
+        for program in programs {
+            let groups = groups(&program);
+            let table = |(number, bytes): (u32, &[u8])| {
+                let is_storage = number == interface::TABLE_BINDING;
+                let usage = if is_storage { wgpu::BufferUsages::STORAGE } else { wgpu::BufferUsages::UNIFORM };
+                Ok((number, constant_buffer(gpu, "constant tables", usage, bytes)?))
+            };
+            let tables = program.tables().map(table).collect::<Result<Vec<_>, crate::gpu::GpuError>>()?;
+            made.push(match meshes.next() {
+                Some(mesh) => geometry::program(gpu, &label, program, mesh, &formats, &groups, tables)?,
+                None => {
+                    let descriptor = FragmentPipelineDescriptor {
+                        label: &label,
+                        module: program.fragment.module,
+                        entry_point: interface::ENTRY_POINT,
+                        groups: &groups,
+                        target: texture_format(formats[0]),
+                    };
+                    DrawProgram { pipeline: Pipeline::new(gpu, descriptor)?, tables, mesh: None }
+                }
+            });
+        }
+        Ok(CompiledDraw {
+            id,
+            programs: made,
+            camera: geometry.map(|g| g.camera),
+            first_mesh: 0,
+            reads_geometry,
+            channels,
+            uniforms: reflection.uniforms,
+            knobs: reflection.knobs,
+        })
+    }
 }
 
 fn channel_bindings(channels: &[BoundChannel; 4], draw: &Draw) -> Vec<(u32, Binding)> {

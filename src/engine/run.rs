@@ -8,7 +8,7 @@ use super::{
     uniforms::Uniforms,
 };
 use crate::{
-    gpu::{Gpu, GpuError, MipMaker, PassTimer, Presenter, Texture, read_rgba32float, to_rgba32float},
+    gpu::{Gpu, GpuError, MipMaker, PassTimer, Presenter, Texture, depth_buffer, read_rgba32float, to_rgba32float},
     graph::Ledger,
     project::{KnobValues, PassId},
 };
@@ -20,6 +20,10 @@ pub enum EngineError {
     Gpu(#[from] GpuError),
     #[error("the project has no pass {0}, or nothing reached it")]
     NoSuchPass(String),
+    #[error("{pass} has no target {index}")]
+    NoSuchTarget { pass: String, index: usize },
+    #[error(transparent)]
+    Mesh(#[from] crate::media::mesh::MeshError),
 }
 
 /// Time of one pass in one frame.
@@ -54,6 +58,8 @@ pub struct Engine {
     pub(super) size: (u32, u32),
     pub(super) program: Option<Program>,
     pub(super) targets: Vec<Target>,
+    /// Of each draw that draws meshes, the depth buffer.
+    pub(super) depths: Vec<Option<wgpu::TextureView>>,
     pub(super) bindings: Vec<DrawBindings>,
     pub(super) uniforms: Uniforms,
     pub(super) stock: Stock,
@@ -89,8 +95,9 @@ impl Engine {
             size: (width, height),
             program: None,
             targets: Vec::new(),
+            depths: Vec::new(),
             bindings: Vec::new(),
-            uniforms: Uniforms::new(&gpu, 0, 0),
+            uniforms: Uniforms::new(&gpu, 0, 0, 0),
             stock: Stock::new(&gpu)?,
             mips: MipMaker::new(&gpu),
             ledger: Ledger::default(),
@@ -106,7 +113,7 @@ impl Engine {
     /// new ones start as zeros. On an error the old program goes on.
     pub fn set_program(&mut self, program: Program) -> Result<(), EngineError> {
         self.remake_targets(&program, self.size)?;
-        self.uniforms = Uniforms::new(&self.gpu, program.draws.len(), program.knobs.len());
+        self.uniforms = Uniforms::new(&self.gpu, program.draws.len(), program.knobs.len(), program.meshes());
         self.ledger = Ledger::new(&program.plan);
         self.timer = self.timer.is_some().then(|| timer(&self.gpu, Some(&program))).flatten();
         let values = program.knob_values.clone();
@@ -209,7 +216,16 @@ impl Engine {
 
     /// Reads a pass's newest texels back; waits for the device.
     pub fn read(&mut self, pass: &PassId) -> Result<Pixels, EngineError> {
-        let target = self.targets.iter().find(|t| t.id == *pass).ok_or(EngineError::NoSuchPass(pass.title()))?;
+        self.read_target(pass, 0)
+    }
+
+    /// As [`Engine::read`], of one of the pass's targets.
+    pub fn read_target(&mut self, pass: &PassId, index: usize) -> Result<Pixels, EngineError> {
+        if !self.targets.iter().any(|t| t.id == *pass) {
+            return Err(EngineError::NoSuchPass(pass.title()));
+        }
+        let target = self.targets.iter().find(|t| t.id == *pass && t.index == index);
+        let target = target.ok_or_else(|| EngineError::NoSuchTarget { pass: pass.title(), index })?;
         let newest = target.newest();
         let (width, height) = (newest.width(), newest.height());
         let texels = if newest.raw.format() == wgpu::TextureFormat::Rgba32Float {
@@ -222,9 +238,17 @@ impl Engine {
 
     /// Targets of `program` at `size`, holding what the present ones hold.
     fn remake_targets(&mut self, program: &Program, size: (u32, u32)) -> Result<(), EngineError> {
+        let depth = |(compiled, draw): (&super::program::CompiledDraw, &crate::graph::Draw)| {
+            let of = |_| {
+                let (width, height) = program.plan.targets[draw.targets.start].size.of(size);
+                depth_buffer(&self.gpu, &format!("depth of {}", compiled.id.title()), width, height)
+            };
+            compiled.camera.map(of).transpose()
+        };
+        let depths = program.draws.iter().zip(&program.plan.draws).map(depth).collect::<Result<_, _>>()?;
         let old = std::mem::take(&mut self.targets);
         match targets::make(&self.gpu, &mut self.mips, &program.plan, size, old) {
-            Ok(made) => self.targets = made,
+            Ok(made) => (self.targets, self.depths) = (made, depths),
             Err((error, old)) => {
                 self.targets = old;
                 return Err(error.into());
@@ -235,7 +259,7 @@ impl Engine {
 
     fn rebind(&mut self) {
         if let Some(program) = &self.program {
-            self.bindings = bind::make(&self.gpu, program, &self.uniforms.buffer, &self.uniforms.knobs);
+            self.bindings = bind::make(&self.gpu, program, &self.uniforms);
         }
         if let Some(shown) = self.display.shown.clone() {
             self.show(shown);

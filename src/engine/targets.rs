@@ -25,6 +25,8 @@ pub(super) fn texture_format(format: PassFormat) -> wgpu::TextureFormat {
 /// then they change places.
 pub(super) struct Target {
     pub id: PassId,
+    /// Which of the pass's targets.
+    pub index: usize,
     pub textures: Vec<Texture>,
     /// For each texture, where the plan asks for mips.
     pub chains: Vec<MipChain>,
@@ -41,13 +43,16 @@ impl Target {
     ) -> Result<Target, GpuError> {
         let (width, height) = planned.size.of(canvas);
         let format = texture_format(planned.format);
-        let label = planned.id.title();
+        let label = match planned.index {
+            0 => planned.id.title(),
+            n => format!("{}, target {n}", planned.id.title()),
+        };
         let levels = if planned.mips { mip_levels(width, height) } else { 1 };
         let descriptor = TextureDescriptor { label: &label, width, height, format, levels, is_target: true };
         let count = if planned.doubled { 2 } else { 1 };
         let textures = (0..count).map(|_| Texture::new(gpu, &descriptor)).collect::<Result<Vec<_>, _>>()?;
         let chains = if planned.mips { textures.iter().map(|t| mips.chain(gpu, t)).collect() } else { Vec::new() };
-        Ok(Target { id: planned.id.clone(), textures, chains, front: 0 })
+        Ok(Target { id: planned.id.clone(), index: planned.index, textures, chains, front: 0 })
     }
 
     /// What was drawn last.
@@ -107,7 +112,7 @@ pub(super) fn make(
         }
     }
     for target in &mut made {
-        if let Some(before) = old.iter().find(|t| t.id == target.id) {
+        if let Some(before) = old.iter().find(|t| t.id == target.id && t.index == target.index) {
             target.take_over(gpu, mips, before);
         }
     }

@@ -8,11 +8,14 @@ use super::{
 use crate::{
     glsl::{
         UniformSet,
-        interface::{KNOB_BYTES, UniformBlock},
+        interface::{GeometryBlock, KNOB_BYTES, UniformBlock},
     },
     gpu::Gpu,
 };
 use bytemuck::Zeroable;
+
+/// Blocks of meshes lie this far apart, which is what every device allows.
+pub(super) const GEOMETRY_STRIDE: u64 = 256;
 
 /// All passes' uniform blocks in one buffer, written once a frame.
 pub(super) struct Uniforms {
@@ -21,10 +24,13 @@ pub(super) struct Uniforms {
     /// The author's own, one block for all passes, written when one changes.
     pub knobs: wgpu::Buffer,
     pub knob_slots: Vec<[u32; 4]>,
+    /// What meshes are drawn with, a block for each program of each pass.
+    pub geometry: wgpu::Buffer,
+    geometry_bytes: Vec<u8>,
 }
 
 impl Uniforms {
-    pub fn new(gpu: &Gpu, passes: usize, knobs: usize) -> Self {
+    pub fn new(gpu: &Gpu, passes: usize, knobs: usize, meshes: usize) -> Self {
         let make = |label, size| {
             gpu.device.create_buffer(&wgpu::BufferDescriptor {
                 label: Some(label),
@@ -37,7 +43,9 @@ impl Uniforms {
         let buffer = make("uniforms", bytes.len() as u64);
         let own = make("own uniforms", knobs.max(1) as u64 * KNOB_BYTES);
         // As a new buffer is.
-        Self { buffer, bytes, knobs: own, knob_slots: vec![[0; 4]; knobs] }
+        let geometry_bytes = vec![0; meshes.max(1) * GEOMETRY_STRIDE as usize];
+        let geometry = make("geometry", geometry_bytes.len() as u64);
+        Self { buffer, bytes, knobs: own, knob_slots: vec![[0; 4]; knobs], geometry, geometry_bytes }
     }
 
     pub fn set(&mut self, draw: usize, block: &UniformBlock) {
@@ -52,6 +60,13 @@ impl Uniforms {
 
     pub fn write(&self, gpu: &Gpu) {
         gpu.queue.write_buffer(&self.buffer, 0, &self.bytes);
+        gpu.queue.write_buffer(&self.geometry, 0, &self.geometry_bytes);
+    }
+
+    /// The block of a mesh, counted through all passes.
+    pub fn set_geometry(&mut self, mesh: usize, block: &GeometryBlock) {
+        let at = mesh * GEOMETRY_STRIDE as usize;
+        self.geometry_bytes[at..at + size_of::<GeometryBlock>()].copy_from_slice(bytemuck::bytes_of(block));
     }
 
     /// What draw `index` reads of all this, and nothing else: equal bytes, equal values.
@@ -59,6 +74,10 @@ impl Uniforms {
         let mut seen = bytemuck::bytes_of(&masked(&self.get(index), draw.uniforms)).to_vec();
         for slot in draw.knobs.iter() {
             seen.extend_from_slice(bytemuck::cast_slice(&self.knob_slots[usize::from(slot)]));
+        }
+        if draw.reads_geometry {
+            let begin = draw.first_mesh * GEOMETRY_STRIDE as usize;
+            seen.extend_from_slice(&self.geometry_bytes[begin..][..draw.programs.len() * GEOMETRY_STRIDE as usize]);
         }
         seen
     }

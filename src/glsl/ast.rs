@@ -419,7 +419,6 @@ pub enum QualifierKind {
 #[derive(Clone, Copy, Debug)]
 pub struct LayoutItem {
     pub name: Ident,
-    #[expect(dead_code, reason = "a pass has one output, so no location means anything")]
     pub value: Option<ExprId>,
 }
 

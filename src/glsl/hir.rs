@@ -113,6 +113,18 @@ impl Module {
         ConstId::new(self.consts.len() - 1)
     }
 
+    /// A type as GLSL writes it.
+    pub fn type_text(&self, names: &ast::Interner, ty: TypeId) -> String {
+        match self.types.get(ty) {
+            Type::Array { element, len } => format!("{}[{len}]", self.type_text(names, element)),
+            Type::Struct(id) => match self[id].name {
+                Some(name) => names.get(name.symbol).to_owned(),
+                None => "struct {..}".to_owned(),
+            },
+            _ => ty.as_basic().map_or("?", ast::BasicType::name).to_owned(),
+        }
+    }
+
     /// Parameters of a function, in order.
     #[inline]
     pub fn params(&self, func: FuncId) -> &[Local] {

@@ -1,6 +1,6 @@
 //! What a generated module looks like from outside: entry point, bind groups, the uniform block's bytes.
 //!
-//! - Vertex stage: none. The caller draws a full-screen triangle with its own; `gl_FragCoord` is `@builtin(position)`, and
+//! - Vertex stage: none, but for programs that draw meshes (below). The caller draws a full-screen triangle with its own; `gl_FragCoord` is `@builtin(position)`, and
 //!   because row 0 of every target is the bottom of the picture, its y needs no flip.
 //! - Fragment entry point [`ENTRY_POINT`], one `@location(0) vec4<f32>` result.
 //! - Group 0, binding 0: the uniform block [`UniformBlock`], 16-byte aligned, std140. Absent when nothing of it is read.
@@ -12,6 +12,14 @@
 //!   whose first words hold its components bit for bit (a bool as 0 or 1). Absent when none is read.
 //! - Group 1, binding 2i: the texture of `iChannel`i, binding 2i+1: its sampler. Each is declared only where it is reached from
 //!   the entry point ([`crate::glsl::Reflection::channels`] says which), so the bind group layout follows the reflection.
+
+//!
+//! Programs that draw meshes have a module a stage. Both read the groups above, and in group 0 at binding 4 the
+//! [`GeometryBlock`]; the vertex stage has its constant tables in a uniform buffer of its own at binding 5, and none in a
+//! storage buffer. Attributes lie at the locations of
+//! [`crate::glsl::Attribute`], a fragment's outputs at those of the targets, as `vec4<f32>` each. Clip space is GL's on the
+//! inside; the vertex stage turns y, as row 0 is the bottom, and moves depth from -w..w to 0..w. A triangle that is
+//! counter-clockwise in GL's terms is so clockwise in WebGPU's.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -29,6 +37,12 @@ pub const UNIFORM_TABLE_BYTES: usize = 16384;
 pub const KNOB_BINDING: u32 = 2;
 /// Bytes of a slot there.
 pub const KNOB_BYTES: u64 = 16;
+/// Binding of the [`GeometryBlock`] in [`UNIFORM_GROUP`].
+pub const GEOMETRY_BINDING: u32 = 4;
+/// Binding of the uniform buffer with constant tables of a vertex stage in [`UNIFORM_GROUP`].
+pub const VERTEX_TABLE_BINDING: u32 = 5;
+/// Targets a fragment stage can write at once.
+pub const MAX_TARGETS: usize = 4;
 /// Bind group of channel textures and samplers.
 pub const CHANNEL_GROUP: u32 = 1;
 
@@ -41,6 +55,24 @@ pub const fn texture_binding(channel: usize) -> u32 {
 pub const fn sampler_binding(channel: usize) -> u32 {
     channel as u32 * 2 + 1
 }
+
+/// What a mesh is drawn with, as bytes; matrices column by column.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
+pub struct GeometryBlock {
+    /// `mat4 iModel` at offset 0: from the mesh to the world.
+    pub model: [[f32; 4]; 4],
+    /// `mat4 iView` at 64: from the world to the camera, which looks along its -z.
+    pub view: [[f32; 4]; 4],
+    /// `mat4 iProjection` at 128: from the camera to GL's clip space.
+    pub projection: [[f32; 4]; 4],
+    /// `mat3 iNormalMatrix` at 192, columns 16 bytes apart: from the mesh's normals to the world's, not normalised.
+    pub normal: [[f32; 4]; 3],
+    /// `vec3 iCameraPosition` at 240, in the world.
+    pub camera: [f32; 4],
+}
+
+const _: () = assert!(size_of::<GeometryBlock>() == 256);
 
 /// The uniform block as bytes. Field order, offsets and names are what the lowered module declares.
 #[repr(C)]

@@ -18,8 +18,11 @@ mod preprocess;
 pub mod reflection;
 mod report;
 pub mod services;
+pub mod stages;
 
 pub use reflection::{ChannelUse, KnobSet, Reflection, UniformSet};
+use stages::Interface;
+pub use stages::{Attribute, Link, Varying};
 
 use crate::diag::{Diagnostic, SourceId, Span};
 
@@ -34,6 +37,17 @@ pub enum PassKind {
     Cubemap,
     /// `vec2 mainSound(int, float)`.
     Sound,
+    /// `void main()` that sets `gl_Position`, once for each vertex of a mesh; see [`stages`].
+    Vertex,
+    /// `void main()` that sets `out` variables, once for each fragment of a mesh.
+    Fragment,
+}
+
+impl PassKind {
+    /// A stage of a program that draws meshes.
+    pub fn is_stage(self) -> bool {
+        matches!(self, PassKind::Vertex | PassKind::Fragment)
+    }
 }
 
 /// The type `iChannelN` is declared with. A channel with no input is a `sampler2D`.
@@ -107,7 +121,7 @@ pub struct PassSource<'a> {
 /// A pass that compiled.
 #[derive(Clone, Debug)]
 pub struct Compiled {
-    /// Validated; one fragment entry point named [`interface::ENTRY_POINT`].
+    /// Validated; one entry point named [`interface::ENTRY_POINT`], of a fragment shader but for [`PassKind::Vertex`].
     pub module: naga::Module,
     pub reflection: Reflection,
     /// What the storage buffer at [`interface::TABLE_BINDING`] holds; empty: the module declares none.
@@ -127,22 +141,35 @@ pub fn diagnose(source: &PassSource<'_>) -> Vec<Diagnostic> {
 }
 
 fn check_pass(source: &PassSource<'_>) -> (hir::Module, Vec<Diagnostic>) {
+    check_linked(source, &Link::default()).0
+}
+
+/// As [`check_pass`], with what the rest of the program says of a stage.
+fn check_linked(source: &PassSource<'_>, link: &Link<'_>) -> ((hir::Module, Vec<Diagnostic>), Interface) {
     let parsed = parse::parse(source);
-    let checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source);
+    let mut checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source);
+    let interface =
+        stages::interface(&checked.module, &parsed.names, &parsed.origins, source.kind, link, &mut checked.diagnostics);
     let mut all = report::Report::default();
     parsed.diagnostics.into_iter().chain(checked.diagnostics).for_each(|d| all.add(d));
     // As the author reads the text.
     all.diagnostics.sort_by_key(|d| d.span.map(|s| (s.source, s.start)));
-    (checked.module, all.diagnostics)
+    ((checked.module, all.diagnostics), interface)
 }
 
 /// Compiles one pass. On failure the list holds at least one error; warnings may stand among them.
 pub fn compile(source: &PassSource<'_>) -> Result<Compiled, Vec<Diagnostic>> {
-    let (checked, mut diagnostics) = check_pass(source);
+    compile_linked(source, &Link::default())
+}
+
+/// Compiles one stage of a program that draws meshes. The vertex stage comes first: what it gives
+/// ([`Reflection::varyings`]) is part of the fragment stage's [`Link`].
+pub fn compile_linked(source: &PassSource<'_>, link: &Link<'_>) -> Result<Compiled, Vec<Diagnostic>> {
+    let ((checked, mut diagnostics), interface) = check_linked(source, link);
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(diagnostics);
     }
-    let lower::Lowered { module, reflection, tables, knob_bytes } = lower::lower(&checked, source);
+    let lower::Lowered { module, reflection, tables, knob_bytes } = lower::lower(&checked, source, interface);
     if let Err(reason) = lower::validate(&module) {
         let bug =
             Diagnostic::error(None, format!("this is a bug in Eddy: the generated program is not valid: {reason}"));

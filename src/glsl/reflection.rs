@@ -107,6 +107,14 @@ pub struct Reflection {
     pub channels: [ChannelUse; 4],
     /// `discard` can be reached: the target keeps what it held, so the planner must not pretend it is overwritten.
     pub discards: bool,
+    /// Something of the [`super::interface::GeometryBlock`] is read.
+    pub geometry: bool,
+    /// Of a vertex stage: what it reads of a vertex.
+    pub attributes: Vec<super::Attribute>,
+    /// Of a vertex stage: what it hands on.
+    pub varyings: Vec<super::Varying>,
+    /// Of a fragment stage of a mesh: the targets it has an output for.
+    pub outputs: [bool; super::interface::MAX_TARGETS],
     /// Screen-space derivatives are taken (also by implicit-level texture reads).
     pub derivatives: bool,
 }

@@ -34,6 +34,12 @@ pub enum GpuError {
     TooLarge { what: String, width: u32, height: u32, limit: u32 },
     #[error("{what} of {width}x{height} pixels: a size of 0 holds no pixel")]
     Empty { what: String, width: u32, height: u32 },
+    #[error(
+        "the targets of {what} take {bytes} bytes a texel; this device draws into at most {limit} at once: give them smaller formats"
+    )]
+    TargetsTooLarge { what: String, bytes: u32, limit: u32 },
+    #[error("{what} has {count} targets; this device draws into at most {limit} at once")]
+    TooManyTargets { what: String, count: u32, limit: u32 },
     #[error("the graphics device ran out of memory for {0}")]
     OutOfMemory(String),
     #[error("the graphics device was lost: {0}")]

@@ -5,6 +5,7 @@
 mod buffer;
 mod convert;
 mod device;
+mod mesh;
 mod mips;
 mod pipeline;
 mod present;
@@ -16,8 +17,9 @@ mod timer;
 pub use buffer::constant_buffer;
 pub use convert::to_rgba32float;
 pub use device::{Gpu, GpuError, GpuOptions};
+pub use mesh::{MeshBuffers, MeshPipelineDescriptor, check_targets, depth_buffer};
 pub use mips::{MipChain, MipMaker};
-pub use pipeline::{Binding, FragmentPipeline, FragmentPipelineDescriptor};
+pub use pipeline::{Binding, FragmentPipelineDescriptor, Pipeline};
 pub use present::Presenter;
 pub use readback::read_rgba32float;
 pub use samplers::{Address, Filtering, Samplers};

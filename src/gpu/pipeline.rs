@@ -22,7 +22,7 @@ pub enum Binding {
 }
 
 impl Binding {
-    fn entry(self, binding: u32) -> wgpu::BindGroupLayoutEntry {
+    fn entry(self, binding: u32, visibility: wgpu::ShaderStages) -> wgpu::BindGroupLayoutEntry {
         let ty = match self {
             Binding::Uniform { bytes } => wgpu::BindingType::Buffer {
                 ty: wgpu::BufferBindingType::Uniform,
@@ -45,7 +45,12 @@ impl Binding {
                 wgpu::SamplerBindingType::NonFiltering
             }),
         };
-        wgpu::BindGroupLayoutEntry { binding, visibility: wgpu::ShaderStages::FRAGMENT, ty, count: None }
+        let visibility = match self {
+            // Not every device lets a vertex shader read one.
+            Binding::Storage => wgpu::ShaderStages::FRAGMENT,
+            _ => visibility,
+        };
+        wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None }
     }
 }
 
@@ -60,58 +65,71 @@ pub struct FragmentPipelineDescriptor<'a> {
 }
 
 /// A compiled pipeline and the layouts its bind groups are made with.
-pub struct FragmentPipeline {
+pub struct Pipeline {
     pub raw: wgpu::RenderPipeline,
     pub layouts: Vec<wgpu::BindGroupLayout>,
 }
 
-impl FragmentPipeline {
+impl Pipeline {
     /// Compiles. The module must be valid and clamp its indices itself; what the graphics layer refuses all the same is
     /// Eddy's bug and comes back as [`GpuError::Refused`].
-    pub fn new(gpu: &Gpu, descriptor: FragmentPipelineDescriptor<'_>) -> Result<FragmentPipeline, GpuError> {
+    pub fn new(gpu: &Gpu, descriptor: FragmentPipelineDescriptor<'_>) -> Result<Pipeline, GpuError> {
         let FragmentPipelineDescriptor { label, module, entry_point, groups, target } = descriptor;
-        let layouts: Vec<_> = groups
-            .iter()
-            .map(|bindings| {
-                let entries: Vec<_> = bindings.iter().map(|(binding, kind)| kind.entry(*binding)).collect();
-                gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-                    label: Some(label),
-                    entries: &entries,
-                })
-            })
-            .collect();
+        let layouts = layouts(gpu, label, groups, wgpu::ShaderStages::FRAGMENT);
         let raw = gpu.guarded(label, || {
-            let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some(label),
-                bind_group_layouts: &layouts.iter().map(Some).collect::<Vec<_>>(),
-                immediate_size: 0,
-            });
+            let layout = pipeline_layout(gpu, label, &layouts);
             let vertex = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some("full-screen triangle"),
                 source: wgpu::ShaderSource::Wgsl(VERTEX.into()),
             });
-            let mut checks = wgpu::ShaderRuntimeChecks::checked();
-            // Counting every loop's turns up to 2^64 costs time in each and keeps no shader from running for hours.
-            checks.force_loop_bounding = false;
-            // No device of wgpu's traps on a division by zero; GLSL leaves the result open.
-            checks.int_div_checks = false;
-            // Indices come clamped from the front end where they are not known to be in range. Fetches outside a texture give
-            // zeros by the hardware or the driver's image robustness everywhere but on Metal.
-            checks.bounds_checks = gpu.info.backend == wgpu::Backend::Metal;
-            // SAFETY: as said above, what the checks leave out is guarded elsewhere, but for the loop counter. A loop that never
-            // ends keeps the device busy until the driver's watchdog ends it, with the counter as without.
-            let fragment = unsafe {
-                gpu.device.create_shader_module_trusted(
-                    wgpu::ShaderModuleDescriptor {
-                        label: Some(label),
-                        source: wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(module)),
-                    },
-                    checks,
-                )
-            };
+            let fragment = shader_module(gpu, label, module);
             full_screen(gpu, label, &layout, &vertex, &fragment, entry_point, target)
         })?;
-        Ok(FragmentPipeline { raw, layouts })
+        Ok(Pipeline { raw, layouts })
+    }
+}
+
+pub(super) fn layouts(
+    gpu: &Gpu,
+    label: &str,
+    groups: &[Vec<(u32, Binding)>],
+    visibility: wgpu::ShaderStages,
+) -> Vec<wgpu::BindGroupLayout> {
+    let layout = |bindings: &Vec<(u32, Binding)>| {
+        let entries: Vec<_> = bindings.iter().map(|(binding, kind)| kind.entry(*binding, visibility)).collect();
+        gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
+    };
+    groups.iter().map(layout).collect()
+}
+
+pub(super) fn pipeline_layout(gpu: &Gpu, label: &str, layouts: &[wgpu::BindGroupLayout]) -> wgpu::PipelineLayout {
+    gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(label),
+        bind_group_layouts: &layouts.iter().map(Some).collect::<Vec<_>>(),
+        immediate_size: 0,
+    })
+}
+
+/// A module of the front end.
+pub(super) fn shader_module(gpu: &Gpu, label: &str, module: naga::Module) -> wgpu::ShaderModule {
+    let mut checks = wgpu::ShaderRuntimeChecks::checked();
+    // Counting every loop's turns up to 2^64 costs time in each and keeps no shader from running for hours.
+    checks.force_loop_bounding = false;
+    // No device of wgpu's traps on a division by zero; GLSL leaves the result open.
+    checks.int_div_checks = false;
+    // Indices come clamped from the front end where they are not known to be in range. Fetches outside a texture give
+    // zeros by the hardware or the driver's image robustness everywhere but on Metal.
+    checks.bounds_checks = gpu.info.backend == wgpu::Backend::Metal;
+    // SAFETY: as said above, what the checks leave out is guarded elsewhere, but for the loop counter. A loop that never
+    // ends keeps the device busy until the driver's watchdog ends it, with the counter as without.
+    unsafe {
+        gpu.device.create_shader_module_trusted(
+            wgpu::ShaderModuleDescriptor {
+                label: Some(label),
+                source: wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(module)),
+            },
+            checks,
+        )
     }
 }
 

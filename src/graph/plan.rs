@@ -74,6 +74,8 @@ pub enum TargetKind {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
     pub id: PassId,
+    /// Which of the pass's targets, from 0.
+    pub index: usize,
     pub kind: TargetKind,
     pub size: PassSize,
     pub format: PassFormat,
@@ -90,8 +92,8 @@ pub struct Target {
 pub struct Draw {
     /// Index into [`Project::passes`].
     pub pass: usize,
-    /// Index into [`FramePlan::targets`].
-    pub target: usize,
+    /// Indices into [`FramePlan::targets`]; several only where meshes are drawn.
+    pub targets: Range<usize>,
     /// `None` where the compiled pass does not read the channel.
     pub reads: [Option<Read>; 4],
     /// What the target held must still be there as the pass begins.
@@ -140,20 +142,22 @@ impl FramePlan {
         };
         let drawn: Vec<usize> = order.into_iter().filter(|i| reached.contains(i)).collect();
         for &pass in &drawn {
-            plan.target(project, &project.passes[pass].id);
+            plan.targets(project, &project.passes[pass].id);
         }
         for (place, &pass) in drawn.iter().enumerate() {
-            let target = plan.target(project, &project.passes[pass].id);
+            let targets = plan.targets(project, &project.passes[pass].id);
             let reads = std::array::from_fn(|channel| {
                 let used = facts[pass].channels[channel].is_read || !skip;
                 used.then(|| plan.read(project, &drawn, place, channel)).flatten()
             });
             let region = project.passes[pass].settings.region;
+            // Where meshes are drawn everything is cleared first, on the site's terms or not.
+            let is_cleared = project.passes[pass].settings.geometry.is_some();
             plan.draws.push(Draw {
                 pass,
-                target,
+                targets,
                 reads,
-                keeps_content: facts[pass].discards || region.is_some() || !skip,
+                keeps_content: !is_cleared && (facts[pass].discards || region.is_some() || !skip),
                 region,
                 can_rest: false,
             });
@@ -163,23 +167,26 @@ impl FramePlan {
         plan
     }
 
-    /// Index of the target of `id`, made if there is none.
-    fn target(&mut self, project: &Project, id: &PassId) -> usize {
-        self.targets.iter().position(|t| t.id == *id).unwrap_or_else(|| {
+    /// Indices of the targets of `id`, made if there are none.
+    fn targets(&mut self, project: &Project, id: &PassId) -> Range<usize> {
+        let settings = project.pass(id).map(|p| p.settings.clone()).unwrap_or_default();
+        let formats = settings.formats();
+        let first = self.targets.iter().position(|t| t.id == *id).unwrap_or_else(|| {
             let kind = if *id == PassId::Cubemap { TargetKind::Cube } else { TargetKind::Canvas };
-            let settings = project.pass(id).map(|p| p.settings.clone()).unwrap_or_default();
-            let (size, format) = (settings.size, settings.format);
-            self.targets.push(Target {
+            let first = self.targets.len();
+            self.targets.extend(formats.iter().enumerate().map(|(index, &format)| Target {
                 id: id.clone(),
+                index,
                 kind,
-                size,
+                size: settings.size,
                 format,
                 doubled: false,
                 mips: false,
                 undrawn: true,
-            });
-            self.targets.len() - 1
-        })
+            }));
+            first
+        });
+        first..first + formats.len()
     }
 
     /// Groups of the project, and each other draw by itself. What nobody reaches is left out of a group.
@@ -211,8 +218,11 @@ impl FramePlan {
             None => Source::Nothing,
             Some(Input::Keyboard) => Source::Keyboard,
             Some(Input::Texture(_)) => Source::Media,
-            Some(Input::Buffer(name)) => self.target_read(project, drawn, place, PassId::Buffer(name.clone())),
-            Some(Input::CubemapPass) => self.target_read(project, drawn, place, PassId::Cubemap),
+            Some(input @ (Input::Buffer(name) | Input::Target { buffer: name, .. })) => {
+                let index = input.buffer().map_or(0, |(_, index)| index);
+                self.target_read(project, drawn, place, PassId::Buffer(name.clone()), index)
+            }
+            Some(Input::CubemapPass) => self.target_read(project, drawn, place, PassId::Cubemap, 0),
             Some(
                 Input::Cubemap(_)
                 | Input::Volume(_)
@@ -225,16 +235,16 @@ impl FramePlan {
         Some(Read { source, sampler: sampler.unwrap_or(Sampler::BUFFER), mips: false })
     }
 
-    fn target_read(&mut self, project: &Project, drawn: &[usize], place: usize, id: PassId) -> Source {
+    fn target_read(&mut self, project: &Project, drawn: &[usize], place: usize, id: PassId, index: usize) -> Source {
         let earlier = drawn[..place].iter().any(|&p| project.passes[p].id == id);
-        let index = self.target(project, &id);
+        let Some(index) = self.targets(project, &id).nth(index) else { return Source::Nothing };
         Source::Target { index, when: if earlier { When::ThisFrame } else { When::LastFrame } }
     }
 
     /// What each target needs, now that every read is known.
     fn settle(&mut self, project: &Project, facts: &[PassFacts], skip: bool) {
         for index in 0..self.targets.len() {
-            let id = self.targets[index].id.clone();
+            let (id, own_index) = (self.targets[index].id.clone(), self.targets[index].index);
             let reads_of = |when: Option<When>| {
                 self.draws
                     .iter()
@@ -246,15 +256,17 @@ impl FramePlan {
                     .map(|(pass, channel, _)| (pass, channel))
                     .collect::<Vec<_>>()
             };
-            let drawn_by = self.draws.iter().find(|d| d.target == index).map(|d| d.pass);
-            let discards = drawn_by.is_some_and(|p| facts[p].discards);
+            let drawn_by = self.draws.iter().find(|d| d.targets.contains(&index)).map(|d| d.pass);
+            // What a cleared target held before cannot show.
+            let is_cleared = |p: usize| project.passes[p].settings.geometry.is_some();
+            let discards = drawn_by.is_some_and(|p| facts[p].discards && !is_cleared(p));
             // Image keeps the canvas of one frame before; only buffers take turns.
             let takes_turns = id != PassId::Image && drawn_by.is_some();
             let doubled = takes_turns && (!skip || discards || !reads_of(Some(When::LastFrame)).is_empty());
             // The site asks every pass of the project, also one that nobody looks at.
             let sampler_asks = (0..project.passes.len()).any(|p| {
                 (0..4).any(|c| {
-                    project.passes[p].channels[c].as_ref().is_some_and(|ch| input_is(&ch.input, &id))
+                    project.passes[p].channels[c].as_ref().is_some_and(|ch| input_is(&ch.input, &id, own_index))
                         && effective_sampler(project, p, c).is_some_and(|s| s.filter == Filter::Mipmap)
                 })
             });
@@ -264,10 +276,14 @@ impl FramePlan {
             (target.doubled, target.mips, target.undrawn) = (doubled, mips, drawn_by.is_none());
         }
         for draw in &mut self.draws {
-            let own = draw.target;
-            let reads_itself =
-                draw.reads.iter().flatten().any(|r| matches!(r.source, Source::Target { index, .. } if index == own));
-            draw.can_rest = skip && !facts[draw.pass].discards && !reads_itself;
+            let own = draw.targets.clone();
+            let reads_itself = draw
+                .reads
+                .iter()
+                .flatten()
+                .any(|r| matches!(r.source, Source::Target { index, .. } if own.contains(&index)));
+            let shows_before = facts[draw.pass].discards && project.passes[draw.pass].settings.geometry.is_none();
+            draw.can_rest = skip && !shows_before && !reads_itself;
             for read in draw.reads.iter_mut().flatten() {
                 read.mips = read.sampler.filter == Filter::Mipmap
                     && match read.source {
@@ -280,9 +296,9 @@ impl FramePlan {
     }
 }
 
-fn input_is(input: &Input, id: &PassId) -> bool {
+fn input_is(input: &Input, id: &PassId, target: usize) -> bool {
     match (input, id) {
-        (Input::Buffer(name), PassId::Buffer(other)) => name == other,
+        (Input::Buffer(_) | Input::Target { .. }, PassId::Buffer(other)) => input.buffer() == Some((other, target)),
         (Input::CubemapPass, PassId::Cubemap) => true,
         _ => false,
     }
@@ -314,7 +330,9 @@ fn reached_from(project: &Project, facts: &[PassFacts], wanted: &[PassId]) -> BT
         }
         for (channel, fact) in project.passes[pass].channels.iter().zip(facts[pass].channels) {
             let id = match channel.as_ref().map(|c| &c.input) {
-                Some(Input::Buffer(name)) if fact.is_read => PassId::Buffer(name.clone()),
+                Some(Input::Buffer(name) | Input::Target { buffer: name, .. }) if fact.is_read => {
+                    PassId::Buffer(name.clone())
+                }
                 Some(Input::CubemapPass) if fact.is_read => PassId::Cubemap,
                 _ => continue,
             };

@@ -43,7 +43,9 @@ impl Ledger {
             }
             self.seen[index] = Some(Seen { targets, outside: outside.to_vec() });
         }
-        self.drawn[draw.target] += 1;
+        for target in draw.targets.clone() {
+            self.drawn[target] += 1;
+        }
         true
     }
 }

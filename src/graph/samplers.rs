@@ -13,7 +13,7 @@ pub fn effective_sampler(project: &Project, pass: usize, index: usize) -> Option
     if channel.input == Input::Keyboard {
         return Some(Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: false });
     }
-    let shared = matches!(channel.input, Input::Buffer(_) | Input::CubemapPass);
+    let shared = matches!(channel.input, Input::Buffer(_) | Input::Target { .. } | Input::CubemapPass);
     if !shared || project.sampler_rules == SamplerRules::PerChannel {
         return Some(channel.sampler);
     }

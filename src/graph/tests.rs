@@ -277,3 +277,65 @@ fn a_draw_rests_until_something_it_reads_has_changed_however_far_away() {
     ledger.forget();
     assert_eq!(frame(&mut ledger, [0, 1, 0, 7]), "CABe");
 }
+
+/// `scene` draws meshes into two targets and may discard; A reads its second, Image A and its first.
+fn with_scene() -> (Project, Vec<PassFacts>) {
+    let id = PassId::Buffer("scene".into());
+    let mut scene = pass(id, Default::default());
+    scene.settings.format = PassFormat::Rgba8;
+    scene.settings.geometry = Some(crate::project::Geometry {
+        draws: Vec::new(),
+        more_targets: vec![PassFormat::Rgba16f],
+        camera: Default::default(),
+        stages: Vec::new(),
+    });
+    let second = channel(Input::Target { buffer: "scene".into(), index: 1 }, Filter::Mipmap, Wrap::Clamp);
+    let a = pass(PassId::Buffer("A".into()), [second, None, None, None]);
+    let image = pass(PassId::Image, [buffer("scene"), buffer("A"), None, None]);
+    let nothing = PassFacts { discards: true, ..PassFacts::default() };
+    (project(vec![scene, a, image]), vec![nothing, reads_all(), reads_all()])
+}
+
+#[test]
+fn a_scene_has_a_target_for_each_of_its_pictures() {
+    let (project, facts) = with_scene();
+    let plan = FramePlan::new(&project, &facts, &[], true);
+    let targets: Vec<_> = plan.targets.iter().map(|t| (t.id.key(), t.index, t.format, t.mips, t.doubled)).collect();
+    let scene = || "buffer_scene".to_owned();
+    // Cleared first, so that a `discard` shows nothing of before; mips only of the target that a sampler asks for.
+    assert_eq!(
+        targets[..2],
+        [(scene(), 0, PassFormat::Rgba8, false, false), (scene(), 1, PassFormat::Rgba16f, true, false)]
+    );
+    assert_eq!(plan.draws[0].targets, 0..2);
+    assert!(!plan.draws[0].keeps_content && plan.draws[0].can_rest);
+    let read = |draw: usize, c: usize| plan.draws[draw].reads[c].as_ref().unwrap().source.clone();
+    assert_eq!(read(1, 0), Source::Target { index: 1, when: When::ThisFrame });
+    assert_eq!(read(2, 0), Source::Target { index: 0, when: When::ThisFrame });
+    // Without skipping it is drawn each frame, and cleared all the same.
+    let full = FramePlan::new(&project, &facts, &[], false);
+    assert!(!full.draws[0].keeps_content && !full.draws[0].can_rest);
+}
+
+#[test]
+fn readers_of_any_target_follow_a_scene_that_was_drawn() {
+    let (project, facts) = with_scene();
+    let plan = FramePlan::new(&project, &facts, &[], true);
+    let mut ledger = Ledger::new(&plan);
+    let mut due = |camera: &[u8]| -> Vec<bool> {
+        let outside = [camera, b"", b""];
+        plan.draws.iter().enumerate().map(|(i, d)| ledger.is_due(i, d, outside[i])).collect()
+    };
+    assert_eq!(due(b"here"), [true; 3]);
+    assert_eq!(due(b"here"), [false; 3]);
+    assert_eq!(due(b"there"), [true; 3], "A reads the second target and is drawn anew");
+}
+
+#[test]
+fn a_target_that_is_not_there_reads_as_nothing() {
+    let (mut project, facts) = with_scene();
+    project.passes[1].channels[0] =
+        channel(Input::Target { buffer: "scene".into(), index: 3 }, Filter::Linear, Wrap::Clamp);
+    let plan = FramePlan::new(&project, &facts, &[], true);
+    assert_eq!(plan.draws[1].reads[0].as_ref().unwrap().source, Source::Nothing);
+}

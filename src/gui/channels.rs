@@ -25,7 +25,7 @@ pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, thumbnails: &mut Thumbnai
     let rect = ui.available_rect_before_wrap();
     ui.painter().hline(rect.x_range(), rect.top() + 0.5, Stroke::new(1.0, theme::LINE));
     let pass = match tab {
-        Tab::Pass(id) => session.project().pass(id),
+        Tab::Pass(id) | Tab::Stage(id, _) => session.project().pass(id),
         Tab::Common => None,
     };
     let Some(pass) = pass else {
@@ -101,7 +101,7 @@ fn swatch(ui: &Ui, session: &Session, place: Rect, input: &Input, thumbnails: &m
             Thumbnail::Waiting => "…",
             Thumbnail::Failed(_) => "!",
         },
-        Input::Buffer(name) => name.as_str(),
+        Input::Buffer(name) | Input::Target { buffer: name, .. } => name.as_str(),
         Input::Keyboard => "K",
         Input::CubemapPass | Input::Cubemap(_) => "C",
         Input::Volume(_) => "V",
@@ -124,6 +124,7 @@ fn folder(session: &Session) -> Option<PathBuf> {
 fn input_name(input: &Input) -> String {
     match input {
         Input::Buffer(name) => format!("Buffer {name}"),
+        Input::Target { buffer, index } => format!("Buffer {buffer}, target {index}"),
         Input::CubemapPass => "Cube A".into(),
         Input::Keyboard => "Keyboard".into(),
         Input::Texture(m) => media_name(m),

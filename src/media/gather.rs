@@ -5,11 +5,7 @@ use crate::{
     diag::Diagnostic,
     project::{Input, Pass, PassId, Project},
 };
-use std::{
-    collections::{HashMap, hash_map::Entry},
-    path::Path,
-    sync::Arc,
-};
+use std::{collections::HashMap, path::Path, sync::Arc};
 
 /// Loads every picture that a drawn pass of the project names. `media_dir` holds the user's own copies of the site's stock
 /// files. What cannot be had is left out, which reads as the site's unloaded channel (black, of size 0), with a warning that
@@ -26,7 +22,7 @@ pub fn gather(project: &Project, media_dir: Option<&Path>) -> (MediaSet, Vec<Dia
         };
         let media = match input {
             Input::Texture(media) => media,
-            Input::Buffer(_) | Input::CubemapPass | Input::Keyboard => continue,
+            Input::Buffer(_) | Input::Target { .. } | Input::CubemapPass | Input::Keyboard => continue,
             other => {
                 let (name, hint) = unsupported(other);
                 warn(format!("{name} cannot be read yet; the channel is black and of size 0"), hint);
@@ -38,10 +34,12 @@ pub fn gather(project: &Project, media_dir: Option<&Path>) -> (MediaSet, Vec<Dia
             warn(message.clone(), hint.clone());
             continue;
         }
-        let Entry::Vacant(place) = set.entry(key.clone()) else { continue };
+        if set.get(&key).is_some() {
+            continue;
+        }
         match load(media, vflip, base, media_dir) {
             Ok(texels) => {
-                place.insert(Arc::new(texels));
+                set.insert(key, Arc::new(texels));
             }
             Err(error) => {
                 let message = format!("{error}; the channel is black and of size 0");
@@ -50,7 +48,19 @@ pub fn gather(project: &Project, media_dir: Option<&Path>) -> (MediaSet, Vec<Dia
             }
         }
     }
+    meshes(project, &mut set);
     (set, warnings)
+}
+
+/// Loads every mesh that a pass of the project draws. What is wrong with one is kept in its place: see
+/// [`MediaSet::mesh_errors`].
+pub fn meshes(project: &Project, set: &mut MediaSet) {
+    let base = project.origin.base_dir();
+    for draw in project.passes.iter().filter_map(|p| p.settings.geometry.as_ref()).flat_map(|g| &g.draws) {
+        if !set.meshes.contains_key(&draw.mesh) {
+            set.insert_mesh(draw.mesh.clone(), super::mesh::load(&draw.mesh, base).map(Arc::new));
+        }
+    }
 }
 
 fn inputs(project: &Project) -> impl Iterator<Item = (&Pass, usize, &Input, bool)> {
@@ -71,7 +81,9 @@ fn unsupported(input: &Input) -> (&'static str, String) {
         Input::Music(_) => ("music", picture),
         Input::Microphone => ("the microphone", picture),
         Input::Webcam => ("the webcam", picture),
-        Input::Buffer(_) | Input::CubemapPass | Input::Keyboard | Input::Texture(_) => ("this", picture),
+        Input::Buffer(_) | Input::Target { .. } | Input::CubemapPass | Input::Keyboard | Input::Texture(_) => {
+            ("this", picture)
+        }
     }
 }
 

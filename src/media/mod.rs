@@ -7,12 +7,18 @@ pub mod builtin;
 mod gather;
 pub mod keyboard;
 mod load;
+pub mod mesh;
 mod site;
 
-pub use gather::gather;
+pub use gather::{gather, meshes};
 pub use keyboard::Keyboard;
 pub use load::{MediaError, load};
 
+use crate::{
+    diag::Diagnostic,
+    project::{MeshSource, Project},
+};
+use mesh::{Mesh, MeshError};
 use std::{collections::HashMap, sync::Arc};
 
 /// Format of [`Texels`]. Never decoded from sRGB: a stored 128 reads as 128/255, as on the site.
@@ -45,8 +51,64 @@ pub struct Texels {
     pub bytes: Vec<u8>,
 }
 
-/// The pictures a project needs, loaded: by what the channel names and whether it is flipped.
-pub type MediaSet = HashMap<MediaKey, Arc<Texels>>;
+/// What a project needs besides its texts, loaded.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct MediaSet {
+    /// By what the channel names and whether it is flipped.
+    pictures: HashMap<MediaKey, Arc<Texels>>,
+    meshes: HashMap<MeshSource, Result<Arc<Mesh>, MeshError>>,
+}
+
+impl MediaSet {
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    pub fn get(&self, key: &MediaKey) -> Option<&Arc<Texels>> {
+        self.pictures.get(key)
+    }
+
+    pub fn insert(&mut self, key: MediaKey, texels: Arc<Texels>) {
+        self.pictures.insert(key, texels);
+    }
+
+    /// Number of pictures.
+    pub fn len(&self) -> usize {
+        self.pictures.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.pictures.is_empty()
+    }
+
+    /// A mesh that was gathered, or one of Eddy's own; else why there is none.
+    pub fn mesh(&self, source: &MeshSource) -> Result<Arc<Mesh>, MeshError> {
+        self.meshes.get(source).cloned().unwrap_or_else(|| mesh::load(source, None).map(Arc::new))
+    }
+
+    pub fn insert_mesh(&mut self, source: MeshSource, mesh: Result<Arc<Mesh>, MeshError>) {
+        self.meshes.insert(source, mesh);
+    }
+
+    /// One error for each model of the project that cannot be drawn.
+    pub fn mesh_errors(&self, project: &Project) -> Vec<Diagnostic> {
+        let mut told: Vec<&MeshSource> = Vec::new();
+        let mut errors = Vec::new();
+        for pass in &project.passes {
+            for (n, draw) in pass.settings.geometry.iter().flat_map(|g| g.draws.iter().enumerate()) {
+                if told.contains(&&draw.mesh) {
+                    continue;
+                }
+                if let Err(error) = self.mesh(&draw.mesh) {
+                    let message = format!("draw {n} of {}: {error}", pass.id.title());
+                    errors.push(Diagnostic::error(None, message).hint(error.hint()));
+                }
+                told.push(&draw.mesh);
+            }
+        }
+        errors
+    }
+}
 
 /// What tells one loaded picture from another.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]

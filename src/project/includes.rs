@@ -125,7 +125,7 @@ fn content(files: Option<&Files<'_>>, name: &str) -> Result<String, String> {
 }
 
 fn tab_sources(project: &Project) -> impl Iterator<Item = &Source> {
-    project.common.iter().chain(project.passes.iter().map(|p| &p.source))
+    project.tab_sources()
 }
 
 impl Project {
@@ -196,7 +196,7 @@ impl Project {
     }
 
     fn included(&self, id: SourceId) -> Option<&Included> {
-        self.includes.get(usize::from(id.0).checked_sub(self.passes.len() + 1)?)
+        self.includes.get(usize::from(id.0).checked_sub(self.passes.len() + self.stages().count() + 1)?)
     }
 
     /// Takes out lines that lead back to a text they stand in, each with an error that shows the way.

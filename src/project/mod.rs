@@ -7,6 +7,7 @@ mod atomic;
 pub mod directives;
 mod error;
 mod folder;
+mod geometry;
 mod includes;
 pub mod json;
 mod knobs;
@@ -21,6 +22,7 @@ mod settings;
 
 pub use error::ProjectError;
 pub use folder::declare_channels;
+pub use geometry::{Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Stage, files_beside};
 pub use includes::{IncludeLines, Included};
 pub use knobs::{Knob, KnobRange, KnobType, KnobValue, KnobValues, Knobs};
 pub use load::{Loaded, load, stem};

@@ -139,8 +139,13 @@ pub struct Channel {
 /// A source of texels.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Input {
-    /// A buffer by name; one without a pass reads zeros.
+    /// A buffer by name; one without a pass reads zeros. Of a pass with several targets the first.
     Buffer(String),
+    /// A further target of a geometry pass, counted from 1.
+    Target {
+        buffer: String,
+        index: usize,
+    },
     /// The cubemap pass.
     CubemapPass,
     Keyboard,
@@ -211,6 +216,17 @@ pub enum SamplerRules {
     Site,
 }
 
+impl Input {
+    /// The buffer that is read, and which of its targets.
+    pub fn buffer(&self) -> Option<(&str, usize)> {
+        match self {
+            Input::Buffer(name) => Some((name, 0)),
+            Input::Target { buffer, index } => Some((buffer, *index)),
+            _ => None,
+        }
+    }
+}
+
 impl Origin {
     /// The folder that relative media paths start from; `None` where there is none on disk.
     pub fn base_dir(&self) -> Option<&std::path::Path> {
@@ -237,6 +253,8 @@ impl Project {
 pub enum Tab {
     Common,
     Pass(PassId),
+    /// A stage of a geometry pass that lies in a file of its own, by the file's name.
+    Stage(PassId, String),
 }
 
 impl Tab {
@@ -244,13 +262,56 @@ impl Tab {
         match self {
             Tab::Common => "Common".into(),
             Tab::Pass(id) => id.title(),
+            Tab::Stage(_, file) => file.clone(),
+        }
+    }
+
+    /// The pass it belongs to.
+    pub fn pass(&self) -> Option<&PassId> {
+        match self {
+            Tab::Common => None,
+            Tab::Pass(id) | Tab::Stage(id, _) => Some(id),
         }
     }
 }
 
 /// Sources of a project by [`crate::diag::SourceId`]: 0 is Common (an empty text where there is none), then the passes in order,
-/// then the files they include.
+/// then the stages of geometry passes in order, then the files they include.
 impl Project {
+    /// Every stage that lies in a file of its own, with the index of its pass.
+    pub fn stages(&self) -> impl Iterator<Item = (usize, &Source)> {
+        self.passes
+            .iter()
+            .enumerate()
+            .flat_map(|(index, pass)| pass.settings.geometry.iter().flat_map(|g| &g.stages).map(move |s| (index, s)))
+    }
+
+    /// Every text that is a tab: Common, the passes', the stages'.
+    pub fn tab_sources(&self) -> impl Iterator<Item = &Source> {
+        let passes = self.passes.iter().map(|p| &p.source);
+        self.common.iter().chain(passes).chain(self.stages().map(|(_, s)| s))
+    }
+
+    pub fn tab_sources_mut(&mut self) -> Vec<&mut Source> {
+        let mut all: Vec<&mut Source> = self.common.iter_mut().collect();
+        for pass in &mut self.passes {
+            all.push(&mut pass.source);
+            all.extend(pass.settings.geometry.iter_mut().flat_map(|g| &mut g.stages));
+        }
+        all
+    }
+
+    /// Where a stage of `passes[pass]` lies among [`Project::sources`].
+    pub fn stage_id(&self, pass: usize, stage: super::Stage) -> crate::diag::SourceId {
+        crate::diag::SourceId(match stage {
+            super::Stage::Own => pass as u16 + 1,
+            super::Stage::File(n) => {
+                let before = self.stages().take_while(|(index, _)| *index < pass).count();
+                (1 + self.passes.len() + before + n) as u16
+            }
+        })
+    }
+
     pub fn sources(&self) -> crate::diag::SourceMap {
         let mut map = crate::diag::SourceMap::default();
         match &self.common {
@@ -259,6 +320,9 @@ impl Project {
         };
         for pass in &self.passes {
             map.add(pass.source.name.clone(), pass.source.text.clone());
+        }
+        for (_, stage) in self.stages() {
+            map.add(stage.name.clone(), stage.text.clone());
         }
         for included in &self.includes {
             map.add(included.source.name.clone(), included.source.text.clone());
@@ -270,7 +334,11 @@ impl Project {
     pub fn tab_of(&self, source: crate::diag::SourceId) -> Option<Tab> {
         match usize::from(source.0) {
             0 => Some(Tab::Common),
-            i => self.passes.get(i - 1).map(|p| Tab::Pass(p.id.clone())),
+            i if i <= self.passes.len() => Some(Tab::Pass(self.passes[i - 1].id.clone())),
+            i => {
+                let (pass, stage) = self.stages().nth(i - 1 - self.passes.len())?;
+                Some(Tab::Stage(self.passes[pass].id.clone(), stage.name.clone()))
+            }
         }
     }
 
@@ -278,6 +346,7 @@ impl Project {
         match tab {
             Tab::Common => self.common.as_ref(),
             Tab::Pass(id) => self.pass(id).map(|p| &p.source),
+            Tab::Stage(id, file) => self.pass(id)?.settings.geometry.as_ref()?.stages.iter().find(|s| s.name == *file),
         }
     }
 
@@ -285,10 +354,13 @@ impl Project {
         match tab {
             Tab::Common => self.common.as_mut(),
             Tab::Pass(id) => self.pass_mut(id).map(|p| &mut p.source),
+            Tab::Stage(id, file) => {
+                self.pass_mut(id)?.settings.geometry.as_mut()?.stages.iter_mut().find(|s| s.name == *file)
+            }
         }
     }
 
-    /// Every tab there is, in the site's order: Common, buffers, cubemap, Image, Sound.
+    /// Every tab there is, in the site's order: Common, buffers, cubemap, Image, Sound; a pass's stages behind it.
     pub fn tabs(&self) -> Vec<Tab> {
         let rank = |id: &PassId| match id {
             PassId::Buffer(_) => 0,
@@ -298,6 +370,12 @@ impl Project {
         };
         let mut ids: Vec<_> = self.passes.iter().map(|p| p.id.clone()).collect();
         ids.sort_by(|a, b| rank(a).cmp(&rank(b)).then_with(|| a.cmp(b)));
-        self.common.iter().map(|_| Tab::Common).chain(ids.into_iter().map(Tab::Pass)).collect()
+        let mut tabs: Vec<Tab> = self.common.iter().map(|_| Tab::Common).collect();
+        for id in ids {
+            let stages = self.pass(&id).and_then(|p| p.settings.geometry.as_ref()).map_or(&[][..], |g| &g.stages);
+            tabs.push(Tab::Pass(id.clone()));
+            tabs.extend(stages.iter().map(|s| Tab::Stage(id.clone(), s.name.clone())));
+        }
+        tabs
     }
 }

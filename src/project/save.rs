@@ -3,8 +3,9 @@
 //! Owns what goes into which file. The writing itself, which never leaves half a file behind, is in `atomic`.
 
 use super::{
-    Input, Media, Origin, PassId, Project, ProjectError, SamplerRules, Source,
+    Input, Media, MeshSource, Origin, PassId, Project, ProjectError, SamplerRules, Source,
     atomic::{self, Content},
+    files_beside,
     folder::{self, Files},
     json,
     load::{MANIFEST, folder_name},
@@ -46,6 +47,10 @@ pub fn save(project: &Project, target: &Path, overwrite: Overwrite) -> Result<Pr
 
 fn save_json(project: &Project, target: &Path, overwrite: Overwrite) -> Result<Project, ProjectError> {
     let own = matches!(&project.origin, Origin::Json(path) if is_same(path, target));
+    if let Some(pass) = project.passes.iter().find(|p| p.settings.geometry.is_some()) {
+        let what = format!("{}, which draws meshes: the site has no such pass", pass.id.title());
+        return Err(ProjectError::CannotHold { path: target.to_owned(), what });
+    }
     let text = json::export(project);
     let (mut saved, _) = json::import(&text, &target.display().to_string())?;
     write(BTreeMap::from([(target.to_owned(), Content::Bytes(text.into_bytes()))]), |_| own, overwrite)?;
@@ -95,14 +100,7 @@ fn save_folder(project: &Project, target: &Path, overwrite: Overwrite) -> Result
     let mut saved = project.clone();
     let mut own: Vec<String> = Vec::new();
     if is_home {
-        own.extend(
-            saved
-                .common
-                .iter()
-                .chain(saved.passes.iter().map(|p| &p.source))
-                .filter(|s| s.path.is_some())
-                .map(|s| s.name.clone()),
-        );
+        own.extend(saved.tab_sources().filter(|s| s.path.is_some()).map(|s| s.name.clone()));
         own.extend(had_manifest.then(|| MANIFEST.to_owned()));
     }
     let mut texts: BTreeMap<String, Vec<u8>> = BTreeMap::new();
@@ -113,6 +111,10 @@ fn save_folder(project: &Project, target: &Path, overwrite: Overwrite) -> Result
     for pass in &mut saved.passes {
         let name = usual(&pass.source, &pass.id.key());
         place(&mut pass.source, name, is_home, target, &mut texts);
+        for stage in pass.settings.geometry.iter_mut().flat_map(|g| &mut g.stages) {
+            let name = stage.name.clone();
+            place(stage, name, is_home, target, &mut texts);
+        }
     }
     if !is_home {
         // Under their own names, which the lines that include them say.
@@ -163,9 +165,50 @@ fn place(source: &mut Source, usual: String, is_home: bool, target: &Path, texts
     source.name = name;
 }
 
+/// Where a file of the old folder, named relative to it, goes in a new one.
+enum Move {
+    /// It is copied to the same place in the new folder.
+    Along(PathBuf),
+    /// It lies outside the old folder, and is named by its whole path from now on.
+    Stays(PathBuf),
+}
+
+fn moved(base: &Path, path: &Path) -> Option<Move> {
+    let from = base.join(path);
+    if path.is_absolute() || !from.is_file() {
+        None
+    } else if path.components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir)) {
+        Some(Move::Along(from))
+    } else {
+        from.canonicalize().ok().map(Move::Stays)
+    }
+}
+
+/// Models and what they name, as [`copy_media`] does with pictures.
+fn copy_models(base: &Path, project: &mut Project, target: &Path, writes: &mut BTreeMap<PathBuf, Content>) {
+    let geometries = project.passes.iter_mut().filter_map(|p| p.settings.geometry.as_mut());
+    for draw in geometries.flat_map(|g| &mut g.draws) {
+        let MeshSource::File(path) = &mut draw.mesh else { continue };
+        match moved(base, path) {
+            Some(Move::Along(from)) => {
+                let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+                for beside in files_beside(&from) {
+                    if let Some(Move::Along(from)) = moved(base, &folder.join(&beside)) {
+                        writes.insert(target.join(&folder).join(beside), Content::CopyOf(from));
+                    }
+                }
+                writes.insert(target.join(&*path), Content::CopyOf(from));
+            }
+            Some(Move::Stays(whole)) => *path = whole,
+            None => {}
+        }
+    }
+}
+
 /// Pictures named relative to the old folder go along; those outside it are named by their whole path from now on.
 fn copy_media(project: &mut Project, target: &Path, writes: &mut BTreeMap<PathBuf, Content>) {
     let Some(base) = project.origin.base_dir().map(Path::to_owned) else { return };
+    copy_models(&base, project, target, writes);
     for channel in project.passes.iter_mut().flat_map(|p| p.channels.iter_mut().flatten()) {
         let (Input::Texture(media)
         | Input::Cubemap(media)
@@ -176,14 +219,10 @@ fn copy_media(project: &mut Project, target: &Path, writes: &mut BTreeMap<PathBu
             continue;
         };
         let Media::File(path) = media else { continue };
-        let from = base.join(&*path);
-        if path.is_absolute() || !from.is_file() {
-            continue;
-        }
-        if path.components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir)) {
-            writes.insert(target.join(&*path), Content::CopyOf(from));
-        } else if let Ok(whole) = from.canonicalize() {
-            *path = whole;
+        match moved(&base, path) {
+            Some(Move::Along(from)) => drop(writes.insert(target.join(&*path), Content::CopyOf(from))),
+            Some(Move::Stays(whole)) => *path = whole,
+            None => {}
         }
     }
 }
@@ -216,7 +255,7 @@ fn is_equal_but_for_places(a: &Project, b: &Project) -> bool {
         let mut p = p.clone();
         p.origin = Origin::Unsaved;
         p.includes.clear();
-        for source in p.common.iter_mut().chain(p.passes.iter_mut().map(|p| &mut p.source)) {
+        for source in p.tab_sources_mut() {
             source.path = None;
         }
         p

@@ -7,6 +7,16 @@ pub struct PassSettings {
     pub format: PassFormat,
     /// Only these texels are drawn, as far as the pass has them; the others keep what they held. `None`: all.
     pub region: Option<Region>,
+    /// Meshes to draw instead of the full-screen triangle.
+    pub geometry: Option<super::Geometry>,
+}
+
+impl PassSettings {
+    /// The format of each target the pass draws into, at least one.
+    pub fn formats(&self) -> Vec<PassFormat> {
+        let more = self.geometry.iter().flat_map(|g| g.more_targets.iter().copied());
+        [self.format].into_iter().chain(more).collect()
+    }
 }
 
 /// Size of a pass's picture.

@@ -6,7 +6,7 @@ use crate::{
     diag::{SourceId, Span},
     engine,
     glsl::services::{Analysis, ClassSpan},
-    project::{Pass, PassId, Project, Tab},
+    project::{Pass, PassId, Project, Stage, Tab},
 };
 use std::{ops::Range, sync::Arc};
 
@@ -27,11 +27,13 @@ pub struct TabAnalysis {
 struct Texts {
     project: Project,
     index: usize,
+    /// Of the pass's texts, the one that is read.
+    stage: Stage,
 }
 
 impl Texts {
-    fn of(project: &Project, index: usize) -> Self {
-        Self { project: project.clone(), index }
+    fn of(project: &Project, index: usize, stage: Stage) -> Self {
+        Self { project: project.clone(), index, stage }
     }
 
     fn pass(&self) -> &Pass {
@@ -39,13 +41,13 @@ impl Texts {
     }
 
     fn code(&self) -> SourceId {
-        SourceId(self.index as u16 + 1)
+        self.project.stage_id(self.index, self.stage)
     }
 
     /// Whether nothing has changed. Texts are shared until they are edited, so looking at where they are is enough.
     fn is_same(&self, other: &Self) -> bool {
         let all = |p: &Project| -> Vec<Arc<str>> {
-            let texts = p.common.iter().chain(p.passes.iter().map(|p| &p.source));
+            let texts = p.tab_sources();
             texts.chain(p.includes.iter().map(|i| &i.source)).map(|s| s.text.clone()).collect()
         };
         let (mine, theirs) = (all(&self.project), all(&other.project));
@@ -53,11 +55,13 @@ impl Texts {
             && mine.len() == theirs.len()
             && mine.iter().zip(&theirs).all(|(a, b)| Arc::ptr_eq(a, b))
             && self.pass().id == other.pass().id
+            && self.stage == other.stage
+            && self.pass().settings.geometry == other.pass().settings.geometry
             && engine::channel_kinds(self.pass()) == engine::channel_kinds(other.pass())
     }
 
     fn analyse(&self) -> Analysis {
-        engine::Sources::new(&self.project).analyse(self.index)
+        engine::Sources::new(&self.project).analyse_stage(self.index, self.stage)
     }
 }
 
@@ -66,7 +70,10 @@ impl TabAnalysis {
     pub fn source_of(&self, tab: &Tab) -> Option<SourceId> {
         match tab {
             Tab::Common => self.texts.project.common.as_ref().map(|_| COMMON),
-            Tab::Pass(id) => (*id == self.texts.pass().id).then(|| self.texts.code()),
+            Tab::Pass(_) | Tab::Stage(..) => {
+                let code = self.texts.code();
+                (self.texts.project.tab_of(code).as_ref() == Some(tab)).then_some(code)
+            }
         }
     }
 
@@ -80,6 +87,10 @@ impl TabAnalysis {
         match &self.front {
             Tab::Common => self.texts.project.common.as_ref().map_or(&self.texts.pass().source.text, |c| &c.text),
             Tab::Pass(_) => &self.texts.pass().source.text,
+            Tab::Stage(..) => {
+                let source = self.texts.project.source(&self.front);
+                source.map_or(&self.texts.pass().source.text, |s| &s.text)
+            }
         }
     }
 }
@@ -90,6 +101,8 @@ pub(super) struct Analyst {
     front: Option<Tab>,
     /// The pass that Common is read with.
     pass: PassId,
+    /// And the stage of it.
+    stage: Option<String>,
     asked: Option<(Texts, Tab)>,
     newest: Option<Arc<TabAnalysis>>,
 }
@@ -102,7 +115,7 @@ impl Analyst {
             TabAnalysis { analysis, front, classes, texts }
         };
         let worker = Worker::new("analysis", wake, work)?;
-        Ok(Self { worker, front: None, pass: PassId::Image, asked: None, newest: None })
+        Ok(Self { worker, front: None, pass: PassId::Image, stage: None, asked: None, newest: None })
     }
 }
 
@@ -127,6 +140,12 @@ impl Session {
                 let uses = texts.analyse(index).uses(COMMON, shared.start as usize);
                 let there = uses.iter().filter(|s| s.source == SourceId(index as u16 + 1));
                 found.extend(there.map(|s| (Tab::Pass(pass.id.clone()), s.range())));
+                for n in 0..pass.settings.geometry.as_ref().map_or(0, |g| g.stages.len()) {
+                    let id = project.stage_id(index, Stage::File(n));
+                    let uses = texts.analyse_stage(index, Stage::File(n)).uses(COMMON, shared.start as usize);
+                    let there = uses.iter().filter(|s| s.source == id);
+                    found.extend(there.filter_map(|s| Some((project.tab_of(id)?, s.range()))));
+                }
             }
         }
         found
@@ -134,9 +153,13 @@ impl Session {
 
     /// The tab whose text is analysed from now on.
     pub(super) fn bring_to_front(&mut self, tab: Tab) {
-        if let Tab::Pass(id) = &tab {
+        if let Some(id) = tab.pass() {
             self.analyst.pass = id.clone();
         }
+        self.analyst.stage = match &tab {
+            Tab::Stage(_, file) => Some(file.clone()),
+            Tab::Common | Tab::Pass(_) => None,
+        };
         self.analyst.front = Some(tab);
     }
 
@@ -149,7 +172,10 @@ impl Session {
         if project.passes.is_empty() {
             return;
         }
-        let texts = Texts::of(project, index);
+        let stages = project.passes[index].settings.geometry.as_ref().map_or(&[][..], |g| &g.stages);
+        let file = self.analyst.stage.as_ref();
+        let stage = stages.iter().position(|s| Some(&s.name) == file).map_or(Stage::Own, Stage::File);
+        let texts = Texts::of(project, index, stage);
         let is_known = self.analyst.asked.as_ref().is_some_and(|(old, tab)| *tab == front && old.is_same(&texts));
         if !is_known {
             self.analyst.asked = Some((texts.clone(), front.clone()));

@@ -221,6 +221,10 @@ impl Session {
                 self.notice(Level::Warning, "Image is what a project shows; it cannot be removed");
             }
             None => {}
+            Some(source) if matches!(tab, Tab::Stage(..)) => {
+                let why = format!("{} is drawn with; take it out of eddy.toml instead", source.name);
+                self.notice(Level::Warning, why);
+            }
             Some(source) if source.text.trim().is_empty() || *source.text == *template::text(&tab) => {
                 self.remove_tab(&tab);
             }
@@ -232,6 +236,7 @@ impl Session {
         let project = self.documents.current_mut();
         match tab {
             Tab::Common => project.common = None,
+            Tab::Stage(..) => return,
             Tab::Pass(id) => {
                 project.passes.retain(|p| p.id != *id);
                 project.groups.iter_mut().for_each(|g| g.passes.retain(|p| p != id));

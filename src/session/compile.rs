@@ -6,7 +6,7 @@ use crate::{
     engine::{BuildError, BuildOptions, EngineError, Program},
     gpu::Gpu,
     media::{self, MediaSet},
-    project::{self, Channel, PassId, Project},
+    project::{self, Channel, MeshSource, Pass, PassId, Project},
 };
 use std::{path::PathBuf, time::Instant};
 
@@ -72,7 +72,7 @@ pub(super) struct MediaState {
 }
 
 /// What decides which pictures are read: the folder their names start from, every pass's channels, and the disk.
-type Named = (PathBuf, Vec<(PassId, [Option<Channel>; 4])>, MediaState);
+type Named = (PathBuf, Vec<(PassId, [Option<Channel>; 4], Vec<MeshSource>)>, MediaState);
 
 /// The pictures of the last compile: reading them anew at each keystroke would take longer than the compile.
 #[derive(Default)]
@@ -88,7 +88,8 @@ impl Media {
     /// Reads what the job's project names, if that is not what is here already. Gives what there is to say of it.
     fn update(&mut self, job: &Job) -> Vec<TabDiagnostic> {
         let base = super::capture::base_folder(&job.project).unwrap_or_default();
-        let channels = job.project.passes.iter().map(|p| (p.id.clone(), p.channels.clone())).collect();
+        let meshes = |p: &Pass| p.settings.geometry.iter().flat_map(|g| &g.draws).map(|d| d.mesh.clone()).collect();
+        let channels = job.project.passes.iter().map(|p| (p.id.clone(), p.channels.clone(), meshes(p))).collect();
         let of = Some((base, channels, job.media.clone()));
         if self.of != of {
             (self.set, self.warnings) = media::gather(&job.project, self.dir.as_deref());

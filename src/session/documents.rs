@@ -203,9 +203,15 @@ fn structure(project: &Project) -> Project {
     let mut bare = project.clone();
     bare.origin = Origin::Unsaved;
     bare.includes.clear();
-    let sources = bare.common.iter_mut().chain(bare.passes.iter_mut().map(|p| &mut p.source));
-    for source in sources {
+    for source in bare.tab_sources_mut() {
         *source = Source { name: String::new(), path: None, text: "".into() };
+    }
+    for (bare, pass) in bare.passes.iter_mut().zip(&project.passes) {
+        // Which file a draw names is structure.
+        let stages = pass.settings.geometry.iter().flat_map(|g| &g.stages);
+        for (bare, stage) in bare.settings.geometry.iter_mut().flat_map(|g| &mut g.stages).zip(stages) {
+            bare.name = stage.name.clone();
+        }
     }
     bare
 }
@@ -214,6 +220,12 @@ fn structure(project: &Project) -> Project {
 fn reinsert(to: &mut Project, from: &Project, tab: &Tab) {
     match tab {
         Tab::Common => to.common = from.common.clone(),
+        // With the draws that name it, or nothing would be drawn with it.
+        Tab::Stage(id, _) => {
+            if let (Some(from), Some(to)) = (from.pass(id), to.pass_mut(id)) {
+                to.settings = from.settings.clone();
+            }
+        }
         Tab::Pass(id) => {
             if let Some(pass) = from.pass(id) {
                 insert_pass(to, pass.clone());

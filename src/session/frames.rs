@@ -156,6 +156,7 @@ impl Session {
             time_delta_secs: time.time_delta_secs,
             frame_rate: time.frame_rate,
             mouse: self.run.mouse.next_frame(),
+            drag: self.run.mouse.dragged(),
             date: date::i_date(date::now()),
             keyboard: self.run.keyboard.clone(),
         };

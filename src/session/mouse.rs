@@ -8,6 +8,8 @@ pub struct Mouse {
     is_down: bool,
     /// No frame has been rendered since the press.
     is_fresh: bool,
+    /// All drags together.
+    dragged: [f32; 2],
 }
 
 impl Mouse {
@@ -21,7 +23,11 @@ impl Mouse {
     /// Counts only while the button is down.
     pub fn move_to(&mut self, x: f32, y: f32) {
         if self.is_down {
-            self.at = whole(x, y);
+            let to = whole(x, y);
+            for (sum, (to, from)) in self.dragged.iter_mut().zip(to.into_iter().zip(self.at)) {
+                *sum += to - from;
+            }
+            self.at = to;
         }
     }
 
@@ -31,6 +37,11 @@ impl Mouse {
 
     pub fn is_down(&self) -> bool {
         self.is_down
+    }
+
+    /// Pixels moved while down, to the right and up, since the beginning.
+    pub fn dragged(&self) -> [f32; 2] {
+        self.dragged
     }
 
     /// `iMouse` of the frame that is drawn now, which uses up the press. A press that was released before any frame saw it
@@ -71,6 +82,20 @@ mod tests {
         m.release();
         m.move_to(1.0, 1.0);
         assert_eq!(m.next_frame(), [80.0, 45.0, -40.0, -30.0], "released");
+    }
+
+    #[test]
+    fn drags_add_up_and_presses_do_not_jump() {
+        let mut m = Mouse::default();
+        m.move_to(50.0, 50.0);
+        m.press(10.0, 10.0);
+        m.move_to(30.0, 5.0);
+        m.release();
+        m.move_to(99.0, 99.0);
+        m.press(0.0, 0.0);
+        assert_eq!(m.dragged(), [20.0, -5.0]);
+        m.move_to(1.0, 1.0);
+        assert_eq!(m.dragged(), [21.0, -4.0]);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use super::{
     view::Level,
     watch::Watch,
 };
-use crate::project::{self, Input, Media, Origin, Project, Tab};
+use crate::project::{self, Input, Media, MeshSource, Origin, Project, Tab};
 use std::{
     collections::BTreeSet,
     fs,
@@ -203,8 +203,8 @@ impl Session {
     /// Reads what the texts include now; the compile to come takes it.
     pub(super) fn refresh_includes(&mut self) {
         let project = self.documents.current();
-        let mut texts = project.common.iter().chain(project.passes.iter().map(|p| &p.source));
-        if !project.includes.is_empty() || texts.any(|s| s.text.contains("#include")) {
+        let includes = |s: &project::Source| s.text.contains("#include");
+        if !project.includes.is_empty() || project.tab_sources().any(includes) {
             self.documents.current_mut().read_includes();
             self.look_at_media();
         }
@@ -266,7 +266,12 @@ fn media_files(project: &Project) -> impl Iterator<Item = PathBuf> {
             Media::File(path) => Some(base.as_deref().unwrap_or(Path::new("")).join(path)),
             Media::Builtin(_) | Media::Site { .. } => None,
         },
-        Input::Buffer(_) | Input::CubemapPass | Input::Keyboard | Input::Microphone | Input::Webcam => None,
+        Input::Buffer(_)
+        | Input::Target { .. }
+        | Input::CubemapPass
+        | Input::Keyboard
+        | Input::Microphone
+        | Input::Webcam => None,
     })
 }
 
@@ -275,20 +280,41 @@ fn included_files(project: &Project) -> impl Iterator<Item = PathBuf> {
     project.includes.iter().filter_map(|i| i.source.path.clone())
 }
 
+/// Models that are drawn, and the files these name.
+fn model_files(project: &Project) -> Vec<PathBuf> {
+    let base = capture::base_folder(project).unwrap_or_default();
+    let mut files = Vec::new();
+    for draw in project.passes.iter().filter_map(|p| p.settings.geometry.as_ref()).flat_map(|g| &g.draws) {
+        let MeshSource::File(path) = &draw.mesh else { continue };
+        let model = base.join(path);
+        let folder = model.parent().map(Path::to_owned).unwrap_or_default();
+        files.extend(project::files_beside(&model).into_iter().map(|f| folder.join(f)));
+        files.push(model);
+    }
+    files.sort();
+    files.dedup();
+    files
+}
+
+/// Everything that is read besides the texts of tabs.
+fn read_files(project: &Project) -> impl Iterator<Item = PathBuf> {
+    media_files(project).chain(included_files(project)).chain(model_files(project))
+}
+
 fn media_stamps(project: &Project) -> MediaStamps {
     let stamp = |path: &Path| {
         let mut hasher = DefaultHasher::new();
         fs::read(path).ok()?.hash(&mut hasher);
         Some(hasher.finish())
     };
-    media_files(project).chain(included_files(project)).map(|p| (p.clone(), stamp(&p))).collect()
+    read_files(project).map(|p| (p.clone(), stamp(&p))).collect()
 }
 
 /// Every folder a file of the project lies in; none for a project that lies nowhere.
 fn folders(project: &Project) -> BTreeSet<PathBuf> {
     let Some(base) = capture::base_folder(project) else { return BTreeSet::new() };
-    let sources = project.common.iter().chain(project.passes.iter().map(|p| &p.source));
-    let files = sources.filter_map(|s| s.path.clone()).chain(media_files(project)).chain(included_files(project));
+    let sources = project.tab_sources();
+    let files = sources.filter_map(|s| s.path.clone()).chain(read_files(project));
     let parents = files.filter_map(|f| f.parent().map(Path::to_owned)).filter(|p| p.is_dir());
     parents.chain([base]).collect()
 }

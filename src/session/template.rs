@@ -67,6 +67,7 @@ pub(super) fn text(tab: &Tab) -> &'static str {
         Tab::Pass(PassId::Cubemap) => CUBEMAP,
         Tab::Pass(PassId::Sound) => SOUND,
         Tab::Pass(PassId::Image) => IMAGE,
+        Tab::Stage(..) => "",
     }
 }
 
@@ -78,6 +79,8 @@ pub(super) fn add(project: &mut Project, tab: &Tab) -> bool {
     let source = Source { name: tab.title(), path: None, text: text(tab).into() };
     match tab {
         Tab::Common => project.common = Some(source),
+        // A stage is there because a draw of its pass names it.
+        Tab::Stage(..) => return false,
         Tab::Pass(id) => insert_pass(
             project,
             Pass { id: id.clone(), source, channels: Default::default(), settings: Default::default() },

@@ -220,6 +220,14 @@ impl Checker<'_> {
 
     fn builtin_call(&mut self, builtin: Builtin, args: List<ast::ExprId>, loc: Loc) -> ExprId {
         self.uses(loc.first, DeclRef::Builtin(builtin));
+        let is_derivative = matches!(builtin, Builtin::DFdx | Builtin::DFdy | Builtin::Fwidth);
+        if is_derivative && self.env == super::env::Env::Pass(crate::glsl::PassKind::Vertex) && !self.is_shared(loc) {
+            self.error(
+                loc,
+                format!("`{}` is for fragments: a vertex stage has no neighbouring pixels", builtin.name()),
+            );
+            self.hint("move it to the fragment stage");
+        }
         let ast = self.ast;
         let base = self.expr_stack.len();
         let mut types = [TypeId::ERROR; MOST_ARGS];

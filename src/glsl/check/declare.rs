@@ -209,6 +209,7 @@ impl Checker<'_> {
         let mut storage = match quals.storage {
             Some((Q::Uniform, _)) => GlobalStorage::Uniform,
             Some((Q::In, _)) => GlobalStorage::In,
+            Some((Q::Out, _)) if self.env.is_stage() => GlobalStorage::Out,
             Some((Q::Out, token)) => {
                 self.error(token, format!("`{text}` cannot be an output: the pass has one already, its colour"));
                 self.hint("write the colour to the `out` parameter of the entry point");
@@ -227,7 +228,8 @@ impl Checker<'_> {
             let at = self.loc(value);
             self.error(at, format!("`{text}` is an interface variable and cannot have an initialiser"));
         }
-        if matches!(storage, GlobalStorage::Uniform | GlobalStorage::In) {
+        let is_set = storage == GlobalStorage::In && self.env.is_stage();
+        if matches!(storage, GlobalStorage::Uniform | GlobalStorage::In) && !is_set {
             let what = if storage == GlobalStorage::Uniform { "uniform" } else { "input" };
             self.warning(name, format!("nobody sets the {what} `{text}`: it is zero"));
             self.hint("the site's own inputs are iTime, iResolution, iMouse and so on; use a `const` or a #define for the rest");
@@ -255,7 +257,26 @@ impl Checker<'_> {
             }
             GlobalStorage::Uniform | GlobalStorage::In | GlobalStorage::Out => {}
         }
-        self.add_global(name, ty, storage, kept, value, loc);
+        let id = self.add_global(name, ty, storage, kept, value, loc);
+        let location = self.location(quals);
+        let global = &mut self.module[id];
+        (global.flat, global.location) = (quals.flat, location);
+    }
+
+    /// The number of a `layout(location = n)`.
+    fn location(&mut self, quals: &Qualifiers) -> Option<u32> {
+        let (_, items) = quals.layout?;
+        let ast = self.ast;
+        let item = ast[items].iter().find(|item| self.name(item.name.symbol) == "location")?;
+        let value = self.expr(item.value?);
+        match self.module[value].kind {
+            crate::glsl::hir::ExprKind::Literal(bits) if (bits as i32) >= 0 => Some(bits),
+            _ => {
+                let at = self.loc(value);
+                self.error(at, "a location is a number from 0");
+                None
+            }
+        }
     }
 
     /// Section 4.3: an initialiser at file scope must be a constant expression, for any variable.
@@ -276,7 +297,17 @@ impl Checker<'_> {
         value: Option<ConstId>,
         loc: Loc,
     ) -> GlobalId {
-        self.module.globals.push(Global { name, ty, storage, init, value, loc, flags: VarFlags::default() });
+        self.module.globals.push(Global {
+            name,
+            ty,
+            storage,
+            init,
+            value,
+            loc,
+            flags: VarFlags::default(),
+            flat: false,
+            location: None,
+        });
         let id = GlobalId::new(self.module.globals.len() - 1);
         self.declare(name, Binding::Global(id));
         id

@@ -22,13 +22,26 @@ impl Env {
     pub(in crate::glsl) fn has(self, uniform: Uniform) -> bool {
         use Uniform as U;
         match self {
-            Env::Common => uniform != U::ChannelLoaded,
+            Env::Common => uniform != U::ChannelLoaded && uniform.geometry_member().is_none(),
             Env::Pass(PassKind::Sound) => matches!(
                 uniform,
                 U::ChannelTime | U::TimeOffset | U::SampleOffset | U::Date | U::SampleRate | U::ChannelResolution
             ),
-            Env::Pass(_) => !matches!(uniform, U::TimeOffset | U::SampleOffset | U::ChannelLoaded),
+            Env::Pass(kind) => {
+                !matches!(uniform, U::TimeOffset | U::SampleOffset | U::ChannelLoaded)
+                    && (kind.is_stage() || uniform.geometry_member().is_none())
+            }
         }
+    }
+
+    /// Whether this text may name a built-in variable.
+    pub(in crate::glsl) fn has_variable(self, variable: BuiltinVar) -> bool {
+        variable.is_of_vertices() == (self == Env::Pass(PassKind::Vertex))
+    }
+
+    /// Whether it is a stage of a program that draws meshes.
+    pub(in crate::glsl) fn is_stage(self) -> bool {
+        matches!(self, Env::Pass(kind) if kind.is_stage())
     }
 }
 
@@ -51,7 +64,11 @@ pub(in crate::glsl) const LIMITS: [(&str, i32); 11] = [
 pub(super) const MIN_OFFSET: i32 = -8;
 pub(super) const MAX_OFFSET: i32 = 7;
 
-pub(in crate::glsl) const VARIABLES: [(&str, BuiltinVar); 4] = [
+pub(in crate::glsl) const VARIABLES: [(&str, BuiltinVar); 8] = [
+    ("gl_Position", BuiltinVar::Position),
+    ("gl_PointSize", BuiltinVar::PointSize),
+    ("gl_VertexID", BuiltinVar::VertexId),
+    ("gl_InstanceID", BuiltinVar::InstanceId),
     ("gl_FragCoord", BuiltinVar::FragCoord),
     ("gl_FrontFacing", BuiltinVar::FrontFacing),
     ("gl_PointCoord", BuiltinVar::PointCoord),
@@ -100,6 +117,9 @@ pub(in crate::glsl) fn entry(kind: PassKind) -> Entry {
             params: &[(In, TypeId::INT), (In, TypeId::FLOAT)],
             usage: "vec2 mainSound(int samp, float time) { .. }",
         },
+        PassKind::Vertex | PassKind::Fragment => {
+            Entry { name: "main", result: TypeId::VOID, params: &[], usage: "void main() { .. }" }
+        }
     }
 }
 
@@ -150,7 +170,9 @@ impl Checker<'_> {
             }
         }
         for (name, var) in VARIABLES {
-            self.give(name, Binding::BuiltinVar(var), scope::LANGUAGE);
+            if self.env.has_variable(var) {
+                self.give(name, Binding::BuiltinVar(var), scope::LANGUAGE);
+            }
         }
         for (name, value) in LIMITS {
             self.give(name, Binding::BuiltinConst(value), scope::LANGUAGE);

@@ -3,10 +3,7 @@
 use super::{Checker, scope::Binding};
 use crate::glsl::{
     ast::{self, ExprKind as A, Loc, Symbol, TokenId},
-    hir::{
-        self, BuiltinVar, DeclRef, ExprFlags, ExprId, ExprKind, GlobalStorage, IncDec, LocalKind, Type, TypeId,
-        VarFlags,
-    },
+    hir::{self, DeclRef, ExprFlags, ExprId, ExprKind, GlobalStorage, IncDec, LocalKind, Type, TypeId, VarFlags},
 };
 
 impl<'a> Checker<'a> {
@@ -193,13 +190,8 @@ impl<'a> Checker<'a> {
             }
             Binding::BuiltinVar(var) => {
                 self.uses(token, DeclRef::BuiltinVar(var));
-                let (ty, flags) = match var {
-                    BuiltinVar::FragCoord => (TypeId::VEC4, ExprFlags::default()),
-                    BuiltinVar::FrontFacing => (TypeId::BOOL, ExprFlags::default()),
-                    BuiltinVar::PointCoord => (TypeId::VEC2, ExprFlags::default()),
-                    BuiltinVar::FragDepth => (TypeId::FLOAT, ExprFlags::PLACE),
-                };
-                self.push(ExprKind::BuiltinVar(var), ty, flags, loc)
+                let flags = if var.is_place() { ExprFlags::PLACE } else { ExprFlags::default() };
+                self.push(ExprKind::BuiltinVar(var), var.ty(), flags, loc)
             }
             Binding::BuiltinConst(value) => {
                 self.uses(token, DeclRef::BuiltinConst(symbol));

@@ -37,7 +37,7 @@ use super::{
     ast::{self, Ast, Interner, Loc, Origins, Precision, Symbol},
     hir::{self, FuncId, Module, TypeId},
 };
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, SourceId};
 use env::Env;
 pub(crate) use env::knob_type;
 use scope::Scopes;
@@ -58,6 +58,7 @@ pub(crate) fn taken(name: &str) -> Option<&'static str> {
 /// Checks one pass, whose texts `ast` is of.
 pub(crate) fn check(ast: &Ast, origins: &Origins, names: &Interner, source: &PassSource<'_>) -> Checked {
     let mut checker = Checker::new(ast, origins, names, Env::Pass(source.kind), source.channels, source.knobs);
+    checker.common = source.common.map(|text| text.id);
     checker.unit();
     Checked { module: checker.module, diagnostics: checker.diagnostics }
 }
@@ -135,6 +136,8 @@ struct Checker<'a> {
     /// Struct of `gl_DepthRange` once it was named.
     depth_range: Option<hir::ConstId>,
     entry_symbol: Option<Symbol>,
+    /// The text that other stages have too.
+    common: Option<SourceId>,
 }
 
 impl<'a> Checker<'a> {
@@ -185,6 +188,7 @@ impl<'a> Checker<'a> {
             unknown_said: Vec::new(),
             depth_range: None,
             entry_symbol: None,
+            common: None,
         };
         checker.declare_environment();
         checker.declare_knobs();
@@ -230,6 +234,12 @@ impl<'a> Checker<'a> {
         if let Some(last) = self.diagnostics.last_mut() {
             last.hints.push(hint.into());
         }
+    }
+
+    /// Whether this stands in Common, which a vertex stage has before it though half of it may be for fragments: what nobody
+    /// calls there does no harm.
+    fn is_shared(&self, loc: Loc) -> bool {
+        self.common == Some(self.origins.span(loc).source)
     }
 
     /// Remembers what a name in the text refers to, for editors.

@@ -1,7 +1,8 @@
 //! Qualifiers (sections 4.3 to 4.8): which may stand where, in which order, on which types.
 
-use super::Checker;
+use super::{Checker, env::Env};
 use crate::glsl::{
+    PassKind,
     ast::{BasicType, LayoutItem, List, Loc, Precision, Qualifier, QualifierKind as Q, TokenId},
     hir::{LocalKind, Scalar, Type, TypeId},
 };
@@ -255,6 +256,7 @@ impl Checker<'_> {
         for item in &ast[items] {
             let name = self.name(item.name.symbol);
             let (fits, whose) = match name {
+                "location" if self.env == Env::Pass(PassKind::Vertex) => (of == LayoutOf::Output, "inputs"),
                 "location" => (of == LayoutOf::Output, "outputs"),
                 "row_major" | "column_major" => {
                     (matches!(of, LayoutOf::Block | LayoutOf::Member), "blocks and their members")
@@ -295,7 +297,12 @@ impl Checker<'_> {
         {
             self.error(token, "`layout` needs `in`, `out` or `uniform`");
         } else {
-            self.check_layout(quals, if output { LayoutOf::Output } else { LayoutOf::Variable });
+            let has_location = match self.env {
+                // Section 4.3.8: inputs of vertices, and outputs of fragments.
+                Env::Pass(PassKind::Vertex) => input,
+                _ => output,
+            };
+            self.check_layout(quals, if has_location { LayoutOf::Output } else { LayoutOf::Variable });
         }
         if !input && !output {
             return;
@@ -304,14 +311,15 @@ impl Checker<'_> {
             Type::Array { element, .. } => element,
             _ => ty,
         });
+        let is_vertex = self.env == Env::Pass(PassKind::Vertex);
         let word = if input { "input" } else { "output" };
         if self.facts(ty).opaque || scalar == Some(Scalar::Bool) || (output && self.struct_of(ty).is_some()) {
             let name = self.type_name(ty);
             self.error(loc, format!("an {word} cannot be a `{name}`"));
-        } else if input && !quals.flat && matches!(scalar, Some(Scalar::Int | Scalar::Uint)) {
-            self.error(loc, "an integer input must be `flat`");
-            self.hint("write `flat in`");
-        } else if output && matches!(self.module.types.get(ty), Type::Matrix { .. }) {
+        } else if (input != is_vertex) && !quals.flat && matches!(scalar, Some(Scalar::Int | Scalar::Uint)) {
+            self.error(loc, format!("an integer {word} must be `flat`"));
+            self.hint(format!("write `flat {}`", if input { "in" } else { "out" }));
+        } else if output && !is_vertex && matches!(self.module.types.get(ty), Type::Matrix { .. }) {
             self.error(loc, "an output cannot be a matrix");
         }
     }

@@ -151,7 +151,13 @@ impl Checker<'_> {
                     self.add_stmt(StmtKind::Continue, loc);
                 }
             }
-            S::Discard => self.add_stmt(StmtKind::Discard, loc),
+            S::Discard => {
+                if self.env == super::env::Env::Pass(crate::glsl::PassKind::Vertex) && !self.is_shared(loc) {
+                    self.error(loc, "`discard` is for fragments: a vertex stage has none");
+                    self.hint("move it to the fragment stage");
+                }
+                self.add_stmt(StmtKind::Discard, loc);
+            }
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Checker, TypeFacts, scope::Binding};
 use crate::glsl::{
-    ast::{self, BasicType, Dim, List, Loc, StructDefId, TypeSpecId, TypeSpecKind},
+    ast::{self, Dim, List, Loc, StructDefId, TypeSpecId, TypeSpecKind},
     hir::{self, DeclRef, Scalar, Struct, StructId, StructMember, Type, TypeId, TypeTable},
 };
 
@@ -247,14 +247,7 @@ impl<'a> Checker<'a> {
 
     /// A type as a message spells it.
     pub(super) fn type_name(&self, ty: TypeId) -> String {
-        match self.module.types.get(ty) {
-            Type::Array { element, len } => format!("{}[{len}]", self.type_name(element)),
-            Type::Struct(id) => match self.module[id].name {
-                Some(name) => self.name(name.symbol).to_owned(),
-                None => "struct {..}".to_owned(),
-            },
-            _ => ty.as_basic().map_or("?", BasicType::name).to_owned(),
-        }
+        self.module.type_text(self.names, ty)
     }
 
     /// The type with its article: `an `int``.

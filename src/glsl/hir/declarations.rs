@@ -18,6 +18,10 @@ pub struct Global {
     #[expect(dead_code, reason = "every node says where it stands")]
     pub loc: Loc,
     pub flags: VarFlags,
+    /// Of an input or output: not interpolated.
+    pub flat: bool,
+    /// Of an output: as its `layout` says.
+    pub location: Option<u32>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -29,9 +33,9 @@ pub enum GlobalStorage {
     /// A `uniform` the author declared: nobody sets it, so it reads as zero. (A sampler among them reads `iChannel0`, whose
     /// unit WebGL gives it: its uses are `Channel(0)`.)
     Uniform,
-    /// `in`: no vertex shader writes it; reads as zero.
+    /// `in`: in a pass no vertex shader writes it, and it reads as zero; in a stage the entry point sets it.
     In,
-    /// `out`: private memory that nobody reads afterwards.
+    /// `out`: private memory, which in a stage the entry point hands on.
     Out,
 }
 

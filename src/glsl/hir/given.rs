@@ -165,15 +165,35 @@ named! {
     ChannelResolution = "iChannelResolution";
     TimeOffset = "iTimeOffset";
     SampleOffset = "iSampleOffset";
+    // Of programs that draw meshes, in the order of `interface::GeometryBlock`.
+    Model = "iModel";
+    View = "iView";
+    Projection = "iProjection";
+    NormalMatrix = "iNormalMatrix";
+    CameraPosition = "iCameraPosition";
     /// `int[4]`, reached only as `iCh0.loaded`; its name is no identifier a user can write.
     ChannelLoaded = "iCh*.loaded";
 }
 
 impl Uniform {
+    /// Its place in `interface::GeometryBlock`, if it is of that.
+    pub fn geometry_member(self) -> Option<u32> {
+        match self {
+            Uniform::Model => Some(0),
+            Uniform::View => Some(1),
+            Uniform::Projection => Some(2),
+            Uniform::NormalMatrix => Some(3),
+            Uniform::CameraPosition => Some(4),
+            _ => None,
+        }
+    }
+
     /// Its type; the arrays are interned on the way.
     pub fn ty(self, types: &mut TypeTable) -> TypeId {
         match self {
-            Uniform::Resolution => TypeId::VEC3,
+            Uniform::Resolution | Uniform::CameraPosition => TypeId::VEC3,
+            Uniform::Model | Uniform::View | Uniform::Projection => TypeId::matrix(4, 4),
+            Uniform::NormalMatrix => TypeId::matrix(3, 3),
             Uniform::Mouse | Uniform::Date => TypeId::VEC4,
             Uniform::Time | Uniform::TimeDelta | Uniform::FrameRate | Uniform::SampleRate | Uniform::TimeOffset => {
                 TypeId::FLOAT
@@ -189,12 +209,42 @@ impl Uniform {
 /// Built-in variables (section 7.2). The `gl_Max..` constants (section 7.3) are folded to literals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum BuiltinVar {
+    /// `vec4`, a place of vertex stages.
+    Position,
+    /// `float`, a place of vertex stages; triangles have no use for it.
+    PointSize,
+    /// `int`, read only, in vertex stages.
+    VertexId,
+    /// `int`, read only, in vertex stages; always zero.
+    InstanceId,
     /// `vec4`, read only.
     FragCoord,
-    /// `bool`, read only; always true.
+    /// `bool`, read only; always true but for meshes.
     FrontFacing,
     /// `vec2`, read only; always zero.
     PointCoord,
-    /// `float`, a place; nobody reads the depth.
+    /// `float`, a place; nobody reads the depth but for meshes.
     FragDepth,
+}
+
+impl BuiltinVar {
+    pub fn ty(self) -> TypeId {
+        match self {
+            BuiltinVar::Position | BuiltinVar::FragCoord => TypeId::VEC4,
+            BuiltinVar::PointSize | BuiltinVar::FragDepth => TypeId::FLOAT,
+            BuiltinVar::VertexId | BuiltinVar::InstanceId => TypeId::INT,
+            BuiltinVar::FrontFacing => TypeId::BOOL,
+            BuiltinVar::PointCoord => TypeId::VEC2,
+        }
+    }
+
+    /// It may be written.
+    pub fn is_place(self) -> bool {
+        matches!(self, BuiltinVar::Position | BuiltinVar::PointSize | BuiltinVar::FragDepth)
+    }
+
+    /// It belongs to vertex stages, and not to what draws fragments.
+    pub fn is_of_vertices(self) -> bool {
+        matches!(self, BuiltinVar::Position | BuiltinVar::PointSize | BuiltinVar::VertexId | BuiltinVar::InstanceId)
+    }
 }

@@ -81,6 +81,10 @@ impl Builder<'_, '_> {
                 let global = hir[id];
                 match global.storage {
                     GlobalStorage::Private | GlobalStorage::Out => {}
+                    GlobalStorage::In if self.cx.source.kind.is_stage() => {
+                        let variable = self.cx.global(id);
+                        return Some(Place::of(self.global(variable), ty));
+                    }
                     GlobalStorage::Const | GlobalStorage::Uniform | GlobalStorage::In => return None,
                 }
                 let varies =
@@ -94,6 +98,12 @@ impl Builder<'_, '_> {
                 self.cx.global(id)
             }
             ExprKind::Uniform(uniform) => {
+                if let Some(index) = uniform.geometry_member() {
+                    let block = self.cx.geometry_block();
+                    let base = self.global(block);
+                    let pointer = self.add(Expression::AccessIndex { base, index });
+                    return Some(Place::of(pointer, ty));
+                }
                 let (member, name) = resources::uniform(uniform);
                 self.cx.reflection.uniforms.insert(name);
                 let pointer = self.block_member(member);
@@ -101,6 +111,12 @@ impl Builder<'_, '_> {
             }
             ExprKind::BuiltinVar(BuiltinVar::FragCoord) => self.cx.frag_coord(),
             ExprKind::BuiltinVar(BuiltinVar::FragDepth) => self.cx.frag_depth(),
+            ExprKind::BuiltinVar(variable)
+                if variable.is_of_vertices()
+                    || (variable == BuiltinVar::FrontFacing && self.cx.source.kind.is_stage()) =>
+            {
+                self.cx.stage_variable(variable)
+            }
             ExprKind::Const(id) if self.indexes_aggregate(links) => return Some(self.table(id, ty)),
             _ => return None,
         };

@@ -58,6 +58,7 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reach: &Reach) {
             b.call_with_colour(author, vec![at, origin, direction])
         }
         PassKind::Sound => b.sound(author, position),
+        PassKind::Vertex | PassKind::Fragment => unreachable!("stages have an entry point of their own"),
     };
     b.push(Statement::Return { value: Some(result) });
     let function = b.finish();
@@ -76,7 +77,7 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reach: &Reach) {
 
 impl Builder<'_, '_> {
     /// Values of globals that are no constants, in text order.
-    fn initialise_globals(&mut self, reach: &Reach) {
+    pub(super) fn initialise_globals(&mut self, reach: &Reach) {
         let hir = self.cx.hir;
         for (i, global) in hir.globals.iter().enumerate() {
             let (Some(init), None, true) = (global.init, global.value, reach.globals[i]) else { continue };
@@ -90,7 +91,7 @@ impl Builder<'_, '_> {
     }
 
     /// Tables and globals whose value naga has no constant for.
-    fn set_tables(&mut self) {
+    pub(super) fn set_tables(&mut self) {
         for (variable, id) in std::mem::take(&mut self.cx.consts.set_at_start) {
             let value = self.constant(id);
             let pointer = self.global(variable);

@@ -51,6 +51,8 @@ impl Builder<'_, '_> {
                 }
                 self.push(Statement::Continue);
             }
+            // Of a function of Common that the checker let pass.
+            StmtKind::Discard if self.cx.source.kind == crate::glsl::PassKind::Vertex => {}
             StmtKind::Discard => {
                 self.cx.reflection.discards = true;
                 self.push(Statement::Kill);

@@ -35,6 +35,7 @@ mod reach;
 mod regroup;
 mod resources;
 mod scalars;
+mod stage;
 mod tables;
 mod texture;
 mod types;
@@ -46,7 +47,7 @@ use naga::{FastHashMap, Handle};
 
 pub(crate) use self::tables::TableBytes;
 use self::{consts::Constants, reach::Reach, resources::Resources, tables::Tables, types::Types, zeros::Zeros};
-use super::{PassSource, Reflection, hir, interface::KNOB_BYTES};
+use super::{PassSource, Reflection, hir, interface::KNOB_BYTES, stages::Interface};
 
 /// What lowering makes.
 pub(crate) struct Lowered {
@@ -61,11 +62,12 @@ pub(crate) struct Lowered {
 ///
 /// # Panics
 /// If `module` breaks the promises of [`hir`], such as having no entry point.
-pub(crate) fn lower(module: &hir::Module, source: &PassSource<'_>) -> Lowered {
+pub(in crate::glsl) fn lower(module: &hir::Module, source: &PassSource<'_>, interface: Interface) -> Lowered {
     let reach = Reach::new(module);
     let mut cx = Lowering {
         hir: module,
         source,
+        interface,
         out: naga::Module::default(),
         types: Types::new(module.types.len()),
         consts: Constants::new(module.consts.len()),
@@ -84,7 +86,11 @@ pub(crate) fn lower(module: &hir::Module, source: &PassSource<'_>) -> Lowered {
         let handle = cx.out.functions.append(function, naga::Span::UNDEFINED);
         cx.functions.insert(instance.clone(), handle);
     }
-    entry::lower(&mut cx, &reach);
+    if source.kind.is_stage() {
+        stage::lower(&mut cx, &reach);
+    } else {
+        entry::lower(&mut cx, &reach);
+    }
     let tables = cx.finish_tables();
     let knob_bytes = if cx.reflection.knobs.is_empty() { 0 } else { u64::from(cx.knob_slots()) * KNOB_BYTES };
     Lowered { module: cx.out, reflection: cx.reflection, tables, knob_bytes }
@@ -119,6 +125,8 @@ struct Instance {
 struct Lowering<'a> {
     hir: &'a hir::Module,
     source: &'a PassSource<'a>,
+    /// Of a stage: where its inputs and outputs lie.
+    interface: Interface,
     out: naga::Module,
     types: Types,
     consts: Constants,

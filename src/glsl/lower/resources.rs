@@ -2,7 +2,7 @@
 //!
 //! Each is declared when it is first reached, and noted in the reflection.
 
-use std::num::NonZeroU32;
+use std::{collections::HashMap, num::NonZeroU32};
 
 use naga::{
     AddressSpace, ArraySize, GlobalVariable, Handle, ImageClass, ImageDimension, ResourceBinding, ScalarKind, Span,
@@ -12,8 +12,8 @@ use naga::{
 use super::Lowering;
 use crate::glsl::{
     ChannelKind, UniformSet,
-    hir::{GlobalId, Scalar, TypeId, Uniform},
-    interface::{self, UniformBlock},
+    hir::{BuiltinVar, GlobalId, Scalar, TypeId, Uniform},
+    interface::{self, GeometryBlock, UniformBlock},
 };
 
 /// Variables declared so far.
@@ -27,6 +27,9 @@ pub(super) struct Resources {
     /// `gl_FragCoord`, where something other than the entry point reads it.
     pub frag_coord: Option<Handle<GlobalVariable>>,
     pub frag_depth: Option<Handle<GlobalVariable>>,
+    geometry: Option<Handle<GlobalVariable>>,
+    /// Built-in variables of stages, besides those two.
+    pub stage: HashMap<BuiltinVar, Handle<GlobalVariable>>,
     /// Bit i: an `st_assert(.., i)` failed.
     pub failed_asserts: Option<Handle<GlobalVariable>>,
 }
@@ -41,6 +44,8 @@ impl Resources {
             globals: vec![None; globals],
             frag_coord: None,
             frag_depth: None,
+            geometry: None,
+            stage: HashMap::new(),
             failed_asserts: None,
         }
     }
@@ -100,6 +105,9 @@ pub(super) fn uniform(uniform: Uniform) -> (u32, UniformSet) {
         Uniform::TimeOffset => (10, UniformSet::TIME_OFFSET),
         Uniform::SampleOffset => (11, UniformSet::SAMPLE_OFFSET),
         Uniform::ChannelLoaded => (13, UniformSet::CHANNEL_LOADED),
+        Uniform::Model | Uniform::View | Uniform::Projection | Uniform::NormalMatrix | Uniform::CameraPosition => {
+            unreachable!("they lie in the geometry block")
+        }
     }
 }
 
@@ -158,6 +166,44 @@ impl Lowering<'_> {
         block
     }
 
+    /// What a mesh is drawn with.
+    pub fn geometry_block(&mut self) -> Handle<GlobalVariable> {
+        if let Some(block) = self.resources.geometry {
+            return block;
+        }
+        let mat4 = TypeId::matrix(4, 4);
+        let fields = [
+            ("iModel", mat4, std::mem::offset_of!(GeometryBlock, model)),
+            ("iView", mat4, std::mem::offset_of!(GeometryBlock, view)),
+            ("iProjection", mat4, std::mem::offset_of!(GeometryBlock, projection)),
+            ("iNormalMatrix", TypeId::matrix(3, 3), std::mem::offset_of!(GeometryBlock, normal)),
+            ("iCameraPosition", TypeId::VEC3, std::mem::offset_of!(GeometryBlock, camera)),
+        ];
+        let mut member = |(name, ty, offset): (&str, TypeId, usize)| {
+            let ty = self.ty(ty);
+            StructMember { name: Some(name.into()), ty, binding: None, offset: offset as u32 }
+        };
+        let members = fields.into_iter().map(&mut member).collect();
+        let span = size_of::<GeometryBlock>() as u32;
+        let ty = self.insert_type(TypeInner::Struct { members, span });
+        let binding = ResourceBinding { group: interface::UNIFORM_GROUP, binding: interface::GEOMETRY_BINDING };
+        let block = self.variable(AddressSpace::Uniform, ty, Some(binding), None);
+        self.resources.geometry = Some(block);
+        self.reflection.geometry = true;
+        block
+    }
+
+    /// The memory of a built-in variable of a stage.
+    pub fn stage_variable(&mut self, variable: BuiltinVar) -> Handle<GlobalVariable> {
+        if let Some(&made) = self.resources.stage.get(&variable) {
+            return made;
+        }
+        let ty = self.ty(variable.ty());
+        let made = self.private(ty, None);
+        self.resources.stage.insert(variable, made);
+        made
+    }
+
     /// Slots up to the last that the pass may name.
     pub fn knob_slots(&self) -> u32 {
         self.source.knobs.iter().map(|k| u32::from(k.slot) + 1).max().unwrap_or(0)
@@ -211,7 +257,7 @@ impl Lowering<'_> {
         sampler
     }
 
-    /// The memory of one of the author's globals (storage `Private` or `Out`), set to its constant value where it has one. What
+    /// The memory of one of the author's globals (storage `Private` or `Out`, in a stage `In` too), set to its constant value where it has one. What
     /// is not constant the entry point computes.
     pub fn global(&mut self, id: GlobalId) -> Handle<GlobalVariable> {
         if let Some(made) = self.resources.globals[id.index()] {

@@ -15,6 +15,7 @@ use naga::{
 
 use super::{Lowering, Map, access::Place, function::Builder, types::round_up};
 use crate::glsl::{
+    PassKind,
     hir::{ConstId, Scalar, Type, TypeId},
     interface,
 };
@@ -186,7 +187,11 @@ impl Lowering<'_> {
         if let Some(made) = self.tables.uniform.variable {
             return made;
         }
-        let made = self.table_buffer(AddressSpace::Uniform, interface::UNIFORM_TABLE_BINDING);
+        let binding = match self.source.kind {
+            PassKind::Vertex => interface::VERTEX_TABLE_BINDING,
+            _ => interface::UNIFORM_TABLE_BINDING,
+        };
+        let made = self.table_buffer(AddressSpace::Uniform, binding);
         *self.tables.uniform.variable.insert(made)
     }
 

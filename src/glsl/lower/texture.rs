@@ -118,6 +118,12 @@ impl Builder<'_, '_> {
         if let (Level::Implicit, Some(bias)) = (form.level, next()) {
             level = SampleLevel::Bias(self.value(bias));
         }
+        if self.cx.source.kind == crate::glsl::PassKind::Vertex
+            && matches!(level, SampleLevel::Auto | SampleLevel::Bias(_))
+        {
+            // Section 8.8: without derivatives it is the base level that is read.
+            level = SampleLevel::Exact(self.float(0.0));
+        }
         match level {
             SampleLevel::Auto | SampleLevel::Bias(_) => {
                 self.cx.reflection.channels[usize::from(channel)].mips = true;

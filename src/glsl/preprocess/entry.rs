@@ -13,8 +13,8 @@ struct Wrapper {
     body: &'static str,
 }
 
-fn wrapper(kind: PassKind) -> Wrapper {
-    match kind {
+fn wrapper(kind: PassKind) -> Option<Wrapper> {
+    Some(match kind {
         PassKind::Image | PassKind::Buffer => Wrapper {
             name: "mainImage",
             head: "void mainImage(out vec4 entry_colour, in vec2 entry_coord) {",
@@ -31,13 +31,15 @@ fn wrapper(kind: PassKind) -> Wrapper {
             head: "vec2 mainSound(in int entry_sample, in float entry_time) {",
             body: "return mainSound(entry_sample, entry_time); }",
         },
-    }
+        // A stage is a whole program: nothing calls its `main`.
+        PassKind::Vertex | PassKind::Fragment => return None,
+    })
 }
 
 impl Preprocessor<'_, '_> {
     /// Appends the wrapper if the entry point's name is a macro now and no function of the name was written.
     pub(super) fn wrap_entry(&mut self, kind: PassKind) {
-        let wrapper = wrapper(kind);
+        let Some(wrapper) = wrapper(kind) else { return };
         let Some(symbol) = self.names.find(wrapper.name) else { return };
         let Some(id) = self.defined(symbol.0) else { return };
         if self.tokens.iter().any(|token| token.kind == Kind::Ident && token.value == symbol.0) {

@@ -22,6 +22,8 @@ impl Unit {
             Unit::Pass(PassKind::Buffer) => 27,
             Unit::Pass(PassKind::Cubemap) => 30,
             Unit::Pass(PassKind::Sound) => 20,
+            // The site has no such stages.
+            Unit::Pass(PassKind::Vertex | PassKind::Fragment) => 0,
             Unit::CommonAlone => 11,
         }
     }

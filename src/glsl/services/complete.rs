@@ -254,7 +254,7 @@ impl Analysis {
         for name in words::keywords() {
             add(name, CompletionKind::Keyword, String::new(), docs::keyword(name).unwrap_or_default(), 2_200);
         }
-        for (name, var) in env::VARIABLES {
+        for (name, var) in env::VARIABLES.into_iter().filter(|v| env.has_variable(v.1)) {
             let doc = docs::variable(name).unwrap_or_default();
             add(name, CompletionKind::Uniform, line(DeclRef::BuiltinVar(var)), doc, 2_500);
         }

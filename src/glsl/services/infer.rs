@@ -12,7 +12,7 @@ use super::{
 use crate::glsl::{
     ast::{BasicType, MacroId},
     check::overloads::{self, Pattern},
-    hir::{Builtin, BuiltinVar, DeclRef, FuncId, Scalar, StructId, Type, TypeId},
+    hir::{Builtin, DeclRef, FuncId, Scalar, StructId, Type, TypeId},
     lex::{Kind, words},
 };
 use std::ops::Range;
@@ -296,12 +296,7 @@ impl Analysis {
             DeclRef::Uniform(uniform) => self.uniform_types[uniform as usize],
             DeclRef::Knob(i) => self.knobs.get(usize::from(i))?.1,
             DeclRef::Channel(i) => self.channel_type(i),
-            DeclRef::BuiltinVar(var) => match var {
-                BuiltinVar::FragCoord => TypeId::VEC4,
-                BuiltinVar::FrontFacing => TypeId::BOOL,
-                BuiltinVar::PointCoord => TypeId::VEC2,
-                BuiltinVar::FragDepth => TypeId::FLOAT,
-            },
+            DeclRef::BuiltinVar(var) => var.ty(),
             DeclRef::BuiltinConst(_) => TypeId::INT,
             // A place to hang members on; it has no type in the module.
             DeclRef::ChannelStruct(_) => TypeId::ERROR,

@@ -84,6 +84,10 @@ impl Analysis {
                     one(format!("uniform struct {{ {sampler} sampler; vec3 size; float time; int loaded; }} iCh{i}"))
                 }
                 DeclRef::BuiltinVar(var) => one(match var {
+                    BuiltinVar::Position => "out vec4 gl_Position".into(),
+                    BuiltinVar::PointSize => "out float gl_PointSize".into(),
+                    BuiltinVar::VertexId => "in int gl_VertexID".into(),
+                    BuiltinVar::InstanceId => "in int gl_InstanceID".into(),
                     BuiltinVar::FragCoord => "in vec4 gl_FragCoord".into(),
                     BuiltinVar::FrontFacing => "in bool gl_FrontFacing".into(),
                     BuiltinVar::PointCoord => "in vec2 gl_PointCoord".into(),

@@ -61,6 +61,8 @@ fn input(n: usize, channel: &Channel) -> Value {
     let fixed = |kind: &'static str, id: &str, path: &str| (kind, id.to_owned(), path.to_owned());
     let (kind, id, path) = match &channel.input {
         Input::Buffer(name) => ("buffer", ids::of_buffer(name), ids::preview(name)),
+        // Only geometry passes have further targets, and a project with one is not exported.
+        Input::Target { buffer, .. } => ("buffer", ids::of_buffer(buffer), ids::preview(buffer)),
         Input::CubemapPass => fixed("cubemap", ids::CUBEMAP, "/media/previz/cubemap00.png"),
         Input::Keyboard => fixed("keyboard", ids::KEYBOARD, "/presets/tex00.jpg"),
         Input::Microphone => fixed("mic", ids::MICROPHONE, "/presets/mic.png"),

@@ -39,9 +39,27 @@
 //! A pass of its own size has that as `iResolution`, and its readers as `iChannelResolution`; `iMouse` stays in canvas pixels. What a
 //! format lacks is read as 0, alpha as 1. The steps of a group see the same uniforms, and of each other what was drawn last.
 //!
+//! A buffer that draws meshes instead of a full-screen triangle (a geometry pass):
+//!
+//! ```toml
+//! [passes.buffer_scene]
+//! targets = ["rgba8", "rgba16f"]  # formats of up to four targets; default: one of `format`
+//! camera = { yaw = 30, pitch = 20, distance = 4, target = [0, 0, 0], fov = 45, near = 0.1, far = 100, orbit = true }
+//! draw = [
+//!   { mesh = "fox.glb", vertex = "scene.vert.glsl", fragment = "scene.frag.glsl" },
+//!   { mesh = "fox.glb", vertex = "hull.vert.glsl", fragment = "ink.frag.glsl", cull = "front" },
+//! ]
+//! ```
+//!
+//! A mesh is `builtin:NAME` or a glTF (`.glb`, `.gltf`) or OBJ file. `fragment` may be left out: then it is the pass's `file`. Further keys
+//! of a draw: `cull` ("back", "front", "none"), `depth` ("less", "less_equal", "equal", "greater_equal", "greater", "not_equal",
+//! "always"), `depth_write`, `color_write`, `scale`, `rotation` (degrees about x, y, z), `position`. A channel reads another target
+//! than the first by `{ buffer = "scene", target = 1 }`.
+//!
 //! A `file` is a picture unless `kind` says otherwise (`"cubemap"`, `"volume"`, `"video"`, `"music"`); a stock file of the
 //! site is `site = "/media/a/…"` with its `site_id`. `[shadertoy]` keeps what the site's JSON said and Eddy has no use for.
 
+mod geometry;
 mod read;
 mod settings;
 mod write;
@@ -60,7 +78,7 @@ const KINDS: [&str; 5] = ["texture", "cubemap", "volume", "video", "music"];
 /// What a channel has that the file does not say.
 fn default_sampler(input: &Input) -> Sampler {
     match input {
-        Input::Buffer(_) | Input::CubemapPass => Sampler::BUFFER,
+        Input::Buffer(_) | Input::Target { .. } | Input::CubemapPass => Sampler::BUFFER,
         Input::Keyboard => Sampler::KEYBOARD,
         Input::Texture(_) => Sampler::TEXTURE,
         Input::Cubemap(_)

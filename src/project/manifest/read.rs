@@ -1,10 +1,10 @@
 //! Reading `eddy.toml`. Every complaint is a diagnostic at its place, and all of them come at once.
 
-use super::{KINDS, VERSION, default_sampler, settings};
+use super::{KINDS, VERSION, default_sampler, geometry, settings};
 use crate::{
     diag::{Diagnostic, SourceId, SourceMap, Span},
     project::{
-        Channel, Filter, Info, Input, KnobValue, KnobValues, Loaded, Media, Origin, Pass, PassId, Project,
+        Channel, Filter, Info, Input, KnobValue, KnobValues, Loaded, MAX_TARGETS, Media, Origin, Pass, PassId, Project,
         ProjectError, SamplerRules, Source, Wrap,
         folder::{self, Files, Read, Role},
         includes, listed,
@@ -43,7 +43,7 @@ const INPUTS: [&str; 12] = [
     "file",
     "site",
 ];
-const SETTINGS: [&str; 5] = ["filter", "wrap", "vflip", "kind", "site_id"];
+const SETTINGS: [&str; 6] = ["filter", "wrap", "vflip", "kind", "site_id", "target"];
 
 /// The project that `text`, an `eddy.toml`, makes of `files`. Errors of the author's come back as [`ProjectError::Invalid`].
 pub fn project(
@@ -195,12 +195,18 @@ impl Reader<'_> {
                 continue;
             }
             let Some(table) = self.table(name, item) else { continue };
-            self.check_keys(&format!("[passes.{name}]"), table, &[&["file", "channels"], &settings::KEYS]);
-            let file = self.string(table, "file").unwrap_or_else(|| self.conventional(&Role::Pass(id.clone())));
+            self.check_keys(
+                &format!("[passes.{name}]"),
+                table,
+                &[&["file", "channels"], &settings::KEYS, &geometry::KEYS],
+            );
+            let file = self.string(table, "file").or_else(|| geometry::own_file(table));
+            let file = file.unwrap_or_else(|| self.conventional(&Role::Pass(id.clone())));
             let file_at = table.get("file").and_then(Item::span).or(at);
             let source = self.source(&file, &id.title(), file_at)?;
             let channels = self.channels(table);
-            let settings = self.settings(&id, table);
+            let mut settings = self.settings(&id, table);
+            settings.geometry = self.geometry(&id, table, &file, &mut settings)?;
             if let Some(source) = source {
                 passes.push(Pass { id, source, channels, settings });
             }
@@ -210,6 +216,7 @@ impl Reader<'_> {
         }
         folder::sort_passes(&mut passes);
         self.check_reads(table, &passes);
+        self.check_targets(table, &passes);
         Ok(passes)
     }
 
@@ -221,7 +228,11 @@ impl Reader<'_> {
         for pass in passes {
             for (n, channel) in pass.channels.iter().enumerate() {
                 let missing = match channel.as_ref().map(|c| &c.input) {
-                    Some(Input::Buffer(name)) if !names.contains(&name.as_str()) => PassId::Buffer(name.clone()),
+                    Some(Input::Buffer(name) | Input::Target { buffer: name, .. })
+                        if !names.contains(&name.as_str()) =>
+                    {
+                        PassId::Buffer(name.clone())
+                    }
                     Some(Input::CubemapPass) if !passes.iter().any(|p| p.id == PassId::Cubemap) => PassId::Cubemap,
                     _ => continue,
                 };
@@ -241,6 +252,35 @@ impl Reader<'_> {
                 )
                 .hint(format!("it reads zeros; add [passes.{}] or name another", missing.key())),
             );
+        }
+    }
+
+    /// Channels that read a target their pass does not have.
+    fn check_targets(&mut self, table: &dyn TableLike, passes: &[Pass]) {
+        for pass in passes {
+            for (n, channel) in pass.channels.iter().enumerate() {
+                let Some(Input::Target { buffer, index }) = channel.as_ref().map(|c| &c.input) else { continue };
+                let id = PassId::Buffer(buffer.clone());
+                let Some(read) = passes.iter().find(|p| p.id == id) else { continue };
+                let count = read.settings.formats().len();
+                if *index < count {
+                    continue;
+                }
+                let item = table
+                    .iter()
+                    .find(|(key, _)| folder::pass_of_stem(key).as_ref() == Some(&pass.id))
+                    .and_then(|(_, item)| item.get("channels")?.get(n.to_string())?.get("target"));
+                let has = if count == 1 { "only target 0".into() } else { format!("targets 0 to {}", count - 1) };
+                self.error(
+                    item.and_then(Item::span),
+                    format!(
+                        "iChannel{n} of {} reads target {index} of {}, which has {has}",
+                        pass.id.title(),
+                        id.title()
+                    ),
+                    format!("name one it has, or add formats to targets of [passes.{}]", id.key()),
+                );
+            }
         }
     }
 
@@ -277,11 +317,19 @@ impl Reader<'_> {
             let at = table.get("kind").and_then(Item::span);
             self.error(at, "kind belongs to file or site only", "remove it");
         }
+        if key != "buffer"
+            && let Some(item) = table.get("target")
+        {
+            self.error(item.span(), "target belongs to buffer only", "remove it");
+        }
         let input = match key {
             "buffer" => {
                 let name = self.string(table, key)?;
                 match PassId::parse(&name) {
-                    Some(PassId::Buffer(name)) => Input::Buffer(name),
+                    Some(PassId::Buffer(name)) => match self.target(table)? {
+                        0 => Input::Buffer(name),
+                        index => Input::Target { buffer: name, index },
+                    },
                     Some(PassId::Cubemap) => Input::CubemapPass,
                     _ => {
                         let at = table.get(key).and_then(Item::span);
@@ -327,7 +375,22 @@ impl Reader<'_> {
         Some(Channel { input, sampler })
     }
 
-    fn source(&mut self, file: &str, title: &str, at: Option<Range<usize>>) -> Result<Option<Source>, ProjectError> {
+    /// Which target of a buffer a channel reads. `None`: said wrongly.
+    fn target(&mut self, channel: &dyn TableLike) -> Option<usize> {
+        let Some(item) = channel.get("target") else { return Some(0) };
+        let index = item.as_integer().and_then(|n| usize::try_from(n).ok()).filter(|n| *n < MAX_TARGETS);
+        if index.is_none() {
+            self.wrong_type("target", item, "a whole number from 0 to 3");
+        }
+        index
+    }
+
+    pub(super) fn source(
+        &mut self,
+        file: &str,
+        title: &str,
+        at: Option<Range<usize>>,
+    ) -> Result<Option<Source>, ProjectError> {
         match self.files.read(file)? {
             Read::Text(text) => {
                 Ok(Some(Source { name: file.to_owned(), path: self.files.path(file), text: text.into() }))
@@ -408,7 +471,7 @@ impl Reader<'_> {
         table
     }
 
-    fn string(&mut self, table: &dyn TableLike, key: &str) -> Option<String> {
+    pub(super) fn string(&mut self, table: &dyn TableLike, key: &str) -> Option<String> {
         let item = table.get(key)?;
         let text = item.as_str().map(str::to_owned);
         if text.is_none() {
@@ -417,7 +480,7 @@ impl Reader<'_> {
         text
     }
 
-    fn boolean(&mut self, table: &dyn TableLike, key: &str) -> Option<bool> {
+    pub(super) fn boolean(&mut self, table: &dyn TableLike, key: &str) -> Option<bool> {
         let item = table.get(key)?;
         if item.as_bool().is_none() {
             self.wrong_type(key, item, "true or false");
@@ -480,6 +543,11 @@ pub fn knob_value(item: &Item) -> Option<KnobValue> {
 
 /// The channel an entry of `channels` says, if it says one without a mistake.
 pub fn channel(item: &Item) -> Option<Channel> {
+    silent(|reader| reader.channel(0, item)).flatten()
+}
+
+/// What `read` makes of a part of a file, if it finds no mistake there.
+pub(super) fn silent<T>(read: impl FnOnce(&mut Reader<'_>) -> T) -> Option<T> {
     let none = BTreeMap::new();
     let mut reader = Reader {
         files: &Files::Memory(&none),
@@ -487,7 +555,8 @@ pub fn channel(item: &Item) -> Option<Channel> {
         id: SourceId(0),
         diagnostics: Vec::new(),
     };
-    reader.channel(0, item).filter(|_| reader.diagnostics.is_empty())
+    let made = read(&mut reader);
+    reader.diagnostics.is_empty().then_some(made)
 }
 
 fn article(type_name: &str) -> String {

@@ -177,7 +177,10 @@ pub(super) fn write_settings(table: &mut dyn TableLike, settings: &PassSettings)
         );
     }
     let written = table.get("format").and_then(Item::as_str).map(str::to_ascii_lowercase);
-    if written.as_deref().unwrap_or(PassFormat::default().name()) != settings.format.name() {
+    // Of several targets `targets` says it.
+    if table.contains_key("targets") || settings.formats().len() > 1 {
+        table.remove("format");
+    } else if written.as_deref().unwrap_or(PassFormat::default().name()) != settings.format.name() {
         set(table, "format", (settings.format != PassFormat::default()).then(|| settings.format.name().into()));
     }
     if table.get("region").and_then(region) != settings.region {

@@ -1,6 +1,6 @@
 //! Writing `eddy.toml`: an old text changed no more than needed, so that the author's comments and order stay.
 
-use super::{VERSION, default_sampler, read, settings};
+use super::{VERSION, default_sampler, geometry, read, settings};
 use crate::project::{
     Channel, Filter, Input, KnobValue, Media, PassId, Project, SamplerRules, Wrap, folder::pass_of_stem,
 };
@@ -142,11 +142,13 @@ fn passes(root: &mut Table, project: &Project) {
         let key = key_of(table, &pass.id);
         let is_old = table.contains_key(&key);
         let Some(entry) = child(table, &key, false) else { continue };
-        if !is_old || entry.contains_key("file") || pass.source.name != format!("{}.glsl", pass.id.key()) {
+        let implied = geometry::own_file(entry).unwrap_or_else(|| format!("{}.glsl", pass.id.key()));
+        if !is_old || entry.contains_key("file") || pass.source.name != implied {
             set(entry, "file", Some(pass.source.name.as_str().into()));
         }
         channels(entry, &pass.channels);
         settings::write_settings(entry, &pass.settings);
+        geometry::write_geometry(entry, &pass.source, &pass.settings);
     }
     order(table, project);
 }
@@ -226,6 +228,11 @@ fn entry(channel: &Channel) -> InlineTable {
             let is_plain = PassId::parse(name) == Some(PassId::Buffer(name.clone()));
             let name = if is_plain { name.clone() } else { PassId::Buffer(name.clone()).key() };
             table.insert("buffer", name.into());
+        }
+        Input::Target { buffer, index } => {
+            table = self::entry(&Channel { input: Input::Buffer(buffer.clone()), sampler: channel.sampler });
+            table.insert("target", (*index as i64).into());
+            return table;
         }
         Input::CubemapPass => {
             table.insert("cube_a", true.into());

@@ -1,0 +1,283 @@
+//! The two stages of a program that draws meshes, and what passes between them.
+//!
+//! Owns the names of attributes, where each `in` and `out` of a stage lies, and what must agree between the stages (section
+//! 4.3.9 of the GLSL ES 3.00 specification, which calls the rest a link error).
+
+use super::{
+    PassKind,
+    ast::{Interner, Origins},
+    hir::{Global, GlobalId, GlobalStorage, Module, Scalar, Type, TypeId},
+    near::nearest,
+};
+use crate::diag::Diagnostic;
+
+/// Slots of four components between the stages that every device has.
+const MAX_SLOTS: u32 = 15;
+
+/// What a vertex has. A stage declares those it reads, by these names and types: `in vec3 aPosition;`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Attribute {
+    Position,
+    Normal,
+    Tangent,
+    Uv,
+    Color,
+}
+
+impl Attribute {
+    /// In the order of their locations.
+    pub const ALL: [Attribute; 5] =
+        [Attribute::Position, Attribute::Normal, Attribute::Tangent, Attribute::Uv, Attribute::Color];
+
+    /// As GLSL spells it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Attribute::Position => "aPosition",
+            Attribute::Normal => "aNormal",
+            Attribute::Tangent => "aTangent",
+            Attribute::Uv => "aUv",
+            Attribute::Color => "aColor",
+        }
+    }
+
+    /// Floats in it. The tangent's fourth is the sign that the bitangent `cross(normal, tangent)` is multiplied by.
+    pub fn components(self) -> u8 {
+        match self {
+            Attribute::Position | Attribute::Normal => 3,
+            Attribute::Tangent | Attribute::Color => 4,
+            Attribute::Uv => 2,
+        }
+    }
+
+    pub fn location(self) -> u32 {
+        self as u32
+    }
+}
+
+/// Something a vertex stage hands on: an `out` there, an `in` of the same name and type in the fragment stage.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Varying {
+    pub name: String,
+    /// As GLSL spells it.
+    pub ty: String,
+    pub flat: bool,
+    /// Of the first of its slots.
+    pub location: u32,
+}
+
+/// What a stage must know of the rest of the program.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Link<'a> {
+    /// What the vertex stage gives; `None`: not known, as while that stage has errors.
+    pub varyings: Option<&'a [Varying]>,
+    /// Targets the fragment stage draws into; `None`: not known.
+    pub targets: Option<usize>,
+}
+
+/// Where the `in` and `out` variables of a stage lie: of each the location of its first slot.
+#[derive(Clone, Debug, Default)]
+pub(in crate::glsl) struct Interface {
+    pub inputs: Vec<(GlobalId, u32)>,
+    pub outputs: Vec<(GlobalId, u32)>,
+    pub varyings: Vec<Varying>,
+}
+
+/// Sorts out the interface of a stage, and reports what is wrong with it. Passes that are no stages have none.
+pub(in crate::glsl) fn interface(
+    module: &Module,
+    names: &Interner,
+    origins: &Origins,
+    kind: PassKind,
+    link: &Link<'_>,
+    diagnostics: &mut Vec<Diagnostic>,
+) -> Interface {
+    let mut linker = Linker { module, names, origins, link, diagnostics, made: Interface::default() };
+    let of = |storage: GlobalStorage| {
+        let all = module.globals.iter().enumerate().filter(move |(_, g)| g.storage == storage && g.ty != TypeId::ERROR);
+        all.map(|(i, _)| GlobalId::new(i)).collect::<Vec<_>>()
+    };
+    match kind {
+        PassKind::Vertex => {
+            of(GlobalStorage::In).into_iter().for_each(|id| linker.attribute(id));
+            linker.outputs_of_vertices(&of(GlobalStorage::Out));
+        }
+        PassKind::Fragment => {
+            linker.inputs_of_fragments(&of(GlobalStorage::In));
+            linker.colours(&of(GlobalStorage::Out));
+        }
+        PassKind::Image | PassKind::Buffer | PassKind::Cubemap | PassKind::Sound => {}
+    }
+    linker.made
+}
+
+/// The slots a value takes, in order, each a scalar or vector; `None` for what cannot pass between stages.
+pub(in crate::glsl) fn slots(module: &Module, ty: TypeId) -> Option<Vec<TypeId>> {
+    match module.types.get(ty) {
+        Type::Scalar(Scalar::Bool) | Type::Vector { scalar: Scalar::Bool, .. } => None,
+        Type::Scalar(_) | Type::Vector { .. } => Some(vec![ty]),
+        Type::Matrix { columns, rows } => Some(vec![TypeId::vector(Scalar::Float, rows); usize::from(columns)]),
+        Type::Array { element, len } => {
+            let one = slots(module, element)?;
+            // More than there is room for is refused later; its slots need not all be listed.
+            let count = (len as usize).min(MAX_SLOTS as usize + 1);
+            Some(one.iter().copied().cycle().take(one.len() * count).collect())
+        }
+        Type::Struct(_) | Type::Sampler { .. } | Type::Void | Type::Error => None,
+    }
+}
+
+struct Linker<'a> {
+    module: &'a Module,
+    names: &'a Interner,
+    origins: &'a Origins,
+    link: &'a Link<'a>,
+    diagnostics: &'a mut Vec<Diagnostic>,
+    made: Interface,
+}
+
+impl Linker<'_> {
+    fn name(&self, global: &Global) -> &str {
+        self.names.get(global.name.symbol)
+    }
+
+    fn error(&mut self, global: &Global, message: String, hint: impl Into<String>) {
+        let diagnostic = self.origins.error(self.names, global.name, message).hint(hint);
+        self.diagnostics.push(diagnostic);
+    }
+
+    fn attribute(&mut self, id: GlobalId) {
+        let global = self.module[id];
+        let name = self.name(&global);
+        let Some(attribute) = Attribute::ALL.into_iter().find(|a| a.name() == name) else {
+            let known = Attribute::ALL.map(Attribute::name);
+            let hint = match nearest(name, known) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => {
+                    let all = Attribute::ALL.map(|a| format!("vec{} {}", a.components(), a.name()));
+                    format!("a vertex has {}", all.join(", "))
+                }
+            };
+            let message = format!("a vertex has no attribute `{name}`");
+            return self.error(&global, message, hint);
+        };
+        if global.ty != TypeId::vector(Scalar::Float, attribute.components()) {
+            let message = format!("the attribute `{name}` is a `vec{}`", attribute.components());
+            let hint = format!("write `in vec{} {name};`", attribute.components());
+            return self.error(&global, message, hint);
+        }
+        self.made.inputs.push((id, attribute.location()));
+    }
+
+    fn outputs_of_vertices(&mut self, all: &[GlobalId]) {
+        let mut next = 0;
+        for &id in all {
+            let global = self.module[id];
+            let Some(slots) = slots(self.module, global.ty) else {
+                let message = format!("`{}` cannot be handed from stage to stage", self.name(&global));
+                self.error(&global, message, "hand on numbers, vectors, matrices or arrays of them");
+                continue;
+            };
+            if next + slots.len() as u32 > MAX_SLOTS {
+                let message = format!("there is no room for `{}`", self.name(&global));
+                let hint =
+                    format!("{MAX_SLOTS} slots of up to four components are handed on; a matrix takes one a column");
+                return self.error(&global, message, hint);
+            }
+            let name = self.name(&global).to_owned();
+            let ty = self.module.type_text(self.names, global.ty);
+            self.made.varyings.push(Varying { name, ty, flat: global.flat, location: next });
+            self.made.outputs.push((id, next));
+            next += slots.len() as u32;
+        }
+    }
+
+    fn inputs_of_fragments(&mut self, all: &[GlobalId]) {
+        let mut next = 0;
+        for &id in all {
+            let global = self.module[id];
+            let name = self.name(&global).to_owned();
+            let Some(slots) = slots(self.module, global.ty) else {
+                self.error(
+                    &global,
+                    format!("`{name}` cannot be handed from stage to stage"),
+                    "hand on numbers, vectors, matrices or arrays of them",
+                );
+                continue;
+            };
+            let Some(varyings) = self.link.varyings else {
+                // Somewhere: a program without a vertex stage is never drawn.
+                self.made.inputs.push((id, next));
+                next += slots.len() as u32;
+                continue;
+            };
+            let ty = self.module.type_text(self.names, global.ty);
+            let (message, hint) = match varyings.iter().find(|v| v.name == name) {
+                Some(v) if v.ty != ty => (
+                    format!("`{name}` is a `{ty}` here and a `{}` in the vertex stage", v.ty),
+                    "make both the same".to_owned(),
+                ),
+                Some(v) if v.flat != global.flat => {
+                    let with = if v.flat { "`flat`" } else { "not `flat`" };
+                    (format!("`{name}` is {with} in the vertex stage"), "make both the same".to_owned())
+                }
+                Some(v) => {
+                    self.made.inputs.push((id, v.location));
+                    continue;
+                }
+                None => {
+                    let known = varyings.iter().map(|v| v.name.as_str());
+                    let hint = match nearest(&name, known) {
+                        Some(near) => format!("did you mean `{near}`?"),
+                        None => format!("declare `out {ty} {name};` there and set it"),
+                    };
+                    (format!("the vertex stage has no output `{name}`"), hint)
+                }
+            };
+            self.error(&global, message, hint);
+        }
+    }
+
+    fn colours(&mut self, all: &[GlobalId]) {
+        let mut taken: Vec<(u32, GlobalId)> = Vec::new();
+        for &id in all {
+            let global = self.module[id];
+            let name = self.name(&global).to_owned();
+            let is_float = matches!(
+                self.module.types.get(global.ty),
+                Type::Scalar(Scalar::Float) | Type::Vector { scalar: Scalar::Float, .. }
+            );
+            if !is_float {
+                self.error(&global, format!("targets hold floats, so `{name}` cannot be written"), "make it a `vec4`");
+                continue;
+            }
+            let location = match global.location {
+                Some(location) => location,
+                None if all.len() == 1 => 0,
+                None => {
+                    let hint = format!("write `layout(location = 0) out vec4 {name};`, with a number for each");
+                    self.error(&global, format!("of several outputs, `{name}` must say which target it is for"), hint);
+                    continue;
+                }
+            };
+            if let Some((_, other)) = taken.iter().find(|(l, _)| *l == location) {
+                let other = self.name(&self.module[*other]).to_owned();
+                let message = format!("`{name}` and `{other}` are both for target {location}");
+                self.error(&global, message, "give each a location of its own");
+                continue;
+            }
+            if let Some(targets) = self.link.targets.filter(|t| location as usize >= *t) {
+                let message = format!("`{name}` is for target {location}, and the pass has {targets}");
+                let hint = "add a format to the pass's `targets` in eddy.toml, or choose another location";
+                self.error(&global, message, hint);
+                continue;
+            }
+            if location as usize >= super::interface::MAX_TARGETS {
+                let message = format!("there is no target {location}");
+                self.error(&global, message, "a pass has targets 0 to 3 at most");
+                continue;
+            }
+            taken.push((location, id));
+            self.made.outputs.push((id, location));
+        }
+    }
+}

@@ -1,0 +1,187 @@
+//! Pipelines that draw meshes, their buffers and the depth they are drawn over.
+
+use super::{
+    Binding, Gpu, GpuError, Pipeline,
+    pipeline::{layouts, pipeline_layout, shader_module},
+};
+
+const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// A vertex and a fragment shader over triangles.
+pub struct MeshPipelineDescriptor<'a> {
+    pub label: &'a str,
+    pub vertex: naga::Module,
+    pub fragment: naga::Module,
+    pub entry_point: &'a str,
+    /// Bind groups from 0 on, as both shaders see them.
+    pub groups: &'a [Vec<(u32, Binding)>],
+    /// Bytes of a vertex, and what is read of it: location, floats, offset in bytes.
+    pub stride: u64,
+    pub attributes: &'a [(u32, u8, u64)],
+    /// Formats, and whether the fragment shader's colours reach the target.
+    pub targets: &'a [(wgpu::TextureFormat, bool)],
+    /// Counter-clockwise in GL's terms is the front.
+    pub cull: Option<wgpu::Face>,
+    pub depth: wgpu::CompareFunction,
+    pub depth_write: bool,
+}
+
+impl Pipeline {
+    /// Compiles a program for meshes; as with [`Pipeline::new`], the modules must be valid.
+    pub fn for_meshes(gpu: &Gpu, descriptor: MeshPipelineDescriptor<'_>) -> Result<Pipeline, GpuError> {
+        let d = descriptor;
+        let layouts = layouts(gpu, d.label, d.groups, wgpu::ShaderStages::VERTEX_FRAGMENT);
+        let attributes: Vec<_> = d
+            .attributes
+            .iter()
+            .map(|&(shader_location, floats, offset)| {
+                let format = match floats {
+                    1 => wgpu::VertexFormat::Float32,
+                    2 => wgpu::VertexFormat::Float32x2,
+                    3 => wgpu::VertexFormat::Float32x3,
+                    _ => wgpu::VertexFormat::Float32x4,
+                };
+                wgpu::VertexAttribute { format, offset, shader_location }
+            })
+            .collect();
+        let targets: Vec<_> = d
+            .targets
+            .iter()
+            .map(|&(format, is_written)| {
+                let write_mask = if is_written { wgpu::ColorWrites::ALL } else { wgpu::ColorWrites::empty() };
+                Some(wgpu::ColorTargetState { format, blend: None, write_mask })
+            })
+            .collect();
+        let raw = gpu.guarded(d.label, || {
+            let vertex = shader_module(gpu, d.label, d.vertex);
+            let fragment = shader_module(gpu, d.label, d.fragment);
+            gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: Some(d.label),
+                layout: Some(&pipeline_layout(gpu, d.label, &layouts)),
+                vertex: wgpu::VertexState {
+                    module: &vertex,
+                    entry_point: Some(d.entry_point),
+                    compilation_options: Default::default(),
+                    buffers: &[Some(wgpu::VertexBufferLayout {
+                        array_stride: d.stride,
+                        step_mode: wgpu::VertexStepMode::Vertex,
+                        attributes: &attributes,
+                    })],
+                },
+                primitive: wgpu::PrimitiveState {
+                    // Row 0 is the bottom, so the shader has y turned, and with it every triangle.
+                    front_face: wgpu::FrontFace::Cw,
+                    cull_mode: d.cull,
+                    ..Default::default()
+                },
+                depth_stencil: Some(wgpu::DepthStencilState {
+                    format: DEPTH,
+                    depth_write_enabled: Some(d.depth_write),
+                    depth_compare: Some(d.depth),
+                    stencil: Default::default(),
+                    bias: Default::default(),
+                }),
+                multisample: Default::default(),
+                fragment: Some(wgpu::FragmentState {
+                    module: &fragment,
+                    entry_point: Some(d.entry_point),
+                    compilation_options: Default::default(),
+                    targets: &targets,
+                }),
+                multiview_mask: None,
+                cache: None,
+            })
+        })?;
+        Ok(Pipeline { raw, layouts })
+    }
+}
+
+/// A mesh on the device.
+pub struct MeshBuffers {
+    pub vertices: wgpu::Buffer,
+    /// 32 bits each.
+    pub indices: wgpu::Buffer,
+    pub count: u32,
+}
+
+impl MeshBuffers {
+    pub fn new(gpu: &Gpu, label: &str, vertices: &[u8], indices: &[u32]) -> Result<MeshBuffers, GpuError> {
+        let make = |bytes: &[u8], usage: wgpu::BufferUsages| {
+            let size = bytes.len() as u64;
+            if size > gpu.device.limits().max_buffer_size {
+                return Err(GpuError::OutOfMemory(format!("{label} ({size} bytes in one buffer)")));
+            }
+            let buffer = gpu.guarded(label, || {
+                gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                    label: Some(label),
+                    size,
+                    usage: usage | wgpu::BufferUsages::COPY_DST,
+                    mapped_at_creation: false,
+                })
+            })?;
+            gpu.queue.write_buffer(&buffer, 0, bytes);
+            Ok(buffer)
+        };
+        Ok(MeshBuffers {
+            vertices: make(vertices, wgpu::BufferUsages::VERTEX)?,
+            indices: make(bytemuck::cast_slice(indices), wgpu::BufferUsages::INDEX)?,
+            count: indices.len() as u32,
+        })
+    }
+}
+
+/// A depth buffer of 32-bit floats.
+pub fn depth_buffer(gpu: &Gpu, label: &str, width: u32, height: u32) -> Result<wgpu::TextureView, GpuError> {
+    gpu.check_size(label, width, height)?;
+    let texture = gpu.guarded(label, || {
+        gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some(label),
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: DEPTH,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+            view_formats: &[],
+        })
+    })?;
+    Ok(texture.create_view(&Default::default()))
+}
+
+/// Whether the device can draw into targets of these formats at once; by the rule of WebGPU, "calculating color attachment
+/// bytes per sample".
+pub fn check_targets(gpu: &Gpu, what: &str, formats: &[wgpu::TextureFormat]) -> Result<(), GpuError> {
+    let limits = gpu.device.limits();
+    let bytes = bytes_a_sample(formats);
+    if bytes > limits.max_color_attachment_bytes_per_sample {
+        let limit = limits.max_color_attachment_bytes_per_sample;
+        return Err(GpuError::TargetsTooLarge { what: what.into(), bytes, limit });
+    }
+    if formats.len() as u32 > limits.max_color_attachments {
+        let (count, limit) = (formats.len() as u32, limits.max_color_attachments);
+        return Err(GpuError::TooManyTargets { what: what.into(), count, limit });
+    }
+    Ok(())
+}
+
+fn bytes_a_sample(formats: &[wgpu::TextureFormat]) -> u32 {
+    formats.iter().fold(0u32, |sum, format| {
+        let align = format.target_component_alignment().unwrap_or(1);
+        sum.next_multiple_of(align) + format.target_pixel_byte_cost().unwrap_or(0)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_of_targets_are_counted_as_webgpu_counts_them() {
+        use wgpu::TextureFormat as F;
+        assert_eq!(bytes_a_sample(&[F::Rgba32Float; 4]), 64);
+        // Eight bits a component count twice.
+        assert_eq!(bytes_a_sample(&[F::Rgba8Unorm; 4]), 32);
+        // The byte is rounded up for what comes behind it.
+        assert_eq!(bytes_a_sample(&[F::R8Unorm, F::R32Float]), 8);
+    }
+}

@@ -1,0 +1,226 @@
+//! What a geometry pass draws instead of a full-screen triangle: meshes, each with its program and state, and the camera that
+//! sees them.
+
+use super::{PassFormat, Source};
+use std::path::PathBuf;
+
+/// Targets a pass may have at once: what every device takes.
+pub const MAX_TARGETS: usize = 4;
+
+/// The meshes of a pass, drawn into its targets over a depth buffer that each frame begins at the far plane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Geometry {
+    /// In drawing order; at least one.
+    pub draws: Vec<MeshDraw>,
+    /// Formats of the targets behind the first, whose format is [`super::PassSettings::format`].
+    pub more_targets: Vec<PassFormat>,
+    pub camera: Camera,
+    /// Texts of stages other than the pass's own text, each file once.
+    pub stages: Vec<Source>,
+}
+
+/// The text of a stage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stage {
+    /// The pass's own text.
+    Own,
+    /// Of [`Geometry::stages`].
+    File(usize),
+}
+
+/// One mesh, drawn once with one program.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeshDraw {
+    pub mesh: MeshSource,
+    pub vertex: Stage,
+    pub fragment: Stage,
+    pub cull: Cull,
+    pub depth: DepthTest,
+    /// Texels that pass the test leave their depth.
+    pub depth_write: bool,
+    /// Colours reach the targets; off, only depth is laid down.
+    pub color_write: bool,
+    /// `iModel`: scaled, then turned about x, y and z in this order (degrees), then moved.
+    pub scale: f64,
+    pub rotation: [f64; 3],
+    pub position: [f64; 3],
+}
+
+/// Where a mesh comes from.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum MeshSource {
+    /// One of Eddy's own, by name: see `media::mesh`.
+    Builtin(String),
+    /// A glTF or OBJ file, relative to the project's folder or absolute.
+    File(PathBuf),
+}
+
+impl MeshSource {
+    const BUILTIN: &'static str = "builtin:";
+
+    /// As `eddy.toml` spells it: `builtin:torus`, or a file's path.
+    pub fn parse(text: &str) -> MeshSource {
+        match text.strip_prefix(Self::BUILTIN) {
+            Some(name) => MeshSource::Builtin(name.to_owned()),
+            None => MeshSource::File(PathBuf::from(text)),
+        }
+    }
+
+    /// The opposite of [`MeshSource::parse`], with forward slashes.
+    pub fn name(&self) -> String {
+        match self {
+            MeshSource::Builtin(name) => format!("{}{name}", Self::BUILTIN),
+            MeshSource::File(path) => {
+                let path = path.to_string_lossy();
+                if cfg!(windows) { path.replace('\\', "/") } else { path.into_owned() }
+            }
+        }
+    }
+}
+
+/// Which triangles are left out. The front is the side on which a triangle's corners turn counter-clockwise.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Cull {
+    #[default]
+    Back,
+    Front,
+    None,
+}
+
+impl Cull {
+    pub const ALL: [Cull; 3] = [Cull::Back, Cull::Front, Cull::None];
+
+    /// As `eddy.toml` spells it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Cull::Back => "back",
+            Cull::Front => "front",
+            Cull::None => "none",
+        }
+    }
+}
+
+/// What a fragment's depth must be, compared with the depth buffer's, for the fragment to count.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum DepthTest {
+    #[default]
+    Less,
+    LessEqual,
+    Equal,
+    GreaterEqual,
+    Greater,
+    NotEqual,
+    Always,
+}
+
+impl DepthTest {
+    pub const ALL: [DepthTest; 7] = [
+        DepthTest::Less,
+        DepthTest::LessEqual,
+        DepthTest::Equal,
+        DepthTest::GreaterEqual,
+        DepthTest::Greater,
+        DepthTest::NotEqual,
+        DepthTest::Always,
+    ];
+
+    /// As `eddy.toml` spells it.
+    pub fn name(self) -> &'static str {
+        match self {
+            DepthTest::Less => "less",
+            DepthTest::LessEqual => "less_equal",
+            DepthTest::Equal => "equal",
+            DepthTest::GreaterEqual => "greater_equal",
+            DepthTest::Greater => "greater",
+            DepthTest::NotEqual => "not_equal",
+            DepthTest::Always => "always",
+        }
+    }
+}
+
+/// A perspective camera on a sphere about what it looks at. The world's y is up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Degrees about the world's y; at 0 the camera stands on the positive z side, at 90 on the positive x side.
+    pub yaw: f64,
+    /// Degrees above the horizon, within -89 and 89.
+    pub pitch: f64,
+    pub distance: f64,
+    /// What it looks at.
+    pub target: [f64; 3],
+    /// Of the picture's height, in degrees.
+    pub fov: f64,
+    /// Distances of the clip planes.
+    pub near: f64,
+    pub far: f64,
+    /// Dragging with the mouse turns it.
+    pub orbit: bool,
+}
+
+impl Default for Camera {
+    fn default() -> Self {
+        Camera {
+            yaw: 30.0,
+            pitch: 20.0,
+            distance: 4.0,
+            target: [0.0; 3],
+            fov: 45.0,
+            near: 0.1,
+            far: 100.0,
+            orbit: true,
+        }
+    }
+}
+
+/// Files that a model file needs beside itself: the buffers and pictures a `.gltf` names, from the folder it lies in. None for
+/// a file that cannot be read; whoever loads it says why.
+pub fn files_beside(model: &std::path::Path) -> Vec<PathBuf> {
+    if !model.extension().is_some_and(|e| e.eq_ignore_ascii_case("gltf")) {
+        return Vec::new();
+    }
+    let json: Option<serde_json::Value> = std::fs::read(model).ok().and_then(|b| serde_json::from_slice(&b).ok());
+    let Some(json) = json else { return Vec::new() };
+    let named = ["buffers", "images"].into_iter().filter_map(|key| json.get(key)?.as_array()).flatten();
+    let uris = named.filter_map(|entry| entry.get("uri")?.as_str());
+    uris.filter(|uri| !uri.contains(':')).map(|uri| PathBuf::from(unescaped(uri))).collect()
+}
+
+/// An address with its `%20` and the like written out.
+fn unescaped(uri: &str) -> String {
+    let bytes = uri.as_bytes();
+    let (mut out, mut i) = (Vec::with_capacity(bytes.len()), 0);
+    while i < bytes.len() {
+        let hex = (bytes[i] == b'%').then(|| uri.get(i + 1..i + 3)).flatten();
+        let escaped = hex.and_then(|hex| u8::from_str_radix(hex, 16).ok());
+        out.push(escaped.unwrap_or(bytes[i]));
+        i += if escaped.is_some() { 3 } else { 1 };
+    }
+    String::from_utf8_lossy(&out).into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_gltf_names_the_files_beside_it() {
+        let dir = tempfile::tempdir().unwrap();
+        let model = dir.path().join("a.gltf");
+        std::fs::write(
+            &model,
+            r#"{"buffers":[{"uri":"a%20b.bin"},{"uri":"data:;base64,AA"},{}],"images":[{"uri":"tex/é.png"}]}"#,
+        )
+        .unwrap();
+        assert_eq!(files_beside(&model), [PathBuf::from("a b.bin"), PathBuf::from("tex/é.png")]);
+        std::fs::write(&model, "{").unwrap();
+        assert!(files_beside(&model).is_empty());
+        assert!(files_beside(&dir.path().join("none.glb")).is_empty());
+    }
+
+    #[test]
+    fn a_mesh_is_named_as_it_is_read() {
+        for name in ["builtin:torus", "models/fox.glb", "/a/b.obj"] {
+            assert_eq!(MeshSource::parse(name).name(), name);
+        }
+    }
+}
