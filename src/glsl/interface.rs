@@ -12,7 +12,6 @@
 //!   whose first words hold its components bit for bit (a bool as 0 or 1). Absent when none is read.
 //! - Group 1, binding 2i: the texture of `iChannel`i, binding 2i+1: its sampler. Each is declared only where it is reached from
 //!   the entry point ([`crate::glsl::Reflection::channels`] says which), so the bind group layout follows the reflection.
-
 //!
 //! Programs that draw meshes have a module a stage. Both read the groups above, and in group 0 at binding 4 the
 //! [`GeometryBlock`]; the vertex stage has its constant tables in a uniform buffer of its own at binding 5, and none in a

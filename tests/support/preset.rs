@@ -1,22 +1,14 @@
-//! Presets in the hands of a test: loaded, patched, fed other inputs, read.
-#![allow(dead_code, reason = "every test file uses its own part")]
+//! Shorter ways to what [`presets`] has, and measures of pictures, for the tests of filters.
+#![allow(dead_code, unused_imports, reason = "every test file uses its own part")]
 
-use crate::support::*;
+use crate::support::{buffer, presets};
 use eddy::{
-    engine::{BuildOptions, Engine, FrameInputs, Pixels},
+    engine::{Engine, FrameInputs, Pixels},
     gpu::Gpu,
-    media::MediaSet,
-    project::{PassId, Project, presets},
+    project::{PassId, Project},
 };
 
-/// A preset with some of its knobs turned.
-pub fn preset(name: &str, knobs: &[&str]) -> Project {
-    let mut project = presets::load(name).unwrap_or_else(|e| panic!("{e}")).project;
-    for assignment in knobs {
-        project.set_knob(assignment).unwrap();
-    }
-    project
-}
+pub use presets::{all_finite, preset_with as preset};
 
 /// Gives a buffer another text, one that a test knows all about.
 pub fn replace(project: &mut Project, name: &str, text: &str) {
@@ -32,21 +24,16 @@ pub fn patch_common(project: &mut Project, old: &str, new: &str) {
 
 /// An engine in which every pass can be read.
 pub fn whole(gpu: &Gpu, project: &Project, size: (u32, u32)) -> Engine {
-    let wanted = project.passes.iter().map(|p| p.id.clone()).collect();
-    engine_with(gpu, project, &MediaSet::new(), &BuildOptions { wanted, skip: true }, size)
+    presets::whole(gpu, project, true, size)
 }
 
 /// Frame `frame`, with the mouse as the engine's uniform has it: held at `at`, or never touched.
 pub fn at_frame(frame: i32, at: Option<[f32; 2]>) -> FrameInputs {
-    let mut inputs = FrameInputs::at_fixed_step(frame, 60.0);
-    inputs.mouse = at.map_or([0.0, 0.0, -0.0, -0.0], |[x, y]| [x, y, x.max(1.0), -y]);
-    inputs
+    presets::held(frame, at.map(|[x, y]| ([x.max(1.0), y], [x, y])))
 }
 
 pub fn draw(engine: &mut Engine, frames: std::ops::Range<i32>) {
-    for frame in frames {
-        engine.draw(&at_frame(frame, None)).unwrap();
-    }
+    presets::draw(engine, frames, presets::untouched);
 }
 
 pub fn read(engine: &mut Engine, name: &str) -> Pixels {
@@ -55,10 +42,6 @@ pub fn read(engine: &mut Engine, name: &str) -> Pixels {
 
 pub fn picture(engine: &mut Engine) -> Pixels {
     engine.read(&PassId::Image).unwrap()
-}
-
-pub fn all_finite(pixels: &Pixels) -> bool {
-    pixels.texels.iter().flatten().all(|v| v.is_finite())
 }
 
 /// Peak signal-to-noise ratio of the colours in dB, where 1 is the peak.

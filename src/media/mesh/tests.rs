@@ -1,3 +1,5 @@
+//! Tests of meshes: what the built-in ones promise, what is read of model files, and what is said of broken ones.
+
 use super::*;
 use glam::Vec3;
 
