@@ -6,7 +6,7 @@
 
 use eddy::{
     diag::SourceId,
-    glsl::{self, ChannelKind, PassKind, PassSource, Text, services::Analysis},
+    glsl::{self, ChannelKind, Driver, PassKind, PassSource, Text, services::Analysis},
     project::{self, Input, PassId, Project},
 };
 use std::time::{Duration, Instant};
@@ -111,7 +111,7 @@ fn measure(spec: &str, project: &Project, index: usize) -> Row {
             _ => ChannelKind::Sampler2D,
         }),
         bilinear_by_hand: [false; 4],
-        tables_in_memory: false,
+        driver: Driver::default(),
         knobs: &[],
         includes: &[],
     };

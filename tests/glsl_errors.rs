@@ -5,7 +5,7 @@
 
 use eddy::{
     diag::{SourceMap, render_all},
-    glsl::{self, ChannelKind, PassKind, PassSource, Text},
+    glsl::{self, ChannelKind, Driver, PassKind, PassSource, Text},
 };
 use std::{fs, path::Path};
 
@@ -24,7 +24,7 @@ fn messages(name: &str, code: &str) -> String {
         code: Text { id, text: code },
         channels,
         bilinear_by_hand: [false; 4],
-        tables_in_memory: false,
+        driver: Driver::default(),
         knobs: &[],
         includes: &[],
     };

@@ -7,7 +7,7 @@ mod compute;
 mod support;
 
 use compute::*;
-use eddy::glsl::{ChannelKind, Compiled, PassKind, PassSource, Text};
+use eddy::glsl::{ChannelKind, Compiled, Driver, PassKind, PassSource, Text};
 
 /// The module of an Image pass.
 fn compiled(code: &str) -> Compiled {
@@ -19,7 +19,7 @@ fn compiled(code: &str) -> Compiled {
         channels: [ChannelKind::Sampler2D; 4],
         knobs: &[],
         bilinear_by_hand: [false; 4],
-        tables_in_memory: false,
+        driver: Driver::default(),
     };
     eddy::glsl::compile(&source).expect("it compiles")
 }

@@ -4,7 +4,7 @@
 
 use eddy::{
     diag::{SourceId, SourceMap, render_all},
-    glsl::{self, ChannelKind, PassKind, PassSource, Text, services::Analysis},
+    glsl::{self, ChannelKind, Driver, PassKind, PassSource, Text, services::Analysis},
 };
 use std::time::{Duration, Instant};
 
@@ -270,7 +270,7 @@ fn any_text_gets_an_answer() {
                 code: Text { id: SourceId(0), text: &text },
                 channels: [ChannelKind::Sampler2D; 4],
                 bilinear_by_hand: [false; 4],
-                tables_in_memory: false,
+                driver: Driver::default(),
                 knobs: &[],
                 includes: &[],
             });
@@ -327,7 +327,7 @@ fn editors_get_an_answer_at_any_place_of_any_text() {
                 code: Text { id: SourceId(0), text: &text },
                 channels: [ChannelKind::Sampler2D; 4],
                 bilinear_by_hand: [false; 4],
-                tables_in_memory: false,
+                driver: Driver::default(),
                 knobs: &[],
                 includes: &[],
             });
@@ -353,7 +353,7 @@ fn huge_texts_get_an_answer() {
             code: Text { id: SourceId(0), text },
             channels: [ChannelKind::Sampler2D; 4],
             bilinear_by_hand: [false; 4],
-            tables_in_memory: false,
+            driver: Driver::default(),
             knobs: &[],
             includes: &[],
         });

@@ -9,6 +9,7 @@ use super::{
 use crate::{
     diag::Diagnostic,
     engine,
+    glsl::Driver,
     media::{self, MediaSet},
     project::{self, Filter, Input, Project, SamplerRules, Wrap},
 };
@@ -57,7 +58,9 @@ fn compile(project: &Project) -> Vec<Diagnostic> {
     found.extend(texts.diagnostics.iter().cloned());
     found.extend(texts.check_common());
     for index in 0..project.passes.len() {
-        let said = texts.compile_pass(index, [false; 4], false).map_or_else(|errors| errors, |done| done.diagnostics);
+        let said = texts
+            .compile_pass(index, [false; 4], Driver::default())
+            .map_or_else(|errors| errors, |done| done.diagnostics);
         for d in said {
             // What is wrong in Common is found again in every pass.
             if !found.contains(&d) {

@@ -3,7 +3,7 @@
 use super::{knobs, program::kind_of, stages::CompiledPass};
 use crate::{
     diag::{Diagnostic, SourceId},
-    glsl::{self, ChannelKind, Include, PassKind, PassSource, Text, services::Analysis},
+    glsl::{self, ChannelKind, Driver, Include, PassKind, PassSource, Text, services::Analysis},
     project::{Geometry, IncludeLines, Knobs, Pass, PassId, Project, Stage},
 };
 use std::borrow::Cow;
@@ -45,7 +45,7 @@ impl<'p> Sources<'p> {
     }
 
     /// Compiles `project.passes[index]` as it is, of whichever kind and reached or not. Needs no device, but is told which
-    /// channels the device that shall run it cannot filter, and whether it has no storage buffers.
+    /// channels the device that shall run it cannot filter, and what its driver needs.
     ///
     /// # Panics
     /// If there is no such pass.
@@ -53,15 +53,15 @@ impl<'p> Sources<'p> {
         &self,
         index: usize,
         bilinear_by_hand: [bool; 4],
-        tables_in_memory: bool,
+        driver: Driver,
     ) -> Result<CompiledPass, Vec<Diagnostic>> {
         let pass = &self.project.passes[index];
         if let Some(geometry) = &pass.settings.geometry {
-            return self.compile_geometry(index, geometry, bilinear_by_hand, tables_in_memory);
+            return self.compile_geometry(index, geometry, bilinear_by_hand, driver);
         }
         let id = SourceId(index as u16 + 1);
         self.with_source(index, id, pass_kind(&pass.id), |source| {
-            glsl::compile(&PassSource { bilinear_by_hand, tables_in_memory, ..*source }).map(CompiledPass::screen)
+            glsl::compile(&PassSource { bilinear_by_hand, driver, ..*source }).map(CompiledPass::screen)
         })
     }
 
@@ -81,7 +81,7 @@ impl<'p> Sources<'p> {
             channels: channel_kinds(&self.project.passes[index]),
             knobs: &knobs::in_scope(&self.knobs, &self.lines, Some(id)),
             bilinear_by_hand: [false; 4],
-            tables_in_memory: false,
+            driver: Driver::default(),
         })
     }
 

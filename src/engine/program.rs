@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     diag::{Diagnostic, SourceMap},
-    glsl::{ChannelKind, KnobSet, UniformSet, interface},
+    glsl::{ChannelKind, Driver, KnobSet, UniformSet, interface},
     gpu::{
         Binding, FragmentPipelineDescriptor, Gpu, MipMaker, Pipeline, Texture, TextureDescriptor, constant_buffer,
         mip_levels,
@@ -215,7 +215,9 @@ fn compile(
                 && is_float(project, channel, texels.map(|t| &**t))
                 && filter.is_some_and(|f| f != Filter::Nearest)
         });
-        let said = match texts.compile_pass(index, bilinear_by_hand, !gpu.has_storage_buffers) {
+        let driver =
+            Driver { tables_in_memory: !gpu.has_storage_buffers, opaque_uniforms: gpu.recompiles_for_uniforms };
+        let said = match texts.compile_pass(index, bilinear_by_hand, driver) {
             Ok(mut done) => {
                 let said = std::mem::take(&mut done.diagnostics);
                 drawable.passes.push(without_cubemap_passes(pass.clone()));

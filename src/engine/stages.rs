@@ -3,7 +3,7 @@
 use super::Sources;
 use crate::{
     diag::Diagnostic,
-    glsl::{self, Compiled, Link, PassKind, PassSource, Reflection, interface},
+    glsl::{self, Compiled, Driver, Link, PassKind, PassSource, Reflection, interface},
     project::{Geometry, Stage},
 };
 use std::collections::HashMap;
@@ -74,13 +74,14 @@ impl Sources<'_> {
         index: usize,
         geometry: &Geometry,
         bilinear_by_hand: [bool; 4],
-        tables_in_memory: bool,
+        driver: Driver,
     ) -> Result<CompiledPass> {
         let compile = |stage: Stage, kind: PassKind, link: &Link<'_>| -> Result<Compiled> {
             // A vertex stage can read no storage buffer on every device.
-            let tables_in_memory = tables_in_memory || kind == PassKind::Vertex;
+            let tables_in_memory = driver.tables_in_memory || kind == PassKind::Vertex;
+            let driver = Driver { tables_in_memory, ..driver };
             self.with_source(index, self.stage_id(index, stage), kind, |source| {
-                glsl::compile_linked(&PassSource { bilinear_by_hand, tables_in_memory, ..*source }, link)
+                glsl::compile_linked(&PassSource { bilinear_by_hand, driver, ..*source }, link)
             })
         };
         let mut vertices: HashMap<Stage, Result<Compiled>> = HashMap::new();

@@ -113,9 +113,19 @@ pub struct PassSource<'a> {
     /// Channels whose texture this device cannot filter though the project asks for it: every filtered read of them is
     /// written as four fetches and a mix (section 8.13 of the OpenGL ES 3.0 specification gives the weights).
     pub bilinear_by_hand: [bool; 4],
+    pub driver: Driver,
+}
+
+/// What the driver that will run a pass needs of its code; none of it changes a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Driver {
     /// The device reads no storage buffers in a fragment shader: large constant tables are then memory of each invocation,
     /// which costs time to fill.
     pub tables_in_memory: bool,
+    /// The driver compiles a program anew for every frame, and keeps what it made, where a branch depends on uniforms alone:
+    /// they are read so that it takes them for values of the pixel. Mesa's lavapipe does so (`lvp_inline_uniforms.c`), and the
+    /// new program is never the shorter one it hopes for.
+    pub opaque_uniforms: bool,
 }
 
 /// A pass that compiled.

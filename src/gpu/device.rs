@@ -59,6 +59,9 @@ pub struct Gpu {
     pub filters_float32: bool,
     /// Fragment shaders can read storage buffers.
     pub has_storage_buffers: bool,
+    /// A program is compiled anew for every frame if one of its branches depends on uniforms alone: lavapipe, Mesa's Vulkan on
+    /// the processor, tries how much shorter it becomes with their values in it (`lvp_inline_uniforms.c`).
+    pub recompiles_for_uniforms: bool,
     /// Timestamps can be written between passes.
     pub has_timestamps: bool,
     state: Arc<State>,
@@ -143,6 +146,7 @@ impl Gpu {
         Ok(Gpu {
             has_storage_buffers: device.limits().max_storage_buffers_per_shader_stage > 0,
             filters_float32: features.contains(wgpu::Features::FLOAT32_FILTERABLE),
+            recompiles_for_uniforms: info.backend == wgpu::Backend::Vulkan && info.name.starts_with("llvmpipe"),
             has_timestamps: features.contains(wgpu::Features::TIMESTAMP_QUERY),
             device,
             queue,

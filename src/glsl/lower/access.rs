@@ -21,11 +21,13 @@ pub(super) struct Place {
     /// Points to an array whose scalars and vectors lie in slots of 16 bytes, of which the first components count
     /// (`iChannelTime`, constant tables in a uniform buffer).
     pub padded: bool,
+    /// Read from a uniform block: see [`Builder::load_uniform`].
+    pub uniform: bool,
 }
 
 impl Place {
     pub fn of(pointer: Value, ty: TypeId) -> Self {
-        Self { pointer, ty, swizzle: None, padded: false }
+        Self { pointer, ty, swizzle: None, padded: false, uniform: false }
     }
 }
 
@@ -44,10 +46,11 @@ impl Builder<'_, '_> {
     pub fn read(&mut self, expr: ExprId) -> Result<Value, Vec<ExprId>> {
         let (root, links) = self.chain(expr);
         let Some(mut place) = self.root(root, &links) else { return Err(links) };
+        let uniform = place.uniform;
         for link in links.into_iter().rev() {
             place = self.part_of_place(place, link);
         }
-        Ok(self.load_place(place))
+        Ok(self.load_place(Place { uniform, ..place }))
     }
 
     /// What members, swizzles and indices stand on, and these from the outermost inwards.
@@ -102,12 +105,13 @@ impl Builder<'_, '_> {
                     let block = self.cx.geometry_block();
                     let base = self.global(block);
                     let pointer = self.add(Expression::AccessIndex { base, index });
-                    return Some(Place::of(pointer, ty));
+                    return Some(Place { uniform: true, ..Place::of(pointer, ty) });
                 }
                 let (member, name) = resources::uniform(uniform);
                 self.cx.reflection.uniforms.insert(name);
                 let pointer = self.block_member(member);
-                return Some(Place { padded: uniform == Uniform::ChannelTime, ..Place::of(pointer, ty) });
+                let padded = uniform == Uniform::ChannelTime;
+                return Some(Place { padded, uniform: true, ..Place::of(pointer, ty) });
             }
             ExprKind::BuiltinVar(BuiltinVar::FragCoord) => self.cx.frag_coord(),
             ExprKind::BuiltinVar(BuiltinVar::FragDepth) => self.cx.frag_depth(),
@@ -137,7 +141,7 @@ impl Builder<'_, '_> {
         let block = self.cx.knob_block();
         let base = self.global(block);
         let pointer = self.add(Expression::AccessIndex { base, index: slot.into() });
-        let words = self.load(pointer);
+        let words = self.load_uniform(pointer, TypeId::vector(Scalar::Uint, 4));
         let size = self.cx.hir.types.components(ty).expect("a scalar or a vector") as usize;
         let words = self.swizzle(words, TypeId::vector(Scalar::Uint, 4), Swizzle::new(&[0, 1, 2, 3][..size]));
         match self.cx.hir.types.scalar(ty) {
@@ -242,12 +246,15 @@ impl Builder<'_, '_> {
             let parts = (0..len).map(|index| {
                 let slot = self.add(Expression::AccessIndex { base: place.pointer, index });
                 let part = self.slot_of_array(slot, element);
-                self.load_place(part)
+                self.load_place(Place { uniform: place.uniform, ..part })
             });
             let parts = parts.collect();
             return self.compose(place.ty, parts);
         }
-        let value = self.load(place.pointer);
+        let value = match place.uniform {
+            true => self.load_uniform(place.pointer, place.ty),
+            false => self.load(place.pointer),
+        };
         match place.swizzle {
             Some(swizzle) => self.swizzle(value, place.ty, swizzle),
             None => value,

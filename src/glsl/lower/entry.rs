@@ -44,6 +44,7 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reach: &Reach) {
     b.set_tables();
     let position = b.given(Expression::FunctionArgument(0));
     b.set_frag_coord(position);
+    b.set_unknown_zero(|b| b.add(Expression::AccessIndex { base: position, index: 0 }));
     b.push(Statement::Block(initialisers));
     let result = match kind {
         PassKind::Image | PassKind::Buffer => {

@@ -32,6 +32,8 @@ pub(super) struct Resources {
     pub stage: HashMap<BuiltinVar, Handle<GlobalVariable>>,
     /// Bit i: an `st_assert(.., i)` failed.
     pub failed_asserts: Option<Handle<GlobalVariable>>,
+    /// Holds a zero that the driver cannot know.
+    pub unknown_zero: Option<Handle<GlobalVariable>>,
 }
 
 impl Resources {
@@ -47,6 +49,7 @@ impl Resources {
             geometry: None,
             stage: HashMap::new(),
             failed_asserts: None,
+            unknown_zero: None,
         }
     }
 }
@@ -288,6 +291,14 @@ impl Lowering<'_> {
             self.resources.frag_depth = Some(self.private(ty, None));
         }
         self.resources.frag_depth.expect("just set")
+    }
+
+    pub fn unknown_zero(&mut self) -> Handle<GlobalVariable> {
+        if self.resources.unknown_zero.is_none() {
+            let ty = self.ty(TypeId::INT);
+            self.resources.unknown_zero = Some(self.private(ty, None));
+        }
+        self.resources.unknown_zero.expect("just set")
     }
 
     pub fn failed_asserts(&mut self) -> Handle<GlobalVariable> {

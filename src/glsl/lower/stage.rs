@@ -18,6 +18,8 @@ use crate::glsl::{
     stages::slots,
 };
 
+const POSITION: BuiltIn = BuiltIn::Position { invariant: false };
+
 /// Adds the entry point; every function is there already.
 pub(super) fn lower(cx: &mut Lowering<'_>, reach: &Reach) {
     let entry = reach.instances.last().expect("the entry point is reached").clone();
@@ -33,6 +35,13 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reach: &Reach) {
     let mut b = Builder::new(cx, 0, 0);
     let (initialisers, _) = b.nested(|b| b.initialise_globals(reach));
     b.set_tables();
+    b.set_unknown_zero(|b| match is_vertex {
+        true => b.given_builtin(TypeId::UINT, BuiltIn::VertexIndex),
+        false => {
+            let position = b.given_builtin(TypeId::VEC4, POSITION);
+            b.add(Expression::AccessIndex { base: position, index: 0 })
+        }
+    });
     b.push(Statement::Block(initialisers));
     for (id, location) in inputs {
         b.input(id, location, is_vertex);
@@ -88,6 +97,15 @@ impl Builder<'_, '_> {
         self.given(Expression::FunctionArgument(index))
     }
 
+    /// The argument that brings a built-in, which may be there already.
+    fn given_builtin(&mut self, ty: TypeId, builtin: BuiltIn) -> Value {
+        let binding = Binding::BuiltIn(builtin);
+        match self.f.arguments.iter().position(|a| a.binding == Some(binding.clone())) {
+            Some(index) => self.given(Expression::FunctionArgument(index as u32)),
+            None => self.argument(ty, binding),
+        }
+    }
+
     /// Pointers to the slots of a variable, with their types, in the order of their locations.
     fn slot_pointers(&mut self, pointer: Value, ty: TypeId, out: &mut Vec<(Value, TypeId)>) {
         match self.cx.hir.types.get(ty) {
@@ -132,7 +150,7 @@ impl Builder<'_, '_> {
             [(BuiltinVar::VertexId, BuiltIn::VertexIndex), (BuiltinVar::InstanceId, BuiltIn::InstanceIndex)]
         {
             let Some(&memory) = self.cx.resources.stage.get(&variable) else { continue };
-            let number = self.argument(TypeId::UINT, Binding::BuiltIn(builtin));
+            let number = self.given_builtin(TypeId::UINT, builtin);
             let number = self.add(Expression::As { expr: number, kind: ScalarKind::Sint, convert: Some(4) });
             let pointer = self.global(memory);
             self.store(pointer, number);
@@ -142,7 +160,7 @@ impl Builder<'_, '_> {
     fn fragment_inputs(&mut self) {
         let (coord, depth) = (self.cx.resources.frag_coord, self.cx.resources.frag_depth);
         if coord.is_some() || depth.is_some() {
-            let position = self.argument(TypeId::VEC4, Binding::BuiltIn(BuiltIn::Position { invariant: false }));
+            let position = self.given_builtin(TypeId::VEC4, POSITION);
             if let Some(coord) = coord {
                 let pointer = self.global(coord);
                 self.store(pointer, position);
@@ -155,7 +173,7 @@ impl Builder<'_, '_> {
             }
         }
         if let Some(&facing) = self.cx.resources.stage.get(&BuiltinVar::FrontFacing) {
-            let is_front = self.argument(TypeId::BOOL, Binding::BuiltIn(BuiltIn::FrontFacing));
+            let is_front = self.given_builtin(TypeId::BOOL, BuiltIn::FrontFacing);
             let pointer = self.global(facing);
             self.store(pointer, is_front);
         }
@@ -171,7 +189,7 @@ impl Builder<'_, '_> {
         let sum = self.op(Op::Add, z, w);
         let z = self.op(Op::Multiply, sum, half);
         let value = self.compose(TypeId::VEC4, vec![x, y, z, w]);
-        let binding = Binding::BuiltIn(BuiltIn::Position { invariant: false });
+        let binding = Binding::BuiltIn(POSITION);
         let mut parts = vec![Part { ty: TypeId::VEC4, binding, value }];
         for (id, location) in self.cx.interface.outputs.clone() {
             let between = interpolation(self.cx.hir[id].flat);

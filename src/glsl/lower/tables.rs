@@ -88,7 +88,7 @@ impl Lowering<'_> {
             && self.tables.uniform.bytes.len() + size as usize <= interface::UNIFORM_TABLE_BYTES
         {
             TablePlace::Uniform(self.append_to_uniform(id, ty, size))
-        } else if scalars >= LARGE && !self.source.tables_in_memory && !self.holds_booleans(constant.ty) {
+        } else if scalars >= LARGE && !self.source.driver.tables_in_memory && !self.holds_booleans(constant.ty) {
             TablePlace::Storage(self.append_to_storage(id))
         } else {
             TablePlace::Private(self.private_table(id))

@@ -4,17 +4,12 @@
 //! chooses a side. Mesa's llvmpipe takes a quotient for undefined once it sees that the divisor is zero, after it has inlined
 //! functions and spread constants. So what may be such a zero is kept out of its sight.
 
-use naga::{BinaryOperator as Op, Expression, ScalarKind};
-
-use super::{
-    function::{Builder, Value},
-    resources::CUBE_FACE,
-};
+use super::function::{Builder, Value};
 use crate::glsl::{
     ast::List,
     hir::{
         BinaryOp, Builtin, ExprId, ExprKind, FuncId, Global, GlobalStorage, LocalKind, Module, Scalar, Stmt, StmtId,
-        StmtKind, TypeId,
+        StmtKind,
     },
 };
 
@@ -216,17 +211,5 @@ impl Builder<'_, '_> {
         let ty = self.cx.hir[expr].ty;
         let is_float = self.cx.hir.types.scalar(ty) == Some(Scalar::Float) && self.is_vector_or_scalar(ty);
         if !is_float || !self.cx.zeros.contain(expr) { value } else { self.hidden(ty, value) }
-    }
-
-    /// The same bits, of float type `ty`, but through a uniform that is always zero.
-    pub fn hidden(&mut self, ty: TypeId, value: Value) -> Value {
-        let pad = self.block_member(CUBE_FACE);
-        let unused = self.add(Expression::AccessIndex { base: pad, index: 1 });
-        let zero = self.load(unused);
-        let ints = TypeId::vector(Scalar::Int, self.extent(ty) as u8);
-        let zero = self.splat(zero, ints);
-        let bits = self.bitcast(value, ScalarKind::Sint);
-        let bits = self.op(Op::InclusiveOr, bits, zero);
-        self.bitcast(bits, ScalarKind::Float)
     }
 }

@@ -5,7 +5,7 @@ use super::*;
 use crate::{
     diag::SourceId,
     glsl::{
-        ChannelKind, PassKind, Text,
+        ChannelKind, Driver, PassKind, Text,
         ast::{Condition, DeclId, DeclKind, List, StmtKind, TypeSpecId, TypeSpecKind},
     },
 };
@@ -17,7 +17,7 @@ fn parse_text(text: &str) -> Parsed {
         code: Text { id: SourceId(0), text },
         channels: [ChannelKind::Sampler2D; 4],
         bilinear_by_hand: [false; 4],
-        tables_in_memory: false,
+        driver: Driver::default(),
         knobs: &[],
         includes: &[],
     })

@@ -93,7 +93,7 @@ mod tests {
     use super::*;
     use crate::{
         diag::SourceId,
-        glsl::{ChannelKind, PassKind, PassSource, Text, services::Analysis},
+        glsl::{ChannelKind, Driver, PassKind, PassSource, Text, services::Analysis},
     };
 
     const TEXT: &str = "float g;\n/* é */ void f(float par) {\n    par = g;\n}\n#if 0\nout\n#endif";
@@ -106,7 +106,7 @@ mod tests {
             code: Text { id, text: TEXT },
             channels: [ChannelKind::Sampler2D; 4],
             bilinear_by_hand: [false; 4],
-            tables_in_memory: false,
+            driver: Driver::default(),
             knobs: &[],
             includes: &[],
         });

@@ -9,7 +9,7 @@ mod spec;
 use super::{Checked, check};
 use crate::{
     diag::{SourceId, SourceMap, render_all},
-    glsl::{ChannelKind, PassKind, PassSource, Text, parse},
+    glsl::{ChannelKind, Driver, PassKind, PassSource, Text, parse},
 };
 
 /// Parses and checks a pass alone; parser's and checker's messages in caret form, and whether one is an error.
@@ -23,7 +23,7 @@ fn checked(kind: PassKind, channels: [ChannelKind; 4], common: Option<&str>, cod
         code: Text { id, text: code },
         channels,
         bilinear_by_hand: [false; 4],
-        tables_in_memory: false,
+        driver: Driver::default(),
         knobs: &[],
         includes: &[],
     };

@@ -25,7 +25,7 @@ fn every_use_names_its_declaration() {
         code: crate::glsl::Text { id: crate::diag::SourceId(0), text: CODE },
         channels: [ChannelKind::Sampler2D; 4],
         bilinear_by_hand: [false; 4],
-        tables_in_memory: false,
+        driver: crate::glsl::Driver::default(),
         knobs: &[],
         includes: &[],
     };

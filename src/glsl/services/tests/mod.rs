@@ -8,7 +8,7 @@ mod signature;
 use super::Analysis;
 use crate::{
     diag::{SourceId, Span},
-    glsl::{ChannelKind, PassKind, PassSource, Text},
+    glsl::{ChannelKind, Driver, PassKind, PassSource, Text},
 };
 
 const COMMON: SourceId = SourceId(0);
@@ -46,7 +46,7 @@ impl Marked {
                 ChannelKind::Sampler2D,
             ],
             bilinear_by_hand: [false; 4],
-            tables_in_memory: false,
+            driver: Driver::default(),
             knobs: &[],
             includes: &[],
         })

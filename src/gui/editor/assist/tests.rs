@@ -1,7 +1,7 @@
 //! Which keys go to what is open, and when it opens.
 
 use super::*;
-use crate::glsl::{ChannelKind, PassKind, PassSource, Text};
+use crate::glsl::{ChannelKind, Driver, PassKind, PassSource, Text};
 use egui::Modifiers;
 
 const ID: SourceId = SourceId(0);
@@ -38,7 +38,7 @@ fn type_into(text: &str, input: &str) -> (Assist, String) {
             code: Text { id: ID, text: &now },
             channels: [ChannelKind::Sampler2D; 4],
             bilinear_by_hand: [false; 4],
-            tables_in_memory: false,
+            driver: Driver::default(),
             knobs: &[],
             includes: &[],
         });

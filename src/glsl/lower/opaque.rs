@@ -1,0 +1,73 @@
+//! Values that the driver shall not see through: a zero that it cannot know, and what is joined with it.
+
+use naga::{BinaryOperator as Op, Expression, ScalarKind};
+
+use super::{
+    function::{Builder, Value},
+    resources::CUBE_FACE,
+};
+use crate::glsl::hir::{Scalar, Type, TypeId};
+
+impl Builder<'_, '_> {
+    /// The same bits, of a scalar or vector type `ty` of numbers, but joined with a zero that the driver cannot know.
+    pub fn hidden(&mut self, ty: TypeId, value: Value) -> Value {
+        let zero = self.unknown_zero();
+        let ints = TypeId::vector(Scalar::Int, self.extent(ty) as u8);
+        let zero = self.splat(zero, ints);
+        let bits = self.bitcast(value, ScalarKind::Sint);
+        let bits = self.op(Op::InclusiveOr, bits, zero);
+        let kind = match self.cx.hir.types.scalar(ty) {
+            Some(Scalar::Int) => ScalarKind::Sint,
+            Some(Scalar::Uint) => ScalarKind::Uint,
+            _ => ScalarKind::Float,
+        };
+        self.bitcast(bits, kind)
+    }
+
+    /// An `int`: a uniform that is always zero or, where the driver compiles anew for those, what [`Builder::set_unknown_zero`]
+    /// made.
+    fn unknown_zero(&mut self) -> Value {
+        let pointer = if self.cx.source.driver.opaque_uniforms {
+            let variable = self.cx.unknown_zero();
+            self.global(variable)
+        } else {
+            let pad = self.block_member(CUBE_FACE);
+            self.add(Expression::AccessIndex { base: pad, index: 1 })
+        };
+        self.load(pointer)
+    }
+
+    /// Makes the zero of an entry point, if some code reads it, of the sign of a number whose bits, read as an `int`, are
+    /// never negative: of where a pixel lies, or of a vertex's number.
+    pub fn set_unknown_zero(&mut self, never_negative: impl FnOnce(&mut Self) -> Value) {
+        let Some(variable) = self.cx.resources.unknown_zero else { return };
+        let number = never_negative(self);
+        let bits = self.bitcast(number, ScalarKind::Sint);
+        let places = self.literal(Scalar::Uint, 31);
+        let sign = self.op(Op::ShiftRight, bits, places);
+        let pointer = self.global(variable);
+        self.store(pointer, sign);
+    }
+
+    /// Reads a value of type `ty` from a uniform block: so that the driver takes it for a value of the pixel, where
+    /// [`opaque_uniforms`](crate::glsl::Driver::opaque_uniforms) asks for that.
+    pub fn load_uniform(&mut self, pointer: Value, ty: TypeId) -> Value {
+        if !self.cx.source.driver.opaque_uniforms {
+            return self.load(pointer);
+        }
+        let part = match self.cx.hir.types.get(ty) {
+            Type::Array { element, .. } => element,
+            Type::Matrix { rows, .. } => TypeId::vector(Scalar::Float, rows),
+            _ => {
+                let value = self.load(pointer);
+                return self.hidden(ty, value);
+            }
+        };
+        let parts = (0..self.extent(ty)).map(|index| {
+            let pointer = self.add(Expression::AccessIndex { base: pointer, index });
+            self.load_uniform(pointer, part)
+        });
+        let parts = parts.collect();
+        self.compose(ty, parts)
+    }
+}

@@ -1,0 +1,123 @@
+//! Uniforms as a driver needs them that compiles a program anew for every frame where a branch depends on them alone.
+//!
+//! One test that measures memory, so that no other test of this process takes any beside it.
+
+mod support;
+
+use eddy::{
+    diag::SourceId,
+    glsl::{self, ChannelKind, Driver, Knob, KnobKind, PassKind, PassSource, Text},
+};
+use naga::{AddressSpace, BinaryOperator, Expression, Function, Handle, Module};
+use support::*;
+
+/// What stands for the number of a load in a message.
+type Load = Handle<Expression>;
+
+/// Loads from uniform blocks, and those that anything but a join with the zero sees.
+fn loads(module: &Module, function: &Function) -> (usize, Vec<Load>) {
+    let of = |handle: Load| &function.expressions[handle];
+    let is_uniform = |mut pointer: Load| loop {
+        match *of(pointer) {
+            Expression::Access { base, .. } | Expression::AccessIndex { base, .. } => pointer = base,
+            Expression::GlobalVariable(variable) => {
+                break module.global_variables[variable].space == AddressSpace::Uniform;
+            }
+            _ => break false,
+        }
+    };
+    let all = function.expressions.iter();
+    let all: Vec<Load> = all
+        .filter(|(_, e)| matches!(e, Expression::Load { pointer } if is_uniform(*pointer)))
+        .map(|(load, _)| load)
+        .collect();
+    let is_joined = |value: Load| {
+        let mut joins = function.expressions.iter();
+        joins.any(
+            |(_, e)| matches!(e, Expression::Binary { op: BinaryOperator::InclusiveOr, left, .. } if *left == value),
+        )
+    };
+    let seen = |load: Load| {
+        let mut bits = function.expressions.iter();
+        let bits = bits.find(|(_, e)| matches!(e, Expression::As { expr, convert: None, .. } if *expr == load));
+        !bits.is_some_and(|(bits, _)| is_joined(bits))
+    };
+    (all.len(), all.iter().copied().filter(|load| seen(*load)).collect())
+}
+
+#[test]
+fn are_values_of_the_pixel_where_the_driver_asks_for_it() {
+    let knobs = [
+        Knob { name: "level", kind: KnobKind::Float, slot: 0 },
+        Knob { name: "many", kind: KnobKind::Int, slot: 1 },
+        Knob { name: "on", kind: KnobKind::Bool, slot: 2 },
+    ];
+    let programs = [
+        (
+            PassKind::Image,
+            7,
+            "float f(float x[4]) { return x[0] + x[3]; }\n\
+             void mainImage(out vec4 o, vec2 p) {\n\
+                 o = vec4(on ? f(iChannelTime) : iChannelTime[int(p.x) & 3], iResolution.xy, iFrame);\n\
+                 for (int i = 0; i < many; i++) { if (iMouse.z > level) o += iDate.wwww; }\n\
+                 o.xyz += iChannelResolution[1];\n\
+             }",
+        ),
+        (
+            PassKind::Vertex,
+            2,
+            "in vec3 aPosition; out vec3 at;\n\
+             void main() { at = iNormalMatrix * aPosition; gl_Position = iProjection * vec4(at, level); }",
+        ),
+        (PassKind::Fragment, 2, "in vec3 at; out vec4 o; void main() { o = vec4(iCameraPosition - at, iTime); }"),
+    ];
+    for (kind, at_least, code) in programs {
+        let source = PassSource {
+            kind,
+            common: None,
+            code: Text { id: SourceId(0), text: code },
+            includes: &[],
+            channels: [ChannelKind::Sampler2D; 4],
+            knobs: &knobs,
+            bilinear_by_hand: [false; 4],
+            driver: Driver::default(),
+        };
+        let plain = glsl::compile(&source).unwrap_or_else(|e| panic!("{kind:?}: {e:?}"));
+        let driver = Driver { opaque_uniforms: true, ..Driver::default() };
+        let opaque = glsl::compile(&PassSource { driver, ..source }).unwrap_or_else(|e| panic!("{kind:?}: {e:?}"));
+        let mut count = 0;
+        let mut seen = [0, 0];
+        for (i, module) in [&plain.module, &opaque.module].into_iter().enumerate() {
+            let functions = module.functions.iter().map(|(_, f)| f);
+            for function in functions.chain(module.entry_points.iter().map(|e| &e.function)) {
+                let (all, bare) = loads(module, function);
+                count += i * all;
+                seen[i] += bare.len();
+            }
+        }
+        assert!(count >= at_least, "{kind:?}: {count} loads");
+        assert!(seen[0] >= at_least && seen[1] == 0, "{kind:?}: {seen:?} see the uniforms themselves");
+        assert_eq!(plain.reflection, opaque.reflection, "{kind:?}");
+    }
+}
+
+/// Pages of this process, in bytes. `None` where the system has no such file.
+fn resident() -> Option<u64> {
+    let pages = std::fs::read_to_string("/proc/self/statm").ok()?;
+    Some(pages.split(' ').nth(1)?.parse::<u64>().ok()? * 4096)
+}
+
+/// A preset of many scales, whose loops and branches ask the mouse and the knobs: lavapipe used to keep 2 MiB of programs a
+/// frame of it.
+#[test]
+fn frames_take_no_memory() {
+    let Some(gpu) = gpu() else { return };
+    let path = format!("{}/presets/mip-fluid", env!("CARGO_MANIFEST_DIR"));
+    let project = eddy::project::load(&path).expect("a preset").project;
+    let mut engine = engine(&gpu, &project, (64, 36));
+    run(&mut engine, 0, 40);
+    let Some(before) = resident() else { return };
+    run(&mut engine, 40, 240);
+    let grown = resident().expect("as before").saturating_sub(before);
+    assert!(grown < 64 << 20, "200 frames took {} MiB", grown >> 20);
+}
