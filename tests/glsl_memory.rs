@@ -154,3 +154,61 @@ fn arrays_begin_anew_and_keep_what_is_theirs() {
         ),
     ]);
 }
+
+/// How often a module takes the greater and the smaller of two.
+fn bounds(compiled: &Compiled) -> (usize, usize) {
+    let functions = compiled.module.functions.iter().map(|(_, f)| f);
+    let functions: Vec<_> = functions.chain(compiled.module.entry_points.iter().map(|e| &e.function)).collect();
+    let count = |wanted| {
+        let all = functions.iter().flat_map(|f| f.expressions.iter());
+        all.filter(|(_, e)| matches!(e, naga::Expression::Math { fun, .. } if *fun == wanted)).count()
+    };
+    (count(naga::MathFunction::Max), count(naga::MathFunction::Min))
+}
+
+/// `while (n >= 1) { .. n--; }` keeps n between 0 and where it began; one more write anywhere and nothing is known.
+#[test]
+fn what_a_loop_counts_needs_no_clamp() {
+    let code = |before: &str, test: &str, step: &str, index: &str| {
+        format!(
+            "void mainImage(out vec4 o, vec2 p) {{ float a[4] = float[](p.x, p.y, 3., 4.); float s;\n\
+             {before} while ({test}) {{ s += a[{index}]; {step} }} o = vec4(s); }}"
+        )
+    };
+    let known = [
+        ("int n = 4;", "n >= 1", "n--;", "n - 1"),
+        ("int n = 4;", "1 <= n && s < 9.0", "if (p.x > 2.) --n; else s++;", "n - 1"),
+        ("int n;", "n < 4", "n += 2;", "n"),
+        ("uint n = 1u; const int last = 3;", "n <= uint(last)", "n++;", "n & 3u"),
+        ("int n = 3, m = n;", "n > 0", "n--;", "m"),
+    ];
+    for (before, test, step, index) in known {
+        let code = code(before, test, step, index);
+        let clamps = bounds(&compiled(&code));
+        // The last value of a counter lies outside the array: only where the loop's own test keeps it away is that known.
+        let may = usize::from(index == "n" || index == "n - 1");
+        assert!(clamps.0 <= may && clamps.1 <= may, "{code}: {clamps:?}");
+    }
+    for (before, test, step, index) in [
+        ("int n = 4;", "n >= 1", "n--; if (s > 2.) n = int(p.x);", "n - 1"),
+        ("int n = int(p.x);", "n >= 1", "n--;", "n - 1"),
+        ("int n = 4;", "n >= 1", "for (int i = 0; i < 3; i++) n--;", "n - 1"),
+        ("int n = 3;", "s < 9.0", "n--;", "n"),
+    ] {
+        let code = code(before, test, step, index);
+        assert!(bounds(&compiled(&code)) != (0, 0), "{code}");
+    }
+}
+
+/// An inner loop whose bound the outer one counts: its bound is known to be small, and told the driver.
+#[test]
+fn loops_within_counting_loops() {
+    let body = "vec2 p1[4] = vec2[](vec2(Z), vec2(1, 2), vec2(3, 5), vec2(4, 1)), p2[4] = p1; int n = 4;\n\
+                while (n >= 1) { for (int i = 0; i < n - 1; i++) p2[i] = mix(p1[i], p1[i + 1], 0.25); n--; p1 = p2; }";
+    let inner = compiled(&format!("void mainImage(out vec4 o, vec2 p) {{ float Z = p.x; {body} o = p1[0].xyxy; }}"));
+    assert_eq!(bounds(&inner), (0, 1));
+    let bezier =
+        |p: [f32; 4]| (0..3).fold(p.to_vec(), |p, _| p.windows(2).map(|w| w[0] + 0.25 * (w[1] - w[0])).collect())[0];
+    let expected = [bezier([0., 1., 3., 4.]), bezier([0., 2., 5., 1.]), 0., 0.];
+    check(&[case(Box::leak(format!("{body} r = vec4(p1[0], float(n), 0);").into_boxed_str()), expected)]);
+}

@@ -62,6 +62,7 @@ impl Builder<'_, '_> {
 
     fn declaration(&mut self, local: LocalId, init: Option<ExprId>) {
         let hir = self.cx.hir;
+        self.note_range(local, init);
         // A table that is only read here needs no copy.
         if let (Some(init), true, false) = (init, self.needs_memory(local), self.cx.handed_on[local.index()])
             && let (ExprKind::Const(id), 0) = (hir[init].kind, self.cx.writes[local.index()])
@@ -118,12 +119,13 @@ impl Builder<'_, '_> {
             return;
         }
         let counter = test.and_then(|test| self.counter(init, test, step));
+        let rounds = counter.map(|(_, (least, greatest))| greatest - least);
         // Drivers analyse a loop whose step ends the body more readily than one with a `continuing` part that several places
         // jump to; a short step is repeated before each `continue` instead, as their own GLSL compilers do.
         let repeated = step.filter(|step| self.cx.costs[step.index()] <= CHEAP);
         let (body, _) = self.nested(|b| {
             if let (None, Some(test)) = (known, test) {
-                let condition = b.value(test);
+                let condition = b.loop_test(test, rounds);
                 let mut leave = Block::new();
                 leave.push(Statement::Break, Span::UNDEFINED);
                 b.push(Statement::If { condition, accept: Block::new(), reject: leave });

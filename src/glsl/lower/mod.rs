@@ -37,6 +37,7 @@ mod regroup;
 mod resources;
 mod scalars;
 mod stage;
+mod steps;
 mod tables;
 mod texture;
 mod types;
@@ -65,6 +66,7 @@ pub(crate) struct Lowered {
 /// If `module` breaks the promises of [`hir`], such as having no entry point.
 pub(in crate::glsl) fn lower(module: &hir::Module, source: &PassSource<'_>, interface: Interface) -> Lowered {
     let reach = Reach::new(module);
+    let writes = ranges::write_counts(module);
     let mut cx = Lowering {
         hir: module,
         source,
@@ -75,7 +77,8 @@ pub(in crate::glsl) fn lower(module: &hir::Module, source: &PassSource<'_>, inte
         tables: Tables::default(),
         resources: Resources::new(module.globals.len()),
         costs: cost::costs(module),
-        writes: ranges::write_counts(module),
+        counted: steps::counted(module, &writes),
+        writes,
         handed_on: calls::handed_on(module),
         uses: ranges::use_counts(module),
         zeros: Zeros::new(module),
@@ -137,6 +140,8 @@ struct Lowering<'a> {
     costs: Vec<u16>,
     /// How many expressions write each local, by [`hir::LocalId::index`].
     writes: Vec<u32>,
+    /// Locals that one loop counts.
+    counted: HashMap<usize, steps::Counted>,
     /// Locals that calls take as a whole and index, by [`hir::LocalId::index`].
     handed_on: Vec<bool>,
     /// How many expressions name each local, by [`hir::LocalId::index`].

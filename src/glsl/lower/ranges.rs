@@ -59,7 +59,7 @@ pub(super) fn use_counts(module: &Module) -> Vec<u32> {
     counts
 }
 
-fn limits(ty: TypeId) -> Option<Bounds> {
+pub(super) fn limits(ty: TypeId) -> Option<Bounds> {
     match ty {
         TypeId::INT => Some((i32::MIN.into(), i32::MAX.into())),
         TypeId::UINT => Some((0, u32::MAX.into())),
@@ -183,7 +183,7 @@ impl Builder<'_, '_> {
     }
 
     /// What the step adds to `local`.
-    fn step(&self, step: ExprId, local: LocalId) -> Option<Bounds> {
+    pub fn step(&self, step: ExprId, local: LocalId) -> Option<Bounds> {
         let hir = self.cx.hir;
         let is_local = |place: ExprId| matches!(hir[place].kind, ExprKind::Local(found) if found == local);
         match hir[step].kind {
@@ -207,7 +207,7 @@ impl Builder<'_, '_> {
 }
 
 /// The comparison with its sides exchanged.
-fn mirrored(op: BinaryOp) -> Option<BinaryOp> {
+pub(super) fn mirrored(op: BinaryOp) -> Option<BinaryOp> {
     Some(match op {
         BinaryOp::Less => BinaryOp::Greater,
         BinaryOp::Greater => BinaryOp::Less,
