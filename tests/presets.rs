@@ -12,6 +12,23 @@ use support::{presets::*, *};
 const LEFT_ARROW: u8 = 37;
 const SPACE: u8 = 32;
 
+/// A preset is copied as one folder, so what several need lies in each.
+#[test]
+fn what_presets_share_is_the_same_in_each() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("presets");
+    for (presets, files) in [
+        (&["fluid", "fluid-lit", "fluid-dye"][..], &["solver.glsl", "step.glsl"][..]),
+        (&["bloom", "bloom-sized"], &["scene.glsl"]),
+        (&["gbuffer-edges", "gbuffer-ssao-ssr"], &["scene.glsl", "gbuffer.glsl"]),
+    ] {
+        for file in files {
+            let texts = presets.iter().map(|p| std::fs::read_to_string(folder.join(p).join(file)).unwrap());
+            let texts: Vec<_> = texts.collect();
+            assert!(texts.iter().all(|t| *t == texts[0]), "{file} differs among {presets:?}");
+        }
+    }
+}
+
 #[test]
 fn three_chained_sub_steps_are_three_steps_of_one_pass() {
     let Some(gpu) = gpu() else { return };

@@ -130,3 +130,33 @@ fn a_pointer_at_rest_is_told_what_it_is_on() {
     window.move_to((left as i64 + 70, top as i64 + 260));
     hides(&mut window, "hover");
 }
+
+/// The strip under the editor offers each target of a pass that draws meshes.
+#[test]
+fn a_channel_is_given_a_further_target_by_the_mouse() {
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("project");
+    fs::create_dir_all(&folder).unwrap();
+    let toml = "[passes.buffer_scene]\ntargets = [\"rgba8\", \"rgba16f\"]\n\
+                draw = [{ mesh = \"builtin:cube\", vertex = \"cube.vert.glsl\" }]\n\n\
+                [passes.image]\nchannels.0 = { buffer = \"scene\" }\n";
+    fs::write(folder.join("eddy.toml"), toml).unwrap();
+    let vertex =
+        "in vec3 aPosition; void main() { gl_Position = iProjection * iView * iModel * vec4(aPosition, 1.0); }\n";
+    fs::write(folder.join("cube.vert.glsl"), vertex).unwrap();
+    let fragment = "layout(location = 0) out vec4 a; layout(location = 1) out vec4 b;\n\
+                    void main() { a = vec4(1, 0, 0, 1); b = vec4(0, 1, 0, 1); }\n";
+    fs::write(folder.join("buffer_scene.glsl"), fragment).unwrap();
+    let image = "void mainImage(out vec4 o, vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }\n";
+    fs::write(folder.join("image.glsl"), image).unwrap();
+    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
+    window.wait_until("the first compile", "compiled", |e| e["compiling"] == false);
+    window.click_on("channel:0");
+    shows(&mut window, "choose:buffer:scene:1");
+    photograph(&display, "targets.png");
+    window.click_on("choose:buffer:scene:1");
+    saved(&mut window, home.path(), "image.glsl");
+    let toml = fs::read_to_string(folder.join("eddy.toml")).unwrap();
+    assert!(toml.contains("target = 1"), "{toml}");
+}

@@ -193,10 +193,15 @@ fn choose(
         }
         for other in &session.project().passes {
             let PassId::Buffer(name) = &other.id else { continue };
-            let input = Input::Buffer(name.clone());
-            let item = ui.selectable_label(now == Some(&input), other.id.title());
-            if out.clicked(&format!("choose:buffer:{name}"), &item) && now != Some(&input) {
-                set(out, Some(Channel { input, sampler: Sampler::BUFFER }));
+            for index in 0..other.settings.formats().len() {
+                let (input, place) = match index {
+                    0 => (Input::Buffer(name.clone()), format!("choose:buffer:{name}")),
+                    _ => (Input::Target { buffer: name.clone(), index }, format!("choose:buffer:{name}:{index}")),
+                };
+                let item = ui.selectable_label(now == Some(&input), input_name(&input));
+                if out.clicked(&place, &item) && now != Some(&input) {
+                    set(out, Some(Channel { input, sampler: Sampler::BUFFER }));
+                }
             }
         }
         let item = ui.selectable_label(now == Some(&Input::Keyboard), "Keyboard");
