@@ -356,7 +356,7 @@ impl Checker<'_> {
             self.error(name, "GLSL ES 3.00 has only `uniform` blocks");
         }
         self.check_layout(&quals, LayoutOf::Block);
-        self.declare(name, Binding::Poison);
+        self.declare(name, Binding::Block(name));
         let mut members: Vec<StructMember> = Vec::new();
         for field in &ast[fields] {
             let base = self.base_type(field.ty);

@@ -203,7 +203,7 @@ impl<'a> Checker<'a> {
                 self.unknown_name(symbol, token);
                 self.error_expr(loc)
             }
-            binding @ (Binding::Builtin(_) | Binding::Function(_) | Binding::Struct(_)) => {
+            binding @ (Binding::Builtin(_) | Binding::Function(_) | Binding::Struct(_) | Binding::Block(_)) => {
                 let (name, what) = (self.name(symbol), self.describe_binding(binding));
                 self.error(loc, format!("`{name}` is {what}, not a value"));
                 match binding {

@@ -1,7 +1,7 @@
 //! What each name means where the checker stands. Owns the scopes of section 4.2; knows no rule about what may be declared.
 
 use crate::glsl::{
-    ast::Symbol,
+    ast::{Ident, Symbol},
     hir::{Builtin, BuiltinVar, FuncId, GlobalId, LocalId, StructId, Uniform},
 };
 
@@ -27,6 +27,8 @@ pub(super) enum Binding {
     /// The first overload of a user's function.
     Function(FuncId),
     Struct(StructId),
+    /// The name of a uniform block, which stands for nothing else (section 4.3.7).
+    Block(Ident),
     Global(GlobalId),
     Local(LocalId),
 }

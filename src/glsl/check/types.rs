@@ -307,6 +307,7 @@ impl<'a> Checker<'a> {
         match binding {
             Binding::Function(id) => self.function_at(id),
             Binding::Struct(id) => self.module[id].name.map(Loc::from),
+            Binding::Block(name) => Some(name.into()),
             Binding::Global(id) => Some(self.module[id].name.into()),
             Binding::Local(id) => self.module[id].name.map(Loc::from),
             _ => None,
@@ -319,6 +320,7 @@ impl<'a> Checker<'a> {
             Binding::Builtin(_) => "a built-in function",
             Binding::Function(_) => "a function",
             Binding::Struct(_) => "a struct",
+            Binding::Block(_) => "a uniform block",
             Binding::Local(id) if self.module[id].kind.is_param() => "a parameter",
             Binding::Channel(_) => "a channel's sampler",
             Binding::Uniform(_)

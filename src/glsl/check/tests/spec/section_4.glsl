@@ -237,6 +237,16 @@ uniform Block { float a; } block; float f() { return block.a; }
 in Block { float a; } block;
 //error 4.3.7 member of a uniform block assigned | is a uniform and cannot be assigned
 uniform Block { float a; } block; void f() { block.a = 1.0; }
+//error 4.3.7 block name as the type of a variable | `Block` is a uniform block, not a type
+uniform Block { float a; } block; Block b;
+//error 4.3.7 block name as the type of a result | `Block` is a uniform block, not a type
+uniform Block { float a; } block; Block f() { return block; }
+//error 4.3.7 block name as a value | is a uniform block
+uniform Block { float a; } block; float f() { return Block.a; }
+//error 4.3.7 block name called | cannot be called
+uniform Block { float a; } block; float f() { return Block(1.0); }
+//error 4.3.7 block name given to something else | already
+uniform Block { float a; } block; float Block;
 //error 4.3.9 flat on a plain global | only stand on inputs and outputs
 flat float x;
 //error 4.5 precision on a bool | only numbers and samplers
