@@ -13,11 +13,14 @@ pub struct GpuOptions {
     pub use_float32_filtering: bool,
     /// Use timestamp queries where the adapter has them.
     pub use_timestamps: bool,
+    /// Let naga add its own checks to shaders (indices, loops, integer division), which Eddy's front end makes needless: how
+    /// their cost is measured.
+    pub runtime_checks: bool,
 }
 
 impl Default for GpuOptions {
     fn default() -> Self {
-        Self { use_float32_filtering: true, use_timestamps: true }
+        Self { use_float32_filtering: true, use_timestamps: true, runtime_checks: false }
     }
 }
 
@@ -64,6 +67,7 @@ pub struct Gpu {
     pub recompiles_for_uniforms: bool,
     /// Timestamps can be written between passes.
     pub has_timestamps: bool,
+    pub(super) runtime_checks: bool,
     state: Arc<State>,
 }
 
@@ -147,6 +151,7 @@ impl Gpu {
             has_storage_buffers: device.limits().max_storage_buffers_per_shader_stage > 0,
             filters_float32: features.contains(wgpu::Features::FLOAT32_FILTERABLE),
             recompiles_for_uniforms: info.backend == wgpu::Backend::Vulkan && info.name.starts_with("llvmpipe"),
+            runtime_checks: options.runtime_checks,
             has_timestamps: features.contains(wgpu::Features::TIMESTAMP_QUERY),
             device,
             queue,

@@ -114,12 +114,12 @@ pub(super) fn pipeline_layout(gpu: &Gpu, label: &str, layouts: &[wgpu::BindGroup
 pub(super) fn shader_module(gpu: &Gpu, label: &str, module: naga::Module) -> wgpu::ShaderModule {
     let mut checks = wgpu::ShaderRuntimeChecks::checked();
     // Counting every loop's turns up to 2^64 costs time in each and keeps no shader from running for hours.
-    checks.force_loop_bounding = false;
+    checks.force_loop_bounding = gpu.runtime_checks;
     // No device of wgpu's traps on a division by zero; GLSL leaves the result open.
-    checks.int_div_checks = false;
+    checks.int_div_checks = gpu.runtime_checks;
     // Indices come clamped from the front end where they are not known to be in range. Fetches outside a texture give
     // zeros by the hardware or the driver's image robustness everywhere but on Metal.
-    checks.bounds_checks = gpu.info.backend == wgpu::Backend::Metal;
+    checks.bounds_checks = gpu.runtime_checks || gpu.info.backend == wgpu::Backend::Metal;
     // SAFETY: as said above, what the checks leave out is guarded elsewhere, but for the loop counter. A loop that never
     // ends keeps the device busy until the driver's watchdog ends it, with the counter as without.
     unsafe {
