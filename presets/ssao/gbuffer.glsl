@@ -1,0 +1,18 @@
+// The four targets of the geometry pass.
+
+in vec3 vWorld;
+in vec3 vView;
+in vec3 vNormal;
+in vec3 vColor;
+layout(location = 0) out vec4 albedo;
+layout(location = 1) out vec4 worldPosition;
+layout(location = 2) out vec4 worldNormal;
+layout(location = 3) out vec4 viewPosition;
+
+// Albedo is kept as its square root: eight bits are few for what is dark.
+void write(vec3 colour, float specular) {
+    albedo = vec4(sqrt(colour), specular);
+    worldPosition = vec4(vWorld, 1.0);
+    worldNormal = vec4(normalize(vNormal), 0.0);
+    viewPosition = vec4(vView, 1.0);
+}

@@ -1,0 +1,3 @@
+#define PAGE 0.0
+#define SPINS 0.0
+#include "mesh.vert.glsl"
