@@ -21,7 +21,11 @@
 //
 //   f(c) = (acos c - c sqrt(1 - c c)) / pi,  c = d / s < 1, and 0 beyond;   occlusion(d) = mean of f over the kernel's lengths
 //
-// with lengths s = radius (0.1 + 0.9 u u), u uniform. STATED_BIAS
+// with lengths s = radius (0.1 + 0.9 u u), u uniform. Measured at radii 0.3, 0.6 and 1 beside a wall higher
+// than that, from two texels away on (tests/preset_ssao.rs): within 0.025 of it, 0.02 too little to 0.02 too much; 0.015 of that
+// are `bias` (the wall begins so much later), 0.005 the kernel's 64 points, and the rest texels. Beyond the radius: exactly
+// none, as on an open plane. Beside a wall lower than the radius up to 0.04 too little: a camera that looks over the wall's
+// edge sees samples behind it, and no depth buffer knows how thick a wall is.
 
 // Scales a picture so that the scene fits into a canvas that is narrower than 3 : 2. Goes with iProjection, in x and y.
 vec2 fit(vec2 resolution) {

@@ -15,7 +15,7 @@ vec3 shown(ivec2 p) {
     if (mode == 2) return vec3(open);
     vec3 light = direct.rgb * (mode == 0 ? mix(1.0, open, 0.55) : 1.0) + surrounding.rgb * (mode == 0 ? open : 1.0);
     if (dot(surrounding.rgb, vec3(1.0)) == 0.0) light = backdrop((vec2(p) + 0.5) / iResolution.xy);
-    return pow(1.0 - exp(-1.35 * light), vec3(1.0 / 2.2));
+    return pow(1.0 - exp(-1.6 * light), vec3(1.0 / 2.2));
 }
 
 float luma(vec3 c) {
