@@ -113,6 +113,7 @@ fn measure(spec: &str, project: &Project, index: usize) -> Row {
         bilinear_by_hand: [false; 4],
         driver: Driver::default(),
         knobs: &[],
+        values: &[],
         includes: &[],
     };
     let analysis = Analysis::new(&source);

@@ -79,6 +79,7 @@ fn are_values_of_the_pixel_where_the_driver_asks_for_it() {
             includes: &[],
             channels: [ChannelKind::Sampler2D; 4],
             knobs: &knobs,
+            values: &[],
             bilinear_by_hand: [false; 4],
             driver: Driver::default(),
         };

@@ -26,6 +26,7 @@ fn messages(name: &str, code: &str) -> String {
         bilinear_by_hand: [false; 4],
         driver: Driver::default(),
         knobs: &[],
+        values: &[],
         includes: &[],
     };
     match glsl::compile(&source) {

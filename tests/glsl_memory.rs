@@ -18,6 +18,7 @@ fn compiled(code: &str) -> Compiled {
         includes: &[],
         channels: [ChannelKind::Sampler2D; 4],
         knobs: &[],
+        values: &[],
         bilinear_by_hand: [false; 4],
         driver: Driver::default(),
     };

@@ -272,6 +272,7 @@ fn any_text_gets_an_answer() {
                 bilinear_by_hand: [false; 4],
                 driver: Driver::default(),
                 knobs: &[],
+                values: &[],
                 includes: &[],
             });
             if let Err(errors) = &result {
@@ -329,6 +330,7 @@ fn editors_get_an_answer_at_any_place_of_any_text() {
                 bilinear_by_hand: [false; 4],
                 driver: Driver::default(),
                 knobs: &[],
+                values: &[],
                 includes: &[],
             });
             let mut end = 0;
@@ -355,6 +357,7 @@ fn huge_texts_get_an_answer() {
             bilinear_by_hand: [false; 4],
             driver: Driver::default(),
             knobs: &[],
+            values: &[],
             includes: &[],
         });
         // Far above what it takes, far below what a quadratic algorithm would.

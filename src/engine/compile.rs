@@ -3,7 +3,7 @@
 use super::{knobs, program::kind_of, stages::CompiledPass};
 use crate::{
     diag::{Diagnostic, SourceId},
-    glsl::{self, ChannelKind, Driver, Include, PassKind, PassSource, Text, services::Analysis},
+    glsl::{self, ChannelKind, Driver, Include, PassKind, PassSource, Text, UniformValue, services::Analysis},
     project::{Geometry, IncludeLines, Knobs, Pass, PassId, Project, Stage},
 };
 use std::borrow::Cow;
@@ -15,6 +15,8 @@ pub struct Sources<'p> {
     texts: Vec<Cow<'p, str>>,
     lines: IncludeLines,
     knobs: Knobs,
+    /// Of uniforms that are no knobs.
+    values: Vec<UniformValue>,
     /// What is wrong with them before any is compiled.
     pub diagnostics: Vec<Diagnostic>,
 }
@@ -31,11 +33,13 @@ impl<'p> Sources<'p> {
         let included = project.includes.iter().map(|i| i.source.compile_text());
         let (lines, knobs) = (project.include_lines(), knobs::knobs(project));
         let diagnostics = lines.diagnostics.iter().chain(&knobs.diagnostics).cloned().collect();
+        let values = knobs::given(&knobs, &project.knob_values);
         Self {
             project,
             texts: [common].into_iter().chain(passes).chain(stages).chain(included).collect(),
             lines,
             knobs,
+            values,
             diagnostics,
         }
     }
@@ -80,6 +84,7 @@ impl<'p> Sources<'p> {
             includes: &self.includes(),
             channels: channel_kinds(&self.project.passes[index]),
             knobs: &knobs::in_scope(&self.knobs, &self.lines, Some(id)),
+            values: &self.values,
             bilinear_by_hand: [false; 4],
             driver: Driver::default(),
         })

@@ -2,7 +2,7 @@
 
 use crate::{
     diag::{Diagnostic, SourceId},
-    glsl::{self, KnobKind, interface::KNOB_BYTES},
+    glsl::{self, GivenValue, KnobKind, UniformValue, interface::KNOB_BYTES},
     project::{IncludeLines, Knob, KnobType, KnobValue, KnobValues, Knobs, Project},
 };
 
@@ -45,6 +45,22 @@ pub(super) fn in_scope<'k>(knobs: &'k Knobs, lines: &IncludeLines, pass: Option<
         .collect()
 }
 
+/// What is given for uniforms that the texts declare in GLSL's own way: values that are no knob's.
+pub(super) fn given(knobs: &Knobs, values: &KnobValues) -> Vec<UniformValue> {
+    let others = values.iter().filter(|(name, _)| knobs.get(name).is_none());
+    others.map(|(name, value)| UniformValue { name: name.clone(), value: as_given(value) }).collect()
+}
+
+fn as_given(value: &KnobValue) -> GivenValue {
+    match value {
+        KnobValue::Bool(on) => GivenValue::Bool(*on),
+        KnobValue::Int(n) => GivenValue::Number(f64::from(*n)),
+        KnobValue::Float(x) => GivenValue::Number(*x),
+        KnobValue::Vector(all) => GivenValue::List(all.iter().copied().map(GivenValue::Number).collect()),
+        KnobValue::List(all) => GivenValue::List(all.iter().map(as_given).collect()),
+    }
+}
+
 fn kind(ty: KnobType) -> KnobKind {
     match ty {
         KnobType::Bool => KnobKind::Bool,
@@ -64,6 +80,7 @@ pub(super) fn block(knobs: &[Knob], values: &KnobValues) -> Vec<[u32; 4]> {
             KnobValue::Bool(on) => words[0] = u32::from(on),
             KnobValue::Int(n) => words[0] = n as u32,
             KnobValue::Float(x) => words[0] = (x as f32).to_bits(),
+            KnobValue::List(_) => unreachable!("a knob's value has the knob's type"),
             KnobValue::Vector(all) => {
                 for (word, x) in words.iter_mut().zip(all) {
                     *word = (x as f32).to_bits();

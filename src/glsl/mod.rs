@@ -94,6 +94,22 @@ pub enum KnobKind {
     Vec4,
 }
 
+/// The value of a `uniform` that a text declares.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UniformValue {
+    pub name: String,
+    pub value: GivenValue,
+}
+
+/// A value whose type only the declaration knows: lists are vectors, columns of matrices, matrices and arrays.
+#[derive(Clone, Debug, PartialEq)]
+pub enum GivenValue {
+    Bool(bool),
+    /// Holds every `int`, `uint` and `float`.
+    Number(f64),
+    List(Vec<GivenValue>),
+}
+
 /// Why nothing can be declared by `name`, if nothing can: it is a keyword, or the language or the site has it already.
 pub fn taken(name: &str) -> Option<&'static str> {
     check::taken(name)
@@ -110,6 +126,8 @@ pub struct PassSource<'a> {
     pub channels: [ChannelKind; 4],
     /// Of all texts of the pass, each name once.
     pub knobs: &'a [Knob<'a>],
+    /// Of uniforms that a text of the pass may declare, each name once; those it does not declare mean nothing.
+    pub values: &'a [UniformValue],
     /// Channels whose texture this device cannot filter though the project asks for it: every filtered read of them is
     /// written as four fetches and a mix (section 8.13 of the OpenGL ES 3.0 specification gives the weights).
     pub bilinear_by_hand: [bool; 4],

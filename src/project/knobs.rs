@@ -6,10 +6,12 @@
 //! shader is the engine's matter.
 
 pub(super) mod constants;
+mod declared;
 mod line;
 
 use super::{Project, lines::hash_lines, nearest};
 use crate::diag::{Diagnostic, SourceId, Span};
+pub(super) use declared::declares_uniform;
 use line::Line;
 pub(super) use line::is_declaration;
 use std::collections::BTreeMap;
@@ -76,6 +78,8 @@ pub enum KnobValue {
     Float(f64),
     /// Two to four numbers.
     Vector(Vec<f64>),
+    /// What no knob takes but a `uniform` that a text declares: longer lists of numbers, truth values, lists of lists.
+    List(Vec<KnobValue>),
 }
 
 /// Values by the name of their knob.
@@ -99,6 +103,7 @@ impl KnobValue {
             KnobValue::Int(n) => vec![f64::from(*n)],
             KnobValue::Float(x) => vec![*x],
             KnobValue::Vector(all) => all.clone(),
+            KnobValue::List(all) => all.iter().flat_map(KnobValue::components).collect(),
         }
     }
 
@@ -109,8 +114,9 @@ impl KnobValue {
             KnobValue::Bool(on) => on.to_string(),
             KnobValue::Int(n) => n.to_string(),
             KnobValue::Float(x) => float(x),
-            KnobValue::Vector(all) => {
-                format!("{}({})", ty.glsl_name(), all.iter().map(float).collect::<Vec<_>>().join(", "))
+            KnobValue::Vector(_) | KnobValue::List(_) => {
+                let all: Vec<String> = self.components().iter().map(float).collect();
+                format!("{}({})", ty.glsl_name(), all.join(", "))
             }
         }
     }

@@ -17,7 +17,8 @@ pub struct Project {
     pub sampler_rules: SamplerRules,
     /// Passes drawn several times a frame; those in none are drawn once.
     pub groups: Vec<Group>,
-    /// Values of the author's own uniforms ([`Project::knobs`]) that differ from the default, by name.
+    /// Values of the author's own uniforms by name: of [`Project::knobs`] those that differ from the default, and those of
+    /// uniforms that a text declares in GLSL's own way.
     pub knob_values: KnobValues,
     /// Files that the texts have in them, as [`Project::read_includes`] last found them.
     pub includes: Vec<Included>,

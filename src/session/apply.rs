@@ -70,7 +70,10 @@ impl Session {
                 Err(why) => self.notice(Level::Error, format!("not set: {why}")),
             },
             Command::ResetKnobs => {
-                self.documents.current_mut().knob_values.clear();
+                let project = self.documents.current_mut();
+                for knob in project.knobs().list {
+                    project.knob_values.remove(&knob.name);
+                }
                 self.knobs_turned();
             }
             Command::AddTab(tab) => {

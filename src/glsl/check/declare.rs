@@ -228,13 +228,17 @@ impl Checker<'_> {
             let at = self.loc(value);
             self.error(at, format!("`{text}` is an interface variable and cannot have an initialiser"));
         }
-        let is_set = storage == GlobalStorage::In && self.env.is_stage();
+        let given = (storage == GlobalStorage::Uniform).then(|| self.given(name, ty)).flatten();
+        let is_set = given.is_some() || storage == GlobalStorage::In && self.env.is_stage();
         if matches!(storage, GlobalStorage::Uniform | GlobalStorage::In) && !is_set {
             let what = if storage == GlobalStorage::Uniform { "uniform" } else { "input" };
             self.warning(name, format!("nobody sets the {what} `{text}`: it is zero"));
             self.hint("the site's own inputs are iTime, iResolution, iMouse and so on; use a `const` or a #define for the rest");
+            if storage == GlobalStorage::Uniform && !self.facts(ty).opaque {
+                self.hint(format!("or give it a value in eddy.toml: [uniforms], {text} = .."));
+            }
         }
-        let mut value = None;
+        let mut value = given.flatten();
         let mut kept = None;
         match storage {
             GlobalStorage::Const => {
@@ -270,7 +274,7 @@ impl Checker<'_> {
         let item = ast[items].iter().find(|item| self.name(item.name.symbol) == "location")?;
         let value = self.expr(item.value?);
         match self.module[value].kind {
-            crate::glsl::hir::ExprKind::Literal(bits) if (bits as i32) >= 0 => Some(bits),
+            crate::glsl::hir::ExprKind::Literal(bits) if (bits as i32) >= 0 && self.is_constant(value) => Some(bits),
             _ => {
                 let at = self.loc(value);
                 self.error(at, "a location is a number from 0");

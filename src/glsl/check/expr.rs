@@ -160,6 +160,12 @@ impl<'a> Checker<'a> {
                     GlobalStorage::Private | GlobalStorage::Out => {
                         self.push(ExprKind::Global(id), ty, ExprFlags::PLACE, loc)
                     }
+                    GlobalStorage::Uniform if value.is_some() => {
+                        // Known, and yet no constant expression to the language.
+                        let expr = self.folded(value, loc);
+                        self.module[expr].flags = ExprFlags::default();
+                        expr
+                    }
                     _ => self.push(ExprKind::Global(id), ty, ExprFlags::default(), loc),
                 }
             }

@@ -19,6 +19,7 @@ mod expr;
 mod fold;
 mod fold_builtin;
 mod function;
+mod given;
 mod graph;
 mod ops;
 pub(in crate::glsl) mod overloads;
@@ -33,7 +34,7 @@ mod words;
 mod tests;
 
 use super::{
-    ChannelKind, Knob, PassSource,
+    ChannelKind, Knob, PassSource, UniformValue,
     ast::{self, Ast, Interner, Loc, Origins, Precision, Symbol},
     hir::{self, FuncId, Module, TypeId},
 };
@@ -58,6 +59,7 @@ pub(crate) fn taken(name: &str) -> Option<&'static str> {
 /// Checks one pass, whose texts `ast` is of.
 pub(crate) fn check(ast: &Ast, origins: &Origins, names: &Interner, source: &PassSource<'_>) -> Checked {
     let mut checker = Checker::new(ast, origins, names, Env::Pass(source.kind), source.channels, source.knobs);
+    checker.values = source.values;
     checker.common = source.common.map(|text| text.id);
     checker.unit();
     Checked { module: checker.module, diagnostics: checker.diagnostics }
@@ -101,6 +103,7 @@ struct Checker<'a> {
     env: Env,
     channels: [ChannelKind; 4],
     knobs: &'a [Knob<'a>],
+    values: &'a [UniformValue],
     /// The parser reported something, so nodes may lie between others without belonging to the tree.
     broken_tree: bool,
     module: Module,
@@ -165,6 +168,7 @@ impl<'a> Checker<'a> {
             env,
             channels,
             knobs,
+            values: &[],
             broken_tree,
             module,
             diagnostics: Vec::new(),

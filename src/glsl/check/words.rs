@@ -58,10 +58,11 @@ impl Checker<'_> {
         self.push(kind, ty, ExprFlags::CONSTANT, loc)
     }
 
-    /// The scalars of a folded value, in memory order.
+    /// The scalars of a folded value, in memory order. The value given for a uniform is none: it is no constant expression.
     #[inline]
     pub(super) fn words(&self, expr: ExprId) -> Option<&[u32]> {
         match &self.module[expr].kind {
+            _ if !self.is_constant(expr) => None,
             ExprKind::Literal(bits) => Some(std::slice::from_ref(bits)),
             ExprKind::Const(id) => Some(&self.module[self.module[*id].words]),
             _ => None,

@@ -19,6 +19,7 @@ fn parse_text(text: &str) -> Parsed {
         bilinear_by_hand: [false; 4],
         driver: Driver::default(),
         knobs: &[],
+        values: &[],
         includes: &[],
     })
 }

@@ -108,6 +108,7 @@ mod tests {
             bilinear_by_hand: [false; 4],
             driver: Driver::default(),
             knobs: &[],
+            values: &[],
             includes: &[],
         });
         let classes = analysis.classes(id);

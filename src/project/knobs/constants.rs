@@ -5,6 +5,7 @@ use crate::project::{KnobValues, lines::hash_lines};
 use std::fmt::Write;
 
 /// A text with plain GLSL constants at its top in place of the knobs it declares. The declaring lines stay as comments.
+/// Uniforms in GLSL's own way become constants where they stand, if they have a value.
 pub(in crate::project) fn text<'k>(text: &str, knobs: impl Iterator<Item = &'k Knob>, values: &KnobValues) -> String {
     let mark = if text.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
     let mut out = text[..mark].to_owned();
@@ -19,5 +20,5 @@ pub(in crate::project) fn text<'k>(text: &str, knobs: impl Iterator<Item = &'k K
         done = start;
     }
     out.push_str(&text[done..]);
-    out
+    super::declared::as_constants(&out, values)
 }

@@ -7,7 +7,9 @@ use crate::{
         Channel, Filter, Info, Input, KnobValue, KnobValues, Loaded, MAX_TARGETS, Media, Origin, Pass, PassId, Project,
         ProjectError, SamplerRules, Source, Wrap,
         folder::{self, Files, Read, Role},
-        includes, listed,
+        includes,
+        knobs::declares_uniform,
+        listed,
         load::MANIFEST,
         nearest,
     },
@@ -417,7 +419,7 @@ impl Reader<'_> {
         for (name, item) in table.iter() {
             match knob_value(item) {
                 Some(value) => drop(values.insert(name.to_owned(), value)),
-                None => self.wrong_type(name, item, "true, false, a number, or 2 to 4 numbers in brackets"),
+                None => self.wrong_type(name, item, "true, false, a number, or a list of these or of such lists"),
             }
         }
         values
@@ -428,6 +430,9 @@ impl Reader<'_> {
         let Some(table) = root.get("uniforms").and_then(Item::as_table_like) else { return };
         let knobs = project.knobs();
         for (name, value) in &project.knob_values {
+            if knobs.get(name).is_none() && project.sources().iter().any(|(_, s)| declares_uniform(&s.text, name)) {
+                continue; // the compiler says whether it fits
+            }
             let (message, hint) = match knobs.get(name).map(|knob| knob.fit(value)) {
                 Some(Ok(_)) => continue,
                 Some(Err(why)) => (format!("{name} {why}"), "it is kept in the file, and not used as it is".to_owned()),
@@ -525,17 +530,24 @@ impl Reader<'_> {
 
 /// The value an entry of `[uniforms]` says.
 pub fn knob_value(item: &Item) -> Option<KnobValue> {
+    item.as_value().and_then(value)
+}
+
+fn value(written: &toml_edit::Value) -> Option<KnobValue> {
     let number = |v: &toml_edit::Value| v.as_float().or_else(|| v.as_integer().map(|i| i as f64));
-    match item.as_value()? {
+    match written {
         toml_edit::Value::Boolean(on) => Some(KnobValue::Bool(*on.value())),
         toml_edit::Value::Integer(n) => {
             let n = *n.value();
             Some(i32::try_from(n).map_or(KnobValue::Float(n as f64), KnobValue::Int))
         }
         toml_edit::Value::Float(x) => x.value().is_finite().then_some(KnobValue::Float(*x.value())),
-        toml_edit::Value::Array(all) if (2..=4).contains(&all.len()) => {
-            let all: Option<Vec<f64>> = all.iter().map(number).collect();
-            all.filter(|all| all.iter().all(|x| x.is_finite())).map(KnobValue::Vector)
+        toml_edit::Value::Array(all) => {
+            let numbers: Option<Vec<f64>> = all.iter().map(number).collect();
+            match numbers.filter(|n| (2..=4).contains(&n.len())) {
+                Some(numbers) => numbers.iter().all(|x| x.is_finite()).then_some(KnobValue::Vector(numbers)),
+                None => all.iter().map(value).collect::<Option<Vec<_>>>().map(KnobValue::List),
+            }
         }
         _ => None,
     }

@@ -98,13 +98,17 @@ fn uniforms(root: &mut Table, project: &Project) {
         if table.get(name).and_then(read::knob_value).as_ref() == Some(value) {
             continue;
         }
-        let value = match value {
-            KnobValue::Bool(on) => Value::from(*on),
-            KnobValue::Int(n) => Value::from(i64::from(*n)),
-            KnobValue::Float(x) => Value::from(*x),
-            KnobValue::Vector(all) => Value::Array(all.iter().copied().collect()),
-        };
-        set(table, name, Some(value));
+        set(table, name, Some(written(value)));
+    }
+}
+
+fn written(value: &KnobValue) -> Value {
+    match value {
+        KnobValue::Bool(on) => Value::from(*on),
+        KnobValue::Int(n) => Value::from(i64::from(*n)),
+        KnobValue::Float(x) => Value::from(*x),
+        KnobValue::Vector(all) => Value::Array(all.iter().copied().collect()),
+        KnobValue::List(all) => Value::Array(all.iter().map(written).collect()),
     }
 }
 

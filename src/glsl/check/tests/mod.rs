@@ -25,6 +25,7 @@ fn checked(kind: PassKind, channels: [ChannelKind; 4], common: Option<&str>, cod
         bilinear_by_hand: [false; 4],
         driver: Driver::default(),
         knobs: &[],
+        values: &[],
         includes: &[],
     };
     let parsed = parse::parse(&source);

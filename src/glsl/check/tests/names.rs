@@ -27,6 +27,7 @@ fn every_use_names_its_declaration() {
         bilinear_by_hand: [false; 4],
         driver: crate::glsl::Driver::default(),
         knobs: &[],
+        values: &[],
         includes: &[],
     };
     let parsed = crate::glsl::parse::parse(&source);

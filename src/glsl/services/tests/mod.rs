@@ -48,6 +48,7 @@ impl Marked {
             bilinear_by_hand: [false; 4],
             driver: Driver::default(),
             knobs: &[],
+            values: &[],
             includes: &[],
         })
     }

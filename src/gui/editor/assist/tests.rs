@@ -40,6 +40,7 @@ fn type_into(text: &str, input: &str) -> (Assist, String) {
             bilinear_by_hand: [false; 4],
             driver: Driver::default(),
             knobs: &[],
+            values: &[],
             includes: &[],
         });
         assist.update(&buffer, Some(Help { analysis: &analysis, source: ID, classes: &[], text: &now }));

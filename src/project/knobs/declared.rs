@@ -1,0 +1,158 @@
+//! Uniforms that texts declare in GLSL's own way, told by their words alone: the compiler knows better, and comes later.
+
+use crate::project::{KnobValue, KnobValues};
+use std::ops::Range;
+
+/// Whether a text has a declaration `uniform .. name ..;`.
+pub(in crate::project) fn declares_uniform(text: &str, name: &str) -> bool {
+    let text = blanked(text);
+    declarations(&text).iter().any(|range| words(&text[range.clone()]).any(|word| word == name))
+}
+
+/// A text with a constant in place of each uniform that has a value, as for the site, where nobody gives it one. Left alone is
+/// a declaration of several names at once, or of another shape than the value's.
+pub(super) fn as_constants(text: &str, values: &KnobValues) -> String {
+    let blank = blanked(text);
+    let mut out = String::with_capacity(text.len());
+    let mut done = 0;
+    for range in declarations(&blank) {
+        let Some(value) = constant(&blank[range.clone()], values) else { continue };
+        out.push_str(&text[done..range.start]);
+        out.push_str(&format!("const{} = {value}", &text[range.start + "uniform".len()..range.end]));
+        done = range.end;
+    }
+    out + &text[done..]
+}
+
+/// The value for `uniform vec3 kernel[64]`.
+fn constant(declaration: &str, values: &KnobValues) -> Option<String> {
+    if declaration.contains(',') {
+        return None;
+    }
+    let mut words = words(declaration).skip(1).filter(|w| !["highp", "mediump", "lowp"].contains(w));
+    let ty = words.next()?;
+    let is_array = declaration.contains('[');
+    // A length may stand between type and name, and behind it.
+    let value = words.find_map(|word| values.get(word))?;
+    if !is_array {
+        return of_type(ty, value);
+    }
+    let all: Option<Vec<String>> = match value {
+        KnobValue::Vector(all) => all.iter().map(|x| of_type(ty, &KnobValue::Float(*x))).collect(),
+        KnobValue::List(all) => all.iter().map(|one| of_type(ty, one)).collect(),
+        _ => None,
+    };
+    Some(format!("{ty}[]({})", all?.join(", ")))
+}
+
+fn of_type(ty: &str, value: &KnobValue) -> Option<String> {
+    let is_one = |value: &KnobValue| !matches!(value, KnobValue::Vector(_) | KnobValue::List(_));
+    let float = |x: f64| format!("{:?}", x as f32);
+    let first = value.components().first().copied();
+    Some(match (ty, is_one(value)) {
+        ("bool", true) => (first? != 0.0).to_string(),
+        ("int", true) => format!("{}", first?),
+        ("uint", true) => format!("{}u", first?),
+        ("float", true) => float(first?),
+        ("bool" | "int" | "uint" | "float", false) | (_, true) => return None,
+        (_, false) => format!("{ty}({})", value.components().into_iter().map(float).collect::<Vec<_>>().join(", ")),
+    })
+}
+
+/// From each word `uniform` to before the end of its declaration; blocks are none.
+fn declarations(blank: &str) -> Vec<Range<usize>> {
+    let mut all = Vec::new();
+    let mut at = 0;
+    while let Some(start) = blank[at..].find("uniform").map(|n| at + n) {
+        at = start + "uniform".len();
+        let is_word = !blank[..start].ends_with(is_of_word) && !blank[at..].starts_with(is_of_word);
+        let Some(end) = blank[at..].find([';', '{', '}']).map(|n| at + n).filter(|_| is_word) else { continue };
+        if blank[end..].starts_with(';') {
+            all.push(start..end);
+        }
+        at = end;
+    }
+    all
+}
+
+fn is_of_word(c: char) -> bool {
+    c.is_alphanumeric() || c == '_'
+}
+
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c| !is_of_word(c)).filter(|w| !w.is_empty())
+}
+
+/// With blanks in place of comments, as many as they have bytes.
+fn blanked(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(at) = rest.find("/*").into_iter().chain(rest.find("//")).min() {
+        let end = if rest[at..].starts_with("/*") {
+            rest[at + 2..].find("*/").map(|n| at + 4 + n)
+        } else {
+            rest[at..].find('\n').map(|n| at + n)
+        };
+        let end = end.unwrap_or(rest.len());
+        out.push_str(&rest[..at]);
+        out.extend(std::iter::repeat_n(' ', end - at));
+        rest = &rest[end..];
+    }
+    out + rest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn declarations_are_told_from_other_mentions() {
+        for text in [
+            "uniform vec3 kernel[64];",
+            "uniform highp float a, kernel;",
+            "float x; uniform\tmat4\n/* of the */ kernel // one\n[2];",
+        ] {
+            assert!(declares_uniform(text, "kernel"), "{text}");
+        }
+        for text in [
+            "// uniform vec3 kernel[64];",
+            "/* uniform */ vec3 kernel;",
+            "uniform float a; float kernel;",
+            "uniform float kernels;",
+            "uniform Block { float kernel; };",
+            "nonuniform float kernel;",
+            "/* uniform float kernel;",
+            "",
+        ] {
+            assert!(!declares_uniform(text, "kernel"), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_uniform_with_a_value_becomes_a_constant() {
+        let list = |all: &[&[f64]]| KnobValue::List(all.iter().map(|v| KnobValue::Vector(v.to_vec())).collect());
+        let values = KnobValues::from([
+            ("kernel".to_owned(), list(&[&[1.0, 2.0, 3.0], &[4.0, 5.0, 6.5]])),
+            ("m".to_owned(), list(&[&[1.0, 2.0], &[3.0, 4.0]])),
+            ("w".to_owned(), KnobValue::Vector(vec![1.0, 2.0, 3.0])),
+            ("n".to_owned(), KnobValue::Int(-3)),
+            ("u".to_owned(), KnobValue::Int(3)),
+            ("on".to_owned(), KnobValue::Bool(true)),
+        ]);
+        for (text, expected) in [
+            (
+                "a; uniform vec3 kernel[2]; // é\nb",
+                "a; const vec3 kernel[2] = vec3[](vec3(1.0, 2.0, 3.0), vec3(4.0, 5.0, 6.5)); // é\nb",
+            ),
+            ("/* é */ uniform highp mat2 m;", "/* é */ const highp mat2 m = mat2(1.0, 2.0, 3.0, 4.0);"),
+            ("uniform float[N] w;", "const float[N] w = float[](1.0, 2.0, 3.0);"),
+            ("uniform int n; uniform uint u;", "const int n = -3; const uint u = 3u;"),
+            ("uniform bool on;", "const bool on = true;"),
+            ("uniform float n, u;", "uniform float n, u;"),
+            ("uniform float other;", "uniform float other;"),
+            ("uniform vec2 n;", "uniform vec2 n;"),
+        ] {
+            assert_eq!(as_constants(text, &values), expected);
+        }
+    }
+}
