@@ -23,7 +23,9 @@ fn main() {
         Err(_) => project::presets::names().iter().map(|n| (*n).to_owned()).collect(),
     };
     let device = |runtime_checks| Gpu::new(&GpuOptions { runtime_checks, ..GpuOptions::default() });
-    let (Ok(bare), Ok(checked)) = (device(false), device(true)) else { return eprintln!("there is no graphics device") };
+    let (Ok(bare), Ok(checked)) = (device(false), device(true)) else {
+        return eprintln!("there is no graphics device");
+    };
     println!("{}, {}x{}: milliseconds a frame with checks and without", bare.describe(), SIZE.0, SIZE.1);
     let mut logs = Vec::new();
     for spec in &specs {

@@ -359,3 +359,40 @@ fn what_is_wrong_with_a_scene_is_said_and_nothing_panics() {
     let unknown = whole(scene(&red, &[FLAT_VERTEX], 1, straight(), vec![draw("builtin:knott")]));
     assert_eq!(says(&unknown), ["draw 0 of Buffer scene: there is no mesh builtin:knott (did you mean builtin:knot?)"]);
 }
+
+/// Drivers that draw on the processor choose for a whole thread whether denormal numbers are zeros, and llvmpipe used to forget
+/// to choose again behind fragments that fail the depth test of 16-bit floats.
+#[test]
+fn meshes_in_small_floats_leave_arithmetic_alone() {
+    let Some(gpu) = gpu() else { return };
+    // Half of the least number that is none; the frame's number, because a picture that cannot change is not drawn again.
+    let code = "void mainImage(out vec4 o, in vec2 p) {\n\
+                float t = uintBitsToFloat(0x00800000u + uint(p.x)) * (0.25 + 0.25 * step(p.x, 9.5));\n\
+                o = vec4(floatBitsToUint(t), iFrame, 0, 1); }";
+    let probe = pass(buffer("A"), code, Default::default());
+    let options = BuildOptions { wanted: [buffer("A")].into(), ..Default::default() };
+    let probe =
+        project(vec![probe, image("void mainImage(out vec4 o, in vec2 p) { o = vec4(1); }", Default::default())]);
+    let mut probe = engine_with(&gpu, &probe, &MediaSet::new(), &options, (256, 256));
+    let mut frames = 0..;
+    let mut denormals = || {
+        let frame = frames.next().unwrap();
+        run(&mut probe, frame, frame + 1);
+        let pixels = probe.read(&buffer("A")).unwrap();
+        assert!(pixels.texels.iter().all(|t| t[1] == frame as f32));
+        pixels.texels.iter().map(|t| t[0]).collect::<Vec<_>>()
+    };
+    let before = denormals();
+    // The first cube hides the second from most of its own fragments.
+    let mut behind = draw("builtin:cube");
+    (behind.scale, behind.position) = (1.5, [-1.0, -0.5, -2.0]);
+    let fragment = "layout(location = 0) out vec4 a; void main() { a = vec4(1); }";
+    let mut cubes = scene(fragment, &[VERTEX], 1, camera(), vec![draw("builtin:cube"), behind]);
+    cubes.settings.format = PassFormat::Rgba16f;
+    let mut engine = engine(&gpu, &whole(cubes), (200, 150));
+    run(&mut engine, 0, 4);
+    engine.read(&PassId::Image).unwrap();
+    for _ in 0..4 {
+        assert!(denormals() == before, "denormal numbers are treated otherwise");
+    }
+}

@@ -215,8 +215,12 @@ fn compile(
                 && is_float(project, channel, texels.map(|t| &**t))
                 && filter.is_some_and(|f| f != Filter::Nearest)
         });
-        let driver =
-            Driver { tables_in_memory: !gpu.has_storage_buffers, opaque_uniforms: gpu.recompiles_for_uniforms };
+        let has_small_floats = pass.settings.formats().into_iter().any(PassFormat::is_small_float);
+        let driver = Driver {
+            tables_in_memory: !gpu.has_storage_buffers,
+            opaque_uniforms: gpu.recompiles_for_uniforms,
+            may_discard: gpu.keeps_denormals && has_small_floats,
+        };
         let said = match texts.compile_pass(index, bilinear_by_hand, driver) {
             Ok(mut done) => {
                 let said = std::mem::take(&mut done.diagnostics);

@@ -144,6 +144,9 @@ pub struct Driver {
     /// they are read so that it takes them for values of the pixel. Mesa's lavapipe does so (`lvp_inline_uniforms.c`), and the
     /// new program is never the shorter one it hopes for.
     pub opaque_uniforms: bool,
+    /// A fragment stage has to be one that may discard, though it never does: Mesa's llvmpipe goes wrong where others fail the
+    /// depth test of a target of 16-bit floats.
+    pub may_discard: bool,
 }
 
 /// A pass that compiled.

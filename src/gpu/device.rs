@@ -65,6 +65,11 @@ pub struct Gpu {
     /// A program is compiled anew for every frame if one of its branches depends on uniforms alone: lavapipe, Mesa's Vulkan on
     /// the processor, tries how much shorter it becomes with their values in it (`lvp_inline_uniforms.c`).
     pub recompiles_for_uniforms: bool,
+    /// Once a fragment that fails the depth test was meant for a target of 16-bit floats, the thread that met it no longer takes
+    /// denormal numbers for zeros, and which texels it draws is chance: llvmpipe lets them through to convert to 16 bits, and
+    /// returns on a way past the end of that (`generate_unswizzled_blend` in `lp_state_fs.c`). Programs that may discard test
+    /// depth on another way.
+    pub keeps_denormals: bool,
     /// Timestamps can be written between passes.
     pub has_timestamps: bool,
     pub(super) runtime_checks: bool,
@@ -147,10 +152,12 @@ impl Gpu {
             log::error!("graphics layer: {error}");
             errors.uncaptured.lock().unwrap_or_else(|e| e.into_inner()).get_or_insert(error.to_string());
         }));
+        let is_lavapipe = info.backend == wgpu::Backend::Vulkan && info.name.starts_with("llvmpipe");
         Ok(Gpu {
             has_storage_buffers: device.limits().max_storage_buffers_per_shader_stage > 0,
             filters_float32: features.contains(wgpu::Features::FLOAT32_FILTERABLE),
-            recompiles_for_uniforms: info.backend == wgpu::Backend::Vulkan && info.name.starts_with("llvmpipe"),
+            recompiles_for_uniforms: is_lavapipe,
+            keeps_denormals: is_lavapipe,
             runtime_checks: options.runtime_checks,
             has_timestamps: features.contains(wgpu::Features::TIMESTAMP_QUERY),
             device,

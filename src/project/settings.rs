@@ -86,6 +86,11 @@ impl PassFormat {
         }
     }
 
+    /// Floats of 16 bits.
+    pub fn is_small_float(self) -> bool {
+        matches!(self, PassFormat::R16f | PassFormat::Rg16f | PassFormat::Rgba16f)
+    }
+
     /// Bytes of a texel.
     pub fn bytes(self) -> u64 {
         match self {

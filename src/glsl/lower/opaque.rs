@@ -1,6 +1,6 @@
 //! Values that the driver shall not see through: a zero that it cannot know, and what is joined with it.
 
-use naga::{BinaryOperator as Op, Expression, ScalarKind};
+use naga::{BinaryOperator as Op, Block, Expression, ScalarKind, Statement};
 
 use super::{
     function::{Builder, Value},
@@ -47,6 +47,15 @@ impl Builder<'_, '_> {
         let sign = self.op(Op::ShiftRight, bits, places);
         let pointer = self.global(variable);
         self.store(pointer, sign);
+    }
+
+    /// Discards what never is, for a driver that asks for it.
+    pub fn seem_to_discard(&mut self) {
+        let number = self.unknown_zero();
+        let zero = self.literal(Scalar::Int, 0);
+        let condition = self.op(Op::NotEqual, number, zero);
+        let (accept, _) = self.nested(|b| b.push(Statement::Kill));
+        self.push(Statement::If { condition, accept, reject: Block::new() });
     }
 
     /// Reads a value of type `ty` from a uniform block: so that the driver takes it for a value of the pixel, where

@@ -35,6 +35,10 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reach: &Reach) {
     let mut b = Builder::new(cx, 0, 0);
     let (initialisers, _) = b.nested(|b| b.initialise_globals(reach));
     b.set_tables();
+    let seems_to_discard = !is_vertex && b.cx.source.driver.may_discard;
+    if seems_to_discard {
+        b.cx.unknown_zero();
+    }
     b.set_unknown_zero(|b| match is_vertex {
         true => b.given_builtin(TypeId::UINT, BuiltIn::VertexIndex),
         false => {
@@ -50,6 +54,9 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reach: &Reach) {
         b.numbers();
     } else {
         b.fragment_inputs();
+    }
+    if seems_to_discard {
+        b.seem_to_discard();
     }
     b.push(Statement::Call { function: author, arguments: Vec::new(), result: None });
     let parts = if is_vertex { b.vertex_outputs() } else { b.fragment_outputs() };
