@@ -56,6 +56,8 @@ pub(super) struct Builder<'m, 'a> {
     /// Pure operations of the blocks at hand, from the outermost on, and where to find them.
     made: Map<scalars::Key, Value>,
     made_in_order: Vec<scalars::Key>,
+    /// What was read from memory since the last statement, by pointer.
+    loaded: Map<Value, Value>,
     pub loops: Vec<Loop>,
     /// What is known of int locals at this place: least and greatest value.
     pub known: Map<u32, (i64, i64)>,
@@ -102,6 +104,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             named: Default::default(),
             made: Map::default(),
             made_in_order: Vec::new(),
+            loaded: Map::default(),
             loops: Vec::new(),
             known: Map::default(),
             result: TypeId::VOID,
@@ -274,6 +277,7 @@ impl<'m, 'a> Builder<'m, 'a> {
 
     pub fn push(&mut self, statement: Statement) {
         self.emit();
+        self.loaded.clear();
         self.ended =
             matches!(statement, Statement::Break | Statement::Continue | Statement::Return { .. } | Statement::Kill);
         self.block.push(statement, Span::UNDEFINED);
@@ -285,8 +289,10 @@ impl<'m, 'a> Builder<'m, 'a> {
         let outer = std::mem::take(&mut self.block);
         let outer_ended = std::mem::take(&mut self.ended);
         let made = self.made_in_order.len();
+        self.loaded.clear();
         fill(self);
         self.emit();
+        self.loaded.clear();
         for key in self.made_in_order.drain(made..) {
             self.made.remove(&key);
         }
@@ -294,8 +300,15 @@ impl<'m, 'a> Builder<'m, 'a> {
         (std::mem::replace(&mut self.block, outer), ended)
     }
 
+    /// What a variable holds. Until something may have been written to it that is one value, which is how drivers see that terms
+    /// of two expressions are the same.
     pub fn load(&mut self, pointer: Value) -> Value {
-        self.add(Expression::Load { pointer })
+        if let Some(&value) = self.loaded.get(&pointer) {
+            return value;
+        }
+        let value = self.add(Expression::Load { pointer });
+        self.loaded.insert(pointer, value);
+        value
     }
 
     pub fn store(&mut self, pointer: Value, value: Value) {

@@ -29,6 +29,7 @@ mod flow;
 mod function;
 mod geometry;
 mod matrix;
+mod mix;
 mod opaque;
 mod operators;
 mod ranges;

@@ -1,4 +1,4 @@
-//! Sums, products and mixes in the order in which OpenGL's compilers evaluate them.
+//! Sums and products in the order in which OpenGL's compilers evaluate them.
 //!
 //! GLSL leaves the order open, and every driver regroups; which last bits come out depends on who does it first. Real shaders
 //! blow up last bits (`fract(sin(x) * 43758.5453)`), so the constants of a chain are joined here, as the GLSL compilers people
@@ -14,7 +14,7 @@ use crate::glsl::hir::{Scalar, TypeId};
 
 /// One component of a value, as far as it can be told.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Part {
+pub(super) enum Part {
     Known(f32),
     /// Component `.1` of a vector, or a scalar.
     Of(Value, u32),
@@ -160,7 +160,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    fn part(&self, value: Value, index: u32) -> Part {
+    pub fn part(&self, value: Value, index: u32) -> Part {
         if let Some(floats) = self.floats(value) {
             return Part::Known(floats[(index as usize).min(floats.len() - 1)]);
         }
@@ -168,18 +168,6 @@ impl Builder<'_, '_> {
             Expression::Splat { value, .. } => Part::Of(value, 0),
             _ => Part::Of(value, index),
         }
-    }
-
-    /// `x (1 - a) + y a` or `x + a (y - x)`: the first, of section 8.3, where that shares work between components or with
-    /// constants, the second, which is shorter, elsewhere.
-    pub fn mix(&mut self, ty: TypeId, x: Value, y: Value, a: Value) -> Value {
-        let size = self.extent(ty);
-        let shared: Vec<bool> = (0..size).map(|index| self.mix_shares_work(size, index, x, y, a)).collect();
-        let mut shared = shared.into_iter();
-        self.each(ty, [(ty, x), (ty, y), (ty, a)], |b, [x, y, a]| match shared.next() {
-            Some(true) => b.full_mix(x, y, a),
-            _ => b.short_mix(x, y, a),
-        })
     }
 
     /// Section 8.3: `t = clamp((x - a) / (b - a), 0, 1)`, then `t t (3 - 2 t)`.
@@ -205,36 +193,4 @@ impl Builder<'_, '_> {
         let product = self.op(Op::Multiply, t, slope);
         self.op(Op::Multiply, t, product)
     }
-
-    fn mix_shares_work(&self, size: u32, index: u32, x: Value, y: Value, a: Value) -> bool {
-        let (from, to, share) = (self.part(x, index), self.part(y, index), self.part(a, index));
-        match (from, to) {
-            (Part::Known(from), Part::Known(to)) if similar(from, to) => return false,
-            (Part::Known(from), _) if from.abs() == 1.0 || from == 0.0 => return false,
-            (_, Part::Known(to)) if to.abs() == 1.0 || to == 0.0 => return true,
-            _ => {}
-        }
-        let mut others = (0..size).filter(|&other| other != index);
-        let alike = |other| self.part(a, other) == share && (self.part(x, other) == from || self.part(y, other) == to);
-        matches!(share, Part::Known(_)) || others.any(alike)
-    }
-
-    fn short_mix(&mut self, x: Value, y: Value, a: Value) -> Value {
-        let difference = self.op(Op::Subtract, y, x);
-        let part = self.op(Op::Multiply, a, difference);
-        self.op(Op::Add, x, part)
-    }
-
-    fn full_mix(&mut self, x: Value, y: Value, a: Value) -> Value {
-        let one = self.float(1.0);
-        let rest = self.op(Op::Subtract, one, a);
-        let (left, right) = (self.op(Op::Multiply, x, rest), self.op(Op::Multiply, y, a));
-        self.op(Op::Add, left, right)
-    }
-}
-
-/// Whether the difference of two numbers keeps enough of the smaller one.
-fn similar(a: f32, b: f32) -> bool {
-    let exponent = |number: f32| if number == 0.0 { 0 } else { number.abs().log2().floor() as i32 + 1 };
-    (exponent(a) - exponent(b)).abs() <= 11
 }

@@ -24,6 +24,8 @@ pub(super) fn key(expression: &Expression) -> Option<Key> {
         E::Unary { op, expr } => (2, op as u32, [Some(expr), None, None, None]),
         E::Math { fun, arg, arg1, arg2, arg3 } => (3, fun as u32, [Some(arg), arg1, arg2, arg3]),
         E::Splat { size, value } => (4, size as u32, [Some(value), None, None, None]),
+        E::As { expr, kind, convert: Some(_) } => (5, kind as u32, [Some(expr), None, None, None]),
+        E::Select { condition, accept, reject } => (6, 0, [Some(condition), Some(accept), Some(reject), None]),
         _ => return None,
     })
 }
@@ -59,6 +61,9 @@ impl Builder<'_, '_> {
     pub fn known_component(&mut self, base: Value, index: u32) -> Option<Value> {
         match self.f.expressions[base] {
             Expression::Splat { value, .. } => Some(value),
+            Expression::Swizzle { vector, pattern, .. } => {
+                Some(self.add(Expression::AccessIndex { base: vector, index: pattern[index as usize] as u32 }))
+            }
             Expression::Compose { ty, ref components } => {
                 let whole = match self.cx.out.types[ty].inner {
                     TypeInner::Vector { size, .. } => components.len() == size as usize,

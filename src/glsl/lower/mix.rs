@@ -1,0 +1,194 @@
+//! `mix` as OpenGL's compilers write it out.
+//!
+//! Mesa keeps it whole until what is around it is simplified, which a SPIR-V driver that meets its sums and products can no
+//! longer do. See [`super::regroup`] for why the last bits matter.
+
+use naga::{BinaryOperator as Op, Expression, Literal, MathFunction as Math, ScalarKind, UnaryOperator};
+
+use super::{
+    function::{Builder, Value},
+    regroup::Part,
+};
+use crate::glsl::hir::TypeId;
+
+/// `mix` of scalars.
+#[derive(Clone, Copy)]
+struct Mix {
+    x: Value,
+    y: Value,
+    a: Value,
+}
+
+impl Builder<'_, '_> {
+    pub fn mix(&mut self, ty: TypeId, x: Value, y: Value, a: Value) -> Value {
+        let mut mixes = Vec::new();
+        let mut around = Vec::new();
+        for index in 0..self.extent(ty) {
+            let [x, y, a] = [x, y, a].map(|value| match ty {
+                TypeId::FLOAT => value,
+                _ => self.add(Expression::AccessIndex { base: value, index }),
+            });
+            let mut factors = Vec::new();
+            mixes.push(self.without_common(Mix { x, y, a }, &mut factors));
+            around.push(factors);
+        }
+        let mut parts = Vec::with_capacity(mixes.len());
+        for (index, factors) in around.into_iter().enumerate() {
+            let inner = self.mix_written_out(&mixes, index);
+            parts.push(factors.into_iter().rev().fold(inner, |inner, (op, common)| self.op(op, inner, common)));
+        }
+        match parts[..] {
+            [scalar] => scalar,
+            _ => self.compose(ty, parts),
+        }
+    }
+
+    /// Takes out what both sides are sums or products with: `mix(p + x, p + y, a)` is `mix(x, y, a) + p`. What was taken out goes
+    /// to `around`, the outermost first.
+    fn without_common(&self, mix: Mix, around: &mut Vec<(Op, Value)>) -> Mix {
+        if self.condition(mix.a).is_some() {
+            return mix;
+        }
+        for op in [Op::Add, Op::Multiply] {
+            let (Some([x0, x1]), Some([y0, y1])) = (self.operands(op, mix.x), self.operands(op, mix.y)) else {
+                continue;
+            };
+            for (common, x, other, y) in [(x0, x1, y0, y1), (x0, x1, y1, y0), (x1, x0, y0, y1), (x1, x0, y1, y0)] {
+                if common == other {
+                    around.push((op, common));
+                    return self.without_common(Mix { x, y, ..mix }, around);
+                }
+            }
+        }
+        mix
+    }
+
+    /// The sides of a sum or product that is used here alone.
+    fn operands(&self, op: Op, value: Value) -> Option<[Value; 2]> {
+        match self.f.expressions[value] {
+            Expression::Binary { op: found, left, right } if found == op && !self.is_named(value) => {
+                Some([left, right])
+            }
+            _ => None,
+        }
+    }
+
+    /// `x (1 - a) + y a` or `x + a (y - x)`: the first, of section 8.3, where that shares work between components or with
+    /// constants, the second, which is shorter, elsewhere. A choice where `a` can only be 0 or 1, as with `step`: no sum keeps
+    /// all of a small number beside a large one.
+    fn mix_written_out(&mut self, mixes: &[Mix], index: usize) -> Value {
+        let Mix { x, y, a } = mixes[index];
+        if let Some(condition) = self.condition(a) {
+            let condition = self.test(condition);
+            return self.select(condition, y, x);
+        }
+        if let Some([left, right]) = self.operands(Op::Multiply, y)
+            && (left == x || right == x)
+            && self.floats(x).is_none()
+        {
+            let factor = if left == x { right } else { left };
+            let one = self.float(1.0);
+            let inner = Mix { x: one, y: factor, a };
+            let inner = self.mix_written_out(&[inner], 0);
+            return self.op(Op::Multiply, inner, x);
+        }
+        if self.mix_shares_work(mixes, index) {
+            let one = self.float(1.0);
+            let rest = self.op(Op::Subtract, one, a);
+            let (left, right) = (self.op(Op::Multiply, x, rest), self.op(Op::Multiply, y, a));
+            return self.op(Op::Add, left, right);
+        }
+        let difference = self.op(Op::Subtract, y, x);
+        let part = self.op(Op::Multiply, a, difference);
+        self.op(Op::Add, x, part)
+    }
+
+    fn mix_shares_work(&self, mixes: &[Mix], index: usize) -> bool {
+        let parts = |mix: Mix| (self.part(mix.x, 0), self.part(mix.y, 0), self.part(mix.a, 0));
+        let (from, to, share) = parts(mixes[index]);
+        match (from, to) {
+            (Part::Known(from), Part::Known(to)) if similar(from, to) => return false,
+            (Part::Known(from), _) if from.abs() == 1.0 || from == 0.0 => return false,
+            (_, Part::Known(to)) if to.abs() == 1.0 || to == 0.0 => return true,
+            _ => {}
+        }
+        let alike = |&mix: &Mix| {
+            let (x, y, a) = parts(mix);
+            a == share && (x == from || y == to)
+        };
+        let mut others = mixes.iter().enumerate().filter(|&(other, _)| other != index);
+        matches!(share, Part::Known(_)) || others.any(|(_, mix)| alike(mix))
+    }
+
+    /// What a number that can only be 0 or 1 tells.
+    fn condition(&self, number: Value) -> Option<Test> {
+        self.condition_within(number, 8)
+    }
+
+    /// `depth`: how many operations deep to look. Each is looked through at every use.
+    fn condition_within(&self, number: Value, depth: u32) -> Option<Test> {
+        let depth = depth.checked_sub(1)?;
+        let pair = |left, right| Some((self.condition_within(left, depth)?, self.condition_within(right, depth)?));
+        match self.f.expressions[number] {
+            Expression::As { expr, kind: ScalarKind::Float, .. } if self.is_test(expr) => Some(Test::Of(expr, None)),
+            Expression::AccessIndex { base, index } => match self.f.expressions[base] {
+                Expression::As { expr, kind: ScalarKind::Float, .. } if self.is_test(expr) => {
+                    Some(Test::Of(expr, Some(index)))
+                }
+                _ => None,
+            },
+            Expression::Binary { op: Op::Multiply, left, right } => pair(left, right).map(Test::both(Op::LogicalAnd)),
+            Expression::Math { fun: Math::Min, arg, arg1: Some(other), .. } => {
+                pair(arg, other).map(Test::both(Op::LogicalAnd))
+            }
+            Expression::Math { fun: Math::Max, arg, arg1: Some(other), .. } => {
+                pair(arg, other).map(Test::both(Op::LogicalOr))
+            }
+            _ => None,
+        }
+    }
+
+    /// Whether a value is boolean, as far as can be told by the operation.
+    fn is_test(&self, value: Value) -> bool {
+        use Op::*;
+        match self.f.expressions[value] {
+            Expression::Binary { op, .. } => {
+                matches!(op, Equal | NotEqual | Less | LessEqual | Greater | GreaterEqual | LogicalAnd | LogicalOr)
+            }
+            Expression::Unary { op, .. } => op == UnaryOperator::LogicalNot,
+            Expression::Relational { .. } | Expression::Literal(Literal::Bool(_)) => true,
+            _ => false,
+        }
+    }
+
+    fn test(&mut self, test: Test) -> Value {
+        match test {
+            Test::Of(value, None) => value,
+            Test::Of(base, Some(index)) => self.add(Expression::AccessIndex { base, index }),
+            Test::Both(op, tests) => {
+                let (left, right) = *tests;
+                let (left, right) = (self.test(left), self.test(right));
+                self.op(op, left, right)
+            }
+        }
+    }
+}
+
+/// A boolean, yet to be made.
+enum Test {
+    /// A value, or a component of it.
+    Of(Value, Option<u32>),
+    Both(Op, Box<(Test, Test)>),
+}
+
+impl Test {
+    fn both(op: Op) -> impl Fn((Test, Test)) -> Test {
+        move |pair| Test::Both(op, Box::new(pair))
+    }
+}
+
+/// Whether the difference of two numbers keeps enough of the smaller one.
+fn similar(a: f32, b: f32) -> bool {
+    let exponent = |number: f32| if number == 0.0 { 0 } else { number.abs().log2().floor() as i32 + 1 };
+    (exponent(a) - exponent(b)).abs() <= 11
+}
