@@ -53,6 +53,8 @@ pub(super) struct Builder<'m, 'a> {
     pub matrix_products: Map<Value, (u8, Value, Value)>,
     /// Values that variables stand for.
     named: std::collections::HashSet<Value>,
+    /// Vectors that an operation gave, component by component.
+    pub by_component: std::collections::HashSet<Value>,
     /// Pure operations of the blocks at hand, from the outermost on, and where to find them.
     made: Map<scalars::Key, Value>,
     made_in_order: Vec<scalars::Key>,
@@ -102,6 +104,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             globals: Map::default(),
             matrix_products: Map::default(),
             named: Default::default(),
+            by_component: Default::default(),
             made: Map::default(),
             made_in_order: Vec::new(),
             loaded: Map::default(),
@@ -189,7 +192,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             | E::Select { .. }
             | E::As { .. }
             | E::CallResult(_) => true,
-            _ => false,
+            _ => self.by_component.contains(&value),
         }
     }
 

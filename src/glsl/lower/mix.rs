@@ -39,7 +39,11 @@ impl Builder<'_, '_> {
         }
         match parts[..] {
             [scalar] => scalar,
-            _ => self.compose(ty, parts),
+            _ => {
+                let vector = self.compose(ty, parts);
+                self.by_component.insert(vector);
+                vector
+            }
         }
     }
 

@@ -100,6 +100,11 @@ impl Builder<'_, '_> {
             return self
                 .each(vector_ty, [left, right], |b, [l, r]| b.binary(source, Shape::Same, (float, l), (float, r)));
         }
+        if op == Op::Add
+            && let Some(product) = self.with_constant_factored(left.1, right.1)
+        {
+            return product;
+        }
         // naga multiplies matrices and scalars itself, and vectors and scalars of floats.
         if op == Op::Multiply {
             let scaled = if shape == Shape::ScalarLeft { right.0 } else { left.0 };

@@ -80,6 +80,32 @@ impl Builder<'_, '_> {
         Some((joined, neighbour))
     }
 
+    /// `k (b + c)` for `b k + c k` with one literal `k`. Mesa does that wherever a factor is the same, but finds two equal
+    /// literals of SPIR-V to be so only after it has put them elsewhere.
+    pub fn with_constant_factored(&mut self, left: Value, right: Value) -> Option<Value> {
+        let (left, right) = (self.factors(left)?, self.factors(right)?);
+        for (b, k) in [(left[0], left[1]), (left[1], left[0])] {
+            let Expression::Literal(Literal::F32(_)) = self.f.expressions[k] else { continue };
+            let c = if right[1] == k {
+                right[0]
+            } else if right[0] == k {
+                right[1]
+            } else {
+                continue;
+            };
+            let sum = self.op(Op::Add, b, c);
+            return Some(self.op(Op::Multiply, sum, k));
+        }
+        None
+    }
+
+    fn factors(&self, value: Value) -> Option<[Value; 2]> {
+        match self.f.expressions[value] {
+            Expression::Binary { op: Op::Multiply, left, right } => Some([left, right]),
+            _ => None,
+        }
+    }
+
     /// Of floats; a literal counts for every component of `ty`.
     fn sum_or_product(&mut self, op: Op, ty: TypeId, left: Value, right: Value) -> Value {
         if op == Op::Multiply || ty == TypeId::FLOAT {

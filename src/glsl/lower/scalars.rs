@@ -54,7 +54,9 @@ impl Builder<'_, '_> {
             });
             parts.push(f(self, values));
         }
-        self.compose(ty, parts)
+        let vector = self.compose(ty, parts);
+        self.by_component.insert(vector);
+        vector
     }
 
     /// What a component of a value is, if no instruction is needed to take it out.
