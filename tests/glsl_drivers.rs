@@ -66,6 +66,24 @@ fn negative_floats_as_uints() {
     )]);
 }
 
+/// A mix by what can only be 0 or 1 is a choice: no sum keeps all of a small number beside a large one, or beside NaN.
+#[test]
+fn mix_by_a_condition() {
+    check(&[
+        case("r = vec4(floatBitsToUint(mix(1000.0, Z + 18.721829, step(Z, 1.0))) - 0x4195c64eu);", [0.; 4]),
+        case(
+            "float x = Z + 18.721829, hit = step(Z, 1.0) * step(Z + 1.0, x);\n\
+             r = vec4(mix(1e9, x, hit) == x, mix(1e9, x, min(hit, float(Z < 1.0))) == x, mix(x, 1e9, 1.0 - hit) == x, 0);",
+            [1., 1., 1., 0.],
+        ),
+        case(
+            "vec2 x = Z + vec2(0.1, 0.2); vec2 m = mix(vec2(1e9), x, vec2(greaterThan(x, vec2(0.15))));\n\
+             r = vec4(m.x, m.y == x.y, mix(sqrt(Z - 1.0), 3.0, step(Z, 1.0)), 0);",
+            [1e9, 1., 3., 0.],
+        ),
+    ]);
+}
+
 /// Which last bits come out, on drivers that neither fuse nor round otherwise: those of OpenGL's compilers.
 #[test]
 fn order_of_evaluation() {
@@ -111,5 +129,25 @@ fn order_of_evaluation() {
             "vec3 y = Z + vec3(4.25, 1.0, 2.0); r = vec4(floatBitsToUint(mix(vec3(0.3), y, Z + 0.27).x) - 0x3faee979u);",
             [0.; 4],
         ),
+        // What both sides of a mix are products with is taken out: p mix(1, 0.3, a).
+        with(
+            "float fade(float p, float a) { return mix(p, p * 0.3, a); }",
+            "r = vec4(floatBitsToUint(fade(Z + 0.737, Z + 0.37)) - 0x3f0bce53u);",
+            [0.; 4],
+        ),
+        // The same where the variable is written to.
+        with(
+            "float fade(float p, float a) { float v = p; v += 1.0; v = mix(v, v * 0.3, a); return v; }",
+            "r = vec4(floatBitsToUint(fade(Z + 0.6, Z + 0.91)) - 0x3f14af4fu);",
+            [0.; 4],
+        ),
+        // A literal that products share is taken out of their sum: 0.01 (p x + y a).
+        case(
+            "float p = Z + 2.71, x = Z + 0.33, y = Z + 2.33, a = Z + 0.77;\n\
+             r = vec4(floatBitsToUint(p * x * 0.01 + y * a * 0.01) - 0x3cdc3bd5u);",
+            [0.; 4],
+        ),
+        // The polynomial of OpenGL's compilers.
+        case("r = vec4(floatBitsToUint(asin(Z + 0.308)) - 0x3ea04324u);", [0.; 4]),
     ]);
 }
