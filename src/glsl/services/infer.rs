@@ -145,7 +145,8 @@ impl<'a> Infer<'a> {
                         continue;
                     }
                     // `iCh0` has no type of its own.
-                    let channel = (i == next).then(|| self.a.look_up(token.symbol(), self.at, false)).flatten();
+                    let is_name = i == next && token.kind == Kind::Ident;
+                    let channel = is_name.then(|| self.a.look_up(token.symbol(), self.at, false)).flatten();
                     ty = match channel {
                         Some(Target::Decl(DeclRef::ChannelStruct(channel))) => {
                             self.a.channel_member_type(channel, text.text_of(name))?
