@@ -92,6 +92,9 @@ fn show_card(
     response.on_hover_text(tip).on_hover_cursor(egui::CursorIcon::PointingHand)
 }
 
+/// Points of the smallest letters of a buffer's name.
+const SMALL: f32 = 9.0;
+
 fn swatch(ui: &Ui, session: &Session, place: Rect, input: &Input, thumbnails: &mut Thumbnails) {
     let painter = ui.painter();
     painter.rect_filled(place, 3.0, theme::SURROUND);
@@ -108,8 +111,19 @@ fn swatch(ui: &Ui, session: &Session, place: Rect, input: &Input, thumbnails: &m
         Input::Video(_) | Input::Webcam => "film",
         Input::Music(_) | Input::Microphone => "snd",
     };
+    // A buffer's name may be long: as large as fits, and what does not fit even small is cut.
+    let layout = |size: f32| {
+        let mut job =
+            egui::text::LayoutJob::simple_singleline(letter.to_owned(), FontId::proportional(size), theme::ACCENT);
+        job.wrap =
+            egui::text::TextWrapping::truncate_at_width(if size > SMALL { f32::INFINITY } else { place.width() });
+        painter.layout_job(job)
+    };
     let size = place.height() * 0.45;
-    painter.text(place.center(), Align2::CENTER_CENTER, letter, FontId::proportional(size), theme::ACCENT);
+    let whole = layout(size);
+    let fitting = size * (place.width() - 4.0) / whole.size().x;
+    let galley = if fitting < size { layout(fitting.max(SMALL)) } else { whole };
+    painter.galley(place.center() - galley.size() / 2.0, galley, theme::ACCENT);
 }
 
 /// The project's folder, which pictures' paths are relative to.
