@@ -249,6 +249,9 @@ fn seeds() -> Vec<String> {
     seeds
 }
 
+/// What no text may take.
+const LONG: Duration = Duration::from_secs(1);
+
 #[test]
 fn any_text_gets_an_answer() {
     let number = |name: &str| std::env::var(name).ok().and_then(|v| v.parse::<u64>().ok());
@@ -262,15 +265,15 @@ fn any_text_gets_an_answer() {
         cases += 1;
         let kind =
             [PassKind::Image, PassKind::Buffer, PassKind::Cubemap, PassKind::Sound][random.below(9).saturating_sub(5)];
-        let begin = Instant::now();
-        let result = std::panic::catch_unwind(|| {
+        let [tables_in_memory, opaque_uniforms, may_discard] = [(); 3].map(|()| random.below(2) == 0);
+        let compile = || {
             let result = glsl::compile(&PassSource {
                 kind,
                 common: None,
                 code: Text { id: SourceId(0), text: &text },
                 channels: [ChannelKind::Sampler2D; 4],
                 bilinear_by_hand: [false; 4],
-                driver: Driver::default(),
+                driver: Driver { tables_in_memory, opaque_uniforms, may_discard },
                 knobs: &[],
                 values: &[],
                 includes: &[],
@@ -284,10 +287,20 @@ fn any_text_gets_an_answer() {
                 render_all(errors, &sources);
             }
             result.is_ok()
-        });
-        let Ok(ok) = result else { panic!("case {cases}, {kind:?}:\n{text}") };
-        compiled += u32::from(ok);
-        assert!(begin.elapsed() < Duration::from_secs(5), "case {cases} took {:?}:\n{text}", begin.elapsed());
+        };
+        // A machine that does other things may stop this one for seconds: only what takes long each time does.
+        let mut least = Duration::MAX;
+        for _ in 0..5 {
+            let begin = Instant::now();
+            let result = std::panic::catch_unwind(compile);
+            let Ok(ok) = result else { panic!("case {cases}, {kind:?}:\n{text}") };
+            least = least.min(begin.elapsed());
+            if least < LONG {
+                compiled += u32::from(ok);
+                break;
+            }
+        }
+        assert!(least < LONG, "case {cases} took {least:?}:\n{text}");
     }
     println!("{cases} cases, {compiled} of them compiled");
     assert!(compiled > 0, "the damage leaves nothing to lower");
