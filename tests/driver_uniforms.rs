@@ -1,6 +1,6 @@
 //! Uniforms as a driver needs them that compiles a program anew for every frame where a branch depends on them alone.
 //!
-//! One test that measures memory, so that no other test of this process takes any beside it.
+//! By itself, because one test measures the memory of its process: the other only compiles a few lines.
 
 mod support;
 
@@ -102,10 +102,44 @@ fn are_values_of_the_pixel_where_the_driver_asks_for_it() {
     }
 }
 
-/// Pages of this process, in bytes. `None` where the system has no such file.
+/// Ends of a program that may discard.
+fn kills(block: &naga::Block) -> usize {
+    let of = |statement: &naga::Statement| match statement {
+        naga::Statement::Kill => 1,
+        naga::Statement::Block(inner) => kills(inner),
+        naga::Statement::If { accept, reject, .. } => kills(accept) + kills(reject),
+        _ => 0,
+    };
+    block.iter().map(of).sum()
+}
+
+/// Whatever else the driver asks for, and without a word of it in what is known of the pass.
+#[test]
+fn fragments_seem_to_discard_where_the_driver_asks_for_it() {
+    let source = PassSource {
+        kind: PassKind::Fragment,
+        common: None,
+        code: Text { id: SourceId(0), text: "out vec4 o; void main() { o = vec4(1); }" },
+        includes: &[],
+        channels: [ChannelKind::Sampler2D; 4],
+        knobs: &[],
+        values: &[],
+        bilinear_by_hand: [false; 4],
+        driver: Driver::default(),
+    };
+    for (may_discard, opaque_uniforms) in [(false, false), (false, true), (true, false), (true, true)] {
+        let driver = Driver { may_discard, opaque_uniforms, ..Driver::default() };
+        let compiled = glsl::compile(&PassSource { driver, ..source }).unwrap();
+        assert_eq!(kills(&compiled.module.entry_points[0].function.body), usize::from(may_discard));
+        assert!(!compiled.reflection.discards);
+    }
+}
+
+/// Memory of this process, in bytes. `None` where the system has no such file.
 fn resident() -> Option<u64> {
-    let pages = std::fs::read_to_string("/proc/self/statm").ok()?;
-    Some(pages.split(' ').nth(1)?.parse::<u64>().ok()? * 4096)
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let kilobytes = status.lines().find_map(|line| line.strip_prefix("VmRSS:")?.strip_suffix("kB"))?;
+    Some(kilobytes.trim().parse::<u64>().ok()? * 1024)
 }
 
 /// A preset of many scales, whose loops and branches ask the mouse and the knobs: lavapipe used to keep 2 MiB of programs a

@@ -141,8 +141,7 @@ pub struct Driver {
     /// which costs time to fill.
     pub tables_in_memory: bool,
     /// The driver compiles a program anew for every frame, and keeps what it made, where a branch depends on uniforms alone:
-    /// they are read so that it takes them for values of the pixel. Mesa's lavapipe does so (`lvp_inline_uniforms.c`), and the
-    /// new program is never the shorter one it hopes for.
+    /// they are read so that it takes them for values of the pixel. Mesa's lavapipe does so (`lvp_inline_uniforms.c`).
     pub opaque_uniforms: bool,
     /// A fragment stage has to be one that may discard, though it never does: Mesa's llvmpipe goes wrong where others fail the
     /// depth test of a target of 16-bit floats.

@@ -36,9 +36,12 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reach: &Reach) {
     let (initialisers, _) = b.nested(|b| b.initialise_globals(reach));
     b.set_tables();
     let seems_to_discard = !is_vertex && b.cx.source.driver.may_discard;
-    if seems_to_discard {
-        b.cx.unknown_zero();
-    }
+    // Also lowered before what it reads is set.
+    let (discard, _) = b.nested(|b| {
+        if seems_to_discard {
+            b.seem_to_discard();
+        }
+    });
     b.set_unknown_zero(|b| match is_vertex {
         true => b.given_builtin(TypeId::UINT, BuiltIn::VertexIndex),
         false => {
@@ -55,9 +58,7 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reach: &Reach) {
     } else {
         b.fragment_inputs();
     }
-    if seems_to_discard {
-        b.seem_to_discard();
-    }
+    b.push(Statement::Block(discard));
     b.push(Statement::Call { function: author, arguments: Vec::new(), result: None });
     let parts = if is_vertex { b.vertex_outputs() } else { b.fragment_outputs() };
     b.hand_on(parts);

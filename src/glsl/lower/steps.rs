@@ -97,7 +97,7 @@ fn effects(module: &Module, expr: ExprId, out: &mut Vec<(LocalId, ExprId)>) {
     }
 }
 
-/// Loops of more rounds are not taken apart by drivers.
+/// Loops of more rounds are not taken apart by Mesa's software drivers (`max_unroll_iterations`).
 const UNROLLED: i64 = 32;
 
 impl Builder<'_, '_> {
