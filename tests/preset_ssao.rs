@@ -193,16 +193,3 @@ fn space_steps_through_occlusion_on_off_and_alone() {
     assert!(darker > 500 && 50 * brighter < darker, "occlusion darkens: {darker} texels darker, {brighter} brighter");
     assert!(grey > on.texels.len() * 8 / 10, "what is shown alone is what was measured: {grey}");
 }
-
-#[test]
-fn every_texel_is_finite_at_the_oddest_sizes() {
-    let Some(gpu) = gpu() else { return };
-    for size in [(1, 1), (2, 3), (1, 4096), (4096, 1)] {
-        let mut engine = whole(&gpu, &preset("ssao", &[]), size);
-        draw(&mut engine, 0..3);
-        for name in ["occlusion", "blur", "lighting"] {
-            assert!(all_finite(&read(&mut engine, name)), "{name} at {size:?}");
-        }
-        assert!(all_finite(&picture(&mut engine)), "{size:?}");
-    }
-}

@@ -290,16 +290,3 @@ fn a_lines_colour_is_its_own_the_lights_the_textures_and_the_meshs() {
     let textured = colours(&["outlineColour=1,1,1", "outlineTexture=1"]);
     assert!(textured.len() > 20 && textured.iter().all(|c| c[0] >= 139 && c[1] <= c[0]), "{textured:?}");
 }
-
-#[test]
-fn every_texel_is_finite_at_the_oddest_sizes() {
-    let Some(gpu) = gpu() else { return };
-    for size in [(1, 1), (2, 3), (1, 4096), (4096, 1)] {
-        let mut engine = whole(&gpu, &preset("toon-outline", &[]), size);
-        draw(&mut engine, 0..3);
-        for name in ["base", "masks", "ink", "normals", "scene"] {
-            assert!(all_finite(&read(&mut engine, name)), "{name} at {size:?}");
-        }
-        assert!(all_finite(&picture(&mut engine)), "{size:?}");
-    }
-}

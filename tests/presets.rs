@@ -132,7 +132,7 @@ fn every_preset_survives_every_size() {
     let Some(gpu) = gpu() else { return };
     for name in presets::names() {
         let project = preset(name);
-        for size in [(1, 1), (1, 2), (2, 1), (3, 3), (17, 31), (256, 1), (1, 256)] {
+        for size in [(1, 1), (1, 2), (2, 1), (3, 3), (17, 31), (4096, 1), (1, 4096)] {
             let mut engine = whole(&gpu, &project, true, size);
             draw(&mut engine, 0..20, drag);
             for id in buffers(&project) {
