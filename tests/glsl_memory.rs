@@ -90,6 +90,58 @@ fn an_array_handed_on_through_calls_is_not_copied_on_the_way() {
     assert_eq!(memory, [0, 0, 1]);
 }
 
+/// A global or a table is read where it lies: the function has no parameter for it.
+#[test]
+fn what_all_functions_see_is_not_handed_over() {
+    let compiled = compiled(
+        "float G[4]; const float T[4] = float[](1., 2., 3., 4.);\n\
+         float last(float a[4], int i) { return a[i]; }\n\
+         float middle(float a[4], int i) { return last(a, i) + last(a, i + 1); }\n\
+         void mainImage(out vec4 o, vec2 p) { int i = int(p.x); G[i] = p.x; o = vec4(middle(G, i), middle(T, i), 0, 0); }",
+    );
+    let functions = compiled.module.functions.iter().map(|(_, f)| (f.arguments.len(), f.local_variables.len()));
+    // `last` and `middle` of either, and `mainImage`.
+    assert_eq!(functions.collect::<Vec<_>>(), [(1, 0), (1, 0), (1, 0), (1, 0), (2, 0)]);
+}
+
+#[test]
+fn globals_handed_over_keep_the_value_they_had() {
+    const CALLS: &str = "float G[3]; float[3] H = float[](1.0, 2.0, 3.0); mat2 M; struct S { float a[2]; }; S s;\n\
+        float last(float a[3], int i) { return a[i]; }\n\
+        float set(float x) { G[0] = x; return x; }\n\
+        float later(float a[3], float x, int i) { return a[i] + x; }\n\
+        float within(float a[3], int i) { set(9.0); return last(a, i); }\n\
+        float both(float a[3], float b[3], int i) { return a[i] * 10.0 + b[i + 1]; }\n\
+        float change(inout float a[3], float b[3], int i) { a[i] = 7.0; return b[i]; }\n\
+        float column(mat2 m, int i) { return m[i].y; }\n\
+        float member(S s, int i) { return s.a[i]; }\n\
+        float whole(float a[3], int i) { float b[3] = a; b[i] += 0.5; return a[i] + b[i]; }";
+    check(&[
+        with(
+            CALLS,
+            "G[I] = 4.0; r = vec4(last(G, I), last(H, I + 2), both(G, H, I), both(H, G, I));",
+            [4., 3., 42., 10.],
+        ),
+        // The copy is made before a later argument, or the function itself, writes the global.
+        with(CALLS, "G[0] = 4.0; r.x = later(G, set(5.0), I); r.y = G[I]; r.zw = vec2(0);", [9., 5., 0., 0.]),
+        with(CALLS, "G[0] = 4.0; r.x = within(G, I); r.y = G[I]; r.zw = vec2(0);", [4., 9., 0., 0.]),
+        with(CALLS, "G[0] = 4.0; r.x = change(G, G, I); r.y = G[I]; r.zw = vec2(0);", [4., 7., 0., 0.]),
+        with(
+            CALLS,
+            "M[I] = vec2(1, 2); s.a[I + 1] = 6.0; r = vec4(column(M, I), member(s, I + 1), whole(H, I + 1), H[I + 1]);",
+            [2., 6., 4.5, 2.],
+        ),
+        // Which global stands for the parameter is another at each call.
+        with(
+            "float A[2], B[2]; float inner(float a[2], int i) { return a[i]; }\n\
+             float outer(float a[2], float b[2], int i) { return inner(a, i) * 10.0 + inner(b, i); }",
+            "A[I] = 1.0; B[I] = 2.0; float c[2]; c[I] = 3.0;\n\
+             r = vec4(outer(A, B, I), outer(B, A, I), outer(A, A, I), outer(c, A, I));",
+            [12., 21., 11., 31.],
+        ),
+    ]);
+}
+
 #[test]
 fn tables_are_read_right_from_slots() {
     // For the life of the test: a case holds text that lives as long as the program.

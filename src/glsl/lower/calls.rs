@@ -1,4 +1,6 @@
-//! Calls of user functions, and how arguments to `out` and `inout` parameters are passed.
+//! Calls of user functions, and how arguments are handed over: without a copy wherever nobody can see the difference.
+
+use std::collections::HashSet;
 
 use naga::{Expression, Statement};
 
@@ -8,12 +10,123 @@ use super::{
     function::{Builder, Slot, Value},
 };
 use crate::glsl::hir::{
-    ExprFlags, ExprId, ExprKind, FuncId, Local, LocalId, LocalKind, Module, Type, TypeId, VarFlags,
+    ConstId, ExprFlags, ExprId, ExprKind, FuncId, GlobalId, GlobalStorage, Local, LocalId, LocalKind, Module, Type,
+    TypeId, VarFlags,
 };
 
-/// Which locals some call takes as a whole for a parameter that is indexed, there or in what it calls in turn; by
-/// [`LocalId::index`]. They are memory, as if they were indexed themselves: the call then reads them where they are.
-pub(super) fn handed_on(module: &Module) -> Vec<bool> {
+/// What a copy of a function has in place of one of its parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) enum Given {
+    /// An argument, after all.
+    Argument,
+    /// The channel a sampler stands for.
+    Channel(u8),
+    /// A global that neither the function nor what it calls writes: the parameter is that global.
+    Global(GlobalId),
+    /// A table.
+    Table(ConstId),
+}
+
+/// What a call passes for such a parameter.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Passed {
+    Known(Given),
+    /// What the caller itself has for one of its parameters, counted among those that can be given.
+    Param(usize),
+}
+
+/// How arguments are handed over in a module.
+pub(super) struct Arguments {
+    /// Which locals some call takes as a whole for a parameter that is indexed, there or in what it calls in turn; by
+    /// [`LocalId::index`]. They are memory, as if they were indexed themselves: the call then reads them where they are.
+    pub handed_on: Vec<bool>,
+    /// Which globals a function or what it calls writes, by [`FuncId::index`].
+    written: Vec<HashSet<GlobalId>>,
+    /// Parameters of each function that a copy of it can have something in place of, in order.
+    givable: Vec<Vec<LocalId>>,
+}
+
+impl Arguments {
+    /// `writes` has the globals that each function itself writes, by [`FuncId::index`].
+    pub fn new(module: &Module, writes: Vec<HashSet<GlobalId>>) -> Self {
+        let mut written = writes;
+        for &func in &module.call_order {
+            let mut all = std::mem::take(&mut written[func.index()]);
+            for callee in &module[func].calls {
+                all.extend(&written[callee.index()]);
+            }
+            written[func.index()] = all;
+        }
+        let mut made =
+            Self { handed_on: handed_on(module), written, givable: vec![Vec::new(); module.functions.len()] };
+        for &func in &module.call_order {
+            let first = module[func].locals.start as usize;
+            let params = (first..first + module.params(func).len()).map(LocalId::new);
+            made.givable[func.index()] = params.filter(|&param| made.is_givable(module, param)).collect();
+        }
+        made
+    }
+
+    pub fn givable(&self, func: FuncId) -> &[LocalId] {
+        &self.givable[func.index()]
+    }
+
+    pub fn is_givable(&self, module: &Module, param: LocalId) -> bool {
+        matches!(module.types.get(module[param].ty), Type::Sampler { .. }) || self.reads_in_place(module, param)
+    }
+
+    /// Whether a local is indexed, in its function or in one it is handed to as a whole.
+    pub fn is_indexed(&self, module: &Module, local: LocalId) -> bool {
+        module[local].flags.contains(VarFlags::INDEXED) || self.handed_on[local.index()]
+    }
+
+    /// Whether a parameter is only read, but indexed in a way values cannot be: then it is a pointer to what the caller has, or
+    /// that itself, and not a copy that each call fills anew, element by element.
+    pub fn reads_in_place(&self, module: &Module, param: LocalId) -> bool {
+        let declared = &module[param];
+        !declared.kind.copies_out()
+            && self.is_indexed(module, param)
+            && !declared.flags.contains(VarFlags::WRITTEN)
+            && !matches!(module.types.get(declared.ty), Type::Scalar(_) | Type::Vector { .. } | Type::Sampler { .. })
+    }
+
+    /// What a call in `caller` (none: an initialiser) passes for those.
+    pub fn passed(&self, module: &Module, caller: Option<FuncId>, func: FuncId, args: &[ExprId]) -> Vec<Passed> {
+        let first = module[func].locals.start as usize;
+        let passed = self.givable(func).iter().map(|param| {
+            let place = param.index() - first;
+            // What a later argument changes is not what was passed.
+            let changes = args[place + 1..].iter().any(|&arg| module[arg].flags.contains(ExprFlags::EFFECTS));
+            match module[args[place]].kind {
+                ExprKind::Channel(channel) => Passed::Known(Given::Channel(channel)),
+                ExprKind::Const(table) => Passed::Known(Given::Table(table)),
+                ExprKind::Global(global) if module[global].storage == GlobalStorage::Private => {
+                    let declared = &module[global];
+                    let stays = !changes && !self.written[func.index()].contains(&global);
+                    Passed::Known(match (declared.flags.contains(VarFlags::WRITTEN), declared.value) {
+                        (false, Some(value)) => Given::Table(value),
+                        // Nobody sets it: it is zero.
+                        (false, None) if declared.init.is_none() => Given::Argument,
+                        _ if stays => Given::Global(global),
+                        _ => Given::Argument,
+                    })
+                }
+                ExprKind::Local(local) => {
+                    let givable = caller.map_or(&[][..], |caller| self.givable(caller));
+                    match givable.iter().position(|&param| param == local) {
+                        Some(param) => Passed::Param(param),
+                        None => Passed::Known(Given::Argument),
+                    }
+                }
+                _ => Passed::Known(Given::Argument),
+            }
+        });
+        passed.collect()
+    }
+}
+
+/// See [`Arguments::handed_on`].
+fn handed_on(module: &Module) -> Vec<bool> {
     let mut found = vec![false; module.locals.len()];
     // Once more for each call that a local is handed on through; there is no recursion.
     loop {
@@ -44,14 +157,21 @@ impl Builder<'_, '_> {
         let hir = self.cx.hir;
         let params = hir.params(func);
         let mut arguments = Vec::with_capacity(args.len());
-        let mut channels = Vec::new();
+        let given: Box<[Given]> = self
+            .cx
+            .arguments
+            .passed(hir, self.func, func, args)
+            .into_iter()
+            .map(|passed| self.resolved(passed))
+            .collect();
+        let mut next_given = given.iter();
         let mut copies_out: Vec<(Place, Value)> = Vec::new();
         for (i, (param, &arg)) in params.iter().zip(args).enumerate() {
-            if let Type::Sampler { .. } = hir.types.get(param.ty) {
-                channels.push(self.channel(arg));
+            let local = LocalId::new(hir[func].locals.start as usize + i);
+            if self.cx.arguments.is_givable(hir, local) && next_given.next().is_some_and(|g| *g != Given::Argument) {
                 continue;
             }
-            let in_place = self.reads_in_place(LocalId::new(hir[func].locals.start as usize + i));
+            let in_place = self.cx.arguments.reads_in_place(hir, local);
             if !param.kind.copies_out() && !in_place {
                 arguments.push(self.value(arg));
                 continue;
@@ -78,8 +198,7 @@ impl Builder<'_, '_> {
             arguments.push(copy);
             copies_out.push((place, copy));
         }
-        let instance = Instance { func, channels: channels.into() };
-        let function = self.cx.functions[&instance];
+        let function = self.cx.functions[&Instance { func, given }];
         let result =
             (hir[func].result != TypeId::VOID).then(|| self.computed_elsewhere(Expression::CallResult(function)));
         self.push(Statement::Call { function, arguments, result });
@@ -88,6 +207,13 @@ impl Builder<'_, '_> {
             self.store_place(place, value);
         }
         result
+    }
+
+    fn resolved(&self, passed: Passed) -> Given {
+        match passed {
+            Passed::Known(given) => given,
+            Passed::Param(index) => self.given[index],
+        }
     }
 
     /// The channel a sampler argument stands for.

@@ -31,7 +31,13 @@ impl Builder<'_, '_> {
             StmtKind::Expr(expr) => self.effect(expr),
             StmtKind::Declare { local, init } => self.declaration(local, init),
             StmtKind::If { cond, then, otherwise } => self.branch(cond, then, otherwise),
-            StmtKind::For { init, test, step, body } => self.for_loop(init, test, step, body),
+            StmtKind::For { init, test, step, body } => match self.cx.unrolled.get(&stmt.index()).cloned() {
+                Some(unrolled) => {
+                    self.statements(init);
+                    self.rounds(&unrolled, step, body);
+                }
+                None => self.for_loop(init, test, step, body),
+            },
             StmtKind::DoWhile { body, test } => self.do_while(body, test),
             StmtKind::Switch { value, cases } => self.switch(value, &hir[cases]),
             StmtKind::Return(value) => {
@@ -64,7 +70,7 @@ impl Builder<'_, '_> {
         let hir = self.cx.hir;
         self.note_range(local, init);
         // A table that is only read here needs no copy.
-        if let (Some(init), true, false) = (init, self.needs_memory(local), self.cx.handed_on[local.index()])
+        if let (Some(init), true, false) = (init, self.needs_memory(local), self.cx.arguments.handed_on[local.index()])
             && let (ExprKind::Const(id), 0) = (hir[init].kind, self.cx.writes[local.index()])
             && !self.is_vector_or_scalar(hir[local].ty)
         {

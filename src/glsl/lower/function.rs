@@ -2,7 +2,7 @@
 
 use naga::{Block, Expression, FunctionArgument, FunctionResult, Handle, LocalVariable, Range, Span, Statement};
 
-use super::{Instance, Lowering, Map, consts, scalars};
+use super::{Instance, Lowering, Map, calls::Given, consts, scalars};
 use crate::glsl::{
     ast::List,
     hir::{ConstId, ExprId, FuncId, LocalId, LocalKind, Scalar, Type, TypeId, VarFlags},
@@ -64,6 +64,9 @@ pub(super) struct Builder<'m, 'a> {
     /// What is known of int locals at this place: least and greatest value.
     pub known: Map<u32, (i64, i64)>,
     pub result: TypeId,
+    /// The author's function, none of the code around the entry point; and what this copy has in place of parameters.
+    pub func: Option<FuncId>,
+    pub given: Box<[Given]>,
 }
 
 /// Lowers one copy of a user function.
@@ -72,7 +75,9 @@ pub(super) fn lower(cx: &mut Lowering<'_>, instance: &Instance) -> naga::Functio
     let function = &hir[instance.func];
     let mut builder = Builder::new(cx, function.locals.start as usize, function.locals.len());
     builder.result = function.result;
-    builder.parameters(instance.func, &instance.channels);
+    builder.func = Some(instance.func);
+    builder.given = instance.given.clone();
+    builder.parameters(instance.func);
     builder.statements(function.body.unwrap_or(List::EMPTY));
     if !builder.ended && function.result != TypeId::VOID {
         // Falling off the end gives zero.
@@ -111,6 +116,8 @@ impl<'m, 'a> Builder<'m, 'a> {
             loops: Vec::new(),
             known: Map::default(),
             result: TypeId::VOID,
+            func: None,
+            given: Box::default(),
         }
     }
 
@@ -120,17 +127,26 @@ impl<'m, 'a> Builder<'m, 'a> {
         self.f
     }
 
-    fn parameters(&mut self, func: FuncId, channels: &[u8]) {
+    fn parameters(&mut self, func: FuncId) {
         let hir = self.cx.hir;
-        let mut channels = channels.iter();
+        for (local, given) in self.cx.arguments.givable(func).to_vec().into_iter().zip(self.given.clone()) {
+            let slot = match given {
+                Given::Argument => continue,
+                Given::Channel(channel) => Slot::Channel(channel),
+                Given::Table(table) => Slot::Table(table),
+                Given::Global(global) => {
+                    let variable = self.cx.global(global);
+                    Slot::Memory(self.global(variable))
+                }
+            };
+            self.set_slot(local, slot);
+        }
         for (i, param) in hir.params(func).iter().enumerate() {
             let local = LocalId::new(hir[func].locals.start as usize + i);
-            if let Type::Sampler { .. } = hir.types.get(param.ty) {
-                let channel = channels.next().expect("a channel for each sampler parameter");
-                self.set_slot(local, Slot::Channel(*channel));
+            if !matches!(self.slot(local), Slot::Unset) {
                 continue;
             }
-            let by_pointer = param.kind.copies_out() || self.reads_in_place(local);
+            let by_pointer = param.kind.copies_out() || self.cx.arguments.reads_in_place(hir, local);
             let ty = if by_pointer { self.cx.pointer_ty(param.ty) } else { self.cx.ty(param.ty) };
             let index = self.f.arguments.len() as u32;
             self.f.arguments.push(FunctionArgument { name: None, ty, binding: None });
@@ -160,6 +176,11 @@ impl<'m, 'a> Builder<'m, 'a> {
     /// Makes a local memory whatever is done to it.
     pub fn force_memory(&mut self, local: LocalId) {
         self.forced[local.index() - self.first_local] = true;
+    }
+
+    /// Whether it is memory whatever is done to it.
+    pub fn is_forced(&self, local: LocalId) -> bool {
+        self.forced[local.index() - self.first_local]
     }
 
     /// Gives a local its first value.
@@ -200,23 +221,8 @@ impl<'m, 'a> Builder<'m, 'a> {
     pub fn needs_memory(&self, local: LocalId) -> bool {
         let declared = self.cx.hir[local];
         declared.flags.contains(VarFlags::WRITTEN)
-            || self.forced[local.index() - self.first_local]
-            || (self.is_indexed(local) && !self.is_vector_or_scalar(declared.ty))
-    }
-
-    /// Whether a parameter is only read, but indexed in a way values cannot be: then it is a pointer to what the caller has, not
-    /// a copy that each call fills anew, element by element.
-    pub fn reads_in_place(&self, local: LocalId) -> bool {
-        let param = self.cx.hir[local];
-        !param.kind.copies_out()
-            && self.is_indexed(local)
-            && !param.flags.contains(VarFlags::WRITTEN)
-            && !self.is_vector_or_scalar(param.ty)
-    }
-
-    /// Whether a local is indexed, here or in a function it is handed to as a whole.
-    fn is_indexed(&self, local: LocalId) -> bool {
-        self.cx.hir[local].flags.contains(VarFlags::INDEXED) || self.cx.handed_on[local.index()]
+            || self.is_forced(local)
+            || (self.cx.arguments.is_indexed(self.cx.hir, local) && !self.is_vector_or_scalar(declared.ty))
     }
 
     /// The pointer to a local that is memory.

@@ -2,7 +2,7 @@
 //! what it reaches.
 //!
 //! Owns the meaning of running code: evaluation order, copies of `out` and `inout` arguments, the zero that WebGL gives to
-//! everything undefined, clamped indices, one copy of a function for each combination of channels passed to it. Judges nothing:
+//! everything undefined, clamped indices, one copy of a function for each combination of channels and tables passed to it. Judges nothing:
 //! it runs only on programs without errors, and reports none.
 //!
 //! What the generated code looks like, and why:
@@ -42,6 +42,7 @@ mod steps;
 mod tables;
 mod texture;
 mod types;
+mod unroll;
 mod zeros;
 
 use std::collections::HashMap;
@@ -49,7 +50,15 @@ use std::collections::HashMap;
 use naga::{FastHashMap, Handle};
 
 pub(crate) use self::tables::TableBytes;
-use self::{consts::Constants, reach::Reach, resources::Resources, tables::Tables, types::Types, zeros::Zeros};
+use self::{
+    calls::{Arguments, Given},
+    consts::Constants,
+    reach::Reach,
+    resources::Resources,
+    tables::Tables,
+    types::Types,
+    zeros::Zeros,
+};
 use super::{PassSource, Reflection, hir, interface::KNOB_BYTES, stages::Interface};
 
 /// What lowering makes.
@@ -66,7 +75,7 @@ pub(crate) struct Lowered {
 /// # Panics
 /// If `module` breaks the promises of [`hir`], such as having no entry point.
 pub(in crate::glsl) fn lower(module: &hir::Module, source: &PassSource<'_>, interface: Interface) -> Lowered {
-    let reach = Reach::new(module);
+    let (reach, arguments) = Reach::new(module);
     let writes = ranges::write_counts(module);
     let mut cx = Lowering {
         hir: module,
@@ -79,8 +88,9 @@ pub(in crate::glsl) fn lower(module: &hir::Module, source: &PassSource<'_>, inte
         resources: Resources::new(module.globals.len()),
         costs: cost::costs(module),
         counted: steps::counted(module, &writes),
+        unrolled: unroll::unrolled(module),
         writes,
-        handed_on: calls::handed_on(module),
+        arguments,
         uses: ranges::use_counts(module),
         zeros: Zeros::new(module),
         functions: HashMap::with_capacity(reach.instances.len()),
@@ -119,11 +129,11 @@ pub(crate) fn validate(module: &naga::Module) -> Result<naga::valid::ModuleInfo,
     })
 }
 
-/// A user function with the channels that stand for its sampler parameters, in order.
+/// A user function with what it has in place of samplers and of arrays that it only reads, in order.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct Instance {
     func: hir::FuncId,
-    channels: Box<[u8]>,
+    given: Box<[Given]>,
 }
 
 /// State of lowering one module. What belongs to one function is in [`function::Builder`].
@@ -143,8 +153,9 @@ struct Lowering<'a> {
     writes: Vec<u32>,
     /// Locals that one loop counts.
     counted: HashMap<usize, steps::Counted>,
-    /// Locals that calls take as a whole and index, by [`hir::LocalId::index`].
-    handed_on: Vec<bool>,
+    /// Loops whose rounds are written out, by [`hir::StmtId::index`].
+    unrolled: HashMap<usize, unroll::Unrolled>,
+    arguments: Arguments,
     /// How many expressions name each local, by [`hir::LocalId::index`].
     uses: Vec<u32>,
     zeros: Zeros,

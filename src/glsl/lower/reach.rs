@@ -1,14 +1,17 @@
-//! What the entry point reaches: functions, once for each combination of channels passed to them, and globals.
+//! What the entry point reaches: functions, once for each combination of channels and tables passed to them, and globals.
 //!
 //! A branch whose condition is a literal counts as not there; [`super::flow`] and [`super::expr`] leave out the same ones. Reads of
 //! uniforms and textures are noted while lowering, which visits exactly what is found here.
 
 use std::collections::HashSet;
 
-use super::Instance;
+use super::{
+    Instance,
+    calls::{Arguments, Given, Passed},
+};
 use crate::glsl::{
     ast::List,
-    hir::{ExprId, ExprKind, FuncId, GlobalId, LogicalOp, Module, StmtId, StmtKind, Type},
+    hir::{Builtin, ExprId, ExprKind, FuncId, GlobalId, LogicalOp, Module, StmtId, StmtKind},
 };
 
 /// The reachable part of a module.
@@ -19,48 +22,56 @@ pub(super) struct Reach {
     pub globals: Vec<bool>,
 }
 
-/// Something passed for a sampler parameter.
-#[derive(Clone, Copy)]
-enum SamplerArg {
-    Channel(u8),
-    /// The caller's own sampler parameter, counted among samplers.
-    Param(usize),
-}
-
 /// What a function body or an initialiser names.
 #[derive(Default)]
 struct Facts {
-    calls: Vec<(FuncId, Vec<SamplerArg>)>,
+    calls: Vec<(FuncId, List<ExprId>)>,
     globals: Vec<GlobalId>,
+    /// Globals that are written, in whole or in part.
+    writes: HashSet<GlobalId>,
 }
 
 impl Reach {
-    pub fn new(module: &Module) -> Self {
+    pub fn new(module: &Module) -> (Self, Arguments) {
         let entry = module.entry.expect("a program without errors has an entry point");
+        let mut facts: Vec<Facts> = module.functions.iter().map(|_| Facts::default()).collect();
+        for &func in &module.call_order {
+            let mut walk = Walk::new(module);
+            walk.statements(module[func].body.unwrap_or(List::EMPTY));
+            facts[func.index()] = walk.run();
+        }
+        let writes = facts.iter_mut().map(|facts| std::mem::take(&mut facts.writes)).collect();
+        let arguments = Arguments::new(module, writes);
+        let passed = |caller: Option<FuncId>, calls: &[(FuncId, List<ExprId>)]| {
+            let passed =
+                |&(func, args): &(FuncId, List<ExprId>)| (func, arguments.passed(module, caller, func, &module[args]));
+            let mut passed: Vec<_> = calls.iter().map(passed).collect();
+            passed.sort_unstable_by_key(|(func, given)| (func.index(), given.len()));
+            // Where nothing is given one call of a function is as good as all.
+            passed.dedup_by(|a, b| a.0 == b.0 && a.1.is_empty());
+            passed
+        };
+
         let mut globals = vec![false; module.globals.len()];
-        let mut facts: Vec<Option<Facts>> = module.functions.iter().map(|_| None).collect();
+        let mut calls: Vec<Option<Vec<(FuncId, Vec<Passed>)>>> = module.functions.iter().map(|_| None).collect();
         let mut found: HashSet<Instance> = HashSet::new();
-        let mut pending = vec![Instance { func: entry, channels: Box::default() }];
+        let mut pending = vec![Instance { func: entry, given: Box::default() }];
         found.insert(pending[0].clone());
         while let Some(instance) = pending.pop() {
-            let facts = facts[instance.func.index()].get_or_insert_with(|| {
-                let body = module[instance.func].body.unwrap_or(List::EMPTY);
-                let mut walk = Walk::new(module, Some(instance.func));
-                walk.statements(body);
-                walk.run()
-            });
-            let mut call = |func: FuncId, args: &[SamplerArg], channels: &[u8]| {
-                let channels = args.iter().map(|&arg| match arg {
-                    SamplerArg::Channel(channel) => channel,
-                    SamplerArg::Param(index) => channels[index],
+            let facts = &facts[instance.func.index()];
+            let mut call = |func: FuncId, passed: &[Passed], given: &[Given]| {
+                let given = passed.iter().map(|&passed| match passed {
+                    Passed::Known(given) => given,
+                    Passed::Param(index) => given[index],
                 });
-                let instance = Instance { func, channels: channels.collect() };
+                let instance = Instance { func, given: given.collect() };
                 if found.insert(instance.clone()) {
                     pending.push(instance);
                 }
             };
-            for (func, args) in &facts.calls {
-                call(*func, args, &instance.channels);
+            let calls = calls[instance.func.index()].get_or_insert_with(|| passed(Some(instance.func), &facts.calls));
+            for (func, passed) in calls {
+                call(*func, passed, &instance.given);
             }
             let mut named = facts.globals.clone();
             while let Some(global) = named.pop() {
@@ -68,12 +79,12 @@ impl Reach {
                     continue;
                 }
                 if let (Some(init), None) = (module[global].init, module[global].value) {
-                    let mut walk = Walk::new(module, None);
+                    let mut walk = Walk::new(module);
                     walk.pending.push(Node::Expr(init));
                     let facts = walk.run();
                     named.extend(&facts.globals);
-                    for (func, args) in &facts.calls {
-                        call(*func, args, &[]);
+                    for (func, passed) in passed(None, &facts.calls) {
+                        call(func, &passed, &[]);
                     }
                 }
             }
@@ -83,10 +94,9 @@ impl Reach {
             order[func.index()] = i + 1;
         }
         let mut instances: Vec<_> = found.into_iter().collect();
-        // The channels make the order the same in every run.
-        instances
-            .sort_unstable_by(|a, b| (order[a.func.index()], &a.channels).cmp(&(order[b.func.index()], &b.channels)));
-        Self { instances, globals }
+        // What is given makes the order the same in every run.
+        instances.sort_unstable_by(|a, b| (order[a.func.index()], &a.given).cmp(&(order[b.func.index()], &b.given)));
+        (Self { instances, globals }, arguments)
     }
 }
 
@@ -107,14 +117,13 @@ enum Node {
 /// A walk over a body without recursion.
 struct Walk<'a> {
     module: &'a Module,
-    func: Option<FuncId>,
     pending: Vec<Node>,
     facts: Facts,
 }
 
 impl<'a> Walk<'a> {
-    fn new(module: &'a Module, func: Option<FuncId>) -> Self {
-        Self { module, func, pending: Vec::new(), facts: Facts::default() }
+    fn new(module: &'a Module) -> Self {
+        Self { module, pending: Vec::new(), facts: Facts::default() }
     }
 
     fn run(mut self) -> Facts {
@@ -124,9 +133,6 @@ impl<'a> Walk<'a> {
                 Node::Stmt(stmt) => self.stmt(stmt),
             }
         }
-        self.facts.calls.sort_unstable_by_key(|(func, args)| (func.index(), args.len()));
-        // Without samplers one call of a function is as good as all.
-        self.facts.calls.dedup_by(|a, b| a.0 == b.0 && a.1.is_empty());
         self.facts
     }
 
@@ -188,16 +194,21 @@ impl<'a> Walk<'a> {
             ExprKind::Member { base: of, .. }
             | ExprKind::Swizzle { base: of, .. }
             | ExprKind::Unary { operand: of, .. }
-            | ExprKind::IncDec { place: of, .. }
             | ExprKind::Convert(of)
             | ExprKind::Splat(of)
             | ExprKind::MatrixDiagonal(of)
             | ExprKind::MatrixResize(of) => self.exprs([of]),
             ExprKind::Index { base: a, index: b }
             | ExprKind::Binary { lhs: a, rhs: b, .. }
-            | ExprKind::Comma { lhs: a, rhs: b }
-            | ExprKind::Assign { place: a, value: b }
-            | ExprKind::AssignOp { place: a, value: b, .. } => self.exprs([a, b]),
+            | ExprKind::Comma { lhs: a, rhs: b } => self.exprs([a, b]),
+            ExprKind::IncDec { place, .. } => {
+                self.wrote(place);
+                self.exprs([place]);
+            }
+            ExprKind::Assign { place, value } | ExprKind::AssignOp { place, value, .. } => {
+                self.wrote(place);
+                self.exprs([place, value]);
+            }
             ExprKind::Logical { op, lhs, rhs } => {
                 self.exprs([lhs]);
                 if known_bool(module, lhs) != Some(op == LogicalOp::Or) {
@@ -208,32 +219,36 @@ impl<'a> Walk<'a> {
                 Some(known) => self.exprs([if known { then } else { otherwise }]),
                 None => self.exprs([cond, then, otherwise]),
             },
-            ExprKind::Vector(args)
-            | ExprKind::Matrix(args)
-            | ExprKind::Struct(args)
-            | ExprKind::Array(args)
-            | ExprKind::Builtin { args, .. } => self.exprs(module[args].iter().copied()),
+            ExprKind::Vector(args) | ExprKind::Matrix(args) | ExprKind::Struct(args) | ExprKind::Array(args) => {
+                self.exprs(module[args].iter().copied())
+            }
+            ExprKind::Builtin { builtin, args } => {
+                if builtin == Builtin::Modf {
+                    self.wrote(module[args][1]);
+                }
+                self.exprs(module[args].iter().copied());
+            }
             ExprKind::Call { func, args } => {
                 self.exprs(module[args].iter().copied());
-                let samplers = module.params(func).iter().zip(&module[args]);
-                let samplers = samplers.filter(|(param, _)| matches!(module.types.get(param.ty), Type::Sampler { .. }));
-                let samplers = samplers.map(|(_, &arg)| self.sampler(arg)).collect();
-                self.facts.calls.push((func, samplers));
+                for (param, &arg) in module.params(func).iter().zip(&module[args]) {
+                    if param.kind.copies_out() {
+                        self.wrote(arg);
+                    }
+                }
+                self.facts.calls.push((func, args));
             }
         }
     }
 
-    fn sampler(&self, arg: ExprId) -> SamplerArg {
-        match self.module[arg].kind {
-            ExprKind::Channel(channel) => SamplerArg::Channel(channel),
-            ExprKind::Local(local) => {
-                let func = self.func.expect("initialisers have no parameters");
-                let position = local.index() - self.module[func].locals.start as usize;
-                let before = &self.module.params(func)[..position];
-                let samplers = before.iter().filter(|p| matches!(self.module.types.get(p.ty), Type::Sampler { .. }));
-                SamplerArg::Param(samplers.count())
-            }
-            other => unreachable!("{other:?} is no sampler"),
+    fn wrote(&mut self, mut place: ExprId) {
+        let module = self.module;
+        while let ExprKind::Member { base, .. } | ExprKind::Swizzle { base, .. } | ExprKind::Index { base, .. } =
+            module[place].kind
+        {
+            place = base;
+        }
+        if let ExprKind::Global(global) = module[place].kind {
+            self.facts.writes.insert(global);
         }
     }
 }

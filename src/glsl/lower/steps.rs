@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use naga::{BinaryOperator, MathFunction};
 
 use super::{
-    function::{Builder, Slot, Value},
+    function::{Builder, Value},
     ranges::{Bounds, limits, mirrored},
 };
 use crate::glsl::{
@@ -125,7 +125,7 @@ impl Builder<'_, '_> {
     pub fn note_range(&mut self, local: LocalId, init: Option<ExprId>) {
         let Some(limits) = limits(self.cx.hir[local].ty) else { return };
         // What a switch may jump over is left alone.
-        if !matches!(self.slot(local), Slot::Unset) {
+        if self.is_forced(local) {
             return;
         }
         let Some(start) = init.map_or(Some((0, 0)), |init| self.range(init)) else { return };
