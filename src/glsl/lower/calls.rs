@@ -78,15 +78,23 @@ impl Builder<'_, '_> {
             arguments.push(copy);
             copies_out.push((place, copy));
         }
-        let instance = Instance { func, channels: channels.into() };
-        let function = self.cx.functions[&instance];
-        let result =
-            (hir[func].result != TypeId::VOID).then(|| self.computed_elsewhere(Expression::CallResult(function)));
-        self.push(Statement::Call { function, arguments, result });
+        let result = if self.cx.inlined[func.index()] {
+            self.inline(func, &arguments, &channels)
+        } else {
+            self.call_apart(Instance { func, channels: channels.into() }, arguments)
+        };
         for (place, copy) in copies_out {
             let value = self.load(copy);
             self.store_place(place, value);
         }
+        result
+    }
+
+    fn call_apart(&mut self, instance: Instance, arguments: Vec<Value>) -> Option<Value> {
+        let function = self.cx.functions[&instance];
+        let has_result = self.cx.hir[instance.func].result != TypeId::VOID;
+        let result = has_result.then(|| self.computed_elsewhere(Expression::CallResult(function)));
+        self.push(Statement::Call { function, arguments, result });
         result
     }
 

@@ -33,6 +33,14 @@ pub(super) struct Loop {
     pub step: Option<ExprId>,
 }
 
+/// What belongs to the function whose body is lowered, while that is another one's.
+pub(super) struct Outer {
+    first_local: usize,
+    slots: Vec<Slot>,
+    forced: Vec<bool>,
+    result: TypeId,
+}
+
 pub(super) struct Builder<'m, 'a> {
     pub cx: &'m mut Lowering<'a>,
     pub f: naga::Function,
@@ -58,8 +66,10 @@ pub(super) struct Builder<'m, 'a> {
     /// Pure operations of the blocks at hand, from the outermost on, and where to find them.
     made: Map<scalars::Key, Value>,
     made_in_order: Vec<scalars::Key>,
-    /// What was read from memory since the last statement, by pointer.
-    loaded: Map<Value, Value>,
+    /// What was read from memory and not written since: by variable, then by pointer into it.
+    loaded: Map<Value, Map<Value, Value>>,
+    /// Variables written in the block at hand.
+    written: std::collections::HashSet<Value>,
     pub loops: Vec<Loop>,
     /// What is known of int locals at this place: least and greatest value.
     pub known: Map<u32, (i64, i64)>,
@@ -108,6 +118,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             made: Map::default(),
             made_in_order: Vec::new(),
             loaded: Map::default(),
+            written: Default::default(),
             loops: Vec::new(),
             known: Map::default(),
             result: TypeId::VOID,
@@ -145,6 +156,24 @@ impl<'m, 'a> Builder<'m, 'a> {
                 self.declare(local, argument);
             }
         }
+    }
+
+    /// Turns to the body of another function, which becomes part of this one: what [`Builder::leave`] is to be given.
+    pub fn enter(&mut self, first_local: usize, count: usize, result: TypeId) -> Outer {
+        for local in first_local..first_local + count {
+            self.known.remove(&(local as u32));
+        }
+        Outer {
+            first_local: std::mem::replace(&mut self.first_local, first_local),
+            slots: std::mem::replace(&mut self.slots, vec![Slot::Unset; count]),
+            forced: std::mem::replace(&mut self.forced, vec![false; count]),
+            result: std::mem::replace(&mut self.result, result),
+        }
+    }
+
+    /// Back to the caller.
+    pub fn leave(&mut self, outer: Outer) {
+        Outer { first_local: self.first_local, slots: self.slots, forced: self.forced, result: self.result } = outer;
     }
 
     // ------------------------------------------------------------------------------------------------- variables
@@ -280,7 +309,16 @@ impl<'m, 'a> Builder<'m, 'a> {
 
     pub fn push(&mut self, statement: Statement) {
         self.emit();
-        self.loaded.clear();
+        match &statement {
+            Statement::Store { pointer, .. } => self.forget(*pointer),
+            Statement::Call { arguments, .. } => {
+                let globals = self.globals.values().copied();
+                for pointer in arguments.iter().copied().chain(globals).collect::<Vec<_>>() {
+                    self.forget(pointer);
+                }
+            }
+            _ => {}
+        }
         self.ended =
             matches!(statement, Statement::Break | Statement::Continue | Statement::Return { .. } | Statement::Kill);
         self.block.push(statement, Span::UNDEFINED);
@@ -292,10 +330,14 @@ impl<'m, 'a> Builder<'m, 'a> {
         let outer = std::mem::take(&mut self.block);
         let outer_ended = std::mem::take(&mut self.ended);
         let made = self.made_in_order.len();
-        self.loaded.clear();
+        // What precedes a loop's first round does not precede its second.
+        let mut loaded = std::mem::take(&mut self.loaded);
+        let written = std::mem::take(&mut self.written);
         fill(self);
         self.emit();
-        self.loaded.clear();
+        loaded.retain(|variable, _| !self.written.contains(variable));
+        self.loaded = loaded;
+        self.written.extend(written);
         for key in self.made_in_order.drain(made..) {
             self.made.remove(&key);
         }
@@ -306,12 +348,29 @@ impl<'m, 'a> Builder<'m, 'a> {
     /// What a variable holds. Until something may have been written to it that is one value, which is how drivers see that terms
     /// of two expressions are the same.
     pub fn load(&mut self, pointer: Value) -> Value {
-        if let Some(&value) = self.loaded.get(&pointer) {
+        let variable = self.variable(pointer);
+        if let Some(&value) = self.loaded.get(&variable).and_then(|parts| parts.get(&pointer)) {
             return value;
         }
         let value = self.add(Expression::Load { pointer });
-        self.loaded.insert(pointer, value);
+        self.loaded.entry(variable).or_default().insert(pointer, value);
         value
+    }
+
+    /// What a pointer points into. Different ones are different memory: arguments are passed in place where they are the only way
+    /// to what they point to.
+    fn variable(&self, mut pointer: Value) -> Value {
+        while let Expression::Access { base, .. } | Expression::AccessIndex { base, .. } = self.f.expressions[pointer] {
+            pointer = base;
+        }
+        pointer
+    }
+
+    /// Something is written by a pointer.
+    fn forget(&mut self, pointer: Value) {
+        let variable = self.variable(pointer);
+        self.loaded.remove(&variable);
+        self.written.insert(variable);
     }
 
     pub fn store(&mut self, pointer: Value, value: Value) {
