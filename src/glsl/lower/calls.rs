@@ -198,10 +198,11 @@ impl Builder<'_, '_> {
             arguments.push(copy);
             copies_out.push((place, copy));
         }
-        let function = self.cx.functions[&Instance { func, given }];
-        let result =
-            (hir[func].result != TypeId::VOID).then(|| self.computed_elsewhere(Expression::CallResult(function)));
-        self.push(Statement::Call { function, arguments, result });
+        let result = if self.cx.inlined[func.index()] {
+            self.inline(func, given, arguments)
+        } else {
+            self.call_apart(Instance { func, given }, arguments)
+        };
         for (place, copy) in copies_out {
             let value = self.load(copy);
             self.store_place(place, value);
@@ -214,6 +215,14 @@ impl Builder<'_, '_> {
             Passed::Known(given) => given,
             Passed::Param(index) => self.given[index],
         }
+    }
+
+    fn call_apart(&mut self, instance: Instance, arguments: Vec<Value>) -> Option<Value> {
+        let function = self.cx.functions[&instance];
+        let has_result = self.cx.hir[instance.func].result != TypeId::VOID;
+        let result = has_result.then(|| self.computed_elsewhere(Expression::CallResult(function)));
+        self.push(Statement::Call { function, arguments, result });
+        result
     }
 
     /// The channel a sampler argument stands for.

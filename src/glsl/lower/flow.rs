@@ -24,7 +24,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    fn statement(&mut self, stmt: StmtId) {
+    pub fn statement(&mut self, stmt: StmtId) {
         let hir = self.cx.hir;
         match hir[stmt].kind {
             StmtKind::Block(list) => self.statements(list),

@@ -33,6 +33,16 @@ pub(super) struct Loop {
     pub step: Option<ExprId>,
 }
 
+/// What belongs to the function whose body is lowered, while that is another one's.
+pub(super) struct Outer {
+    first_local: usize,
+    slots: Vec<Slot>,
+    forced: Vec<bool>,
+    result: TypeId,
+    func: Option<FuncId>,
+    given: Box<[Given]>,
+}
+
 pub(super) struct Builder<'m, 'a> {
     pub cx: &'m mut Lowering<'a>,
     pub f: naga::Function,
@@ -58,8 +68,10 @@ pub(super) struct Builder<'m, 'a> {
     /// Pure operations of the blocks at hand, from the outermost on, and where to find them.
     made: Map<scalars::Key, Value>,
     made_in_order: Vec<scalars::Key>,
-    /// What was read from memory since the last statement, by pointer.
-    loaded: Map<Value, Value>,
+    /// What was read from memory and not written since: by variable, then by pointer into it.
+    loaded: Map<Value, Map<Value, Value>>,
+    /// Variables written in the block at hand.
+    written: std::collections::HashSet<Value>,
     pub loops: Vec<Loop>,
     /// What is known of int locals at this place: least and greatest value.
     pub known: Map<u32, (i64, i64)>,
@@ -77,7 +89,11 @@ pub(super) fn lower(cx: &mut Lowering<'_>, instance: &Instance) -> naga::Functio
     builder.result = function.result;
     builder.func = Some(instance.func);
     builder.given = instance.given.clone();
-    builder.parameters(instance.func);
+    builder.parameters(instance.func, |b, ty| {
+        let index = b.f.arguments.len() as u32;
+        b.f.arguments.push(FunctionArgument { name: None, ty, binding: None });
+        b.given(Expression::FunctionArgument(index))
+    });
     builder.statements(function.body.unwrap_or(List::EMPTY));
     if !builder.ended && function.result != TypeId::VOID {
         // Falling off the end gives zero.
@@ -113,6 +129,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             made: Map::default(),
             made_in_order: Vec::new(),
             loaded: Map::default(),
+            written: Default::default(),
             loops: Vec::new(),
             known: Map::default(),
             result: TypeId::VOID,
@@ -127,7 +144,8 @@ impl<'m, 'a> Builder<'m, 'a> {
         self.f
     }
 
-    fn parameters(&mut self, func: FuncId) {
+    /// Says what a function's parameters are; `argument` gives the next one, of this type.
+    pub fn parameters(&mut self, func: FuncId, mut argument: impl FnMut(&mut Self, Handle<naga::Type>) -> Value) {
         let hir = self.cx.hir;
         for (local, given) in self.cx.arguments.givable(func).to_vec().into_iter().zip(self.given.clone()) {
             let slot = match given {
@@ -148,9 +166,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             }
             let by_pointer = param.kind.copies_out() || self.cx.arguments.reads_in_place(hir, local);
             let ty = if by_pointer { self.cx.pointer_ty(param.ty) } else { self.cx.ty(param.ty) };
-            let index = self.f.arguments.len() as u32;
-            self.f.arguments.push(FunctionArgument { name: None, ty, binding: None });
-            let argument = self.given(Expression::FunctionArgument(index));
+            let argument = argument(self, ty);
             if by_pointer {
                 if param.kind == LocalKind::Out {
                     let zero = self.zero(param.ty);
@@ -161,6 +177,35 @@ impl<'m, 'a> Builder<'m, 'a> {
                 self.declare(local, argument);
             }
         }
+    }
+
+    /// Turns to the body of another function, which becomes part of this one: what [`Builder::leave`] is to be given.
+    pub fn enter(&mut self, func: FuncId, given: Box<[Given]>) -> Outer {
+        let function = &self.cx.hir[func];
+        let (first_local, count) = (function.locals.start as usize, function.locals.len());
+        for local in first_local..first_local + count {
+            self.known.remove(&(local as u32));
+        }
+        Outer {
+            first_local: std::mem::replace(&mut self.first_local, first_local),
+            slots: std::mem::replace(&mut self.slots, vec![Slot::Unset; count]),
+            forced: std::mem::replace(&mut self.forced, vec![false; count]),
+            result: std::mem::replace(&mut self.result, function.result),
+            func: self.func.replace(func),
+            given: std::mem::replace(&mut self.given, given),
+        }
+    }
+
+    /// Back to the caller.
+    pub fn leave(&mut self, outer: Outer) {
+        Outer {
+            first_local: self.first_local,
+            slots: self.slots,
+            forced: self.forced,
+            result: self.result,
+            func: self.func,
+            given: self.given,
+        } = outer;
     }
 
     // ------------------------------------------------------------------------------------------------- variables
@@ -286,7 +331,16 @@ impl<'m, 'a> Builder<'m, 'a> {
 
     pub fn push(&mut self, statement: Statement) {
         self.emit();
-        self.loaded.clear();
+        match &statement {
+            Statement::Store { pointer, .. } => self.forget(*pointer),
+            Statement::Call { arguments, .. } => {
+                let globals = self.globals.values().copied();
+                for pointer in arguments.iter().copied().chain(globals).collect::<Vec<_>>() {
+                    self.forget(pointer);
+                }
+            }
+            _ => {}
+        }
         self.ended =
             matches!(statement, Statement::Break | Statement::Continue | Statement::Return { .. } | Statement::Kill);
         self.block.push(statement, Span::UNDEFINED);
@@ -298,10 +352,14 @@ impl<'m, 'a> Builder<'m, 'a> {
         let outer = std::mem::take(&mut self.block);
         let outer_ended = std::mem::take(&mut self.ended);
         let made = self.made_in_order.len();
-        self.loaded.clear();
+        // What precedes a loop's first round does not precede its second.
+        let mut loaded = std::mem::take(&mut self.loaded);
+        let written = std::mem::take(&mut self.written);
         fill(self);
         self.emit();
-        self.loaded.clear();
+        loaded.retain(|variable, _| !self.written.contains(variable));
+        self.loaded = loaded;
+        self.written.extend(written);
         for key in self.made_in_order.drain(made..) {
             self.made.remove(&key);
         }
@@ -312,12 +370,29 @@ impl<'m, 'a> Builder<'m, 'a> {
     /// What a variable holds. Until something may have been written to it that is one value, which is how drivers see that terms
     /// of two expressions are the same.
     pub fn load(&mut self, pointer: Value) -> Value {
-        if let Some(&value) = self.loaded.get(&pointer) {
+        let variable = self.variable(pointer);
+        if let Some(&value) = self.loaded.get(&variable).and_then(|parts| parts.get(&pointer)) {
             return value;
         }
         let value = self.add(Expression::Load { pointer });
-        self.loaded.insert(pointer, value);
+        self.loaded.entry(variable).or_default().insert(pointer, value);
         value
+    }
+
+    /// What a pointer points into. Different ones are different memory: arguments are passed in place where they are the only way
+    /// to what they point to.
+    fn variable(&self, mut pointer: Value) -> Value {
+        while let Expression::Access { base, .. } | Expression::AccessIndex { base, .. } = self.f.expressions[pointer] {
+            pointer = base;
+        }
+        pointer
+    }
+
+    /// Something is written by a pointer.
+    fn forget(&mut self, pointer: Value) {
+        let variable = self.variable(pointer);
+        self.loaded.remove(&variable);
+        self.written.insert(variable);
     }
 
     pub fn store(&mut self, pointer: Value, value: Value) {

@@ -28,6 +28,7 @@ mod expr;
 mod flow;
 mod function;
 mod geometry;
+mod inline;
 mod matrix;
 mod mix;
 mod opaque;
@@ -91,12 +92,14 @@ pub(in crate::glsl) fn lower(module: &hir::Module, source: &PassSource<'_>, inte
         unrolled: unroll::unrolled(module),
         writes,
         arguments,
+        inlined: inline::inlined(module),
         uses: ranges::use_counts(module),
         zeros: Zeros::new(module),
         functions: HashMap::with_capacity(reach.instances.len()),
         reflection: Reflection::default(),
     };
-    for instance in &reach.instances {
+    let apart: Vec<_> = reach.instances.iter().filter(|i| !cx.inlined[i.func.index()]).collect();
+    for instance in apart {
         let function = function::lower(&mut cx, instance);
         let handle = cx.out.functions.append(function, naga::Span::UNDEFINED);
         cx.functions.insert(instance.clone(), handle);
@@ -156,6 +159,8 @@ struct Lowering<'a> {
     /// Loops whose rounds are written out, by [`hir::StmtId::index`].
     unrolled: HashMap<usize, unroll::Unrolled>,
     arguments: Arguments,
+    /// Functions that become part of their callers, by [`hir::FuncId::index`].
+    inlined: Vec<bool>,
     /// How many expressions name each local, by [`hir::LocalId::index`].
     uses: Vec<u32>,
     zeros: Zeros,

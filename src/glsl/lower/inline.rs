@@ -1,0 +1,217 @@
+//! Calls of small functions, replaced by what they do.
+//!
+//! Every driver does that sooner or later. OpenGL's compilers do it before they join constants and look for what is computed
+//! twice, across the borders that the author drew; a SPIR-V driver finds most of that done for each function alone, and last
+//! bits come out differently (see [`super::regroup`]).
+
+use naga::Statement;
+
+use super::{
+    calls::Given,
+    function::{Builder, Value},
+    reach::known_bool,
+};
+use crate::glsl::{
+    ast::List,
+    hir::{ExprId, ExprKind, FuncId, Module, StmtId, StmtKind, TypeId},
+};
+
+/// Expressions and statements of a function, with those of what is inlined into it, that are written again for each call.
+const LARGEST: usize = 256;
+
+/// Which functions are inlined wherever they are called, by [`FuncId::index`]. What is generated for a function grows by no more
+/// than [`LARGEST`] for each of its calls.
+pub(super) fn inlined(module: &Module) -> Vec<bool> {
+    let mut sizes = vec![usize::MAX; module.functions.len()];
+    for &func in &module.call_order {
+        let Some(body) = module[func].body else { continue };
+        if Some(func) == module.entry || !is_straight(module, &module[body]) {
+            continue;
+        }
+        sizes[func.index()] = size(module, body, &sizes);
+    }
+    sizes.into_iter().map(|size| size <= LARGEST).collect()
+}
+
+/// Whether a body leaves at its end alone, or in branches that do nothing else after it.
+fn is_straight(module: &Module, list: &[StmtId]) -> bool {
+    let Some((&first, rest)) = list.split_first() else { return true };
+    match module[first].kind {
+        StmtKind::Return(_) => rest.is_empty(),
+        StmtKind::If { cond, then, otherwise } if leaves(module, first) => {
+            let (then, otherwise) = (&module[then], &module[otherwise]);
+            known_bool(module, cond).is_none()
+                && always_returns(module, then)
+                && is_straight(module, then)
+                && is_straight(module, otherwise)
+                && if otherwise.is_empty() {
+                    is_straight(module, rest)
+                } else {
+                    rest.is_empty() && always_returns(module, otherwise)
+                }
+        }
+        _ => !leaves(module, first) && is_straight(module, rest),
+    }
+}
+
+/// Whether control cannot reach the end of a list.
+fn always_returns(module: &Module, list: &[StmtId]) -> bool {
+    list.last().is_some_and(|&last| match module[last].kind {
+        StmtKind::Return(_) => true,
+        StmtKind::If { then, otherwise, .. } => {
+            always_returns(module, &module[then]) && always_returns(module, &module[otherwise])
+        }
+        _ => false,
+    })
+}
+
+/// Whether a statement may leave the function.
+fn leaves(module: &Module, stmt: StmtId) -> bool {
+    let any = |list: List<StmtId>| module[list].iter().any(|&stmt| leaves(module, stmt));
+    match module[stmt].kind {
+        StmtKind::Return(_) | StmtKind::Discard => true,
+        StmtKind::Block(list) => any(list),
+        StmtKind::If { then, otherwise, .. } => any(then) || any(otherwise),
+        StmtKind::For { init, body, .. } => any(init) || any(body),
+        StmtKind::DoWhile { body, .. } => any(body),
+        StmtKind::Switch { cases, .. } => module[cases].iter().any(|case| any(case.body)),
+        StmtKind::Expr(_) | StmtKind::Declare { .. } | StmtKind::Break | StmtKind::Continue => false,
+    }
+}
+
+/// Counts expressions and statements until there are more than [`LARGEST`].
+fn size(module: &Module, body: List<StmtId>, sizes: &[usize]) -> usize {
+    let mut stmts: Vec<StmtId> = module[body].to_vec();
+    let mut exprs: Vec<ExprId> = Vec::new();
+    let mut size = 0;
+    while let Some(stmt) = stmts.pop() {
+        size += 1;
+        match module[stmt].kind {
+            StmtKind::Block(list) => stmts.extend(&module[list]),
+            StmtKind::Expr(expr) => exprs.push(expr),
+            StmtKind::Declare { init: value, .. } | StmtKind::Return(value) => exprs.extend(value),
+            StmtKind::If { cond, then, otherwise } => {
+                exprs.push(cond);
+                stmts.extend(module[then].iter().chain(&module[otherwise]));
+            }
+            StmtKind::For { init, test, step, body } => {
+                exprs.extend(test.into_iter().chain(step));
+                stmts.extend(module[init].iter().chain(&module[body]));
+            }
+            StmtKind::DoWhile { body, test } => {
+                exprs.push(test);
+                stmts.extend(&module[body]);
+            }
+            StmtKind::Switch { value, cases } => {
+                exprs.push(value);
+                stmts.extend(module[cases].iter().flat_map(|case| &module[case.body]));
+            }
+            StmtKind::Break | StmtKind::Continue | StmtKind::Discard => {}
+        }
+        while let Some(expr) = exprs.pop() {
+            size += 1;
+            if size > LARGEST {
+                return size;
+            }
+            match module[expr].kind {
+                ExprKind::Error
+                | ExprKind::Literal(_)
+                | ExprKind::Const(_)
+                | ExprKind::Local(_)
+                | ExprKind::Global(_)
+                | ExprKind::Uniform(_)
+                | ExprKind::Knob(_)
+                | ExprKind::Channel(_)
+                | ExprKind::BuiltinVar(_) => {}
+                ExprKind::Member { base: of, .. }
+                | ExprKind::Swizzle { base: of, .. }
+                | ExprKind::Unary { operand: of, .. }
+                | ExprKind::IncDec { place: of, .. }
+                | ExprKind::Convert(of)
+                | ExprKind::Splat(of)
+                | ExprKind::MatrixDiagonal(of)
+                | ExprKind::MatrixResize(of) => exprs.push(of),
+                ExprKind::Index { base: a, index: b }
+                | ExprKind::Binary { lhs: a, rhs: b, .. }
+                | ExprKind::Comma { lhs: a, rhs: b }
+                | ExprKind::Assign { place: a, value: b }
+                | ExprKind::AssignOp { place: a, value: b, .. }
+                | ExprKind::Logical { lhs: a, rhs: b, .. } => exprs.extend([a, b]),
+                ExprKind::Ternary { cond, then, otherwise } => exprs.extend([cond, then, otherwise]),
+                ExprKind::Vector(args)
+                | ExprKind::Matrix(args)
+                | ExprKind::Struct(args)
+                | ExprKind::Array(args)
+                | ExprKind::Builtin { args, .. } => exprs.extend(&module[args]),
+                ExprKind::Call { func, args } => {
+                    exprs.extend(&module[args]);
+                    let callee = sizes[func.index()];
+                    if callee <= LARGEST {
+                        size += callee;
+                    }
+                }
+            }
+        }
+    }
+    size
+}
+
+impl Builder<'_, '_> {
+    /// Does what a function does with these arguments, which are as [`Builder::call`] would pass them; `None` if it is void.
+    pub fn inline(&mut self, func: FuncId, given: Box<[Given]>, arguments: Vec<Value>) -> Option<Value> {
+        let hir = self.cx.hir;
+        let function = &hir[func];
+        let outer = self.enter(func, given);
+        let mut arguments = arguments.into_iter();
+        self.parameters(func, |_, _| arguments.next().expect("an argument for each parameter"));
+        let body = &hir[function.body.unwrap_or(List::EMPTY)];
+        let value = if function.result == TypeId::VOID {
+            self.straight(body, None);
+            None
+        } else if let Some((&last, rest)) = body.split_last()
+            && let StmtKind::Return(Some(value)) = hir[last].kind
+            && !rest.iter().any(|&stmt| leaves(hir, stmt))
+        {
+            self.straight(rest, None);
+            Some(self.value(value))
+        } else {
+            let result = self.temporary(function.result);
+            if !always_returns(hir, body) {
+                // Falling off the end gives zero.
+                let zero = self.zero(function.result);
+                self.store(result, zero);
+            }
+            self.straight(body, Some(result));
+            Some(self.load(result))
+        };
+        self.leave(outer);
+        value
+    }
+
+    /// The statements of a body that [`is_straight`]; what it returns goes to `result`.
+    fn straight(&mut self, list: &[StmtId], result: Option<Value>) {
+        let hir = self.cx.hir;
+        for (i, &stmt) in list.iter().enumerate() {
+            match hir[stmt].kind {
+                StmtKind::Return(value) => match (value, result) {
+                    (Some(value), Some(result)) => {
+                        let value = self.value(value);
+                        self.store(result, value);
+                    }
+                    (Some(value), None) => self.effect(value),
+                    (None, _) => {}
+                },
+                StmtKind::If { cond, then, otherwise } if leaves(hir, stmt) => {
+                    let condition = self.value(cond);
+                    let (then, otherwise) = (&hir[then], &hir[otherwise]);
+                    let otherwise = if otherwise.is_empty() { &list[i + 1..] } else { otherwise };
+                    let (accept, _) = self.nested(|b| b.straight(then, result));
+                    let (reject, _) = self.nested(|b| b.straight(otherwise, result));
+                    self.push(Statement::If { condition, accept, reject });
+                    return;
+                }
+                _ => self.statement(stmt),
+            }
+        }
+    }
+}
