@@ -31,13 +31,7 @@ impl Builder<'_, '_> {
             StmtKind::Expr(expr) => self.effect(expr),
             StmtKind::Declare { local, init } => self.declaration(local, init),
             StmtKind::If { cond, then, otherwise } => self.branch(cond, then, otherwise),
-            StmtKind::For { init, test, step, body } => match self.cx.unrolled.get(&stmt.index()).cloned() {
-                Some(unrolled) => {
-                    self.statements(init);
-                    self.rounds(&unrolled, step, body);
-                }
-                None => self.for_loop(init, test, step, body),
-            },
+            StmtKind::For { init, test, step, body } => self.for_loop(init, test, step, body),
             StmtKind::DoWhile { body, test } => self.do_while(body, test),
             StmtKind::Switch { value, cases } => self.switch(value, &hir[cases]),
             StmtKind::Return(value) => {

@@ -43,7 +43,6 @@ mod steps;
 mod tables;
 mod texture;
 mod types;
-mod unroll;
 mod zeros;
 
 use std::collections::HashMap;
@@ -89,7 +88,6 @@ pub(in crate::glsl) fn lower(module: &hir::Module, source: &PassSource<'_>, inte
         resources: Resources::new(module.globals.len()),
         costs: cost::costs(module),
         counted: steps::counted(module, &writes),
-        unrolled: unroll::unrolled(module),
         writes,
         arguments,
         inlined: inline::inlined(module),
@@ -156,8 +154,6 @@ struct Lowering<'a> {
     writes: Vec<u32>,
     /// Locals that one loop counts.
     counted: HashMap<usize, steps::Counted>,
-    /// Loops whose rounds are written out, by [`hir::StmtId::index`].
-    unrolled: HashMap<usize, unroll::Unrolled>,
     arguments: Arguments,
     /// Functions that become part of their callers, by [`hir::FuncId::index`].
     inlined: Vec<bool>,
