@@ -65,7 +65,7 @@ fn what_fills_the_uniform_buffer_leaves_the_next_table_to_the_storage_buffer() {
 fn an_array_begins_with_its_value_where_it_is_declared_once_a_call() {
     let code = |declared: &str| {
         format!(
-            "float f(int i) {{ {declared} a[i] += 1.0; return a[i + 1]; }}\n\
+            "float f(int i) {{ {declared} a[i] += 1.0; if (i > 9) discard; return a[i + 1]; }}\n\
                  void mainImage(out vec4 o, vec2 p) {{ o = vec4(f(int(p.x))); }}"
         )
     };
@@ -81,8 +81,8 @@ fn an_array_begins_with_its_value_where_it_is_declared_once_a_call() {
 #[test]
 fn an_array_handed_on_through_calls_is_not_copied_on_the_way() {
     let compiled = compiled(
-        "float last(float a[4], int i) { return a[i]; }\n\
-         float middle(float a[4], int i) { return last(a, i) + last(a, i + 1); }\n\
+        "float last(float a[4], int i) { if (i > 9) discard; return a[i]; }\n\
+         float middle(float a[4], int i) { if (i > 8) discard; return last(a, i) + last(a, i + 1); }\n\
          void mainImage(out vec4 o, vec2 p) { float a[4]; a[1] = p.x; o = vec4(middle(a, int(p.y))); }",
     );
     let memory: Vec<usize> = compiled.module.functions.iter().map(|(_, f)| f.local_variables.len()).collect();
@@ -95,13 +95,16 @@ fn an_array_handed_on_through_calls_is_not_copied_on_the_way() {
 fn what_all_functions_see_is_not_handed_over() {
     let compiled = compiled(
         "float G[4]; const float T[4] = float[](1., 2., 3., 4.);\n\
-         float last(float a[4], int i) { return a[i]; }\n\
-         float middle(float a[4], int i) { return last(a, i) + last(a, i + 1); }\n\
-         void mainImage(out vec4 o, vec2 p) { int i = int(p.x); G[i] = p.x; o = vec4(middle(G, i), middle(T, i), 0, 0); }",
+         float last(float a[4], int i) { if (i > 9) discard; return a[i]; }\n\
+         float middle(float a[4], int i) { if (i > 8) discard; return last(a, i) + last(a, i + 1); }\n\
+         void mainImage(out vec4 o, vec2 p) {\n\
+             int i = int(p.x); G[i] = p.x;\n\
+             o = vec4(middle(G, i), middle(T, i), last(T, 0), last(float[](5., 6., 7., 8.), i));\n\
+         }",
     );
     let functions = compiled.module.functions.iter().map(|(_, f)| (f.arguments.len(), f.local_variables.len()));
-    // `last` and `middle` of either, and `mainImage`.
-    assert_eq!(functions.collect::<Vec<_>>(), [(1, 0), (1, 0), (1, 0), (1, 0), (2, 0)]);
+    // `last` of what its argument points to, of either, `middle` of either, and `mainImage` with the four numbers.
+    assert_eq!(functions.collect::<Vec<_>>(), [(2, 0), (1, 0), (1, 0), (1, 0), (1, 0), (2, 1)]);
 }
 
 #[test]

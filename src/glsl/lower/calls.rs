@@ -8,6 +8,7 @@ use super::{
     Instance,
     access::Place,
     function::{Builder, Slot, Value},
+    tables::NOT_UNROLLED,
 };
 use crate::glsl::hir::{
     ConstId, ExprFlags, ExprId, ExprKind, FuncId, GlobalId, GlobalStorage, Local, LocalId, LocalKind, Module, Type,
@@ -44,6 +45,8 @@ pub(super) struct Arguments {
     written: Vec<HashSet<GlobalId>>,
     /// Parameters of each function that a copy of it can have something in place of, in order.
     givable: Vec<Vec<LocalId>>,
+    /// How many expressions name each constant, by [`ConstId::index`].
+    named: Vec<u32>,
 }
 
 impl Arguments {
@@ -57,14 +60,26 @@ impl Arguments {
             }
             written[func.index()] = all;
         }
-        let mut made =
-            Self { handed_on: handed_on(module), written, givable: vec![Vec::new(); module.functions.len()] };
+        let mut named = vec![0; module.consts.len()];
+        for expr in &module.exprs {
+            if let ExprKind::Const(id) = expr.kind {
+                named[id.index()] += 1;
+            }
+        }
+        let givable = vec![Vec::new(); module.functions.len()];
+        let mut made = Self { handed_on: handed_on(module), written, givable, named };
         for &func in &module.call_order {
             let first = module[func].locals.start as usize;
             let params = (first..first + module.params(func).len()).map(LocalId::new);
             made.givable[func.index()] = params.filter(|&param| made.is_givable(module, param)).collect();
         }
         made
+    }
+
+    /// Whether a constant is a table rather than a few numbers written into one call: those are cheaper put into memory where
+    /// they are needed than at the start of every invocation.
+    fn is_table(&self, module: &Module, id: ConstId) -> bool {
+        self.named[id.index()] > 1 || module[module[id].words].len() >= NOT_UNROLLED as usize
     }
 
     pub fn givable(&self, func: FuncId) -> &[LocalId] {
@@ -99,7 +114,7 @@ impl Arguments {
             let changes = args[place + 1..].iter().any(|&arg| module[arg].flags.contains(ExprFlags::EFFECTS));
             match module[args[place]].kind {
                 ExprKind::Channel(channel) => Passed::Known(Given::Channel(channel)),
-                ExprKind::Const(table) => Passed::Known(Given::Table(table)),
+                ExprKind::Const(table) if self.is_table(module, table) => Passed::Known(Given::Table(table)),
                 ExprKind::Global(global) if module[global].storage == GlobalStorage::Private => {
                     let declared = &module[global];
                     let stays = !changes && !self.written[func.index()].contains(&global);

@@ -26,7 +26,7 @@ const LARGE: usize = 256;
 
 /// Elements from which on an array goes into the uniform buffer. To fill memory takes llvmpipe a store for each pixel and component
 /// at every start of the program; but Mesa unrolls loops of up to 32 turns, and then folds what they read of memory away.
-const NOT_UNROLLED: u32 = 33;
+pub(super) const NOT_UNROLLED: u32 = 33;
 
 /// Bytes of a slot there: what a uniform buffer's array elements lie apart at least.
 const SLOT: u32 = 16;
