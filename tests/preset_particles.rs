@@ -99,4 +99,11 @@ fn the_tiles_show_every_particle() {
         assert!(mean(&all, 2, |_, _| true) > 0.02, "nothing shines");
         assert!(worst < 4e-3, "{size:?}: a pixel differs by {worst}");
     }
+    // Where a tile's sixty-four places run out, the preset's text says how much is lost.
+    for (size, most) in [((96, 54), 1e-4), ((64, 36), 0.003), ((32, 18), 0.09)] {
+        let shown = |all| (0..3).map(|c| mean(&light(all, size), c, |_, _| true)).sum::<f64>();
+        let lost = 1.0 - shown(false) / shown(true);
+        println!("{size:?}: {lost:.1e} of the light is lost");
+        assert!((-1e-6..most).contains(&lost), "{size:?}: {lost} of the light is lost");
+    }
 }

@@ -1,5 +1,5 @@
-//! The hard cases, for every simulation among the presets: a violent mouse, long steps, broken numbers, odd sizes, long runs,
-//! sliders at their ends, resizes, pauses. Each must stay finite and within its bound, and come back.
+//! The hard cases, for every simulation and every state machine among the presets: a violent mouse, long steps, broken numbers,
+//! odd sizes, long runs, sliders at their ends, resizes, pauses. Each must stay finite and within its bound, and come back.
 
 mod support;
 
@@ -18,7 +18,7 @@ struct Simulation {
     memory: i32,
 }
 
-const SIMULATIONS: [Simulation; 8] = [
+const SIMULATIONS: [Simulation; 10] = [
     Simulation { name: "fluid", state: "A", bound: 4096.0, memory: 2 },
     Simulation { name: "fluid-dye", state: "A", bound: 4096.0, memory: 2 },
     Simulation { name: "fluid-lit", state: "A", bound: 4096.0, memory: 2 },
@@ -27,6 +27,9 @@ const SIMULATIONS: [Simulation; 8] = [
     Simulation { name: "fluid-accurate", state: "velocity", bound: 1e4, memory: 3 },
     Simulation { name: "mip-fluid", state: "velocity", bound: 1e4, memory: 4 },
     Simulation { name: "particles", state: "motion", bound: 1e4, memory: 3 },
+    Simulation { name: "brick-breaker", state: "A", bound: 1e5, memory: 2 },
+    // Its memory is signed with the canvas's size, a whole number up to 2^24.
+    Simulation { name: "mouse-state", state: "A", bound: 16_777_216.0, memory: 2 },
 ];
 
 /// Every buffer and the picture are finite and within the bound.
@@ -122,6 +125,68 @@ fn every_slider_may_go_to_its_ends_and_come_back() {
     }
 }
 
+/// What a violent hand has set in motion dies of viscosity and drag, and does not live on by itself.
+#[test]
+fn after_a_violent_hand_it_is_calm_again() {
+    let Some(gpu) = gpu() else { return };
+    // With nothing else that moves it; the frames after which less than a hundredth of the energy is left.
+    let cases: [(&str, &str, &[&str], i32); 3] = [
+        ("fluid", "A", &["nozzles=0"], 300),
+        ("fluid-accurate", "velocity", &["jets=0", "viscosity=0.01"], 600),
+        ("mip-fluid", "velocity", &["stirring=0"], 500),
+    ];
+    for (name, state, knobs, frames) in cases {
+        let mut engine = whole(&gpu, &preset_with(name, knobs), true, (48, 27));
+        // Row 0 of the fluid is the mouse's memory.
+        let energy = |engine: &mut Engine| {
+            let pixels = engine.read(&buffer(state)).unwrap();
+            let speeds = pixels.texels[pixels.width as usize..].iter();
+            speeds.map(|t| f64::from(t[0]).powi(2) + f64::from(t[1]).powi(2)).sum::<f64>()
+        };
+        draw(&mut engine, 0..5, untouched);
+        draw(&mut engine, 5..40, |f| violent(f, (48.0, 27.0)));
+        let begin = energy(&mut engine);
+        draw(&mut engine, 40..40 + frames, untouched);
+        let left = energy(&mut engine) / begin;
+        println!("{name}: {left:.1e} of the energy after {frames} frames");
+        assert!(begin > 1e-3 && left < 0.01, "{name}: {left} of the energy is left after {frames} frames");
+    }
+}
+
+/// Sliders spoil each other: the corners of the box that their ranges are, the two of all least and all most and some between.
+#[test]
+fn all_sliders_may_go_to_their_ends_at_once_and_come_back() {
+    let Some(gpu) = gpu() else { return };
+    for s in &SIMULATIONS {
+        let project = preset(s.name);
+        let mut engine = whole(&gpu, &project, true, (32, 20));
+        let mut frame = 0;
+        let mut run = |engine: &mut Engine, frames: i32, hand: bool| {
+            draw(engine, frame..frame + frames, |f| if hand { violent(f, (32.0, 20.0)) } else { untouched(f) });
+            frame += frames;
+        };
+        run(&mut engine, 3, false);
+        for corner in [0, u64::MAX, 0x9e37_79b9_7f4a_7c15, 0x6a09_e667_f3bc_c909, 0xb7e1_5162_8aed_2a6b] {
+            let mut turned = project.clone();
+            for (i, knob) in project.knobs().list.iter().enumerate() {
+                let Some(range) = &knob.range else { continue };
+                let end = if corner >> i & 1 == 0 { &range.min } else { &range.max };
+                turned.turn_knob(knob, KnobValue::new(knob.ty, end));
+            }
+            engine.set_knobs(&turned.knob_values);
+            run(&mut engine, 20, true);
+            run(&mut engine, 20, false);
+            check(s, &mut engine, &format!("sliders at {corner:x}"));
+            engine.set_knobs(&project.knob_values);
+            run(&mut engine, 10, false);
+            check(s, &mut engine, &format!("back from sliders at {corner:x}"));
+        }
+        let before = bits(&engine.read(&PassId::Image).unwrap());
+        run(&mut engine, 20, false);
+        assert!(before != bits(&engine.read(&PassId::Image).unwrap()), "{} stands still", s.name);
+    }
+}
+
 #[test]
 fn a_hitch_a_pause_and_a_single_step_are_frames_like_others() {
     let Some(gpu) = gpu() else { return };
@@ -210,6 +275,8 @@ hundred_thousand_steps! {
     a_hundred_thousand_steps_of_fluid_accurate: "fluid-accurate",
     a_hundred_thousand_steps_of_mip_fluid: "mip-fluid",
     a_hundred_thousand_steps_of_particles: "particles",
+    a_hundred_thousand_steps_of_brick_breaker: "brick-breaker",
+    a_hundred_thousand_steps_of_mouse_state: "mouse-state",
 }
 
 /// At 16x9: finite, within its bound, and moving to the end.

@@ -8,7 +8,7 @@ use eddy::{
     media,
     project::{self, Channel, Input, PassId, Sampler, Tab},
     session::{
-        Answer, Command, Level, Outcome, Question, Request, Session, Then, capture,
+        Answer, Command, Level, Meanwhile, Outcome, Question, Request, Session, Then, capture,
         offline::{Offline, OfflineOptions},
         script::{ScriptedInputs, parse_keys, parse_mouse},
     },
@@ -181,7 +181,8 @@ fn an_edit_compiles_after_quiet_and_an_error_keeps_the_picture() {
     stage.edit("void mainImage(out vec4 o, in vec2 p) {\n    o = vec4(1.0);\n    o.x = nowhere;\n}\n");
     stage.session.apply(Command::CompileNow);
     stage.until_compiled();
-    assert!(matches!(stage.session.compile_state().last, Some(Outcome::Failed { errors: 1.. })));
+    let failed = |meanwhile| Some(Outcome::Failed { errors: 1, meanwhile });
+    assert_eq!(stage.session.compile_state().last, failed(Meanwhile::LastGood));
     let error = &stage.session.diagnostics()[0];
     assert_eq!((error.tab.as_ref(), error.line), (Some(&IMAGE), 3), "{error:?}");
     assert_eq!(stage.red(), 153, "the last good picture");
@@ -195,6 +196,43 @@ fn an_edit_compiles_after_quiet_and_an_error_keeps_the_picture() {
     assert!(stage.is_ok() && stage.session.diagnostics().is_empty());
     assert_eq!(stage.red(), 51);
     assert!(!stage.session.is_dirty(), "back to what is on disk");
+}
+
+#[test]
+fn what_is_drawn_while_there_are_errors_is_told() {
+    let Some(gpu) = support::gpu() else { return };
+    let broken = "void mainImage(out vec4 o, in vec2 p) {\n    o = nowhere;\n}\n";
+    let failed = |meanwhile| Some(Outcome::Failed { errors: 1, meanwhile });
+    let mut stage = Stage::open(gpu, &[("image.glsl", broken)]);
+    assert_eq!(stage.session.compile_state().last, failed(Meanwhile::Nothing), "there never was a picture");
+    stage.session.apply(Command::Screenshot);
+    assert_eq!(stage.notices(Level::Warning), ["there is no picture to save yet"]);
+
+    stage.edit(&plain(0.2));
+    stage.session.apply(Command::CompileNow);
+    stage.until_compiled();
+    assert!(stage.is_ok());
+    stage.edit(broken);
+    stage.session.apply(Command::CompileNow);
+    stage.until_compiled();
+    assert_eq!(stage.session.compile_state().last, failed(Meanwhile::LastGood));
+
+    // Another project that has none: the one before is gone, and its picture with it.
+    stage.edit(&plain(0.2));
+    stage.session.apply(Command::Save);
+    let other = stage.dir.path().join("other");
+    fs::create_dir(&other).unwrap();
+    fs::write(other.join("image.glsl"), broken).unwrap();
+    stage.session.apply(Command::Open(other.to_str().unwrap().into()));
+    stage.until_compiled();
+    assert_eq!(stage.session.compile_state().last, failed(Meanwhile::Nothing));
+
+    // A channel that names nothing: an error, and the picture is the newest text's all the same.
+    stage.edit(&format!("#iChannel0 \"nothing of this name\"\n{}", plain(0.4)));
+    stage.session.apply(Command::CompileNow);
+    stage.until_compiled();
+    assert_eq!(stage.session.compile_state().last, failed(Meanwhile::Newest));
+    assert_eq!(stage.red(), 102);
 }
 
 #[test]

@@ -15,7 +15,8 @@
 //
 // Taylor's and Green's decaying eddies on 64 x 64 cells, at 0.15 cells a step: 1.5 % off when 43 % have decayed (stated: under
 // 2 %), as if the viscosity were 1.027 of what it is. Without viscosity they keep 0.92 of their energy over 300 frames and
-// never gain any; at ten times the step they stay bounded but lose most of it, a long path being a blurred one.
+// never gain any; at ten times the step (the slider `speed`) they stay bounded and keep 0.12 of it, a long path being a blurred
+// one.
 //
 // Units: canvas heights and seconds. The grid is half the canvas each way; the dye has every pixel.
 

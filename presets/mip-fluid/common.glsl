@@ -13,6 +13,10 @@
 // were pyramid methods: P. Burt, "Fast Filter Transforms for Image Processing", CGIP 16, 1981; R. Fattal, "Convolution
 // Pyramids", SIGGRAPH Asia 2011.
 //
+// No step is too long: advection invents nothing and MAX_SPEED ends what turbulence and confinement feed. But what is carried
+// is bilinear: waves of 64 texels, left to themselves, keep 0.76 of their energy over two seconds, and 0.11 at ten times
+// the step (the slider `speed`).
+//
 // Units: canvas heights and seconds.
 
 // How many levels are summed. The canvas has log2 of its size; more change nothing.

@@ -62,7 +62,7 @@ impl Engine {
         }
         let newest = self.targets.get(self.display.target).map_or(0, |t| t.front);
         if let Some(bound) = self.display.bound.get(newest) {
-            self.display.presenter.present(&mut encoder, bound, &self.display.texture);
+            self.display.presenter.present(&self.gpu, &mut encoder, bound, &self.display.texture);
         }
         self.gpu.queue.submit([encoder.finish()]);
         if let Some(timer) = &mut self.timer {
@@ -115,7 +115,12 @@ impl Engine {
                 target.newest().copy_overlap(encoder, &target.textures[target.back()]);
             }
         }
-        let load = if draw.keeps_content { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) };
+        let load = match compiled.camera {
+            _ if draw.keeps_content => wgpu::LoadOp::Load,
+            // The triangle covers all, and nothing of it is discarded.
+            None => self.gpu.load_what_is_overwritten(),
+            Some(_) => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+        };
         let attachments: Vec<_> = targets
             .iter()
             .map(|target| {
@@ -128,7 +133,7 @@ impl Engine {
             })
             .collect();
         let depth = self.depths.get(index).and_then(Option::as_ref);
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        let descriptor = wgpu::RenderPassDescriptor {
             label: None,
             color_attachments: &attachments,
             depth_stencil_attachment: depth.map(|view| wgpu::RenderPassDepthStencilAttachment {
@@ -138,29 +143,30 @@ impl Engine {
             }),
             timestamp_writes: self.timer.as_mut().and_then(|t| t.writes(index)),
             ..Default::default()
-        });
-        // Row 0 is the bottom, for a scissor too.
-        if let Some(region) = draw.region.and_then(|r| r.within(size)) {
-            pass.set_scissor_rect(region.x, region.y, region.width, region.height);
-        }
-        for (program, uniforms) in compiled.programs.iter().zip(uniforms) {
-            pass.set_pipeline(&program.pipeline.raw);
-            pass.set_bind_group(UNIFORM_GROUP, uniforms, &[]);
-            pass.set_bind_group(CHANNEL_GROUP, channels, &[]);
-            match &program.mesh {
-                None => pass.draw(0..3, 0..1),
-                Some(mesh) => {
-                    pass.set_vertex_buffer(0, mesh.buffers.vertices.slice(..));
-                    pass.set_index_buffer(mesh.buffers.indices.slice(..), wgpu::IndexFormat::Uint32);
-                    pass.draw_indexed(0..mesh.buffers.count, 0, 0..1);
+        };
+        self.gpu.pass(encoder, descriptor, |pass| {
+            // Row 0 is the bottom, for a scissor too.
+            if let Some(region) = draw.region.and_then(|r| r.within(size)) {
+                pass.set_scissor_rect(region.x, region.y, region.width, region.height);
+            }
+            for (program, uniforms) in compiled.programs.iter().zip(uniforms) {
+                pass.set_pipeline(&program.pipeline.raw);
+                pass.set_bind_group(UNIFORM_GROUP, uniforms, &[]);
+                pass.set_bind_group(CHANNEL_GROUP, channels, &[]);
+                match &program.mesh {
+                    None => pass.draw(0..3, 0..1),
+                    Some(mesh) => {
+                        pass.set_vertex_buffer(0, mesh.buffers.vertices.slice(..));
+                        pass.set_index_buffer(mesh.buffers.indices.slice(..), wgpu::IndexFormat::Uint32);
+                        pass.draw_indexed(0..mesh.buffers.count, 0, 0..1);
+                    }
                 }
             }
-        }
-        drop(pass);
+        });
         for target in &mut self.targets[draw.targets.clone()] {
             target.front = target.back();
             if let Some(chain) = target.chains.get(target.front) {
-                self.mips.build(encoder, chain);
+                self.mips.build(&self.gpu, encoder, chain);
             }
         }
     }

@@ -319,7 +319,7 @@ impl Uploads<'_> {
         if mips {
             let chain = self.mips.chain(self.gpu, &texture);
             let mut encoder = self.gpu.device.create_command_encoder(&Default::default());
-            self.mips.build(&mut encoder, &chain);
+            self.mips.build(self.gpu, &mut encoder, &chain);
             self.gpu.queue.submit([encoder.finish()]);
         }
         self.made.insert(key, texture.clone());

@@ -8,7 +8,7 @@ use super::{
     uniforms::Uniforms,
 };
 use crate::{
-    gpu::{Gpu, GpuError, MipMaker, PassTimer, Presenter, Texture, depth_buffer, read_rgba32float, to_rgba32float},
+    gpu::{FloatConverter, Gpu, GpuError, MipMaker, PassTimer, Presenter, Texture, depth_buffer, read_rgba32float},
     graph::Ledger,
     project::{KnobValues, PassId},
 };
@@ -71,6 +71,8 @@ pub struct Engine {
     pub(super) key_changes: u64,
     pub(super) display: Display,
     pub(super) timer: Option<PassTimer>,
+    /// For reading back what is no rgba32float; made when first needed.
+    converter: Option<FloatConverter>,
 }
 
 /// The 8-bit picture a window shows.
@@ -105,6 +107,7 @@ impl Engine {
             key_changes: 0,
             display: Display { presenter, texture, shown: None, bound: Vec::new(), target: 0 },
             timer: None,
+            converter: None,
             gpu,
         })
     }
@@ -160,7 +163,7 @@ impl Engine {
         let mut encoder =
             self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("reset") });
         for target in &self.targets {
-            target.clear(&mut encoder, &self.mips);
+            target.clear(&self.gpu, &mut encoder, &self.mips);
         }
         self.gpu.queue.submit([encoder.finish()]);
         self.ledger.forget();
@@ -208,8 +211,8 @@ impl Engine {
             self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("show") });
         let newest = self.targets.get(self.display.target).map_or(0, |t| t.front);
         match self.display.bound.get(newest) {
-            Some(bound) => self.display.presenter.present(&mut encoder, bound, &self.display.texture),
-            None => self.display.texture.clear(&mut encoder),
+            Some(bound) => self.display.presenter.present(&self.gpu, &mut encoder, bound, &self.display.texture),
+            None => self.display.texture.clear(&self.gpu, &mut encoder),
         }
         self.gpu.queue.submit([encoder.finish()]);
     }
@@ -231,7 +234,8 @@ impl Engine {
         let texels = if newest.raw.format() == wgpu::TextureFormat::Rgba32Float {
             read_rgba32float(&self.gpu, newest)?
         } else {
-            read_rgba32float(&self.gpu, &to_rgba32float(&self.gpu, newest)?)?
+            let converter = self.converter.get_or_insert_with(|| FloatConverter::new(&self.gpu));
+            read_rgba32float(&self.gpu, &converter.convert(&self.gpu, newest)?)?
         };
         Ok(Pixels { width, height, texels })
     }

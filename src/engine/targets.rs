@@ -81,17 +81,17 @@ impl Target {
             from.copy_overlap(&mut encoder, texture);
         }
         for chain in &self.chains {
-            mips.build(&mut encoder, chain);
+            mips.build(gpu, &mut encoder, chain);
         }
         gpu.queue.submit([encoder.finish()]);
     }
 
-    pub fn clear(&self, encoder: &mut wgpu::CommandEncoder, mips: &MipMaker) {
+    pub fn clear(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, mips: &MipMaker) {
         for texture in &self.textures {
-            texture.clear(encoder);
+            texture.clear(gpu, encoder);
         }
         for chain in &self.chains {
-            mips.build(encoder, chain);
+            mips.build(gpu, encoder, chain);
         }
     }
 }

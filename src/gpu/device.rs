@@ -73,6 +73,7 @@ pub struct Gpu {
     /// Timestamps can be written between passes.
     pub has_timestamps: bool,
     pub(super) runtime_checks: bool,
+    pub(super) fences: Option<super::pass::FenceKeeper>,
     state: Arc<State>,
 }
 
@@ -159,6 +160,7 @@ impl Gpu {
             recompiles_for_uniforms: is_lavapipe,
             keeps_denormals: is_lavapipe,
             runtime_checks: options.runtime_checks,
+            fences: is_lavapipe.then(|| super::pass::FenceKeeper::new(&device)),
             has_timestamps: features.contains(wgpu::Features::TIMESTAMP_QUERY),
             device,
             queue,

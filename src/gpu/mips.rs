@@ -106,24 +106,26 @@ impl MipMaker {
     }
 
     /// Encodes the draws that make every level anew from level 0.
-    pub fn build(&self, encoder: &mut wgpu::CommandEncoder, chain: &MipChain) {
+    pub fn build(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, chain: &MipChain) {
         for (target, finer) in &chain.steps {
-            let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-                label: Some("mips"),
-                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                    view: target,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: wgpu::Operations {
-                        load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                        store: wgpu::StoreOp::Store,
-                    },
-                })],
-                ..Default::default()
-            });
-            pass.set_pipeline(&self.pipelines[&chain.format]);
-            pass.set_bind_group(0, finer, &[]);
-            pass.draw(0..3, 0..1);
+            gpu.pass(
+                encoder,
+                wgpu::RenderPassDescriptor {
+                    label: Some("mips"),
+                    color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                        view: target,
+                        depth_slice: None,
+                        resolve_target: None,
+                        ops: wgpu::Operations { load: gpu.load_what_is_overwritten(), store: wgpu::StoreOp::Store },
+                    })],
+                    ..Default::default()
+                },
+                |pass| {
+                    pass.set_pipeline(&self.pipelines[&chain.format]);
+                    pass.set_bind_group(0, finer, &[]);
+                    pass.draw(0..3, 0..1);
+                },
+            );
         }
     }
 }

@@ -7,6 +7,7 @@ mod convert;
 mod device;
 mod mesh;
 mod mips;
+mod pass;
 mod pipeline;
 mod present;
 mod readback;
@@ -15,7 +16,7 @@ mod texture;
 mod timer;
 
 pub use buffer::constant_buffer;
-pub use convert::to_rgba32float;
+pub use convert::FloatConverter;
 pub use device::{Gpu, GpuError, GpuOptions};
 pub use mesh::{MeshBuffers, MeshPipelineDescriptor, check_targets, depth_buffer};
 pub use mips::{MipChain, MipMaker};

@@ -74,19 +74,24 @@ impl Presenter {
     }
 
     /// Draws the picture into `display`, which has its size.
-    pub fn present(&self, encoder: &mut wgpu::CommandEncoder, picture: &wgpu::BindGroup, display: &Texture) {
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("present"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &display.level_0,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
-            })],
-            ..Default::default()
-        });
-        pass.set_pipeline(&self.pipeline);
-        pass.set_bind_group(0, picture, &[]);
-        pass.draw(0..3, 0..1);
+    pub fn present(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, picture: &wgpu::BindGroup, display: &Texture) {
+        gpu.pass(
+            encoder,
+            wgpu::RenderPassDescriptor {
+                label: Some("present"),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: &display.level_0,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations { load: gpu.load_what_is_overwritten(), store: wgpu::StoreOp::Store },
+                })],
+                ..Default::default()
+            },
+            |pass| {
+                pass.set_pipeline(&self.pipeline);
+                pass.set_bind_group(0, picture, &[]);
+                pass.draw(0..3, 0..1);
+            },
+        );
     }
 }

@@ -95,20 +95,24 @@ impl Texture {
     }
 
     /// Sets level 0 to zeros. The texture must be a target.
-    pub fn clear(&self, encoder: &mut wgpu::CommandEncoder) {
-        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("clear"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &self.level_0,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                    store: wgpu::StoreOp::Store,
-                },
-            })],
-            ..Default::default()
-        });
+    pub fn clear(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder) {
+        gpu.pass(
+            encoder,
+            wgpu::RenderPassDescriptor {
+                label: Some("clear"),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: &self.level_0,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations {
+                        load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                        store: wgpu::StoreOp::Store,
+                    },
+                })],
+                ..Default::default()
+            },
+            |_| (),
+        );
     }
 }
 

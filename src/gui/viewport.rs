@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     project::Input,
-    session::{Command, Outcome, Session},
+    session::{Command, Meanwhile, Outcome, Session},
 };
 use egui::{Align2, Color32, EventFilter, FontId, Id, PointerButton, Pos2, Rect, Sense, TextureId, Ui, pos2, vec2};
 
@@ -126,9 +126,8 @@ impl Viewport {
         } else if reads_keyboard(session) {
             pill(ui, rect, Align2::RIGHT_TOP, "Click the picture to give it the keyboard", theme::WEAK);
         }
-        if let Some(Outcome::Failed { errors }) = session.compile_state().last {
-            let noun = if errors == 1 { "error" } else { "errors" };
-            pill(ui, rect, Align2::LEFT_TOP, &format!("{errors} {noun} – the last good picture runs on"), theme::ERROR);
+        if let Some(Outcome::Failed { errors, meanwhile }) = session.compile_state().last {
+            pill(ui, rect, Align2::LEFT_TOP, &trouble(errors, meanwhile), theme::ERROR);
         }
     }
 
@@ -195,9 +194,33 @@ fn pill(ui: &Ui, rect: Rect, corner: Align2, text: &str, color: Color32) {
     ui.painter().galley(place.min + vec2(8.0, 4.0), galley, color);
 }
 
+/// What there is instead of the newest text's picture, and why.
+fn trouble(errors: usize, meanwhile: Meanwhile) -> String {
+    let why = match errors {
+        // The compiler or the device gave up, which a notice tells of.
+        0 => "Not compiled".to_owned(),
+        1 => "1 error".to_owned(),
+        n => format!("{n} errors"),
+    };
+    let what = match meanwhile {
+        Meanwhile::Nothing => "nothing to draw yet",
+        Meanwhile::LastGood => "the last good picture runs on",
+        Meanwhile::Newest => "drawn all the same",
+    };
+    format!("{why} – {what}")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_picture_runs_on_only_where_there_is_one() {
+        assert_eq!(trouble(5, Meanwhile::Nothing), "5 errors – nothing to draw yet");
+        assert_eq!(trouble(1, Meanwhile::LastGood), "1 error – the last good picture runs on");
+        assert_eq!(trouble(2, Meanwhile::Newest), "2 errors – drawn all the same");
+        assert_eq!(trouble(0, Meanwhile::Nothing), "Not compiled – nothing to draw yet");
+    }
 
     #[test]
     fn the_sites_shape_fits_whatever_there_is() {

@@ -5,7 +5,7 @@ use super::{
     clock::FrameTime,
     compile::{Done, Job},
     date,
-    view::{Level, Outcome, Tick},
+    view::{Level, Meanwhile, Outcome, Tick},
     worker::Panicked,
 };
 use crate::{
@@ -61,11 +61,9 @@ impl Session {
         self.compile.state.compiling = self.is_compile_due() || self.compiler.is_busy();
         match result {
             Err(Panicked(reason)) => {
-                self.compile.state.last = Some(Outcome::Failed { errors: 0 });
-                self.notice(
-                    Level::Error,
-                    format!("this is a bug in Eddy: the compiler gave up ({reason}); the last good picture goes on"),
-                );
+                self.compile.state.last = Some(self.failed(0));
+                let goes_on = if self.compile.has_program { "; the last good picture goes on" } else { "" };
+                self.notice(Level::Error, format!("this is a bug in Eddy: the compiler gave up ({reason}){goes_on}"));
             }
             Ok(done) => self.take_done(done),
         }
@@ -82,18 +80,19 @@ impl Session {
         let (program, millis) = match done.program {
             Ok(Some(built)) => built,
             Ok(None) => {
-                self.compile.state.last = Some(Outcome::Failed { errors });
+                self.compile.state.last = Some(self.failed(errors));
                 return;
             }
             Err(e) => {
-                self.compile.state.last = Some(Outcome::Failed { errors });
+                self.compile.state.last = Some(self.failed(errors));
                 self.stop_drawing(&e);
                 return;
             }
         };
-        // Errors here are of passes that the picture does not reach.
-        self.compile.state.last =
-            Some(if errors > 0 { Outcome::Failed { errors } } else { Outcome::Ok { millis, warnings } });
+        self.compile.state.last = Some(match errors {
+            0 => Outcome::Ok { millis, warnings },
+            _ => Outcome::Failed { errors, meanwhile: Meanwhile::Newest },
+        });
         if let Err(e) = self.engine.set_program(program) {
             self.stop_drawing(&e);
             return;
@@ -107,6 +106,12 @@ impl Session {
         if std::mem::take(&mut self.compile.reset_when_built) {
             self.reset();
         }
+    }
+
+    /// A text that gave no program.
+    fn failed(&self, errors: usize) -> Outcome {
+        let meanwhile = if self.compile.has_program { Meanwhile::LastGood } else { Meanwhile::Nothing };
+        Outcome::Failed { errors, meanwhile }
     }
 
     /// Gives the engine the size the canvas shall have.

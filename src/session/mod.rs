@@ -30,4 +30,4 @@ mod worker;
 pub use analysis::TabAnalysis;
 pub use command::{Answer, Command, DiffLine, Question, Request, Then};
 pub use state::{Session, SessionError, SessionOptions};
-pub use view::{CompileState, Level, Notice, Outcome, TabDiagnostic, Tick, Transport};
+pub use view::{CompileState, Level, Meanwhile, Notice, Outcome, TabDiagnostic, Tick, Transport};

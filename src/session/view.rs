@@ -99,8 +99,19 @@ pub struct CompileState {
 pub enum Outcome {
     /// It draws. Milliseconds of compiling; how many warnings there are.
     Ok { millis: f64, warnings: usize },
+    /// It has errors; none are counted where the compiler or the device gave up.
+    Failed { errors: usize, meanwhile: Meanwhile },
+}
+
+/// What is drawn while a text has errors.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Meanwhile {
+    /// No text of this project has compiled yet.
+    Nothing,
     /// The last good picture goes on.
-    Failed { errors: usize },
+    LastGood,
+    /// The newest text's picture: what is wrong is what a channel shall read, and it reads black.
+    Newest,
 }
 
 /// Time and size of the running picture.
