@@ -65,7 +65,8 @@ fn what_fills_the_uniform_buffer_leaves_the_next_table_to_the_storage_buffer() {
 fn an_array_begins_with_its_value_where_it_is_declared_once_a_call() {
     let code = |declared: &str| {
         format!(
-            "float f(int i) {{ {declared} a[i] += 1.0; return a[i + 1]; }}\n\
+            // To return from a loop keeps a function apart.
+            "float f(int i) {{ {declared} a[i] += 1.0; while (i > 5) return 0.0; return a[i + 1]; }}\n\
                  void mainImage(out vec4 o, vec2 p) {{ o = vec4(f(int(p.x))); }}"
         )
     };
@@ -81,13 +82,25 @@ fn an_array_begins_with_its_value_where_it_is_declared_once_a_call() {
 #[test]
 fn an_array_handed_on_through_calls_is_not_copied_on_the_way() {
     let compiled = compiled(
-        "float last(float a[4], int i) { return a[i]; }\n\
-         float middle(float a[4], int i) { return last(a, i) + last(a, i + 1); }\n\
+        "float last(float a[4], int i) { while (i > 5) return 0.0; return a[i]; }\n\
+         float middle(float a[4], int i) { while (i > 5) return 0.0; return last(a, i) + last(a, i + 1); }\n\
          void mainImage(out vec4 o, vec2 p) { float a[4]; a[1] = p.x; o = vec4(middle(a, int(p.y))); }",
     );
     let memory: Vec<usize> = compiled.module.functions.iter().map(|(_, f)| f.local_variables.len()).collect();
     // `last`, `middle`, `mainImage` with `a` alone.
     assert_eq!(memory, [0, 0, 1]);
+}
+
+#[test]
+fn an_array_handed_on_to_what_becomes_part_of_its_caller_is_not_copied() {
+    let compiled = compiled(
+        "float last(float a[4], int i) { return a[i]; }\n\
+         float middle(float a[4], int i) { return last(a, i) + last(a, i + 1); }\n\
+         void mainImage(out vec4 o, vec2 p) { float a[4]; a[1] = p.x; o = vec4(middle(a, int(p.y))); }",
+    );
+    let memory: Vec<usize> = compiled.module.functions.iter().map(|(_, f)| f.local_variables.len()).collect();
+    // `mainImage` with `a` alone.
+    assert_eq!(memory, [1]);
 }
 
 #[test]
