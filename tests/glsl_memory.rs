@@ -65,7 +65,8 @@ fn what_fills_the_uniform_buffer_leaves_the_next_table_to_the_storage_buffer() {
 fn an_array_begins_with_its_value_where_it_is_declared_once_a_call() {
     let code = |declared: &str| {
         format!(
-            "float f(int i) {{ {declared} a[i] += 1.0; if (i > 9) discard; return a[i + 1]; }}\n\
+            // To return from a loop keeps a function apart.
+            "float f(int i) {{ {declared} a[i] += 1.0; while (i > 5) return 0.0; return a[i + 1]; }}\n\
                  void mainImage(out vec4 o, vec2 p) {{ o = vec4(f(int(p.x))); }}"
         )
     };
@@ -81,8 +82,8 @@ fn an_array_begins_with_its_value_where_it_is_declared_once_a_call() {
 #[test]
 fn an_array_handed_on_through_calls_is_not_copied_on_the_way() {
     let compiled = compiled(
-        "float last(float a[4], int i) { if (i > 9) discard; return a[i]; }\n\
-         float middle(float a[4], int i) { if (i > 8) discard; return last(a, i) + last(a, i + 1); }\n\
+        "float last(float a[4], int i) { while (i > 5) return 0.0; return a[i]; }\n\
+         float middle(float a[4], int i) { while (i > 5) return 0.0; return last(a, i) + last(a, i + 1); }\n\
          void mainImage(out vec4 o, vec2 p) { float a[4]; a[1] = p.x; o = vec4(middle(a, int(p.y))); }",
     );
     let memory: Vec<usize> = compiled.module.functions.iter().map(|(_, f)| f.local_variables.len()).collect();
@@ -109,7 +110,7 @@ fn what_all_functions_see_is_not_handed_over() {
 
 #[test]
 fn globals_handed_over_keep_the_value_they_had() {
-    const CALLS: &str = "float G[3]; float[3] H = float[](1.0, 2.0, 3.0); mat2 M; struct S { float a[2]; }; S s;\n\
+    const INLINED: &str = "float G[3]; float[3] H = float[](1.0, 2.0, 3.0); mat2 M; struct S { float a[2]; }; S s;\n\
         float last(float a[3], int i) { return a[i]; }\n\
         float set(float x) { G[0] = x; return x; }\n\
         float later(float a[3], float x, int i) { return a[i] + x; }\n\
@@ -119,21 +120,28 @@ fn globals_handed_over_keep_the_value_they_had() {
         float column(mat2 m, int i) { return m[i].y; }\n\
         float member(S s, int i) { return s.a[i]; }\n\
         float whole(float a[3], int i) { float b[3] = a; b[i] += 0.5; return a[i] + b[i]; }";
+    // The same functions, which a return from a loop keeps apart.
+    let apart: &'static str =
+        Box::leak(INLINED.replace("{ return", "{ while (i > 9) return 0.0; return").into_boxed_str());
+    for calls in [INLINED, apart] {
+        check(&[
+            with(
+                calls,
+                "G[I] = 4.0; r = vec4(last(G, I), last(H, I + 2), both(G, H, I), both(H, G, I));",
+                [4., 3., 42., 10.],
+            ),
+            // The copy is made before a later argument, or the function itself, writes the global.
+            with(calls, "G[0] = 4.0; r.x = later(G, set(5.0), I); r.y = G[I]; r.zw = vec2(0);", [9., 5., 0., 0.]),
+            with(calls, "G[0] = 4.0; r.x = within(G, I); r.y = G[I]; r.zw = vec2(0);", [4., 9., 0., 0.]),
+            with(calls, "G[0] = 4.0; r.x = change(G, G, I); r.y = G[I]; r.zw = vec2(0);", [4., 7., 0., 0.]),
+            with(
+                calls,
+                "M[I] = vec2(1, 2); s.a[I + 1] = 6.0; r = vec4(column(M, I), member(s, I + 1), whole(H, I + 1), H[I + 1]);",
+                [2., 6., 4.5, 2.],
+            ),
+        ]);
+    }
     check(&[
-        with(
-            CALLS,
-            "G[I] = 4.0; r = vec4(last(G, I), last(H, I + 2), both(G, H, I), both(H, G, I));",
-            [4., 3., 42., 10.],
-        ),
-        // The copy is made before a later argument, or the function itself, writes the global.
-        with(CALLS, "G[0] = 4.0; r.x = later(G, set(5.0), I); r.y = G[I]; r.zw = vec2(0);", [9., 5., 0., 0.]),
-        with(CALLS, "G[0] = 4.0; r.x = within(G, I); r.y = G[I]; r.zw = vec2(0);", [4., 9., 0., 0.]),
-        with(CALLS, "G[0] = 4.0; r.x = change(G, G, I); r.y = G[I]; r.zw = vec2(0);", [4., 7., 0., 0.]),
-        with(
-            CALLS,
-            "M[I] = vec2(1, 2); s.a[I + 1] = 6.0; r = vec4(column(M, I), member(s, I + 1), whole(H, I + 1), H[I + 1]);",
-            [2., 6., 4.5, 2.],
-        ),
         // Which global stands for the parameter is another at each call.
         with(
             "float A[2], B[2]; float inner(float a[2], int i) { return a[i]; }\n\
@@ -143,6 +151,18 @@ fn globals_handed_over_keep_the_value_they_had() {
             [12., 21., 11., 31.],
         ),
     ]);
+}
+
+#[test]
+fn an_array_handed_on_to_what_becomes_part_of_its_caller_is_not_copied() {
+    let compiled = compiled(
+        "float last(float a[4], int i) { return a[i]; }\n\
+         float middle(float a[4], int i) { return last(a, i) + last(a, i + 1); }\n\
+         void mainImage(out vec4 o, vec2 p) { float a[4]; a[1] = p.x; o = vec4(middle(a, int(p.y))); }",
+    );
+    let memory: Vec<usize> = compiled.module.functions.iter().map(|(_, f)| f.local_variables.len()).collect();
+    // `mainImage` with `a` alone.
+    assert_eq!(memory, [1]);
 }
 
 #[test]
