@@ -45,7 +45,10 @@ impl Builder<'_, '_> {
         }
         match parts[..] {
             [whole] => whole,
-            _ => self.compose(ty, parts),
+            _ => {
+                self.constructed.extend(&parts);
+                self.compose(ty, parts)
+            }
         }
     }
 

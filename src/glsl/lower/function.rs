@@ -63,6 +63,10 @@ pub(super) struct Builder<'m, 'a> {
     pub matrix_products: Map<Value, (u8, Value, Value)>,
     /// Values that variables stand for.
     named: std::collections::HashSet<Value>,
+    /// What vectors were put together from.
+    pub constructed: std::collections::HashSet<Value>,
+    /// Where in `f.expressions` the run of statements without branches begins that the builder is at.
+    run: usize,
     /// Vectors that an operation gave, component by component.
     pub by_component: std::collections::HashSet<Value>,
     /// Pure operations of the blocks at hand, from the outermost on, and where to find them.
@@ -125,6 +129,8 @@ impl<'m, 'a> Builder<'m, 'a> {
             globals: Map::default(),
             matrix_products: Map::default(),
             named: Default::default(),
+            constructed: Default::default(),
+            run: 0,
             by_component: Default::default(),
             made: Map::default(),
             made_in_order: Vec::new(),
@@ -247,6 +253,12 @@ impl<'m, 'a> Builder<'m, 'a> {
         self.named.contains(&value)
     }
 
+    /// Whether a value is a variable to OpenGL's compilers, however it was computed: they move no operation across branches, and
+    /// none into the component of a vector.
+    pub fn is_apart(&self, value: Value) -> bool {
+        value.index() < self.run || self.constructed.contains(&value)
+    }
+
     /// Whether a value is the result of an operation, and no variable, argument or part of one.
     pub fn is_computed(&self, value: Value) -> bool {
         use Expression as E;
@@ -296,6 +308,9 @@ impl<'m, 'a> Builder<'m, 'a> {
         {
             return component;
         }
+        if let Some(number) = self.folded_number(&expression) {
+            return self.float(number);
+        }
         let key = scalars::key(&expression);
         if let Some(&made) = key.as_ref().and_then(|key| self.made.get(key)) {
             return made;
@@ -339,6 +354,9 @@ impl<'m, 'a> Builder<'m, 'a> {
                     self.forget(pointer);
                 }
             }
+            Statement::If { .. } | Statement::Loop { .. } | Statement::Switch { .. } => {
+                self.run = self.f.expressions.len();
+            }
             _ => {}
         }
         self.ended =
@@ -355,6 +373,7 @@ impl<'m, 'a> Builder<'m, 'a> {
         // What precedes a loop's first round does not precede its second.
         let mut loaded = std::mem::take(&mut self.loaded);
         let written = std::mem::take(&mut self.written);
+        self.run = self.f.expressions.len();
         fill(self);
         self.emit();
         loaded.retain(|variable, _| !self.written.contains(variable));

@@ -36,8 +36,10 @@ impl Builder<'_, '_> {
         if op == Op::Add && chain_ty != ty {
             return None;
         }
-        let (chain, freed) = self.join(op, ty, chain, &constant, 0)?;
-        Some(self.sum_or_product(op, ty, chain, freed))
+        let (joined, freed) = self.join(op, ty, chain, &constant, 0)?;
+        // What is freed comes where the constant was: it is the first operand that drivers move further constants to.
+        let (left, right) = if chain == left.1 { (joined, freed) } else { (freed, joined) };
+        Some(self.sum_or_product(op, ty, left, right))
     }
 
     /// Puts a constant beside the first one of a chain, in the place of that one's neighbour: the chain and the neighbour.
@@ -45,7 +47,7 @@ impl Builder<'_, '_> {
         /// Chains are short; without a limit a long one would be searched for each of its links.
         const DEEP: u32 = 8;
         let Expression::Binary { op: inner, left, right } = self.f.expressions[chain] else { return None };
-        if inner != op || depth > DEEP || (depth > 0 && self.is_named(chain)) {
+        if inner != op || depth > DEEP || self.is_apart(chain) || (depth > 0 && self.is_named(chain)) {
             return None;
         }
         let (known, neighbour) = match (self.floats(left), self.floats(right)) {

@@ -4,7 +4,7 @@
 //! is computed twice. OpenGL drivers do both first, Vulkan ones later, so last bits differ (see [`super::regroup`]); here both is
 //! done beforehand. Devices that compute by component have as much to do either way.
 
-use naga::{Expression, TypeInner};
+use naga::{BinaryOperator, Expression, Literal, MathFunction as Math, TypeInner, UnaryOperator};
 
 use super::{
     function::{Builder, Value},
@@ -57,6 +57,44 @@ impl Builder<'_, '_> {
         let vector = self.compose(ty, parts);
         self.by_component.insert(vector);
         vector
+    }
+
+    /// The result of an operation on literals, as they meet where a small function is inlined. None that is not finite: it is
+    /// left to the device.
+    pub fn folded_number(&self, expression: &Expression) -> Option<f32> {
+        use BinaryOperator as Op;
+        let number = |value| match self.f.expressions[value] {
+            Expression::Literal(Literal::F32(number)) => Some(number),
+            _ => None,
+        };
+        let folded = match *expression {
+            Expression::Unary { op: UnaryOperator::Negate, expr } => -number(expr)?,
+            Expression::Binary { op, left, right } => {
+                let (left, right) = (number(left)?, number(right)?);
+                match op {
+                    Op::Add => left + right,
+                    Op::Subtract => left - right,
+                    Op::Multiply => left * right,
+                    Op::Divide => left / right,
+                    _ => return None,
+                }
+            }
+            Expression::Math { fun, arg, arg1: None, .. } => {
+                let x = number(arg)?;
+                match fun {
+                    Math::Sin => f64::from(x).sin() as f32,
+                    Math::Cos => f64::from(x).cos() as f32,
+                    Math::Sqrt => x.sqrt(),
+                    Math::InverseSqrt => 1.0 / x.sqrt(),
+                    Math::Abs => x.abs(),
+                    Math::Floor => x.floor(),
+                    Math::Fract => x - x.floor(),
+                    _ => return None,
+                }
+            }
+            _ => return None,
+        };
+        folded.is_finite().then_some(folded)
     }
 
     /// What a component of a value is, if no instruction is needed to take it out.
