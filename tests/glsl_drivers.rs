@@ -147,6 +147,33 @@ fn order_of_evaluation() {
              r = vec4(floatBitsToUint(p * x * 0.01 + y * a * 0.01) - 0x3cdc3bd5u);",
             [0.; 4],
         ),
+        // What functions say of constants and of what is computed twice is known where they are called: the sum that two calls
+        // share stays whole, (p.y k.y + p.x k.x) + s ...
+        with(
+            "vec2 p; float s; float next() { return dot(p, vec2(12.98, 78.23)) + s++; }",
+            "p = Z + vec2(5.44, 5.63); s = Z + 1.52; float a = next(), b = next();\n\
+             r = vec4(floatBitsToUint(b) - 0x4400643cu, a > b, 0, 0);",
+            [0.; 4],
+        ),
+        // ... in a branch too ...
+        with(
+            "vec2 p; float s; float next() { return dot(p, vec2(12.98, 78.23)) + s++; }",
+            "p = Z + vec2(5.44, 5.63); s = Z + 1.52; float a = next(), b = 0.0; if (a > Z) b = next();\n\
+             r = vec4(floatBitsToUint(b) - 0x4400643cu, a > b, 0, 0);",
+            [0.; 4],
+        ),
+        // ... the share is a constant: x (1 - cos(0.5)) + y cos(0.5) ...
+        with(
+            "float turn(float x, float y, float angle) { return mix(x, y, cos(angle)); }",
+            "r = vec4(floatBitsToUint(turn(Z + 2.33, Z + 2.11, 0.5)) - 0x4008c37eu);",
+            [0.; 4],
+        ),
+        // ... and 0.01 (a b + c d).
+        with(
+            "float pull(float a, float b) { float v = a; v *= b; v *= 0.01; return v; }",
+            "r = vec4(floatBitsToUint(pull(Z + 4.71, Z + 6.67) + pull(Z + 6.04, Z + 0.58)) - 0x3eb2c8e6u);",
+            [0.; 4],
+        ),
         // The polynomial of OpenGL's compilers.
         case("r = vec4(floatBitsToUint(asin(Z + 0.308)) - 0x3ea04324u);", [0.; 4]),
     ]);

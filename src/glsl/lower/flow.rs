@@ -105,8 +105,8 @@ impl Builder<'_, '_> {
             return self.statements(if known { then } else { otherwise });
         }
         let condition = self.value(cond);
-        let (accept, then_ended) = self.nested(|b| b.statements(then));
-        let (reject, else_ended) = self.nested(|b| b.statements(otherwise));
+        let (accept, then_ended) = self.branch_block(|b| b.statements(then));
+        let (reject, else_ended) = self.branch_block(|b| b.statements(otherwise));
         self.push(Statement::If { condition, accept, reject });
         self.ended = then_ended && else_ended;
     }

@@ -1,6 +1,8 @@
 //! The body of one function under construction: expressions, blocks, what each local stands for.
 
-use naga::{Block, Expression, FunctionArgument, FunctionResult, Handle, LocalVariable, Range, Span, Statement};
+use naga::{
+    Block, Expression, FunctionArgument, FunctionResult, Handle, LocalVariable, Range, Span, Statement, TypeInner,
+};
 
 use super::{Instance, Lowering, Map, calls::Given, consts, scalars};
 use crate::glsl::{
@@ -63,7 +65,7 @@ pub(super) struct Builder<'m, 'a> {
     pub matrix_products: Map<Value, (u8, Value, Value)>,
     /// Values that variables stand for.
     named: std::collections::HashSet<Value>,
-    /// What vectors were put together from.
+    /// What vectors were put together from, and what was written to memory.
     pub constructed: std::collections::HashSet<Value>,
     /// Where in `f.expressions` the run of statements without branches begins that the builder is at.
     run: usize,
@@ -240,11 +242,16 @@ impl<'m, 'a> Builder<'m, 'a> {
             let pointer = self.memory(local);
             self.store(pointer, value);
         } else {
-            self.named.insert(value);
-            if let Expression::Compose { components, .. } = &self.f.expressions[value] {
-                self.named.extend(components);
-            }
+            self.name(value);
             self.set_slot(local, Slot::Value(value));
+        }
+    }
+
+    /// Notes that a variable stands for a value and its components.
+    fn name(&mut self, value: Value) {
+        self.named.insert(value);
+        if let Expression::Compose { components, .. } = &self.f.expressions[value] {
+            self.named.extend(components);
         }
     }
 
@@ -253,8 +260,8 @@ impl<'m, 'a> Builder<'m, 'a> {
         self.named.contains(&value)
     }
 
-    /// Whether a value is a variable to OpenGL's compilers, however it was computed: they move no operation across branches, and
-    /// none into the component of a vector.
+    /// Whether a value is a variable to OpenGL's compilers, however it was computed: they join constants of one expression, which
+    /// ends at branches, at the components of a vector, and where something is written to memory.
     pub fn is_apart(&self, value: Value) -> bool {
         value.index() < self.run || self.constructed.contains(&value)
     }
@@ -311,6 +318,9 @@ impl<'m, 'a> Builder<'m, 'a> {
         if let Some(number) = self.folded_number(&expression) {
             return self.float(number);
         }
+        if let Some(same) = self.unchanged(&expression) {
+            return same;
+        }
         let key = scalars::key(&expression);
         if let Some(&made) = key.as_ref().and_then(|key| self.made.get(key)) {
             return made;
@@ -353,6 +363,7 @@ impl<'m, 'a> Builder<'m, 'a> {
                 for pointer in arguments.iter().copied().chain(globals).collect::<Vec<_>>() {
                     self.forget(pointer);
                 }
+                self.run = self.f.expressions.len();
             }
             Statement::If { .. } | Statement::Loop { .. } | Statement::Switch { .. } => {
                 self.run = self.f.expressions.len();
@@ -366,12 +377,21 @@ impl<'m, 'a> Builder<'m, 'a> {
 
     /// A nested block, filled by `fill`. Tells also whether its end can not be reached.
     pub fn nested(&mut self, fill: impl FnOnce(&mut Self)) -> (Block, bool) {
+        self.nested_after(Map::default(), fill)
+    }
+
+    /// A nested block that is no part of a loop within the block at hand: what was read before it is still known.
+    pub fn branch_block(&mut self, fill: impl FnOnce(&mut Self)) -> (Block, bool) {
+        self.nested_after(self.loaded.clone(), fill)
+    }
+
+    fn nested_after(&mut self, known: Map<Value, Map<Value, Value>>, fill: impl FnOnce(&mut Self)) -> (Block, bool) {
         self.emit();
         let outer = std::mem::take(&mut self.block);
         let outer_ended = std::mem::take(&mut self.ended);
         let made = self.made_in_order.len();
         // What precedes a loop's first round does not precede its second.
-        let mut loaded = std::mem::take(&mut self.loaded);
+        let mut loaded = std::mem::replace(&mut self.loaded, known);
         let written = std::mem::take(&mut self.written);
         self.run = self.f.expressions.len();
         fill(self);
@@ -414,8 +434,22 @@ impl<'m, 'a> Builder<'m, 'a> {
         self.written.insert(variable);
     }
 
+    /// Writes to memory. Of a whole scalar or vector it is known from then on what it holds.
     pub fn store(&mut self, pointer: Value, value: Value) {
         self.push(Statement::Store { pointer, value });
+        let ty = match self.f.expressions[pointer] {
+            Expression::LocalVariable(variable) => self.f.local_variables[variable].ty,
+            Expression::GlobalVariable(variable) => self.cx.out.global_variables[variable].ty,
+            _ => return,
+        };
+        if matches!(self.cx.out.types[ty].inner, TypeInner::Scalar(_) | TypeInner::Vector { .. }) {
+            self.name(value);
+            self.constructed.insert(value);
+            if let Expression::Compose { components, .. } = &self.f.expressions[value] {
+                self.constructed.extend(components);
+            }
+            self.loaded.entry(pointer).or_default().insert(pointer, value);
+        }
     }
 
     /// A scalar constant, bit for bit.

@@ -4,13 +4,14 @@
 //! OpenGL sibling. Real shaders blow up last bits (`fract(sin(dot(p, k)) * 43758.5453)`), so the pictures differ. The
 //! instructions are as many either way, and drivers may still fuse them.
 
-use naga::{BinaryOperator as Op, Expression, MathFunction as Math};
+use naga::{BinaryOperator as Op, Expression, Literal, MathFunction as Math};
 
 use super::function::{Builder, Value};
 use crate::glsl::hir::{Scalar, TypeId};
 
 impl Builder<'_, '_> {
-    /// `((w w' + z z') + y y') + x x'`: the side the sum is on matters to what drivers join it with.
+    /// `((w w' + z z') + y y') + x x'`: the side the sum is on matters to what drivers join it with. A literal that terms share is
+    /// taken out of them, and what is multiplied by a literal zero is left out.
     pub fn dot(&mut self, ty: TypeId, a: Value, b: Value) -> Value {
         let size = self.extent(ty);
         if size == 1 {
@@ -19,12 +20,16 @@ impl Builder<'_, '_> {
         let product = |this: &mut Self, index| {
             let a = this.add(Expression::AccessIndex { base: a, index });
             let b = this.add(Expression::AccessIndex { base: b, index });
-            this.op(Op::Multiply, a, b)
+            let is_zero = |side| matches!(this.f.expressions[side], Expression::Literal(Literal::F32(0.0)));
+            if is_zero(a) || is_zero(b) { this.float(0.0) } else { this.op(Op::Multiply, a, b) }
         };
         let mut sum = product(self, size - 1);
         for index in (0..size - 1).rev() {
             let term = product(self, index);
-            sum = self.op(Op::Add, sum, term);
+            sum = match self.with_constant_factored(sum, term) {
+                Some(product) => product,
+                None => self.op(Op::Add, sum, term),
+            };
         }
         sum
     }

@@ -205,8 +205,8 @@ impl Builder<'_, '_> {
                     let condition = self.value(cond);
                     let (then, otherwise) = (&hir[then], &hir[otherwise]);
                     let otherwise = if otherwise.is_empty() { &list[i + 1..] } else { otherwise };
-                    let (accept, _) = self.nested(|b| b.straight(then, result));
-                    let (reject, _) = self.nested(|b| b.straight(otherwise, result));
+                    let (accept, _) = self.branch_block(|b| b.straight(then, result));
+                    let (reject, _) = self.branch_block(|b| b.straight(otherwise, result));
                     self.push(Statement::If { condition, accept, reject });
                     return;
                 }

@@ -79,11 +79,19 @@ impl Builder<'_, '_> {
                     _ => return None,
                 }
             }
+            Expression::Math { fun: Math::Pow, arg, arg1: Some(power), .. } => {
+                let (x, power) = (number(arg)?, number(power)?);
+                f64::from(x).powf(f64::from(power)) as f32
+            }
             Expression::Math { fun, arg, arg1: None, .. } => {
                 let x = number(arg)?;
                 match fun {
                     Math::Sin => f64::from(x).sin() as f32,
                     Math::Cos => f64::from(x).cos() as f32,
+                    Math::Exp => f64::from(x).exp() as f32,
+                    Math::Exp2 => f64::from(x).exp2() as f32,
+                    Math::Log => f64::from(x).ln() as f32,
+                    Math::Log2 => f64::from(x).log2() as f32,
                     Math::Sqrt => x.sqrt(),
                     Math::InverseSqrt => 1.0 / x.sqrt(),
                     Math::Abs => x.abs(),
@@ -95,6 +103,23 @@ impl Builder<'_, '_> {
             _ => return None,
         };
         folded.is_finite().then_some(folded)
+    }
+
+    /// The operand that an operation with a literal leaves as it is.
+    pub fn unchanged(&self, expression: &Expression) -> Option<Value> {
+        use BinaryOperator as Op;
+        let Expression::Binary { op, left, right } = *expression else { return None };
+        let is = |value, number| match self.f.expressions[value] {
+            Expression::Literal(Literal::F32(found)) => found == number,
+            _ => false,
+        };
+        match op {
+            Op::Add if is(left, 0.0) => Some(right),
+            Op::Add | Op::Subtract if is(right, 0.0) => Some(left),
+            Op::Multiply if is(left, 1.0) => Some(right),
+            Op::Multiply | Op::Divide if is(right, 1.0) => Some(left),
+            _ => None,
+        }
     }
 
     /// What a component of a value is, if no instruction is needed to take it out.

@@ -1,0 +1,114 @@
+//! Calls of functions small enough to become part of their callers: nobody can tell them from other calls.
+//!
+//! `Z` is a zero no compiler can see through, so that nothing here is folded before it runs.
+
+#[path = "support/compute.rs"]
+mod compute;
+mod support;
+
+use compute::*;
+
+/// Section 6.1.1: a parameter is a variable of its own, set anew for each call; so are locals.
+#[test]
+fn parameters_are_copies() {
+    check(&[
+        with(
+            "float twice(float x) { x *= 2.0; return x; }",
+            "float a = Z + 3.0; r = vec4(twice(a), a, twice(twice(a)), a);",
+            [6., 3., 12., 3.],
+        ),
+        with(
+            "float count() { float n; n += 1.0; return n; }",
+            "float n = 0.0; for (int i = 0; i < 3 + I; i++) n += count(); r = vec4(n, count(), 0, 0);",
+            [3., 1., 0., 0.],
+        ),
+        with(
+            "float f(float a, float b) { a += b; b += a; return a * 10.0 + b; }",
+            "float a = Z + 1.0; r = vec4(f(a, a), f(a++, a++), a, 0);",
+            [23., 35., 3., 0.],
+        ),
+        with(
+            "float pick(float a[3], int i) { return a[i]; } float set(float a[3]) { a[1] = 7.0; return a[1]; }",
+            "float a[3] = float[3](Z + 1.0, 2.0, 3.0); r = vec4(pick(a, I + 2), set(a), a[1], pick(a, I + 1));",
+            [3., 7., 2., 2.],
+        ),
+    ]);
+}
+
+#[test]
+fn what_is_copied_out() {
+    check(&[
+        with(
+            "void split(float x, out float a, inout float b) { b += x; a += b; }",
+            "float a = 5.0, b = Z + 2.0; split(1.0, a, b); vec2 v = vec2(Z + 4.0); split(1.0, v.x, v.y); r = vec4(a, b, v);",
+            [3., 3., 5., 5.],
+        ),
+        with(
+            "void swap(inout float a, inout float b) { float t = a; a = b; b = t; }",
+            "vec3 v = Z + vec3(1, 2, 3); swap(v.x, v.z); float s = Z + 1.0; swap(s, s); r = vec4(v, s);",
+            [3., 2., 1., 1.],
+        ),
+        with("float g; void set(out float x) { x = 1.0; g += x; }", "g = Z + 5.0; set(g); r = vec4(g); ", [1.; 4]),
+        with(
+            "float g; float touch() { return ++g; }",
+            "g = Z; float a = g, b = touch(), c = g; if (b > 0.0) touch(); r = vec4(a, b, c, g);",
+            [0., 1., 1., 2.],
+        ),
+    ]);
+}
+
+/// A return leaves the function, whatever follows.
+#[test]
+fn early_returns() {
+    check(&[
+        with(
+            "float sort(float x) { if (x < 0.0) return -1.0; if (x > 10.0) { x *= 2.0; return x; } x += 1.0; return x; }",
+            "r = vec4(sort(Z - 3.0), sort(Z + 11.0), sort(Z + 4.0), sort(sort(Z + 9.5)));",
+            [-1., 22., 5., 21.],
+        ),
+        with(
+            "float g; void step_(float x) { g += 1.0; if (x > 0.0) return; g += 10.0; }",
+            "g = Z; step_(Z + 1.0); step_(Z - 1.0); r = vec4(g, 0, 0, 0);",
+            [12., 0., 0., 0.],
+        ),
+        with(
+            "float both(float x) { float y = x; if (x > 0.0) { y *= 3.0; return y; } else { return -y; } }",
+            "r = vec4(both(Z + 2.0), both(Z - 2.0), 0, 0);",
+            [6., 2., 0., 0.],
+        ),
+        with(
+            "float first(float x) { for (int i = 0; i < 9; i++) { if (float(i) > x) return float(i); } return -1.0; }",
+            "r = vec4(first(Z + 3.5), first(Z + 20.0), 0, 0);",
+            [4., -1., 0., 0.],
+        ),
+        with(
+            "float odd(int n) { float s = 0.0; for (int i = 0; i < n; i++) { if ((i & 1) == 0) continue; if (i > 6) break; s += float(i); } return s; }",
+            "float s = 0.0; for (int i = 0; i < 3; i++) { if (i == I + 1) continue; s += odd(I + 9); } r = vec4(s, 0, 0, 0);",
+            [18., 0., 0., 0.],
+        ),
+    ]);
+}
+
+/// What a variable holds is known from when it is written until it is written again: in a branch, in a loop, through a part.
+#[test]
+fn variables_after_branches_and_loops() {
+    check(&[
+        case(
+            "float a = Z + 1.0; float b = a; if (Z < 1.0) { b += a; a = 5.0; b += a; } r = vec4(a, b, 0, 0);",
+            [5., 7., 0., 0.],
+        ),
+        case(
+            "float a = Z + 1.0, b = 0.0; for (int i = 0; i < 3 + I; i++) { b += a; a += 1.0; } r = vec4(a, b, a + b, 0);",
+            [4., 6., 10., 0.],
+        ),
+        case(
+            "vec3 v = Z + vec3(1, 2, 3); float s = v.y; v.y = 9.0; vec3 w = v; v[I + 2] = 7.0; r = vec4(s + w.z, v);",
+            [5., 1., 9., 7.],
+        ),
+        case(
+            "float a = Z; switch (I) { case 0: a = 1.0; case 1: a += 2.0; break; default: a = 9.0; } r = vec4(a, a + 1.0, 0, 0);",
+            [3., 4., 0., 0.],
+        ),
+        case("float a = Z + 2.0; float b = (a = 3.0) + a; r = vec4(b, a += a, a, 0);", [6., 6., 6., 0.]),
+    ]);
+}
