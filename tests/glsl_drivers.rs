@@ -168,6 +168,12 @@ fn order_of_evaluation() {
             "r = vec4(floatBitsToUint(turn(Z + 2.33, Z + 2.11, 0.5)) - 0x4008c37eu);",
             [0.; 4],
         ),
+        // ... so is the part along a constant axis, (p.x + p.y) (k k (1 - cos(0.95))) + p.x cos(0.95) ...
+        with(
+            "vec3 turn(vec3 p, vec3 axis, float angle) { return mix(dot(axis, p) * axis, p, cos(angle)); }",
+            "r = vec4(floatBitsToUint(turn(Z + vec3(6.66, 8.3, 1), normalize(vec3(1, 1, 0)), 0.95).x) - 0x40e018bcu);",
+            [0.; 4],
+        ),
         // ... and 0.01 (a b + c d).
         with(
             "float pull(float a, float b) { float v = a; v *= b; v *= 0.01; return v; }",

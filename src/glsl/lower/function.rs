@@ -65,6 +65,8 @@ pub(super) struct Builder<'m, 'a> {
     pub matrix_products: Map<Value, (u8, Value, Value)>,
     /// Values that variables stand for.
     named: std::collections::HashSet<Value>,
+    /// Values that variables stand for which are used more than once.
+    pub shared: std::collections::HashSet<Value>,
     /// What vectors were put together from, and what was written to memory.
     pub constructed: std::collections::HashSet<Value>,
     /// Where in `f.expressions` the run of statements without branches begins that the builder is at.
@@ -131,6 +133,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             globals: Map::default(),
             matrix_products: Map::default(),
             named: Default::default(),
+            shared: Default::default(),
             constructed: Default::default(),
             run: 0,
             by_component: Default::default(),
@@ -243,6 +246,12 @@ impl<'m, 'a> Builder<'m, 'a> {
             self.store(pointer, value);
         } else {
             self.name(value);
+            if self.cx.uses[local.index()] > 1 {
+                self.shared.insert(value);
+                if let Expression::Compose { components, .. } = &self.f.expressions[value] {
+                    self.shared.extend(components);
+                }
+            }
             self.set_slot(local, Slot::Value(value));
         }
     }

@@ -10,8 +10,8 @@ use super::function::{Builder, Value};
 use crate::glsl::hir::{Scalar, TypeId};
 
 impl Builder<'_, '_> {
-    /// `((w w' + z z') + y y') + x x'`: the side the sum is on matters to what drivers join it with. A literal that terms share is
-    /// taken out of them, and what is multiplied by a literal zero is left out.
+    /// `((w w' + z z') + y y') + x x'`: the side the sum is on matters to what drivers join it with. What is multiplied by a
+    /// literal zero is left out.
     pub fn dot(&mut self, ty: TypeId, a: Value, b: Value) -> Value {
         let size = self.extent(ty);
         if size == 1 {
@@ -26,10 +26,7 @@ impl Builder<'_, '_> {
         let mut sum = product(self, size - 1);
         for index in (0..size - 1).rev() {
             let term = product(self, index);
-            sum = match self.with_constant_factored(sum, term) {
-                Some(product) => product,
-                None => self.op(Op::Add, sum, term),
-            };
+            sum = self.op(Op::Add, sum, term);
         }
         sum
     }

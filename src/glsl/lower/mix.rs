@@ -99,12 +99,30 @@ impl Builder<'_, '_> {
         if self.mix_shares_work(mixes, index) {
             let one = self.float(1.0);
             let rest = self.op(Op::Subtract, one, a);
+            let x = self.gathered(x);
             let (left, right) = (self.op(Op::Multiply, x, rest), self.op(Op::Multiply, y, a));
             return self.op(Op::Add, left, right);
         }
         let difference = self.op(Op::Subtract, y, x);
         let part = self.op(Op::Multiply, a, difference);
         self.op(Op::Add, x, part)
+    }
+
+    /// `(b + c) k²` for `(b k + c k) k` with one literal `k`, as in the part of a vector along a constant axis: of a mix that is
+    /// written out as a sum of products, the sides were simplified before.
+    fn gathered(&mut self, x: Value) -> Value {
+        let gathered = || {
+            let is_literal = |value| matches!(self.f.expressions[value], Expression::Literal(_));
+            let [a, b] = self.operands(Op::Multiply, x)?;
+            let (sum, k) = if is_literal(a) { (b, a) } else { (a, b) };
+            let [left, right] = self.operands(Op::Add, sum)?;
+            is_literal(k).then_some((left, right, k))
+        };
+        let Some((left, right, k)) = gathered() else { return x };
+        let Some(product) = self.with_constant_factored(left, right) else { return x };
+        let Expression::Binary { left: sum, right: inner, .. } = self.f.expressions[product] else { return x };
+        let k = self.op(Op::Multiply, inner, k);
+        self.op(Op::Multiply, sum, k)
     }
 
     fn mix_shares_work(&self, mixes: &[Mix], index: usize) -> bool {

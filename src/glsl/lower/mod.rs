@@ -9,6 +9,7 @@
 //! - Only what the entry point reaches is lowered ([`reach`]). A branch whose condition is a literal is not reached.
 //! - A variable nobody writes is a value, not memory. All others are `LocalVariable`s or private globals; drivers turn them into
 //!   registers, so no effort goes into values across statements.
+//! - Small functions become part of their callers ([`inline`]): last bits then come out as with OpenGL's compilers.
 //! - A constant table that is indexed at run time lives in a buffer ([`tables`]); a small one once in a private global
 //!   with an initialiser: naga's SPIR-V writer would otherwise copy the whole table to the stack at each access.
 //! - Every index that is not provably in range is clamped here, as WebGL does; the modules need no bounds checks from naga.

@@ -54,6 +54,8 @@ impl Builder<'_, '_> {
             (Some(known), None) => (known, right),
             (None, Some(known)) => (known, left),
             (Some(_), Some(_)) => return None,
+            // What is used elsewhere is not taken apart.
+            (None, None) if self.shared.contains(&chain) => return None,
             (None, None) => {
                 if let Some((part, freed)) = self.join(op, ty, left, constant, depth + 1) {
                     return Some((self.sum_or_product(op, ty, part, right), freed));
