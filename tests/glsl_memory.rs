@@ -146,6 +146,18 @@ fn globals_handed_over_keep_the_value_they_had() {
 }
 
 #[test]
+fn an_array_handed_on_to_what_becomes_part_of_its_caller_is_not_copied() {
+    let compiled = compiled(
+        "float last(float a[4], int i) { return a[i]; }\n\
+         float middle(float a[4], int i) { return last(a, i) + last(a, i + 1); }\n\
+         void mainImage(out vec4 o, vec2 p) { float a[4]; a[1] = p.x; o = vec4(middle(a, int(p.y))); }",
+    );
+    let memory: Vec<usize> = compiled.module.functions.iter().map(|(_, f)| f.local_variables.len()).collect();
+    // `mainImage` with `a` alone.
+    assert_eq!(memory, [1]);
+}
+
+#[test]
 fn tables_are_read_right_from_slots() {
     // For the life of the test: a case holds text that lives as long as the program.
     let tables: &'static str = Box::leak(
