@@ -22,6 +22,9 @@ pub(super) struct Reach {
     pub globals: Vec<bool>,
 }
 
+/// Calls in a body, with what they pass.
+type Calls = Vec<(FuncId, Vec<Passed>)>;
+
 /// What a function body or an initialiser names.
 #[derive(Default)]
 struct Facts {
@@ -45,7 +48,7 @@ impl Reach {
         let passed = |caller: Option<FuncId>, calls: &[(FuncId, List<ExprId>)]| {
             let passed =
                 |&(func, args): &(FuncId, List<ExprId>)| (func, arguments.passed(module, caller, func, &module[args]));
-            let mut passed: Vec<_> = calls.iter().map(passed).collect();
+            let mut passed: Calls = calls.iter().map(passed).collect();
             passed.sort_unstable_by_key(|(func, given)| (func.index(), given.len()));
             // Where nothing is given one call of a function is as good as all.
             passed.dedup_by(|a, b| a.0 == b.0 && a.1.is_empty());
@@ -53,7 +56,7 @@ impl Reach {
         };
 
         let mut globals = vec![false; module.globals.len()];
-        let mut calls: Vec<Option<Vec<(FuncId, Vec<Passed>)>>> = module.functions.iter().map(|_| None).collect();
+        let mut calls: Vec<Option<Calls>> = module.functions.iter().map(|_| None).collect();
         let mut found: HashSet<Instance> = HashSet::new();
         let mut pending = vec![Instance { func: entry, given: Box::default() }];
         found.insert(pending[0].clone());
