@@ -112,3 +112,48 @@ fn variables_after_branches_and_loops() {
         case("float a = Z + 2.0; float b = (a = 3.0) + a; r = vec4(b, a += a, a, 0);", [6., 6., 6., 0.]),
     ]);
 }
+
+/// What is known of one member of a structure stays known while another is written, and no longer.
+#[test]
+fn members_hold_what_was_written_last() {
+    const LENS: &str = "struct Lens { float focus; vec2 size; float list[2]; }; struct Eye { Lens lens; float far; };\n\
+        Lens shared_lens;\n\
+        float power(Lens l) { return 1.0 / (1.0 / l.focus - 1.0 / l.size.x); }\n\
+        void widen(inout Lens l) { l.size.x *= 2.0; }\n\
+        float both(Eye e) { e.lens.focus += 1.0; return e.lens.focus + e.far; }";
+    check(&[
+        with(
+            LENS,
+            "Lens l; l.focus = 2.0; l.size = vec2(4.0, 1.0); r = vec4(power(l), l.focus, l.size);",
+            [4., 2., 4., 1.],
+        ),
+        with(
+            LENS,
+            "Lens l; l.focus = 2.0; l.size.x = 4.0; float a = power(l); l.focus = 1.0; float b = l.focus;\n\
+             l.size.x = 2.0; r = vec4(a, power(l), b, l.size.x);",
+            [4., 2., 1., 2.],
+        ),
+        with(
+            LENS,
+            "Lens l; l.size = vec2(3.0); widen(l); l.size[I] += 1.0; r = vec4(l.size, l.focus, 0);",
+            [7., 3., 0., 0.],
+        ),
+        with(
+            LENS,
+            "Lens l; l.list[0] = 1.0; l.list[I] += 2.0; l.focus = 5.0; r = vec4(l.list[0], l.list[I + 1], l.focus, 0);",
+            [3., 0., 5., 0.],
+        ),
+        with(
+            LENS,
+            "Eye e; e.lens.focus = 2.0; e.far = 9.0; float a = both(e); Lens m = e.lens; m.focus = 4.0; e.lens = m;\n\
+             r = vec4(a, e.lens.focus, e.far, m.focus);",
+            [12., 4., 9., 4.],
+        ),
+        with(
+            LENS,
+            "shared_lens.focus = 1.0; for (int i = 0; i < 2; i++) { r.x = shared_lens.focus; shared_lens.focus += 1.0; }\n\
+             if (I == 0) shared_lens.focus = 8.0; else shared_lens.size.x = 1.0; r = vec4(r.x, shared_lens.focus, shared_lens.size);",
+            [2., 8., 0., 0.],
+        ),
+    ]);
+}

@@ -72,6 +72,7 @@ fn fold(builtin: X, args: &[Arg<'_>], count: usize, undefined: &mut bool) -> Opt
     // The commonest shapes: floats in, floats out, component by component.
     let each =
         |f: &dyn Fn(f32) -> f32| -> Option<Words> { Some((0..count).map(|i| f(a.float(i)).to_bits()).collect()) };
+    // OpenGL's compilers fold in single precision what devices have; the rest they write out in other operations.
     let wide = |f: fn(f64) -> f64| each(&|x| f(f64::from(x)) as f32);
     let each2 = |f: &dyn Fn(f32, f32) -> f32| -> Option<Words> {
         Some((0..count).map(|i| f(a.float(i), b.float(i)).to_bits()).collect())
@@ -89,22 +90,22 @@ fn fold(builtin: X, args: &[Arg<'_>], count: usize, undefined: &mut bool) -> Opt
     match builtin {
         X::Radians => each(&|x| x * (std::f64::consts::PI / 180.0) as f32),
         X::Degrees => each(&|x| x * (180.0 / std::f64::consts::PI) as f32),
-        X::Sin => wide(f64::sin),
-        X::Cos => wide(f64::cos),
+        X::Sin => each(&f32::sin),
+        X::Cos => each(&f32::cos),
         X::Tan => wide(f64::tan),
         X::Sinh => wide(f64::sinh),
         X::Cosh => wide(f64::cosh),
         X::Tanh => wide(f64::tanh),
         X::Asinh => wide(f64::asinh),
-        X::Exp => wide(f64::exp),
-        X::Exp2 => wide(f64::exp2),
-        X::Asin => guarded(a, count, &mut outside, |x| x.abs() > 1.0, f64::asin),
-        X::Acos => guarded(a, count, &mut outside, |x| x.abs() > 1.0, f64::acos),
-        X::Acosh => guarded(a, count, &mut outside, |x| x < 1.0, f64::acosh),
-        X::Atanh => guarded(a, count, &mut outside, |x| x.abs() >= 1.0, f64::atanh),
-        X::Log => guarded(a, count, &mut outside, |x| x <= 0.0, f64::ln),
-        X::Log2 => guarded(a, count, &mut outside, |x| x <= 0.0, f64::log2),
-        X::Sqrt => guarded(a, count, &mut outside, |x| x < 0.0, f64::sqrt),
+        X::Exp => each(&f32::exp),
+        X::Exp2 => each(&f32::exp2),
+        X::Asin => guarded(a, count, &mut outside, |x| x.abs() > 1.0, |x| f64::from(x).asin() as f32),
+        X::Acos => guarded(a, count, &mut outside, |x| x.abs() > 1.0, |x| f64::from(x).acos() as f32),
+        X::Acosh => guarded(a, count, &mut outside, |x| x < 1.0, |x| f64::from(x).acosh() as f32),
+        X::Atanh => guarded(a, count, &mut outside, |x| x.abs() >= 1.0, |x| f64::from(x).atanh() as f32),
+        X::Log => guarded(a, count, &mut outside, |x| x <= 0.0, f32::ln),
+        X::Log2 => guarded(a, count, &mut outside, |x| x <= 0.0, f32::log2),
+        X::Sqrt => guarded(a, count, &mut outside, |x| x < 0.0, f32::sqrt),
         X::InverseSqrt => guarded(a, count, &mut outside, |x| x <= 0.0, |x| 1.0 / x.sqrt()),
         X::Atan if args.len() == 1 => wide(f64::atan),
         X::Atan => {
@@ -114,7 +115,7 @@ fn fold(builtin: X, args: &[Arg<'_>], count: usize, undefined: &mut bool) -> Opt
         X::Pow => {
             let bad = |x: f32, y: f32| x < 0.0 || (x == 0.0 && y <= 0.0);
             outside(any(&|i| bad(a.float(i), b.float(i))));
-            each2(&|x, y| if bad(x, y) { 0.0 } else { f64::from(x).powf(f64::from(y)) as f32 })
+            each2(&|x, y| if bad(x, y) { 0.0 } else { x.powf(y) })
         }
         X::Abs if a.scalar == Scalar::Int => Some((0..count).map(|i| a.int(i).wrapping_abs() as u32).collect()),
         X::Abs => each(&f32::abs),
@@ -243,9 +244,9 @@ fn guarded(
     count: usize,
     outside: &mut impl FnMut(bool) -> bool,
     bad: fn(f32) -> bool,
-    f: fn(f64) -> f64,
+    f: fn(f32) -> f32,
 ) -> Option<Words> {
-    let value = |x: f32, bad: bool| if bad { 0.0 } else { f(f64::from(x)) as f32 };
+    let value = |x: f32, bad: bool| if bad { 0.0 } else { f(x) };
     Some((0..count).map(|i| value(a.float(i), outside(bad(a.float(i)))).to_bits()).collect())
 }
 

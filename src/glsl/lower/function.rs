@@ -1,8 +1,6 @@
 //! The body of one function under construction: expressions, blocks, what each local stands for.
 
-use naga::{
-    Block, Expression, FunctionArgument, FunctionResult, Handle, LocalVariable, Range, Span, Statement, TypeInner,
-};
+use naga::{Block, Expression, FunctionArgument, FunctionResult, Handle, LocalVariable, Range, Span, Statement};
 
 use super::{Instance, Lowering, Map, calls::Given, consts, scalars};
 use crate::glsl::{
@@ -77,9 +75,12 @@ pub(super) struct Builder<'m, 'a> {
     made: Map<scalars::Key, Value>,
     made_in_order: Vec<scalars::Key>,
     /// What was read from memory and not written since: by variable, then by pointer into it.
-    loaded: Map<Value, Map<Value, Value>>,
+    pub loaded: Map<Value, Map<Value, Value>>,
+    pub loaded_in_order: Vec<(Value, Value)>,
+    /// Members of structures as they were when these were read.
+    pub members: Map<(Value, u32), Value>,
     /// Variables written in the block at hand.
-    written: std::collections::HashSet<Value>,
+    pub written: std::collections::HashSet<Value>,
     pub loops: Vec<Loop>,
     /// What is known of int locals at this place: least and greatest value.
     pub known: Map<u32, (i64, i64)>,
@@ -140,6 +141,8 @@ impl<'m, 'a> Builder<'m, 'a> {
             made: Map::default(),
             made_in_order: Vec::new(),
             loaded: Map::default(),
+            loaded_in_order: Vec::new(),
+            members: Map::default(),
             written: Default::default(),
             loops: Vec::new(),
             known: Map::default(),
@@ -257,7 +260,7 @@ impl<'m, 'a> Builder<'m, 'a> {
     }
 
     /// Notes that a variable stands for a value and its components.
-    fn name(&mut self, value: Value) {
+    pub fn name(&mut self, value: Value) {
         self.named.insert(value);
         if let Expression::Compose { components, .. } = &self.f.expressions[value] {
             self.named.extend(components);
@@ -386,79 +389,44 @@ impl<'m, 'a> Builder<'m, 'a> {
 
     /// A nested block, filled by `fill`. Tells also whether its end can not be reached.
     pub fn nested(&mut self, fill: impl FnOnce(&mut Self)) -> (Block, bool) {
-        self.nested_after(Map::default(), fill)
+        // What precedes a loop's first round does not precede its second.
+        let mut loaded = std::mem::take(&mut self.loaded);
+        let before = self.loaded_in_order.len();
+        let written = std::mem::take(&mut self.written);
+        let made = self.block_of(fill);
+        self.loaded_in_order.truncate(before);
+        loaded.retain(|variable, _| !self.written.contains(variable));
+        self.loaded = loaded;
+        self.written.extend(written);
+        made
     }
 
     /// A nested block that is no part of a loop within the block at hand: what was read before it is still known.
     pub fn branch_block(&mut self, fill: impl FnOnce(&mut Self)) -> (Block, bool) {
-        self.nested_after(self.loaded.clone(), fill)
+        let before = self.loaded_in_order.len();
+        let made = self.block_of(fill);
+        // What was written in it is forgotten already.
+        for (variable, pointer) in self.loaded_in_order.drain(before..) {
+            if let Some(parts) = self.loaded.get_mut(&variable) {
+                parts.remove(&pointer);
+            }
+        }
+        made
     }
 
-    fn nested_after(&mut self, known: Map<Value, Map<Value, Value>>, fill: impl FnOnce(&mut Self)) -> (Block, bool) {
+    fn block_of(&mut self, fill: impl FnOnce(&mut Self)) -> (Block, bool) {
         self.emit();
         let outer = std::mem::take(&mut self.block);
         let outer_ended = std::mem::take(&mut self.ended);
         let made = self.made_in_order.len();
-        // What precedes a loop's first round does not precede its second.
-        let mut loaded = std::mem::replace(&mut self.loaded, known);
-        let written = std::mem::take(&mut self.written);
         self.run = self.f.expressions.len();
         fill(self);
         self.emit();
-        loaded.retain(|variable, _| !self.written.contains(variable));
-        self.loaded = loaded;
-        self.written.extend(written);
         for key in self.made_in_order.drain(made..) {
             self.made.remove(&key);
         }
         let ended = std::mem::replace(&mut self.ended, outer_ended);
         (std::mem::replace(&mut self.block, outer), ended)
-    }
-
-    /// What a variable holds. Until something may have been written to it that is one value, which is how drivers see that terms
-    /// of two expressions are the same.
-    pub fn load(&mut self, pointer: Value) -> Value {
-        let variable = self.variable(pointer);
-        if let Some(&value) = self.loaded.get(&variable).and_then(|parts| parts.get(&pointer)) {
-            return value;
-        }
-        let value = self.add(Expression::Load { pointer });
-        self.loaded.entry(variable).or_default().insert(pointer, value);
-        value
-    }
-
-    /// What a pointer points into. Different ones are different memory: arguments are passed in place where they are the only way
-    /// to what they point to.
-    fn variable(&self, mut pointer: Value) -> Value {
-        while let Expression::Access { base, .. } | Expression::AccessIndex { base, .. } = self.f.expressions[pointer] {
-            pointer = base;
-        }
-        pointer
-    }
-
-    /// Something is written by a pointer.
-    fn forget(&mut self, pointer: Value) {
-        let variable = self.variable(pointer);
-        self.loaded.remove(&variable);
-        self.written.insert(variable);
-    }
-
-    /// Writes to memory. Of a whole scalar or vector it is known from then on what it holds.
-    pub fn store(&mut self, pointer: Value, value: Value) {
-        self.push(Statement::Store { pointer, value });
-        let ty = match self.f.expressions[pointer] {
-            Expression::LocalVariable(variable) => self.f.local_variables[variable].ty,
-            Expression::GlobalVariable(variable) => self.cx.out.global_variables[variable].ty,
-            _ => return,
-        };
-        if matches!(self.cx.out.types[ty].inner, TypeInner::Scalar(_) | TypeInner::Vector { .. }) {
-            self.name(value);
-            self.constructed.insert(value);
-            if let Expression::Compose { components, .. } = &self.f.expressions[value] {
-                self.constructed.extend(components);
-            }
-            self.loaded.entry(pointer).or_default().insert(pointer, value);
-        }
     }
 
     /// A scalar constant, bit for bit.

@@ -19,39 +19,59 @@ use crate::glsl::{
 /// Expressions and statements of a function, with those of what is inlined into it, that are written again for each call.
 const LARGEST: usize = 256;
 
-/// Which functions are inlined wherever they are called, by [`FuncId::index`]. What is generated for a function grows by no more
-/// than [`LARGEST`] for each of its calls.
+/// As many of a whole program, after inlining. What would be larger inlines smaller functions only: texts that call one function
+/// a million times must not become so many copies.
+const LARGEST_PROGRAM: usize = 1 << 17;
+
+/// Which functions are inlined wherever they are called, by [`FuncId::index`].
 pub(super) fn inlined(module: &Module) -> Vec<bool> {
-    let mut sizes = vec![usize::MAX; module.functions.len()];
+    let mut straight = vec![false; module.functions.len()];
     for &func in &module.call_order {
-        let Some(body) = module[func].body else { continue };
-        if Some(func) == module.entry || !is_straight(module, &module[body]) {
-            continue;
-        }
-        sizes[func.index()] = size(module, body, &sizes);
+        let body = module[func].body.unwrap_or(List::EMPTY);
+        straight[func.index()] = Some(func) != module.entry && is_straight(module, &module[body]);
     }
-    sizes.into_iter().map(|size| size <= LARGEST).collect()
+    let mut largest = LARGEST;
+    loop {
+        let mut sizes = vec![0usize; module.functions.len()];
+        let mut program = 0usize;
+        for &func in &module.call_order {
+            let inlined = |func: FuncId| straight[func.index()] && sizes[func.index()] <= largest;
+            let size = size(module, module[func].body.unwrap_or(List::EMPTY), |callee| match inlined(callee) {
+                true => sizes[callee.index()],
+                false => 0,
+            });
+            sizes[func.index()] = size;
+            if !straight[func.index()] || size > largest {
+                program = program.saturating_add(size);
+            }
+        }
+        if program <= LARGEST_PROGRAM || largest == 0 {
+            return straight.iter().zip(sizes).map(|(straight, size)| *straight && size <= largest).collect();
+        }
+        largest /= 4;
+    }
 }
 
 /// Whether a body leaves at its end alone, or in branches that do nothing else after it.
-fn is_straight(module: &Module, list: &[StmtId]) -> bool {
-    let Some((&first, rest)) = list.split_first() else { return true };
-    match module[first].kind {
-        StmtKind::Return(_) => rest.is_empty(),
-        StmtKind::If { cond, then, otherwise } if leaves(module, first) => {
-            let (then, otherwise) = (&module[then], &module[otherwise]);
-            known_bool(module, cond).is_none()
-                && always_returns(module, then)
-                && is_straight(module, then)
-                && is_straight(module, otherwise)
-                && if otherwise.is_empty() {
-                    is_straight(module, rest)
-                } else {
-                    rest.is_empty() && always_returns(module, otherwise)
+fn is_straight(module: &Module, mut list: &[StmtId]) -> bool {
+    while let Some((&first, rest)) = list.split_first() {
+        match module[first].kind {
+            StmtKind::Return(_) => return rest.is_empty(),
+            StmtKind::If { cond, then, otherwise } if leaves(module, first) => {
+                let (then, otherwise) = (&module[then], &module[otherwise]);
+                if known_bool(module, cond).is_some() || !always_returns(module, then) || !is_straight(module, then) {
+                    return false;
                 }
+                if !otherwise.is_empty() {
+                    return rest.is_empty() && always_returns(module, otherwise) && is_straight(module, otherwise);
+                }
+            }
+            _ if leaves(module, first) => return false,
+            _ => {}
         }
-        _ => !leaves(module, first) && is_straight(module, rest),
+        list = rest;
     }
+    true
 }
 
 /// Whether control cannot reach the end of a list.
@@ -79,11 +99,11 @@ fn leaves(module: &Module, stmt: StmtId) -> bool {
     }
 }
 
-/// Counts expressions and statements until there are more than [`LARGEST`].
-fn size(module: &Module, body: List<StmtId>, sizes: &[usize]) -> usize {
+/// Counts expressions and statements; `of_call` says how many a call of a function adds.
+fn size(module: &Module, body: List<StmtId>, of_call: impl Fn(FuncId) -> usize) -> usize {
     let mut stmts: Vec<StmtId> = module[body].to_vec();
     let mut exprs: Vec<ExprId> = Vec::new();
-    let mut size = 0;
+    let mut size = 0usize;
     while let Some(stmt) = stmts.pop() {
         size += 1;
         match module[stmt].kind {
@@ -110,9 +130,6 @@ fn size(module: &Module, body: List<StmtId>, sizes: &[usize]) -> usize {
         }
         while let Some(expr) = exprs.pop() {
             size += 1;
-            if size > LARGEST {
-                return size;
-            }
             match module[expr].kind {
                 ExprKind::Error
                 | ExprKind::Literal(_)
@@ -145,10 +162,7 @@ fn size(module: &Module, body: List<StmtId>, sizes: &[usize]) -> usize {
                 | ExprKind::Builtin { args, .. } => exprs.extend(&module[args]),
                 ExprKind::Call { func, args } => {
                     exprs.extend(&module[args]);
-                    let callee = sizes[func.index()];
-                    if callee <= LARGEST {
-                        size += callee;
-                    }
+                    size = size.saturating_add(of_call(func));
                 }
             }
         }

@@ -2,14 +2,14 @@
 //! what it reaches.
 //!
 //! Owns the meaning of running code: evaluation order, copies of `out` and `inout` arguments, the zero that WebGL gives to
-//! everything undefined, clamped indices, one copy of a function for each combination of channels and tables passed to it. Judges nothing:
-//! it runs only on programs without errors, and reports none.
+//! everything undefined, clamped indices. Judges nothing: it runs only on programs without errors, and reports none.
 //!
 //! What the generated code looks like, and why:
 //! - Only what the entry point reaches is lowered ([`reach`]). A branch whose condition is a literal is not reached.
-//! - A variable nobody writes is a value, not memory. All others are `LocalVariable`s or private globals; drivers turn them into
-//!   registers, so no effort goes into values across statements.
-//! - Small functions become part of their callers ([`inline`]): last bits then come out as with OpenGL's compilers.
+//! - A variable nobody writes is a value, not memory. All others are `LocalVariable`s or private globals; what they hold is known
+//!   until they are written, within straight code and into branches ([`memory`]).
+//! - Small functions become part of their callers ([`inline`]). Others have one copy for each combination of channels, globals
+//!   and tables that stand for parameters they only read ([`calls`]).
 //! - A constant table that is indexed at run time lives in a buffer ([`tables`]); a small one once in a private global
 //!   with an initialiser: naga's SPIR-V writer would otherwise copy the whole table to the stack at each access.
 //! - Every index that is not provably in range is clamped here, as WebGL does; the modules need no bounds checks from naga.
@@ -31,6 +31,7 @@ mod function;
 mod geometry;
 mod inline;
 mod matrix;
+mod memory;
 mod mix;
 mod opaque;
 mod operators;

@@ -60,7 +60,7 @@ impl Builder<'_, '_> {
     }
 
     /// The result of an operation on literals, as they meet where a small function is inlined. None that is not finite: it is
-    /// left to the device.
+    /// left to the device. In single precision, as OpenGL's compilers do it.
     pub fn folded_number(&self, expression: &Expression) -> Option<f32> {
         use BinaryOperator as Op;
         let number = |value| match self.f.expressions[value] {
@@ -81,17 +81,17 @@ impl Builder<'_, '_> {
             }
             Expression::Math { fun: Math::Pow, arg, arg1: Some(power), .. } => {
                 let (x, power) = (number(arg)?, number(power)?);
-                f64::from(x).powf(f64::from(power)) as f32
+                x.powf(power)
             }
             Expression::Math { fun, arg, arg1: None, .. } => {
                 let x = number(arg)?;
                 match fun {
-                    Math::Sin => f64::from(x).sin() as f32,
-                    Math::Cos => f64::from(x).cos() as f32,
-                    Math::Exp => f64::from(x).exp() as f32,
-                    Math::Exp2 => f64::from(x).exp2() as f32,
-                    Math::Log => f64::from(x).ln() as f32,
-                    Math::Log2 => f64::from(x).log2() as f32,
+                    Math::Sin => x.sin(),
+                    Math::Cos => x.cos(),
+                    Math::Exp => x.exp(),
+                    Math::Exp2 => x.exp2(),
+                    Math::Log => x.ln(),
+                    Math::Log2 => x.log2(),
                     Math::Sqrt => x.sqrt(),
                     Math::InverseSqrt => 1.0 / x.sqrt(),
                     Math::Abs => x.abs(),
@@ -143,6 +143,7 @@ impl Builder<'_, '_> {
                     Some(self.float(number))
                 }
             },
+            Expression::Load { .. } => self.members.get(&(base, index)).copied(),
             _ => None,
         }
     }

@@ -4,12 +4,15 @@
 //! chooses a side. Mesa's llvmpipe takes a quotient for undefined once it sees that the divisor is zero, after it has inlined
 //! functions and spread constants. So what may be such a zero is kept out of its sight.
 
-use super::function::{Builder, Value};
+use super::{
+    function::{Builder, Value},
+    regroup::Part,
+};
 use crate::glsl::{
     ast::List,
     hir::{
         BinaryOp, Builtin, ExprId, ExprKind, FuncId, Global, GlobalStorage, LocalKind, Module, Scalar, Stmt, StmtId,
-        StmtKind,
+        StmtKind, TypeId,
     },
 };
 
@@ -210,6 +213,15 @@ impl Builder<'_, '_> {
     pub fn divisor(&mut self, expr: ExprId, value: Value) -> Value {
         let ty = self.cx.hir[expr].ty;
         let is_float = self.cx.hir.types.scalar(ty) == Some(Scalar::Float) && self.is_vector_or_scalar(ty);
-        if !is_float || !self.cx.zeros.contain(expr) { value } else { self.hidden(ty, value) }
+        if !is_float || !self.cx.zeros.contain(expr) || self.is_known_not_zero(ty, value) {
+            return value;
+        }
+        self.hidden(ty, value)
+    }
+
+    /// Whether every component is a number other than zero, which what [`Zeros`] has to say of all calls of a function together
+    /// is in the one that is inlined here.
+    fn is_known_not_zero(&self, ty: TypeId, value: Value) -> bool {
+        (0..self.extent(ty)).all(|index| matches!(self.part(value, index), Part::Known(number) if number != 0.0))
     }
 }
