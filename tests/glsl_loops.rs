@@ -65,3 +65,42 @@ fn loops_of_known_rounds() {
         ),
     ]);
 }
+
+/// What a round, or what it calls, writes is read anew in the next; what none writes may be read once.
+#[test]
+fn loops_read_what_they_write() {
+    const STATE: &str = "float G = 1.0; vec2 H; struct S { float a, b; }; S s;\n\
+        void step_up() { G += 1.0; } void add(inout float x, float y) { x += y; }\n\
+        float far(float x) { while (x > 99.0) return G; H.y += x; return H.y; }";
+    check(&[
+        with(
+            STATE,
+            "r = vec4(G); for (int i = 0; i < I + 3; i++) { r.x += G; step_up(); r.y += G; } r.zw = vec2(G, 0);",
+            [7., 10., 4., 0.],
+        ),
+        with(
+            STATE,
+            "float x = 1.0; r = vec4(x); for (int i = 0; i < I + 3; i++) { r.x = x; add(x, x); } r.yzw = vec3(x, 0, 0);",
+            [4., 8., 0., 0.],
+        ),
+        with(
+            STATE,
+            "H = vec2(1.0, 2.0); r = H.xyxy; int i = 0; do { r.x = H.x + H.y; r.y = far(r.x); } while (++i < I + 2);",
+            [6., 11., 1., 2.],
+        ),
+        with(
+            STATE,
+            "s.a = 1.0; s.b = 2.0; r = vec4(s.a, s.b, 0, 0); int i = 0;\n\
+             while (i < I + 3) { r.z += s.a; if (i == 1) s.a = 5.0; r.w += s.b; i++; }",
+            [1., 2., 7., 6.],
+        ),
+        case(
+            "float a = 1.0, b = a; for (int i = 0; i < I + 3; b = a, i++) { if (i == 1) continue; a *= 2.0; } r = vec4(a, b, 0, 0);",
+            [4., 4., 0., 0.],
+        ),
+        case(
+            "vec3 v = vec3(1, 2, 3); r.x = v.y; for (int i = 0; i < 3; i++) { r.x += v[(i + I) % 3]; v[(i + I + 1) % 3] = 0.0; } r.yzw = v;",
+            [3., 0., 0., 0.],
+        ),
+    ]);
+}

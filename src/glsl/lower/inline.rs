@@ -10,10 +10,11 @@ use super::{
     calls::Given,
     function::{Builder, Value},
     reach::known_bool,
+    walk::{Node, walk},
 };
 use crate::glsl::{
     ast::List,
-    hir::{ExprId, ExprKind, FuncId, Module, StmtId, StmtKind, TypeId},
+    hir::{ExprKind, FuncId, Module, StmtId, StmtKind, TypeId},
 };
 
 /// Expressions and statements of a function, with those of what is inlined into it, that are written again for each call.
@@ -101,72 +102,15 @@ fn leaves(module: &Module, stmt: StmtId) -> bool {
 
 /// Counts expressions and statements; `of_call` says how many a call of a function adds.
 fn size(module: &Module, body: List<StmtId>, of_call: impl Fn(FuncId) -> usize) -> usize {
-    let mut stmts: Vec<StmtId> = module[body].to_vec();
-    let mut exprs: Vec<ExprId> = Vec::new();
     let mut size = 0usize;
-    while let Some(stmt) = stmts.pop() {
+    walk(module, &module[body], &[], |node| {
         size += 1;
-        match module[stmt].kind {
-            StmtKind::Block(list) => stmts.extend(&module[list]),
-            StmtKind::Expr(expr) => exprs.push(expr),
-            StmtKind::Declare { init: value, .. } | StmtKind::Return(value) => exprs.extend(value),
-            StmtKind::If { cond, then, otherwise } => {
-                exprs.push(cond);
-                stmts.extend(module[then].iter().chain(&module[otherwise]));
-            }
-            StmtKind::For { init, test, step, body } => {
-                exprs.extend(test.into_iter().chain(step));
-                stmts.extend(module[init].iter().chain(&module[body]));
-            }
-            StmtKind::DoWhile { body, test } => {
-                exprs.push(test);
-                stmts.extend(&module[body]);
-            }
-            StmtKind::Switch { value, cases } => {
-                exprs.push(value);
-                stmts.extend(module[cases].iter().flat_map(|case| &module[case.body]));
-            }
-            StmtKind::Break | StmtKind::Continue | StmtKind::Discard => {}
+        if let Node::Expr(expr) = node
+            && let ExprKind::Call { func, .. } = module[expr].kind
+        {
+            size = size.saturating_add(of_call(func));
         }
-        while let Some(expr) = exprs.pop() {
-            size += 1;
-            match module[expr].kind {
-                ExprKind::Error
-                | ExprKind::Literal(_)
-                | ExprKind::Const(_)
-                | ExprKind::Local(_)
-                | ExprKind::Global(_)
-                | ExprKind::Uniform(_)
-                | ExprKind::Knob(_)
-                | ExprKind::Channel(_)
-                | ExprKind::BuiltinVar(_) => {}
-                ExprKind::Member { base: of, .. }
-                | ExprKind::Swizzle { base: of, .. }
-                | ExprKind::Unary { operand: of, .. }
-                | ExprKind::IncDec { place: of, .. }
-                | ExprKind::Convert(of)
-                | ExprKind::Splat(of)
-                | ExprKind::MatrixDiagonal(of)
-                | ExprKind::MatrixResize(of) => exprs.push(of),
-                ExprKind::Index { base: a, index: b }
-                | ExprKind::Binary { lhs: a, rhs: b, .. }
-                | ExprKind::Comma { lhs: a, rhs: b }
-                | ExprKind::Assign { place: a, value: b }
-                | ExprKind::AssignOp { place: a, value: b, .. }
-                | ExprKind::Logical { lhs: a, rhs: b, .. } => exprs.extend([a, b]),
-                ExprKind::Ternary { cond, then, otherwise } => exprs.extend([cond, then, otherwise]),
-                ExprKind::Vector(args)
-                | ExprKind::Matrix(args)
-                | ExprKind::Struct(args)
-                | ExprKind::Array(args)
-                | ExprKind::Builtin { args, .. } => exprs.extend(&module[args]),
-                ExprKind::Call { func, args } => {
-                    exprs.extend(&module[args]);
-                    size = size.saturating_add(of_call(func));
-                }
-            }
-        }
-    }
+    });
     size
 }
 

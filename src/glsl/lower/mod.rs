@@ -45,6 +45,7 @@ mod steps;
 mod tables;
 mod texture;
 mod types;
+mod walk;
 mod zeros;
 
 use std::collections::HashMap;

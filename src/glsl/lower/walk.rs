@@ -1,0 +1,80 @@
+//! All that statements and expressions consist of, reached or not, without recursion.
+
+use crate::glsl::hir::{ExprId, ExprKind, Module, StmtId, StmtKind};
+
+#[derive(Clone, Copy)]
+pub(super) enum Node {
+    Stmt(StmtId),
+    Expr(ExprId),
+}
+
+/// Calls `visit` for these and everything within them, in no particular order.
+pub(super) fn walk(module: &Module, stmts: &[StmtId], exprs: &[ExprId], mut visit: impl FnMut(Node)) {
+    let mut stmts = stmts.to_vec();
+    let mut exprs = exprs.to_vec();
+    loop {
+        while let Some(expr) = exprs.pop() {
+            visit(Node::Expr(expr));
+            parts(module, expr, &mut exprs);
+        }
+        let Some(stmt) = stmts.pop() else { return };
+        visit(Node::Stmt(stmt));
+        match module[stmt].kind {
+            StmtKind::Block(list) => stmts.extend(&module[list]),
+            StmtKind::Expr(expr) => exprs.push(expr),
+            StmtKind::Declare { init: value, .. } | StmtKind::Return(value) => exprs.extend(value),
+            StmtKind::If { cond, then, otherwise } => {
+                exprs.push(cond);
+                stmts.extend(module[then].iter().chain(&module[otherwise]));
+            }
+            StmtKind::For { init, test, step, body } => {
+                exprs.extend(test.into_iter().chain(step));
+                stmts.extend(module[init].iter().chain(&module[body]));
+            }
+            StmtKind::DoWhile { body, test } => {
+                exprs.push(test);
+                stmts.extend(&module[body]);
+            }
+            StmtKind::Switch { value, cases } => {
+                exprs.push(value);
+                stmts.extend(module[cases].iter().flat_map(|case| &module[case.body]));
+            }
+            StmtKind::Break | StmtKind::Continue | StmtKind::Discard => {}
+        }
+    }
+}
+
+fn parts(module: &Module, expr: ExprId, out: &mut Vec<ExprId>) {
+    match module[expr].kind {
+        ExprKind::Error
+        | ExprKind::Literal(_)
+        | ExprKind::Const(_)
+        | ExprKind::Local(_)
+        | ExprKind::Global(_)
+        | ExprKind::Uniform(_)
+        | ExprKind::Knob(_)
+        | ExprKind::Channel(_)
+        | ExprKind::BuiltinVar(_) => {}
+        ExprKind::Member { base: of, .. }
+        | ExprKind::Swizzle { base: of, .. }
+        | ExprKind::Unary { operand: of, .. }
+        | ExprKind::IncDec { place: of, .. }
+        | ExprKind::Convert(of)
+        | ExprKind::Splat(of)
+        | ExprKind::MatrixDiagonal(of)
+        | ExprKind::MatrixResize(of) => out.push(of),
+        ExprKind::Index { base: a, index: b }
+        | ExprKind::Binary { lhs: a, rhs: b, .. }
+        | ExprKind::Comma { lhs: a, rhs: b }
+        | ExprKind::Assign { place: a, value: b }
+        | ExprKind::AssignOp { place: a, value: b, .. }
+        | ExprKind::Logical { lhs: a, rhs: b, .. } => out.extend([a, b]),
+        ExprKind::Ternary { cond, then, otherwise } => out.extend([cond, then, otherwise]),
+        ExprKind::Vector(args)
+        | ExprKind::Matrix(args)
+        | ExprKind::Struct(args)
+        | ExprKind::Array(args)
+        | ExprKind::Builtin { args, .. }
+        | ExprKind::Call { args, .. } => out.extend(&module[args]),
+    }
+}
