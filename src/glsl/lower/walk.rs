@@ -4,7 +4,7 @@ use crate::glsl::hir::{ExprId, ExprKind, Module, StmtId, StmtKind};
 
 #[derive(Clone, Copy)]
 pub(super) enum Node {
-    Stmt(StmtId),
+    Stmt,
     Expr(ExprId),
 }
 
@@ -18,7 +18,7 @@ pub(super) fn walk(module: &Module, stmts: &[StmtId], exprs: &[ExprId], mut visi
             parts(module, expr, &mut exprs);
         }
         let Some(stmt) = stmts.pop() else { return };
-        visit(Node::Stmt(stmt));
+        visit(Node::Stmt);
         match module[stmt].kind {
             StmtKind::Block(list) => stmts.extend(&module[list]),
             StmtKind::Expr(expr) => exprs.push(expr),
