@@ -157,3 +157,37 @@ fn members_hold_what_was_written_last() {
         ),
     ]);
 }
+
+/// A short text that calls a function very often does not become so many copies of it, and a body of very many statements is
+/// looked through without recursion.
+#[test]
+fn inlining_is_bounded() {
+    let expressions = |code: &str| {
+        let source = eddy::glsl::PassSource {
+            kind: eddy::glsl::PassKind::Image,
+            common: None,
+            code: eddy::glsl::Text { id: eddy::diag::SourceId(0), text: code },
+            includes: &[],
+            channels: [eddy::glsl::ChannelKind::Sampler2D; 4],
+            knobs: &[],
+            values: &[],
+            bilinear_by_hand: [false; 4],
+            driver: Default::default(),
+        };
+        let module = eddy::glsl::compile(&source).unwrap_or_else(|_| panic!("it compiles")).module;
+        module.functions.iter().map(|(_, f)| f.expressions.len()).sum::<usize>()
+    };
+    let work = "x = sin(x) * y + cos(y) / x; y += x;".repeat(10);
+    let often = |calls: usize| {
+        expressions(&format!(
+            "float f(float x, float y) {{ {work} return x; }}\n\
+             void mainImage(out vec4 o, vec2 p) {{ {} o = p.xyxy; }}",
+            "p.x += f(p.x, p.y);".repeat(calls)
+        ))
+    };
+    // Inlined, and not.
+    assert!(often(20) > 20 * 50, "{}", often(20));
+    assert!(often(4000) < 4000 * 40, "{}", often(4000));
+    let long = format!("float f(float x) {{ {} return x; }}", "x += 0.5;".repeat(50_000));
+    assert!(expressions(&format!("{long} void mainImage(out vec4 o, vec2 p) {{ o = vec4(f(p.x)); }}")) > 50_000);
+}

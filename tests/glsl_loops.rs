@@ -1,4 +1,4 @@
-//! What loops compute whose rounds are known beforehand, and which drivers and we may therefore write out.
+//! What loops compute: those whose rounds are known beforehand, which drivers write out, and those that read what they write.
 
 #[path = "support/compute.rs"]
 mod compute;

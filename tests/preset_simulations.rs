@@ -92,17 +92,22 @@ fn a_broken_number_in_any_buffer_heals() {
     }
 }
 
+/// Draws further frames of a canvas of this size, with a violent hand or none.
+fn in_turn(size: (f32, f32)) -> impl FnMut(&mut Engine, i32, bool) {
+    let mut frame = 0;
+    move |engine, frames, hand| {
+        draw(engine, frame..frame + frames, |f| if hand { violent(f, size) } else { untouched(f) });
+        frame += frames;
+    }
+}
+
 #[test]
 fn every_slider_may_go_to_its_ends_and_come_back() {
     let Some(gpu) = gpu() else { return };
     for s in &SIMULATIONS {
         let project = preset(s.name);
         let mut engine = whole(&gpu, &project, true, (32, 20));
-        let mut frame = 0;
-        let mut run = |engine: &mut Engine, frames: i32, hand: bool| {
-            draw(engine, frame..frame + frames, |f| if hand { violent(f, (32.0, 20.0)) } else { untouched(f) });
-            frame += frames;
-        };
+        let mut run = in_turn((32.0, 20.0));
         run(&mut engine, 3, false);
         for knob in project.knobs().list {
             let Some(range) = &knob.range else { continue };
@@ -160,11 +165,7 @@ fn all_sliders_may_go_to_their_ends_at_once_and_come_back() {
     for s in &SIMULATIONS {
         let project = preset(s.name);
         let mut engine = whole(&gpu, &project, true, (32, 20));
-        let mut frame = 0;
-        let mut run = |engine: &mut Engine, frames: i32, hand: bool| {
-            draw(engine, frame..frame + frames, |f| if hand { violent(f, (32.0, 20.0)) } else { untouched(f) });
-            frame += frames;
-        };
+        let mut run = in_turn((32.0, 20.0));
         run(&mut engine, 3, false);
         for corner in [0, u64::MAX, 0x9e37_79b9_7f4a_7c15, 0x6a09_e667_f3bc_c909, 0xb7e1_5162_8aed_2a6b] {
             let mut turned = project.clone();
