@@ -1,4 +1,4 @@
-//! Calls of functions small enough to become part of their callers: nobody can tell them from other calls.
+//! Calls of functions that become part of their callers, being small or called once: nobody can tell them from other calls.
 //!
 //! `Z` is a zero no compiler can see through, so that nothing here is folded before it runs.
 
@@ -89,6 +89,52 @@ fn early_returns() {
     ]);
 }
 
+/// A return from within a loop leaves that, the loops around it and what follows; the next call begins anew.
+#[test]
+fn returns_from_loops() {
+    check(&[
+        with(
+            "int find(int x) { int n = 0; for (int i = 0; i < 4; i++) { for (int j = 0; j < 4; j++) { if (n++ == x) return i * 10 + j; }\n\
+             if (i == 2) return -n; } return -1; }",
+            "r = vec4(find(I), find(I + 6), find(I + 11), find(I + 12));",
+            [0., 12., 23., -12.],
+        ),
+        with(
+            "float g; void fill(inout float a, float x) { do { a += 1.0; g += 1.0; if (a > x) return; } while (a < 6.0); a = -a; g += 10.0; }",
+            "g = Z; float a = Z, b = Z + 3.0; fill(a, 2.5); fill(b, 8.0); r = vec4(a, b, g, 0);",
+            [3., -6., 16., 0.],
+        ),
+        with(
+            "float f(float x) { { if (x > 0.0) { if (x > 5.0) return 5.0; x += 1.0; } else if (x < -5.0) { x = 0.0; } }\n\
+             x *= 2.0; while (true) { if (x > 3.0) return x; x += 4.0; } }",
+            "r = vec4(f(Z + 6.0), f(Z + 2.0), f(Z - 6.0), f(Z + 0.1));",
+            [5., 6., 4., 6.2],
+        ),
+        with(
+            "float f(int n) { for (int i = 0; i < 3; i++) { for (int j = i; j < 9; j++) { if (j == n) return float(j); if (j > i + 2) break; }\n\
+             if (i == n - 9) continue; for (int j = 0; j < n; j++) if (j > 3) return 20.0 + float(i); } return -1.0; }",
+            "r = vec4(f(I + 1), f(I + 4), f(I + 9), f(I + 10));",
+            [1., 4., 21., 20.],
+        ),
+        with(
+            "float f(float x) { for (int i = 0; i < 3; i++) { if (x > 1.0) return x; x += 0.25; } }",
+            "r = vec4(0); for (int i = 0; i < 3; i++) { r.x = f(Z + float(2 - i)); r.y += f(Z + 0.75); r.z += f(Z + float(i)); }",
+            [0., 3.75, 3.25, 0.],
+        ),
+        with(
+            "struct Hit { float t; vec2 n; }; Hit meet(float x) { Hit h; h.t = -1.0; for (int i = 0; i < 5; i++) { h.n += x;\n\
+             if (h.n.x > 2.0) { h.t = float(i); return h; } } return h; }",
+            "Hit a = meet(Z + 1.0), b = meet(Z); r = vec4(a.t, a.n.y, b.t, b.n.y);",
+            [2., 3., -1., 0.],
+        ),
+        with(
+            "float f(int n) { for (int i = 0; i < 3; i++) switch (i + n) { case 1: return 7.0; case 4: break; default: n++; } return float(n); }",
+            "r = vec4(f(I + 1), f(I + 2), f(I), f(I + 4));",
+            [7., 4., 2., 6.],
+        ),
+    ]);
+}
+
 /// What a variable holds is known from when it is written until it is written again: in a branch, in a loop, through a part.
 #[test]
 fn variables_after_branches_and_loops() {
@@ -158,25 +204,59 @@ fn members_hold_what_was_written_last() {
     ]);
 }
 
+/// The user functions of a fragment that were not inlined, and all their expressions.
+fn lowered(code: &str) -> (usize, usize) {
+    let source = eddy::glsl::PassSource {
+        kind: eddy::glsl::PassKind::Image,
+        common: None,
+        code: eddy::glsl::Text { id: eddy::diag::SourceId(0), text: code },
+        includes: &[],
+        channels: [eddy::glsl::ChannelKind::Sampler2D; 4],
+        knobs: &[],
+        values: &[],
+        bilinear_by_hand: [false; 4],
+        driver: Default::default(),
+    };
+    let module = eddy::glsl::compile(&source).unwrap_or_else(|_| panic!("it compiles")).module;
+    (module.functions.len(), module.functions.iter().map(|(_, f)| f.expressions.len()).sum())
+}
+
+/// What is called at one place becomes part of its caller whatever its size, unless it would nest too deep for the stack.
+#[test]
+fn functions_called_once_are_inlined() {
+    let work = "x = sin(x) * y + cos(y) / x; y += x;".repeat(100);
+    let calls = |calls: &str| {
+        lowered(&format!(
+            "float f(float x, float y) {{ {work} for (;;) {{ if (x < y) return x; x -= 1.0; }} }}\n\
+             float twice(float x) {{ return f(x, x) * 2.0; }}\n\
+             void mainImage(out vec4 o, vec2 p) {{ o = vec4({calls}); }}"
+        ))
+        .0
+    };
+    assert_eq!([calls("f(p.x, p.y)"), calls("twice(p.x)"), calls("f(p.x, 1.0) + f(p.y, 2.0)")], [1, 1, 2]);
+    assert_eq!([calls("twice(p.x) + twice(p.y)"), calls("f(p.x, 1.0) + twice(p.y)")], [2, 2]);
+
+    let many = 3000;
+    let links: String = (1..many)
+        .map(|i| format!("float f{i}(float x) {{ if (x > {i}.0) return x; return f{}(x + 1.0); }}", i - 1))
+        .collect();
+    let (functions, _) = lowered(&format!(
+        "float f0(float x) {{ return x; }} {links} void mainImage(out vec4 o, vec2 p) {{ o = vec4(f{}(p.x)); }}",
+        many - 1
+    ));
+    assert!(functions > 10, "{functions}");
+    let returns: String = (0..many).map(|i| format!("if (x > {i}.0) return {i}.5;")).collect();
+    let apart = lowered(&format!(
+        "float f(float x) {{ {returns} return x; }} void mainImage(out vec4 o, vec2 p) {{ o = vec4(f(p.x)); }}"
+    ));
+    assert_eq!(apart.0, 2);
+}
+
 /// A short text that calls a function very often does not become so many copies of it, and a body of very many statements is
 /// looked through without recursion.
 #[test]
 fn inlining_is_bounded() {
-    let expressions = |code: &str| {
-        let source = eddy::glsl::PassSource {
-            kind: eddy::glsl::PassKind::Image,
-            common: None,
-            code: eddy::glsl::Text { id: eddy::diag::SourceId(0), text: code },
-            includes: &[],
-            channels: [eddy::glsl::ChannelKind::Sampler2D; 4],
-            knobs: &[],
-            values: &[],
-            bilinear_by_hand: [false; 4],
-            driver: Default::default(),
-        };
-        let module = eddy::glsl::compile(&source).unwrap_or_else(|_| panic!("it compiles")).module;
-        module.functions.iter().map(|(_, f)| f.expressions.len()).sum::<usize>()
-    };
+    let expressions = |code: &str| lowered(code).1;
     let work = "x = sin(x) * y + cos(y) / x; y += x;".repeat(10);
     let often = |calls: usize| {
         expressions(&format!(

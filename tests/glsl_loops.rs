@@ -94,6 +94,21 @@ fn loops_read_what_they_write() {
              while (i < I + 3) { r.z += s.a; if (i == 1) s.a = 5.0; r.w += s.b; i++; }",
             [1., 2., 7., 6.],
         ),
+        with(
+            STATE,
+            "s.a = 1.0; r = vec4(0); for (int i = 0; i < I + 2; i++) { for (int j = 0; j < 2; j++) { r.x += s.a; add(s.a, 1.0); } r.y += s.a; }",
+            [10., 8., 0., 0.],
+        ),
+        // A return from a switch keeps a function apart.
+        with(
+            "float G = 1.0; float apart(float x) { switch (int(x)) { case 9: return 0.0; } G += x; return x; }",
+            "r = vec4(G); for (int i = 0; i < I + 3; i++) { r.x += G; r.y += apart(2.0); } r.z = G;",
+            [10., 7., 7., 1.],
+        ),
+        case(
+            "float w = 1.0; r = vec4(w, 0, 0, 0); for (int i = 0; i < I + 2; i++) { r.y += w; r.z += modf(2.5 + float(i), w); } r.w = w;",
+            [1., 3., 1., 3.],
+        ),
         case(
             "float a = 1.0, b = a; for (int i = 0; i < I + 3; b = a, i++) { if (i == 1) continue; a *= 2.0; } r = vec4(a, b, 0, 0);",
             [4., 4., 0., 0.],

@@ -65,8 +65,8 @@ fn what_fills_the_uniform_buffer_leaves_the_next_table_to_the_storage_buffer() {
 fn an_array_begins_with_its_value_where_it_is_declared_once_a_call() {
     let code = |declared: &str| {
         format!(
-            // To return from a loop keeps a function apart.
-            "float f(int i) {{ {declared} a[i] += 1.0; while (i > 5) return 0.0; return a[i + 1]; }}\n\
+            // To return from a switch keeps a function apart.
+            "float f(int i) {{ {declared} a[i] += 1.0; switch (i) {{ case 9: return 0.0; }} return a[i + 1]; }}\n\
                  void mainImage(out vec4 o, vec2 p) {{ o = vec4(f(int(p.x))); }}"
         )
     };
@@ -82,8 +82,8 @@ fn an_array_begins_with_its_value_where_it_is_declared_once_a_call() {
 #[test]
 fn an_array_handed_on_through_calls_is_not_copied_on_the_way() {
     let compiled = compiled(
-        "float last(float a[4], int i) { while (i > 5) return 0.0; return a[i]; }\n\
-         float middle(float a[4], int i) { while (i > 5) return 0.0; return last(a, i) + last(a, i + 1); }\n\
+        "float last(float a[4], int i) { switch (i) { case 9: return 0.0; } return a[i]; }\n\
+         float middle(float a[4], int i) { switch (i) { case 9: return 0.0; } return last(a, i) + last(a, i + 1); }\n\
          void mainImage(out vec4 o, vec2 p) { float a[4]; a[1] = p.x; o = vec4(middle(a, int(p.y))); }",
     );
     let memory: Vec<usize> = compiled.module.functions.iter().map(|(_, f)| f.local_variables.len()).collect();
@@ -96,8 +96,8 @@ fn an_array_handed_on_through_calls_is_not_copied_on_the_way() {
 fn what_all_functions_see_is_not_handed_over() {
     let compiled = compiled(
         "float G[4]; const float T[4] = float[](1., 2., 3., 4.);\n\
-         float last(float a[4], int i) { if (i > 9) discard; return a[i]; }\n\
-         float middle(float a[4], int i) { if (i > 8) discard; return last(a, i) + last(a, i + 1); }\n\
+         float last(float a[4], int i) { switch (i) { case 9: return 0.0; } return a[i]; }\n\
+         float middle(float a[4], int i) { switch (i) { case 8: return 0.0; } return last(a, i) + last(a, i + 1); }\n\
          void mainImage(out vec4 o, vec2 p) {\n\
              int i = int(p.x); G[i] = p.x;\n\
              o = vec4(middle(G, i), middle(T, i), last(T, 0), last(float[](5., 6., 7., 8.), i));\n\
@@ -120,9 +120,9 @@ fn globals_handed_over_keep_the_value_they_had() {
         float column(mat2 m, int i) { return m[i].y; }\n\
         float member(S s, int i) { return s.a[i]; }\n\
         float whole(float a[3], int i) { float b[3] = a; b[i] += 0.5; return a[i] + b[i]; }";
-    // The same functions, which a return from a loop keeps apart.
+    // The same functions, which a return from a switch keeps apart.
     let apart: &'static str =
-        Box::leak(INLINED.replace("{ return", "{ while (i > 9) return 0.0; return").into_boxed_str());
+        Box::leak(INLINED.replace("{ return", "{ switch (i) { case 9: return 0.0; } return").into_boxed_str());
     for calls in [INLINED, apart] {
         check(&[
             with(
@@ -287,4 +287,32 @@ fn loops_within_counting_loops() {
         |p: [f32; 4]| (0..3).fold(p.to_vec(), |p, _| p.windows(2).map(|w| w[0] + 0.25 * (w[1] - w[0])).collect())[0];
     let expected = [bezier([0., 1., 3., 4.]), bezier([0., 2., 5., 1.]), 0., 0.];
     check(&[case(Box::leak(format!("{body} r = vec4(p1[0], float(n), 0);").into_boxed_str()), expected)]);
+}
+
+/// How often a fragment reads memory.
+fn loads(compiled: &Compiled) -> usize {
+    let of =
+        |f: &naga::Function| f.expressions.iter().filter(|(_, e)| matches!(e, naga::Expression::Load { .. })).count();
+    compiled.module.functions.iter().map(|(_, f)| of(f)).sum()
+}
+
+/// What was written before a loop, and in no round of it, need not be read again there.
+#[test]
+fn loops_keep_what_they_do_not_write() {
+    let rounds = |declared: &str, body: &str| {
+        loads(&compiled(&format!(
+            "struct Lens {{ float focus; float far; }}; float g; float touch() {{ g += 1.0; return g; }}\n\
+             void widen(inout Lens l) {{ l.far *= 2.0; }}\n\
+             void mainImage(out vec4 o, vec2 p) {{ {declared} p.x += l.focus; while (p.x < 9.0) {{ {body} }} o = p.xyxy; }}"
+        )))
+    };
+    const LENS: &str = "Lens l, m; l.focus = 3.0; l.far = 4.0; g = 5.0;";
+    let bare = rounds(LENS, "p.x += 1.0;");
+    for known in ["p.x += l.focus;", "l.far += 1.0; p.x += l.focus;", "p.x += l.focus * g; widen(m);"] {
+        let (with, without) = (rounds(LENS, known), rounds(LENS, &known.replace("l.focus", "1.0").replace('g', "1.0")));
+        assert!(with <= without && with >= bare, "{known}: {with}, {without} without, {bare}");
+    }
+    for written in ["l.focus += 1.0;", "l = Lens(p.x, p.y);", "g += 1.0;", "p.x += touch();"] {
+        assert!(rounds(LENS, written) > bare, "{written}");
+    }
 }

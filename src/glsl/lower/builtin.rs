@@ -287,7 +287,7 @@ impl Builder<'_, '_> {
         };
         let failed = self.cx.failed_asserts();
         let failed = self.global(failed);
-        let (reject, _) = self.nested(|b| {
+        let (reject, _) = self.branch_block(|b| {
             let bits = b.bitcast(number, ScalarKind::Uint);
             // Any other number than 0 to 2 paints like 3.
             let three = b.literal(Scalar::Uint, 3);

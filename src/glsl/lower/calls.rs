@@ -9,6 +9,7 @@ use super::{
     access::Place,
     function::{Builder, Slot, Value},
     tables::NOT_UNROLLED,
+    writes,
 };
 use crate::glsl::hir::{
     ConstId, ExprFlags, ExprId, ExprKind, FuncId, GlobalId, GlobalStorage, Local, LocalId, LocalKind, Module, Type,
@@ -90,6 +91,11 @@ impl Arguments {
         matches!(module.types.get(module[param].ty), Type::Sampler { .. }) || self.reads_in_place(module, param)
     }
 
+    /// Whether a function or what it calls writes a global.
+    pub fn writes(&self, func: FuncId, global: GlobalId) -> bool {
+        self.written[func.index()].contains(&global)
+    }
+
     /// Whether a local is indexed, in its function or in one it is handed to as a whole.
     pub fn is_indexed(&self, module: &Module, local: LocalId) -> bool {
         module[local].flags.contains(VarFlags::INDEXED) || self.handed_on[local.index()]
@@ -117,7 +123,7 @@ impl Arguments {
                 ExprKind::Const(table) if self.is_table(module, table) => Passed::Known(Given::Table(table)),
                 ExprKind::Global(global) if module[global].storage == GlobalStorage::Private => {
                     let declared = &module[global];
-                    let stays = !changes && !self.written[func.index()].contains(&global);
+                    let stays = !changes && !self.writes(func, global);
                     Passed::Known(match (declared.flags.contains(VarFlags::WRITTEN), declared.value) {
                         (false, Some(value)) => Given::Table(value),
                         // Nobody sets it: it is zero.
@@ -264,15 +270,10 @@ impl Builder<'_, '_> {
         })
     }
 
-    fn root_local(&self, mut place: ExprId) -> Option<LocalId> {
-        loop {
-            match self.cx.hir[place].kind {
-                ExprKind::Member { base, .. } | ExprKind::Swizzle { base, .. } | ExprKind::Index { base, .. } => {
-                    place = base;
-                }
-                ExprKind::Local(local) => return Some(local),
-                _ => return None,
-            }
+    fn root_local(&self, place: ExprId) -> Option<LocalId> {
+        match self.cx.hir[writes::root(self.cx.hir, place)].kind {
+            ExprKind::Local(local) => Some(local),
+            _ => None,
         }
     }
 }

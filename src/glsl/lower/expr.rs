@@ -157,8 +157,8 @@ impl Builder<'_, '_> {
                 Some(known) => self.effect(if known { then } else { otherwise }),
                 None => {
                     let condition = self.value(cond);
-                    let (accept, _) = self.nested(|b| b.effect(then));
-                    let (reject, _) = self.nested(|b| b.effect(otherwise));
+                    let (accept, _) = self.branch_block(|b| b.effect(then));
+                    let (reject, _) = self.branch_block(|b| b.effect(otherwise));
                     self.push(Statement::If { condition, accept, reject });
                 }
             },
@@ -188,7 +188,7 @@ impl Builder<'_, '_> {
         }
         let result = self.temporary(TypeId::BOOL);
         self.store(result, left);
-        let (needed, _) = self.nested(|b| {
+        let (needed, _) = self.branch_block(|b| {
             let right = b.value(rhs);
             b.store(result, right);
         });
@@ -211,11 +211,11 @@ impl Builder<'_, '_> {
             return self.select(condition, accept, reject);
         }
         let result = self.temporary(ty);
-        let (accept, _) = self.nested(|b| {
+        let (accept, _) = self.branch_block(|b| {
             let value = b.value(then);
             b.store(result, value);
         });
-        let (reject, _) = self.nested(|b| {
+        let (reject, _) = self.branch_block(|b| {
             let value = b.value(otherwise);
             b.store(result, value);
         });

@@ -31,9 +31,16 @@ impl Builder<'_, '_> {
             StmtKind::Expr(expr) => self.effect(expr),
             StmtKind::Declare { local, init } => self.declaration(local, init),
             StmtKind::If { cond, then, otherwise } => self.branch(cond, then, otherwise),
-            StmtKind::For { init, test, step, body } => self.for_loop(init, test, step, body),
-            StmtKind::DoWhile { body, test } => self.do_while(body, test),
+            StmtKind::For { init, test, step, body } => {
+                self.for_loop(init, test, step, body);
+                self.leave_outer_loop(stmt);
+            }
+            StmtKind::DoWhile { body, test } => {
+                self.do_while(body, test);
+                self.leave_outer_loop(stmt);
+            }
             StmtKind::Switch { value, cases } => self.switch(value, &hir[cases]),
+            StmtKind::Return(value) if let Some(leaving) = self.leaving => self.return_inlined(leaving, value),
             StmtKind::Return(value) => {
                 let value = match value {
                     Some(expr) if self.result == TypeId::VOID => {
@@ -123,7 +130,8 @@ impl Builder<'_, '_> {
         // Drivers analyse a loop whose step ends the body more readily than one with a `continuing` part that several places
         // jump to; a short step is repeated before each `continue` instead, as their own GLSL compilers do.
         let repeated = step.filter(|step| self.cx.costs[step.index()] <= CHEAP);
-        let (body, _) = self.nested(|b| {
+        self.forget_written(body, test.into_iter().chain(step));
+        let (body, _) = self.branch_block(|b| {
             if let (None, Some(test)) = (known, test) {
                 let condition = b.loop_test(test, rounds);
                 let mut leave = Block::new();
@@ -153,7 +161,8 @@ impl Builder<'_, '_> {
 
     fn do_while(&mut self, body: List<StmtId>, test: ExprId) {
         let known = known_bool(self.cx.hir, test);
-        let (body, _) = self.nested(|b| {
+        self.forget_written(body, [test]);
+        let (body, _) = self.branch_block(|b| {
             b.loops.push(Loop { step: None });
             b.statements(body);
             b.loops.pop();
@@ -178,7 +187,7 @@ impl Builder<'_, '_> {
         // Each body alone, and whether it runs into the next.
         let mut bodies = Vec::with_capacity(cases.len());
         for case in cases {
-            bodies.push(self.nested(|b| b.statements(case.body)));
+            bodies.push(self.branch_block(|b| b.statements(case.body)));
         }
         let last = cases.len().saturating_sub(1);
         let falls = bodies.iter().enumerate().any(|(i, (body, ended))| i != last && !*ended && !body.is_empty());
@@ -233,13 +242,13 @@ impl Builder<'_, '_> {
             let mut labels = self.labels(case, unsigned);
             let Some(main) = labels.pop() else { continue };
             let number = self.literal(Scalar::Int, i as u32);
-            let (body, _) = self.nested(|b| b.store(first, number));
+            let (body, _) = self.branch_block(|b| b.store(first, number));
             let empty = |value| SwitchCase { value, body: Block::new(), fall_through: true };
             out.extend(labels.into_iter().map(empty));
             out.push(SwitchCase { value: main, body, fall_through: false });
         }
         if !has_default {
-            let (body, _) = self.nested(|b| b.store(first, none));
+            let (body, _) = self.branch_block(|b| b.store(first, none));
             out.push(SwitchCase { value: SwitchValue::Default, body, fall_through: false });
         }
         self.push(Statement::Switch { selector, cases: out });

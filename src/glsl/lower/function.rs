@@ -2,7 +2,7 @@
 
 use naga::{Block, Expression, FunctionArgument, FunctionResult, Handle, LocalVariable, Range, Span, Statement};
 
-use super::{Instance, Lowering, Map, calls::Given, consts, scalars};
+use super::{Instance, Lowering, Map, calls::Given, consts, inline::Leaving, scalars};
 use crate::glsl::{
     ast::List,
     hir::{ConstId, ExprId, FuncId, LocalId, LocalKind, Scalar, Type, TypeId, VarFlags},
@@ -41,6 +41,7 @@ pub(super) struct Outer {
     result: TypeId,
     func: Option<FuncId>,
     given: Box<[Given]>,
+    leaving: Option<Leaving>,
 }
 
 pub(super) struct Builder<'m, 'a> {
@@ -88,6 +89,8 @@ pub(super) struct Builder<'m, 'a> {
     /// The author's function, none of the code around the entry point; and what this copy has in place of parameters.
     pub func: Option<FuncId>,
     pub given: Box<[Given]>,
+    /// Of a function that becomes part of its caller.
+    pub leaving: Option<Leaving>,
 }
 
 /// Lowers one copy of a user function.
@@ -149,6 +152,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             result: TypeId::VOID,
             func: None,
             given: Box::default(),
+            leaving: None,
         }
     }
 
@@ -207,6 +211,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             result: std::mem::replace(&mut self.result, function.result),
             func: self.func.replace(func),
             given: std::mem::replace(&mut self.given, given),
+            leaving: self.leaving.take(),
         }
     }
 
@@ -219,6 +224,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             result: self.result,
             func: self.func,
             given: self.given,
+            leaving: self.leaving,
         } = outer;
     }
 
@@ -387,9 +393,8 @@ impl<'m, 'a> Builder<'m, 'a> {
         self.block.push(statement, Span::UNDEFINED);
     }
 
-    /// A nested block, filled by `fill`. Tells also whether its end can not be reached.
+    /// A nested block, filled by `fill`, before which nothing is known of memory. Tells also whether its end can not be reached.
     pub fn nested(&mut self, fill: impl FnOnce(&mut Self)) -> (Block, bool) {
-        // What precedes a loop's first round does not precede its second.
         let mut loaded = std::mem::take(&mut self.loaded);
         let before = self.loaded_in_order.len();
         let written = std::mem::take(&mut self.written);
@@ -401,7 +406,8 @@ impl<'m, 'a> Builder<'m, 'a> {
         made
     }
 
-    /// A nested block that is no part of a loop within the block at hand: what was read before it is still known.
+    /// A nested block where what was known before it still holds: a branch, or a loop's body after
+    /// [`Builder::forget_written`].
     pub fn branch_block(&mut self, fill: impl FnOnce(&mut Self)) -> (Block, bool) {
         let before = self.loaded_in_order.len();
         let made = self.block_of(fill);

@@ -1,20 +1,20 @@
-//! Calls of small functions, replaced by what they do.
+//! Calls of small functions, and of functions called once, replaced by what they do.
 //!
 //! Every driver does that sooner or later. OpenGL's compilers do it before they join constants and look for what is computed
 //! twice, across the borders that the author drew; a SPIR-V driver finds most of that done for each function alone, and last
 //! bits come out differently (see [`super::regroup`]).
 
-use naga::Statement;
+use naga::{Block, Statement};
 
 use super::{
     calls::Given,
     function::{Builder, Value},
-    reach::known_bool,
+    reach::{Reach, known_bool},
     walk::{Node, walk},
 };
 use crate::glsl::{
-    ast::List,
-    hir::{ExprKind, FuncId, Module, StmtId, StmtKind, TypeId},
+    ast::{List, MAX_NESTING},
+    hir::{ExprId, ExprKind, FuncId, Module, Scalar, StmtId, StmtKind, TypeId},
 };
 
 /// Expressions and statements of a function, with those of what is inlined into it, that are written again for each call.
@@ -24,55 +24,124 @@ const LARGEST: usize = 256;
 /// a million times must not become so many copies.
 const LARGEST_PROGRAM: usize = 1 << 17;
 
-/// Which functions are inlined wherever they are called, by [`FuncId::index`].
-pub(super) fn inlined(module: &Module) -> Vec<bool> {
-    let mut straight = vec![false; module.functions.len()];
+/// Which functions are inlined wherever they are called, by [`FuncId::index`]: small ones, and those of any size that are called
+/// at one place only, which makes the program no larger. These nest no deeper than an author may, lest the stack overflow.
+pub(super) fn inlined(module: &Module, reach: &Reach) -> Vec<bool> {
+    let mut inlined = small(module);
+    let sites = sites(module, reach, &inlined);
+    let mut depths = vec![0; module.functions.len()];
+    for &func in &module.call_order {
+        let body = &module[module[func].body.unwrap_or(List::EMPTY)];
+        let once = sites[func.index()] == 1 && Some(func) != module.entry && is_structured(module, body);
+        let depth = depth(module, body, |callee| if inlined[callee.index()] { depths[callee.index()] } else { 0 });
+        depths[func.index()] = depth;
+        inlined[func.index()] |= once && depth <= MAX_NESTING as usize;
+    }
+    inlined
+}
+
+/// How deep a body nests; `of_call` says how deep that of a called function does, where it becomes part of this one.
+fn depth(module: &Module, body: &[StmtId], of_call: impl Fn(FuncId) -> usize) -> usize {
+    // What follows a return becomes a branch.
+    let (mut deepest, mut returns) = (0, 0);
+    walk(module, body, &[], |node, depth| {
+        let callee = match node {
+            Node::Expr(expr) => match module[expr].kind {
+                ExprKind::Call { func, .. } => of_call(func),
+                _ => 0,
+            },
+            Node::Stmt(stmt) => {
+                returns += usize::from(matches!(module[stmt].kind, StmtKind::Return(_)));
+                0
+            }
+        };
+        deepest = deepest.max(depth + 1 + callee);
+    });
+    deepest + returns
+}
+
+/// At how many places of the lowered program each function is called, where these functions are inlined; by [`FuncId::index`].
+fn sites(module: &Module, reach: &Reach, inlined: &[bool]) -> Vec<usize> {
+    let mut bodies = vec![0usize; module.functions.len()];
+    for instance in &reach.instances {
+        bodies[instance.func.index()] += 1;
+    }
+    let mut sites = vec![0usize; module.functions.len()];
+    let count = |sites: &mut Vec<usize>, stmts: &[StmtId], exprs: &[ExprId], copies: usize| {
+        walk(module, stmts, exprs, |node, _| {
+            if let Node::Expr(expr) = node
+                && let ExprKind::Call { func, .. } = module[expr].kind
+            {
+                sites[func.index()] = sites[func.index()].saturating_add(copies);
+            }
+        });
+    };
+    let initialisers: Vec<ExprId> = module.globals.iter().filter_map(|global| global.init).collect();
+    count(&mut sites, &[], &initialisers, 1);
+    for &func in module.call_order.iter().rev() {
+        let copies = if inlined[func.index()] { sites[func.index()] } else { bodies[func.index()] };
+        count(&mut sites, &module[module[func].body.unwrap_or(List::EMPTY)], &[], copies);
+    }
+    sites
+}
+
+/// Which functions are inlined because they are small.
+fn small(module: &Module) -> Vec<bool> {
+    let mut fits = vec![false; module.functions.len()];
     for &func in &module.call_order {
         let body = module[func].body.unwrap_or(List::EMPTY);
-        straight[func.index()] = Some(func) != module.entry && is_straight(module, &module[body]);
+        fits[func.index()] = Some(func) != module.entry && is_structured(module, &module[body]);
     }
     let mut largest = LARGEST;
     loop {
         let mut sizes = vec![0usize; module.functions.len()];
         let mut program = 0usize;
         for &func in &module.call_order {
-            let inlined = |func: FuncId| straight[func.index()] && sizes[func.index()] <= largest;
+            let inlined = |func: FuncId| fits[func.index()] && sizes[func.index()] <= largest;
             let size = size(module, module[func].body.unwrap_or(List::EMPTY), |callee| match inlined(callee) {
                 true => sizes[callee.index()],
                 false => 0,
             });
             sizes[func.index()] = size;
-            if !straight[func.index()] || size > largest {
+            if !fits[func.index()] || size > largest {
                 program = program.saturating_add(size);
             }
         }
         if program <= LARGEST_PROGRAM || largest == 0 {
-            return straight.iter().zip(sizes).map(|(straight, size)| *straight && size <= largest).collect();
+            return fits.iter().zip(sizes).map(|(fits, size)| *fits && size <= largest).collect();
         }
         largest /= 4;
     }
 }
 
-/// Whether a body leaves at its end alone, or in branches that do nothing else after it.
-fn is_straight(module: &Module, mut list: &[StmtId]) -> bool {
-    while let Some((&first, rest)) = list.split_first() {
-        match module[first].kind {
-            StmtKind::Return(_) => return rest.is_empty(),
-            StmtKind::If { cond, then, otherwise } if leaves(module, first) => {
-                let (then, otherwise) = (&module[then], &module[otherwise]);
-                if known_bool(module, cond).is_some() || !always_returns(module, then) || !is_straight(module, then) {
-                    return false;
-                }
-                if !otherwise.is_empty() {
-                    return rest.is_empty() && always_returns(module, otherwise) && is_straight(module, otherwise);
-                }
-            }
-            _ if leaves(module, first) => return false,
-            _ => {}
+/// Whether a function ends by returning only, and from no switch: to leave that and a loop around it takes two jumps.
+fn is_structured(module: &Module, body: &[StmtId]) -> bool {
+    let mut structured = true;
+    walk(module, body, &[], |node, _| {
+        if let Node::Stmt(stmt) = node {
+            structured &= match module[stmt].kind {
+                StmtKind::Switch { .. } => !leaves(module, stmt),
+                StmtKind::Discard => false,
+                _ => true,
+            };
         }
-        list = rest;
-    }
-    true
+    });
+    structured
+}
+
+/// Whether some return is followed by statements that no branch beside it holds: what then is left out depends on a variable.
+fn needs_flag(module: &Module, list: &[StmtId]) -> bool {
+    list.iter().filter(|&&stmt| leaves(module, stmt)).any(|&stmt| match module[stmt].kind {
+        StmtKind::Block(list) => needs_flag(module, &module[list]),
+        StmtKind::If { then, otherwise, .. } => {
+            let (then, otherwise) = (&module[then], &module[otherwise]);
+            !always_returns(module, then) && !always_returns(module, otherwise)
+                || needs_flag(module, then)
+                || needs_flag(module, otherwise)
+        }
+        StmtKind::Return(_) => false,
+        _ => true,
+    })
 }
 
 /// Whether control cannot reach the end of a list.
@@ -103,7 +172,7 @@ fn leaves(module: &Module, stmt: StmtId) -> bool {
 /// Counts expressions and statements; `of_call` says how many a call of a function adds.
 fn size(module: &Module, body: List<StmtId>, of_call: impl Fn(FuncId) -> usize) -> usize {
     let mut size = 0usize;
-    walk(module, &module[body], &[], |node| {
+    walk(module, &module[body], &[], |node, _| {
         size += 1;
         if let Node::Expr(expr) = node
             && let ExprKind::Call { func, .. } = module[expr].kind
@@ -112,6 +181,17 @@ fn size(module: &Module, body: List<StmtId>, of_call: impl Fn(FuncId) -> usize) 
         }
     });
     size
+}
+
+/// How the function leaves that is part of another one.
+#[derive(Clone, Copy)]
+pub(super) struct Leaving {
+    /// Where its result goes.
+    result: Option<Value>,
+    /// Where it says that it has returned.
+    flag: Option<Value>,
+    /// How many loops its call lies in.
+    loops: usize,
 }
 
 impl Builder<'_, '_> {
@@ -123,53 +203,105 @@ impl Builder<'_, '_> {
         let mut arguments = arguments.into_iter();
         self.parameters(func, |_, _| arguments.next().expect("an argument for each parameter"));
         let body = &hir[function.body.unwrap_or(List::EMPTY)];
-        let value = if function.result == TypeId::VOID {
-            self.straight(body, None);
-            None
-        } else if let Some((&last, rest)) = body.split_last()
+        let value = if let Some((&last, rest)) = body.split_last()
             && let StmtKind::Return(Some(value)) = hir[last].kind
+            && function.result != TypeId::VOID
             && !rest.iter().any(|&stmt| leaves(hir, stmt))
         {
-            self.straight(rest, None);
+            rest.iter().for_each(|&stmt| self.statement(stmt));
             Some(self.value(value))
         } else {
-            let result = self.temporary(function.result);
-            if !always_returns(hir, body) {
+            let result = (function.result != TypeId::VOID).then(|| self.temporary(function.result));
+            if let (Some(result), false) = (result, always_returns(hir, body)) {
                 // Falling off the end gives zero.
                 let zero = self.zero(function.result);
                 self.store(result, zero);
             }
-            self.straight(body, Some(result));
-            Some(self.load(result))
+            let flag = needs_flag(hir, body).then(|| self.temporary(TypeId::BOOL));
+            if let Some(flag) = flag {
+                let not_yet = self.literal(Scalar::Bool, 0);
+                self.store(flag, not_yet);
+            }
+            self.leaving = Some(Leaving { result, flag, loops: self.loops.len() });
+            self.body(body.to_vec());
+            result.map(|result| self.load(result))
         };
         self.leave(outer);
         value
     }
 
-    /// The statements of a body that [`is_straight`]; what it returns goes to `result`.
-    fn straight(&mut self, list: &[StmtId], result: Option<Value>) {
+    /// Statements of a body that [`is_structured`], outside its loops: what follows one that may leave becomes part of a branch.
+    fn body(&mut self, mut list: Vec<StmtId>) {
         let hir = self.cx.hir;
-        for (i, &stmt) in list.iter().enumerate() {
-            match hir[stmt].kind {
-                StmtKind::Return(value) => match (value, result) {
-                    (Some(value), Some(result)) => {
-                        let value = self.value(value);
-                        self.store(result, value);
-                    }
-                    (Some(value), None) => self.effect(value),
-                    (None, _) => {}
-                },
-                StmtKind::If { cond, then, otherwise } if leaves(hir, stmt) => {
-                    let condition = self.value(cond);
-                    let (then, otherwise) = (&hir[then], &hir[otherwise]);
-                    let otherwise = if otherwise.is_empty() { &list[i + 1..] } else { otherwise };
-                    let (accept, _) = self.branch_block(|b| b.straight(then, result));
-                    let (reject, _) = self.branch_block(|b| b.straight(otherwise, result));
-                    self.push(Statement::If { condition, accept, reject });
-                    return;
+        let Some(at) = list.iter().position(|&stmt| leaves(hir, stmt)) else {
+            return list.into_iter().for_each(|stmt| self.statement(stmt));
+        };
+        let mut rest = list.split_off(at + 1);
+        let stmt = list.pop().expect("it was found");
+        list.into_iter().for_each(|stmt| self.statement(stmt));
+        let followed_by = |first: List<StmtId>, rest: &mut Vec<StmtId>| {
+            let mut all = hir[first].to_vec();
+            all.append(rest);
+            all
+        };
+        match hir[stmt].kind {
+            StmtKind::Block(inner) => return self.body(followed_by(inner, &mut rest)),
+            StmtKind::If { cond, then, otherwise } => {
+                if let Some(known) = known_bool(hir, cond) {
+                    return self.body(followed_by(if known { then } else { otherwise }, &mut rest));
                 }
-                _ => self.statement(stmt),
+                let condition = self.value(cond);
+                let (mut then, mut otherwise) = (hir[then].to_vec(), hir[otherwise].to_vec());
+                if always_returns(hir, &then) {
+                    otherwise.append(&mut rest);
+                } else if always_returns(hir, &otherwise) {
+                    then.append(&mut rest);
+                }
+                let (accept, _) = self.branch_block(|b| b.body(then));
+                let (reject, _) = self.branch_block(|b| b.body(otherwise));
+                self.push(Statement::If { condition, accept, reject });
             }
+            StmtKind::Return(_) => {
+                rest.clear();
+                self.statement(stmt);
+            }
+            _ => self.statement(stmt),
+        }
+        if let (false, Some(flag)) = (rest.is_empty(), self.leaving.and_then(|leaving| leaving.flag)) {
+            let condition = self.load(flag);
+            let (reject, _) = self.branch_block(|b| b.body(rest));
+            self.push(Statement::If { condition, accept: Block::new(), reject });
+        }
+    }
+
+    /// Returns from the function that is part of this one.
+    pub fn return_inlined(&mut self, leaving: Leaving, value: Option<ExprId>) {
+        match (value, leaving.result) {
+            (Some(value), Some(result)) => {
+                let value = self.value(value);
+                self.store(result, value);
+            }
+            (Some(value), None) => self.effect(value),
+            (None, _) => {}
+        }
+        if let Some(flag) = leaving.flag {
+            let returned = self.literal(Scalar::Bool, 1);
+            self.store(flag, returned);
+        }
+        if self.loops.len() > leaving.loops {
+            self.push(Statement::Break);
+        }
+    }
+
+    /// After a loop within another one: leaves that too if the function has returned.
+    pub fn leave_outer_loop(&mut self, inner: StmtId) {
+        if let Some(Leaving { flag: Some(flag), loops, .. }) = self.leaving
+            && self.loops.len() > loops
+            && leaves(self.cx.hir, inner)
+        {
+            let condition = self.load(flag);
+            let (accept, _) = self.branch_block(|b| b.push(Statement::Break));
+            self.push(Statement::If { condition, accept, reject: Block::new() });
         }
     }
 }

@@ -3,9 +3,19 @@
 //! Then terms of two expressions are seen to be the same, and constants reach the place where they are used, as OpenGL's compilers
 //! have it.
 
+use std::collections::HashSet;
+
 use naga::{Expression, Handle, Statement, Type, TypeInner};
 
-use super::function::{Builder, Value};
+use super::{
+    function::{Builder, Slot, Value},
+    walk::{Node, walk},
+    writes,
+};
+use crate::glsl::{
+    ast::List,
+    hir::{Builtin, ExprId, ExprKind, FuncId, StmtId},
+};
 
 impl Builder<'_, '_> {
     /// What a pointer points to.
@@ -43,12 +53,82 @@ impl Builder<'_, '_> {
             }
             let variable = self.variable(pointer);
             self.know(variable, pointer, value);
+        } else if self.is_structure(pointer) {
+            let variable = self.variable(pointer);
+            self.know_members(variable, pointer, value);
+        }
+    }
+
+    /// A structure was written: what is known of its members is known of those of the memory.
+    fn know_members(&mut self, variable: Value, pointer: Value, value: Value) {
+        let Some(ty) = self.pointee(pointer) else { return };
+        let TypeInner::Struct { members, .. } = &self.cx.out.types[ty].inner else { return };
+        for index in 0..members.len() as u32 {
+            let Some(member) = self.known_component(value, index) else { continue };
+            let place = self.add(Expression::AccessIndex { base: pointer, index });
+            if self.is_structure(place) {
+                self.know_members(variable, place, member);
+            } else {
+                self.know(variable, place, member);
+            }
         }
     }
 
     /// Something is written by a pointer: what is known of other members of a structure stays.
     pub fn forget(&mut self, pointer: Value) {
         let (variable, path) = self.path(pointer);
+        self.forget_part(variable, &path);
+    }
+
+    /// Forgets all that a loop of these statements and expressions writes, in one round or another.
+    pub fn forget_written(&mut self, body: List<StmtId>, others: impl IntoIterator<Item = ExprId>) {
+        if self.loaded.is_empty() {
+            return;
+        }
+        let hir = self.cx.hir;
+        let others: Vec<ExprId> = others.into_iter().collect();
+        let mut written: HashSet<ExprId> = HashSet::new();
+        let mut called: HashSet<FuncId> = HashSet::new();
+        let mut asserts = false;
+        walk(hir, &hir[body], &others, |node, _| {
+            let Node::Expr(expr) = node else { return };
+            writes::places(hir, expr, |place| _ = written.insert(place));
+            match hir[expr].kind {
+                ExprKind::Call { func, .. } => _ = called.insert(func),
+                ExprKind::Builtin { builtin: Builtin::StAssert, .. } => asserts = true,
+                _ => {}
+            }
+        });
+        let mut globals = HashSet::new();
+        // What is neither the author's local nor global.
+        let mut others = asserts || !called.is_empty();
+        for place in written {
+            match hir[writes::root(hir, place)].kind {
+                ExprKind::Local(local) => {
+                    if let Slot::Memory(pointer) = self.slot(local) {
+                        // A local is all of its memory.
+                        self.forget_part(pointer, &writes::members(hir, place));
+                    }
+                }
+                ExprKind::Global(global) => _ = globals.insert(global),
+                _ => others = true,
+            }
+        }
+        for variable in self.loaded.keys().copied().collect::<Vec<_>>() {
+            let Expression::GlobalVariable(handle) = self.f.expressions[variable] else { continue };
+            let written = match self.cx.authors_global(handle) {
+                Some(global) => {
+                    globals.contains(&global) || called.iter().any(|&func| self.cx.arguments.writes(func, global))
+                }
+                None => others,
+            };
+            if written {
+                self.forget_part(variable, &[]);
+            }
+        }
+    }
+
+    fn forget_part(&mut self, variable: Value, path: &[u32]) {
         self.written.insert(variable);
         let Some(mut parts) = self.loaded.remove(&variable) else { return };
         parts.retain(|&part, _| {

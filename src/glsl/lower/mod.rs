@@ -46,6 +46,7 @@ mod tables;
 mod texture;
 mod types;
 mod walk;
+mod writes;
 mod zeros;
 
 use std::collections::HashMap;
@@ -93,7 +94,7 @@ pub(in crate::glsl) fn lower(module: &hir::Module, source: &PassSource<'_>, inte
         counted: steps::counted(module, &writes),
         writes,
         arguments,
-        inlined: inline::inlined(module),
+        inlined: inline::inlined(module, &reach),
         uses: ranges::use_counts(module),
         zeros: Zeros::new(module),
         functions: HashMap::with_capacity(reach.instances.len()),

@@ -1,6 +1,6 @@
 //! What is known of integers: so that an index provably in range needs no clamp.
 
-use super::function::Builder;
+use super::{function::Builder, writes};
 use crate::glsl::{
     ast::List,
     hir::{BinaryOp, Builtin, ExprId, ExprKind, IncDec, LocalId, Module, Scalar, Shape, StmtId, StmtKind, TypeId},
@@ -15,35 +15,12 @@ const DEPTH: u32 = 8;
 /// How many expressions write each local, anywhere; declarations are not counted.
 pub(super) fn write_counts(module: &Module) -> Vec<u32> {
     let mut counts = vec![0; module.locals.len()];
-    let mut count = |mut place: ExprId| {
-        loop {
-            match module[place].kind {
-                ExprKind::Member { base, .. } | ExprKind::Swizzle { base, .. } | ExprKind::Index { base, .. } => {
-                    place = base;
-                }
-                ExprKind::Local(local) => {
-                    counts[local.index()] += 1;
-                    return;
-                }
-                _ => return,
+    for expr in (0..module.exprs.len()).map(ExprId::new) {
+        writes::places(module, expr, |place| {
+            if let ExprKind::Local(local) = module[writes::root(module, place)].kind {
+                counts[local.index()] += 1;
             }
-        }
-    };
-    for expr in &module.exprs {
-        match expr.kind {
-            ExprKind::Assign { place, .. } | ExprKind::AssignOp { place, .. } | ExprKind::IncDec { place, .. } => {
-                count(place);
-            }
-            ExprKind::Call { func, args } => {
-                for (param, &arg) in module.params(func).iter().zip(&module[args]) {
-                    if param.kind.copies_out() {
-                        count(arg);
-                    }
-                }
-            }
-            ExprKind::Builtin { builtin: Builtin::Modf, args } => count(module[args][1]),
-            _ => {}
-        }
+        });
     }
     counts
 }

@@ -8,10 +8,11 @@ use std::collections::HashSet;
 use super::{
     Instance,
     calls::{Arguments, Given, Passed},
+    writes,
 };
 use crate::glsl::{
     ast::List,
-    hir::{Builtin, ExprId, ExprKind, FuncId, GlobalId, LogicalOp, Module, StmtId, StmtKind},
+    hir::{ExprId, ExprKind, FuncId, GlobalId, LogicalOp, Module, StmtId, StmtKind},
 };
 
 /// The reachable part of a module.
@@ -184,6 +185,11 @@ impl<'a> Walk<'a> {
 
     fn expr(&mut self, expr: ExprId) {
         let module = self.module;
+        writes::places(module, expr, |place| {
+            if let ExprKind::Global(global) = module[writes::root(module, place)].kind {
+                self.facts.writes.insert(global);
+            }
+        });
         match module[expr].kind {
             ExprKind::Error
             | ExprKind::Literal(_)
@@ -197,21 +203,16 @@ impl<'a> Walk<'a> {
             ExprKind::Member { base: of, .. }
             | ExprKind::Swizzle { base: of, .. }
             | ExprKind::Unary { operand: of, .. }
+            | ExprKind::IncDec { place: of, .. }
             | ExprKind::Convert(of)
             | ExprKind::Splat(of)
             | ExprKind::MatrixDiagonal(of)
             | ExprKind::MatrixResize(of) => self.exprs([of]),
             ExprKind::Index { base: a, index: b }
             | ExprKind::Binary { lhs: a, rhs: b, .. }
+            | ExprKind::Assign { place: a, value: b }
+            | ExprKind::AssignOp { place: a, value: b, .. }
             | ExprKind::Comma { lhs: a, rhs: b } => self.exprs([a, b]),
-            ExprKind::IncDec { place, .. } => {
-                self.wrote(place);
-                self.exprs([place]);
-            }
-            ExprKind::Assign { place, value } | ExprKind::AssignOp { place, value, .. } => {
-                self.wrote(place);
-                self.exprs([place, value]);
-            }
             ExprKind::Logical { op, lhs, rhs } => {
                 self.exprs([lhs]);
                 if known_bool(module, lhs) != Some(op == LogicalOp::Or) {
@@ -225,33 +226,11 @@ impl<'a> Walk<'a> {
             ExprKind::Vector(args) | ExprKind::Matrix(args) | ExprKind::Struct(args) | ExprKind::Array(args) => {
                 self.exprs(module[args].iter().copied())
             }
-            ExprKind::Builtin { builtin, args } => {
-                if builtin == Builtin::Modf {
-                    self.wrote(module[args][1]);
-                }
-                self.exprs(module[args].iter().copied());
-            }
+            ExprKind::Builtin { args, .. } => self.exprs(module[args].iter().copied()),
             ExprKind::Call { func, args } => {
                 self.exprs(module[args].iter().copied());
-                for (param, &arg) in module.params(func).iter().zip(&module[args]) {
-                    if param.kind.copies_out() {
-                        self.wrote(arg);
-                    }
-                }
                 self.facts.calls.push((func, args));
             }
-        }
-    }
-
-    fn wrote(&mut self, mut place: ExprId) {
-        let module = self.module;
-        while let ExprKind::Member { base, .. } | ExprKind::Swizzle { base, .. } | ExprKind::Index { base, .. } =
-            module[place].kind
-        {
-            place = base;
-        }
-        if let ExprKind::Global(global) = module[place].kind {
-            self.facts.writes.insert(global);
         }
     }
 }

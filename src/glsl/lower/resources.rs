@@ -277,6 +277,11 @@ impl Lowering<'_> {
         made
     }
 
+    /// Which of the author's globals some memory is.
+    pub fn authors_global(&self, memory: Handle<GlobalVariable>) -> Option<GlobalId> {
+        self.resources.globals.iter().position(|&made| made == Some(memory)).map(GlobalId::new)
+    }
+
     pub fn frag_coord(&mut self) -> Handle<GlobalVariable> {
         if self.resources.frag_coord.is_none() {
             let ty = self.ty(TypeId::VEC4);

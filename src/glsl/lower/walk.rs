@@ -4,21 +4,28 @@ use crate::glsl::hir::{ExprId, ExprKind, Module, StmtId, StmtKind};
 
 #[derive(Clone, Copy)]
 pub(super) enum Node {
-    Stmt,
+    Stmt(StmtId),
     Expr(ExprId),
 }
 
-/// Calls `visit` for these and everything within them, in no particular order.
-pub(super) fn walk(module: &Module, stmts: &[StmtId], exprs: &[ExprId], mut visit: impl FnMut(Node)) {
-    let mut stmts = stmts.to_vec();
-    let mut exprs = exprs.to_vec();
+/// Calls `visit` for these and everything within them, in no particular order, with how many others each lies in.
+pub(super) fn walk(module: &Module, stmts: &[StmtId], exprs: &[ExprId], mut visit: impl FnMut(Node, usize)) {
+    let mut pending: Vec<(Node, usize)> = Vec::new();
+    let (mut stmts, mut exprs) = (stmts.to_vec(), exprs.to_vec());
+    let mut depth = 0;
     loop {
-        while let Some(expr) = exprs.pop() {
-            visit(Node::Expr(expr));
-            parts(module, expr, &mut exprs);
-        }
-        let Some(stmt) = stmts.pop() else { return };
-        visit(Node::Stmt);
+        pending.extend(stmts.drain(..).map(|stmt| (Node::Stmt(stmt), depth)));
+        pending.extend(exprs.drain(..).map(|expr| (Node::Expr(expr), depth)));
+        let Some((node, at)) = pending.pop() else { return };
+        depth = at + 1;
+        visit(node, at);
+        let stmt = match node {
+            Node::Expr(expr) => {
+                parts(module, expr, &mut exprs);
+                continue;
+            }
+            Node::Stmt(stmt) => stmt,
+        };
         match module[stmt].kind {
             StmtKind::Block(list) => stmts.extend(&module[list]),
             StmtKind::Expr(expr) => exprs.push(expr),

@@ -1,0 +1,51 @@
+//! Which places expressions write.
+
+use crate::glsl::hir::{Builtin, ExprId, ExprKind, Module};
+
+/// Calls `visit` for each place that an expression writes by itself: what it consists of and what it calls left out.
+pub(super) fn places(module: &Module, expr: ExprId, mut visit: impl FnMut(ExprId)) {
+    match module[expr].kind {
+        ExprKind::Assign { place, .. } | ExprKind::AssignOp { place, .. } | ExprKind::IncDec { place, .. } => {
+            visit(place)
+        }
+        ExprKind::Builtin { builtin: Builtin::Modf, args } => visit(module[args][1]),
+        ExprKind::Call { func, args } => {
+            for (param, &arg) in module.params(func).iter().zip(&module[args]) {
+                if param.kind.copies_out() {
+                    visit(arg);
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+/// The variable that a place is or lies in.
+pub(super) fn root(module: &Module, mut place: ExprId) -> ExprId {
+    while let ExprKind::Member { base, .. } | ExprKind::Swizzle { base, .. } | ExprKind::Index { base, .. } =
+        module[place].kind
+    {
+        place = base;
+    }
+    place
+}
+
+/// The members of structures that lead from that variable to a place or, where it lies within something else, to that.
+pub(super) fn members(module: &Module, mut place: ExprId) -> Vec<u32> {
+    let mut path = Vec::new();
+    loop {
+        match module[place].kind {
+            ExprKind::Member { base, index } => {
+                path.push(index);
+                place = base;
+            }
+            ExprKind::Swizzle { base, .. } | ExprKind::Index { base, .. } => {
+                path.clear();
+                place = base;
+            }
+            _ => break,
+        }
+    }
+    path.reverse();
+    path
+}
