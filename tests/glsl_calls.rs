@@ -132,6 +132,12 @@ fn returns_from_loops() {
             "r = vec4(f(I + 1), f(I + 2), f(I), f(I + 4));",
             [7., 4., 2., 6.],
         ),
+        with(
+            "float f(int n) { float x = 1.0; switch (n) { case 0: x = 5.0; case 1: for (int i = 0; ; i++) { switch (i) { case 2: return x + 10.0; } x += 1.0; }\n\
+             case 2: break; default: if (n > 4) return 40.0; x = 8.0; } x *= 2.0; return x; }",
+            "r = vec4(f(I), f(I + 1), f(I + 2) + 100.0 * f(I + 3), f(I + 5));",
+            [17., 13., 1602., 40.],
+        ),
     ]);
 }
 

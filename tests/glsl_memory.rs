@@ -65,8 +65,8 @@ fn what_fills_the_uniform_buffer_leaves_the_next_table_to_the_storage_buffer() {
 fn an_array_begins_with_its_value_where_it_is_declared_once_a_call() {
     let code = |declared: &str| {
         format!(
-            // To return from a switch keeps a function apart.
-            "float f(int i) {{ {declared} a[i] += 1.0; switch (i) {{ case 9: return 0.0; }} return a[i + 1]; }}\n\
+            // A `discard` keeps a function apart.
+            "float f(int i) {{ {declared} a[i] += 1.0; if (i > 9) discard; return a[i + 1]; }}\n\
                  void mainImage(out vec4 o, vec2 p) {{ o = vec4(f(int(p.x))); }}"
         )
     };
@@ -82,8 +82,8 @@ fn an_array_begins_with_its_value_where_it_is_declared_once_a_call() {
 #[test]
 fn an_array_handed_on_through_calls_is_not_copied_on_the_way() {
     let compiled = compiled(
-        "float last(float a[4], int i) { switch (i) { case 9: return 0.0; } return a[i]; }\n\
-         float middle(float a[4], int i) { switch (i) { case 9: return 0.0; } return last(a, i) + last(a, i + 1); }\n\
+        "float last(float a[4], int i) { if (i > 9) discard; return a[i]; }\n\
+         float middle(float a[4], int i) { if (i > 9) discard; return last(a, i) + last(a, i + 1); }\n\
          void mainImage(out vec4 o, vec2 p) { float a[4]; a[1] = p.x; o = vec4(middle(a, int(p.y))); }",
     );
     let memory: Vec<usize> = compiled.module.functions.iter().map(|(_, f)| f.local_variables.len()).collect();
@@ -96,8 +96,8 @@ fn an_array_handed_on_through_calls_is_not_copied_on_the_way() {
 fn what_all_functions_see_is_not_handed_over() {
     let compiled = compiled(
         "float G[4]; const float T[4] = float[](1., 2., 3., 4.);\n\
-         float last(float a[4], int i) { switch (i) { case 9: return 0.0; } return a[i]; }\n\
-         float middle(float a[4], int i) { switch (i) { case 8: return 0.0; } return last(a, i) + last(a, i + 1); }\n\
+         float last(float a[4], int i) { if (i > 9) discard; return a[i]; }\n\
+         float middle(float a[4], int i) { if (i > 9) discard; return last(a, i) + last(a, i + 1); }\n\
          void mainImage(out vec4 o, vec2 p) {\n\
              int i = int(p.x); G[i] = p.x;\n\
              o = vec4(middle(G, i), middle(T, i), last(T, 0), last(float[](5., 6., 7., 8.), i));\n\
@@ -120,9 +120,8 @@ fn globals_handed_over_keep_the_value_they_had() {
         float column(mat2 m, int i) { return m[i].y; }\n\
         float member(S s, int i) { return s.a[i]; }\n\
         float whole(float a[3], int i) { float b[3] = a; b[i] += 0.5; return a[i] + b[i]; }";
-    // The same functions, which a return from a switch keeps apart.
-    let apart: &'static str =
-        Box::leak(INLINED.replace("{ return", "{ switch (i) { case 9: return 0.0; } return").into_boxed_str());
+    // The same functions, which a `discard` keeps apart.
+    let apart: &'static str = Box::leak(INLINED.replace("{ return", "{ if (i > 9) discard; return").into_boxed_str());
     for calls in [INLINED, apart] {
         check(&[
             with(

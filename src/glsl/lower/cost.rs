@@ -1,5 +1,6 @@
 //! How much work an expression is, roughly: decides between a select, which computes both sides, and a branch.
 
+use super::walk::parts;
 use crate::glsl::hir::{Builtin, ExprId, ExprKind, Module};
 
 /// Up to this much work is done for nothing rather than branched around. A branch costs about as much on every device, drivers
@@ -11,48 +12,25 @@ const DEAR: u16 = 1000;
 
 /// The cost of every expression. One pass: children come before their parents.
 pub(super) fn costs(module: &Module) -> Vec<u16> {
-    let mut costs = Vec::with_capacity(module.exprs.len());
-    for expr in &module.exprs {
-        let at = |id: ExprId| -> u16 { costs[id.index()] };
-        let sum = |ids: &[ExprId]| ids.iter().fold(0u16, |sum, &id| sum.saturating_add(costs[id.index()]));
-        let cost = match expr.kind {
-            ExprKind::Error
-            | ExprKind::Literal(_)
-            | ExprKind::Const(_)
-            | ExprKind::Local(_)
-            | ExprKind::Global(_)
-            | ExprKind::Uniform(_)
-            | ExprKind::Knob(_)
-            | ExprKind::Channel(_)
-            | ExprKind::BuiltinVar(_) => 0,
-            ExprKind::Member { base, .. } | ExprKind::Swizzle { base, .. } => at(base),
-            ExprKind::Index { base, index } => match module[index].kind {
-                ExprKind::Literal(_) => at(base),
-                _ => at(base).saturating_add(at(index)).saturating_add(2),
+    let mut costs: Vec<u16> = Vec::with_capacity(module.exprs.len());
+    let mut within = Vec::new();
+    for (i, expr) in module.exprs.iter().enumerate() {
+        parts(module, ExprId::new(i), &mut within);
+        let of_parts = within.drain(..).fold(0u16, |sum, id| sum.saturating_add(costs[id.index()]));
+        let components = || module.types.components(expr.ty).unwrap_or(4) as u16;
+        let own = match expr.kind {
+            ExprKind::Index { index, .. } => match module[index].kind {
+                ExprKind::Literal(_) => 0,
+                _ => 2,
             },
-            ExprKind::Unary { operand, .. } | ExprKind::Convert(operand) => at(operand).saturating_add(1),
-            ExprKind::Splat(of) | ExprKind::MatrixDiagonal(of) | ExprKind::MatrixResize(of) => at(of),
-            ExprKind::Binary { lhs, rhs, .. } => {
-                let parts = module.types.components(expr.ty).unwrap_or(4) as u16;
-                at(lhs).saturating_add(at(rhs)).saturating_add(parts)
-            }
-            ExprKind::Logical { lhs, rhs, .. } => at(lhs).saturating_add(at(rhs)).saturating_add(1),
-            ExprKind::Ternary { cond, then, otherwise } => sum(&[cond, then, otherwise]).saturating_add(1),
-            ExprKind::Comma { lhs, rhs } => at(lhs).saturating_add(at(rhs)),
-            ExprKind::Assign { place, value } | ExprKind::AssignOp { place, value, .. } => {
-                at(place).saturating_add(at(value)).saturating_add(2)
-            }
-            ExprKind::IncDec { place, .. } => at(place).saturating_add(2),
-            ExprKind::Vector(args) | ExprKind::Matrix(args) | ExprKind::Struct(args) | ExprKind::Array(args) => {
-                sum(&module[args])
-            }
-            ExprKind::Call { args, .. } => sum(&module[args]).saturating_add(DEAR),
-            ExprKind::Builtin { builtin, args } => {
-                let parts = module.types.components(expr.ty).unwrap_or(4) as u16;
-                sum(&module[args]).saturating_add(of_builtin(builtin).saturating_mul(parts))
-            }
+            ExprKind::Unary { .. } | ExprKind::Convert(_) | ExprKind::Logical { .. } | ExprKind::Ternary { .. } => 1,
+            ExprKind::Assign { .. } | ExprKind::AssignOp { .. } | ExprKind::IncDec { .. } => 2,
+            ExprKind::Binary { .. } => components(),
+            ExprKind::Builtin { builtin, .. } => of_builtin(builtin).saturating_mul(components()),
+            ExprKind::Call { .. } => DEAR,
+            _ => 0,
         };
-        costs.push(cost);
+        costs.push(of_parts.saturating_add(own));
     }
     costs
 }

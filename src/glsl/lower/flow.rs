@@ -33,13 +33,16 @@ impl Builder<'_, '_> {
             StmtKind::If { cond, then, otherwise } => self.branch(cond, then, otherwise),
             StmtKind::For { init, test, step, body } => {
                 self.for_loop(init, test, step, body);
-                self.leave_outer_loop(stmt);
+                self.leave_outer(stmt);
             }
             StmtKind::DoWhile { body, test } => {
                 self.do_while(body, test);
-                self.leave_outer_loop(stmt);
+                self.leave_outer(stmt);
             }
-            StmtKind::Switch { value, cases } => self.switch(value, &hir[cases]),
+            StmtKind::Switch { value, cases } => {
+                self.switch(value, &hir[cases]);
+                self.leave_outer(stmt);
+            }
             StmtKind::Return(value) if let Some(leaving) = self.leaving => self.return_inlined(leaving, value),
             StmtKind::Return(value) => {
                 let value = match value {
@@ -140,7 +143,9 @@ impl Builder<'_, '_> {
             }
             let outer = counter.map(|(local, range)| (local, b.known.insert(local, range)));
             b.loops.push(Loop { step: repeated });
+            b.breakable += 1;
             b.statements(body);
+            b.breakable -= 1;
             b.loops.pop();
             if let Some((local, outer)) = outer {
                 match outer {
@@ -164,7 +169,9 @@ impl Builder<'_, '_> {
         self.forget_written(body, [test]);
         let (body, _) = self.branch_block(|b| {
             b.loops.push(Loop { step: None });
+            b.breakable += 1;
             b.statements(body);
+            b.breakable -= 1;
             b.loops.pop();
         });
         let mut break_if = None;
@@ -186,9 +193,11 @@ impl Builder<'_, '_> {
         }
         // Each body alone, and whether it runs into the next.
         let mut bodies = Vec::with_capacity(cases.len());
+        self.breakable += 1;
         for case in cases {
             bodies.push(self.branch_block(|b| b.statements(case.body)));
         }
+        self.breakable -= 1;
         let last = cases.len().saturating_sub(1);
         let falls = bodies.iter().enumerate().any(|(i, (body, ended))| i != last && !*ended && !body.is_empty());
         if falls {

@@ -55,7 +55,7 @@ pub(super) struct Builder<'m, 'a> {
     first_local: usize,
     slots: Vec<Slot>,
     /// Locals that are memory though nobody writes them: their uses are not dominated by their declaration.
-    pub forced: Vec<bool>,
+    forced: Vec<bool>,
     literals: Map<(u8, u32), Value>,
     zeros: Map<Handle<naga::Type>, Value>,
     constants: Map<u32, Value>,
@@ -83,6 +83,8 @@ pub(super) struct Builder<'m, 'a> {
     /// Variables written in the block at hand.
     pub written: std::collections::HashSet<Value>,
     pub loops: Vec<Loop>,
+    /// How many loops and switches the code at hand lies in.
+    pub breakable: usize,
     /// What is known of int locals at this place: least and greatest value.
     pub known: Map<u32, (i64, i64)>,
     pub result: TypeId,
@@ -148,6 +150,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             members: Map::default(),
             written: Default::default(),
             loops: Vec::new(),
+            breakable: 0,
             known: Map::default(),
             result: TypeId::VOID,
             func: None,

@@ -32,7 +32,7 @@ pub(super) fn inlined(module: &Module, reach: &Reach) -> Vec<bool> {
     let mut depths = vec![0; module.functions.len()];
     for &func in &module.call_order {
         let body = &module[module[func].body.unwrap_or(List::EMPTY)];
-        let once = sites[func.index()] == 1 && Some(func) != module.entry && is_structured(module, body);
+        let once = sites[func.index()] == 1 && Some(func) != module.entry && only_returns(module, body);
         let depth = depth(module, body, |callee| if inlined[callee.index()] { depths[callee.index()] } else { 0 });
         depths[func.index()] = depth;
         inlined[func.index()] |= once && depth <= MAX_NESTING as usize;
@@ -90,7 +90,7 @@ fn small(module: &Module) -> Vec<bool> {
     let mut fits = vec![false; module.functions.len()];
     for &func in &module.call_order {
         let body = module[func].body.unwrap_or(List::EMPTY);
-        fits[func.index()] = Some(func) != module.entry && is_structured(module, &module[body]);
+        fits[func.index()] = Some(func) != module.entry && only_returns(module, &module[body]);
     }
     let mut largest = LARGEST;
     loop {
@@ -114,19 +114,13 @@ fn small(module: &Module) -> Vec<bool> {
     }
 }
 
-/// Whether a function ends by returning only, and from no switch: to leave that and a loop around it takes two jumps.
-fn is_structured(module: &Module, body: &[StmtId]) -> bool {
-    let mut structured = true;
+/// Whether a function ends by returning only: nothing may follow a `discard` that stands in the middle of an expression.
+fn only_returns(module: &Module, body: &[StmtId]) -> bool {
+    let mut only = true;
     walk(module, body, &[], |node, _| {
-        if let Node::Stmt(stmt) = node {
-            structured &= match module[stmt].kind {
-                StmtKind::Switch { .. } => !leaves(module, stmt),
-                StmtKind::Discard => false,
-                _ => true,
-            };
-        }
+        only &= !matches!(node, Node::Stmt(stmt) if matches!(module[stmt].kind, StmtKind::Discard));
     });
-    structured
+    only
 }
 
 /// Whether some return is followed by statements that no branch beside it holds: what then is left out depends on a variable.
@@ -190,8 +184,8 @@ pub(super) struct Leaving {
     result: Option<Value>,
     /// Where it says that it has returned.
     flag: Option<Value>,
-    /// How many loops its call lies in.
-    loops: usize,
+    /// How many loops and switches its call lies in.
+    breakable: usize,
 }
 
 impl Builder<'_, '_> {
@@ -222,7 +216,7 @@ impl Builder<'_, '_> {
                 let not_yet = self.literal(Scalar::Bool, 0);
                 self.store(flag, not_yet);
             }
-            self.leaving = Some(Leaving { result, flag, loops: self.loops.len() });
+            self.leaving = Some(Leaving { result, flag, breakable: self.breakable });
             self.body(body.to_vec());
             result.map(|result| self.load(result))
         };
@@ -230,7 +224,7 @@ impl Builder<'_, '_> {
         value
     }
 
-    /// Statements of a body that [`is_structured`], outside its loops: what follows one that may leave becomes part of a branch.
+    /// Statements of a body, outside its loops and switches: what follows one that may leave becomes part of a branch.
     fn body(&mut self, mut list: Vec<StmtId>) {
         let hir = self.cx.hir;
         let Some(at) = list.iter().position(|&stmt| leaves(hir, stmt)) else {
@@ -288,15 +282,15 @@ impl Builder<'_, '_> {
             let returned = self.literal(Scalar::Bool, 1);
             self.store(flag, returned);
         }
-        if self.loops.len() > leaving.loops {
+        if self.breakable > leaving.breakable {
             self.push(Statement::Break);
         }
     }
 
-    /// After a loop within another one: leaves that too if the function has returned.
-    pub fn leave_outer_loop(&mut self, inner: StmtId) {
-        if let Some(Leaving { flag: Some(flag), loops, .. }) = self.leaving
-            && self.loops.len() > loops
+    /// After a loop or switch within another one: leaves that too if the function has returned.
+    pub fn leave_outer(&mut self, inner: StmtId) {
+        if let Some(Leaving { flag: Some(flag), breakable, .. }) = self.leaving
+            && self.breakable > breakable
             && leaves(self.cx.hir, inner)
         {
             let condition = self.load(flag);

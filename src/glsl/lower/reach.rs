@@ -8,6 +8,7 @@ use std::collections::HashSet;
 use super::{
     Instance,
     calls::{Arguments, Given, Passed},
+    walk::{Node, parts},
     writes,
 };
 use crate::glsl::{
@@ -112,22 +113,18 @@ pub(super) fn known_bool(module: &Module, expr: ExprId) -> Option<bool> {
     }
 }
 
-#[derive(Clone, Copy)]
-enum Node {
-    Expr(ExprId),
-    Stmt(StmtId),
-}
-
 /// A walk over a body without recursion.
 struct Walk<'a> {
     module: &'a Module,
     pending: Vec<Node>,
+    /// Empty: room for the parts of an expression.
+    within: Vec<ExprId>,
     facts: Facts,
 }
 
 impl<'a> Walk<'a> {
     fn new(module: &'a Module) -> Self {
-        Self { module, pending: Vec::new(), facts: Facts::default() }
+        Self { module, pending: Vec::new(), within: Vec::new(), facts: Facts::default() }
     }
 
     fn run(mut self) -> Facts {
@@ -191,46 +188,21 @@ impl<'a> Walk<'a> {
             }
         });
         match module[expr].kind {
-            ExprKind::Error
-            | ExprKind::Literal(_)
-            | ExprKind::Const(_)
-            | ExprKind::Local(_)
-            | ExprKind::Uniform(_)
-            | ExprKind::Knob(_)
-            | ExprKind::Channel(_)
-            | ExprKind::BuiltinVar(_) => {}
             ExprKind::Global(global) => self.facts.globals.push(global),
-            ExprKind::Member { base: of, .. }
-            | ExprKind::Swizzle { base: of, .. }
-            | ExprKind::Unary { operand: of, .. }
-            | ExprKind::IncDec { place: of, .. }
-            | ExprKind::Convert(of)
-            | ExprKind::Splat(of)
-            | ExprKind::MatrixDiagonal(of)
-            | ExprKind::MatrixResize(of) => self.exprs([of]),
-            ExprKind::Index { base: a, index: b }
-            | ExprKind::Binary { lhs: a, rhs: b, .. }
-            | ExprKind::Assign { place: a, value: b }
-            | ExprKind::AssignOp { place: a, value: b, .. }
-            | ExprKind::Comma { lhs: a, rhs: b } => self.exprs([a, b]),
-            ExprKind::Logical { op, lhs, rhs } => {
-                self.exprs([lhs]);
-                if known_bool(module, lhs) != Some(op == LogicalOp::Or) {
-                    self.exprs([rhs]);
+            ExprKind::Logical { op, lhs, .. } if known_bool(module, lhs) == Some(op == LogicalOp::Or) => {
+                return self.exprs([lhs]);
+            }
+            ExprKind::Ternary { cond, then, otherwise } => {
+                if let Some(known) = known_bool(module, cond) {
+                    return self.exprs([if known { then } else { otherwise }]);
                 }
             }
-            ExprKind::Ternary { cond, then, otherwise } => match known_bool(module, cond) {
-                Some(known) => self.exprs([if known { then } else { otherwise }]),
-                None => self.exprs([cond, then, otherwise]),
-            },
-            ExprKind::Vector(args) | ExprKind::Matrix(args) | ExprKind::Struct(args) | ExprKind::Array(args) => {
-                self.exprs(module[args].iter().copied())
-            }
-            ExprKind::Builtin { args, .. } => self.exprs(module[args].iter().copied()),
-            ExprKind::Call { func, args } => {
-                self.exprs(module[args].iter().copied());
-                self.facts.calls.push((func, args));
-            }
+            ExprKind::Call { func, args } => self.facts.calls.push((func, args)),
+            _ => {}
         }
+        let mut within = std::mem::take(&mut self.within);
+        parts(module, expr, &mut within);
+        self.exprs(within.drain(..));
+        self.within = within;
     }
 }

@@ -51,7 +51,8 @@ pub(super) fn walk(module: &Module, stmts: &[StmtId], exprs: &[ExprId], mut visi
     }
 }
 
-fn parts(module: &Module, expr: ExprId, out: &mut Vec<ExprId>) {
+/// Adds what an expression consists of.
+pub(super) fn parts(module: &Module, expr: ExprId, out: &mut Vec<ExprId>) {
     match module[expr].kind {
         ExprKind::Error
         | ExprKind::Literal(_)
