@@ -344,6 +344,10 @@ fn floats() {
             [2.3561945, -std::f32::consts::FRAC_PI_4, std::f32::consts::SQRT_2, 8.],
         ),
         case(
+            "vec2 v = vec2(0.0), w = vec2(Z); r = vec4(atan(v.x, v.y), atan(w.y, w.x), atan(0.0, Z - 0.0), atan(w, vec2(0, 1)).x);",
+            [0., 0., 0., 0.],
+        ),
+        case(
             "float w; float f = modf(Z - 3.25, w); vec2 w2; vec2 f2 = modf(vec2(1.5, -1.5) + Z, w2); r = vec4(f, w, f2.x + f2.y, w2.x * 10.0 + w2.y);",
             [-0.25, -3., 0., 9.],
         ),

@@ -3,8 +3,8 @@
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use naga::{
-    BinaryOperator as Op, DerivativeAxis, DerivativeControl, Expression, MathFunction as Math, RelationalFunction,
-    ScalarKind, Statement,
+    BinaryOperator as Op, DerivativeAxis, DerivativeControl, Expression, Literal, MathFunction as Math,
+    RelationalFunction, ScalarKind, Statement,
 };
 
 use super::{
@@ -140,7 +140,7 @@ impl Builder<'_, '_> {
         let (b_ty, b) = b;
         let fit = |this: &mut Self, value, from| if from == ty { value } else { this.splat(value, ty) };
         match builtin {
-            B::Atan => self.math2(Math::Atan2, a, b),
+            B::Atan => self.angle(a, b),
             B::Pow => self.math2(Math::Pow, a, b),
             B::Min | B::Max => {
                 let b = fit(self, b, b_ty);
@@ -249,6 +249,21 @@ impl Builder<'_, '_> {
         }
         self.cx.reflection.derivatives = true;
         self.add(Expression::Derivative { axis, ctrl: DerivativeControl::None, expr })
+    }
+
+    /// `atan(y, x)`. The angle of (0, 0), which section 8.1 leaves undefined, is 0, as the site has it wherever it draws by
+    /// Direct3D, and as constants fold: drivers have three quarters of a half turn there, or NaN.
+    fn angle(&mut self, y: Value, x: Value) -> Value {
+        let is_number = |this: &Self, value| matches!(this.f.expressions[value], Expression::Literal(Literal::F32(number)) if number != 0.0);
+        if is_number(self, y) || is_number(self, x) {
+            return self.math2(Math::Atan2, y, x);
+        }
+        let zero = self.float(0.0);
+        let (none, flat) = (self.op(Op::Equal, x, zero), self.op(Op::Equal, y, zero));
+        let nowhere = self.op(Op::LogicalAnd, none, flat);
+        let one = self.float(1.0);
+        let x = self.select(nowhere, one, x);
+        self.math2(Math::Atan2, y, x)
     }
 
     /// The polynomial of OpenGL's compilers, right to 0.0002. Mesa's Vulkan drivers have another one near zero, and a ray that is

@@ -83,11 +83,16 @@ impl Builder<'_, '_> {
                 let (x, power) = (number(arg)?, number(power)?);
                 x.powf(power)
             }
+            Expression::Math { fun: Math::Atan2, arg, arg1: Some(x), .. } => {
+                let (y, x) = (number(arg)?, number(x)?);
+                y.atan2(x)
+            }
             Expression::Math { fun, arg, arg1: None, .. } => {
                 let x = number(arg)?;
                 match fun {
                     Math::Sin => x.sin(),
                     Math::Cos => x.cos(),
+                    Math::Atan => x.atan(),
                     Math::Exp => x.exp(),
                     Math::Exp2 => x.exp2(),
                     Math::Log => x.ln(),
