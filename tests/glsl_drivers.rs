@@ -184,3 +184,23 @@ fn order_of_evaluation() {
         case("r = vec4(floatBitsToUint(asin(Z + 0.308)) - 0x3ea04324u);", [0.; 4]),
     ]);
 }
+
+/// Direct3D has no number for the angle of (0, 0); this device has some number or other.
+#[test]
+fn the_angle_of_nowhere() {
+    let Some(mut gpu) = gpu() else { return };
+    gpu.nan_angle = true;
+    check_on(
+        &gpu,
+        &[
+            case(
+                "r = vec4(atan(Z, Z), atan(-Z, -Z), atan(vec2(Z, 1.0), vec2(Z)));",
+                [0., 0., 0., std::f32::consts::FRAC_PI_2],
+            ),
+            case(
+                "r = vec4(atan(Z, Z - 1.0), atan(Z - 1.0, Z), atan(0.0, Z), atan(2.0, Z + 2.0));",
+                [std::f32::consts::PI, -std::f32::consts::FRAC_PI_2, 0., std::f32::consts::FRAC_PI_4],
+            ),
+        ],
+    );
+}

@@ -220,6 +220,7 @@ fn compile(
             tables_in_memory: !gpu.has_storage_buffers,
             opaque_uniforms: gpu.recompiles_for_uniforms,
             may_discard: gpu.keeps_denormals && has_small_floats,
+            nan_angle: gpu.nan_angle,
         };
         let said = match texts.compile_pass(index, bilinear_by_hand, driver) {
             Ok(mut done) => {

@@ -146,6 +146,8 @@ pub struct Driver {
     /// A fragment stage has to be one that may discard, though it never does: Mesa's llvmpipe goes wrong where others fail the
     /// depth test of a target of 16-bit floats.
     pub may_discard: bool,
+    /// The angle of (0, 0) is no number on the device: `atan` asks for another one's.
+    pub nan_angle: bool,
 }
 
 /// A pass that compiled.

@@ -70,6 +70,8 @@ pub struct Gpu {
     /// returns on a way past the end of that (`generate_unswizzled_blend` in `lp_state_fs.c`). Programs that may discard test
     /// depth on another way.
     pub keeps_denormals: bool,
+    /// `atan2(0, 0)` may be NaN, as Direct3D has it; on the site, which then asks for another angle, it is 0.
+    pub nan_angle: bool,
     /// Timestamps can be written between passes.
     pub has_timestamps: bool,
     pub(super) runtime_checks: bool,
@@ -159,6 +161,7 @@ impl Gpu {
             filters_float32: features.contains(wgpu::Features::FLOAT32_FILTERABLE),
             recompiles_for_uniforms: is_lavapipe,
             keeps_denormals: is_lavapipe,
+            nan_angle: info.backend == wgpu::Backend::Dx12,
             runtime_checks: options.runtime_checks,
             fences: is_lavapipe.then(|| super::pass::FenceKeeper::new(&device)),
             has_timestamps: features.contains(wgpu::Features::TIMESTAMP_QUERY),

@@ -22,7 +22,14 @@ pub const fn with(before: &'static str, body: &'static str, expected: [f32; 4]) 
 /// Draws each case alone and tells of all that differ.
 #[track_caller]
 pub fn check(cases: &[Case]) {
-    let Some(gpu) = gpu() else { return };
+    if let Some(gpu) = gpu() {
+        check_on(&gpu, cases);
+    }
+}
+
+/// The same on this device.
+#[track_caller]
+pub fn check_on(gpu: &eddy::gpu::Gpu, cases: &[Case]) {
     let mut wrong = Vec::new();
     for case in cases {
         let code = format!(
@@ -36,7 +43,7 @@ pub fn check(cases: &[Case]) {
             [nearest("A"), None, None, None],
         );
         let project = project(vec![pass(buffer("A"), &code, Default::default()), show]);
-        let built = eddy::engine::Program::build(&gpu, &project, &Default::default(), &Default::default());
+        let built = eddy::engine::Program::build(gpu, &project, &Default::default(), &Default::default());
         let built = match built {
             Ok(built) => built,
             Err(eddy::engine::BuildError::Diagnostics { diagnostics, sources }) => {

@@ -251,11 +251,11 @@ impl Builder<'_, '_> {
         self.add(Expression::Derivative { axis, ctrl: DerivativeControl::None, expr })
     }
 
-    /// `atan(y, x)`. The angle of (0, 0), which section 8.1 leaves undefined, is 0, as the site has it wherever it draws by
-    /// Direct3D, and as constants fold: drivers have three quarters of a half turn there, or NaN.
+    /// `atan(y, x)`. The angle of (0, 0), which section 8.1 leaves undefined, is the device's, unless that is no number: then 0,
+    /// which constants fold to.
     fn angle(&mut self, y: Value, x: Value) -> Value {
         let is_number = |this: &Self, value| matches!(this.f.expressions[value], Expression::Literal(Literal::F32(number)) if number != 0.0);
-        if is_number(self, y) || is_number(self, x) {
+        if !self.cx.source.driver.nan_angle || is_number(self, y) || is_number(self, x) {
             return self.math2(Math::Atan2, y, x);
         }
         let zero = self.float(0.0);

@@ -16,7 +16,7 @@ pub(super) fn of(builtin: Builtin) -> Function {
         B::Tan => ("angle", "Tangent of an angle in radians. Grows without bound near odd multiples of π/2."),
         B::Asin => ("x", "Angle in radians whose sine is x, -π/2 to π/2. Undefined where |x| > 1."),
         B::Acos => ("x", "Angle in radians whose cosine is x, 0 to π. Undefined where |x| > 1: clamp what rounding may push past 1."),
-        B::Atan => ("y, x", "Angle in radians. `atan(y, x)`: of the point (x, y), -π to π, in the right quadrant; 0 where both are 0, which the language leaves undefined. `atan(y_over_x)`: -π/2 to π/2."),
+        B::Atan => ("y, x", "Angle in radians. `atan(y, x)`: of the point (x, y), -π to π, in the right quadrant; undefined where both are 0. `atan(y_over_x)`: -π/2 to π/2."),
         B::Sinh => ("x", "Hyperbolic sine, (eˣ - e⁻ˣ) / 2. Overflows past |x| of about 88."),
         B::Cosh => ("x", "Hyperbolic cosine, (eˣ + e⁻ˣ) / 2, at least 1. Overflows past |x| of about 88."),
         B::Tanh => ("x", "Hyperbolic tangent, -1 to 1: a smooth step. Some drivers give NaN for |x| above 40; clamp x."),
