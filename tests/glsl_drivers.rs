@@ -182,6 +182,12 @@ fn order_of_evaluation() {
         ),
         // The polynomial of OpenGL's compilers.
         case("r = vec4(floatBitsToUint(asin(Z + 0.308)) - 0x3ea04324u);", [0.; 4]),
+        // Constants are what the device computes.
+        case(
+            "vec2 v = vec2(0.2, 1); r = vec4(asin(Z + 0.308) == asin(0.308), acos(Z + 0.3) == acos(0.3),\n\
+             normalize(Z + v) == normalize(v), smoothstep(0.0, 1.0, Z + 0.3) == smoothstep(0.0, 1.0, 0.3));",
+            [1.; 4],
+        ),
     ]);
 }
 

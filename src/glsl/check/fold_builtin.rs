@@ -1,6 +1,7 @@
-//! Values of built-in functions on constants (chapter 8). Plain arithmetic is done in 32-bit floats, as a device does it;
-//! roots and transcendental functions in 64 bits and rounded once. Where a function is undefined ANGLE gives zero, and so
-//! does this, with a warning.
+//! Values of built-in functions on constants (chapter 8), in 32-bit floats as a device computes them. Where a function is undefined
+//! ANGLE gives zero, and so does this, with a warning.
+
+use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
 use super::{Checker, words::Words};
 use crate::glsl::{
@@ -72,7 +73,8 @@ fn fold(builtin: X, args: &[Arg<'_>], count: usize, undefined: &mut bool) -> Opt
     // The commonest shapes: floats in, floats out, component by component.
     let each =
         |f: &dyn Fn(f32) -> f32| -> Option<Words> { Some((0..count).map(|i| f(a.float(i)).to_bits()).collect()) };
-    // OpenGL's compilers fold in single precision what devices have; the rest they write out in other operations.
+    // In single precision, and what devices lack in the operations that OpenGL's compilers write out for it: so a constant is the
+    // number that the device would compute.
     let wide = |f: fn(f64) -> f64| each(&|x| f(f64::from(x)) as f32);
     let each2 = |f: &dyn Fn(f32, f32) -> f32| -> Option<Words> {
         Some((0..count).map(|i| f(a.float(i), b.float(i)).to_bits()).collect())
@@ -92,25 +94,31 @@ fn fold(builtin: X, args: &[Arg<'_>], count: usize, undefined: &mut bool) -> Opt
         X::Degrees => each(&|x| x * (180.0 / std::f64::consts::PI) as f32),
         X::Sin => each(&f32::sin),
         X::Cos => each(&f32::cos),
-        X::Tan => wide(f64::tan),
-        X::Sinh => wide(f64::sinh),
-        X::Cosh => wide(f64::cosh),
-        X::Tanh => wide(f64::tanh),
+        X::Tan => each(&|x| x.sin() / x.cos()),
+        X::Sinh => each(&|x| 0.5 * (x.exp() - (-x).exp())),
+        X::Cosh => each(&|x| 0.5 * (x.exp() + (-x).exp())),
+        X::Tanh => each(&|x| {
+            let x = x.clamp(-10.0, 10.0);
+            (x.exp() - (-x).exp()) / (x.exp() + (-x).exp())
+        }),
         X::Asinh => wide(f64::asinh),
         X::Exp => each(&f32::exp),
         X::Exp2 => each(&f32::exp2),
-        X::Asin => guarded(a, count, &mut outside, |x| x.abs() > 1.0, |x| f64::from(x).asin() as f32),
-        X::Acos => guarded(a, count, &mut outside, |x| x.abs() > 1.0, |x| f64::from(x).acos() as f32),
+        X::Asin => guarded(a, count, &mut outside, |x| x.abs() > 1.0, |x| arc_sine(x, 0.086_566_724, -0.031_029_55)),
+        X::Acos => {
+            let acos = |x| FRAC_PI_2 - arc_sine(x, 0.081_324_63, -0.023_633_18);
+            guarded(a, count, &mut outside, |x| x.abs() > 1.0, acos)
+        }
         X::Acosh => guarded(a, count, &mut outside, |x| x < 1.0, |x| f64::from(x).acosh() as f32),
         X::Atanh => guarded(a, count, &mut outside, |x| x.abs() >= 1.0, |x| f64::from(x).atanh() as f32),
         X::Log => guarded(a, count, &mut outside, |x| x <= 0.0, f32::ln),
         X::Log2 => guarded(a, count, &mut outside, |x| x <= 0.0, f32::log2),
         X::Sqrt => guarded(a, count, &mut outside, |x| x < 0.0, f32::sqrt),
         X::InverseSqrt => guarded(a, count, &mut outside, |x| x <= 0.0, |x| 1.0 / x.sqrt()),
-        X::Atan if args.len() == 1 => wide(f64::atan),
+        X::Atan if args.len() == 1 => each(&f32::atan),
         X::Atan => {
             outside(any(&|i| a.float(i) == 0.0 && b.float(i) == 0.0));
-            each2(&|y, x| f64::from(y).atan2(f64::from(x)) as f32)
+            each2(&f32::atan2)
         }
         X::Pow => {
             let bad = |x: f32, y: f32| x < 0.0 || (x == 0.0 && y <= 0.0);
@@ -157,7 +165,7 @@ fn fold(builtin: X, args: &[Arg<'_>], count: usize, undefined: &mut bool) -> Opt
                     return 0.0;
                 }
                 let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
-                t * t * (3.0 - 2.0 * t)
+                t * (t * (3.0 - 2.0 * t))
             })
         }
         X::IsNan => test(&|i| a.float(i).is_nan()),
@@ -181,7 +189,8 @@ fn fold(builtin: X, args: &[Arg<'_>], count: usize, undefined: &mut bool) -> Opt
         X::Normalize => {
             let length = length(a.floats());
             let zero = outside(length == 0.0);
-            each(&|x| if zero { 0.0 } else { x / length })
+            let scale = 1.0 / length;
+            each(&|x| if zero { 0.0 } else { x * scale })
         }
         X::FaceForward => {
             let flip = dot(c, b) >= 0.0;
@@ -283,6 +292,14 @@ fn compare(builtin: X, scalar: Scalar, a: u32, b: u32) -> bool {
 
 fn dot(a: Arg<'_>, b: Arg<'_>) -> f32 {
     a.floats().zip(b.floats()).map(|(x, y)| x * y).reduce(|sum, term| sum + term).unwrap_or(0.0)
+}
+
+/// The polynomial of OpenGL's compilers, right to 0.0002.
+fn arc_sine(x: f32, cubic: f32, quartic: f32) -> f32 {
+    let size = x.abs();
+    let sum = FRAC_PI_2 + size * ((FRAC_PI_4 - 1.0) + size * (cubic + size * quartic));
+    let sign = if x == 0.0 { 0.0 } else { x.signum() };
+    sign * (FRAC_PI_2 - (1.0 - size).sqrt() * sum)
 }
 
 fn length(floats: impl Iterator<Item = f32>) -> f32 {
@@ -400,6 +417,17 @@ mod tests {
         assert_eq!(call(X::Mod, &[(&[-1., 5.5], 1), (&[3.], 1)], 2), [2., 2.5]);
         assert_eq!(call(X::Mix, &[(&[0., 10.], 1), (&[1., 20.], 1), (&[0.5], 1)], 2), [0.5, 15.]);
         assert_eq!(call(X::Smoothstep, &[(&[0.], 1), (&[1.], 1), (&[0.5, 2.], 1)], 2), [0.5, 1.]);
+    }
+
+    /// What the operations give that OpenGL's compilers write these functions out in.
+    #[test]
+    fn last_bits() {
+        assert_eq!(call(X::Normalize, &[(&[0.2, 0., -1.], 1)], 3)[0].to_bits(), 0x3e48_d2ab);
+        assert_eq!(call(X::Acos, &[(&[-0.447_213_6], 1)], 1), [2.034_546]);
+        assert_eq!(call(X::Acos, &[(&[-1., 0., 1.], 1)], 3), [2. * FRAC_PI_2, FRAC_PI_2, 0.]);
+        assert_eq!(call(X::Asin, &[(&[-1., 0., 1.], 1)], 3), [-FRAC_PI_2, 0., FRAC_PI_2]);
+        assert_eq!(call(X::Asin, &[(&[0.3], 1)], 1), [0.304_620_98]);
+        assert_eq!(call(X::Tanh, &[(&[-20., 0., 20.], 1)], 3), [-1., 0., 1.]);
     }
 
     #[test]
