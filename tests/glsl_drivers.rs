@@ -180,6 +180,16 @@ fn order_of_evaluation() {
             "r = vec4(floatBitsToUint(pull(Z + 4.71, Z + 6.67) + pull(Z + 6.04, Z + 0.58)) - 0x3eb2c8e6u);",
             [0.; 4],
         ),
+        // Sums are compared without their literals: a < 2.91 - 0.62, which is 2.29.
+        case(
+            "float a = max(Z + 2.29, Z); r = vec4(a + 0.62 < 2.91, 2.91 > 0.62 + a, a + 0.62 >= 2.91, 2.91 <= a - -0.62);",
+            [0., 0., 1., 1.],
+        ),
+        // Those of variables that are used again are not, nor those on the greater side of `<`.
+        case(
+            "float a = max(Z + 2.29, Z), b = a + 0.62; r = vec4(b < 2.91, b >= 2.91, a + 0.62 > 2.9100001, b - b);",
+            [1., 0., 0., 0.],
+        ),
         // The polynomial of OpenGL's compilers.
         case("r = vec4(floatBitsToUint(asin(Z + 0.308)) - 0x3ea04324u);", [0.; 4]),
         // Constants are what the device computes.

@@ -4,7 +4,7 @@
 //! blow up last bits (`fract(sin(x) * 43758.5453)`), so the constants of a chain are joined here, as the GLSL compilers people
 //! write their shaders on join them, before a SPIR-V driver joins them in another order.
 
-use naga::{BinaryOperator as Op, Expression, Literal, MathFunction as Math};
+use naga::{BinaryOperator as Op, Expression, Literal, MathFunction as Math, UnaryOperator};
 
 use super::{
     function::{Builder, Value},
@@ -130,10 +130,49 @@ impl Builder<'_, '_> {
             Op::Greater => self.magnitude_above_zero(left, right),
             _ => None,
         };
-        let Some(number) = positive else { return self.op(op, left, right) };
+        let Some(number) = positive else {
+            return match self.order_with_constant(op, left, right) {
+                Some(order) => order,
+                None => self.op(op, left, right),
+            };
+        };
         let zero = self.float(0.0);
         let equal = self.op(Op::Equal, number, zero);
         self.not(equal)
+    }
+
+    /// `a + b < c` for literals `b` and `c` as `a < c - b`, and so for `>=`: Mesa looks for the sum on the left, once it has turned
+    /// `>` and `<=` around.
+    fn order_with_constant(&mut self, op: Op, left: Value, right: Value) -> Option<Value> {
+        let (sum, limit) = match op {
+            Op::Less | Op::GreaterEqual => (left, right),
+            Op::Greater | Op::LessEqual => (right, left),
+            _ => return None,
+        };
+        let is_less = matches!(op, Op::Less | Op::Greater);
+        let number = |b: &Self, value| match b.floats(value)?[..] {
+            [number] => Some(number),
+            _ => None,
+        };
+        let limit = number(self, limit)?;
+        // A sum that is needed all the same stays, and a variable's may be.
+        if self.shared.contains(&sum) || (self.is_named(sum) && self.constructed.contains(&sum)) {
+            return None;
+        }
+        let Expression::Binary { op: inner, left: a, right: b } = self.f.expressions[sum] else { return None };
+        let (rest, by) = match (inner, number(self, a), number(self, b)) {
+            (Op::Add, None, Some(by)) => (a, by),
+            (Op::Add, Some(by), None) => (b, by),
+            (Op::Subtract, None, Some(by)) => (a, -by),
+            (Op::Subtract, Some(by), None) => (self.add(Expression::Unary { op: UnaryOperator::Negate, expr: b }), by),
+            _ => return None,
+        };
+        let limit = limit - by;
+        if !limit.is_finite() {
+            return None;
+        }
+        let limit = self.float(limit);
+        Some(self.op(if is_less { Op::Less } else { Op::GreaterEqual }, rest, limit))
     }
 
     /// What `abs` is taken of, in `abs(..) > 0.0`.
