@@ -170,7 +170,12 @@ impl Builder<'_, '_> {
         let divisor = self.add(Expression::AccessIndex { base: coordinate, index: last });
         let components: Vec<u8> = (0..dimensions).collect();
         let numerator = self.swizzle(coordinate, ty, Swizzle::new(&components));
-        let divisor = self.splat(divisor, TypeId::vector(Scalar::Float, dimensions));
-        self.op(naga::BinaryOperator::Divide, numerator, divisor)
+        // Times the reciprocal, as drivers do that read with a projection themselves.
+        let one = self.float(1.0);
+        let scale = self.op(naga::BinaryOperator::Divide, one, divisor);
+        let ty = TypeId::vector(Scalar::Float, dimensions);
+        self.each(ty, [(ty, numerator), (TypeId::FLOAT, scale)], |b, [x, scale]| {
+            b.op(naga::BinaryOperator::Multiply, x, scale)
+        })
     }
 }
