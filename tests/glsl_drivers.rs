@@ -180,6 +180,17 @@ fn order_of_evaluation() {
             "r = vec4(floatBitsToUint(pull(Z + 4.71, Z + 6.67) + pull(Z + 6.04, Z + 0.58)) - 0x3eb2c8e6u);",
             [0.; 4],
         ),
+        // A literal that terms of a matrix product share is taken out of their sum too: 0.19 (a + c) ...
+        case(
+            "mat2 m = mat2(6.19, 1, 8.21, 1); m[0] += Z; m[1] += Z;\n\
+             r = vec4(floatBitsToUint((m * vec2(0.19)).x) - 0x402f1a9fu);",
+            [0.; 4],
+        ),
+        // ... but the components of a constant column are several numbers: y 0.27 + x 0.27.
+        case(
+            "r = vec4(floatBitsToUint(((Z + vec2(5.59, 1.1)) * mat2(0.27, 0.27, -0.27, 0.27)).x) - 0x3fe734d8u);",
+            [0.; 4],
+        ),
         // Sums are compared without their literals: a < 2.91 - 0.62, which is 2.29.
         case(
             "float a = max(Z + 2.29, Z); r = vec4(a + 0.62 < 2.91, 2.91 > 0.62 + a, a + 0.62 >= 2.91, 2.91 <= a - -0.62);",

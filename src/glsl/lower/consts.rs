@@ -14,6 +14,7 @@ pub(super) struct Constants {
     inits: Vec<Option<Option<Handle<Expression>>>>,
     constants: Vec<Option<Handle<naga::Constant>>>,
     literals: Map<(u8, u32), Handle<Expression>>,
+    vectors: Map<Vec<u32>, Handle<naga::Constant>>,
     /// Globals whose constant value is no constant expression of naga's.
     pub set_at_start: Vec<(Handle<GlobalVariable>, ConstId)>,
 }
@@ -24,6 +25,7 @@ impl Constants {
             inits: vec![None; count],
             constants: vec![None; count],
             literals: Map::default(),
+            vectors: Map::default(),
             set_at_start: Vec::new(),
         }
     }
@@ -50,6 +52,20 @@ impl Lowering<'_> {
         let made = self.out.constants.append(naga::Constant { name: None, ty, init }, Span::UNDEFINED);
         self.consts.constants[id.index()] = Some(made);
         Some(made)
+    }
+
+    /// A vector of finite floats as a naga constant.
+    pub fn vector_constant(&mut self, floats: &[f32]) -> Handle<naga::Constant> {
+        let words: Vec<u32> = floats.iter().map(|number| number.to_bits()).collect();
+        if let Some(&made) = self.consts.vectors.get(&words) {
+            return made;
+        }
+        let ty = TypeId::vector(Scalar::Float, floats.len() as u8);
+        let init = self.global_expression(ty, &mut words.iter().copied());
+        let ty = self.ty(ty);
+        let made = self.out.constants.append(naga::Constant { name: None, ty, init }, Span::UNDEFINED);
+        self.consts.vectors.insert(words, made);
+        made
     }
 
     /// The same as a module-scope expression.

@@ -59,6 +59,8 @@ pub(super) struct Builder<'m, 'a> {
     literals: Map<(u8, u32), Value>,
     zeros: Map<Handle<naga::Type>, Value>,
     constants: Map<u32, Value>,
+    /// Constant vectors, for [`Builder::column`].
+    pub vectors: Map<Handle<naga::Constant>, Value>,
     globals: Map<Handle<naga::GlobalVariable>, Value>,
     /// The factors of each product of matrices: how many columns the left one has, left, right.
     pub matrix_products: Map<Value, (u8, Value, Value)>,
@@ -136,6 +138,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             literals: Map::default(),
             zeros: Map::default(),
             constants: Map::default(),
+            vectors: Map::default(),
             globals: Map::default(),
             matrix_products: Map::default(),
             named: Default::default(),
@@ -342,6 +345,11 @@ impl<'m, 'a> Builder<'m, 'a> {
         if let Some(same) = self.unchanged(&expression) {
             return same;
         }
+        self.add_as_is(expression)
+    }
+
+    /// The same of what is neither folded nor left out.
+    pub fn add_as_is(&mut self, expression: Expression) -> Value {
         let key = scalars::key(&expression);
         if let Some(&made) = key.as_ref().and_then(|key| self.made.get(key)) {
             return made;

@@ -104,7 +104,9 @@ impl Builder<'_, '_> {
             let term =
                 self.each(ty, [(ty, column), (TypeId::FLOAT, factor)], |b, [x, factor]| b.op(Op::Multiply, x, factor));
             sum = Some(match sum {
-                Some(sum) => self.each(ty, [(ty, sum), (ty, term)], |b, [sum, term]| b.op(Op::Add, sum, term)),
+                Some(sum) => self.each(ty, [(ty, sum), (ty, term)], |b, [sum, term]| {
+                    b.with_constant_factored(sum, term).unwrap_or_else(|| b.op(Op::Add, sum, term))
+                }),
                 None => term,
             });
         }
@@ -115,7 +117,7 @@ impl Builder<'_, '_> {
     pub fn vector_times_matrix(&mut self, (columns, rows): (u8, u8), vector: Value, matrix: Value) -> Value {
         let column_ty = TypeId::vector(Scalar::Float, rows);
         let parts = (0..u32::from(columns)).map(|index| {
-            let column = self.add(Expression::AccessIndex { base: matrix, index });
+            let column = self.column(column_ty, matrix, index);
             self.dot(column_ty, vector, column)
         });
         let parts = parts.collect();

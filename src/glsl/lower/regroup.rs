@@ -225,6 +225,10 @@ impl Builder<'_, '_> {
                 });
                 parts.collect()
             }
+            Expression::AccessIndex { base, index } => match self.f.expressions[*base] {
+                Expression::Constant(_) => Some(vec![*self.floats(*base)?.get(*index as usize)?]),
+                _ => None,
+            },
             _ => None,
         }
     }

@@ -65,6 +65,7 @@ impl Builder<'_, '_> {
         use BinaryOperator as Op;
         let number = |value| match self.f.expressions[value] {
             Expression::Literal(Literal::F32(number)) => Some(number),
+            Expression::AccessIndex { .. } => self.floats(value).map(|all| all[0]),
             _ => None,
         };
         let folded = match *expression {
@@ -125,6 +126,36 @@ impl Builder<'_, '_> {
             Op::Multiply | Op::Divide if is(right, 1.0) => Some(left),
             _ => None,
         }
+    }
+
+    /// A column of a matrix. Where it is constant and has one number twice, its components are those of a constant instead of
+    /// literals: of a sum of products Mesa takes out what is one literal, but not what is two components of one vector.
+    pub fn column(&mut self, ty: TypeId, matrix: Value, index: u32) -> Value {
+        let column = self.add(Expression::AccessIndex { base: matrix, index });
+        match self.floats(column) {
+            Some(numbers) if (1..numbers.len()).any(|i| numbers[..i].contains(&numbers[i])) => {
+                let parts = (0..numbers.len() as u32).map(|index| self.constant_component(&numbers, index)).collect();
+                self.compose(ty, parts)
+            }
+            _ => column,
+        }
+    }
+
+    fn constant_component(&mut self, numbers: &[f32], index: u32) -> Value {
+        let number = numbers[index as usize];
+        if matches!(number.abs(), 0.0 | 1.0) {
+            return self.float(number);
+        }
+        let constant = self.cx.vector_constant(numbers);
+        let base = match self.vectors.get(&constant) {
+            Some(&base) => base,
+            None => {
+                let base = self.given(Expression::Constant(constant));
+                self.vectors.insert(constant, base);
+                base
+            }
+        };
+        self.add_as_is(Expression::AccessIndex { base, index })
     }
 
     /// What a component of a value is, if no instruction is needed to take it out.
