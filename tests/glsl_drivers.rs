@@ -191,6 +191,14 @@ fn order_of_evaluation() {
             "r = vec4(floatBitsToUint(((Z + vec2(5.59, 1.1)) * mat2(0.27, 0.27, -0.27, 0.27)).x) - 0x3fe734d8u);",
             [0.; 4],
         ),
+        // A choice between two values is a branch, over which the product that a function gave is not taken apart: (m n) v.
+        with(
+            "mat2 m, n; mat2 both() { return m * n; }",
+            "m = mat2(3.28, 1.51, 7.11, 5.46); n = mat2(1.22, 1.41, 2.04, 3.86); m[0] += Z; n[0] += Z;\n\
+             vec2 p = both() * vec2(Z + 7.88, Z > 1.0 ? 1.0 : 8.59);\n\
+             r = vec4(floatBitsToUint(p) - uvec2(0x43c9e0e3u, 0x438d573du), 0, 0);",
+            [0.; 4],
+        ),
         // Sums are compared without their literals: a < 2.91 - 0.62, which is 2.29.
         case(
             "float a = max(Z + 2.29, Z); r = vec4(a + 0.62 < 2.91, 2.91 > 0.62 + a, a + 0.62 >= 2.91, 2.91 <= a - -0.62);",

@@ -220,7 +220,9 @@ impl Builder<'_, '_> {
             copies_out.push((place, copy));
         }
         let result = if self.cx.inlined[func.index()] {
-            self.inline(func, given, arguments)
+            let result = self.inline(func, given, arguments);
+            self.returned.extend(result);
+            result
         } else {
             self.call_apart(Instance { func, given }, arguments)
         };

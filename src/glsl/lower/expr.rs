@@ -206,9 +206,13 @@ impl Builder<'_, '_> {
         }
         let condition = self.value(cond);
         if self.is_vector_or_scalar(ty) && self.is_cheap(then) && self.is_cheap(otherwise) {
+            self.choice = self.f.expressions.len();
             let accept = self.value(then);
             let reject = self.value(otherwise);
-            return self.select(condition, accept, reject);
+            let chosen = self.select(condition, accept, reject);
+            self.choice = self.f.expressions.len();
+            self.returned.insert(chosen);
+            return chosen;
         }
         let result = self.temporary(ty);
         let (accept, _) = self.branch_block(|b| {

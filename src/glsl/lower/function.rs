@@ -72,6 +72,11 @@ pub(super) struct Builder<'m, 'a> {
     pub constructed: std::collections::HashSet<Value>,
     /// Where in `f.expressions` the run of statements without branches begins that the builder is at.
     run: usize,
+    /// Where in `f.expressions` the last choice between two values ended that is an instruction here and a branch to OpenGL's
+    /// compilers: no variable's expression is moved over it.
+    pub choice: usize,
+    /// What calls of functions that became part of this one gave.
+    pub returned: std::collections::HashSet<Value>,
     /// Vectors that an operation gave, component by component.
     pub by_component: std::collections::HashSet<Value>,
     /// Pure operations of the blocks at hand, from the outermost on, and where to find them.
@@ -145,6 +150,8 @@ impl<'m, 'a> Builder<'m, 'a> {
             shared: Default::default(),
             constructed: Default::default(),
             run: 0,
+            choice: 0,
+            returned: Default::default(),
             by_component: Default::default(),
             made: Map::default(),
             made_in_order: Vec::new(),
@@ -287,7 +294,9 @@ impl<'m, 'a> Builder<'m, 'a> {
     /// Whether a value is a variable to OpenGL's compilers, however it was computed: they join constants of one expression, which
     /// ends at branches, at the components of a vector, and where something is written to memory.
     pub fn is_apart(&self, value: Value) -> bool {
-        value.index() < self.run || self.constructed.contains(&value)
+        value.index() < self.run
+            || self.constructed.contains(&value)
+            || (value.index() < self.choice && (self.is_named(value) || self.returned.contains(&value)))
     }
 
     /// Whether a value is the result of an operation, and no variable, argument or part of one.
