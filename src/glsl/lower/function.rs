@@ -2,7 +2,7 @@
 
 use naga::{Block, Expression, FunctionArgument, FunctionResult, Handle, LocalVariable, Range, Span, Statement};
 
-use super::{Instance, Lowering, Map, calls::Given, consts, inline::Leaving, scalars};
+use super::{Instance, Lowering, Map, calls::Given, consts, inline::Leaving, scalars, split::split};
 use crate::glsl::{
     ast::List,
     hir::{ConstId, ExprId, FuncId, LocalId, LocalKind, Scalar, Type, TypeId, VarFlags},
@@ -172,6 +172,7 @@ impl<'m, 'a> Builder<'m, 'a> {
     pub fn finish(mut self) -> naga::Function {
         self.emit();
         self.f.body = self.block;
+        split(&mut self.f, &mut self.cx.out.types);
         self.f
     }
 

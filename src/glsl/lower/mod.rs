@@ -7,7 +7,8 @@
 //! What the generated code looks like, and why:
 //! - Only what the entry point reaches is lowered ([`reach`]). A branch whose condition is a literal is not reached.
 //! - A variable nobody writes is a value, not memory. All others are `LocalVariable`s or private globals; what they hold is known
-//!   until they are written, within straight code and into branches ([`memory`]).
+//!   until they are written, within straight code and into branches ([`memory`]). At last what is no array becomes scalars
+//!   ([`split`]).
 //! - Small functions become part of their callers ([`inline`]). Others have one copy for each combination of channels, globals
 //!   and tables that stand for parameters they only read ([`calls`]).
 //! - A constant table that is indexed at run time lives in a buffer ([`tables`]); a small one once in a private global
@@ -40,6 +41,7 @@ mod reach;
 mod regroup;
 mod resources;
 mod scalars;
+mod split;
 mod stage;
 mod steps;
 mod tables;

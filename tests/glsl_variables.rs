@@ -1,0 +1,97 @@
+//! Variables that code writes: taken apart into scalars, and what they hold all the same.
+
+#[path = "support/compute.rs"]
+mod compute;
+mod support;
+
+use compute::*;
+use eddy::glsl::{ChannelKind, Compiled, Driver, PassKind, PassSource, Text};
+use naga::TypeInner;
+
+/// The module of an Image pass.
+fn compiled(code: &str, driver: Driver) -> Compiled {
+    let source = PassSource {
+        kind: PassKind::Image,
+        common: None,
+        code: Text { id: eddy::diag::SourceId(0), text: code },
+        includes: &[],
+        channels: [ChannelKind::Sampler2D; 4],
+        knobs: &[],
+        values: &[],
+        bilinear_by_hand: [false; 4],
+        driver,
+    };
+    eddy::glsl::compile(&source).expect("it compiles")
+}
+
+/// How many variables of a module's functions hold a scalar, and how many more than that.
+fn variables(compiled: &Compiled) -> (usize, usize) {
+    let all = compiled.module.functions.iter().flat_map(|(_, f)| f.local_variables.iter());
+    let scalar = |v: &naga::LocalVariable| matches!(compiled.module.types[v.ty].inner, TypeInner::Scalar(_));
+    let (scalars, others): (Vec<_>, Vec<_>) = all.partition(|(_, v)| scalar(v));
+    (scalars.len(), others.len())
+}
+
+/// What a loop carries from round to round is carried as scalars: a driver that keeps vectors together counts it as work.
+#[test]
+fn written_vectors_are_scalars() {
+    const STRUCT: &str = "struct S { vec2 a; mat2 m; float b; };";
+    for (body, expected) in [
+        ("vec3 v = p.xyx; for (int i = 0; i < n; i++) v = v.zxy * 1.5;", (4, 0)),
+        ("vec3 v = p.xyx; for (int i = 0; i < n; i++) { v.xz *= 1.5; v[1] += v.x; }", (4, 0)),
+        ("mat2 v = mat2(p, p); for (int i = 0; i < n; i++) { v[1].x += 1.0; v *= v; }", (5, 0)),
+        ("S v = S(p, mat2(p, p), 1.0); for (int i = 0; i < n; i++) { v.m[1] += v.a; v.b++; }", (8, 0)),
+        // Memory: some index is known at run time only, or another function gets a pointer.
+        ("vec3 v = p.xyx; for (int i = 0; i < n; i++) v[i % 3] *= 1.5;", (1, 1)),
+        ("vec3 v = p.xyx; for (int i = 0; i < n; i++) far(v);", (1, 1)),
+    ] {
+        let code = format!(
+            "{STRUCT} void far(inout vec3 v) {{ if (v.x > 9.0) discard; v *= 2.0; }}\n\
+             vec4 f(vec2 p, int n) {{ {body} return {}; }}\n\
+             void mainImage(out vec4 o, vec2 p) {{ o = f(p, int(p.y)); }}",
+            match body {
+                _ if body.starts_with('S') => "vec4(v.a, v.m[1].x, v.b)",
+                _ if body.starts_with('m') => "vec4(v[0], v[1])",
+                _ => "vec4(v, 1)",
+            }
+        );
+        assert_eq!(variables(&compiled(&code, Driver::default())), expected, "{body}");
+    }
+}
+
+#[test]
+fn variables_hold_what_was_written() {
+    const STATE: &str = "struct S { vec2 a; float b; ivec2 c; }; struct T { S s; mat2 m; S t; };\n\
+        void both(inout vec3 v, out mat2 m) { v.x += 1.0; m[1] = v.yz; if (v.x > 99.0) discard; v = v.zxy; }";
+    check(&[
+        case(
+            "vec4 v = vec4(1, 2, 3, 4); for (int i = 0; i < I + 3; i++) { v = v.yzwx; v.xw += v.wx; } r = v;",
+            [10., 3., 6., 10.],
+        ),
+        case(
+            "vec2 a = vec2(1, 2), b = a; if (I == 0) { b = a.yx; a = b + 1.0; } else b = vec2(9); r = vec4(a, b);",
+            [3., 2., 2., 1.],
+        ),
+        case(
+            "mat3x2 m; for (int i = 0; i < I + 2; i++) { m[2].yx += vec2(i, 1); m[i] = m[2]; } r = vec4(m[0].x, m[1], m[2].y);",
+            [1., 2., 1., 1.],
+        ),
+        case(
+            "bvec3 b = bvec3(true); uvec2 u = uvec2(7, 8); for (int i = 0; i < I + 2; i++) { b.y = !b.y; b.z = i > 0 && b.y; u = u.yx + 1u; }\n\
+             r = vec4(b, u.y);",
+            [1., 1., 1., 10.],
+        ),
+        with(
+            STATE,
+            "T t; t.s.b = 3.0; t.t = t.s; t.t.c.y = I + 4; t.m[1].y = t.t.b; T u = t; for (int i = 0; i < I + 2; i++) u.s.a += u.m[1];\n\
+             S s = u.t; r = vec4(s.b, s.c, u.s.a.y);",
+            [3., 0., 4., 6.],
+        ),
+        with(
+            STATE,
+            "vec3 v = vec3(1, 2, 3); mat2 m = mat2(9); both(v, m); vec3 w = v; both(v, m); r = vec4(v, m[1].x + m[0].x + w[I]);",
+            [2., 4., 2., 5.],
+        ),
+        case("vec3 v = vec3(1, 2, 3); if (I == 0) v[I + 1] = 5.0; v.z += v[I + 1]; r = v.xyzz;", [1., 5., 8., 8.]),
+    ]);
+}
