@@ -6,7 +6,7 @@ mod support;
 
 use compute::*;
 use eddy::glsl::{ChannelKind, Compiled, Driver, PassKind, PassSource, Text};
-use naga::TypeInner;
+use naga::{AddressSpace, Block, Expression, Function, Statement, TypeInner};
 
 /// The module of an Image pass.
 fn compiled(code: &str, driver: Driver) -> Compiled {
@@ -94,4 +94,42 @@ fn variables_hold_what_was_written() {
         ),
         case("vec3 v = vec3(1, 2, 3); if (I == 0) v[I + 1] = 5.0; v.z += v[I + 1]; r = v.xyzz;", [1., 5., 8., 8.]),
     ]);
+}
+
+/// How often a block loads from a uniform block, within loops alone or everywhere.
+fn uniform_loads(compiled: &Compiled, f: &Function, block: &Block, everywhere: bool) -> usize {
+    let is_uniform = |mut pointer| {
+        while let Expression::AccessIndex { base, .. } | Expression::Access { base, .. } = f.expressions[pointer] {
+            pointer = base;
+        }
+        matches!(f.expressions[pointer], Expression::GlobalVariable(v)
+            if compiled.module.global_variables[v].space == AddressSpace::Uniform)
+    };
+    let within = |block: &Block, everywhere| uniform_loads(compiled, f, block, everywhere);
+    let loads = block.iter().map(|statement| match statement {
+        Statement::Emit(range) if everywhere => range
+            .clone()
+            .filter(|&e| matches!(f.expressions[e], Expression::Load { pointer } if is_uniform(pointer)))
+            .count(),
+        Statement::Loop { body, continuing, .. } => within(body, true) + within(continuing, true),
+        Statement::If { accept, reject, .. } => within(accept, everywhere) + within(reject, everywhere),
+        _ => 0,
+    });
+    loads.sum()
+}
+
+/// A driver that compiles anew for uniforms must not see through them. What hides them is work in every round of a loop.
+#[test]
+fn hidden_uniforms_are_read_before_loops() {
+    let driver = Driver { opaque_uniforms: true, ..Driver::default() };
+    let compiled = compiled(
+        "void mainImage(out vec4 o, vec2 p) {\n\
+             o = vec4(0); for (int i = 0; i < int(p.x); i++) { o.x += iTime; if (o.x > 9.0) o.yz += iResolution.xy * iTime; }\n\
+         }",
+        driver,
+    );
+    let (_, f) = compiled.module.functions.iter().next().expect("a function");
+    assert_eq!(uniform_loads(&compiled, f, &f.body, false), 0);
+    // Time, and the resolution as a whole.
+    assert_eq!(uniform_loads(&compiled, f, &f.body, true), 2);
 }

@@ -1,5 +1,7 @@
 //! The body of one function under construction: expressions, blocks, what each local stands for.
 
+use std::collections::HashMap;
+
 use naga::{Block, Expression, FunctionArgument, FunctionResult, Handle, LocalVariable, Range, Span, Statement};
 
 use super::{Instance, Lowering, Map, calls::Given, consts, inline::Leaving, scalars, split::split};
@@ -48,6 +50,10 @@ pub(super) struct Builder<'m, 'a> {
     pub cx: &'m mut Lowering<'a>,
     pub f: naga::Function,
     block: Block,
+    /// What comes before all else; `None` in the code around the entry point, which has an order of its own.
+    start: Option<Block>,
+    /// Uniforms that were read there: pointer to the block, members and indices that lead to what was read.
+    pub uniforms: HashMap<(Value, Vec<u32>), Value>,
     /// First and last expression not yet emitted.
     unemitted: Option<(Value, Value)>,
     /// Control cannot reach the end of the block: nothing more belongs into it.
@@ -107,6 +113,7 @@ pub(super) fn lower(cx: &mut Lowering<'_>, instance: &Instance) -> naga::Functio
     let hir = cx.hir;
     let function = &hir[instance.func];
     let mut builder = Builder::new(cx, function.locals.start as usize, function.locals.len());
+    builder.start = Some(Block::new());
     builder.result = function.result;
     builder.func = Some(instance.func);
     builder.given = instance.given.clone();
@@ -135,6 +142,8 @@ impl<'m, 'a> Builder<'m, 'a> {
             cx,
             f: naga::Function::default(),
             block: Block::new(),
+            start: None,
+            uniforms: HashMap::new(),
             unemitted: None,
             ended: false,
             first_local,
@@ -171,7 +180,9 @@ impl<'m, 'a> Builder<'m, 'a> {
 
     pub fn finish(mut self) -> naga::Function {
         self.emit();
-        self.f.body = self.block;
+        let mut body = self.start.unwrap_or_default();
+        body.append(&mut self.block);
+        self.f.body = body;
         split(&mut self.f, &mut self.cx.out.types);
         self.f
     }
@@ -372,6 +383,22 @@ impl<'m, 'a> Builder<'m, 'a> {
             self.made_in_order.push(key);
         }
         value
+    }
+
+    /// What `make` computes, before all else that the function does; `None` in the code around the entry point.
+    pub fn at_start(&mut self, make: impl FnOnce(&mut Self) -> Value) -> Option<Value> {
+        self.emit();
+        let start = self.start.take()?;
+        let block = std::mem::replace(&mut self.block, start);
+        // What is known here is not known there, nor the other way round.
+        let made = (std::mem::take(&mut self.made), std::mem::take(&mut self.made_in_order));
+        let loaded = (std::mem::take(&mut self.loaded), std::mem::take(&mut self.loaded_in_order));
+        let value = make(self);
+        self.emit();
+        (self.made, self.made_in_order) = made;
+        (self.loaded, self.loaded_in_order) = loaded;
+        self.start = Some(std::mem::replace(&mut self.block, block));
+        Some(value)
     }
 
     /// An expression that is there from the start of the function.

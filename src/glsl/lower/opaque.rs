@@ -59,11 +59,37 @@ impl Builder<'_, '_> {
     }
 
     /// Reads a value of type `ty` from a uniform block: so that the driver takes it for a value of the pixel, where
-    /// [`opaque_uniforms`](crate::glsl::Driver::opaque_uniforms) asks for that.
+    /// [`opaque_uniforms`](crate::glsl::Driver::opaque_uniforms) asks for that. Then it is read once, before all else: an
+    /// operation more in a loop or branch can be what keeps the driver from writing it out, or from making it a select.
     pub fn load_uniform(&mut self, pointer: Value, ty: TypeId) -> Value {
         if !self.cx.source.driver.opaque_uniforms {
             return self.load(pointer);
         }
+        let Some(path) = self.constant_path(pointer) else { return self.load_hidden(pointer, ty) };
+        if let Some(&value) = self.uniforms.get(&path) {
+            return value;
+        }
+        let at_start = self.at_start(|b| {
+            let pointer = path.1.iter().fold(path.0, |base, &index| b.add(Expression::AccessIndex { base, index }));
+            b.load_hidden(pointer, ty)
+        });
+        let Some(value) = at_start else { return self.load_hidden(pointer, ty) };
+        self.uniforms.insert(path, value);
+        value
+    }
+
+    /// The module-scope variable that constant members and indices lead from to what a pointer points to, and these.
+    fn constant_path(&self, mut pointer: Value) -> Option<(Value, Vec<u32>)> {
+        let mut path = Vec::new();
+        while let Expression::AccessIndex { base, index } = self.f.expressions[pointer] {
+            path.push(index);
+            pointer = base;
+        }
+        path.reverse();
+        matches!(self.f.expressions[pointer], Expression::GlobalVariable(_)).then_some((pointer, path))
+    }
+
+    fn load_hidden(&mut self, pointer: Value, ty: TypeId) -> Value {
         let part = match self.cx.hir.types.get(ty) {
             Type::Array { element, .. } => element,
             Type::Matrix { rows, .. } => TypeId::vector(Scalar::Float, rows),
@@ -74,7 +100,7 @@ impl Builder<'_, '_> {
         };
         let parts = (0..self.extent(ty)).map(|index| {
             let pointer = self.add(Expression::AccessIndex { base: pointer, index });
-            self.load_uniform(pointer, part)
+            self.load_hidden(pointer, part)
         });
         let parts = parts.collect();
         self.compose(ty, parts)
