@@ -1,4 +1,4 @@
-//! Variables that code writes: taken apart into scalars, and what they hold all the same.
+//! Variables that code writes: taken apart into scalars, free of zeros that nobody reads, and what they hold all the same.
 
 #[path = "support/compute.rs"]
 mod compute;
@@ -94,6 +94,37 @@ fn variables_hold_what_was_written() {
         ),
         case("vec3 v = vec3(1, 2, 3); if (I == 0) v[I + 1] = 5.0; v.z += v[I + 1]; r = v.xyzz;", [1., 5., 8., 8.]),
     ]);
+}
+
+/// Memory that each call fills is there once, and begins with zeros once.
+#[test]
+fn what_is_filled_before_it_is_read_needs_no_zeros() {
+    for (body, expected) in [
+        ("mat2 m = mat2(p, p.yx); x = m[i].y;", 0),
+        ("x = mat2(p, p.yx)[i].y;", 0),
+        ("x = element(float[](p.x, p.y, 3.0), i);", 0),
+        ("for (int k = 0; k < i; k++) { float a[2] = float[](x, p.y); a[k] += 1.0; x += a[k & 1]; }", 0),
+        // Some zero is read, or would be if things went another way.
+        ("float a[2]; a[i] = p.x; x = a[i + 1];", 1),
+        ("float a[2]; if (i > 1) a = float[](p.x, p.y); x = a[i];", 1),
+        ("float a[2]; while (x < 9.0) { x += a[i] + 1.0; a = float[](p.x, p.y); }", 1),
+    ] {
+        let code = format!(
+            "float element(float a[3], int i) {{ return a[i]; }}\n\
+             float f(vec2 p, int i) {{ float x = p.x; {body} if (i > 7) discard; return x; }}\n\
+             void mainImage(out vec4 o, vec2 p) {{ o = vec4(f(p, int(p.y)), f(p, 1), 0, 1); }}"
+        );
+        let compiled = compiled(&code, Driver::default());
+        assert_eq!(variables(&compiled).1, expected, "{body}");
+        let private = compiled.module.global_variables.iter().filter(|(_, v)| v.space == AddressSpace::Private);
+        assert_eq!(private.count(), 1 - expected, "{body}");
+    }
+    check(&[with(
+        "float f(float x, int i) { if (i > 7) discard; float a[2]; if (i > 0) a = float[](x, 2.0); return a[i & 1]; }\n\
+         float g(float x, int i) { if (i > 7) discard; float a[2] = float[](x, 2.0); a[i] += 1.0; return a[i] + f(a[i], i + 1); }",
+        "r = vec4(f(5.0, I + 2), f(5.0, I), g(1.0, I), g(3.0, I + 1));",
+        [5., 0., 4., 6.],
+    )]);
 }
 
 /// How often a block loads from a uniform block, within loops alone or everywhere.

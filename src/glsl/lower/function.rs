@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use naga::{Block, Expression, FunctionArgument, FunctionResult, Handle, LocalVariable, Range, Span, Statement};
 
-use super::{Instance, Lowering, Map, calls::Given, consts, inline::Leaving, scalars, split::split};
+use super::{Instance, Lowering, Map, calls::Given, consts, filled, inline::Leaving, scalars, split::split};
 use crate::glsl::{
     ast::List,
     hir::{ConstId, ExprId, FuncId, LocalId, LocalKind, Scalar, Type, TypeId, VarFlags},
@@ -180,9 +180,13 @@ impl<'m, 'a> Builder<'m, 'a> {
 
     pub fn finish(mut self) -> naga::Function {
         self.emit();
+        let is_called = self.start.is_some();
         let mut body = self.start.unwrap_or_default();
         body.append(&mut self.block);
         self.f.body = body;
+        if is_called {
+            filled::make_global(&mut self.f, self.cx);
+        }
         split(&mut self.f, &mut self.cx.out.types);
         self.f
     }

@@ -8,7 +8,7 @@
 //! - Only what the entry point reaches is lowered ([`reach`]). A branch whose condition is a literal is not reached.
 //! - A variable nobody writes is a value, not memory. All others are `LocalVariable`s or private globals; what they hold is known
 //!   until they are written, within straight code and into branches ([`memory`]). At last what is no array becomes scalars
-//!   ([`split`]).
+//!   ([`split`]), and arrays that each call fills become global ([`filled`]).
 //! - Small functions become part of their callers ([`inline`]). Others have one copy for each combination of channels, globals
 //!   and tables that stand for parameters they only read ([`calls`]).
 //! - A constant table that is indexed at run time lives in a buffer ([`tables`]); a small one once in a private global
@@ -27,6 +27,7 @@ mod convert;
 mod cost;
 mod entry;
 mod expr;
+mod filled;
 mod flow;
 mod function;
 mod geometry;
