@@ -315,3 +315,40 @@ fn loops_keep_what_they_do_not_write() {
         assert!(rounds(LENS, written) > bare, "{written}");
     }
 }
+
+/// `for (float x = 0.; x < 4.; x++)` keeps `int(x)` between the literals.
+#[test]
+fn floats_that_a_loop_counts_need_no_clamp() {
+    let clamps = |head: &str| {
+        bounds(&compiled(&format!(
+            "void mainImage(out vec4 o, vec2 p) {{ float a[4] = float[](p.x, p.y, 3., 4.); float s;\n\
+             for ({head}) s += a[int(x)]; o = vec4(s); }}"
+        )))
+    };
+    for head in [
+        "float x = 0.; x < 4.; x++",
+        "float x = 0.5; x <= 3.9; x += 0.1",
+        "float x = 0.; x < 3.5; x += 1.",
+        "float x = 3.; x > -1.; x -= 1.",
+        "float x = 3.9; x >= 0.; --x",
+    ] {
+        assert_eq!(clamps(head), (0, 0), "{head}");
+    }
+    for head in [
+        "float x = 0.; x <= 4.; x++",
+        "float x = -1.; x < 4.; x++",
+        "float x = 0.; x < 4.; x += p.x",
+        "float x = p.x; x < 4.; x++",
+        "float x = 0.; x < p.x; x++",
+        "float x = 0.; x < 4.; x--",
+        "float x = 3.; x > -2.; x--",
+        "float x = 4.; x > 0.; x--",
+    ] {
+        assert_ne!(clamps(head), (0, 0), "{head}");
+    }
+    check(&[case(
+        "float a[4] = float[](1.0, 2.0, 4.0, 8.0 + Z); r = vec4(0); for (float x = 0.; x < 4.; x++) r.x += a[int(x)];\n\
+         for (float x = 3.; x > -1.; x -= 1.) r.y = r.y * 2.0 + a[int(x)]; for (float x = 0.; x <= 5.; x += 1.) r.z += a[int(x)];",
+        [15., 85., 31., 0.],
+    )]);
+}

@@ -129,6 +129,7 @@ impl Builder<'_, '_> {
             return;
         }
         let counter = test.and_then(|test| self.counter(init, test, step));
+        let float_counter = test.and_then(|test| self.float_counter(init, test, step));
         let rounds = counter.map(|(_, (least, greatest))| greatest - least);
         // Drivers analyse a loop whose step ends the body more readily than one with a `continuing` part that several places
         // jump to; a short step is repeated before each `continue` instead, as their own GLSL compilers do.
@@ -141,7 +142,7 @@ impl Builder<'_, '_> {
                 leave.push(Statement::Break, Span::UNDEFINED);
                 b.push(Statement::If { condition, accept: Block::new(), reject: leave });
             }
-            let outer = counter.map(|(local, range)| (local, b.known.insert(local, range)));
+            let outer = counter.or(float_counter).map(|(local, range)| (local, b.known.insert(local, range)));
             b.loops.push(Loop { step: repeated });
             b.breakable += 1;
             b.statements(body);

@@ -66,6 +66,10 @@ impl Builder<'_, '_> {
             ExprKind::Convert(of) => match hir.types.scalar(hir[of].ty) {
                 Some(Scalar::Bool) => Some((0, 1)),
                 Some(Scalar::Int | Scalar::Uint) => fits(self.range_within(of, depth)?),
+                Some(Scalar::Float) => match hir[of].kind {
+                    ExprKind::Local(local) => fits(self.known.get(&(local.index() as u32)).copied()?),
+                    _ => None,
+                },
                 _ => None,
             },
             ExprKind::Binary { op, shape: Shape::Same, lhs, rhs } => {
@@ -143,6 +147,46 @@ impl Builder<'_, '_> {
             }
             _ => None,
         }?;
+        Some((local.index() as u32, bounds))
+    }
+
+    /// For `for (float x = 0.0; x < 9.0; x += 1.0)` whose `x` is written by the step alone, all of it literals: `x` and the bounds
+    /// of `int(x)` in the body.
+    pub fn float_counter(&self, init: List<StmtId>, test: ExprId, step: Option<ExprId>) -> Option<(u32, Bounds)> {
+        let hir = self.cx.hir;
+        let ExprKind::Binary { op, shape: Shape::Same, lhs, rhs } = hir[test].kind else { return None };
+        let ExprKind::Local(local) = hir[lhs].kind else { return None };
+        let float = |expr: ExprId| match hir[expr].kind {
+            ExprKind::Literal(bits) if hir[expr].ty == TypeId::FLOAT => Some(f32::from_bits(bits)),
+            _ => None,
+        };
+        if hir[local].ty != TypeId::FLOAT || self.cx.writes[local.index()] != 1 {
+            return None;
+        }
+        let start = hir[init].iter().find_map(|&stmt| match hir[stmt].kind {
+            StmtKind::Declare { local: declared, init: Some(init) } if declared == local => float(init),
+            _ => None,
+        })?;
+        let is_local = |place: ExprId| matches!(hir[place].kind, ExprKind::Local(found) if found == local);
+        let by = match hir[step?].kind {
+            ExprKind::IncDec { op: IncDec::PreIncrement | IncDec::PostIncrement, place } if is_local(place) => 1.0,
+            ExprKind::IncDec { op: IncDec::PreDecrement | IncDec::PostDecrement, place } if is_local(place) => -1.0,
+            ExprKind::AssignOp { op: BinaryOp::Add, place, value, .. } if is_local(place) => float(value)?,
+            ExprKind::AssignOp { op: BinaryOp::Sub, place, value, .. } if is_local(place) => -float(value)?,
+            _ => return None,
+        };
+        let bound = float(rhs)?;
+        // `int` cuts off towards zero. Sums are rounded, but never to the other side of where they began.
+        let (first, last) = (start as i64, bound as i64);
+        let before = i64::from(bound.fract() == 0.0);
+        let bounds = match op {
+            BinaryOp::LessEqual if by >= 0.0 => (first, last),
+            BinaryOp::Less if by >= 0.0 && bound > 0.0 => (first, last - before),
+            BinaryOp::GreaterEqual if by <= 0.0 => (last, first),
+            BinaryOp::Greater if by <= 0.0 && bound < 0.0 => (last + before, first),
+            BinaryOp::Greater if by <= 0.0 => (last, first),
+            _ => return None,
+        };
         Some((local.index() as u32, bounds))
     }
 
