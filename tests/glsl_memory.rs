@@ -334,6 +334,14 @@ fn floats_that_a_loop_counts_need_no_clamp() {
     ] {
         assert_eq!(clamps(head), (0, 0), "{head}");
     }
+    let named = compiled(
+        "const int order = clamp(9, 1, 30); const float n = float(order - 1); float A[order], B[order];\n\
+         void fill(inout float a[order], inout float b[order], vec2 p) {\n\
+             for (float x = 0.; x <= n; x += 1.) { a[int(x)] = p.x * x; b[int(x)] = a[int(x)] + p.y; }\n\
+         }\n\
+         void mainImage(out vec4 o, vec2 p) { fill(A, B, p); o = vec4(A[0] + B[8]); }",
+    );
+    assert_eq!(bounds(&named), (0, 0));
     for head in [
         "float x = 0.; x <= 4.; x++",
         "float x = -1.; x < 4.; x++",

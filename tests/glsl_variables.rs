@@ -164,3 +164,23 @@ fn hidden_uniforms_are_read_before_loops() {
     // Time, and the resolution as a whole.
     assert_eq!(uniform_loads(&compiled, f, &f.body, true), 2);
 }
+
+/// Section 4.1 leaves open what a variable begins with, WebGL says zero: constants join with that as with any other.
+#[test]
+fn what_begins_as_zero_is_known() {
+    let sums = |code: &str| {
+        let compiled = compiled(&format!("void mainImage(out vec4 o, vec2 p) {{ {code} }}"), Driver::default());
+        let is_sum = |e: &Expression| matches!(e, Expression::Binary { op: naga::BinaryOperator::Add, .. });
+        compiled
+            .module
+            .functions
+            .iter()
+            .map(|(_, f)| f.expressions.iter().filter(|(_, e)| is_sum(e)).count())
+            .sum::<usize>()
+    };
+    assert_eq!(
+        sums("float z; vec2 v; mat2 m; o = vec4(p.x + z, p.y + v.y, v + p); z += p.x; v.x = 1.0; m[0].x = 1.0;"),
+        0
+    );
+    assert_eq!(sums("float z; z += 0.5; o = vec4(p.x + z);"), 1);
+}

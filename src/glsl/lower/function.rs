@@ -512,6 +512,9 @@ impl<'m, 'a> Builder<'m, 'a> {
     }
 
     pub fn zero(&mut self, ty: TypeId) -> Value {
+        if ty == TypeId::FLOAT {
+            return self.float(0.0);
+        }
         let ty = self.cx.ty(ty);
         if let Some(&value) = self.zeros.get(&ty) {
             return value;

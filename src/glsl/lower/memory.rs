@@ -25,6 +25,11 @@ impl Builder<'_, '_> {
         if let Some(&value) = known.and_then(|parts| parts.get(&pointer)) {
             return value;
         }
+        if let Expression::AccessIndex { base, index } = self.f.expressions[pointer]
+            && let Some(&whole) = known.and_then(|parts| parts.get(&base))
+        {
+            return self.add(Expression::AccessIndex { base: whole, index });
+        }
         let members: Vec<(u32, Value)> = known.map_or_else(Vec::new, |parts| {
             let member = |(&part, &value): (&Value, &Value)| match self.f.expressions[part] {
                 Expression::AccessIndex { base, index } if base == pointer => Some((index, value)),

@@ -179,6 +179,12 @@ impl Builder<'_, '_> {
                     Some(self.float(number))
                 }
             },
+            Expression::ZeroValue(ty) => match self.cx.out.types[ty].inner {
+                TypeInner::Vector { scalar: naga::Scalar { kind: naga::ScalarKind::Float, .. }, .. } => {
+                    Some(self.float(0.0))
+                }
+                _ => None,
+            },
             Expression::Load { .. } => self.members.get(&(base, index)).copied(),
             _ => None,
         }
