@@ -7,10 +7,10 @@
 //! What the generated code looks like, and why:
 //! - Only what the entry point reaches is lowered ([`reach`]). A branch whose condition is a literal is not reached.
 //! - A variable nobody writes is a value, not memory. All others are `LocalVariable`s or private globals; what they hold is known
-//!   until they are written, within straight code and into branches ([`memory`]). At last what is no array becomes scalars
+//!   until they are written, into branches, and into loops that do not write them ([`memory`]). At last what is no array becomes scalars
 //!   ([`split`]), and arrays that each call fills become global ([`filled`]).
-//! - Small functions become part of their callers ([`inline`]). Others have one copy for each combination of channels, globals
-//!   and tables that stand for parameters they only read ([`calls`]).
+//! - Small functions, and those called at one place, become part of their callers ([`inline`]). Others have one copy for each
+//!   combination of channels, globals and tables that stand for parameters they only read ([`calls`]).
 //! - A constant table that is indexed at run time lives in a buffer ([`tables`]); a small one once in a private global
 //!   with an initialiser: naga's SPIR-V writer would otherwise copy the whole table to the stack at each access.
 //! - Every index that is not provably in range is clamped here, as WebGL does; the modules need no bounds checks from naga.
