@@ -2,12 +2,16 @@
 
 use std::collections::HashMap;
 
-use naga::{Block, Expression, FunctionArgument, FunctionResult, Handle, LocalVariable, Range, Span, Statement};
+mod blocks;
+mod constants;
+mod variables;
 
-use super::{Instance, Lowering, Map, calls::Given, consts, filled, inline::Leaving, scalars, split::split};
+use naga::{Block, Expression, FunctionArgument, FunctionResult, Handle, Span, Statement};
+
+use super::{Instance, Lowering, Map, calls::Given, filled, inline::Leaving, scalars, split::split};
 use crate::glsl::{
     ast::List,
-    hir::{ConstId, ExprId, FuncId, LocalId, LocalKind, Scalar, Type, TypeId, VarFlags},
+    hir::{ConstId, ExprId, FuncId, LocalId, LocalKind, TypeId},
 };
 
 /// An expression of the function being built.
@@ -257,106 +261,6 @@ impl<'m, 'a> Builder<'m, 'a> {
         } = outer;
     }
 
-    // ------------------------------------------------------------------------------------------------- variables
-
-    pub fn slot(&self, local: LocalId) -> Slot {
-        self.slots[local.index() - self.first_local]
-    }
-
-    pub fn set_slot(&mut self, local: LocalId, slot: Slot) {
-        self.slots[local.index() - self.first_local] = slot;
-    }
-
-    /// Makes a local memory whatever is done to it.
-    pub fn force_memory(&mut self, local: LocalId) {
-        self.forced[local.index() - self.first_local] = true;
-    }
-
-    /// Whether it is memory whatever is done to it.
-    pub fn is_forced(&self, local: LocalId) -> bool {
-        self.forced[local.index() - self.first_local]
-    }
-
-    /// Gives a local its first value.
-    pub fn declare(&mut self, local: LocalId, value: Value) {
-        if self.needs_memory(local) {
-            let pointer = self.memory(local);
-            self.store(pointer, value);
-        } else {
-            self.name(value);
-            if self.cx.uses[local.index()] > 1 {
-                self.shared.insert(value);
-                if let Expression::Compose { components, .. } = &self.f.expressions[value] {
-                    self.shared.extend(components);
-                }
-            }
-            self.set_slot(local, Slot::Value(value));
-        }
-    }
-
-    /// Notes that a variable stands for a value and its components.
-    pub fn name(&mut self, value: Value) {
-        self.named.insert(value);
-        if let Expression::Compose { components, .. } = &self.f.expressions[value] {
-            self.named.extend(components);
-        }
-    }
-
-    /// Whether a variable stands for a value: then it may be used more than once.
-    pub fn is_named(&self, value: Value) -> bool {
-        self.named.contains(&value)
-    }
-
-    /// Whether a value is a variable to OpenGL's compilers, however it was computed: they join constants of one expression, which
-    /// ends at branches, at the components of a vector, and where something is written to memory.
-    pub fn is_apart(&self, value: Value) -> bool {
-        value.index() < self.run
-            || self.constructed.contains(&value)
-            || (value.index() < self.choice && (self.is_named(value) || self.returned.contains(&value)))
-    }
-
-    /// Whether a value is the result of an operation, and no variable, argument or part of one.
-    pub fn is_computed(&self, value: Value) -> bool {
-        use Expression as E;
-        match self.f.expressions[value] {
-            E::Swizzle { vector: of, .. } | E::AccessIndex { base: of, .. } => self.is_computed(of),
-            E::Binary { .. }
-            | E::Unary { .. }
-            | E::Math { .. }
-            | E::Select { .. }
-            | E::As { .. }
-            | E::CallResult(_) => true,
-            _ => self.by_component.contains(&value),
-        }
-    }
-
-    /// Whether a local is written, or indexed in a way values cannot be.
-    pub fn needs_memory(&self, local: LocalId) -> bool {
-        let declared = self.cx.hir[local];
-        declared.flags.contains(VarFlags::WRITTEN)
-            || self.is_forced(local)
-            || (self.cx.arguments.is_indexed(self.cx.hir, local) && !self.is_vector_or_scalar(declared.ty))
-    }
-
-    /// The pointer to a local that is memory.
-    pub fn memory(&mut self, local: LocalId) -> Value {
-        if let Slot::Memory(pointer) = self.slot(local) {
-            return pointer;
-        }
-        let pointer = self.temporary(self.cx.hir[local].ty);
-        self.set_slot(local, Slot::Memory(pointer));
-        pointer
-    }
-
-    /// A new variable of this function.
-    pub fn temporary(&mut self, ty: TypeId) -> Value {
-        let ty = self.cx.ty(ty);
-        let variable = self.f.local_variables.append(LocalVariable { name: None, ty, init: None }, Span::UNDEFINED);
-        self.given(Expression::LocalVariable(variable))
-    }
-
-    // ----------------------------------------------------------------------------------------------- expressions
-
     /// An expression to be computed here, if it was not yet.
     pub fn add(&mut self, expression: Expression) -> Value {
         if let Expression::AccessIndex { base, index } = expression
@@ -416,169 +320,5 @@ impl<'m, 'a> Builder<'m, 'a> {
     pub fn computed_elsewhere(&mut self, expression: Expression) -> Value {
         self.emit();
         self.f.expressions.append(expression, Span::UNDEFINED)
-    }
-
-    fn emit(&mut self) {
-        if let Some((first, last)) = self.unemitted.take() {
-            self.block.push(Statement::Emit(Range::new_from_bounds(first, last)), Span::UNDEFINED);
-        }
-    }
-
-    pub fn push(&mut self, statement: Statement) {
-        self.emit();
-        match &statement {
-            Statement::Store { pointer, .. } => self.forget(*pointer),
-            Statement::Call { arguments, .. } => {
-                let globals = self.globals.values().copied();
-                for pointer in arguments.iter().copied().chain(globals).collect::<Vec<_>>() {
-                    self.forget(pointer);
-                }
-                self.run = self.f.expressions.len();
-            }
-            Statement::If { .. } | Statement::Loop { .. } | Statement::Switch { .. } => {
-                self.run = self.f.expressions.len();
-            }
-            _ => {}
-        }
-        self.ended =
-            matches!(statement, Statement::Break | Statement::Continue | Statement::Return { .. } | Statement::Kill);
-        self.block.push(statement, Span::UNDEFINED);
-    }
-
-    /// A nested block, filled by `fill`, before which nothing is known of memory. Tells also whether its end can not be reached.
-    pub fn nested(&mut self, fill: impl FnOnce(&mut Self)) -> (Block, bool) {
-        let mut loaded = std::mem::take(&mut self.loaded);
-        let before = self.loaded_in_order.len();
-        let written = std::mem::take(&mut self.written);
-        let made = self.block_of(fill);
-        self.loaded_in_order.truncate(before);
-        loaded.retain(|variable, _| !self.written.contains(variable));
-        self.loaded = loaded;
-        self.written.extend(written);
-        made
-    }
-
-    /// A nested block where what was known before it still holds: a branch, or a loop's body after
-    /// [`Builder::forget_written`].
-    pub fn branch_block(&mut self, fill: impl FnOnce(&mut Self)) -> (Block, bool) {
-        let before = self.loaded_in_order.len();
-        let made = self.block_of(fill);
-        // What was written in it is forgotten already.
-        for (variable, pointer) in self.loaded_in_order.drain(before..) {
-            if let Some(parts) = self.loaded.get_mut(&variable) {
-                parts.remove(&pointer);
-            }
-        }
-        made
-    }
-
-    fn block_of(&mut self, fill: impl FnOnce(&mut Self)) -> (Block, bool) {
-        self.emit();
-        let outer = std::mem::take(&mut self.block);
-        let outer_ended = std::mem::take(&mut self.ended);
-        let made = self.made_in_order.len();
-        self.run = self.f.expressions.len();
-        fill(self);
-        self.emit();
-        for key in self.made_in_order.drain(made..) {
-            self.made.remove(&key);
-        }
-        let ended = std::mem::replace(&mut self.ended, outer_ended);
-        (std::mem::replace(&mut self.block, outer), ended)
-    }
-
-    /// A scalar constant, bit for bit.
-    pub fn literal(&mut self, scalar: Scalar, bits: u32) -> Value {
-        let key = (scalar as u8, bits);
-        if let Some(&value) = self.literals.get(&key) {
-            return value;
-        }
-        match consts::literal(scalar, bits) {
-            Some(literal) => {
-                let value = self.given(Expression::Literal(literal));
-                self.literals.insert(key, value);
-                value
-            }
-            // Not kept: it is computed in the block at hand.
-            None => {
-                let bits = self.literal(Scalar::Uint, bits);
-                self.add(Expression::As { expr: bits, kind: naga::ScalarKind::Float, convert: None })
-            }
-        }
-    }
-
-    pub fn float(&mut self, value: f32) -> Value {
-        self.literal(Scalar::Float, value.to_bits())
-    }
-
-    pub fn zero(&mut self, ty: TypeId) -> Value {
-        if ty == TypeId::FLOAT {
-            return self.float(0.0);
-        }
-        let ty = self.cx.ty(ty);
-        if let Some(&value) = self.zeros.get(&ty) {
-            return value;
-        }
-        let value = self.given(Expression::ZeroValue(ty));
-        self.zeros.insert(ty, value);
-        value
-    }
-
-    /// A folded composite.
-    pub fn constant(&mut self, id: ConstId) -> Value {
-        let key = id.index() as u32;
-        if let Some(&value) = self.constants.get(&key) {
-            return value;
-        }
-        match self.cx.constant(id) {
-            Some(constant) => {
-                let value = self.given(Expression::Constant(constant));
-                self.constants.insert(key, value);
-                value
-            }
-            None => {
-                let hir = self.cx.hir;
-                let constant = hir[id];
-                self.value_of_words(constant.ty, &mut hir[constant.words].iter().copied())
-            }
-        }
-    }
-
-    fn value_of_words(&mut self, ty: TypeId, words: &mut dyn Iterator<Item = u32>) -> Value {
-        let hir = self.cx.hir;
-        let parts = match hir.types.get(ty) {
-            Type::Scalar(scalar) => return self.literal(scalar, words.next().expect("as many words as scalars")),
-            Type::Struct(id) => hir[hir[id].members].iter().map(|m| self.value_of_words(m.ty, words)).collect(),
-            Type::Array { element, len } => (0..len).map(|_| self.value_of_words(element, words)).collect(),
-            Type::Matrix { columns, rows } => {
-                let column = TypeId::vector(Scalar::Float, rows);
-                (0..columns).map(|_| self.value_of_words(column, words)).collect()
-            }
-            Type::Vector { scalar, size } => {
-                let scalar = TypeId::vector(scalar, 1);
-                (0..size).map(|_| self.value_of_words(scalar, words)).collect()
-            }
-            other => unreachable!("{other:?} is no type of a value"),
-        };
-        self.compose(ty, parts)
-    }
-
-    pub fn compose(&mut self, ty: TypeId, components: Vec<Value>) -> Value {
-        let ty = self.cx.ty(ty);
-        self.add(Expression::Compose { ty, components })
-    }
-
-    /// The pointer to (or handle of) a module-scope variable.
-    pub fn global(&mut self, global: Handle<naga::GlobalVariable>) -> Value {
-        if let Some(&value) = self.globals.get(&global) {
-            return value;
-        }
-        let value = self.given(Expression::GlobalVariable(global));
-        self.globals.insert(global, value);
-        value
-    }
-
-    pub fn is_vector_or_scalar(&self, ty: TypeId) -> bool {
-        matches!(self.cx.hir.types.get(ty), Type::Scalar(_) | Type::Vector { .. })
     }
 }

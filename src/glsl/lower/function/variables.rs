@@ -1,0 +1,108 @@
+//! Locals: what each stands for, and what is known of where values come from.
+
+use naga::{Expression, LocalVariable, Span};
+
+use super::{Builder, Slot, Value};
+use crate::glsl::hir::{LocalId, Type, TypeId, VarFlags};
+
+impl Builder<'_, '_> {
+    pub fn slot(&self, local: LocalId) -> Slot {
+        self.slots[local.index() - self.first_local]
+    }
+
+    pub fn set_slot(&mut self, local: LocalId, slot: Slot) {
+        self.slots[local.index() - self.first_local] = slot;
+    }
+
+    /// Makes a local memory whatever is done to it.
+    pub fn force_memory(&mut self, local: LocalId) {
+        self.forced[local.index() - self.first_local] = true;
+    }
+
+    /// Whether it is memory whatever is done to it.
+    pub fn is_forced(&self, local: LocalId) -> bool {
+        self.forced[local.index() - self.first_local]
+    }
+
+    /// Gives a local its first value.
+    pub fn declare(&mut self, local: LocalId, value: Value) {
+        if self.needs_memory(local) {
+            let pointer = self.memory(local);
+            self.store(pointer, value);
+        } else {
+            self.name(value);
+            if self.cx.uses[local.index()] > 1 {
+                self.shared.insert(value);
+                if let Expression::Compose { components, .. } = &self.f.expressions[value] {
+                    self.shared.extend(components);
+                }
+            }
+            self.set_slot(local, Slot::Value(value));
+        }
+    }
+
+    /// Notes that a variable stands for a value and its components.
+    pub fn name(&mut self, value: Value) {
+        self.named.insert(value);
+        if let Expression::Compose { components, .. } = &self.f.expressions[value] {
+            self.named.extend(components);
+        }
+    }
+
+    /// Whether a variable stands for a value: then it may be used more than once.
+    pub fn is_named(&self, value: Value) -> bool {
+        self.named.contains(&value)
+    }
+
+    /// Whether a value is a variable to OpenGL's compilers, however it was computed: they join constants of one expression, which
+    /// ends at branches, at the components of a vector, and where something is written to memory.
+    pub fn is_apart(&self, value: Value) -> bool {
+        value.index() < self.run
+            || self.constructed.contains(&value)
+            || (value.index() < self.choice && (self.is_named(value) || self.returned.contains(&value)))
+    }
+
+    /// Whether a value is the result of an operation, and no variable, argument or part of one.
+    pub fn is_computed(&self, value: Value) -> bool {
+        use Expression as E;
+        match self.f.expressions[value] {
+            E::Swizzle { vector: of, .. } | E::AccessIndex { base: of, .. } => self.is_computed(of),
+            E::Binary { .. }
+            | E::Unary { .. }
+            | E::Math { .. }
+            | E::Select { .. }
+            | E::As { .. }
+            | E::CallResult(_) => true,
+            _ => self.by_component.contains(&value),
+        }
+    }
+
+    /// Whether a local is written, or indexed in a way values cannot be.
+    pub fn needs_memory(&self, local: LocalId) -> bool {
+        let declared = self.cx.hir[local];
+        declared.flags.contains(VarFlags::WRITTEN)
+            || self.is_forced(local)
+            || (self.cx.arguments.is_indexed(self.cx.hir, local) && !self.is_vector_or_scalar(declared.ty))
+    }
+
+    /// The pointer to a local that is memory.
+    pub fn memory(&mut self, local: LocalId) -> Value {
+        if let Slot::Memory(pointer) = self.slot(local) {
+            return pointer;
+        }
+        let pointer = self.temporary(self.cx.hir[local].ty);
+        self.set_slot(local, Slot::Memory(pointer));
+        pointer
+    }
+
+    /// A new variable of this function.
+    pub fn temporary(&mut self, ty: TypeId) -> Value {
+        let ty = self.cx.ty(ty);
+        let variable = self.f.local_variables.append(LocalVariable { name: None, ty, init: None }, Span::UNDEFINED);
+        self.given(Expression::LocalVariable(variable))
+    }
+
+    pub fn is_vector_or_scalar(&self, ty: TypeId) -> bool {
+        matches!(self.cx.hir.types.get(ty), Type::Scalar(_) | Type::Vector { .. })
+    }
+}
