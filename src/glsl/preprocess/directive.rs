@@ -80,8 +80,8 @@ impl Preprocessor<'_, '_> {
             "pragma" => self.pragma(line),
             "include" => self.error(
                 name,
-                "GLSL ES has no `#include`",
-                Some("an #include line has one file in double quotes".into()),
+                "an #include line names one file in double quotes",
+                Some("the form is #include \"noise.glsl\"".into()),
             ),
             other => {
                 let message = format!("there is no directive `#{other}`");

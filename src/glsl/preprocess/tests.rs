@@ -258,7 +258,9 @@ fn other_directives() {
     refuses("#pragma STDGL invariant(all)", "invariant");
     refuses("#version 300 es", "#version");
     refuses("#extension GL_OES_standard_derivatives : enable", "#extension");
-    refuses("#include <a>", "#include");
+    refuses("#include <a>", "one file in double quotes");
+    refuses("#include", "one file in double quotes");
+    refuses("#include \"noise.glsl", "one file in double quotes");
     refuses("#foo", "no directive");
     refuses("#1", "name of a directive");
     refuses("a #define B", "no meaning here");
