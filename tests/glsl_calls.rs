@@ -2,6 +2,8 @@
 //!
 //! `Z` is a zero no compiler can see through, so that nothing here is folded before it runs.
 
+#[path = "support/compiled.rs"]
+mod compiled;
 #[path = "support/compute.rs"]
 mod compute;
 mod support;
@@ -212,18 +214,7 @@ fn members_hold_what_was_written_last() {
 
 /// The user functions of a fragment that were not inlined, and all their expressions.
 fn lowered(code: &str) -> (usize, usize) {
-    let source = eddy::glsl::PassSource {
-        kind: eddy::glsl::PassKind::Image,
-        common: None,
-        code: eddy::glsl::Text { id: eddy::diag::SourceId(0), text: code },
-        includes: &[],
-        channels: [eddy::glsl::ChannelKind::Sampler2D; 4],
-        knobs: &[],
-        values: &[],
-        bilinear_by_hand: [false; 4],
-        driver: Default::default(),
-    };
-    let module = eddy::glsl::compile(&source).unwrap_or_else(|_| panic!("it compiles")).module;
+    let module = compiled::compiled(code, Default::default()).module;
     (module.functions.len(), module.functions.iter().map(|(_, f)| f.expressions.len()).sum())
 }
 

@@ -2,27 +2,18 @@
 //!
 //! To fill or copy memory is what costs: a software driver stores each element once for each pixel and component.
 
+#[path = "support/compiled.rs"]
+mod compiled;
 #[path = "support/compute.rs"]
 mod compute;
 mod support;
 
 use compute::*;
-use eddy::glsl::{ChannelKind, Compiled, Driver, PassKind, PassSource, Text};
+use eddy::glsl::{Compiled, Driver};
 
 /// The module of an Image pass.
 fn compiled(code: &str) -> Compiled {
-    let source = PassSource {
-        kind: PassKind::Image,
-        common: None,
-        code: Text { id: eddy::diag::SourceId(0), text: code },
-        includes: &[],
-        channels: [ChannelKind::Sampler2D; 4],
-        knobs: &[],
-        values: &[],
-        bilinear_by_hand: [false; 4],
-        driver: Driver::default(),
-    };
-    eddy::glsl::compile(&source).expect("it compiles")
+    compiled::compiled(code, Driver::default())
 }
 
 fn list(count: usize, element: &dyn Fn(usize) -> String) -> String {

@@ -1,28 +1,15 @@
 //! Variables that code writes: taken apart into scalars, free of zeros that nobody reads, and what they hold all the same.
 
+#[path = "support/compiled.rs"]
+mod compiled;
 #[path = "support/compute.rs"]
 mod compute;
 mod support;
 
+use compiled::compiled;
 use compute::*;
-use eddy::glsl::{ChannelKind, Compiled, Driver, PassKind, PassSource, Text};
+use eddy::glsl::{Compiled, Driver};
 use naga::{AddressSpace, Block, Expression, Function, Statement, TypeInner};
-
-/// The module of an Image pass.
-fn compiled(code: &str, driver: Driver) -> Compiled {
-    let source = PassSource {
-        kind: PassKind::Image,
-        common: None,
-        code: Text { id: eddy::diag::SourceId(0), text: code },
-        includes: &[],
-        channels: [ChannelKind::Sampler2D; 4],
-        knobs: &[],
-        values: &[],
-        bilinear_by_hand: [false; 4],
-        driver,
-    };
-    eddy::glsl::compile(&source).expect("it compiles")
-}
 
 /// How many variables of a module's functions hold a scalar, and how many more than that.
 fn variables(compiled: &Compiled) -> (usize, usize) {

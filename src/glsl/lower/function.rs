@@ -1,10 +1,11 @@
-//! The body of one function under construction: expressions, blocks, what each local stands for.
-
-use std::collections::HashMap;
+//! The body of one function under construction, from its parameters to its last expression; statements, constants and locals have
+//! files of their own.
 
 mod blocks;
 mod constants;
 mod variables;
+
+use std::collections::HashMap;
 
 use naga::{Block, Expression, FunctionArgument, FunctionResult, Handle, Span, Statement};
 
