@@ -4,6 +4,7 @@
 //! nothing of wgpu or naga; reads files only where a caller names them.
 
 mod atomic;
+pub mod confine;
 pub mod directives;
 mod error;
 mod folder;
@@ -11,6 +12,7 @@ mod geometry;
 mod includes;
 pub mod json;
 mod knobs;
+pub mod limits;
 mod lines;
 mod load;
 mod manifest;

@@ -1,0 +1,120 @@
+//! Every way out of a project's folder, and every thing in it that is no file.
+
+use super::*;
+
+const SMALL: Limit = Limit { bytes: 10, of: "a test" };
+
+fn said(result: Result<impl std::fmt::Debug, FileError>) -> String {
+    let error = result.expect_err("refused");
+    assert!(!error.hint().is_empty());
+    error.to_string()
+}
+
+#[test]
+fn names_are_taken_from_where_they_stand() {
+    assert_eq!(relative("", "a.glsl").unwrap(), "a.glsl");
+    assert_eq!(relative("lib/noise.glsl", "hash.glsl").unwrap(), "lib/hash.glsl");
+    assert_eq!(relative("lib/noise.glsl", "../a b.glsl").unwrap(), "a b.glsl");
+    assert_eq!(relative("", "./x//y/../z.png").unwrap(), "x/z.png");
+    assert_eq!(relative("", "größe.png").unwrap(), "größe.png");
+}
+
+#[test]
+fn names_that_lead_out_are_refused_whatever_their_form() {
+    for (from, name, says) in [
+        ("", "/etc/passwd", "absolute path"),
+        ("", "\\\\server\\share", "absolute path"),
+        ("", "C:\\x.png", "absolute path"),
+        ("", "c:x.png", "absolute path"),
+        ("", "../x.png", "leads out of the project's folder"),
+        ("", "a/../../x.png", "leads out of the project's folder"),
+        ("lib/a.glsl", "../../x", "leads out of the project's folder"),
+        ("", "a\\..\\..\\x", "leads out of the project's folder on some"),
+        ("", "a/.. /x", "characters"),
+        ("", "a/.../x", "characters"),
+        ("", "a\0.png", "characters"),
+        ("", "a\n.png", "characters"),
+        ("", "", "without a name"),
+        ("", " ", "without a name"),
+        ("", ".", "a folder"),
+        ("lib/a.glsl", "..", "a folder"),
+    ] {
+        let message = said(relative(from, name));
+        assert!(message.contains(says), "{name:?}: {message}");
+        assert!(!message.contains(['\0', '\n']), "{message:?}");
+        let dir = tempfile::tempdir().unwrap();
+        assert!(read(dir.path(), name, SMALL).is_err() || !from.is_empty());
+    }
+}
+
+#[test]
+fn a_file_is_read_up_to_its_limit() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::create_dir(dir.path().join("sub")).unwrap();
+    fs::write(dir.path().join("sub/ten"), [7; 10]).unwrap();
+    fs::write(dir.path().join("eleven"), [7; 11]).unwrap();
+    assert_eq!(read(dir.path(), "sub/ten", SMALL).unwrap(), [7; 10]);
+    assert_eq!(resolve(dir.path(), "sub/ten").unwrap(), dir.path().join("sub/ten"));
+    let message = said(read(dir.path(), "eleven", SMALL));
+    assert!(message.contains("eleven is larger than 10 bytes, the most that Eddy reads of a test"), "{message}");
+    assert_eq!(read_own(&dir.path().join("sub/ten"), SMALL).unwrap(), [7; 10]);
+    assert!(said(read_own(&dir.path().join("eleven"), SMALL)).contains("larger"));
+    // A file that is all holes: the length is looked at before any memory is taken.
+    File::create(dir.path().join("holes")).unwrap().set_len(1 << 40).unwrap();
+    assert!(said(read(dir.path(), "holes", SMALL)).contains("larger"));
+    assert!(read(dir.path(), "none", SMALL).unwrap_err().is_missing());
+    assert!(said(read(dir.path(), "sub", SMALL)).contains("a folder"));
+    assert!(said(resolve(&dir.path().join("nowhere"), "x")).contains("no such file"));
+}
+
+#[cfg(unix)]
+#[test]
+fn links_are_followed_and_must_stay_within() {
+    use std::os::unix::fs::symlink;
+    let dir = tempfile::tempdir().unwrap();
+    let home = dir.path().join("p");
+    fs::create_dir_all(home.join("sub")).unwrap();
+    fs::create_dir_all(dir.path().join("outside")).unwrap();
+    fs::write(dir.path().join("outside/secret"), "secret").unwrap();
+    fs::write(home.join("sub/own"), "own").unwrap();
+    symlink("../outside/secret", home.join("link")).unwrap();
+    symlink("../outside", home.join("folder")).unwrap();
+    symlink("sub/own", home.join("inner")).unwrap();
+    symlink("gone", home.join("dangling")).unwrap();
+    symlink("loop", home.join("loop")).unwrap();
+    assert!(said(read(&home, "link", SMALL)).contains("link is a link that leads out"));
+    assert!(said(read(&home, "folder/secret", SMALL)).contains("link that leads out"));
+    assert_eq!(read(&home, "inner", SMALL).unwrap(), b"own");
+    assert!(read(&home, "dangling", SMALL).unwrap_err().is_missing());
+    assert!(read(&home, "loop", SMALL).is_err());
+    // `folder/..` is the parent of where the link leads, for the system; here it is the project's folder.
+    assert_eq!(read(&home, "folder/../sub/own", SMALL).unwrap(), b"own");
+    // The project's own folder may be called by a link.
+    symlink(&home, dir.path().join("called")).unwrap();
+    assert_eq!(read(&dir.path().join("called"), "sub/own", SMALL).unwrap(), b"own");
+}
+
+#[cfg(unix)]
+#[test]
+fn pipes_sockets_and_devices_are_never_opened() {
+    let dir = tempfile::tempdir().unwrap();
+    let pipe = dir.path().join("pipe");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let _socket = std::os::unix::net::UnixListener::bind(dir.path().join("socket")).unwrap();
+    assert!(said(read(dir.path(), "pipe", SMALL)).contains("a pipe"));
+    assert!(said(read(dir.path(), "socket", SMALL)).contains("a socket"));
+    assert!(said(read(Path::new("/dev"), "zero", SMALL)).contains("a device"));
+    assert!(said(read_own(&pipe, SMALL)).contains("a pipe"));
+    // One that takes a file's place after it was looked at does not wait for a writer either.
+    assert!(said(read_regular(&pipe, &pipe, SMALL)).contains("a pipe"));
+}
+
+#[test]
+fn windows_devices_are_known_with_any_extension() {
+    for name in ["con", "NUL", "aux.vert", "Com1.glsl", "LPT9", "nul .txt"] {
+        assert!(is_reserved(name), "{name}");
+    }
+    for name in ["cons", "buffer_con", "com", "com10", "console.glsl", "lpt"] {
+        assert!(!is_reserved(name), "{name}");
+    }
+}

@@ -1,0 +1,38 @@
+//! Limits on what a project may ask for, in one place.
+//!
+//! A project may be a stranger's. Each limit lies far beyond what a project needs and well below what the machine has, and is
+//! checked before the memory is taken. `SECURITY.md` lists them all; a test keeps the two alike.
+
+use std::fmt;
+
+/// The most bytes that Eddy reads of a kind of file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Limit {
+    pub bytes: u64,
+    /// What the file is, with its article: "a GLSL text".
+    pub of: &'static str,
+}
+
+impl fmt::Display for Limit {
+    /// `16 MiB, the most that Eddy reads of a GLSL text`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}, the most that Eddy reads of {}", in_bytes(self.bytes), self.of)
+    }
+}
+
+/// A number of bytes as people write it: `16 MiB`, `300 bytes`.
+pub fn in_bytes(bytes: u64) -> String {
+    match bytes {
+        b if b >= 1 << 30 && b.is_multiple_of(1 << 30) => format!("{} GiB", b >> 30),
+        b if b >= 1 << 20 && b.is_multiple_of(1 << 20) => format!("{} MiB", b >> 20),
+        b if b >= 1 << 10 && b.is_multiple_of(1 << 10) => format!("{} KiB", b >> 10),
+        b => format!("{b} bytes"),
+    }
+}
+
+/// `eddy.toml`.
+pub const MANIFEST: Limit = Limit { bytes: 4 << 20, of: "an eddy.toml" };
+/// One GLSL text: a pass, a stage, Common or an included file.
+pub const GLSL_TEXT: Limit = Limit { bytes: 16 << 20, of: "a GLSL text" };
+/// A Shadertoy JSON file.
+pub const JSON: Limit = Limit { bytes: 32 << 20, of: "a Shadertoy JSON file" };
