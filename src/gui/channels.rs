@@ -155,7 +155,7 @@ fn media_name(media: &Media) -> String {
     let last = |path: &str| path.rsplit('/').next().unwrap_or(path).to_owned();
     match media {
         Media::Builtin(name) => name.clone(),
-        Media::File(path) => {
+        Media::File(path) | Media::Picked(path) => {
             path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into())
         }
         Media::Site { path, .. } => last(path),

@@ -200,7 +200,7 @@ impl Shell {
             Wish::Act(action) => self.act(ui, session, action, out),
             Wish::Shape(shape) => self.viewport.set_shape(shape),
             Wish::Pick(pick) => self.files.ask(pick, start_folder(session)),
-            Wish::Picked(pick, path) => self.picked(session, pick, path, out),
+            Wish::Picked(pick, path) => self.picked(pick, path, out),
             Wish::CloseGallery => self.close_gallery(out),
             Wish::GoTo(tab, place) => {
                 if session.tabs().contains(&tab) {
@@ -227,7 +227,7 @@ impl Shell {
         self.viewport.focus();
     }
 
-    fn picked(&mut self, session: &Session, pick: Pick, path: PathBuf, out: &mut Outbox) {
+    fn picked(&mut self, pick: Pick, path: PathBuf, out: &mut Outbox) {
         match pick {
             Pick::OpenFolder | Pick::OpenFile => {
                 out.ask(Command::Open(path.display().to_string()));
@@ -236,7 +236,7 @@ impl Shell {
             Pick::SaveAs(_) => out.ask(Command::SaveAs(path)),
             Pick::Picture { channel } => {
                 if let Tab::Pass(pass) = self.code.current() {
-                    let media = Media::File(relative(session, &path));
+                    let media = Media::Picked(path);
                     let channel_ = Channel { input: Input::Texture(media), sampler: Sampler::TEXTURE };
                     out.ask(Command::SetChannel { pass: pass.clone(), index: channel, channel: Some(channel_) });
                 }
@@ -361,13 +361,5 @@ fn start_folder(session: &Session) -> Option<PathBuf> {
     match &session.project().origin {
         Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => path.parent().map(Path::to_owned),
         Origin::Unsaved | Origin::Preset(_) => None,
-    }
-}
-
-/// A picture inside the project's folder is named relative to it, so that the folder can be moved.
-fn relative(session: &Session, path: &Path) -> PathBuf {
-    match &session.project().origin {
-        Origin::Folder { path: folder, .. } => path.strip_prefix(folder).unwrap_or(path).to_owned(),
-        _ => path.to_owned(),
     }
 }

@@ -72,6 +72,7 @@ pub fn load(media: &Media, vflip: bool, base: Option<&Path>, media_dir: Option<&
             };
             file(&path, vflip)
         }
+        Media::Picked(path) => file(path, vflip),
         Media::Site { id, path } => {
             let stock = site::stock(id, path);
             let name = path.rsplit('/').next().unwrap_or_default();

@@ -2,25 +2,38 @@
 //!
 //! A new content goes to a temporary file beside the old one, is flushed to the device and takes its place by renaming.
 //! Several files are all staged before the first takes its place, so that a full disk is found while every old file is there.
+//!
+//! A process that is killed leaves its temporary files behind. Each is locked while it is in use, and a lock ends with its
+//! process: what is not locked is removed the next time that Eddy opens or writes the folder (see [`sweep`]).
 
-use super::ProjectError;
+use super::{
+    ProjectError,
+    confine::{self, Reason},
+    limits,
+};
 use std::{
+    collections::BTreeSet,
     fs,
     io::{self, Write},
     path::{Path, PathBuf},
 };
 use tempfile::NamedTempFile;
 
+/// A temporary file's name, around six letters and digits.
+const PREFIX: &str = ".eddy-save-";
+const SUFFIX: &str = ".tmp";
+
 pub enum Content {
     Bytes(Vec<u8>),
-    CopyOf(PathBuf),
+    /// A file of a project's folder, by the folder and the name there.
+    CopyOf(PathBuf, String),
 }
 
 impl Content {
     fn read(&self) -> Result<std::borrow::Cow<'_, [u8]>, ProjectError> {
         Ok(match self {
             Content::Bytes(bytes) => bytes.into(),
-            Content::CopyOf(path) => fs::read(path).map_err(ProjectError::io("read", path))?.into(),
+            Content::CopyOf(folder, name) => confine::read(folder, name, limits::MEDIA_FILE)?.into(),
         })
     }
 }
@@ -33,26 +46,36 @@ pub enum OnDisk {
 
 /// What stands at a path now, against what shall.
 pub fn compare(path: &Path, content: &Content) -> Result<OnDisk, ProjectError> {
-    match fs::read(path) {
-        Ok(bytes) => Ok(if *content.read()? == bytes { OnDisk::Same } else { OnDisk::Different }),
-        Err(e) if e.kind() == io::ErrorKind::NotFound => Ok(OnDisk::Absent),
-        Err(source) => Err(ProjectError::Io { action: "read", path: path.to_owned(), source }),
+    let content = content.read()?;
+    match confine::read_own(path, confine::exactly(content.len())) {
+        Ok(bytes) => Ok(if *content == bytes { OnDisk::Same } else { OnDisk::Different }),
+        Err(e) if e.is_missing() => Ok(OnDisk::Absent),
+        Err(e) if matches!(e.reason, Reason::TooLarge(_)) => Ok(OnDisk::Different),
+        Err(e) => Err(e.into()),
     }
 }
 
 /// Writes every file, making folders as needed.
 pub fn write_all(files: Vec<(PathBuf, Content)>) -> Result<(), ProjectError> {
+    let folders: BTreeSet<PathBuf> = files.iter().map(|(path, _)| folder_of(path).to_owned()).collect();
+    folders.iter().for_each(|folder| sweep(folder));
     let mut staged = Vec::new();
     for (path, content) in files {
         let path = real_path(path);
-        let file = stage(&path, &content.read()?).map_err(ProjectError::io("write", &path))?;
-        staged.push((path, file));
+        let file = stage(&path, |file| file.write_all(&*content.read().map_err(io::Error::other)?));
+        staged.push((file.map_err(ProjectError::io("write", &path))?, path));
     }
-    for (path, file) in staged {
-        file.persist(&path).map_err(|e| ProjectError::Io { action: "write", path: path.clone(), source: e.error })?;
-        sync_folder(&path);
+    for (file, path) in staged {
+        take_place(file, &path).map_err(ProjectError::io("write", &path))?;
     }
     Ok(())
+}
+
+/// Writes one file: what is there stays until the new content is complete. An error does not name the file.
+pub fn write_with(path: &Path, write: impl FnOnce(&mut fs::File) -> io::Result<()>) -> io::Result<()> {
+    let path = real_path(path.to_owned());
+    sweep(folder_of(&path));
+    take_place(stage(&path, write)?, &path)
 }
 
 /// Where a symbolic link leads, so that the link stays one.
@@ -60,24 +83,21 @@ fn real_path(path: PathBuf) -> PathBuf {
     if path.is_symlink() { path.canonicalize().unwrap_or(path) } else { path }
 }
 
-fn stage(path: &Path, bytes: &[u8]) -> io::Result<NamedTempFile> {
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+fn stage(path: &Path, write: impl FnOnce(&mut fs::File) -> io::Result<()>) -> io::Result<NamedTempFile> {
+    let folder = folder_of(path);
     fs::create_dir_all(folder)?;
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".eddy-");
     let old = fs::metadata(path).ok();
     // Renaming would replace a write-protected file without asking.
     if old.as_ref().is_some_and(|m| m.permissions().readonly()) {
         return Err(io::Error::new(io::ErrorKind::PermissionDenied, "the file is write-protected"));
     }
-    #[cfg(unix)]
-    if old.is_none() {
-        // What the user's umask gives any new file; a temporary one would be its owner's alone.
-        builder.permissions(<fs::Permissions as std::os::unix::fs::PermissionsExt>::from_mode(0o666));
-    }
+    let mut file = temporary(folder, old.is_none())?;
     // Past the wrapper, whose errors name the temporary file: nobody has ever heard of that one.
-    let file = builder.tempfile_in(folder)?;
-    file.as_file().write_all(bytes)?;
+    write(file.as_file_mut())?;
     if let Some(old) = old {
         file.as_file().set_permissions(old.permissions())?;
     }
@@ -85,14 +105,99 @@ fn stage(path: &Path, bytes: &[u8]) -> io::Result<NamedTempFile> {
     Ok(file)
 }
 
+/// A locked file that [`sweep`] leaves alone.
+fn temporary(folder: &Path, is_new: bool) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(PREFIX).suffix(SUFFIX);
+    #[cfg(unix)]
+    if is_new {
+        // What the user's umask gives any new file; a temporary one would be its owner's alone.
+        builder.permissions(<fs::Permissions as std::os::unix::fs::PermissionsExt>::from_mode(0o666));
+    }
+    #[cfg(not(unix))]
+    let _ = is_new;
+    loop {
+        let file = builder.tempfile_in(folder).map_err(|e| io::Error::from(e.kind()))?;
+        // Another Eddy may have swept it before it was locked.
+        if file.as_file().lock().is_err() || file.path().exists() {
+            return Ok(file);
+        }
+    }
+}
+
+fn take_place(file: NamedTempFile, path: &Path) -> io::Result<()> {
+    file.persist(path).map_err(|e| e.error)?;
+    sync_folder(path);
+    Ok(())
+}
+
+/// Removes the temporary files that a killed process left in a folder. What cannot be removed stays.
+pub fn sweep(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.take(limits::FILES).flatten() {
+        if is_temporary(&entry.file_name().to_string_lossy()) && entry.file_type().is_ok_and(|kind| kind.is_file()) {
+            let path = entry.path();
+            // Nobody else's lock is on it: whoever wrote it is gone.
+            if let Ok(file) = fs::OpenOptions::new().write(true).open(&path)
+                && file.try_lock().is_ok()
+                && let Err(e) = fs::remove_file(&path)
+            {
+                log::debug!("cannot remove {}: {e}", path.display());
+            }
+        }
+    }
+}
+
+fn is_temporary(name: &str) -> bool {
+    let random = name.strip_prefix(PREFIX).and_then(|rest| rest.strip_suffix(SUFFIX));
+    random.is_some_and(|r| r.len() == 6 && r.bytes().all(|b| b.is_ascii_alphanumeric()))
+}
+
 /// Makes the renaming itself last. Not every file system can; the content is safe either way.
 fn sync_folder(path: &Path) {
     #[cfg(unix)]
-    if let Some(Ok(folder)) = path.parent().map(fs::File::open)
-        && let Err(e) = folder.sync_all()
-    {
+    if let Err(e) = fs::File::open(folder_of(path)).and_then(|folder| folder.sync_all()) {
         log::debug!("cannot flush the folder of {}: {e}", path.display());
     }
     #[cfg(not(unix))]
     let _ = path;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_of_a_killed_save_are_swept_and_no_others() {
+        let dir = tempfile::tempdir().unwrap();
+        let write = |name: &str| fs::write(dir.path().join(name), "x").unwrap();
+        let left = [".eddy-save-aB3xYz.tmp", ".eddy-save-000000.tmp"];
+        let others = [".eddy-save-notes.tmp", ".eddy-backup", ".eddy-save-aB3xYz.tmp.bak", "a.tmp"];
+        left.iter().chain(&others).for_each(|name| write(name));
+        // One that another process writes just now.
+        let busy = temporary(dir.path(), true).unwrap();
+        write_with(&dir.path().join("new"), |file| file.write_all(b"new")).unwrap();
+        for name in left {
+            assert!(!dir.path().join(name).exists(), "{name}");
+        }
+        for name in others.iter().chain(&["new"]) {
+            assert!(dir.path().join(name).exists(), "{name}");
+        }
+        assert!(busy.path().exists());
+    }
+
+    #[test]
+    fn errors_do_not_name_the_temporary_file() {
+        let dir = tempfile::tempdir().unwrap();
+        let file = dir.path().join("file");
+        fs::write(&file, "").unwrap();
+        let failed = write_with(&dir.path().join("out"), |_| Err(io::Error::from(io::ErrorKind::StorageFull)));
+        let no_folder = write_with(&file.join("x"), |_| Ok(()));
+        fs::create_dir(dir.path().join("folder")).unwrap();
+        let a_folder = write_with(&dir.path().join("folder"), |_| Ok(()));
+        for error in [failed.unwrap_err(), no_folder.unwrap_err(), a_folder.unwrap_err()] {
+            assert!(!error.to_string().contains(".eddy"), "{error}");
+        }
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 2);
+    }
 }

@@ -45,6 +45,8 @@ pub enum Reason {
     /// Something is there, and no regular file: "a folder", "a pipe".
     NotAFile(&'static str),
     TooLarge(Limit),
+    /// With what was read before it is more than the limit.
+    TooMuch(Limit),
     /// The machine refused.
     Io(String),
 }
@@ -77,6 +79,7 @@ impl FileError {
             Reason::Missing => format!("cannot read {file}: there is no such file"),
             Reason::NotAFile(kind) => format!("cannot read {file}: it is {kind}, not a regular file"),
             Reason::TooLarge(limit) => format!("{file} is larger than {limit}"),
+            Reason::TooMuch(limit) => format!("with {file} it is more than {limit}"),
             Reason::Io(why) => format!("cannot read {file}: {why}"),
         }
     }
@@ -93,6 +96,7 @@ impl FileError {
             Reason::Missing => "put the file there, or name another".into(),
             Reason::NotAFile(_) => "name a regular file".into(),
             Reason::TooLarge(_) => "make the file smaller".into(),
+            Reason::TooMuch(_) => "split the project in two, or make its files smaller".into(),
             Reason::Io(_) => "check the file's permissions".into(),
         }
     }
@@ -174,6 +178,11 @@ pub fn read_own(path: &Path, limit: Limit) -> Result<Vec<u8>, FileError> {
     let real = path.canonicalize().map_err(|e| FileError::io(path, &e))?;
     check_kind(path, &real)?;
     read_regular(&real, path, limit)
+}
+
+/// A limit for a file that shall hold as many bytes: a longer one is another.
+pub(super) fn exactly(bytes: usize) -> Limit {
+    Limit { bytes: bytes as u64, of: "a file of the same content" }
 }
 
 struct Found {

@@ -1,5 +1,6 @@
 //! Why a project could not be read or written.
 
+use super::{FileError, limits};
 use crate::diag::{Diagnostic, SourceMap, render_all};
 use std::{
     io,
@@ -24,6 +25,17 @@ pub enum ProjectError {
         path.display()
     )]
     UnknownKind { path: PathBuf },
+    /// A file that may not be read: it lies outside the folder, is no regular file, or is too large.
+    #[error("{error}; {}", error.hint())]
+    File {
+        #[from]
+        error: FileError,
+    },
+    /// A name under which nothing may be written.
+    #[error("{} is not written: {why}", path.display())]
+    Unwritable { path: PathBuf, why: String },
+    #[error("{} holds more than {} files; name a folder of the project alone", path.display(), limits::FILES)]
+    TooManyFiles { path: PathBuf },
     /// Saving would replace something that is not this project's.
     #[error("{} exists and is not part of this project; choose another place or allow overwriting", path.display())]
     WouldOverwrite { path: PathBuf },

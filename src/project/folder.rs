@@ -1,6 +1,6 @@
-//! A project as a folder of files: where its texts come from, and the convention that names passes after files.
+//! The convention that names passes after files.
 //!
-//! Owns reading texts from a folder on disk or inside the binary, and the project of a folder without `eddy.toml`:
+//! Owns the project of a folder without `eddy.toml`:
 //!
 //! | file | is |
 //! |---|---|
@@ -13,107 +13,9 @@
 //! Case does not matter, and `.frag` is as good as `.glsl`. A pass whose text has `#iChannel` lines reads what they say (see
 //! [`super::directives`]); any other pass reads Buffer A, B, C and D in iChannel0, 1, 2 and 3, as far as these exist.
 
-use super::{
-    Channel, Info, Input, Origin, Pass, PassId, Project, ProjectError, Sampler, SamplerRules, Source, directives,
-};
-use crate::diag::{Diagnostic, SourceMap, Span};
-use std::{
-    collections::BTreeMap,
-    ffi::OsStr,
-    fs,
-    path::{Path, PathBuf},
-};
-
-/// The text files of a project, by name relative to its folder.
-pub(super) enum Files<'a> {
-    Disk(&'a Path),
-    Embedded(&'a include_dir::Dir<'a>),
-    /// A folder as it will be once it is saved.
-    Memory(&'a BTreeMap<String, Vec<u8>>),
-}
-
-/// A text file's content, or why it has none.
-pub(super) enum Read {
-    Text(String),
-    Missing,
-    /// Byte offset of the first byte that is not UTF-8, and the text with every such byte replaced.
-    NotUtf8(usize, String),
-}
-
-impl Files<'_> {
-    /// Names of the files directly in the folder, sorted.
-    pub fn names(&self) -> Result<Vec<String>, ProjectError> {
-        let mut names: Vec<String> = match self {
-            Files::Disk(path) => {
-                let mut names = Vec::new();
-                for entry in fs::read_dir(path).map_err(ProjectError::io("list", path))? {
-                    let entry = entry.map_err(ProjectError::io("list", path))?;
-                    // A name that is not UTF-8 is no name of a pass.
-                    if let Ok(name) = entry.file_name().into_string()
-                        && !entry.path().is_dir()
-                    {
-                        names.push(name);
-                    }
-                }
-                names
-            }
-            Files::Embedded(dir) => {
-                dir.files().filter_map(|f| f.path().file_name()?.to_str().map(str::to_owned)).collect()
-            }
-            Files::Memory(files) => files.keys().cloned().collect(),
-        };
-        names.sort();
-        Ok(names)
-    }
-
-    pub fn read(&self, name: &str) -> Result<Read, ProjectError> {
-        match self {
-            Files::Disk(folder) => {
-                let path = folder.join(name);
-                match fs::read(&path) {
-                    Ok(bytes) => Ok(decode(bytes)),
-                    Err(e) if e.kind() == std::io::ErrorKind::NotFound => Ok(Read::Missing),
-                    Err(source) => Err(ProjectError::Io { action: "read", path, source }),
-                }
-            }
-            Files::Embedded(dir) => {
-                let file = dir.get_file(dir.path().join(name));
-                Ok(file.map_or(Read::Missing, |f| decode(f.contents().to_vec())))
-            }
-            Files::Memory(files) => Ok(files.get(name).map_or(Read::Missing, |bytes| decode(bytes.clone()))),
-        }
-    }
-
-    pub fn exists(&self, name: &str) -> bool {
-        match self {
-            Files::Disk(folder) => folder.join(name).is_file(),
-            Files::Embedded(dir) => dir.files().any(|f| f.path().file_name() == Some(OsStr::new(name))),
-            Files::Memory(files) => files.contains_key(name),
-        }
-    }
-
-    /// The file behind a name, where there is one on disk.
-    pub fn path(&self, name: &str) -> Option<PathBuf> {
-        match self {
-            Files::Disk(folder) => Some(folder.join(name)),
-            Files::Embedded(_) | Files::Memory(_) => None,
-        }
-    }
-}
-
-pub(super) fn decode(bytes: Vec<u8>) -> Read {
-    match String::from_utf8(bytes) {
-        Ok(text) => Read::Text(text),
-        Err(e) => Read::NotUtf8(e.utf8_error().valid_up_to(), String::from_utf8_lossy(e.as_bytes()).into_owned()),
-    }
-}
-
-/// The diagnostic for a text that is not UTF-8, into `sources`.
-pub(super) fn not_utf8(sources: &mut SourceMap, name: &str, at: usize, lossy: String) -> Diagnostic {
-    let id = sources.add(name, lossy);
-    Diagnostic::error(Span::new(id, at..at + '\u{fffd}'.len_utf8()), format!("{name} is not UTF-8 text"))
-        .hint("save it as UTF-8 in your editor")
-}
+use super::{Channel, Info, Input, Origin, Pass, PassId, Project, Sampler, SamplerRules, Source, directives};
+use crate::diag::Diagnostic;
+use std::{ffi::OsStr, path::Path};
 
 pub(super) fn is_glsl_extension(extension: &OsStr) -> bool {
     ["glsl", "frag", "fs"].iter().any(|e| extension.eq_ignore_ascii_case(e))
@@ -121,13 +23,25 @@ pub(super) fn is_glsl_extension(extension: &OsStr) -> bool {
 
 /// The pass a file is by its stem; `None` for Common and for files that are not of the convention.
 pub(super) fn pass_of_stem(stem: &str) -> Option<PassId> {
-    let lower = stem.to_lowercase();
-    let is_buffer = lower.strip_prefix("buffer").is_some_and(|rest| !rest.is_empty())
-        || lower.strip_prefix("buf").is_some_and(|rest| rest.len() == 1 || rest.starts_with([' ', '_', '-']));
     match PassId::parse(stem)? {
-        PassId::Buffer(name) => is_buffer.then_some(PassId::Buffer(name)),
+        PassId::Buffer(name) => is_buffer(stem).then_some(PassId::Buffer(name)),
         other => Some(other),
     }
+}
+
+fn is_buffer(stem: &str) -> bool {
+    let lower = stem.to_lowercase();
+    lower.strip_prefix("buffer").is_some_and(|rest| !rest.is_empty())
+        || lower.strip_prefix("buf").is_some_and(|rest| rest.len() == 1 || rest.starts_with([' ', '_', '-']))
+}
+
+/// What is wrong with a file that would be a buffer if its name were one.
+pub(super) fn misnamed(file: &str) -> Option<Diagnostic> {
+    let path = Path::new(file);
+    let stem = path.file_stem()?.to_str().filter(|stem| is_buffer(stem) && PassId::parse(stem).is_none())?;
+    path.extension().filter(|e| is_glsl_extension(e))?;
+    let message = format!("{file} is no pass: \"{}\" cannot be a buffer's name", stem.escape_debug());
+    Some(Diagnostic::warning(None, message).hint(PassId::NAMES))
 }
 
 /// Which text of a project a file is by convention.

@@ -1,8 +1,9 @@
 //! What a geometry pass draws instead of a full-screen triangle: meshes, each with its program and state, and the camera that
 //! sees them.
 
-use super::{PassFormat, Source};
-use std::path::PathBuf;
+use super::{PassFormat, Source, confine, limits};
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
 
 /// Targets a pass may have at once: what every device takes.
 pub const MAX_TARGETS: usize = 4;
@@ -51,7 +52,7 @@ pub struct MeshDraw {
 pub enum MeshSource {
     /// One of Eddy's own, by name: see `media::mesh`.
     Builtin(String),
-    /// A glTF or OBJ file, relative to the project's folder or absolute.
+    /// A glTF or OBJ file of the project, relative to its folder: see [`super::confine`].
     File(PathBuf),
 }
 
@@ -172,21 +173,36 @@ impl Default for Camera {
     }
 }
 
-/// Files that a model file needs beside itself: the buffers and pictures a `.gltf` names, from the folder it lies in. None for
-/// a file that cannot be read; whoever loads it says why.
-pub fn files_beside(model: &std::path::Path) -> Vec<PathBuf> {
-    if !model.extension().is_some_and(|e| e.eq_ignore_ascii_case("gltf")) {
+/// Files that a model needs besides itself: the buffers and pictures a `.gltf` names, by their names from the project's
+/// `folder`, as `model` is. None for a file that cannot be read, and no name that leads out of the folder; whoever loads the
+/// model says why.
+pub fn files_beside(folder: &Path, model: &str) -> Vec<String> {
+    if !Path::new(model).extension().is_some_and(|e| e.eq_ignore_ascii_case("gltf")) {
         return Vec::new();
     }
-    let json: Option<serde_json::Value> = std::fs::read(model).ok().and_then(|b| serde_json::from_slice(&b).ok());
-    let Some(json) = json else { return Vec::new() };
-    let named = ["buffers", "images"].into_iter().filter_map(|key| json.get(key)?.as_array()).flatten();
-    let uris = named.filter_map(|entry| entry.get("uri")?.as_str());
-    uris.filter(|uri| !uri.contains(':')).map(|uri| PathBuf::from(unescaped(uri))).collect()
+    let bytes = confine::read(folder, model, limits::MEDIA_FILE).unwrap_or_default();
+    let named: Named = serde_json::from_slice(&bytes).unwrap_or_default();
+    let uris = named.buffers.into_iter().chain(named.images).filter_map(|file| file.uri);
+    let files = uris.filter(|uri| !uri.contains(':')).map(|uri| unescaped(&uri));
+    files.filter_map(|file| confine::relative(model, &file).ok()).collect()
+}
+
+/// Of a `.gltf` the addresses alone: the rest may be large.
+#[derive(Default, Deserialize)]
+struct Named {
+    #[serde(default)]
+    buffers: Vec<NamedFile>,
+    #[serde(default)]
+    images: Vec<NamedFile>,
+}
+
+#[derive(Deserialize)]
+struct NamedFile {
+    uri: Option<String>,
 }
 
 /// An address with its `%20` and the like written out.
-fn unescaped(uri: &str) -> String {
+pub fn unescaped(uri: &str) -> String {
     let bytes = uri.as_bytes();
     let (mut out, mut i) = (Vec::with_capacity(bytes.len()), 0);
     while i < bytes.len() {
@@ -205,16 +221,16 @@ mod tests {
     #[test]
     fn a_gltf_names_the_files_beside_it() {
         let dir = tempfile::tempdir().unwrap();
-        let model = dir.path().join("a.gltf");
-        std::fs::write(
-            &model,
-            r#"{"buffers":[{"uri":"a%20b.bin"},{"uri":"data:;base64,AA"},{}],"images":[{"uri":"tex/é.png"}]}"#,
-        )
-        .unwrap();
-        assert_eq!(files_beside(&model), [PathBuf::from("a b.bin"), PathBuf::from("tex/é.png")]);
-        std::fs::write(&model, "{").unwrap();
-        assert!(files_beside(&model).is_empty());
-        assert!(files_beside(&dir.path().join("none.glb")).is_empty());
+        std::fs::create_dir(dir.path().join("m")).unwrap();
+        let write = |text: &str| std::fs::write(dir.path().join("m/a.gltf"), text).unwrap();
+        write(
+            r#"{"buffers":[{"uri":"a%20b.bin"},{"uri":"data:;base64,AA"},{},{"uri":"../../x.bin"},{"uri":"/dev/zero"}],
+                "images":[{"uri":"../tex/é.png"},{"uri":"%2e%2e/%2e%2e/x.png"}]}"#,
+        );
+        assert_eq!(files_beside(dir.path(), "m/a.gltf"), ["m/a b.bin", "tex/é.png"]);
+        write("{");
+        assert!(files_beside(dir.path(), "m/a.gltf").is_empty());
+        assert!(files_beside(dir.path(), "none.glb").is_empty());
     }
 
     #[test]

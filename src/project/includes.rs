@@ -8,8 +8,9 @@
 //! that comes of it ([`Project::inlined`]).
 
 use super::{
-    Project, Source,
-    folder::{Files, Read},
+    Project, Source, confine,
+    files::{Files, Read},
+    limits,
     lines::{HashLine, hash_lines},
     nearest, presets,
 };
@@ -19,10 +20,6 @@ use std::{
     collections::{BTreeMap, BTreeSet, VecDeque},
     path::Path,
 };
-
-/// Files a program may have in it, each counted as often as it is included: far beyond any program, and near enough to end
-/// files that include each other twice, and so on.
-const MAX_INCLUDED: u64 = 10_000;
 
 /// A file that some text names in an `#include` line.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,36 +51,26 @@ fn named<'t>(line: &HashLine<'t>) -> Option<&'t str> {
         .then_some(path)
 }
 
-/// The name, from the project's folder, of what the file `from` calls `path`. `None`: it leads out of that folder.
-fn resolve(from: &str, path: &str) -> Option<String> {
-    let path = path.trim();
-    if path.starts_with('/') || path.contains(['\\', ':']) {
-        return None;
-    }
-    let mut parts: Vec<&str> = from.rsplit_once('/').map_or(Vec::new(), |(folder, _)| folder.split('/').collect());
-    for part in path.split('/') {
-        match part {
-            "" | "." => {}
-            ".." => drop(parts.pop()?),
-            name => parts.push(name),
-        }
-    }
-    Some(parts.join("/"))
-}
-
 /// Reads every file that texts of the project name, and those that these name.
 pub(super) fn read(project: &mut Project, files: Option<&Files<'_>>) {
     let tabs: BTreeSet<String> = tab_sources(project).map(|s| s.name.clone()).collect();
     let mut queue: VecDeque<(String, std::sync::Arc<str>)> =
         tab_sources(project).map(|s| (s.name.clone(), s.text.clone())).collect();
+    let mut known = tabs.clone();
     let mut found: Vec<Included> = Vec::new();
-    while let Some((from, text)) = queue.pop_front() {
+    'texts: while let Some((from, text)) = queue.pop_front() {
         for line in hash_lines(&text).iter().filter(|l| is_include(l)) {
-            let Some(name) = named(line).and_then(|path| resolve(&from, path)) else { continue };
-            if tabs.contains(&name) || found.iter().any(|i| i.source.name == name) {
+            let Some(name) = named(line).and_then(|path| confine::relative(&from, path.trim()).ok()) else { continue };
+            if !known.insert(name.clone()) {
                 continue;
             }
-            let (text, trouble) = match content(files, &name) {
+            let is_one_too_many = known.len() > limits::TEXTS;
+            let content = if is_one_too_many {
+                Err(format!("with {name} the project has more than {} texts, the most that Eddy reads", limits::TEXTS))
+            } else {
+                content(files, &name)
+            };
+            let (text, trouble) = match content {
                 Ok(text) => (text, None),
                 Err(why) => (String::new(), Some(why)),
             };
@@ -91,6 +78,9 @@ pub(super) fn read(project: &mut Project, files: Option<&Files<'_>>) {
             let source = Source { name: name.clone(), path, text: text.into() };
             queue.push_back((name, source.text.clone()));
             found.push(Included { source, trouble });
+            if is_one_too_many {
+                break 'texts;
+            }
         }
     }
     project.includes = found;
@@ -100,27 +90,16 @@ fn content(files: Option<&Files<'_>>, name: &str) -> Result<String, String> {
     let Some(files) = files else {
         return Err(format!("{name} is nowhere: this project has no folder yet; save it into one first"));
     };
-    if let Files::Disk(folder) = files {
-        // A symbolic link may lead anywhere.
-        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-        if let (Ok(file), Ok(folder)) = (folder.join(name).canonicalize(), folder.canonicalize())
-            && !file.starts_with(&folder)
-        {
-            return Err(format!("{name} is a link that leads out of the project's folder"));
-        }
-    }
-    match files.read(name) {
-        Ok(Read::Text(text)) => Ok(text),
-        Ok(Read::NotUtf8(at, _)) => {
-            Err(format!("{name} is not UTF-8 text (byte {at}); save it as UTF-8 in your editor"))
-        }
-        Ok(Read::Missing) => {
+    match files.read(name, limits::GLSL_TEXT) {
+        Read::Text(text) => Ok(text),
+        Read::NotUtf8(at, _) => Err(format!("{name} is not UTF-8 text (byte {at}); save it as UTF-8 in your editor")),
+        Read::Missing => {
             let folder = name.rsplit_once('/').map_or("", |(folder, _)| folder);
             let beside = if folder.is_empty() { files.names().unwrap_or_default() } else { Vec::new() };
             let near = nearest(name, beside.iter().map(String::as_str));
             Err(format!("there is no file {name}{}", near.map(|n| format!("; did you mean {n}?")).unwrap_or_default()))
         }
-        Err(e) => Err(e.to_string()),
+        Read::Refused(e) => Err(format!("{e}; {}", e.hint())),
     }
 }
 
@@ -134,11 +113,11 @@ impl Project {
         match &self.origin {
             super::Origin::Preset(name) => {
                 let dir = presets::folder(name);
-                read(self, dir.map(Files::Embedded).as_ref());
+                read(self, dir.map(Files::embedded).as_ref());
             }
             other => {
                 let base = other.base_dir().map(Path::to_owned);
-                read(self, base.as_deref().map(Files::Disk).as_ref());
+                read(self, base.as_deref().map(Files::on_disk).as_ref());
             }
         }
     }
@@ -159,13 +138,13 @@ impl Project {
                 // Any other form is left to the compiler, which skips it where another language's text stands in a group that is not
                 // compiled.
                 let Some(path) = named(line) else { continue };
-                let Some(name) = resolve(&source.name, path) else {
-                    found.diagnostics.push(
-                        Diagnostic::error(span, format!("#include \"{path}\" leads out of the project's folder")).hint(
-                            "copy the file into the folder, and name it relative to the file with this line, with /",
-                        ),
-                    );
-                    continue;
+                let name = match confine::relative(&source.name, path.trim()) {
+                    Ok(name) => name,
+                    Err(e) => {
+                        let message = format!("#include \"{path}\": {e}");
+                        found.diagnostics.push(Diagnostic::error(span, message).hint(e.hint()));
+                        continue;
+                    }
                 };
                 match ids.get(name.as_str()) {
                     Some(SourceId(0)) if id.0 != 0 => found.diagnostics.push(
@@ -205,8 +184,9 @@ impl Project {
             lines[usize::from(span.source.0)].push((span, usize::from(target.0)));
         }
         let mut cut: BTreeSet<(u16, u32)> = BTreeSet::new();
-        // How many texts each has in it, itself counted; 0: not known yet.
+        // How many texts each has in it, itself counted, and their bytes; 0: not known yet.
         let mut sizes = vec![0u64; count];
+        let mut bytes: Vec<u64> = sources.iter().map(|(_, s)| s.text.len() as u64).collect();
         for root in 0..count {
             // Depth first, without recursion: chains may be long.
             let mut way: Vec<(usize, usize)> = vec![(root, 0)];
@@ -230,22 +210,31 @@ impl Project {
                         None => way.push((target, 0)),
                     }
                 } else {
-                    let inner = lines[at].iter().filter(|(s, _)| !cut.contains(&(s.source.0, s.start)));
-                    sizes[at] = inner.fold(1u64, |sum, (_, target)| sum.saturating_add(sizes[*target]));
+                    sizes[at] = 1;
+                    for (_, target) in lines[at].iter().filter(|(s, _)| !cut.contains(&(s.source.0, s.start))) {
+                        sizes[at] = sizes[at].saturating_add(sizes[*target]);
+                        bytes[at] = bytes[at].saturating_add(bytes[*target]);
+                    }
                     way.pop();
                 }
             }
         }
         found.lines.retain(|(s, _)| !cut.contains(&(s.source.0, s.start)));
-        if let Some(at) = (0..count).find(|at| sizes[*at] > MAX_INCLUDED) {
-            let message = format!(
-                "{} has more than {MAX_INCLUDED} files in it, each counted as often as it is included",
-                name(at)
+        let is_too_much = |at: &usize| sizes[*at] > limits::INCLUDED || bytes[*at] > limits::ALL_TEXTS.bytes;
+        if let Some(at) = (0..count).find(is_too_much) {
+            let most = match sizes[at] > limits::INCLUDED {
+                true => format!("{} files", limits::INCLUDED),
+                false => limits::in_bytes(limits::ALL_TEXTS.bytes),
+            };
+            let message =
+                format!("{} has more than {most} in it, each file counted as often as it is included", name(at));
+            found.diagnostics.push(
+                Diagnostic::error(
+                    found.lines.iter().find(|(s, _)| usize::from(s.source.0) == at).map(|l| l.0),
+                    message,
+                )
+                .hint("include each file once"),
             );
-            found.diagnostics.push(Diagnostic::error(
-                found.lines.iter().find(|(s, _)| usize::from(s.source.0) == at).map(|l| l.0),
-                message,
-            ));
             found.lines.clear();
         }
     }

@@ -31,8 +31,27 @@ pub fn in_bytes(bytes: u64) -> String {
 }
 
 /// `eddy.toml`.
-pub const MANIFEST: Limit = Limit { bytes: 4 << 20, of: "an eddy.toml" };
+pub const MANIFEST: Limit = Limit { bytes: 2 << 20, of: "an eddy.toml" };
 /// One GLSL text: a pass, a stage, Common or an included file.
-pub const GLSL_TEXT: Limit = Limit { bytes: 16 << 20, of: "a GLSL text" };
+pub const GLSL_TEXT: Limit = Limit { bytes: 8 << 20, of: "a GLSL text" };
+/// All GLSL texts of a project together, those that they include among them.
+pub const ALL_TEXTS: Limit = Limit { bytes: 64 << 20, of: "all GLSL texts of a project together" };
 /// A Shadertoy JSON file.
 pub const JSON: Limit = Limit { bytes: 32 << 20, of: "a Shadertoy JSON file" };
+/// What a Shadertoy JSON file says of a shader besides its passes.
+pub const JSON_INFO: Limit = Limit { bytes: 1 << 20, of: "the \"info\" of a Shadertoy JSON file" };
+/// A picture, a model, or a file that a model names.
+pub const MEDIA_FILE: Limit = Limit { bytes: 512 << 20, of: "a picture or a model" };
+
+/// Passes of a project.
+pub const PASSES: usize = 1_000;
+/// Files with a text of their own: passes, stages, Common and included files.
+pub const TEXTS: usize = 10_000;
+/// Files that a text has in it, each counted as often as it is included.
+pub const INCLUDED: u64 = 10_000;
+/// Files directly in a project's folder.
+pub const FILES: usize = 50_000;
+/// Passes and meshes that are drawn for one frame: those of a group count as often as the group has steps.
+pub const DRAWS: u64 = 20_000;
+/// Letters of a buffer's or a group's name.
+pub const NAME: usize = 64;

@@ -1,9 +1,11 @@
 //! From what a person names on the command line to a [`Project`].
 
 use super::{
-    Info, Origin, Pass, PassId, Project, ProjectError, SamplerRules, Source,
-    folder::{self, Files, Read},
-    includes, json, manifest, nearest, presets,
+    Info, Origin, Pass, PassId, Project, ProjectError, SamplerRules, Source, confine,
+    files::{self, Files, Read},
+    folder, includes, json,
+    limits::{self, Limit},
+    manifest, nearest, presets,
 };
 use crate::diag::{Diagnostic, SourceMap};
 use std::{
@@ -90,7 +92,7 @@ fn locate(spec: &str) -> Result<Place, ProjectError> {
 }
 
 fn holds_project(path: &Path) -> bool {
-    let files = Files::Disk(path);
+    let files = Files::on_disk(path);
     files.exists(MANIFEST)
         || files
             .names()
@@ -107,7 +109,7 @@ pub(super) fn folder_name(path: &Path) -> String {
 }
 
 fn load_folder(path: &Path) -> Result<Loaded, ProjectError> {
-    let files = Files::Disk(path);
+    let files = Files::on_disk(path);
     let has_manifest = files.exists(MANIFEST);
     let origin = Origin::Folder { path: path.to_owned(), has_manifest };
     load_files(&path.display().to_string(), folder_name(path), &files, origin)
@@ -115,12 +117,13 @@ fn load_folder(path: &Path) -> Result<Loaded, ProjectError> {
 
 /// A folder on disk or in the binary. `what` names it in errors.
 pub(super) fn load_files(what: &str, name: String, files: &Files<'_>, origin: Origin) -> Result<Loaded, ProjectError> {
-    let manifest_text = match files.read(MANIFEST)? {
+    let manifest_text = match files.read(MANIFEST, limits::MANIFEST) {
+        Read::Refused(error) => return Err(error.into()),
         Read::Missing => return finish(what, by_convention(what, name, files, origin)?),
         Read::Text(text) => text,
         Read::NotUtf8(at, lossy) => {
             let mut sources = SourceMap::default();
-            let diagnostics = vec![folder::not_utf8(&mut sources, MANIFEST, at, lossy)];
+            let diagnostics = vec![files::not_utf8(&mut sources, MANIFEST, at, lossy)];
             return Err(ProjectError::Invalid { what: what.to_owned(), diagnostics, sources });
         }
     };
@@ -131,13 +134,23 @@ fn by_convention(what: &str, name: String, files: &Files<'_>, origin: Origin) ->
     let mut texts = Vec::new();
     let mut sources = SourceMap::default();
     let mut diagnostics = Vec::new();
+    let mut said = Vec::new();
     for file in files.names()? {
         if folder::role_of_file(&file).is_none() {
+            said.extend(folder::misnamed(&file));
             continue;
         }
-        match files.read(&file)? {
+        if texts.len() == limits::PASSES {
+            let message = format!("there are more than {} passes, the most a project has", limits::PASSES);
+            diagnostics.push(Diagnostic::error(None, message).hint("take some of their files out of the folder"));
+            break;
+        }
+        match files.read(&file, limits::GLSL_TEXT) {
+            Read::Refused(error) => {
+                diagnostics.push(Diagnostic::error(None, error.to_string()).hint(error.hint()));
+            }
             Read::Text(text) => texts.push(Source { path: files.path(&file), name: file, text: text.into() }),
-            Read::NotUtf8(at, lossy) => diagnostics.push(folder::not_utf8(&mut sources, &file, at, lossy)),
+            Read::NotUtf8(at, lossy) => diagnostics.push(files::not_utf8(&mut sources, &file, at, lossy)),
             // Removed between the listing and the reading: not there, then.
             Read::Missing => {}
         }
@@ -145,7 +158,8 @@ fn by_convention(what: &str, name: String, files: &Files<'_>, origin: Origin) ->
     if !diagnostics.is_empty() {
         return Err(ProjectError::Invalid { what: what.to_owned(), diagnostics, sources });
     }
-    let (mut project, warnings) = folder::project(name, texts, origin);
+    let (mut project, mut warnings) = folder::project(name, texts, origin);
+    warnings.extend(said);
     includes::read(&mut project, Some(files));
     Ok(Loaded { sources: project.sources(), project, warnings })
 }
@@ -153,7 +167,7 @@ fn by_convention(what: &str, name: String, files: &Files<'_>, origin: Origin) ->
 fn load_glsl(path: &Path) -> Result<Loaded, ProjectError> {
     let what = path.display().to_string();
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let text = read_text(path, &name)?;
+    let text = read_text(path, &name, limits::GLSL_TEXT)?;
     let mut project = Project {
         name: path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
         info: Info::default(),
@@ -177,7 +191,7 @@ fn load_glsl(path: &Path) -> Result<Loaded, ProjectError> {
 
 fn load_json(path: &Path) -> Result<Loaded, ProjectError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let text = read_text(path, &name)?;
+    let text = read_text(path, &name, limits::JSON)?;
     let (mut project, warnings) = json::import(&text, &name)?;
     if project.name.is_empty() {
         project.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -187,15 +201,17 @@ fn load_json(path: &Path) -> Result<Loaded, ProjectError> {
     Ok(Loaded { sources: project.sources(), project, warnings })
 }
 
-fn read_text(path: &Path, name: &str) -> Result<String, ProjectError> {
-    match folder::decode(fs::read(path).map_err(ProjectError::io("read", path))?) {
+/// The text of a project that is one file. Its folder is the file's own.
+fn read_text(path: &Path, name: &str, limit: Limit) -> Result<String, ProjectError> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    match files::decode(confine::read(folder, name, limit)?) {
         Read::Text(text) => Ok(text),
         Read::NotUtf8(at, lossy) => {
             let mut sources = SourceMap::default();
-            let diagnostics = vec![folder::not_utf8(&mut sources, name, at, lossy)];
+            let diagnostics = vec![files::not_utf8(&mut sources, name, at, lossy)];
             Err(ProjectError::Invalid { what: path.display().to_string(), diagnostics, sources })
         }
-        Read::Missing => unreachable!("decode never says that a file is missing"),
+        Read::Missing | Read::Refused(_) => unreachable!("decode is given what was read"),
     }
 }
 

@@ -7,6 +7,7 @@ mod atomic;
 pub mod confine;
 pub mod directives;
 mod error;
+mod files;
 mod folder;
 mod geometry;
 mod includes;
@@ -18,10 +19,14 @@ mod load;
 mod manifest;
 mod model;
 mod names;
+mod picked;
 pub mod presets;
 mod save;
 mod settings;
+mod writes;
 
+pub use atomic::{sweep, write_with};
+pub use confine::FileError;
 pub use error::ProjectError;
 pub use folder::declare_channels;
 pub use geometry::{Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Stage, files_beside};
@@ -33,5 +38,6 @@ pub use model::{
     Channel, Filter, Info, Input, Media, Origin, Pass, PassId, Project, Sampler, SamplerRules, Source, Tab, Wrap,
 };
 pub use names::{listed, nearest};
+pub use picked::at_home;
 pub use save::{Overwrite, save};
 pub use settings::{Group, PassFormat, PassSettings, PassSize, Region};

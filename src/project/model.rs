@@ -110,8 +110,16 @@ impl PassId {
         }
     }
 
-    /// Reads either spelling, without regard to case, spaces or underscores; a bare letter is a buffer.
+    /// What names buffers have, as a message says it.
+    pub const NAMES: &str = "a buffer's name has letters, digits, _, - and blanks, at most 64 of them";
+
+    /// Reads either spelling, without regard to case, spaces or underscores; a bare letter is a buffer. Names become parts of
+    /// files' names, so `None` for one with anything but letters, digits, blanks, `_` and `-`, or longer than
+    /// [`super::limits::NAME`].
     pub fn parse(text: &str) -> Option<PassId> {
+        if text.chars().nth(super::limits::NAME + "buffer_".len()).is_some() {
+            return None;
+        }
         let flat: String = text.chars().filter(|c| !matches!(c, ' ' | '_' | '-')).collect::<String>().to_lowercase();
         Some(match flat.as_str() {
             "" => return None,
@@ -120,13 +128,18 @@ impl PassId {
             "cubea" | "cubemap" | "cubemapa" => PassId::Cubemap,
             _ => {
                 let name = flat.strip_prefix("buffer").or_else(|| flat.strip_prefix("buf")).unwrap_or(&flat);
-                if name.is_empty() {
+                if !PassId::is_name(name) {
                     return None;
                 }
                 // A site buffer is one capital letter; further names are kept in lower case, as file names fold case.
                 PassId::Buffer(if name.len() == 1 { name.to_uppercase() } else { name.to_owned() })
             }
         })
+    }
+
+    /// Whether a buffer may be called so: letters and digits, not too many.
+    pub fn is_name(name: &str) -> bool {
+        !name.is_empty() && name.chars().count() <= super::limits::NAME && name.chars().all(char::is_alphanumeric)
     }
 }
 
@@ -166,8 +179,11 @@ pub enum Input {
 pub enum Media {
     /// One of Eddy's own, by name (`noise-rgba-256`): see `media::builtin`.
     Builtin(String),
-    /// A file, relative to the project's folder or absolute.
+    /// A file of the project, relative to its folder: see [`super::confine`].
     File(PathBuf),
+    /// A file that the person at the machine picked, wherever it lies, by its whole path. Lives in memory alone: saving copies
+    /// the file into the project's folder and makes a [`Media::File`] of it, and nothing that is read from a project is one.
+    Picked(PathBuf),
     /// One of the site's stock files. Stands for a built-in of the same size and kind, or a file of that name in `--media`.
     Site { id: String, path: String },
 }
@@ -218,6 +234,31 @@ pub enum SamplerRules {
 }
 
 impl Input {
+    /// What is read from outside the passes.
+    pub fn media(&self) -> Option<&Media> {
+        match self {
+            Input::Texture(m) | Input::Cubemap(m) | Input::Volume(m) | Input::Video(m) | Input::Music(m) => Some(m),
+            Input::Buffer(_)
+            | Input::Target { .. }
+            | Input::CubemapPass
+            | Input::Keyboard
+            | Input::Microphone
+            | Input::Webcam => None,
+        }
+    }
+
+    pub fn media_mut(&mut self) -> Option<&mut Media> {
+        match self {
+            Input::Texture(m) | Input::Cubemap(m) | Input::Volume(m) | Input::Video(m) | Input::Music(m) => Some(m),
+            Input::Buffer(_)
+            | Input::Target { .. }
+            | Input::CubemapPass
+            | Input::Keyboard
+            | Input::Microphone
+            | Input::Webcam => None,
+        }
+    }
+
     /// The buffer that is read, and which of its targets.
     pub fn buffer(&self) -> Option<(&str, usize)> {
         match self {

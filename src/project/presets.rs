@@ -2,7 +2,7 @@
 
 use super::{
     Loaded, Origin, ProjectError,
-    folder::Files,
+    files::Files,
     load::{MANIFEST, load_files},
     nearest,
 };
@@ -46,7 +46,7 @@ pub fn load(name: &str) -> Result<Loaded, ProjectError> {
         near: nearest(name, names().iter().copied()).map(str::to_owned),
         presets: names().iter().map(|&n| n.to_owned()).collect(),
     })?;
-    load_files(name, name.to_owned(), &Files::Embedded(dir), Origin::Preset(name.to_owned()))
+    load_files(name, name.to_owned(), &Files::embedded(dir), Origin::Preset(name.to_owned()))
 }
 
 #[cfg(test)]

@@ -3,19 +3,19 @@
 //! Owns what goes into which file. The writing itself, which never leaves half a file behind, is in `atomic`.
 
 use super::{
-    Input, Media, MeshSource, Origin, PassId, Project, ProjectError, SamplerRules, Source,
-    atomic::{self, Content},
-    files_beside,
-    folder::{self, Files},
-    json,
+    Media, MeshSource, Origin, PassId, Project, ProjectError, SamplerRules, Source,
+    atomic::Content,
+    confine,
+    files::Files,
+    files_beside, folder, json, limits,
     load::{MANIFEST, folder_name},
-    manifest,
+    manifest, picked,
+    writes::{self, Writes},
 };
 use crate::diag::Diagnostic;
 use std::{
-    collections::BTreeMap,
-    fs,
-    path::{Component, Path, PathBuf},
+    collections::{BTreeMap, BTreeSet},
+    path::Path,
 };
 
 /// What to do about a file in the way that is not this project's.
@@ -51,9 +51,13 @@ fn save_json(project: &Project, target: &Path, overwrite: Overwrite) -> Result<P
         let what = format!("{}, which draws meshes: the site has no such pass", pass.id.title());
         return Err(ProjectError::CannotHold { path: target.to_owned(), what });
     }
+    if let Some(path) = picked::paths(project).next() {
+        let what = format!("the picture {}, which lies elsewhere", path.display());
+        return Err(ProjectError::CannotHold { path: target.to_owned(), what });
+    }
     let text = json::export(project);
     let (mut saved, _) = json::import(&text, &target.display().to_string())?;
-    write(BTreeMap::from([(target.to_owned(), Content::Bytes(text.into_bytes()))]), |_| own, overwrite)?;
+    write_one(target, text.into_bytes(), own, overwrite)?;
     saved.origin = Origin::Json(target.to_owned());
     Ok(saved)
 }
@@ -80,8 +84,7 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite) -> Result<P
         return cannot("the files that its text includes");
     }
     let own = matches!(&project.origin, Origin::File(path) if is_same(path, target));
-    let bytes = image.source.text.as_bytes().to_vec();
-    write(BTreeMap::from([(target.to_owned(), Content::Bytes(bytes))]), |_| own, overwrite)?;
+    write_one(target, image.source.text.as_bytes().to_vec(), own, overwrite)?;
     saved.name = target.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     saved.sampler_rules = SamplerRules::PerChannel;
     saved.origin = Origin::File(target.to_owned());
@@ -98,144 +101,130 @@ fn save_folder(project: &Project, target: &Path, overwrite: Overwrite) -> Result
         _ => (false, false),
     };
     let mut saved = project.clone();
-    let mut own: Vec<String> = Vec::new();
+    let mut own: BTreeSet<String> = BTreeSet::new();
     if is_home {
-        own.extend(saved.tab_sources().filter(|s| s.path.is_some()).map(|s| s.name.clone()));
+        let texts = saved.tab_sources().filter(|s| s.path.is_some()).map(|s| s.name.clone());
+        own.extend(texts.filter_map(|name| confine::relative("", &name).ok()));
         own.extend(had_manifest.then(|| MANIFEST.to_owned()));
     }
-    let mut texts: BTreeMap<String, Vec<u8>> = BTreeMap::new();
+    let mut writes = Writes::into(target, own);
     if let Some(common) = &mut saved.common {
         let name = usual(common, "common");
-        place(common, name, is_home, target, &mut texts);
+        place(common, name, is_home, target, &mut writes)?;
     }
     for pass in &mut saved.passes {
         let name = usual(&pass.source, &pass.id.key());
-        place(&mut pass.source, name, is_home, target, &mut texts);
+        place(&mut pass.source, name, is_home, target, &mut writes)?;
         for stage in pass.settings.geometry.iter_mut().flat_map(|g| &mut g.stages) {
-            let name = stage.name.clone();
-            place(stage, name, is_home, target, &mut texts);
+            let name = with_ending(stage.name.clone());
+            place(stage, name, is_home, target, &mut writes)?;
         }
     }
     if !is_home {
         // Under their own names, which the lines that include them say.
         for included in project.includes.iter().filter(|i| i.trouble.is_none()) {
-            texts.insert(included.source.name.clone(), included.source.text.as_bytes().to_vec());
+            let text = included.source.text.as_bytes().to_vec();
+            writes.add(&included.source.name, Content::Bytes(text))?;
         }
+        copy_media(&saved, &mut writes)?;
     }
-    let mut writes: BTreeMap<PathBuf, Content> = BTreeMap::new();
-    if !is_home {
-        copy_media(&mut saved, target, &mut writes);
-    }
+    picked::copy_in(&mut saved, target, &mut writes)?;
     saved.origin = Origin::Folder { path: target.to_owned(), has_manifest: true };
     let name = folder_name(target);
-    if is_home && !had_manifest && says_the_same(&saved, &name, &folder_after(target, &texts)) {
+    let after = folder_after(target, &writes);
+    if is_home && !had_manifest && says_the_same(&saved, &name, &after) {
         saved.origin = Origin::Folder { path: target.to_owned(), has_manifest: false };
     } else {
-        let old = if had_manifest { fs::read_to_string(target.join(MANIFEST)).ok() } else { None };
-        let text = manifest_text(&saved, old.as_deref(), &name, target, &texts)?;
-        texts.insert(MANIFEST.into(), text.into_bytes());
+        let old = had_manifest.then(|| confine::read(target, MANIFEST, limits::MANIFEST).ok()).flatten();
+        let old = old.and_then(|bytes| String::from_utf8(bytes).ok());
+        let text = manifest_text(&saved, old.as_deref(), &name, target, &after)?;
+        writes.add(MANIFEST, Content::Bytes(text.into_bytes()))?;
     }
-    writes.extend(texts.into_iter().map(|(name, bytes)| (target.join(name), Content::Bytes(bytes))));
-    let own: Vec<PathBuf> = own.into_iter().map(|name| target.join(name)).collect();
-    write(writes, |path| own.iter().any(|o| o == path), overwrite)?;
+    writes.write(overwrite)?;
     saved.read_includes();
     Ok(saved)
+}
+
+/// Writes the one file that a project is.
+fn write_one(target: &Path, bytes: Vec<u8>, is_own: bool, overwrite: Overwrite) -> Result<(), ProjectError> {
+    let name = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let own = if is_own { BTreeSet::from([name.clone()]) } else { BTreeSet::new() };
+    let mut writes = Writes::into(target.parent().unwrap_or(Path::new("")), own);
+    writes.add_named(name, Content::Bytes(bytes));
+    writes.write(overwrite)
 }
 
 /// The file a text has in a new folder. One that includes others stays where it was among them.
 fn usual(source: &Source, key: &str) -> String {
     let includes = source.path.is_some() && source.text.contains("#include");
-    if includes { source.name.clone() } else { format!("{key}.glsl") }
+    if includes { with_ending(source.name.clone()) } else { format!("{key}.glsl") }
+}
+
+/// A text's name with an ending that a text may have.
+fn with_ending(name: String) -> String {
+    if writes::is_text(&name) { name } else { format!("{name}.glsl") }
 }
 
 /// Gives a text its file: the one it has in this folder, else the one of its name. Two passes may share a file as long as
 /// they say the same.
-fn place(source: &mut Source, usual: String, is_home: bool, target: &Path, texts: &mut BTreeMap<String, Vec<u8>>) {
+fn place(
+    source: &mut Source,
+    usual: String,
+    is_home: bool,
+    target: &Path,
+    writes: &mut Writes,
+) -> Result<(), ProjectError> {
     let bytes = source.text.as_bytes();
-    let is_free = |name: &str| texts.get(name).is_none_or(|b| b == bytes);
-    let old = (is_home && source.path.is_some() && is_free(&source.name)).then(|| source.name.clone());
-    let mut name = old.unwrap_or_else(|| usual.clone());
-    let mut number = 2;
-    while !is_free(&name) {
-        name = format!("{}_{number}.glsl", usual.trim_end_matches(".glsl"));
-        number += 1;
+    let is_old = is_home && source.path.is_some();
+    if !(is_old && writes.is_free(&writes.checked(&source.name)?, bytes)) {
+        let mut name = writes.checked(&usual)?;
+        let mut number = 2;
+        while !writes.is_free(&name, bytes) {
+            name = format!("{}_{number}.glsl", usual.trim_end_matches(".glsl"));
+            number += 1;
+        }
+        source.name = name;
     }
-    texts.insert(name.clone(), bytes.to_vec());
-    source.path = Some(target.join(&name));
-    source.name = name;
+    writes.add(&source.name, Content::Bytes(bytes.to_vec()))?;
+    source.path = Some(target.join(&source.name));
+    Ok(())
 }
 
-/// Where a file of the old folder, named relative to it, goes in a new one.
-enum Move {
-    /// It is copied to the same place in the new folder.
-    Along(PathBuf),
-    /// It lies outside the old folder, and is named by its whole path from now on.
-    Stays(PathBuf),
-}
-
-fn moved(base: &Path, path: &Path) -> Option<Move> {
-    let from = base.join(path);
-    if path.is_absolute() || !from.is_file() {
-        None
-    } else if path.components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir)) {
-        Some(Move::Along(from))
-    } else {
-        from.canonicalize().ok().map(Move::Stays)
-    }
-}
-
-/// Models and what they name, as [`copy_media`] does with pictures.
-fn copy_models(base: &Path, project: &mut Project, target: &Path, writes: &mut BTreeMap<PathBuf, Content>) {
-    let geometries = project.passes.iter_mut().filter_map(|p| p.settings.geometry.as_mut());
-    for draw in geometries.flat_map(|g| &mut g.draws) {
-        let MeshSource::File(path) = &mut draw.mesh else { continue };
-        match moved(base, path) {
-            Some(Move::Along(from)) => {
-                let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-                for beside in files_beside(&from) {
-                    if let Some(Move::Along(from)) = moved(base, &folder.join(&beside)) {
-                        writes.insert(target.join(&folder).join(beside), Content::CopyOf(from));
-                    }
-                }
-                writes.insert(target.join(&*path), Content::CopyOf(from));
-            }
-            Some(Move::Stays(whole)) => *path = whole,
-            None => {}
+/// Copies the pictures and models of the old folder to the same places in the new one. What is not there, or may not be read or
+/// written, is left out: it reads black here and there.
+fn copy_media(project: &Project, writes: &mut Writes) -> Result<(), ProjectError> {
+    let Some(base) = project.origin.base_dir() else { return Ok(()) };
+    let mut names: BTreeSet<String> = BTreeSet::new();
+    let named = |path: &Path| path.to_str().and_then(|name| confine::relative("", name).ok());
+    for draw in project.passes.iter().filter_map(|p| p.settings.geometry.as_ref()).flat_map(|g| &g.draws) {
+        let MeshSource::File(path) = &draw.mesh else { continue };
+        if let Some(model) = named(path) {
+            names.extend(files_beside(base, &model));
+            names.insert(model);
         }
     }
-}
-
-/// Pictures named relative to the old folder go along; those outside it are named by their whole path from now on.
-fn copy_media(project: &mut Project, target: &Path, writes: &mut BTreeMap<PathBuf, Content>) {
-    let Some(base) = project.origin.base_dir().map(Path::to_owned) else { return };
-    copy_models(&base, project, target, writes);
-    for channel in project.passes.iter_mut().flat_map(|p| p.channels.iter_mut().flatten()) {
-        let (Input::Texture(media)
-        | Input::Cubemap(media)
-        | Input::Volume(media)
-        | Input::Video(media)
-        | Input::Music(media)) = &mut channel.input
-        else {
-            continue;
-        };
-        let Media::File(path) = media else { continue };
-        match moved(&base, path) {
-            Some(Move::Along(from)) => drop(writes.insert(target.join(&*path), Content::CopyOf(from))),
-            Some(Move::Stays(whole)) => *path = whole,
-            None => {}
+    for channel in project.passes.iter().flat_map(|p| p.channels.iter().flatten()) {
+        if let Some(Media::File(path)) = channel.input.media() {
+            names.extend(named(path));
         }
     }
+    for name in names {
+        if writes::is_media(&name) && writes.checked(&name).is_ok() && confine::resolve(base, &name).is_ok() {
+            writes.add(&name, Content::CopyOf(base.to_owned(), name.clone()))?;
+        }
+    }
+    Ok(())
 }
 
-/// The text files of the folder once `texts` are written.
-fn folder_after(target: &Path, texts: &BTreeMap<String, Vec<u8>>) -> BTreeMap<String, Vec<u8>> {
+/// The text files of the folder once everything is written.
+fn folder_after(target: &Path, writes: &Writes) -> BTreeMap<String, Vec<u8>> {
     let mut files = BTreeMap::new();
-    for name in Files::Disk(target).names().unwrap_or_default() {
+    for name in Files::on_disk(target).names().unwrap_or_default() {
         if folder::role_of_file(&name).is_some() {
-            files.insert(name.clone(), fs::read(target.join(&name)).unwrap_or_default());
+            files.insert(name.clone(), confine::read(target, &name, limits::GLSL_TEXT).unwrap_or_default());
         }
     }
-    files.extend(texts.iter().map(|(name, bytes)| (name.clone(), bytes.clone())));
+    files.extend(writes.texts().map(|(name, bytes)| (name.clone(), bytes.clone())));
     files
 }
 
@@ -269,13 +258,12 @@ fn manifest_text(
     old: Option<&str>,
     name: &str,
     target: &Path,
-    texts: &BTreeMap<String, Vec<u8>>,
+    files: &BTreeMap<String, Vec<u8>>,
 ) -> Result<String, ProjectError> {
-    let files = folder_after(target, texts);
     let has_common_file = files.keys().any(|name| folder::role_of_file(name) == Some(folder::Role::Common));
     for old in [old, None] {
         let text = manifest::write(project, old, name, has_common_file);
-        let read = manifest::project("", name.to_owned(), &text, &Files::Memory(&files), Origin::Unsaved);
+        let read = manifest::project("", name.to_owned(), &text, &Files::in_memory(files), Origin::Unsaved);
         if read.is_ok_and(|l| is_equal_but_for_places(&l.project, project)) {
             return Ok(text);
         }
@@ -285,25 +273,6 @@ fn manifest_text(
         path: target.join(MANIFEST),
         what: "a name in this project that is not plain text".into(),
     })
-}
-
-/// Checks that nothing foreign is in the way, then writes everything.
-fn write(
-    writes: BTreeMap<PathBuf, Content>,
-    is_own: impl Fn(&Path) -> bool,
-    overwrite: Overwrite,
-) -> Result<(), ProjectError> {
-    let mut changed = Vec::new();
-    for (path, content) in writes {
-        match atomic::compare(&path, &content)? {
-            atomic::OnDisk::Same => continue,
-            atomic::OnDisk::Different if overwrite == Overwrite::Refuse && !is_own(&path) => {
-                return Err(ProjectError::WouldOverwrite { path });
-            }
-            atomic::OnDisk::Different | atomic::OnDisk::Absent => changed.push((path, content)),
-        }
-    }
-    atomic::write_all(changed)
 }
 
 /// Whether two paths name one place, also where one is written in another way.

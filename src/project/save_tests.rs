@@ -180,7 +180,7 @@ fn every_project_comes_back_from_eddy_toml_as_it_was() {
             place(&mut pass.source, format!("{}.glsl", pass.id.key()), false, Path::new(""), &mut texts);
         }
         let text = manifest::write(&project, None, "folder", false);
-        let read = manifest::project("", "folder".into(), &text, &Files::Memory(&texts), Origin::Unsaved);
+        let read = manifest::project("", "folder".into(), &text, &Files::in_memory(&texts), Origin::Unsaved);
         let read = read.unwrap_or_else(|e| panic!("seed {seed}: {e}\n{text}")).project;
         assert!(is_equal_but_for_places(&read, &project), "seed {seed}: {read:#?}\n{text}");
         assert_eq!(manifest::write(&read, Some(&text), "folder", false), text, "seed {seed}: written again, the same");

@@ -1,7 +1,7 @@
 //! Commands of the front ends that concern the open project, its picture and its input. Those about files are in `files`.
 
 use super::{
-    Session,
+    Session, capture,
     command::{Command, Question},
     template,
     view::Level,
@@ -55,6 +55,8 @@ impl Session {
                 self.canvas.refused = None;
             }
             Command::SetChannel { pass, index, channel } => {
+                let folder = capture::base_folder(self.project());
+                let channel = channel.map(|c| Channel { input: project::at_home(c.input, folder.as_deref()), ..c });
                 let slot = self.documents.current_mut().pass_mut(&pass).and_then(|p| p.channels.get_mut(index));
                 if let Some(slot) = slot
                     && *slot != channel

@@ -7,7 +7,7 @@ use super::{
     view::Level,
     watch::Watch,
 };
-use crate::project::{self, Input, Media, MeshSource, Origin, Project, Tab};
+use crate::project::{self, Media, MeshSource, Origin, Project, Tab, confine, limits};
 use std::{
     collections::BTreeSet,
     fs,
@@ -164,14 +164,14 @@ impl Session {
         let is_text_known = saved.tabs().iter().all(|tab| {
             let Some(source) = saved.source(tab) else { return true };
             let mine = current.source(tab).map(|s| s.text.as_bytes());
-            source.path.as_ref().is_none_or(|path| match fs::read(path) {
+            source.path.as_ref().is_none_or(|path| match confine::read_own(path, limits::GLSL_TEXT) {
                 Ok(bytes) => {
                     bytes == source.text.as_bytes()
                         || Some(&*bytes) == mine
                         || bytes.is_empty() && self.documents.is_missing(tab)
                 }
-                // Gone: there is nothing to overwrite.
-                Err(_) => true,
+                // Gone: there is nothing to overwrite. Anything else is not what was read.
+                Err(e) => e.is_missing(),
             })
         });
         if is_text_known && read_manifest(saved).is_none_or(|now| Some(now) == self.disk.manifest) {
@@ -244,7 +244,8 @@ fn manifest_path(project: &Project) -> Option<PathBuf> {
 }
 
 fn read_manifest(project: &Project) -> Option<Vec<u8>> {
-    fs::read(manifest_path(project)?).ok()
+    manifest_path(project)?;
+    confine::read(&capture::base_folder(project)?, "eddy.toml", limits::MANIFEST).ok()
 }
 
 /// Passes and channels as `eddy.toml` would say them.
@@ -253,68 +254,72 @@ fn manifest_text(project: &Project) -> String {
     for pass in named.passes.iter_mut().filter(|p| p.source.path.is_none()) {
         pass.source.name = format!("{}.glsl", pass.id.key());
     }
-    let old = manifest_path(project).and_then(|p| fs::read_to_string(p).ok());
+    let old = read_manifest(project).and_then(|bytes| String::from_utf8(bytes).ok());
     let has_common_file = capture::base_folder(project).is_some_and(|p| p.join("common.glsl").is_file());
     project::write_manifest(&named, old.as_deref(), &project.name, has_common_file)
 }
 
-fn media_files(project: &Project) -> impl Iterator<Item = PathBuf> {
-    let base = capture::base_folder(project);
-    let channels = project.passes.iter().flat_map(|p| p.channels.iter().flatten());
-    channels.filter_map(move |c| match &c.input {
-        Input::Texture(m) | Input::Cubemap(m) | Input::Volume(m) | Input::Video(m) | Input::Music(m) => match m {
-            Media::File(path) => Some(base.as_deref().unwrap_or(Path::new("")).join(path)),
-            Media::Builtin(_) | Media::Site { .. } => None,
-        },
-        Input::Buffer(_)
-        | Input::Target { .. }
-        | Input::CubemapPass
-        | Input::Keyboard
-        | Input::Microphone
-        | Input::Webcam => None,
-    })
+/// A file that is read besides the texts of tabs.
+enum ReadFile {
+    /// By its name from the project's folder.
+    Own(String),
+    /// What the person picked.
+    Picked(PathBuf),
 }
 
-/// Files that texts include, those that are not there among them.
-fn included_files(project: &Project) -> impl Iterator<Item = PathBuf> {
-    project.includes.iter().filter_map(|i| i.source.path.clone())
-}
-
-/// Models that are drawn, and the files these name.
-fn model_files(project: &Project) -> Vec<PathBuf> {
-    let base = capture::base_folder(project).unwrap_or_default();
-    let mut files = Vec::new();
-    for draw in project.passes.iter().filter_map(|p| p.settings.geometry.as_ref()).flat_map(|g| &g.draws) {
-        let MeshSource::File(path) = &draw.mesh else { continue };
-        let model = base.join(path);
-        let folder = model.parent().map(Path::to_owned).unwrap_or_default();
-        files.extend(project::files_beside(&model).into_iter().map(|f| folder.join(f)));
-        files.push(model);
+/// Everything that is read besides the texts of tabs, those files that are not there among them: pictures, included files,
+/// models and the files these name.
+fn read_files(project: &Project) -> Vec<ReadFile> {
+    let mut own: BTreeSet<String> = project.includes.iter().map(|i| i.source.name.clone()).collect();
+    let mut picked = BTreeSet::new();
+    for channel in project.passes.iter().flat_map(|p| p.channels.iter().flatten()) {
+        match channel.input.media() {
+            Some(Media::File(path)) => own.extend(path.to_str().and_then(|name| confine::relative("", name).ok())),
+            Some(Media::Picked(path)) => drop(picked.insert(path.clone())),
+            Some(Media::Builtin(_) | Media::Site { .. }) | None => {}
+        }
     }
-    files.sort();
-    files.dedup();
-    files
-}
-
-/// Everything that is read besides the texts of tabs.
-fn read_files(project: &Project) -> impl Iterator<Item = PathBuf> {
-    media_files(project).chain(included_files(project)).chain(model_files(project))
+    let base = capture::base_folder(project);
+    for draw in project.passes.iter().filter_map(|p| p.settings.geometry.as_ref()).flat_map(|g| &g.draws) {
+        if let (MeshSource::File(path), Some(base)) = (&draw.mesh, &base)
+            && let Some(model) = path.to_str().and_then(|name| confine::relative("", name).ok())
+        {
+            own.extend(project::files_beside(base, &model));
+            own.insert(model);
+        }
+    }
+    own.into_iter().map(ReadFile::Own).chain(picked.into_iter().map(ReadFile::Picked)).collect()
 }
 
 fn media_stamps(project: &Project) -> MediaStamps {
-    let stamp = |path: &Path| {
+    let hash = |bytes: Vec<u8>| {
         let mut hasher = DefaultHasher::new();
-        fs::read(path).ok()?.hash(&mut hasher);
-        Some(hasher.finish())
+        bytes.hash(&mut hasher);
+        hasher.finish()
     };
-    read_files(project).map(|p| (p.clone(), stamp(&p))).collect()
+    let base = capture::base_folder(project);
+    let stamps = read_files(project).into_iter().filter_map(|file| {
+        let (path, read) = match file {
+            ReadFile::Own(name) => {
+                (base.as_ref()?.join(&name), confine::read(base.as_ref()?, &name, limits::MEDIA_FILE))
+            }
+            ReadFile::Picked(path) => (path.clone(), confine::read_own(&path, limits::MEDIA_FILE)),
+        };
+        Some((path, read.ok().map(hash)))
+    });
+    stamps.collect()
 }
 
 /// Every folder a file of the project lies in; none for a project that lies nowhere.
 fn folders(project: &Project) -> BTreeSet<PathBuf> {
     let Some(base) = capture::base_folder(project) else { return BTreeSet::new() };
-    let sources = project.tab_sources();
-    let files = sources.filter_map(|s| s.path.clone()).chain(read_files(project));
+    let read = read_files(project).into_iter().map(|file| match file {
+        ReadFile::Own(name) => base.join(name),
+        ReadFile::Picked(path) => path,
+    });
+    let files = project.tab_sources().filter_map(|s| s.path.clone()).chain(read);
     let parents = files.filter_map(|f| f.parent().map(Path::to_owned)).filter(|p| p.is_dir());
-    parents.chain([base]).collect()
+    let mut folders: BTreeSet<PathBuf> = parents.collect();
+    folders.insert(base);
+    folders
 }

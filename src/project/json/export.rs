@@ -102,6 +102,12 @@ fn of_media(kind: &'static str, media: &Media) -> (&'static str, String, String)
     match media {
         Media::Builtin(name) => (kind, String::new(), format!("builtin://{name}")),
         Media::File(path) => (kind, String::new(), format!("file://{}", path.to_string_lossy().replace('\\', "/"))),
+        // Where the picture lies on this machine is nobody else's to know.
+        Media::Picked(path) => (kind, String::new(), format!("file://{}", file_name(path))),
         Media::Site { id, path } => (kind, id.clone(), path.clone()),
     }
+}
+
+fn file_name(path: &std::path::Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }

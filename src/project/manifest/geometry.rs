@@ -5,8 +5,8 @@ use super::{
     write::{child, set},
 };
 use crate::project::{
-    Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, PassFormat, PassId, PassSettings,
-    ProjectError, Source, Stage,
+    Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, PassFormat, PassId, PassSettings, Source,
+    Stage,
 };
 use std::ops::Range;
 use toml_edit::{Array, InlineTable, Item, TableLike, Value};
@@ -57,7 +57,7 @@ impl Reader<'_> {
         pass: &dyn TableLike,
         file: &str,
         settings: &mut PassSettings,
-    ) -> Result<Option<Geometry>, ProjectError> {
+    ) -> Option<Geometry> {
         let Some(item) = pass.get("draw") else {
             for key in ["targets", "camera"] {
                 if let Some(item) = pass.get(key) {
@@ -68,12 +68,12 @@ impl Reader<'_> {
                     );
                 }
             }
-            return Ok(None);
+            return None;
         };
         if !matches!(id, PassId::Buffer(_)) {
             let hint = "draw the meshes in a buffer, and read it here: channels.0 = { buffer = \"scene\" }";
             self.error(item.span(), format!("{} draws no meshes", id.title()), hint);
-            return Ok(None);
+            return None;
         }
         if let Some(region) = pass.get("region") {
             self.error(
@@ -90,8 +90,8 @@ impl Reader<'_> {
             stages: Vec::new(),
         };
         for (Entry { mesh: _, vertex, fragment, draw }, at) in entries {
-            let vertex = self.stage(&mut geometry.stages, file, &vertex, at.clone())?;
-            let fragment = fragment.map_or(Ok(Some(Stage::Own)), |f| self.stage(&mut geometry.stages, file, &f, at))?;
+            let vertex = self.stage(&mut geometry.stages, file, &vertex, at.clone());
+            let fragment = fragment.map_or(Some(Stage::Own), |f| self.stage(&mut geometry.stages, file, &f, at));
             if let (Some(vertex), Some(fragment)) = (vertex, fragment) {
                 geometry.draws.push(MeshDraw { vertex, fragment, ..draw });
             }
@@ -101,27 +101,19 @@ impl Reader<'_> {
             let hint = "remove file, or leave out fragment where this text shall be used";
             self.error(item.span(), "no draw uses the pass's own file", hint);
         }
-        Ok(Some(geometry))
+        Some(geometry)
     }
 
-    fn stage(
-        &mut self,
-        stages: &mut Vec<Source>,
-        own: &str,
-        file: &str,
-        at: Option<Range<usize>>,
-    ) -> Result<Option<Stage>, ProjectError> {
+    fn stage(&mut self, stages: &mut Vec<Source>, own: &str, file: &str, at: Option<Range<usize>>) -> Option<Stage> {
         if file == own {
-            return Ok(Some(Stage::Own));
+            return Some(Stage::Own);
         }
         if let Some(n) = stages.iter().position(|s| s.name == file) {
-            return Ok(Some(Stage::File(n)));
+            return Some(Stage::File(n));
         }
         let source = self.source(file, "a stage", at)?;
-        Ok(source.map(|source| {
-            stages.push(source);
-            Stage::File(stages.len() - 1)
-        }))
+        stages.push(source);
+        Some(Stage::File(stages.len() - 1))
     }
 
     fn entries(&mut self, item: &Item) -> Vec<(Entry, Option<Range<usize>>)> {

@@ -6,10 +6,11 @@ use crate::{
     project::{
         Channel, Filter, Info, Input, KnobValue, KnobValues, Loaded, MAX_TARGETS, Media, Origin, Pass, PassId, Project,
         ProjectError, SamplerRules, Source, Wrap,
-        folder::{self, Files, Read, Role},
+        files::{self, Files, Read},
+        folder::{self, Role},
         includes,
         knobs::declares_uniform,
-        listed,
+        limits, listed,
         load::MANIFEST,
         nearest,
     },
@@ -58,7 +59,7 @@ pub fn project(
     let mut reader = Reader { files, sources: SourceMap::default(), id: SourceId(0), diagnostics: Vec::new() };
     // While the project is not whole, the only text that spans can point into is this one.
     reader.id = reader.sources.add(MANIFEST, text);
-    let project = reader.read(folder_name, text, origin)?;
+    let project = reader.read(folder_name, text, origin);
     let Reader { mut diagnostics, sources: own, id, .. } = reader;
     let Some(project) = project.filter(|_| !diagnostics.iter().any(Diagnostic::is_error)) else {
         return Err(ProjectError::Invalid { what: what.to_owned(), diagnostics, sources: own });
@@ -90,7 +91,7 @@ impl Reader<'_> {
         self.diagnostics.push(Diagnostic::error(span, message).hint(hint));
     }
 
-    fn read(&mut self, folder_name: String, text: &str, origin: Origin) -> Result<Option<Project>, ProjectError> {
+    fn read(&mut self, folder_name: String, text: &str, origin: Origin) -> Option<Project> {
         let document = match Document::parse(text) {
             Ok(document) => document,
             Err(e) => {
@@ -99,7 +100,7 @@ impl Reader<'_> {
                     e.message().trim().replace('\n', ", "),
                     "see https://toml.io for the form of the file",
                 );
-                return Ok(None);
+                return None;
             }
         };
         let root = document.as_table();
@@ -117,7 +118,7 @@ impl Reader<'_> {
                     ),
                     "open it with a newer Eddy",
                 );
-                return Ok(None);
+                return None;
             }
             _ => {}
         }
@@ -134,30 +135,30 @@ impl Reader<'_> {
             Some("site") => SamplerRules::Site,
             _ => SamplerRules::PerChannel,
         };
-        let common = self.common(root)?;
-        let passes = self.passes(root)?;
+        let common = self.common(root);
+        let passes = self.passes(root);
         let groups = self.groups(root, &passes);
         let knob_values = self.uniforms(root);
         let mut project =
             Project { name, info, common, passes, sampler_rules, groups, knob_values, includes: Vec::new(), origin };
         includes::read(&mut project, Some(self.files));
         self.check_uniforms(root, &project);
-        Ok(Some(project))
+        Some(project)
     }
 
-    fn common(&mut self, root: &dyn TableLike) -> Result<Option<Source>, ProjectError> {
+    fn common(&mut self, root: &dyn TableLike) -> Option<Source> {
         if let Some(item) = root.get("common") {
             if item.as_bool() == Some(false) {
-                return Ok(None);
+                return None;
             }
-            let Some(table) = self.table("common", item) else { return Ok(None) };
+            let Some(table) = self.table("common", item) else { return None };
             self.check_keys("[common]", table, &[&["file"]]);
             let file = self.string(table, "file").unwrap_or_else(|| self.conventional(&Role::Common));
             let at = table.get("file").and_then(Item::span).or_else(|| item.span());
             return self.source(&file, "Common", at);
         }
         let file = self.conventional(&Role::Common);
-        if self.files.exists(&file) { self.source(&file, "Common", None) } else { Ok(None) }
+        if self.files.exists(&file) { self.source(&file, "Common", None) } else { None }
     }
 
     /// The file of a role that is there, whatever its case and extension; else the name a new one would get.
@@ -174,24 +175,32 @@ impl Reader<'_> {
         names.into_iter().find(|n| folder::role_of_file(n).as_ref() == Some(role)).unwrap_or(plain)
     }
 
-    fn passes(&mut self, root: &dyn TableLike) -> Result<Vec<Pass>, ProjectError> {
+    fn passes(&mut self, root: &dyn TableLike) -> Vec<Pass> {
         let mut passes: Vec<Pass> = Vec::new();
         let Some(item) = root.get("passes") else {
             self.error(None, "eddy.toml names no passes", "add a table [passes.image]");
-            return Ok(passes);
+            return passes;
         };
-        let Some(table) = self.table("passes", item) else { return Ok(passes) };
+        let Some(table) = self.table("passes", item) else { return passes };
         for (name, item) in table.iter() {
             let at = table.key(name).and_then(toml_edit::Key::span).or_else(|| item.span());
             let Some(id) = folder::pass_of_stem(name) else {
                 let hint =
                     match nearest(name, ["image", "sound", "cube_a", "buffer_a", "buffer_b", "buffer_c", "buffer_d"]) {
                         Some(near) => format!("did you mean {near}?"),
-                        None => "a pass is image, sound, cube_a, or buffer_ and a name".into(),
+                        None if name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | ' ')) => {
+                            "a pass is image, sound, cube_a, or buffer_ and a name".into()
+                        }
+                        None => PassId::NAMES.to_owned(),
                     };
-                self.error(at, format!("there is no pass {name}"), hint);
+                self.error(at, format!("there is no pass {}", name.escape_debug()), hint);
                 continue;
             };
+            if passes.len() == limits::PASSES {
+                let message = format!("there are more than {} passes, the most a project has", limits::PASSES);
+                self.error(at, message, "make two projects of it");
+                break;
+            }
             if passes.iter().any(|p| p.id == id) {
                 self.error(at, format!("a second pass named {}", id.title()), "rename or remove one of them");
                 continue;
@@ -205,10 +214,10 @@ impl Reader<'_> {
             let file = self.string(table, "file").or_else(|| geometry::own_file(table));
             let file = file.unwrap_or_else(|| self.conventional(&Role::Pass(id.clone())));
             let file_at = table.get("file").and_then(Item::span).or(at);
-            let source = self.source(&file, &id.title(), file_at)?;
+            let source = self.source(&file, &id.title(), file_at);
             let channels = self.channels(table);
             let mut settings = self.settings(&id, table);
-            settings.geometry = self.geometry(&id, table, &file, &mut settings)?;
+            settings.geometry = self.geometry(&id, table, &file, &mut settings);
             if let Some(source) = source {
                 passes.push(Pass { id, source, channels, settings });
             }
@@ -219,7 +228,7 @@ impl Reader<'_> {
         folder::sort_passes(&mut passes);
         self.check_reads(table, &passes);
         self.check_targets(table, &passes);
-        Ok(passes)
+        passes
     }
 
     /// Channels that read a pass the project does not have: legal, but more often a slip.
@@ -387,16 +396,9 @@ impl Reader<'_> {
         index
     }
 
-    pub(super) fn source(
-        &mut self,
-        file: &str,
-        title: &str,
-        at: Option<Range<usize>>,
-    ) -> Result<Option<Source>, ProjectError> {
-        match self.files.read(file)? {
-            Read::Text(text) => {
-                Ok(Some(Source { name: file.to_owned(), path: self.files.path(file), text: text.into() }))
-            }
+    pub(super) fn source(&mut self, file: &str, title: &str, at: Option<Range<usize>>) -> Option<Source> {
+        match self.files.read(file, limits::GLSL_TEXT) {
+            Read::Text(text) => Some(Source { name: file.to_owned(), path: self.files.path(file), text: text.into() }),
             Read::Missing => {
                 let names = self.files.names().unwrap_or_default();
                 let hint = match nearest(file, names.iter().map(String::as_str)) {
@@ -404,11 +406,15 @@ impl Reader<'_> {
                     None => format!("create {file}, or remove the entry"),
                 };
                 self.error(at, format!("the file of {title}, {file}, is not there"), hint);
-                Ok(None)
+                None
+            }
+            Read::Refused(error) => {
+                self.error(at, format!("the file of {title}: {error}"), error.hint());
+                None
             }
             Read::NotUtf8(offset, lossy) => {
-                self.diagnostics.push(folder::not_utf8(&mut self.sources, file, offset, lossy));
-                Ok(None)
+                self.diagnostics.push(files::not_utf8(&mut self.sources, file, offset, lossy));
+                None
             }
         }
     }
@@ -562,7 +568,7 @@ pub fn channel(item: &Item) -> Option<Channel> {
 pub(super) fn silent<T>(read: impl FnOnce(&mut Reader<'_>) -> T) -> Option<T> {
     let none = BTreeMap::new();
     let mut reader = Reader {
-        files: &Files::Memory(&none),
+        files: &Files::in_memory(&none),
         sources: SourceMap::default(),
         id: SourceId(0),
         diagnostics: Vec::new(),

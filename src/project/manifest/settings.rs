@@ -5,7 +5,7 @@ use super::{
     write::{child, key_of, set},
 };
 use crate::project::{
-    Group, Pass, PassFormat, PassId, PassSettings, PassSize, Project, Region, folder, listed, nearest,
+    Group, Pass, PassFormat, PassId, PassSettings, PassSize, Project, Region, folder, limits, listed, nearest,
 };
 use toml_edit::{Item, Table, TableLike, Value};
 
@@ -61,9 +61,16 @@ impl Reader<'_> {
     /// `[groups.NAME]`: passes that are drawn several times a frame.
     pub(super) fn groups(&mut self, root: &dyn TableLike, passes: &[Pass]) -> Vec<Group> {
         let mut groups: Vec<Group> = Vec::new();
-        let Some(table) = root.get("groups").and_then(|item| self.table("groups", item)) else { return groups };
+        let table = root.get("groups").and_then(|item| self.table("groups", item));
         let order: Vec<&PassId> = passes.iter().map(|p| &p.id).filter(|id| matches!(id, PassId::Buffer(_))).collect();
-        for (name, item) in table.iter() {
+        for (name, item) in table.into_iter().flat_map(TableLike::iter) {
+            let at = table.and_then(|table| table.key(name)).and_then(toml_edit::Key::span).or_else(|| item.span());
+            if !is_group_name(name) {
+                let message = format!("a group cannot be called \"{}\"", name.escape_debug());
+                let hint = format!("use letters, digits, _, - and blanks, at most {} of them", limits::NAME);
+                self.error(at, message, hint);
+                continue;
+            }
             let Some(table) = self.table(name, item) else { continue };
             self.check_keys(&format!("[groups.{name}]"), table, &[&["passes", "steps"]]);
             let steps = match table.get("steps") {
@@ -93,7 +100,25 @@ impl Reader<'_> {
                 groups.push(Group { name: name.to_owned(), passes, steps });
             }
         }
+        self.check_draws(passes, &groups, table);
         groups
+    }
+
+    /// What a frame draws is not endless.
+    fn check_draws(&mut self, passes: &[Pass], groups: &[Group], table: Option<&dyn TableLike>) {
+        let draws = |pass: &Pass| {
+            let steps = groups.iter().find(|g| g.passes.contains(&pass.id)).map_or(1, |g| u64::from(g.steps));
+            let meshes = pass.settings.geometry.as_ref().map_or(1, |g| g.draws.len().max(1) as u64);
+            meshes.saturating_mul(steps)
+        };
+        let all = passes.iter().map(draws).fold(0, u64::saturating_add);
+        if all > limits::DRAWS {
+            let most = groups.iter().max_by_key(|g| g.steps);
+            let at = most.and_then(|g| table?.get(&g.name)?.as_table_like()?.get("steps")?.span());
+            let message =
+                format!("a frame draws {all} passes and meshes with all their steps; the most is {}", limits::DRAWS);
+            self.error(at, message, "take fewer steps, or put fewer passes into groups");
+        }
     }
 
     /// The passes of a group, in the order they are drawn, which the list must be in.
@@ -133,6 +158,11 @@ impl Reader<'_> {
         }
         Some(passes)
     }
+}
+
+fn is_group_name(name: &str) -> bool {
+    let is_fit = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-' | ' ');
+    !name.trim().is_empty() && name.chars().count() <= limits::NAME && name.chars().all(is_fit)
 }
 
 fn table_span(item: &Item) -> Option<std::ops::Range<usize>> {

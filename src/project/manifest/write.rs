@@ -290,6 +290,10 @@ fn media(table: &mut InlineTable, kind: &str, media: &Media) {
             let path = if cfg!(windows) { path.replace('\\', "/") } else { path.into_owned() };
             table.insert("file", path.into());
         }
+        // As saving calls the copy, unless that name is taken.
+        Media::Picked(path) => {
+            table.insert("file", path.file_name().unwrap_or_default().to_string_lossy().into_owned().into());
+        }
         Media::Site { id, path } => {
             table.insert("site", path.as_str().into());
             if !id.is_empty() {

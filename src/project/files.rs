@@ -1,0 +1,147 @@
+//! The text files of a project: in a folder on disk, inside the binary, or in memory.
+
+use super::{
+    FileError, ProjectError,
+    confine::{self, Reason},
+    limits::{self, Limit},
+};
+use crate::diag::{Diagnostic, SourceMap, Span};
+use std::{
+    cell::Cell,
+    collections::BTreeMap,
+    ffi::OsStr,
+    fs,
+    path::{Path, PathBuf},
+};
+
+/// The text files of a project, by name relative to its folder.
+pub(super) struct Files<'a> {
+    place: Place<'a>,
+    /// Bytes that may still be read: see [`limits::ALL_TEXTS`].
+    left: Cell<u64>,
+}
+
+enum Place<'a> {
+    Disk(&'a Path),
+    Embedded(&'a include_dir::Dir<'a>),
+    /// A folder as it will be once it is saved.
+    Memory(&'a BTreeMap<String, Vec<u8>>),
+}
+
+/// A text file's content, or why it has none.
+pub(super) enum Read {
+    Text(String),
+    Missing,
+    /// Byte offset of the first byte that is not UTF-8, and the text with every such byte replaced.
+    NotUtf8(usize, String),
+    Refused(FileError),
+}
+
+impl<'a> Files<'a> {
+    pub fn on_disk(folder: &'a Path) -> Self {
+        Self::of(Place::Disk(folder))
+    }
+
+    pub fn embedded(folder: &'a include_dir::Dir<'a>) -> Self {
+        Self::of(Place::Embedded(folder))
+    }
+
+    pub fn in_memory(files: &'a BTreeMap<String, Vec<u8>>) -> Self {
+        Self::of(Place::Memory(files))
+    }
+
+    fn of(place: Place<'a>) -> Self {
+        Self { place, left: Cell::new(limits::ALL_TEXTS.bytes) }
+    }
+
+    /// Names of the files directly in the folder, sorted. Links count as files wherever they lead. Fails for a folder of more than
+    /// [`limits::FILES`].
+    pub fn names(&self) -> Result<Vec<String>, ProjectError> {
+        let mut names: Vec<String> = match self.place {
+            Place::Disk(path) => {
+                let mut names = Vec::new();
+                let start = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+                for entry in fs::read_dir(start).map_err(ProjectError::io("list", path))? {
+                    let entry = entry.map_err(ProjectError::io("list", path))?;
+                    // A name that is not UTF-8 is no name of a pass.
+                    if let Ok(name) = entry.file_name().into_string()
+                        && entry.file_type().is_ok_and(|kind| !kind.is_dir())
+                    {
+                        names.push(name);
+                    }
+                    if names.len() > limits::FILES {
+                        return Err(ProjectError::TooManyFiles { path: path.to_owned() });
+                    }
+                }
+                names
+            }
+            Place::Embedded(dir) => {
+                dir.files().filter_map(|f| f.path().file_name()?.to_str().map(str::to_owned)).collect()
+            }
+            Place::Memory(files) => files.keys().cloned().collect(),
+        };
+        names.sort();
+        Ok(names)
+    }
+
+    /// Reads a text of at most `limit` bytes. All that one `Files` reads is at most [`limits::ALL_TEXTS`].
+    pub fn read(&self, name: &str, limit: Limit) -> Read {
+        let bytes = match self.place {
+            Place::Disk(folder) => {
+                let left = Limit { bytes: self.left.get(), ..limits::ALL_TEXTS };
+                let smaller = if left.bytes < limit.bytes { left } else { limit };
+                match confine::read(folder, name, smaller) {
+                    Ok(bytes) => bytes,
+                    Err(e) if e.is_missing() => return Read::Missing,
+                    Err(FileError { file, reason: Reason::TooLarge(l) }) if l.of == left.of => {
+                        let reason = Reason::TooMuch(limits::ALL_TEXTS);
+                        return Read::Refused(FileError { file, reason });
+                    }
+                    Err(e) => return Read::Refused(e),
+                }
+            }
+            Place::Embedded(dir) => match dir.get_file(dir.path().join(name)) {
+                Some(file) => file.contents().to_vec(),
+                None => return Read::Missing,
+            },
+            Place::Memory(files) => match files.get(&confine::relative("", name).unwrap_or_default()) {
+                Some(bytes) => bytes.clone(),
+                None => return Read::Missing,
+            },
+        };
+        self.left.set(self.left.get().saturating_sub(bytes.len() as u64));
+        decode(bytes)
+    }
+
+    /// Whether something other than a folder has this name directly in the folder, also where it is of no use: then reading
+    /// says why.
+    pub fn exists(&self, name: &str) -> bool {
+        match self.place {
+            Place::Disk(folder) => folder.join(name).symlink_metadata().is_ok_and(|m| !m.is_dir()),
+            Place::Embedded(dir) => dir.files().any(|f| f.path().file_name() == Some(OsStr::new(name))),
+            Place::Memory(files) => files.contains_key(name),
+        }
+    }
+
+    /// The file behind a name, where there is one on disk.
+    pub fn path(&self, name: &str) -> Option<PathBuf> {
+        match self.place {
+            Place::Disk(folder) => Some(folder.join(name)),
+            Place::Embedded(_) | Place::Memory(_) => None,
+        }
+    }
+}
+
+pub(super) fn decode(bytes: Vec<u8>) -> Read {
+    match String::from_utf8(bytes) {
+        Ok(text) => Read::Text(text),
+        Err(e) => Read::NotUtf8(e.utf8_error().valid_up_to(), String::from_utf8_lossy(e.as_bytes()).into_owned()),
+    }
+}
+
+/// The diagnostic for a text that is not UTF-8, into `sources`.
+pub(super) fn not_utf8(sources: &mut SourceMap, name: &str, at: usize, lossy: String) -> Diagnostic {
+    let id = sources.add(name, lossy);
+    Diagnostic::error(Span::new(id, at..at + '\u{fffd}'.len_utf8()), format!("{name} is not UTF-8 text"))
+        .hint("save it as UTF-8 in your editor")
+}

@@ -1,0 +1,89 @@
+//! Pictures that the person at the machine picked from anywhere: how they become files of the project.
+//!
+//! A picked picture is shown at once from where it lies. Saving copies it into the project's folder and names the copy, so that
+//! the project never names anything outside its folder.
+
+use super::{Input, Media, Project, ProjectError, atomic::Content, confine, limits, writes::Writes};
+use std::path::Path;
+
+/// An input with the whole path of its picked picture, or with the picture's name where it lies in the project's folder already.
+pub fn at_home(mut input: Input, folder: Option<&Path>) -> Input {
+    if let Some(media) = input.media_mut()
+        && let Media::Picked(path) = media
+    {
+        // Typed by hand, it may be relative to where Eddy was started.
+        *path = std::path::absolute(&*path).unwrap_or_else(|_| path.clone());
+        if let Some(name) = folder.and_then(|folder| name_within(folder, path)) {
+            *media = Media::File(name.into());
+        }
+    }
+    input
+}
+
+/// The name, from the folder, of a file that lies in it.
+fn name_within(folder: &Path, path: &Path) -> Option<String> {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let (home, real) = (folder.canonicalize().ok()?, path.canonicalize().ok()?);
+    let parts: Option<Vec<&str>> = real.strip_prefix(home).ok()?.iter().map(|part| part.to_str()).collect();
+    let name = confine::relative("", &parts?.join("/")).ok()?;
+    confine::resolve(folder, &name).is_ok().then_some(name)
+}
+
+/// Where the picked pictures of a project lie.
+pub(super) fn paths(project: &Project) -> impl Iterator<Item = &Path> {
+    let channels = project.passes.iter().flat_map(|p| p.channels.iter().flatten());
+    channels.filter_map(|c| match c.input.media() {
+        Some(Media::Picked(path)) => Some(path.as_path()),
+        _ => None,
+    })
+}
+
+/// Copies the picked pictures into `target` and names the copies. A file of another content is never replaced: the copy then gets
+/// a number. A picture that cannot be read is named and not there, so that the rest of the project is saved.
+pub(super) fn copy_in(project: &mut Project, target: &Path, writes: &mut Writes) -> Result<(), ProjectError> {
+    for channel in project.passes.iter_mut().flat_map(|p| p.channels.iter_mut().flatten()) {
+        let Some(media @ Media::Picked(_)) = channel.input.media_mut() else { continue };
+        let Media::Picked(path) = &*media else { continue };
+        let name = match name_within(target, path) {
+            Some(name) => name,
+            None => copy(path, target, writes)?,
+        };
+        *media = Media::File(name.into());
+    }
+    Ok(())
+}
+
+fn copy(path: &Path, target: &Path, writes: &mut Writes) -> Result<String, ProjectError> {
+    let (stem, extension) = parts(path);
+    let Ok(bytes) = confine::read_own(path, limits::MEDIA_FILE) else { return Ok(format!("{stem}.{extension}")) };
+    let mut number = 1;
+    loop {
+        let name = if number == 1 { format!("{stem}.{extension}") } else { format!("{stem}_{number}.{extension}") };
+        let on_disk = target.join(&name);
+        let is_free = on_disk.symlink_metadata().is_err()
+            || confine::read(target, &name, limits::MEDIA_FILE).is_ok_and(|there| there == bytes);
+        if is_free && writes.is_free(&name, &bytes) {
+            writes.add(&name, Content::Bytes(bytes))?;
+            return Ok(name);
+        }
+        number += 1;
+    }
+}
+
+/// The name and the ending of a picture's copy, which every system takes.
+fn parts(path: &Path) -> (String, String) {
+    let fit = |text: Option<&std::ffi::OsStr>| -> String {
+        let text = text.unwrap_or_default().to_string_lossy();
+        let fit = |c: char| if c.is_alphanumeric() || matches!(c, '_' | '-' | ' ') { c } else { '_' };
+        text.trim().chars().take(limits::NAME).map(fit).collect()
+    };
+    let (mut stem, mut extension) = (fit(path.file_stem()), fit(path.extension()).to_lowercase());
+    if stem.is_empty() || confine::is_reserved(&stem) {
+        stem = format!("picture_{stem}");
+    }
+    if !super::writes::is_media(&format!("x.{extension}")) {
+        // What a picture is stands in its first bytes; its name need not say it.
+        extension = "png".into();
+    }
+    (stem, extension)
+}

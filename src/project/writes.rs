@@ -1,0 +1,150 @@
+//! The one way from a project to files that are written.
+//!
+//! Everything that one save writes is gathered here by its name from the destination, checked, and written together. A name
+//! comes from the project, which may be a stranger's: it may not lead out of the destination, also not through links that lie
+//! there, and a new file is of a kind that projects are made of. Files that are the project's own already keep their names.
+
+use super::{
+    ProjectError,
+    atomic::{self, Content},
+    confine::{self, FileError},
+    folder::is_glsl_extension,
+    load::MANIFEST,
+    save::Overwrite,
+};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    path::{Path, PathBuf},
+};
+
+/// Endings of texts besides those of passes.
+const TEXTS: [&str; 16] = [
+    "vert", "comp", "geom", "tesc", "tese", "vs", "gs", "fsh", "vsh", "glslf", "glslv", "glslh", "inc", "h", "hlsl",
+    "txt",
+];
+/// Endings of pictures, models, and what these name.
+const MEDIA: [&str; 25] = [
+    "png", "jpg", "jpeg", "webp", "bmp", "tga", "gif", "hdr", "exr", "ktx", "ktx2", "dds", "glb", "gltf", "obj", "mtl",
+    "bin", "npy", "mp3", "ogg", "wav", "flac", "mp4", "webm", "ogv",
+];
+
+/// Whether a new file of this name may be a text of a project.
+pub(super) fn is_text(name: &str) -> bool {
+    let extension = Path::new(name).extension().unwrap_or_default();
+    is_glsl_extension(extension) || TEXTS.iter().any(|e| extension.eq_ignore_ascii_case(e))
+}
+
+/// Whether a new file of this name may be a picture or a model of a project, or what a model names.
+pub(super) fn is_media(name: &str) -> bool {
+    let extension = Path::new(name).extension().unwrap_or_default();
+    MEDIA.iter().any(|e| extension.eq_ignore_ascii_case(e))
+}
+
+/// Files to be written into one folder.
+pub(super) struct Writes {
+    folder: PathBuf,
+    /// By name from the folder.
+    files: BTreeMap<String, Content>,
+    /// Names of files that are the project's already.
+    own: BTreeSet<String>,
+}
+
+impl Writes {
+    pub fn into(folder: &Path, own: BTreeSet<String>) -> Self {
+        Self { folder: folder.to_owned(), files: BTreeMap::new(), own }
+    }
+
+    /// The name under which `name` would be written, or why nothing may be written under it. It may not lead out of the folder;
+    /// a new file also needs an ending of a project's file and a name that no system reserves.
+    pub fn checked(&self, name: &str) -> Result<String, ProjectError> {
+        let refuse = |why: String| Err(ProjectError::Unwritable { path: self.folder.join(name), why });
+        let name = match confine::relative("", name) {
+            Ok(name) => name,
+            Err(e) => return Err(ProjectError::Unwritable { path: PathBuf::from(name), why: told(&e) }),
+        };
+        if self.own.contains(&name) || name == MANIFEST {
+            return Ok(name);
+        }
+        if let Some(part) = name.split('/').find(|part| confine::is_reserved(part)) {
+            return refuse(format!("{part} is the name of a device on Windows; rename the file"));
+        }
+        if !is_text(&name) && !is_media(&name) {
+            return refuse("no file of a project ends so; rename it, for instance to end in .glsl".into());
+        }
+        Ok(name)
+    }
+
+    /// Whether `content` may have this name: nothing else of this save has it, on a disk that ignores case either.
+    pub fn is_free(&self, name: &str, content: &[u8]) -> bool {
+        match self.files.get(name) {
+            Some(Content::Bytes(there)) => there == content,
+            Some(Content::CopyOf(..)) => false,
+            None => {
+                let folded = name.to_lowercase();
+                let is_own = self.own.contains(name);
+                is_own || self.files.keys().all(|other| other.to_lowercase() != folded)
+            }
+        }
+    }
+
+    /// Writes `content` under a name that [`Writes::checked`] lets pass.
+    pub fn add(&mut self, name: &str, content: Content) -> Result<(), ProjectError> {
+        let name = self.checked(name)?;
+        self.files.insert(name, content);
+        Ok(())
+    }
+
+    /// Writes `content` to the file that the person at the machine named.
+    pub fn add_named(&mut self, file_name: String, content: Content) {
+        self.files.insert(file_name, content);
+    }
+
+    /// Texts by name.
+    pub fn texts(&self) -> impl Iterator<Item = (&String, &Vec<u8>)> {
+        self.files.iter().filter_map(|(name, content)| match content {
+            Content::Bytes(bytes) => Some((name, bytes)),
+            Content::CopyOf(..) => None,
+        })
+    }
+
+    /// Checks that nothing foreign is in the way and that every file stays within the folder, then writes everything.
+    pub fn write(self, overwrite: Overwrite) -> Result<(), ProjectError> {
+        let mut changed = Vec::new();
+        for (name, content) in self.files {
+            let path = self.folder.join(&name);
+            stays_within(&self.folder, &path)?;
+            match atomic::compare(&path, &content)? {
+                atomic::OnDisk::Same => continue,
+                atomic::OnDisk::Different if overwrite == Overwrite::Refuse && !self.own.contains(&name) => {
+                    return Err(ProjectError::WouldOverwrite { path });
+                }
+                atomic::OnDisk::Different | atomic::OnDisk::Absent => changed.push((path, content)),
+            }
+        }
+        atomic::write_all(changed)
+    }
+}
+
+fn told(error: &FileError) -> String {
+    format!("{error}; {}", error.hint())
+}
+
+/// Whether what lies on the way to a file, and the file itself where it is a link, stays within the folder.
+fn stays_within(folder: &Path, path: &Path) -> Result<(), ProjectError> {
+    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    // A folder that is not there yet holds no links.
+    let Ok(home) = folder.canonicalize() else { return Ok(()) };
+    let there = path.ancestors().find(|p| p.symlink_metadata().is_ok()).unwrap_or(folder);
+    let there = if there.as_os_str().is_empty() { Path::new(".") } else { there };
+    match there.canonicalize() {
+        Ok(real) if real.starts_with(&home) => Ok(()),
+        Ok(_) => {
+            let why = format!("a link leads out of {}; remove the link, or choose another folder", folder.display());
+            Err(ProjectError::Unwritable { path: path.to_owned(), why })
+        }
+        Err(_) => {
+            let why = format!("{} is a link that leads nowhere; remove it", there.display());
+            Err(ProjectError::Unwritable { path: path.to_owned(), why })
+        }
+    }
+}
