@@ -280,7 +280,7 @@ fn a_picture_chosen_here_is_watched_wherever_it_lies() {
     let elsewhere = tempfile::tempdir().unwrap();
     let path = elsewhere.path().join("pic.png");
     fs::write(&path, picture(50)).unwrap();
-    let input = Input::Texture(Media::File(path.clone()));
+    let input = Input::Texture(Media::Picked(path.clone()));
     let channel = Channel { input, sampler: Sampler { filter: eddy::project::Filter::Nearest, ..Sampler::TEXTURE } };
     stage.session.apply(Command::SetChannel { pass: PassId::Image, index: 0, channel: Some(channel) });
     stage.until_red(50);

@@ -139,23 +139,12 @@ fn tells_case_apart(folder: &Path) -> bool {
 
 /// Writes a picture whole or not at all: a picture of the same name stays until the new one is complete.
 pub fn write(path: &Path, pixels: &Pixels, format: Format) -> anyhow::Result<()> {
-    let mut builder = tempfile::Builder::new();
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        // As any new file's: what the user's mask leaves.
-        builder.permissions(fs::Permissions::from_mode(0o666));
-    }
-    let mut inner = || -> anyhow::Result<()> {
-        let mut file = builder.prefix(".eddy-").tempfile_in(folder_of(path))?;
-        let mut out = BufWriter::new(&mut file);
+    let written = project::write_with(path, |file| {
+        let mut out = BufWriter::new(file);
         capture::encode(&mut out, pixels, format)?;
-        out.flush()?;
-        drop(out);
-        file.persist(path)?;
-        Ok(())
-    };
-    inner().with_context(|| format!("cannot write {}", path.display()))
+        out.flush()
+    });
+    written.with_context(|| format!("cannot write {}", path.display()))
 }
 
 fn folder_of(file: &Path) -> &Path {

@@ -37,6 +37,11 @@ fn save(project: &Project, places: impl Iterator<Item = PathBuf>) -> Result<Path
             Ok(_) => return Ok(folder),
             Err(e) => reason = e.to_string(),
         }
+        // What a text includes is still where it was read from.
+        let alone = Project { includes: Vec::new(), ..project.clone() };
+        if !project.includes.is_empty() && project::save(&alone, &folder, Overwrite::Refuse).is_ok() {
+            return Ok(folder);
+        }
     }
     Err(reason)
 }

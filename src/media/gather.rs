@@ -110,7 +110,7 @@ mod tests {
 
     #[test]
     fn what_is_there_is_loaded_once_and_what_is_not_is_a_warning() {
-        let missing = Input::Texture(Media::File("/nowhere/pic.png".into()));
+        let missing = Input::Texture(Media::Picked("/nowhere/pic.png".into()));
         let noise = || Some(Input::Texture(Media::Builtin("noise-rgba-64".into())));
         let (set, warnings) = gather(&project([noise(), noise(), Some(missing), Some(Input::Webcam)]), None);
         assert_eq!(set.len(), 1);

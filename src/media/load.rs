@@ -1,7 +1,11 @@
 //! One picture, from its file or its generator to texels.
 
 use super::{TexelFormat, Texels, builtin, site};
-use crate::project::{Media, listed, nearest};
+use crate::project::{
+    Media,
+    confine::{self, FileError},
+    listed, nearest,
+};
 use image::{DynamicImage, ImageError, ImageReader};
 use std::{
     io,
@@ -11,6 +15,8 @@ use std::{
 /// Why a picture is not to be had. Its text is complete but for the pass and the channel.
 #[derive(Debug, thiserror::Error)]
 pub enum MediaError {
+    #[error(transparent)]
+    File(#[from] FileError),
     #[error("cannot read {}: {source}", path.display())]
     Io { path: PathBuf, source: io::Error },
     #[error("{}: {}", path.display(), reason(source))]
@@ -40,13 +46,14 @@ impl MediaError {
     /// How to mend it.
     pub fn hint(&self) -> String {
         match self {
+            MediaError::File(error) => error.hint(),
             MediaError::Io { source, .. } if source.kind() == io::ErrorKind::NotFound => {
                 "put the picture there, or name another".into()
             }
             MediaError::Io { .. } => "check the file's permissions".into(),
             MediaError::Decode { source: ImageError::Limits(_), .. } => "scale the picture down".into(),
             MediaError::Decode { .. } | MediaError::Empty { .. } => "save the picture anew, for instance as PNG".into(),
-            MediaError::NoFolder { .. } => "save the project first, or name the picture by its whole path".into(),
+            MediaError::NoFolder { .. } => "save the project first, and put the picture into its folder".into(),
             MediaError::UnknownBuiltin { .. } => format!("there are {}", listed(&builtin::names())),
             MediaError::NoStandIn { .. } => "put a file of that name into a folder and name it with --media".into(),
         }
@@ -65,12 +72,8 @@ pub fn load(media: &Media, vflip: bool, base: Option<&Path>, media_dir: Option<&
             Ok(upright(texels, vflip))
         }
         Media::File(path) => {
-            let path = match base {
-                _ if path.is_absolute() => path.clone(),
-                Some(base) => base.join(path),
-                None => return Err(MediaError::NoFolder { path: path.clone() }),
-            };
-            file(&path, vflip)
+            let Some(base) = base else { return Err(MediaError::NoFolder { path: path.clone() }) };
+            file(&confine::resolve(base, path)?, vflip)
         }
         Media::Picked(path) => file(path, vflip),
         Media::Site { id, path } => {

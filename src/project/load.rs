@@ -1,7 +1,9 @@
 //! From what a person names on the command line to a [`Project`].
 
 use super::{
-    Info, Origin, Pass, PassId, Project, ProjectError, SamplerRules, Source, confine,
+    Info, Origin, Pass, PassId, Project, ProjectError, SamplerRules, Source,
+    atomic::sweep,
+    confine,
     files::{self, Files, Read},
     folder, includes, json,
     limits::{self, Limit},
@@ -109,6 +111,7 @@ pub(super) fn folder_name(path: &Path) -> String {
 }
 
 fn load_folder(path: &Path) -> Result<Loaded, ProjectError> {
+    sweep(path);
     let files = Files::on_disk(path);
     let has_manifest = files.exists(MANIFEST);
     let origin = Origin::Folder { path: path.to_owned(), has_manifest };

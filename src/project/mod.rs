@@ -25,7 +25,7 @@ mod save;
 mod settings;
 mod writes;
 
-pub use atomic::{sweep, write_with};
+pub use atomic::write_with;
 pub use confine::FileError;
 pub use error::ProjectError;
 pub use folder::declare_channels;

@@ -7,7 +7,7 @@
 use super::npy;
 use crate::{
     engine::Pixels,
-    project::{Origin, PassId, Project},
+    project::{Origin, PassId, Project, confine},
 };
 use std::{
     fs::{self, File, OpenOptions},
@@ -121,7 +121,7 @@ pub fn stem_for(project: &Project, pass: &PassId) -> String {
     let mut stem = file_stem(&project.name);
     if *pass != PassId::Image {
         stem.push('-');
-        stem.push_str(&pass.key());
+        stem.push_str(&file_stem(&pass.key()));
     }
     stem
 }
@@ -137,7 +137,8 @@ pub fn file_stem(name: &str) -> String {
         }
     }
     let stem = stem.trim_matches(['-', '.']);
-    if stem.is_empty() { "picture".into() } else { stem.into() }
+    let is_fit = !stem.is_empty() && !confine::is_reserved(stem);
+    if is_fit { stem.into() } else { format!("picture{stem}") }
 }
 
 #[cfg(test)]
@@ -192,6 +193,7 @@ mod tests {
     fn names_are_safe() {
         assert_eq!(file_stem("Fluid / Stars: 2"), "Fluid-Stars-2");
         assert_eq!(file_stem("../.."), "picture");
+        assert_eq!(file_stem("nul.x"), "picturenul.x");
         assert_eq!(file_stem("Höhle"), "Höhle");
     }
 }

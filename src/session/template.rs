@@ -1,7 +1,7 @@
 //! What new projects and new passes begin as. Eddy's own text.
 
 use super::documents::insert_pass;
-use crate::project::{Info, Origin, Pass, PassId, Project, SamplerRules, Source, Tab};
+use crate::project::{Info, Origin, Pass, PassId, Project, SamplerRules, Source, Tab, limits};
 
 const IMAGE: &str = "\
 // fragCoord: pixels from the bottom left.  iResolution, iTime, iMouse, iChannel0 to 3 are there to be read.
@@ -73,7 +73,8 @@ pub(super) fn text(tab: &Tab) -> &'static str {
 
 /// Adds a tab with its starting text; false if it is there already.
 pub(super) fn add(project: &mut Project, tab: &Tab) -> bool {
-    if project.source(tab).is_some() {
+    let is_named_so = !matches!(tab, Tab::Pass(PassId::Buffer(name)) if !PassId::is_name(name));
+    if project.source(tab).is_some() || !is_named_so || project.passes.len() >= limits::PASSES {
         return false;
     }
     let source = Source { name: tab.title(), path: None, text: text(tab).into() };

@@ -4,17 +4,22 @@
 //! the first. Spellings of both are read everywhere. A pass is known by its type and its output's id, never by its name,
 //! which is free text.
 
-use super::ids;
+use super::{
+    form::{Object, RenderInput, RenderPass, RenderSampler, Scalar, Shader, Top},
+    ids,
+};
 use crate::{
     diag::{Diagnostic, SourceMap, Span},
     project::{
         Channel, Filter, Info, Input, Media, Origin, Pass, PassId, Project, ProjectError, Sampler, SamplerRules,
-        Source, Wrap, folder::sort_passes,
+        Source, Wrap, folder::sort_passes, limits,
     },
 };
-use serde::Deserialize;
 use serde_json::{Map, Value};
-use std::{collections::HashMap, path::PathBuf};
+use std::{
+    collections::{HashMap, HashSet, VecDeque},
+    path::PathBuf,
+};
 
 /// What the site writes as `ver`, and the only version it reads.
 const VERSION: &str = "0.1";
@@ -29,72 +34,6 @@ pub fn import(text: &str, name: &str) -> Result<(Project, Vec<Diagnostic>), Proj
     })
 }
 
-#[derive(Deserialize)]
-struct Shader {
-    ver: Option<Scalar>,
-    #[serde(default)]
-    info: Map<String, Value>,
-    renderpass: Vec<RenderPass>,
-}
-
-#[derive(Deserialize)]
-struct Answer {
-    #[serde(rename = "Shader")]
-    shader: Shader,
-}
-
-#[derive(Deserialize)]
-struct RenderPass {
-    inputs: Option<Vec<RenderInput>>,
-    outputs: Option<Vec<Output>>,
-    code: String,
-    #[serde(default)]
-    name: String,
-    r#type: String,
-}
-
-#[derive(Deserialize)]
-struct RenderInput {
-    id: Option<Scalar>,
-    filepath: Option<String>,
-    src: Option<String>,
-    r#type: Option<String>,
-    ctype: Option<String>,
-    channel: Scalar,
-    sampler: Option<RenderSampler>,
-}
-
-#[derive(Deserialize)]
-struct Output {
-    id: Option<Scalar>,
-}
-
-#[derive(Deserialize)]
-struct RenderSampler {
-    filter: Option<String>,
-    wrap: Option<String>,
-    vflip: Option<Scalar>,
-}
-
-/// Ids, numbers and truths come as texts from the site and bare from others.
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum Scalar {
-    Text(String),
-    Number(serde_json::Number),
-    Bool(bool),
-}
-
-impl Scalar {
-    fn text(&self) -> String {
-        match self {
-            Scalar::Text(t) => t.clone(),
-            Scalar::Number(n) => n.to_string(),
-            Scalar::Bool(b) => b.to_string(),
-        }
-    }
-}
-
 const EXPECTED: &str = "expected is a Shadertoy shader: an object with \"ver\", \"info\" and \"renderpass\", the same inside \
     \"Shader\", or a list of such objects";
 
@@ -103,55 +42,55 @@ fn read(text: &str, name: &str) -> Result<(Project, Vec<Diagnostic>), Vec<Diagno
     let skipped = text.len() - body.len();
     let at =
         |offset: usize, length: usize| Span::new(crate::diag::SourceId(0), skipped + offset..skipped + offset + length);
-    let at_error = |e: &serde_json::Error| at(offset_of(body, e.line(), e.column()), 0);
     // The key's place where it is found; the file's start where it is not.
     let at_key = |key: &str| body.find(&format!("\"{key}\"")).map_or(at(0, 0), |i| at(i, key.len() + 2));
-    let failed = |e: serde_json::Error| {
+    // `part` is a slice of `body`.
+    let failed = |part: &str, what: &str, e: &serde_json::Error| {
+        let begin = part.as_ptr() as usize - body.as_ptr() as usize;
         let message = e.to_string();
         let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(m, _)| m);
-        vec![Diagnostic::error(at_error(&e), format!("not a Shadertoy shader: {message}")).hint(EXPECTED)]
+        let place = at(begin + offset_of(part, e.line(), e.column()), 0);
+        vec![Diagnostic::error(place, format!("{what}: {message}")).hint(EXPECTED)]
     };
-    let value: Value = serde_json::from_str(body).map_err(|e| {
-        let message = e.to_string();
-        let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(m, _)| m);
-        vec![Diagnostic::error(at_error(&e), format!("not JSON: {message}")).hint(EXPECTED)]
-    })?;
+    const NO_SHADER: &str = "not a Shadertoy shader";
     let mut warnings = Vec::new();
-    let shader = match &value {
-        Value::Object(object) if object.contains_key("renderpass") => serde_json::from_str(body).map_err(failed)?,
-        Value::Object(object) if object.contains_key("Shader") => {
-            serde_json::from_str::<Answer>(body).map_err(failed)?.shader
-        }
-        Value::Object(object) if object.contains_key("Error") => {
-            let said = object["Error"].as_str().unwrap_or("no reason given");
+    let part: &str = match serde_json::from_str(body).map_err(|e| failed(body, "not JSON", &e))? {
+        Top::Object(object) if object.renderpass => body,
+        Top::Object(Object { shader: Some(shader), .. }) => shader.get(),
+        Top::Object(Object { error: Some(error), .. }) => {
+            let said: Option<String> = serde_json::from_str(error.get()).ok();
+            let said = said.as_deref().unwrap_or("no reason given");
             return Err(vec![
                 Diagnostic::error(at_key("Error"), format!("this is the API's refusal, not a shader: {said}"))
                     .hint("ask the API again; a shader must be public + API to be had"),
             ]);
         }
-        Value::Object(object) => {
-            let keys: Vec<String> = object.keys().take(5).map(|k| format!("\"{k}\"")).collect();
+        Top::Object(Object { keys, .. }) => {
+            let keys: Vec<String> = keys.iter().map(|k| format!("\"{k}\"")).collect();
             let has =
                 if keys.is_empty() { "is empty".into() } else { format!("has {}", crate::project::listed(&keys)) };
             return Err(vec![
-                Diagnostic::error(at(0, 0), format!("not a Shadertoy shader: the object {has}, and no \"renderpass\""))
+                Diagnostic::error(at(0, 0), format!("{NO_SHADER}: the object {has}, and no \"renderpass\""))
                     .hint(EXPECTED),
             ]);
         }
-        Value::Array(_) => {
-            let shaders: Vec<Shader> = serde_json::from_str(body).map_err(failed)?;
-            if shaders.len() > 1 {
+        Top::List(None, _) => {
+            return Err(vec![Diagnostic::error(at(0, 0), format!("{NO_SHADER}: the list is empty")).hint(EXPECTED)]);
+        }
+        Top::List(Some(first), count) => {
+            if count > 1 {
                 warnings.push(Diagnostic::warning(
                     at(0, 0),
-                    format!("the file holds {} shaders; the first one is read", shaders.len()),
+                    format!("the file holds {count} shaders; the first one is read"),
                 ));
             }
-            shaders.into_iter().next().ok_or_else(|| {
-                vec![Diagnostic::error(at(0, 0), "not a Shadertoy shader: the list is empty").hint(EXPECTED)]
-            })?
+            first.get()
         }
-        _ => return Err(vec![Diagnostic::error(at(0, 0), "not a Shadertoy shader: a bare value").hint(EXPECTED)]),
+        Top::Bare => {
+            return Err(vec![Diagnostic::error(at(0, 0), format!("{NO_SHADER}: a bare value")).hint(EXPECTED)]);
+        }
     };
+    let shader: Shader<'_> = serde_json::from_str(part).map_err(|e| failed(part, NO_SHADER, &e))?;
     match shader.ver.as_ref().map(Scalar::text).as_deref() {
         Some(VERSION) => {}
         Some(other) => {
@@ -168,7 +107,15 @@ fn read(text: &str, name: &str) -> Result<(Project, Vec<Diagnostic>), Vec<Diagno
         }
     }
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
-    let project = project(shader, stem, &mut warnings).map_err(|mut d| {
+    let info = match shader.info.map(serde_json::value::RawValue::get) {
+        None => Map::new(),
+        Some(text) if text.len() as u64 > limits::JSON_INFO.bytes => {
+            let message = format!("\"info\" is larger than {}", limits::JSON_INFO);
+            return Err(vec![Diagnostic::error(at_key("info"), message).hint("take out what is not of the shader")]);
+        }
+        Some(text) => serde_json::from_str(text).map_err(|e| failed(text, NO_SHADER, &e))?,
+    };
+    let project = project(shader.renderpass.0, info, stem, &mut warnings).map_err(|mut d| {
         d.span = Some(at_key("renderpass"));
         vec![d]
     })?;
@@ -189,24 +136,34 @@ fn offset_of(text: &str, line: usize, column: usize) -> usize {
     offset
 }
 
-fn project(shader: Shader, stem: &str, warnings: &mut Vec<Diagnostic>) -> Result<Project, Diagnostic> {
+fn project(
+    passes_read: Vec<RenderPass>,
+    info: Map<String, Value>,
+    stem: &str,
+    warnings: &mut Vec<Diagnostic>,
+) -> Result<Project, Diagnostic> {
+    let mut names = BufferNames::new(&passes_read, warnings);
     let mut common: Option<Source> = None;
     let mut passes: Vec<Pass> = Vec::new();
     // Reads of buffers in the order the site loads them, as (place in `passes`, channel).
     let mut reads: Vec<(usize, usize)> = Vec::new();
-    for pass in &shader.renderpass {
+    for pass in passes_read {
+        if pass.code.len() as u64 > limits::GLSL_TEXT.bytes {
+            let message = format!("the code of a pass is larger than {}", limits::GLSL_TEXT);
+            return Err(Diagnostic::error(None, message).hint("make it smaller"));
+        }
         let id = match pass.r#type.as_str() {
             "common" => {
                 if common.is_some() {
                     return Err(Diagnostic::error(None, "the shader has two Common passes").hint("remove one of them"));
                 }
-                common = Some(Source { name: "Common".into(), path: None, text: pass.code.as_str().into() });
+                common = Some(Source { name: "Common".into(), path: None, text: pass.code.into() });
                 continue;
             }
             "image" => PassId::Image,
             "sound" => PassId::Sound,
             "cubemap" => PassId::Cubemap,
-            "buffer" => PassId::Buffer(buffer_name(pass, &shader.renderpass, &passes, warnings)),
+            "buffer" => PassId::Buffer(names.of_passes.pop_front().unwrap_or_default()),
             other => {
                 return Err(Diagnostic::error(None, format!("a pass is of the unknown type \"{other}\""))
                     .hint("known are common, buffer, cubemap, sound and image"));
@@ -217,15 +174,15 @@ fn project(shader: Shader, stem: &str, warnings: &mut Vec<Diagnostic>) -> Result
                 .hint("remove one of them"));
         }
         let mut channels: [Option<Channel>; 4] = Default::default();
-        for input in pass.inputs.iter().flatten() {
-            if let Some((n, channel)) = channel(input, &id, warnings) {
+        for input in pass.inputs.iter().flat_map(|inputs| &inputs.0) {
+            if let Some((n, channel)) = channel(input, &id, &names, warnings) {
                 if matches!(channel.input, Input::Buffer(_)) {
                     reads.push((passes.len(), n));
                 }
                 channels[n] = Some(channel);
             }
         }
-        let source = Source { name: id.title(), path: None, text: pass.code.as_str().into() };
+        let source = Source { name: id.title(), path: None, text: pass.code.into() };
         passes.push(Pass { id, source, channels, settings: Default::default() });
     }
     if !passes.iter().any(|p| p.id == PassId::Image) {
@@ -234,7 +191,7 @@ fn project(shader: Shader, stem: &str, warnings: &mut Vec<Diagnostic>) -> Result
     }
     settle_wraps(&mut passes, &reads);
     sort_passes(&mut passes);
-    let mut extra = shader.info;
+    let mut extra = info;
     let mut take = |key: &str| match extra.remove(key) {
         Some(Value::String(text)) => text,
         None | Some(Value::Null) => String::new(),
@@ -280,30 +237,70 @@ fn settle_wraps(passes: &mut [Pass], reads: &[(usize, usize)]) {
     }
 }
 
-/// A buffer's name by its output's id. A pass whose id says nothing, or what another one already has, gets the first letter
-/// that no pass claims.
-fn buffer_name(pass: &RenderPass, all: &[RenderPass], done: &[Pass], warnings: &mut Vec<Diagnostic>) -> String {
-    let claim = |p: &RenderPass| p.outputs.iter().flatten().find_map(|o| ids::buffer(&o.id.as_ref()?.text()));
-    let is_taken = |name: &str| done.iter().any(|p| p.id == PassId::Buffer(name.to_owned()));
-    let own = claim(pass);
-    if let Some(name) = own.as_ref().filter(|n| !is_taken(n)) {
-        return name.clone();
-    }
-    let claimed: Vec<String> = all.iter().filter(|p| p.r#type == "buffer").filter_map(claim).collect();
-    let free = ('A'..='Z').map(String::from).find(|l| !is_taken(l) && !claimed.contains(l));
-    let name = free.unwrap_or_else(|| format!("n{}", done.len()));
-    let said = match own {
-        Some(other) => format!("writes Buffer {other}, as another pass does"),
-        None => "does not say which buffer it writes".into(),
-    };
-    warnings.push(
-        Diagnostic::warning(None, format!("the pass \"{}\" {said}; it is read as Buffer {name}", pass.name))
-            .hint("give every buffer pass an output id of its own"),
-    );
-    name
+/// What the buffers are called.
+struct BufferNames {
+    /// Of each pass of type "buffer", in the list's order.
+    of_passes: VecDeque<String>,
+    /// By an output's id that means nothing to the site.
+    of_ids: HashMap<String, String>,
 }
 
-fn channel(input: &RenderInput, id: &PassId, warnings: &mut Vec<Diagnostic>) -> Option<(usize, Channel)> {
+impl BufferNames {
+    /// A buffer's name by its output's id. A pass whose id says nothing that is a name, or what another one already has, gets the
+    /// first letter that no pass claims; what reads that id reads this pass.
+    fn new(passes: &[RenderPass], warnings: &mut Vec<Diagnostic>) -> BufferNames {
+        let outputs = |p: &RenderPass| -> Vec<String> {
+            p.outputs.iter().flat_map(|o| &o.0).filter_map(|o| o.id.as_ref().map(Scalar::text)).collect()
+        };
+        let buffers: Vec<(&RenderPass, Vec<String>)> =
+            passes.iter().filter(|p| p.r#type == "buffer").map(|p| (p, outputs(p))).collect();
+        let claims: Vec<Option<String>> =
+            buffers.iter().map(|(_, ids)| ids.iter().find_map(|i| ids::buffer(i))).collect();
+        let claimed: HashSet<&String> = claims.iter().flatten().collect();
+        let mut taken: HashSet<String> = HashSet::new();
+        let mut names = BufferNames { of_passes: VecDeque::new(), of_ids: HashMap::new() };
+        let letters = ('A'..='Z').map(String::from);
+        let mut free = letters.chain((1..).map(|n| format!("n{n}"))).filter(|name| !claimed.contains(name));
+        for ((pass, outputs), own) in buffers.iter().zip(&claims) {
+            let name = match own {
+                Some(name) if !taken.contains(name) => name.clone(),
+                other => {
+                    // Never ends, and never gives one twice.
+                    let name = free.next().unwrap_or_default();
+                    let said = match (other, outputs.first()) {
+                        (Some(other), _) => format!("writes Buffer {other}, as another pass does"),
+                        (None, Some(id)) if !id.is_empty() => format!("writes the unknown id \"{}\"", shown(id)),
+                        (None, _) => "does not say which buffer it writes".into(),
+                    };
+                    let message = format!("the pass \"{}\" {said}; it is read as Buffer {name}", shown(&pass.name));
+                    let hint = "give every buffer pass an output id of its own";
+                    warnings.push(Diagnostic::warning(None, message).hint(hint));
+                    if other.is_none() {
+                        names
+                            .of_ids
+                            .extend(outputs.iter().filter(|i| !i.is_empty()).map(|i| (i.clone(), name.clone())));
+                    }
+                    name
+                }
+            };
+            taken.insert(name.clone());
+            names.of_passes.push_back(name);
+        }
+        names
+    }
+}
+
+/// A text of the file's in a message: not too long, and in one line.
+fn shown(text: &str) -> String {
+    text.chars().take(80).collect::<String>().escape_debug().to_string()
+}
+
+fn channel(
+    input: &RenderInput,
+    id: &PassId,
+    names: &BufferNames,
+    warnings: &mut Vec<Diagnostic>,
+) -> Option<(usize, Channel)> {
     let number = input.channel.text();
     let Some(n) = number.parse::<usize>().ok().filter(|n| *n < 4) else {
         warnings.push(
@@ -317,13 +314,20 @@ fn channel(input: &RenderInput, id: &PassId, warnings: &mut Vec<Diagnostic>) -> 
     let input_id = input.id.as_ref().map(Scalar::text).unwrap_or_default();
     let media = || media(&input_id, path);
     let read = match kind {
-        "buffer" => match ids::buffer(&input_id).or_else(|| ids::buffer_of_preview(path)) {
+        "buffer" => match ids::buffer(&input_id)
+            .or_else(|| names.of_ids.get(&input_id).cloned())
+            .or_else(|| ids::buffer_of_preview(path))
+        {
             Some(name) => Input::Buffer(name),
             None => {
                 warnings.push(
                     Diagnostic::warning(
                         None,
-                        format!("iChannel{n} of {} reads a buffer of the unknown id \"{input_id}\"", id.title()),
+                        format!(
+                            "iChannel{n} of {} reads a buffer of the unknown id \"{}\"",
+                            id.title(),
+                            shown(&input_id)
+                        ),
                     )
                     .hint("the channel is left empty and reads black"),
                 );

@@ -4,6 +4,7 @@
 //! of `info` it keeps and gives back.
 
 mod export;
+mod form;
 mod ids;
 mod import;
 

@@ -467,6 +467,11 @@ impl Reader<'_> {
         };
         self.check_keys("[shadertoy]", table, &[&["info"]]);
         let Some(text) = self.string(table, "info") else { return serde_json::Map::default() };
+        if text.len() as u64 > limits::JSON_INFO.bytes {
+            let at = table.get("info").and_then(Item::span);
+            self.error(at, format!("info is larger than {}", limits::JSON_INFO), "remove the table [shadertoy]");
+            return serde_json::Map::default();
+        }
         serde_json::from_str(&text).unwrap_or_else(|e| {
             let at = table.get("info").and_then(Item::span);
             self.error(at, format!("info is not a JSON object: {e}"), "mend it, or remove the table [shadertoy]");
