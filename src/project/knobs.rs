@@ -11,7 +11,7 @@ mod line;
 
 use super::{Project, lines::hash_lines, nearest};
 use crate::diag::{Diagnostic, SourceId, Span};
-pub(super) use declared::declares_uniform;
+pub(super) use declared::words_of_uniforms;
 use line::Line;
 pub(super) use line::is_declaration;
 use std::collections::BTreeMap;

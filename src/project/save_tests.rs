@@ -1,8 +1,13 @@
 //! Tests of saving: what is written reads back the same, and nothing else is touched.
 
 use super::*;
-use crate::project::{Channel, Filter, Info, Pass, PassFormat, PassSettings, PassSize, Region, Sampler, Wrap, load};
-use std::collections::BTreeSet;
+use crate::project::{
+    Channel, Filter, Info, Input, Pass, PassFormat, PassSettings, PassSize, Region, Sampler, Wrap, load,
+};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 /// A small generator of numbers, so that a failing case comes back with its seed.
 struct Random(u64);

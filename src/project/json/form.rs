@@ -3,7 +3,7 @@
 //! A file may be a stranger's. What is not read is passed over without taking memory, every list has a limit, and what a shader
 //! says besides its passes is kept as text until its length is known.
 
-use super::super::limits;
+use crate::project::limits;
 use serde::{
     Deserialize, Deserializer,
     de::{Error, IgnoredAny, MapAccess, SeqAccess, Visitor},
@@ -100,7 +100,7 @@ impl<'de, T: Deserialize<'de>, const MAX: usize> Deserialize<'de> for Few<T, MAX
                 Ok(all)
             }
         }
-        deserializer.deserialize_seq(List(PhantomData)).map(Few)
+        deserializer.deserialize_seq(List::<T, MAX>(PhantomData)).map(Few)
     }
 }
 

@@ -54,7 +54,7 @@ fn read(text: &str, name: &str) -> Result<(Project, Vec<Diagnostic>), Vec<Diagno
     };
     const NO_SHADER: &str = "not a Shadertoy shader";
     let mut warnings = Vec::new();
-    let part: &str = match serde_json::from_str(body).map_err(|e| failed(body, "not JSON", &e))? {
+    let part: &str = match serde_json::from_str::<Top<'_>>(body).map_err(|e| failed(body, "not JSON", &e))? {
         Top::Object(object) if object.renderpass => body,
         Top::Object(Object { shader: Some(shader), .. }) => shader.get(),
         Top::Object(Object { error: Some(error), .. }) => {

@@ -1,12 +1,15 @@
 //! Uniforms that texts declare in GLSL's own way, told by their words alone: the compiler knows better, and comes later.
 
 use crate::project::{KnobValue, KnobValues};
-use std::ops::Range;
+use std::{collections::BTreeSet, ops::Range};
 
-/// Whether a text has a declaration `uniform .. name ..;`.
-pub(in crate::project) fn declares_uniform(text: &str, name: &str) -> bool {
+/// Every word of the declarations `uniform .. name ..;` of a text, names of uniforms among them.
+pub(in crate::project) fn words_of_uniforms(text: &str) -> BTreeSet<String> {
     let text = blanked(text);
-    declarations(&text).iter().any(|range| words(&text[range.clone()]).any(|word| word == name))
+    declarations(&text)
+        .into_iter()
+        .flat_map(|range| words(&text[range]).map(str::to_owned).collect::<Vec<_>>())
+        .collect()
 }
 
 /// A text with a constant in place of each uniform that has a value, as for the site, where nobody gives it one. Left alone is

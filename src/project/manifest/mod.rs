@@ -62,6 +62,7 @@
 mod geometry;
 mod read;
 mod settings;
+mod uniforms;
 mod write;
 
 pub(super) use read::project;

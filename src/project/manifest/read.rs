@@ -4,13 +4,11 @@ use super::{KINDS, VERSION, default_sampler, geometry, settings};
 use crate::{
     diag::{Diagnostic, SourceId, SourceMap, Span},
     project::{
-        Channel, Filter, Info, Input, KnobValue, KnobValues, Loaded, MAX_TARGETS, Media, Origin, Pass, PassId, Project,
-        ProjectError, SamplerRules, Source, Wrap,
+        Channel, Filter, Info, Input, Loaded, MAX_TARGETS, Media, Origin, Pass, PassId, Project, ProjectError,
+        SamplerRules, Source, Wrap,
         files::{self, Files, Read},
         folder::{self, Role},
-        includes,
-        knobs::declares_uniform,
-        limits, listed,
+        includes, limits, listed,
         load::MANIFEST,
         nearest,
     },
@@ -78,11 +76,11 @@ pub(super) struct Reader<'a> {
     files: &'a Files<'a>,
     sources: SourceMap,
     id: SourceId,
-    diagnostics: Vec<Diagnostic>,
+    pub(super) diagnostics: Vec<Diagnostic>,
 }
 
 impl Reader<'_> {
-    fn span(&self, range: Option<Range<usize>>) -> Option<Span> {
+    pub(super) fn span(&self, range: Option<Range<usize>>) -> Option<Span> {
         range.map(|r| Span::new(self.id, r))
     }
 
@@ -419,37 +417,6 @@ impl Reader<'_> {
         }
     }
 
-    fn uniforms(&mut self, root: &dyn TableLike) -> KnobValues {
-        let mut values = KnobValues::new();
-        let Some(table) = root.get("uniforms").and_then(|item| self.table("uniforms", item)) else { return values };
-        for (name, item) in table.iter() {
-            match knob_value(item) {
-                Some(value) => drop(values.insert(name.to_owned(), value)),
-                None => self.wrong_type(name, item, "true, false, a number, or a list of these or of such lists"),
-            }
-        }
-        values
-    }
-
-    /// Values that no knob takes. Only warnings: a text may be changed so at any time, and the project must go on opening.
-    fn check_uniforms(&mut self, root: &dyn TableLike, project: &Project) {
-        let Some(table) = root.get("uniforms").and_then(Item::as_table_like) else { return };
-        let knobs = project.knobs();
-        for (name, value) in &project.knob_values {
-            if knobs.get(name).is_none() && project.sources().iter().any(|(_, s)| declares_uniform(&s.text, name)) {
-                continue; // the compiler says whether it fits
-            }
-            let (message, hint) = match knobs.get(name).map(|knob| knob.fit(value)) {
-                Some(Ok(_)) => continue,
-                Some(Err(why)) => (format!("{name} {why}"), "it is kept in the file, and not used as it is".to_owned()),
-                None => knobs.unknown(name),
-            };
-            let at = table.key(name).and_then(toml_edit::Key::span).or_else(|| table.get(name).and_then(Item::span));
-            let span = self.span(at);
-            self.diagnostics.push(Diagnostic::warning(span, message).hint(hint));
-        }
-    }
-
     fn tags(&mut self, root: &dyn TableLike) -> Vec<String> {
         let Some(item) = root.get("tags") else { return Vec::new() };
         let tags: Option<Vec<String>> =
@@ -536,31 +503,6 @@ impl Reader<'_> {
             };
             self.error(at, format!("{place} has no key {key}"), hint);
         }
-    }
-}
-
-/// The value an entry of `[uniforms]` says.
-pub fn knob_value(item: &Item) -> Option<KnobValue> {
-    item.as_value().and_then(value)
-}
-
-fn value(written: &toml_edit::Value) -> Option<KnobValue> {
-    let number = |v: &toml_edit::Value| v.as_float().or_else(|| v.as_integer().map(|i| i as f64));
-    match written {
-        toml_edit::Value::Boolean(on) => Some(KnobValue::Bool(*on.value())),
-        toml_edit::Value::Integer(n) => {
-            let n = *n.value();
-            Some(i32::try_from(n).map_or(KnobValue::Float(n as f64), KnobValue::Int))
-        }
-        toml_edit::Value::Float(x) => x.value().is_finite().then_some(KnobValue::Float(*x.value())),
-        toml_edit::Value::Array(all) => {
-            let numbers: Option<Vec<f64>> = all.iter().map(number).collect();
-            match numbers.filter(|n| (2..=4).contains(&n.len())) {
-                Some(numbers) => numbers.iter().all(|x| x.is_finite()).then_some(KnobValue::Vector(numbers)),
-                None => all.iter().map(value).collect::<Option<Vec<_>>>().map(KnobValue::List),
-            }
-        }
-        _ => None,
     }
 }
 

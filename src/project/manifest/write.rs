@@ -1,6 +1,6 @@
 //! Writing `eddy.toml`: an old text changed no more than needed, so that the author's comments and order stay.
 
-use super::{VERSION, default_sampler, geometry, read, settings};
+use super::{VERSION, default_sampler, geometry, read, settings, uniforms};
 use crate::project::{
     Channel, Filter, Input, KnobValue, Media, PassId, Project, SamplerRules, Wrap, folder::pass_of_stem,
 };
@@ -95,7 +95,7 @@ fn uniforms(root: &mut Table, project: &Project) {
         table.remove(&key);
     }
     for (name, value) in values {
-        if table.get(name).and_then(read::knob_value).as_ref() == Some(value) {
+        if table.get(name).and_then(uniforms::knob_value).as_ref() == Some(value) {
             continue;
         }
         set(table, name, Some(written(value)));
