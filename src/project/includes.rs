@@ -8,7 +8,8 @@
 //! that comes of it ([`Project::inlined`]).
 
 use super::{
-    Project, Source, confine,
+    Project, Source,
+    confine::{self, Reason},
     files::{Files, Read},
     limits,
     lines::{HashLine, hash_lines},
@@ -28,6 +29,20 @@ pub struct Included {
     pub source: Source,
     /// Why it has no text, if it has none.
     pub trouble: Option<String>,
+    /// The trouble is a limit of the whole project: what is named after it was not looked for.
+    pub is_limit: bool,
+}
+
+/// Why a file has no text.
+struct Trouble {
+    why: String,
+    is_limit: bool,
+}
+
+impl From<String> for Trouble {
+    fn from(why: String) -> Self {
+        Trouble { why, is_limit: false }
+    }
 }
 
 /// What the `#include` lines of a project lead to.
@@ -64,21 +79,28 @@ pub(super) fn read(project: &mut Project, files: Option<&Files<'_>>) {
             if !known.insert(name.clone()) {
                 continue;
             }
-            let is_one_too_many = known.len() > limits::TEXTS;
-            let content = if is_one_too_many {
-                Err(format!("with {name} the project has more than {} texts, the most that Eddy reads", limits::TEXTS))
-            } else {
-                content(files, &name)
+            let content = match known.len() > limits::TEXTS {
+                true => Err(Trouble {
+                    why: format!(
+                        "with {name} the project has more than {} texts, the most that Eddy reads",
+                        limits::TEXTS
+                    ),
+                    is_limit: true,
+                }),
+                false => {
+                    content(files, &name, found.iter().filter(|i| i.trouble.is_some()).take(HINTS).count() < HINTS)
+                }
             };
             let (text, trouble) = match content {
                 Ok(text) => (text, None),
-                Err(why) => (String::new(), Some(why)),
+                Err(trouble) => (String::new(), Some(trouble)),
             };
+            let is_limit = trouble.as_ref().is_some_and(|t| t.is_limit);
             let path = files.and_then(|f| f.path(&name));
             let source = Source { name: name.clone(), path, text: text.into() };
             queue.push_back((name, source.text.clone()));
-            found.push(Included { source, trouble });
-            if is_one_too_many {
+            found.push(Included { source, trouble: trouble.map(|t| t.why), is_limit });
+            if is_limit {
                 break 'texts;
             }
         }
@@ -86,20 +108,28 @@ pub(super) fn read(project: &mut Project, files: Option<&Files<'_>>) {
     project.includes = found;
 }
 
-fn content(files: Option<&Files<'_>>, name: &str) -> Result<String, String> {
+/// Files that are not there for which a like name is looked for: looking for one reads the folder.
+const HINTS: usize = 20;
+
+fn content(files: Option<&Files<'_>>, name: &str, with_hint: bool) -> Result<String, Trouble> {
     let Some(files) = files else {
-        return Err(format!("{name} is nowhere: this project has no folder yet; save it into one first"));
+        return Err(format!("{name} is nowhere: this project has no folder yet; save it into one first").into());
     };
     match files.read(name, limits::GLSL_TEXT) {
         Read::Text(text) => Ok(text),
-        Read::NotUtf8(at, _) => Err(format!("{name} is not UTF-8 text (byte {at}); save it as UTF-8 in your editor")),
+        Read::NotUtf8(at, _) => {
+            Err(format!("{name} is not UTF-8 text (byte {at}); save it as UTF-8 in your editor").into())
+        }
         Read::Missing => {
             let folder = name.rsplit_once('/').map_or("", |(folder, _)| folder);
-            let beside = if folder.is_empty() { files.names().unwrap_or_default() } else { Vec::new() };
+            let beside = if folder.is_empty() && with_hint { files.names().unwrap_or_default() } else { Vec::new() };
             let near = nearest(name, beside.iter().map(String::as_str));
-            Err(format!("there is no file {name}{}", near.map(|n| format!("; did you mean {n}?")).unwrap_or_default()))
+            let hint = near.map(|n| format!("; did you mean {n}?")).unwrap_or_default();
+            Err(format!("there is no file {name}{hint}").into())
         }
-        Read::Refused(e) => Err(format!("{e}; {}", e.hint())),
+        Read::Refused(e) => {
+            Err(Trouble { why: format!("{e}; {}", e.hint()), is_limit: matches!(e.reason, Reason::TooMuch(_)) })
+        }
     }
 }
 
@@ -160,6 +190,7 @@ impl Project {
                         }
                         None => found.lines.push((span, target)),
                     },
+                    None if self.includes.last().is_some_and(|i| i.is_limit) => {}
                     None => found
                         .diagnostics
                         .push(Diagnostic::error(span, format!("#include \"{path}\": there is no file {name}"))),
