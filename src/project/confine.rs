@@ -101,6 +101,11 @@ impl FileError {
         }
     }
 
+    /// The machine refused, for want of permission or by a fault: nothing that the project says is wrong.
+    pub fn is_of_machine(&self) -> bool {
+        matches!(self.reason, Reason::Io(_))
+    }
+
     pub fn is_missing(&self) -> bool {
         self.reason == Reason::Missing
     }

@@ -197,6 +197,10 @@ impl Project {
                 }
             }
         }
+        if self.includes.last().is_some_and(|i| i.is_limit) {
+            // Not even those that were read are put together: the error is there already.
+            found.lines.clear();
+        }
         self.cut_cycles(&mut found);
         found
     }

@@ -149,6 +149,7 @@ fn by_convention(what: &str, name: String, files: &Files<'_>, origin: Origin) ->
             break;
         }
         match files.read(&file, limits::GLSL_TEXT) {
+            Read::Refused(error) if error.is_of_machine() => return Err(error.into()),
             Read::Refused(error) => {
                 diagnostics.push(Diagnostic::error(None, error.to_string()).hint(error.hint()));
             }

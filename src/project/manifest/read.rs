@@ -4,8 +4,8 @@ use super::{KINDS, VERSION, default_sampler, geometry, settings};
 use crate::{
     diag::{Diagnostic, SourceId, SourceMap, Span},
     project::{
-        Channel, Filter, Info, Input, Loaded, MAX_TARGETS, Media, Origin, Pass, PassId, Project, ProjectError,
-        SamplerRules, Source, Wrap,
+        Channel, FileError, Filter, Info, Input, Loaded, MAX_TARGETS, Media, Origin, Pass, PassId, Project,
+        ProjectError, SamplerRules, Source, Wrap,
         files::{self, Files, Read},
         folder::{self, Role},
         includes, limits, listed,
@@ -54,11 +54,15 @@ pub fn project(
     files: &Files<'_>,
     origin: Origin,
 ) -> Result<Loaded, ProjectError> {
-    let mut reader = Reader { files, sources: SourceMap::default(), id: SourceId(0), diagnostics: Vec::new() };
+    let mut reader =
+        Reader { files, sources: SourceMap::default(), id: SourceId(0), diagnostics: Vec::new(), refused: None };
     // While the project is not whole, the only text that spans can point into is this one.
     reader.id = reader.sources.add(MANIFEST, text);
     let project = reader.read(folder_name, text, origin);
-    let Reader { mut diagnostics, sources: own, id, .. } = reader;
+    let Reader { mut diagnostics, sources: own, id, refused, .. } = reader;
+    if let Some(error) = refused {
+        return Err(error.into());
+    }
     let Some(project) = project.filter(|_| !diagnostics.iter().any(Diagnostic::is_error)) else {
         return Err(ProjectError::Invalid { what: what.to_owned(), diagnostics, sources: own });
     };
@@ -77,6 +81,8 @@ pub(super) struct Reader<'a> {
     sources: SourceMap,
     id: SourceId,
     pub(super) diagnostics: Vec<Diagnostic>,
+    /// What the machine refused, if anything.
+    refused: Option<FileError>,
 }
 
 impl Reader<'_> {
@@ -406,6 +412,10 @@ impl Reader<'_> {
                 self.error(at, format!("the file of {title}, {file}, is not there"), hint);
                 None
             }
+            Read::Refused(error) if error.is_of_machine() => {
+                self.refused = Some(error);
+                None
+            }
             Read::Refused(error) => {
                 self.error(at, format!("the file of {title}: {error}"), error.hint());
                 None
@@ -519,6 +529,7 @@ pub(super) fn silent<T>(read: impl FnOnce(&mut Reader<'_>) -> T) -> Option<T> {
         sources: SourceMap::default(),
         id: SourceId(0),
         diagnostics: Vec::new(),
+        refused: None,
     };
     let made = read(&mut reader);
     reader.diagnostics.is_empty().then_some(made)
