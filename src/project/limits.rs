@@ -54,6 +54,6 @@ pub const FILES: usize = 50_000;
 /// Passes and meshes that are drawn for one frame: those of a group count as often as the group has steps.
 pub const DRAWS: u64 = 20_000;
 /// Values in `[uniforms]`.
-pub const UNIFORMS: usize = 4_000;
+pub const UNIFORMS: usize = 1_000;
 /// Letters of a buffer's or a group's name.
 pub const NAME: usize = 64;
