@@ -2,8 +2,15 @@
 //! sees them.
 
 use super::{PassFormat, Source, confine, limits};
-use serde::Deserialize;
-use std::path::{Path, PathBuf};
+use serde::{
+    Deserialize, Deserializer,
+    de::{SeqAccess, Visitor},
+};
+use std::{
+    borrow::Cow,
+    fmt,
+    path::{Path, PathBuf},
+};
 
 /// Targets a pass may have at once: what every device takes.
 pub const MAX_TARGETS: usize = 4;
@@ -182,23 +189,47 @@ pub fn files_beside(folder: &Path, model: &str) -> Vec<String> {
     }
     let bytes = confine::read(folder, model, limits::MEDIA_FILE).unwrap_or_default();
     let named: Named = serde_json::from_slice(&bytes).unwrap_or_default();
-    let uris = named.buffers.into_iter().chain(named.images).filter_map(|file| file.uri);
-    let files = uris.filter(|uri| !uri.contains(':')).map(|uri| unescaped(&uri));
+    let files = named.buffers.0.iter().chain(&named.images.0).map(|uri| unescaped(uri));
     files.filter_map(|file| confine::relative(model, &file).ok()).collect()
 }
 
 /// Of a `.gltf` the addresses alone: the rest may be large.
 #[derive(Default, Deserialize)]
+#[serde(default)]
 struct Named {
-    #[serde(default)]
-    buffers: Vec<NamedFile>,
-    #[serde(default)]
-    images: Vec<NamedFile>,
+    buffers: Uris,
+    images: Uris,
 }
 
-#[derive(Deserialize)]
-struct NamedFile {
-    uri: Option<String>,
+/// The addresses of files in a list, one after the other: what has none takes no memory.
+#[derive(Default)]
+struct Uris(Vec<String>);
+
+impl<'de> Deserialize<'de> for Uris {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        #[derive(Deserialize)]
+        struct NamedFile<'a> {
+            #[serde(borrow)]
+            uri: Option<Cow<'a, str>>,
+        }
+        struct List;
+        impl<'de> Visitor<'de> for List {
+            type Value = Uris;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a list of files")
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Uris, A::Error> {
+                let mut uris = Vec::new();
+                while let Some(file) = list.next_element::<NamedFile<'_>>()? {
+                    uris.extend(file.uri.filter(|uri| !uri.contains(':')).map(Cow::into_owned));
+                }
+                Ok(Uris(uris))
+            }
+        }
+        deserializer.deserialize_seq(List)
+    }
 }
 
 /// An address with its `%20` and the like written out.

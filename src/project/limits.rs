@@ -42,6 +42,28 @@ pub const JSON: Limit = Limit { bytes: 32 << 20, of: "a Shadertoy JSON file" };
 pub const JSON_INFO: Limit = Limit { bytes: 1 << 20, of: "the \"info\" of a Shadertoy JSON file" };
 /// A picture, a model, or a file that a model names.
 pub const MEDIA_FILE: Limit = Limit { bytes: 512 << 20, of: "a picture or a model" };
+/// A model file together with the buffers that it names.
+pub const MODEL_FILES: Limit = Limit { bytes: 512 << 20, of: "a model and the files that it names" };
+
+/// Texels across or along a picture: what the largest devices take.
+pub const PICTURE_SIDE: u32 = 32_768;
+/// A decoded picture: 4 bytes a texel, 16 where it holds floats. 8192x16384 texels, or 8192x4096 of floats.
+pub const PICTURE_BYTES: u64 = 512 << 20;
+/// All pictures and models of a project together, as Eddy holds them.
+pub const MEDIA_BYTES: u64 = 2 << 30;
+
+/// Vertices of a model; a mesh that several nodes place counts for each. 64 bytes each.
+pub const MODEL_VERTICES: u64 = 8 << 20;
+/// Triangles of a model, counted likewise.
+pub const MODEL_TRIANGLES: u64 = 16 << 20;
+/// Primitives of a glTF file, counted likewise; objects and groups of an OBJ file.
+pub const MODEL_PARTS: u64 = 1 << 20;
+/// Pairs of triangle corners that meet at a place, all places together, in a part of a model whose tangents Eddy makes.
+pub const TANGENT_PAIRS: u64 = 4 << 30;
+/// Objects in the JSON text of a glTF file: nodes, accessors and the like.
+pub const GLTF_OBJECTS: u64 = 1 << 20;
+/// Values in the JSON text of a glTF file.
+pub const GLTF_VALUES: u64 = 8 << 20;
 
 /// Passes of a project.
 pub const PASSES: usize = 1_000;

@@ -29,7 +29,9 @@ pub use atomic::write_with;
 pub use confine::FileError;
 pub use error::ProjectError;
 pub use folder::declare_channels;
-pub use geometry::{Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Stage, files_beside};
+pub use geometry::{
+    Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Stage, files_beside, unescaped,
+};
 pub use includes::{IncludeLines, Included};
 pub use knobs::{Knob, KnobRange, KnobType, KnobValue, KnobValues, Knobs};
 pub use load::{Loaded, load, stem};
