@@ -1,9 +1,9 @@
 //! All the pictures of a project at once.
 
-use super::{MediaKey, MediaSet, load};
+use super::{MediaKey, MediaSet, load::load_within};
 use crate::{
     diag::Diagnostic,
-    project::{Input, Pass, PassId, Project},
+    project::{Input, Pass, PassId, Project, limits},
 };
 use std::{collections::HashMap, path::Path, sync::Arc};
 
@@ -37,7 +37,7 @@ pub fn gather(project: &Project, media_dir: Option<&Path>) -> (MediaSet, Vec<Dia
         if set.get(&key).is_some() {
             continue;
         }
-        match load(media, vflip, base, media_dir) {
+        match load_within(media, vflip, base, media_dir, set.room()) {
             Ok(texels) => {
                 set.insert(key, Arc::new(texels));
             }
@@ -58,8 +58,17 @@ pub fn meshes(project: &Project, set: &mut MediaSet) {
     let base = project.origin.base_dir();
     for draw in project.passes.iter().filter_map(|p| p.settings.geometry.as_ref()).flat_map(|g| &g.draws) {
         if !set.meshes.contains_key(&draw.mesh) {
-            set.insert_mesh(draw.mesh.clone(), super::mesh::load(&draw.mesh, base).map(Arc::new));
+            set.insert_mesh(draw.mesh.clone(), super::mesh::load_within(&draw.mesh, base, set.room()).map(Arc::new));
         }
+    }
+}
+
+impl MediaSet {
+    /// Bytes that more pictures and models may take.
+    fn room(&self) -> u64 {
+        let pictures = self.pictures.values().map(|texels| texels.bytes.len() as u64).sum::<u64>();
+        let meshes = self.meshes.values().flatten().map(|mesh| mesh.bytes()).sum::<u64>();
+        limits::MEDIA_BYTES.saturating_sub(pictures + meshes)
     }
 }
 

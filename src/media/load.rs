@@ -4,11 +4,11 @@ use super::{TexelFormat, Texels, builtin, site};
 use crate::project::{
     Media,
     confine::{self, FileError},
-    listed, nearest,
+    limits, listed, nearest,
 };
-use image::{DynamicImage, ImageError, ImageReader};
+use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
 use std::{
-    io,
+    io::{self, Cursor},
     path::{Path, PathBuf},
 };
 
@@ -17,18 +17,32 @@ use std::{
 pub enum MediaError {
     #[error(transparent)]
     File(#[from] FileError),
-    #[error("cannot read {}: {source}", path.display())]
-    Io { path: PathBuf, source: io::Error },
     #[error("{}: {}", path.display(), reason(source))]
     Decode { path: PathBuf, source: ImageError },
     #[error("{}: the picture has no texels", path.display())]
     Empty { path: PathBuf },
+    #[error("{}: the picture has {width}x{height} texels, {excess}", path.display())]
+    TooLarge { path: PathBuf, width: u32, height: u32, excess: Excess },
     #[error("{} is relative, and the project has no folder yet to start from", path.display())]
     NoFolder { path: PathBuf },
     #[error("there is no built-in texture {name}{}", near.as_ref().map(|n| format!(" (did you mean {n}?)")).unwrap_or_default())]
     UnknownBuiltin { name: String, near: Option<String> },
     #[error("the site's {path} has no stand-in")]
     NoStandIn { path: String },
+}
+
+/// The limit that a picture exceeds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Excess {
+    #[error("and a side may have {}", limits::PICTURE_SIDE)]
+    Side,
+    #[error("which take {bytes} bytes; a picture may take {}", limits::in_bytes(limits::PICTURE_BYTES))]
+    Bytes { bytes: u64 },
+    #[error(
+        "with which the pictures and models of the project take more than {}, which is all they may",
+        limits::in_bytes(limits::MEDIA_BYTES)
+    )]
+    Project,
 }
 
 fn reason(error: &ImageError) -> String {
@@ -47,11 +61,9 @@ impl MediaError {
     pub fn hint(&self) -> String {
         match self {
             MediaError::File(error) => error.hint(),
-            MediaError::Io { source, .. } if source.kind() == io::ErrorKind::NotFound => {
-                "put the picture there, or name another".into()
-            }
-            MediaError::Io { .. } => "check the file's permissions".into(),
             MediaError::Decode { source: ImageError::Limits(_), .. } => "scale the picture down".into(),
+            MediaError::TooLarge { excess: Excess::Project, .. } => "use fewer or smaller pictures".into(),
+            MediaError::TooLarge { .. } => "scale the picture down".into(),
             MediaError::Decode { .. } | MediaError::Empty { .. } => "save the picture anew, for instance as PNG".into(),
             MediaError::NoFolder { .. } => "save the project first, and put the picture into its folder".into(),
             MediaError::UnknownBuiltin { .. } => format!("there are {}", listed(&builtin::names())),
@@ -60,9 +72,20 @@ impl MediaError {
     }
 }
 
-/// Loads a 2D picture. `vflip`: its top row comes to lie at v = 1. A relative file starts from `base`. For a stock file of
-/// the site, a file of the same name in `media_dir` wins over the built-in stand-in.
+/// Loads a 2D picture. `vflip`: its top row comes to lie at v = 1. A file lies in the project's folder `base`, see
+/// [`confine`]. For a stock file of the site, a file of the same name in `media_dir` wins over the built-in stand-in.
 pub fn load(media: &Media, vflip: bool, base: Option<&Path>, media_dir: Option<&Path>) -> Result<Texels, MediaError> {
+    load_within(media, vflip, base, media_dir, limits::MEDIA_BYTES)
+}
+
+/// The same where pictures and models may take `room` bytes more.
+pub(super) fn load_within(
+    media: &Media,
+    vflip: bool,
+    base: Option<&Path>,
+    media_dir: Option<&Path>,
+    room: u64,
+) -> Result<Texels, MediaError> {
     match media {
         Media::Builtin(name) => {
             let texels = builtin::make(name).ok_or_else(|| MediaError::UnknownBuiltin {
@@ -73,14 +96,15 @@ pub fn load(media: &Media, vflip: bool, base: Option<&Path>, media_dir: Option<&
         }
         Media::File(path) => {
             let Some(base) = base else { return Err(MediaError::NoFolder { path: path.clone() }) };
-            file(&confine::resolve(base, path)?, vflip)
+            let bytes = confine::read(base, path, limits::MEDIA_FILE)?;
+            decoded(bytes, &base.join(path), vflip, room)
         }
-        Media::Picked(path) => file(path, vflip),
+        Media::Picked(path) => decoded(confine::read_own(path, limits::MEDIA_FILE)?, path, vflip, room),
         Media::Site { id, path } => {
             let stock = site::stock(id, path);
             let name = path.rsplit('/').next().unwrap_or_default();
             if let Some(found) = media_dir.map(|d| d.join(name)).filter(|p| !name.is_empty() && p.is_file()) {
-                let texels = file(&found, vflip)?;
+                let texels = decoded(confine::read_own(&found, limits::MEDIA_FILE)?, &found, vflip, room)?;
                 return Ok(if stock.is_some_and(|s| s.is_grey) { red_only(texels) } else { texels });
             }
             let texels = stock
@@ -98,7 +122,11 @@ fn upright(texels: Texels, vflip: bool) -> Texels {
 
 fn flipped(mut texels: Texels) -> Texels {
     let row = texels.width as usize * texels.format.bytes();
-    texels.bytes = texels.bytes.chunks_exact(row).rev().flatten().copied().collect();
+    let rows = texels.height as usize;
+    for y in 0..rows / 2 {
+        let (below, above) = texels.bytes.split_at_mut((rows - 1 - y) * row);
+        below[y * row..(y + 1) * row].swap_with_slice(&mut above[..row]);
+    }
     texels
 }
 
@@ -112,18 +140,36 @@ fn red_only(texels: Texels) -> Texels {
     }
 }
 
-fn file(path: &Path, vflip: bool) -> Result<Texels, MediaError> {
-    let io = |source| MediaError::Io { path: path.to_owned(), source };
-    if path.is_dir() {
-        return Err(io(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder, not a picture")));
+/// Decodes the picture file `path`, whose size is looked at first: a few kilobytes can ask for gigabytes.
+fn decoded(bytes: Vec<u8>, path: &Path, vflip: bool, room: u64) -> Result<Texels, MediaError> {
+    let failed = |source| MediaError::Decode { path: path.to_owned(), source };
+    let mut reader = ImageReader::new(Cursor::new(bytes));
+    // The ending counts where the content says nothing, as with TGA.
+    if let Ok(format) = ImageFormat::from_path(path) {
+        reader.set_format(format);
     }
-    // The reader's own limits hold (512 MiB of memory), so that a small file cannot ask for all there is.
-    let reader = ImageReader::open(path).and_then(ImageReader::with_guessed_format).map_err(io)?;
-    let image = reader.decode().map_err(|source| MediaError::Decode { path: path.to_owned(), source })?;
-    if image.width() == 0 || image.height() == 0 {
+    let mut reader = reader.with_guessed_format().map_err(|e| failed(e.into()))?;
+    let mut allowed = Limits::no_limits();
+    allowed.max_alloc = Some(limits::PICTURE_BYTES);
+    reader.limits(allowed);
+    let decoder = reader.into_decoder().map_err(failed)?;
+    let (width, height) = decoder.dimensions();
+    if width == 0 || height == 0 {
         return Err(MediaError::Empty { path: path.to_owned() });
     }
-    let texels = texels(image);
+    let is_float = matches!(decoder.color_type(), ColorType::Rgb32F | ColorType::Rgba32F);
+    let format = if is_float { TexelFormat::Rgba32Float } else { TexelFormat::Rgba8 };
+    // A decoded texel of 16 bits a channel takes more than the one that Eddy keeps.
+    let bytes = decoder.total_bytes().max(u64::from(width) * u64::from(height) * format.bytes() as u64);
+    let too_large = |excess| Err(MediaError::TooLarge { path: path.to_owned(), width, height, excess });
+    if width.max(height) > limits::PICTURE_SIDE {
+        return too_large(Excess::Side);
+    } else if bytes > limits::PICTURE_BYTES {
+        return too_large(Excess::Bytes { bytes });
+    } else if bytes > room {
+        return too_large(Excess::Project);
+    }
+    let texels = texels(DynamicImage::from_decoder(decoder).map_err(failed)?);
     // A picture's first row is its top.
     Ok(if vflip { flipped(texels) } else { texels })
 }
@@ -132,9 +178,16 @@ fn file(path: &Path, vflip: bool) -> Result<Texels, MediaError> {
 fn texels(image: DynamicImage) -> Texels {
     let (width, height) = (image.width(), image.height());
     match image {
-        DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
-            let floats = image.into_rgba32f().into_raw();
-            Texels { width, height, format: TexelFormat::Rgba32Float, bytes: bytemuck::cast_slice(&floats).to_vec() }
+        DynamicImage::ImageRgb32F(image) => {
+            let mut bytes = Vec::with_capacity(width as usize * height as usize * TexelFormat::Rgba32Float.bytes());
+            for texel in image.as_raw().chunks_exact(3) {
+                bytes.extend_from_slice(bytemuck::bytes_of(&[texel[0], texel[1], texel[2], 1.0]));
+            }
+            Texels { width, height, format: TexelFormat::Rgba32Float, bytes }
+        }
+        DynamicImage::ImageRgba32F(image) => {
+            let bytes = bytemuck::cast_slice(image.as_raw()).to_vec();
+            Texels { width, height, format: TexelFormat::Rgba32Float, bytes }
         }
         _ => Texels { width, height, format: TexelFormat::Rgba8, bytes: image.into_rgba8().into_raw() },
     }
@@ -188,6 +241,7 @@ mod tests {
             std::fs::write(&path, bytes).unwrap();
             path
         };
+        std::fs::create_dir(dir.path().join("sub")).unwrap();
         let good = dir.path().join("good.png");
         ImageBuffer::<Rgba<u8>, _>::from_pixel(64, 64, Rgba([1u8, 2, 3, 4])).save(&good).unwrap();
         let whole = std::fs::read(&good).unwrap();
@@ -207,9 +261,13 @@ mod tests {
             (write("notes.txt", b"hello, this is no picture at all"), "not a picture of a known kind"),
             (write("zero.png", &with_size(0, 64)), "zero.png"),
             (write("huge.png", &with_size(0x7fff_ffff, 0x7fff_ffff)), "huge.png"),
-            (write("large.png", &with_size(20000, 20000)), "more memory"),
+            (
+                write("large.png", &with_size(20000, 20000)),
+                "large.png: the picture has 20000x20000 texels, which take 1600000000 bytes; a picture may take 512 MiB",
+            ),
+            (write("long.png", &with_size(40000, 2)), "40000x2 texels, and a side may have 32768"),
             (dir.path().join("missing.png"), "cannot read"),
-            (dir.path().to_owned(), "folder"),
+            (dir.path().join("sub"), "folder"),
         ] {
             let error = load_file(&path, false).expect_err(expected);
             assert!(error.to_string().contains(expected), "{path:?}: {error}");

@@ -4,8 +4,11 @@
 //! has them where there are texture coordinates. v runs upward, as in the rest of Eddy, so glTF's is turned; a triangle's front
 //! is where its corners turn counter-clockwise.
 
+#[cfg(test)]
+mod bomb_tests;
 mod builtin;
 mod gltf;
+mod normals;
 mod obj;
 mod shape;
 mod tangents;
@@ -14,12 +17,13 @@ mod tests;
 
 pub use builtin::NAMES;
 
-use crate::project::{MeshSource, listed, nearest};
-use bytemuck::{Pod, Zeroable};
-use std::{
-    collections::HashMap,
-    path::{Path, PathBuf},
+use crate::project::{
+    MeshSource,
+    confine::{self, FileError},
+    limits, listed, nearest,
 };
+use bytemuck::{Pod, Zeroable};
+use std::path::{Path, PathBuf};
 
 /// What a vertex has, as the vertex buffer holds it.
 #[repr(C)]
@@ -48,17 +52,30 @@ pub struct Mesh {
     pub indices: Vec<u32>,
 }
 
+impl Mesh {
+    /// Memory that it takes.
+    pub fn bytes(&self) -> u64 {
+        (size_of_val(&*self.vertices) + size_of_val(&*self.indices)) as u64
+    }
+}
+
 /// Why there is no mesh.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MeshError {
     #[error("there is no mesh builtin:{0}")]
     UnknownBuiltin(String),
-    #[error("cannot read {}: {reason}", path.display())]
-    Unreadable { path: PathBuf, reason: String },
+    #[error(transparent)]
+    File(#[from] FileError),
+    #[error("{} is relative, and the project has no folder yet to start from", .0.display())]
+    NoFolder(PathBuf),
     #[error("{} is no model Eddy knows by its ending", .0.display())]
     UnknownKind(PathBuf),
     #[error("{} is broken: {reason}", path.display())]
     Broken { path: PathBuf, reason: String },
+    #[error("{} is too large: {excess}", path.display())]
+    TooLarge { path: PathBuf, excess: String },
+    #[error("{} names a file: {error}", path.display())]
+    Named { path: PathBuf, error: FileError },
 }
 
 impl MeshError {
@@ -69,9 +86,40 @@ impl MeshError {
                 Some(near) => format!("did you mean builtin:{near}?"),
                 None => format!("there are {}", listed(&NAMES)),
             },
-            MeshError::Unreadable { .. } => "put the file there, or name another in eddy.toml".into(),
+            MeshError::File(error) | MeshError::Named { error, .. } => error.hint(),
+            MeshError::NoFolder(_) => "save the project first, and put the model into its folder".into(),
+            MeshError::TooLarge { .. } => "simplify the model before it is exported".into(),
             MeshError::UnknownKind(_) => "name a .glb, .gltf or .obj file".into(),
             MeshError::Broken { .. } => "export the model anew".into(),
+        }
+    }
+}
+
+/// What is wrong with a model, before it is said of which.
+#[derive(Debug)]
+enum Trouble {
+    Broken(String),
+    TooLarge(String),
+    /// Of a file that the model names.
+    Named(FileError),
+}
+
+impl Trouble {
+    /// Cut short where a parser quotes a whole file.
+    fn broken(reason: impl std::fmt::Display) -> Trouble {
+        const LONGEST: usize = 400;
+        let reason = reason.to_string();
+        Trouble::Broken(match reason.char_indices().nth(LONGEST) {
+            Some((end, _)) => format!("{}…", &reason[..end]),
+            None => reason,
+        })
+    }
+
+    fn of(self, path: PathBuf) -> MeshError {
+        match self {
+            Trouble::Broken(reason) => MeshError::Broken { path, reason },
+            Trouble::TooLarge(excess) => MeshError::TooLarge { path, excess },
+            Trouble::Named(error) => MeshError::Named { path, error },
         }
     }
 }
@@ -86,77 +134,123 @@ struct Raw {
     has_uv: bool,
 }
 
-/// Loads a mesh. A path is relative to `base`, where there is one.
+/// What a model comes to, counted before any of it is made.
+#[derive(Clone, Copy, Debug, Default)]
+struct Counts {
+    vertices: u64,
+    triangles: u64,
+    parts: u64,
+}
+
+impl Counts {
+    fn add(&mut self, vertices: u64, triangles: u64) -> Result<(), Trouble> {
+        self.vertices = self.vertices.saturating_add(vertices);
+        self.triangles = self.triangles.saturating_add(triangles);
+        at_most(self.vertices, limits::MODEL_VERTICES, "vertices")?;
+        at_most(self.triangles, limits::MODEL_TRIANGLES, "triangles")
+    }
+
+    fn add_part(&mut self) -> Result<(), Trouble> {
+        self.parts += 1;
+        at_most(self.parts, limits::MODEL_PARTS, "parts")
+    }
+
+    /// Whether there is room for them.
+    fn fit(&self, room: u64) -> Result<(), Trouble> {
+        if self.vertices * size_of::<Vertex>() as u64 + self.triangles * 12 <= room {
+            return Ok(());
+        }
+        let all = limits::in_bytes(limits::MEDIA_BYTES);
+        Err(Trouble::TooLarge(format!("with it the pictures and models of the project take more than {all}")))
+    }
+}
+
+fn at_most(count: u64, limit: u64, what: &str) -> Result<(), Trouble> {
+    if count <= limit {
+        return Ok(());
+    }
+    Err(Trouble::TooLarge(format!("it has more than {limit} {what}, which are the most that Eddy loads of a model")))
+}
+
+/// Loads a mesh. A file lies in the project's folder `base`, see [`confine`].
 pub fn load(source: &MeshSource, base: Option<&Path>) -> Result<Mesh, MeshError> {
-    let path = match source {
+    load_within(source, base, limits::MEDIA_BYTES)
+}
+
+/// The same where pictures and models may take `room` bytes more.
+pub(super) fn load_within(source: &MeshSource, base: Option<&Path>, room: u64) -> Result<Mesh, MeshError> {
+    let name = match source {
         MeshSource::Builtin(name) => {
             return builtin::make(name).ok_or_else(|| MeshError::UnknownBuiltin(name.clone()));
         }
-        MeshSource::File(path) => base.map_or_else(|| path.clone(), |base| base.join(path)),
+        MeshSource::File(path) => path,
     };
-    let is = |ending: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
-    let parts = if is("glb") || is("gltf") {
-        gltf::load(&path)
-    } else if is("obj") {
-        obj::load(&path)
-    } else {
-        return Err(MeshError::UnknownKind(path));
-    };
-    let broken = |reason: String| MeshError::Broken { path: path.clone(), reason };
+    let is = |ending: &str| name.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
+    let is_gltf = is("glb") || is("gltf");
+    if !is_gltf && !is("obj") {
+        return Err(MeshError::UnknownKind(name.clone()));
+    }
+    let Some(folder) = base else { return Err(MeshError::NoFolder(name.clone())) };
+    let bytes = confine::read(folder, name, limits::MEDIA_FILE)?;
     let mut mesh = Mesh { vertices: Vec::new(), indices: Vec::new() };
-    for raw in parts? {
-        add(&mut mesh, finished(raw).map_err(broken)?);
+    let mut take = |raw: Raw| -> Result<(), Trouble> {
+        add(&mut mesh, finished(raw)?);
+        Ok(())
+    };
+    let done = if is_gltf {
+        // What a model names is relative to it.
+        let named = |uri: &str, limit| confine::read(folder, confine::relative(&name.to_string_lossy(), uri)?, limit);
+        gltf::load(bytes, &named, room, &mut take)
+    } else {
+        obj::load(&bytes, room, &mut take)
+    };
+    let empty = |mesh: &Mesh| mesh.indices.is_empty().then(|| Trouble::broken("it holds no triangles"));
+    match done.err().or_else(|| empty(&mesh)) {
+        Some(trouble) => Err(trouble.of(folder.join(name))),
+        None => Ok(mesh),
     }
-    if mesh.indices.is_empty() {
-        return Err(broken("it holds no triangles".into()));
-    }
-    if u32::try_from(mesh.vertices.len()).is_err() {
-        return Err(broken("it holds more vertices than can be counted in 32 bits".into()));
-    }
-    Ok(mesh)
 }
 
 /// Puts a mesh behind another.
 fn add(mesh: &mut Mesh, other: Mesh) {
+    if mesh.vertices.is_empty() && mesh.indices.is_empty() {
+        *mesh = other;
+        return;
+    }
     let first = mesh.vertices.len() as u32;
     mesh.vertices.extend(other.vertices);
     mesh.indices.extend(other.indices.into_iter().map(|i| i.wrapping_add(first)));
 }
 
 /// A mesh with everything a vertex has.
-fn finished(mut raw: Raw) -> Result<Mesh, String> {
+fn finished(mut raw: Raw) -> Result<Mesh, Trouble> {
     if !raw.indices.len().is_multiple_of(3) {
-        return Err(format!("{} corners make no whole number of triangles", raw.indices.len()));
+        return Err(Trouble::broken(format!("{} corners make no whole number of triangles", raw.indices.len())));
     }
     let count = raw.vertices.len();
     if let Some(index) = raw.indices.iter().find(|i| **i as usize >= count) {
-        return Err(format!("a triangle names vertex {index}, and there are {count}"));
+        return Err(Trouble::broken(format!("a triangle names vertex {index}, and there are {count}")));
     }
-    if let Some(at) = raw.vertices.iter().position(|v| v.position.iter().any(|x| !x.is_finite())) {
-        return Err(format!("the position of vertex {at} is not a number"));
-    }
-    if !raw.has_normals {
-        smooth_normals(&mut raw);
-    }
-    let mesh = Mesh { vertices: raw.vertices, indices: raw.indices };
-    Ok(if raw.has_uv && !raw.has_tangents { tangents::with_tangents(mesh) } else { mesh })
-}
-
-/// Normals that are the mean of those of the triangles around a place, by their areas: seams of the texture do not show.
-fn smooth_normals(raw: &mut Raw) {
-    let key = |v: &Vertex| v.position.map(|x| (x + 0.0).to_bits());
-    let mut sums: HashMap<[u32; 3], glam::DVec3> = HashMap::new();
-    let place = |i: u32| glam::Vec3::from(raw.vertices[i as usize].position).as_dvec3();
-    for corners in raw.indices.chunks_exact(3) {
-        let [a, b, c] = [place(corners[0]), place(corners[1]), place(corners[2])];
-        let normal = (b - a).cross(c - a);
-        for &corner in corners {
-            *sums.entry(key(&raw.vertices[corner as usize])).or_default() += normal;
+    let broken = |numbers: &[f32]| numbers.iter().any(|x| !x.is_finite());
+    for (at, v) in raw.vertices.iter().enumerate() {
+        let numbers: [(&[f32], &str); 5] = [
+            (&v.position, "position"),
+            (&v.normal, "normal"),
+            (&v.tangent, "tangent"),
+            (&v.uv, "texture coordinate"),
+            (&v.color, "colour"),
+        ];
+        if let Some((_, what)) = numbers.into_iter().find(|(numbers, _)| broken(numbers)) {
+            return Err(Trouble::broken(format!("the {what} of vertex {at} is not a number")));
         }
     }
-    for vertex in &mut raw.vertices {
-        let sum = sums.get(&key(vertex)).copied().unwrap_or_default();
-        // A vertex of no triangle that has an area points somewhere.
-        vertex.normal = sum.try_normalize().unwrap_or(glam::DVec3::Y).as_vec3().to_array();
+    if !raw.has_normals {
+        normals::smooth(&mut raw);
     }
+    let needs_tangents = raw.has_uv && !raw.has_tangents;
+    if needs_tangents {
+        tangents::check(&raw)?;
+    }
+    let mesh = Mesh { vertices: raw.vertices, indices: raw.indices };
+    Ok(if needs_tangents { tangents::with_tangents(mesh) } else { mesh })
 }

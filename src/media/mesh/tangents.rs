@@ -1,15 +1,40 @@
 //! Tangents where a model brings none, as MikkTSpace has them: what normal maps are baked for.
 
-use super::{Mesh, Vertex};
+use super::{Mesh, Raw, Trouble, Vertex, normals};
+use crate::project::limits;
 use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
 use std::collections::HashMap;
 
-/// Every corner of every triangle, since two triangles of a vertex may have different tangents.
-struct Corners(Vec<Vertex>);
+/// Checks that tangents are made in reasonable time: MikkTSpace compares the corners that meet at a place with each other.
+pub(super) fn check(raw: &Raw) -> Result<(), Trouble> {
+    let group = normals::places(raw);
+    let mut corners = vec![0u64; group.iter().max().map_or(0, |last| *last as usize + 1)];
+    raw.indices.iter().for_each(|i| corners[group[*i as usize] as usize] += 1);
+    let pairs = corners.iter().fold(0u64, |sum, n| sum.saturating_add(n * n));
+    let most = corners.iter().max().unwrap_or(&0);
+    if pairs <= limits::TANGENT_PAIRS {
+        return Ok(());
+    }
+    Err(Trouble::TooLarge(format!(
+        "{most} corners of its triangles meet at one place, too many to make tangents for them"
+    )))
+}
 
-impl Geometry for Corners {
+/// Every corner of every triangle, since two triangles of a vertex may have different tangents.
+struct Corners<'a> {
+    mesh: &'a Mesh,
+    tangents: Vec<[f32; 4]>,
+}
+
+impl Corners<'_> {
+    fn vertex(&self, face: usize, vert: usize) -> &Vertex {
+        &self.mesh.vertices[self.mesh.indices[face * 3 + vert] as usize]
+    }
+}
+
+impl Geometry for Corners<'_> {
     fn num_faces(&self) -> usize {
-        self.0.len() / 3
+        self.mesh.indices.len() / 3
     }
 
     fn num_vertices_of_face(&self, _: usize) -> usize {
@@ -17,36 +42,39 @@ impl Geometry for Corners {
     }
 
     fn position(&self, face: usize, vert: usize) -> [f32; 3] {
-        self.0[face * 3 + vert].position
+        self.vertex(face, vert).position
     }
 
     fn normal(&self, face: usize, vert: usize) -> [f32; 3] {
-        self.0[face * 3 + vert].normal
+        self.vertex(face, vert).normal
     }
 
     fn tex_coord(&self, face: usize, vert: usize) -> [f32; 2] {
-        self.0[face * 3 + vert].uv
+        self.vertex(face, vert).uv
     }
 
     fn set_tangent(&mut self, tangent_space: Option<TangentSpace>, face: usize, vert: usize) {
-        self.0[face * 3 + vert].tangent = tangent_space.unwrap_or_default().tangent_encoded();
+        self.tangents[face * 3 + vert] = tangent_space.unwrap_or_default().tangent_encoded();
     }
 }
 
 /// The mesh with tangents; vertices are parted where their tangents differ.
-pub(super) fn with_tangents(mesh: Mesh) -> Mesh {
-    let mut corners = Corners(mesh.indices.iter().map(|i| mesh.vertices[*i as usize]).collect());
+pub(super) fn with_tangents(mut mesh: Mesh) -> Mesh {
+    let tangents = mesh.indices.iter().map(|i| mesh.vertices[*i as usize].tangent).collect();
+    let mut corners = Corners { mesh: &mesh, tangents };
     if generate_tangents(&mut corners).is_err() {
         return mesh;
     }
-    let mut known: HashMap<[u32; 16], u32> = HashMap::new();
-    let mut made = Mesh { vertices: Vec::new(), indices: Vec::with_capacity(mesh.indices.len()) };
-    for vertex in corners.0 {
-        let index = *known.entry(bytemuck::cast(vertex)).or_insert_with(|| {
-            made.vertices.push(vertex);
-            made.vertices.len() as u32 - 1
+    let tangents = corners.tangents;
+    // By vertex and tangent.
+    let mut known: HashMap<(u32, [u32; 4]), u32> = HashMap::new();
+    let mut vertices = Vec::with_capacity(mesh.vertices.len());
+    for (index, tangent) in mesh.indices.iter_mut().zip(tangents) {
+        let old = *index;
+        *index = *known.entry((old, bytemuck::cast(tangent))).or_insert_with(|| {
+            vertices.push(Vertex { tangent, ..mesh.vertices[old as usize] });
+            vertices.len() as u32 - 1
         });
-        made.indices.push(index);
     }
-    made
+    Mesh { vertices, indices: mesh.indices }
 }
