@@ -62,7 +62,6 @@ impl Session {
                     && *slot != channel
                 {
                     *slot = channel;
-                    self.look_at_media();
                     self.compile_soon();
                 }
             }
@@ -125,7 +124,6 @@ impl Session {
                 && let (Some(now), Some(pass)) = (now, self.documents.current_mut().pass_mut(id))
             {
                 pass.channels = now;
-                self.look_at_media();
             }
         }
         self.refresh_includes();

@@ -1,6 +1,9 @@
 //! What the compile worker does with a project: read its media, build its program.
 
-use super::{reload::MediaStamps, view::TabDiagnostic};
+use super::{
+    stamps::{Stamp, Stamps},
+    view::TabDiagnostic,
+};
 use crate::{
     diag::{Diagnostic, SourceMap},
     engine::{BuildError, BuildOptions, EngineError, Program},
@@ -10,28 +13,46 @@ use crate::{
 };
 use std::{path::PathBuf, time::Instant};
 
-/// One compile.
+/// One compile, or a look at whether one is due.
 pub(super) struct Job {
     pub project: Project,
     /// The pass that is shown besides Image.
     pub shown: PassId,
-    /// Pictures are read again when this is not what it was. A state and not an order, as jobs can be overtaken.
-    pub media: MediaState,
+    /// Counts the times a project was opened or took a new place. A state and not an order, as jobs can be overtaken.
+    pub opened: u64,
+    /// Only tells whether the pictures and models on disk are other than those of the last compile.
+    pub is_look: bool,
 }
 
 /// What came of it.
 pub(super) struct Done {
-    /// The program and its compile time, or none if the author has to mend something first.
-    pub program: Result<Option<(Program, f64)>, EngineError>,
-    /// Errors first.
-    pub diagnostics: Vec<TabDiagnostic>,
+    /// Pictures, models and the files these name, those among them that are not there.
+    pub files: Vec<PathBuf>,
+    pub work: Work,
+}
+
+pub(super) enum Work {
+    Looked {
+        changed: bool,
+    },
+    Compiled {
+        /// The program and its compile time, or none if the author has to mend something first.
+        program: Result<Option<(Program, f64)>, EngineError>,
+        /// Errors first.
+        diagnostics: Vec<TabDiagnostic>,
+    },
 }
 
 /// The worker's work, with the pictures it has read so far.
 pub(super) fn work(gpu: Gpu, media_dir: Option<PathBuf>) -> impl FnMut(Job) -> Done + Send {
     let mut media = Media { dir: media_dir, ..Media::default() };
     move |job| {
-        let mut diagnostics = media.update(&job);
+        let named = media.named(&job);
+        let files = named.stamps.iter().map(|(path, _)| path.clone()).collect();
+        if job.is_look {
+            return Done { files, work: Work::Looked { changed: media.of != Some(named) } };
+        }
+        let mut diagnostics = media.update(&job, named);
         let options = BuildOptions { wanted: wanted(&job), skip: true };
         let tabs = |d: &[Diagnostic], sources: &SourceMap| -> Vec<TabDiagnostic> {
             d.iter().map(|d| TabDiagnostic::new(d, sources, |id| job.project.tab_of(id))).collect()
@@ -58,42 +79,47 @@ pub(super) fn work(gpu: Gpu, media_dir: Option<PathBuf>) -> impl FnMut(Job) -> D
             }
         }
         unique.sort_by_key(|d| std::cmp::Reverse(d.severity));
-        Done { program, diagnostics: unique }
+        Done { files, work: Work::Compiled { program, diagnostics: unique } }
     }
 }
 
-/// How the pictures of a project looked on disk. Always taken before they are read: then a change in between shows as one
-/// more reading, and never as none.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct MediaState {
-    /// Counts the times a project was opened or took a new place.
-    pub opened: u64,
-    pub stamps: MediaStamps,
+/// What decides which pictures and models are read, and how these are on disk. Always taken before they are read: then a
+/// change in between shows as one more reading, and never as none.
+#[derive(PartialEq)]
+struct Named {
+    opened: u64,
+    /// Where the names start from.
+    base: PathBuf,
+    channels: Vec<(PassId, [Option<Channel>; 4], Vec<MeshSource>)>,
+    stamps: Vec<Stamp>,
 }
-
-/// What decides which pictures are read: the folder their names start from, every pass's channels, and the disk.
-type Named = (PathBuf, Vec<(PassId, [Option<Channel>; 4], Vec<MeshSource>)>, MediaState);
 
 /// The pictures of the last compile: reading them anew at each keystroke would take longer than the compile.
 #[derive(Default)]
 struct Media {
     /// The user's own copies of the site's stock files.
     dir: Option<PathBuf>,
+    stamps: Stamps,
     of: Option<Named>,
     set: MediaSet,
     warnings: Vec<Diagnostic>,
 }
 
 impl Media {
-    /// Reads what the job's project names, if that is not what is here already. Gives what there is to say of it.
-    fn update(&mut self, job: &Job) -> Vec<TabDiagnostic> {
-        let base = super::capture::base_folder(&job.project).unwrap_or_default();
+    fn named(&mut self, job: &Job) -> Named {
         let meshes = |p: &Pass| p.settings.geometry.iter().flat_map(|g| &g.draws).map(|d| d.mesh.clone()).collect();
         let channels = job.project.passes.iter().map(|p| (p.id.clone(), p.channels.clone(), meshes(p))).collect();
-        let of = Some((base, channels, job.media.clone()));
-        if self.of != of {
+        let base = super::capture::base_folder(&job.project).unwrap_or_default();
+        Named { opened: job.opened, base, channels, stamps: self.stamps.take(&job.project) }
+    }
+
+    /// Reads what the job's project names, if that is not what is here already. Gives what there is to say of it.
+    fn update(&mut self, job: &Job, named: Named) -> Vec<TabDiagnostic> {
+        if self.of.as_ref() != Some(&named) {
+            // The old ones go first, so that the memory of both is never taken at once.
+            self.set = MediaSet::new();
             (self.set, self.warnings) = media::gather(&job.project, self.dir.as_deref());
-            self.of = of;
+            self.of = Some(named);
         }
         let sources = SourceMap::default();
         self.warnings.iter().map(|d| TabDiagnostic::new(d, &sources, |_| None)).collect()

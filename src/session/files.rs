@@ -87,7 +87,8 @@ impl Session {
         self.compile.has_program = false;
         self.compile.diagnostics.clear();
         self.compile.state = super::view::CompileState::default();
-        self.disk.media.opened += 1;
+        self.disk.opened += 1;
+        self.disk.media_files.clear();
         self.compile.reset_when_built = false;
         self.run.steps = 0;
         self.run.shown = PassId::Image;
@@ -159,7 +160,7 @@ impl Session {
             Ok(saved) => {
                 self.saved(saved);
                 // Pictures are read from the new place, and the compile's texts have new names.
-                self.disk.media.opened += 1;
+                self.disk.opened += 1;
                 self.compile_soon();
                 self.finish_save();
             }

@@ -3,14 +3,14 @@
 use super::{
     Session, capture,
     clock::FrameTime,
-    compile::{Done, Job},
+    compile::{Done, Job, Work},
     date,
-    view::{Level, Meanwhile, Outcome, Tick},
+    view::{Level, Meanwhile, Outcome, TabDiagnostic, Tick},
     worker::Panicked,
 };
 use crate::{
     diag::Severity,
-    engine::{EngineError, FrameInputs},
+    engine::{EngineError, FrameInputs, Program},
     gpu::GpuError,
 };
 use std::time::Instant;
@@ -43,29 +43,52 @@ impl Session {
             self.compile.edits.touch(self.now);
         }
         let is_due = self.compile.edits.take_due(self.now);
-        if !(std::mem::take(&mut self.compile.is_wanted) || is_due) {
+        let is_compile = std::mem::take(&mut self.compile.is_wanted) || is_due;
+        // A look must not take the place of a compile under way, and a compile looks too.
+        let is_look = self.compile.is_look_wanted && !self.compiler.is_busy();
+        if !is_compile && !is_look {
             return;
         }
-        self.compile.edits.cancel();
+        self.compile.is_look_wanted = false;
+        if is_compile {
+            self.compile.edits.cancel();
+            self.changed = true;
+        }
         self.compiler.submit(Job {
             project: self.documents.current().clone(),
             shown: self.run.shown.clone(),
-            media: self.disk.media.clone(),
+            opened: self.disk.opened,
+            is_look: !is_compile,
         });
-        self.changed = true;
     }
 
     fn take_compiled(&mut self) {
         let Some(result) = self.compiler.take() else { return };
+        let done = match result {
+            Ok(Done { files, work }) => {
+                if self.disk.media_files != files {
+                    self.disk.media_files = files;
+                    self.watch_what_is_read();
+                }
+                match work {
+                    Work::Looked { changed: true } => return self.compile_soon(),
+                    Work::Looked { changed: false } => return,
+                    Work::Compiled { program, diagnostics } => Ok((program, diagnostics)),
+                }
+            }
+            Err(panicked) => Err(panicked),
+        };
         self.changed = true;
         self.compile.state.compiling = self.is_compile_due() || self.compiler.is_busy();
-        match result {
+        match done {
             Err(Panicked(reason)) => {
-                self.compile.state.last = Some(self.failed(0));
+                let what = format!("this is a bug in Eddy: the compiler gave up ({reason})");
+                self.compile.diagnostics = vec![TabDiagnostic::nowhere(&what)];
+                self.compile.state.last = Some(self.failed());
                 let goes_on = if self.compile.has_program { "; the last good picture goes on" } else { "" };
-                self.notice(Level::Error, format!("this is a bug in Eddy: the compiler gave up ({reason}){goes_on}"));
+                self.notice(Level::Error, format!("{what}{goes_on}"));
             }
-            Ok(done) => self.take_done(done),
+            Ok((program, diagnostics)) => self.take_program(program, diagnostics),
         }
     }
 
@@ -73,29 +96,24 @@ impl Session {
         self.compile.edited || self.compile.is_wanted || self.compile.edits.is_waiting()
     }
 
-    fn take_done(&mut self, done: Done) {
-        let count = |s| done.diagnostics.iter().filter(|d| d.severity == s).count();
-        let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
-        self.compile.diagnostics = done.diagnostics;
-        let (program, millis) = match done.program {
+    fn take_program(&mut self, program: Result<Option<(Program, f64)>, EngineError>, diagnostics: Vec<TabDiagnostic>) {
+        self.compile.diagnostics = diagnostics;
+        let (program, millis) = match program {
             Ok(Some(built)) => built,
             Ok(None) => {
-                self.compile.state.last = Some(self.failed(errors));
+                self.compile.state.last = Some(self.failed());
                 return;
             }
-            Err(e) => {
-                self.compile.state.last = Some(self.failed(errors));
-                self.stop_drawing(&e);
-                return;
-            }
+            Err(e) => return self.refused(&e),
         };
+        let count = |s| self.compile.diagnostics.iter().filter(|d| d.severity == s).count();
+        let (errors, warnings) = (count(Severity::Error), count(Severity::Warning));
         self.compile.state.last = Some(match errors {
             0 => Outcome::Ok { millis, warnings },
             _ => Outcome::Failed { errors, meanwhile: Meanwhile::Newest },
         });
         if let Err(e) = self.engine.set_program(program) {
-            self.stop_drawing(&e);
-            return;
+            return self.refused(&e);
         }
         // They may have been turned while it was being compiled.
         self.knobs_turned();
@@ -108,10 +126,18 @@ impl Session {
         }
     }
 
-    /// A text that gave no program.
-    fn failed(&self, errors: usize) -> Outcome {
+    /// A text that gave no program, for the reasons that are in the list.
+    fn failed(&self) -> Outcome {
+        let errors = self.compile.diagnostics.iter().filter(|d| d.severity == Severity::Error).count();
         let meanwhile = if self.compile.has_program { Meanwhile::LastGood } else { Meanwhile::Nothing };
         Outcome::Failed { errors, meanwhile }
+    }
+
+    /// The machine refused what the newest text asks for: said in the list of errors, too, where errors are counted.
+    fn refused(&mut self, error: &EngineError) {
+        self.compile.diagnostics.insert(0, TabDiagnostic::nowhere(&error.to_string()));
+        self.compile.state.last = Some(self.failed());
+        self.stop_drawing(error);
     }
 
     /// Gives the engine the size the canvas shall have.

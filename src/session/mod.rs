@@ -21,6 +21,7 @@ pub mod npy;
 pub mod offline;
 mod reload;
 pub mod script;
+mod stamps;
 mod state;
 mod template;
 pub mod view;

@@ -7,17 +7,8 @@ use super::{
     view::Level,
     watch::Watch,
 };
-use crate::project::{self, Media, MeshSource, Origin, Project, Tab, confine, limits};
-use std::{
-    collections::BTreeSet,
-    fs,
-    hash::{DefaultHasher, Hash, Hasher},
-    path::{Path, PathBuf},
-};
-
-/// What the pictures a project names and the files its texts include held on disk, as a hash of the whole content: enough to see that one has changed. A time
-/// of change is not, as it stands still for milliseconds and the new picture can be as long as the old.
-pub(super) type MediaStamps = Vec<(PathBuf, Option<u64>)>;
+use crate::project::{self, Origin, Project, Tab, confine, limits};
+use std::{collections::BTreeSet, fs, path::PathBuf};
 
 /// What is on disk, if it can be used.
 enum OnDisk {
@@ -103,12 +94,13 @@ impl Session {
             self.compile.reset_when_built |= self.disk.reset_on_reload;
             self.after_reload();
         }
+        let before = self.project().includes.clone();
         self.documents.current_mut().read_includes();
-        let before = std::mem::take(&mut self.disk.media.stamps);
-        self.disk_is_known();
-        if self.disk.media.stamps != before {
+        if self.project().includes != before {
             self.compile_soon();
         }
+        self.disk_is_known();
+        self.compile.is_look_wanted = true;
     }
 
     /// The project here was changed from outside the editor.
@@ -194,9 +186,9 @@ impl Session {
         }
     }
 
-    /// What lies on disk is what `documents` says: remember how it looks, and watch it.
+    /// What lies on disk is what `documents` says: remember it, and watch it.
     pub(super) fn disk_is_known(&mut self) {
-        self.look_at_media();
+        self.watch_what_is_read();
         self.disk.manifest = read_manifest(self.documents.saved());
     }
 
@@ -206,13 +198,13 @@ impl Session {
         let includes = |s: &project::Source| s.text.contains("#include");
         if !project.includes.is_empty() || project.tab_sources().any(includes) {
             self.documents.current_mut().read_includes();
-            self.look_at_media();
+            self.watch_what_is_read();
         }
     }
 
-    /// Watches what the project reads now, and remembers how its pictures look.
-    pub(super) fn look_at_media(&mut self) {
-        let folders = folders(self.project());
+    /// Watches the folders of all files that the project reads, as far as the last compile has found them.
+    pub(super) fn watch_what_is_read(&mut self) {
+        let folders = folders(self.project(), &self.disk.media_files);
         if folders.is_empty() {
             self.disk.watch = None;
         } else if self.disk.watch.as_ref().is_none_or(|w| *w.folders() != folders) {
@@ -220,7 +212,6 @@ impl Session {
             // What changed after it was read and before the watch began: nobody tells of it.
             self.disk.is_check_wanted = true;
         }
-        self.disk.media.stamps = media_stamps(self.project());
     }
 
     fn watch(&mut self, folders: BTreeSet<PathBuf>) {
@@ -259,67 +250,11 @@ fn manifest_text(project: &Project) -> String {
     project::write_manifest(&named, old.as_deref(), &project.name, has_common_file)
 }
 
-/// A file that is read besides the texts of tabs.
-enum ReadFile {
-    /// By its name from the project's folder.
-    Own(String),
-    /// What the person picked.
-    Picked(PathBuf),
-}
-
-/// Everything that is read besides the texts of tabs, those files that are not there among them: pictures, included files,
-/// models and the files these name.
-fn read_files(project: &Project) -> Vec<ReadFile> {
-    let mut own: BTreeSet<String> = project.includes.iter().map(|i| i.source.name.clone()).collect();
-    let mut picked = BTreeSet::new();
-    for channel in project.passes.iter().flat_map(|p| p.channels.iter().flatten()) {
-        match channel.input.media() {
-            Some(Media::File(path)) => own.extend(path.to_str().and_then(|name| confine::relative("", name).ok())),
-            Some(Media::Picked(path)) => drop(picked.insert(path.clone())),
-            Some(Media::Builtin(_) | Media::Site { .. }) | None => {}
-        }
-    }
-    let base = capture::base_folder(project);
-    for draw in project.passes.iter().filter_map(|p| p.settings.geometry.as_ref()).flat_map(|g| &g.draws) {
-        if let (MeshSource::File(path), Some(base)) = (&draw.mesh, &base)
-            && let Some(model) = path.to_str().and_then(|name| confine::relative("", name).ok())
-        {
-            own.extend(project::files_beside(base, &model));
-            own.insert(model);
-        }
-    }
-    own.into_iter().map(ReadFile::Own).chain(picked.into_iter().map(ReadFile::Picked)).collect()
-}
-
-fn media_stamps(project: &Project) -> MediaStamps {
-    let hash = |bytes: Vec<u8>| {
-        let mut hasher = DefaultHasher::new();
-        bytes.hash(&mut hasher);
-        hasher.finish()
-    };
-    let base = capture::base_folder(project);
-    let stamps = read_files(project).into_iter().filter_map(|file| {
-        let (path, read) = match file {
-            ReadFile::Own(name) => {
-                (base.as_ref()?.join(&name), confine::read(base.as_ref()?, &name, limits::MEDIA_FILE))
-            }
-            ReadFile::Picked(path) => (path.clone(), confine::read_own(&path, limits::MEDIA_FILE)),
-        };
-        Some((path, read.ok().map(hash)))
-    });
-    stamps.collect()
-}
-
 /// Every folder a file of the project lies in; none for a project that lies nowhere.
-fn folders(project: &Project) -> BTreeSet<PathBuf> {
+fn folders(project: &Project, media: &[PathBuf]) -> BTreeSet<PathBuf> {
     let Some(base) = capture::base_folder(project) else { return BTreeSet::new() };
-    let read = read_files(project).into_iter().map(|file| match file {
-        ReadFile::Own(name) => base.join(name),
-        ReadFile::Picked(path) => path,
-    });
-    let files = project.tab_sources().filter_map(|s| s.path.clone()).chain(read);
-    let parents = files.filter_map(|f| f.parent().map(Path::to_owned)).filter(|p| p.is_dir());
-    let mut folders: BTreeSet<PathBuf> = parents.collect();
-    folders.insert(base);
-    folders
+    let texts = project.tab_sources().chain(project.includes.iter().map(|i| &i.source));
+    let files = texts.filter_map(|s| s.path.as_ref()).chain(media);
+    let parents = files.filter_map(|f| Some(f.parent()?.to_owned())).filter(|p| p.is_dir());
+    parents.chain([base]).collect()
 }

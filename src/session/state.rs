@@ -5,7 +5,7 @@ use super::{
     analysis::Analyst,
     clock::Clock,
     command::{Question, Request, Then},
-    compile::{self, MediaState},
+    compile,
     debounce::Debounce,
     documents::Documents,
     mouse::Mouse,
@@ -103,6 +103,8 @@ pub(super) struct Compile {
     pub edited: bool,
     /// Compile in the next tick, whatever the debounce says.
     pub is_wanted: bool,
+    /// See whether a picture or a model has changed on disk, as soon as the worker has time.
+    pub is_look_wanted: bool,
     /// The program under way shall start from zero.
     pub reset_when_built: bool,
     pub state: CompileState,
@@ -123,8 +125,10 @@ pub(super) struct Disk {
     pub told: Option<String>,
     /// `eddy.toml` as it was last read or written.
     pub manifest: Option<Vec<u8>>,
-    /// The pictures as they were last looked at.
-    pub media: MediaState,
+    /// Counts the times a project was opened or took a new place.
+    pub opened: u64,
+    /// Pictures, models and the files these name, as the last compile found them.
+    pub media_files: Vec<PathBuf>,
     pub reset_on_reload: bool,
 }
 
@@ -182,6 +186,7 @@ impl Session {
                 edits: Debounce::new(options.edit_debounce),
                 edited: false,
                 is_wanted: true,
+                is_look_wanted: false,
                 reset_when_built: false,
                 state: CompileState::default(),
                 diagnostics: Vec::new(),
@@ -194,7 +199,8 @@ impl Session {
                 unsettled_since: None,
                 told: None,
                 manifest: None,
-                media: MediaState::default(),
+                opened: 0,
+                media_files: Vec::new(),
                 reset_on_reload: false,
             },
             dialog: Dialog::default(),

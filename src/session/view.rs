@@ -57,6 +57,11 @@ pub struct TabDiagnostic {
 }
 
 impl TabDiagnostic {
+    /// An error that has no place in any text.
+    pub(super) fn nowhere(message: &str) -> Self {
+        Self::new(&crate::diag::Diagnostic::error(None, message), &SourceMap::default(), |_| None)
+    }
+
     pub(super) fn new(
         d: &crate::diag::Diagnostic,
         sources: &SourceMap,
@@ -99,7 +104,7 @@ pub struct CompileState {
 pub enum Outcome {
     /// It draws. Milliseconds of compiling; how many warnings there are.
     Ok { millis: f64, warnings: usize },
-    /// It has errors; none are counted where the compiler or the device gave up.
+    /// It has errors, at least one.
     Failed { errors: usize, meanwhile: Meanwhile },
 }
 
