@@ -28,19 +28,17 @@ pub(super) struct Job {
 pub(super) struct Done {
     /// Pictures, models and the files these name, those among them that are not there.
     pub files: Vec<PathBuf>,
-    pub work: Work,
+    /// Of a look: pictures and models are other than those of the last compile.
+    pub is_changed: bool,
+    /// `None` for a look.
+    pub compiled: Option<Compiled>,
 }
 
-pub(super) enum Work {
-    Looked {
-        changed: bool,
-    },
-    Compiled {
-        /// The program and its compile time, or none if the author has to mend something first.
-        program: Result<Option<(Program, f64)>, EngineError>,
-        /// Errors first.
-        diagnostics: Vec<TabDiagnostic>,
-    },
+pub(super) struct Compiled {
+    /// The program and its compile time, or none if the author has to mend something first.
+    pub program: Result<Option<(Program, f64)>, EngineError>,
+    /// Errors first.
+    pub diagnostics: Vec<TabDiagnostic>,
 }
 
 /// The worker's work, with the pictures it has read so far.
@@ -50,7 +48,7 @@ pub(super) fn work(gpu: Gpu, media_dir: Option<PathBuf>) -> impl FnMut(Job) -> D
         let named = media.named(&job);
         let files = named.stamps.iter().map(|(path, _)| path.clone()).collect();
         if job.is_look {
-            return Done { files, work: Work::Looked { changed: media.of != Some(named) } };
+            return Done { files, is_changed: media.of != Some(named), compiled: None };
         }
         let mut diagnostics = media.update(&job, named);
         let options = BuildOptions { wanted: wanted(&job), skip: true };
@@ -79,7 +77,7 @@ pub(super) fn work(gpu: Gpu, media_dir: Option<PathBuf>) -> impl FnMut(Job) -> D
             }
         }
         unique.sort_by_key(|d| std::cmp::Reverse(d.severity));
-        Done { files, work: Work::Compiled { program, diagnostics: unique } }
+        Done { files, is_changed: false, compiled: Some(Compiled { program, diagnostics: unique }) }
     }
 }
 

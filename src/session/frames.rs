@@ -3,14 +3,14 @@
 use super::{
     Session, capture,
     clock::FrameTime,
-    compile::{Done, Job, Work},
+    compile::{Compiled, Done, Job},
     date,
     view::{Level, Meanwhile, Outcome, TabDiagnostic, Tick},
     worker::Panicked,
 };
 use crate::{
     diag::Severity,
-    engine::{EngineError, FrameInputs, Program},
+    engine::{EngineError, FrameInputs},
     gpu::GpuError,
 };
 use std::time::Instant;
@@ -65,16 +65,16 @@ impl Session {
     fn take_compiled(&mut self) {
         let Some(result) = self.compiler.take() else { return };
         let done = match result {
-            Ok(Done { files, work }) => {
+            Ok(Done { files, is_changed, compiled }) => {
                 if self.disk.media_files != files {
                     self.disk.media_files = files;
                     self.watch_what_is_read();
                 }
-                match work {
-                    Work::Looked { changed: true } => return self.compile_soon(),
-                    Work::Looked { changed: false } => return,
-                    Work::Compiled { program, diagnostics } => Ok((program, diagnostics)),
+                if is_changed {
+                    self.compile_soon();
                 }
+                let Some(compiled) = compiled else { return };
+                Ok(compiled)
             }
             Err(panicked) => Err(panicked),
         };
@@ -88,7 +88,7 @@ impl Session {
                 let goes_on = if self.compile.has_program { "; the last good picture goes on" } else { "" };
                 self.notice(Level::Error, format!("{what}{goes_on}"));
             }
-            Ok((program, diagnostics)) => self.take_program(program, diagnostics),
+            Ok(compiled) => self.take_program(compiled),
         }
     }
 
@@ -96,9 +96,9 @@ impl Session {
         self.compile.edited || self.compile.is_wanted || self.compile.edits.is_waiting()
     }
 
-    fn take_program(&mut self, program: Result<Option<(Program, f64)>, EngineError>, diagnostics: Vec<TabDiagnostic>) {
-        self.compile.diagnostics = diagnostics;
-        let (program, millis) = match program {
+    fn take_program(&mut self, compiled: Compiled) {
+        self.compile.diagnostics = compiled.diagnostics;
+        let (program, millis) = match compiled.program {
             Ok(Some(built)) => built,
             Ok(None) => {
                 self.compile.state.last = Some(self.failed());
