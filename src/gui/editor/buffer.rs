@@ -27,6 +27,13 @@ impl Selection {
     }
 }
 
+/// The ends of a text that are as they were, in bytes: what lies between has changed. They do not overlap.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Unchanged {
+    pub head: usize,
+    pub tail: usize,
+}
+
 /// A text being edited.
 #[derive(Clone, Debug)]
 pub struct Buffer {
@@ -37,8 +44,8 @@ pub struct Buffer {
     history: History,
     /// Counts changes of the text.
     revision: u64,
-    /// First line that changed since [`Buffer::take_changed_line`].
-    changed_line: Option<usize>,
+    /// What is as it was at the last [`Buffer::take_unchanged`]; none if all is.
+    unchanged: Option<Unchanged>,
     /// Column the caret wants to keep while it moves up and down, in characters.
     pub(super) wanted_column: Option<usize>,
 }
@@ -51,7 +58,7 @@ impl Buffer {
             selection: Selection::default(),
             history: History::default(),
             revision: 0,
-            changed_line: Some(0),
+            unchanged: Some(Unchanged { head: 0, tail: 0 }),
             wanted_column: None,
         }
     }
@@ -221,9 +228,9 @@ impl Buffer {
         true
     }
 
-    /// The first line changed since the last call: what is derived line by line can keep all before it.
-    pub fn take_changed_line(&mut self) -> Option<usize> {
-        self.changed_line.take()
+    /// What has not changed since the last call; none if nothing has: what is derived from it can be kept.
+    pub fn take_unchanged(&mut self) -> Option<Unchanged> {
+        self.unchanged.take()
     }
 
     fn apply(&mut self, range: Range<usize>, with: &str) {
@@ -236,7 +243,9 @@ impl Buffer {
         let added = with.bytes().enumerate().filter(|(_, b)| *b == b'\n').map(|(i, _)| range.start + i + 1);
         self.starts.splice(first + 1..=last, added);
         self.revision += 1;
-        self.changed_line = Some(self.changed_line.map_or(first, |line| line.min(first)));
+        let (head, tail) = (range.start, self.text.len() - range.start - with.len());
+        let before = self.unchanged.unwrap_or(Unchanged { head, tail });
+        self.unchanged = Some(Unchanged { head: head.min(before.head), tail: tail.min(before.tail) });
     }
 }
 

@@ -1,19 +1,43 @@
-//! Enough of GLSL's lexical grammar to colour it, one line at a time.
+//! Enough of GLSL's lexical grammar to colour it, a line or a piece of one at a time.
 //!
-//! A line can be lexed alone given the [`LineState`] the line before it ended in, so an editor colours only what it shows.
+//! A piece of a line can be lexed alone given the [`LexState`] it begins in, so an editor colours only what it shows.
 //! It never refuses a text: what it does not know is [`TokenKind::Plain`]. The compiler's own lexer lives in `glsl`.
 
 use super::words::{self, Word};
-use std::collections::HashSet;
+use std::ops::Range;
 
-/// What a line begins inside of.
+/// What a place of a line is inside of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct LineState {
-    pub in_block_comment: bool,
-    /// The line before was a directive that ended in a backslash.
+pub enum Inside {
+    /// Nothing but blanks stands before it in its line: a `#` here begins a directive.
+    #[default]
+    Indent,
+    Code,
+    LineComment,
+    BlockComment,
+}
+
+/// What lexing must know of the text before a place.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct LexState {
+    pub inside: Inside,
+    /// The line belongs to a directive, its own or one that an earlier line began and continued by a backslash.
     pub in_directive: bool,
-    /// The line before was a `//` comment that ended in a backslash.
-    pub in_line_comment: bool,
+}
+
+impl LexState {
+    /// The state that the next line begins in, `self` being the state at the end of `line`.
+    pub fn next_line(self, line: &str) -> LexState {
+        let continues = line.ends_with('\\');
+        match self.inside {
+            Inside::LineComment if continues => LexState { inside: Inside::LineComment, in_directive: false },
+            Inside::LineComment => LexState::default(),
+            Inside::BlockComment => self,
+            Inside::Indent | Inside::Code => {
+                LexState { inside: Inside::Indent, in_directive: self.in_directive && continues }
+            }
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -47,36 +71,33 @@ pub struct Token {
     pub kind: TokenKind,
 }
 
-/// Tokens of one line (without its end) that together cover it, and the state the next line begins in.
-pub fn lex_line(line: &str, state: LineState, macros: &HashSet<String>) -> (Vec<Token>, LineState) {
-    let mut lexer = Lexer { line, at: 0, tokens: Vec::new() };
-    let continues = line.ends_with('\\');
-    let mut next = LineState::default();
-    if state.in_line_comment {
-        lexer.push(line.len(), TokenKind::Comment);
-        next.in_line_comment = continues;
-        return (lexer.tokens, next);
+/// How far behind a name a `(` is looked for: a lexer of pieces must not read the rest of the line.
+const LOOK_AHEAD: usize = 256;
+
+/// Tokens that together cover `range` of a line (without its end). `state` is that of the range's first byte, and the range
+/// begins and ends between two tokens or inside of a comment.
+pub fn lex(line: &str, range: Range<usize>, state: LexState, is_macro: &dyn Fn(&str) -> bool) -> Vec<Token> {
+    let mut lexer = Lexer { line: &line[..range.end], at: range.start, tokens: Vec::new() };
+    let mut state = state;
+    if state.inside == Inside::LineComment {
+        lexer.push(range.len(), TokenKind::Comment);
     }
-    if state.in_block_comment && !lexer.block_comment_tail() {
-        next.in_block_comment = true;
-        next.in_directive = state.in_directive;
-        return (lexer.tokens, next);
+    if state.inside == Inside::BlockComment {
+        lexer.block_comment(0);
+        state.inside = Inside::Code;
     }
-    let mut directive = state.in_directive;
     let mut names_macro = false;
-    while let Some(c) = line[lexer.at..].chars().next() {
-        let rest = &line[lexer.at..];
+    while let Some(c) = lexer.line[lexer.at..].chars().next() {
+        let rest = &lexer.line[lexer.at..];
+        let is_indent = state.inside == Inside::Indent;
+        if !c.is_whitespace() {
+            state.inside = Inside::Code;
+        }
         if rest.starts_with("//") {
             lexer.push(rest.len(), TokenKind::Comment);
-            next.in_line_comment = continues;
         } else if rest.starts_with("/*") {
-            if !lexer.block_comment() {
-                next.in_block_comment = true;
-                next.in_directive = directive;
-                return (lexer.tokens, next);
-            }
-        } else if c == '#' && line[..lexer.at].trim().is_empty() {
-            directive = true;
+            lexer.block_comment(2);
+        } else if c == '#' && is_indent {
             let word = 1 + rest[1..].len() - rest[1..].trim_start().len();
             let len = word + identifier_len(&rest[word..]);
             names_macro = matches!(&rest[word..len], "define" | "undef" | "ifdef" | "ifndef");
@@ -86,7 +107,8 @@ pub fn lex_line(line: &str, state: LineState, macros: &HashSet<String>) -> (Vec<
         } else if c.is_alphabetic() || c == '_' {
             let len = identifier_len(rest);
             let name = &rest[..len];
-            let kind = if std::mem::take(&mut names_macro) || macros.contains(name) {
+            let mut behind = line[lexer.at + len..].chars().take(LOOK_AHEAD);
+            let kind = if std::mem::take(&mut names_macro) || is_macro(name) {
                 TokenKind::Macro
             } else {
                 match words::word(name) {
@@ -94,7 +116,7 @@ pub fn lex_line(line: &str, state: LineState, macros: &HashSet<String>) -> (Vec<
                     Some(Word::Type) => TokenKind::Type,
                     Some(Word::Builtin) => TokenKind::Builtin,
                     Some(Word::Uniform) => TokenKind::Uniform,
-                    None if rest[len..].trim_start().starts_with('(') => TokenKind::Function,
+                    None if behind.find(|c| !c.is_whitespace()) == Some('(') => TokenKind::Function,
                     None => TokenKind::Plain,
                 }
             };
@@ -105,40 +127,57 @@ pub fn lex_line(line: &str, state: LineState, macros: &HashSet<String>) -> (Vec<
             lexer.push(c.len_utf8(), TokenKind::Plain);
         }
     }
-    next.in_directive = directive && continues && !next.in_line_comment;
-    (lexer.tokens, next)
+    lexer.tokens
 }
 
-/// The state after a line, without its tokens: much quicker, for the lines nobody sees.
-pub fn state_after(line: &str, state: LineState) -> LineState {
-    let continues = line.ends_with('\\');
-    let mut next = LineState::default();
-    if state.in_line_comment {
-        next.in_line_comment = continues;
-        return next;
+/// Goes through a line byte by byte and keeps the [`LexState`]: much quicker than tokens, for what nobody sees.
+#[derive(Clone, Debug)]
+pub struct Scanner<'a> {
+    line: &'a [u8],
+    pub at: usize,
+    pub state: LexState,
+}
+
+impl<'a> Scanner<'a> {
+    /// `state` is that of the byte `at`.
+    pub fn new(line: &'a str, at: usize, state: LexState) -> Self {
+        Self { line: line.as_bytes(), at, state }
     }
-    let directive = state.in_directive || (!state.in_block_comment && line.trim_start().starts_with('#'));
-    let mut rest = line;
-    let mut inside = state.in_block_comment;
-    loop {
-        let found = if inside { rest.find("*/") } else { rest.find('/') };
-        let Some(at) = found else { break };
-        if inside {
-            inside = false;
-            rest = &rest[at + 2..];
-        } else if rest[at..].starts_with("//") {
-            next.in_line_comment = continues;
-            return next;
-        } else if rest[at..].starts_with("/*") {
-            inside = true;
-            rest = &rest[at + 2..];
-        } else {
-            rest = &rest[at + 1..];
+
+    pub fn is_at_end(&self) -> bool {
+        self.at >= self.line.len()
+    }
+
+    /// Goes on by one byte, or past the two that begin or end a comment.
+    #[inline]
+    pub fn step(&mut self) {
+        let byte = self.line[self.at];
+        let next = self.line.get(self.at + 1);
+        let mut len = 1;
+        match self.state.inside {
+            Inside::LineComment => {}
+            Inside::BlockComment if byte == b'*' && next == Some(&b'/') => {
+                self.state.inside = Inside::Code;
+                len = 2;
+            }
+            Inside::BlockComment => {}
+            Inside::Indent if byte.is_ascii_whitespace() => {}
+            Inside::Indent | Inside::Code if byte == b'/' && next == Some(&b'/') => {
+                self.state.inside = Inside::LineComment;
+                len = 2;
+            }
+            Inside::Indent | Inside::Code if byte == b'/' && next == Some(&b'*') => {
+                self.state.inside = Inside::BlockComment;
+                len = 2;
+            }
+            Inside::Indent => {
+                self.state.inside = Inside::Code;
+                self.state.in_directive |= byte == b'#';
+            }
+            Inside::Code => {}
         }
+        self.at += len;
     }
-    next.in_block_comment = inside;
-    next.in_directive = directive && (continues || inside);
-    next
 }
 
 /// The name a `#define` line gives, if the line is one.
@@ -166,19 +205,11 @@ impl Lexer<'_> {
         }
     }
 
-    /// From `/*`; false if the line ends inside.
-    fn block_comment(&mut self) -> bool {
+    /// To the comment's end, which is looked for behind the first `skip` bytes.
+    fn block_comment(&mut self, skip: usize) {
         let rest = &self.line[self.at..];
-        let end = rest[2..].find("*/").map(|i| i + 4);
-        self.push(end.unwrap_or(rest.len()), TokenKind::Comment);
-        end.is_some()
-    }
-
-    /// From inside of a comment; false if the line ends inside.
-    fn block_comment_tail(&mut self) -> bool {
-        let end = self.line.find("*/").map(|i| i + 2);
-        self.push(end.unwrap_or(self.line.len()), TokenKind::Comment);
-        end.is_some()
+        let end = rest[skip..].find("*/").map_or(rest.len(), |i| skip + i + 2);
+        self.push(end, TokenKind::Comment);
     }
 }
 
@@ -202,10 +233,9 @@ fn number_len(text: &str) -> usize {
 mod tests {
     use super::*;
 
-    fn kinds(line: &str, state: LineState) -> Vec<(&str, TokenKind)> {
-        let macros = HashSet::from(["PI".to_owned()]);
+    fn kinds(line: &str, state: LexState) -> Vec<(&str, TokenKind)> {
         let mut at = 0;
-        let (tokens, _) = lex_line(line, state, &macros);
+        let tokens = lex(line, 0..line.len(), state, &|name| name == "PI");
         let list = tokens
             .into_iter()
             .map(|t| {
@@ -218,7 +248,7 @@ mod tests {
     }
 
     fn kind_of(line: &str, what: &str) -> TokenKind {
-        kinds(line, LineState::default())
+        kinds(line, LexState::default())
             .into_iter()
             .find(|(t, _)| *t == what)
             .unwrap_or_else(|| panic!("{what} in {line}"))
@@ -247,37 +277,67 @@ mod tests {
         assert_eq!(kind_of("#ifdef WILD", "#ifdef"), TokenKind::Directive);
     }
 
-    #[test]
-    fn both_lexers_agree_on_where_comments_end() {
-        let lines = [
-            "float a; /* one",
-            "still */ float b; // two \\",
-            "comment goes on",
-            "float c; /* x */ /* y",
-            "*/ d // /*",
-            "e / f",
-            "#define A \\",
-            "  b /* c",
-            "*/ \\",
-            "g",
-            "ünïcode /*ä*/ ö",
-            "/*/",
-            "*/ h",
-            "// *\\",
-            "/* in a line comment",
-        ];
-        let (mut full, mut quick) = (LineState::default(), LineState::default());
-        for line in lines {
-            let (tokens, next) = lex_line(line, full, &HashSet::new());
-            assert_eq!(tokens.iter().map(|t| t.len).sum::<usize>(), line.len(), "{line}");
-            full = next;
-            quick = state_after(line, quick);
-            assert_eq!(full, quick, "after {line:?}");
+    /// The state at every byte, and the one the next line begins in.
+    fn states(line: &str, state: LexState) -> (Vec<(usize, LexState)>, LexState) {
+        let mut scanner = Scanner::new(line, 0, state);
+        let mut states = Vec::new();
+        while !scanner.is_at_end() {
+            states.push((scanner.at, scanner.state));
+            scanner.step();
         }
-        assert_eq!(
-            kinds("comment */ x", LineState { in_block_comment: true, ..Default::default() })[0].1,
-            TokenKind::Comment
-        );
+        (states, scanner.state.next_line(line))
+    }
+
+    #[test]
+    fn lexer_and_scanner_agree_on_what_is_comment() {
+        let lines = [
+            ("float a; /* one", Inside::BlockComment, false),
+            ("still */ float b; // two \\", Inside::LineComment, false),
+            ("comment goes on", Inside::Indent, false),
+            ("float c; /* x */ /* y", Inside::BlockComment, false),
+            ("*/ d // /*", Inside::Indent, false),
+            ("e / f", Inside::Indent, false),
+            ("#define A \\", Inside::Indent, true),
+            ("  b /* c", Inside::BlockComment, true),
+            ("*/ \\", Inside::Indent, true),
+            ("g", Inside::Indent, false),
+            ("ünïcode /*ä*/ ö", Inside::Indent, false),
+            ("/*/", Inside::BlockComment, false),
+            ("*/ # h \\", Inside::Indent, false),
+            ("// *\\", Inside::LineComment, false),
+            ("/* in a line comment", Inside::Indent, false),
+        ];
+        let mut state = LexState::default();
+        for (line, inside, in_directive) in lines {
+            let (states, next) = states(line, state);
+            let mut at = 0;
+            for (text, kind) in kinds(line, state) {
+                for (_, s) in states.iter().filter(|(i, _)| (at + 2..at + text.len()).contains(i)) {
+                    let is_comment = matches!(s.inside, Inside::LineComment | Inside::BlockComment);
+                    assert_eq!(is_comment, kind == TokenKind::Comment, "{text:?} in {line:?}");
+                }
+                at += text.len();
+            }
+            state = next;
+            assert_eq!(state, LexState { inside, in_directive }, "after {line:?}");
+        }
+    }
+
+    #[test]
+    fn a_part_of_a_line_is_lexed_as_in_the_whole() {
+        let line = "  a /* b c */ shade   (1.5e-3) #x // d e";
+        let (states, _) = states(line, LexState::default());
+        let whole = lex(line, 0..line.len(), LexState::default(), &|_| false);
+        for (at, state) in states.into_iter().filter(|(at, _)| *at == 0 || line.as_bytes()[at - 1] == b' ') {
+            let mut parts = lex(line, 0..at, LexState::default(), &|_| false);
+            for token in lex(line, at..line.len(), state, &|_| false) {
+                match parts.last_mut() {
+                    Some(last) if last.kind == token.kind => last.len += token.len,
+                    _ => parts.push(token),
+                }
+            }
+            assert_eq!(parts, whole, "cut at {at}");
+        }
     }
 
     #[test]

@@ -5,6 +5,7 @@ use super::{
     buffer::Buffer,
     highlight::Highlight,
     input,
+    lines::Lines,
     paint::{self, Painted},
     semantic::Semantic,
 };
@@ -66,6 +67,16 @@ pub struct CodeEditor {
     /// Where a drag began, whole words or lines at a time.
     drag: Option<(Range<usize>, Granularity)>,
     page: usize,
+    pub(super) work: Work,
+}
+
+/// What the newest frame looked at: bytes, not time, so that a test can hold it to a bound.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Work {
+    /// To keep lines, pieces and comments in step with the text.
+    pub scanned: usize,
+    /// To be painted.
+    pub laid_out: usize,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,6 +98,7 @@ impl CodeEditor {
             moved_at: 0.0,
             drag: None,
             page: 20,
+            work: Work::default(),
         }
     }
 
@@ -130,7 +142,10 @@ impl CodeEditor {
         }
         let help = self.fresh(look.help);
         self.assist.update(&self.buffer, help);
-        self.highlight.update(&mut self.buffer, look.shared);
+        ui.fonts_mut(|f| {
+            let mut width = |c: char| f.glyph_width(&font, c) / glyph;
+            self.work.scanned = self.highlight.update(&mut self.buffer, look.shared, &mut width);
+        });
 
         let whole = ui.available_rect_before_wrap();
         let digits = self.buffer.line_count().to_string().len().max(3);
@@ -142,9 +157,10 @@ impl CodeEditor {
         let mut text_ui = ui.new_child(egui::UiBuilder::new().max_rect(text_rect).id_salt(id));
         text_ui.spacing_mut().scroll.fade.strength = 0.0;
         text_ui.set_clip_rect(text_rect.intersect(ui.clip_rect()));
-        let size =
-            vec2((self.highlight.columns() as f32 + 4.0) * glyph + 12.0, self.buffer.line_count() as f32 * row_height);
+        let size = vec2((self.highlight.columns() + 4.0) * glyph + 12.0, self.buffer.line_count() as f32 * row_height);
         let mut painted = None;
+        // Lines in sight are shown by it while the editor goes on.
+        let index = std::mem::take(&mut self.highlight);
         let scrolled = ScrollArea::both().id_salt(id).auto_shrink(false).content_margin(0).show_viewport(
             &mut text_ui,
             |ui, viewport| {
@@ -159,10 +175,11 @@ impl CodeEditor {
                 let first = (viewport.top() / row_height).max(0.0) as usize;
                 let last = ((viewport.bottom() / row_height).ceil() as usize).min(self.buffer.line_count());
                 let mut lines =
-                    paint::Lines { origin, row_height, glyph, font: font.clone(), first, galleys: Vec::new() };
+                    Lines { index: &index, origin, row_height, glyph, font: font.clone(), first, rows: Vec::new() };
                 let semantic = look.help.map(|help| Semantic::new(help, self.buffer.text()));
                 let range = first..last.max(first);
-                lines.lay_out(ui, &self.buffer, &self.highlight, semantic.as_ref(), &self.preedit, range);
+                lines.lay_out(ui, &self.buffer, semantic.as_ref(), &self.preedit, range, shown);
+                self.work.laid_out = lines.rows.iter().flat_map(|r| &r.runs).map(|r| r.galley.text().len()).sum();
                 self.pointer(ui, &response, &lines, help);
                 if std::mem::take(&mut self.take_focus) {
                     response.request_focus();
@@ -197,6 +214,7 @@ impl CodeEditor {
                 painted = Some(p);
             },
         );
+        self.highlight = index;
         let painted: Painted = painted.unwrap_or_default();
         let gutter_rect = Rect::from_min_max(whole.min, pos2(text_rect.left(), whole.bottom()));
         let top = text_rect.top() - scrolled.state.clamped_offset().y;
@@ -245,7 +263,7 @@ impl CodeEditor {
         }
     }
 
-    fn pointer(&mut self, ui: &Ui, response: &egui::Response, lines: &paint::Lines, help: Option<Help<'_>>) {
+    fn pointer(&mut self, ui: &Ui, response: &egui::Response, lines: &Lines<'_>, help: Option<Help<'_>>) {
         let Some(pointer) = response.interact_pointer_pos().or_else(|| response.hover_pos()) else { return };
         let (pressed, shift, command) =
             ui.input(|i| (i.pointer.primary_pressed(), i.modifiers.shift, i.modifiers.command));

@@ -3,7 +3,7 @@
 use crate::{
     glsl::services::CompletionKind,
     gui::{
-        editor::lexer::{self, LineState, TokenKind},
+        editor::lexer::{self, LexState, TokenKind},
         theme,
     },
 };
@@ -11,7 +11,7 @@ use egui::{
     Color32, FontId,
     text::{LayoutJob, TextFormat},
 };
-use std::{collections::HashSet, ops::Range};
+use std::ops::Range;
 
 /// A letter and a colour.
 pub(super) fn sign(kind: CompletionKind) -> (&'static str, Color32) {
@@ -41,7 +41,7 @@ pub(super) fn code(lines: &[String], font: &FontId, strong: Option<Range<usize>>
             job.append("\n", 0.0, TextFormat::simple(font.clone(), theme::TEXT));
         }
         let mut at = 0;
-        for token in lexer::lex_line(line, LineState::default(), &HashSet::new()).0 {
+        for token in lexer::lex(line, 0..line.len(), LexState::default(), &|_| false) {
             let range = at..at + token.len;
             at = range.end;
             let color = theme::code_color(token.kind);

@@ -8,7 +8,7 @@ mod completion;
 mod draw;
 mod tips;
 
-use super::{buffer::Buffer, history, paint::Lines};
+use super::{buffer::Buffer, history, lines::Lines};
 use crate::{
     diag::{SourceId, Span},
     glsl::services::{Analysis, ClassSpan, SignatureHelp},
@@ -219,6 +219,7 @@ impl Assist {
             let same = buffer.selection().is_empty();
             let found = if same { help.analysis.uses(help.source, caret) } else { Vec::new() };
             self.uses = found.iter().filter(|s| s.source == help.source).map(|s| s.range()).collect();
+            self.uses.sort_by_key(|r| r.start);
         }
     }
 
@@ -233,7 +234,7 @@ impl Assist {
     }
 
     /// Shows what is open. A proposal that was clicked is taken.
-    pub fn show(&mut self, ui: &Ui, lines: &Lines, buffer: &mut Buffer, shown: Rect) {
+    pub fn show(&mut self, ui: &Ui, lines: &Lines<'_>, buffer: &mut Buffer, shown: Rect) {
         let caret = lines.caret_rect(buffer);
         let is_in_sight = shown.intersects(caret);
         if let Some(popup) = self.popup.as_mut().filter(|_| is_in_sight) {
@@ -251,7 +252,14 @@ impl Assist {
     }
 
     /// What the name under the pointer is, once the pointer rests. True if the tip hangs below its line.
-    pub fn show_hover(&mut self, ui: &Ui, lines: &Lines, buffer: &Buffer, help: Option<Help<'_>>, shown: Rect) -> bool {
+    pub fn show_hover(
+        &mut self,
+        ui: &Ui,
+        lines: &Lines<'_>,
+        buffer: &Buffer,
+        help: Option<Help<'_>>,
+        shown: Rect,
+    ) -> bool {
         if self.popup.is_some() {
             self.hover.close();
             return false;

@@ -1,7 +1,7 @@
 //! Tips over the code: what the name under the pointer is, and the signature of the call around the caret.
 
 use super::{
-    super::{buffer::Buffer, paint::Lines},
+    super::{buffer::Buffer, lines::Lines},
     Help, draw,
 };
 use crate::{
@@ -36,7 +36,7 @@ impl Pointer {
     pub fn show(
         &mut self,
         ui: &Ui,
-        lines: &Lines,
+        lines: &Lines<'_>,
         buffer: &Buffer,
         help: Option<Help<'_>>,
         shown: Rect,
@@ -84,7 +84,7 @@ impl Pointer {
 }
 
 /// The name a tip is about.
-fn name_rect(lines: &Lines, buffer: &Buffer, hover: &Hover) -> Option<Rect> {
+fn name_rect(lines: &Lines<'_>, buffer: &Buffer, hover: &Hover) -> Option<Rect> {
     let range = hover.span.range();
     if range.end > buffer.text().len() {
         return None;
