@@ -37,8 +37,14 @@ pub struct Shown {
 impl Uses {
     /// `None` where there is nothing to list.
     pub fn new(session: &Session, places: Vec<(Tab, Range<usize>)>) -> Option<Self> {
-        let places: Vec<Place> =
-            places.into_iter().filter_map(|(tab, range)| place(session.text(&tab), tab.clone(), range)).collect();
+        let mut list: Vec<Place> = Vec::new();
+        for (tab, range) in places {
+            // Lines are counted on from the place before: from the top each time, many uses in a long text take minutes.
+            let before = list.last().filter(|p| p.tab == tab && p.range.start <= range.start);
+            let known = before.map_or((0, 1), |p| (p.range.start, p.line));
+            list.extend(place(session.text(&tab), tab.clone(), range, known));
+        }
+        let places = list;
         let first = places.first()?;
         Some(Self { name: first.text[first.name.clone()].to_owned(), places, selected: None })
     }
@@ -105,14 +111,23 @@ impl Uses {
     }
 }
 
-fn place(text: &str, tab: Tab, range: Range<usize>) -> Option<Place> {
+/// Bytes of a line that are shown before a name, and behind it.
+const BEFORE: usize = 120;
+const BEHIND: usize = 240;
+
+/// `known`: a place at or before this one, and its line.
+fn place(text: &str, tab: Tab, range: Range<usize>, known: (usize, usize)) -> Option<Place> {
     text.get(range.clone())?;
-    let start = text[..range.start].rfind('\n').map_or(0, |i| i + 1);
-    let end = text[range.end..].find(['\n', '\r']).map_or(text.len(), |i| range.end + i);
+    let head = &text[text.ceil_char_boundary(range.start.saturating_sub(BEFORE))..range.start];
+    let start = range.start - head.len() + head.rfind('\n').map_or(0, |i| i + 1);
+    let tail = &text[range.end..text.floor_char_boundary(range.end + BEHIND)];
+    let end = range.end + tail.find(['\n', '\r']).unwrap_or(tail.len());
     let line = &text[start..end];
     let indent = line.len() - line.trim_start().len();
     let name = range.start.checked_sub(start + indent)?..range.end.checked_sub(start + indent)?;
-    Some(Place { tab, line: text[..start].matches('\n').count() + 1, text: line[indent..].to_owned(), name, range })
+    let passed = text.as_bytes().get(known.0..range.start)?;
+    let number = known.1 + passed.iter().filter(|b| **b == b'\n').count();
+    Some(Place { tab, line: number, text: line[indent..].to_owned(), name, range })
 }
 
 #[cfg(test)]
@@ -124,8 +139,16 @@ mod tests {
     fn a_place_is_shown_with_its_line() {
         let text = "float a;\r\n    b = a * a; // x\r\n";
         let at = text.rfind("a;").unwrap();
-        let found = place(text, Tab::Pass(PassId::Image), at..at + 1).unwrap();
+        let found = place(text, Tab::Pass(PassId::Image), at..at + 1, (0, 1)).unwrap();
         assert_eq!((found.line, found.text.as_str(), &found.text[found.name]), (2, "b = a * a; // x", "a"));
-        assert!(place(text, Tab::Common, 90..91).is_none(), "the text has changed meanwhile");
+        let first = place(text, Tab::Pass(PassId::Image), 6..7, (0, 1)).unwrap();
+        assert_eq!((first.line, first.text.as_str()), (1, "float a;"));
+        assert_eq!(place(text, Tab::Pass(PassId::Image), at..at + 1, (6, 1)).unwrap().line, 2);
+        assert!(place(text, Tab::Common, 90..91, (0, 1)).is_none(), "the text has changed meanwhile");
+        let long = format!("{}a{}", "ä b ".repeat(3_000), " ö + ".repeat(3_000));
+        let at = long.find('a').unwrap();
+        let found = place(&long, Tab::Common, at..at + 1, (0, 1)).unwrap();
+        assert_eq!(&found.text[found.name], "a");
+        assert!(found.text.len() < 400, "a line of {} bytes is shown in part", long.len());
     }
 }
