@@ -261,3 +261,21 @@ fn a_slider_changes_the_picture_while_it_is_paused_and_resets() {
     window.wait_until("all defaults", "uniforms", |e| e["values"]["tint"][1] == 0.0 && e["values"]["on"][0] == 0.0);
     assert_eq!(colour(&mut window), [0, 0, 0]);
 }
+
+/// The gallery draws its thumbnails on a thread of its own: the device is at work when the surface takes its new size.
+#[test]
+fn a_hundred_sizes_in_a_row_are_followed_without_a_complaint() {
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let mut window = Window::open(&display, home.path(), &[]);
+    for i in 0..100 {
+        window.resize(360 + (i * 97) % 600, 240 + (i * 61) % 440);
+        window.drain();
+    }
+    window.resize(700, 500);
+    window.wait_until("the last size", "layout", |e| e["window"] == serde_json::json!([700, 500]));
+    assert!(window.lives());
+    assert_eq!(window.complaints(), "");
+    let errors: Vec<_> = window.events.iter().filter(|e| e["event"] == "notice" && e["level"] == "error").collect();
+    assert!(errors.is_empty(), "{errors:?}");
+}

@@ -55,7 +55,12 @@ pub struct Surface {
     renderer: Renderer,
     gpu: Gpu,
     needs_configure: bool,
+    /// How often in a row the surface did not take its size.
+    refusals: u32,
 }
+
+/// So many refusals in a row are no coincidence any more.
+const REFUSALS: u32 = 200;
 
 impl Surface {
     /// A surface for the window, and the device that can draw on it.
@@ -75,7 +80,7 @@ impl Surface {
         // Dithering would change the picture's own values.
         let options = RendererOptions { dithering: false, ..Default::default() };
         let renderer = Renderer::new(&gpu.device, config.format, options);
-        Ok(Surface { instance, surface, config, renderer, gpu, needs_configure: false })
+        Ok(Surface { instance, surface, config, renderer, gpu, needs_configure: false, refusals: 0 })
     }
 
     pub fn gpu(&self) -> &Gpu {
@@ -118,16 +123,38 @@ impl Surface {
         presented
     }
 
+    /// Gives the surface the window's size. False where it was refused and keeps the old one, to be asked again: configuring
+    /// waits until the device rests, and where another thread (a compile, a thumbnail) hands it work meanwhile, wgpu gives up.
+    fn configure(&mut self) -> bool {
+        let scope = self.gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        self.surface.configure(&self.gpu.device, &self.config);
+        let refused = pollster::block_on(scope.pop());
+        if let Some(error) = &refused {
+            self.refusals += 1;
+            // Once, and not at each of the frames that follow.
+            let level = if self.refusals == REFUSALS { log::Level::Error } else { log::Level::Debug };
+            log::log!(level, "the window's surface keeps its old size: {error}");
+            // The device is given the time that it needs.
+            std::thread::sleep(std::time::Duration::from_millis(1));
+        } else {
+            self.refusals = 0;
+        }
+        refused.is_none()
+    }
+
     fn present(
         &mut self,
         window: &Arc<Window>,
         triangles: &[egui::ClippedPrimitive],
         pixels_per_point: f32,
     ) -> Presented {
-        let (device, queue) = (&self.gpu.device, &self.gpu.queue);
-        if std::mem::take(&mut self.needs_configure) {
-            self.surface.configure(device, &self.config);
+        if self.needs_configure {
+            if !self.configure() {
+                return Presented::Again;
+            }
+            self.needs_configure = false;
         }
+        let (device, queue) = (&self.gpu.device, &self.gpu.queue);
         let frame = match self.surface.get_current_texture() {
             wgpu::CurrentSurfaceTexture::Success(frame) => frame,
             wgpu::CurrentSurfaceTexture::Suboptimal(frame) => {
@@ -150,7 +177,9 @@ impl Surface {
             }
         };
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("window") });
-        let screen = ScreenDescriptor { size_in_pixels: [self.config.width, self.config.height], pixels_per_point };
+        // What is drawn on has the last word on its size: the window's may have changed since.
+        let size_in_pixels = [frame.texture.width(), frame.texture.height()];
+        let screen = ScreenDescriptor { size_in_pixels, pixels_per_point };
         let mut commands = self.renderer.update_buffers(device, queue, &mut encoder, triangles, &screen);
         let view = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {

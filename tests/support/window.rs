@@ -15,6 +15,9 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// A window that says nothing for so long has come to rest.
 const SETTLED: Duration = Duration::from_millis(400);
 
+/// The file in the home folder that a window's standard error goes to.
+pub const STANDARD_ERROR: &str = "stderr.txt";
+
 /// A display that nobody sees. Ends with the value.
 pub struct Display {
     server: Child,
@@ -73,6 +76,7 @@ pub struct Window<'a> {
     /// Everything said so far.
     pub events: Vec<Value>,
     id: String,
+    home: std::path::PathBuf,
 }
 
 impl<'a> Window<'a> {
@@ -90,6 +94,7 @@ impl<'a> Window<'a> {
             .env_remove("XDG_PICTURES_DIR")
             .current_dir(home)
             .stdout(Stdio::piped())
+            .stderr(std::fs::File::create(home.join(STANDARD_ERROR)).unwrap())
             .spawn()
             .unwrap();
         let (sender, lines) = channel();
@@ -103,14 +108,17 @@ impl<'a> Window<'a> {
                 }
             }
         });
-        let mut window = Window { display, process, lines, events: Vec::new(), id: String::new() };
+        let mut window =
+            Window { display, process, lines, events: Vec::new(), id: String::new(), home: home.to_owned() };
         window.wait_for("the window to start", |e| e["event"] == "started");
         window.id = {
             let pid = window.process.id().to_string();
             display.tool(&["search", "--sync", "--onlyvisible", "--pid", &pid]).lines().last().unwrap_or("").to_owned()
         };
         window.display.tool(&["windowfocus", "--sync", &window.id]);
-        window.wait_for("the first layout", |e| e["event"] == "layout" && e["viewport"].is_array());
+        // Without a project the gallery covers the picture.
+        let is_gallery = arguments.is_empty();
+        window.wait_for("the first layout", |e| e["event"] == "layout" && (is_gallery || e["viewport"].is_array()));
         window
     }
 
@@ -159,8 +167,9 @@ impl<'a> Window<'a> {
     fn fail(&self, why: &str) -> ! {
         let shot = std::env::temp_dir().join(format!("eddy-window-{}.png", self.process.id()));
         self.display.photograph(&shot);
+        let error = std::fs::read_to_string(self.home.join(STANDARD_ERROR)).unwrap_or_default();
         let tail: Vec<_> = self.events.iter().rev().take(12).rev().map(Value::to_string).collect();
-        panic!("{why}; the display is in {}; last events:\n{}", shot.display(), tail.join("\n"));
+        panic!("{why}; the display is in {}; last events:\n{}\n{error}", shot.display(), tail.join("\n"));
     }
 
     /// Where a named widget is: its centre, in pixels of the window.
@@ -218,6 +227,21 @@ impl<'a> Window<'a> {
     pub fn click_on(&mut self, widget: &str) {
         let at = self.centre(widget);
         self.click(at);
+    }
+
+    /// Gives the window a size at once, without waiting for it to follow.
+    pub fn resize(&self, width: u32, height: u32) {
+        self.display.tool(&["windowsize", &self.id, &width.to_string(), &height.to_string()]);
+    }
+
+    /// The process has not ended.
+    pub fn lives(&mut self) -> bool {
+        self.process.try_wait().unwrap().is_none()
+    }
+
+    /// What the window has written to standard error.
+    pub fn complaints(&self) -> String {
+        std::fs::read_to_string(self.home.join(STANDARD_ERROR)).unwrap()
     }
 
     /// Presses and releases keys, in xdotool's names: `ctrl+z`, `F12`, `Left`.
