@@ -104,7 +104,7 @@ impl ApplicationHandler<Wake> for App {
 
     fn window_event(&mut self, event_loop: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         let Some(running) = &mut self.running else { return };
-        match running.on_event(event) {
+        match rescue::caught(running, |running| running.on_event(event), |running| &running.session) {
             Ok(Next::Go) => {}
             Ok(Next::Exit) => event_loop.exit(),
             Err(e) => {
@@ -279,8 +279,12 @@ impl Running {
             self.window.scale_factor() as f32,
             began,
         );
-        if let Err(reason @ GpuError::Lost(_)) = self.surface.gpu().take_trouble("the window") {
-            return Err(GuiError::Lost { reason, rescue: rescue::save_unsaved(&self.session) });
+        match self.surface.gpu().take_trouble("the window") {
+            Ok(()) => {}
+            Err(reason @ GpuError::Lost(_)) => {
+                return Err(GuiError::Lost { reason, rescue: rescue::save_unsaved(&self.session) });
+            }
+            Err(refused) => self.session.tell_of(&refused),
         }
         self.follow_shell();
         if let Next::Exit = self.take_requests() {

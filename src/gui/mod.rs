@@ -58,6 +58,9 @@ pub enum GuiError {
     /// The device is gone, and with it every picture; `rescue` says what became of unsaved work.
     #[error("{reason}{rescue}")]
     Lost { reason: GpuError, rescue: String },
+    /// The window stumbled over itself; `rescue` as above.
+    #[error("this is a bug in Eddy: {reason}{rescue}")]
+    Panicked { reason: String, rescue: String },
     #[error("the window's surface: {0}")]
     Surface(String),
     #[error(transparent)]

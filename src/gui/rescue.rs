@@ -1,10 +1,33 @@
 //! What is done with unsaved work when the window cannot go on.
 
+use super::GuiError;
 use crate::{
     project::{self, Origin, Overwrite, Project},
     session::Session,
 };
-use std::path::{Path, PathBuf};
+use std::{
+    panic::{AssertUnwindSafe, catch_unwind},
+    path::{Path, PathBuf},
+};
+
+/// Does a part of the window's work. A panic in it ends the window with an error that says so, after what was not saved has
+/// been: a bug in drawing is no reason to lose a text.
+pub fn caught<W, T>(
+    window: &mut W,
+    work: impl FnOnce(&mut W) -> Result<T, GuiError>,
+    session: impl FnOnce(&W) -> &Session,
+) -> Result<T, GuiError> {
+    let panic = match catch_unwind(AssertUnwindSafe(|| work(window))) {
+        Ok(done) => return done,
+        Err(panic) => panic,
+    };
+    let said = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
+    let reason = said.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no reason given".into());
+    // Whatever was left half done may make this stumble too.
+    let rescue = catch_unwind(AssertUnwindSafe(|| save_unsaved(session(window))));
+    let rescue = rescue.unwrap_or_else(|_| ". Your unsaved work could not be written".into());
+    Err(GuiError::Panicked { reason, rescue })
+}
 
 /// Writes what is not saved into a new folder, beside the project where that can be written, else at home, else among the
 /// temporary files. What to tell the user; nothing if nothing was unsaved.
@@ -49,6 +72,42 @@ fn save(project: &Project, places: impl Iterator<Item = PathBuf>) -> Result<Path
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{
+        gpu::{Gpu, GpuOptions},
+        project::{PassId, Tab},
+        session::Command,
+    };
+    use std::{sync::Arc, time::Instant};
+
+    #[test]
+    fn a_panic_in_the_window_saves_what_was_not() {
+        let Ok(gpu) = Gpu::new(&GpuOptions::default()) else { return };
+        let folder = tempfile::tempdir().unwrap();
+        let project = folder.path().join("mine");
+        std::fs::create_dir(&project).unwrap();
+        std::fs::write(project.join("image.glsl"), "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }").unwrap();
+        let mut session = Session::new(gpu, Arc::new(|| ())).unwrap();
+        session.apply(Command::Open(project.display().to_string()));
+        let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); } // not saved";
+        let tab = Tab::Pass(PassId::Image);
+        let ends = |session: &mut Session| {
+            caught(
+                session,
+                |session| -> Result<(), GuiError> {
+                    session.tick(Instant::now());
+                    panic!("planted {}", 1)
+                },
+                |session| session,
+            )
+        };
+        assert_eq!(ends(&mut session).unwrap_err().to_string(), "this is a bug in Eddy: planted 1");
+        session.apply(Command::EditText { tab, text: text.into() });
+        let error = ends(&mut session).unwrap_err().to_string();
+        let saved = folder.path().join("mine-recovered-0001");
+        assert_eq!(error, format!("this is a bug in Eddy: planted 1. Your unsaved work is in {}", saved.display()));
+        assert_eq!(std::fs::read_to_string(saved.join("image.glsl")).unwrap(), text);
+        assert_eq!(caught(&mut session, |_| Ok(3), |session| session).unwrap(), 3);
+    }
 
     #[test]
     fn unsaved_work_goes_to_the_first_place_that_takes_it_and_over_nothing() {

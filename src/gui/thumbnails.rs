@@ -9,6 +9,7 @@ use crate::{
 use egui::{ColorImage, TextureHandle, TextureOptions};
 use std::{
     collections::HashMap,
+    panic::{AssertUnwindSafe, catch_unwind},
     path::PathBuf,
     sync::{
         Arc,
@@ -53,7 +54,9 @@ impl Thumbnails {
         let (made_here, made) = channel();
         let work = move || {
             while let Ok(subject) = wanted_here.recv() {
-                let image = make(&gpu, &subject);
+                // A panic is this picture's alone; the others are still wanted.
+                let image = catch_unwind(AssertUnwindSafe(|| make(&gpu, &subject)));
+                let image = image.unwrap_or_else(|_| Err("this is a bug in Eddy".into()));
                 if made_here.send((subject, image)).is_err() {
                     return;
                 }

@@ -224,6 +224,14 @@ impl Session {
         }
     }
 
+    /// The graphics layer refused something that no one waited for an answer to. Said once, however often it happens.
+    pub fn tell_of(&mut self, error: &GpuError) {
+        let text = error.to_string();
+        if self.notices.iter().all(|n| n.text != text) {
+            self.notice(Level::Error, text);
+        }
+    }
+
     /// Writes the shown pass to a new file.
     pub(super) fn capture(&mut self, format: capture::Format) {
         if !self.compile.has_program {
@@ -259,3 +267,7 @@ impl super::state::Canvas {
         self.fixed.or_else(|| self.viewport.map(|(w, h)| (scaled(w), scaled(h))))
     }
 }
+
+#[cfg(test)]
+#[path = "frames_tests.rs"]
+mod tests;
