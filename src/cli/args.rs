@@ -62,8 +62,9 @@ pub enum Command {
 pub struct RenderArgs {
     #[arg(required = true)]
     pub project: Vec<String>,
-    /// Where to: a .png or .npy file, or a folder that gets STEM.png for each project (several --at: STEM_0004.png).
-    /// With --json it may be left out: every frame is drawn and nothing written
+    /// Where to: a .png or .npy file, or a folder that gets STEM.png for each project (several --at:
+    /// STEM_0004.png, with more digits if the last one needs them). With --json it may be left out: every frame is drawn and
+    /// nothing written
     #[arg(long, value_name = "PATH", required_unless_present = "json")]
     pub out: Option<PathBuf>,
     /// Frames to draw [default: 1, or as many as --at needs]

@@ -15,6 +15,9 @@ use std::{
     path::{Path, PathBuf},
 };
 
+/// Digits of a frame's number in a name, more where the last frame needs more.
+const LEAST_DIGITS: usize = 4;
+
 /// Where the pictures of one call go.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Targets {
@@ -77,6 +80,11 @@ impl Targets {
         }
     }
 
+    /// Of a frame's number in a name: what the last one needs, so that names in their order are frames in theirs.
+    fn digits(&self) -> usize {
+        self.at.last().map_or(0, |last| last.to_string().len()).max(LEAST_DIGITS)
+    }
+
     /// The file for a frame of a project, counted as on the command line.
     pub fn path(&self, project: usize, frame: u32) -> Option<PathBuf> {
         match &self.place {
@@ -86,7 +94,7 @@ impl Targets {
                 let (stem, extension) = (&stems[project], self.format.extension());
                 Some(folder.join(match self.at.len() {
                     1 => format!("{stem}.{extension}"),
-                    _ => format!("{stem}_{frame:04}.{extension}"),
+                    _ => format!("{stem}_{frame:0digits$}.{extension}", digits = self.digits()),
                 }))
             }
         }
@@ -172,7 +180,9 @@ mod tests {
     fn one_frame_has_the_stem_and_several_have_numbers() {
         assert_eq!(path("fluid x/a.b.json --out o --frames 9", 0, 8), "o/fluid.png");
         assert_eq!(path("fluid x/a.b.json --out o --frames 9", 1, 8), "o/a.b.png");
-        assert_eq!(path("fluid --out o --at 4,12345 --format npy", 0, 4), "o/fluid_0004.npy");
+        assert_eq!(path("fluid --out o --at 4,9999 --format npy", 0, 4), "o/fluid_0004.npy");
+        assert_eq!(path("fluid --out o --at 12345,4 --format npy", 0, 4), "o/fluid_00004.npy");
+        assert_eq!(path("fluid --out o --at 0,1000000 --frames 12345678", 0, 0), "o/fluid_0000000.png");
         assert_eq!(path("fluid --out o --at 4,12345 --format npy", 0, 12345), "o/fluid_12345.npy");
         assert_eq!(path("fluid --out a.v1/x.npy", 0, 0), "a.v1/x.npy");
         assert_eq!(path("src/ --out o", 0, 0), "o/src.png");
