@@ -54,6 +54,36 @@ fn frames_are_written_where_at_says() {
 }
 
 #[test]
+fn names_have_the_digits_of_the_last_frame_so_that_they_sort_as_frames_do() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    b.image("place.glsl", PLACE);
+    b.line("render place.glsl --size 1x1 --at 9,10001 --out o").expect(0);
+    assert_eq!(b.names("o"), ["place_00009.png", "place_10001.png"]);
+    b.line("render place.glsl --size 1x1 --at 9,10 --format npy --out few").expect(0);
+    assert_eq!(b.names("few"), ["place_0009.npy", "place_0010.npy"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn nothing_but_eddy_speaks_on_standard_error() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    b.image("place.glsl", PLACE);
+    for runtime in [None, Some(""), Some("relative"), Some("/no/such/folder")] {
+        for args in
+            ["render place.glsl --size 4x4 --out a.png", "bench place.glsl --size 4x4", "check place.glsl", "list"]
+        {
+            let mut command = b.command();
+            command.args(args.split(' ')).env_remove("WAYLAND_DISPLAY").env_remove("XDG_RUNTIME_DIR");
+            command.envs(runtime.map(|r| ("XDG_RUNTIME_DIR", r)));
+            let run = run(&mut command).expect(0);
+            assert_eq!(run.err, "", "{args} with XDG_RUNTIME_DIR {runtime:?}");
+        }
+    }
+}
+
+#[test]
 fn a_line_of_json_has_the_contracts_members() {
     let Some(_) = gpu() else { return };
     let b = Bench::new();

@@ -8,6 +8,7 @@ mod bench;
 mod check;
 mod library;
 mod machine;
+mod quiet;
 mod render;
 mod report;
 mod targets;
@@ -35,6 +36,9 @@ pub enum Next {
 pub fn main() -> Next {
     let Cli { window, command } = Cli::parse();
     let Some(command) = command else { return Next::Window(window) };
+    if matches!(command, Command::Render(_) | Command::Bench(_)) {
+        quiet::ask_for_no_wayland();
+    }
     let worker = std::thread::Builder::new().name("main".into()).stack_size(STACK_BYTES);
     let code = match worker.spawn(move || run(&command)).map(std::thread::JoinHandle::join) {
         Ok(Ok(code)) => code,

@@ -1,0 +1,28 @@
+//! Graphics libraries that complain of a window system nobody asked them for.
+
+/// Keeps Mesa from looking for a Wayland server where there can be none.
+///
+/// Its Vulkan layer `VK_LAYER_MESA_device_select` asks the server which device it draws with whenever devices are listed, and
+/// libwayland, without `XDG_RUNTIME_DIR`, then writes "XDG_RUNTIME_DIR is invalid or not set" to standard error, once for each
+/// of the two times that wgpu lists them. An absolute `WAYLAND_DISPLAY` needs no such folder, and one where nothing listens is
+/// passed over in silence. The C library reads the environment, which a program can change safely only for one that it starts:
+/// so this starts itself again in its own place, before anything was done. Where that fails, the lines are written.
+#[cfg(target_os = "linux")]
+pub fn ask_for_no_wayland() {
+    use std::{env, os::unix::process::CommandExt, path::Path, process::Command};
+    let is_absolute = |name: &str| env::var_os(name).is_some_and(|value| Path::new(&value).is_absolute());
+    if is_absolute("XDG_RUNTIME_DIR") || is_absolute("WAYLAND_DISPLAY") {
+        return;
+    }
+    let Ok(program) = env::current_exe() else { return };
+    let mut arguments = env::args_os();
+    let mut command = Command::new(program);
+    if let Some(name) = arguments.next() {
+        command.arg0(name);
+    }
+    let failed = command.args(arguments).env("WAYLAND_DISPLAY", "/dev/null").exec();
+    log::debug!("not started anew: {failed}");
+}
+
+#[cfg(not(target_os = "linux"))]
+pub fn ask_for_no_wayland() {}
