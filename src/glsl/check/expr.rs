@@ -381,6 +381,8 @@ impl<'a> Checker<'a> {
                     at = base;
                 }
                 ExprKind::Member { base, .. } | ExprKind::Index { base, .. } => at = base,
+                // Said already.
+                ExprKind::Error => return,
                 _ => break,
             }
         }

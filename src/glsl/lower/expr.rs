@@ -60,7 +60,8 @@ impl Builder<'_, '_> {
                 if op == BinaryOp::Div {
                     right = self.divisor(rhs, right);
                 }
-                self.binary(op, shape, (hir[lhs].ty, value), (hir[rhs].ty, right))
+                let operands = self.operands_of(op, lhs, rhs);
+                self.operation(op, shape, (hir[lhs].ty, value), (hir[rhs].ty, right), operands)
             }
             ExprKind::Logical { op, lhs, rhs } => self.logical(op, lhs, value, rhs),
             ExprKind::Convert(_) => self.convert(value, hir[link].ty),

@@ -4,7 +4,7 @@ use naga::{Block, Expression, Span, Statement, SwitchCase, SwitchValue};
 
 use super::{
     cost::CHEAP,
-    function::{Builder, Loop, Slot},
+    function::{Builder, Loop, Part, Slot},
     reach::known_bool,
 };
 use crate::glsl::{
@@ -56,8 +56,8 @@ impl Builder<'_, '_> {
             }
             StmtKind::Break => self.push(Statement::Break),
             StmtKind::Continue => {
-                if let Some(Loop { step: Some(step) }) = self.loops.last().copied() {
-                    self.effect(step);
+                if let Some(Loop { step: Some(step), .. }) = self.loops.last().copied() {
+                    self.step_of_loop(step);
                 }
                 self.push(Statement::Continue);
             }
@@ -135,6 +135,7 @@ impl Builder<'_, '_> {
         // jump to; a short step is repeated before each `continue` instead, as their own GLSL compilers do.
         let repeated = step.filter(|step| self.cx.costs[step.index()] <= CHEAP);
         self.forget_written(body, test.into_iter().chain(step));
+        self.loops.push(Loop { step: repeated, counter: counter.or(float_counter), part: Part::Test });
         let (body, _) = self.branch_block(|b| {
             if let (None, Some(test)) = (known, test) {
                 let condition = b.loop_test(test, rounds);
@@ -142,39 +143,45 @@ impl Builder<'_, '_> {
                 leave.push(Statement::Break, Span::UNDEFINED);
                 b.push(Statement::If { condition, accept: Block::new(), reject: leave });
             }
-            let outer = counter.or(float_counter).map(|(local, range)| (local, b.known.insert(local, range)));
-            b.loops.push(Loop { step: repeated });
-            b.breakable += 1;
-            b.statements(body);
-            b.breakable -= 1;
-            b.loops.pop();
-            if let Some((local, outer)) = outer {
-                match outer {
-                    Some(range) => b.known.insert(local, range),
-                    None => b.known.remove(&local),
-                };
-            }
+            b.body_of_loop(body);
             if let (Some(step), false) = (repeated, b.ended) {
-                b.effect(step);
+                b.step_of_loop(step);
             }
         });
         let continuing = match (step, repeated) {
-            (Some(step), None) => self.nested(|b| b.effect(step)).0,
+            (Some(step), None) => self.nested(|b| b.step_of_loop(step)).0,
             _ => Block::new(),
         };
+        self.loops.pop();
         self.push(Statement::Loop { body, continuing, break_if: None });
+    }
+
+    fn body_of_loop(&mut self, body: List<StmtId>) {
+        self.within(Part::Body, |b| {
+            b.breakable += 1;
+            b.statements(body);
+            b.breakable -= 1;
+        });
+    }
+
+    /// The step of the innermost loop, at the end of its body or before a `continue`.
+    fn step_of_loop(&mut self, step: ExprId) {
+        self.within(Part::Step, |b| b.effect(step));
+    }
+
+    /// Lowers code that lies in this part of the innermost loop.
+    fn within(&mut self, part: Part, lower: impl FnOnce(&mut Self)) {
+        let at = self.loops.len() - 1;
+        let outer = std::mem::replace(&mut self.loops[at].part, part);
+        lower(self);
+        self.loops[at].part = outer;
     }
 
     fn do_while(&mut self, body: List<StmtId>, test: ExprId) {
         let known = known_bool(self.cx.hir, test);
         self.forget_written(body, [test]);
-        let (body, _) = self.branch_block(|b| {
-            b.loops.push(Loop { step: None });
-            b.breakable += 1;
-            b.statements(body);
-            b.breakable -= 1;
-            b.loops.pop();
-        });
+        self.loops.push(Loop { step: None, counter: None, part: Part::Test });
+        let (body, _) = self.branch_block(|b| b.body_of_loop(body));
         let mut break_if = None;
         let (continuing, _) = self.nested(|b| {
             if known != Some(true) {
@@ -182,6 +189,7 @@ impl Builder<'_, '_> {
                 break_if = Some(b.not(again));
             }
         });
+        self.loops.pop();
         self.push(Statement::Loop { body, continuing, break_if });
     }
 

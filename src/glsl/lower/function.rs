@@ -9,7 +9,7 @@ use std::collections::HashMap;
 
 use naga::{Block, Expression, FunctionArgument, FunctionResult, Handle, Span, Statement};
 
-use super::{Instance, Lowering, Map, calls::Given, filled, inline::Leaving, scalars, split::split};
+use super::{Instance, Lowering, Map, calls::Given, filled, inline::Leaving, ranges::Bounds, scalars, split::split};
 use crate::glsl::{
     ast::List,
     hir::{ConstId, ExprId, FuncId, LocalId, LocalKind, TypeId},
@@ -33,11 +33,24 @@ pub(super) enum Slot {
     Channel(u8),
 }
 
-/// Where `continue` goes.
+/// A loop that the code at hand lies in.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Loop {
     /// Evaluated before each `continue`; `None` where the loop's `continuing` block does it.
     pub step: Option<ExprId>,
+    /// A local and its bounds, which hold in [`Part::Body`] alone: there the test was true and the step is yet to come.
+    pub counter: Option<(LocalId, Bounds)>,
+    /// Where in the loop the code at hand lies.
+    pub part: Part,
+}
+
+/// A part of a loop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    Test,
+    Body,
+    /// The third expression of a `for`, which is lowered once more at each `continue`.
+    Step,
 }
 
 /// What belongs to the function whose body is lowered, while that is another one's.
@@ -100,11 +113,13 @@ pub(super) struct Builder<'m, 'a> {
     pub members: Map<(Value, u32), Value>,
     /// Variables written in the block at hand.
     pub written: std::collections::HashSet<Value>,
+    /// From the outermost to the innermost, with those of the functions that this one is part of.
     pub loops: Vec<Loop>,
     /// How many loops and switches the code at hand lies in.
     pub breakable: usize,
-    /// What is known of int locals at this place: least and greatest value.
-    pub known: Map<u32, (i64, i64)>,
+    /// Bounds of all values that an int local has from its declaration on, by [`LocalId::index`]. What holds in a part of a loop only
+    /// is in [`Loop`].
+    pub declared: Map<u32, Bounds>,
     pub result: TypeId,
     /// The author's function, none of the code around the entry point; and what this copy has in place of parameters.
     pub func: Option<FuncId>,
@@ -175,7 +190,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             written: Default::default(),
             loops: Vec::new(),
             breakable: 0,
-            known: Map::default(),
+            declared: Map::default(),
             result: TypeId::VOID,
             func: None,
             given: Box::default(),
@@ -236,7 +251,7 @@ impl<'m, 'a> Builder<'m, 'a> {
         let function = &self.cx.hir[func];
         let (first_local, count) = (function.locals.start as usize, function.locals.len());
         for local in first_local..first_local + count {
-            self.known.remove(&(local as u32));
+            self.declared.remove(&(local as u32));
         }
         Outer {
             first_local: std::mem::replace(&mut self.first_local, first_local),

@@ -13,7 +13,8 @@
 //!   combination of channels, globals and tables that stand for parameters they only read ([`calls`]).
 //! - A constant table that is indexed at run time lives in a buffer ([`tables`]); a small one once in a private global
 //!   with an initialiser: naga's SPIR-V writer would otherwise copy the whole table to the stack at each access.
-//! - Every index that is not provably in range is clamped here, as WebGL does; the modules need no bounds checks from naga.
+//! - Every index that is not provably in range is clamped here ([`ranges`] tells what is known), as WebGL does; the modules need no bounds checks from naga.
+//!   Divisors of integers that may be zero are guarded ([`divide`]), as no driver's compiler may meet one.
 //!   Fetches outside a texture are left to the driver's image robustness, which gives the zeros WebGL promises.
 //! - `&&`, `||` and `?:` become selects where both sides are cheap and have no effects, branches elsewhere.
 
@@ -25,6 +26,7 @@ mod calls;
 mod consts;
 mod convert;
 mod cost;
+mod divide;
 mod entry;
 mod expr;
 mod filled;

@@ -2,7 +2,10 @@
 
 use naga::{BinaryOperator as Op, Expression, RelationalFunction, ScalarKind, UnaryOperator};
 
-use super::function::{Builder, Value};
+use super::{
+    divide::Operands,
+    function::{Builder, Value},
+};
 use crate::glsl::hir::{BinaryOp, ExprId, ExprKind, IncDec, Scalar, Shape, Type, TypeId, UnaryOp};
 
 /// A value and its type.
@@ -50,6 +53,9 @@ impl Builder<'_, '_> {
             B::LogicalXor => return self.op(Op::NotEqual, left.1, right.1),
             B::Shl => return self.shift(Op::ShiftLeft, left, right),
             B::Shr => return self.shift(Op::ShiftRight, left, right),
+            B::Div | B::Rem if types.scalar(left.0) != Some(Scalar::Float) => {
+                return self.int_division(op, shape, left, right, Operands::default());
+            }
             _ => {}
         }
         let op = match op {
@@ -120,53 +126,12 @@ impl Builder<'_, '_> {
             }
             return self.by_column(op, shape, (columns, rows), left.1, right.1);
         }
-        let (l, mut r) = match shape {
+        let (l, r) = match shape {
             Shape::ScalarLeft => (self.splat(left.1, right.0), right.1),
             Shape::ScalarRight => (left.1, self.splat(right.1, left.0)),
             _ => (left.1, right.1),
         };
-        if matches!(op, Op::Divide | Op::Modulo) && self.cx.hir.types.scalar(left.0) != Some(Scalar::Float) {
-            r = self.opaque_divisor(r);
-        }
-        if op == Op::Modulo && self.cx.hir.types.scalar(left.0) == Some(Scalar::Int) {
-            let ty = if shape == Shape::ScalarLeft { right.0 } else { left.0 };
-            return self.remainder(ty, l, r);
-        }
         self.op(op, l, r)
-    }
-
-    /// `%` of ints. Undefined where a side is negative (section 5.9), but shaders lean on what OpenGL drivers and the site make of
-    /// it: a remainder with the divisor's sign.
-    fn remainder(&mut self, ty: TypeId, left: Value, right: Value) -> Value {
-        let mut divisor = right;
-        if let Expression::Splat { value, .. } = self.f.expressions[divisor] {
-            divisor = value;
-        }
-        let known = match self.f.expressions[divisor] {
-            Expression::Literal(naga::Literal::I32(divisor)) if divisor > 0 => Some(divisor as u32),
-            _ => None,
-        };
-        if let Some(divisor) = known.filter(|divisor| divisor.is_power_of_two()) {
-            let mask = self.int_of(ty, divisor - 1);
-            return self.op(Op::And, left, mask);
-        }
-        // Not naga's `%`, whose SPIR-V form guards against overflow that cannot be here.
-        let quotient = self.op(Op::Divide, left, right);
-        let multiple = self.op(Op::Multiply, quotient, right);
-        let rest = self.op(Op::Subtract, left, multiple);
-        let zero = self.zero(ty);
-        // A rest of 0 has no sign: for a positive divisor it is not below zero, and for a negative one the test is on the product of
-        // signs, which 0 must not enter.
-        let wrong_side = if known.is_some() {
-            self.op(Op::Less, rest, zero)
-        } else {
-            let signs = self.op(Op::ExclusiveOr, rest, right);
-            let differ = self.op(Op::Less, signs, zero);
-            let some = self.op(Op::NotEqual, rest, zero);
-            self.op(Op::And, differ, some)
-        };
-        let moved = self.op(Op::Add, rest, right);
-        self.select(wrong_side, moved, rest)
     }
 
     /// Component by component on matrices, where naga has no operator for it.
@@ -190,40 +155,6 @@ impl Builder<'_, '_> {
             out.push(self.each(column_ty, [(column_ty, l), (column_ty, r)], |b, [l, r]| b.op(op, l, r)));
         }
         self.compose(TypeId::matrix(columns, rows), out)
-    }
-
-    /// naga's validator refuses a division by a literal zero; GLSL only leaves the result open.
-    fn opaque_divisor(&mut self, divisor: Value) -> Value {
-        if !self.holds_zero(divisor) {
-            return divisor;
-        }
-        self.add(Expression::Math {
-            fun: naga::MathFunction::Max,
-            arg: divisor,
-            arg1: Some(divisor),
-            arg2: None,
-            arg3: None,
-        })
-    }
-
-    fn holds_zero(&self, value: Value) -> bool {
-        let is_zero = |literal: &naga::Literal| matches!(literal, naga::Literal::I32(0) | naga::Literal::U32(0));
-        match &self.f.expressions[value] {
-            Expression::Literal(literal) => is_zero(literal),
-            Expression::ZeroValue(_) => true,
-            Expression::Splat { value, .. } => self.holds_zero(*value),
-            Expression::Compose { components, .. } => components.iter().any(|&part| self.holds_zero(part)),
-            Expression::Constant(constant) => {
-                let expressions = &self.cx.out.global_expressions;
-                match &expressions[self.cx.out.constants[*constant].init] {
-                    Expression::Compose { components, .. } => components
-                        .iter()
-                        .any(|&part| matches!(&expressions[part], Expression::Literal(literal) if is_zero(literal))),
-                    _ => false,
-                }
-            }
-            _ => false,
-        }
     }
 
     /// Distances of 32 and more are undefined in GLSL and refused by naga: the low five bits count, as on all hardware.
@@ -289,14 +220,15 @@ impl Builder<'_, '_> {
     pub fn assign_op(&mut self, op: BinaryOp, shape: Shape, place: ExprId, value: ExprId) -> Value {
         let hir = self.cx.hir;
         let (place_ty, value_ty) = (hir[place].ty, hir[value].ty);
-        let place = self.place(place);
+        let at = self.place(place);
         let mut right = self.value(value);
+        let operands = self.operands_of(op, place, value);
         if op == BinaryOp::Div {
             right = self.divisor(value, right);
         }
-        let left = self.load_place(place);
-        let result = self.binary(op, shape, (place_ty, left), (value_ty, right));
-        self.store_place(place, result);
+        let left = self.load_place(at);
+        let result = self.operation(op, shape, (place_ty, left), (value_ty, right), operands);
+        self.store_place(at, result);
         result
     }
 

@@ -1,6 +1,19 @@
-//! What is known of integers: so that an index provably in range needs no clamp.
+//! What is known of integers: so that an index provably in range needs no clamp, and a divisor that is never zero no guard.
+//!
+//! Nothing else keeps a generated program from memory that is not its own, nor from a trapping division: so what is known of a
+//! local must hold at the very place where it is asked for. There are two kinds:
+//! - What [`Builder::note_range`] finds holds for each value that the local has from its declaration until it is declared again,
+//!   wherever the code between is written out: it follows from the declaration and from the only expression that writes the
+//!   local. A function that becomes part of its caller again begins anew ([`Builder::enter`]).
+//! - The bounds of a counter in the rounds of its loop hold in the loop's body alone. They are part of the entry in
+//!   [`Builder::loops`], which says in which part of the loop the code at hand lies ([`Builder::within`]).
+//!
+//! `tests/glsl_bounds.rs` has each way in which code is written out twice or elsewhere.
 
-use super::{function::Builder, writes};
+use super::{
+    function::{Builder, Part},
+    writes,
+};
 use crate::glsl::{
     ast::List,
     hir::{BinaryOp, Builtin, ExprId, ExprKind, IncDec, LocalId, Module, Scalar, Shape, StmtId, StmtKind, TypeId},
@@ -50,6 +63,14 @@ impl Builder<'_, '_> {
         self.range_within(expr, DEPTH)
     }
 
+    /// Bounds of what a local holds at this place; of a float, those of `int(x)`. The loops at hand say what holds in their bodies
+    /// alone: code that leaves a body, as a step does that is written out at a `continue`, asks in vain.
+    fn bounds_here(&self, local: LocalId) -> Option<Bounds> {
+        let counters = self.loops.iter().rev().filter(|at| at.part == Part::Body).filter_map(|at| at.counter);
+        let of_round = counters.into_iter().find_map(|(counter, bounds)| (counter == local).then_some(bounds));
+        of_round.or_else(|| self.declared.get(&(local.index() as u32)).copied())
+    }
+
     fn range_within(&self, expr: ExprId, depth: u32) -> Option<Bounds> {
         let hir = self.cx.hir;
         let ty = hir[expr].ty;
@@ -62,12 +83,12 @@ impl Builder<'_, '_> {
                 let value = if ty == TypeId::UINT { i64::from(bits) } else { i64::from(bits as i32) };
                 Some((value, value))
             }
-            ExprKind::Local(local) => self.known.get(&(local.index() as u32)).copied(),
+            ExprKind::Local(local) => self.bounds_here(local),
             ExprKind::Convert(of) => match hir.types.scalar(hir[of].ty) {
                 Some(Scalar::Bool) => Some((0, 1)),
                 Some(Scalar::Int | Scalar::Uint) => fits(self.range_within(of, depth)?),
                 Some(Scalar::Float) => match hir[of].kind {
-                    ExprKind::Local(local) => fits(self.known.get(&(local.index() as u32)).copied()?),
+                    ExprKind::Local(local) => fits(self.bounds_here(local)?),
                     _ => None,
                 },
                 _ => None,
@@ -121,7 +142,7 @@ impl Builder<'_, '_> {
 
     /// For `for (int i = a; i < b; i++)` whose `i` is written by the step alone: `i` and its bounds in the body. Any order of
     /// comparison and any known step will do.
-    pub fn counter(&self, init: List<StmtId>, test: ExprId, step: Option<ExprId>) -> Option<(u32, Bounds)> {
+    pub fn counter(&self, init: List<StmtId>, test: ExprId, step: Option<ExprId>) -> Option<(LocalId, Bounds)> {
         let hir = self.cx.hir;
         let ExprKind::Binary { op, shape: Shape::Same, lhs, rhs } = hir[test].kind else { return None };
         let (local, op, bound) = match (hir[lhs].kind, hir[rhs].kind) {
@@ -147,12 +168,12 @@ impl Builder<'_, '_> {
             }
             _ => None,
         }?;
-        Some((local.index() as u32, bounds))
+        Some((local, bounds))
     }
 
     /// For `for (float x = 0.0; x < 9.0; x += 1.0)` whose `x` is written by the step alone, all of it literals: `x` and the bounds
     /// of `int(x)` in the body.
-    pub fn float_counter(&self, init: List<StmtId>, test: ExprId, step: Option<ExprId>) -> Option<(u32, Bounds)> {
+    pub fn float_counter(&self, init: List<StmtId>, test: ExprId, step: Option<ExprId>) -> Option<(LocalId, Bounds)> {
         let hir = self.cx.hir;
         let ExprKind::Binary { op, shape: Shape::Same, lhs, rhs } = hir[test].kind else { return None };
         let ExprKind::Local(local) = hir[lhs].kind else { return None };
@@ -187,7 +208,7 @@ impl Builder<'_, '_> {
             BinaryOp::Greater if by <= 0.0 => (last, first),
             _ => return None,
         };
-        Some((local.index() as u32, bounds))
+        Some((local, bounds))
     }
 
     /// What the loop's own declarations give `local`.

@@ -134,7 +134,7 @@ impl Builder<'_, '_> {
             _ => self.cx.counted.get(&local.index()).copied().and_then(|c| self.counted_range(local, start, limits, c)),
         };
         if let Some(bounds) = bounds {
-            self.known.insert(local.index() as u32, bounds);
+            self.declared.insert(local.index() as u32, bounds);
         }
     }
 

@@ -1,0 +1,193 @@
+//! Quotients and remainders of integers, which nothing may trap on.
+//!
+//! GLSL leaves a division by zero open (section 5.9), and so does SPIR-V, with that of the least int by -1. On x86 either ends the
+//! process: in Mesa's drivers already when they fold constants (`idiv` in `nir_constant_expressions.c` asks for a zero only). So a
+//! divisor of which it is not known to be neither is guarded here, and no driver meets one: WGSL's values hold (section 8.7), `x / 0`
+//! is `x`, `x % 0` is 0, and the least int divided by -1 is itself, with the remainder 0. That is division by 1.
+//!
+//! naga has guards too, but as functions that are called, and without regard to what is known of the operands.
+
+use naga::{BinaryOperator as Op, Expression, MathFunction};
+
+use super::{
+    function::{Builder, Value},
+    operators::Typed,
+    ranges::Bounds,
+};
+use crate::glsl::hir::{BinaryOp, ExprId, Scalar, Shape, TypeId};
+
+const LEAST: u32 = i32::MIN as u32;
+const MINUS_ONE: u32 = -1i32 as u32;
+
+/// What is known of the operands of a division.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Operands {
+    left: Option<Bounds>,
+    right: Option<Bounds>,
+}
+
+impl Builder<'_, '_> {
+    /// What [`Builder::operation`] is to know of these.
+    pub fn operands_of(&self, op: BinaryOp, lhs: ExprId, rhs: ExprId) -> Operands {
+        match op {
+            BinaryOp::Div | BinaryOp::Rem => Operands { left: self.range(lhs), right: self.range(rhs) },
+            _ => Operands::default(),
+        }
+    }
+
+    /// [`Builder::binary`], with what is known of the operands.
+    pub fn operation(&mut self, op: BinaryOp, shape: Shape, left: Typed, right: Typed, known: Operands) -> Value {
+        match op {
+            BinaryOp::Div | BinaryOp::Rem if self.cx.hir.types.scalar(left.0) != Some(Scalar::Float) => {
+                self.int_division(op, shape, left, right, known)
+            }
+            _ => self.binary(op, shape, left, right),
+        }
+    }
+
+    /// `/` and `%` of ints and uints.
+    pub fn int_division(&mut self, op: BinaryOp, shape: Shape, left: Typed, right: Typed, known: Operands) -> Value {
+        let ty = if shape == Shape::ScalarLeft { right.0 } else { left.0 };
+        let signed = self.cx.hir.types.scalar(ty) == Some(Scalar::Int);
+        let dividend = if shape == Shape::ScalarLeft { self.splat(left.1, ty) } else { left.1 };
+        let mut numbers = Vec::new();
+        let divisor = match self.int_components(right.0, right.1, &mut numbers) {
+            // The divisor that is no divisor, without a division.
+            Some(()) if signed && numbers.iter().all(|&number| number == MINUS_ONE) => {
+                let zero = self.zero(ty);
+                return if op == BinaryOp::Rem { zero } else { self.op(Op::Subtract, zero, dividend) };
+            }
+            Some(()) => {
+                let overflows = signed && numbers.contains(&MINUS_ONE);
+                let divisor = self.without_zeros(right, numbers);
+                let divisor = self.splat_to(divisor, right.0, ty);
+                if overflows { self.guarded(ty, dividend, divisor, false) } else { divisor }
+            }
+            None => {
+                let divisor = self.splat_to(right.1, right.0, ty);
+                let may_be =
+                    |bounds: Option<Bounds>, number: i64| bounds.is_none_or(|(l, g)| l <= number && number <= g);
+                let zero = may_be(known.right, 0);
+                if signed && may_be(known.right, -1) && may_be(known.left, i32::MIN.into()) {
+                    self.guarded(ty, dividend, divisor, zero)
+                } else if zero && (!signed || known.right.is_some_and(|(least, _)| least >= 0)) {
+                    let one = self.int_of(ty, 1);
+                    self.math2(MathFunction::Max, divisor, one)
+                } else if zero {
+                    let none = self.zero(ty);
+                    let one = self.int_of(ty, 1);
+                    let is_zero = self.op(Op::Equal, divisor, none);
+                    self.select(is_zero, one, divisor)
+                } else {
+                    divisor
+                }
+            }
+        };
+        match op {
+            BinaryOp::Rem if signed => self.remainder(ty, dividend, divisor),
+            BinaryOp::Rem => self.op(Op::Modulo, dividend, divisor),
+            _ => self.op(Op::Divide, dividend, divisor),
+        }
+    }
+
+    fn splat_to(&mut self, value: Value, from: TypeId, ty: TypeId) -> Value {
+        if from == ty { value } else { self.splat(value, ty) }
+    }
+
+    /// 1 for a divisor that would overflow or, where it may be that, is zero.
+    fn guarded(&mut self, ty: TypeId, dividend: Value, divisor: Value, zero: bool) -> Value {
+        let (least, minus_one, one) = (self.int_of(ty, LEAST), self.int_of(ty, MINUS_ONE), self.int_of(ty, 1));
+        let is_least = self.op(Op::Equal, dividend, least);
+        let is_minus_one = self.op(Op::Equal, divisor, minus_one);
+        let mut bad = self.op(Op::And, is_least, is_minus_one);
+        if zero {
+            let none = self.zero(ty);
+            let is_zero = self.op(Op::Equal, divisor, none);
+            bad = self.op(Op::InclusiveOr, is_zero, bad);
+        }
+        self.select(bad, one, divisor)
+    }
+
+    /// A constant divisor with ones in place of zeros.
+    fn without_zeros(&mut self, divisor: Typed, mut numbers: Vec<u32>) -> Value {
+        if !numbers.contains(&0) {
+            return divisor.1;
+        }
+        numbers.iter_mut().filter(|number| **number == 0).for_each(|number| *number = 1);
+        let scalar = self.cx.hir.types.scalar(divisor.0).unwrap_or(Scalar::Int);
+        let parts: Vec<Value> = numbers.into_iter().map(|number| self.literal(scalar, number)).collect();
+        match parts[..] {
+            [one] => one,
+            _ => self.compose(divisor.0, parts),
+        }
+    }
+
+    /// Adds the components of a constant; `None` if it is not known, or no constant.
+    fn int_components(&self, ty: TypeId, value: Value, out: &mut Vec<u32>) -> Option<()> {
+        let count = self.extent(ty) as usize;
+        let literal = |expression: &Expression| match *expression {
+            Expression::Literal(naga::Literal::I32(number)) => Some(number as u32),
+            Expression::Literal(naga::Literal::U32(number)) => Some(number),
+            Expression::ZeroValue(_) => Some(0),
+            _ => None,
+        };
+        match &self.f.expressions[value] {
+            Expression::ZeroValue(_) => out.extend(std::iter::repeat_n(0, count)),
+            Expression::Splat { value, .. } => {
+                let number = literal(&self.f.expressions[*value])?;
+                out.extend(std::iter::repeat_n(number, count));
+            }
+            Expression::Compose { components, .. } => {
+                for &part in components {
+                    out.push(literal(&self.f.expressions[part])?);
+                }
+            }
+            Expression::Constant(constant) => {
+                let expressions = &self.cx.out.global_expressions;
+                let Expression::Compose { components, .. } = &expressions[self.cx.out.constants[*constant].init] else {
+                    return None;
+                };
+                for &part in components {
+                    out.push(literal(&expressions[part])?);
+                }
+            }
+            expression => out.push(literal(expression)?),
+        }
+        // A zero within a vector that is put together may stand for more than one component.
+        (out.len() == count).then_some(())
+    }
+
+    /// `%` of ints. Undefined where a side is negative (section 5.9), but shaders lean on what OpenGL drivers and the site make of
+    /// it: a remainder with the divisor's sign.
+    fn remainder(&mut self, ty: TypeId, left: Value, right: Value) -> Value {
+        let mut divisor = right;
+        if let Expression::Splat { value, .. } = self.f.expressions[divisor] {
+            divisor = value;
+        }
+        let known = match self.f.expressions[divisor] {
+            Expression::Literal(naga::Literal::I32(divisor)) if divisor > 0 => Some(divisor as u32),
+            _ => None,
+        };
+        if let Some(divisor) = known.filter(|divisor| divisor.is_power_of_two()) {
+            let mask = self.int_of(ty, divisor - 1);
+            return self.op(Op::And, left, mask);
+        }
+        // Not naga's `%`, whose SPIR-V form guards once more against what cannot be here.
+        let quotient = self.op(Op::Divide, left, right);
+        let multiple = self.op(Op::Multiply, quotient, right);
+        let rest = self.op(Op::Subtract, left, multiple);
+        let zero = self.zero(ty);
+        // A rest of 0 has no sign: for a positive divisor it is not below zero, and for a negative one the test is on the product of
+        // signs, which 0 must not enter.
+        let wrong_side = if known.is_some() {
+            self.op(Op::Less, rest, zero)
+        } else {
+            let signs = self.op(Op::ExclusiveOr, rest, right);
+            let differ = self.op(Op::Less, signs, zero);
+            let some = self.op(Op::NotEqual, rest, zero);
+            self.op(Op::And, differ, some)
+        };
+        let moved = self.op(Op::Add, rest, right);
+        self.select(wrong_side, moved, rest)
+    }
+}

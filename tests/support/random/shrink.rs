@@ -1,0 +1,54 @@
+//! Makes a program that shows a fault smaller.
+
+use super::{Program, Stmt};
+
+/// Leaves out statements, one after the other, while `fails` says that the fault stays; at most so many attempts.
+pub fn shrink(program: &Program, mut attempts: usize, mut fails: impl FnMut(&Program) -> bool) -> Program {
+    let mut best = program.clone();
+    loop {
+        let mut smaller = false;
+        let mut at = 0;
+        loop {
+            let mut candidate = best.clone();
+            let mut left = at;
+            let mut removed = candidate.functions.iter_mut().any(|function| remove(&mut function.body, &mut left));
+            removed |= !removed && remove(&mut candidate.body, &mut left);
+            if !removed || attempts == 0 {
+                break;
+            }
+            attempts -= 1;
+            if fails(&candidate) {
+                (best, smaller) = (candidate, true);
+            } else {
+                at += 1;
+            }
+        }
+        if !smaller || attempts == 0 {
+            return best;
+        }
+    }
+}
+
+/// Removes the statement of this number, the outer ones counted before those within; puts in its place what it consists of
+/// when it is met once more.
+fn remove(list: &mut Vec<Stmt>, left: &mut usize) -> bool {
+    let mut i = 0;
+    while i < list.len() {
+        if *left == 0 {
+            list.remove(i);
+            return true;
+        }
+        *left -= 1;
+        let within = match &mut list[i] {
+            Stmt::If(_, then, otherwise) => remove(then, left) || remove(otherwise, left),
+            Stmt::For { body, .. } | Stmt::While(_, body) | Stmt::Do(body, _) | Stmt::Block(body) => remove(body, left),
+            Stmt::Switch(_, cases) => cases.iter_mut().any(|(_, body)| remove(body, left)),
+            _ => false,
+        };
+        if within {
+            return true;
+        }
+        i += 1;
+    }
+    false
+}
