@@ -14,8 +14,8 @@ const NONE: [f32; 4] = [0.0; 4];
 /// The digits of an array of four numbers below ten, the first element last; and what may be called.
 const BEFORE: &str = "\
 float digits(int v[4]) { int s = 0; for (int k = 3; k >= 0; k--) s = s * 10 + v[(k + I) & 3]; return float(s); }
-void put(inout int v[4], int at) { v[at] = 7; }
-void add(inout int x, int by) { x += by; }
+int put(inout int v[4], int at) { v[at] = 7; return at; }
+int add(inout int x, int by) { x += by; return x; }
 int past(int v[4], int at) { if (at > 50) return v[at] + 1; for (int i = 0; i < 4; i += 100, at = i) if (I == 0) continue; return v[at]; }
 struct S { int i; };
 ";
@@ -90,7 +90,7 @@ fn loops_within_loops() {
             "for (int i = 0; i < 4; i += 100, a[i] = 7) { for (int j = 0; j < 4; j += 100, a[i] = 1) { if (I == 0) continue; } if (I == 0) continue; }",
             7001.,
         ),
-        bounds("for (int i = 0; i < 4; i++) { int i = 100 + I; a[i] = 7; }", 7000.),
+        bounds("for (int i = 0; i < 4; i++) { { int i = 100 + I; a[i] = 7; } }", 7000.),
         bounds(
             "for (int i = 0; i < 4; i += 100) { for (int i = 0; i < 3; i++) { a[i] = 1; if (I == 0) continue; } a[i] += 2; }",
             113.,
@@ -147,7 +147,7 @@ fn functions_that_become_part_of_their_callers() {
 float digits(int v[4]) { int s = 0; for (int k = 3; k >= 0; k--) s = s * 10 + v[(k + I) & 3]; return float(s); }
 int G[4];
 int walk(int from, int by) { int n = from; for (int i = from; i < 4; i += by) { if (i > 90) return i; G[i] = 7; n = i; if (I == 1) return 2; } G[n + by] = 6; return n + by; }
-void twice(int at) { int n = at; if (at > 3) { G[n] = 5; return; } for (int i = 0; i < 4; i += 100, G[i] = 8) { if (i == at) continue; return; } G[n] = 4; }
+int twice(int at) { int n = at; if (at > 3) { G[n] = 5; return n; } for (int i = 0; i < 4; i += 100, G[i] = 8) { if (i == at) continue; return i; } G[n] = 4; return -n; }
 ";
     let given = |body, digits| Case { before: FUNCTIONS, body, expected: [digits, 0.0, 0.0, 1.0] };
     check(&[

@@ -119,3 +119,27 @@ fn loops_read_what_they_write() {
         ),
     ]);
 }
+
+/// A test or a step runs in every round: what it calls begins anew each time.
+#[test]
+fn tests_and_steps_begin_anew() {
+    const SUM: &str = "int G; int sum(int i) { int b[4]; b[i & 3] += 1 + i; int s = 0; for (int k = 0; k < 4; k++) s += b[k]; G += s; return s; }";
+    check(&[
+        with(SUM, "r = vec4(0); for (int i = I; sum(i) < 4; i++) r.x++; r.y = float(G);", [3., 10., 0., 0.]),
+        with(
+            SUM,
+            "r = vec4(0); for (int i = I; i < 3; sum(i), i++) { r.x++; if (i == 1) continue; } r.y = float(G);",
+            [3., 6., 0., 0.],
+        ),
+        with(
+            SUM,
+            "r = vec4(0); int i = I; do { r.x++; if (i == 5) continue; } while (sum(i++) < 3); r.y = float(G);",
+            [3., 6., 0., 0.],
+        ),
+        with(
+            SUM,
+            "r = vec4(0); int i = I; while (sum(i) < 4 && i < 9) { i++; r.x++; } r.y = float(G);",
+            [3., 10., 0., 0.],
+        ),
+    ]);
+}

@@ -9,7 +9,8 @@ pub struct Rng(u64);
 
 impl Rng {
     pub fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15))
+        // Not the factor of the step, with which the numbers of one seed would be those of the next, one place on.
+        Self(seed.wrapping_mul(0xd134_2543_de82_ef95))
     }
 
     pub fn next(&mut self) -> u64 {
@@ -48,6 +49,7 @@ pub fn make(seed: u64) -> Program {
         },
         scopes: vec![Vec::new()],
         counters: Vec::new(),
+        stepped: Vec::new(),
         result: None,
         in_function: false,
         loops: 0,
@@ -66,6 +68,8 @@ pub(super) struct Maker {
     pub scopes: Vec<Vec<VarId>>,
     /// Variables that only a loop's step may write.
     pub counters: Vec<VarId>,
+    /// What loops at hand count, whatever else writes it: steps must be able to name it.
+    stepped: Vec<VarId>,
     /// Of the function at hand.
     result: Option<Ty>,
     in_function: bool,
@@ -94,7 +98,7 @@ impl Maker {
         for _ in 0..self.rng.below(4) {
             self.function();
         }
-        self.budget = 14;
+        self.budget = 9;
         self.scopes.push(Vec::new());
         let mut body = Vec::new();
         for _ in 0..2 + self.rng.below(3) {
@@ -147,7 +151,8 @@ impl Maker {
     /// Sometimes gives a variable the name of one of an outer scope, which then cannot be named.
     fn shadow(&mut self, var: VarId) {
         let (_, outer) = self.scopes.split_last().expect("a scope");
-        let outer: Vec<VarId> = outer.iter().skip(1).flatten().copied().collect();
+        let mut outer: Vec<VarId> = outer.iter().skip(1).flatten().copied().collect();
+        outer.retain(|var| !self.stepped.contains(var));
         if outer.is_empty() || self.depth < 2 || !self.rng.percent(15) {
             return;
         }
@@ -216,7 +221,7 @@ impl Maker {
             self.rng.percent(75).then(|| if self.rng.percent(70) { self.scalar_type() } else { self.any_type() });
         self.result = result.clone();
         self.in_function = true;
-        self.budget = 2 + self.rng.below(5) as i32;
+        self.budget = 1 + self.rng.below(4) as i32;
         let mut body = Vec::new();
         while self.budget > 0 {
             self.statement(&mut body);
@@ -369,7 +374,7 @@ impl Maker {
         self.scopes.push(vec![counter]);
         let step = if self.rng.percent(60) {
             let other = if self.rng.percent(70) { self.indexed_by(counter) } else { None };
-            let other = Box::new(other.unwrap_or_else(|| self.effect()));
+            let other = Box::new(other.unwrap_or_else(|| self.effect_with_value()));
             match self.rng.percent(70) {
                 true => Expr::Comma(Box::new(step), other),
                 false => Expr::Comma(other, Box::new(step)),
@@ -391,6 +396,16 @@ impl Maker {
             test: Some(test),
             step: Some(step),
             body,
+        }
+    }
+
+    /// A comma takes no value of type `void`.
+    fn effect_with_value(&mut self) -> Expr {
+        loop {
+            let effect = self.effect();
+            if !matches!(effect, Expr::Call(function, ..) if self.program.functions[function].result.is_none()) {
+                return effect;
+            }
         }
     }
 
@@ -446,7 +461,9 @@ impl Maker {
         if !free {
             self.counters.push(counter);
         }
+        self.stepped.push(counter);
         let mut body = self.loop_body(Vec::new());
+        self.stepped.pop();
         // What counts stays a counter: it is in scope behind the loop.
         let by = *self.rng.pick(&[1, 1, 1, 2, 1_500_000_000]);
         let op = if down { Op::Sub } else { Op::Add };
