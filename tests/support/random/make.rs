@@ -50,6 +50,7 @@ pub fn make(seed: u64) -> Program {
         scopes: vec![Vec::new()],
         counters: Vec::new(),
         stepped: Vec::new(),
+        cases: Vec::new(),
         result: None,
         in_function: false,
         loops: 0,
@@ -70,6 +71,8 @@ pub(super) struct Maker {
     pub counters: Vec<VarId>,
     /// What loops at hand count, whatever else writes it: steps must be able to name it.
     stepped: Vec<VarId>,
+    /// How many scopes there are within the cases of each switch at hand.
+    cases: Vec<usize>,
     /// Of the function at hand.
     result: Option<Ty>,
     in_function: bool,
@@ -153,7 +156,9 @@ impl Maker {
         let (_, outer) = self.scopes.split_last().expect("a scope");
         let mut outer: Vec<VarId> = outer.iter().skip(1).flatten().copied().collect();
         outer.retain(|var| !self.stepped.contains(var));
-        if outer.is_empty() || self.depth < 2 || !self.rng.percent(15) {
+        // What is declared in one case hides names in the next.
+        let in_case = self.cases.last() == Some(&self.scopes.len());
+        if outer.is_empty() || in_case || self.depth < 2 || !self.rng.percent(15) {
             return;
         }
         let hidden = *self.rng.pick(&outer);
@@ -399,11 +404,12 @@ impl Maker {
         }
     }
 
-    /// A comma takes no value of type `void`.
+    /// What a comma takes: no `void`, array or structure.
     fn effect_with_value(&mut self) -> Expr {
         loop {
             let effect = self.effect();
-            if !matches!(effect, Expr::Call(function, ..) if self.program.functions[function].result.is_none()) {
+            let void = matches!(effect, Expr::Call(function, ..) if self.program.functions[function].result.is_none());
+            if !void && matches!(effect.ty(), Ty::Num(..)) {
                 return effect;
             }
         }
@@ -490,6 +496,7 @@ impl Maker {
         let mut cases: Vec<(Vec<Option<u32>>, Vec<Stmt>)> = Vec::new();
         self.breakable += 1;
         self.scopes.push(Vec::new());
+        self.cases.push(self.scopes.len());
         while !labels.is_empty() {
             let count = if labels.len() > 1 && self.rng.percent(20) { 2 } else { 1 };
             let taken = labels.drain(..count).collect();
@@ -504,6 +511,7 @@ impl Maker {
             cases.push((taken, body));
         }
         self.scopes.pop();
+        self.cases.pop();
         self.breakable -= 1;
         Stmt::Switch(value, cases)
     }

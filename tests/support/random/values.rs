@@ -20,12 +20,13 @@ impl Maker {
             return call;
         }
         let scalar = self.scalar_type();
-        if self.rng.percent(4)
+        if matches!(ty, Ty::Num(..))
+            && self.rng.percent(4)
             && let Some(first) = self.effect_of(&scalar, depth - 1)
         {
             return Expr::Comma(Box::new(first), Box::new(self.value(ty, depth - 1)));
         }
-        if self.rng.percent(6) && !matches!(ty, Ty::Array(..)) {
+        if self.rng.percent(6) && matches!(ty, Ty::Num(..) | Ty::Mat(..)) {
             let cond = self.value(&BOOL, depth - 1);
             let (then, otherwise) = (self.value(ty, depth - 1), self.value(ty, depth - 1));
             return Expr::Ternary(Box::new(cond), Box::new(then), Box::new(otherwise), ty.clone());
