@@ -9,8 +9,6 @@ mod support;
 
 use compute::*;
 
-const NONE: [f32; 4] = [0.0; 4];
-
 /// The digits of an array of four numbers below ten, the first element last; and what may be called.
 const BEFORE: &str = "\
 float digits(int v[4]) { int s = 0; for (int k = 3; k >= 0; k--) s = s * 10 + v[(k + I) & 3]; return float(s); }
@@ -22,7 +20,7 @@ struct S { int i; };
 
 /// What `a` holds after these statements, by its digits.
 const fn bounds(body: &'static str, digits: f32) -> Case {
-    Case { before: BEFORE, body, expected: [digits, NONE[0], NONE[0], 1.0] }
+    Case { before: BEFORE, body, expected: [digits, 0.0, 0.0, 1.0] }
 }
 
 /// Draws each case with `a` between its guards.
@@ -119,6 +117,10 @@ fn loops_of_other_kinds() {
         // Behind the loop a counter is what the step made of it.
         bounds("int i = 0; for (; i < 4; i += 100) { if (I == 0) continue; } a[i] = 7;", 7000.),
         bounds("int i = 3; while (i > 0) i -= 100; a[i] = 7;", 7.),
+        // A remainder has the divisor's sign.
+        bounds("a[(I - 7) % 4] = 7; a[(I - 7) % 3] = 6; a[(I - 6) % 3] = 5;", 675.),
+        bounds("int d = (I & 1) + 3; a[(I - 7) % d] = 7; a[(-2147483647 - 1 + I) % d] = 6;", 760.),
+        bounds("int d = (I & 1) - 3; a[(I + 7) % d] = 7; a[(I + 7) % -4 + 3] = 6;", 607.),
     ]);
 }
 

@@ -99,7 +99,7 @@ fn divisions_have_the_values_of_wgsl() {
         ones(
             "int z = I, q = 7; q /= z; r.x = is(q, 7); q %= z; r.y = is(q, 0); q = LEAST; q /= z - 1; r.z = is(q, LEAST); r.w = is(7 / (z - 1), -7);",
         ),
-        ones("r = vec4(5u / U == 5u, 5u % U == 0u, 5u / (U + 2u) == 2u, (U - 1u) / (U - 1u) == 1u);"),
+        case("r = vec4(5u / U == 5u, 5u % U == 0u, 5u / (U + 2u) == 2u, (U - 1u) / (U - 1u) == 1u);", [1.; 4]),
         ones(
             "ivec4 q = ivec4(LEAST, 7, 7, LEAST) / (ivec4(-1, 0, -1, 0) + I); r = vec4(is(q.x, LEAST), is(q.y, 7), is(q.z, -7), is(q.w, LEAST));",
         ),

@@ -107,11 +107,8 @@ impl Builder<'_, '_> {
                     (BinaryOp::BitAnd, _, Some((0.., mask))) | (BinaryOp::BitAnd, Some((0.., mask)), _) => {
                         Some((0, mask))
                     }
-                    (BinaryOp::Rem, left, Some(r)) if r.0 > 0 => {
-                        let last = r.1 - 1;
-                        let least = if ty == TypeId::UINT || left.is_some_and(|l| l.0 >= 0) { 0 } else { -last };
-                        Some((least, last))
-                    }
+                    // With the divisor's sign: see `Builder::int_division`.
+                    (BinaryOp::Rem, _, Some(r)) if r.0 > 0 => Some((0, r.1 - 1)),
                     (BinaryOp::Shr, left, Some(r)) if r.0 == r.1 && (0..32).contains(&r.0) => {
                         let left = left.unwrap_or(limits);
                         Some((left.0 >> r.0, left.1 >> r.0))
