@@ -69,7 +69,7 @@ pub(super) fn parse_texts(pieces: &[Piece<'_>], unit: Unit) -> Parsed {
         declarators: Vec::new(),
         last_error: pre.is_cut.then_some(count - 1),
         reserved_told: Vec::new(),
-        structs: Vec::new(),
+        structs: vec![false; names.len()],
         body: None,
         adrift: false,
         too_deep_told: false,
@@ -107,8 +107,8 @@ struct Parser<'p> {
     last_error: Option<usize>,
     /// Reserved words that were reported.
     reserved_told: Vec<u32>,
-    /// Names of all structs so far.
-    structs: Vec<u32>,
+    /// Whether a struct has the name, by symbol.
+    structs: Vec<bool>,
     /// The opening brace of the function that is being read, and its name.
     body: Option<(usize, Ident)>,
     /// A brace too many left the parser outside of functions; said once.

@@ -29,7 +29,8 @@ impl Report {
 
     /// As [`Report::add`]; where the mistake stands in a macro's definition, only its first use counts.
     pub fn add_in_macro(&mut self, definition: Option<Span>, diagnostic: Diagnostic) {
-        if let Some(span) = definition {
+        // What is left out need not be told apart, which takes a look at each place so far.
+        if let Some(span) = definition.filter(|_| !self.is_full()) {
             if self.in_macros.contains(&span) {
                 return;
             }

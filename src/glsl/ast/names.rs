@@ -1,5 +1,7 @@
 //! Identifiers as numbers.
 
+use std::hash::{BuildHasher, Hasher, RandomState};
+
 /// An interned identifier: equal text, equal symbol, within one [`Interner`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Symbol(pub u32);
@@ -16,11 +18,15 @@ pub struct Interner {
     ends: Vec<u32>,
     /// Open addressing, power of two in size: 0 is free, otherwise symbol + 1.
     table: Vec<u32>,
+    /// Another one in every process: names that all fall into one place of the table cannot be made up beforehand.
+    /// Symbols do not depend on it.
+    seed: u64,
 }
 
 impl Default for Interner {
     fn default() -> Self {
-        Self { text: String::new(), ends: Vec::new(), table: vec![0; 1024] }
+        let seed = RandomState::new().build_hasher().finish();
+        Self { text: String::new(), ends: Vec::new(), table: vec![0; 1024], seed }
     }
 }
 
@@ -73,7 +79,7 @@ impl Interner {
     #[inline]
     fn slot(&self, text: &str) -> usize {
         let mask = self.table.len() - 1;
-        let mut slot = hash(text) as usize & mask;
+        let mut slot = hash(self.seed, text) as usize & mask;
         loop {
             match self.table[slot] {
                 0 => return slot,
@@ -88,7 +94,7 @@ impl Interner {
         self.table = vec![0; self.table.len() * 4];
         let mask = self.table.len() - 1;
         for i in 0..self.ends.len() as u32 {
-            let mut slot = hash(self.get(Symbol(i))) as usize & mask;
+            let mut slot = hash(self.seed, self.get(Symbol(i))) as usize & mask;
             while self.table[slot] != 0 {
                 slot = (slot + 1) & mask;
             }
@@ -98,9 +104,9 @@ impl Interner {
 }
 
 #[inline]
-fn hash(text: &str) -> u64 {
+fn hash(seed: u64, text: &str) -> u64 {
     const K: u64 = 0x9E37_79B9_7F4A_7C15;
-    let mut h = text.len() as u64;
+    let mut h = seed ^ text.len() as u64;
     let mut chunks = text.as_bytes().chunks_exact(8);
     for chunk in &mut chunks {
         h = (h.rotate_left(5) ^ u64::from_le_bytes(chunk.try_into().unwrap())).wrapping_mul(K);

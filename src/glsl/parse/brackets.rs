@@ -10,51 +10,84 @@ pub(in crate::glsl) const ALONE: u32 = u32::MAX;
 /// most likely meant it: a closing brace closes what is still open inside it, a semicolon or an opening brace ends
 /// parentheses (but those of `for` hold semicolons).
 pub(in crate::glsl) fn pair(tokens: &mut [Tok]) {
-    let mut open: Vec<u32> = Vec::new();
+    let mut open = Open::default();
     for i in 0..tokens.len() {
         match tokens[i].kind {
-            Kind::LParen | Kind::LBracket => {
-                tokens[i].value = ALONE;
-                open.push(i as u32);
-            }
+            Kind::LParen | Kind::LBracket => open.push(tokens, i),
             Kind::LBrace => {
-                tokens[i].value = ALONE;
-                while let Some(&top) = open.last() {
-                    if tokens[top as usize].kind == Kind::LBrace {
-                        break;
-                    }
-                    open.pop();
-                }
-                open.push(i as u32);
+                open.drop_to_brace(tokens);
+                open.push(tokens, i);
             }
             Kind::Semicolon => {
-                while let Some(&top) = open.last() {
-                    let top = top as usize;
+                while let Some(top) = open.top() {
                     let is_for = top > 0 && tokens[top].kind == Kind::LParen && tokens[top - 1].kind == Kind::For;
                     if tokens[top].kind == Kind::LBrace || is_for {
                         break;
                     }
-                    open.pop();
+                    open.pop(tokens);
                 }
             }
-            Kind::RParen => close(tokens, &mut open, i, Kind::LParen),
-            Kind::RBracket => close(tokens, &mut open, i, Kind::LBracket),
-            Kind::RBrace => close(tokens, &mut open, i, Kind::LBrace),
+            Kind::RParen => open.close(tokens, i, Kind::LParen),
+            Kind::RBracket => open.close(tokens, i, Kind::LBracket),
+            Kind::RBrace => open.close(tokens, i, Kind::LBrace),
             _ => {}
         }
     }
 }
 
-fn close(tokens: &mut [Tok], open: &mut Vec<u32>, i: usize, wanted: Kind) {
-    tokens[i].value = ALONE;
-    // Looked for from the inside out, but a parenthesis or bracket not beyond a brace.
-    let found = open.iter().rposition(|&o| {
-        let kind = tokens[o as usize].kind;
-        kind == wanted || kind == Kind::LBrace
-    });
-    let Some(found) = found.filter(|&f| tokens[open[f] as usize].kind == wanted) else { return };
-    let partner = open[found];
-    open.truncate(found);
-    tokens[i].value = partner;
-    tokens[partner as usize].value = i as u32;
+/// Brackets that wait for their partners.
+#[derive(Default)]
+struct Open {
+    list: Vec<u32>,
+    /// Parentheses, square brackets, braces: how many of each are in the list. What has none to close is then told
+    /// without a search, so that a line of a million brackets of the wrong kind takes no longer than any other.
+    counts: [usize; 3],
+}
+
+fn number(kind: Kind) -> usize {
+    match kind {
+        Kind::LParen => 0,
+        Kind::LBracket => 1,
+        _ => 2,
+    }
+}
+
+impl Open {
+    fn push(&mut self, tokens: &mut [Tok], i: usize) {
+        tokens[i].value = ALONE;
+        self.counts[number(tokens[i].kind)] += 1;
+        self.list.push(i as u32);
+    }
+
+    fn top(&self) -> Option<usize> {
+        self.list.last().map(|&top| top as usize)
+    }
+
+    fn pop(&mut self, tokens: &[Tok]) -> Option<usize> {
+        let top = self.list.pop()? as usize;
+        self.counts[number(tokens[top].kind)] -= 1;
+        Some(top)
+    }
+
+    fn drop_to_brace(&mut self, tokens: &[Tok]) {
+        while self.top().is_some_and(|top| tokens[top].kind != Kind::LBrace) {
+            self.pop(tokens);
+        }
+    }
+
+    /// Looks from the inside out for what a closing bracket closes, but for a parenthesis or square bracket not beyond
+    /// a brace: an opening brace has dropped those before it.
+    fn close(&mut self, tokens: &mut [Tok], i: usize, wanted: Kind) {
+        tokens[i].value = ALONE;
+        if self.counts[number(wanted)] == 0 {
+            return;
+        }
+        while let Some(partner) = self.pop(tokens) {
+            if tokens[partner].kind == wanted {
+                tokens[i].value = partner as u32;
+                tokens[partner].value = i as u32;
+                return;
+            }
+        }
+    }
 }

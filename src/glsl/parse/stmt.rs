@@ -212,7 +212,7 @@ impl Parser<'_> {
 
     /// `retrun x;` looks like a declaration.
     fn check_keyword_slip(&mut self) -> Parse<()> {
-        if self.kind() != Kind::Ident || self.structs.contains(&self.value()) {
+        if self.kind() != Kind::Ident || self.structs[self.value() as usize] {
             return Ok(());
         }
         let word = self.text(self.at).to_owned();

@@ -38,7 +38,7 @@ impl Parser<'_> {
 
     /// A name as a type. The checker knows which there are; here only what can be no struct's name is caught.
     fn named_type(&mut self, first: usize, symbol: u32) -> TypeSpecKind {
-        if self.structs.contains(&symbol) {
+        if self.structs[symbol as usize] {
             return TypeSpecKind::Named(Symbol(symbol));
         }
         let word = self.text(first).to_owned();
@@ -59,10 +59,8 @@ impl Parser<'_> {
         let first = self.at;
         self.bump();
         let name = if self.kind() == Kind::LBrace { None } else { Some(self.declared("the name of the struct")?) };
-        if let Some(name) = name
-            && !self.structs.contains(&name.symbol.0)
-        {
-            self.structs.push(name.symbol.0);
+        if let Some(name) = name {
+            self.structs[name.symbol.0 as usize] = true;
         }
         if self.kind() == Kind::Colon {
             return Err(self.fail(self.at, "a struct of GLSL cannot extend another", None));

@@ -3,6 +3,7 @@
 
 use super::*;
 use crate::glsl::lex::SPACE;
+use std::collections::{HashMap, HashSet};
 
 impl Preprocessor<'_, '_> {
     /// Enters a macro under its name.
@@ -98,6 +99,7 @@ impl Preprocessor<'_, '_> {
             self.warning(first, "there is no space between the macro's name and its text", Some(hint));
         }
         let body_start = self.bodies.len() as u32;
+        let numbers = Numbers::new(&self.params[params.0 as usize..params.1 as usize]);
         for (i, &token) in list.iter().enumerate() {
             let mut token = token;
             if i == 0 {
@@ -105,9 +107,9 @@ impl Preprocessor<'_, '_> {
             }
             if token.kind == Kind::Ident {
                 let names = &self.params[params.0 as usize..params.1 as usize];
-                if let Some(i) = names.iter().position(|&p| p == token.value) {
+                if let Some(i) = numbers.of(names, token.value) {
                     token.kind = Kind::Param;
-                    token.value = i as u32;
+                    token.value = i;
                 }
             }
             self.bodies.push(token);
@@ -129,6 +131,7 @@ impl Preprocessor<'_, '_> {
     /// Reads `(a, b)` behind a macro's name; gives the position behind it.
     fn parameters(&mut self, name: &Token, line: &[Token]) -> Option<usize> {
         let first = self.params.len();
+        let mut seen = HashSet::new();
         let mut at = 2;
         if line.get(at).is_some_and(|t| t.kind == Kind::RParen) {
             return Some(at + 1);
@@ -137,7 +140,15 @@ impl Preprocessor<'_, '_> {
             match line.get(at) {
                 Some(param) if param.kind == Kind::Ident => {
                     let text = self.names.get(Symbol(param.value)).to_owned();
-                    if self.params[first..].contains(&param.value) {
+                    let before = &self.params[first..];
+                    if before.len() == Numbers::MANY {
+                        seen.extend(before);
+                    }
+                    let twice = match before.len() < Numbers::MANY {
+                        true => before.contains(&param.value),
+                        false => !seen.insert(param.value),
+                    };
+                    if twice {
                         self.error(param, format!("the parameter `{text}` is there twice"), None);
                         return None;
                     }
@@ -210,6 +221,32 @@ impl Preprocessor<'_, '_> {
             format!("write `#undef {text}` before, or choose another name")
         };
         self.report.add(diagnostic.hint(hint));
+    }
+}
+
+/// The numbers of a macro's parameters.
+enum Numbers {
+    /// Few enough to be looked through.
+    Few,
+    Many(HashMap<u32, u32>),
+}
+
+impl Numbers {
+    /// More parameters than any macro that a person wrote.
+    const MANY: usize = 16;
+
+    fn new(names: &[u32]) -> Self {
+        if names.len() <= Self::MANY {
+            return Self::Few;
+        }
+        Self::Many(names.iter().enumerate().map(|(i, &name)| (name, i as u32)).collect())
+    }
+
+    fn of(&self, names: &[u32], name: u32) -> Option<u32> {
+        match self {
+            Self::Few => names.iter().position(|&p| p == name).map(|i| i as u32),
+            Self::Many(numbers) => numbers.get(&name).copied(),
+        }
     }
 }
 

@@ -136,16 +136,20 @@ impl Preprocessor<'_, '_> {
         let (from, to) = self.macros[id.index()].body;
         // Expanding arguments uses the pool, so it comes first.
         let mut expanded = self.spare.pop().unwrap_or_default();
-        let mut ranges: Vec<Option<(usize, usize)>> = Vec::new();
+        let mut ranges: Vec<Expanded> = Vec::new();
         if let Some(args) = args {
-            ranges.resize(args.bounds.len(), None);
+            ranges.resize(args.bounds.len(), Expanded::Unused);
             for i in from..to {
                 let token = self.bodies[i as usize];
                 let arg = token.value as usize;
-                if token.kind == Kind::Param && ranges[arg].is_none() && self.has_macro(args.get(arg)) {
-                    let start = expanded.len();
-                    self.expand_argument(args.get(arg), &mut expanded);
-                    ranges[arg] = Some((start, expanded.len()));
+                if token.kind == Kind::Param && matches!(ranges[arg], Expanded::Unused) {
+                    ranges[arg] = if self.has_macro(args.get(arg)) {
+                        let start = expanded.len();
+                        self.expand_argument(args.get(arg), &mut expanded);
+                        Expanded::To(start, expanded.len())
+                    } else {
+                        Expanded::AsWritten
+                    };
                 }
             }
         }
@@ -156,8 +160,8 @@ impl Preprocessor<'_, '_> {
                 (Kind::Param, Some(args)) => {
                     let arg = token.value as usize;
                     let tokens = match ranges[arg] {
-                        Some((start, end)) => &expanded[start..end],
-                        None => args.get(arg),
+                        Expanded::To(start, end) => &expanded[start..end],
+                        _ => args.get(arg),
                     };
                     self.pool.extend_from_slice(tokens);
                     // A bomb grows here: stop before the memory does.
@@ -305,6 +309,17 @@ const END: Token = Token {
 
 /// A call that cannot be expanded, which was said.
 struct Reported;
+
+/// What became of an argument.
+#[derive(Clone, Copy)]
+enum Expanded {
+    /// No token of the replacement list named it so far.
+    Unused,
+    /// It has no macro.
+    AsWritten,
+    /// A range of what all arguments expanded to.
+    To(usize, usize),
+}
 
 /// The arguments of one call.
 struct Arguments {

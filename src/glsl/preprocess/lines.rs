@@ -29,12 +29,10 @@ impl Unit {
     }
 }
 
-/// Counts lines up to where it was last asked for.
+/// Where lines end, in the pieces that were asked for.
 pub(super) struct LineCount {
-    piece: usize,
-    offset: usize,
-    /// Line of `offset`, from 0, through all texts.
-    line: i32,
+    /// How many ends of lines precede each piece, and the offsets of its own in its text.
+    ends: Vec<(i32, Vec<u32>)>,
     /// What is to be added: the header's lines, or what `#line` made of them.
     shift: i32,
     pub file: i32,
@@ -42,7 +40,7 @@ pub(super) struct LineCount {
 
 impl LineCount {
     pub fn new(unit: Unit) -> Self {
-        Self { piece: 0, offset: 0, line: 0, shift: unit.header_lines(), file: 0 }
+        Self { ends: Vec::new(), shift: unit.header_lines(), file: 0 }
     }
 }
 
@@ -56,27 +54,26 @@ impl Preprocessor<'_, '_> {
         let read = &self.pieces[..=self.current];
         let Some(piece) = read.iter().rposition(holds) else { return 1 };
         let offset = place.start as usize;
-        if (piece, offset) < (self.line.piece, self.line.offset) {
-            (self.line.piece, self.line.offset, self.line.line) = (0, 0, 0);
+        while self.line.ends.len() <= piece {
+            self.count_piece();
         }
-        while self.line.piece < piece {
-            // The site puts a line's end behind Common.
-            let end = i32::from(self.pieces[self.line.piece + 1].begins_text);
-            self.line.line += self.ends(self.line.piece, self.line.offset, usize::MAX) + end;
-            self.line.piece += 1;
-            self.line.offset = 0;
-        }
-        self.line.line += self.ends(piece, self.line.offset, offset);
-        self.line.offset = offset;
-        self.line.line.wrapping_add(1).wrapping_add(self.line.shift)
+        let (before, ends) = &self.line.ends[piece];
+        let here = ends.partition_point(|&end| (end as usize) < offset) as i32;
+        before.wrapping_add(here).wrapping_add(1).wrapping_add(self.line.shift)
     }
 
-    /// Ends of lines in a part of a piece, whose bounds are those of its text.
-    fn ends(&self, piece: usize, from: usize, to: usize) -> i32 {
-        let Piece { text, range, .. } = &self.pieces[piece];
-        let from = from.max(range.start);
-        let part = &text.text.as_bytes()[from..to.min(range.end).max(from)];
-        part.iter().filter(|&&b| b == b'\n').count() as i32
+    /// Notes the ends of lines of the next piece that was not asked for yet.
+    fn count_piece(&mut self) {
+        let piece = self.line.ends.len();
+        let Piece { text, range, begins_text } = &self.pieces[piece];
+        let before = match self.line.ends.last() {
+            // The site puts a line's end behind Common.
+            Some((before, ends)) => before + ends.len() as i32 + i32::from(*begins_text),
+            None => 0,
+        };
+        let bytes = text.text.as_bytes()[range.clone()].iter();
+        let ends = bytes.enumerate().filter(|(_, b)| **b == b'\n').map(|(i, _)| (range.start + i) as u32).collect();
+        self.line.ends.push((before, ends));
     }
 
     /// `#line number` or `#line number file`: the line behind the directive has the number (section 3.4).
