@@ -36,6 +36,13 @@ pub fn render(diagnostic: &Diagnostic, sources: &SourceMap) -> String {
     out
 }
 
+/// Characters of a line that are shown: it can be a whole minified shader.
+const WIDTH: usize = 160;
+
+/// Bytes before and behind a place that are looked at for them. Characters have at most four, and a line of megabytes
+/// is not to be gone through for each message.
+const MOST_BYTES: usize = 4 * WIDTH;
+
 fn excerpt(
     out: &mut String,
     sources: &SourceMap,
@@ -48,16 +55,16 @@ fn excerpt(
     let (Some(source), Some(at)) = (sources.get(span.source), sources.line_column(span)) else { return };
     let arrow = if last_source.replace(span.source).is_none() { "-->" } else { ":::" };
     let _ = writeln!(out, "{:gutter$}{arrow} {}:{}:{}", "", source.name, at.line, at.column);
-    let line = source.text.lines().nth(at.line - 1).unwrap_or("").trim_end_matches('\r');
+    let (line, start) = line_around(&source.text, span.start as usize);
     // A tab is drawn as four spaces so that the mark stands under its character in any terminal.
+    let width = |text: &str| -> usize { text.chars().map(|c| if c == '\t' { 4 } else { 1 }).sum() };
     let shown = line.replace('\t', "    ");
-    let before: usize = line.chars().take(at.column - 1).map(|c| if c == '\t' { 4 } else { 1 }).sum();
+    let before = width(&line[..start]);
     let length = source.text.get(span.range()).map_or(1, |s| {
-        s.split('\n').next().unwrap_or("").trim_end_matches('\r').chars().map(|c| if c == '\t' { 4 } else { 1 }).sum()
+        let s = s.split('\n').next().unwrap_or("").trim_end_matches('\r');
+        width(&s[..s.floor_char_boundary(MOST_BYTES)])
     });
     let marks = mark.to_string().repeat(length.max(1));
-    // A line can be a whole minified shader; show the part around the place.
-    const WIDTH: usize = 160;
     let from = if shown.chars().count() > WIDTH { before.saturating_sub(WIDTH / 2) } else { 0 };
     let part: String = shown.chars().skip(from).take(WIDTH).collect();
     let marks: String = marks.chars().take(WIDTH.saturating_sub(before - from).max(1)).collect();
@@ -65,6 +72,16 @@ fn excerpt(
     let _ = writeln!(out, "{:>gutter$} | {part}", at.line);
     let line = format!("{:gutter$} | {:pad$}{marks} {message}", "", "", pad = before - from);
     let _ = writeln!(out, "{}", line.trim_end());
+}
+
+/// The line that a place lies in, or of one that is long the part around it, and where in that the place lies.
+fn line_around(text: &str, place: usize) -> (&str, usize) {
+    let place = text.floor_char_boundary(place);
+    let least = text.ceil_char_boundary(place.saturating_sub(MOST_BYTES));
+    let most = text.floor_char_boundary(place.saturating_add(MOST_BYTES));
+    let start = text[least..place].rfind('\n').map_or(least, |at| least + at + 1);
+    let end = text[place..most].find('\n').map_or(most, |at| place + at);
+    (text[start..end].trim_end_matches('\r'), (place - start).min(text[start..end].trim_end_matches('\r').len()))
 }
 
 #[cfg(test)]
