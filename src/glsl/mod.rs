@@ -197,10 +197,11 @@ pub fn compile(source: &PassSource<'_>) -> Result<Compiled, Vec<Diagnostic>> {
 /// Compiles one stage of a program that draws meshes. The vertex stage comes first: what it gives
 /// ([`Reflection::varyings`]) is part of the fragment stage's [`Link`].
 pub fn compile_linked(source: &PassSource<'_>, link: &Link<'_>) -> Result<Compiled, Vec<Diagnostic>> {
-    let ((checked, mut diagnostics), interface) = check_linked(source, link);
+    let ((mut checked, mut diagnostics), interface) = check_linked(source, link);
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(diagnostics);
     }
+    lower::settle(&mut checked);
     let lower::Lowered { module, reflection, tables, knob_bytes } = lower::lower(&checked, source, interface);
     if let Err(reason) = lower::validate(&module) {
         let bug =

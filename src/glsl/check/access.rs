@@ -1,6 +1,6 @@
 //! Parts of values: members, swizzles (section 5.5), indices (5.6, 5.7) and `.length()`.
 
-use super::Checker;
+use super::{Checker, types::MANY_MEMBERS};
 use crate::glsl::{
     ast::{self, Loc, Symbol},
     hir::{DeclRef, ExprFlags, ExprId, ExprKind, StructId, Swizzle, Type, TypeId, Uniform, VarFlags},
@@ -43,15 +43,14 @@ impl Checker<'_> {
 
     fn struct_member(&mut self, base: ExprId, id: StructId, name: Symbol, loc: Loc) -> ExprId {
         let members = self.module[id].members;
-        let Some(at) = self.module[members].iter().position(|m| m.name.symbol == name) else {
+        let Some((at, before)) = self.find_member(id, name) else {
             self.no_member(id, name, loc);
             return self.error_expr(loc);
         };
         let ty = self.module[members][at].ty;
         self.uses(loc.last, DeclRef::Member(id, at as u32));
         if self.is_constant(base) {
-            let before: u32 = self.module[members][..at].iter().map(|m| self.facts(m.ty).words).sum();
-            return self.part(base, ty, before as usize, loc);
+            return self.part(base, ty, before, loc);
         }
         if self.is_sampler(ty) {
             return self.sampler_of_uniform(base, ty, loc);
@@ -60,11 +59,37 @@ impl Checker<'_> {
         self.push(ExprKind::Member { base, index: at as u32 }, ty, flags, loc)
     }
 
+    /// Position of a member, and how many words precede it.
+    fn find_member(&self, id: StructId, name: Symbol) -> Option<(usize, usize)> {
+        let members = &self.module[self.module[id].members];
+        if members.len() > MANY_MEMBERS {
+            return self.members.get(&(id, name)).copied();
+        }
+        let at = members.iter().position(|m| m.name.symbol == name)?;
+        Some((at, members[..at].iter().map(|m| self.facts(m.ty).words as usize).sum()))
+    }
+
+    /// Notes where the members of a structure lie that is too large to be looked through at each use.
+    pub(super) fn note_members(&mut self, id: StructId) {
+        let members = &self.module[self.module[id].members];
+        if members.len() <= MANY_MEMBERS {
+            return;
+        }
+        let mut before = 0;
+        for (at, member) in members.iter().enumerate() {
+            self.members.insert((id, member.name.symbol), (at, before));
+            before += self.facts[member.ty.0 as usize].words as usize;
+        }
+    }
+
     #[cold]
     fn no_member(&mut self, id: StructId, name: Symbol, loc: Loc) {
         let text = self.name(name);
         let of = self.type_name(self.module[id].ty);
         self.error(loc.last, format!("`{of}` has no member `{text}`"));
+        if self.is_full() {
+            return;
+        }
         let members: Vec<_> = self.module[self.module[id].members].iter().map(|m| self.name(m.name.symbol)).collect();
         match crate::glsl::near::nearest(text, members.iter().copied()) {
             Some(near) => self.hint(format!("did you mean `{near}`?")),
@@ -85,6 +110,9 @@ impl Checker<'_> {
     /// Words `from..` of a folded value, as many as `ty` has.
     fn part(&mut self, base: ExprId, ty: TypeId, from: usize, loc: Loc) -> ExprId {
         let count = self.facts(ty).words as usize;
+        if !self.has_room(count, loc) {
+            return self.error_expr_of(ty, loc);
+        }
         let Some(words) = self.words(base) else { return self.error_expr(loc) };
         if count <= 16 {
             let part: super::words::Words = words[from..from + count].iter().copied().collect();

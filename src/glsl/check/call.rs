@@ -55,17 +55,12 @@ impl Checker<'_> {
 
     fn user_call(&mut self, first: FuncId, args: List<ast::ExprId>, loc: Loc) -> ExprId {
         let ast = self.ast;
-        let mut candidate = Some(first);
-        while let Some(id) = candidate {
-            let params = self.module.params(id);
-            let fits = params.len() == args.len()
-                && params.iter().zip(&ast[args]).all(|(p, &arg)| {
-                    self.lowered[arg.index()].is_some_and(|arg| self.module[arg].ty == p.ty) && p.ty != TypeId::ERROR
-                });
-            if fits {
-                return self.resolved_call(id, args, loc);
-            }
-            candidate = self.funcs[id.index()].next;
+        let types =
+            ast[args].iter().map(|&arg| self.lowered[arg.index()].map_or(TypeId::ERROR, |arg| self.module[arg].ty));
+        if types.clone().all(|ty| ty != TypeId::ERROR)
+            && let Some(id) = self.overload(first, types)
+        {
+            return self.resolved_call(id, args, loc);
         }
         // Overloads of a built-in leave its own in force.
         if let Some(builtin) = Builtin::from_symbol(self.module[first].name.symbol)
@@ -74,7 +69,7 @@ impl Checker<'_> {
             return self.builtin_call(builtin, args, loc);
         }
         let broken = ast[args].iter().any(|&arg| self.ty(self.done(arg)) == TypeId::ERROR);
-        if !broken {
+        if !broken && !self.is_full() {
             self.no_user_overload(first, args, loc);
         }
         // With one candidate the result's type is known all the same.

@@ -408,6 +408,11 @@ impl Checker<'_> {
             self.expr_stack.push(id);
         }
         let id = if self.expr_stack[base..].iter().all(|&id| self.is_constant(id)) {
+            let count = self.expr_stack[base..].iter().map(|&id| self.words(id).map_or(0, <[u32]>::len)).sum();
+            if !self.has_room(count, loc) {
+                self.expr_stack.truncate(base);
+                return self.error_expr_of(ty, loc);
+            }
             let start = self.word_stack.len();
             let mut words = std::mem::take(&mut self.word_stack);
             for &id in &self.expr_stack[base..] {

@@ -1,5 +1,7 @@
 //! Declarations of variables (section 4.3) at file scope and in functions, uniform blocks, and what else a declaration can be.
 
+use std::collections::HashSet;
+
 use super::{
     Checker,
     qualifiers::{LayoutOf, Place, Qualifiers},
@@ -362,6 +364,7 @@ impl Checker<'_> {
         self.check_layout(&quals, LayoutOf::Block);
         self.declare(name, Binding::Block(name));
         let mut members: Vec<StructMember> = Vec::new();
+        let mut seen = HashSet::new();
         for field in &ast[fields] {
             let base = self.base_type(field.ty);
             let spec = ast[field.ty];
@@ -378,7 +381,7 @@ impl Checker<'_> {
                     self.error(spec.loc, format!("the member `{text}` of a block cannot be a `{shown}`"));
                     ty = TypeId::ERROR;
                 }
-                if members.iter().any(|m| m.name.symbol == declarator.name.symbol) {
+                if !seen.insert(declarator.name.symbol) {
                     self.error(declarator.name, format!("this block already has a member `{text}`"));
                     continue;
                 }

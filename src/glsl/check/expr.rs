@@ -428,6 +428,9 @@ impl<'a> Checker<'a> {
     /// The name that an expression written as `name`, `name.member`, `name[index]` and so on begins with.
     fn named_root(&self, expr: ExprId) -> Option<Symbol> {
         // A constructor that leaves no node gives its argument's: what was written last counts.
+        if self.is_full() {
+            return None;
+        }
         let mut at = self.lowered.iter().rposition(|done| *done == Some(expr))?;
         loop {
             match self.ast.exprs[at].kind {
@@ -441,7 +444,7 @@ impl<'a> Checker<'a> {
     /// Whether something in the full expression checked last was reported, so that what it is not need not be said.
     #[cold]
     pub(super) fn is_broken(&self) -> bool {
-        self.module.exprs[self.full_expr..].iter().any(|expr| matches!(expr.kind, ExprKind::Error))
+        self.is_full() || self.module.exprs[self.full_expr..].iter().any(|expr| matches!(expr.kind, ExprKind::Error))
     }
 
     /// Reports a use of a value of type `void`.

@@ -29,10 +29,11 @@ impl Checker<'_> {
         let id = self.add_unnamed_function(&sign, header, loc);
         match self.scopes.here(sign.symbol) {
             Some(Binding::Function(first)) => {
-                let mut last = first;
-                while let Some(next) = self.funcs[last.index()].next {
-                    last = next;
+                let last = std::mem::replace(&mut self.funcs[first.index()].last, id);
+                if last == first {
+                    self.overloads.insert((first, self.param_types(first)), first);
                 }
+                self.overloads.insert((first, self.param_types(id)), id);
                 self.funcs[last.index()].next = Some(id);
             }
             _ => self.scopes.declare(sign.symbol, Binding::Function(id)),
@@ -49,14 +50,29 @@ impl Checker<'_> {
             result: sign.result,
             locals: start..start + sign.params.len() as u32,
             param_count: sign.params.len() as u32,
+            exprs: 0..0,
             body: None,
             calls: Vec::new(),
             used: false,
             header,
             loc,
         });
-        self.funcs.push(FuncFacts { next: None, first_call: None, called_by: 0 });
-        FuncId::new(self.funcs.len() - 1)
+        let id = FuncId::new(self.funcs.len());
+        self.funcs.push(FuncFacts { next: None, last: id, first_call: None, called_by: 0 });
+        id
+    }
+
+    fn param_types(&self, id: FuncId) -> Vec<TypeId> {
+        self.module.params(id).iter().map(|p| p.ty).collect()
+    }
+
+    /// The overload that takes these types, of those of the first one's name.
+    pub(super) fn overload(&self, first: FuncId, types: impl Iterator<Item = TypeId> + Clone) -> Option<FuncId> {
+        if self.funcs[first.index()].next.is_none() {
+            let params = self.module.params(first).iter().map(|p| p.ty);
+            return params.eq(types).then_some(first);
+        }
+        self.overloads.get(&(first, types.collect())).copied()
     }
 
     fn add_params(&mut self, params: &[ParamSign]) -> u32 {
@@ -182,15 +198,7 @@ impl Checker<'_> {
 
     /// The overload with these parameter types.
     fn same_params(&self, first: FuncId, params: &[ParamSign]) -> Option<FuncId> {
-        let mut next = Some(first);
-        while let Some(id) = next {
-            let known = self.module.params(id);
-            if known.len() == params.len() && known.iter().zip(params).all(|(a, b)| a.ty == b.1) {
-                return Some(id);
-            }
-            next = self.funcs[id.index()].next;
-        }
-        None
+        self.overload(first, params.iter().map(|param| param.1))
     }
 
     /// A prototype or definition of a function that was declared before.
@@ -254,6 +262,7 @@ impl Checker<'_> {
         // Says that there is a body, before it is there: the function may (wrongly) be defined inside itself no more.
         function.body = Some(List::EMPTY);
         let result = function.result;
+        let first_expr = self.module.exprs.len() as u32;
         debug_assert_eq!(self.scopes.depth(), scope::FILE);
         self.scopes.push();
         self.func = Some(func);
@@ -270,7 +279,9 @@ impl Checker<'_> {
         self.pop_scope();
         self.func = None;
         let end = self.module.locals.len() as u32;
+        let last_expr = self.module.exprs.len() as u32;
         let function = &mut self.module[func];
+        function.exprs = first_expr..last_expr;
         function.body = Some(list);
         function.locals.end = end;
         if result != TypeId::VOID && result != TypeId::ERROR && !self.returns && !self.broken_tree {

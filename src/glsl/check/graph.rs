@@ -8,6 +8,9 @@ use super::{
 };
 use crate::glsl::hir::FuncId;
 
+/// Functions of a circle that are named.
+const SHOWN: usize = 8;
+
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Mark {
     New,
@@ -127,6 +130,7 @@ impl Checker<'_> {
                     marks[callee.index()] = Mark::Open;
                     path.push((callee, 0));
                 }
+                Mark::Open if self.is_full() => {}
                 Mark::Open => {
                     let from = path.iter().position(|&(f, _)| f == callee).unwrap_or(0);
                     let cycle: Vec<FuncId> = path[from..].iter().map(|&(f, _)| f).collect();
@@ -143,7 +147,11 @@ impl Checker<'_> {
         let message = if names.len() == 1 {
             format!("`{head}` calls itself; GLSL has no recursion")
         } else {
-            let shown: Vec<String> = names.iter().chain([&head]).map(|n| format!("`{n}`")).collect();
+            let mut shown: Vec<String> = names.iter().take(SHOWN).map(|n| format!("`{n}`")).collect();
+            if names.len() > SHOWN {
+                shown.push(format!("{} others", names.len() - SHOWN));
+            }
+            shown.push(format!("`{head}`"));
             format!("these functions call each other in a circle; GLSL has no recursion: {}", shown.join(" calls "))
         };
         let at = self.module[cycle[0]].name;

@@ -25,6 +25,7 @@ mod ops;
 pub(in crate::glsl) mod overloads;
 mod qualifiers;
 mod scope;
+mod size;
 mod statement;
 mod suggest;
 mod types;
@@ -33,10 +34,13 @@ mod words;
 #[cfg(test)]
 mod tests;
 
+use std::collections::HashMap;
+
 use super::{
     ChannelKind, Knob, PassSource, UniformValue,
     ast::{self, Ast, Interner, Loc, Origins, Precision, Symbol},
     hir::{self, FuncId, Module, TypeId},
+    report::MAX_ERRORS,
 };
 use crate::diag::{Diagnostic, SourceId};
 use env::Env;
@@ -90,6 +94,8 @@ struct TypeFacts {
 struct FuncFacts {
     /// Next overload of the same name.
     next: Option<FuncId>,
+    /// Of the first overload: the last one.
+    last: FuncId,
     /// First place it is called from, for messages about what cannot be called.
     first_call: Option<Loc>,
     /// Stamp of the last function that was seen calling this one, so that `calls` names it once.
@@ -108,6 +114,8 @@ struct Checker<'a> {
     broken_tree: bool,
     module: Module,
     diagnostics: Vec<Diagnostic>,
+    /// How many of them were errors, those that were not kept among them.
+    errors: usize,
     refused_in_common: Vec<Diagnostic>,
     scopes: Scopes,
     /// HIR of each checked expression of the tree.
@@ -115,7 +123,13 @@ struct Checker<'a> {
     /// Where the HIR of the full expression at hand, or of the last one, begins.
     full_expr: usize,
     facts: Vec<TypeFacts>,
+    /// Of structs with many members: position of each, and how many words precede it.
+    members: HashMap<(hir::StructId, Symbol), (usize, usize)>,
     funcs: Vec<FuncFacts>,
+    /// Of names with several: the overload of the first one's name that takes these types.
+    overloads: HashMap<(FuncId, Vec<TypeId>), FuncId>,
+    /// Scalars that folded constants hold, and that were compared.
+    folded_words: usize,
     /// `precision` statements in force, by [`ast::BasicType`]; changed seldom, so scopes save the whole.
     precisions: [Option<Precision>; ast::BasicType::ALL.len()],
     saved_precisions: Vec<(u32, [Option<Precision>; ast::BasicType::ALL.len()])>,
@@ -172,12 +186,16 @@ impl<'a> Checker<'a> {
             broken_tree,
             module,
             diagnostics: Vec::new(),
+            errors: 0,
             refused_in_common: Vec::new(),
             scopes: Scopes::new(names.len()),
             lowered: vec![None; ast.exprs.len()],
             full_expr: 0,
             facts,
+            members: HashMap::new(),
             funcs: Vec::new(),
+            overloads: HashMap::new(),
+            folded_words: 0,
             precisions: [None; ast::BasicType::ALL.len()],
             saved_precisions: Vec::new(),
             func: None,
@@ -206,14 +224,27 @@ impl<'a> Checker<'a> {
         }
         self.finish_entry();
         self.finish_calls();
+        if self.errors == 0 && !self.broken_tree && self.module.entry.is_some() {
+            self.finish_size();
+        }
     }
 
     /// Reports an error; hints and labels are added to what comes back.
     #[cold]
     fn error(&mut self, loc: impl Into<Loc>, message: impl Into<String>) -> &mut Diagnostic {
         let diagnostic = self.origins.error(self.names, loc, message);
+        // The report keeps no more errors than that: one place is enough for all others.
+        if self.is_full() && self.diagnostics.last().is_some_and(Diagnostic::is_error) {
+            self.diagnostics.pop();
+        }
+        self.errors += 1;
         self.diagnostics.push(diagnostic);
         self.diagnostics.last_mut().expect("just pushed")
+    }
+
+    /// More errors than are shown: what takes a search through the program to be said is not said any more.
+    fn is_full(&self) -> bool {
+        self.errors > MAX_ERRORS
     }
 
     #[cold]

@@ -204,6 +204,9 @@ impl Checker<'_> {
     ) -> Option<ExprId> {
         let (lt, rt) = (self.ty(l), self.ty(r));
         if matches!(op, BinaryOp::Equal | BinaryOp::NotEqual) {
+            if !self.has_room(self.words(l)?.len(), loc) {
+                return Some(self.error_expr_of(TypeId::BOOL, loc));
+            }
             let equal = self.equal_constants(lt, l, r)?;
             return Some(self.literal(u32::from(equal == (op == BinaryOp::Equal)), TypeId::BOOL, loc));
         }

@@ -1,5 +1,7 @@
 //! Statements (section 6): scopes, placement, and the rules of switch.
 
+use std::collections::HashMap;
+
 use super::Checker;
 use crate::glsl::{
     ast::{self, Condition, DeclKind, ExprKind as A, List, Loc, StmtKind as S},
@@ -10,8 +12,8 @@ use crate::glsl::{
 pub(super) struct Switch {
     /// Of its value; the error type silences its labels.
     ty: TypeId,
-    /// Labels so far.
-    values: Vec<(u32, Loc)>,
+    /// Labels so far, and where they stand.
+    values: HashMap<u32, Loc>,
     default: Option<Loc>,
 }
 
@@ -290,7 +292,7 @@ impl Checker<'_> {
             ty = TypeId::ERROR;
         }
         self.scopes.push();
-        self.switches.push(Switch { ty, values: Vec::new(), default: None });
+        self.switches.push(Switch { ty, values: HashMap::new(), default: None });
         let mut cases: Vec<Case> = Vec::new();
         // The labels that stand together, and where the statements after them begin on the stack.
         let mut labels: Option<Case> = None;
@@ -381,13 +383,13 @@ impl Checker<'_> {
             return None;
         };
         let switch = self.switches.last_mut()?;
-        if let Some(&(_, first)) = switch.values.iter().find(|(known, _)| *known == bits) {
+        if let Some(&first) = switch.values.get(&bits) {
             let shown = if found == TypeId::INT { i64::from(bits as i32) } else { i64::from(bits) };
             self.error(loc, format!("this switch has a `case {shown}` already"));
             self.also(first, "the first one");
             return None;
         }
-        switch.values.push((bits, loc));
+        switch.values.insert(bits, loc);
         Some(bits)
     }
 

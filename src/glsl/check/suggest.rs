@@ -140,6 +140,9 @@ impl Checker<'_> {
 
     /// Whether a variable of this name was declared earlier in the text, in a scope that is closed.
     fn declared_in_some_scope(&self, symbol: Symbol, before: TokenId) -> bool {
+        if self.is_full() {
+            return false;
+        }
         let is_it = |name: &ast::Ident| name.symbol == symbol && name.token < before;
         self.module.locals.iter().filter_map(|local| local.name.as_ref()).any(is_it)
     }
@@ -155,6 +158,9 @@ impl Checker<'_> {
             return;
         }
         self.error(loc.first, format!("there is no function `{name}`"));
+        if self.is_full() {
+            return;
+        }
         let later = self.ast.functions.iter().find(|f| f.name.symbol == symbol).copied();
         if let Some(hint) = find(FUNCTIONS, name) {
             self.hint(hint);
@@ -184,6 +190,9 @@ impl Checker<'_> {
         }
         let name = self.name(symbol);
         self.error(token, format!("there is no type `{name}`"));
+        if self.is_full() {
+            return;
+        }
         let structs: Vec<&str> = self
             .scopes
             .visible()
@@ -202,6 +211,9 @@ impl Checker<'_> {
 
     /// The visible name of a fitting kind that is spelled most like this one.
     fn near(&self, name: &str, fits: impl Fn(Binding) -> bool) -> Option<(String, Option<Loc>)> {
+        if self.is_full() {
+            return None;
+        }
         let visible = self.scopes.visible().filter(|&(_, binding)| fits(binding));
         let visible = visible.filter(|&(_, binding)| binding != Binding::Poison);
         let near = near::nearest(name, visible.map(|(symbol, _)| self.name(symbol)))?;

@@ -1,5 +1,7 @@
 //! Types as written to [`TypeId`]s: names, dimensions, struct definitions; and types as messages spell them.
 
+use std::collections::HashMap;
+
 use super::{Checker, TypeFacts, scope::Binding};
 use crate::glsl::{
     ast::{self, Dim, List, Loc, StructDefId, TypeSpecId, TypeSpecKind},
@@ -8,6 +10,9 @@ use crate::glsl::{
 
 /// Most scalars a type may hold: 16 MiB, ANGLE's limit for a shader's private variables.
 pub(super) const MAX_WORDS: u32 = 1 << 22;
+
+/// Members from which on those of a struct are found by a table.
+pub(super) const MANY_MEMBERS: usize = 16;
 
 /// Structs inside one another that WebGL's compiler takes.
 const MAX_NESTING: u8 = 4;
@@ -177,6 +182,7 @@ impl<'a> Checker<'a> {
         let ast = self.ast;
         let def = ast[def];
         let mut members: Vec<StructMember> = Vec::new();
+        let mut seen: HashMap<ast::Symbol, usize> = HashMap::new();
         let mut facts = NOTHING;
         for field in &ast[def.fields] {
             let spec = ast[field.ty];
@@ -193,8 +199,18 @@ impl<'a> Checker<'a> {
                     self.error(spec.loc, format!("the member `{name}` cannot be of type `void`"));
                     ty = TypeId::ERROR;
                 }
-                if let Some(first) = members.iter().find(|m| m.name.symbol == declarator.name.symbol) {
-                    let first = first.name;
+                let symbol = declarator.name.symbol;
+                let first = match members.len() < MANY_MEMBERS {
+                    true => members.iter().position(|m| m.name.symbol == symbol),
+                    false => {
+                        if seen.is_empty() {
+                            seen.extend(members.iter().enumerate().map(|(i, m)| (m.name.symbol, i)));
+                        }
+                        seen.get(&symbol).copied()
+                    }
+                };
+                if let Some(first) = first {
+                    let first = members[first].name;
                     self.error(declarator.name, format!("this struct already has a member `{name}`"));
                     self.also(first, "the first one");
                     continue;
@@ -205,6 +221,9 @@ impl<'a> Checker<'a> {
                     ty = TypeId::ERROR;
                 }
                 facts.add(self.facts(ty));
+                if members.len() >= MANY_MEMBERS {
+                    seen.insert(symbol, members.len());
+                }
                 members.push(StructMember { name: declarator.name, ty });
             }
         }
@@ -242,6 +261,7 @@ impl<'a> Checker<'a> {
         let members = self.module.list(members);
         self.module.structs.push(Struct { name, ty, members, loc });
         self.facts.push(facts);
+        self.note_members(id);
         ty
     }
 

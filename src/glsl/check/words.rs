@@ -6,6 +6,10 @@ use crate::glsl::{
     hir::{Expr, ExprFlags, ExprId, ExprKind, TypeId},
 };
 
+/// Scalars that folded constants may hold and compare together: 64 MiB, four times the largest type. Without a limit a
+/// few thousand constants that each hold the one before take all memory there is.
+pub(super) const MAX_FOLDED_WORDS: usize = 1 << 24;
+
 /// The scalars of a value of a keyword type, at most those of a `mat4`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Words {
@@ -56,6 +60,23 @@ impl Checker<'_> {
             _ => ExprKind::Const(self.module.constant(ty, words)),
         };
         self.push(kind, ty, ExprFlags::CONSTANT, loc)
+    }
+
+    /// Whether so many scalars more can be folded; says so where they cannot.
+    pub(super) fn has_room(&mut self, words: usize, loc: Loc) -> bool {
+        let before = self.folded_words;
+        self.folded_words = before.saturating_add(words);
+        if self.folded_words <= MAX_FOLDED_WORDS {
+            return true;
+        }
+        if before <= MAX_FOLDED_WORDS {
+            self.error(
+                loc,
+                format!("the constants of this program hold more than {MAX_FOLDED_WORDS} numbers up to here"),
+            );
+            self.hint("keep big tables in a buffer and read them with texelFetch");
+        }
+        false
     }
 
     /// The scalars of a folded value, in memory order. The value given for a uniform is none: it is no constant expression.

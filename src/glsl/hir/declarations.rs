@@ -73,6 +73,8 @@ pub struct Function {
     /// resolved; two variables of one name are two locals. The checker guarantees that bodies do not interleave.
     pub locals: Range<u32>,
     pub param_count: u32,
+    /// The function's slice of [`Module::exprs`].
+    pub exprs: Range<u32>,
     /// `None` if only declared (an error where it is called).
     pub body: Option<List<StmtId>>,
     /// Functions it calls, each once.

@@ -13,8 +13,10 @@
 //!   combination of channels, globals and tables that stand for parameters they only read ([`calls`]).
 //! - A constant table that is indexed at run time lives in a buffer ([`tables`]); a small one once in a private global
 //!   with an initialiser: naga's SPIR-V writer would otherwise copy the whole table to the stack at each access.
-//! - Every index that is not provably in range is clamped here ([`ranges`] tells what is known), as WebGL does; the modules need no bounds checks from naga.
-//!   Divisors of integers that may be zero are guarded ([`divide`]), as no driver's compiler may meet one.
+//! - So does a large global array that the program fills with constants before all else ([`settled`]).
+//! - Every index that is not provably in range is clamped here ([`ranges`] tells what is known), as WebGL does; the modules
+//!   need no bounds checks from naga. Divisors of integers that may be zero are guarded ([`divide`]), as no driver's compiler
+//!   may meet one.
 //!   Fetches outside a texture are left to the driver's image robustness, which gives the zeros WebGL promises.
 //! - `&&`, `||` and `?:` become selects where both sides are cheap and have no effects, branches elsewhere.
 
@@ -44,6 +46,7 @@ mod reach;
 mod regroup;
 mod resources;
 mod scalars;
+mod settled;
 mod split;
 mod stage;
 mod steps;
@@ -68,6 +71,7 @@ use self::{
     types::Types,
     zeros::Zeros,
 };
+pub(in crate::glsl) use self::{reach::reached, settled::settle};
 use super::{PassSource, Reflection, hir, interface::KNOB_BYTES, stages::Interface};
 
 /// What lowering makes.

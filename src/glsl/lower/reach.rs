@@ -34,6 +34,8 @@ struct Facts {
     globals: Vec<GlobalId>,
     /// Globals that are written, in whole or in part.
     writes: HashSet<GlobalId>,
+    /// Expressions and statements.
+    nodes: usize,
 }
 
 impl Reach {
@@ -105,6 +107,14 @@ impl Reach {
     }
 }
 
+/// What is reached of a body: how many expressions and statements, and the functions they call, once for each call.
+pub(in crate::glsl) fn reached(module: &Module, body: List<StmtId>) -> (usize, Vec<FuncId>) {
+    let mut walk = Walk::new(module);
+    walk.statements(body);
+    let facts = walk.run();
+    (facts.nodes, facts.calls.into_iter().map(|(func, _)| func).collect())
+}
+
 /// The value of a condition that is a literal.
 pub(super) fn known_bool(module: &Module, expr: ExprId) -> Option<bool> {
     match module[expr].kind {
@@ -129,6 +139,7 @@ impl<'a> Walk<'a> {
 
     fn run(mut self) -> Facts {
         while let Some(node) = self.pending.pop() {
+            self.facts.nodes += 1;
             match node {
                 Node::Expr(expr) => self.expr(expr),
                 Node::Stmt(stmt) => self.stmt(stmt),

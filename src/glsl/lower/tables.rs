@@ -22,7 +22,7 @@ use crate::glsl::{
 
 /// Scalars from which on a table goes into the storage buffer. Its load is slow where neighbours read different places (five times
 /// the frame of a loop over 14 triangles on llvmpipe), and a driver that unrolls such a loop folds reads of memory away.
-const LARGE: usize = 256;
+pub(super) const LARGE: usize = 256;
 
 /// Elements from which on an array goes into the uniform buffer. To fill memory takes llvmpipe a store for each pixel and component
 /// at every start of the program; but Mesa unrolls loops of up to 32 turns, and then folds what they read of memory away.

@@ -1,0 +1,302 @@
+//! Large global arrays that the program fills with constants before anything else: they are tables, and nobody need
+//! fill them.
+//!
+//! GLSL ES 1.00 had no array constructors, so a scene is often written as `triangles[0].a = vec3(..); triangles[1].a =
+//! ..` in a function that `mainImage` calls first. As memory such an array is thousands of stores in one block, once
+//! for its zeros and once for its values, and the time that LLVM takes for a block grows with more than the square of
+//! them: 550 triangles keep lavapipe busy for minutes where Mesa's OpenGL, which sees the constants and needs no zeros,
+//! takes a second. As a table ([`super::tables`]) they are a buffer.
+
+use super::{tables::LARGE, writes};
+use crate::glsl::{
+    ast::List,
+    hir::{ExprId, ExprKind, GlobalId, GlobalStorage, Module, Stmt, StmtId, StmtKind, Swizzle, Type, TypeId, VarFlags},
+};
+
+/// Arrays that are looked for in one program: a bit each.
+const MOST: usize = 64;
+
+/// Members of a structure: they are counted for each store.
+const MOST_MEMBERS: usize = 64;
+
+/// How deep the call may lie that fills an array.
+const MOST_CALLS: u32 = 16;
+
+/// Makes constants of the arrays that are filled with constants before all else, and takes out what fills them. Smaller
+/// ones stay memory, as drivers fold what loops that they write out read of it.
+pub(in crate::glsl) fn settle(module: &mut Module) {
+    let Some(entry) = module.entry else { return };
+    let mut arrays = candidates(module);
+    if arrays.is_empty() {
+        return;
+    }
+    let calls = call_counts(module);
+    let mut search = Search { module: &*module, arrays: &mut arrays, named: Vec::new(), calls };
+    search.note_names();
+    search.global_initialisers();
+    search.statements(module[entry].body.unwrap_or(List::EMPTY), 0);
+    for array in arrays {
+        array.settle(module);
+    }
+}
+
+/// A global array and what is known to be stored in it first.
+struct Array {
+    global: GlobalId,
+    words: Vec<u32>,
+    /// Statements that do nothing but store constants here.
+    stores: Vec<StmtId>,
+    /// How many expressions write it, and how many of those are in these statements.
+    written: usize,
+    seen: usize,
+    /// Something may have read it: what is stored from now on is no first value.
+    is_open: bool,
+}
+
+fn candidates(module: &Module) -> Vec<Array> {
+    let mut found = Vec::new();
+    for (i, global) in module.globals.iter().enumerate() {
+        let is_array = matches!(module.types.get(global.ty), Type::Array { .. });
+        let varies = global.init.is_some() && global.value.is_none();
+        if global.storage != GlobalStorage::Private
+            || !is_array
+            || varies
+            || !global.flags.contains(VarFlags::WRITTEN)
+            || !global.flags.contains(VarFlags::INDEXED)
+            || found.len() == MOST
+        {
+            continue;
+        }
+        let size = words(module, global.ty);
+        if size < LARGE || members(module, global.ty) > MOST_MEMBERS {
+            continue;
+        }
+        let first = global.value.map_or_else(|| vec![0; size], |value| module[module[value].words].to_vec());
+        let global = GlobalId::new(i);
+        found.push(Array { global, words: first, stores: Vec::new(), written: 0, seen: 0, is_open: true });
+    }
+    if found.is_empty() {
+        return found;
+    }
+    for i in 0..module.exprs.len() {
+        writes::places(module, ExprId::new(i), |place| {
+            if let ExprKind::Global(global) = module[writes::root(module, place)].kind
+                && let Some(array) = found.iter_mut().find(|array| array.global == global)
+            {
+                array.written += 1;
+            }
+        });
+    }
+    found
+}
+
+/// Members of the structure that an array has elements of.
+fn members(module: &Module, ty: TypeId) -> usize {
+    match module.types.element(ty).map(|element| module.types.get(element)) {
+        Some(Type::Struct(id)) => module[id].members.len(),
+        _ => 0,
+    }
+}
+
+/// Scalars of a value.
+fn words(module: &Module, ty: TypeId) -> usize {
+    match module.types.get(ty) {
+        Type::Array { element, len } => words(module, element) * len as usize,
+        Type::Struct(id) => module[module[id].members].iter().map(|member| words(module, member.ty)).sum(),
+        _ => module.types.components(ty).unwrap_or(0) as usize,
+    }
+}
+
+/// How many expressions call each function, by [`FuncId::index`](crate::glsl::hir::FuncId::index).
+fn call_counts(module: &Module) -> Vec<u32> {
+    let mut counts = vec![0; module.functions.len()];
+    for expr in &module.exprs {
+        if let ExprKind::Call { func, .. } = expr.kind {
+            counts[func.index()] += 1;
+        }
+    }
+    counts
+}
+
+struct Search<'a> {
+    module: &'a Module,
+    arrays: &'a mut [Array],
+    /// Which arrays each function or what it calls names, by [`FuncId::index`](crate::glsl::hir::FuncId::index): a bit
+    /// for each.
+    named: Vec<u64>,
+    calls: Vec<u32>,
+}
+
+impl<'a> Search<'a> {
+    fn note_names(&mut self) {
+        self.named = vec![0; self.module.functions.len()];
+        for &func in &self.module.call_order {
+            let exprs = self.module[func].exprs.clone();
+            self.named[func.index()] = exprs.fold(0, |all, expr| all | self.names(ExprId::new(expr as usize)));
+        }
+    }
+
+    /// The arrays that an expression names by itself, or what it calls.
+    fn names(&self, expr: ExprId) -> u64 {
+        match self.module[expr].kind {
+            ExprKind::Global(global) => {
+                let at = self.arrays.iter().position(|array| array.global == global);
+                at.map_or(0, |at| 1 << at)
+            }
+            ExprKind::Call { func, .. } => self.named[func.index()],
+            _ => 0,
+        }
+    }
+
+    /// What runs before the entry point may read them.
+    fn global_initialisers(&mut self) {
+        let module = self.module;
+        for global in &module.globals {
+            if let (Some(init), None) = (global.init, global.value) {
+                self.close(&[], &[init]);
+            }
+        }
+    }
+
+    /// These run, and may read and write what they name.
+    fn close(&mut self, stmts: &[StmtId], exprs: &[ExprId]) {
+        let mut named = 0;
+        super::walk::walk(self.module, stmts, exprs, |node, _| {
+            if let super::walk::Node::Expr(expr) = node {
+                named |= self.names(expr);
+            }
+        });
+        for (i, array) in self.arrays.iter_mut().enumerate() {
+            array.is_open &= named & (1 << i) == 0;
+        }
+    }
+
+    /// Statements in the order in which they run, of a function that so many calls lead to; `false`: control may not
+    /// reach their end. In the entry point that is all the same, as nothing follows it.
+    fn statements(&mut self, list: List<StmtId>, calls: u32) -> bool {
+        let module = self.module;
+        for (i, &stmt) in module[list].iter().enumerate() {
+            if self.arrays.iter().all(|array| !array.is_open) {
+                return true;
+            }
+            let goes_on = match module[stmt].kind {
+                StmtKind::Block(inner) => self.statements(inner, calls),
+                StmtKind::Expr(expr) => {
+                    self.statement(stmt, expr, calls);
+                    true
+                }
+                _ => {
+                    self.close(&[stmt], &[]);
+                    calls == 0 || !may_leave(module, stmt)
+                }
+            };
+            if !goes_on {
+                self.close(&module[list][i + 1..], &[]);
+                return false;
+            }
+        }
+        true
+    }
+
+    fn statement(&mut self, stmt: StmtId, expr: ExprId, calls: u32) {
+        let module = self.module;
+        if let ExprKind::Call { func, args } = module[expr].kind
+            && self.calls[func.index()] == 1
+            && calls < MOST_CALLS
+        {
+            self.close(&[], &module[args]);
+            self.statements(module[func].body.unwrap_or(List::EMPTY), calls + 1);
+            return;
+        }
+        match self.store(expr) {
+            Some(Store { at, from, components, value }) => {
+                let array = &mut self.arrays[at];
+                for (i, &word) in value.iter().enumerate() {
+                    array.words[from + components.map_or(i, |components| components.get(i))] = word;
+                }
+                array.stores.push(stmt);
+                array.seen += 1;
+            }
+            None => self.close(&[], &[expr]),
+        }
+    }
+
+    fn store(&self, expr: ExprId) -> Option<Store<'a>> {
+        let module = self.module;
+        let ExprKind::Assign { place, value } = module[expr].kind else { return None };
+        let value = match &module[value].kind {
+            ExprKind::Literal(bits) => std::slice::from_ref(bits),
+            ExprKind::Const(id) => &module[module[*id].words],
+            _ => return None,
+        };
+        let mut from = 0;
+        let (mut part, components) = match module[place].kind {
+            ExprKind::Swizzle { base, swizzle } => (base, Some(swizzle)),
+            _ => (place, None),
+        };
+        loop {
+            match module[part].kind {
+                ExprKind::Global(global) => {
+                    let at = self.arrays.iter().position(|array| array.global == global)?;
+                    return self.arrays[at].is_open.then_some(Store { at, from, components, value });
+                }
+                ExprKind::Member { base, index } => {
+                    let Type::Struct(id) = module.types.get(module[base].ty) else { return None };
+                    let before = &module[module[id].members][..index as usize];
+                    from += before.iter().map(|member| words(module, member.ty)).sum::<usize>();
+                    part = base;
+                }
+                ExprKind::Index { base, index } => {
+                    let ExprKind::Literal(index) = module[index].kind else { return None };
+                    let element = words(module, module[part].ty);
+                    if index as usize * element >= words(module, module[base].ty) {
+                        return None;
+                    }
+                    from += index as usize * element;
+                    part = base;
+                }
+                _ => return None,
+            }
+        }
+    }
+}
+
+/// An assignment of a constant to a part of an array.
+struct Store<'a> {
+    /// Which array.
+    at: usize,
+    /// Where the part begins.
+    from: usize,
+    /// Which of its components are meant, of a vector.
+    components: Option<Swizzle>,
+    value: &'a [u32],
+}
+
+/// Whether a statement can end the function that it stands in.
+fn may_leave(module: &Module, stmt: StmtId) -> bool {
+    let mut leaves = false;
+    super::walk::walk(module, &[stmt], &[], |node, _| {
+        if let super::walk::Node::Stmt(stmt) = node {
+            leaves |= matches!(module[stmt].kind, StmtKind::Return(_) | StmtKind::Discard);
+        }
+    });
+    leaves
+}
+
+impl Array {
+    /// Makes it a constant if nothing else writes it.
+    fn settle(self, module: &mut Module) {
+        if self.seen != self.written || self.seen == 0 {
+            return;
+        }
+        let ty = module[self.global].ty;
+        let value = module.constant(ty, &self.words);
+        let global = &mut module[self.global];
+        global.value = Some(value);
+        global.flags.0 &= !VarFlags::WRITTEN.0;
+        for stmt in self.stores {
+            let Stmt { kind, .. } = &mut module[stmt];
+            *kind = StmtKind::Block(List::EMPTY);
+        }
+    }
+}
