@@ -53,6 +53,9 @@ impl Builder<'_, '_> {
         let hir = self.cx.hir;
         let mut pending = vec![root];
         while let Some(expr) = pending.pop() {
+            if pending.len() > LONGEST {
+                return None;
+            }
             match hir[expr].kind {
                 ExprKind::Binary {
                     op: inner,
@@ -72,14 +75,21 @@ impl Builder<'_, '_> {
         Some(())
     }
 
-    fn is_same_variable(&self, a: ExprId, b: ExprId) -> bool {
+    fn is_same_variable(&self, mut a: ExprId, mut b: ExprId) -> bool {
         let hir = self.cx.hir;
+        while let (
+            ExprKind::Swizzle { base: inner, swizzle },
+            ExprKind::Swizzle { base: inner_of_b, swizzle: swizzle_of_b },
+        ) = (hir[a].kind, hir[b].kind)
+        {
+            if swizzle != swizzle_of_b {
+                return false;
+            }
+            (a, b) = (inner, inner_of_b);
+        }
         match (hir[a].kind, hir[b].kind) {
             (ExprKind::Local(a), ExprKind::Local(b)) => a == b,
             (ExprKind::Global(a), ExprKind::Global(b)) => a == b,
-            (ExprKind::Swizzle { base: a, swizzle }, ExprKind::Swizzle { base: b, swizzle: other }) => {
-                swizzle == other && self.is_same_variable(a, b)
-            }
             _ => false,
         }
     }
@@ -88,9 +98,27 @@ impl Builder<'_, '_> {
         matches!(self.cx.hir[expr].kind, ExprKind::Literal(_) | ExprKind::Const(_))
     }
 
-    /// Whether an operand is a variable or constant to Mesa, and no expression, once what is used once stands where it is used.
-    fn is_plain(&self, expr: ExprId) -> bool {
+    /// How many links of a chain at `root`, from there on down its left side, are too long to be balanced whatever they
+    /// hold.
+    pub fn links_too_long(&self, root: ExprId) -> usize {
         let hir = self.cx.hir;
+        let ExprKind::Binary { op, mut lhs, .. } = hir[root].kind else { return 0 };
+        let mut links = 0usize;
+        while let ExprKind::Binary { op: inner, lhs: next, .. } = hir[lhs].kind
+            && inner == op
+        {
+            links += 1;
+            lhs = next;
+        }
+        links.saturating_sub(LONGEST)
+    }
+
+    /// Whether an operand is a variable or constant to Mesa, and no expression, once what is used once stands where it is used.
+    fn is_plain(&self, mut expr: ExprId) -> bool {
+        let hir = self.cx.hir;
+        while let ExprKind::Swizzle { base, .. } = hir[expr].kind {
+            expr = base;
+        }
         match hir[expr].kind {
             ExprKind::Literal(_)
             | ExprKind::Const(_)
@@ -105,7 +133,6 @@ impl Builder<'_, '_> {
                 };
                 self.is_vector_or_scalar(hir[expr].ty) && !stands_for_expression
             }
-            ExprKind::Swizzle { base, .. } => self.is_plain(base),
             // Filled component by component, it is a variable.
             ExprKind::Vector(args) => {
                 hir[args].len() > 1 && !matches!(hir.types.get(hir[expr].ty), Type::Matrix { .. })

@@ -11,10 +11,17 @@ use super::{
     tables::NOT_UNROLLED,
     writes,
 };
-use crate::glsl::hir::{
-    ConstId, ExprFlags, ExprId, ExprKind, FuncId, GlobalId, GlobalStorage, Local, LocalId, LocalKind, Module, Type,
-    TypeId, VarFlags,
+use crate::glsl::{
+    ast::List,
+    hir::{
+        ConstId, ExprFlags, ExprId, ExprKind, FuncId, GlobalId, GlobalStorage, Local, LocalId, LocalKind, Module, Type,
+        TypeId, VarFlags,
+    },
 };
+
+/// Globals that are looked at to find out which each function writes. A chain of ten thousand functions that write one
+/// each would take all memory.
+const MOST_WRITES: usize = 1 << 22;
 
 /// What a copy of a function has in place of one of its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -42,8 +49,9 @@ pub(super) struct Arguments {
     /// Which locals some call takes as a whole for a parameter that is indexed, there or in what it calls in turn; by
     /// [`LocalId::index`]. They are memory, as if they were indexed themselves: the call then reads them where they are.
     pub handed_on: Vec<bool>,
-    /// Which globals a function or what it calls writes, by [`FuncId::index`].
-    written: Vec<HashSet<GlobalId>>,
+    /// Which globals a function or what it calls writes, by [`FuncId::index`]; `None`: too many to tell, so any of
+    /// them.
+    written: Vec<Option<HashSet<GlobalId>>>,
     /// Parameters of each function that a copy of it can have something in place of, in order.
     givable: Vec<Vec<LocalId>>,
     /// How many expressions name each constant, by [`ConstId::index`].
@@ -53,11 +61,17 @@ pub(super) struct Arguments {
 impl Arguments {
     /// `writes` has the globals that each function itself writes, by [`FuncId::index`].
     pub fn new(module: &Module, writes: Vec<HashSet<GlobalId>>) -> Self {
-        let mut written = writes;
+        let mut written: Vec<_> = writes.into_iter().map(Some).collect();
+        let mut work = 0;
         for &func in &module.call_order {
-            let mut all = std::mem::take(&mut written[func.index()]);
+            let mut all = written[func.index()].take();
             for callee in &module[func].calls {
-                all.extend(&written[callee.index()]);
+                let of_callee = written[callee.index()].as_ref();
+                work += of_callee.map_or(0, HashSet::len);
+                match (&mut all, of_callee.filter(|_| work <= MOST_WRITES)) {
+                    (Some(all), Some(of_callee)) => all.extend(of_callee),
+                    _ => all = None,
+                }
             }
             written[func.index()] = all;
         }
@@ -93,7 +107,7 @@ impl Arguments {
 
     /// Whether a function or what it calls writes a global.
     pub fn writes(&self, func: FuncId, global: GlobalId) -> bool {
-        self.written[func.index()].contains(&global)
+        self.written[func.index()].as_ref().is_none_or(|written| written.contains(&global))
     }
 
     /// Whether a local is indexed, in its function or in one it is handed to as a whole.
@@ -114,10 +128,11 @@ impl Arguments {
     /// What a call in `caller` (none: an initialiser) passes for those.
     pub fn passed(&self, module: &Module, caller: Option<FuncId>, func: FuncId, args: &[ExprId]) -> Vec<Passed> {
         let first = module[func].locals.start as usize;
+        let last_effect = last_effect(module, args);
         let passed = self.givable(func).iter().map(|param| {
             let place = param.index() - first;
             // What a later argument changes is not what was passed.
-            let changes = args[place + 1..].iter().any(|&arg| module[arg].flags.contains(ExprFlags::EFFECTS));
+            let changes = last_effect > Some(place);
             match module[args[place]].kind {
                 ExprKind::Channel(channel) => Passed::Known(Given::Channel(channel)),
                 ExprKind::Const(table) if self.is_table(module, table) => Passed::Known(Given::Table(table)),
@@ -134,9 +149,10 @@ impl Arguments {
                 }
                 ExprKind::Local(local) => {
                     let givable = caller.map_or(&[][..], |caller| self.givable(caller));
-                    match givable.iter().position(|&param| param == local) {
-                        Some(param) => Passed::Param(param),
-                        None => Passed::Known(Given::Argument),
+                    // They are in order.
+                    match givable.binary_search(&local) {
+                        Ok(param) => Passed::Param(param),
+                        Err(_) => Passed::Known(Given::Argument),
                     }
                 }
                 _ => Passed::Known(Given::Argument),
@@ -146,27 +162,37 @@ impl Arguments {
     }
 }
 
+/// The last argument whose evaluation changes something.
+fn last_effect(module: &Module, args: &[ExprId]) -> Option<usize> {
+    args.iter().rposition(|&arg| module[arg].flags.contains(ExprFlags::EFFECTS))
+}
+
 /// See [`Arguments::handed_on`].
 fn handed_on(module: &Module) -> Vec<bool> {
     let mut found = vec![false; module.locals.len()];
-    // Once more for each call that a local is handed on through; there is no recursion.
-    loop {
-        let mut grows = false;
-        for expr in &module.exprs {
-            let ExprKind::Call { func, args } = expr.kind else { continue };
-            let first = module[func].locals.start as usize;
-            for (i, &arg) in module[args].iter().enumerate() {
-                let param = LocalId::new(first + i);
-                let indexed = module[param].flags.contains(VarFlags::INDEXED) || found[param.index()];
-                if let (true, ExprKind::Local(local)) = (indexed, module[arg].kind) {
-                    grows |= !std::mem::replace(&mut found[local.index()], true);
-                }
-            }
-        }
-        if !grows {
-            return found;
+    let mut order = vec![usize::MAX; module.functions.len()];
+    for (i, func) in module.call_order.iter().enumerate() {
+        order[func.index()] = i;
+    }
+    let mut calls: Vec<(FuncId, List<ExprId>)> = Vec::new();
+    for expr in &module.exprs {
+        if let ExprKind::Call { func, args } = expr.kind {
+            calls.push((func, args));
         }
     }
+    // All that a function calls comes before all calls of it: what it hands on is known by then.
+    calls.sort_by_key(|(func, _)| order[func.index()]);
+    for (func, args) in calls {
+        let first = module[func].locals.start as usize;
+        for (i, &arg) in module[args].iter().enumerate() {
+            let param = LocalId::new(first + i);
+            let indexed = module[param].flags.contains(VarFlags::INDEXED) || found[param.index()];
+            if let (true, ExprKind::Local(local)) = (indexed, module[arg].kind) {
+                found[local.index()] = true;
+            }
+        }
+    }
+    found
 }
 
 impl Builder<'_, '_> {
@@ -187,6 +213,8 @@ impl Builder<'_, '_> {
             .collect();
         let mut next_given = given.iter();
         let mut copies_out: Vec<(Place, Value)> = Vec::new();
+        let last_effect = last_effect(hir, args);
+        let outs = self.out_locals(params, args);
         for (i, (param, &arg)) in params.iter().zip(args).enumerate() {
             let local = LocalId::new(hir[func].locals.start as usize + i);
             if self.cx.arguments.is_givable(hir, local) && next_given.next().is_some_and(|g| *g != Given::Argument) {
@@ -197,8 +225,14 @@ impl Builder<'_, '_> {
                 arguments.push(self.value(arg));
                 continue;
             }
+            // Passed by no other `out` or `inout` parameter, and changed by no later argument, the copy and the
+            // variable cannot be told apart.
             if let Some((local, pointer)) = self.whole_local(arg)
-                && self.is_private_to_call(local, i, params, args)
+                && last_effect <= Some(i)
+                && outs[outs.partition_point(|out| out.0 < local)..]
+                    .iter()
+                    .take(2)
+                    .all(|&out| out.0 != local || out.1 == i)
             {
                 arguments.push(pointer);
                 continue;
@@ -260,16 +294,12 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Whether argument `i`, the variable `local`, is passed by no other `out` or `inout` parameter of this call, and no later
-    /// argument changes anything: then the copy and the variable cannot be told apart.
-    fn is_private_to_call(&self, local: LocalId, i: usize, params: &[Local], args: &[ExprId]) -> bool {
-        let hir = self.cx.hir;
-        let others = params.iter().zip(args).enumerate().filter(|(other, _)| *other != i);
-        others.into_iter().all(|(other, (param, &arg))| {
-            let changes = other > i && hir[arg].flags.contains(ExprFlags::EFFECTS);
-            let is_out_too = param.kind.copies_out() && self.root_local(arg) == Some(local);
-            !changes && !is_out_too
-        })
+    /// The variables that `out` and `inout` parameters of a call are or lie in, in order, and which argument each is.
+    fn out_locals(&self, params: &[Local], args: &[ExprId]) -> Vec<(LocalId, usize)> {
+        let outs = params.iter().zip(args).enumerate().filter(|(_, (param, _))| param.kind.copies_out());
+        let mut outs: Vec<_> = outs.filter_map(|(i, (_, &arg))| Some((self.root_local(arg)?, i))).collect();
+        outs.sort_unstable();
+        outs
     }
 
     fn root_local(&self, place: ExprId) -> Option<LocalId> {

@@ -16,6 +16,8 @@ impl Builder<'_, '_> {
         let hir = self.cx.hir;
         let mut spine = Vec::new();
         let mut at = expr;
+        // Links that need not be looked at, lest a chain be looked through for each of its links.
+        let mut too_long = 0;
         let mut value = loop {
             match hir[at].kind {
                 ExprKind::Member { .. } | ExprKind::Swizzle { .. } | ExprKind::Index { .. } => match self.read(at) {
@@ -32,8 +34,12 @@ impl Builder<'_, '_> {
                     }
                 },
                 ExprKind::Binary { lhs: inner, .. } => {
-                    if let Some(value) = self.balanced(at) {
+                    if too_long > 0 {
+                        too_long -= 1;
+                    } else if let Some(value) = self.balanced(at) {
                         break value;
+                    } else {
+                        too_long = self.links_too_long(at);
                     }
                     spine.push(at);
                     at = inner;

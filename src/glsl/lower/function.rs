@@ -7,7 +7,7 @@ mod variables;
 
 use std::collections::HashMap;
 
-use naga::{Block, Expression, FunctionArgument, FunctionResult, Handle, Span, Statement};
+use naga::{Block, Expression, FastHashSet, FunctionArgument, FunctionResult, Handle, Span, Statement};
 
 use super::{Instance, Lowering, Map, calls::Given, filled, inline::Leaving, ranges::Bounds, scalars, split::split};
 use crate::glsl::{
@@ -109,10 +109,14 @@ pub(super) struct Builder<'m, 'a> {
     /// What was read from memory and not written since: by variable, then by pointer into it.
     pub loaded: Map<Value, Map<Value, Value>>,
     pub loaded_in_order: Vec<(Value, Value)>,
+    /// The module-scope variables among them.
+    pub loaded_globals: FastHashSet<Value>,
     /// Members of structures as they were when these were read.
     pub members: Map<(Value, u32), Value>,
     /// Variables written in the block at hand.
     pub written: std::collections::HashSet<Value>,
+    /// A call in the block at hand may have written every module-scope variable.
+    pub globals_written: bool,
     /// From the outermost to the innermost, with those of the functions that this one is part of.
     pub loops: Vec<Loop>,
     /// How many loops and switches the code at hand lies in.
@@ -186,8 +190,10 @@ impl<'m, 'a> Builder<'m, 'a> {
             made_in_order: Vec::new(),
             loaded: Map::default(),
             loaded_in_order: Vec::new(),
+            loaded_globals: Default::default(),
             members: Map::default(),
             written: Default::default(),
+            globals_written: false,
             loops: Vec::new(),
             breakable: 0,
             declared: Map::default(),
@@ -317,10 +323,12 @@ impl<'m, 'a> Builder<'m, 'a> {
         // What is known here is not known there, nor the other way round.
         let made = (std::mem::take(&mut self.made), std::mem::take(&mut self.made_in_order));
         let loaded = (std::mem::take(&mut self.loaded), std::mem::take(&mut self.loaded_in_order));
+        let loaded_globals = std::mem::take(&mut self.loaded_globals);
         let value = make(self);
         self.emit();
         (self.made, self.made_in_order) = made;
         (self.loaded, self.loaded_in_order) = loaded;
+        self.loaded_globals = loaded_globals;
         self.start = Some(std::mem::replace(&mut self.block, block));
         Some(value)
     }

@@ -9,6 +9,7 @@ use naga::{Expression, Handle, Statement, Type, TypeInner};
 
 use super::{
     function::{Builder, Slot, Value},
+    split,
     walk::{Node, walk},
     writes,
 };
@@ -16,6 +17,13 @@ use crate::glsl::{
     ast::List,
     hir::{Builtin, ExprId, ExprKind, FuncId, StmtId},
 };
+
+/// Parts of one variable of which it is known what they hold. All are looked through where one of them is written; a
+/// shader that a person wrote knows a few dozen.
+const MOST_PARTS: usize = 512;
+
+/// Module-scope variables of which that is known. All are looked through where a loop begins.
+const MOST_GLOBALS: usize = 1024;
 
 impl Builder<'_, '_> {
     /// What a pointer points to.
@@ -30,7 +38,8 @@ impl Builder<'_, '_> {
         {
             return self.add(Expression::AccessIndex { base: whole, index });
         }
-        let members: Vec<(u32, Value)> = known.map_or_else(Vec::new, |parts| {
+        let is_structure = self.is_structure(pointer);
+        let members: Vec<(u32, Value)> = known.filter(|_| is_structure).map_or_else(Vec::new, |parts| {
             let member = |(&part, &value): (&Value, &Value)| match self.f.expressions[part] {
                 Expression::AccessIndex { base, index } if base == pointer => Some((index, value)),
                 _ => None,
@@ -38,7 +47,7 @@ impl Builder<'_, '_> {
             parts.iter().filter_map(member).collect()
         });
         let value = self.add(Expression::Load { pointer });
-        if self.is_structure(pointer) {
+        if is_structure {
             self.members.extend(members.into_iter().map(|(index, member)| ((value, index), member)));
         }
         self.know(variable, pointer, value);
@@ -58,10 +67,17 @@ impl Builder<'_, '_> {
             }
             let variable = self.variable(pointer);
             self.know(variable, pointer, value);
-        } else if self.is_structure(pointer) {
+        } else if self.is_structure(pointer) && self.is_few_parts(ty) {
             let variable = self.variable(pointer);
             self.know_members(variable, pointer, value);
         }
+    }
+
+    /// Whether what a type holds is not too much to be told apart.
+    fn is_few_parts(&self, ty: Handle<Type>) -> bool {
+        let mut scalars = 0;
+        split::count_scalars(&self.cx.out.types, ty, &mut scalars);
+        scalars <= split::MOST_SCALARS
     }
 
     /// A structure was written: what is known of its members is known of those of the memory.
@@ -119,7 +135,7 @@ impl Builder<'_, '_> {
                 _ => others = true,
             }
         }
-        for variable in self.loaded.keys().copied().collect::<Vec<_>>() {
+        for variable in self.loaded_globals.iter().copied().collect::<Vec<_>>() {
             let Expression::GlobalVariable(handle) = self.f.expressions[variable] else { continue };
             let written = match self.cx.authors_global(handle) {
                 Some(global) => {
@@ -136,13 +152,25 @@ impl Builder<'_, '_> {
     fn forget_part(&mut self, variable: Value, path: &[u32]) {
         self.written.insert(variable);
         let Some(mut parts) = self.loaded.remove(&variable) else { return };
-        parts.retain(|&part, _| {
-            let (_, other) = self.path(part);
-            let shared = path.len().min(other.len());
-            path[..shared] != other[..shared]
-        });
-        if !parts.is_empty() {
-            self.loaded.insert(variable, parts);
+        if !path.is_empty() {
+            parts.retain(|&part, _| {
+                let (_, other) = self.path(part);
+                let shared = path.len().min(other.len());
+                path[..shared] != other[..shared]
+            });
+            if !parts.is_empty() {
+                self.loaded.insert(variable, parts);
+                return;
+            }
+        }
+        self.loaded_globals.remove(&variable);
+    }
+
+    /// Forgets all module-scope variables: a function is called.
+    pub fn forget_globals(&mut self) {
+        self.globals_written = true;
+        for variable in self.loaded_globals.drain() {
+            self.loaded.remove(&variable);
         }
     }
 
@@ -199,6 +227,19 @@ impl Builder<'_, '_> {
 
     /// What `pointer`, into `variable`, points to is `value`.
     fn know(&mut self, variable: Value, pointer: Value, value: Value) {
+        if matches!(self.f.expressions[variable], Expression::GlobalVariable(_))
+            && !self.loaded_globals.contains(&variable)
+        {
+            if self.loaded_globals.len() >= MOST_GLOBALS {
+                return;
+            }
+            self.loaded_globals.insert(variable);
+        }
+        // Of an array all is forgotten at once.
+        let all_known = self.loaded.get(&variable).is_some_and(|parts| parts.len() >= MOST_PARTS);
+        if all_known && self.is_structure(variable) {
+            return;
+        }
         self.loaded.entry(variable).or_default().insert(pointer, value);
         self.loaded_in_order.push((variable, pointer));
     }

@@ -9,7 +9,7 @@ use naga::{
     StructMember, TypeInner, VectorSize,
 };
 
-use super::Lowering;
+use super::{Lowering, Map};
 use crate::glsl::{
     ChannelKind, UniformSet,
     hir::{BuiltinVar, GlobalId, Scalar, TypeId, Uniform},
@@ -24,6 +24,8 @@ pub(super) struct Resources {
     samplers: [Option<Handle<GlobalVariable>>; 4],
     /// By [`GlobalId::index`].
     globals: Vec<Option<Handle<GlobalVariable>>>,
+    /// The other way round.
+    authors: Map<Handle<GlobalVariable>, GlobalId>,
     /// `gl_FragCoord`, where something other than the entry point reads it.
     pub frag_coord: Option<Handle<GlobalVariable>>,
     pub frag_depth: Option<Handle<GlobalVariable>>,
@@ -44,6 +46,7 @@ impl Resources {
             textures: [None; 4],
             samplers: [None; 4],
             globals: vec![None; globals],
+            authors: Map::default(),
             frag_coord: None,
             frag_depth: None,
             geometry: None,
@@ -274,12 +277,13 @@ impl Lowering<'_> {
             self.consts.set_at_start.push((made, value));
         }
         self.resources.globals[id.index()] = Some(made);
+        self.resources.authors.insert(made, id);
         made
     }
 
     /// Which of the author's globals some memory is.
     pub fn authors_global(&self, memory: Handle<GlobalVariable>) -> Option<GlobalId> {
-        self.resources.globals.iter().position(|&made| made == Some(memory)).map(GlobalId::new)
+        self.resources.authors.get(&memory).copied()
     }
 
     pub fn frag_coord(&mut self) -> Handle<GlobalVariable> {

@@ -162,8 +162,14 @@ impl Builder<'_, '_> {
     pub fn known_component(&mut self, base: Value, index: u32) -> Option<Value> {
         match self.f.expressions[base] {
             Expression::Splat { value, .. } => Some(value),
-            Expression::Swizzle { vector, pattern, .. } => {
-                Some(self.add(Expression::AccessIndex { base: vector, index: pattern[index as usize] as u32 }))
+            Expression::Swizzle { vector: mut base, pattern, .. } => {
+                let mut index = pattern[index as usize] as u32;
+                // Thousands may stand one behind the other.
+                while let Expression::Swizzle { vector, pattern, .. } = self.f.expressions[base] {
+                    index = pattern[index as usize] as u32;
+                    base = vector;
+                }
+                Some(self.add(Expression::AccessIndex { base, index }))
             }
             Expression::Compose { ty, ref components } => {
                 let whole = match self.cx.out.types[ty].inner {

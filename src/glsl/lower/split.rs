@@ -14,6 +14,10 @@ use naga::proc::TypeResolution;
 
 use super::function::Value;
 
+/// What holds more scalars stays memory: to copy it takes an instruction, not one for each of them. Structures that
+/// people write have some dozens.
+pub(super) const MOST_SCALARS: usize = 256;
+
 /// Takes apart the variables of a function that nothing but loads, stores and constant indices touch: no call is given a pointer
 /// to them. What holds an array stays as it is, and what begins with a value.
 pub(super) fn split(f: &mut Function, types: &mut UniqueArena<Type>) {
@@ -22,7 +26,10 @@ pub(super) fn split(f: &mut Function, types: &mut UniqueArena<Type>) {
         .iter()
         .map(|(_, variable)| {
             let mut scalars = Vec::new();
-            let whole = variable.init.is_some() || !scalars_of(types, variable.ty, &mut scalars);
+            let mut count = 0;
+            count_scalars(types, variable.ty, &mut count);
+            let whole =
+                variable.init.is_some() || count > MOST_SCALARS || !scalars_of(types, variable.ty, &mut scalars);
             if whole || scalars.len() == 1 { Vec::new() } else { scalars }
         })
         .collect();
@@ -221,6 +228,23 @@ impl Split<'_> {
             made.push(statement, span);
         }
         *block = made;
+    }
+}
+
+/// Counts the scalars of a type, and what is neither scalar nor made of parts; stops past [`MOST_SCALARS`].
+pub(super) fn count_scalars(types: &UniqueArena<Type>, ty: Handle<Type>, count: &mut usize) {
+    match &types[ty].inner {
+        TypeInner::Vector { size, .. } => *count += *size as usize,
+        TypeInner::Matrix { columns, rows, .. } => *count += *columns as usize * *rows as usize,
+        TypeInner::Struct { members, .. } => {
+            for member in members {
+                if *count > MOST_SCALARS {
+                    return;
+                }
+                count_scalars(types, member.ty, count);
+            }
+        }
+        _ => *count += 1,
     }
 }
 

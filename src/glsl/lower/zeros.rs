@@ -16,6 +16,10 @@ use crate::glsl::{
     },
 };
 
+/// How often all expressions are looked at. One time more is needed for each step by which a zero gets from variable to
+/// variable against the order of the text, so that a chain of ten thousand would take as many.
+const MOST_ROUNDS: usize = 64;
+
 /// Says of each expression whether it, or a part of it, may be a zero that is known without running anything. Neither the order
 /// of statements nor the parts of a variable are told apart: too many found cost one instruction each.
 pub(super) struct Zeros {
@@ -39,10 +43,14 @@ impl Zeros {
         for (local, zero) in module.locals.iter().zip(&mut search.locals) {
             *zero = local.kind == LocalKind::Out;
         }
-        while std::mem::take(&mut search.changed) {
+        for _ in 0..MOST_ROUNDS {
+            if !std::mem::take(&mut search.changed) {
+                return Self { exprs: search.exprs };
+            }
             search.round(&returns);
         }
-        Self { exprs: search.exprs }
+        // Any may be: that costs an instruction a division.
+        Self { exprs: vec![true; module.exprs.len()] }
     }
 
     pub fn contain(&self, expr: ExprId) -> bool {

@@ -16,10 +16,10 @@ impl Builder<'_, '_> {
         match &statement {
             Statement::Store { pointer, .. } => self.forget(*pointer),
             Statement::Call { arguments, .. } => {
-                let globals = self.globals.values().copied();
-                for pointer in arguments.iter().copied().chain(globals).collect::<Vec<_>>() {
+                for &pointer in arguments {
                     self.forget(pointer);
                 }
+                self.forget_globals();
                 self.run = self.f.expressions.len();
             }
             Statement::If { .. } | Statement::Loop { .. } | Statement::Switch { .. } => {
@@ -34,14 +34,25 @@ impl Builder<'_, '_> {
 
     /// A nested block, filled by `fill`, before which nothing is known of memory. Tells also whether its end can not be reached.
     pub fn nested(&mut self, fill: impl FnOnce(&mut Self)) -> (Block, bool) {
-        let mut loaded = std::mem::take(&mut self.loaded);
+        let loaded = std::mem::take(&mut self.loaded);
+        let loaded_globals = std::mem::take(&mut self.loaded_globals);
         let before = self.loaded_in_order.len();
         let written = std::mem::take(&mut self.written);
+        let globals_written = std::mem::take(&mut self.globals_written);
         let made = self.block_of(fill);
         self.loaded_in_order.truncate(before);
-        loaded.retain(|variable, _| !self.written.contains(variable));
         self.loaded = loaded;
-        self.written.extend(written);
+        self.loaded_globals = loaded_globals;
+        let within = std::mem::replace(&mut self.written, written);
+        for variable in &within {
+            self.loaded.remove(variable);
+            self.loaded_globals.remove(variable);
+        }
+        self.written.extend(within);
+        if self.globals_written {
+            self.forget_globals();
+        }
+        self.globals_written |= globals_written;
         made
     }
 

@@ -63,10 +63,12 @@ impl Builder<'_, '_> {
     }
 
     /// Whether a value is the result of an operation, and no variable, argument or part of one.
-    pub fn is_computed(&self, value: Value) -> bool {
+    pub fn is_computed(&self, mut value: Value) -> bool {
         use Expression as E;
+        while let E::Swizzle { vector: of, .. } | E::AccessIndex { base: of, .. } = self.f.expressions[value] {
+            value = of;
+        }
         match self.f.expressions[value] {
-            E::Swizzle { vector: of, .. } | E::AccessIndex { base: of, .. } => self.is_computed(of),
             E::Binary { .. }
             | E::Unary { .. }
             | E::Math { .. }
