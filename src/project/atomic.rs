@@ -62,7 +62,7 @@ pub fn write_all(files: Vec<(PathBuf, Content)>) -> Result<(), ProjectError> {
     let mut staged = Vec::new();
     for (path, content) in files {
         let path = real_path(path);
-        let file = stage(&path, |file| file.write_all(&*content.read().map_err(io::Error::other)?));
+        let file = stage(&path, |file| file.write_all(&content.read().map_err(io::Error::other)?));
         staged.push((file.map_err(ProjectError::io("write", &path))?, path));
     }
     for (file, path) in staged {

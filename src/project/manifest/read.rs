@@ -155,7 +155,7 @@ impl Reader<'_> {
             if item.as_bool() == Some(false) {
                 return None;
             }
-            let Some(table) = self.table("common", item) else { return None };
+            let table = self.table("common", item)?;
             self.check_keys("[common]", table, &[&["file"]]);
             let file = self.string(table, "file").unwrap_or_else(|| self.conventional(&Role::Common));
             let at = table.get("file").and_then(Item::span).or_else(|| item.span());
