@@ -2,8 +2,10 @@
 //!
 //! GLSL leaves a division by zero open (section 5.9), and so does SPIR-V, with that of the least int by -1. On x86 either ends the
 //! process: in Mesa's drivers already when they fold constants (`idiv` in `nir_constant_expressions.c` asks for a zero only). So a
-//! divisor of which it is not known to be neither is guarded here, and no driver meets one: WGSL's values hold (section 8.7), `x / 0`
-//! is `x`, `x % 0` is 0, and the least int divided by -1 is itself, with the remainder 0. That is division by 1.
+//! divisor of which it is not known to be neither becomes 1, and no driver meets one: WGSL's values hold (section 8.7), `x / 0` is
+//! `x`, `x % 0` is 0, and the least int divided by -1 is itself, with the remainder 0. What divides by -1 is divided by 1 and
+//! turned round, which needs no look at the dividend: of one divisor there is one guard, outside the loop if it stays the same,
+//! and `/` and `%` share their quotient.
 //!
 //! naga has guards too, but as functions that are called, and without regard to what is known of the operands.
 
@@ -16,7 +18,6 @@ use super::{
 };
 use crate::glsl::hir::{BinaryOp, ExprId, Scalar, Shape, TypeId};
 
-const LEAST: u32 = i32::MIN as u32;
 const MINUS_ONE: u32 = -1i32 as u32;
 
 /// What is known of the operands of a division.
@@ -51,6 +52,8 @@ impl Builder<'_, '_> {
         let signed = self.cx.hir.types.scalar(ty) == Some(Scalar::Int);
         let dividend = if shape == Shape::ScalarLeft { self.splat(left.1, ty) } else { left.1 };
         let mut numbers = Vec::new();
+        let may_be = |bounds: Option<Bounds>, number: i64| bounds.is_none_or(|(l, g)| l <= number && number <= g);
+        let (mut zero, mut minus_one) = (false, false);
         let divisor = match self.int_components(right.0, right.1, &mut numbers) {
             // The divisor that is no divisor, without a division.
             Some(()) if signed && numbers.iter().all(|&number| number == MINUS_ONE) => {
@@ -58,54 +61,63 @@ impl Builder<'_, '_> {
                 return if op == BinaryOp::Rem { zero } else { self.op(Op::Subtract, zero, dividend) };
             }
             Some(()) => {
-                let overflows = signed && numbers.contains(&MINUS_ONE);
-                let divisor = self.without_zeros(right, numbers);
-                let divisor = self.splat_to(divisor, right.0, ty);
-                if overflows { self.guarded(ty, dividend, divisor, false) } else { divisor }
+                minus_one = signed && numbers.contains(&MINUS_ONE);
+                self.without_zeros(right, numbers)
             }
             None => {
-                let divisor = self.splat_to(right.1, right.0, ty);
-                let may_be =
-                    |bounds: Option<Bounds>, number: i64| bounds.is_none_or(|(l, g)| l <= number && number <= g);
-                let zero = may_be(known.right, 0);
-                if signed && may_be(known.right, -1) && may_be(known.left, i32::MIN.into()) {
-                    self.guarded(ty, dividend, divisor, zero)
-                } else if zero && (!signed || known.right.is_some_and(|(least, _)| least >= 0)) {
-                    let one = self.int_of(ty, 1);
-                    self.math2(MathFunction::Max, divisor, one)
-                } else if zero {
-                    let none = self.zero(ty);
-                    let one = self.int_of(ty, 1);
-                    let is_zero = self.op(Op::Equal, divisor, none);
-                    self.select(is_zero, one, divisor)
-                } else {
-                    divisor
-                }
+                zero = may_be(known.right, 0);
+                minus_one = signed && may_be(known.right, -1) && may_be(known.left, i32::MIN.into());
+                right.1
+            }
+        };
+        let positive = known.right.is_some_and(|(least, _)| least >= 0);
+        let divisor = self.splat_to(divisor, right.0, ty);
+        let one = self.int_of(ty, 1);
+        let safe = match (zero, minus_one) {
+            (false, false) => divisor,
+            (true, false) if !signed || positive => self.math2(MathFunction::Max, divisor, one),
+            (true, false) => {
+                let none = self.zero(ty);
+                let bad = self.op(Op::Equal, divisor, none);
+                self.select(bad, one, divisor)
+            }
+            (false, true) => {
+                let bad = self.is_minus_one(ty, divisor);
+                self.select(bad, one, divisor)
+            }
+            // Both at once: one more is 0 or 1.
+            (true, true) => {
+                let more = self.op(Op::Add, divisor, one);
+                let unsigned = TypeId::vector(Scalar::Uint, self.extent(ty) as u8);
+                let more = self.convert(more, unsigned);
+                let two = self.int_of(unsigned, 2);
+                let bad = self.op(Op::Less, more, two);
+                self.select(bad, one, divisor)
             }
         };
         match op {
-            BinaryOp::Rem if signed => self.remainder(ty, dividend, divisor),
-            BinaryOp::Rem => self.op(Op::Modulo, dividend, divisor),
-            _ => self.op(Op::Divide, dividend, divisor),
+            BinaryOp::Rem if signed => self.remainder(ty, dividend, safe),
+            BinaryOp::Rem => self.op(Op::Modulo, dividend, safe),
+            _ => {
+                let quotient = self.op(Op::Divide, dividend, safe);
+                if !minus_one {
+                    return quotient;
+                }
+                let none = self.zero(ty);
+                let negative = self.op(Op::Subtract, none, quotient);
+                let turned = self.is_minus_one(ty, divisor);
+                self.select(turned, negative, quotient)
+            }
         }
+    }
+
+    fn is_minus_one(&mut self, ty: TypeId, divisor: Value) -> Value {
+        let minus_one = self.int_of(ty, MINUS_ONE);
+        self.op(Op::Equal, divisor, minus_one)
     }
 
     fn splat_to(&mut self, value: Value, from: TypeId, ty: TypeId) -> Value {
         if from == ty { value } else { self.splat(value, ty) }
-    }
-
-    /// 1 for a divisor that would overflow or, where it may be that, is zero.
-    fn guarded(&mut self, ty: TypeId, dividend: Value, divisor: Value, zero: bool) -> Value {
-        let (least, minus_one, one) = (self.int_of(ty, LEAST), self.int_of(ty, MINUS_ONE), self.int_of(ty, 1));
-        let is_least = self.op(Op::Equal, dividend, least);
-        let is_minus_one = self.op(Op::Equal, divisor, minus_one);
-        let mut bad = self.op(Op::And, is_least, is_minus_one);
-        if zero {
-            let none = self.zero(ty);
-            let is_zero = self.op(Op::Equal, divisor, none);
-            bad = self.op(Op::InclusiveOr, is_zero, bad);
-        }
-        self.select(bad, one, divisor)
     }
 
     /// A constant divisor with ones in place of zeros.

@@ -187,7 +187,7 @@ impl Maker {
             }
             3 if size == 1 && base == Base::Int => Expr::Abs(Box::new(self.value(&ty, depth - 1))),
             4 if self.rng.percent(40) => self.effect_of(&ty, depth - 1).unwrap_or_else(|| self.leaf(&ty, depth)),
-            5 if size == 1 => self.counter().unwrap_or_else(|| self.leaf(&ty, depth)).as_base(base),
+            5 if size == 1 => self.counter().unwrap_or_else(|| self.leaf(&ty, depth)).into_base(base),
             _ => self.arithmetic(&ty, base, size, depth),
         }
     }
@@ -239,7 +239,7 @@ impl Maker {
     /// No constant.
     fn anything(&mut self, ty: &Ty) -> Expr {
         let base = ty.base().expect("numbers");
-        let of = Expr::Given(self.rng.below(3)).as_base(base);
+        let of = Expr::Given(self.rng.below(3)).into_base(base);
         match ty {
             Ty::Num(_, 1) => of,
             _ => Expr::Construct(ty.clone(), vec![of]),
@@ -430,7 +430,7 @@ impl Maker {
 
 impl Expr {
     /// Converted, where it is not of that type.
-    fn as_base(self, base: Base) -> Expr {
+    fn into_base(self, base: Base) -> Expr {
         if self.ty().base() == Some(base) { self } else { Expr::Convert(base, Box::new(self)) }
     }
 
