@@ -53,21 +53,20 @@ impl Builder<'_, '_> {
         let dividend = if shape == Shape::ScalarLeft { self.splat(left.1, ty) } else { left.1 };
         let mut numbers = Vec::new();
         let may_be = |bounds: Option<Bounds>, number: i64| bounds.is_none_or(|(l, g)| l <= number && number <= g);
-        let (mut zero, mut minus_one) = (false, false);
-        let divisor = match self.int_components(right.0, right.1, &mut numbers) {
+        // What the divisor may be, the latter where it overflows.
+        let (divisor, zero, minus_one) = match self.int_components(right.0, right.1, &mut numbers) {
             // The divisor that is no divisor, without a division.
             Some(()) if signed && numbers.iter().all(|&number| number == MINUS_ONE) => {
                 let zero = self.zero(ty);
                 return if op == BinaryOp::Rem { zero } else { self.op(Op::Subtract, zero, dividend) };
             }
             Some(()) => {
-                minus_one = signed && numbers.contains(&MINUS_ONE);
-                self.without_zeros(right, numbers)
+                let minus_one = signed && numbers.contains(&MINUS_ONE);
+                (self.without_zeros(right, numbers), false, minus_one)
             }
             None => {
-                zero = may_be(known.right, 0);
-                minus_one = signed && may_be(known.right, -1) && may_be(known.left, i32::MIN.into());
-                right.1
+                let minus_one = signed && may_be(known.right, -1) && may_be(known.left, i32::MIN.into());
+                (right.1, may_be(known.right, 0), minus_one)
             }
         };
         let positive = known.right.is_some_and(|(least, _)| least >= 0);
