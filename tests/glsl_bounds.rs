@@ -1,5 +1,5 @@
-//! Indices out of range reach the nearest element and nothing else, wherever the code that holds them is written out once more or
-//! elsewhere: what is known of a counter in one place is not believed in another.
+//! Indices out of range reach the nearest element and nothing else, wherever the code that holds them is written out
+//! once more or elsewhere: what is known of a counter in one place is not believed in another.
 //!
 //! The array `a` lies between `g` and `h`, which must stay as they are.
 

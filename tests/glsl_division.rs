@@ -1,4 +1,5 @@
-//! Divisions of integers that a processor traps on: no program ends the process, and each has the value that WGSL gives it.
+//! Divisions of integers that a processor traps on: no program ends the process, and each has the value that WGSL gives
+//! it.
 
 #[path = "support/compute.rs"]
 mod compute;

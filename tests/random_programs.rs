@@ -1,8 +1,9 @@
-//! Random programs: each is drawn as an author writes it, and with everything said in the text that Eddy promises without:
-//! every index clamped, every variable with its zero, every division guarded. Both must give what a small interpreter gives.
+//! Random programs: each is drawn as an author writes it, and with everything said in the text that Eddy promises
+//! without: every index clamped, every variable with its zero, every division guarded. Both must give what a small
+//! interpreter gives.
 //!
-//! `EDDY_RANDOM_PROGRAMS` says how many, `EDDY_RANDOM_SEED` which is the first. A program that fails is printed with its seed, made
-//! as small as statements can be left out of it.
+//! `EDDY_RANDOM_PROGRAMS` says how many, `EDDY_RANDOM_SEED` which is the first. A program that fails is printed with
+//! its seed, made as small as statements can be left out of it.
 
 #[path = "support/random/mod.rs"]
 mod random;

@@ -115,21 +115,22 @@ pub(super) fn shader_module(gpu: &Gpu, label: &str, module: naga::Module) -> wgp
     let mut checks = wgpu::ShaderRuntimeChecks::checked();
     // Counting every loop's turns up to 2^64 costs time in each and keeps no shader from running for hours.
     checks.force_loop_bounding = gpu.runtime_checks;
-    // Divisors of integers come guarded from the front end (`glsl/lower/divide.rs`): x86 traps on a division by zero, and Mesa
-    // on that of the least int by -1 already when it folds constants.
+    // Divisors of integers come guarded from the front end (`glsl/lower/divide.rs`): x86 traps on a division by zero,
+    // and Mesa on that of the least int by -1 already when it folds constants.
     checks.int_div_checks = gpu.runtime_checks;
     // Indices come clamped from the front end (`glsl/lower/access.rs`) where they are not known to be in range
-    // (`glsl/lower/ranges.rs`). Fetches outside a texture give zeros by the hardware or the driver's image robustness everywhere
-    // but on Metal.
+    // (`glsl/lower/ranges.rs`). Fetches outside a texture give zeros by the hardware or the driver's image robustness
+    // everywhere but on Metal.
     checks.bounds_checks = gpu.runtime_checks || gpu.info.backend == wgpu::Backend::Metal;
-    // SAFETY: `module` comes from the front end's lowering and nowhere else, and wgpu validates it; what the checks leave out is
-    // done there:
-    // - No index reaches past what it goes into. `ranges.rs` says what that rests on: bounds hold where they were derived, and
-    //   code that is written out again elsewhere asks anew. `tests/glsl_bounds.rs` has each way in which that happens, and
-    //   `tests/random_programs.rs` holds random programs against ones with every index clamped in their text.
+    // SAFETY: `module` comes from the front end's lowering and nowhere else, and wgpu validates it; what the checks
+    // leave out is done there:
+    // - No index reaches past what it goes into. `ranges.rs` says what that rests on: bounds hold where they were
+    //   derived, and code that is written out again elsewhere asks anew. `tests/glsl_bounds.rs` has each way in which
+    //   that happens, and `tests/random_programs.rs` holds random programs against ones with every index clamped in
+    //   their text.
     // - No division of integers traps: `tests/glsl_division.rs`, and the same random programs.
-    // - Loops are not bounded. One that never ends keeps the device busy until the driver's watchdog ends it, with wgpu's
-    //   counter up to 2^64 as without.
+    // - Loops are not bounded. One that never ends keeps the device busy until the driver's watchdog ends it, with
+    //   wgpu's counter up to 2^64 as without.
     unsafe {
         gpu.device.create_shader_module_trusted(
             wgpu::ShaderModuleDescriptor {

@@ -1,11 +1,11 @@
 //! Quotients and remainders of integers, which nothing may trap on.
 //!
-//! GLSL leaves a division by zero open (section 5.9), and so does SPIR-V, with that of the least int by -1. On x86 either ends the
-//! process: in Mesa's drivers already when they fold constants (`idiv` in `nir_constant_expressions.c` asks for a zero only). So a
-//! divisor of which it is not known to be neither becomes 1, and no driver meets one: WGSL's values hold (section 8.7), `x / 0` is
-//! `x`, `x % 0` is 0, and the least int divided by -1 is itself, with the remainder 0. What divides by -1 is divided by 1 and
-//! turned round, which needs no look at the dividend: of one divisor there is one guard, outside the loop if it stays the same,
-//! and `/` and `%` share their quotient.
+//! GLSL leaves a division by zero open (section 5.9), and so does SPIR-V, with that of the least int by -1. On x86
+//! either ends the process: in Mesa's drivers already when they fold constants (`idiv` in `nir_constant_expressions.c`
+//! asks for a zero only). So a divisor of which it is not known to be neither becomes 1, and no driver meets one:
+//! WGSL's values hold (section 8.7), `x / 0` is `x`, `x % 0` is 0, and the least int divided by -1 is itself, with the
+//! remainder 0. What divides by -1 is divided by 1 and turned round, which needs no look at the dividend: of one
+//! divisor there is one guard, outside the loop if it stays the same, and `/` and `%` share their quotient.
 //!
 //! naga has guards too, but as functions that are called, and without regard to what is known of the operands.
 
@@ -168,8 +168,8 @@ impl Builder<'_, '_> {
         (out.len() == count).then_some(())
     }
 
-    /// `%` of ints. Undefined where a side is negative (section 5.9), but shaders lean on what OpenGL drivers and the site make of
-    /// it: a remainder with the divisor's sign.
+    /// `%` of ints. Undefined where a side is negative (section 5.9), but shaders lean on what OpenGL drivers and the
+    /// site make of it: a remainder with the divisor's sign.
     fn remainder(&mut self, ty: TypeId, left: Value, right: Value) -> Value {
         let mut divisor = right;
         if let Expression::Splat { value, .. } = self.f.expressions[divisor] {
@@ -188,8 +188,8 @@ impl Builder<'_, '_> {
         let multiple = self.op(Op::Multiply, quotient, right);
         let rest = self.op(Op::Subtract, left, multiple);
         let zero = self.zero(ty);
-        // A rest of 0 has no sign: for a positive divisor it is not below zero, and for a negative one the test is on the product of
-        // signs, which 0 must not enter.
+        // A rest of 0 has no sign: for a positive divisor it is not below zero, and for a negative one the test is on
+        // the product of signs, which 0 must not enter.
         let wrong_side = if known.is_some() {
             self.op(Op::Less, rest, zero)
         } else {

@@ -96,8 +96,8 @@ pub(super) struct Builder<'m, 'a> {
     pub constructed: std::collections::HashSet<Value>,
     /// Where in `f.expressions` the run of statements without branches begins that the builder is at.
     run: usize,
-    /// Where in `f.expressions` the last choice between two values ended that is an instruction here and a branch to OpenGL's
-    /// compilers: no variable's expression is moved over it.
+    /// Where in `f.expressions` the last choice between two values ended that is an instruction here and a branch to
+    /// OpenGL's compilers: no variable's expression is moved over it.
     pub choice: usize,
     /// What calls of functions that became part of this one gave.
     pub returned: std::collections::HashSet<Value>,
@@ -121,8 +121,8 @@ pub(super) struct Builder<'m, 'a> {
     pub loops: Vec<Loop>,
     /// How many loops and switches the code at hand lies in.
     pub breakable: usize,
-    /// Bounds of all values that an int local has from its declaration on, by [`LocalId::index`]. What holds in a part of a loop only
-    /// is in [`Loop`].
+    /// Bounds of all values that an int local has from its declaration on, by [`LocalId::index`]. What holds in a part
+    /// of a loop only is in [`Loop`].
     pub declared: Map<u32, Bounds>,
     pub result: TypeId,
     /// The author's function, none of the code around the entry point; and what this copy has in place of parameters.

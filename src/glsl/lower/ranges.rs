@@ -1,10 +1,12 @@
-//! What is known of integers: so that an index provably in range needs no clamp, and a divisor that is never zero no guard.
+//! What is known of integers: so that an index provably in range needs no clamp, and a divisor that is never zero no
+//! guard.
 //!
-//! Nothing else keeps a generated program from memory that is not its own, nor from a trapping division: so what is known of a
-//! local must hold at the very place where it is asked for. There are two kinds:
-//! - What [`Builder::note_range`] finds holds for each value that the local has from its declaration until it is declared again,
-//!   wherever the code between is written out: it follows from the declaration and from the only expression that writes the
-//!   local. A function that becomes part of its caller again begins anew ([`Builder::enter`]).
+//! Nothing else keeps a generated program from memory that is not its own, nor from a trapping division: so what is
+//! known of a local must hold at the very place where it is asked for. There are two kinds:
+//! - What [`Builder::note_range`] finds holds for each value that the local has from its declaration until it is
+//!   declared again, wherever the code between is written out: it follows from the declaration and from the only
+//!   expression that writes the local. A function that becomes part of its caller again begins anew
+//!   ([`Builder::enter`]).
 //! - The bounds of a counter in the rounds of its loop hold in the loop's body alone. They are part of the entry in
 //!   [`Builder::loops`], which says in which part of the loop the code at hand lies ([`Builder::within`]).
 //!
@@ -63,8 +65,8 @@ impl Builder<'_, '_> {
         self.range_within(expr, DEPTH)
     }
 
-    /// Bounds of what a local holds at this place; of a float, those of `int(x)`. The loops at hand say what holds in their bodies
-    /// alone: code that leaves a body, as a step does that is written out at a `continue`, asks in vain.
+    /// Bounds of what a local holds at this place; of a float, those of `int(x)`. The loops at hand say what holds in
+    /// their bodies alone: code that leaves a body, as a step does that is written out at a `continue`, asks in vain.
     fn bounds_here(&self, local: LocalId) -> Option<Bounds> {
         let counters = self.loops.iter().rev().filter(|at| at.part == Part::Body).filter_map(|at| at.counter);
         let of_round = counters.into_iter().find_map(|(counter, bounds)| (counter == local).then_some(bounds));
@@ -137,8 +139,8 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// For `for (int i = a; i < b; i++)` whose `i` is written by the step alone: `i` and its bounds in the body. Any order of
-    /// comparison and any known step will do.
+    /// For `for (int i = a; i < b; i++)` whose `i` is written by the step alone: `i` and its bounds in the body. Any
+    /// order of comparison and any known step will do.
     pub fn counter(&self, init: List<StmtId>, test: ExprId, step: Option<ExprId>) -> Option<(LocalId, Bounds)> {
         let hir = self.cx.hir;
         let ExprKind::Binary { op, shape: Shape::Same, lhs, rhs } = hir[test].kind else { return None };
@@ -168,8 +170,8 @@ impl Builder<'_, '_> {
         Some((local, bounds))
     }
 
-    /// For `for (float x = 0.0; x < 9.0; x += 1.0)` whose `x` is written by the step alone, all of it literals: `x` and the bounds
-    /// of `int(x)` in the body.
+    /// For `for (float x = 0.0; x < 9.0; x += 1.0)` whose `x` is written by the step alone, all of it literals: `x` and
+    /// the bounds of `int(x)` in the body.
     pub fn float_counter(&self, init: List<StmtId>, test: ExprId, step: Option<ExprId>) -> Option<(LocalId, Bounds)> {
         let hir = self.cx.hir;
         let ExprKind::Binary { op, shape: Shape::Same, lhs, rhs } = hir[test].kind else { return None };

@@ -1,4 +1,5 @@
-//! Runs a program for one pixel: 32-bit words that wrap, from left to right, with what Eddy promises where GLSL leaves it open.
+//! Runs a program for one pixel: 32-bit words that wrap, from left to right, with what Eddy promises where GLSL leaves
+//! it open.
 
 use super::{Arg, Base, Expr, FUEL, Link, Logic, Mode, Op, Place, Prefix, Program, Stmt, Ty, VarId};
 

@@ -1,7 +1,9 @@
-//! Random programs in GLSL ES 3.00 whose every number is exact: their syntax, who makes them, prints them and runs them.
+//! Random programs in GLSL ES 3.00 whose every number is exact: their syntax, who makes them, prints them and runs
+//! them.
 //!
-//! All numbers are ints and uints, which wrap, and floats that hold small whole numbers. So the same program has one result only,
-//! on every device and in [`interpret`]; any difference is a fault. Order is from left to right, as Eddy promises it.
+//! All numbers are ints and uints, which wrap, and floats that hold small whole numbers. So the same program has one
+//! result only, on every device and in [`interpret`]; any difference is a fault. Order is from left to right, as Eddy
+//! promises it.
 
 pub mod interpret;
 pub mod make;

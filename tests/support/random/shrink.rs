@@ -29,8 +29,8 @@ pub fn shrink(program: &Program, mut attempts: usize, mut fails: impl FnMut(&Pro
     }
 }
 
-/// Removes the statement of this number, the outer ones counted before those within; puts in its place what it consists of
-/// when it is met once more.
+/// Removes the statement of this number, the outer ones counted before those within; puts in its place what it consists
+/// of when it is met once more.
 fn remove(list: &mut Vec<Stmt>, left: &mut usize) -> bool {
     let mut i = 0;
     while i < list.len() {

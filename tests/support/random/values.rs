@@ -219,7 +219,8 @@ impl Maker {
         Expr::Binary(op, Box::new(left), Box::new(right), ty.clone())
     }
 
-    /// The right side of an operator. What the language leaves open must not be folded, which the compiler does its own way.
+    /// The right side of an operator. What the language leaves open must not be folded, which the compiler does its own
+    /// way.
     fn second(&mut self, op: Op, base: Base, ty: &Ty, constant: bool, depth: usize) -> Expr {
         let right = self.value(ty, depth - 1);
         match op {
