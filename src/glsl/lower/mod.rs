@@ -16,7 +16,7 @@
 //! - So does a large global array that the program fills with constants before all else ([`settled`]).
 //! - Every index that is not provably in range is clamped here ([`ranges`] tells what is known), as WebGL does; the modules
 //!   need no bounds checks from naga. Divisors of integers that may be zero are guarded ([`divide`]), as no driver's compiler
-//!   may meet one.
+//!   may meet one. Fetches outside a texture are left to the driver's image robustness, which gives the zeros WebGL promises.
 //! - `&&`, `||` and `?:` become selects where both sides are cheap and have no effects, branches elsewhere.
 
 mod access;
