@@ -79,7 +79,7 @@ fn looks(path: &Path) -> Option<Looks> {
     let metadata = fs::metadata(path).ok()?;
     let modified = metadata.modified().ok()?;
     let is_old = SystemTime::now().duration_since(modified).is_ok_and(|age| age > RECENT);
-    is_old.then(|| Looks { bytes: metadata.len(), modified })
+    is_old.then_some(Looks { bytes: metadata.len(), modified })
 }
 
 /// Where they lie, each once, with the names from the folder of those that are the project's own.

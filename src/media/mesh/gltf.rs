@@ -48,8 +48,10 @@ pub(super) fn load(
     Ok(())
 }
 
-/// The JSON text, and the binary chunk of a `.glb`.
-fn split(bytes: &[u8]) -> Result<(Cow<'_, [u8]>, Option<Cow<'_, [u8]>>), Trouble> {
+/// The JSON text of a file, and the binary chunk of a `.glb`.
+type Chunks<'a> = (Cow<'a, [u8]>, Option<Cow<'a, [u8]>>);
+
+fn split(bytes: &[u8]) -> Result<Chunks<'_>, Trouble> {
     if !bytes.starts_with(b"glTF") {
         return Ok((bytes.into(), None));
     }
