@@ -168,6 +168,16 @@ int twice(int at) { int n = at; if (at > 3) { G[n] = 5; return n; } for (int i =
     ]);
 }
 
+/// The product of two uints can be beyond what an i64 holds.
+#[test]
+fn products_of_large_bounds() {
+    check_guarded(&[
+        bounds("uint u = uint(I) + 3u; a[int(((u & 0xffffffffu) * (u & 0xffffffffu)) % 16u)] = 7;", 7000.),
+        bounds("uint u = uint(I) + 3u; a[int(50u / ((u & 0xffffffffu) * (u & 0xffffffffu)))] = 7;", 7000.),
+        bounds("int i = I - 3; a[(i * 0x7fffffff) * (i * 0x7fffffff)] = 7;", 7000.),
+    ]);
+}
+
 /// Vectors, matrices, constant tables and structures clamp as arrays do.
 #[test]
 fn parts_of_other_kinds() {

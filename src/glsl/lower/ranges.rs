@@ -102,7 +102,8 @@ impl Builder<'_, '_> {
                     (BinaryOp::Add, Some(l), Some(r)) => fits((l.0 + r.0, l.1 + r.1)),
                     (BinaryOp::Sub, Some(l), Some(r)) => fits((l.0 - r.1, l.1 - r.0)),
                     (BinaryOp::Mul, Some(l), Some(r)) => {
-                        let all = [l.0 * r.0, l.0 * r.1, l.1 * r.0, l.1 * r.1];
+                        // Two uints may go beyond an i64, and then beyond the limits as well.
+                        let all = [(l.0, r.0), (l.0, r.1), (l.1, r.0), (l.1, r.1)].map(|(l, r)| l.saturating_mul(r));
                         fits((*all.iter().min()?, *all.iter().max()?))
                     }
                     (BinaryOp::Div, Some(l), Some(r)) if l.0 >= 0 && r.0 > 0 => Some((l.0 / r.1, l.1 / r.0)),
