@@ -1,6 +1,11 @@
 //! What meshes are drawn with: the camera's matrices, pipelines and buffers.
 
-use super::{EngineError, FrameInputs, program::DrawProgram, stages::CompiledProgram, targets::texture_format};
+use super::{
+    EngineError, FrameInputs,
+    program::DrawProgram,
+    stages::{CompiledProgram, shader},
+    targets::texture_format,
+};
 use crate::{
     glsl::{
         Attribute,
@@ -116,8 +121,8 @@ pub(super) fn program(
         gpu,
         MeshPipelineDescriptor {
             label,
-            vertex: vertex.module,
-            fragment: compiled.fragment.module,
+            vertex: shader(vertex),
+            fragment: shader(compiled.fragment),
             entry_point: interface::ENTRY_POINT,
             groups,
             stride: size_of::<Vertex>() as u64,

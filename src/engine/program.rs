@@ -3,7 +3,7 @@
 use super::{
     EngineError, Sources,
     geometry::{self, MeshUploads, PlacedMesh},
-    stages::{CompiledPass, CompiledProgram},
+    stages::{CompiledPass, CompiledProgram, shader},
     targets::texture_format,
 };
 use crate::{
@@ -221,6 +221,7 @@ fn compile(
             opaque_uniforms: gpu.recompiles_for_uniforms,
             may_discard: gpu.keeps_denormals && has_small_floats,
             nan_angle: gpu.nan_angle,
+            zero_loops: gpu.wants_zero_loops,
         };
         let said = match texts.compile_pass(index, bilinear_by_hand, driver) {
             Ok(mut done) => {
@@ -389,7 +390,7 @@ impl Job<'_> {
                 None => {
                     let descriptor = FragmentPipelineDescriptor {
                         label: &label,
-                        module: program.fragment.module,
+                        shader: shader(program.fragment),
                         entry_point: interface::ENTRY_POINT,
                         groups: &groups,
                         target: texture_format(formats[0]),

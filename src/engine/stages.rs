@@ -4,6 +4,7 @@ use super::Sources;
 use crate::{
     diag::Diagnostic,
     glsl::{self, Compiled, Driver, Link, PassKind, PassSource, Reflection, interface},
+    gpu::Shader,
     project::{Geometry, Stage},
 };
 use std::collections::HashMap;
@@ -23,6 +24,11 @@ pub(super) struct CompiledProgram {
     /// `None`: the triangle over the whole target.
     pub vertex: Option<Compiled>,
     pub fragment: Compiled,
+}
+
+/// What the device is given of a stage.
+pub(super) fn shader(compiled: Compiled) -> Shader {
+    Shader { module: compiled.module, filled_arrays: compiled.filled_arrays }
 }
 
 impl CompiledProgram {

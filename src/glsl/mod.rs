@@ -148,6 +148,9 @@ pub struct Driver {
     pub may_discard: bool,
     /// The angle of (0, 0) is no number on the device: `atan` asks for another one's.
     pub nan_angle: bool,
+    /// Long arrays get the zeros that they begin with by loops ([`Compiled::filled_arrays`]): Mesa's lavapipe takes minutes to
+    /// compile an initialiser of some hundred scalars.
+    pub zero_loops: bool,
 }
 
 /// A pass that compiled.
@@ -162,6 +165,9 @@ pub struct Compiled {
     pub uniform_tables: Vec<u8>,
     /// Bytes that the module reads at [`interface::KNOB_BINDING`]; 0: it declares nothing there.
     pub knob_bytes: u64,
+    /// Of a variable without an initialiser, an array of at least so many scalars is written before anything reads it, so that it
+    /// need not begin with zeros. `None`: that was not asked for ([`Driver::zero_loops`]), or no array is that long.
+    pub filled_arrays: Option<u32>,
     /// Warnings and notes; never an error.
     pub diagnostics: Vec<Diagnostic>,
 }
@@ -202,7 +208,8 @@ pub fn compile_linked(source: &PassSource<'_>, link: &Link<'_>) -> Result<Compil
         return Err(diagnostics);
     }
     lower::settle(&mut checked);
-    let lower::Lowered { module, reflection, tables, knob_bytes } = lower::lower(&checked, source, interface);
+    let lower::Lowered { module, reflection, tables, knob_bytes, filled_arrays } =
+        lower::lower(&checked, source, interface);
     if let Err(reason) = lower::validate(&module) {
         let bug =
             Diagnostic::error(None, format!("this is a bug in Eddy: the generated program is not valid: {reason}"));
@@ -210,7 +217,7 @@ pub fn compile_linked(source: &PassSource<'_>, link: &Link<'_>) -> Result<Compil
         return Err(diagnostics);
     }
     let lower::TableBytes { uniform: uniform_tables, storage: tables } = tables;
-    Ok(Compiled { module, reflection, tables, uniform_tables, knob_bytes, diagnostics })
+    Ok(Compiled { module, reflection, tables, uniform_tables, knob_bytes, filled_arrays, diagnostics })
 }
 
 /// Checks Common the way the site does: alone, with only `iDate` and `iSampleRate` in scope. An empty list means that the

@@ -72,6 +72,9 @@ pub struct Gpu {
     pub keeps_denormals: bool,
     /// `atan2(0, 0)` may be NaN, as Direct3D has it; on the site, which then asks for another angle, it is 0.
     pub nan_angle: bool,
+    /// Zeros that long arrays begin with have to be written by loops, and their initialisers are then left out: lavapipe makes
+    /// one block of one store a scalar of an initialiser, for which LLVM takes time that grows with about the cube of them.
+    pub wants_zero_loops: bool,
     /// Timestamps can be written between passes.
     pub has_timestamps: bool,
     pub(super) runtime_checks: bool,
@@ -127,6 +130,10 @@ impl Gpu {
         if options.use_timestamps {
             features |= offered & wgpu::Features::TIMESTAMP_QUERY;
         }
+        let is_lavapipe = info.backend == wgpu::Backend::Vulkan && info.name.starts_with("llvmpipe");
+        if is_lavapipe {
+            features |= offered & wgpu::Features::PASSTHROUGH_SHADERS;
+        }
         let float = adapter.get_texture_format_features(wgpu::TextureFormat::Rgba32Float).allowed_usages;
         if !float.contains(wgpu::TextureUsages::RENDER_ATTACHMENT) {
             let reason = "it cannot draw into 32-bit float textures".to_owned();
@@ -155,12 +162,12 @@ impl Gpu {
             log::error!("graphics layer: {error}");
             errors.uncaptured.lock().unwrap_or_else(|e| e.into_inner()).get_or_insert(error.to_string());
         }));
-        let is_lavapipe = info.backend == wgpu::Backend::Vulkan && info.name.starts_with("llvmpipe");
         Ok(Gpu {
             has_storage_buffers: device.limits().max_storage_buffers_per_shader_stage > 0,
             filters_float32: features.contains(wgpu::Features::FLOAT32_FILTERABLE),
             recompiles_for_uniforms: is_lavapipe,
             keeps_denormals: is_lavapipe,
+            wants_zero_loops: features.contains(wgpu::Features::PASSTHROUGH_SHADERS),
             nan_angle: info.backend == wgpu::Backend::Dx12,
             runtime_checks: options.runtime_checks,
             fences: is_lavapipe.then(|| super::pass::FenceKeeper::new(&device)),

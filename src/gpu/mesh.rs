@@ -1,7 +1,7 @@
 //! Pipelines that draw meshes, their buffers and the depth they are drawn over.
 
 use super::{
-    Binding, Gpu, GpuError, Pipeline,
+    Binding, Gpu, GpuError, Pipeline, Shader,
     pipeline::{layouts, pipeline_layout, shader_module},
 };
 
@@ -10,8 +10,8 @@ const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// A vertex and a fragment shader over triangles.
 pub struct MeshPipelineDescriptor<'a> {
     pub label: &'a str,
-    pub vertex: naga::Module,
-    pub fragment: naga::Module,
+    pub vertex: Shader,
+    pub fragment: Shader,
     pub entry_point: &'a str,
     /// Bind groups from 0 on, as both shaders see them.
     pub groups: &'a [Vec<(u32, Binding)>],
@@ -53,8 +53,8 @@ impl Pipeline {
             })
             .collect();
         let raw = gpu.guarded(d.label, || {
-            let vertex = shader_module(gpu, d.label, d.vertex);
-            let fragment = shader_module(gpu, d.label, d.fragment);
+            let vertex = shader_module(gpu, d.label, d.vertex, d.groups);
+            let fragment = shader_module(gpu, d.label, d.fragment, d.groups);
             gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some(d.label),
                 layout: Some(&pipeline_layout(gpu, d.label, &layouts)),

@@ -12,6 +12,7 @@ mod pipeline;
 mod present;
 mod readback;
 mod samplers;
+mod spirv;
 mod texture;
 mod timer;
 
@@ -20,7 +21,7 @@ pub use convert::FloatConverter;
 pub use device::{Gpu, GpuError, GpuOptions};
 pub use mesh::{MeshBuffers, MeshPipelineDescriptor, check_targets, depth_buffer};
 pub use mips::{MipChain, MipMaker};
-pub use pipeline::{Binding, FragmentPipelineDescriptor, Pipeline};
+pub use pipeline::{Binding, FragmentPipelineDescriptor, Pipeline, Shader};
 pub use present::Presenter;
 pub use readback::read_rgba32float;
 pub use samplers::{Address, Filtering, Samplers};

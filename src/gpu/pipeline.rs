@@ -1,6 +1,6 @@
 //! Pipelines that draw one triangle over the whole target.
 
-use super::{Gpu, GpuError};
+use super::{Gpu, GpuError, spirv};
 
 const VERTEX: &str = "
 @vertex fn vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4<f32> {
@@ -54,10 +54,18 @@ impl Binding {
     }
 }
 
+/// A shader of the front end.
+pub struct Shader {
+    pub module: naga::Module,
+    /// Arrays of at least so many scalars that the module's own variables hold are written before anything reads them,
+    /// if their variables have no initialiser.
+    pub filled_arrays: Option<u32>,
+}
+
 /// A fragment shader over the whole target.
 pub struct FragmentPipelineDescriptor<'a> {
     pub label: &'a str,
-    pub module: naga::Module,
+    pub shader: Shader,
     pub entry_point: &'a str,
     /// Bind groups from 0 on: binding number and what lies there.
     pub groups: &'a [Vec<(u32, Binding)>],
@@ -74,7 +82,7 @@ impl Pipeline {
     /// Compiles. The module must be valid and clamp its indices itself; what the graphics layer refuses all the same is
     /// Eddy's bug and comes back as [`GpuError::Refused`].
     pub fn new(gpu: &Gpu, descriptor: FragmentPipelineDescriptor<'_>) -> Result<Pipeline, GpuError> {
-        let FragmentPipelineDescriptor { label, module, entry_point, groups, target } = descriptor;
+        let FragmentPipelineDescriptor { label, shader, entry_point, groups, target } = descriptor;
         let layouts = layouts(gpu, label, groups, wgpu::ShaderStages::FRAGMENT);
         let raw = gpu.guarded(label, || {
             let layout = pipeline_layout(gpu, label, &layouts);
@@ -82,7 +90,7 @@ impl Pipeline {
                 label: Some("full-screen triangle"),
                 source: wgpu::ShaderSource::Wgsl(VERTEX.into()),
             });
-            let fragment = shader_module(gpu, label, module);
+            let fragment = shader_module(gpu, label, shader, groups);
             full_screen(gpu, label, &layout, &vertex, &fragment, entry_point, target)
         })?;
         Ok(Pipeline { raw, layouts })
@@ -110,8 +118,19 @@ pub(super) fn pipeline_layout(gpu: &Gpu, label: &str, layouts: &[wgpu::BindGroup
     })
 }
 
-/// A module of the front end, for a pass or a stage of a mesh.
-pub(super) fn shader_module(gpu: &Gpu, label: &str, module: naga::Module) -> wgpu::ShaderModule {
+/// A module of the front end, for a pass or a stage of a mesh, in a pipeline with these bind groups.
+pub(super) fn shader_module(
+    gpu: &Gpu,
+    label: &str,
+    shader: Shader,
+    groups: &[Vec<(u32, Binding)>],
+) -> wgpu::ShaderModule {
+    let Shader { module, filled_arrays } = shader;
+    if let Some(filled_arrays) = filled_arrays.filter(|_| gpu.wants_zero_loops && !gpu.runtime_checks)
+        && let Some(made) = spirv::shader_module(gpu, label, &module, filled_arrays, groups)
+    {
+        return made;
+    }
     let mut checks = wgpu::ShaderRuntimeChecks::checked();
     // Counting every loop's turns up to 2^64 costs time in each and keeps no shader from running for hours.
     checks.force_loop_bounding = gpu.runtime_checks;

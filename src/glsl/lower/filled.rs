@@ -36,7 +36,11 @@ pub(super) fn make_global(f: &mut Function, cx: &mut Lowering<'_>) {
         .local_variables
         .drain()
         .map(|(old, variable, span)| match states[old.index()] {
-            State::Filled(_) if indexed[old.index()] => Expression::GlobalVariable(cx.private(variable.ty, None)),
+            State::Filled(_) if indexed[old.index()] => {
+                let global = cx.private(variable.ty, None);
+                cx.filled.insert(global);
+                Expression::GlobalVariable(global)
+            }
             _ => Expression::LocalVariable(variables.append(variable, span)),
         })
         .collect();

@@ -14,6 +14,7 @@
 //! - A constant table that is indexed at run time lives in a buffer ([`tables`]); a small one once in a private global
 //!   with an initialiser: naga's SPIR-V writer would otherwise copy the whole table to the stack at each access.
 //! - So does a large global array that the program fills with constants before all else ([`settled`]).
+//! - Where the driver needs it, long arrays get the zeros they begin with by loops ([`zero_loops`]).
 //! - Every index that is not provably in range is clamped here ([`ranges`] tells what is known), as WebGL does; the modules
 //!   need no bounds checks from naga. Divisors of integers that may be zero are guarded ([`divide`]), as no driver's compiler
 //!   may meet one. Fetches outside a texture are left to the driver's image robustness, which gives the zeros WebGL promises.
@@ -54,9 +55,10 @@ mod texture;
 mod types;
 mod walk;
 mod writes;
+mod zero_loops;
 mod zeros;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 use naga::{FastHashMap, Handle};
 
@@ -80,6 +82,8 @@ pub(crate) struct Lowered {
     pub tables: TableBytes,
     /// Size of the array of the author's own uniforms; 0 if the module has none.
     pub knob_bytes: u64,
+    /// See [`super::Compiled::filled_arrays`].
+    pub filled_arrays: Option<u32>,
 }
 
 /// Lowers a program without errors. The result validates; a validation error is a bug of this module.
@@ -106,6 +110,7 @@ pub(in crate::glsl) fn lower(module: &hir::Module, source: &PassSource<'_>, inte
         uses: ranges::use_counts(module),
         zeros: Zeros::new(module),
         functions: HashMap::with_capacity(reach.instances.len()),
+        filled: HashSet::new(),
         reflection: Reflection::default(),
     };
     let apart: Vec<_> = reach.instances.iter().filter(|i| !cx.inlined[i.func.index()]).collect();
@@ -121,7 +126,8 @@ pub(in crate::glsl) fn lower(module: &hir::Module, source: &PassSource<'_>, inte
     }
     let tables = cx.finish_tables();
     let knob_bytes = if cx.reflection.knobs.is_empty() { 0 } else { u64::from(cx.knob_slots()) * KNOB_BYTES };
-    Lowered { module: cx.out, reflection: cx.reflection, tables, knob_bytes }
+    let filled_arrays = if source.driver.zero_loops { zero_loops::write(&mut cx.out, &cx.filled) } else { None };
+    Lowered { module: cx.out, filled_arrays, reflection: cx.reflection, tables, knob_bytes }
 }
 
 /// Checks a lowered module. An error is a bug of this module, never the author's.
@@ -173,6 +179,8 @@ struct Lowering<'a> {
     uses: Vec<u32>,
     zeros: Zeros,
     functions: HashMap<Instance, Handle<naga::Function>>,
+    /// Private globals that each call of the one function that knows them stores as a whole before all else.
+    filled: HashSet<Handle<naga::GlobalVariable>>,
     reflection: Reflection,
 }
 
