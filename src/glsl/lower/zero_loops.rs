@@ -4,12 +4,16 @@
 //! (`nir_lower_variable_initializers`), and LLVM's time for a block of them grows with about their cube: a local
 //! `float a[500]` takes half a minute to the first frame on lavapipe. A program with long arrays therefore writes these zeros
 //! by loops, and says so, so that the initialisers can be left out ([`crate::glsl::Compiled::filled_arrays`]).
+//!
+//! lavapipe stores to an element that a loop counts lane by lane. So arrays of moderate length are filled by blocks of a few
+//! known elements, each of them a loop of one round that no driver can see to be one.
 
 use std::collections::HashSet;
 
 use naga::{
-    AddressSpace, ArraySize, BinaryOperator, Block, Expression, Function, GlobalVariable, Handle, Literal,
-    LocalVariable, Module, Range, Scalar, Span, Statement, Type, TypeInner, UniqueArena,
+    AddressSpace, ArraySize, BinaryOperator, Binding, Block, BuiltIn, EntryPoint, Expression, Function, GlobalVariable,
+    Handle, Literal, LocalVariable, MemoryDecorations, Module, Range, Scalar, ScalarKind, Span, Statement, Type,
+    TypeInner, UniqueArena,
 };
 
 use super::function::Value;
@@ -20,6 +24,13 @@ const FEWEST_SCALARS: u32 = 128;
 
 /// Scalars from which on an array of such a program gets its zeros by a loop. A loop also costs a driver time.
 const LEAST_ARRAY: u32 = 16;
+
+/// Scalars that one block writes.
+const BLOCK: u32 = 32;
+
+/// Scalars up to which a program's arrays are filled by blocks. 500 take lavapipe 3 s, 800 take 7 s, and a second by loops;
+/// frames are then as quick as with initialisers, and take up to twice as long with loops.
+const MOST_IN_BLOCKS: u32 = 512;
 
 /// Makes loops of all zeros that long arrays are filled with: of whole values that are stored, of locals where their function
 /// begins, of private globals where the entry point does. `filled` are globals that are stored as a whole before all else,
@@ -44,14 +55,26 @@ pub(super) fn write(module: &mut Module, filled: &HashSet<Handle<GlobalVariable>
         return None;
     }
     let uint = module.types.insert(Type { name: None, inner: TypeInner::Scalar(Scalar::U32) }, Span::UNDEFINED);
+    let in_blocks = scalars <= MOST_IN_BLOCKS && module.entry_points.iter().all(|e| never_negative(e).is_some());
+    let opaque = in_blocks.then(|| {
+        let (space, memory_decorations) = (AddressSpace::Private, MemoryDecorations::empty());
+        let opaque = GlobalVariable { name: None, space, binding: None, ty: uint, init: None, memory_decorations };
+        module.global_variables.append(opaque, Span::UNDEFINED)
+    });
     let types = &module.types;
     for (_, function) in module.functions.iter_mut() {
-        Writer { types, sizes: &sizes, uint, function }.rewrite(&[]);
+        Writer { types, sizes: &sizes, uint, opaque, function }.rewrite(&[], Block::new());
     }
     let globals: Vec<_> = globals.iter().map(|(global, _)| *global).filter(|global| !filled.contains(global)).collect();
     let global_types: Vec<_> = globals.iter().map(|&global| (global, module.global_variables[global].ty)).collect();
     for entry in &mut module.entry_points {
-        Writer { types, sizes: &sizes, uint, function: &mut entry.function }.rewrite(&global_types);
+        let source = never_negative(entry);
+        let mut writer = Writer { types, sizes: &sizes, uint, opaque, function: &mut entry.function };
+        let mut start = Block::new();
+        if let (Some(source), Some(opaque)) = (source, opaque) {
+            writer.set_opaque(opaque, source, &mut start);
+        }
+        writer.rewrite(&global_types, start);
     }
     Some(LEAST_ARRAY)
 }
@@ -79,6 +102,14 @@ fn drop_zero_initialisers(module: &mut Module) {
             });
         }
     }
+}
+
+/// An argument whose first bit is never set, though no driver knows that: where a pixel lies, or the number of a vertex.
+fn never_negative(entry: &EntryPoint) -> Option<(u32, BuiltIn)> {
+    (0..).zip(&entry.function.arguments).find_map(|(index, argument)| match argument.binding {
+        Some(Binding::BuiltIn(built_in @ (BuiltIn::Position { .. } | BuiltIn::VertexIndex))) => Some((index, built_in)),
+        _ => None,
+    })
 }
 
 /// How much memory types take, by [`Handle::index`].
@@ -125,17 +156,32 @@ struct Writer<'a> {
     types: &'a UniqueArena<Type>,
     sizes: &'a Sizes,
     uint: Handle<Type>,
+    /// Holds a zero that no driver knows.
+    opaque: Option<Handle<GlobalVariable>>,
     function: &'a mut Function,
 }
 
 impl Writer<'_> {
-    /// Fills these globals and all long locals at the start, and makes loops of the zeros that are stored.
-    fn rewrite(mut self, globals: &[(Handle<GlobalVariable>, Handle<Type>)]) {
+    /// Stores the zero that no driver knows.
+    fn set_opaque(&mut self, opaque: Handle<GlobalVariable>, source: (u32, BuiltIn), block: &mut Block) {
+        let (index, built_in) = source;
+        let mut value = self.expression(Expression::FunctionArgument(index));
+        if let BuiltIn::Position { .. } = built_in {
+            value = self.emit(Expression::AccessIndex { base: value, index: 0 }, block);
+            value = self.emit(Expression::As { expr: value, kind: ScalarKind::Uint, convert: None }, block);
+        }
+        let right = self.expression(Expression::Literal(Literal::U32(31)));
+        value = self.emit(Expression::Binary { op: BinaryOperator::ShiftRight, left: value, right }, block);
+        let pointer = self.expression(Expression::GlobalVariable(opaque));
+        block.push(Statement::Store { pointer, value }, Span::UNDEFINED);
+    }
+
+    /// Fills these globals and all long locals at the start, behind `block`, and makes loops of the zeros that are stored.
+    fn rewrite(mut self, globals: &[(Handle<GlobalVariable>, Handle<Type>)], mut block: Block) {
         let locals = self.function.local_variables.iter();
         let is_long = |v: &LocalVariable| v.init.is_none() && self.sizes.longest(v.ty) >= LEAST_ARRAY;
         let locals: Vec<_> = locals.filter(|(_, v)| is_long(v)).map(|(handle, v)| (handle, v.ty)).collect();
         let body = std::mem::take(&mut self.function.body);
-        let mut block = Block::new();
         for &(global, ty) in globals {
             let pointer = self.expression(Expression::GlobalVariable(global));
             self.fill(pointer, ty, &mut block);
@@ -186,7 +232,11 @@ impl Writer<'_> {
         let types = self.types;
         match types[ty].inner {
             TypeInner::Array { base, size: ArraySize::Constant(len), .. } if self.sizes.scalars(ty) >= LEAST_ARRAY => {
-                self.fill_array(pointer, base, len.get(), block);
+                let blocks = self.opaque.filter(|_| self.sizes.scalars(base) <= BLOCK);
+                match blocks {
+                    Some(opaque) => self.fill_by_blocks(opaque, pointer, base, len.get(), block),
+                    None => self.fill_array(pointer, base, len.get(), block),
+                }
             }
             TypeInner::Struct { ref members, .. } if self.sizes.longest(ty) >= LEAST_ARRAY => {
                 for (index, member) in members.iter().enumerate() {
@@ -198,6 +248,33 @@ impl Writer<'_> {
                 let value = self.expression(Expression::ZeroValue(ty));
                 block.push(Statement::Store { pointer, value }, Span::UNDEFINED);
             }
+        }
+    }
+
+    /// `do { pointer[0] = 0; pointer[1] = 0; ... } while (opaque != 0);` for each few elements.
+    fn fill_by_blocks(
+        &mut self,
+        opaque: Handle<GlobalVariable>,
+        pointer: Value,
+        element: Handle<Type>,
+        len: u32,
+        block: &mut Block,
+    ) {
+        let opaque = self.expression(Expression::GlobalVariable(opaque));
+        let zero = self.expression(Expression::Literal(Literal::U32(0)));
+        let step = (BLOCK / self.sizes.scalars(element).max(1)).max(1);
+        for first in (0..len).step_by(step as usize) {
+            let mut body = Block::new();
+            for index in first..len.min(first + step) {
+                let place = self.emit(Expression::AccessIndex { base: pointer, index }, &mut body);
+                self.fill(place, element, &mut body);
+            }
+            let value = self.emit(Expression::Load { pointer: opaque }, &mut body);
+            let is_zero = Expression::Binary { op: BinaryOperator::Equal, left: value, right: zero };
+            let condition = self.emit(is_zero, &mut body);
+            let leave = Block::from_vec(vec![Statement::Break]);
+            body.push(Statement::If { condition, accept: leave, reject: Block::new() }, Span::UNDEFINED);
+            block.push(Statement::Loop { body, continuing: Block::new(), break_if: None }, Span::UNDEFINED);
         }
     }
 
