@@ -20,12 +20,15 @@
 //
 // Units: canvas heights and seconds. The grid is half the canvas each way; the dye has every pixel.
 
-// Canvas heights squared a second. Explicit, so that viscosity * dt * rows^2 <= 1/4 is a limit: on a canvas 270 high at 60
-// frames a second 0.0008. Beyond it acts as if at the limit, and Image hatches the foot of the picture.
+// Canvas heights squared a second. Solved exactly, so that none is too much.
 #iUniform float viscosity = 0.0 in { 0.0, 0.01 }
 // Time against the clock's.
 #iUniform float speed = 1.0 in { 0.0, 10.0 }
 #iUniform bool limiter = true
+// 0: walls along which the fluid slips, 1: walls to which it sticks, 2: none, the picture repeats.
+#iUniform int walls = 0 in { 0, 2 }
+// With walls of kind 1, how fast the upper one moves, in heights a second.
+#iUniform float lid_speed = 0.0 in { -2.0, 2.0 }
 #iUniform float jets = 1.0 in { 0.0, 1.0 }
 #iUniform float jet_speed = 0.55 in { 0.0, 2.0 }
 #iUniform float fade_seconds = 14.0 in { 0.5, 120.0 }
@@ -35,8 +38,14 @@ bool isFinite(vec4 q) {
     return all(lessThan(floatBitsToUint(q) & uvec4(0x7f800000u), uvec4(0x7f800000u)));
 }
 
+// Cells squared in so many seconds.
 float viscosityHere(float seconds, float rows) {
-    return min(viscosity * seconds * rows * rows, 0.25); // cells squared a step
+    return viscosity * seconds * rows * rows;
+}
+
+// What the pressure times the last step, `before`, is multiplied by to be times this one. 0 where there was no step.
+float stepRatio(float before, float now) {
+    return before > 0.0 ? min(now / before, 4.0) : 0.0;
 }
 
 // --------------------------------------------------------------------------------------------- forces: jets and a hand

@@ -7,7 +7,8 @@ vec2 w;
 
 // One sweep from zero.
 float swept(ivec2 p) {
-    if (any(lessThan(p, ivec2(0))) || any(greaterThanEqual(p, size))) return 0.0;
+    if (!hasCell(p, size)) return 0.0;
+    p = cellAt(p, size);
     float d = diagonal(p, size, w);
     return d > 0.0 ? -DAMPING * texelFetch(iChannel0, p, 0).x / d : 0.0;
 }
