@@ -1,10 +1,6 @@
-// The second step of MacCormack, and the forces. Channel 0 is the drift, channel 1 what is carried, channel 2 the first step,
-// channel 3 the mouse.
+// MacCormack, corrected: half of what there and back has changed is put right. And the forces. Channel 0 is what is carried,
+// channel 1 what came there, channel 2 what came back, channel 3 the mouse.
 #include "staggered.glsl"
-
-float corrected(vec2 at, vec2 here, int axis, float cells, float start, float there) {
-    return there + 0.5 * (start - cubicAt(iChannel2, path(iChannel0, at, here, -cells), axis));
-}
 
 // What the jets and the hand make of a velocity at a place in cells.
 vec2 driven(vec2 velocity, vec2 cell, vec2 size) {
@@ -26,24 +22,21 @@ vec2 driven(vec2 velocity, vec2 cell, vec2 size) {
 
 void mainImage(out vec4 velocity, in vec2 fragCoord) {
     ivec2 p = ivec2(fragCoord), size = textureSize(iChannel0, 0);
-    float cells = speed * iTimeDelta * float(size.y);
-    vec2 own = texelFetch(iChannel0, p, 0).xy, start = texelFetch(iChannel1, p, 0).xy, left = faceAt(p, 0), bottom = faceAt(p, 1);
-    vec4 first = texelFetch(iChannel2, p, 0);
-    vec2 moved = vec2(corrected(left, vec2(own.x, first.z), 0, cells, start.x, first.x),
-                      corrected(bottom, vec2(first.w, own.y), 1, cells, start.y, first.y));
+    vec2 there = texelFetch(iChannel1, p, 0).xy;
+    vec2 moved = there + 0.5 * (texelFetch(iChannel0, p, 0).xy - texelFetch(iChannel2, p, 0).xy);
     if (limiter) {
-        // To the range of what came to the neighbours: no value appears that was not there.
-        vec2 low = first.xy, high = first.xy;
+        // To the range of what came to the neighbours.
+        vec2 low = there, high = there;
         for (int y = -1; y <= 1; y++) {
             for (int x = -1; x <= 1; x++) {
-                vec2 q = texelFetch(iChannel2, clamp(p + ivec2(x, y), ivec2(0), size - 1), 0).xy;
+                vec2 q = texelFetch(iChannel1, clamp(p + ivec2(x, y), ivec2(0), size - 1), 0).xy;
                 low = min(low, q);
                 high = max(high, q);
             }
         }
         moved = clamp(moved, low, high);
     }
-    if (speed > 0.0) moved = vec2(driven(moved, left, vec2(size)).x, driven(moved, bottom, vec2(size)).y);
+    if (speed > 0.0) moved = vec2(driven(moved, faceAt(p, 0), vec2(size)).x, driven(moved, faceAt(p, 1), vec2(size)).y);
     if (walls != PERIODIC) moved *= vec2(greaterThan(p, ivec2(0)));
     velocity = isFinite(vec4(moved, 0.0, 0.0)) ? vec4(moved, 0.0, 0.0) : vec4(0.0);
 }

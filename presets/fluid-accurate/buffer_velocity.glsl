@@ -8,7 +8,7 @@
 #endif
 
 float at(ivec2 p, ivec2 size) {
-    if (walls == 2) p = ivec2(p.x < 0 ? p.x + size.x : p.x, p.y < 0 ? p.y + size.y : p.y);
+    if (walls == PERIODIC) p = ivec2(p.x < 0 ? p.x + size.x : p.x, p.y < 0 ? p.y + size.y : p.y);
     return texelFetch(iChannel1, max(p, ivec2(0)), 0).x;
 }
 

@@ -34,6 +34,8 @@
 #iUniform float fade_seconds = 14.0 in { 0.5, 120.0 }
 #iUniform float brush_size = 0.045 in { 0.01, 0.2 }
 
+const int NO_SLIP = 1, PERIODIC = 2; // values of `walls`; 0 is free slip
+
 bool isFinite(vec4 q) {
     return all(lessThan(floatBitsToUint(q) & uvec4(0x7f800000u), uvec4(0x7f800000u)));
 }

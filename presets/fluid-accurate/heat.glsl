@@ -13,16 +13,12 @@ vec2 facesOf(sampler2D field, ivec2 p) {
 vec2 spreadAlong(sampler2D field, ivec2 p, ivec2 direction, float amount) {
     vec2 centre = texelFetch(field, p, 0).xy;
     if (amount < 1e-7) return centre;
-    // Five standard deviations, and some for a where the weights are no Gaussian.
+    // Five standard deviations, and some for a so small that the weights are no Gaussian.
     int reach = int(ceil(5.0 * sqrt(2.0 * amount))) + 3;
-    ivec2 size = textureSize(field, 0), low = p - reach * direction, high = p + reach * direction;
-    bool within = all(greaterThanEqual(low, ivec2(0))) && all(lessThan(high, size));
     float further = 0.0, weight = 1e-30, total = 0.0;
     vec2 sum = vec2(0.0);
     for (int n = reach; n > 0; n--) {
-        ivec2 a = p - n * direction, b = p + n * direction;
-        vec2 pair = within ? texelFetch(field, a, 0).xy + texelFetch(field, b, 0).xy : facesOf(field, a) + facesOf(field, b);
-        sum += weight * pair;
+        sum += weight * (facesOf(field, p - n * direction) + facesOf(field, p + n * direction));
         total += 2.0 * weight;
         float nearer = further + float(n) / amount * weight;
         further = weight;

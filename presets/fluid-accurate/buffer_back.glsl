@@ -1,0 +1,3 @@
+// MacCormack, and back: what came is carried back to where it was. Channels: the drift by components, Buffer forward by components.
+#define STEPS -1.0
+#include "carry.glsl"
