@@ -23,7 +23,8 @@ vec2 driven(vec2 velocity, vec2 cell, vec2 size) {
 void mainImage(out vec4 velocity, in vec2 fragCoord) {
     ivec2 p = ivec2(fragCoord), size = textureSize(iChannel0, 0);
     vec2 there = texelFetch(iChannel1, p, 0).xy;
-    vec2 moved = there + 0.5 * (texelFetch(iChannel0, p, 0).xy - texelFetch(iChannel2, p, 0).xy);
+    vec3 back = texelFetch(iChannel2, p, 0).xyz;
+    vec2 moved = there + 0.5 * back.z * (texelFetch(iChannel0, p, 0).xy - back.xy);
     if (limiter) {
         // To the range of what came to the neighbours.
         vec2 low = there, high = there;
