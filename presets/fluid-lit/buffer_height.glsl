@@ -2,10 +2,18 @@
 //
 // The flow carries it, eddies dent it (left-handed ones raise it), and it settles:
 //     h' = (h + tension / 8 lap h)(upstream) exp(-dt / settle_seconds) + dent * vorticity * dt
+// The Laplacian is upstream too. What is carried is then a mean of heights with positive weights, so that no height is made by
+// carrying; taken here, it would be of cells that have left, and where the flow is fast it feeds what alternates.
 // y is the height a frame ago, for whoever wants its rate. There is no mouse here, but row 0 is not fluid and stays flat.
 
-vec4 heightOf(ivec2 p) {
-    return texelFetch(iChannel1, nearestCell(p, ivec2(iResolution.xy)), 0);
+float heightOf(ivec2 p) {
+    vec4 q = texelFetch(iChannel1, nearestCell(p, ivec2(iResolution.xy)), 0);
+    return isFinite(q) ? q.x : 0.0;
+}
+
+// A height after surface tension.
+float smoothed(float here, float a, float b, float c, float d) {
+    return here + 0.125 * tension * (a + b + c + d - 4.0 * here);
 }
 
 // Flat at the walls, where the fluid is held.
@@ -23,12 +31,14 @@ void mainImage(out vec4 height, in vec2 fragCoord) {
     vec2 from = upstream(p, fluid.xy, SUBSTEPS * dt, size);
     ivec2 i = ivec2(floor(from));
     vec2 f = from - vec2(i);
-    float carried = mix(mix(heightOf(i).x, heightOf(i + ivec2(1, 0)).x, f.x),
-                        mix(heightOf(i + ivec2(0, 1)).x, heightOf(i + 1).x, f.x), f.y);
-    float around = heightOf(p - ivec2(1, 0)).x + heightOf(p + ivec2(1, 0)).x + heightOf(p - ivec2(0, 1)).x + heightOf(p + ivec2(0, 1)).x;
-    carried += 0.125 * tension * (around - 4.0 * heightOf(p).x);
+    float a = heightOf(i), b = heightOf(i + ivec2(1, 0)), c = heightOf(i + ivec2(0, 1)), d = heightOf(i + 1);
+    float smoothA = smoothed(a, b, c, heightOf(i - ivec2(1, 0)), heightOf(i - ivec2(0, 1)));
+    float smoothB = smoothed(b, a, d, heightOf(i + ivec2(2, 0)), heightOf(i + ivec2(1, -1)));
+    float smoothC = smoothed(c, a, d, heightOf(i + ivec2(-1, 1)), heightOf(i + ivec2(0, 2)));
+    float smoothD = smoothed(d, b, c, heightOf(i + ivec2(2, 1)), heightOf(i + ivec2(1, 2)));
+    float carried = mix(mix(smoothA, smoothB, f.x), mix(smoothC, smoothD, f.x), f.y);
     // Vorticity is in 1 / unit of time, and falls as the canvas grows: an eddy has the same speed and more pixels.
     float now = carried * open(p, size) * exp(-iTimeDelta / max(settle_seconds, 1e-3)) + dent * fluid.w * iTimeDelta * iResolution.y / 90.0;
-    height = vec4(now, heightOf(p).x, 0.0, 0.0);
+    height = vec4(now, heightOf(p), 0.0, 0.0);
     if (!isFinite(height)) height = vec4(0.0);
 }

@@ -1,26 +1,27 @@
 // What can be turned, and the spoons. The fluid's method is in solver.glsl, one sub-step of it in step.glsl.
 
 // Image hatches the foot of the picture where these ask for more than the method can do.
-#iUniform float viscosity = 0.2 in { 0.0, 1.25 }
+#iUniform float viscosity = 0.35 in { 0.0, 1.25 }
 #iUniform float stiffness = 5.0 in { 0.0, 10.0 }
 #iUniform float dt = 0.2 in { 0.02, 2.0 }
 // 0: the method as it was published, for which stiffness 0.4 and viscosity 0.5 are right; 1: forward-backward (solver.glsl).
 #iUniform int form = 1 in { 0, 1 }
 // 0: the picture, 1: Mach's number, 2: the density.
 #iUniform int view = 0 in { 0, 2 }
-#iUniform float confinement = 0.1 in { 0.0, 2.0 }
+#iUniform float confinement = 0.05 in { 0.0, 2.0 }
 #iUniform float edge_cells = 8.0 in { 0.0, 64.0 }
 #iUniform float edge_drag = 0.15 in { 0.0, 1.0 }
 
 // The surface: how deep an eddy dents it, in how many seconds a dent is gone, and how steep it is shown.
-#iUniform float dent = 1.6 in { 0.0, 4.0 }
-#iUniform float settle_seconds = 3.0 in { 0.1, 20.0 }
+#iUniform float dent = 1.0 in { 0.0, 4.0 }
+#iUniform float settle_seconds = 6.0 in { 0.1, 20.0 }
 // Surface tension: what of a wrinkle one pixel wide is smoothed out in a frame.
 #iUniform float tension = 0.8 in { 0.0, 1.0 }
 #iUniform float relief = 1.0 in { 0.0, 4.0 }
 #iUniform float shininess = 60.0 in { 2.0, 300.0 }
-#iUniform color3 liquid = color3(0.05, 0.16, 0.30)
-#iUniform color3 warm = color3(0.95, 0.42, 0.16)
+#iUniform color3 liquid = color3(0.03, 0.22, 0.26)
+#iUniform color3 warm = color3(0.95, 0.45, 0.14)
+#iUniform color3 deep = color3(0.10, 0.05, 0.30)
 #iUniform float spoons = 1.0 in { 0.0, 1.0 }
 
 const float SUBSTEPS = 3.0; // a frame; the same number as in eddy.toml
