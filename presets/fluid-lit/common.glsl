@@ -15,13 +15,15 @@
 // The surface: how deep an eddy dents it, in how many seconds a dent is gone, and how steep it is shown.
 #iUniform float dent = 1.0 in { 0.0, 4.0 }
 #iUniform float settle_seconds = 6.0 in { 0.1, 20.0 }
+// How high the long waves are to which it settles.
+#iUniform float swell = 0.12 in { 0.0, 0.5 }
 // Surface tension: what of a wrinkle one pixel wide is smoothed out in a frame.
 #iUniform float tension = 0.8 in { 0.0, 1.0 }
 #iUniform float relief = 1.0 in { 0.0, 4.0 }
 #iUniform float shininess = 60.0 in { 2.0, 300.0 }
-#iUniform color3 liquid = color3(0.03, 0.22, 0.26)
-#iUniform color3 warm = color3(0.95, 0.45, 0.14)
-#iUniform color3 deep = color3(0.10, 0.05, 0.30)
+#iUniform color3 liquid = color3(0.012, 0.075, 0.110)
+#iUniform color3 warm = color3(0.90, 0.36, 0.08)
+#iUniform color3 deep = color3(0.10, 0.03, 0.24)
 #iUniform float spoons = 1.0 in { 0.0, 1.0 }
 
 const float SUBSTEPS = 3.0; // a frame; the same number as in eddy.toml
@@ -32,7 +34,7 @@ const float SUBSTEPS = 3.0; // a frame; the same number as in eddy.toml
 const int SPOONS = 2;
 
 vec2 spoonAt(int i, float time, vec2 resolution) {
-    float turn = (i == 0 ? 0.9 : -0.7) * time + 2.1 * float(i);
+    float turn = (i == 0 ? 0.42 : -0.36) * time + 2.1 * float(i);
     return resolution * (0.5 + vec2(0.30 * cos(turn) + (i == 0 ? -0.1 : 0.1), 0.27 * sin(1.3 * turn + 0.4)));
 }
 
@@ -45,7 +47,7 @@ vec4 spoon(int i, float time, vec2 resolution) {
 vec2 emit(vec2 velocity, vec2 p, float time, float strength, vec2 resolution) {
     for (int i = 0; i < SPOONS; i++) {
         vec4 at = spoon(i, time, resolution);
-        float d = length(p - at.xy) / (0.03 * resolution.y + 0.5);
+        float d = length(p - at.xy) / (0.04 * resolution.y + 0.5);
         velocity = mix(velocity, subsonic(2.2, 0.3) * at.zw, 0.10 * spoons * strength * exp(-d * d));
     }
     return velocity;

@@ -1,7 +1,7 @@
 // What can be turned, and the three nozzles. The method is in solver.glsl, one sub-step of it in step.glsl.
 
 // The numbers of the method; Image hatches the foot of the picture where they ask for more than it can do.
-#iUniform float viscosity = 0.2 in { 0.0, 1.25 }
+#iUniform float viscosity = 0.3 in { 0.0, 1.25 }
 #iUniform float stiffness = 5.0 in { 0.0, 10.0 }
 #iUniform float dt = 0.2 in { 0.02, 2.0 }
 // 0: the method as it was published, for which stiffness 0.4 and viscosity 0.5 are right; 1: forward-backward (solver.glsl).
@@ -10,7 +10,7 @@
 #iUniform int view = 0 in { 0, 2 }
 
 // Look, not physics: 0 switches each of them off.
-#iUniform float confinement = 0.3 in { 0.0, 2.0 }
+#iUniform float confinement = 0.2 in { 0.0, 2.0 }
 #iUniform float edge_cells = 8.0 in { 0.0, 64.0 }
 #iUniform float edge_drag = 0.15 in { 0.0, 1.0 }
 #iUniform float nozzles = 1.0 in { 0.0, 1.0 }
