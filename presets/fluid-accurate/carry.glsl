@@ -9,11 +9,13 @@ const float TRUST_LOW = 1.0, TRUST_HIGH = 2.0;
 // the way back says is noise, and correcting by it feeds that noise.
 float trust(ivec2 p, float cells) {
     ivec2 last = textureSize(iChannel0, 0) - 1;
-    ivec2 l = max(p - ivec2(1, 0), ivec2(0)), r = min(p + ivec2(1, 0), last), d = max(p - ivec2(0, 1), ivec2(0)), u = min(p + ivec2(0, 1), last);
-    vec4 change = vec4(texelFetch(iChannel0, r, 0).x - texelFetch(iChannel0, p, 0).x, texelFetch(iChannel1, u, 0).x - texelFetch(iChannel1, p, 0).x,
-                       0.5 * (texelFetch(iChannel0, u, 0).x - texelFetch(iChannel0, d, 0).x), 0.5 * (texelFetch(iChannel1, r, 0).x - texelFetch(iChannel1, l, 0).x));
-    change = abs(cells * change);
-    return 1.0 - smoothstep(TRUST_LOW, TRUST_HIGH, max(max(change.x, change.y), max(change.z, change.w)));
+    ivec2 l = max(p - ivec2(1, 0), ivec2(0)), r = min(p + ivec2(1, 0), last);
+    ivec2 d = max(p - ivec2(0, 1), ivec2(0)), u = min(p + ivec2(0, 1), last);
+    float stretched = max(abs(texelFetch(iChannel0, r, 0).x - texelFetch(iChannel0, p, 0).x),
+                          abs(texelFetch(iChannel1, u, 0).x - texelFetch(iChannel1, p, 0).x));
+    float sheared = 0.5 * max(abs(texelFetch(iChannel0, u, 0).x - texelFetch(iChannel0, d, 0).x),
+                              abs(texelFetch(iChannel1, r, 0).x - texelFetch(iChannel1, l, 0).x));
+    return 1.0 - smoothstep(TRUST_LOW, TRUST_HIGH, abs(cells) * max(stretched, sheared));
 }
 #endif
 

@@ -65,9 +65,10 @@ float linearAt(sampler2D field, vec2 at, int axis) {
     Image l = imageX(i.x, size.x, axis), r = imageX(i.x + 1, size.x, axis);
     Image d = imageY(i.y, size.y, axis), u = imageY(i.y + 1, size.y, axis);
     float left = l.sign * (1.0 - f.x), right = r.sign * f.x, down = 1.0 - f.y, up = f.y;
-    return (left + right) * (down * d.lid + up * u.lid)
-         + down * d.sign * (left * texelFetch(field, ivec2(l.at, d.at), 0)[axis] + right * texelFetch(field, ivec2(r.at, d.at), 0)[axis])
-         + up * u.sign * (left * texelFetch(field, ivec2(l.at, u.at), 0)[axis] + right * texelFetch(field, ivec2(r.at, u.at), 0)[axis]);
+    vec2 lower = vec2(texelFetch(field, ivec2(l.at, d.at), 0)[axis], texelFetch(field, ivec2(r.at, d.at), 0)[axis]);
+    vec2 upper = vec2(texelFetch(field, ivec2(l.at, u.at), 0)[axis], texelFetch(field, ivec2(r.at, u.at), 0)[axis]);
+    vec2 sides = vec2(left, right);
+    return (left + right) * (down * d.lid + up * u.lid) + down * d.sign * dot(sides, lower) + up * u.sign * dot(sides, upper);
 }
 
 // By cubics: J. D. Everett's form of Lagrange's interpolation through four points needs only the two in the middle where their
