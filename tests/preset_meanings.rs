@@ -87,9 +87,9 @@ fn sound_in_the_fluid_decays_or_grows_as_linear_theory_says() {
         (0, 0.0, 0.4, 0.4),
         (0, 0.4, 0.4, 0.4),
         (0, 0.2, 0.4, 0.4),
-        (1, 0.3, 5.0, 5.0),
-        (1, 0.0, 2.5, 2.5),
-        (1, 0.0, 10.0, 2.5),
+        (1, 0.3, 2.2, 2.2),
+        (1, 0.0, 0.7, 0.7),
+        (1, 0.0, 10.0, 0.75),
     ];
     for (form, viscosity, stiffness, acting) in cases {
         let set = [format!("viscosity={viscosity}"), format!("stiffness={stiffness}"), format!("form={form}")];
@@ -160,7 +160,7 @@ fn the_fluid_comes_back_from_sliders_beyond_its_method() {
 fn forward_and_backward_no_slider_makes_energy() {
     let Some(gpu) = gpu() else { return };
     for (knobs, marked) in [
-        (&["viscosity=0", "stiffness=2.5"][..], false),
+        (&["viscosity=0", "stiffness=0.7"][..], false),
         (&["viscosity=0"], true),
         (&["viscosity=0", "dt=2", "stiffness=10"], true),
         (&["viscosity=1.25", "dt=0.5", "stiffness=10"], true),
@@ -180,8 +180,8 @@ fn forward_and_backward_no_slider_makes_energy() {
 
 /// (greatest Mach number, part of the cells faster than 0.3, least and greatest density, mean density - 1) of a fluid.
 fn compressibility(engine: &mut Engine, name: &str) -> (f32, f64, [f32; 2], f64) {
-    // The speed of sound at the default sliders: K = 5, dt = 0.2.
-    const SOUND: f32 = 5.0;
+    // The speed of sound at the default sliders, sqrt(K / dt) for K = 2.2 and dt = 0.2.
+    const SOUND: f32 = 3.316_625;
     let state = engine.read(&buffer(name)).unwrap();
     let fluid = &state.texels[state.width as usize..];
     let mach = || fluid.iter().map(|t| t[0].hypot(t[1]) / SOUND);
@@ -200,14 +200,14 @@ fn the_fluids_are_slower_than_their_sound_and_keep_their_mass() {
         draw(&mut engine, 0..120, untouched);
         let (most, fast, density, mass) = compressibility(&mut engine, state);
         println!("{name}: Mach {most:.2}, {:.2} % above 0.3, density {density:.2?}, mass {mass:.1e}", 100.0 * fast);
-        assert!(most > 0.1 && most < 0.5 && fast < 2e-3, "{name}: Mach {most}, {fast} of the cells above 0.3");
+        assert!(most > 0.1 && most < 0.4001 && fast < 2e-3, "{name}: Mach {most}, {fast} of the cells above 0.3");
         assert!(density[0] > 0.6 && density[1] < 1.6 && mass.abs() < 1e-4, "{name}: density {density:?}, mass {mass}");
         // A hand that goes from corner to corner in single frames.
         let corners = [[1.0, 1.0], [239.0, 134.0], [239.0, 1.0], [1.0, 134.0]];
         draw(&mut engine, 120..150, |f| held(f, Some(([1.0, 1.0], corners[f as usize % 4]))));
         let (most, _, density, mass) = compressibility(&mut engine, state);
         println!("{name} under a violent hand: Mach {most:.2}, density {density:.2?}, mass {mass:.1e}");
-        assert!(most <= 0.6 && density[0] >= 0.5 && density[1] <= 3.0 && mass.abs() < 5e-3, "{name}: {density:?}, {mass}");
+        assert!(most <= 0.4001 && density[0] >= 0.5 && density[1] <= 3.0 && mass.abs() < 5e-3, "{name}: {density:?}, {mass}");
     }
 }
 

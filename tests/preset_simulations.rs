@@ -19,12 +19,12 @@ struct Simulation {
     speed: Option<f32>,
 }
 
-// The fluids in one pass are held below 0.6 of the speed of sound, which is 22 where the sliders make it fastest; the accurate one
+// The fluids in one pass are held below 0.4 of the speed of sound, which is 22 where the sliders make it fastest; the accurate one
 // is pushed by jets, lids and hands of at most 3, and eddies that meet add up.
 const SIMULATIONS: [Simulation; 10] = [
-    Simulation { name: "fluid", state: "A", bound: 4096.0, memory: 2, speed: Some(14.0) },
-    Simulation { name: "fluid-dye", state: "A", bound: 4096.0, memory: 2, speed: Some(14.0) },
-    Simulation { name: "fluid-lit", state: "A", bound: 4096.0, memory: 2, speed: Some(14.0) },
+    Simulation { name: "fluid", state: "A", bound: 4096.0, memory: 2, speed: Some(10.0) },
+    Simulation { name: "fluid-dye", state: "A", bound: 4096.0, memory: 2, speed: Some(10.0) },
+    Simulation { name: "fluid-lit", state: "A", bound: 4096.0, memory: 2, speed: Some(10.0) },
     Simulation { name: "reaction-diffusion", state: "A", bound: 1e4, memory: 2, speed: None },
     Simulation { name: "self-advection", state: "paint", bound: 1e4, memory: 3, speed: None },
     Simulation { name: "fluid-accurate", state: "velocity", bound: 1e4, memory: 3, speed: Some(8.0) },

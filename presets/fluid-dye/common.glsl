@@ -2,7 +2,7 @@
 
 // Image hatches the foot of the picture where these ask for more than the method can do.
 #iUniform float viscosity = 0.25 in { 0.0, 1.25 }
-#iUniform float stiffness = 5.0 in { 0.0, 10.0 }
+#iUniform float stiffness = 2.2 in { 0.0, 10.0 }
 #iUniform float dt = 0.2 in { 0.02, 2.0 }
 // 0: the method as it was published, for which stiffness 0.4 and viscosity 0.5 are right; 1: forward-backward (solver.glsl).
 #iUniform int form = 1 in { 0, 1 }
@@ -48,8 +48,8 @@ float emitterWeight(vec2 p, vec4 nozzle, vec2 resolution) {
 vec2 emit(vec2 velocity, vec2 p, float time, float strength, vec2 resolution) {
     for (int i = 0; i < EMITTERS; i++) {
         vec4 nozzle = emitter(i, time, resolution);
-        float w = blows > 0.0 ? 0.08 * strength * emitterWeight(p, nozzle, resolution) : 0.0;
-        velocity = mix(velocity, subsonic(blows, 0.3) * nozzle.zw, w);
+        float w = blows > 0.0 ? 0.10 * strength * emitterWeight(p, nozzle, resolution) : 0.0;
+        velocity = mix(velocity, subsonic(blows, 0.38) * nozzle.zw, w);
     }
     return velocity;
 }

@@ -2,7 +2,7 @@
 
 // Image hatches the foot of the picture where these ask for more than the method can do.
 #iUniform float viscosity = 0.35 in { 0.0, 1.25 }
-#iUniform float stiffness = 5.0 in { 0.0, 10.0 }
+#iUniform float stiffness = 2.2 in { 0.0, 10.0 }
 #iUniform float dt = 0.2 in { 0.02, 2.0 }
 // 0: the method as it was published, for which stiffness 0.4 and viscosity 0.5 are right; 1: forward-backward (solver.glsl).
 #iUniform int form = 1 in { 0, 1 }
@@ -21,8 +21,8 @@
 #iUniform float tension = 0.8 in { 0.0, 1.0 }
 #iUniform float relief = 1.0 in { 0.0, 4.0 }
 #iUniform float shininess = 60.0 in { 2.0, 300.0 }
-#iUniform color3 liquid = color3(0.012, 0.075, 0.110)
-#iUniform color3 warm = color3(0.90, 0.36, 0.08)
+#iUniform color3 liquid = color3(0.010, 0.100, 0.125)
+#iUniform color3 warm = color3(1.00, 0.38, 0.06)
 #iUniform color3 deep = color3(0.10, 0.03, 0.24)
 #iUniform float spoons = 1.0 in { 0.0, 1.0 }
 

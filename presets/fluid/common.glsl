@@ -2,7 +2,7 @@
 
 // The numbers of the method; Image hatches the foot of the picture where they ask for more than it can do.
 #iUniform float viscosity = 0.3 in { 0.0, 1.25 }
-#iUniform float stiffness = 5.0 in { 0.0, 10.0 }
+#iUniform float stiffness = 2.2 in { 0.0, 10.0 }
 #iUniform float dt = 0.2 in { 0.02, 2.0 }
 // 0: the method as it was published, for which stiffness 0.4 and viscosity 0.5 are right; 1: forward-backward (solver.glsl).
 #iUniform int form = 1 in { 0, 1 }
@@ -40,12 +40,12 @@ float emitterWeight(vec2 p, vec4 nozzle, vec2 resolution) {
     return exp(-d * d);
 }
 
-const float JET_SPEED = 1.8, JET_MACH = 0.3;
+const float JET_SPEED = 1.8, JET_MACH = 0.38;
 
 vec2 emit(vec2 velocity, vec2 p, float time, float strength, vec2 resolution) {
     for (int i = 0; i < EMITTERS; i++) {
         vec4 nozzle = emitter(i, time, resolution);
-        velocity = mix(velocity, subsonic(JET_SPEED, JET_MACH) * nozzle.zw, 0.05 * nozzles * strength * emitterWeight(p, nozzle, resolution));
+        velocity = mix(velocity, subsonic(JET_SPEED, JET_MACH) * nozzle.zw, 0.08 * nozzles * strength * emitterWeight(p, nozzle, resolution));
     }
     return velocity;
 }
