@@ -16,10 +16,10 @@ float smoothed(float here, float a, float b, float c, float d) {
     return here + 0.125 * tension * (a + b + c + d - 4.0 * here);
 }
 
-// No dents at the walls, where the fluid is held.
+// 0 at the walls, where the fluid is held and what shears there is no eddy.
 float open(ivec2 p, ivec2 size) {
     vec2 toWall = min(vec2(p) - vec2(0.0, 1.0), vec2(size - 1 - p));
-    return mix(0.8, 1.0, smoothstep(0.0, 12.0, min(toWall.x, toWall.y)));
+    return smoothstep(0.0, 16.0, min(toWall.x, toWall.y));
 }
 
 // Three long waves that cross; `at` in canvas heights.
@@ -47,7 +47,7 @@ void mainImage(out vec4 height, in vec2 fragCoord) {
     float dented = dent * fluid.w * iTimeDelta * iResolution.y / 90.0;
     float still = swellAt(fragCoord / iResolution.y, iTime);
     if (iFrame == 0) carried = still;
-    float now = still + ((carried - still) * exp(-iTimeDelta / max(settle_seconds, 1e-3)) + dented) * open(p, size);
+    float now = still + (carried - still) * exp(-iTimeDelta / max(settle_seconds, 1e-3)) + dented * open(p, size);
     height = vec4(now, heightOf(p), 0.0, 0.0);
     if (!isFinite(height)) height = vec4(0.0);
 }

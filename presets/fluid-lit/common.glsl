@@ -13,15 +13,15 @@
 #iUniform float edge_drag = 0.15 in { 0.0, 1.0 }
 
 // The surface: how deep an eddy dents it, in how many seconds a dent is gone, and how steep it is shown.
-#iUniform float dent = 1.0 in { 0.0, 4.0 }
+#iUniform float dent = 2.0 in { 0.0, 4.0 }
 #iUniform float settle_seconds = 6.0 in { 0.1, 20.0 }
 // How high the long waves are to which it settles.
-#iUniform float swell = 0.12 in { 0.0, 0.5 }
+#iUniform float swell = 0.16 in { 0.0, 0.5 }
 // Surface tension: what of a wrinkle one pixel wide is smoothed out in a frame.
 #iUniform float tension = 0.8 in { 0.0, 1.0 }
 #iUniform float relief = 1.0 in { 0.0, 4.0 }
 #iUniform float shininess = 60.0 in { 2.0, 300.0 }
-#iUniform color3 liquid = color3(0.010, 0.100, 0.125)
+#iUniform color3 liquid = color3(0.006, 0.070, 0.095)
 #iUniform color3 warm = color3(1.00, 0.38, 0.06)
 #iUniform color3 deep = color3(0.10, 0.03, 0.24)
 #iUniform float spoons = 1.0 in { 0.0, 1.0 }
@@ -30,12 +30,12 @@ const float SUBSTEPS = 3.0; // a frame; the same number as in eddy.toml
 
 #include "solver.glsl"
 
-// Two spoons stir while nobody else does. (x, y, cos, sin): position in pixels, direction.
-const int SPOONS = 2;
+// Three spoons stir while nobody else does. (x, y, cos, sin): position in pixels, direction.
+const int SPOONS = 3;
 
 vec2 spoonAt(int i, float time, vec2 resolution) {
-    float turn = (i == 0 ? 0.42 : -0.36) * time + 2.1 * float(i);
-    return resolution * (0.5 + vec2(0.30 * cos(turn) + (i == 0 ? -0.1 : 0.1), 0.27 * sin(1.3 * turn + 0.4)));
+    float side = float(i) - 1.0, turn = (i == 1 ? -0.34 : 0.40) * time + 2.1 * float(i);
+    return resolution * (0.5 + vec2(0.27 * side + 0.17 * cos(turn), 0.29 * sin(1.3 * turn + 0.4)));
 }
 
 vec4 spoon(int i, float time, vec2 resolution) {
@@ -48,7 +48,7 @@ vec2 emit(vec2 velocity, vec2 p, float time, float strength, vec2 resolution) {
     for (int i = 0; i < SPOONS; i++) {
         vec4 at = spoon(i, time, resolution);
         float d = length(p - at.xy) / (0.04 * resolution.y + 0.5);
-        velocity = mix(velocity, subsonic(2.2, 0.3) * at.zw, 0.10 * spoons * strength * exp(-d * d));
+        velocity = mix(velocity, subsonic(2.2, 0.36) * at.zw, 0.12 * spoons * strength * exp(-d * d));
     }
     return velocity;
 }

@@ -31,8 +31,8 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
 
     // Hills are warm, hollows deep, and what is between has the liquid's own colour.
     float h = surface.a / (0.12 + abs(surface.a));
-    vec3 body = mix(liquid, warm, smoothstep(0.45, 0.95, h));
-    body = mix(body, deep, smoothstep(0.45, 0.95, -h));
+    vec3 body = mix(liquid, warm, smoothstep(0.52, 0.88, h));
+    body = mix(body, deep, smoothstep(0.52, 0.88, -h));
 
     vec3 shown = 0.30 * body;
     shown += phong(n, toEye, normalize(vec3(-0.70, 0.75, 0.75)), vec3(1.00, 0.95, 0.88), body);
