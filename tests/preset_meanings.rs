@@ -207,7 +207,10 @@ fn the_fluids_are_slower_than_their_sound_and_keep_their_mass() {
         draw(&mut engine, 120..150, |f| held(f, Some(([1.0, 1.0], corners[f as usize % 4]))));
         let (most, _, density, mass) = compressibility(&mut engine, state);
         println!("{name} under a violent hand: Mach {most:.2}, density {density:.2?}, mass {mass:.1e}");
-        assert!(most <= 0.4001 && density[0] >= 0.5 && density[1] <= 3.0 && mass.abs() < 5e-3, "{name}: {density:?}, {mass}");
+        assert!(
+            most <= 0.4001 && density[0] >= 0.5 && density[1] <= 3.0 && mass.abs() < 5e-3,
+            "{name}: {density:?}, {mass}"
+        );
     }
 }
 
