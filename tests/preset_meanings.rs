@@ -200,7 +200,7 @@ fn the_fluids_are_slower_than_their_sound_and_keep_their_mass() {
         draw(&mut engine, 0..120, untouched);
         let (most, fast, density, mass) = compressibility(&mut engine, state);
         println!("{name}: Mach {most:.2}, {:.2} % above 0.3, density {density:.2?}, mass {mass:.1e}", 100.0 * fast);
-        assert!(most > 0.1 && most < 0.4001 && fast < 2e-3, "{name}: Mach {most}, {fast} of the cells above 0.3");
+        assert!(most > 0.1 && most < 0.4001 && fast < 5e-3, "{name}: Mach {most}, {fast} of the cells above 0.3");
         assert!(density[0] > 0.6 && density[1] < 1.6 && mass.abs() < 1e-4, "{name}: density {density:?}, mass {mass}");
         // A hand that goes from corner to corner in single frames.
         let corners = [[1.0, 1.0], [239.0, 134.0], [239.0, 1.0], [1.0, 134.0]];
