@@ -302,7 +302,7 @@ fn moving_dye_decays_as_stated_too() {
 fn the_surface_stays_within_its_bounds() {
     let Some(gpu) = gpu() else { return };
     // Untouched, and with every dent as deep and as lasting as the sliders allow, and with and without surface tension.
-    for (knobs, most) in [(&[][..], 1.0), (&["dent=4", "settle_seconds=20", "tension=0"], 8.0), (&["tension=1"], 1.0)] {
+    for (knobs, most) in [(&[][..], 1.3), (&["dent=4", "settle_seconds=20", "tension=0"], 8.0), (&["tension=1"], 1.3)] {
         let options = BuildOptions { wanted: vec![buffer("height")], ..Default::default() };
         let mut engine = engine_with(&gpu, &preset_with("fluid-lit", knobs), &MediaSet::new(), &options, (240, 135));
         draw(&mut engine, 0..150, untouched);

@@ -13,7 +13,7 @@
 #iUniform float edge_drag = 0.15 in { 0.0, 1.0 }
 
 // The surface: how deep an eddy dents it, in how many seconds a dent is gone, and how steep it is shown.
-#iUniform float dent = 2.0 in { 0.0, 4.0 }
+#iUniform float dent = 1.6 in { 0.0, 4.0 }
 #iUniform float settle_seconds = 6.0 in { 0.1, 20.0 }
 // How high the long waves are to which it settles.
 #iUniform float swell = 0.16 in { 0.0, 0.5 }
