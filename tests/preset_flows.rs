@@ -204,7 +204,8 @@ fn halving_the_cells_quarters_the_error() {
 fn eddies_decay_as_taylor_and_green_say() {
     let Some(gpu) = gpu() else { return };
     // At 0.15 cells a step, the case of the reference table, and at 2.
-    for (viscosity, number, cells, seconds) in [(0.0092, 0.15, 64, 0.85), (0.01, 2.0, 64, 1.0)] {
+    for (viscosity, number, seconds, most) in [(0.0092, 0.15, 0.85, 0.001), (0.01, 2.0, 1.0, 0.006)] {
+        let cells = 64u32;
         let knobs = [courant(number, cells), format!("viscosity={viscosity}")];
         let mut engine = square(&gpu, &accurate(&[&*knobs[0], &*knobs[1]], &taylor_green(cells)), cells);
         let steps = (seconds * f64::from(cells) / number).round();
@@ -218,7 +219,7 @@ fn eddies_decay_as_taylor_and_green_say() {
         let effective = -(energy(&found) / (0.5 * f64::from(cells * cells))).ln() / (2.0 * rate * time);
         println!("viscosity {viscosity}, {number} cells a step: error {error:.5}, viscosity as {effective:.5} of it");
         assert!(kept < 0.6, "{kept}: hardly anything decayed");
-        assert!(error < 0.004 && (effective - 1.0).abs() < 0.004, "error {error}, effective viscosity {effective}");
+        assert!(error < most && (effective - 1.0).abs() < most, "error {error}, effective viscosity {effective}");
     }
 }
 
