@@ -3,7 +3,8 @@
 mod support;
 
 use eddy::{
-    engine::Engine,
+    engine::{BuildOptions, Engine},
+    media::MediaSet,
     project::{Group, PassId, Project},
 };
 use support::{presets::*, *};
@@ -79,10 +80,20 @@ fn sound_in_the_fluid_decays_or_grows_as_linear_theory_says() {
     let Some(gpu) = gpu() else { return };
     let (width, mode) = (48u32, 6.0);
     let k = std::f64::consts::PI * mode / f64::from(width);
-    // (viscosity, K): the defaults; no viscosity, where every wave grows; viscosity = K, where none does; half of it.
-    for (viscosity, stiffness) in [(0.5, 0.4), (0.0, 0.4), (0.4, 0.4), (0.2, 0.4)] {
-        let set = [format!("viscosity={viscosity}"), format!("stiffness={stiffness}")];
-        let knobs = [&*set[0], &*set[1], "nozzles=0", "confinement=0", "edge_drag=0"];
+    // (form, viscosity, K). As published: its defaults; no viscosity, where every wave grows; viscosity = K, where none does; half
+    // of it. Forward-backward: the defaults, without viscosity as fast as is allowed, and what the sliders ask for held back.
+    let cases = [
+        (0, 0.5, 0.4, 0.4),
+        (0, 0.0, 0.4, 0.4),
+        (0, 0.4, 0.4, 0.4),
+        (0, 0.2, 0.4, 0.4),
+        (1, 0.3, 2.2, 2.2),
+        (1, 0.0, 0.7, 0.7),
+        (1, 0.0, 10.0, 0.75),
+    ];
+    for (form, viscosity, stiffness, acting) in cases {
+        let set = [format!("viscosity={viscosity}"), format!("stiffness={stiffness}"), format!("form={form}")];
+        let knobs = [&*set[0], &*set[1], &*set[2], "nozzles=0", "confinement=0", "edge_drag=0"];
         let mut project = fluid_in_one_pass(&knobs, 1);
         // A standing wave that the walls reflect onto itself.
         let seed =
@@ -102,42 +113,120 @@ fn sound_in_the_fluid_decays_or_grows_as_linear_theory_says() {
         }
         let (dt, mut u, mut r) = (0.2, 1e-3, 0.0);
         for _ in 0..steps {
-            let next = (r - dt * u * k.sin()) * (1.0 - 1e-3);
-            u = u * (1.0 - 2.0 * dt * viscosity * (1.0 - k.cos())) + stiffness * r * k.sin();
-            r = next;
+            let next = r - dt * u * k.sin();
+            let seen = if form == 0 { r } else { next };
+            u = u * (1.0 - 2.0 * dt * viscosity * (1.0 - k.cos())) + acting * seen * k.sin();
+            let smoothed = if form == 0 { 0.0 } else { 0.1 * (k / 2.0).sin().powi(4) * r };
+            r = (next - smoothed) * (1.0 - 1e-3);
         }
         let (size, off) = (u.hypot(r), (found[0] - u).hypot(found[1] - r));
-        assert!(off < 0.02 * size, "viscosity {viscosity}: ({u}, {r}) by theory, {found:?} found");
-        assert_eq!(viscosity < stiffness / 2.0, size > 1.5e-3, "viscosity {viscosity}: {size}");
+        assert!(off < 0.02 * size, "form {form}, viscosity {viscosity}: ({u}, {r}) by theory, {found:?} found");
+        assert_eq!(form == 0 && viscosity < stiffness / 2.0, size > 1.5e-3, "viscosity {viscosity}: {size}");
     }
+}
+
+/// Whether the foot of the picture is hatched.
+fn hatched(engine: &mut Engine) -> bool {
+    let image = engine.read(&PassId::Image).unwrap();
+    (0..image.width).any(|x| texel(&image, x, 0)[0] > 2.0 * texel(&image, x, 0)[1])
 }
 
 #[test]
 fn the_fluid_comes_back_from_sliders_beyond_its_method() {
     let Some(gpu) = gpu() else { return };
+    let published = ["nozzles=0", "form=0", "stiffness=0.4", "viscosity=0.5"];
     for beyond in [&["viscosity=0"][..], &["dt=2"], &["stiffness=1", "viscosity=0.1"], &["viscosity=1.25", "dt=0.5"]] {
-        let still = ["nozzles=0"];
-        let mut project = preset_with("fluid", &still);
+        let mut project = preset_with("fluid", &published);
         overwrite(&mut project, "A", NOISE);
         let mut engine = whole(&gpu, &project, true, (32, 20));
-        let hatched = |engine: &mut Engine| {
-            let image = engine.read(&PassId::Image).unwrap();
-            (0..32).any(|x| texel(&image, x, 0)[0] > 2.0 * texel(&image, x, 0)[1])
-        };
         draw(&mut engine, 0..30, drag);
         assert!(!hatched(&mut engine), "hatched at the defaults");
-        engine.set_knobs(&values("fluid", &[beyond, &still].concat()));
+        engine.set_knobs(&values("fluid", &[&published, beyond].concat()));
         draw(&mut engine, 30..1200, untouched);
         let (wild, _) = energy_and_mass(&mut engine, "C");
         assert!(wild.is_finite() && wild > 1e-3, "{beyond:?}: {wild}, so nothing is beyond the method here");
         assert!(hatched(&mut engine), "{beyond:?} is not marked");
-        engine.set_knobs(&values("fluid", &still));
+        engine.set_knobs(&values("fluid", &published));
         draw(&mut engine, 1200..1800, untouched);
         let (calm, mass) = energy_and_mass(&mut engine, "C");
         assert!(calm < 1e-2 * wild && calm < 1e-4, "{beyond:?}: energy {wild}, ten seconds later {calm}");
         // What the density limits made or took is on its way back.
         assert!(mass.abs() < 0.2, "{beyond:?}: mass is off by {mass}");
         assert!(!hatched(&mut engine));
+    }
+}
+
+#[test]
+fn forward_and_backward_no_slider_makes_energy() {
+    let Some(gpu) = gpu() else { return };
+    for (knobs, marked) in [
+        (&["viscosity=0", "stiffness=0.7"][..], false),
+        (&["viscosity=0"], true),
+        (&["viscosity=0", "dt=2", "stiffness=10"], true),
+        (&["viscosity=1.25", "dt=0.5", "stiffness=10"], true),
+        (&["viscosity=1.25", "stiffness=0"], true),
+    ] {
+        let mut project = preset_with("fluid", &[&["nozzles=0"], knobs].concat());
+        overwrite(&mut project, "A", NOISE);
+        let mut engine = whole(&gpu, &project, true, (32, 20));
+        draw(&mut engine, 0..3, untouched);
+        let (begin, _) = energy_and_mass(&mut engine, "C");
+        draw(&mut engine, 3..600, untouched);
+        let (end, mass) = energy_and_mass(&mut engine, "C");
+        assert!(begin > 1e-6 && end < begin && mass.abs() < 1e-4, "{knobs:?}: {begin} became {end}, mass {mass}");
+        assert_eq!(hatched(&mut engine), marked, "{knobs:?}");
+    }
+}
+
+/// (greatest Mach number, part of the cells faster than 0.3, least and greatest density, mean density - 1) of a fluid.
+fn compressibility(engine: &mut Engine, name: &str) -> (f32, f64, [f32; 2], f64) {
+    // The speed of sound at the default sliders, sqrt(K / dt) for K = 2.2 and dt = 0.2.
+    const SOUND: f32 = 3.316_625;
+    let state = engine.read(&buffer(name)).unwrap();
+    let fluid = &state.texels[state.width as usize..];
+    let mach = || fluid.iter().map(|t| t[0].hypot(t[1]) / SOUND);
+    let fast = mach().filter(|m| *m > 0.3).count() as f64 / fluid.len() as f64;
+    let density = fluid.iter().fold([f32::MAX, 0.0], |[low, high], t| [low.min(t[2]), high.max(t[2])]);
+    let mass = fluid.iter().map(|t| f64::from(t[2])).sum::<f64>() / fluid.len() as f64 - 1.0;
+    (mach().fold(0.0, f32::max), fast, density, mass)
+}
+
+#[test]
+fn the_fluids_are_slower_than_their_sound_and_keep_their_mass() {
+    let Some(gpu) = gpu() else { return };
+    for (name, state) in [("fluid", "C"), ("fluid-dye", "A"), ("fluid-lit", "A")] {
+        let options = BuildOptions { wanted: vec![buffer(state)], ..Default::default() };
+        let mut engine = engine_with(&gpu, &preset(name), &MediaSet::new(), &options, (240, 135));
+        draw(&mut engine, 0..120, untouched);
+        let (most, fast, density, mass) = compressibility(&mut engine, state);
+        println!("{name}: Mach {most:.2}, {:.2} % above 0.3, density {density:.2?}, mass {mass:.1e}", 100.0 * fast);
+        assert!(most > 0.1 && most < 0.4001 && fast < 5e-3, "{name}: Mach {most}, {fast} of the cells above 0.3");
+        assert!(density[0] > 0.6 && density[1] < 1.6 && mass.abs() < 1e-4, "{name}: density {density:?}, mass {mass}");
+        // A hand that goes from corner to corner in single frames.
+        let corners = [[1.0, 1.0], [239.0, 134.0], [239.0, 1.0], [1.0, 134.0]];
+        draw(&mut engine, 120..150, |f| held(f, Some(([1.0, 1.0], corners[f as usize % 4]))));
+        let (most, _, density, mass) = compressibility(&mut engine, state);
+        println!("{name} under a violent hand: Mach {most:.2}, density {density:.2?}, mass {mass:.1e}");
+        assert!(
+            most <= 0.4001 && density[0] >= 0.5 && density[1] <= 3.0 && mass.abs() < 5e-3,
+            "{name}: {density:?}, {mass}"
+        );
+    }
+}
+
+#[test]
+fn a_density_that_alternates_from_cell_to_cell_dies() {
+    let Some(gpu) = gpu() else { return };
+    for pattern in ["(p.x + p.y) % 2", "p.x % 2", "p.y % 2"] {
+        let mut project = preset_with("fluid", &["nozzles=0"]);
+        let seed = format!("if (iFrame == 0 && p.y > 0) o = vec4(0.0, 0.0, {pattern} == 0 ? 1.05 : 0.95, 0.0);");
+        overwrite(&mut project, "C", &seed);
+        let mut engine = whole(&gpu, &project, true, (48, 33));
+        draw(&mut engine, 0..30, untouched);
+        let state = engine.read(&buffer("C")).unwrap();
+        let left = state.texels[48..].iter().map(|t| (t[2] - 1.0).abs()).fold(0.0, f32::max);
+        println!("{pattern}: {left:.1e} of 0.05 after 30 frames");
+        assert!(left < 0.0025, "{pattern}: {left} of 0.05 is left after 30 frames");
     }
 }
 
@@ -206,6 +295,21 @@ fn moving_dye_decays_as_stated_too() {
     for (c, tau) in [30.0f64, 1.0, 2.0].into_iter().enumerate() {
         let (found, expected) = (after[c] / before[c], (-1.0 / tau).exp());
         assert!((found / expected - 1.0).abs() < 0.05, "component {c} kept {found}, not {expected}");
+    }
+}
+
+#[test]
+fn the_surface_stays_within_its_bounds() {
+    let Some(gpu) = gpu() else { return };
+    // Untouched, and with every dent as deep and as lasting as the sliders allow, and with and without surface tension.
+    for (knobs, most) in [(&[][..], 1.3), (&["dent=4", "settle_seconds=20", "tension=0"], 8.0), (&["tension=1"], 1.3)] {
+        let options = BuildOptions { wanted: vec![buffer("height")], ..Default::default() };
+        let mut engine = engine_with(&gpu, &preset_with("fluid-lit", knobs), &MediaSet::new(), &options, (240, 135));
+        draw(&mut engine, 0..150, untouched);
+        let height = engine.read(&buffer("height")).unwrap();
+        let (low, high) = height.texels.iter().fold((0.0f32, 0.0f32), |(l, h), t| (l.min(t[0]), h.max(t[0])));
+        println!("{knobs:?}: heights from {low} to {high}");
+        assert!(all_finite(&height) && high - low > 0.05 && low > -most && high < most, "{knobs:?}: {low} to {high}");
     }
 }
 

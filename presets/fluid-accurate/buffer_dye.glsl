@@ -1,5 +1,4 @@
 // Three dyes, one a jet, in rgb. Channel 0 is the velocity, channel 1 this buffer in the last frame, channel 2 the mouse.
-#define VELOCITY iChannel0
 #include "staggered.glsl"
 
 vec3 dyeOf(ivec2 p) {
@@ -8,7 +7,7 @@ vec3 dyeOf(ivec2 p) {
 }
 
 // R. Keys, "Cubic Convolution Interpolation for Digital Image Processing", IEEE ASSP 29(6), 1981, with a = -1/2.
-vec4 cubic(float f) {
+vec4 keys(float f) {
     float f2 = f * f, f3 = f2 * f;
     return 0.5 * vec4(-f + 2.0 * f2 - f3, 2.0 - 5.0 * f2 + 3.0 * f3, f + 4.0 * f2 - 3.0 * f3, f3 - f2);
 }
@@ -16,7 +15,7 @@ vec4 cubic(float f) {
 // The 4 x 4 without its corners, the sum of the weights made 1; cut to the range of the four nearest.
 vec3 dyeAt(vec2 at) {
     ivec2 i = ivec2(floor(at));
-    vec4 wx = cubic(at.x - float(i.x)), wy = cubic(at.y - float(i.y));
+    vec4 wx = keys(at.x - float(i.x)), wy = keys(at.y - float(i.y));
     vec3 a = dyeOf(i), b = dyeOf(i + ivec2(1, 0)), c = dyeOf(i + ivec2(0, 1)), d = dyeOf(i + 1);
     vec3 sum = wy.y * (wx.x * dyeOf(i + ivec2(-1, 0)) + wx.y * a + wx.z * b + wx.w * dyeOf(i + ivec2(2, 0)))
              + wy.z * (wx.x * dyeOf(i + ivec2(-1, 1)) + wx.y * c + wx.z * d + wx.w * dyeOf(i + ivec2(2, 1)))
@@ -27,8 +26,8 @@ vec3 dyeAt(vec2 at) {
 }
 
 void mainImage(out vec4 dye, in vec2 fragCoord) {
-    vec2 canvas = iResolution.xy, toGrid = vec2(grid()) / canvas;
-    vec2 from = path(fragCoord * toGrid, speed * iTimeDelta * float(grid().y));
+    vec2 canvas = iResolution.xy, toGrid = vec2(textureSize(iChannel0, 0)) / canvas;
+    vec2 from = quickPath(iChannel0, fragCoord * toGrid, speed * iTimeDelta * iChannelResolution[0].y);
     vec3 now = dyeAt(from / toGrid - 0.5) * exp(-speed * iTimeDelta / fade_seconds);
 
     vec2 at = (fragCoord - 0.5 * canvas) / canvas.y;

@@ -1,9 +1,3 @@
-// The first step of MacCormack: every face's velocity is what was upstream. Channel 0 is the velocity of the last frame.
-#define VELOCITY iChannel0
-#include "staggered.glsl"
-
-void mainImage(out vec4 forward, in vec2 fragCoord) {
-    vec2 corner = floor(fragCoord);
-    float cells = speed * iTimeDelta * float(grid().y);
-    forward = vec4(acrossAt(path(corner + vec2(0.0, 0.5), cells)), upwardsAt(path(corner + vec2(0.5, 0.0), cells)), 0.0, 0.0);
-}
+// MacCormack, there: every face gets what was upstream. Channels: the drift by components, what is carried by components.
+#define STEPS 1.0
+#include "carry.glsl"

@@ -26,10 +26,5 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     shown *= 0.40 + 0.75 * max(dot(n, sun), 0.0);
     shown += 0.25 * thick * pow(max(dot(n, normalize(sun + eye)), 0.0), 40.0);
     shown = pow(max(shown, 0.0), vec3(1.0 / 1.7));
-
-    float rows = 0.5 * iResolution.y;
-    if (viscosity * speed / 60.0 * rows * rows > 0.25 && fragCoord.y < 0.03 * iResolution.y && mod(fragCoord.x + fragCoord.y, 0.06 * iResolution.y) < 0.03 * iResolution.y) {
-        shown = vec3(0.85, 0.1, 0.1);
-    }
     fragColor = vec4(shown, 1.0);
 }

@@ -11,8 +11,19 @@ vec2 stiffnessOf(ivec2 size, ivec2 finest) {
     return 1.0 / (h * h);
 }
 
+// The cell a step away, and whether there is one: beyond a wall there is not. Grids without walls repeat.
+ivec2 cellAt(ivec2 p, ivec2 size) {
+    if (walls == PERIODIC) return p - size * ivec2(floor(vec2(p) / vec2(size)));
+    return clamp(p, ivec2(0), size - 1);
+}
+
+bool hasCell(ivec2 p, ivec2 size) {
+    return walls == PERIODIC || all(greaterThanEqual(p, ivec2(0))) && all(lessThan(p, size));
+}
+
 // Sum of the weights of a cell's neighbours, which is less at a wall; 0 for a grid of one cell.
 float diagonal(ivec2 p, ivec2 size, vec2 w) {
+    if (walls == PERIODIC) return 2.0 * dot(w, vec2(greaterThan(size, ivec2(1))));
     return w.x * (float(p.x > 0) + float(p.x < size.x - 1)) + w.y * (float(p.y > 0) + float(p.y < size.y - 1));
 }
 

@@ -2,8 +2,13 @@
 // Channel 0 is the finer grid's (q, f), channel 1 any texture of the finest grid.
 #include "multigrid.glsl"
 
+// A neighbour beyond the wall is the cell itself: no gradient.
+float q(ivec2 p, ivec2 size) {
+    return texelFetch(iChannel0, cellAt(p, size), 0).x;
+}
+
 void mainImage(out vec4 f, in vec2 fragCoord) {
-    ivec2 fine = textureSize(iChannel0, 0), last = fine - 1;
+    ivec2 fine = textureSize(iChannel0, 0);
     vec2 w = stiffnessOf(fine, textureSize(iChannel1, 0));
     // The part of the finer grid under this cell, in its cells.
     vec2 ratio = vec2(fine) / iResolution.xy;
@@ -14,9 +19,8 @@ void mainImage(out vec4 f, in vec2 fragCoord) {
             ivec2 p = ivec2(x, y);
             vec2 overlap = min(high, vec2(p + 1)) - max(low, vec2(p));
             vec2 here = texelFetch(iChannel0, p, 0).xy;
-            // A neighbour beyond the wall is the cell itself: no gradient.
-            float lap = w.x * (texelFetch(iChannel0, ivec2(max(x - 1, 0), y), 0).x + texelFetch(iChannel0, ivec2(min(x + 1, last.x), y), 0).x - 2.0 * here.x)
-                      + w.y * (texelFetch(iChannel0, ivec2(x, max(y - 1, 0)), 0).x + texelFetch(iChannel0, ivec2(x, min(y + 1, last.y)), 0).x - 2.0 * here.x);
+            float lap = w.x * (q(p - ivec2(1, 0), fine) + q(p + ivec2(1, 0), fine) - 2.0 * here.x)
+                      + w.y * (q(p - ivec2(0, 1), fine) + q(p + ivec2(0, 1), fine) - 2.0 * here.x);
             sum += overlap.x * overlap.y * (here.y - lap);
             area += overlap.x * overlap.y;
         }

@@ -6,7 +6,7 @@ vec2 w;
 
 // Beyond a wall lies the cell itself: no gradient.
 vec2 cell(ivec2 p) {
-    return INSIDE(clamp(p, ivec2(0), size - 1));
+    return INSIDE(cellAt(p, size));
 }
 
 float swept(ivec2 p, vec2 here, vec2 left, vec2 right, vec2 down, vec2 up) {
@@ -23,9 +23,9 @@ void mainImage(out vec4 result, in vec2 fragCoord) {
     vec2 c = cell(p), l = cell(p - x), r = cell(p + x), d = cell(p - y), u = cell(p + y);
     vec2 dl = cell(p - x - y), dr = cell(p + x - y), ul = cell(p - x + y), ur = cell(p + x + y);
     float q = swept(p, c, l, r, d, u);
-    float ql = p.x > 0 ? swept(p - x, l, cell(p - 2 * x), c, dl, ul) : q;
-    float qr = p.x < size.x - 1 ? swept(p + x, r, c, cell(p + 2 * x), dr, ur) : q;
-    float qd = p.y > 0 ? swept(p - y, d, dl, dr, cell(p - 2 * y), c) : q;
-    float qu = p.y < size.y - 1 ? swept(p + y, u, ul, ur, c, cell(p + 2 * y)) : q;
+    float ql = hasCell(p - x, size) ? swept(p - x, l, cell(p - 2 * x), c, dl, ul) : q;
+    float qr = hasCell(p + x, size) ? swept(p + x, r, c, cell(p + 2 * x), dr, ur) : q;
+    float qd = hasCell(p - y, size) ? swept(p - y, d, dl, dr, cell(p - 2 * y), c) : q;
+    float qu = hasCell(p + y, size) ? swept(p + y, u, ul, ur, c, cell(p + 2 * y)) : q;
     result = vec4(orZero(swept(p, vec2(q, c.y), vec2(ql), vec2(qr), vec2(qd), vec2(qu))), 0.0, 0.0, 0.0);
 }

@@ -1,11 +1,14 @@
 // What can be turned, and the emitter. The fluid's method is in solver.glsl, one sub-step of it in step.glsl.
 
-// At rest the fluid is stable where viscosity >= stiffness and viscosity * dt <= 1/4 (at the defaults 0.45 >= 0.35 and
-// 0.09 <= 0.25). Beyond, it is held within limits, Image hatches the foot of the picture, and it recovers.
-#iUniform float viscosity = 0.45 in { 0.0, 1.25 }
-#iUniform float stiffness = 0.35 in { 0.0, 1.0 }
+// Image hatches the foot of the picture where these ask for more than the method can do.
+#iUniform float viscosity = 0.25 in { 0.0, 1.25 }
+#iUniform float stiffness = 2.2 in { 0.0, 10.0 }
 #iUniform float dt = 0.2 in { 0.02, 2.0 }
-#iUniform float confinement = 0.5 in { 0.0, 2.0 }
+// 0: the method as it was published, for which stiffness 0.4 and viscosity 0.5 are right; 1: forward-backward (solver.glsl).
+#iUniform int form = 1 in { 0, 1 }
+// 0: the picture, 1: Mach's number, 2: the density.
+#iUniform int view = 0 in { 0, 2 }
+#iUniform float confinement = 0.25 in { 0.0, 2.0 }
 #iUniform float edge_cells = 8.0 in { 0.0, 64.0 }
 #iUniform float edge_drag = 0.15 in { 0.0, 1.0 }
 
@@ -45,8 +48,8 @@ float emitterWeight(vec2 p, vec4 nozzle, vec2 resolution) {
 vec2 emit(vec2 velocity, vec2 p, float time, float strength, vec2 resolution) {
     for (int i = 0; i < EMITTERS; i++) {
         vec4 nozzle = emitter(i, time, resolution);
-        float w = blows > 0.0 ? 0.08 * strength * emitterWeight(p, nozzle, resolution) : 0.0;
-        velocity = mix(velocity, blows * nozzle.zw, w);
+        float w = blows > 0.0 ? 0.10 * strength * emitterWeight(p, nozzle, resolution) : 0.0;
+        velocity = mix(velocity, subsonic(blows, 0.33) * nozzle.zw, w);
     }
     return velocity;
 }

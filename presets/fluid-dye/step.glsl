@@ -9,9 +9,22 @@ void mainImage(out vec4 state, in vec2 fragCoord) {
         return;
     }
 
-    Stencil s = Stencil(CELL(iChannel0, p, size),
-                        CELL(iChannel0, p - ivec2(1, 0), size), CELL(iChannel0, p + ivec2(1, 0), size),
-                        CELL(iChannel0, p - ivec2(0, 1), size), CELL(iChannel0, p + ivec2(0, 1), size));
+    Stencil s;
+    s.centre = CELL(iChannel0, p, size);
+    s.left = CELL(iChannel0, p - ivec2(1, 0), size);
+    s.right = CELL(iChannel0, p + ivec2(1, 0), size);
+    s.down = CELL(iChannel0, p - ivec2(0, 1), size);
+    s.up = CELL(iChannel0, p + ivec2(0, 1), size);
+    if (form != CLASSIC) {
+        s.farLeft = CELL(iChannel0, p - ivec2(2, 0), size);
+        s.farRight = CELL(iChannel0, p + ivec2(2, 0), size);
+        s.farDown = CELL(iChannel0, p - ivec2(0, 2), size);
+        s.farUp = CELL(iChannel0, p + ivec2(0, 2), size);
+        s.downLeft = CELL(iChannel0, p - ivec2(1, 1), size);
+        s.downRight = CELL(iChannel0, p + ivec2(1, -1), size);
+        s.upLeft = CELL(iChannel0, p + ivec2(-1, 1), size);
+        s.upRight = CELL(iChannel0, p + ivec2(1, 1), size);
+    }
 
     // Bilinear by hand: exact weights on every device, and the mirrored ghosts beyond the walls.
     vec2 from = upstream(p, s.centre.xy, dt, size);

@@ -1,17 +1,31 @@
 // The height of the surface. Channel 0 is this frame's fluid, channel 1 this buffer in the last frame.
 //
-// The flow carries it, eddies dent it (left-handed ones raise it), and it settles:
-//     h' = (h + tension / 8 lap h)(upstream) exp(-dt / settle_seconds) + dent * vorticity * dt
+// The flow carries it, eddies dent it (left-handed ones raise it), and it settles to a slow swell, h0:
+//     h' = h0 + ((h + tension / 8 lap h)(upstream) - h0) exp(-dt / settle_seconds) + dent * vorticity * dt
+// The Laplacian is upstream too. What is carried is then a mean of heights with positive weights, so that no height is made by
+// carrying; taken here, it would be of cells that have left, and where the flow is fast it feeds what alternates.
 // y is the height a frame ago, for whoever wants its rate. There is no mouse here, but row 0 is not fluid and stays flat.
 
-vec4 heightOf(ivec2 p) {
-    return texelFetch(iChannel1, nearestCell(p, ivec2(iResolution.xy)), 0);
+float heightOf(ivec2 p) {
+    vec4 q = texelFetch(iChannel1, nearestCell(p, ivec2(iResolution.xy)), 0);
+    return isFinite(q) ? q.x : 0.0;
 }
 
-// Flat at the walls, where the fluid is held.
+// A height after surface tension.
+float smoothed(float here, float a, float b, float c, float d) {
+    return here + 0.125 * tension * (a + b + c + d - 4.0 * here);
+}
+
+// 0 at the walls, where the fluid is held and what shears there is no eddy.
 float open(ivec2 p, ivec2 size) {
     vec2 toWall = min(vec2(p) - vec2(0.0, 1.0), vec2(size - 1 - p));
-    return mix(0.9, 1.0, smoothstep(0.0, 12.0, min(toWall.x, toWall.y)));
+    return smoothstep(0.0, 16.0, min(toWall.x, toWall.y));
+}
+
+// Three long waves that cross; `at` in canvas heights.
+float swellAt(vec2 at, float time) {
+    return swell / 3.0 * (sin(dot(at, vec2(7.1, 4.3)) + 0.50 * time) + sin(dot(at, vec2(-4.2, 8.7)) - 0.37 * time + 1.0)
+                          + sin(dot(at, vec2(11.5, -3.1)) + 0.61 * time + 2.5));
 }
 
 void mainImage(out vec4 height, in vec2 fragCoord) {
@@ -23,12 +37,17 @@ void mainImage(out vec4 height, in vec2 fragCoord) {
     vec2 from = upstream(p, fluid.xy, SUBSTEPS * dt, size);
     ivec2 i = ivec2(floor(from));
     vec2 f = from - vec2(i);
-    float carried = mix(mix(heightOf(i).x, heightOf(i + ivec2(1, 0)).x, f.x),
-                        mix(heightOf(i + ivec2(0, 1)).x, heightOf(i + 1).x, f.x), f.y);
-    float around = heightOf(p - ivec2(1, 0)).x + heightOf(p + ivec2(1, 0)).x + heightOf(p - ivec2(0, 1)).x + heightOf(p + ivec2(0, 1)).x;
-    carried += 0.125 * tension * (around - 4.0 * heightOf(p).x);
+    float a = heightOf(i), b = heightOf(i + ivec2(1, 0)), c = heightOf(i + ivec2(0, 1)), d = heightOf(i + 1);
+    float smoothA = smoothed(a, b, c, heightOf(i - ivec2(1, 0)), heightOf(i - ivec2(0, 1)));
+    float smoothB = smoothed(b, a, d, heightOf(i + ivec2(2, 0)), heightOf(i + ivec2(1, -1)));
+    float smoothC = smoothed(c, a, d, heightOf(i + ivec2(-1, 1)), heightOf(i + ivec2(0, 2)));
+    float smoothD = smoothed(d, b, c, heightOf(i + ivec2(2, 1)), heightOf(i + ivec2(1, 2)));
+    float carried = mix(mix(smoothA, smoothB, f.x), mix(smoothC, smoothD, f.x), f.y);
     // Vorticity is in 1 / unit of time, and falls as the canvas grows: an eddy has the same speed and more pixels.
-    float now = carried * open(p, size) * exp(-iTimeDelta / max(settle_seconds, 1e-3)) + dent * fluid.w * iTimeDelta * iResolution.y / 90.0;
-    height = vec4(now, heightOf(p).x, 0.0, 0.0);
+    float dented = dent * fluid.w * iTimeDelta * iResolution.y / 90.0;
+    float still = swellAt(fragCoord / iResolution.y, iTime);
+    if (iFrame == 0) carried = still;
+    float now = still + (carried - still) * exp(-iTimeDelta / max(settle_seconds, 1e-3)) + dented * open(p, size);
+    height = vec4(now, heightOf(p), 0.0, 0.0);
     if (!isFinite(height)) height = vec4(0.0);
 }

@@ -41,5 +41,6 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     if (beyondTheMethod() && fragCoord.y < 0.03 * iResolution.y) {
         shown = mod(fragCoord.x + fragCoord.y, 0.06 * iResolution.y) < 0.03 * iResolution.y ? vec3(0.85, 0.1, 0.1) : shown;
     }
+    if (view != 0) shown = viewOf(CELL(iChannel1, p, ivec2(iResolution.xy)));
     fragColor = vec4(shown, 1.0);
 }

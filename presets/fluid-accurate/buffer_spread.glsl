@@ -1,0 +1,7 @@
+// Half of the step's viscosity, along x. Channel 0 is the velocity of the last frame.
+#include "heat.glsl"
+
+void mainImage(out vec4 velocity, in vec2 fragCoord) {
+    float amount = viscosityHere(0.5 * speed * iTimeDelta, iChannelResolution[0].y);
+    velocity = vec4(spreadAlong(iChannel0, ivec2(fragCoord), ivec2(1, 0), amount), 0.0, 0.0);
+}
