@@ -5,15 +5,15 @@ void mainImage(out vec4 occluded, in vec2 fragCoord) {
     vec2 halfSize = iChannelResolution[0].xy, from = fragCoord / iResolution.xy * halfSize - 0.5, f = fract(from);
     ivec2 base = ivec2(floor(from)), last = ivec2(halfSize) - 1;
     vec4 here = texelFetch(iChannel1, ivec2(fragCoord), 0);
-    vec3 at = viewFromPixel(fragCoord, here.z, iResolution.xy);
+    vec3 at = viewFromPixel(fragCoord, here.z, iResolution.xy), normal = unpackNormal(here.xy);
     float sum = 0.0, weights = 0.0;
     for (int i = 0; i < 4; i++) {
         ivec2 off = ivec2(i & 1, i >> 1), q = clamp(base + off, ivec2(0), last);
         ivec2 full = fullTexel(q, halfSize, iResolution.xy);
         vec2 near = mix(1.0 - f, f, vec2(off));
         // Where all four are of other surfaces, on what is thinner than two pixels, their mean is as good a guess as any.
-        float weight = near.x * near.y
-                     * max(kinship(texelFetch(iChannel1, full, 0), vec2(full) + 0.5, at, here.xy, iResolution.xy), 1e-4);
+        float kin = kinship(texelFetch(iChannel1, full, 0), vec2(full) + 0.5, at, normal, here, iResolution.xy);
+        float weight = near.x * near.y * max(kin, 1e-4);
         sum += weight * texelFetch(iChannel0, q, 0).r;
         weights += weight;
     }

@@ -24,12 +24,12 @@ bool isNothing(vec4 g) {
     return g.z >= 0.999 * FAR;
 }
 
-// How far a texel of the G-buffer is of the surface through `at` with the packed normal `own`, 1 to 0. Depth alone would weigh a
+// How far a texel of the G-buffer is of the surface `own` at `at`, which has that normal: 1 to 0. Depth alone would weigh a
 // plane seen at a low angle unevenly.
-float kinship(vec4 g, vec2 pixel, vec3 at, vec2 own, vec2 canvas) {
-    vec2 turned = g.xy - own; // 0.35 is a right angle
-    float off = abs(dot(viewFromPixel(pixel, g.z, canvas) - at, unpackNormal(own)));
-    return max(1.0 - off / (0.02 * -at.z), 0.0) * max(1.0 - 8.0 * dot(turned, turned), 0.0);
+float kinship(vec4 g, vec2 pixel, vec3 at, vec3 normal, vec4 own, vec2 canvas) {
+    vec2 turned = g.xy - own.xy; // packed normals: 0.35 is a right angle
+    float off = abs(dot(viewFromPixel(pixel, g.z, canvas) - at, normal));
+    return max(1.0 - off / (0.02 * own.z), 0.0) * max(1.0 - 8.0 * dot(turned, turned), 0.0);
 }
 
 // What is behind everything, and what the table mirrors where nothing else is known.
