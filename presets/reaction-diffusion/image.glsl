@@ -28,7 +28,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     colour += 0.55 * pow(max(dot(n, normalize(sun + eye)), 0.0), 60.0);
     colour *= 1.0 - 0.28 * min(dot(uv, uv), 1.0);
 
-    if (dt > LONGEST_STEP && fragCoord.y < 0.03 * iResolution.y && mod(fragCoord.x + fragCoord.y, 0.06 * iResolution.y) < 0.03 * iResolution.y) {
+    if (dt > longestStep() && fragCoord.y < 0.03 * iResolution.y && mod(fragCoord.x + fragCoord.y, 0.06 * iResolution.y) < 0.03 * iResolution.y) {
         colour = vec3(0.85, 0.1, 0.1);
     }
     fragColor = vec4(pow(max(colour, 0.0), vec3(1.0 / 1.6)), 1.0);
