@@ -11,7 +11,10 @@
 //   4  nine taps     over their sum, 98: of sigma 2.14, flatter than a Gaussian (kurtosis 2.16; a Gaussian has 3)
 //   5  five fetches  the same by a linear sampler
 //
-// FIGURES
+// What they deliver (tests/preset_filters.rs). 1 and 2: the sum within 1e-6 and 1e-5, and sigma as asked for to four digits, 0.3
+// to 2.5; from samples of the Gaussian itself they are 0.0024 at sigma 1.8 and 0.0052 at 2.5 (L2, relative). 3, where each side
+// of the picture is a power of two: at sigma 1, 1.8 and 2.5 a texel becomes a blot of sigma 0.87, 1.60 and 2.49, and is moved by
+// up to 0.5, 1.3 and 2.1 texels along either axis, which counted in makes 1.00, 1.88 and 3.03.
 
 #iUniform float sigma = 1.8 in { 0.3, 2.5 } step 0.1 // in texels
 #iUniform int variant = 0 in { 0, 5 }                // 0: 1, 2 and 3 side by side

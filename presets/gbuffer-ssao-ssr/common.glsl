@@ -6,7 +6,9 @@
 //   soft   its noise averaged away, half the size     picture  the two together, as a screen shows them
 //   C      at the full size                           Image    edges smoothed
 //
-// FIGURES
+// Against 1,024 rays a point in the scene itself, of the same radius and falloff, the occlusion is 0.046 off (root mean square,
+// 640 x 360; 0.050 at 320 x 180); 0.06 too little on the die's upright faces, which look at what other things hide from the
+// camera; none on the open table (tests/preset_occlusion.rs).
 
 #include "gbuffer.glsl"
 

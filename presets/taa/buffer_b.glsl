@@ -39,7 +39,7 @@ vec3 historyAt(vec2 at) {
             sum += weight[x].x * weight[y].y * textureLod(iChannel1, vec2(place[x].x, place[y].y) / iResolution.xy, 0.0).rgb;
         }
     }
-    return sum;
+    return max(sum, 0.0); // the filter overshoots
 }
 
 // How an object moved between the last frame and this one, at a place, in pixels from now to then.
