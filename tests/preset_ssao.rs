@@ -30,8 +30,7 @@ fn corner(project: &mut Project, height: Option<f64>) {
         if name == "geometry" || name == "backs" {
             let floor = geometry.draws[0].clone();
             let mesh = MeshSource::parse("builtin:plane");
-            let floor =
-                MeshDraw { mesh, scale: 8.0, rotation: [0.0; 3], position: [0.0, 0.0, WALL_Z + 8.0], ..floor };
+            let floor = MeshDraw { mesh, scale: 8.0, rotation: [0.0; 3], position: [0.0, 0.0, WALL_Z + 8.0], ..floor };
             let wall = |height: f64| MeshDraw {
                 rotation: [90.0, 0.0, 0.0],
                 position: [0.0, height - 8.0, WALL_Z],

@@ -311,8 +311,12 @@ fn depth_alone_of_no_width_hides_what_the_mesh_hides() {
     let whole = seen(&["zOnly=false"]);
     let hidden = |knobs: &[&str]| whole - seen(&[&["zOnly=true"][..], knobs].concat());
     // A sphere of radius 1, and with its line of 0.1.
-    let disc = |r: f64| std::f64::consts::PI * (360.0 / (2.0 * (FOV / 2.0).to_radians().tan()) * r / (36.0 - r * r).sqrt()).powi(2);
-    for (knobs, radius) in [(&["outlineWidth=0"][..], 1.0), (&["zOnlyWidth=0"], 1.0), (&["zOnlyWidth=0.5"], 1.05), (&[], 1.1)] {
+    let disc = |r: f64| {
+        std::f64::consts::PI * (360.0 / (2.0 * (FOV / 2.0).to_radians().tan()) * r / (36.0 - r * r).sqrt()).powi(2)
+    };
+    for (knobs, radius) in
+        [(&["outlineWidth=0"][..], 1.0), (&["zOnlyWidth=0"], 1.0), (&["zOnlyWidth=0.5"], 1.05), (&[], 1.1)]
+    {
         let part = hidden(knobs) / disc(radius);
         assert!((part - 1.0).abs() < 0.03, "{knobs:?}: {part} of a disc of radius {radius}");
     }

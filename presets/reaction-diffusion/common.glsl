@@ -27,7 +27,7 @@
 
 // Time of a step. Explicit Euler is stable to dt = 1 / (4 Du) = 1.19 with five points, 3 / (8 Du) = 1.79 with nine, and
 // the blur in one pass to the reaction's own limit; beyond 1.19 the step stays at 1.19 and Image hatches the foot of the
-// picture. With 3 the limit is 5, where the kernel's tails reach the end of its 13 taps.
+// picture. With 3 the limit is 5, where the kernel's tails reach the end of its 15 taps.
 #iUniform float dt = 1.0 in { 0.0, 10.0 }
 
 #iUniform float brush_size = 0.035 in { 0.005, 0.2 }
@@ -45,7 +45,7 @@ float longestStep() {
 // The discrete Gaussian of variance t, which is to a grid what the Gaussian is to the plane: exp(-t) I_n(t), of the sum 1 and
 // just that variance (T. Lindeberg, "Scale-Space for Discrete Signals", PAMI 12, 1990). For U and V, of variance 2 D h each.
 // I_(n-1) = I_(n+1) + 2 n / t I_n, begun far out with any number and divided by the sum (J. Miller 1952).
-const int TAPS = 6;
+const int TAPS = 7;
 
 void gaussian(float h, out vec2 weight[TAPS + 1]) {
     vec2 t = max(2.0 * RATE * h, 1e-3), outer = vec2(0.0), here = vec2(1e-30), sum = vec2(0.0);
