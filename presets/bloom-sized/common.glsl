@@ -13,7 +13,7 @@
 //
 // Measured (tests/preset_filters.rs), strength 1, over the phases, at 640 x 360, 641 x 359, 333 x 187 and 187 x 333:
 // a spot's total is 0.994 to 0.999 of its light (16 bits leave out the faintest) and its centroid moves by 0.05 pixels at most.
-// At the upper and right edges of sizes that 32 does not divide the total is up to 5 % off: the coarse texels end elsewhere.
+// At the upper and right edges of sizes that 32 does not divide the total is up to 9 % off: the coarse texels end elsewhere.
 
 #iUniform float strength = 0.35 in { 0.0, 1.0 } // the part of the light that is spread
 #iUniform float spread = 0.62 in { 0.0, 1.0 }   // of that, the part each level hands on to the next wider one
