@@ -70,7 +70,7 @@ void mainImage(out vec4 light, in vec2 fragCoord) {
     light.rgb = own * (0.62 * sky * seen + sunlight_);
 
     float shine = blinn ? dot(n, normalize(SUN + view)) : dot(mirrored, SUN);
-    float fresnel = 0.04 + 0.96 * pow(1.0 - max(dot(n, view), 0.0), 5.0);
+    float fresnel = 0.04 + 0.96 * pow(1.0 - clamp(dot(n, view), 0.0, 1.0), 5.0);
     float highlight = lit * pow(max(shine, 0.0), shininess) * (shininess + 8.0) / 8.0;
     if (isTable) {
         light.rgb += 0.006 * vec3(1.0, 0.9, 0.76) * highlight;

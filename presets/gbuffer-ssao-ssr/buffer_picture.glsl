@@ -11,7 +11,7 @@ void mainImage(out vec4 shown, in vec2 fragCoord) {
     vec3 light = textureLod(iChannel3, fragCoord / iResolution.xy, 0.0).rgb, mirrored = vec3(0.0);
     if (!isNothing(g) && int(g.w) == TABLE_MATERIAL) {
         vec3 view = normalize(viewFromPixel(fragCoord, 1.0, iResolution.xy));
-        float fresnel = polish + (1.0 - polish) * pow(1.0 - max(-dot(view, unpackNormal(g.xy)), 0.0), 5.0);
+        float fresnel = polish + (1.0 - polish) * pow(1.0 - clamp(-dot(view, unpackNormal(g.xy)), 0.0, 1.0), 5.0);
         mirrored = mix(backdropOf(vec2(0.5, 0.85)), textureLod(iChannel3, hit.xy, 0.0).rgb, hit.z);
         light += fresnel * mirrored;
     }

@@ -32,7 +32,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     vec3 n = normalize(vec3(1.5 * slope, 1.0));
     vec3 sun = normalize(vec3(-0.5, 0.7, 0.9)), eye = normalize(vec3(-0.3 * uv, 1.0)), half_ = normalize(sun + eye);
     shown *= 0.30 + 0.86 * max(dot(n, sun), 0.0);
-    float fresnel = 0.04 + 0.5 * pow(1.0 - max(dot(n, eye), 0.0), 3.0);
+    float fresnel = 0.04 + 0.5 * pow(1.0 - clamp(dot(n, eye), 0.0, 1.0), 3.0);
     shown += fresnel * vec3(0.55, 0.60, 0.70) + 0.30 * pow(max(dot(n, half_), 0.0), 70.0);
     fragColor = vec4(pow(max(shown, 0.0), vec3(0.85)) * (1.0 - 0.3 * min(dot(uv, uv), 1.0)), 1.0);
 }
