@@ -39,7 +39,7 @@ vec3 historyAt(vec2 at) {
             sum += weight[x].x * weight[y].y * textureLod(iChannel1, vec2(place[x].x, place[y].y) / iResolution.xy, 0.0).rgb;
         }
     }
-    return max(sum, 0.0); // the filter overshoots
+    return clamp(sum, 0.0, 1.0); // the filter overshoots, and a screen has no more than 1
 }
 
 // How an object moved between the last frame and this one, at a place, in pixels from now to then.
