@@ -8,7 +8,7 @@ use eddy::{
     engine::{Engine, FrameInputs, Pixels},
     gpu::Gpu,
     media::Keyboard,
-    project::{Camera, MeshDraw, Project},
+    project::{Camera, MeshDraw, MeshSource, Project},
 };
 use preset::*;
 use std::f64::consts::PI;
@@ -24,12 +24,13 @@ fn camera() -> Camera {
 
 /// In place of the scene a floor that ends at a wall of a height, which faces the camera; the wall and the floor go on to the sides.
 fn corner(project: &mut Project, height: Option<f64>) {
-    for name in ["geometry", "occlusion", "lighting"] {
+    for name in ["geometry", "backs", "occlusion", "lighting"] {
         let geometry = project.pass_mut(&buffer(name)).unwrap().settings.geometry.as_mut().unwrap();
         geometry.camera = camera();
-        if name == "geometry" {
+        if name == "geometry" || name == "backs" {
             let floor = geometry.draws[0].clone();
-            let floor = MeshDraw { scale: 8.0, position: [0.0, 0.0, WALL_Z + 8.0], ..floor };
+            let mesh = MeshSource::parse("builtin:plane");
+            let floor = MeshDraw { mesh, scale: 8.0, rotation: [0.0; 3], position: [0.0, 0.0, WALL_Z + 8.0], ..floor };
             let wall = |height: f64| MeshDraw {
                 rotation: [90.0, 0.0, 0.0],
                 position: [0.0, height - 8.0, WALL_Z],
@@ -49,16 +50,19 @@ fn open(gpu: &Gpu, height: Option<f64>, knobs: &[&str]) -> (Pixels, Pixels) {
     (engine.read_target(&buffer("geometry"), 1).unwrap(), read(&mut engine, "blur"))
 }
 
-/// The part of the kernel that lies inside of a wall of a height at a distance: a sample of length s in the direction w does
-/// if s w.x > distance and s w.y < height. w.x and w.z are uniform on the unit disc, s = radius (0.1 + 0.9 u u).
-fn analytic(radius: f64, height: f64, distance: f64) -> f64 {
+/// The part of the kernel that a wall of a height at a distance hides. A point at a length s in the direction w is inside of the wall
+/// if s w.x > distance and s w.y < height; a ray is blocked up to there if it meets the wall's front, distance / w.x far, below its
+/// height. w.x and w.z are uniform on the unit disc, s = radius (0.1 + 0.9 u u).
+fn analytic(radius: f64, height: f64, distance: f64, rays: bool) -> f64 {
     const N: usize = 400;
     let middle = |i: usize| (i as f64 + 0.5) / N as f64;
     let of_length = |s: f64| {
         // Over the square of the distance from the disc's middle, which is uniform, and in closed form over the angle.
         let of_square = |square: f64| {
-            let is_below = s * (1.0 - square).sqrt() < height;
-            let x = (distance / s / square.sqrt()).min(1.0);
+            let up = (1.0 - square).sqrt();
+            let is_below = rays || s * up < height;
+            let least = if rays { (1.0 / s).max(up / height) } else { 1.0 / s };
+            let x = (distance * least / square.sqrt()).min(1.0);
             if is_below { x.acos() / PI } else { 0.0 }
         };
         (0..N).map(|i| of_square(middle(i))).sum::<f64>() / N as f64
@@ -84,18 +88,26 @@ fn the_analytic_occlusion_is_the_closed_form_beside_a_high_wall() {
     for distance in [0.05, 0.2, 0.4, 0.59, 0.7] {
         let mean = (0..4000).map(|i| (f64::from(i) + 0.5) / 4000.0);
         let mean = mean.map(|u| segment(distance / (0.6 * (0.1 + 0.9 * u * u)))).sum::<f64>() / 4000.0;
-        let whole = analytic(0.6, 0.6, distance);
-        assert!((whole - mean).abs() < 1e-3, "{distance}: {whole}, {mean}");
+        for rays in [false, true] {
+            let whole = analytic(0.6, 0.6, distance, rays);
+            assert!((whole - mean).abs() < 1e-3, "{distance}: {whole}, {mean}");
+        }
     }
 }
 
 #[test]
 fn beside_a_wall_the_occlusion_is_the_analytic_one_within_the_stated_bias() {
     let Some(gpu) = gpu() else { return };
-    for (radius, height, too_little, too_much) in
-        [(0.3, 2.0, 0.025, 0.025), (0.6, 2.0, 0.025, 0.025), (1.0, 2.0, 0.025, 0.025), (0.6, 0.25, 0.045, 0.01)]
-    {
-        let knobs = ["power=1".to_owned(), format!("radius={radius}")];
+    for (radius, height, rays, too_little, too_much) in [
+        (0.3, 2.0, true, 0.025, 0.025),
+        (0.6, 2.0, true, 0.025, 0.025),
+        (1.0, 2.0, true, 0.025, 0.025),
+        (0.6, 0.25, true, 0.045, 0.01),
+        (0.6, 2.0, false, 0.025, 0.025),
+        (0.6, 0.25, false, 0.045, 0.01),
+    ] {
+        let method = if rays { "method=0" } else { "method=1" };
+        let knobs = ["power=1".to_owned(), method.to_owned(), format!("radius={radius}")];
         let knobs: Vec<&str> = knobs.iter().map(String::as_str).collect();
         let (world, open) = open(&gpu, Some(height), &knobs);
         let rows = by_distance(&world, &open);
@@ -110,11 +122,11 @@ fn beside_a_wall_the_occlusion_is_the_analytic_one_within_the_stated_bias() {
                 continue;
             }
             beside += 1;
-            let off = hidden - analytic(radius, height, distance);
+            let off = hidden - analytic(radius, height, distance, rays);
             (low, high) = (low.min(off), high.max(off));
         }
         println!(
-            "radius {radius}, wall {height} high: {low:.4} to {high:.4} off, {beside} rows beside, {beyond} beyond"
+            "{method}, radius {radius}, wall {height} high: {low:.4} to {high:.4} off, {beside} rows beside, {beyond} beyond"
         );
         assert!(beside > 10 && beyond > 10, "{beside} rows beside the wall, {beyond} beyond");
         assert!(low > -too_little && high < too_much, "radius {radius}, height {height}: {low} to {high} off");
@@ -124,7 +136,7 @@ fn beside_a_wall_the_occlusion_is_the_analytic_one_within_the_stated_bias() {
 #[test]
 fn an_open_plane_is_open() {
     let Some(gpu) = gpu() else { return };
-    for knobs in [&["bias=0.002"][..], &["radius=2", "bias=0.002"], &["radius=0.05"]] {
+    for knobs in [&["bias=0.002"][..], &["radius=2", "bias=0.002"], &["radius=0.05"], &["method=1", "bias=0.002"]] {
         let (world, open) = open(&gpu, None, knobs);
         let floor = world.texels.iter().zip(&open.texels).filter(|(w, _)| w[3] > 0.0);
         let all: Vec<f32> = floor.map(|(_, o)| o[0]).collect();

@@ -280,6 +280,8 @@ fn a_lines_colour_is_its_own_the_lights_the_textures_and_the_meshs() {
     let light = "lightColour=0.2,1,0.6";
     assert_eq!(colours(&["outlineColour=1,0.2,0.4", light, "lightColoured=true"]), [[51, 51, 61]]);
     assert_eq!(colours(&["outlineColour=1,0.2,0.4", light]), [[255, 51, 102]]);
+    let floor = colours(&["outlineColour=1,0.2,0.4", light, "lightColoured=true", "lineAmbient=0.6"]);
+    assert_eq!(floor, [[153, 51, 61]], "no component of the light counts less than the ambient");
     // The parts' colours, squared: coat, skin, hat and brass are all beside the figure somewhere.
     let squared = [[0.24, 0.42, 0.72], [0.93, 0.74, 0.58], [0.12, 0.13, 0.16], [0.85, 0.62, 0.22]]
         .map(|c: [f32; 3]| c.map(|x| (x * x * 255.0).round() as u8));
@@ -289,4 +291,33 @@ fn a_lines_colour_is_its_own_the_lights_the_textures_and_the_meshs() {
     assert!(squared.iter().all(|s| blended.iter().any(|c| near(c, s))), "{blended:?}");
     let textured = colours(&["outlineColour=1,1,1", "outlineTexture=1"]);
     assert!(textured.len() > 20 && textured.iter().all(|c| c[0] >= 139 && c[1] <= c[0]), "{textured:?}");
+    let replaced = colours(&["outlineColour=1,1,1", "outlineTexture=1", "blendBase=1", "textureReplaces=true"]);
+    assert_eq!(replaced, textured, "the texture in place of the blend");
+}
+
+#[test]
+fn depth_alone_of_no_width_hides_what_the_mesh_hides() {
+    let Some(gpu) = gpu() else { return };
+    // The hull alone, and a large cube behind it, drawn after it.
+    let seen = |knobs: &[&str]| {
+        let mut project = scene(Page::Figure, "builtin:sphere", [0.0; 3], 6.0, knobs);
+        let geometry = project.pass_mut(&buffer("scene")).unwrap().settings.geometry.as_mut().unwrap();
+        let position = [0.0, 0.0, -5.0];
+        let cube = MeshSource::parse("builtin:cube");
+        let cube = MeshDraw { mesh: cube, scale: 3.0, position, ..geometry.draws[0].clone() };
+        geometry.draws = vec![geometry.draws[2].clone(), cube];
+        count(&picture_of(&gpu, &project), is_covered) as f64
+    };
+    let whole = seen(&["zOnly=false"]);
+    let hidden = |knobs: &[&str]| whole - seen(&[&["zOnly=true"][..], knobs].concat());
+    // A sphere of radius 1, and with its line of 0.1.
+    let disc = |r: f64| {
+        std::f64::consts::PI * (360.0 / (2.0 * (FOV / 2.0).to_radians().tan()) * r / (36.0 - r * r).sqrt()).powi(2)
+    };
+    for (knobs, radius) in
+        [(&["outlineWidth=0"][..], 1.0), (&["zOnlyWidth=0"], 1.0), (&["zOnlyWidth=0.5"], 1.05), (&[], 1.1)]
+    {
+        let part = hidden(knobs) / disc(radius);
+        assert!((part - 1.0).abs() < 0.03, "{knobs:?}: {part} of a disc of radius {radius}");
+    }
 }

@@ -1,14 +1,16 @@
-// Blurs every tile along its columns. Channel 0 is Buffer C.
+// Blurs the first levels along their columns, and the others, which are small, along both axes at once. Channel 0 is Buffer C.
 
 void mainImage(out vec4 blurred, in vec2 fragCoord) {
-    ivec2 p = ivec2(fragCoord);
-    Tile t = tileAt(p, ivec2(iResolution.xy));
+    ivec2 p = ivec2(fragCoord), canvas = ivec2(iResolution.xy);
+    Tile t = tileAt(p, canvas);
     blurred = vec4(0.0);
     if (t.level == 0) return;
-    int low = t.from.y, high = t.from.y + t.size.y - 1;
-    blurred = WEIGHT[0] * texelFetch(iChannel0, p, 0);
-    for (int i = 1; i <= PAD; i++) {
-        blurred += WEIGHT[i] * (texelFetch(iChannel0, ivec2(p.x, max(p.y - i, low)), 0)
-                              + texelFetch(iChannel0, ivec2(p.x, min(p.y + i, high)), 0));
+    ivec2 i = p - t.from;
+    int across = t.level > DIRECT ? REACH : 0;
+    for (int y = -REACH; y <= REACH; y++) {
+        for (int x = -across; x <= across; x++) {
+            float weight = WEIGHT[abs(y)] * (across > 0 ? WEIGHT[abs(x)] : 1.0);
+            blurred += weight * texelFetch(iChannel0, t.from + mirrored(i + ivec2(x, y), t.size), 0);
+        }
     }
 }

@@ -2,7 +2,7 @@
 // curve, and as dots what a Gaussian of the same sigma has there. Channel 0 is Buffer C.
 
 vec3 ink(int method) {
-    return method == 1 ? vec3(1.00, 0.55, 0.20) : method == 2 ? vec3(0.30, 0.80, 0.95) : vec3(0.75, 0.55, 1.00);
+    return isTaps(method) ? vec3(1.00, 0.55, 0.20) : method != MIP ? vec3(0.30, 0.80, 0.95) : vec3(0.75, 0.55, 1.00);
 }
 
 void mainImage(out vec4 fragColor, in vec2 fragCoord) {

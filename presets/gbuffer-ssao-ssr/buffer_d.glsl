@@ -3,9 +3,9 @@
 //
 // Method: M. McGuire, M. Mara, "Efficient GPU Screen-Space Ray Tracing", JCGT 3(4), 2014: the ray is followed in the picture,
 // where its inverse depth is a straight line, until it is behind what the G-buffer has there; then halved to the place.
+// Strides are short at first: beside a thing's foot its mirror image begins within a pixel.
 
 #iUniform int strides = 24 in { 4, 128 }
-#iUniform float thickness = 0.5 in { 0.02, 4.0 } // how deep things are taken to be
 
 const float REACH = 7.0; // of a reflected ray, in units of the scene
 
@@ -26,13 +26,17 @@ void mainImage(out vec4 hit, in vec2 fragCoord) {
     float k0 = 1.0 / g.z, k1 = 1.0 / max(-end.z, 1e-4);
 
     float dither = fract(52.9829189 * fract(dot(fragCoord, vec2(0.06711056, 0.00583715)))); // J. Jimenez, SIGGRAPH 2014
-    float before = 0.0, found = -1.0;
+    float before = 0.0, found = -1.0, least = 1.0 / max(length(to - from), 1.0); // a pixel
     for (int i = 0; i < strides; i++) {
-        float t = most * (float(i) + 0.25 + 0.75 * dither) / float(strides);
+        float part = (float(i) + 0.25 + 0.75 * dither) / float(strides);
+        float t = max(most * part * sqrt(part), min(least * float(i + 1), most));
         vec2 q = mix(from, to, t);
-        float scene = texelFetch(iChannel0, clamp(ivec2(q), ivec2(0), size - 1), 0).z, depth = 1.0 / mix(k0, k1, t);
+        ivec2 texel = clamp(ivec2(q), ivec2(0), size - 1);
+        float scene = texelFetch(iChannel0, texel, 0).z, depth = 1.0 / mix(k0, k1, t);
         float tolerance = thickness + max(depth - 1.0 / mix(k0, k1, before), 0.0);
-        if (length(q - from) > 1.5 && depth > scene * 1.001 && depth < scene + tolerance) {
+        // What lies on the mirror's own plane is the mirror.
+        float above = dot(viewFromPixel(vec2(texel) + 0.5, scene, iResolution.xy) - at, normal);
+        if (above > 1e-3 * g.z && depth > scene && depth < scene + tolerance) {
             found = t;
             break;
         }
@@ -42,8 +46,10 @@ void mainImage(out vec4 hit, in vec2 fragCoord) {
     for (int i = 0; i < 7; i++) {
         float t = 0.5 * (before + found);
         vec2 q = mix(from, to, t);
-        float scene = texelFetch(iChannel0, clamp(ivec2(q), ivec2(0), size - 1), 0).z;
-        if (1.0 / mix(k0, k1, t) > scene * 1.001) found = t;
+        ivec2 texel = clamp(ivec2(q), ivec2(0), size - 1);
+        float scene = texelFetch(iChannel0, texel, 0).z;
+        float above = dot(viewFromPixel(vec2(texel) + 0.5, scene, iResolution.xy) - at, normal);
+        if (above > 1e-3 * g.z && 1.0 / mix(k0, k1, t) > scene) found = t;
         else before = t;
     }
     vec2 uv = mix(from, to, found) / iResolution.xy;

@@ -12,8 +12,9 @@
 const ivec2 MEMORY = ivec2(0, 0);
 const vec2 MEMORY_UV = vec2(0.99999); // the last texel of each axis, up to 100,000 of them
 
-#iUniform float fade = 2.5 in { 0.2, 20.0 }  // seconds until a stroke has 1/e of its strength
-#iUniform float brush = 0.02 in { 0.002, 0.1 } // of the canvas' height
+#iUniform float fade = 5.0 in { 0.2, 20.0 }    // seconds until a stroke has 1/e of its strength
+#iUniform float brush = 0.016 in { 0.002, 0.1 } // of the canvas' height
+#iUniform int copies = 6 in { 1, 12 }          // how many pens draw, turned about the middle; every other one is mirrored
 
 // A whole number, exact as a float for any canvas up to 4096 x 4096.
 float signature(vec2 resolution) {
@@ -40,7 +41,7 @@ bool isFinite(vec4 q) {
 }
 
 vec3 hue(float turn) {
-    return 0.55 + 0.45 * cos(6.2832 * (turn - vec3(0.0, 0.33, 0.67)));
+    return 0.52 + 0.48 * cos(6.2832 * (turn - vec3(0.02, 0.36, 0.62)));
 }
 
 // The ink at a pixel a frame later: what was there fades, and the hand's way since then is drawn over it, coloured by its
@@ -50,10 +51,19 @@ vec4 draw(vec4 ink, vec2 pixel, vec4 before, vec3 now, vec2 resolution, float se
     ink *= exp(-seconds / fade);
     bool drawing = isMemory(before, resolution) && before.z > 0.5 && now.z > 0.5;
     if (!drawing) return ink;
-    vec2 along = now.xy - before.xy, p = pixel - 0.5 - before.xy;
-    float far = length(along), t = clamp(dot(p, along) / max(far * far, 1e-6), 0.0, 1.0);
-    float radius = brush * resolution.y / (1.0 + 8.0 * far / resolution.y) + 0.6;
-    float d = length(p - t * along) / radius, weight = exp(-d * d * d * d) * min(far / 0.5, 1.0);
-    vec3 colour = hue(atan(along.y, along.x) / 6.2832);
-    return mix(ink, vec4(colour, 1.0), weight);
+    vec2 middle = 0.5 * resolution, from = before.xy + 0.5 - middle, along = now.xy - before.xy, p = pixel - middle;
+    float far = length(along), radius = brush * resolution.y / (1.0 + 8.0 * far / resolution.y) + 0.8;
+    vec3 colour = hue(0.5 * atan(along.y, along.x) / 3.1416 + 0.35 * length(from) / resolution.y);
+    for (int i = 0; i < copies; i++) {
+        // The first pen is the hand itself: it must be where the hand is.
+        float turn = 6.2832 * float(i) / float(copies), s = sin(turn), c = cos(turn);
+        vec2 q = vec2(c * p.x + s * p.y, c * p.y - s * p.x);
+        if ((i & 1) == 1) q.y = -q.y;
+        q -= from;
+        float t = clamp(dot(q, along) / max(far * far, 1e-6), 0.0, 1.0), d = length(q - t * along) / radius;
+        // Thick in the middle, so that the light finds a ridge; nothing where the hand rests.
+        float weight = exp(-1.4 * d * d) * min(far / 0.5, 1.0), height = max(ink.a, weight);
+        ink = vec4(mix(ink.rgb / max(ink.a, 1e-3), colour, weight) * height, height);
+    }
+    return ink;
 }

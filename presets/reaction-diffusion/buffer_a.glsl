@@ -1,4 +1,5 @@
-// One step of the reaction; eddy.toml draws it several times a frame. Channel 0 is the state before, 1 the mouse.
+// One step of the reaction; eddy.toml draws it several times a frame. Channel 0 is the state before, 1 the mouse,
+// 2 the state blurred along its rows.
 
 ivec2 last;
 
@@ -8,32 +9,55 @@ vec2 cell(ivec2 p) {
     return texelFetch(iChannel0, clamp(p, ivec2(0), last), 0).xy;
 }
 
+// The second pass of the blur: along the columns of what Buffer rows has blurred along the rows.
+vec2 blurred(ivec2 p, float h) {
+    vec2 weight[TAPS + 1];
+    gaussian(h, weight);
+    vec2 sum = weight[0] * texelFetch(iChannel2, p, 0).xy;
+    for (int i = 1; i <= TAPS; i++) {
+        int low = p.y - i, high = p.y + i;
+        low = max(low, -1 - low);
+        high = min(high, 2 * last.y + 1 - high);
+        sum += weight[i] * (texelFetch(iChannel2, ivec2(p.x, clamp(low, 0, last.y)), 0).xy
+                          + texelFetch(iChannel2, ivec2(p.x, clamp(high, 0, last.y)), 0).xy);
+    }
+    return sum;
+}
+
+vec2 reaction(vec2 q, vec2 rates) {
+    float eaten = (1.0 - q.x) * q.y * q.y;
+    return vec2(eaten - rates.x * q.x, eaten - (rates.x + rates.y) * q.y);
+}
+
 void mainImage(out vec4 state, in vec2 fragCoord) {
     ivec2 p = ivec2(fragCoord);
     last = ivec2(iResolution.xy) - 1;
-    vec2 q = cell(p);
-    vec2 edges = cell(p - ivec2(1, 0)) + cell(p + ivec2(1, 0)) + cell(p - ivec2(0, 1)) + cell(p + ivec2(0, 1));
-    float h = min(dt, LONGEST_STEP);
+    vec2 q = cell(p), rates = recipe(fragCoord / iResolution.xy);
+    float h = min(dt, longestStep());
 
-    vec2 spread; // what diffusion changes in this step
-    if (diffusion == 0) {
-        spread = h * RATE * (edges - 4.0 * q);
+    if (diffusion == 3) {
+        q = blurred(p, h);
+        int parts = int(ceil(h / LONGEST_STEP));
+        for (int i = 0; i < parts; i++) q += h / float(parts) * reaction(q, rates);
     } else {
-        vec2 corners = cell(p - 1) + cell(p + 1) + cell(p + ivec2(1, -1)) + cell(p + ivec2(-1, 1));
-        if (diffusion == 1) {
-            spread = h * RATE * (4.0 * edges + corners - 20.0 * q) / 6.0;
+        vec2 edges = cell(p - ivec2(1, 0)) + cell(p + ivec2(1, 0)) + cell(p - ivec2(0, 1)) + cell(p + ivec2(0, 1));
+        vec2 spread; // what diffusion changes in this step
+        if (diffusion == 0) {
+            spread = h * RATE * (edges - 4.0 * q);
         } else {
-            // (a, 1 - 2a, a) along each axis has the variance 2a = 2 D h of a diffusion over h.
-            vec2 a = min(h * RATE, 0.5), b = 1.0 - 2.0 * a;
-            spread = b * b * q + a * b * edges + a * a * corners - q;
+            vec2 corners = cell(p - 1) + cell(p + 1) + cell(p + ivec2(1, -1)) + cell(p + ivec2(-1, 1));
+            if (diffusion == 1) {
+                spread = h * RATE * (4.0 * edges + corners - 20.0 * q) / 6.0;
+            } else {
+                // (a, 1 - 2a, a) along each axis has the variance 2a = 2 D h of a diffusion over h.
+                vec2 a = min(h * RATE, 0.5), b = 1.0 - 2.0 * a;
+                spread = b * b * q + a * b * edges + a * a * corners - q;
+            }
         }
+        q += spread + h * reaction(q, rates);
     }
 
-    vec2 rates = recipe(fragCoord / iResolution.xy);
-    float eaten = (1.0 - q.x) * q.y * q.y;
-    q += spread + h * vec2(eaten - rates.x * q.x, eaten - (rates.x + rates.y) * q.y);
-
-    // Seeds: a few at the start, the sower's while nobody draws, and the brush.
+    // Seeds: all over at the start, the sower's while nobody draws, and the brush.
     float radius = brush_size * iResolution.y + 1.0;
     vec4 mouse = texelFetch(iChannel1, ivec2(0), 0);
     float near = 1e6;
@@ -42,9 +66,12 @@ void mainImage(out vec4 state, in vec2 fragCoord) {
     } else if (sower > 0.0) {
         near = length(fragCoord - sowerAt(iTime, iResolution.xy)) / (0.012 * iResolution.y + 2.0) / sower;
         if (iFrame == 0) {
+            // A seed in every square of 32 cells, at some place in it and of some size: what grows meets its neighbours within
+            // some 2,000 steps on a canvas of any size.
             for (int i = 0; i < 9; i++) {
-                vec2 at = fract(vec2(0.7549, 0.5698) * float(i + 1)); // R2, M. Roberts 2018: even and without a grid
-                near = min(near, length(fragCoord - at * iResolution.xy) / (0.02 * iResolution.y + 2.0));
+                ivec2 square = ivec2(floor(fragCoord / 32.0)) + ivec2(i % 3, i / 3) - 1;
+                vec3 dice = hash(square);
+                near = min(near, length(fragCoord - 32.0 * (vec2(square) + dice.xy)) / mix(4.0, 8.0, dice.z));
             }
         }
     }

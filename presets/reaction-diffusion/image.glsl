@@ -23,12 +23,12 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     colour *= 1.0 + 0.45 * cavity;
     colour *= 0.42 + 0.72 * max(dot(n, sun), 0.0);
     vec3 sky = mix(vec3(0.30, 0.34, 0.40), vec3(0.95, 0.97, 1.0), smoothstep(-0.3, 0.9, reflect(-eye, n).y));
-    float fresnel = 0.04 + 0.5 * pow(1.0 - max(dot(n, eye), 0.0), 3.0);
+    float fresnel = 0.04 + 0.5 * pow(1.0 - clamp(dot(n, eye), 0.0, 1.0), 3.0);
     colour = mix(colour, sky, fresnel * (1.0 - 0.6 * h));
     colour += 0.55 * pow(max(dot(n, normalize(sun + eye)), 0.0), 60.0);
     colour *= 1.0 - 0.28 * min(dot(uv, uv), 1.0);
 
-    if (dt > LONGEST_STEP && fragCoord.y < 0.03 * iResolution.y && mod(fragCoord.x + fragCoord.y, 0.06 * iResolution.y) < 0.03 * iResolution.y) {
+    if (dt > longestStep() && fragCoord.y < 0.03 * iResolution.y && mod(fragCoord.x + fragCoord.y, 0.06 * iResolution.y) < 0.03 * iResolution.y) {
         colour = vec3(0.85, 0.1, 0.1);
     }
     fragColor = vec4(pow(max(colour, 0.0), vec3(1.0 / 1.6)), 1.0);

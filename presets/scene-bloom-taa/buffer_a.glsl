@@ -89,7 +89,7 @@ void mainImage(out vec4 light, in vec2 fragCoord) {
         float far = trace(p + 1e-3 * n, mirrored, seen);
         vec3 q = p + far * mirrored, m = seen == SKY ? -mirrored : normalOf(q, seen);
         float plain = what == FLOOR ? 0.10 : what == 0 ? 0.70 : 0.05;
-        float fresnel = plain + (1.0 - plain) * pow(1.0 - max(-dot(n, d), 0.0), 5.0);
+        float fresnel = plain + (1.0 - plain) * pow(1.0 - clamp(-dot(n, d), 0.0, 1.0), 5.0);
         fresnel *= exp(-0.0045 * dot(p, p));
         light.rgb = mix(light.rgb, shade(q, m, mirrored, seen), fresnel);
     }

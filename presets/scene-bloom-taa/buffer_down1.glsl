@@ -3,5 +3,5 @@
 #include "pyramid.glsl"
 
 void mainImage(out vec4 light, in vec2 fragCoord) {
-    light = down13(iChannel0, fragCoord / iResolution.xy, 1.0 / iChannelResolution[0].xy);
+    light = down13(iChannel0, 2.0 * fragCoord, iChannelResolution[0].xy);
 }

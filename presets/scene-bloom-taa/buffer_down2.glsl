@@ -1,7 +1,7 @@
-// 1/4 of the canvas. Channel 0 is the level before.
+// 1/4 of the canvas. Channel 0 is the level before, channel 1 the history, for its size.
 
 #include "pyramid.glsl"
 
 void mainImage(out vec4 light, in vec2 fragCoord) {
-    light = down13(iChannel0, fragCoord / iResolution.xy, 1.0 / iChannelResolution[0].xy);
+    light = down13(iChannel0, 2.0 * fragCoord, iChannelResolution[1].xy / 2.0);
 }

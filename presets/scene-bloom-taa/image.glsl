@@ -13,7 +13,8 @@ float hash(vec3 p) {
 }
 
 vec3 at(vec2 uv) {
-    return mix(textureLod(iChannel0, uv, 0.0).rgb, textureLod(iChannel1, uv, 0.0).rgb, bloom);
+    vec2 inBloom = 0.5 * uv * iResolution.xy / iChannelResolution[1].xy; // its texels are two pixels wide at any size
+    return mix(textureLod(iChannel0, uv, 0.0).rgb, textureLod(iChannel1, inBloom, 0.0).rgb, bloom);
 }
 
 // K. Narkowicz, "ACES Filmic Tone Mapping Curve", 2015: a rational fit of the film curve.

@@ -14,6 +14,10 @@ vec4 cubic(float f) {
     return 0.5 * vec4(-f + 2.0 * f2 - f3, 2.0 - 5.0 * f2 + 3.0 * f3, f + 4.0 * f2 - 3.0 * f3, f3 - f2);
 }
 
+// The part of the paint that is looked up by a linear filter. Without it fronts, where the flow presses paints together, end as
+// steps from texel to texel.
+#iUniform float blur = 0.2 in { 0.0, 1.0 }
+
 // The 4 x 4 without its corners, the sum of the weights made 1; cut to the range of the four nearest.
 vec4 paintAt(vec2 at) {
     ivec2 i = ivec2(floor(at));
@@ -24,6 +28,8 @@ vec4 paintAt(vec2 at) {
              + wy.x * (wx.y * paintOf(i + ivec2(0, -1)) + wx.z * paintOf(i + ivec2(1, -1)))
              + wy.w * (wx.y * paintOf(i + ivec2(0, 2)) + wx.z * paintOf(i + ivec2(1, 2)));
     sum /= 1.0 - (wx.x + wx.w) * (wy.x + wy.w);
+    vec2 f = at - vec2(i);
+    sum = mix(sum, mix(mix(a, b, f.x), mix(c, d, f.x), f.y), blur);
     return clamp(sum, min(min(a, b), min(c, d)), max(max(a, b), max(c, d)));
 }
 

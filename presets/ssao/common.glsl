@@ -2,7 +2,8 @@
 //
 //   1  geometry    meshes into four targets: albedo (w: specular), world position (w: 1), world normal, view position (w: 1);
 //                  where nothing is, all are 0
-//   2  occlusion   64 samples of the hemisphere over each texel's surface, against the view positions
+//   2  occlusion   64 samples of the hemisphere over each texel's surface, against the view positions and, from another geometry
+//                  pass that draws nothing but backs, how far behind those the things end
 //   3  blur        the mean over 4 x 4 texels, which is one of each turn of the samples
 //   4  lighting    Phong's, with the light of the surroundings weighed by what is open
 //
@@ -15,17 +16,19 @@
 // weighted by the cosine, so what is measured is the ambient term of a Lambertian surface: S. Zhukov, A. Iones,
 // G. Kronin, "An Ambient Light Illumination Model", Rendering Techniques 1998.
 //
-// What it should be. Let a wall without ends, of height H, stand at distance d from a point of the floor. A sample at distance
-// s from the point, in the direction w, lies inside of it if s w.x > d and s w.y < H (x to the wall, y up). With w weighted by
-// the cosine, (w.x, w.z) is uniform on the unit disc, and for H >= radius the part inside is that of a disc's segment:
+// What it should be (method 0). Let a wall without ends, of height H, stand at distance d from a point of the floor. A ray of the
+// length s from the point, in the direction w, meets it if s w.x > d and d w.y / w.x < H (x to the wall, y up). With w weighted by
+// the cosine, (w.x, w.z) is uniform on the unit disc, and for H >= radius the part that meets it is that of a disc's segment:
 //
 //   f(c) = (acos c - c sqrt(1 - c c)) / pi,  c = d / s < 1, and 0 beyond;   occlusion(d) = mean of f over the kernel's lengths
 //
-// with lengths s = radius (0.1 + 0.9 u u), u uniform. Measured at radii 0.3, 0.6 and 1 beside a wall higher
-// than that, from two texels away on (tests/preset_ssao.rs): within 0.025 of it, 0.02 too little to 0.02 too much; 0.015 of that
-// are `bias` (the wall begins so much later), 0.005 the kernel's 64 points, and the rest texels. Beyond the radius: exactly
-// none, as on an open plane. Beside a wall lower than the radius up to 0.04 too little: a camera that looks over the wall's
-// edge sees samples behind it, and no depth buffer knows how thick a wall is.
+// with lengths s = radius (0.1 + 0.9 u u), u uniform. Measured at radii 0.3, 0.6 and 1 beside a wall higher than that, from two
+// texels away on (tests/preset_ssao.rs): within 0.016 of it. Beyond the radius: exactly none, as on an open plane. Beside a wall
+// lower than the radius up to 0.03 too little: between two samples a ray goes over the edge unseen.
+//
+// Against 1,024 rays a point among the meshes, of the same falloff, power at 1 (tests/preset_occlusion.rs): 0.034 off (root mean
+// square, 320 x 180), nowhere 0.1 too much. The points of method 1 are 0.049 off; and before things ended at their backs it was
+// 0.060, with a halo of 0.1 and more around them over 4 % of the picture.
 
 // Scales a picture so that the scene fits into a canvas that is narrower than 3 : 2. Goes with iProjection, in x and y.
 vec2 fit(vec2 resolution) {

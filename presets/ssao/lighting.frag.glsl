@@ -6,7 +6,8 @@
 #iUniform float lampSpeed = 0.25 in { -2.0, 2.0 } // radians a second
 #iUniform float lamp = 1.0 in { 0.0, 4.0 }
 #iUniform float ambient = 1.0 in { 0.0, 4.0 }
-#iUniform float shininess = 40.0 in { 1.0, 200.0 }
+#iUniform float shininess = 40.0 in { 1.0, 200.0 } // the exponent of the highlights
+#iUniform bool blinn = false                       // J. Blinn's highlights, SIGGRAPH 1977: wider for the same exponent
 #iUniform color3 lampColour = color3(1.0, 0.86, 0.68)
 #iUniform color3 skyColour = color3(0.80, 0.90, 1.0)
 
@@ -28,7 +29,8 @@ void main() {
     vec3 light = normalize(to), view = normalize(iCameraPosition - position.xyz);
     float fall = 9.0 / (1.5 + dot(to, to));
     float diffuse = max(dot(normal, light), 0.0);
-    float specular = diffuse > 0.0 ? albedo.a * pow(max(dot(reflect(-light, normal), view), 0.0), shininess) : 0.0;
+    float shine = blinn ? dot(normal, normalize(light + view)) : dot(reflect(-light, normal), view);
+    float specular = diffuse > 0.0 ? albedo.a * pow(max(shine, 0.0), shininess) : 0.0;
     direct = vec4(lamp * fall * lampColour * (0.72 * colour * diffuse + 0.35 * specular), open);
     // From above comes the sky's light, from below what the floor sends back.
     vec3 around = mix(vec3(0.62, 0.50, 0.42), skyColour, 0.5 + 0.5 * normal.y);

@@ -5,6 +5,8 @@
 #iUniform float nearest = 6.0 in { 0.0, 50.0 }    // up to this distance lines are whole
 #iUniform float farthest = 24.0 in { 0.0, 60.0 }  // and from this on they are gone
 #iUniform float widthMask = 1.0 in { 0.0, 1.0 }   // how much of the mask counts
+#iUniform float zOnlyWidth = 1.0 in { 0.0, 1.0 }  // of the width, where the hull is depth alone; 0: the mesh itself
+#iUniform bool zOnly
 #iUniform bool bakedNormals = true                // normals from the texture, instead of the mesh's own
 #iUniform float depthOffset = 0.06 in { -1.0, 4.0 } // pushes the hull away from the camera without making it smaller
 #iUniform float spin
@@ -38,7 +40,7 @@ void main() {
     if (outlineMode == 1 && dot(away, away) > 0.0) direction = normalize(away) * (dot(away, normal) < 0.0 ? -1.0 : 1.0);
 
     float mask = mix(1.0, textureLod(iChannel1, vPlace, 0.0).x, widthMask);
-    float width = outlineWidth * faded(distance(iCameraPosition, iModel[3].xyz)) * mask;
+    float width = outlineWidth * faded(distance(iCameraPosition, iModel[3].xyz)) * mask * (zOnly ? zOnlyWidth : 1.0);
     vec4 view = iView * vec4(iModel[3].xyz + away + width * direction, 1.0);
     gl_Position = iProjection * view;
     // Only depth is the pushed point's. It stays before the camera and before the far plane.
