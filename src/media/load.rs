@@ -15,6 +15,8 @@ pub enum MediaError {
     Io { path: PathBuf, source: io::Error },
     #[error("{}: {}", path.display(), reason(source))]
     Decode { path: PathBuf, source: ImageError },
+    #[error("{}: {reason}", path.display())]
+    Npy { path: PathBuf, reason: String },
     #[error("{}: the picture has no texels", path.display())]
     Empty { path: PathBuf },
     #[error("{} is relative, and the project has no folder yet to start from", path.display())]
@@ -34,7 +36,7 @@ fn reason(error: &ImageError) -> String {
     }
 }
 
-const KNOWN: [&str; 7] = ["PNG", "JPEG", "WebP", "BMP", "TGA", "GIF", "HDR"];
+const KNOWN: [&str; 8] = ["PNG", "JPEG", "WebP", "BMP", "TGA", "GIF", "HDR", "NPY"];
 
 impl MediaError {
     /// How to mend it.
@@ -46,6 +48,10 @@ impl MediaError {
             MediaError::Io { .. } => "check the file's permissions".into(),
             MediaError::Decode { source: ImageError::Limits(_), .. } => "scale the picture down".into(),
             MediaError::Decode { .. } | MediaError::Empty { .. } => "save the picture anew, for instance as PNG".into(),
+            MediaError::Npy { .. } => {
+                "write it with numpy.save: float32, float64 or uint8, shape (height, width) or (height, width, 1 to 4)"
+                    .into()
+            }
             MediaError::NoFolder { .. } => "save the project first, or name the picture by its whole path".into(),
             MediaError::UnknownBuiltin { .. } => format!("there are {}", listed(&builtin::names())),
             MediaError::NoStandIn { .. } => "put a file of that name into a folder and name it with --media".into(),
@@ -112,6 +118,9 @@ fn file(path: &Path, vflip: bool) -> Result<Texels, MediaError> {
     let io = |source| MediaError::Io { path: path.to_owned(), source };
     if path.is_dir() {
         return Err(io(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder, not a picture")));
+    }
+    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("npy")) {
+        return super::npy::read(path);
     }
     // The reader's own limits hold (512 MiB of memory), so that a small file cannot ask for all there is.
     let reader = ImageReader::open(path).and_then(ImageReader::with_guessed_format).map_err(io)?;

@@ -6,6 +6,7 @@
 mod atomic;
 pub mod directives;
 mod error;
+mod fills;
 mod folder;
 mod geometry;
 mod includes;
@@ -21,6 +22,7 @@ mod save;
 mod settings;
 
 pub use error::ProjectError;
+pub use fills::{Boundary, Fill, FillKind, FillText, FillValue, Written};
 pub use folder::declare_channels;
 pub use geometry::{Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Stage, files_beside};
 pub use includes::{IncludeLines, Included};

@@ -3,7 +3,7 @@
 //! Owns what goes into which file. The writing itself, which never leaves half a file behind, is in `atomic`.
 
 use super::{
-    Input, Media, MeshSource, Origin, PassId, Project, ProjectError, SamplerRules, Source,
+    FillKind, FillValue, Input, Media, MeshSource, Origin, PassId, Project, ProjectError, SamplerRules, Source,
     atomic::{self, Content},
     files_beside,
     folder::{self, Files},
@@ -71,6 +71,9 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite) -> Result<P
     folder::declare_channels(&mut saved);
     if saved.passes[0].channels != image.channels {
         return cannot("channels that its text does not declare in #iChannel lines");
+    }
+    if image.settings != Default::default() {
+        return cannot("how its pass is drawn");
     }
     if !project.knob_values.is_empty() {
         return cannot("values of sliders that are not their defaults");
@@ -219,11 +222,22 @@ fn copy_media(project: &mut Project, target: &Path, writes: &mut BTreeMap<PathBu
             continue;
         };
         let Media::File(path) = media else { continue };
-        match moved(&base, path) {
-            Some(Move::Along(from)) => drop(writes.insert(target.join(&*path), Content::CopyOf(from))),
-            Some(Move::Stays(whole)) => *path = whole,
-            None => {}
+        move_file(&base, path, target, writes);
+    }
+    for pass in &mut project.passes {
+        for kind in FillKind::ALL {
+            if let Some(FillValue::File(path)) = pass.fill_mut(kind).map(|f| &mut f.value) {
+                move_file(&base, path, target, writes);
+            }
         }
+    }
+}
+
+fn move_file(base: &Path, path: &mut PathBuf, target: &Path, writes: &mut BTreeMap<PathBuf, Content>) {
+    match moved(base, path) {
+        Some(Move::Along(from)) => drop(writes.insert(target.join(&*path), Content::CopyOf(from))),
+        Some(Move::Stays(whole)) => *path = whole,
+        None => {}
     }
 }
 

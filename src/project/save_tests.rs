@@ -1,7 +1,9 @@
 //! Tests of saving: what is written reads back the same, and nothing else is touched.
 
 use super::*;
-use crate::project::{Channel, Filter, Info, Pass, PassFormat, PassSettings, PassSize, Region, Sampler, Wrap, load};
+use crate::project::{
+    Boundary, Channel, Fill, Filter, Info, Pass, PassFormat, PassSettings, PassSize, Region, Sampler, Wrap, load,
+};
 use std::collections::BTreeSet;
 
 /// A small generator of numbers, so that a failing case comes back with its seed.
@@ -54,7 +56,21 @@ fn any_settings(r: &mut Random, id: &PassId) -> PassSettings {
     if matches!(id, PassId::Buffer(_) | PassId::Image) && r.below(2) == 0 {
         settings.region = Some(Region { x: r.below(9) as u32, y: 0, width: 1, height: 5 });
     }
+    if matches!(id, PassId::Buffer(_)) && r.below(3) == 0 {
+        settings.initial = Some(any_fill(r));
+    }
+    if matches!(id, PassId::Buffer(_) | PassId::Image) && r.below(3) == 0 {
+        settings.boundary = Some(Boundary { width: 1 + r.below(3) as u32, value: any_fill(r) });
+    }
     settings
+}
+
+fn any_fill(r: &mut Random) -> Fill {
+    if r.below(2) == 0 {
+        Fill::expression(format!("vec4({})", r.text()))
+    } else {
+        Fill::file(format!("d/{}x.npy", r.text().replace('\0', "")))
+    }
 }
 
 fn any_project(seed: u64) -> Project {

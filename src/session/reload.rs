@@ -7,7 +7,7 @@ use super::{
     view::Level,
     watch::Watch,
 };
-use crate::project::{self, Input, Media, MeshSource, Origin, Project, Tab};
+use crate::project::{self, FillValue, Input, Media, MeshSource, Origin, Project, Tab};
 use std::{
     collections::BTreeSet,
     fs,
@@ -275,6 +275,15 @@ fn media_files(project: &Project) -> impl Iterator<Item = PathBuf> {
     })
 }
 
+/// Files that fill texels of passes.
+fn fill_files(project: &Project) -> impl Iterator<Item = PathBuf> {
+    let base = capture::base_folder(project).unwrap_or_default();
+    project.fills().filter_map(move |(.., fill)| match &fill.value {
+        FillValue::File(path) => Some(base.join(path)),
+        FillValue::Expression(_) => None,
+    })
+}
+
 /// Files that texts include, those that are not there among them.
 fn included_files(project: &Project) -> impl Iterator<Item = PathBuf> {
     project.includes.iter().filter_map(|i| i.source.path.clone())
@@ -298,7 +307,7 @@ fn model_files(project: &Project) -> Vec<PathBuf> {
 
 /// Everything that is read besides the texts of tabs.
 fn read_files(project: &Project) -> impl Iterator<Item = PathBuf> {
-    media_files(project).chain(included_files(project)).chain(model_files(project))
+    media_files(project).chain(fill_files(project)).chain(included_files(project)).chain(model_files(project))
 }
 
 fn media_stamps(project: &Project) -> MediaStamps {
