@@ -98,7 +98,9 @@ fn without_viscosity_a_fluid_at_rest_blows_up_and_forward_backward_does_not() {
     let largest = |method| {
         let setup = Setup::new("fluid_guay", (32, 32)).define("METHOD", method).knob("viscosity", 0.0);
         let setup = setup.knob("speed", 0.0).knob("noise", 1e-3);
-        velocity(&rig, &setup, 600).iter().fold(0.0, |a: f64, v| if v.is_nan() { f64::INFINITY } else { a.max(v.abs()) })
+        velocity(&rig, &setup, 600)
+            .iter()
+            .fold(0.0, |a: f64, v| if v.is_nan() { f64::INFINITY } else { a.max(v.abs()) })
     };
     let (one_pass, forward_backward) = (largest("ONE_PASS"), largest("FORWARD_BACKWARD"));
     assert!(one_pass > 0.5, "{one_pass}");

@@ -16,6 +16,9 @@ pub const MIN_REPEATS: u32 = 7;
 /// Most frames of a turn.
 const MAX_BATCH: u32 = 512;
 
+/// Passes that a frame of the floor's projects draws, so that what a frame costs beside its passes is not taken for theirs.
+const FLOOR_STEPS: u32 = 16;
+
 /// Bytes a texel that the copying pass moves: it reads and writes rgba32f.
 const COPY_BYTES: f64 = 32.0;
 
@@ -36,6 +39,12 @@ pub struct Times {
 }
 
 impl Times {
+    /// Each times a factor.
+    #[must_use]
+    pub fn by(self, factor: f64) -> Times {
+        Times { median: self.median * factor, min: self.min * factor, max: self.max * factor }
+    }
+
     /// # Panics
     /// If there are none.
     fn of(mut samples: Vec<f64>) -> Times {
@@ -55,7 +64,7 @@ impl Times {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cost {
     pub frame: Times,
-    /// Of the copying pass and of the empty one, in the same turns.
+    /// Of one copying pass and of one that draws a single texel, in the same turns.
     pub copy: Times,
     pub empty: Times,
     /// Fewest bytes a frame moves for a texel of the canvas, by its plan.
@@ -93,7 +102,7 @@ pub struct Care {
 /// Measures setups against each other, all at one size.
 pub fn interleaved(rig: &Rig, setups: &[Setup], size: (u32, u32), care: Care) -> Result<Vec<Cost>, LabError> {
     let clock = if rig.gpu().has_timestamps && !rig.gpu().is_cpu() { Clock::Timestamps } else { Clock::Wall };
-    let floor = [Setup::new("floor", size).wants(&["copy"]), Setup::new("floor", size).wants(&["empty"])];
+    let floor = ["copy", "empty"].map(|name| Setup::new("floor", size).wants(&[name]).steps(name, FLOOR_STEPS));
     let mut turns = Vec::new();
     for setup in floor.iter().chain(setups) {
         let mut running = rig.open(setup)?;
@@ -117,8 +126,8 @@ pub fn interleaved(rig: &Rig, setups: &[Setup], size: (u32, u32), care: Care) ->
         let traffic = plan.traffic(size);
         Cost {
             frame: *frame,
-            copy: times[0],
-            empty: times[1],
+            copy: times[0].by(1.0 / f64::from(FLOOR_STEPS)),
+            empty: times[1].by(1.0 / f64::from(FLOOR_STEPS)),
             bytes_per_texel: traffic.bytes as f64 / canvas_texels,
             texels_per_texel: traffic.texels as f64 / canvas_texels,
             canvas_texels,

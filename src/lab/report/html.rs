@@ -66,7 +66,7 @@ const COLUMNS: [&str; 11] = [
     "ms",
     "Mtexel/s",
     "% of roofline",
-    "bytes/texel",
+    "bytes/texel/frame",
     "L2",
     "L&infin;",
     "order",
@@ -141,6 +141,15 @@ fn section(out: &mut String, table: &Table, svg: Option<&str>) {
     let about = table.about;
     let _ = writeln!(out, "<h2 id=\"{}\">{}</h2>\n<p>{}</p>", about.name, escaped(about.title), escaped(about.text));
     out.push_str(svg.unwrap_or("<p>Nothing to plot yet: costs are missing.</p>"));
+    if let Some(cost) = table.rows.iter().find_map(|r| r.cost) {
+        let _ = writeln!(
+            out,
+            "<p class=\"quiet\">In the same turns a pass that copies rgba32f took {} ms ({:.2} GB/s), a pass of one texel {} ms.</p>",
+            number(cost.copy.median),
+            32.0 * cost.canvas_texels / cost.copy.median / 1e6,
+            number(cost.empty.median)
+        );
+    }
     out.push_str("\n<details><summary>Every point</summary>\n");
     heading(out, "");
     for row in &table.rows {

@@ -84,10 +84,7 @@ impl Table {
                 let Some(record) = results.error(point) else { continue };
                 let cost = results.cost(point).copied();
                 let measured = record.measured.clone();
-                let millis = cost.zip(measured.as_ref()).map(|(cost, m)| {
-                    let by = |x: f64| x * m.frames_per_unit;
-                    Times { median: by(cost.frame.median), min: by(cost.frame.min), max: by(cost.frame.max) }
-                });
+                let millis = cost.zip(measured.as_ref()).map(|(cost, m)| cost.frame.by(m.frames_per_unit));
                 rows.push(Row {
                     method,
                     point: point.clone(),
