@@ -338,7 +338,7 @@ fn planted_violations_are_caught() {
         ("project/model.rs", "use crate /* so */ :: /* sly */ media::Texels;", "`project` may not name `media`"),
         ("engine/run.rs", "impl crate::session::Clock for X {}", "`engine` may not name `session`"),
         ("main.rs", "fn main() { eddy::engine::run() }", "`main` may not name `engine`"),
-        ("lab/mod.rs", "", "`lab` is no layer"),
+        ("lobby/mod.rs", "", "`lobby` is no layer"),
         ("session/mod.rs", "use egui::Context;", "only gui may name `egui`"),
         ("cli/mod.rs", "fn f(w: winit::window::Window) {}", "only gui may name `winit`"),
         ("session/mod.rs", "fn f() -> anyhow::Result<()> { Ok(()) }", "only cli, main may name `anyhow`"),

@@ -16,7 +16,12 @@ const METHODS: &[Method] = &[
     Method { name: "five-point", title: "5-point stencil, Euler", settings: EULER, usual: 1.0 },
     Method { name: "mehrstellen", title: "Mehrstellen 9-point stencil, Euler", settings: EULER, usual: 1.0 },
     Method { name: "five-point-rg16f", title: "5-point stencil, Euler, in rg16f", settings: EULER, usual: 1.0 },
-    Method { name: "strang-blur", title: "blur and Strang's splitting", settings: &[0.5, 1.0, 2.0, 4.0, 8.0], usual: 2.0 },
+    Method {
+        name: "strang-blur",
+        title: "blur and Strang's splitting",
+        settings: &[0.5, 1.0, 2.0, 4.0, 8.0],
+        usual: 2.0,
+    },
 ];
 
 /// Width of the strip on which growth is measured, and waves across it: q = .5236, close to what grows fastest.

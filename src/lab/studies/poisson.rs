@@ -62,7 +62,7 @@ impl Study for Poisson {
             title: "Poisson's equation",
             text: "lap p = f on a torus, beginning with p = 0, where f is noise whose waves fall off as 1/k: the mix that a \
                    projection meets. Against the exact solution of the same 5-point equation by Fourier transform. The sum over \
-                   mip levels is given the best gain. The hard case is a checkerboard for f, to be solved within 10 %.",
+                   mip levels is given the best gain. The hard case is a checkerboard for f, to be solved within 20 %.",
             knob: "sweeps or cycles",
             unit: Unit::Solve,
             error: "of p",
@@ -106,6 +106,6 @@ impl Study for Poisson {
         Ok(Measured { norms: Norms::of(&p, &exact), frames_per_unit: f64::from(frames), ..Measured::default() }
             .value("residual", relative)
             .value("residual_factor", relative.powf(1.0 / f64::from(count)))
-            .hard(HardCase::at_most("checkerboard source", Norms::of(&of_checker, &exact_checker).l2, 0.1)))
+            .hard(HardCase::at_most("checkerboard source", Norms::of(&of_checker, &exact_checker).l2, 0.2)))
     }
 }
