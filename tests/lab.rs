@@ -62,7 +62,23 @@ fn a_shear_wave_decays_by_its_exact_factor() {
     }
 }
 
-/// Factor a step by which the fastest of what noise of 1e-4 has in it grows, between two times.
+/// Factor a step by which a wave of wave number pi / 2 along both axes grows in a fluid at rest. Velocity and density are
+/// weighted so that the energy of a wave without viscosity grows evenly, though its phase turns.
+fn wave_growth(rig: &Rig, setup: &Setup, weight: f64, steps: u32) -> f64 {
+    let wave = "vec4(1e-4 * vec2(sin(1.5707963267949 * (fragCoord.x + fragCoord.y))), 1.0, 1.0)";
+    let mut running: Running = rig.open(&setup.clone().initial("field", wave)).unwrap();
+    let mut energy = || {
+        let field = running.read("field").unwrap();
+        let square = |v: Vec<f64>, about: f64| v.iter().map(|x| (x - about).powi(2)).sum::<f64>();
+        let all = square(field.components(0, 1), 0.0) + weight * square(field.component(2), 1.0);
+        running.frames(steps).unwrap();
+        all.sqrt()
+    };
+    let (before, after) = (energy(), energy());
+    (after / before).powf(1.0 / f64::from(steps))
+}
+
+/// Factor a step by which noise grows between two times.
 fn noise_growth(rig: &Rig, setup: &Setup, from: u32, to: u32) -> f64 {
     let setup = setup.clone().knob("speed", 0.0).knob("noise", 1e-5);
     let norm = |v: Vec<f64>| v.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -78,9 +94,13 @@ fn noise_growth(rig: &Rig, setup: &Setup, from: u32, to: u32) -> f64 {
 fn a_fluid_at_rest_grows_as_von_neumann_says() {
     let Some(rig) = rig() else { return };
     let (n, dt, stiffness) = (32, 0.15, 0.2);
+    // No wave of a fluid without viscosity grows faster.
+    let wave = one_pass_growth(dt, 0.0, stiffness, TAU / 4.0, TAU / 4.0);
+    assert!((fastest(n, |kx, ky| one_pass_growth(dt, 0.0, stiffness, kx, ky)) - wave).abs() < 1e-12);
     for nu in [0.0, 0.05] {
-        let theory = fastest(n, |kx, ky| one_pass_growth(dt, nu, stiffness, kx, ky)).ln();
-        let measured = noise_growth(&rig, &guay(n as u32).knob("viscosity", nu), 150, 300).ln();
+        let quarter = TAU / 4.0;
+        let theory = one_pass_growth(dt, nu, stiffness, quarter, quarter).ln();
+        let measured = wave_growth(&rig, &guay(n as u32).knob("viscosity", nu), stiffness / dt, 150).ln();
         assert!((measured / theory - 1.0).abs() < 0.05, "nu {nu}: {measured} for {theory}");
     }
     // Stable from nu = K on; the unstable case of the same test is above.
@@ -163,7 +183,10 @@ fn gray_scott_grows_as_linear_theory_says_and_sixteen_bits_stall() {
         assert!((measured / continuum - 1.0).abs() < 0.05, "{measured} for {continuum}");
     }
     let half = gray_scott::stalled(&rig, Storage::Half, 0.037).unwrap();
-    assert!((half - 0.9937).abs() < 3e-4, "{half}");
+    // Where feed times 1 - u is half of the last bit of a 16-bit float below 1, 2^-12, if a device rounds to the nearest; a whole
+    // one if it cuts off, as lavapipe does.
+    let ends = [12, 11].map(|bits| 1.0 - 0.5f64.powi(bits) / 0.037);
+    assert!(ends.iter().any(|end| (half - end).abs() < 3e-4), "{half}, not one of {ends:?}");
     let full = gray_scott::stalled(&rig, Storage::AsWritten, 0.037).unwrap();
     assert!((full - 1.0).abs() < 1e-4, "{full}");
 }
