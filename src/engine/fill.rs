@@ -86,7 +86,7 @@ pub(super) fn compile(
 
 /// What a fill of a pass is drawn as.
 pub(super) fn draw_of(pass: &Draw, is_picture: bool) -> Draw {
-    let read = is_picture.then(|| Read { source: Source::Media, sampler: SAMPLER, mips: false });
+    let read = is_picture.then_some(Read { source: Source::Media, sampler: SAMPLER, mips: false });
     Draw { reads: [read, None, None, None], keeps_content: true, can_rest: false, ..pass.clone() }
 }
 

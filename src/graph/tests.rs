@@ -347,7 +347,7 @@ fn a_frame_moves_at_least_what_it_writes_and_each_source_once_a_draw() {
         let b = pass(id("B"), [buffer("A"), None, None, None]);
         let mut project = project(vec![a, b, pass(PassId::Image, [buffer("B"), None, None, None])]);
         change(&mut project);
-        let plan = FramePlan::new(&project, &vec![reads_all(); 3], &[id("B")], true);
+        let plan = FramePlan::new(&project, &[reads_all(); 3], &[id("B")], true);
         let traffic = plan.traffic((8, 4));
         (traffic.bytes / 32, traffic.texels)
     };

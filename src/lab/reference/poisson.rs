@@ -6,7 +6,7 @@ use super::fft::{Complex, Fft};
 pub struct Random(pub u64);
 
 impl Random {
-    pub fn next(&mut self) -> f64 {
+    pub fn number(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -18,7 +18,7 @@ impl Random {
 /// A random source of mean 0 whose waves fall off as 1 / k, of root mean square 1.
 pub fn source(n: usize, seed: u64) -> Vec<f64> {
     let mut random = Random(seed);
-    let noise: Vec<f64> = (0..n * n).map(|_| random.next()).collect();
+    let noise: Vec<f64> = (0..n * n).map(|_| random.number()).collect();
     let fall = |kx: f64, ky: f64| if kx == 0.0 && ky == 0.0 { 0.0 } else { 1.0 / kx.hypot(ky) };
     let source = Fft::new(n).filtered(&noise, fall);
     let rms = (source.iter().map(|v| v * v).sum::<f64>() / source.len() as f64).sqrt();

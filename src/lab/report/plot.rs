@@ -28,7 +28,7 @@ const COLOURS: [RGBColor; 12] = [
     RGBColor(40, 40, 40),
     RGBColor(150, 110, 200),
 ];
-const GREY: RGBColor = RGBColor(185, 185, 185);
+const GREY: RGBColor = RGBColor(165, 168, 172);
 const INK: RGBColor = RGBColor(40, 44, 52);
 
 type Area<B> = DrawingArea<B, Shift>;
@@ -146,8 +146,10 @@ fn draw<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<bool, LabErr
             chart.draw_series([EmptyElement::at((*x, *y)) + body + edge]).map_err(trouble)?;
         }
         if let Some((_, (x, y))) = rows.last() {
+            // To either side in turn: lines that end together are still told apart.
+            let beside = if n % 2 == 0 { (9, -20) } else { (-18, -20) };
             let at = EmptyElement::at((*x, *y))
-                + Text::new((n + 1).to_string(), (9, -20), (FONT, 16, &colour).into_text_style(area));
+                + Text::new((n + 1).to_string(), beside, (FONT, 16, &colour).into_text_style(area));
             chart.draw_series([at]).map_err(trouble)?;
         }
     }
@@ -185,7 +187,7 @@ impl Look {
 /// Corners of the nth method's sign about (0, 0).
 fn corners(n: usize) -> Vec<(i32, i32)> {
     let (count, turn) = [(16, 0.0), (4, 0.125), (3, -0.25), (4, 0.0), (3, 0.25), (6, 0.0)][n % 6];
-    let radius = if count == 3 { 9.5 } else { 7.5 };
+    let radius = [7.5, 9.0, 9.5, 8.5, 9.5, 8.0][n % 6];
     let corner = |i: i32| {
         let angle = std::f64::consts::TAU * (f64::from(i) / f64::from(count) + turn);
         ((radius * angle.cos()).round() as i32, (radius * angle.sin()).round() as i32)
@@ -210,7 +212,7 @@ fn legend<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<(), Drawin
         if settings.len() > 1 {
             area.draw(&Text::new(settings.join(", "), (left + 50, y + 19), text(14, &RGBColor(110, 114, 122))))?;
         }
-        y += if settings.len() > 1 { 42 } else { 28 };
+        y += if settings.len() > 1 { 38 } else { 27 };
     }
     area.draw(&Text::new(format!("settings: {}", table.about.knob), (left, y + 4), text(15, &INK)))?;
     y += 36;
