@@ -164,11 +164,13 @@ impl Journal {
                 }
             }
         }
-        // Ends a line that was cut short, whose record is not among the results.
-        if !results.runs.is_empty() {
-            results.write(folder)?;
-        }
         let file = OpenOptions::new().append(true).create(true).open(&path).map_err(LabError::io("open", &path))?;
+        // A line that was cut short, whose record is not among the results, makes way for the next.
+        let bytes = fs::read(&path).map_err(LabError::io("read", &path))?;
+        let whole = bytes.iter().rposition(|b| *b == b'\n').map_or(0, |last| last + 1);
+        if whole < bytes.len() {
+            file.set_len(whole as u64).map_err(LabError::io("write", &path))?;
+        }
         let mut journal = Journal { path, file };
         if !results.runs.contains(run) {
             journal.append(&Record::Run(run.clone()))?;
