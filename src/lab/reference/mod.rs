@@ -68,7 +68,7 @@ mod tests {
         };
         assert!((second(&a) - 9.0).abs() < 1e-6);
         // In the end it is even, whatever the kernel.
-        let even = gaussian_on_torus(16, 2.0, 2000.0);
+        let even = gaussian_on_torus(16, 2.0, 600.0);
         assert!(even.iter().all(|v| (v - even[0]).abs() < 1e-3 * even[0]));
     }
 
