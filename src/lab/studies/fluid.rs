@@ -110,11 +110,11 @@ impl Study for Fluid {
         About {
             name: "fluid",
             title: "Fluid: the Taylor-Green vortex",
-            text: "One vortex pair in a box of N x N texels, viscosity .55 texels² and speed .5 texels for a unit of time, until \
-                   the exact velocity has halved. The observed order is at that speed in texels, so that a finer grid is a larger \
-                   Reynolds number. Guay's density begins even, as its programs do: the \
-                   sound that this makes is about half of its error. Hard cases: a fluid at rest without viscosity keeps noise of .001 within .01 for 600 \
-                   steps; at four times the speed the velocity never exceeds 1.5 times that at first.",
+            text: "One vortex pair in a box of N x N texels, viscosity .55 texels² and speed .5 texels for a unit of time, \
+                   until the exact velocity has halved. The observed order is at that speed in texels, so that a finer grid \
+                   is a larger Reynolds number. Guay's density begins even, as its programs do: the sound that this makes is \
+                   about half of its error. Hard cases: a fluid at rest without viscosity keeps noise of .001 within .01 for \
+                   600 steps; at four times the speed the velocity never exceeds 1.5 times that at first.",
             knob: "dt",
             unit: Unit::Scene,
             error: "of the velocity",
