@@ -114,10 +114,10 @@ fn occlusion_on_the_still_life_is_that_of_rays() {
         Some((material(x, y), normal[1], f64::from(texel(&measured, x, y)[0]), expected))
     });
     let found: Vec<_> = found.into_iter().flatten().collect();
-    let of = |is: &dyn Fn(&(u32, f64, f64, f64)) -> bool| {
-        errors(found.iter().filter(|f| is(f)).map(|(.., measured, expected)| (*measured, *expected)))
-    };
-    let (all, sides) = (of(&|_| true), of(&|f| f.0 == DIE && f.1 < 0.5));
+    let pairs = found.iter().map(|&(.., measured, expected)| (measured, expected));
+    let upright =
+        found.iter().filter(|f| f.0 == DIE && f.1 < 0.5).map(|&(.., measured, expected)| (measured, expected));
+    let (all, sides) = (errors(pairs), errors(upright));
     let open: Vec<f64> = found.iter().filter(|f| f.0 == TABLE && f.3 == 0.0).map(|f| f.2).collect();
     let most = open.iter().copied().fold(0.0, f64::max);
     println!("all: {:.4} off, {:+.4} in the mean, {} points", all.0, all.1, all.2);

@@ -49,6 +49,8 @@ pub enum Command {
     Check(CheckArgs),
     /// Measure what a frame costs, after a warm-up
     Bench(BenchArgs),
+    /// Measure methods against a reference: speed against error, as tables, plots and one HTML page
+    Lab(LabArgs),
     /// Print the presets' names, one a line
     List,
     /// Make a project folder of a Shadertoy JSON file
@@ -148,6 +150,41 @@ pub struct BenchArgs {
     /// One JSON object a line instead of a table
     #[arg(long)]
     pub json: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
+pub struct LabArgs {
+    #[command(subcommand)]
+    pub command: Option<LabCommand>,
+    /// Which studies to run [default: all]
+    pub study: Vec<String>,
+    /// The folder of the results and the report; a run that was stopped goes on there
+    #[arg(long, value_name = "DIR", required_unless_present = "list")]
+    pub out: Option<PathBuf>,
+    /// Print the studies and their methods, and measure nothing
+    #[arg(long)]
+    pub list: bool,
+    /// Small grids and every second setting: minutes on two cores
+    #[arg(long)]
+    pub quick: bool,
+    /// Turns that methods take while costs are measured, at least 7
+    #[arg(long, value_name = "N", default_value_t = 7, value_parser = clap::value_parser!(u32).range(7..=1 << 20))]
+    pub repeats: u32,
+    /// Part i of n of the work, from 0/n; auto: what Slurm, AWS Batch or Kubernetes says of the array's task
+    #[arg(long, value_name = "I/N|auto", default_value = "0/1")]
+    pub shard: String,
+}
+
+#[derive(Debug, Subcommand)]
+pub enum LabCommand {
+    /// Make one report of the results of several folders
+    Merge {
+        #[arg(required = true, value_name = "DIR")]
+        from: Vec<PathBuf>,
+        #[arg(long, value_name = "DIR")]
+        out: PathBuf,
+    },
 }
 
 #[derive(Debug, Args)]
@@ -297,6 +334,9 @@ mod tests {
             ("eddy render a --out o --date 2024-13-31T23:59:00", "2024-02-29T13:45:00"),
             ("eddy render a --out o --at 1,,2", "at"),
             ("eddy bench", "PROJECT"),
+            ("eddy lab", "--out"),
+            ("eddy lab --out o --repeats 3", "7"),
+            ("eddy lab merge --out o", "DIR"),
             ("eddy import a.json", "--out"),
             ("eddy export", "PROJECT"),
         ] {

@@ -11,7 +11,7 @@ use crate::{
     engine,
     glsl::Driver,
     media::{self, MediaSet},
-    project::{self, Filter, Input, Project, SamplerRules, Wrap},
+    project::{self, FillKind, Filter, Input, Project, SamplerRules, Wrap},
 };
 use std::{collections::BTreeMap, io, time::Instant};
 
@@ -43,9 +43,11 @@ fn check(report: &mut Report, spec: &str) -> Result<(), Trouble> {
     let began = Instant::now();
     let mut found = compile(project);
     report.compile_ms = Some(millis_since(began));
-    let mut meshes = MediaSet::new();
-    media::meshes(project, &mut meshes);
-    found.extend(meshes.mesh_errors(project));
+    let mut files = MediaSet::new();
+    media::fills(project, &mut files);
+    media::meshes(project, &mut files);
+    found.extend(files.fill_errors(project));
+    found.extend(files.mesh_errors(project));
     found.extend(shared_samplers(project));
     report.diagnose(&found, &project.sources(), Some(project));
     Ok(())
@@ -61,7 +63,9 @@ fn compile(project: &Project) -> Vec<Diagnostic> {
         let said = texts
             .compile_pass(index, [false; 4], Driver::default())
             .map_or_else(|errors| errors, |done| done.diagnostics);
-        for d in said {
+        let fills = FillKind::ALL.into_iter().filter_map(|k| texts.compile_fill(index, k, false, Driver::default()));
+        let fills = fills.flat_map(|f| f.map_or_else(|errors| errors, |done| done.diagnostics));
+        for d in said.into_iter().chain(fills) {
             // What is wrong in Common is found again in every pass.
             if !found.contains(&d) {
                 found.push(d);

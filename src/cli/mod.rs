@@ -6,6 +6,7 @@
 mod args;
 mod bench;
 mod check;
+mod lab;
 mod library;
 mod machine;
 mod quiet;
@@ -85,6 +86,7 @@ fn run(command: &Command) -> u8 {
             Ok(inputs) => bench::run(args, &inputs),
             Err(usage) => return trouble(usage),
         },
+        Command::Lab(args) => lab::run(args),
         Command::List => library::list(),
         Command::Import(args) => library::import(args),
         Command::Export(args) => library::export(args),

@@ -70,6 +70,10 @@ pub(super) struct DrawBindings {
 }
 
 impl DrawBindings {
+    pub fn of(uniforms: Vec<wgpu::BindGroup>) -> Self {
+        Self { uniforms, channels: Default::default() }
+    }
+
     /// Uniforms, and the channels as the targets stand now.
     pub fn groups(
         &mut self,
@@ -94,14 +98,21 @@ pub(super) fn make(gpu: &Gpu, program: &Program, uniforms: &Uniforms) -> Vec<Dra
         .draws
         .iter()
         .enumerate()
-        .map(|(index, compiled)| DrawBindings {
-            uniforms: (0..compiled.programs.len()).map(|n| uniform_group(gpu, compiled, n, index, uniforms)).collect(),
-            channels: Default::default(),
+        .map(|(index, compiled)| {
+            let programs = 0..compiled.programs.len();
+            DrawBindings::of(programs.map(|n| uniform_group(gpu, compiled, n, index, uniforms)).collect())
         })
         .collect()
 }
 
-fn uniform_group(gpu: &Gpu, compiled: &CompiledDraw, n: usize, index: usize, uniforms: &Uniforms) -> wgpu::BindGroup {
+/// Uniforms of program `n` of draw `index`.
+pub(super) fn uniform_group(
+    gpu: &Gpu,
+    compiled: &CompiledDraw,
+    n: usize,
+    index: usize,
+    uniforms: &Uniforms,
+) -> wgpu::BindGroup {
     let program = &compiled.programs[n];
     let offset = index as u64 * UNIFORM_STRIDE;
     let size = std::num::NonZero::new(size_of::<UniformBlock>() as u64);

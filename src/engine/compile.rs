@@ -1,10 +1,10 @@
 //! A project's texts on their way through the compiler.
 
-use super::{knobs, program::kind_of, stages::CompiledPass};
+use super::{fill, knobs, program::kind_of, stages::CompiledPass};
 use crate::{
     diag::{Diagnostic, SourceId},
     glsl::{self, ChannelKind, Driver, Include, PassKind, PassSource, Text, UniformValue, services::Analysis},
-    project::{Geometry, IncludeLines, Knobs, Pass, PassId, Project, Stage},
+    project::{FillKind, FillText, Geometry, IncludeLines, Knobs, Pass, PassId, Project, Stage},
 };
 use std::borrow::Cow;
 
@@ -17,6 +17,8 @@ pub struct Sources<'p> {
     knobs: Knobs,
     /// Of uniforms that are no knobs.
     values: Vec<UniformValue>,
+    /// Of fills, each with its pass.
+    fills: Vec<(usize, FillKind, FillText)>,
     /// What is wrong with them before any is compiled.
     pub diagnostics: Vec<Diagnostic>,
 }
@@ -32,6 +34,7 @@ impl<'p> Sources<'p> {
         let stages = project.stages().map(|(_, s)| of_stage(s));
         let included = project.includes.iter().map(|i| i.source.compile_text());
         let (lines, knobs) = (project.include_lines(), knobs::knobs(project));
+        let fills = project.fills().filter_map(|(p, kind, _)| Some((p, kind, project.fill_text(p, kind)?))).collect();
         let diagnostics = lines.diagnostics.iter().chain(&knobs.diagnostics).cloned().collect();
         let values = knobs::given(&knobs, &project.knob_values);
         Self {
@@ -40,6 +43,7 @@ impl<'p> Sources<'p> {
             lines,
             knobs,
             values,
+            fills,
             diagnostics,
         }
     }
@@ -66,6 +70,42 @@ impl<'p> Sources<'p> {
         let id = SourceId(index as u16 + 1);
         self.with_source(index, id, pass_kind(&pass.id), |source| {
             glsl::compile(&PassSource { bilinear_by_hand, driver, ..*source }).map(CompiledPass::screen)
+        })
+    }
+
+    /// Compiles what fills texels of `project.passes[index]`, if something does. It sees Common, and of the author's own uniforms
+    /// those that Common declares. A file is what its one channel reads.
+    pub fn compile_fill(
+        &self,
+        index: usize,
+        kind: FillKind,
+        bilinear_by_hand: bool,
+        driver: Driver,
+    ) -> Option<Result<CompiledPass, Vec<Diagnostic>>> {
+        let value = &self.project.passes[index].fill(kind)?.value;
+        let (.., written) = self.fills.iter().find(|(p, k, _)| (*p, *k) == (index, kind))?;
+        Some(fill::compile(self, value, written, bilinear_by_hand, driver))
+    }
+
+    /// As [`Self::with_source`], of a text that stands in no tab. Of texts of the project it sees Common.
+    pub(super) fn with_fill<T>(
+        &self,
+        code: Text<'_>,
+        value: Option<Include<'_>>,
+        work: impl FnOnce(&PassSource<'_>) -> T,
+    ) -> T {
+        let mut includes = self.includes();
+        includes.extend(value);
+        work(&PassSource {
+            kind: PassKind::Buffer,
+            common: if value.is_some() { self.common() } else { None },
+            code,
+            includes: &includes,
+            channels: Default::default(),
+            knobs: &knobs::in_scope(&self.knobs, &self.lines, None),
+            values: &self.values,
+            bilinear_by_hand: [false; 4],
+            driver: Driver::default(),
         })
     }
 

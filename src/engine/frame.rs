@@ -2,12 +2,14 @@
 
 use super::{
     Engine, EngineError, FrameInputs, FrameStats,
+    fill::FillParts,
     program::{CompiledDraw, Program},
     uniforms,
 };
 use crate::{
     glsl::interface::{CHANNEL_GROUP, UNIFORM_GROUP},
     graph::{Draw, Source},
+    project::Boundary,
 };
 
 impl Engine {
@@ -144,6 +146,8 @@ impl Engine {
             timestamp_writes: self.timer.as_mut().and_then(|t| t.writes(index)),
             ..Default::default()
         };
+        let boundary = self.fills.get_mut(index).and_then(|f| f.boundary.as_mut()).zip(compiled.boundary.as_ref());
+        let parts = FillParts { gpu: &self.gpu, stock: &self.stock };
         self.gpu.pass(encoder, descriptor, |pass| {
             // Row 0 is the bottom, for a scissor too.
             if let Some(region) = draw.region.and_then(|r| r.within(size)) {
@@ -160,6 +164,12 @@ impl Engine {
                         pass.set_index_buffer(mesh.buffers.indices.slice(..), wgpu::IndexFormat::Uint32);
                         pass.draw_indexed(0..mesh.buffers.count, 0, 0..1);
                     }
+                }
+            }
+            if let (Some((bound, fill)), Some(width)) = (boundary, draw.boundary) {
+                for [x, y, width, height] in Boundary::rectangles(width, size) {
+                    pass.set_scissor_rect(x, y, width, height);
+                    bound.draw(&parts, fill, pass);
                 }
             }
         });

@@ -5,6 +5,7 @@
 
 mod bind;
 mod compile;
+mod fill;
 mod frame;
 mod geometry;
 mod inputs;

@@ -2,6 +2,7 @@
 
 use super::{
     EngineError, Sources,
+    fill::{self, FillProgram},
     geometry::{self, MeshUploads, PlacedMesh},
     stages::{CompiledPass, CompiledProgram, shader},
     targets::texture_format,
@@ -16,7 +17,8 @@ use crate::{
     graph::{ChannelFacts, Draw, FramePlan, PassFacts, Source},
     media::{MediaKey, MediaSet, TexelFormat, Texels},
     project::{
-        Camera, Channel, Filter, Geometry, Input, Knob, KnobValues, PassFormat, PassId, PassSettings, PassSize, Project,
+        Camera, Channel, FillKind, FillValue, Filter, Geometry, Input, Knob, KnobValues, PassFormat, PassId,
+        PassSettings, PassSize, Project,
     },
 };
 use std::{collections::HashMap, sync::Arc};
@@ -59,6 +61,9 @@ pub(super) struct CompiledDraw {
     /// Some program reads what meshes are drawn with.
     pub reads_geometry: bool,
     pub channels: [BoundChannel; 4],
+    /// What its target holds before frame 0, and what its outermost texels are overwritten with.
+    pub initial: Option<Box<FillProgram>>,
+    pub boundary: Option<Box<FillProgram>>,
     /// The uniforms that are read: the site's, and the author's own by their slots.
     pub uniforms: UniformSet,
     pub knobs: KnobSet,
@@ -117,20 +122,20 @@ impl Program {
             Ok(done) => done,
             Err(diagnostics) => return Err(BuildError::Diagnostics { diagnostics, sources }),
         };
-        let facts: Vec<PassFacts> = compiled.iter().map(facts).collect();
+        let facts: Vec<PassFacts> = compiled.iter().map(|(own, _)| facts(own)).collect();
         for id in &options.wanted {
             if drawable.pass(id).is_none() {
                 return Err(EngineError::NoSuchPass(id.title()).into());
             }
         }
         let plan = FramePlan::new(&drawable, &facts, &options.wanted, options.skip);
-        let mut compiled: Vec<Option<CompiledPass>> = compiled.into_iter().map(Some).collect();
+        let mut compiled: Vec<Option<_>> = compiled.into_iter().map(Some).collect();
         let mut uploads = Uploads { gpu, mips: MipMaker::new(gpu), made: HashMap::new() };
         let mut meshes = MeshUploads::new(gpu, media);
         let mut jobs = Vec::new();
         for draw in &plan.draws {
             let pass = &drawable.passes[draw.pass];
-            let Some(compiled) = compiled[draw.pass].take() else { continue };
+            let Some((compiled, fills)) = compiled[draw.pass].take() else { continue };
             let mut channels: [BoundChannel; 4] = Default::default();
             for (index, bound) in channels.iter_mut().enumerate() {
                 let used = compiled.reflection.channels[index];
@@ -156,8 +161,27 @@ impl Program {
             }
             let geometry = pass.settings.geometry.as_ref();
             let meshes = geometry.map_or(Ok(Vec::new()), |g| meshes.placed(g))?;
-            let formats = plan.targets[draw.targets.clone()].iter().map(|t| t.format).collect();
-            jobs.push(Job { id: pass.id.clone(), compiled, channels, draw, formats, geometry, meshes });
+            let formats: Vec<PassFormat> = plan.targets[draw.targets.clone()].iter().map(|t| t.format).collect();
+            let mut fill_jobs = [None, None];
+            for ((job, compiled), kind) in fill_jobs.iter_mut().zip(fills).zip(FillKind::ALL) {
+                let (Some(compiled), Some(fill)) = (compiled, pass.fill(kind)) else { continue };
+                let mut channels: [BoundChannel; 4] = Default::default();
+                let mut is_picture = false;
+                if let FillValue::File(path) = &fill.value
+                    && let Some(texels) = media.fill(path)
+                {
+                    let used = compiled.reflection.channels[0];
+                    (channels[0].texture, channels[0].sampler, is_picture) = (used.texture, used.sampler, true);
+                    channels[0].filters = texels.format != TexelFormat::Rgba32Float || gpu.filters_float32;
+                    channels[0].resolution = [texels.width as f32, texels.height as f32, 1.0];
+                    let key = MediaKey::of_fill(path);
+                    channels[0].media = Some(uploads.get(key, texels, false).map_err(EngineError::from)?);
+                }
+                let draw = fill::draw_of(draw, is_picture);
+                *job = Some(FillJob { id: pass.id.clone(), compiled, channels, draw, format: formats[0] });
+            }
+            let own = PassJob { id: pass.id.clone(), compiled, channels, draw, formats, geometry, meshes };
+            jobs.push(Job { own, fills: fill_jobs });
         }
         let mut draws = make_pipelines(gpu, jobs)?;
         let mut first_mesh = 0;
@@ -187,7 +211,10 @@ impl Program {
 }
 
 /// The passes that can be drawn, compiled; `project` with only these, and every warning.
-type Compilation = (Project, Vec<CompiledPass>, Vec<Diagnostic>);
+type Compilation = (Project, Vec<(CompiledPass, CompiledFills)>, Vec<Diagnostic>);
+
+/// Of a pass, in the order of [`FillKind::ALL`].
+type CompiledFills = [Option<CompiledPass>; 2];
 
 fn compile(
     gpu: &Gpu,
@@ -200,6 +227,7 @@ fn compile(
     let mut compiled = Vec::new();
     let mut diagnostics: Vec<Diagnostic> = texts.diagnostics.clone();
     diagnostics.extend(media.mesh_errors(project));
+    diagnostics.extend(media.fill_errors(project));
     for (index, pass) in project.passes.iter().enumerate() {
         if matches!(pass.id, PassId::Cubemap | PassId::Sound) {
             let what = pass.id.title();
@@ -223,15 +251,27 @@ fn compile(
             nan_angle: gpu.nan_angle,
             zero_loops: gpu.wants_zero_loops,
         };
-        let said = match texts.compile_pass(index, bilinear_by_hand, driver) {
-            Ok(mut done) => {
-                let said = std::mem::take(&mut done.diagnostics);
-                drawable.passes.push(without_cubemap_passes(pass.clone()));
-                compiled.push(done);
-                said
+        let mut fills: CompiledFills = [None, None];
+        let mut said = Vec::new();
+        for (done, kind) in fills.iter_mut().zip(FillKind::ALL) {
+            // A picture of floats is filtered by hand where a device cannot.
+            match texts.compile_fill(index, kind, !gpu.filters_float32, driver) {
+                None => {}
+                Some(Ok(mut fill)) => {
+                    said.append(&mut fill.diagnostics);
+                    *done = Some(fill);
+                }
+                Some(Err(errors)) => said.extend(errors),
             }
-            Err(errors) => errors,
-        };
+        }
+        match texts.compile_pass(index, bilinear_by_hand, driver) {
+            Ok(mut done) => {
+                said.append(&mut done.diagnostics);
+                drawable.passes.push(without_cubemap_passes(pass.clone()));
+                compiled.push((done, fills));
+            }
+            Err(errors) => said.extend(errors),
+        }
         for d in said {
             // What is wrong in Common is found again in every pass.
             if !diagnostics.contains(&d) {
@@ -329,8 +369,21 @@ impl Uploads<'_> {
     }
 }
 
-/// What the pipelines of a pass are made of.
+/// What the pipelines of a pass and its fills are made of.
 struct Job<'a> {
+    own: PassJob<'a>,
+    fills: [Option<FillJob>; 2],
+}
+
+struct FillJob {
+    id: PassId,
+    compiled: CompiledPass,
+    channels: [BoundChannel; 4],
+    draw: Draw,
+    format: PassFormat,
+}
+
+struct PassJob<'a> {
     id: PassId,
     compiled: CompiledPass,
     channels: [BoundChannel; 4],
@@ -355,7 +408,26 @@ fn make_pipelines(gpu: &Gpu, jobs: Vec<Job<'_>>) -> Result<Vec<CompiledDraw>, En
 
 impl Job<'_> {
     fn make(self, gpu: &Gpu) -> Result<CompiledDraw, EngineError> {
-        let Job { id, compiled, channels, draw, formats, geometry, meshes } = self;
+        let mut made = self.own.make(gpu)?;
+        let [initial, boundary] = self.fills.map(|fill| fill.map(|job| job.make(gpu)).transpose());
+        (made.initial, made.boundary) = (initial?.map(Box::new), boundary?.map(Box::new));
+        Ok(made)
+    }
+}
+
+impl FillJob {
+    fn make(self, gpu: &Gpu) -> Result<FillProgram, EngineError> {
+        let FillJob { id, compiled, channels, draw, format } = self;
+        let job =
+            PassJob { id, compiled, channels, draw: &draw, formats: vec![format], geometry: None, meshes: Vec::new() };
+        let compiled = job.make(gpu)?;
+        Ok(FillProgram { compiled, draw })
+    }
+}
+
+impl PassJob<'_> {
+    fn make(self, gpu: &Gpu) -> Result<CompiledDraw, EngineError> {
+        let PassJob { id, compiled, channels, draw, formats, geometry, meshes } = self;
         let CompiledPass { programs, reflection, .. } = compiled;
         let reads_geometry = reflection.geometry;
         let channel_group = channel_bindings(&channels, draw);
@@ -406,6 +478,8 @@ impl Job<'_> {
             first_mesh: 0,
             reads_geometry,
             channels,
+            initial: None,
+            boundary: None,
             uniforms: reflection.uniforms,
             knobs: reflection.knobs,
         })

@@ -3,6 +3,7 @@
 use super::{
     Program,
     bind::{self, DrawBindings, Stock},
+    fill::{DrawFills, FillBindings},
     knobs,
     targets::{self, Target},
     uniforms::Uniforms,
@@ -61,6 +62,8 @@ pub struct Engine {
     /// Of each draw that draws meshes, the depth buffer.
     pub(super) depths: Vec<Option<wgpu::TextureView>>,
     pub(super) bindings: Vec<DrawBindings>,
+    /// Of each draw.
+    pub(super) fills: Vec<DrawFills>,
     pub(super) uniforms: Uniforms,
     pub(super) stock: Stock,
     pub(super) mips: MipMaker,
@@ -99,6 +102,7 @@ impl Engine {
             targets: Vec::new(),
             depths: Vec::new(),
             bindings: Vec::new(),
+            fills: Vec::new(),
             uniforms: Uniforms::new(&gpu, 0, 0, 0),
             stock: Stock::new(&gpu)?,
             mips: MipMaker::new(&gpu),
@@ -113,16 +117,16 @@ impl Engine {
     }
 
     /// Swaps the whole program. Buffers that the new one has too keep their texels, so an edit does not restart a simulation;
-    /// new ones start as zeros. On an error the old program goes on.
+    /// new ones start as the project says, else as zeros. On an error the old program goes on.
     pub fn set_program(&mut self, program: Program) -> Result<(), EngineError> {
-        self.remake_targets(&program, self.size)?;
+        let old = self.remake_targets(&program, self.size)?;
         self.uniforms = Uniforms::new(&self.gpu, program.draws.len(), program.knobs.len(), program.meshes());
         self.ledger = Ledger::new(&program.plan);
         self.timer = self.timer.is_some().then(|| timer(&self.gpu, Some(&program))).flatten();
         let values = program.knob_values.clone();
         self.program = Some(program);
         self.set_knobs(&values);
-        self.rebind();
+        self.rebind(&old);
         Ok(())
     }
 
@@ -139,7 +143,7 @@ impl Engine {
         true
     }
 
-    /// New canvas size. Every buffer keeps the overlap, texel for texel from the bottom left; the rest is 0. On an error
+    /// New canvas size. Every buffer keeps the overlap, texel for texel from the bottom left; the rest is as before frame 0. On an error
     /// everything stays as it was.
     pub fn resize(&mut self, width: u32, height: u32) -> Result<(), EngineError> {
         if (width, height) == self.size {
@@ -147,18 +151,19 @@ impl Engine {
         }
         self.gpu.check_size("the canvas", width, height)?;
         let texture = Presenter::texture(&self.gpu, width, height)?;
+        let mut old = Vec::new();
         if let Some(program) = self.program.take() {
             let result = self.remake_targets(&program, (width, height));
             self.program = Some(program);
-            result?;
+            old = result?;
         }
         (self.size, self.display.texture) = ((width, height), texture);
         self.ledger.forget();
-        self.rebind();
+        self.rebind(&old);
         Ok(())
     }
 
-    /// Every buffer back to zeros, as before frame 0.
+    /// Every buffer as before frame 0: as the project says, else zeros.
     pub fn reset(&mut self) {
         let mut encoder =
             self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("reset") });
@@ -166,6 +171,10 @@ impl Engine {
             target.clear(&self.gpu, &mut encoder, &self.mips);
         }
         self.gpu.queue.submit([encoder.finish()]);
+        if let Some(program) = self.program.take() {
+            self.fill_initial(&program);
+            self.program = Some(program);
+        }
         self.ledger.forget();
     }
 
@@ -240,8 +249,8 @@ impl Engine {
         Ok(Pixels { width, height, texels })
     }
 
-    /// Targets of `program` at `size`, holding what the present ones hold.
-    fn remake_targets(&mut self, program: &Program, size: (u32, u32)) -> Result<(), EngineError> {
+    /// Makes targets of `program` at `size`, and gives the present ones.
+    fn remake_targets(&mut self, program: &Program, size: (u32, u32)) -> Result<Vec<Target>, EngineError> {
         let depth = |(compiled, draw): (&super::program::CompiledDraw, &crate::graph::Draw)| {
             let of = |_| {
                 let (width, height) = program.plan.targets[draw.targets.start].size.of(size);
@@ -250,20 +259,28 @@ impl Engine {
             compiled.camera.map(of).transpose()
         };
         let depths = program.draws.iter().zip(&program.plan.draws).map(depth).collect::<Result<_, _>>()?;
-        let old = std::mem::take(&mut self.targets);
-        match targets::make(&self.gpu, &mut self.mips, &program.plan, size, old) {
-            Ok(made) => (self.targets, self.depths) = (made, depths),
-            Err((error, old)) => {
-                self.targets = old;
-                return Err(error.into());
-            }
-        }
-        Ok(())
+        let made = targets::make(&self.gpu, &mut self.mips, &program.plan, size)?;
+        self.depths = depths;
+        Ok(std::mem::replace(&mut self.targets, made))
     }
 
-    fn rebind(&mut self) {
-        if let Some(program) = &self.program {
-            self.bindings = bind::make(&self.gpu, program, &self.uniforms);
+    /// Binds the targets, which hold what `old` held, and else what they hold before frame 0.
+    fn rebind(&mut self, old: &[Target]) {
+        if let Some(program) = self.program.take() {
+            self.bindings = bind::make(&self.gpu, &program, &self.uniforms);
+            let fill = |fill: &Option<_>, index| fill.as_deref().map(|f| FillBindings::new(self, f, index));
+            let fills = program.draws.iter().enumerate().map(|(index, draw)| DrawFills {
+                initial: fill(&draw.initial, index),
+                boundary: fill(&draw.boundary, index),
+            });
+            self.fills = fills.collect();
+            self.fill_initial(&program);
+            self.program = Some(program);
+        }
+        for target in &mut self.targets {
+            if let Some(before) = old.iter().find(|t| t.id == target.id && t.index == target.index) {
+                target.take_over(&self.gpu, &self.mips, before);
+            }
         }
         if let Some(shown) = self.display.shown.clone() {
             self.show(shown);

@@ -70,7 +70,7 @@ impl Target {
     }
 
     /// Takes over what `old` held, if its texels are of the same kind.
-    fn take_over(&mut self, gpu: &Gpu, mips: &MipMaker, old: &Target) {
+    pub fn take_over(&mut self, gpu: &Gpu, mips: &MipMaker, old: &Target) {
         if old.textures[0].raw.format() != self.textures[0].raw.format() {
             return;
         }
@@ -96,25 +96,12 @@ impl Target {
     }
 }
 
-/// Targets for a plan on a canvas. What `old` has of the same pass is kept, texel for texel from the bottom left.
+/// Targets for a plan on a canvas, all zeros.
 pub(super) fn make(
     gpu: &Gpu,
     mips: &mut MipMaker,
     plan: &FramePlan,
     canvas: (u32, u32),
-    old: Vec<Target>,
-) -> Result<Vec<Target>, (GpuError, Vec<Target>)> {
-    let mut made = Vec::with_capacity(plan.targets.len());
-    for planned in &plan.targets {
-        match Target::new(gpu, mips, planned, canvas) {
-            Ok(target) => made.push(target),
-            Err(error) => return Err((error, old)),
-        }
-    }
-    for target in &mut made {
-        if let Some(before) = old.iter().find(|t| t.id == target.id && t.index == target.index) {
-            target.take_over(gpu, mips, before);
-        }
-    }
-    Ok(made)
+) -> Result<Vec<Target>, GpuError> {
+    plan.targets.iter().map(|planned| Target::new(gpu, mips, planned, canvas)).collect()
 }

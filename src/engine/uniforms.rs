@@ -75,6 +75,9 @@ impl Uniforms {
         for slot in draw.knobs.iter() {
             seen.extend_from_slice(bytemuck::cast_slice(&self.knob_slots[usize::from(slot)]));
         }
+        if let Some(boundary) = &draw.boundary {
+            seen.extend(self.seen_by(index, &boundary.compiled));
+        }
         if draw.reads_geometry {
             let begin = draw.first_mesh * GEOMETRY_STRIDE as usize;
             seen.extend_from_slice(&self.geometry_bytes[begin..][..draw.programs.len() * GEOMETRY_STRIDE as usize]);

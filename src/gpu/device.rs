@@ -179,6 +179,11 @@ impl Gpu {
         })
     }
 
+    /// The device is a processor that draws: its time is the machine's.
+    pub fn is_cpu(&self) -> bool {
+        self.info.device_type == wgpu::DeviceType::Cpu
+    }
+
     /// One line for people: the adapter's name, the backend and the driver.
     pub fn describe(&self) -> String {
         format!("{} ({}, {})", self.info.name, self.info.backend, self.info.driver_info)

@@ -9,7 +9,9 @@ mod rest;
 mod samplers;
 #[cfg(test)]
 mod tests;
+mod traffic;
 
 pub use plan::{ChannelFacts, Draw, FramePlan, PassFacts, Read, Run, Source, Target, TargetKind, When};
 pub use rest::Ledger;
 pub use samplers::effective_sampler;
+pub use traffic::Traffic;

@@ -100,6 +100,10 @@ pub struct Draw {
     pub keeps_content: bool,
     /// Only these texels are drawn; the others are as they were drawn last.
     pub region: Option<Region>,
+    /// Before frame 0, and after a reset, its target holds what the project says and no zeros.
+    pub has_initial: bool,
+    /// So many of the outermost texels are overwritten after it is drawn.
+    pub boundary: Option<u32>,
     /// It need not be drawn while nothing it reads has changed: what it draws depends on nothing else, and on its own picture
     /// of before it does not depend.
     pub can_rest: bool,
@@ -159,6 +163,8 @@ impl FramePlan {
                 reads,
                 keeps_content: !is_cleared && (facts[pass].discards || region.is_some() || !skip),
                 region,
+                has_initial: project.passes[pass].settings.initial.is_some(),
+                boundary: project.passes[pass].settings.boundary.as_ref().map(|b| b.width),
                 can_rest: false,
             });
         }

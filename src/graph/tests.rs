@@ -339,3 +339,23 @@ fn a_target_that_is_not_there_reads_as_nothing() {
     let plan = FramePlan::new(&project, &facts, &[], true);
     assert_eq!(plan.draws[1].reads[0].as_ref().unwrap().source, Source::Nothing);
 }
+
+#[test]
+fn a_frame_moves_at_least_what_it_writes_and_each_source_once_a_draw() {
+    let frame = |change: &dyn Fn(&mut Project)| {
+        let a = pass(id("A"), [buffer("A"), buffer("A"), buffer("B"), None]);
+        let b = pass(id("B"), [buffer("A"), None, None, None]);
+        let mut project = project(vec![a, b, pass(PassId::Image, [buffer("B"), None, None, None])]);
+        change(&mut project);
+        let plan = FramePlan::new(&project, &[reads_all(); 3], &[id("B")], true);
+        let traffic = plan.traffic((8, 4));
+        (traffic.bytes / 32, traffic.texels)
+    };
+    // A: itself once, B, and a write; B: A and a write.
+    assert_eq!(frame(&|_| ()), (16 * 5, 64));
+    assert_eq!(frame(&|p| p.passes[0].settings.format = PassFormat::R16f), (2 * 3 + 16 * 2, 64));
+    let group = Group { name: "g".into(), passes: vec![id("A")], steps: 3 };
+    assert_eq!(frame(&|p| p.groups.push(group.clone())), (16 * (3 * 3 + 2), 128));
+    let part = Region { x: 0, y: 0, width: 4, height: 4 };
+    assert_eq!(frame(&|p| p.passes[1].settings.region = Some(part)), (16 * 3 + 16, 48));
+}

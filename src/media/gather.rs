@@ -3,7 +3,7 @@
 use super::{MediaKey, MediaSet, load::load_within};
 use crate::{
     diag::Diagnostic,
-    project::{Input, Pass, PassId, Project, limits},
+    project::{FillValue, Input, Media, Pass, PassId, Project, limits},
 };
 use std::{collections::HashMap, path::Path, sync::Arc};
 
@@ -48,8 +48,24 @@ pub fn gather(project: &Project, media_dir: Option<&Path>) -> (MediaSet, Vec<Dia
             }
         }
     }
+    fills(project, &mut set);
     meshes(project, &mut set);
     (set, warnings)
+}
+
+/// Loads every file that fills texels of a drawn pass. Why one cannot be had is kept: see [`MediaSet::fill_errors`].
+pub fn fills(project: &Project, set: &mut MediaSet) {
+    let base = project.origin.base_dir();
+    for (.., fill) in project.fills() {
+        let FillValue::File(path) = &fill.value else { continue };
+        if set.fill(path).is_some() {
+            continue;
+        }
+        match load_within(&Media::File(path.clone()), true, base, None, set.room()) {
+            Ok(texels) => set.insert_fill(path, Arc::new(texels)),
+            Err(error) => drop(set.missing_fills.insert(path.clone(), (error.to_string(), error.hint()))),
+        }
+    }
 }
 
 /// Loads every mesh that a pass of the project draws. What is wrong with one is kept in its place: see
@@ -99,7 +115,7 @@ fn unsupported(input: &Input) -> (&'static str, String) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::project::{Channel, Info, Media, Origin, Sampler, SamplerRules, Source};
+    use crate::project::{Channel, Info, Origin, Sampler, SamplerRules, Source};
 
     fn project(inputs: [Option<Input>; 4]) -> Project {
         let channels = inputs.map(|i| i.map(|input| Channel { input, sampler: Sampler::TEXTURE }));

@@ -1,6 +1,6 @@
 //! One picture, from its file or its generator to texels.
 
-use super::{TexelFormat, Texels, builtin, site};
+use super::{TexelFormat, Texels, builtin, npy, site};
 use crate::project::{
     Media,
     confine::{self, FileError},
@@ -19,6 +19,8 @@ pub enum MediaError {
     File(#[from] FileError),
     #[error("{}: {}", path.display(), reason(source))]
     Decode { path: PathBuf, source: ImageError },
+    #[error("{}: {reason}", path.display())]
+    Npy { path: PathBuf, reason: String },
     #[error("{}: the picture has no texels", path.display())]
     Empty { path: PathBuf },
     #[error("{}: the picture has {width}x{height} texels, {excess}", path.display())]
@@ -54,7 +56,7 @@ fn reason(error: &ImageError) -> String {
     }
 }
 
-const KNOWN: [&str; 7] = ["PNG", "JPEG", "WebP", "BMP", "TGA", "GIF", "HDR"];
+const KNOWN: [&str; 8] = ["PNG", "JPEG", "WebP", "BMP", "TGA", "GIF", "HDR", "NPY"];
 
 impl MediaError {
     /// How to mend it.
@@ -65,6 +67,10 @@ impl MediaError {
             MediaError::TooLarge { excess: Excess::Project, .. } => "use fewer or smaller pictures".into(),
             MediaError::TooLarge { .. } => "scale the picture down".into(),
             MediaError::Decode { .. } | MediaError::Empty { .. } => "save the picture anew, for instance as PNG".into(),
+            MediaError::Npy { .. } => {
+                "write it with numpy.save: float32, float64 or uint8, shape (height, width) or (height, width, 1 to 4)"
+                    .into()
+            }
             MediaError::NoFolder { .. } => "save the project first, and put the picture into its folder".into(),
             MediaError::UnknownBuiltin { .. } => format!("there are {}", listed(&builtin::names())),
             MediaError::NoStandIn { .. } => "put a file of that name into a folder and name it with --media".into(),
@@ -142,6 +148,9 @@ fn red_only(texels: Texels) -> Texels {
 
 /// Decodes the picture file `path`, whose size is looked at first: a few kilobytes can ask for gigabytes.
 fn decoded(bytes: Vec<u8>, path: &Path, vflip: bool, room: u64) -> Result<Texels, MediaError> {
+    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("npy")) {
+        return npy::read(&bytes, path, room);
+    }
     let failed = |source| MediaError::Decode { path: path.to_owned(), source };
     let mut reader = ImageReader::new(Cursor::new(bytes));
     // The ending counts where the content says nothing, as with TGA.

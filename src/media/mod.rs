@@ -8,18 +8,23 @@ mod gather;
 pub mod keyboard;
 mod load;
 pub mod mesh;
+mod npy;
 mod site;
 
-pub use gather::{gather, meshes};
+pub use gather::{fills, gather, meshes};
 pub use keyboard::Keyboard;
 pub use load::{MediaError, load};
 
 use crate::{
     diag::Diagnostic,
-    project::{MeshSource, Project},
+    project::{Fill, FillKind, FillValue, Media, MeshSource, Project},
 };
 use mesh::{Mesh, MeshError};
-use std::{collections::HashMap, sync::Arc};
+use std::{
+    collections::HashMap,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 /// Format of [`Texels`]. Never decoded from sRGB: a stored 128 reads as 128/255, as on the site.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -56,6 +61,8 @@ pub struct Texels {
 pub struct MediaSet {
     /// By what the channel names and whether it is flipped.
     pictures: HashMap<MediaKey, Arc<Texels>>,
+    /// Why a file is not among the pictures that a fill names, and how to mend it.
+    missing_fills: HashMap<PathBuf, (String, String)>,
     meshes: HashMap<MeshSource, Result<Arc<Mesh>, MeshError>>,
 }
 
@@ -70,6 +77,32 @@ impl MediaSet {
 
     pub fn insert(&mut self, key: MediaKey, texels: Arc<Texels>) {
         self.pictures.insert(key, texels);
+    }
+
+    /// The texels of a file that fills a pass, as [`fills`] loaded it.
+    pub fn fill(&self, path: &Path) -> Option<&Arc<Texels>> {
+        self.get(&MediaKey::of_fill(path))
+    }
+
+    /// Gives the texels that a fill's file has.
+    pub fn insert_fill(&mut self, path: &Path, texels: Arc<Texels>) {
+        self.insert(MediaKey::of_fill(path), texels);
+    }
+
+    /// One error for each file of the project's fills that is not there.
+    pub fn fill_errors(&self, project: &Project) -> Vec<Diagnostic> {
+        let error = |(pass, kind, fill): (usize, FillKind, &Fill)| {
+            let FillValue::File(path) = &fill.value else { return None };
+            if self.fill(path).is_some() {
+                return None;
+            }
+            let (why, hint) = self.missing_fills.get(path).cloned().unwrap_or_else(|| {
+                (format!("{} is not loaded", path.display()), "put the file there, or name another".into())
+            });
+            let message = format!("{} of {}: {why}", kind.key(), project.passes[pass].id.title());
+            Some(Diagnostic::error(project.fill_span(pass, kind), message).hint(hint))
+        };
+        project.fills().filter_map(error).collect()
     }
 
     /// Number of pictures.
@@ -115,4 +148,11 @@ impl MediaSet {
 pub struct MediaKey {
     pub media: crate::project::Media,
     pub vflip: bool,
+}
+
+impl MediaKey {
+    /// A fill's picture stands upright.
+    pub fn of_fill(path: &Path) -> MediaKey {
+        MediaKey { media: Media::File(path.to_owned()), vflip: true }
+    }
 }

@@ -156,7 +156,7 @@ impl Project {
     /// [`Project::sources`].
     pub fn include_lines(&self) -> IncludeLines {
         let mut found = IncludeLines::default();
-        let sources = self.sources();
+        let sources = self.texts();
         // A buffer and another may share a file: the first is as good as the second.
         let mut ids: BTreeMap<&str, SourceId> = BTreeMap::new();
         for (id, source) in sources.iter().filter(|(id, _)| id.0 > 0 || self.common.is_some()) {
@@ -211,7 +211,7 @@ impl Project {
 
     /// Takes out lines that lead back to a text they stand in, each with an error that shows the way.
     fn cut_cycles(&self, found: &mut IncludeLines) {
-        let sources = self.sources();
+        let sources = self.texts();
         let count = sources.iter().count();
         let name = |id: usize| sources.get(SourceId(id as u16)).map_or("", |s| s.name.as_str());
         let mut lines: Vec<Vec<(Span, usize)>> = vec![Vec::new(); count];

@@ -277,7 +277,7 @@ impl Knobs {
 impl Project {
     /// What the texts declare in `#iUniform` lines. Spans point into [`Project::sources`].
     pub fn knobs(&self) -> Knobs {
-        let sources = self.sources();
+        let sources = self.texts();
         Knobs::read(sources.iter().map(|(id, source)| (id, &*source.text)))
     }
 

@@ -8,6 +8,7 @@ pub mod confine;
 pub mod directives;
 mod error;
 mod files;
+mod fills;
 mod folder;
 mod geometry;
 mod includes;
@@ -28,6 +29,7 @@ mod writes;
 pub use atomic::write_with;
 pub use confine::FileError;
 pub use error::ProjectError;
+pub use fills::{Boundary, Fill, FillKind, FillText, FillValue, Written};
 pub use folder::declare_channels;
 pub use geometry::{
     Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Stage, files_beside, unescaped,

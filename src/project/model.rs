@@ -318,7 +318,7 @@ impl Tab {
 }
 
 /// Sources of a project by [`crate::diag::SourceId`]: 0 is Common (an empty text where there is none), then the passes in order,
-/// then the stages of geometry passes in order, then the files they include.
+/// then the stages of geometry passes in order, then the files they include, then the texts of fills.
 impl Project {
     /// Every stage that lies in a file of its own, with the index of its pass.
     pub fn stages(&self) -> impl Iterator<Item = (usize, &Source)> {
@@ -354,7 +354,19 @@ impl Project {
         })
     }
 
+    /// Every text of the project, and behind them, once for each fill (see [`Project::fills`]), the text it is written in.
     pub fn sources(&self) -> crate::diag::SourceMap {
+        let mut map = self.texts();
+        for (pass, kind, _) in self.fills() {
+            if let Some(text) = self.fill_text(pass, kind) {
+                map.add(super::load::MANIFEST, text.text);
+            }
+        }
+        map
+    }
+
+    /// As [`Project::sources`], GLSL alone.
+    pub fn texts(&self) -> crate::diag::SourceMap {
         let mut map = crate::diag::SourceMap::default();
         match &self.common {
             Some(c) => map.add(c.name.clone(), c.text.clone()),

@@ -49,6 +49,11 @@ pub fn load(name: &str) -> Result<Loaded, ProjectError> {
     load_files(name, name.to_owned(), &Files::embedded(dir), Origin::Preset(name.to_owned()))
 }
 
+/// Reads a folder with `eddy.toml` that lies in the binary, and belongs to no gallery.
+pub fn load_embedded(name: &str, dir: &Dir<'static>) -> Result<Loaded, ProjectError> {
+    load_files(name, name.to_owned(), &Files::embedded(dir), Origin::Unsaved)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

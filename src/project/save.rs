@@ -3,7 +3,7 @@
 //! Owns what goes into which file. The writing itself, which never leaves half a file behind, is in `atomic`.
 
 use super::{
-    Media, MeshSource, Origin, PassId, Project, ProjectError, SamplerRules, Source,
+    FillValue, Media, MeshSource, Origin, PassId, Project, ProjectError, SamplerRules, Source,
     atomic::Content,
     confine,
     files::Files,
@@ -75,6 +75,9 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite) -> Result<P
     folder::declare_channels(&mut saved);
     if saved.passes[0].channels != image.channels {
         return cannot("channels that its text does not declare in #iChannel lines");
+    }
+    if image.settings != Default::default() {
+        return cannot("how its pass is drawn");
     }
     if !project.knob_values.is_empty() {
         return cannot("values of sliders that are not their defaults");
@@ -205,6 +208,11 @@ fn copy_media(project: &Project, writes: &mut Writes) -> Result<(), ProjectError
     }
     for channel in project.passes.iter().flat_map(|p| p.channels.iter().flatten()) {
         if let Some(Media::File(path)) = channel.input.media() {
+            names.extend(named(path));
+        }
+    }
+    for (.., fill) in project.fills() {
+        if let FillValue::File(path) = &fill.value {
             names.extend(named(path));
         }
     }

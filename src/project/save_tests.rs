@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::project::{
-    Channel, Filter, Info, Input, Pass, PassFormat, PassSettings, PassSize, Region, Sampler, Wrap, load,
+    Boundary, Channel, Fill, Filter, Info, Input, Pass, PassFormat, PassSettings, PassSize, Region, Sampler, Wrap, load,
 };
 use std::{
     fs,
@@ -59,7 +59,21 @@ fn any_settings(r: &mut Random, id: &PassId) -> PassSettings {
     if matches!(id, PassId::Buffer(_) | PassId::Image) && r.below(2) == 0 {
         settings.region = Some(Region { x: r.below(9) as u32, y: 0, width: 1, height: 5 });
     }
+    if matches!(id, PassId::Buffer(_)) && r.below(3) == 0 {
+        settings.initial = Some(any_fill(r));
+    }
+    if matches!(id, PassId::Buffer(_) | PassId::Image) && r.below(3) == 0 {
+        settings.boundary = Some(Boundary { width: 1 + r.below(3) as u32, value: any_fill(r) });
+    }
     settings
+}
+
+fn any_fill(r: &mut Random) -> Fill {
+    if r.below(2) == 0 {
+        Fill::expression(format!("vec4({})", r.text()))
+    } else {
+        Fill::file(format!("d/{}x.npy", r.text().replace('\0', "")))
+    }
 }
 
 fn any_project(seed: u64) -> Project {

@@ -7,6 +7,10 @@ pub struct PassSettings {
     pub format: PassFormat,
     /// Only these texels are drawn, as far as the pass has them; the others keep what they held. `None`: all.
     pub region: Option<Region>,
+    /// What the pass's texture of the frame before holds in frame 0. `None`: zeros.
+    pub initial: Option<super::Fill>,
+    /// Texels at the edge that are overwritten after each draw.
+    pub boundary: Option<super::Boundary>,
     /// Meshes to draw instead of the full-screen triangle.
     pub geometry: Option<super::Geometry>,
 }

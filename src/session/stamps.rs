@@ -3,7 +3,7 @@
 //! Used on the compile worker alone, as models and pictures are large and what a name leads to may be slow.
 
 use super::capture;
-use crate::project::{self, Media, MeshSource, Project, confine, limits};
+use crate::project::{self, FillValue, Media, MeshSource, Project, confine, limits};
 use std::{
     collections::{BTreeMap, HashMap},
     fs,
@@ -92,6 +92,11 @@ fn files(project: &Project, base: Option<&Path>) -> BTreeMap<PathBuf, Option<Str
             Some(Media::File(path)) => own.extend(relative(path)),
             Some(Media::Picked(path)) => drop(files.insert(path.clone(), None)),
             Some(Media::Builtin(_) | Media::Site { .. }) | None => {}
+        }
+    }
+    for (.., fill) in project.fills() {
+        if let FillValue::File(path) = &fill.value {
+            own.extend(relative(path));
         }
     }
     let Some(base) = base else { return files };

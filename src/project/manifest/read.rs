@@ -1,6 +1,6 @@
 //! Reading `eddy.toml`. Every complaint is a diagnostic at its place, and all of them come at once.
 
-use super::{KINDS, VERSION, default_sampler, geometry, settings};
+use super::{KINDS, VERSION, default_sampler, fills, geometry, settings};
 use crate::{
     diag::{Diagnostic, SourceId, SourceMap, Span},
     project::{
@@ -13,7 +13,7 @@ use crate::{
         nearest,
     },
 };
-use std::{collections::BTreeMap, ops::Range, path::PathBuf};
+use std::{collections::BTreeMap, ops::Range, path::PathBuf, sync::Arc};
 use toml_edit::{Document, Item, TableLike};
 
 const TOP: [&str; 12] = [
@@ -88,6 +88,11 @@ pub(super) struct Reader<'a> {
 impl Reader<'_> {
     pub(super) fn span(&self, range: Option<Range<usize>>) -> Option<Span> {
         range.map(|r| Span::new(self.id, r))
+    }
+
+    /// The whole text that an item stands in, and its place there.
+    pub(super) fn span_text(&self, item: &Item) -> Option<(Arc<str>, Range<usize>)> {
+        Some((self.sources.get(self.id)?.text.clone(), item.span()?))
     }
 
     pub(super) fn error(&mut self, range: Option<Range<usize>>, message: impl Into<String>, hint: impl Into<String>) {
@@ -213,7 +218,7 @@ impl Reader<'_> {
             self.check_keys(
                 &format!("[passes.{name}]"),
                 table,
-                &[&["file", "channels"], &settings::KEYS, &geometry::KEYS],
+                &[&["file", "channels"], &settings::KEYS, &geometry::KEYS, &fills::KEYS],
             );
             let file = self.string(table, "file").or_else(|| geometry::own_file(table));
             let file = file.unwrap_or_else(|| self.conventional(&Role::Pass(id.clone())));
@@ -222,6 +227,7 @@ impl Reader<'_> {
             let channels = self.channels(table);
             let mut settings = self.settings(&id, table);
             settings.geometry = self.geometry(&id, table, &file, &mut settings);
+            self.fills(&id, table, &mut settings);
             if let Some(source) = source {
                 passes.push(Pass { id, source, channels, settings });
             }

@@ -31,7 +31,7 @@ impl Reader<'_> {
         let Some(table) = root.get("uniforms").and_then(Item::as_table_like) else { return };
         let knobs = project.knobs();
         let declared: BTreeSet<String> =
-            project.sources().iter().flat_map(|(_, source)| words_of_uniforms(&source.text)).collect();
+            project.texts().iter().flat_map(|(_, source)| words_of_uniforms(&source.text)).collect();
         for (name, value) in &project.knob_values {
             if knobs.get(name).is_none() && declared.contains(name) {
                 continue; // the compiler says whether it fits

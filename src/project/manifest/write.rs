@@ -1,6 +1,6 @@
 //! Writing `eddy.toml`: an old text changed no more than needed, so that the author's comments and order stay.
 
-use super::{VERSION, default_sampler, geometry, read, settings, uniforms};
+use super::{VERSION, default_sampler, fills, geometry, read, settings, uniforms};
 use crate::project::{
     Channel, Filter, Input, KnobValue, Media, PassId, Project, SamplerRules, Wrap, folder::pass_of_stem,
 };
@@ -152,6 +152,7 @@ fn passes(root: &mut Table, project: &Project) {
         }
         channels(entry, &pass.channels);
         settings::write_settings(entry, &pass.settings);
+        fills::write_fills(entry, &pass.settings);
         geometry::write_geometry(entry, &pass.source, &pass.settings);
     }
     order(table, project);

@@ -1,0 +1,60 @@
+#define ONE_PASS 0
+#define CHAIN 1
+#define FORWARD_BACKWARD 2
+#ifndef METHOD
+#define METHOD ONE_PASS
+#endif
+// Of a step.
+#iUniform float dt = 0.15 in { 0.0, 4.0 }
+// Texels^2 for a unit of time.
+#iUniform float viscosity = 0.55 in { 0.0, 2.0 }
+// Texels for a unit of time.
+#iUniform float speed = 0.5 in { 0.0, 2.0 }
+// Amplitude of noise on top of the vortex.
+#iUniform float noise = 0.0 in { 0.0, 1.0 }
+// Of the pressure: the speed of sound is sqrt(stiffness / dt).
+#iUniform float stiffness = 0.2 in { 0.0, 1.0 }
+
+// A Taylor-Green vortex of one wave in the box.
+vec2 vortex(vec2 p) {
+    vec2 a = 6.2831853071795865 * p / iResolution.xy;
+    vec2 random = fract(sin(vec2(dot(p, vec2(12.9898, 78.233)), dot(p, vec2(39.346, 11.135)))) * 43758.547) - 0.5;
+    return speed * vec2(sin(a.x) * cos(a.y), -cos(a.x) * sin(a.y)) + 2.0 * noise * random;
+}
+
+vec4 at(sampler2D state, ivec2 p) {
+    ivec2 size = ivec2(iResolution.xy);
+    return texelFetch(state, (p + size) % size, 0);
+}
+
+vec4 bilinear(sampler2D state, vec2 p) {
+    vec2 base = floor(p - 0.5), t = p - 0.5 - base;
+    ivec2 i = ivec2(base);
+    vec4 low = mix(at(state, i), at(state, i + ivec2(1, 0)), t.x);
+    vec4 high = mix(at(state, i + ivec2(0, 1)), at(state, i + ivec2(1, 1)), t.x);
+    return mix(low, high, t.y);
+}
+
+// Guay, Colin and Egli 2011: a texel is (u, v, rho). Density after its equation of transport.
+float density(sampler2D state, ivec2 p) {
+    vec4 c = at(state, p);
+    vec4 dx = 0.5 * (at(state, p + ivec2(1, 0)) - at(state, p - ivec2(1, 0)));
+    vec4 dy = 0.5 * (at(state, p + ivec2(0, 1)) - at(state, p - ivec2(0, 1)));
+    return c.z - dt * (c.x * dx.z + c.y * dy.z + c.z * (dx.x + dy.y));
+}
+
+// Velocity, carried, smoothed, and pushed by the gradient of the density.
+vec2 moved(sampler2D state, vec2 fragCoord, vec2 gradient) {
+    ivec2 p = ivec2(fragCoord);
+    vec2 c = at(state, p).xy;
+    vec2 beside = at(state, p + ivec2(1, 0)).xy + at(state, p - ivec2(1, 0)).xy + at(state, p + ivec2(0, 1)).xy
+        + at(state, p - ivec2(0, 1)).xy;
+    return bilinear(state, fragCoord - dt * c).xy + dt * viscosity * (beside - 4.0 * c) - stiffness * gradient;
+}
+
+vec4 stepped(sampler2D state, vec2 fragCoord) {
+    ivec2 p = ivec2(fragCoord);
+    vec2 gradient = 0.5 * vec2(at(state, p + ivec2(1, 0)).z - at(state, p - ivec2(1, 0)).z,
+        at(state, p + ivec2(0, 1)).z - at(state, p - ivec2(0, 1)).z);
+    return vec4(moved(state, fragCoord, gradient), density(state, p), 1.0);
+}

@@ -1,0 +1,33 @@
+#define SEMI_LAGRANGIAN 0
+#define MACCORMACK 1
+#ifndef METHOD
+#define METHOD MACCORMACK
+#endif
+// Of a step.
+#iUniform float dt = 0.15 in { 0.0, 4.0 }
+// Texels^2 for a unit of time.
+#iUniform float viscosity = 0.55 in { 0.0, 2.0 }
+// Texels for a unit of time.
+#iUniform float speed = 0.5 in { 0.0, 2.0 }
+// Amplitude of noise on top of the vortex.
+#iUniform float noise = 0.0 in { 0.0, 1.0 }
+
+// A Taylor-Green vortex of one wave in the box.
+vec2 vortex(vec2 p) {
+    vec2 a = 6.2831853071795865 * p / iResolution.xy;
+    vec2 random = fract(sin(vec2(dot(p, vec2(12.9898, 78.233)), dot(p, vec2(39.346, 11.135)))) * 43758.547) - 0.5;
+    return speed * vec2(sin(a.x) * cos(a.y), -cos(a.x) * sin(a.y)) + 2.0 * noise * random;
+}
+
+vec2 at(sampler2D field, ivec2 p) {
+    ivec2 size = ivec2(iResolution.xy);
+    return texelFetch(field, (p + size) % size, 0).xy;
+}
+
+vec2 bilinear(sampler2D field, vec2 p) {
+    vec2 base = floor(p - 0.5), t = p - 0.5 - base;
+    ivec2 i = ivec2(base);
+    vec2 low = mix(at(field, i), at(field, i + ivec2(1, 0)), t.x);
+    vec2 high = mix(at(field, i + ivec2(0, 1)), at(field, i + ivec2(1, 1)), t.x);
+    return mix(low, high, t.y);
+}

@@ -1,0 +1,51 @@
+#iUniform float feed = 0.0545 in { 0.0, 0.1 }
+#iUniform float kill = 0.062 in { 0.0, 0.1 }
+#iUniform float dt = 1.0 in { 0.0, 16.0 }
+// Of u and v, in texels^2 for a unit of time.
+const vec2 DIFFUSION = vec2(0.16, 0.08);
+
+vec2 reaction(vec2 w) {
+    float rate = w.x * w.y * w.y;
+    return vec2(feed * (1.0 - w.x) - rate, rate - (feed + kill) * w.y);
+}
+
+// Smooth spots of v in a sea of u = 1: three, so that nothing of the pattern is a symmetry.
+vec4 seeded(vec2 p) {
+    float v = 0.0;
+    vec2 spots[3] = vec2[](vec2(0.3, 0.35), vec2(0.62, 0.44), vec2(0.45, 0.7));
+    for (int i = 0; i < 3; ++i) {
+        vec2 d = (p - spots[i] * iResolution.xy) / (4.0 + float(i));
+        v += 0.5 * exp(-0.5 * dot(d, d));
+    }
+    return vec4(1.0 - v, 0.5 * v, 0.0, 1.0);
+}
+
+// Half a step of the reaction by the midpoint rule, second order.
+vec2 reacted(vec2 w) {
+    float h = 0.5 * dt;
+    return w + h * reaction(w + 0.5 * h * reaction(w));
+}
+
+// Weight of a texel i away in a kernel of variance s for each of the two: a Gaussian, sampled; where that is too narrow to be
+// sampled, the five weights of sum 1 whose second and fourth moments are the Gaussian's.
+vec2 weight(int i, vec2 s) {
+    vec2 wide = exp(-0.5 * float(i * i) / s);
+    vec2 beside = (4.0 * s - 3.0 * s * s) / 6.0, beyond = (3.0 * s * s - s) / 24.0;
+    vec2 narrow = i == 0 ? 1.0 - 2.0 * (beside + beyond) : i == 1 ? beside : i == 2 ? beyond : vec2(0.0);
+    return mix(wide, narrow, vec2(lessThan(s, vec2(0.9))));
+}
+
+// Sums along `along` with kernels of variance 2 D dt, which is the solution for a step.
+vec2 blurred(sampler2D field, ivec2 p, ivec2 along, bool reacts) {
+    ivec2 size = ivec2(iResolution.xy);
+    vec2 variance = 2.0 * DIFFUSION * dt, w = texelFetch(field, p, 0).xy;
+    vec2 weights = weight(0, variance), sum = weights * (reacts ? reacted(w) : w);
+    int radius = variance.x < 0.9 ? 2 : int(ceil(5.0 * sqrt(variance.x)));
+    for (int i = 1; i <= radius; ++i) {
+        vec2 a = texelFetch(field, (p + i * along) % size, 0).xy, b = texelFetch(field, (p - i * along + size) % size, 0).xy;
+        vec2 each = weight(i, variance);
+        sum += each * (reacts ? reacted(a) + reacted(b) : a + b);
+        weights += 2.0 * each;
+    }
+    return sum / weights;
+}

@@ -1,0 +1,17 @@
+vec2 at(ivec2 p) {
+    ivec2 size = ivec2(iResolution.xy);
+    return texelFetch(iChannel0, (p + size) % size, 0).xy;
+}
+
+void mainImage(out vec4 field, in vec2 fragCoord) {
+    ivec2 p = ivec2(fragCoord);
+    vec2 w = at(p);
+    vec2 beside = at(p + ivec2(1, 0)) + at(p - ivec2(1, 0)) + at(p + ivec2(0, 1)) + at(p - ivec2(0, 1));
+#if STENCIL == 9
+    vec2 corners = at(p + ivec2(1, 1)) + at(p + ivec2(1, -1)) + at(p + ivec2(-1, 1)) + at(p + ivec2(-1, -1));
+    vec2 laplacian = (4.0 * beside + corners - 20.0 * w) / 6.0;
+#else
+    vec2 laplacian = beside - 4.0 * w;
+#endif
+    field = vec4(w + dt * (DIFFUSION * laplacian + reaction(w)), 0.0, 1.0);
+}

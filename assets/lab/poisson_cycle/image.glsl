@@ -1,0 +1,3 @@
+void mainImage(out vec4 colour, in vec2 fragCoord) {
+    colour = vec4(vec3(0.5 + 0.01 * texelFetch(iChannel0, ivec2(fragCoord), 0).x), 1.0);
+}

@@ -1,0 +1,136 @@
+//! `eddy lab`: studies run and reported, or the results of several machines joined.
+
+use super::{
+    args::{LabArgs, LabCommand},
+    machine::Machine,
+    told, trouble,
+};
+use crate::lab::{
+    Extent, LabError, Results, Shard, Study, report,
+    run::{self, Options, Step},
+    studies,
+};
+use std::{
+    env,
+    io::{self, IsTerminal, Write},
+    path::{Path, PathBuf},
+};
+
+pub fn run(args: &LabArgs) -> io::Result<u8> {
+    if let Some(LabCommand::Merge { from, out }) = &args.command {
+        return finish(merge(from, out));
+    }
+    let studies = match studies::named(&args.study) {
+        Ok(studies) => studies,
+        Err(error) => return Ok(trouble(error)),
+    };
+    if args.list {
+        return list(&studies);
+    }
+    // clap asks for it.
+    let Some(out) = &args.out else { return Ok(trouble("--out is missing")) };
+    let shard = match Shard::parse(&args.shard, |name| env::var(name).ok()) {
+        Ok(shard) => shard,
+        Err(error) => return Ok(trouble(error)),
+    };
+    let gpu = match Machine::default().gpu() {
+        Ok(gpu) => gpu,
+        Err(error) => return Ok(trouble(told(&error))),
+    };
+    let extent = if args.quick { Extent::Quick } else { Extent::Full };
+    let options = Options { out: out.clone(), extent, repeats: args.repeats, shard };
+    let measured = run::run(&gpu, &studies, &options, Progress::default().teller());
+    finish(measured.and_then(|results| report(out, &studies, &results)))
+}
+
+fn merge(from: &[PathBuf], out: &Path) -> Result<String, LabError> {
+    let results = Results::merge(from)?;
+    results.write(out)?;
+    report(out, &studies::all(), &results)
+}
+
+fn report(out: &Path, studies: &[&dyn Study], results: &Results) -> Result<String, LabError> {
+    // What other studies have left there is reported too.
+    let all = studies::all();
+    let known = all.iter().filter(|s| {
+        let name = s.about().name;
+        studies.iter().any(|s| s.about().name == name) || results.errors.iter().any(|e| e.point.study == name)
+    });
+    let files = report::write(out, &known.copied().collect::<Vec<_>>(), results)?;
+    let failed: Vec<String> = results
+        .errors
+        .iter()
+        .filter_map(|e| Some(format!("\n{} {}: {}", e.point.study, e.point.method, e.trouble.as_ref()?)))
+        .collect();
+    Ok(format!("{}: {} files{}", out.join("index.html").display(), files.len(), failed.concat()))
+}
+
+fn finish(done: Result<String, LabError>) -> io::Result<u8> {
+    match done {
+        Ok(words) => {
+            writeln!(io::stdout(), "{words}")?;
+            Ok(0)
+        }
+        Err(error) => Ok(trouble(error)),
+    }
+}
+
+fn list(studies: &[&dyn Study]) -> io::Result<u8> {
+    let mut out = io::stdout().lock();
+    for study in studies {
+        let about = study.about();
+        writeln!(out, "{}: {}", about.name, about.title)?;
+        for method in study.methods() {
+            let settings: Vec<String> = method.settings.iter().map(f64::to_string).collect();
+            writeln!(out, "    {:24} {} ({}: {})", method.name, method.title, about.knob, settings.join(", "))?;
+        }
+    }
+    out.flush()?;
+    Ok(0)
+}
+
+/// Says on standard error what is measured: on a terminal in one line that is written over, else a line a point.
+struct Progress {
+    is_terminal: bool,
+}
+
+impl Default for Progress {
+    fn default() -> Self {
+        Self { is_terminal: io::stderr().is_terminal() }
+    }
+}
+
+impl Progress {
+    fn teller(self) -> impl FnMut(Step<'_>) {
+        const WIDTH: usize = 24;
+        move |step| {
+            let words = match step {
+                Step::Error { point, done, all } => {
+                    let full = WIDTH * done / all.max(1);
+                    let bar = format!("{}{}", "#".repeat(full), ".".repeat(WIDTH - full));
+                    format!(
+                        "[{bar}] {}/{all} {}: {} at {} on {}",
+                        done + 1,
+                        point.study,
+                        point.method,
+                        point.setting,
+                        point.grid
+                    )
+                }
+                Step::Cost { study, points } => format!("[{}] {study}: costs of {points} points", "#".repeat(WIDTH)),
+            };
+            let mut err = io::stderr().lock();
+            // Nobody is left to tell where standard error is closed.
+            let _ = if self.is_terminal { write!(err, "\r\x1b[2K{words}") } else { writeln!(err, "{words}") };
+            let _ = err.flush();
+        }
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        if self.is_terminal {
+            let _ = writeln!(io::stderr());
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! Why the lab could not measure or report.
+
+use crate::{
+    diag::render_all,
+    engine::{BuildError, EngineError},
+    gpu::GpuError,
+    project::ProjectError,
+};
+use std::{io, path::PathBuf};
+
+#[derive(Debug, thiserror::Error)]
+pub enum LabError {
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    #[error(transparent)]
+    Project(#[from] ProjectError),
+    /// A method that does not compile: a bug of ours.
+    #[error("the method {method} does not compile\n{said}")]
+    Method { method: String, said: String },
+    /// A setup that names what its project does not have: a bug of ours.
+    #[error("the method {method} has no {what}")]
+    Setup { method: String, what: String },
+    #[error("cannot {action} {}: {source}", path.display())]
+    Io { action: &'static str, path: PathBuf, source: io::Error },
+    #[error("{}:{line}: not a record of the lab ({reason}); remove the line, or choose another --out", path.display())]
+    Record { path: PathBuf, line: usize, reason: String },
+    #[error(
+        "{} holds results of another run ({what}: {theirs} there, {ours} here); choose another --out, or join them with eddy lab merge",
+        path.display()
+    )]
+    OtherRun { path: PathBuf, what: &'static str, theirs: String, ours: String },
+    #[error("there is no study {name}{}; there are {known}", near.as_ref().map(|n| format!(" (did you mean {n}?)")).unwrap_or_default())]
+    NoStudy { name: String, near: Option<String>, known: String },
+    #[error("--shard {0}")]
+    Shard(String),
+    #[error("a plot could not be drawn: {0}")]
+    Plot(String),
+}
+
+impl LabError {
+    pub(super) fn io(action: &'static str, path: &std::path::Path) -> impl FnOnce(io::Error) -> LabError {
+        let path = path.to_owned();
+        move |source| LabError::Io { action, path, source }
+    }
+
+    pub(super) fn build(method: &str, error: BuildError) -> LabError {
+        match error {
+            BuildError::Diagnostics { diagnostics, sources } => {
+                LabError::Method { method: method.into(), said: render_all(&diagnostics, &sources) }
+            }
+            BuildError::Engine(error) => error.into(),
+        }
+    }
+}
+
+impl From<GpuError> for LabError {
+    fn from(error: GpuError) -> Self {
+        EngineError::from(error).into()
+    }
+}

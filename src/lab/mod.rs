@@ -1,0 +1,28 @@
+//! Speed against error: what a numerical method costs, and how far it is from the truth.
+//!
+//! A [`Study`] names methods (projects that the engine runs, in `assets/lab/`), the settings of each, grids, and a reference that
+//! is exact or an f64 solver, written here and not in GLSL. [`run`] measures every point (a method at a setting on a grid) and
+//! appends it to a file of results at once; [`report`] makes tables and plots of such a file. Owns no window, no argument and
+//! no environment variable: the command line hands them in. Reads the clock only to measure what a frame costs ([`cost`]).
+
+pub mod cost;
+mod error;
+pub mod metrics;
+mod number;
+pub mod reference;
+pub mod report;
+mod results;
+mod rig;
+pub mod run;
+pub mod setup;
+mod shard;
+pub mod studies;
+mod study;
+
+pub use error::LabError;
+pub use number::Number;
+pub use results::{CostRecord, ErrorRecord, Provenance, Record, Results};
+pub use rig::{Field, Rig, Running};
+pub use setup::Setup;
+pub use shard::Shard;
+pub use study::{About, Extent, HardCase, Measured, Method, Point, Study, Unit};

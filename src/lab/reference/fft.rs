@@ -1,0 +1,126 @@
+//! The discrete Fourier transform of n x n values, n a power of two: radix 2, in place.
+
+use std::f64::consts::PI;
+
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Complex {
+    pub re: f64,
+    pub im: f64,
+}
+
+impl Complex {
+    fn times(self, o: Complex) -> Complex {
+        Complex { re: self.re * o.re - self.im * o.im, im: self.re * o.im + self.im * o.re }
+    }
+}
+
+/// Transforms of one size.
+pub struct Fft {
+    n: usize,
+    /// exp(-2 pi i k / n) for k < n / 2.
+    turns: Vec<Complex>,
+}
+
+impl Fft {
+    /// # Panics
+    /// If `n` is no power of two.
+    pub fn new(n: usize) -> Fft {
+        assert!(n.is_power_of_two(), "{n} is no power of two");
+        let angle = |k: usize| -2.0 * PI * k as f64 / n as f64;
+        Fft { n, turns: (0..n / 2).map(|k| Complex { re: angle(k).cos(), im: angle(k).sin() }).collect() }
+    }
+
+    /// Of real values.
+    pub fn forward(&self, values: &[f64]) -> Vec<Complex> {
+        let mut all: Vec<Complex> = values.iter().map(|&re| Complex { re, im: 0.0 }).collect();
+        self.both(&mut all, false);
+        all
+    }
+
+    /// The real part of the inverse, divided by n^2.
+    pub fn inverse(&self, mut all: Vec<Complex>) -> Vec<f64> {
+        self.both(&mut all, true);
+        let scale = 1.0 / (self.n * self.n) as f64;
+        all.iter().map(|c| c.re * scale).collect()
+    }
+
+    fn both(&self, all: &mut [Complex], inverse: bool) {
+        let n = self.n;
+        all.chunks_exact_mut(n).for_each(|row| self.line(row, inverse));
+        let mut column = vec![Complex::default(); n];
+        for x in 0..n {
+            (0..n).for_each(|y| column[y] = all[y * n + x]);
+            self.line(&mut column, inverse);
+            (0..n).for_each(|y| all[y * n + x] = column[y]);
+        }
+    }
+
+    fn line(&self, line: &mut [Complex], inverse: bool) {
+        let n = line.len();
+        let bits = n.trailing_zeros();
+        for i in 0..n {
+            let j = if bits == 0 { 0 } else { i.reverse_bits() >> (usize::BITS - bits) };
+            if i < j {
+                line.swap(i, j);
+            }
+        }
+        let mut half = 1;
+        while half < n {
+            let stride = n / (2 * half);
+            for block in line.chunks_exact_mut(2 * half) {
+                for k in 0..half {
+                    let mut turn = self.turns[k * stride];
+                    if inverse {
+                        turn.im = -turn.im;
+                    }
+                    let (a, b) = (block[k], turn.times(block[k + half]));
+                    block[k] = Complex { re: a.re + b.re, im: a.im + b.im };
+                    block[k + half] = Complex { re: a.re - b.re, im: a.im - b.im };
+                }
+            }
+            half *= 2;
+        }
+    }
+
+    /// The wave number of index `i` in radians a texel, from -pi to pi.
+    pub fn wave(&self, i: usize) -> f64 {
+        let signed = if i > self.n / 2 { i as f64 - self.n as f64 } else { i as f64 };
+        2.0 * PI * signed / self.n as f64
+    }
+
+    /// Multiplies each wave by a real factor of its wave numbers along x and y.
+    pub fn filtered(&self, values: &[f64], factor: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+        let mut all = self.forward(values);
+        for (i, c) in all.iter_mut().enumerate() {
+            let f = factor(self.wave(i % self.n), self.wave(i / self.n));
+            *c = Complex { re: c.re * f, im: c.im * f };
+        }
+        self.inverse(all)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::reference::sampled;
+
+    #[test]
+    fn a_field_comes_back_and_a_wave_is_one_number() {
+        let fft = Fft::new(16);
+        let field = sampled(16, |x, y| (x * 1.3).sin() + y * y * 0.01 - (x * y * 0.2).cos());
+        let back = fft.inverse(fft.forward(&field));
+        assert!(field.iter().zip(&back).all(|(a, b)| (a - b).abs() < 1e-12));
+        let wave = fft.forward(&sampled(16, |x, y| (2.0 * PI * (3.0 * x + 2.0 * y) / 16.0).cos()));
+        let large: Vec<usize> = (0..256).filter(|i| wave[*i].re.hypot(wave[*i].im) > 1e-9).collect();
+        assert_eq!(large, [2 * 16 + 3, 14 * 16 + 13]);
+    }
+
+    #[test]
+    fn a_second_derivative_is_minus_the_square_of_the_wave_number() {
+        let fft = Fft::new(32);
+        let k = 2.0 * PI * 5.0 / 32.0;
+        let field = sampled(32, |x, _| (k * x).sin());
+        let second = fft.filtered(&field, |kx, ky| -(kx * kx + ky * ky));
+        assert!(field.iter().zip(&second).all(|(a, b)| (b + k * k * a).abs() < 1e-12));
+    }
+}

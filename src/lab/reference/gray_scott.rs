@@ -1,0 +1,101 @@
+//! Gray-Scott on a torus: growth rates of its linear form, and the pattern by a spectral method.
+
+use super::{fft::Fft, sampled};
+
+/// The coral pattern of the projects in `assets/lab`.
+pub const FEED: f64 = 0.0545;
+pub const KILL: f64 = 0.062;
+/// Diffusion of u and v, texels^2 for a unit of time.
+pub const DIFFUSION: [f64; 2] = [0.16, 0.08];
+
+/// The state of rest with v > 0 and the larger v: u = (1 - sqrt(1 - 4 (F + k)^2 / F)) / 2, v = F (1 - u) / (F + k).
+pub fn rest() -> [f64; 2] {
+    let u = 0.5 * (1.0 - (1.0 - 4.0 * (FEED + KILL).powi(2) / FEED).sqrt());
+    [u, FEED * (1.0 - u) / (FEED + KILL)]
+}
+
+/// Growth of a wave about [`rest`] whose Laplacian is -`laplacian` times itself, and the direction (u, v) that grows so: the
+/// larger eigenvalue of the linear form, where it is real.
+pub fn growth(laplacian: f64) -> (f64, [f64; 2]) {
+    let [u, v] = rest();
+    let (a, b) = (-v * v - FEED - DIFFUSION[0] * laplacian, -2.0 * u * v);
+    let (c, d) = (v * v, 2.0 * u * v - (FEED + KILL) - DIFFUSION[1] * laplacian);
+    let (trace, determinant) = (a + d, a * d - b * c);
+    let sigma = 0.5 * (trace + (trace * trace - 4.0 * determinant).max(0.0).sqrt());
+    (sigma, [b, sigma - a])
+}
+
+/// The symbol of the 5-point Laplacian of a wave along x.
+pub fn five_point(k: f64) -> f64 {
+    4.0 * (k / 2.0).sin().powi(2)
+}
+
+/// Smooth spots in a sea of u = 1: (u, v).
+pub fn seeded(n: usize) -> [Vec<f64>; 2] {
+    let side = n as f64;
+    let spots = [(0.3, 0.35, 4.0), (0.62, 0.44, 5.0), (0.45, 0.7, 6.0f64)];
+    let v = sampled(n, |x, y| {
+        let spot = |&(x0, y0, s): &(f64, f64, f64)| {
+            0.5 * (-0.5 * ((x - x0 * side).powi(2) + (y - y0 * side).powi(2)) / (s * s)).exp()
+        };
+        spots.iter().map(spot).sum()
+    });
+    [v.iter().map(|v| 1.0 - v).collect(), v.iter().map(|v| 0.5 * v).collect()]
+}
+
+/// The pattern after `time` by `steps` steps of Strang's splitting: half a step of the reaction by the classical Runge-Kutta
+/// method, the diffusion exactly by Fourier transform, half a step of the reaction.
+pub fn pattern(n: usize, time: f64, steps: u32) -> [Vec<f64>; 2] {
+    let fft = Fft::new(n);
+    let dt = time / f64::from(steps);
+    let [mut u, mut v] = seeded(n);
+    for _ in 0..steps {
+        react(&mut u, &mut v, dt / 2.0);
+        u = fft.filtered(&u, |kx, ky| (-DIFFUSION[0] * (kx * kx + ky * ky) * dt).exp());
+        v = fft.filtered(&v, |kx, ky| (-DIFFUSION[1] * (kx * kx + ky * ky) * dt).exp());
+        react(&mut u, &mut v, dt / 2.0);
+    }
+    [u, v]
+}
+
+fn react(u: &mut [f64], v: &mut [f64], h: f64) {
+    let f = |[u, v]: [f64; 2]| {
+        let rate = u * v * v;
+        [FEED * (1.0 - u) - rate, rate - (FEED + KILL) * v]
+    };
+    for (u, v) in u.iter_mut().zip(v) {
+        let w = [*u, *v];
+        let along = |k: [f64; 2], by: f64| [w[0] + by * k[0], w[1] + by * k[1]];
+        let k1 = f(w);
+        let k2 = f(along(k1, h / 2.0));
+        let k3 = f(along(k2, h / 2.0));
+        let k4 = f(along(k3, h));
+        *u += h / 6.0 * (k1[0] + 2.0 * k2[0] + 2.0 * k3[0] + k4[0]);
+        *v += h / 6.0 * (k1[1] + 2.0 * k2[1] + 2.0 * k3[1] + k4[1]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_state_of_rest_and_its_growth_are_the_known_ones() {
+        let [u, v] = rest();
+        assert!((u - 0.468889).abs() < 1e-6 && (v - 0.248460).abs() < 1e-6, "{u} {v}");
+        // The largest growth of the continuum is .01001 at q = .521.
+        let best = (300..700).map(|i| f64::from(i) * 1e-3).max_by(|a, b| growth(a * a).0.total_cmp(&growth(b * b).0));
+        let q = best.unwrap();
+        assert!((q - 0.521).abs() < 0.003, "{q}");
+        assert!((growth(q * q).0 - 0.01001).abs() < 2e-5, "{}", growth(q * q).0);
+    }
+
+    #[test]
+    fn the_pattern_converges_in_its_steps() {
+        let v = |steps| pattern(64, 20.0, steps)[1].clone();
+        let (coarse, middle, fine) = (v(10), v(20), v(40));
+        let far = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+        let ratio = far(&coarse, &middle) / far(&middle, &fine);
+        assert!(ratio > 3.5 && ratio < 4.5, "second order in the step: {ratio}");
+    }
+}

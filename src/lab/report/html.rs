@@ -1,0 +1,213 @@
+//! One page of all studies, which needs no other file and no network.
+
+use super::table::{Row, Table};
+use crate::lab::{Extent, Results, cost::Clock};
+use std::fmt::Write;
+
+const STYLE: &str = "
+body { font: 15px/1.5 system-ui, sans-serif; color: #23262d; background: #fff; max-width: 1280px; margin: 2rem auto; padding: 0 1rem }
+h1 { font-size: 1.7rem } h2 { margin-top: 3rem; border-top: 1px solid #d8dbe0; padding-top: 1.5rem }
+table { border-collapse: collapse; font-variant-numeric: tabular-nums; width: 100% }
+th, td { padding: .25rem .55rem; text-align: right; border-bottom: 1px solid #e6e8ec; white-space: nowrap }
+th { font-weight: 600; background: #f4f5f7; position: sticky; top: 0 }
+th:first-child, td:first-child { text-align: left } tr.study td { font-weight: 600; background: #fafbfc; text-align: left }
+td.bad { color: #a3131f } td.best { background: #fff3c9 } small, .quiet { color: #646a75 } svg { max-width: 100%; height: auto }
+details { margin: 1rem 0 } summary { cursor: pointer }
+";
+
+pub fn page(sections: &[(Table, Option<String>)], results: &Results) -> String {
+    let mut out = String::new();
+    let _ = write!(
+        out,
+        "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Eddy's lab</title>\
+         <meta name=\"viewport\" content=\"width=device-width\"><style>{STYLE}</style></head><body>\n\
+         <h1>Speed against error</h1>\n"
+    );
+    provenance(&mut out, sections, results);
+    headline(&mut out, sections);
+    for (table, svg) in sections {
+        section(&mut out, table, svg.as_deref());
+    }
+    out.push_str("</body></html>\n");
+    out
+}
+
+fn provenance(out: &mut String, sections: &[(Table, Option<String>)], results: &Results) {
+    for run in &results.runs {
+        let extent = if run.extent == Extent::Quick { "a quick run" } else { "a full run" };
+        let _ = writeln!(
+            out,
+            "<p class=\"quiet\">{} &middot; Eddy {} &middot; {extent} &middot; {} turns of each method &middot; seed {}</p>",
+            escaped(&run.driver),
+            escaped(&run.version),
+            run.repeats,
+            run.seed
+        );
+    }
+    let clock = sections.iter().flat_map(|(t, _)| &t.rows).find_map(|r| r.cost.map(|c| c.clock));
+    let how = match clock {
+        Some(Clock::Timestamps) => "the device's timestamps: the sum of its passes' times",
+        Some(Clock::Wall) => {
+            "the wall's clock: a batch of frames is drawn without waiting, then the queue is waited for; the time by the frames"
+        }
+        None => return,
+    };
+    let _ = writeln!(
+        out,
+        "<p class=\"quiet\">A frame's cost is by {how}. Methods of a study took turns; ms is the median turn. The roofline is a pass \
+         that copies rgba32f in the same turns; bytes a texel are the least that the plan of a frame moves for a texel of the \
+         canvas.</p>"
+    );
+}
+
+const COLUMNS: [&str; 11] = [
+    "method",
+    "setting",
+    "ms",
+    "Mtexel/s",
+    "% of roofline",
+    "bytes/texel/frame",
+    "L2",
+    "L&infin;",
+    "order",
+    "mass drift",
+    "hard cases",
+];
+
+fn heading(out: &mut String, last: &str) {
+    out.push_str("<table><thead><tr>");
+    for column in COLUMNS.iter().chain(&[last]).filter(|c| !c.is_empty()) {
+        let _ = write!(out, "<th>{column}</th>");
+    }
+    out.push_str("</tr></thead><tbody>\n");
+}
+
+fn headline(out: &mut String, sections: &[(Table, Option<String>)]) {
+    out.push_str(
+        "<p>Each method at its usual setting, and the time in which it reaches an error of 1 % at its best one.</p>\n",
+    );
+    heading(out, "ms to 1 %");
+    for (table, _) in sections {
+        let _ = writeln!(
+            out,
+            "<tr class=\"study\"><td colspan=\"12\"><a href=\"#{}\">{}</a> <small>{}, {} x {} texels</small></td></tr>",
+            table.about.name,
+            escaped(table.about.title),
+            table.about.unit.label(),
+            table.grid,
+            table.grid
+        );
+        let best = table.methods().iter().filter_map(|m| table.millis_to_target(m)).fold(f64::INFINITY, f64::min);
+        for method in table.methods() {
+            let Some(row) = table.usual(method) else { continue };
+            let reach = table.millis_to_target(method);
+            let class = if reach == Some(best) { " class=\"best\"" } else { "" };
+            let reach = reach.map_or("never".into(), number);
+            cells(out, table, row, &format!("<td{class}>{reach}</td>"));
+        }
+    }
+    out.push_str("</tbody></table>\n");
+}
+
+fn cells(out: &mut String, table: &Table, row: &Row, last: &str) {
+    let some = |x: Option<f64>| x.map_or("&ndash;".to_owned(), number);
+    let norms = row.measured.as_ref().map(|m| m.norms);
+    let (passed, all) = row.hard();
+    let is_usual = row.point.setting == row.method.usual;
+    let order = table.order(row.method).filter(|_| is_usual);
+    let spread = row.millis.map_or(String::new(), |t| format!(" title=\"{} to {}\"", number(t.min), number(t.max)));
+    let failed: Vec<String> =
+        row.measured.iter().flat_map(|m| &m.hard).map(|h| format!("{}: {}", h.name, h.detail)).collect();
+    let _ = writeln!(
+        out,
+        "<tr><td>{}</td><td>{}</td><td{spread}>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>\
+         <td>{}</td><td{} title=\"{}\">{passed}/{all}</td>{last}</tr>",
+        escaped(row.trouble.as_deref().map_or(row.method.title, |t| t.lines().next().unwrap_or(t))),
+        row.point.setting,
+        some(row.millis.map(|m| m.median)),
+        some(row.cost.map(|c| c.megatexels_per_second())),
+        row.cost.map_or("&ndash;".into(), |c| format!("{:.0}", 100.0 * c.roofline())),
+        some(row.cost.map(|c| c.bytes_per_texel)),
+        some(norms.map(|n| n.l2)),
+        some(norms.map(|n| n.linf)),
+        order.map_or("&ndash;".into(), |o| format!("{o:.2}")),
+        some(row.value("mass_drift")),
+        if passed < all { " class=\"bad\"" } else { "" },
+        escaped(&failed.join("; ")),
+    );
+}
+
+fn section(out: &mut String, table: &Table, svg: Option<&str>) {
+    let about = table.about;
+    let _ = writeln!(out, "<h2 id=\"{}\">{}</h2>\n<p>{}</p>", about.name, escaped(about.title), escaped(about.text));
+    out.push_str(svg.unwrap_or("<p>Nothing to plot yet: costs are missing.</p>"));
+    if let Some(cost) = table.rows.iter().find_map(|r| r.cost) {
+        let _ = writeln!(
+            out,
+            "<p class=\"quiet\">In the same turns a pass that copies rgba32f took {} ms ({:.2} GB/s), a pass of one texel {} ms.</p>",
+            number(cost.copy.median),
+            32.0 * cost.canvas_texels / cost.copy.median / 1e6,
+            number(cost.empty.median)
+        );
+    }
+    out.push_str("\n<details><summary>Every point</summary>\n");
+    heading(out, "");
+    for row in &table.rows {
+        cells(out, table, row, "");
+    }
+    out.push_str("</tbody></table>\n");
+    let values = table.values();
+    if !values.is_empty() {
+        let head: String = values.iter().map(|v| format!("<th>{}</th>", escaped(v))).collect();
+        let _ = writeln!(out, "<table><thead><tr><th>method</th><th>setting</th>{head}</tr></thead><tbody>");
+        for row in &table.rows {
+            let of = |name: &String| row.value(name).map_or("&ndash;".to_owned(), number);
+            let cells: String = values.iter().map(|v| format!("<td>{}</td>", of(v))).collect();
+            let _ =
+                writeln!(out, "<tr><td>{}</td><td>{}</td>{cells}</tr>", escaped(row.method.title), row.point.setting);
+        }
+        out.push_str("</tbody></table>\n");
+    }
+    if !table.convergence.is_empty() {
+        out.push_str("<table><thead><tr><th>L2 at the usual setting</th>");
+        let grids: Vec<u32> = table.convergence[0].errors.iter().map(|(grid, _)| *grid).collect();
+        let heads: String = grids.iter().map(|grid| format!("<th>{grid} x {grid}</th>")).collect();
+        let _ = writeln!(out, "{heads}<th>order</th></tr></thead><tbody>");
+        for c in &table.convergence {
+            let cells: String = c.errors.iter().map(|(_, e)| format!("<td>{}</td>", number(*e))).collect();
+            let _ = writeln!(out, "<tr><td>{}</td>{cells}<td>{:.2}</td></tr>", escaped(c.method.title), c.order);
+        }
+        out.push_str("</tbody></table>\n");
+    }
+    out.push_str("</details>\n");
+}
+
+/// Three digits that count.
+fn number(x: f64) -> String {
+    let size = x.abs();
+    match size {
+        _ if !x.is_finite() => "diverged".into(),
+        _ if size == 0.0 => "0".into(),
+        s if !(1e-3..1e5).contains(&s) => format!("{x:.2e}"),
+        s if s < 0.1 => format!("{x:.4}"),
+        s if s < 10.0 => format!("{x:.3}"),
+        s if s < 100.0 => format!("{x:.1}"),
+        _ => format!("{x:.0}"),
+    }
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_three_digits_and_texts_are_escaped() {
+        let said = [0.0, 1.0, 0.0123456, 4e-5, 12.345, 123.9, 2e6, f64::INFINITY].map(number);
+        assert_eq!(said, ["0", "1.000", "0.0123", "4.00e-5", "12.3", "124", "2.00e6", "diverged"]);
+        assert_eq!(escaped("a<b & \"c\""), "a&lt;b &amp; &quot;c&quot;");
+    }
+}

@@ -1,0 +1,36 @@
+//! What was measured, for people: a CSV and a plot a study, and one page of all.
+
+mod csv;
+mod html;
+mod plot;
+mod table;
+
+use super::{LabError, Results, Study};
+use std::{fs, path::Path};
+pub use table::{Row, Table};
+
+/// Writes `index.html` and, of each study with any result, `NAME.csv`, `NAME.svg` and `NAME.png`. Gives the names of the files.
+pub fn write(out: &Path, studies: &[&dyn Study], results: &Results) -> Result<Vec<String>, LabError> {
+    fs::create_dir_all(out).map_err(LabError::io("make", out))?;
+    let mut written = Vec::new();
+    let mut save = |name: String, bytes: &[u8]| {
+        let path = out.join(&name);
+        fs::write(&path, bytes).map_err(LabError::io("write", &path))?;
+        written.push(name);
+        Ok::<(), LabError>(())
+    };
+    let mut sections = Vec::new();
+    for table in studies.iter().filter_map(|study| Table::new(*study, results)) {
+        save(format!("{}.csv", table.about.name), csv::text(&table).as_bytes())?;
+        let svg = plot::svg(&table)?;
+        if let Some(svg) = &svg {
+            save(format!("{}.svg", table.about.name), svg.as_bytes())?;
+        }
+        if let Some(png) = plot::png(&table)? {
+            save(format!("{}.png", table.about.name), &png)?;
+        }
+        sections.push((table, svg));
+    }
+    save("index.html".into(), html::page(&sections, results).as_bytes())?;
+    Ok(written)
+}

@@ -1,0 +1,243 @@
+//! The plot of a study: cost across, error up, both in logarithms, a line a method along its settings.
+
+use super::table::{Row, TARGET, Table};
+use crate::lab::LabError;
+use plotters::{
+    coord::Shift,
+    prelude::*,
+    style::{FontStyle, register_font, text_anchor},
+};
+
+const SIZE: (u32, u32) = (1240, 720);
+/// Width of the legend.
+const LEGEND: u32 = 380;
+const FONT: &str = "sans-serif";
+
+/// Colours that are told apart by people who see fewer (Okabe and Ito 2008), and further ones that differ in brightness.
+const COLOURS: [RGBColor; 12] = [
+    RGBColor(0, 114, 178),
+    RGBColor(213, 94, 0),
+    RGBColor(0, 158, 115),
+    RGBColor(204, 121, 167),
+    RGBColor(86, 180, 233),
+    RGBColor(230, 159, 0),
+    RGBColor(120, 80, 40),
+    RGBColor(70, 70, 160),
+    RGBColor(150, 20, 60),
+    RGBColor(60, 120, 60),
+    RGBColor(40, 40, 40),
+    RGBColor(150, 110, 200),
+];
+const GREY: RGBColor = RGBColor(165, 168, 172);
+const INK: RGBColor = RGBColor(40, 44, 52);
+
+type Area<B> = DrawingArea<B, Shift>;
+
+/// `None` where no point has both a cost and an error.
+pub fn svg(table: &Table) -> Result<Option<String>, LabError> {
+    let mut text = String::new();
+    let drawn = {
+        let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
+        draw(&area, table)?
+    };
+    Ok(drawn.then_some(text))
+}
+
+/// As [`svg`], as a PNG file.
+pub fn png(table: &Table) -> Result<Option<Vec<u8>>, LabError> {
+    let mut rgb = vec![255; (SIZE.0 * SIZE.1 * 3) as usize];
+    let drawn = {
+        let area = BitMapBackend::with_buffer(&mut rgb, SIZE).into_drawing_area();
+        draw(&area, table)?
+    };
+    if !drawn {
+        return Ok(None);
+    }
+    let mut file = std::io::Cursor::new(Vec::new());
+    let format = image::ImageFormat::Png;
+    image::write_buffer_with_format(&mut file, &rgb, SIZE.0, SIZE.1, image::ExtendedColorType::Rgb8, format)
+        .map_err(|e| LabError::Plot(e.to_string()))?;
+    Ok(Some(file.into_inner()))
+}
+
+fn trouble<E: std::fmt::Display>(error: E) -> LabError {
+    LabError::Plot(error.to_string())
+}
+
+/// Whole decades around positive values; `None` of none.
+fn decades(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
+    let (low, high) = values.fold((f64::MAX, 0.0f64), |(lo, hi), v| (lo.min(v), hi.max(v)));
+    (high > 0.0).then(|| {
+        let (a, b) = ((low * 0.9).log10().floor(), (high * 1.1).log10().ceil());
+        (10f64.powf(a), 10f64.powf(b.max(a + 1.0)))
+    })
+}
+
+fn tick(value: &f64) -> String {
+    let power = value.log10().round();
+    if (value / 10f64.powf(power) - 1.0).abs() > 1e-6 {
+        return String::new();
+    }
+    if (-3.0..=4.0).contains(&power) { format!("{}", 10f64.powf(power)) } else { format!("1e{power}") }
+}
+
+fn draw<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<bool, LabError> {
+    // The fonts of the machine are not asked for: the same picture everywhere.
+    register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
+        .map_err(|_| LabError::Plot("the font cannot be read".into()))?;
+    let places = || table.rows.iter().filter_map(Row::place);
+    let (Some((x0, x1)), Some((y0, y1))) = (decades(places().map(|p| p.0)), decades(places().map(|p| p.1))) else {
+        return Ok(false);
+    };
+    area.fill(&WHITE).map_err(trouble)?;
+    let (chart_area, legend) = area.split_horizontally(SIZE.0 - LEGEND);
+    let mut chart = ChartBuilder::on(&chart_area)
+        .caption(table.about.title, (FONT, 26, &INK))
+        .margin(14)
+        .x_label_area_size(54)
+        .y_label_area_size(76)
+        .build_cartesian_2d((x0..x1).log_scale(), (y0..y1).log_scale())
+        .map_err(trouble)?;
+    chart
+        .configure_mesh()
+        .x_desc(format!("{} ({} x {} texels)", table.about.unit.label(), table.grid, table.grid))
+        .y_desc(format!("relative L2 error {}", table.about.error))
+        .x_label_formatter(&tick)
+        .y_label_formatter(&tick)
+        .label_style((FONT, 17, &INK))
+        .axis_desc_style((FONT, 19, &INK))
+        .bold_line_style(RGBColor(205, 208, 214))
+        .light_line_style(RGBColor(238, 240, 243))
+        .axis_style(INK)
+        .draw()
+        .map_err(trouble)?;
+    let frontier = table.frontier();
+    if (y0..y1).contains(&TARGET) {
+        let line = [(x0, TARGET), (x1, TARGET)];
+        chart.draw_series(DashedLineSeries::new(line, 6, 5, INK.mix(0.6).stroke_width(1))).map_err(trouble)?;
+        let label = Text::new(
+            "error 1 %",
+            (x0 * 1.05, TARGET * 1.04),
+            (FONT, 15, &INK)
+                .into_text_style(area)
+                .pos(text_anchor::Pos::new(text_anchor::HPos::Left, text_anchor::VPos::Bottom)),
+        );
+        chart.draw_series([label]).map_err(trouble)?;
+    }
+    // Under the methods, wide and light.
+    let mut steps = Vec::new();
+    for pair in frontier.windows(2) {
+        steps.extend([pair[0], (pair[1].0, pair[0].1), pair[1]]);
+    }
+    let gold = RGBColor(255, 205, 60).mix(0.65).stroke_width(9);
+    chart.draw_series([PathElement::new(steps, gold)]).map_err(trouble)?;
+    for (n, method) in table.methods().into_iter().enumerate() {
+        let colour = COLOURS[n % COLOURS.len()];
+        let rows: Vec<(&Row, (f64, f64))> = table.of(method).filter_map(|r| Some((r, r.place()?))).collect();
+        let line = rows.iter().map(|(_, place)| *place);
+        chart.draw_series(LineSeries::new(line, colour.stroke_width(2))).map_err(trouble)?;
+        for (row, (x, y)) in &rows {
+            if let Some(times) = row.millis {
+                let bar = vec![(times.min.max(x0), *y), (times.max.min(x1), *y)];
+                chart.draw_series([PathElement::new(bar, colour.mix(0.6).stroke_width(1))]).map_err(trouble)?;
+            }
+            let body = Polygon::new(corners(n), Look::of(row).fill(colour).filled());
+            let edge = PathElement::new(corners(n), colour.stroke_width(2));
+            chart.draw_series([EmptyElement::at((*x, *y)) + body + edge]).map_err(trouble)?;
+        }
+        if let Some((_, (x, y))) = rows.last() {
+            // To either side in turn: lines that end together are still told apart.
+            let beside = if n % 2 == 0 { (9, -20) } else { (-18, -20) };
+            let at = EmptyElement::at((*x, *y))
+                + Text::new((n + 1).to_string(), beside, (FONT, 16, &colour).into_text_style(area));
+            chart.draw_series([at]).map_err(trouble)?;
+        }
+    }
+    self::legend(&legend, table).map_err(trouble)?;
+    area.present().map_err(trouble)?;
+    Ok(true)
+}
+
+/// How a point is filled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Look {
+    Full,
+    Grey,
+    Hollow,
+}
+
+impl Look {
+    fn of(row: &Row) -> Look {
+        match (row.passes(), row.is_dominated) {
+            (false, _) => Look::Hollow,
+            (true, true) => Look::Grey,
+            (true, false) => Look::Full,
+        }
+    }
+
+    fn fill(self, colour: RGBColor) -> RGBColor {
+        match self {
+            Look::Full => colour,
+            Look::Grey => GREY,
+            Look::Hollow => WHITE,
+        }
+    }
+}
+
+/// Corners of the nth method's sign about (0, 0).
+fn corners(n: usize) -> Vec<(i32, i32)> {
+    let (count, turn) = [(16, 0.0), (4, 0.125), (3, -0.25), (4, 0.0), (3, 0.25), (6, 0.0)][n % 6];
+    let radius = [7.5, 9.0, 9.5, 8.5, 9.5, 8.0][n % 6];
+    let corner = |i: i32| {
+        let angle = std::f64::consts::TAU * (f64::from(i) / f64::from(count) + turn);
+        ((radius * angle.cos()).round() as i32, (radius * angle.sin()).round() as i32)
+    };
+    (0..=count).map(corner).collect()
+}
+
+fn legend<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
+    let text = |size: u32, colour: &RGBColor| (FONT, size).into_font().color(colour);
+    let (left, mut y) = (14, 62);
+    let sign = |y: i32, n: usize, colour: RGBColor, fill: RGBColor| {
+        let shift = |p: (i32, i32)| (p.0 + left + 10, p.1 + y + 9);
+        let at: Vec<(i32, i32)> = corners(n).into_iter().map(shift).collect();
+        area.draw(&Polygon::new(at.clone(), fill.filled()))?;
+        area.draw(&PathElement::new(at, colour.stroke_width(2)))
+    };
+    for (n, method) in table.methods().into_iter().enumerate() {
+        let colour = COLOURS[n % COLOURS.len()];
+        sign(y, n, colour, colour)?;
+        area.draw(&Text::new(format!("{}  {}", n + 1, method.title), (left + 32, y), text(17, &INK)))?;
+        let settings: Vec<String> = table.of(method).map(|r| r.point.setting.to_string()).collect();
+        if settings.len() > 1 {
+            area.draw(&Text::new(settings.join(", "), (left + 50, y + 19), text(14, &RGBColor(110, 114, 122))))?;
+        }
+        y += if settings.len() > 1 { 38 } else { 27 };
+    }
+    area.draw(&Text::new(format!("settings: {}", table.about.knob), (left, y + 4), text(15, &INK)))?;
+    y += 36;
+    for (fill, words) in
+        [(INK, "best at its cost"), (GREY, "another is cheaper and closer"), (WHITE, "fails a hard case")]
+    {
+        sign(y, 0, INK, fill)?;
+        area.draw(&Text::new(words, (left + 32, y), text(15, &INK)))?;
+        y += 25;
+    }
+    let gold = RGBColor(255, 205, 60).mix(0.65).stroke_width(9);
+    area.draw(&PathElement::new(vec![(left, y + 9), (left + 22, y + 9)], gold))?;
+    area.draw(&Text::new("the frontier", (left + 32, y), text(15, &INK)))?;
+    area.draw(&Text::new("bars: least and most of all turns", (left, y + 27), text(15, &INK)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn axes_are_whole_decades() {
+        assert_eq!(decades([0.02, 0.5].into_iter()), Some((0.01, 1.0)));
+        assert_eq!(decades([3.0].into_iter()), Some((1.0, 10.0)));
+        assert_eq!(decades(std::iter::empty()), None);
+        assert_eq!([1e-5, 0.01, 1.0, 100.0, 3.0].map(|v| tick(&v)), ["1e-5", "0.01", "1", "100", ""]);
+    }
+}

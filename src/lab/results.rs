@@ -1,0 +1,249 @@
+//! What was measured, as JSON lines: each record is written when it is known, so that whoever stops a run loses one point.
+
+use super::{Extent, LabError, Measured, Point, cost::Cost};
+use serde::{Deserialize, Serialize};
+use std::{
+    fs::{self, File, OpenOptions},
+    io::Write,
+    path::{Path, PathBuf},
+};
+
+/// Name of the file in the folder of a run.
+pub const FILE: &str = "results.jsonl";
+
+/// What has to be known to measure the same again.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Provenance {
+    pub device: String,
+    pub driver: String,
+    pub version: String,
+    pub extent: Extent,
+    pub repeats: u32,
+    pub seed: u64,
+}
+
+/// How wrong a point is, or why that is not known.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct ErrorRecord {
+    #[serde(flatten)]
+    pub point: Point,
+    pub measured: Option<Measured>,
+    pub trouble: Option<String>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CostRecord {
+    #[serde(flatten)]
+    pub point: Point,
+    pub cost: Cost,
+}
+
+/// A line of the file.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(tag = "record", rename_all = "snake_case")]
+pub enum Record {
+    Run(Provenance),
+    Error(ErrorRecord),
+    Cost(CostRecord),
+}
+
+/// Everything that is known.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Results {
+    pub runs: Vec<Provenance>,
+    pub errors: Vec<ErrorRecord>,
+    pub costs: Vec<CostRecord>,
+}
+
+impl Results {
+    pub fn add(&mut self, record: Record) {
+        match record {
+            Record::Run(run) => {
+                if !self.runs.contains(&run) {
+                    self.runs.push(run);
+                }
+            }
+            // What was measured last counts.
+            Record::Error(error) => {
+                self.errors.retain(|e| e.point != error.point);
+                self.errors.push(error);
+            }
+            Record::Cost(cost) => {
+                self.costs.retain(|c| c.point != cost.point);
+                self.costs.push(cost);
+            }
+        }
+    }
+
+    pub fn error(&self, point: &Point) -> Option<&ErrorRecord> {
+        self.errors.iter().find(|e| e.point == *point)
+    }
+
+    pub fn cost(&self, point: &Point) -> Option<&Cost> {
+        self.costs.iter().find(|c| c.point == *point).map(|c| &c.cost)
+    }
+
+    pub fn measured(&self, point: &Point) -> Option<&Measured> {
+        self.error(point)?.measured.as_ref()
+    }
+
+    fn records(&self) -> impl Iterator<Item = Record> {
+        let runs = self.runs.iter().cloned().map(Record::Run);
+        let errors = self.errors.iter().cloned().map(Record::Error);
+        runs.chain(errors).chain(self.costs.iter().cloned().map(Record::Cost))
+    }
+
+    /// The records of a folder; none where there is no file yet. A last line that was cut short is left out.
+    pub fn read(folder: &Path) -> Result<Results, LabError> {
+        let path = folder.join(FILE);
+        let text = match fs::read_to_string(&path) {
+            Ok(text) => text,
+            Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(Results::default()),
+            Err(e) => return Err(LabError::io("read", &path)(e)),
+        };
+        let mut results = Results::default();
+        for (n, line) in text.lines().enumerate().filter(|(_, l)| !l.trim().is_empty()) {
+            match serde_json::from_str(line) {
+                Ok(record) => results.add(record),
+                Err(_) if n + 1 == text.lines().count() && !text.ends_with('\n') => {}
+                Err(e) => return Err(LabError::Record { path, line: n + 1, reason: e.to_string() }),
+            }
+        }
+        Ok(results)
+    }
+
+    /// The records of several folders together.
+    pub fn merge(folders: &[PathBuf]) -> Result<Results, LabError> {
+        let mut all = Results::default();
+        for folder in folders {
+            let path = folder.join(FILE);
+            fs::metadata(&path).map_err(LabError::io("read", &path))?;
+            Self::read(folder)?.records().for_each(|record| all.add(record));
+        }
+        Ok(all)
+    }
+
+    /// Writes all of them anew.
+    pub fn write(&self, folder: &Path) -> Result<(), LabError> {
+        let path = folder.join(FILE);
+        let lines: String = self.records().map(|r| line(&r)).collect();
+        fs::create_dir_all(folder).map_err(LabError::io("make", folder))?;
+        fs::write(&path, lines).map_err(LabError::io("write", &path))
+    }
+}
+
+fn line(record: &Record) -> String {
+    // A record holds texts and numbers alone.
+    serde_json::to_string(record).unwrap_or_default() + "\n"
+}
+
+/// The file of a run, open at its end.
+pub struct Journal {
+    path: PathBuf,
+    file: File,
+}
+
+impl Journal {
+    /// Opens the file of a folder, makes both if need be, and gives what it holds. What another device, version or extent
+    /// measured is not mixed with this run's.
+    pub fn open(folder: &Path, run: &Provenance) -> Result<(Journal, Results), LabError> {
+        fs::create_dir_all(folder).map_err(LabError::io("make", folder))?;
+        let path = folder.join(FILE);
+        let mut results = Results::read(folder)?;
+        for before in &results.runs {
+            let extent = |e: Extent| if e == Extent::Quick { "--quick" } else { "a full run" };
+            for (what, theirs, ours) in [
+                ("device", before.device.as_str(), run.device.as_str()),
+                ("driver", &before.driver, &run.driver),
+                ("version", &before.version, &run.version),
+                ("extent", extent(before.extent), extent(run.extent)),
+            ] {
+                if theirs != ours {
+                    let (theirs, ours) = (theirs.to_owned(), ours.to_owned());
+                    return Err(LabError::OtherRun { path, what, theirs, ours });
+                }
+            }
+        }
+        let file = OpenOptions::new().append(true).create(true).open(&path).map_err(LabError::io("open", &path))?;
+        // A line that was cut short, whose record is not among the results, makes way for the next.
+        let bytes = fs::read(&path).map_err(LabError::io("read", &path))?;
+        let whole = bytes.iter().rposition(|b| *b == b'\n').map_or(0, |last| last + 1);
+        if whole < bytes.len() {
+            file.set_len(whole as u64).map_err(LabError::io("write", &path))?;
+        }
+        let mut journal = Journal { path, file };
+        if !results.runs.contains(run) {
+            journal.append(&Record::Run(run.clone()))?;
+            results.add(Record::Run(run.clone()));
+        }
+        Ok((journal, results))
+    }
+
+    /// Writes a record, whole, at once.
+    pub fn append(&mut self, record: &Record) -> Result<(), LabError> {
+        self.file.write_all(line(record).as_bytes()).map_err(LabError::io("write", &self.path))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::HardCase;
+
+    fn run() -> Provenance {
+        let text = |t: &str| t.to_owned();
+        Provenance {
+            device: text("d"),
+            driver: text("r"),
+            version: text("1"),
+            extent: Extent::Quick,
+            repeats: 7,
+            seed: 1,
+        }
+    }
+
+    fn error(setting: f64) -> Record {
+        let point = Point { study: "s".into(), method: "m".into(), setting, grid: 64 };
+        let measured = Measured::default().value("x", f64::NAN).hard(HardCase::at_most("case", f64::INFINITY, 1.0));
+        Record::Error(ErrorRecord { point, measured: Some(measured), trouble: None })
+    }
+
+    #[test]
+    fn a_run_that_was_cut_short_goes_on() {
+        let dir = tempfile::tempdir().unwrap();
+        let (mut journal, none) = Journal::open(dir.path(), &run()).unwrap();
+        assert_eq!(none.errors.len(), 0);
+        journal.append(&error(0.1)).unwrap();
+        journal.append(&error(0.2)).unwrap();
+        let path = dir.path().join(FILE);
+        let whole = fs::read(&path).unwrap();
+        fs::write(&path, &whole[..whole.len() - 9]).unwrap();
+        let (mut journal, results) = Journal::open(dir.path(), &run()).unwrap();
+        assert_eq!(results.errors.len(), 1);
+        assert!(results.errors[0].measured.as_ref().unwrap().values["x"].0.is_nan());
+        assert!(!results.errors[0].measured.as_ref().unwrap().hard[0].passed);
+        journal.append(&error(0.2)).unwrap();
+        assert_eq!(Results::read(dir.path()).unwrap().errors.len(), 2);
+    }
+
+    #[test]
+    fn another_devices_results_are_not_mixed_in_but_merged_on_demand() {
+        let (one, two) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        Journal::open(one.path(), &run()).unwrap().0.append(&error(1.0)).unwrap();
+        let other = Provenance { device: "e".into(), ..run() };
+        let refused = Journal::open(one.path(), &other).err().unwrap().to_string();
+        assert!(refused.contains("another run (device: d there, e here)"), "{refused}");
+        Journal::open(two.path(), &other).unwrap().0.append(&error(2.0)).unwrap();
+        let all = Results::merge(&[one.path().into(), two.path().into()]).unwrap();
+        assert_eq!((all.runs.len(), all.errors.len()), (2, 2));
+        assert!(Results::merge(&[one.path().join("none")]).is_err());
+    }
+
+    #[test]
+    fn a_line_that_is_no_record_is_named() {
+        let dir = tempfile::tempdir().unwrap();
+        fs::write(dir.path().join(FILE), "{}\nnonsense\n").unwrap();
+        let said = Results::read(dir.path()).unwrap_err().to_string();
+        assert!(said.contains("results.jsonl:1:"), "{said}");
+    }
+}

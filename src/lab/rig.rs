@@ -1,0 +1,104 @@
+//! A method on the device: set up, drawn for so many frames, read back.
+
+use super::{LabError, Setup, setup::pass};
+use crate::{
+    engine::{BuildOptions, Engine, FrameInputs, Pixels, Program},
+    gpu::Gpu,
+};
+
+/// Frames that may wait on the device at once.
+const FRAMES_IN_FLIGHT: u32 = 8;
+
+/// What measures: a device.
+pub struct Rig {
+    gpu: Gpu,
+}
+
+/// A method's project that is being drawn.
+pub struct Running {
+    engine: Engine,
+    name: String,
+    frame: i32,
+}
+
+/// Texels of a pass.
+pub struct Field(Pixels);
+
+impl Rig {
+    pub fn new(gpu: Gpu) -> Rig {
+        Rig { gpu }
+    }
+
+    pub fn gpu(&self) -> &Gpu {
+        &self.gpu
+    }
+
+    /// A setup's project as it is before frame 0.
+    pub fn open(&self, setup: &Setup) -> Result<Running, LabError> {
+        let (project, media) = setup.project()?;
+        let (width, height) = setup.size();
+        let mut engine = Engine::new(self.gpu.clone(), width, height)?;
+        let options = BuildOptions { wanted: setup.wanted().to_vec(), skip: true };
+        let built = Program::build(&self.gpu, &project, &media, &options);
+        engine.set_program(built.map_err(|e| LabError::build(setup.folder(), e))?.program)?;
+        Ok(Running { engine, name: setup.folder().into(), frame: 0 })
+    }
+
+    /// A setup's pass after so many frames.
+    pub fn after(&self, setup: &Setup, frames: u32, pass: &str) -> Result<Field, LabError> {
+        let mut running = self.open(setup)?;
+        running.frames(frames)?;
+        running.read(pass)
+    }
+}
+
+impl Running {
+    /// Draws so many frames at 60 a second.
+    pub fn frames(&mut self, count: u32) -> Result<(), LabError> {
+        for n in 1..=count {
+            self.draw()?;
+            if n % FRAMES_IN_FLIGHT == 0 {
+                self.engine.gpu().wait()?;
+            }
+        }
+        Ok(self.engine.gpu().wait()?)
+    }
+
+    /// Draws a frame; does not wait.
+    pub(super) fn draw(&mut self) -> Result<(), LabError> {
+        self.engine.draw(&FrameInputs::at_fixed_step(self.frame, 60.0))?;
+        self.frame += 1;
+        Ok(())
+    }
+
+    pub fn read(&mut self, name: &str) -> Result<Field, LabError> {
+        let lacks = |_| LabError::Setup { method: self.name.clone(), what: format!("pass {name}") };
+        self.engine.read(&pass(name)).map(Field).map_err(lacks)
+    }
+
+    pub(super) fn engine(&mut self) -> &mut Engine {
+        &mut self.engine
+    }
+}
+
+impl Field {
+    pub fn width(&self) -> usize {
+        self.0.width as usize
+    }
+
+    /// One component of every texel, row 0 first.
+    pub fn component(&self, index: usize) -> Vec<f64> {
+        self.0.texels.iter().map(|t| f64::from(t[index])).collect()
+    }
+
+    /// Two components, one field behind the other.
+    pub fn components(&self, first: usize, second: usize) -> Vec<f64> {
+        let mut both = self.component(first);
+        both.extend(self.component(second));
+        both
+    }
+
+    pub fn texels(&self) -> &[[f32; 4]] {
+        &self.0.texels
+    }
+}

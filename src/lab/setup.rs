@@ -1,0 +1,210 @@
+//! A method's project, with everything set for one point.
+
+use super::LabError;
+use crate::{
+    media::{MediaSet, TexelFormat, Texels},
+    project::{self, Fill, KnobValue, Origin, PassFormat, PassId, Project},
+};
+use include_dir::{Dir, include_dir};
+use std::{path::PathBuf, sync::Arc};
+
+static METHODS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/assets/lab");
+
+/// How the texels of all passes are to be stored, where that is asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Storage {
+    AsWritten,
+    /// Every 32-bit float format becomes the 16-bit one of as many components.
+    Half,
+}
+
+/// Adds passes to a project.
+type Build = Arc<dyn Fn(&mut Project) + Send + Sync>;
+
+/// A project of `assets/lab` or a preset, at a size and with its settings.
+#[derive(Clone)]
+pub struct Setup {
+    folder: &'static str,
+    size: (u32, u32),
+    knobs: Vec<(String, KnobValue)>,
+    defines: Vec<(&'static str, String)>,
+    steps: Vec<(&'static str, u32)>,
+    initial: Vec<(PassId, Fill)>,
+    states: Vec<(PathBuf, Arc<Texels>)>,
+    storage: Storage,
+    wanted: Vec<PassId>,
+    built: Option<Build>,
+}
+
+impl Setup {
+    /// `folder`: of `assets/lab`, or a preset's name. The pass `field` is what is looked at, unless [`Setup::wants`] says.
+    pub fn new(folder: &'static str, size: (u32, u32)) -> Setup {
+        Setup {
+            folder,
+            size,
+            knobs: Vec::new(),
+            defines: Vec::new(),
+            steps: Vec::new(),
+            initial: Vec::new(),
+            states: Vec::new(),
+            storage: Storage::AsWritten,
+            wanted: vec![pass("field")],
+            built: None,
+        }
+    }
+
+    pub fn folder(&self) -> &'static str {
+        self.folder
+    }
+
+    pub fn size(&self) -> (u32, u32) {
+        self.size
+    }
+
+    pub fn wanted(&self) -> &[PassId] {
+        &self.wanted
+    }
+
+    /// Value of an `#iUniform`.
+    #[must_use]
+    pub fn knob(mut self, name: &str, value: f64) -> Self {
+        self.knobs.push((name.into(), KnobValue::Float(value)));
+        self
+    }
+
+    /// A macro that stands before Common: what differs between methods of one project.
+    #[must_use]
+    pub fn define(mut self, name: &'static str, value: impl ToString) -> Self {
+        self.defines.push((name, value.to_string()));
+        self
+    }
+
+    /// Steps of a group in a frame.
+    #[must_use]
+    pub fn steps(mut self, group: &'static str, steps: u32) -> Self {
+        self.steps.push((group, steps));
+        self
+    }
+
+    /// What a pass holds before frame 0, as a GLSL expression, in place of what the project says.
+    #[must_use]
+    pub fn initial(mut self, name: &str, expression: &str) -> Self {
+        self.initial.push((pass(name), Fill::expression(expression)));
+        self
+    }
+
+    /// What a pass holds before frame 0, texel for texel from the bottom left.
+    #[must_use]
+    pub fn state(mut self, name: &str, texels: &[[f32; 4]]) -> Self {
+        let path = PathBuf::from(format!("{name}.npy"));
+        let (width, height) = self.size;
+        let bytes = bytemuck::cast_slice(texels).to_vec();
+        self.states.push((path.clone(), Arc::new(Texels { width, height, format: TexelFormat::Rgba32Float, bytes })));
+        self.initial.push((pass(name), Fill::file(path)));
+        self
+    }
+
+    #[must_use]
+    pub fn storage(mut self, storage: Storage) -> Self {
+        self.storage = storage;
+        self
+    }
+
+    /// The passes whose texels are looked at.
+    #[must_use]
+    pub fn wants(mut self, passes: &[&str]) -> Self {
+        self.wanted = passes.iter().map(|name| pass(name)).collect();
+        self
+    }
+
+    /// Passes that depend on the size or the setting are added in code.
+    #[must_use]
+    pub fn built(mut self, build: impl Fn(&mut Project) + Send + Sync + 'static) -> Self {
+        self.built = Some(Arc::new(build));
+        self
+    }
+
+    /// The project as the engine gets it.
+    pub fn project(&self) -> Result<(Project, MediaSet), LabError> {
+        let lacks = |what: String| LabError::Setup { method: self.folder.into(), what };
+        let mut project = match METHODS.get_dir(self.folder) {
+            Some(dir) => project::presets::load_embedded(self.folder, dir)?.project,
+            None => project::presets::load(self.folder)?.project,
+        };
+        if let Some(build) = &self.built {
+            build(&mut project);
+        }
+        if !self.defines.is_empty() {
+            let common = project.common.as_mut().ok_or_else(|| lacks("common.glsl to define macros in".into()))?;
+            let lines: String = self.defines.iter().map(|(name, value)| format!("#define {name} {value}\n")).collect();
+            common.text = (lines + &common.text).into();
+        }
+        let known = project.knobs();
+        for (name, value) in &self.knobs {
+            known.get(name).ok_or_else(|| lacks(format!("knob {name}")))?;
+            project.knob_values.insert(name.clone(), value.clone());
+        }
+        for (name, steps) in &self.steps {
+            let group = project.groups.iter_mut().find(|g| g.name == *name);
+            group.ok_or_else(|| lacks(format!("group {name}")))?.steps = *steps;
+        }
+        for (id, fill) in &self.initial {
+            let pass = project.pass_mut(id).ok_or_else(|| lacks(id.title()))?;
+            pass.settings.initial = Some(fill.clone());
+        }
+        if self.storage == Storage::Half {
+            for pass in &mut project.passes {
+                pass.settings.format = half(pass.settings.format);
+            }
+        }
+        project.origin = Origin::Unsaved;
+        let mut media = MediaSet::new();
+        for (path, texels) in &self.states {
+            media.insert_fill(path, texels.clone());
+        }
+        Ok((project, media))
+    }
+}
+
+/// A buffer by the name its file has.
+pub fn pass(name: &str) -> PassId {
+    PassId::parse(&format!("buffer_{name}")).unwrap_or(PassId::Image)
+}
+
+fn half(format: PassFormat) -> PassFormat {
+    match format {
+        PassFormat::R32f => PassFormat::R16f,
+        PassFormat::Rg32f => PassFormat::Rg16f,
+        PassFormat::Rgba32f => PassFormat::Rgba16f,
+        other => other,
+    }
+}
+
+/// A count of steps as frames of equally many: (frames, steps a frame), as many a frame as divide it and are at most `most`.
+pub fn frames_of(total: u32, most: u32) -> (u32, u32) {
+    let steps = (1..=most.max(1)).rev().find(|n| total.is_multiple_of(*n)).unwrap_or(1);
+    (total / steps, steps)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_are_shared_out_exactly() {
+        for (total, most) in [(2000, 32), (625, 32), (157, 32), (1, 1), (7, 0)] {
+            let (frames, steps) = frames_of(total, most);
+            assert_eq!(frames * steps, total);
+            assert!(steps <= most.max(1));
+        }
+        assert_eq!(frames_of(2000, 32), (80, 25));
+    }
+
+    #[test]
+    fn what_a_project_does_not_have_is_named() {
+        let said = |setup: Setup| setup.project().unwrap_err().to_string();
+        assert!(said(Setup::new("floor", (8, 8)).knob("nope", 1.0)).contains("has no knob nope"));
+        assert!(said(Setup::new("floor", (8, 8)).steps("nope", 1)).contains("has no group nope"));
+        assert!(said(Setup::new("floor", (8, 8)).initial("nope", "vec4(0)")).contains("has no Buffer nope"));
+    }
+}

@@ -1,0 +1,75 @@
+//! The studies. A new one is a file here with its [`Study`], and its projects in `assets/lab`.
+
+mod advection;
+mod blur;
+pub mod cycle;
+mod diffusion;
+pub mod fluid;
+pub mod gray_scott;
+pub mod poisson;
+
+use super::{LabError, Study};
+use crate::project::{listed, nearest};
+
+/// Every study, in the order of the report.
+pub fn all() -> [&'static dyn Study; 6] {
+    [
+        &diffusion::Diffusion,
+        &advection::Advection,
+        &gray_scott::GrayScott,
+        &poisson::Poisson,
+        &fluid::Fluid,
+        &blur::Blur,
+    ]
+}
+
+/// The studies of these names; all for none.
+pub fn named(names: &[String]) -> Result<Vec<&'static dyn Study>, LabError> {
+    if names.is_empty() {
+        return Ok(all().to_vec());
+    }
+    let known: Vec<&str> = all().iter().map(|s| s.about().name).collect();
+    let find = |name: &String| {
+        all().into_iter().find(|s| s.about().name == name).ok_or_else(|| LabError::NoStudy {
+            name: name.clone(),
+            near: nearest(name, known.iter().copied()).map(str::to_owned),
+            known: listed(&known),
+        })
+    };
+    names.iter().map(find).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::Extent;
+
+    #[test]
+    fn every_study_keeps_the_form() {
+        for study in all() {
+            let about = study.about();
+            assert!(about.name.chars().all(|c| c.is_ascii_lowercase() || c == '-'), "{}", about.name);
+            for extent in [Extent::Quick, Extent::Full] {
+                let grids = study.grids(extent);
+                assert!(grids.len() >= 3 && grids.windows(2).all(|g| g[1] == 2 * g[0]), "{}: {grids:?}", about.name);
+                assert!(grids.contains(&study.main_grid(extent)));
+                let mut points = study.points(extent);
+                let count = points.len();
+                points.dedup();
+                assert_eq!(points.len(), count, "{}", about.name);
+                for point in points {
+                    let method = study.methods().iter().find(|m| m.name == point.method).unwrap();
+                    assert!(method.settings.contains(&method.usual), "{} {}", about.name, method.name);
+                    study.setup(&point).project().unwrap_or_else(|e| panic!("{point:?}: {e}"));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_slip_in_a_name_is_helped() {
+        let said = named(&["difusion".into()]).err().unwrap().to_string();
+        assert!(said.contains("did you mean diffusion?") && said.contains("poisson"), "{said}");
+        assert_eq!(named(&[]).unwrap().len(), all().len());
+    }
+}

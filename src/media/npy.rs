@@ -1,0 +1,149 @@
+//! NumPy's `.npy` as texels: an array of shape (height, width) or (height, width, components), row 0 at the bottom.
+//!
+//! Format: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>, versions 1 to 3, C order. What an array lacks
+//! of four components is 0, alpha 1. Bytes (uint8) count as 0 to 255 of 1, as in a picture.
+
+use super::{MediaError, TexelFormat, Texels};
+use crate::project::limits;
+use std::path::Path;
+
+const MAGIC: &[u8] = b"\x93NUMPY";
+
+/// Texels of the array in the file `path`, which may take `room` bytes.
+pub(super) fn read(bytes: &[u8], path: &Path, room: u64) -> Result<Texels, MediaError> {
+    decode(bytes, room).map_err(|reason| MediaError::Npy { path: path.to_owned(), reason })
+}
+
+#[derive(Clone, Copy)]
+enum Number {
+    U8,
+    F32,
+    F64,
+}
+
+fn decode(bytes: &[u8], room: u64) -> Result<Texels, String> {
+    let cut = || "the file is cut short".to_owned();
+    let rest = bytes.strip_prefix(MAGIC).ok_or("not an .npy file: it does not begin with \\x93NUMPY")?;
+    let &[major, _, ref rest @ ..] = rest else { return Err(cut()) };
+    let (length, rest) = match major {
+        1 => rest.split_first_chunk::<2>().map(|(n, rest)| (usize::from(u16::from_le_bytes(*n)), rest)),
+        2 | 3 => rest.split_first_chunk::<4>().map(|(n, rest)| (u32::from_le_bytes(*n) as usize, rest)),
+        _ => return Err(format!("version {major} of the format is not known; versions 1 to 3 are")),
+    }
+    .ok_or_else(cut)?;
+    let (header, data) = rest.split_at_checked(length).ok_or_else(cut)?;
+    let header = String::from_utf8_lossy(header);
+    let number = match text(&header, "descr").ok_or("its header names no type of numbers")? {
+        "<f4" => Number::F32,
+        "<f8" => Number::F64,
+        "|u1" => Number::U8,
+        other => return Err(format!("an array of type {other}, not <f4, <f8 or |u1")),
+    };
+    if entry(&header, "fortran_order").is_some_and(|value| value.starts_with("True")) {
+        return Err("an array in Fortran order; numpy.ascontiguousarray gives the other".into());
+    }
+    let shape = shape(&header).ok_or("its header gives no shape")?;
+    let (height, width, components) = match shape[..] {
+        [height, width] => (height, width, 1),
+        [height, width, components] if (1..=4).contains(&components) => (height, width, components),
+        _ => return Err(format!("an array of shape {shape:?}, not (height, width) or (height, width, 1 to 4)")),
+    };
+    if height == 0 || width == 0 {
+        return Err("the array has no texels".into());
+    }
+    let most = (limits::PICTURE_BYTES.min(room) / TexelFormat::Rgba32Float.bytes() as u64) as usize;
+    let texels = height.checked_mul(width).filter(|n| *n <= most);
+    let texels = texels.ok_or_else(|| format!("{width}x{height} texels; {most} are the most that are read here"))?;
+    let size = match number {
+        Number::U8 => 1,
+        Number::F32 => 4,
+        Number::F64 => 8,
+    };
+    let data = data.get(..texels * components * size).ok_or_else(cut)?;
+    let value = |i: usize| match number {
+        Number::U8 => f32::from(data[i]) / 255.0,
+        Number::F32 => bytemuck::pod_read_unaligned(&data[4 * i..4 * i + 4]),
+        Number::F64 => bytemuck::pod_read_unaligned::<f64>(&data[8 * i..8 * i + 8]) as f32,
+    };
+    let mut out = Vec::with_capacity(texels * 16);
+    for texel in 0..texels {
+        let mut rgba = [0.0, 0.0, 0.0, 1.0f32];
+        for (c, component) in rgba.iter_mut().enumerate().take(components) {
+            *component = value(texel * components + c);
+        }
+        out.extend_from_slice(bytemuck::bytes_of(&rgba));
+    }
+    Ok(Texels { width: width as u32, height: height as u32, format: TexelFormat::Rgba32Float, bytes: out })
+}
+
+/// What stands behind a key of the header, which is a Python dictionary.
+fn entry<'h>(header: &'h str, key: &str) -> Option<&'h str> {
+    let at = [format!("'{key}'"), format!("\"{key}\"")].iter().find_map(|k| Some(header.find(k)? + k.len()))?;
+    Some(header[at..].trim_start().strip_prefix(':')?.trim_start())
+}
+
+fn text<'h>(header: &'h str, key: &str) -> Option<&'h str> {
+    let value = entry(header, key)?;
+    let quote = value.chars().next().filter(|c| matches!(c, '\'' | '"'))?;
+    value[1..].split(quote).next()
+}
+
+fn shape(header: &str) -> Option<Vec<usize>> {
+    let inner = entry(header, "shape")?.strip_prefix('(')?.split(')').next()?;
+    inner.split(',').map(str::trim).filter(|n| !n.is_empty()).map(|n| n.parse().ok()).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn file(header: &str, data: &[u8]) -> Vec<u8> {
+        let mut out = MAGIC.to_vec();
+        out.extend([1, 0]);
+        out.extend((header.len() as u16).to_le_bytes());
+        out.extend(header.as_bytes());
+        out.extend(data);
+        out
+    }
+
+    fn floats(texels: &Texels) -> Vec<f32> {
+        bytemuck::pod_collect_to_vec::<u8, f32>(&texels.bytes)
+    }
+
+    #[test]
+    fn every_type_and_shape_is_read() {
+        let f4: Vec<u8> = [1.0f32, 2.0, 3.0, 4.0].iter().flat_map(|x| x.to_le_bytes()).collect();
+        let read =
+            decode(&file("{'descr': '<f4', 'fortran_order': False, 'shape': (1, 2, 2), }\n", &f4), u64::MAX).unwrap();
+        assert_eq!((read.width, read.height), (2, 1));
+        assert_eq!(floats(&read), [1.0, 2.0, 0.0, 1.0, 3.0, 4.0, 0.0, 1.0]);
+        let f8: Vec<u8> = [0.5f64, -1.0].iter().flat_map(|x| x.to_le_bytes()).collect();
+        let read = decode(&file("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 1), }", &f8), u64::MAX).unwrap();
+        assert_eq!(floats(&read), [0.5, 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 1.0]);
+        let read =
+            decode(&file("{\"descr\": \"|u1\", 'fortran_order': False, 'shape': (1,1,4)}", &[255, 0, 51, 0]), u64::MAX);
+        assert_eq!(floats(&read.unwrap()), [1.0, 0.0, 0.2, 0.0]);
+    }
+
+    #[test]
+    fn what_is_no_array_of_texels_is_a_clear_error() {
+        let good = "{'descr': '<f4', 'fortran_order': False, 'shape': (1, 2), }";
+        let f4 = [0u8; 8];
+        for (bytes, expected) in [
+            (file(good, &f4)[..40].to_vec(), "cut short"),
+            (file(good, &f4[..7]), "cut short"),
+            (b"\x93NUMPY".to_vec(), "cut short"),
+            (b"hello".to_vec(), "does not begin"),
+            (file(&good.replace("<f4", "<i8"), &f4), "type <i8"),
+            (file(&good.replace("False", "True"), &f4), "Fortran"),
+            (file(&good.replace("(1, 2)", "(2,)"), &f4), "shape [2]"),
+            (file(&good.replace("(1, 2)", "(1, 2, 5)"), &f4), "shape [1, 2, 5]"),
+            (file(&good.replace("(1, 2)", "(0, 2)"), &f4), "no texels"),
+            (file(&good.replace("(1, 2)", "(4294967296, 4294967296)"), &f4), "are the most"),
+            (file(&good.replace("(1, 2)", "(-1, 2)"), &f4), "no shape"),
+        ] {
+            let error = decode(&bytes, u64::MAX).unwrap_err();
+            assert!(error.contains(expected), "{error}");
+        }
+    }
+}

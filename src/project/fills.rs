@@ -1,0 +1,187 @@
+//! Texels of a pass that its own program does not draw: what it holds before frame 0, and its outermost texels.
+
+use super::{Pass, Project};
+use crate::diag::{SourceId, Span};
+use std::{ops::Range, path::PathBuf, sync::Arc};
+
+/// What texels are filled with, and where `eddy.toml` says so.
+#[derive(Clone, Debug)]
+pub struct Fill {
+    pub value: FillValue,
+    /// `None`: made in code.
+    pub written: Option<Written>,
+}
+
+/// A value for every texel of a pass.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FillValue {
+    /// A GLSL expression of type `vec4`. It sees Common, the site's uniforms, and `fragCoord` as `mainImage` has it.
+    Expression(Arc<str>),
+    /// A picture or a `.npy` file, by its name in the project's folder. Where its size is the pass's it is taken
+    /// texel for texel, else stretched over the pass with linear filtering.
+    File(PathBuf),
+}
+
+/// A place in a manifest.
+#[derive(Clone, Debug)]
+pub struct Written {
+    /// The whole text of `eddy.toml`.
+    pub manifest: Arc<str>,
+    /// Bytes of the value, its quotes among them.
+    pub range: Range<usize>,
+}
+
+/// Two fills are the same if they fill with the same, wherever they are written.
+impl PartialEq for Fill {
+    fn eq(&self, other: &Fill) -> bool {
+        self.value == other.value
+    }
+}
+
+impl Fill {
+    pub fn expression(text: impl Into<Arc<str>>) -> Fill {
+        Fill { value: FillValue::Expression(text.into()), written: None }
+    }
+
+    pub fn file(path: impl Into<PathBuf>) -> Fill {
+        Fill { value: FillValue::File(path.into()), written: None }
+    }
+
+    /// The text that diagnostics about it point into, and where in it the value stands: the manifest, where that holds the value
+    /// as it is; else the value alone, at the manifest's line.
+    fn text(&self) -> (Arc<str>, Range<usize>) {
+        let value: Arc<str> = match &self.value {
+            FillValue::Expression(text) => text.clone(),
+            FillValue::File(path) => path.to_string_lossy().into(),
+        };
+        let Some(Written { manifest, range }) = &self.written else { return (value.clone(), 0..value.len()) };
+        let written = manifest.get(range.clone()).unwrap_or_default();
+        if let Some(at) = written.find(&*value).map(|at| range.start + at) {
+            return (manifest.clone(), at..at + value.len());
+        }
+        // Escapes: what is compiled is not what is written.
+        let before = &manifest[..range.start.min(manifest.len())];
+        let lines = before.matches('\n').count();
+        let text = "\n".repeat(lines) + &value;
+        (text.into(), lines..lines + value.len())
+    }
+}
+
+/// The outermost texels of a pass, overwritten after each draw.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Boundary {
+    /// Texels from each edge, at least 1.
+    pub width: u32,
+    pub value: Fill,
+}
+
+impl Boundary {
+    /// The texels of a picture that it covers, as at most four rectangles (x, y, width, height) that do not overlap.
+    pub fn rectangles(width: u32, (w, h): (u32, u32)) -> Vec<[u32; 4]> {
+        if 2 * u64::from(width) >= u64::from(w.min(h)) {
+            return vec![[0, 0, w, h]];
+        }
+        let inner = h - 2 * width;
+        vec![[0, 0, w, width], [0, h - width, w, width], [0, width, width, inner], [w - width, width, width, inner]]
+    }
+}
+
+/// Which of a pass's fills.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum FillKind {
+    Initial,
+    Boundary,
+}
+
+impl FillKind {
+    pub const ALL: [FillKind; 2] = [FillKind::Initial, FillKind::Boundary];
+
+    /// As `eddy.toml` spells it.
+    pub fn key(self) -> &'static str {
+        match self {
+            FillKind::Initial => "initial",
+            FillKind::Boundary => "boundary",
+        }
+    }
+}
+
+impl Pass {
+    pub fn fill(&self, kind: FillKind) -> Option<&Fill> {
+        match kind {
+            FillKind::Initial => self.settings.initial.as_ref(),
+            FillKind::Boundary => self.settings.boundary.as_ref().map(|b| &b.value),
+        }
+    }
+
+    pub fn fill_mut(&mut self, kind: FillKind) -> Option<&mut Fill> {
+        match kind {
+            FillKind::Initial => self.settings.initial.as_mut(),
+            FillKind::Boundary => self.settings.boundary.as_mut().map(|b| &mut b.value),
+        }
+    }
+}
+
+/// A text to compile, and which of its bytes are a fill's value.
+pub struct FillText {
+    pub id: SourceId,
+    pub text: Arc<str>,
+    pub range: Range<usize>,
+}
+
+impl Project {
+    /// Every fill with the index of its pass, in the order of [`Project::sources`].
+    pub fn fills(&self) -> impl Iterator<Item = (usize, FillKind, &Fill)> {
+        self.passes.iter().enumerate().flat_map(|(index, pass)| {
+            FillKind::ALL.into_iter().filter_map(move |kind| Some((index, kind, pass.fill(kind)?)))
+        })
+    }
+
+    /// The text a fill of `passes[pass]` is written in, by its id in [`Project::sources`].
+    pub fn fill_text(&self, pass: usize, kind: FillKind) -> Option<FillText> {
+        let first = 1 + self.passes.len() + self.stages().count() + self.includes.len();
+        let (n, (.., fill)) = self.fills().enumerate().find(|(_, (p, k, _))| (*p, *k) == (pass, kind))?;
+        let (text, range) = fill.text();
+        Some(FillText { id: SourceId((first + n) as u16), text, range })
+    }
+
+    /// Where a fill is written.
+    pub fn fill_span(&self, pass: usize, kind: FillKind) -> Option<Span> {
+        let FillText { id, range, .. } = self.fill_text(pass, kind)?;
+        Some(Span::new(id, range))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rectangles_cover_the_edge_once_and_nothing_else() {
+        for (width, size) in
+            [(1, (5, 4)), (2, (5, 5)), (2, (4, 9)), (3, (3, 3)), (1, (1, 7)), (1, (3, 3)), (9, (64, 20))]
+        {
+            let mut hits = vec![0; (size.0 * size.1) as usize];
+            for [x, y, w, h] in Boundary::rectangles(width, size) {
+                assert!(w > 0 && h > 0, "{width} {size:?}");
+                for (x, y) in (y..y + h).flat_map(|y| (x..x + w).map(move |x| (x, y))) {
+                    hits[(y * size.0 + x) as usize] += 1;
+                }
+            }
+            for (i, hit) in hits.into_iter().enumerate() {
+                let (x, y) = (i as u32 % size.0, i as u32 / size.0);
+                let edge = x.min(y).min(size.0 - 1 - x).min(size.1 - 1 - y) < width;
+                assert_eq!(hit, i32::from(edge), "{width} {size:?}: {x} {y}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_value_with_escapes_keeps_its_line() {
+        let manifest: Arc<str> = "a = 1\nb = \"x\\u0041y\"\n".into();
+        let written = Some(Written { manifest: manifest.clone(), range: 10..20 });
+        let fill = Fill { written: written.clone(), ..Fill::expression("xAy") };
+        assert_eq!(fill.text(), ("\nxAy".into(), 1..4));
+        let fill = Fill { written, ..Fill::expression("u0041y") };
+        assert_eq!(fill.text(), (manifest, 13..19));
+    }
+}
