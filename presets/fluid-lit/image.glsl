@@ -37,7 +37,7 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     vec3 shown = 0.30 * body;
     shown += phong(n, toEye, normalize(vec3(-0.70, 0.75, 0.75)), vec3(1.00, 0.95, 0.88), body);
     shown += phong(n, toEye, normalize(vec3(0.95, -0.45, 0.50)), vec3(0.18, 0.30, 0.52), body);
-    float fresnel = 0.10 + 0.90 * pow(1.0 - max(dot(n, toEye), 0.0), 5.0);
+    float fresnel = 0.10 + 0.90 * pow(1.0 - clamp(dot(n, toEye), 0.0, 1.0), 5.0);
     shown += fresnel * 3.0 * studio(reflect(-toEye, n));
     shown *= 1.0 - 0.35 * min(dot(uv, uv), 1.0);
     shown = pow(1.0 - exp(-1.5 * shown), vec3(1.0 / 1.9));

@@ -37,7 +37,7 @@ pub enum Next {
 pub fn main() -> Next {
     let Cli { window, command } = Cli::parse();
     let Some(command) = command else { return Next::Window(window) };
-    if matches!(command, Command::Render(_) | Command::Bench(_)) {
+    if matches!(command, Command::Render(_) | Command::Bench(_) | Command::Lab(_)) {
         quiet::ask_for_no_wayland();
     }
     let worker = std::thread::Builder::new().name("main".into()).stack_size(STACK_BYTES);
