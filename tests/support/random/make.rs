@@ -475,8 +475,13 @@ impl Maker {
         let op = if down { Op::Sub } else { Op::Add };
         let step = Stmt::Expr(Expr::AssignOp(op, place, Box::new(number(by, base)), ty));
         let at = self.rng.below(body.len() + 1);
-        let step = if self.rng.percent(25) { Stmt::If(self.condition(), vec![step], Vec::new()) } else { step };
-        body.insert(at, step);
+        if self.rng.percent(25) {
+            // First: what the body declares hides names that the condition may use.
+            let cond = self.condition();
+            body.insert(0, Stmt::If(cond, vec![step], Vec::new()));
+        } else {
+            body.insert(at, step);
+        }
         body.insert(0, Stmt::Fuel);
         Stmt::While(test, body)
     }
