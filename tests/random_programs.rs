@@ -3,7 +3,7 @@
 //! interpreter gives.
 //!
 //! `EDDY_RANDOM_PROGRAMS` says how many, `EDDY_RANDOM_SEED` which is the first. A program that fails is printed with
-//! its seed, made as small as statements can be left out of it.
+//! its seed, made as small as statements can be left out of it; a single one is printed before it is drawn.
 
 #[path = "support/random/mod.rs"]
 mod random;
@@ -175,6 +175,10 @@ fn programs_compute_what_they_say() {
                         return;
                     }
                     let case = Case::of(seed);
+                    if count == 1 {
+                        // Before it is drawn: a driver may not come back.
+                        println!("{}", case.text(Form::Plain));
+                    }
                     if case.fault(&gpu).is_some() {
                         let case = case.shrunk(&gpu);
                         let fault = case.fault(&gpu).expect("it stays");
