@@ -12,8 +12,8 @@ use super::{LabError, Study};
 use crate::project::{listed, nearest};
 
 /// Every study, in the order of the report.
-pub fn all() -> [&'static dyn Study; 6] {
-    [
+pub fn all() -> Vec<&'static dyn Study> {
+    vec![
         &diffusion::Diffusion,
         &advection::Advection,
         &gray_scott::GrayScott,
@@ -26,7 +26,7 @@ pub fn all() -> [&'static dyn Study; 6] {
 /// The studies of these names; all for none.
 pub fn named(names: &[String]) -> Result<Vec<&'static dyn Study>, LabError> {
     if names.is_empty() {
-        return Ok(all().to_vec());
+        return Ok(all());
     }
     let known: Vec<&str> = all().iter().map(|s| s.about().name).collect();
     let find = |name: &String| {
