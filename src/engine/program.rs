@@ -249,7 +249,7 @@ fn compile(
             opaque_uniforms: gpu.recompiles_for_uniforms,
             may_discard: gpu.keeps_denormals && has_small_floats,
             nan_angle: gpu.nan_angle,
-            zero_loops: gpu.wants_zero_loops,
+            array_loops: gpu.wants_array_loops,
         };
         let mut fills: CompiledFills = [None, None];
         let mut said = Vec::new();

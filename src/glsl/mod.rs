@@ -148,9 +148,9 @@ pub struct Driver {
     pub may_discard: bool,
     /// The angle of (0, 0) is no number on the device: `atan` asks for another one's.
     pub nan_angle: bool,
-    /// Long arrays get the zeros that they begin with by loops ([`Compiled::filled_arrays`]): Mesa's lavapipe takes minutes to
-    /// compile an initialiser of some hundred scalars.
-    pub zero_loops: bool,
+    /// Long arrays are filled, also with the zeros that they begin with, and copied by loops ([`Compiled::filled_arrays`]):
+    /// Mesa's lavapipe takes minutes to compile stores of some hundred scalars one by one.
+    pub array_loops: bool,
 }
 
 /// A pass that compiled.
@@ -166,7 +166,7 @@ pub struct Compiled {
     /// Bytes that the module reads at [`interface::KNOB_BINDING`]; 0: it declares nothing there.
     pub knob_bytes: u64,
     /// Of a variable without an initialiser, an array of at least so many scalars is written before anything reads it, so that it
-    /// need not begin with zeros. `None`: that was not asked for ([`Driver::zero_loops`]), or no array is that long.
+    /// need not begin with zeros. `None`: that was not asked for ([`Driver::array_loops`]), or no array is that long.
     pub filled_arrays: Option<u32>,
     /// Warnings and notes; never an error.
     pub diagnostics: Vec<Diagnostic>,

@@ -74,7 +74,7 @@ pub struct Gpu {
     pub nan_angle: bool,
     /// Zeros that long arrays begin with have to be written by loops, and their initialisers are then left out: lavapipe makes
     /// one block of one store a scalar of an initialiser, for which LLVM takes time that grows with about the cube of them.
-    pub wants_zero_loops: bool,
+    pub wants_array_loops: bool,
     /// Timestamps can be written between passes.
     pub has_timestamps: bool,
     pub(super) runtime_checks: bool,
@@ -167,7 +167,7 @@ impl Gpu {
             filters_float32: features.contains(wgpu::Features::FLOAT32_FILTERABLE),
             recompiles_for_uniforms: is_lavapipe,
             keeps_denormals: is_lavapipe,
-            wants_zero_loops: features.contains(wgpu::Features::PASSTHROUGH_SHADERS),
+            wants_array_loops: features.contains(wgpu::Features::PASSTHROUGH_SHADERS),
             nan_angle: info.backend == wgpu::Backend::Dx12,
             runtime_checks: options.runtime_checks,
             fences: is_lavapipe.then(|| super::pass::FenceKeeper::new(&device)),

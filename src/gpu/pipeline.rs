@@ -126,7 +126,7 @@ pub(super) fn shader_module(
     groups: &[Vec<(u32, Binding)>],
 ) -> wgpu::ShaderModule {
     let Shader { module, filled_arrays } = shader;
-    if let Some(filled_arrays) = filled_arrays.filter(|_| gpu.wants_zero_loops && !gpu.runtime_checks)
+    if let Some(filled_arrays) = filled_arrays.filter(|_| gpu.wants_array_loops && !gpu.runtime_checks)
         && let Some(made) = spirv::shader_module(gpu, label, &module, filled_arrays, groups)
     {
         return made;

@@ -221,13 +221,16 @@ impl Builder<'_, '_> {
                 continue;
             }
             let in_place = self.cx.arguments.reads_in_place(hir, local);
-            if !param.kind.copies_out() && !in_place {
+            // A copy that becomes the callee's own variable.
+            let is_moved = !param.kind.copies_out() && !in_place && self.cx.is_long(param.ty);
+            if !param.kind.copies_out() && !in_place && !is_moved {
                 arguments.push(self.value(arg));
                 continue;
             }
             // Passed by no other `out` or `inout` parameter, and changed by no later argument, the copy and the
             // variable cannot be told apart.
             if let Some((local, pointer)) = self.whole_local(arg)
+                && !is_moved
                 && last_effect <= Some(i)
                 && outs[outs.partition_point(|out| out.0 < local)..]
                     .iter()
@@ -237,7 +240,7 @@ impl Builder<'_, '_> {
                 arguments.push(pointer);
                 continue;
             }
-            if in_place {
+            if in_place || is_moved {
                 let value = self.value(arg);
                 let copy = self.temporary(param.ty);
                 self.store(copy, value);
@@ -274,9 +277,16 @@ impl Builder<'_, '_> {
         }
     }
 
-    fn call_apart(&mut self, instance: Instance, arguments: Vec<Value>) -> Option<Value> {
+    fn call_apart(&mut self, instance: Instance, mut arguments: Vec<Value>) -> Option<Value> {
         let function = self.cx.functions[&instance];
-        let has_result = self.cx.hir[instance.func].result != TypeId::VOID;
+        let result = self.cx.hir[instance.func].result;
+        if self.cx.is_long(result) {
+            let place = self.temporary(result);
+            arguments.push(place);
+            self.push(Statement::Call { function, arguments, result: None });
+            return Some(self.load(place));
+        }
+        let has_result = result != TypeId::VOID;
         let result = has_result.then(|| self.computed_elsewhere(Expression::CallResult(function)));
         self.push(Statement::Call { function, arguments, result });
         result

@@ -1,7 +1,7 @@
 //! Folded composites as naga constants, and tables that are indexed at run time.
 //!
 //! naga refuses infinities and NaN as literals. A composite that holds one is built from bit patterns where it is used; a table
-//! with one is filled when the entry point starts.
+//! with one is filled when the entry point starts. So are long ones where the driver needs it ([`super::long_arrays`]).
 
 use naga::{Expression, GlobalVariable, Handle, Literal, Span};
 
@@ -10,7 +10,7 @@ use crate::glsl::hir::{ConstId, Scalar, Type, TypeId};
 
 /// Constants made so far.
 pub(super) struct Constants {
-    /// By [`ConstId::index`]; `Some(None)`: holds something that is no literal.
+    /// By [`ConstId::index`]; `Some(None)`: holds something that is no literal, or is long.
     inits: Vec<Option<Option<Handle<Expression>>>>,
     constants: Vec<Option<Handle<naga::Constant>>>,
     literals: Map<(u8, u32), Handle<Expression>>,
@@ -42,7 +42,7 @@ pub(super) fn literal(scalar: Scalar, bits: u32) -> Option<Literal> {
 }
 
 impl Lowering<'_> {
-    /// A folded value as a naga constant; `None` if it holds an infinity or NaN.
+    /// A folded value as a naga constant; `None` if it holds an infinity or NaN, or is long.
     pub fn constant(&mut self, id: ConstId) -> Option<Handle<naga::Constant>> {
         if let Some(made) = self.consts.constants[id.index()] {
             return Some(made);
@@ -77,7 +77,8 @@ impl Lowering<'_> {
         let constant = hir[id];
         let words = &hir[constant.words];
         // Judged beforehand, so that no half-built composite stays behind.
-        let init = self.all_finite(constant.ty, &mut words.iter().copied()).then(|| {
+        let is_expression = !self.is_long(constant.ty) && self.all_finite(constant.ty, &mut words.iter().copied());
+        let init = is_expression.then(|| {
             let mut words = words.iter().copied();
             self.global_expression(constant.ty, &mut words)
         });
@@ -140,6 +141,7 @@ impl Lowering<'_> {
         let table = self.private(ty, init);
         if init.is_none() {
             self.consts.set_at_start.push((table, id));
+            self.filled.insert(table);
         }
         table
     }

@@ -44,16 +44,16 @@ impl Builder<'_, '_> {
                 self.leave_outer(stmt);
             }
             StmtKind::Return(value) if let Some(leaving) = self.leaving => self.return_inlined(leaving, value),
-            StmtKind::Return(value) => {
-                let value = match value {
-                    Some(expr) if self.result == TypeId::VOID => {
-                        self.effect(expr);
-                        None
-                    }
-                    value => value.map(|expr| self.value(expr)),
-                };
-                self.push(Statement::Return { value });
-            }
+            StmtKind::Return(value) => match value {
+                Some(expr) if self.result != TypeId::VOID => {
+                    let value = self.value(expr);
+                    self.return_value(value);
+                }
+                value => {
+                    value.into_iter().for_each(|expr| self.effect(expr));
+                    self.push(Statement::Return { value: None });
+                }
+            },
             StmtKind::Break => self.push(Statement::Break),
             StmtKind::Continue => {
                 if let Some(Loop { step: Some(step), .. }) = self.loops.last().copied() {

@@ -130,6 +130,8 @@ pub(super) struct Builder<'m, 'a> {
     pub given: Box<[Given]>,
     /// Of a function that becomes part of its caller.
     pub leaving: Option<Leaving>,
+    /// Where the function's result goes if it is long ([`super::long_arrays`]).
+    long_result: Option<Value>,
 }
 
 /// Lowers one copy of a user function.
@@ -146,13 +148,19 @@ pub(super) fn lower(cx: &mut Lowering<'_>, instance: &Instance) -> naga::Functio
         b.f.arguments.push(FunctionArgument { name: None, ty, binding: None });
         b.given(Expression::FunctionArgument(index))
     });
+    if builder.cx.is_long(function.result) {
+        let index = builder.f.arguments.len() as u32;
+        let ty = builder.cx.pointer_ty(function.result);
+        builder.f.arguments.push(FunctionArgument { name: None, ty, binding: None });
+        builder.long_result = Some(builder.given(Expression::FunctionArgument(index)));
+    }
     builder.statements(function.body.unwrap_or(List::EMPTY));
     if !builder.ended && function.result != TypeId::VOID {
         // Falling off the end gives zero.
         let value = builder.zero(function.result);
-        builder.push(Statement::Return { value: Some(value) });
+        builder.return_value(value);
     }
-    if function.result != TypeId::VOID {
+    if function.result != TypeId::VOID && builder.long_result.is_none() {
         let ty = builder.cx.ty(function.result);
         builder.f.result = Some(FunctionResult { ty, binding: None });
     }
@@ -201,6 +209,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             func: None,
             given: Box::default(),
             leaving: None,
+            long_result: None,
         }
     }
 
@@ -215,6 +224,18 @@ impl<'m, 'a> Builder<'m, 'a> {
         }
         split(&mut self.f, &mut self.cx.out.types);
         self.f
+    }
+
+    /// Leaves the function.
+    pub fn return_value(&mut self, value: Value) {
+        let value = match self.long_result {
+            Some(place) => {
+                self.store(place, value);
+                None
+            }
+            None => Some(value),
+        };
+        self.push(Statement::Return { value });
     }
 
     /// Says what a function's parameters are; `argument` gives the next one, of this type.
@@ -237,7 +258,8 @@ impl<'m, 'a> Builder<'m, 'a> {
             if !matches!(self.slot(local), Slot::Unset) {
                 continue;
             }
-            let by_pointer = param.kind.copies_out() || self.cx.arguments.reads_in_place(hir, local);
+            let in_place = self.cx.arguments.reads_in_place(hir, local);
+            let by_pointer = param.kind.copies_out() || in_place || self.cx.is_long(param.ty);
             let ty = if by_pointer { self.cx.pointer_ty(param.ty) } else { self.cx.ty(param.ty) };
             let argument = argument(self, ty);
             if by_pointer {

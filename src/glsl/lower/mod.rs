@@ -14,7 +14,7 @@
 //! - A constant table that is indexed at run time lives in a buffer ([`tables`]); a small one once in a private global
 //!   with an initialiser: naga's SPIR-V writer would otherwise copy the whole table to the stack at each access.
 //! - So does a large global array that the program fills with constants before all else ([`settled`]).
-//! - Where the driver needs it, long arrays get the zeros they begin with by loops ([`zero_loops`]).
+//! - Where the driver needs it, long arrays are filled and copied by loops ([`long_arrays`]).
 //! - Every index that is not provably in range is clamped here ([`ranges`] tells what is known), as WebGL does; the modules
 //!   need no bounds checks from naga. Divisors of integers that may be zero are guarded ([`divide`]), as no driver's compiler
 //!   may meet one. Fetches outside a texture are left to the driver's image robustness, which gives the zeros WebGL promises.
@@ -36,6 +36,7 @@ mod flow;
 mod function;
 mod geometry;
 mod inline;
+mod long_arrays;
 mod matrix;
 mod memory;
 mod mix;
@@ -55,7 +56,6 @@ mod texture;
 mod types;
 mod walk;
 mod writes;
-mod zero_loops;
 mod zeros;
 
 use std::collections::{HashMap, HashSet};
@@ -126,7 +126,7 @@ pub(in crate::glsl) fn lower(module: &hir::Module, source: &PassSource<'_>, inte
     }
     let tables = cx.finish_tables();
     let knob_bytes = if cx.reflection.knobs.is_empty() { 0 } else { u64::from(cx.knob_slots()) * KNOB_BYTES };
-    let filled_arrays = if source.driver.zero_loops { zero_loops::write(&mut cx.out, &cx.filled) } else { None };
+    let filled_arrays = if source.driver.array_loops { long_arrays::write(&mut cx.out, &cx.filled) } else { None };
     Lowered { module: cx.out, filled_arrays, reflection: cx.reflection, tables, knob_bytes }
 }
 

@@ -275,6 +275,7 @@ impl Lowering<'_> {
         let made = self.private(ty, init);
         if let (Some(value), None) = (global.value, init) {
             self.consts.set_at_start.push((made, value));
+            self.filled.insert(made);
         }
         self.resources.globals[id.index()] = Some(made);
         self.resources.authors.insert(made, id);

@@ -13,7 +13,7 @@ use naga::{
     TypeInner,
 };
 
-use super::{Lowering, Map, access::Place, function::Builder, types::round_up};
+use super::{Lowering, Map, access::Place, function::Builder, long_arrays, types::round_up};
 use crate::glsl::{
     PassKind,
     hir::{ConstId, Scalar, Type, TypeId},
@@ -35,6 +35,8 @@ const SLOT: u32 = 16;
 #[derive(Default)]
 pub(super) struct Tables {
     places: Map<u32, TablePlace>,
+    /// Members of the storage buffer, by [`ConstId::index`].
+    stored: Map<u32, u32>,
     uniform: Buffer,
     storage: Buffer,
 }
@@ -76,7 +78,29 @@ impl Builder<'_, '_> {
     }
 }
 
+impl Builder<'_, '_> {
+    /// Where a long constant is copied from; `None` if it is not long, or lies in no buffer.
+    pub fn long_table(&mut self, id: ConstId) -> Option<Place> {
+        let ty = self.cx.hir[id].ty;
+        if !self.cx.is_long(ty) || self.cx.source.driver.tables_in_memory || self.cx.holds_booleans(ty) {
+            return None;
+        }
+        let index = self.cx.storage_index(id);
+        let base = self.cx.storage_tables();
+        let base = self.global(base);
+        let pointer = self.add(Expression::AccessIndex { base, index });
+        Some(Place::of(pointer, ty))
+    }
+}
+
 impl Lowering<'_> {
+    /// Whether values of a type are copied by loops where the driver needs it ([`super::long_arrays`]).
+    pub fn is_long(&mut self, ty: TypeId) -> bool {
+        self.source.driver.array_loops
+            && matches!(self.hir.types.get(ty), Type::Array { .. } | Type::Struct(_))
+            && self.laid_out(ty).1.size >= 4 * long_arrays::LEAST_COPY
+    }
+
     fn table_place(&mut self, id: ConstId) -> TablePlace {
         let key = id.index() as u32;
         if let Some(&place) = self.tables.places.get(&key) {
@@ -89,7 +113,7 @@ impl Lowering<'_> {
         {
             TablePlace::Uniform(self.append_to_uniform(id, ty, size))
         } else if scalars >= LARGE && !self.source.driver.tables_in_memory && !self.holds_booleans(constant.ty) {
-            TablePlace::Storage(self.append_to_storage(id))
+            TablePlace::Storage(self.storage_index(id))
         } else {
             TablePlace::Private(self.private_table(id))
         };
@@ -124,6 +148,17 @@ impl Lowering<'_> {
             buffer.bytes.resize(end, 0);
         }
         buffer.members.len() as u32 - 1
+    }
+
+    /// The member of the storage buffer that holds a constant.
+    fn storage_index(&mut self, id: ConstId) -> u32 {
+        let key = id.index() as u32;
+        if let Some(&index) = self.tables.stored.get(&key) {
+            return index;
+        }
+        let index = self.append_to_storage(id);
+        self.tables.stored.insert(key, index);
+        index
     }
 
     fn append_to_storage(&mut self, id: ConstId) -> u32 {

@@ -88,8 +88,12 @@ impl Printer<'_> {
             Ty::Mat(columns, rows) => {
                 (0..*columns).for_each(|i| self.mix_in(&format!("{name}[{i}]"), &Ty::Num(Base::Float, *rows)));
             }
-            Ty::Array(element, len) if *len > 8 && matches!(**element, Ty::Num(_, 1)) => {
-                let _ = writeln!(self.out, "  for (int k = 0; k < {len}; k++) mix_in(uint({name}[k]));");
+            // One statement a scalar of a long array keeps drivers' compilers busy for minutes.
+            Ty::Array(element, len) if self.program.words(ty) > 8 => {
+                let counter = format!("k{}", name.matches('[').count());
+                let _ = writeln!(self.out, "  for (int {counter} = 0; {counter} < {len}; {counter}++) {{");
+                self.mix_in(&format!("{name}[{counter}]"), element);
+                self.out.push_str("  }\n");
             }
             Ty::Array(element, len) => (0..*len).for_each(|i| self.mix_in(&format!("{name}[{i}]"), element)),
             Ty::Struct(id) => {

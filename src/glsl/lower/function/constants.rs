@@ -61,6 +61,9 @@ impl Builder<'_, '_> {
             None => {
                 let hir = self.cx.hir;
                 let constant = hir[id];
+                if let Some(place) = self.long_table(id) {
+                    return self.load_place(place);
+                }
                 self.value_of_words(constant.ty, &mut hir[constant.words].iter().copied())
             }
         }

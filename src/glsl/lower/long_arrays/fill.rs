@@ -1,0 +1,188 @@
+//! A walk over one function that gives its long arrays their forms; zeros, written by loops.
+
+use naga::{
+    AddressSpace, ArraySize, BinaryOperator, Block, BuiltIn, Expression, Function, GlobalVariable, Handle, Literal,
+    LocalVariable, Range, ScalarKind, Span, Statement, Type, TypeInner, UniqueArena,
+};
+
+use super::{BLOCK, LEAST_ARRAY, copy::Loads, sizes::Sizes};
+use crate::glsl::lower::function::Value;
+
+/// Writes loops into one function.
+pub(super) struct Writer<'a> {
+    pub types: &'a UniqueArena<Type>,
+    pub sizes: &'a Sizes,
+    /// Types and places of the module's variables, by [`Handle::index`].
+    pub globals: &'a [(Handle<Type>, AddressSpace)],
+    pub uint: Handle<Type>,
+    /// Holds a zero that no driver knows.
+    pub opaque: Option<Handle<GlobalVariable>>,
+    /// Zeros are written by blocks of a few known elements.
+    pub in_blocks: bool,
+    pub function: &'a mut Function,
+}
+
+impl Writer<'_> {
+    /// Stores the zero that no driver knows: the first bit of this argument.
+    pub fn set_opaque(&mut self, (index, built_in): (u32, BuiltIn), block: &mut Block) {
+        let Some(opaque) = self.opaque else { return };
+        let mut value = self.expression(Expression::FunctionArgument(index));
+        if let BuiltIn::Position { .. } = built_in {
+            value = self.emit(Expression::AccessIndex { base: value, index: 0 }, block);
+            value = self.emit(Expression::As { expr: value, kind: ScalarKind::Uint, convert: None }, block);
+        }
+        let right = self.expression(Expression::Literal(Literal::U32(31)));
+        value = self.emit(Expression::Binary { op: BinaryOperator::ShiftRight, left: value, right }, block);
+        let pointer = self.expression(Expression::GlobalVariable(opaque));
+        block.push(Statement::Store { pointer, value }, Span::UNDEFINED);
+    }
+
+    /// Fills these globals and all long locals at the start, behind `block`, and makes loops of the long values that are
+    /// stored.
+    pub fn rewrite(mut self, globals: &[(Handle<GlobalVariable>, Handle<Type>)], mut block: Block) {
+        let locals = self.function.local_variables.iter();
+        let is_long = |v: &LocalVariable| v.init.is_none() && self.sizes.longest(v.ty) >= LEAST_ARRAY;
+        let locals: Vec<_> = locals.filter(|(_, v)| is_long(v)).map(|(handle, v)| (handle, v.ty)).collect();
+        let body = std::mem::take(&mut self.function.body);
+        for &(global, ty) in globals {
+            let pointer = self.expression(Expression::GlobalVariable(global));
+            self.fill(pointer, ty, &mut block);
+        }
+        for (local, ty) in locals {
+            let pointer = self.expression(Expression::LocalVariable(local));
+            self.fill(pointer, ty, &mut block);
+        }
+        block.append(&mut self.block(body));
+        self.function.body = block;
+    }
+
+    fn block(&mut self, block: Block) -> Block {
+        let mut out = Block::with_capacity(block.len());
+        let mut loads = Loads::default();
+        for (mut statement, span) in block.span_into_iter() {
+            match &mut statement {
+                Statement::Emit(range) => loads.note(range.clone(), self.function),
+                Statement::Store { pointer, value } => {
+                    let (pointer, value) = (*pointer, *value);
+                    let stored = self.store_long(pointer, value, &loads, &mut out);
+                    loads.forget(pointer, self.function);
+                    if stored {
+                        continue;
+                    }
+                }
+                Statement::Block(block) => self.within(block),
+                Statement::If { accept, reject, .. } => {
+                    self.within(accept);
+                    self.within(reject);
+                }
+                Statement::Switch { cases, .. } => cases.iter_mut().for_each(|case| self.within(&mut case.body)),
+                Statement::Loop { body, continuing, .. } => {
+                    self.within(body);
+                    self.within(continuing);
+                }
+                _ => {}
+            }
+            if !matches!(statement, Statement::Emit(_) | Statement::Store { .. }) {
+                loads.forget_all();
+            }
+            out.push(statement, span);
+        }
+        out
+    }
+
+    fn within(&mut self, block: &mut Block) {
+        let inner = std::mem::take(block);
+        *block = self.block(inner);
+    }
+
+    /// Writes zeros to all of what `pointer` points to.
+    pub fn fill(&mut self, pointer: Value, ty: Handle<Type>, block: &mut Block) {
+        match self.types[ty].inner {
+            TypeInner::Array { base, size: ArraySize::Constant(len), .. } if self.sizes.scalars(ty) >= LEAST_ARRAY => {
+                let opaque = self.opaque.filter(|_| self.in_blocks && self.sizes.scalars(base) <= BLOCK);
+                match opaque {
+                    Some(opaque) => self.fill_by_blocks(opaque, pointer, base, len.get(), block),
+                    None => {
+                        let len = self.uint(len.get());
+                        self.count(len, block, |writer, index, body| {
+                            let place = writer.emit(Expression::Access { base: pointer, index }, body);
+                            writer.fill(place, base, body);
+                        });
+                    }
+                }
+            }
+            TypeInner::Struct { ref members, .. } if self.sizes.longest(ty) >= LEAST_ARRAY => {
+                let members: Vec<_> = members.iter().map(|member| member.ty).collect();
+                for (index, member) in (0..).zip(members) {
+                    let part = self.emit(Expression::AccessIndex { base: pointer, index }, block);
+                    self.fill(part, member, block);
+                }
+            }
+            _ => {
+                let value = self.expression(Expression::ZeroValue(ty));
+                block.push(Statement::Store { pointer, value }, Span::UNDEFINED);
+            }
+        }
+    }
+
+    /// `do { pointer[0] = 0; pointer[1] = 0; ... } while (opaque != 0);` for each few elements.
+    fn fill_by_blocks(
+        &mut self,
+        opaque: Handle<GlobalVariable>,
+        pointer: Value,
+        element: Handle<Type>,
+        len: u32,
+        block: &mut Block,
+    ) {
+        let opaque = self.expression(Expression::GlobalVariable(opaque));
+        let zero = self.uint(0);
+        let step = (BLOCK / self.sizes.scalars(element).max(1)).max(1);
+        for first in (0..len).step_by(step as usize) {
+            let mut body = Block::new();
+            for index in first..len.min(first + step) {
+                let place = self.emit(Expression::AccessIndex { base: pointer, index }, &mut body);
+                self.fill(place, element, &mut body);
+            }
+            let value = self.emit(Expression::Load { pointer: opaque }, &mut body);
+            let is_zero = Expression::Binary { op: BinaryOperator::Equal, left: value, right: zero };
+            let condition = self.emit(is_zero, &mut body);
+            let leave = Block::from_vec(vec![Statement::Break]);
+            body.push(Statement::If { condition, accept: leave, reject: Block::new() }, Span::UNDEFINED);
+            block.push(Statement::Loop { body, continuing: Block::new(), break_if: None }, Span::UNDEFINED);
+        }
+    }
+
+    /// `for (uint i = 0; i < len; i++) { turn(i) }`
+    pub fn count(&mut self, len: Value, block: &mut Block, turn: impl FnOnce(&mut Self, Value, &mut Block)) {
+        let counter = LocalVariable { name: None, ty: self.uint, init: None };
+        let counter = self.function.local_variables.append(counter, Span::UNDEFINED);
+        let counter = self.expression(Expression::LocalVariable(counter));
+        let [zero, one] = [0, 1].map(|n| self.uint(n));
+        block.push(Statement::Store { pointer: counter, value: zero }, Span::UNDEFINED);
+        let mut body = Block::new();
+        let index = self.emit(Expression::Load { pointer: counter }, &mut body);
+        let binary = |op, right| Expression::Binary { op, left: index, right };
+        let condition = self.emit(binary(BinaryOperator::Less, len), &mut body);
+        let leave = Block::from_vec(vec![Statement::Break]);
+        body.push(Statement::If { condition, accept: Block::new(), reject: leave }, Span::UNDEFINED);
+        turn(self, index, &mut body);
+        let next = self.emit(binary(BinaryOperator::Add, one), &mut body);
+        body.push(Statement::Store { pointer: counter, value: next }, Span::UNDEFINED);
+        block.push(Statement::Loop { body, continuing: Block::new(), break_if: None }, Span::UNDEFINED);
+    }
+
+    pub fn uint(&mut self, number: u32) -> Value {
+        self.expression(Expression::Literal(Literal::U32(number)))
+    }
+
+    pub fn expression(&mut self, expression: Expression) -> Value {
+        self.function.expressions.append(expression, Span::UNDEFINED)
+    }
+
+    /// An expression that is computed here.
+    pub fn emit(&mut self, expression: Expression, block: &mut Block) -> Value {
+        let value = self.expression(expression);
+        block.push(Statement::Emit(Range::new_from_bounds(value, value)), Span::UNDEFINED);
+        value
+    }
+}

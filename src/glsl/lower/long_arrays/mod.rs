@@ -1,0 +1,126 @@
+//! Long arrays in the forms that Mesa's lavapipe compiles soon.
+//!
+//! Mesa writes a store or a copy of a whole array, and the initialiser of zeros that naga's SPIR-V writer gives every
+//! variable, as one access of memory a scalar, all of them of one variable. LLVM's time for these grows faster than their
+//! square (`InstCombinePass` looks at all accesses of a variable whenever it has changed one): a local `float a[500]` takes
+//! half a minute to the first frame. A program with long arrays therefore
+//! - writes the zeros that arrays begin with by loops ([`fill`]), and says so, so that the initialisers can be left out
+//!   ([`crate::glsl::Compiled::filled_arrays`]);
+//! - copies long arrays by loops, and tables into those that begin with constants ([`copy`]; the tables are made where
+//!   constants are lowered, and calls pass and return long values by pointer, [`super::Lowering::is_long`]).
+
+mod copy;
+mod fill;
+mod sizes;
+
+use std::collections::HashSet;
+
+use naga::{
+    AddressSpace, Binding, Block, BuiltIn, EntryPoint, Expression, GlobalVariable, Handle, MemoryDecorations, Module,
+    Scalar, Span, Type, TypeInner,
+};
+
+use fill::Writer;
+use sizes::Sizes;
+
+/// Scalars of all arrays without a value of a program, from which on it is changed at all. 100 zeros take lavapipe 0.4 s,
+/// 160 take 1.5 s, 256 take 6 s.
+const FEWEST_SCALARS: u32 = 128;
+
+/// Scalars from which on an array of such a program gets its zeros by a loop. A loop also costs a driver time.
+const LEAST_ARRAY: u32 = 16;
+
+/// Scalars from which on an array, and a constant, is copied by a loop. lavapipe stores to an element that a loop counts lane
+/// by lane, which takes up to twice as long.
+pub(super) const LEAST_COPY: u32 = 128;
+
+/// Scalars that one block of zeros writes.
+const BLOCK: u32 = 32;
+
+/// Scalars up to which a program's arrays get their zeros by blocks of a few known elements, each of them a loop of one round
+/// that no driver can see to be one. 500 take lavapipe 3 s, 800 take 7 s, and a second by loops; frames are then as quick as
+/// with initialisers, and take up to twice as long with loops.
+const MOST_IN_BLOCKS: u32 = 512;
+
+/// Gives all long arrays these forms. `filled` are globals that are stored as a whole before all else, in each call of the one
+/// function that knows them.
+///
+/// Returns the length in scalars from which on every array has its zeros, or another value, before anything reads it,
+/// though its variable had no initialiser; `None` if the program has few and was left as it is.
+pub(super) fn write(module: &mut Module, filled: &HashSet<Handle<GlobalVariable>>) -> Option<u32> {
+    let sizes = Sizes::new(&module.types);
+    drop_zero_initialisers(module);
+    let globals: Vec<_> = module
+        .global_variables
+        .iter()
+        .filter(|(_, v)| v.space == AddressSpace::Private && v.init.is_none() && sizes.longest(v.ty) >= LEAST_ARRAY)
+        .map(|(handle, v)| (handle, v.ty))
+        .collect();
+    let functions = module.functions.iter().map(|(_, f)| f).chain(module.entry_points.iter().map(|e| &e.function));
+    let locals = functions.flat_map(|f| f.local_variables.iter().filter(|(_, v)| v.init.is_none()).map(|(_, v)| v.ty));
+    let long = globals.iter().map(|(_, ty)| *ty).chain(locals.filter(|ty| sizes.longest(*ty) >= LEAST_ARRAY));
+    let scalars = long.fold(0u32, |sum, ty| sum.saturating_add(sizes.scalars(ty)));
+    if scalars < FEWEST_SCALARS {
+        return None;
+    }
+    let uint = module.types.insert(Type { name: None, inner: TypeInner::Scalar(Scalar::U32) }, Span::UNDEFINED);
+    let opaque = module.entry_points.iter().all(|e| never_negative(e).is_some()).then(|| {
+        let (space, memory_decorations) = (AddressSpace::Private, MemoryDecorations::empty());
+        let opaque = GlobalVariable { name: None, space, binding: None, ty: uint, init: None, memory_decorations };
+        module.global_variables.append(opaque, Span::UNDEFINED)
+    });
+    let Module { types, global_variables, functions, entry_points, .. } = module;
+    let variables: Vec<_> = global_variables.iter().map(|(_, v)| (v.ty, v.space)).collect();
+    let in_blocks = scalars <= MOST_IN_BLOCKS;
+    let write = |function, opaque_bit, filled: &[_]| {
+        let (sizes, globals) = (&sizes, &variables[..]);
+        let mut writer = Writer { types, sizes, globals, uint, opaque, in_blocks, function };
+        let mut start = Block::new();
+        if let Some(bit) = opaque_bit {
+            writer.set_opaque(bit, &mut start);
+        }
+        writer.rewrite(filled, start);
+    };
+    for (_, function) in functions.iter_mut() {
+        write(function, None, &[]);
+    }
+    let globals: Vec<_> = globals.into_iter().filter(|(global, _)| !filled.contains(global)).collect();
+    for entry in entry_points {
+        let bit = never_negative(entry);
+        write(&mut entry.function, bit, &globals);
+    }
+    Some(LEAST_ARRAY)
+}
+
+/// Initialisers that are zeros in one piece are none: they are what naga writes without them.
+fn drop_zero_initialisers(module: &mut Module) {
+    let Module { global_expressions, constants, global_variables, functions, entry_points, .. } = module;
+    let is_zero = |mut init: Handle<Expression>| loop {
+        match global_expressions[init] {
+            Expression::ZeroValue(_) => return true,
+            Expression::Constant(constant) => init = constants[constant].init,
+            _ => return false,
+        }
+    };
+    for (_, variable) in global_variables.iter_mut() {
+        variable.init = variable.init.filter(|&init| !is_zero(init));
+    }
+    let functions = functions.iter_mut().map(|(_, f)| f).chain(entry_points.iter_mut().map(|e| &mut e.function));
+    for function in functions {
+        for (_, variable) in function.local_variables.iter_mut() {
+            variable.init = variable.init.filter(|&init| match function.expressions[init] {
+                Expression::ZeroValue(_) => false,
+                Expression::Constant(constant) => !is_zero(constants[constant].init),
+                _ => true,
+            });
+        }
+    }
+}
+
+/// An argument whose first bit is never set, though no driver knows that: where a pixel lies, or the number of a vertex.
+fn never_negative(entry: &EntryPoint) -> Option<(u32, BuiltIn)> {
+    (0..).zip(&entry.function.arguments).find_map(|(index, argument)| match argument.binding {
+        Some(Binding::BuiltIn(built_in @ (BuiltIn::Position { .. } | BuiltIn::VertexIndex))) => Some((index, built_in)),
+        _ => None,
+    })
+}
