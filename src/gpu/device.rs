@@ -72,8 +72,8 @@ pub struct Gpu {
     pub keeps_denormals: bool,
     /// `atan2(0, 0)` may be NaN, as Direct3D has it; on the site, which then asks for another angle, it is 0.
     pub nan_angle: bool,
-    /// Zeros that long arrays begin with have to be written by loops, and their initialisers are then left out: lavapipe makes
-    /// one block of one store a scalar of an initialiser, for which LLVM takes time that grows with about the cube of them.
+    /// Long arrays are to be filled and copied by loops, and initialisers of their zeros left out: lavapipe makes one store a
+    /// scalar of each, for which LLVM takes time that grows faster than their square.
     pub wants_array_loops: bool,
     /// Timestamps can be written between passes.
     pub has_timestamps: bool,
