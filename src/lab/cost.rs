@@ -67,9 +67,9 @@ pub struct Cost {
     /// Of one copying pass and of one that draws a single texel, in the same turns.
     pub copy: Times,
     pub empty: Times,
-    /// Fewest bytes a frame moves for a texel of the canvas, by its plan.
+    /// Fewest bytes a frame moves for a texel of the study's grid, by its plan.
     pub bytes_per_texel: f64,
-    /// Texels a frame draws, for one of the canvas.
+    /// Texels a frame draws, for one of the study's grid.
     pub texels_per_texel: f64,
     pub canvas_texels: f64,
     pub repeats: u32,
@@ -99,7 +99,8 @@ pub struct Care {
     pub turn_millis: f64,
 }
 
-/// Measures setups against each other, all at one size.
+/// Measures setups against each other. `size` is that of the studied grid, by whose texels costs are told; a setup's canvas may be
+/// larger, as that of a preset which solves on a coarser grid than it paints.
 pub fn interleaved(rig: &Rig, setups: &[Setup], size: (u32, u32), care: Care) -> Result<Vec<Cost>, LabError> {
     let clock = if rig.gpu().has_timestamps && !rig.gpu().is_cpu() { Clock::Timestamps } else { Clock::Wall };
     let floor = ["copy", "empty"].map(|name| Setup::new("floor", size).wants(&[name]).steps(name, FLOOR_STEPS));
@@ -110,7 +111,7 @@ pub fn interleaved(rig: &Rig, setups: &[Setup], size: (u32, u32), care: Care) ->
             running.engine().set_timing(true);
         }
         let batch = warm_up(&mut running, care.turn_millis)?;
-        turns.push(Turn { running, batch, samples: Vec::new() });
+        turns.push(Turn { running, canvas: setup.size(), batch, samples: Vec::new() });
     }
     let repeats = care.repeats.max(MIN_REPEATS);
     for _ in 0..repeats {
@@ -123,7 +124,7 @@ pub fn interleaved(rig: &Rig, setups: &[Setup], size: (u32, u32), care: Care) ->
     let canvas_texels = f64::from(size.0) * f64::from(size.1);
     let cost = |(turn, frame): (&mut Turn, &Times)| {
         let plan = turn.running.engine().program().map(|p| p.plan().clone()).unwrap_or_default();
-        let traffic = plan.traffic(size);
+        let traffic = plan.traffic(turn.canvas);
         Cost {
             frame: *frame,
             copy: times[0].by(1.0 / f64::from(FLOOR_STEPS)),
@@ -141,6 +142,7 @@ pub fn interleaved(rig: &Rig, setups: &[Setup], size: (u32, u32), care: Care) ->
 
 struct Turn {
     running: Running,
+    canvas: (u32, u32),
     batch: u32,
     samples: Vec<f64>,
 }

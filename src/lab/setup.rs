@@ -3,7 +3,7 @@
 use super::LabError;
 use crate::{
     media::{MediaSet, TexelFormat, Texels},
-    project::{self, Fill, KnobValue, Origin, PassFormat, PassId, Project},
+    project::{self, Fill, KnobType, KnobValue, Origin, PassFormat, PassId, Project},
 };
 use include_dir::{Dir, include_dir};
 use std::{path::PathBuf, sync::Arc};
@@ -26,7 +26,7 @@ type Build = Arc<dyn Fn(&mut Project) + Send + Sync>;
 pub struct Setup {
     folder: &'static str,
     size: (u32, u32),
-    knobs: Vec<(String, KnobValue)>,
+    knobs: Vec<(String, f64)>,
     defines: Vec<(&'static str, String)>,
     steps: Vec<(&'static str, u32)>,
     initial: Vec<(PassId, Fill)>,
@@ -65,10 +65,11 @@ impl Setup {
         &self.wanted
     }
 
-    /// Value of an `#iUniform`.
+    /// Value of an `#iUniform` that is a float, an int, or a bool (1 for true). A value that the knob cannot take, one beyond its
+    /// range among them, is an error of [`Setup::project`].
     #[must_use]
     pub fn knob(mut self, name: &str, value: f64) -> Self {
-        self.knobs.push((name.into(), KnobValue::Float(value)));
+        self.knobs.push((name.into(), value));
         self
     }
 
@@ -93,11 +94,17 @@ impl Setup {
         self
     }
 
-    /// What a pass holds before frame 0, texel for texel from the bottom left.
+    /// What a pass of the canvas's size holds before frame 0, texel for texel from the bottom left.
     #[must_use]
-    pub fn state(mut self, name: &str, texels: &[[f32; 4]]) -> Self {
+    pub fn state(self, name: &str, texels: &[[f32; 4]]) -> Self {
+        let size = self.size;
+        self.state_sized(name, size, texels)
+    }
+
+    /// As [`Setup::state`], of a pass of any size.
+    #[must_use]
+    pub fn state_sized(mut self, name: &str, (width, height): (u32, u32), texels: &[[f32; 4]]) -> Self {
         let path = PathBuf::from(format!("{name}.npy"));
-        let (width, height) = self.size;
         let bytes = bytemuck::cast_slice(texels).to_vec();
         self.states.push((path.clone(), Arc::new(Texels { width, height, format: TexelFormat::Rgba32Float, bytes })));
         self.initial.push((pass(name), Fill::file(path)));
@@ -141,8 +148,13 @@ impl Setup {
         }
         let known = project.knobs();
         for (name, value) in &self.knobs {
-            known.get(name).ok_or_else(|| lacks(format!("knob {name}")))?;
-            project.knob_values.insert(name.clone(), value.clone());
+            let knob = known.get(name).ok_or_else(|| lacks(format!("knob {name}")))?;
+            let value = match knob.ty {
+                KnobType::Bool => KnobValue::Bool(*value >= 0.5),
+                _ => KnobValue::Float(*value),
+            };
+            let fitting = knob.fit(&value).map_err(|why| lacks(format!("{value:?} for knob {name}, which {why}")))?;
+            project.knob_values.insert(name.clone(), fitting);
         }
         for (name, steps) in &self.steps {
             let group = project.groups.iter_mut().find(|g| g.name == *name);
@@ -204,6 +216,8 @@ mod tests {
     fn what_a_project_does_not_have_is_named() {
         let said = |setup: Setup| setup.project().unwrap_err().to_string();
         assert!(said(Setup::new("floor", (8, 8)).knob("nope", 1.0)).contains("has no knob nope"));
+        let beyond = said(Setup::new("fluid_guay", (8, 8)).knob("dt", 5.0));
+        assert!(beyond.contains("5.0") && beyond.contains("knob dt") && beyond.contains("0.0 to 4.0"), "{beyond}");
         assert!(said(Setup::new("floor", (8, 8)).steps("nope", 1)).contains("has no group nope"));
         assert!(said(Setup::new("floor", (8, 8)).initial("nope", "vec4(0)")).contains("has no Buffer nope"));
     }
