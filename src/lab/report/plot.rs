@@ -8,7 +8,9 @@ use plotters::{
     style::{FontStyle, register_font, text_anchor},
 };
 
-const SIZE: (u32, u32) = (1240, 720);
+const WIDTH: u32 = 1240;
+/// Least height; a long legend makes the plot higher.
+const HEIGHT: u32 = 720;
 /// Width of the legend.
 const LEGEND: u32 = 380;
 const FONT: &str = "sans-serif";
@@ -37,7 +39,7 @@ type Area<B> = DrawingArea<B, Shift>;
 pub fn svg(table: &Table) -> Result<Option<String>, LabError> {
     let mut text = String::new();
     let drawn = {
-        let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
+        let area = SVGBackend::with_string(&mut text, (WIDTH, height(table))).into_drawing_area();
         draw(&area, table)?
     };
     Ok(drawn.then_some(text))
@@ -45,9 +47,10 @@ pub fn svg(table: &Table) -> Result<Option<String>, LabError> {
 
 /// As [`svg`], as a PNG file.
 pub fn png(table: &Table) -> Result<Option<Vec<u8>>, LabError> {
-    let mut rgb = vec![255; (SIZE.0 * SIZE.1 * 3) as usize];
+    let size = (WIDTH, height(table));
+    let mut rgb = vec![255; (size.0 * size.1 * 3) as usize];
     let drawn = {
-        let area = BitMapBackend::with_buffer(&mut rgb, SIZE).into_drawing_area();
+        let area = BitMapBackend::with_buffer(&mut rgb, size).into_drawing_area();
         draw(&area, table)?
     };
     if !drawn {
@@ -55,7 +58,7 @@ pub fn png(table: &Table) -> Result<Option<Vec<u8>>, LabError> {
     }
     let mut file = std::io::Cursor::new(Vec::new());
     let format = image::ImageFormat::Png;
-    image::write_buffer_with_format(&mut file, &rgb, SIZE.0, SIZE.1, image::ExtendedColorType::Rgb8, format)
+    image::write_buffer_with_format(&mut file, &rgb, size.0, size.1, image::ExtendedColorType::Rgb8, format)
         .map_err(|e| LabError::Plot(e.to_string()))?;
     Ok(Some(file.into_inner()))
 }
@@ -90,7 +93,7 @@ fn draw<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<bool, LabErr
         return Ok(false);
     };
     area.fill(&WHITE).map_err(trouble)?;
-    let (chart_area, legend) = area.split_horizontally(SIZE.0 - LEGEND);
+    let (chart_area, legend) = area.split_horizontally(WIDTH - LEGEND);
     let mut chart = ChartBuilder::on(&chart_area)
         .caption(table.about.title, (FONT, 26, &INK))
         .margin(14)
@@ -186,8 +189,10 @@ impl Look {
 
 /// Corners of the nth method's sign about (0, 0).
 fn corners(n: usize) -> Vec<(i32, i32)> {
-    let (count, turn) = [(16, 0.0), (4, 0.125), (3, -0.25), (4, 0.0), (3, 0.25), (6, 0.0)][n % 6];
-    let radius = [7.5, 9.0, 9.5, 8.5, 9.5, 8.0][n % 6];
+    // Methods of the same colour have different signs.
+    let sign = (n + n / COLOURS.len()) % 6;
+    let (count, turn) = [(16, 0.0), (4, 0.125), (3, -0.25), (4, 0.0), (3, 0.25), (6, 0.0)][sign];
+    let radius = [7.5, 9.0, 9.5, 8.5, 9.5, 8.0][sign];
     let corner = |i: i32| {
         let angle = std::f64::consts::TAU * (f64::from(i) / f64::from(count) + turn);
         ((radius * angle.cos()).round() as i32, (radius * angle.sin()).round() as i32)
@@ -195,9 +200,24 @@ fn corners(n: usize) -> Vec<(i32, i32)> {
     (0..=count).map(corner).collect()
 }
 
+const LEGEND_TOP: i32 = 62;
+/// Of what the legend says below the methods.
+const LEGEND_FOOT: i32 = 180;
+
+/// Of a method in the legend, with its settings below it where there are several.
+fn entry_height(settings: usize) -> i32 {
+    if settings > 1 { 38 } else { 27 }
+}
+
+/// Of the whole plot.
+fn height(table: &Table) -> u32 {
+    let entries: i32 = table.methods().into_iter().map(|m| entry_height(table.of(m).count())).sum();
+    HEIGHT.max((LEGEND_TOP + entries + LEGEND_FOOT) as u32)
+}
+
 fn legend<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
     let text = |size: u32, colour: &RGBColor| (FONT, size).into_font().color(colour);
-    let (left, mut y) = (14, 62);
+    let (left, mut y) = (14, LEGEND_TOP);
     let sign = |y: i32, n: usize, colour: RGBColor, fill: RGBColor| {
         let shift = |p: (i32, i32)| (p.0 + left + 10, p.1 + y + 9);
         let at: Vec<(i32, i32)> = corners(n).into_iter().map(shift).collect();
@@ -212,7 +232,7 @@ fn legend<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<(), Drawin
         if settings.len() > 1 {
             area.draw(&Text::new(settings.join(", "), (left + 50, y + 19), text(14, &RGBColor(110, 114, 122))))?;
         }
-        y += if settings.len() > 1 { 38 } else { 27 };
+        y += entry_height(settings.len());
     }
     area.draw(&Text::new(format!("settings: {}", table.about.knob), (left, y + 4), text(15, &INK)))?;
     y += 36;
@@ -238,6 +258,8 @@ mod tests {
         assert_eq!(decades([0.02, 0.5].into_iter()), Some((0.01, 1.0)));
         assert_eq!(decades([3.0].into_iter()), Some((1.0, 10.0)));
         assert_eq!(decades(std::iter::empty()), None);
+        let signs: Vec<_> = (0..24).map(|n| (n % COLOURS.len(), corners(n))).collect();
+        assert!((0..24).all(|n| !signs[..n].contains(&signs[n])), "colour and sign tell methods apart");
         assert_eq!([1e-5, 0.01, 1.0, 100.0, 3.0].map(|v| tick(&v)), ["1e-5", "0.01", "1", "100", ""]);
     }
 }
