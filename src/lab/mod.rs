@@ -25,4 +25,4 @@ pub use results::{CostRecord, ErrorRecord, Provenance, Record, Results};
 pub use rig::{Field, Rig, Running};
 pub use setup::Setup;
 pub use shard::Shard;
-pub use study::{About, Extent, HardCase, Measured, Method, Point, Study, Unit};
+pub use study::{About, Extent, HardCase, Measured, Method, Point, Race, Study, Unit};

@@ -112,6 +112,15 @@ impl Measured {
     }
 }
 
+/// A comparison that the report makes in a sentence: how much sooner a method reaches an error of 1 % than the best of others.
+#[derive(Clone, Copy, Debug)]
+pub struct Race {
+    pub method: &'static str,
+    pub peers: &'static [&'static str],
+    /// What the peers' points are called together.
+    pub peers_are: &'static str,
+}
+
 /// A question about numerical methods. One file of `studies/` each.
 pub trait Study: Sync {
     fn about(&self) -> About;
@@ -136,6 +145,11 @@ pub trait Study: Sync {
     /// A finer grid is a finer answer to the same question, so that an order can be observed.
     fn has_order(&self) -> bool {
         true
+    }
+
+    /// What the report compares by the time to an error of 1 %.
+    fn race(&self) -> Option<Race> {
+        None
     }
 
     /// Everything to measure: every setting on the main grid (every second one in a quick run), and, where an order can be

@@ -1,6 +1,6 @@
 //! One page of all studies, which needs no other file and no network.
 
-use super::table::{Row, Table};
+use super::table::{Reach, Row, Table};
 use crate::lab::{Extent, Results, cost::Clock};
 use std::fmt::Write;
 
@@ -56,7 +56,7 @@ fn provenance(out: &mut String, sections: &[(Table, Option<String>)], results: &
         out,
         "<p class=\"quiet\">A frame's cost is by {how}. Methods of a study took turns; ms is the median turn. The roofline is a pass \
          that copies rgba32f in the same turns; bytes a texel are the least that the plan of a frame moves for a texel of the \
-         canvas.</p>"
+         study's grid.</p>"
     );
 }
 
@@ -84,7 +84,8 @@ fn heading(out: &mut String, last: &str) {
 
 fn headline(out: &mut String, sections: &[(Table, Option<String>)]) {
     out.push_str(
-        "<p>Each method at its usual setting, and the time in which it reaches an error of 1 % at its best one.</p>\n",
+        "<p>Each method at its usual setting, and the time in which it reaches an error of 1 %, between its settings; \
+         (fails): only where it fails a hard case.</p>\n",
     );
     heading(out, "ms to 1 %");
     for (table, _) in sections {
@@ -100,9 +101,12 @@ fn headline(out: &mut String, sections: &[(Table, Option<String>)]) {
         let best = table.methods().iter().filter_map(|m| table.millis_to_target(m)).fold(f64::INFINITY, f64::min);
         for method in table.methods() {
             let Some(row) = table.usual(method) else { continue };
-            let reach = table.millis_to_target(method);
-            let class = if reach == Some(best) { " class=\"best\"" } else { "" };
-            let reach = reach.map_or("never".into(), number);
+            let (class, reach) = match table.reach(method) {
+                Reach::In(millis) if millis == best => (" class=\"best\"", number(millis)),
+                Reach::In(millis) => ("", number(millis)),
+                Reach::Failing(millis) => (" class=\"bad\"", format!("{} (fails)", number(millis))),
+                Reach::Never => ("", "never".into()),
+            };
             cells(out, table, row, &format!("<td{class}>{reach}</td>"));
         }
     }
@@ -141,6 +145,9 @@ fn section(out: &mut String, table: &Table, svg: Option<&str>) {
     let about = table.about;
     let _ = writeln!(out, "<h2 id=\"{}\">{}</h2>\n<p>{}</p>", about.name, escaped(about.title), escaped(about.text));
     out.push_str(svg.unwrap_or("<p>Nothing to plot yet: costs are missing.</p>"));
+    if let Some(verdict) = table.verdict() {
+        let _ = writeln!(out, "<p><strong>{}</strong></p>", escaped(&verdict));
+    }
     if let Some(cost) = table.rows.iter().find_map(|r| r.cost) {
         let _ = writeln!(
             out,

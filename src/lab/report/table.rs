@@ -1,7 +1,7 @@
 //! The points of a study with what follows from all of them together: orders, the frontier, the time to an error.
 
 use crate::lab::{
-    About, Extent, Measured, Method, Number, Point, Results, Study,
+    About, Extent, Measured, Method, Number, Point, Race, Results, Study,
     cost::{Cost, Times},
     metrics::{first_reach, order},
 };
@@ -70,6 +70,17 @@ pub struct Table {
     pub grid: u32,
     pub rows: Vec<Row>,
     pub convergence: Vec<Convergence>,
+    race: Option<Race>,
+}
+
+/// How a method comes to an error of 1 %.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reach {
+    /// In so many milliseconds, interpolated between settings that pass their hard cases.
+    In(f64),
+    /// As `In`, but only with settings that fail a hard case.
+    Failing(f64),
+    Never,
 }
 
 impl Table {
@@ -117,7 +128,7 @@ impl Table {
             let order = order(a, b, f64::from(fine) / f64::from(coarse));
             (errors.len() >= 3).then_some(Convergence { method, errors, order })
         });
-        Some(Table { about, grid, convergence: convergence.collect(), rows })
+        Some(Table { about, grid, convergence: convergence.collect(), rows, race: study.race() })
     }
 
     pub fn methods(&self) -> Vec<&'static Method> {
@@ -150,6 +161,56 @@ impl Table {
         first_reach(&places, TARGET)
     }
 
+    /// As [`Table::millis_to_target`], and why there is none.
+    pub fn reach(&self, method: &Method) -> Reach {
+        match (self.millis_to_target(method), self.millis_of_any(method)) {
+            (Some(millis), _) => Reach::In(millis),
+            (None, Some(millis)) => Reach::Failing(millis),
+            (None, None) => Reach::Never,
+        }
+    }
+
+    /// Milliseconds to the target, of settings that fail hard cases too.
+    fn millis_of_any(&self, method: &Method) -> Option<f64> {
+        first_reach(&self.of(method).filter_map(Row::place).collect::<Vec<_>>(), TARGET)
+    }
+
+    /// The study's [`Race`] in a sentence: `None` where it has none, or its costs are not known. Peers are not asked to pass
+    /// their hard cases: it is their best that counts.
+    pub fn verdict(&self) -> Option<String> {
+        let race = self.race?;
+        let methods = self.methods();
+        let method = methods.iter().find(|m| m.name == race.method)?;
+        let peers = || methods.iter().filter(|m| race.peers.contains(&m.name));
+        let places = |m| self.of(m).filter_map(|r: &Row| Some((r, r.place()?)));
+        places(*method).next()?;
+        let percent = 100.0 * TARGET;
+        let Some(own) = self.millis_to_target(method) else {
+            return Some(format!("{} does not reach an error of {percent} %.", method.title));
+        };
+        let head = format!("{} reaches an error of {percent} % in {own:.3} ms", method.title);
+        let best = peers().filter_map(|m| Some((m, self.millis_of_any(m)?))).min_by(|a, b| a.1.total_cmp(&b.1));
+        if let Some((peer, millis)) = best {
+            let times = millis / own;
+            return Some(format!(
+                "{head}; the best of the {}, {}, takes {millis:.3} ms, {times:.1} times as long.",
+                race.peers_are, peer.title
+            ));
+        }
+        let closest = peers().flat_map(|m| places(*m)).min_by(|a, b| a.1.1.total_cmp(&b.1.1));
+        let (row, (millis, error)) = closest?;
+        Some(format!(
+            "{head}; of the {} none reaches it: the closest, {} at {} = {}, still has an error of {:.1} % after {millis:.3} ms, \
+             {:.1} times as long.",
+            race.peers_are,
+            row.method.title,
+            self.about.knob,
+            row.point.setting,
+            100.0 * error,
+            millis / own
+        ))
+    }
+
     /// The frontier from cheap to dear.
     pub fn frontier(&self) -> Vec<(f64, f64)> {
         let mut all: Vec<(f64, f64)> = self.rows.iter().filter(|r| r.is_frontier).filter_map(Row::place).collect();
@@ -161,5 +222,83 @@ impl Table {
     pub fn values(&self) -> Vec<String> {
         let names = self.rows.iter().filter_map(|r| r.measured.as_ref()).flat_map(|m| m.values.keys().cloned());
         names.collect::<BTreeSet<String>>().into_iter().collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lab::{HardCase, Unit, cost::Clock, metrics::Norms};
+
+    const METHODS: [Method; 3] = [
+        Method { name: "own", title: "Own", settings: &[1.0, 2.0], usual: 1.0 },
+        Method { name: "far", title: "Far", settings: &[1.0, 2.0], usual: 1.0 },
+        Method { name: "unsafe", title: "Unsafe", settings: &[1.0, 2.0], usual: 1.0 },
+    ];
+
+    /// A row of 1 x 1 texels at so many milliseconds and such an error.
+    fn row(method: &'static Method, setting: f64, millis: f64, error: f64, passed: bool) -> Row {
+        let times = Times { median: millis, min: millis, max: millis };
+        let point = Point { study: "s".into(), method: method.name.into(), setting, grid: 1 };
+        let case = HardCase { name: "case".into(), passed, detail: String::new() };
+        let norms = Norms { l1: error, l2: error, linf: error };
+        let cost = Cost {
+            frame: times,
+            copy: times,
+            empty: times,
+            bytes_per_texel: 1.0,
+            texels_per_texel: 1.0,
+            canvas_texels: 1.0,
+            repeats: 7,
+            batch: 1,
+            clock: Clock::Wall,
+        };
+        Row {
+            method,
+            point,
+            measured: Some(Measured { norms, hard: vec![case], frames_per_unit: 1.0, ..Measured::default() }),
+            trouble: None,
+            cost: Some(cost),
+            millis: Some(times),
+            is_frontier: false,
+            is_dominated: false,
+        }
+    }
+
+    fn table(rows: Vec<Row>, peers: &'static [&'static str]) -> Table {
+        let about = About { name: "s", title: "S", text: "", knob: "dt", unit: Unit::Frame, error: "of it" };
+        let race = Some(Race { method: "own", peers, peers_are: "one-pass settings" });
+        Table { about, grid: 1, rows, convergence: Vec::new(), race }
+    }
+
+    #[test]
+    fn a_race_is_told_and_so_is_who_never_arrives() {
+        let [own, far, unsafe_] = &METHODS;
+        let rows = || {
+            vec![
+                row(own, 1.0, 2.0, 0.1, true),
+                row(own, 2.0, 4.0, 0.01, true),
+                row(far, 1.0, 10.0, 0.4, true),
+                row(far, 2.0, 20.0, 0.2, true),
+                row(unsafe_, 1.0, 60.0, 0.01, false),
+            ]
+        };
+        let both = table(rows(), &["far", "unsafe"]);
+        assert_eq!([own, far, unsafe_].map(|m| both.reach(m)), [Reach::In(4.0), Reach::Never, Reach::Failing(60.0)]);
+        let said = both.verdict().unwrap();
+        assert!(
+            said.contains("Own reaches") && said.contains("Unsafe") && said.contains("15.0 times as long"),
+            "{said}"
+        );
+        let said = table(rows(), &["far"]).verdict().unwrap();
+        assert!(
+            said.contains("none reaches it") && said.contains("Far at dt = 2") && said.contains("20.0 %"),
+            "{said}"
+        );
+        assert!(said.contains("5.0 times as long"), "{said}");
+        let slow = table(rows().split_off(2), &["far"]);
+        assert_eq!(slow.verdict(), None, "nothing of the method is known");
+        let never = table(vec![row(own, 1.0, 2.0, 0.1, true)], &["far"]).verdict().unwrap();
+        assert!(never.contains("does not reach"), "{never}");
     }
 }
