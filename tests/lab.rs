@@ -130,14 +130,13 @@ fn without_viscosity_a_fluid_at_rest_blows_up_and_forward_backward_does_not() {
 /// relL2 of the velocity and nu_eff / nu of a Taylor-Green vortex that has halved.
 fn vortex(rig: &Rig, method: &str, n: u32, speed: f64) -> (f64, f64) {
     let (dt, nu, k) = (0.15, 0.55, TAU / f64::from(n));
-    let (setup, steps) = fluid::method(method, n, dt);
-    let frames = (2f64.ln() / (2.0 * nu * k * k) / dt / f64::from(steps)).round();
-    let time = frames * f64::from(steps) * dt;
-    let mut running = rig.open(&setup.knob("speed", speed)).unwrap();
+    let solver = fluid::solver(method, n, dt, fluid::Begin { speed, ..fluid::Begin::USUAL });
+    let (frames, time) = solver.frames(2f64.ln() / (2.0 * nu * k * k));
+    let mut running = rig.open(&solver.setup).unwrap();
     let energy = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>();
-    let before = energy(&fluid::velocity(&mut running, dt).unwrap());
-    running.frames(frames as u32).unwrap();
-    let after = fluid::velocity(&mut running, dt).unwrap();
+    let before = energy(&solver.velocity(&mut running).unwrap());
+    running.frames(frames).unwrap();
+    let after = solver.velocity(&mut running).unwrap();
     let exact = taylor_green(n as usize, speed, (-2.0 * nu * k * k * time).exp());
     let ratio = eddy::lab::metrics::viscosity_ratio(before, energy(&after), nu, k, time);
     (Norms::of(&after, &exact).l2, ratio)

@@ -10,10 +10,15 @@
 #iUniform float viscosity = 0.55 in { 0.0, 2.0 }
 // Texels for a unit of time.
 #iUniform float speed = 0.5 in { 0.0, 2.0 }
+// In a box (CAVITY) the speed of its upper wall, texels for a unit of time.
+#iUniform float lid = 0.0 in { -2.0, 2.0 }
 // Amplitude of noise on top of the vortex.
 #iUniform float noise = 0.0 in { 0.0, 1.0 }
 // Of the pressure: the speed of sound is sqrt(stiffness / dt).
 #iUniform float stiffness = 0.2 in { 0.0, 1.0 }
+
+// Of the density at first: 0 even, 1 in balance with the vortex.
+#iUniform float balance = 0.0 in { 0.0, 1.0 }
 
 // A Taylor-Green vortex of one wave in the box.
 vec2 vortex(vec2 p) {
@@ -22,12 +27,28 @@ vec2 vortex(vec2 p) {
     return speed * vec2(sin(a.x) * cos(a.y), -cos(a.x) * sin(a.y)) + 2.0 * noise * random;
 }
 
+// Density that balances the vortex: its pressure times dt / stiffness. An even density begins with a bang of sound.
+float densityOf(vec2 p) {
+    vec2 a = 12.566370614359173 * p / iResolution.xy;
+    return 1.0 + balance * dt / max(stiffness, 1e-6) * 0.25 * speed * speed * (cos(a.x) + cos(a.y));
+}
+
+// Beyond a wall lies what makes the velocity on the wall the wall's own, and the same density.
 vec4 at(sampler2D state, ivec2 p) {
     ivec2 size = ivec2(iResolution.xy);
+#ifdef CAVITY
+    ivec2 q = clamp(p, ivec2(0), size - 1);
+    vec4 c = texelFetch(state, q, 0);
+    if (p != q) c.xy = vec2(p.y > q.y ? 2.0 * lid : 0.0, 0.0) - c.xy;
+    return c;
+#endif
     return texelFetch(state, (p + size) % size, 0);
 }
 
 vec4 bilinear(sampler2D state, vec2 p) {
+#ifdef CAVITY
+    p = clamp(p, vec2(0.0), iResolution.xy - 1e-3);
+#endif
     vec2 base = floor(p - 0.5), t = p - 0.5 - base;
     ivec2 i = ivec2(base);
     vec4 low = mix(at(state, i), at(state, i + ivec2(1, 0)), t.x);

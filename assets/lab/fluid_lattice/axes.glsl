@@ -1,8 +1,11 @@
-// Each population comes from the texel behind it, where it has collided.
+// Each population comes from the texel behind it, where it has collided; from a wall, from the one here that went the other way.
 void mainImage(out vec4 axes, in vec2 fragCoord) {
     for (int i = 0; i < 4; ++i) {
-        ivec2 from = ivec2(fragCoord) - ivec2(AXES_X[i], AXES_Y[i]);
-        Cell f = cell(iChannel0, iChannel1, iChannel2, from);
-        axes[i] = mix(f.axes[i], equilibrium(moments(f), 1.0 / 9.0, AXES_X, AXES_Y)[i], relaxed());
+        ivec2 here = ivec2(fragCoord), from = here - ivec2(AXES_X[i], AXES_Y[i]);
+        bool wall = isWall(from);
+        int which = wall ? (i + 2) % 4 : i;
+        Cell f = cell(iChannel0, iChannel1, iChannel2, wall ? here : from);
+        axes[i] = mix(f.axes[which], equilibrium(moments(f), 1.0 / 9.0, AXES_X, AXES_Y)[which], relaxed());
+        if (wall) axes[i] += dragged(from, 1.0 / 9.0, AXES_X[i]);
     }
 }

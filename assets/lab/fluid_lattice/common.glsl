@@ -4,6 +4,8 @@
 #iUniform float viscosity = 0.55 in { 0.0, 2.0 }
 // Texels for a unit of time.
 #iUniform float speed = 0.5 in { 0.0, 2.0 }
+// In a box (CAVITY) the speed of its upper wall, texels for a unit of time.
+#iUniform float lid = 0.0 in { -2.0, 2.0 }
 // Amplitude of noise on top of the vortex.
 #iUniform float noise = 0.0 in { 0.0, 1.0 }
 
@@ -55,4 +57,17 @@ vec3 begun(vec2 p) {
     vec2 a = 12.566370614359173 * p / iResolution.xy;
     float u = speed * dt;
     return vec3(0.75 * u * u * (cos(a.x) + cos(a.y)), dt * vortex(p));
+}
+
+bool isWall(ivec2 p) {
+#ifdef CAVITY
+    return any(lessThan(p, ivec2(0))) || any(greaterThanEqual(p, ivec2(iResolution.xy)));
+#else
+    return false;
+#endif
+}
+
+// What a population of direction `x` gets from a moving lid that it bounces off, half-way between the texels.
+float dragged(ivec2 from, float weight, float x) {
+    return from.y >= int(iResolution.y) ? 6.0 * weight * x * lid * dt : 0.0;
 }

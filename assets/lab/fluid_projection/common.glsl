@@ -9,6 +9,8 @@
 #iUniform float viscosity = 0.55 in { 0.0, 2.0 }
 // Texels for a unit of time.
 #iUniform float speed = 0.5 in { 0.0, 2.0 }
+// In a box (CAVITY) the speed of its upper wall, texels for a unit of time.
+#iUniform float lid = 0.0 in { -2.0, 2.0 }
 // Amplitude of noise on top of the vortex.
 #iUniform float noise = 0.0 in { 0.0, 1.0 }
 
@@ -19,12 +21,32 @@ vec2 vortex(vec2 p) {
     return speed * vec2(sin(a.x) * cos(a.y), -cos(a.x) * sin(a.y)) + 2.0 * noise * random;
 }
 
+// Velocity. Beyond a wall lies what makes that on the wall the wall's own.
 vec2 at(sampler2D field, ivec2 p) {
     ivec2 size = ivec2(iResolution.xy);
+#ifdef CAVITY
+    ivec2 q = clamp(p, ivec2(0), size - 1);
+    vec2 u = texelFetch(field, q, 0).xy;
+    return p == q ? u : vec2(p.y > q.y ? 2.0 * lid : 0.0, 0.0) - u;
+#else
     return texelFetch(field, (p + size) % size, 0).xy;
+#endif
+}
+
+// Pressure, without a gradient at a wall.
+float pressureAt(sampler2D field, ivec2 p) {
+    ivec2 size = ivec2(iResolution.xy);
+#ifdef CAVITY
+    return texelFetch(field, clamp(p, ivec2(0), size - 1), 0).x;
+#else
+    return texelFetch(field, (p + size) % size, 0).x;
+#endif
 }
 
 vec2 bilinear(sampler2D field, vec2 p) {
+#ifdef CAVITY
+    p = clamp(p, vec2(0.0), iResolution.xy - 1e-3);
+#endif
     vec2 base = floor(p - 0.5), t = p - 0.5 - base;
     ivec2 i = ivec2(base);
     vec2 low = mix(at(field, i), at(field, i + ivec2(1, 0)), t.x);

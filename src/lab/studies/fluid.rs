@@ -1,11 +1,13 @@
 //! A Taylor-Green vortex on a torus by every way to move a fluid that a fragment shader has.
 
-use super::cycle::{self, Component};
+use super::{
+    flow::{Flow, STIFFNESS, Solver, divergence, largest},
+    rest,
+};
 use crate::lab::{
-    About, Extent, Field, HardCase, LabError, Measured, Method, Point, Rig, Running, Setup, Study, Unit,
+    About, Extent, HardCase, LabError, Measured, Method, Point, Race, Rig, Setup, Study, Unit,
     metrics::{Norms, mean, square_drift, viscosity_ratio},
-    reference::taylor_green,
-    setup::Storage,
+    reference::{poisson::Random, taylor_green},
 };
 use std::f64::consts::{LN_2, TAU};
 
@@ -16,9 +18,12 @@ const SPEED: f64 = 0.5;
 
 /// Explicit viscosity allows nu dt up to 1/4.
 const STEPS: &[f64] = &[0.05, 0.15, 0.3, 0.45];
+const LONG_STEPS: &[f64] = &[0.3, 0.6, 1.2, 2.4, 4.8, 9.6];
 
 const METHODS: &[Method] = &[
     Method { name: "guay", title: "Guay, one pass", settings: STEPS, usual: 0.15 },
+    Method { name: "guay-balanced", title: "Guay, one pass, in balance", settings: STEPS, usual: 0.15 },
+    Method { name: "guay-stiff", title: "Guay, one pass, in balance, K = .55", settings: STEPS, usual: 0.15 },
     Method { name: "guay-chain", title: "Guay, A to B to C", settings: STEPS, usual: 0.15 },
     Method { name: "guay-forward-backward", title: "Guay, forward-backward", settings: STEPS, usual: 0.15 },
     Method { name: "guay-rgba16f", title: "Guay, one pass, rgba16f", settings: STEPS, usual: 0.15 },
@@ -30,79 +35,106 @@ const METHODS: &[Method] = &[
     Method { name: "maccormack-cycle", title: "MacCormack, V-cycle", settings: STEPS, usual: 0.15 },
     Method { name: "lattice", title: "lattice Boltzmann D2Q9", settings: STEPS, usual: 0.15 },
     Method { name: "lattice-16f", title: "lattice Boltzmann D2Q9, 16 bits", settings: STEPS, usual: 0.15 },
+    Method { name: "fluid-accurate", title: "the preset fluid-accurate", settings: LONG_STEPS, usual: 0.6 },
+    Method { name: "mip-fluid", title: "the preset mip-fluid", settings: &[0.3, 0.6, 1.2, 2.4, 4.8], usual: 0.6 },
 ];
 
-/// A method's project at a step of `dt`, and the steps it makes in a frame.
-pub fn method(name: &str, n: u32, dt: f64) -> (Setup, u32) {
-    let size = (n, n);
-    let storage = if name.ends_with("16f") { Storage::Half } else { Storage::AsWritten };
-    let guay = |which| Setup::new("fluid_guay", size).define("METHOD", which);
-    let projection =
-        |which, sweeps| Setup::new("fluid_projection", size).define("METHOD", which).steps("solver", sweeps);
-    let (setup, steps) = match name.trim_end_matches("-16f").trim_end_matches("-rgba16f") {
-        "guay" => (guay("ONE_PASS"), 1),
-        "guay-chain" => (guay("CHAIN"), 3),
-        "guay-forward-backward" => (guay("FORWARD_BACKWARD"), 1),
-        "bilinear-jacobi-20" => (projection("SEMI_LAGRANGIAN", 20), 1),
-        "maccormack-jacobi-1" => (projection("MACCORMACK", 1), 1),
-        "maccormack-jacobi-4" => (projection("MACCORMACK", 4), 1),
-        "maccormack-jacobi-20" => (projection("MACCORMACK", 20), 1),
-        "maccormack-cycle" => {
-            let add = move |project: &mut crate::project::Project| {
-                project.groups.clear();
-                if let Some(pressure) = project.pass_mut(&crate::project::PassId::Buffer("pressure".into())) {
-                    pressure.settings.format = crate::project::PassFormat::Rg32f;
-                }
-                let divergence = Component { pass: "divergence", component: 'x' };
-                cycle::add(project, n, "pressure", divergence, "pressure");
-            };
-            (Setup::new("fluid_projection", size).define("METHOD", "MACCORMACK").built(add), 1)
-        }
-        _ => (Setup::new("fluid_lattice", size).wants(&["axes", "corners", "rest"]), 2),
-    };
-    (setup.storage(storage).knob("dt", dt).knob("viscosity", NU).knob("speed", SPEED), steps)
+/// Grid of the hard cases; and of those with a step so long that on a smaller one it is beyond the slider of the presets.
+const HARD_GRID: u32 = 32;
+const HARD_GRID_OF_LONG_STEPS: u32 = 64;
+const LONG_STEP: f64 = 1.2;
+
+/// Units of time of the hard cases: in rest, and from four times the speed.
+const REST_TIME: f64 = 90.0;
+const FAST_TIME: f64 = 54.0;
+/// For which a shear wave decays.
+const WAVE_TIME: f64 = 19.2;
+
+/// How the vortex begins.
+#[derive(Clone, Copy, Debug)]
+pub struct Begin {
+    pub speed: f64,
+    /// Amplitude of noise in the velocity.
+    pub noise: f64,
+    pub viscosity: f64,
 }
 
-/// Velocity in texels for a unit of time: all of u, then all of v.
-pub fn velocity(running: &mut Running, dt: f64) -> Result<Vec<f64>, LabError> {
-    if let Ok(field) = running.read("field") {
-        return Ok(field.components(0, 1));
+impl Begin {
+    /// Of the study's plot.
+    pub const USUAL: Begin = Begin { speed: SPEED, noise: 0.0, viscosity: NU };
+}
+
+/// The project of a method that is another begun otherwise, and Guay's stiffness.
+fn base(name: &str) -> (&str, f64) {
+    match name {
+        "guay-balanced" => ("guay", STIFFNESS),
+        // The stiffest that is stable at rest: K = nu.
+        "guay-stiff" => ("guay", NU),
+        _ => (name, STIFFNESS),
     }
-    let (axes, corners, rest) = (running.read("axes")?, running.read("corners")?, running.read("rest")?);
-    let moments = |i: usize| {
-        let (a, c, r) = (axes.texels()[i].map(f64::from), corners.texels()[i].map(f64::from), rest.texels()[i][0]);
-        let rho = 1.0 + f64::from(r) + a.iter().sum::<f64>() + c.iter().sum::<f64>();
-        let momentum = [a[0] - a[2] + c[0] - c[1] - c[2] + c[3], a[1] - a[3] + c[0] + c[1] - c[2] - c[3]];
-        momentum.map(|m| m / rho / dt)
+}
+
+/// A method at a step of `dt` with the vortex in it.
+pub fn solver(name: &str, n: u32, dt: f64, begin: Begin) -> Solver {
+    let flow = Flow { n, dt, viscosity: begin.viscosity };
+    let (base, stiffness) = base(name);
+    let solver = match Solver::new(base, flow) {
+        solver if base != name => solver.knob("balance", 1.0).stiffness(stiffness),
+        solver => solver,
     };
-    let count = axes.texels().len();
-    Ok((0..2).flat_map(|c| (0..count).map(move |i| (c, i))).map(|(c, i)| moments(i)[c]).collect())
+    if is_preset(name) {
+        let (k, Begin { speed, noise, .. }) = (TAU / f64::from(n), begin);
+        let random = |x: f64, y: f64, c: u64| {
+            let seed = (x * 2.0) as u64 + ((y * 2.0) as u64) * 65_536 + (c << 40);
+            noise * Random(seed).number()
+        };
+        let vortex = move |x: f64, y: f64| {
+            let (cx, sx, cy, sy) = ((k * x).cos(), (k * x).sin(), (k * y).cos(), (k * y).sin());
+            [speed * sx * cy + random(x, y, 0), -speed * cx * sy + random(x, y, 1)]
+        };
+        return solver.begin(vortex, |_, _| 0.0);
+    }
+    solver.knob("speed", begin.speed).knob("noise", begin.noise)
+}
+
+fn is_preset(name: &str) -> bool {
+    matches!(name, "fluid-accurate" | "mip-fluid")
 }
 
 /// Frames until the velocity has halved, and the time that is.
-fn frames(point: &Point, steps: u32) -> (u32, f64) {
-    let k = TAU / f64::from(point.grid);
-    let half_life = LN_2 / (2.0 * NU * k * k);
-    let frames = (half_life / point.setting / f64::from(steps)).round().max(1.0) as u32;
-    (frames, f64::from(frames * steps) * point.setting)
+fn frames(solver: &Solver, n: u32) -> (u32, f64) {
+    let k = TAU / f64::from(n);
+    solver.frames(LN_2 / (2.0 * NU * k * k))
 }
 
-/// Root mean square of the central divergence, in units of the speed over a texel.
-fn divergence(n: usize, velocity: &[f64]) -> f64 {
-    let at = |c: usize, x: usize, y: usize| velocity[c * n * n + (y % n) * n + x % n];
-    let square = |i: usize| {
-        let (x, y) = (i % n + n, i / n + n);
-        (0.5 * (at(0, x + 1, y) - at(0, x - 1, y) + at(1, x, y + 1) - at(1, x, y - 1)) / SPEED).powi(2)
-    };
-    ((0..n * n).map(square).sum::<f64>() / (n * n) as f64).sqrt()
+/// The velocity of the vortex where the solver has it, times `decay`.
+fn exact(solver: &Solver, n: u32, decay: f64) -> Vec<f64> {
+    if !solver.is_staggered() {
+        return taylor_green(n as usize, SPEED, decay);
+    }
+    let k = TAU / f64::from(n);
+    let vortex = |x: f64, y: f64| [(k * x).sin() * (k * y).cos(), -(k * x).cos() * (k * y).sin()];
+    solver.sampled(|x, y| vortex(x, y).map(|u| SPEED * decay * u))
 }
 
-fn largest(velocity: &[f64]) -> f64 {
-    velocity.iter().fold(0.0, |a: f64, b| if b.is_finite() { a.max(b.abs()) } else { f64::INFINITY })
+/// The largest velocity of noise of .001 in a fluid at rest without viscosity, after [`REST_TIME`].
+fn at_rest(rig: &Rig, name: &str, n: u32, dt: f64) -> Result<f64, LabError> {
+    let solver = solver(name, n, dt, Begin { speed: 0.0, noise: 0.001, viscosity: 0.0 });
+    let mut running = rig.open(&solver.setup)?;
+    running.frames(solver.frames(REST_TIME).0)?;
+    Ok(largest(&solver.velocity(&mut running)?))
 }
 
-fn mass(field: &Field) -> f64 {
-    mean(&field.component(2)) - 1.0
+/// The largest velocity within [`FAST_TIME`] from four times the speed.
+fn fastest(rig: &Rig, name: &str, n: u32, dt: f64) -> Result<f64, LabError> {
+    let solver = solver(name, n, dt, Begin { speed: 4.0 * SPEED, ..Begin::USUAL });
+    let mut running = rig.open(&solver.setup)?;
+    let mut fastest = 0.0f64;
+    for _ in 0..6 {
+        running.frames(solver.frames(FAST_TIME / 6.0).0)?;
+        fastest = fastest.max(largest(&solver.velocity(&mut running)?));
+    }
+    Ok(fastest)
 }
 
 impl Study for Fluid {
@@ -113,8 +145,14 @@ impl Study for Fluid {
             text: "One vortex pair in a box of N x N texels, viscosity .55 texels² and speed .5 texels for a unit of time, \
                    until the exact velocity has halved. The observed order is at that speed in texels, so that a finer grid \
                    is a larger Reynolds number. Guay's density begins even, as its programs do: the sound that this makes is \
-                   about half of its error. Hard cases: a fluid at rest without viscosity keeps noise of .001 within .01 for \
-                   600 steps; at four times the speed the velocity never exceeds 1.5 times that at first.",
+                   about half of its error. In balance it begins with the vortex's own pressure; K is the stiffness, and .55 \
+                   the stiffest that is stable at rest. The presets run as they ship, without their jets; of mip-fluid, which \
+                   has no viscosity, drag takes what viscosity takes of this one wave. Mach is the speed over that of sound; \
+                   growth/theory compares the growth of sound in the one-pass fluid without viscosity with linear theory; \
+                   shear_wave-1 is what the exact decay of a shear wave is missed by. \
+                   Hard cases: a fluid at rest without viscosity keeps noise of .001 within .01 for 90 units of time; at four \
+                   times the speed the velocity never exceeds 1.5 times that at first; of a \
+                   checkerboard in the pressure or density at most .1 is left after 100 steps.",
             knob: "dt",
             unit: Unit::Scene,
             error: "of the velocity",
@@ -132,44 +170,61 @@ impl Study for Fluid {
         }
     }
 
+    fn race(&self) -> Option<Race> {
+        Some(Race {
+            method: "fluid-accurate",
+            peers: &["guay", "guay-balanced", "guay-stiff", "guay-rgba16f"],
+            peers_are: "one-pass settings",
+        })
+    }
+
     fn setup(&self, point: &Point) -> Setup {
-        method(&point.method, point.grid, point.setting).0
+        solver(&point.method, point.grid, point.setting, Begin::USUAL).setup
     }
 
     fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-        let (setup, steps) = method(&point.method, point.grid, point.setting);
-        let (frames, time) = frames(point, steps);
-        let (n, k) = (point.grid as usize, TAU / f64::from(point.grid));
-        let mut running = rig.open(&setup)?;
-        let before = velocity(&mut running, point.setting)?;
+        let solver = solver(&point.method, point.grid, point.setting, Begin::USUAL);
+        let (frames, time) = frames(&solver, point.grid);
+        let k = TAU / f64::from(point.grid);
+        let mut running = rig.open(&solver.setup)?;
+        let before = solver.velocity(&mut running)?;
         running.frames(frames)?;
-        let after = velocity(&mut running, point.setting)?;
-        let exact = taylor_green(n, SPEED, (-2.0 * NU * k * k * time).exp());
+        let after = solver.velocity(&mut running)?;
+        let exact = exact(&solver, point.grid, (-2.0 * NU * k * k * time).exp());
         let energy = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>();
         let mut measured =
             Measured { norms: Norms::of(&after, &exact), frames_per_unit: f64::from(frames), ..Measured::default() }
                 .value("nu_eff/nu", viscosity_ratio(energy(&before), energy(&after), NU, k, time))
                 .value("energy_error", square_drift(&exact, &after))
-                .value("divergence", divergence(n, &after))
+                .value("divergence", divergence(&solver, &after, SPEED))
                 .value("momentum", mean(&after) / SPEED);
-        if point.method.starts_with("guay") {
-            measured = measured.value("mass_drift", mass(&running.read("field")?));
+        if let Some(sound) = solver.sound() {
+            measured = measured.value("mach", SPEED / sound);
         }
-        // The hard cases are the same on every grid.
+        if let Some(drift) = solver.mass_drift(&mut running)? {
+            measured = measured.value("mass_drift", drift);
+        }
+        // The hard cases and the single waves are the same on every grid.
         if point.grid < 64 {
             return Ok(measured);
         }
-        let (small, _) = method(&point.method, 32, point.setting);
-        let rest = small.clone().knob("viscosity", 0.0).knob("speed", 0.0).knob("noise", 0.001);
-        let mut running = rig.open(&rest)?;
-        running.frames(600 / steps)?;
-        let at_rest = largest(&velocity(&mut running, point.setting)?);
-        let mut running = rig.open(&small.knob("speed", 4.0 * SPEED))?;
-        let mut fastest = 0.0f64;
-        for _ in 0..6 {
-            running.frames(60 / steps)?;
-            fastest = fastest.max(largest(&velocity(&mut running, point.setting)?));
+        let (base, stiffness) = base(&point.method);
+        let dt = point.setting;
+        let n = if dt > LONG_STEP { HARD_GRID_OF_LONG_STEPS } else { HARD_GRID };
+        let still = Flow { n, dt, viscosity: 0.0 };
+        if base == "guay" {
+            let growth = rest::growth_of_sound(rig, still, stiffness, (20.0 / dt) as u32)?;
+            measured = measured.value("growth/theory", growth);
         }
+        if base != "mip-fluid" {
+            let left = rest::shear_wave(rig, base, Flow { viscosity: NU, ..still }, WAVE_TIME)?;
+            measured = measured.value("shear_wave-1", left - 1.0);
+        }
+        if let Some(left) = rest::checkerboard_left(rig, base, still, 100)? {
+            measured = measured.hard(HardCase::at_most("left of a checkerboard in the pressure", left, 0.1));
+        }
+        let at_rest = at_rest(rig, &point.method, n, dt)?;
+        let fastest = fastest(rig, &point.method, n, dt)?;
         Ok(measured.hard(HardCase::at_most("at rest without viscosity", at_rest, 0.01)).hard(HardCase::at_most(
             "four times the speed",
             fastest,

@@ -4,9 +4,11 @@ mod advection;
 mod blur;
 pub mod cycle;
 mod diffusion;
+pub mod flow;
 pub mod fluid;
 pub mod gray_scott;
 pub mod poisson;
+pub mod rest;
 
 use super::{LabError, Study};
 use crate::project::{listed, nearest};

@@ -1,0 +1,360 @@
+//! Solvers of a flow on a torus or in a box, each a project: set up for a flow in texels and units of time, begun from any velocity,
+//! and read back in the same units.
+
+use super::cycle::{self, Component};
+use crate::{
+    lab::{LabError, Running, Setup, metrics::mean, setup::Storage},
+    project::{PassFormat, PassId, Project},
+};
+use std::f64::consts::TAU;
+
+/// What is to be computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flow {
+    /// Texels from edge to edge.
+    pub n: u32,
+    /// Of a step.
+    pub dt: f64,
+    /// Texels^2 for a unit of time.
+    pub viscosity: f64,
+}
+
+/// A method's project for a flow.
+#[derive(Clone)]
+pub struct Solver {
+    pub setup: Setup,
+    /// Steps that a frame makes.
+    pub steps: u32,
+    flow: Flow,
+    kind: Kind,
+    /// Texels for a unit of time, of a velocity of 1 of the project.
+    scale: f64,
+    /// Of the pressure, where density is what pushes.
+    stiffness: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// `field` holds the velocity and, of Guay's, the density.
+    Centred { is_compressible: bool },
+    /// `velocity` holds that through the left and the lower face of a texel.
+    Staggered,
+    /// `velocity` holds it at the centres.
+    Mips,
+    /// Populations of D2Q9 in `axes`, `corners` and `rest`.
+    Lattice,
+}
+
+/// The viscosity that the slider of fluid-accurate ends with, in canvas heights squared a second.
+const MOST_VISCOSITY: f64 = 0.01;
+
+/// Guay's stiffness where none is said.
+pub const STIFFNESS: f64 = 0.2;
+
+impl Solver {
+    /// A solver by the name that the studies call it.
+    pub fn new(name: &str, flow: Flow) -> Solver {
+        let Flow { n, dt, viscosity } = flow;
+        let storage = if name.ends_with("16f") { Storage::Half } else { Storage::AsWritten };
+        let plain = |setup: Setup, steps, kind| {
+            let setup = setup.storage(storage).knob("dt", dt).knob("viscosity", viscosity);
+            Solver { setup, steps, flow, kind, scale: 1.0, stiffness: STIFFNESS }
+        };
+        let size = (n, n);
+        let guay = |which, steps| {
+            let setup = Setup::new("fluid_guay", size).define("METHOD", which);
+            plain(setup, steps, Kind::Centred { is_compressible: true })
+        };
+        let projection = |which, sweeps| {
+            let setup = Setup::new("fluid_projection", size).define("METHOD", which).steps("solver", sweeps);
+            plain(setup, 1, Kind::Centred { is_compressible: false })
+        };
+        match name.trim_end_matches("-16f").trim_end_matches("-rgba16f") {
+            "fluid-accurate" => accurate(flow),
+            "mip-fluid" => mips(flow),
+            "guay" => guay("ONE_PASS", 1),
+            "guay-chain" => guay("CHAIN", 3),
+            "guay-forward-backward" => guay("FORWARD_BACKWARD", 1),
+            "bilinear-jacobi-20" => projection("SEMI_LAGRANGIAN", 20),
+            "maccormack-jacobi-1" => projection("MACCORMACK", 1),
+            "maccormack-jacobi-4" => projection("MACCORMACK", 4),
+            "maccormack-jacobi-20" => projection("MACCORMACK", 20),
+            "maccormack-cycle" => {
+                let add = move |project: &mut Project| {
+                    project.groups.clear();
+                    if let Some(pressure) = project.pass_mut(&PassId::Buffer("pressure".into())) {
+                        pressure.settings.format = PassFormat::Rg32f;
+                    }
+                    let divergence = Component { pass: "divergence", component: 'x' };
+                    cycle::add(project, n, "pressure", divergence, "pressure");
+                };
+                let setup = Setup::new("fluid_projection", size).define("METHOD", "MACCORMACK").built(add);
+                plain(setup, 1, Kind::Centred { is_compressible: false })
+            }
+            _ => plain(Setup::new("fluid_lattice", size).wants(&["axes", "corners", "rest"]), 2, Kind::Lattice),
+        }
+    }
+
+    /// Value of an `#iUniform` of the project.
+    #[must_use]
+    pub fn knob(mut self, name: &str, value: f64) -> Solver {
+        self.setup = self.setup.knob(name, value);
+        self
+    }
+
+    /// In a box whose walls hold the fluid and whose upper one moves at `lid` texels for a unit of time. Begins at rest.
+    #[must_use]
+    pub fn cavity(self, lid: f64) -> Solver {
+        let solver = match self.kind {
+            Kind::Staggered => {
+                let speed = lid / self.scale;
+                self.knob("walls", 1.0).knob("lid_speed", speed)
+            }
+            _ => Solver { setup: self.setup.define("CAVITY", 1), ..self }.knob("lid", lid),
+        };
+        solver.begin(|_, _| [0.0; 2], |_, _| 0.0)
+    }
+
+    /// Guay's stiffness of the pressure.
+    #[must_use]
+    pub fn stiffness(mut self, stiffness: f64) -> Solver {
+        self.setup = self.setup.knob("stiffness", stiffness);
+        self.stiffness = stiffness;
+        self
+    }
+
+    /// Texels that sound goes in a unit of time; `None` of a method that has no sound.
+    pub fn sound(&self) -> Option<f64> {
+        match self.kind {
+            Kind::Centred { is_compressible: true } => Some((self.stiffness / self.flow.dt).sqrt()),
+            Kind::Lattice => Some(1.0 / (3f64.sqrt() * self.flow.dt)),
+            _ => None,
+        }
+    }
+
+    /// A velocity of texel coordinates at the places where the solver has its components: all of u, then all of v.
+    pub fn sampled(&self, velocity: impl Fn(f64, f64) -> [f64; 2]) -> Vec<f64> {
+        let n = self.flow.n as usize;
+        let place = |c: usize, i: usize| {
+            let (x, y) = ((i % n) as f64, (i / n) as f64);
+            match self.kind {
+                Kind::Staggered if c == 0 => (x, y + 0.5),
+                Kind::Staggered => (x + 0.5, y),
+                _ => (x + 0.5, y + 0.5),
+            }
+        };
+        let at = |c: usize, i: usize| {
+            let (x, y) = place(c, i);
+            velocity(x, y)[c]
+        };
+        (0..2).flat_map(|c| (0..n * n).map(move |i| (c, i))).map(|(c, i)| at(c, i)).collect()
+    }
+
+    /// Whether u is on the left faces of texels and v on their lower ones; else both are at the centres.
+    pub fn is_staggered(&self) -> bool {
+        self.kind == Kind::Staggered
+    }
+
+    /// Begins with a velocity of texel coordinates, and the pressure of unit density that balances it; 0 where it is not known. A
+    /// solver that keeps no pressure takes none.
+    #[must_use]
+    pub fn begin(self, velocity: impl Fn(f64, f64) -> [f64; 2], pressure: impl Fn(f64, f64) -> f64) -> Solver {
+        let (both, pressures) = (self.sampled(velocity), self.at_centres(pressure));
+        self.begin_from(&both, &pressures)
+    }
+
+    fn at_centres(&self, value: impl Fn(f64, f64) -> f64) -> Vec<f64> {
+        let n = self.flow.n as usize;
+        (0..n * n).map(|i| value((i % n) as f64 + 0.5, (i / n) as f64 + 0.5)).collect()
+    }
+
+    /// Begins at rest with something in the field that pushes, whichever that is and in its own units: the density less 1, or the
+    /// pressure that is kept from step to step.
+    #[must_use]
+    pub fn begin_with_pressure(self, pressure: impl Fn(f64, f64) -> f64) -> Solver {
+        let Flow { n, dt, .. } = self.flow;
+        let texels = |p: Vec<f64>, of: &dyn Fn(f32) -> [f32; 4]| p.iter().map(|p| of(*p as f32)).collect::<Vec<_>>();
+        let values = self.at_centres(&pressure);
+        let scale = match self.kind {
+            Kind::Centred { is_compressible: true } => self.stiffness / dt,
+            Kind::Lattice => 1.0 / (3.0 * dt * dt),
+            Kind::Centred { .. } => {
+                let setup = self.setup.clone().state("pressure", &texels(values, &|p| [p, 0.0, 0.0, 1.0]));
+                return Solver { setup, ..self }.begin(|_, _| [0.0; 2], |_, _| 0.0);
+            }
+            Kind::Staggered => {
+                // The pressure times the step, and the step in seconds.
+                let seconds = (self.scale / f64::from(n) * dt) as f32;
+                let state = texels(values, &|p| [0.0, 0.0, p, seconds]);
+                return Solver { setup: self.setup.clone().state_sized("velocity", (n, n), &state), ..self };
+            }
+            Kind::Mips => 0.0,
+        };
+        self.begin(|_, _| [0.0; 2], |x, y| scale * pressure(x, y))
+    }
+
+    /// The density less 1, or the pressure that is kept from step to step, in its own units. `None` where neither is.
+    pub fn pressure(&self, running: &mut Running) -> Result<Option<Vec<f64>>, LabError> {
+        let field = match self.kind {
+            Kind::Centred { is_compressible: true } => {
+                running.read("field")?.component(2).iter().map(|rho| rho - 1.0).collect()
+            }
+            Kind::Centred { .. } => running.read("pressure")?.component(0),
+            Kind::Staggered => running.read("velocity")?.component(2),
+            Kind::Mips => return Ok(None),
+            Kind::Lattice => density(running)?.into_iter().map(|rho| rho - 1.0).collect(),
+        };
+        Ok(Some(field))
+    }
+
+    /// As [`Solver::begin`], from values where the solver has them: all of u, then all of v; the pressure at the centres.
+    #[must_use]
+    pub fn begin_from(mut self, velocity: &[f64], pressure: &[f64]) -> Solver {
+        let Flow { n, dt, .. } = self.flow;
+        let (u, v) = velocity.split_at(velocity.len() / 2);
+        let size = (n, n);
+        let texels =
+            |f: &dyn Fn(usize) -> [f64; 4]| -> Vec<[f32; 4]> { (0..u.len()).map(|i| f(i).map(|x| x as f32)).collect() };
+        let (scale, stiffness) = (self.scale, self.stiffness);
+        self.setup = match self.kind {
+            Kind::Centred { is_compressible } => {
+                let density = |i: usize| if is_compressible { 1.0 + dt / stiffness * pressure[i] } else { 0.0 };
+                self.setup.state("field", &texels(&|i| [u[i], v[i], density(i), 1.0]))
+            }
+            Kind::Staggered => {
+                // The pressure times the step, and the step in seconds; and the same velocity in the frame before.
+                let seconds = scale / f64::from(n) * dt;
+                let state = texels(&|i| [u[i] / scale, v[i] / scale, pressure[i] * dt / scale, seconds]);
+                let drift = texels(&|i| [u[i] / scale, v[i] / scale, u[i] / scale, v[i] / scale]);
+                self.setup.state_sized("velocity", size, &state).state_sized("drift", size, &drift)
+            }
+            Kind::Mips => {
+                let state = texels(&|i| [u[i] / scale, v[i] / scale, 0.0, 0.0]);
+                self.setup.state_sized("velocity", size, &state)
+            }
+            Kind::Lattice => {
+                let all: Vec<[f64; 9]> =
+                    (0..u.len()).map(|i| equilibrium(3.0 * dt * dt * pressure[i], dt * u[i], dt * v[i])).collect();
+                self.setup
+                    .state("rest", &texels(&|i| [all[i][0], 0.0, 0.0, 1.0]))
+                    .state("axes", &texels(&|i| std::array::from_fn(|k| all[i][1 + k])))
+                    .state("corners", &texels(&|i| std::array::from_fn(|k| all[i][5 + k])))
+            }
+        };
+        self
+    }
+
+    /// Mean density less 1, of Guay's fluid.
+    pub fn mass_drift(&self, running: &mut Running) -> Result<Option<f64>, LabError> {
+        match self.kind {
+            Kind::Centred { is_compressible: true } => Ok(Some(mean(&running.read("field")?.component(2)) - 1.0)),
+            _ => Ok(None),
+        }
+    }
+
+    /// The velocity in texels for a unit of time: all of u, then all of v.
+    pub fn velocity(&self, running: &mut Running) -> Result<Vec<f64>, LabError> {
+        match self.kind {
+            Kind::Centred { .. } => Ok(running.read("field")?.components(0, 1)),
+            Kind::Staggered | Kind::Mips => {
+                let field = running.read("velocity")?.components(0, 1);
+                Ok(field.into_iter().map(|x| x * self.scale).collect())
+            }
+            Kind::Lattice => lattice_velocity(running, self.flow.dt),
+        }
+    }
+
+    /// Frames that come closest to `time`, at least one, and the time they make.
+    pub fn frames(&self, time: f64) -> (u32, f64) {
+        let frame = self.flow.dt * f64::from(self.steps);
+        let frames = (time / frame).round().max(1.0);
+        (frames as u32, frames * frame)
+    }
+}
+
+/// The preset, whose unit of length is the height of the canvas and whose grid has half of the canvas's texels each way. The
+/// seconds of a unit of time are as few as the slider of the viscosity allows.
+fn accurate(flow: Flow) -> Solver {
+    let Flow { n, dt, viscosity } = flow;
+    let side = f64::from(n);
+    let seconds = (viscosity / (MOST_VISCOSITY * side * side)).max(1.0 / side);
+    let setup = Setup::new("fluid-accurate", (2 * n, 2 * n))
+        .wants(&["velocity"])
+        .knob("jets", 0.0)
+        .knob("walls", 2.0)
+        .knob("viscosity", viscosity / (side * side * seconds))
+        .knob("speed", 60.0 * seconds * dt);
+    Solver { setup, steps: 1, flow, kind: Kind::Staggered, scale: side * seconds, stiffness: STIFFNESS }
+}
+
+/// The preset with nothing that drives it. It has no viscosity; of one wave in the box its drag does the same.
+fn mips(flow: Flow) -> Solver {
+    let Flow { n, dt, viscosity } = flow;
+    let side = f64::from(n);
+    let seconds = 2.0 / side;
+    let decay = 2.0 * viscosity * (TAU / side).powi(2);
+    let setup = Setup::new("mip-fluid", (2 * n, 2 * n))
+        .wants(&["velocity"])
+        .knob("stirring", 0.0)
+        .knob("turbulence", 0.0)
+        .knob("confinement", 0.0)
+        .knob("drag_seconds", (seconds / decay).min(60.0))
+        .knob("speed", 60.0 * seconds * dt);
+    Solver { setup, steps: 1, flow, kind: Kind::Mips, scale: side * seconds, stiffness: STIFFNESS }
+}
+
+/// D2Q9 in the order rest, axes, corners, less their weights, of a density less 1 and a velocity in texels a step (Qian,
+/// d'Humieres and Lallemand 1992).
+fn equilibrium(density: f64, u: f64, v: f64) -> [f64; 9] {
+    const X: [f64; 9] = [0.0, 1.0, 0.0, -1.0, 0.0, 1.0, -1.0, -1.0, 1.0];
+    const Y: [f64; 9] = [0.0, 0.0, 1.0, 0.0, -1.0, 1.0, 1.0, -1.0, -1.0];
+    std::array::from_fn(|i| {
+        let weight = [4.0 / 9.0, 1.0 / 9.0, 1.0 / 36.0][usize::from(i > 0) + usize::from(i > 4)];
+        let along = X[i] * u + Y[i] * v;
+        let bracket = 3.0 * along + 4.5 * along * along - 1.5 * (u * u + v * v);
+        weight * (density + (1.0 + density) * bracket)
+    })
+}
+
+/// Density and momentum in texels a step, of the populations of each texel.
+fn moments(running: &mut Running) -> Result<Vec<[f64; 3]>, LabError> {
+    let (axes, corners, rest) = (running.read("axes")?, running.read("corners")?, running.read("rest")?);
+    let of = |i: usize| {
+        let (a, c, r) = (axes.texels()[i].map(f64::from), corners.texels()[i].map(f64::from), rest.texels()[i][0]);
+        let rho = 1.0 + f64::from(r) + a.iter().sum::<f64>() + c.iter().sum::<f64>();
+        [rho, a[0] - a[2] + c[0] - c[1] - c[2] + c[3], a[1] - a[3] + c[0] + c[1] - c[2] - c[3]]
+    };
+    Ok((0..axes.texels().len()).map(of).collect())
+}
+
+fn density(running: &mut Running) -> Result<Vec<f64>, LabError> {
+    Ok(moments(running)?.iter().map(|m| m[0]).collect())
+}
+
+/// Velocity of the populations, in texels for a unit of time.
+fn lattice_velocity(running: &mut Running, dt: f64) -> Result<Vec<f64>, LabError> {
+    let all = moments(running)?;
+    Ok((1..3).flat_map(|c| all.iter().map(move |m| m[c] / m[0] / dt)).collect())
+}
+
+/// Root mean square of the divergence, in units of `speed` over a texel: of faces where those are what there is, else by central
+/// differences.
+pub fn divergence(solver: &Solver, velocity: &[f64], speed: f64) -> f64 {
+    let n = solver.flow.n as usize;
+    let at = |c: usize, x: usize, y: usize| velocity[c * n * n + (y % n) * n + x % n];
+    let square = |i: usize| {
+        let (x, y) = (i % n + n, i / n + n);
+        let d = if solver.is_staggered() {
+            at(0, x + 1, y) - at(0, x, y) + at(1, x, y + 1) - at(1, x, y)
+        } else {
+            0.5 * (at(0, x + 1, y) - at(0, x - 1, y) + at(1, x, y + 1) - at(1, x, y - 1))
+        };
+        (d / speed).powi(2)
+    };
+    ((0..n * n).map(square).sum::<f64>() / (n * n) as f64).sqrt()
+}
+
+/// The largest component; infinite of what is no number.
+pub fn largest(velocity: &[f64]) -> f64 {
+    velocity.iter().fold(0.0, |a: f64, b| if b.is_finite() { a.max(b.abs()) } else { f64::INFINITY })
+}

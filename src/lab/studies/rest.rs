@@ -1,0 +1,64 @@
+//! Single waves in a fluid at rest, whose fate linear theory knows: shear, sound, and the checkerboard that a grid may not see.
+
+use super::flow::{Flow, Solver};
+use crate::lab::{LabError, Rig, metrics::checkerboard, reference::linear::one_pass_growth};
+use std::f64::consts::TAU;
+
+/// The amplitude of u = sin(k y), one wave in the box, after `time`, over what its exact decay leaves: 1 - 4 nu dt sin^2(k / 2) a step
+/// of explicit viscosity, its limit for short steps where viscosity is exact on the grid, exp(-nu k^2 t) of a lattice.
+pub fn shear_wave(rig: &Rig, name: &str, flow: Flow, time: f64) -> Result<f64, LabError> {
+    let Flow { n, dt, viscosity } = flow;
+    let k = TAU / f64::from(n);
+    let solver = Solver::new(name, flow).begin(|_, y| [(k * y).sin(), 0.0], |_, _| 0.0);
+    let (frames, time) = solver.frames(time);
+    let mut running = rig.open(&solver.setup)?;
+    running.frames(frames)?;
+    let velocity = solver.velocity(&mut running)?;
+    let on_grid = 4.0 * viscosity * (k / 2.0).sin().powi(2);
+    let exact = match name {
+        "fluid-accurate" => (-on_grid * time).exp(),
+        "lattice" | "lattice-16f" => (-viscosity * k * k * time).exp(),
+        _ => (1.0 - on_grid * dt).powf(time / dt),
+    };
+    let shape = solver.sampled(|_, y| [(k * y).sin(), 0.0]);
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    Ok(dot(&velocity, &shape) / dot(&shape, &shape) / exact)
+}
+
+/// What is left of a checkerboard in the pressure or density after so many steps, over what there was. `None` of a method that
+/// keeps neither.
+pub fn checkerboard_left(rig: &Rig, name: &str, flow: Flow, steps: u32) -> Result<Option<f64>, LabError> {
+    let (solver, n) = (Solver::new(name, flow), flow.n as usize);
+    let sign = |x: f64, y: f64| if (x.floor() + y.floor()) % 2.0 == 0.0 { 0.01 } else { -0.01 };
+    let solver = solver.begin_with_pressure(sign);
+    let mut running = rig.open(&solver.setup)?;
+    let Some(before) = solver.pressure(&mut running)? else { return Ok(None) };
+    running.frames(steps / solver.steps)?;
+    let after = solver.pressure(&mut running)?.unwrap_or_default();
+    if after.iter().any(|p| !p.is_finite()) {
+        return Ok(Some(f64::INFINITY));
+    }
+    Ok(Some((checkerboard(&after, n) / checkerboard(&before, n)).abs()))
+}
+
+/// The growth of sound of wave number pi / 2 along both axes in the one-pass fluid of a viscosity below K, over that of linear
+/// theory. Logarithms of the factor a step, over so many steps.
+pub fn growth_of_sound(rig: &Rig, flow: Flow, stiffness: f64, steps: u32) -> Result<f64, LabError> {
+    let quarter = TAU / 4.0;
+    let wave = move |x: f64, y: f64| 1e-4 * (quarter * (x + y)).sin();
+    let Flow { dt, viscosity, .. } = flow;
+    let solver = Solver::new("guay", flow).stiffness(stiffness);
+    let solver = solver.begin(|x, y| [wave(x, y); 2], |_, _| 0.0);
+    let mut running = rig.open(&solver.setup)?;
+    // Weighted so that the energy of a wave without viscosity grows evenly, though its phase turns.
+    let mut amplitude = |frames| {
+        running.frames(frames)?;
+        let square = |v: Vec<f64>, about: f64| v.iter().map(|x| (x - about).powi(2)).sum::<f64>();
+        let field = running.read("field")?;
+        let both = square(field.components(0, 1), 0.0) + stiffness / dt * square(field.component(2), 1.0);
+        Ok::<f64, LabError>(both.sqrt())
+    };
+    let (before, after) = (amplitude(0)?, amplitude(steps)?);
+    let measured = (after / before).ln() / f64::from(steps);
+    Ok(measured / one_pass_growth(dt, viscosity, stiffness, quarter, quarter).ln())
+}
