@@ -44,6 +44,15 @@ impl Fft {
         all.iter().map(|c| c.re * scale).collect()
     }
 
+    /// Two inverses in one, of transforms of real values.
+    pub fn inverse_pair(&self, a: &[Complex], b: &[Complex]) -> [Vec<f64>; 2] {
+        let sum = |(a, b): (&Complex, &Complex)| Complex { re: a.re - b.im, im: a.im + b.re };
+        let mut all: Vec<Complex> = a.iter().zip(b).map(sum).collect();
+        self.both(&mut all, true);
+        let scale = 1.0 / (self.n * self.n) as f64;
+        [all.iter().map(|c| c.re * scale).collect(), all.iter().map(|c| c.im * scale).collect()]
+    }
+
     fn both(&self, all: &mut [Complex], inverse: bool) {
         let n = self.n;
         all.chunks_exact_mut(n).for_each(|row| self.line(row, inverse));

@@ -2,6 +2,7 @@
 
 mod advection;
 mod blur;
+pub mod cavity;
 pub mod cycle;
 mod diffusion;
 pub mod flow;
@@ -9,6 +10,7 @@ pub mod fluid;
 pub mod gray_scott;
 pub mod poisson;
 pub mod rest;
+pub mod torus;
 
 use super::{LabError, Study};
 use crate::project::{listed, nearest};
@@ -21,6 +23,10 @@ pub fn all() -> Vec<&'static dyn Study> {
         &gray_scott::GrayScott,
         &poisson::Poisson,
         &fluid::Fluid,
+        &torus::Torus::TaylorGreen,
+        &torus::Torus::ShearLayer,
+        &torus::Torus::LambOseen,
+        &cavity::Cavity,
         &blur::Blur,
     ]
 }

@@ -1,0 +1,223 @@
+//! Flows on a torus of side 1 at a Courant number: a finer grid is a finer answer to the same question.
+
+use super::flow::{Flow, Solver, divergence};
+use crate::lab::{
+    About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
+    metrics::{Norms, square_drift},
+    reference::{
+        sampled,
+        spectral::{Spectral, lamb_oseen, shear_layers},
+    },
+};
+use std::{f64::consts::TAU, sync::LazyLock};
+
+/// A scene of unit speed in a box of side 1, for one unit of time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Torus {
+    /// Taylor's and Green's eddies without viscosity, which stand still.
+    TaylorGreen,
+    /// Two shear layers that roll up.
+    ShearLayer,
+    /// The vortex of Lamb and Oseen, which spreads.
+    LambOseen,
+}
+
+const COURANT: &[f64] = &[0.25, 0.5, 1.0, 2.0];
+const LONG_COURANT: &[f64] = &[0.25, 0.5, 1.0, 2.0, 4.0];
+/// Those of methods with sound, which is faster than the flow.
+const SHORT_COURANT: &[f64] = &[0.025, 0.05, 0.1];
+
+const METHODS: &[Method] = &[
+    Method { name: "fluid-accurate", title: "the preset fluid-accurate", settings: LONG_COURANT, usual: 0.5 },
+    Method { name: "maccormack-jacobi-4", title: "MacCormack, Jacobi 4", settings: COURANT, usual: 0.5 },
+    Method { name: "maccormack-jacobi-20", title: "MacCormack, Jacobi 20", settings: COURANT, usual: 0.5 },
+    Method { name: "maccormack-cycle", title: "MacCormack, V-cycle", settings: COURANT, usual: 0.5 },
+    Method { name: "bilinear-jacobi-20", title: "bilinear, Jacobi 20", settings: COURANT, usual: 0.5 },
+    Method {
+        name: "guay-forward-backward",
+        title: "Guay, forward-backward, K = 1",
+        settings: SHORT_COURANT,
+        usual: 0.05,
+    },
+    Method { name: "lattice", title: "lattice Boltzmann D2Q9", settings: SHORT_COURANT, usual: 0.05 },
+];
+
+/// Of the shear layers: one over their thickness, and viscosity.
+const RHO: f64 = 30.0;
+const VISCOSITY: f64 = 1e-4;
+
+/// Of the vortex: its core at first and at the end as parts of the side, so that the side is 18 times the radius of its greatest
+/// speed at the end; and its circulation, for a greatest speed of 1 at first.
+const CORES: [f64; 2] = [0.03, 0.05];
+const CIRCULATION: f64 = TAU * CORES[0] / 0.63817;
+
+/// Waves of the spectral reference, and its steps. With 256 waves and 1,024 steps the energy differs in the seventh digit.
+const WAVES: usize = 128;
+const STEPS: u32 = 192;
+
+/// The shear layers at t = 1, and their energy then over that at first.
+static ROLLED_UP: LazyLock<(Spectral, f64)> = LazyLock::new(|| {
+    let mut flow = Spectral::new(WAVES, |x, y| shear_layers(RHO, x, y));
+    let first = flow.energy();
+    flow.run(VISCOSITY, 1.0, STEPS);
+    let kept = flow.energy() / first;
+    (flow, kept)
+});
+
+/// The energy that the shear layers have at t = 1 over that at first, by a spectral method.
+pub fn energy_kept() -> f64 {
+    ROLLED_UP.1
+}
+
+impl Torus {
+    /// Texels^2 for a unit of time, in which the speed of 1 crosses a texel of a grid of n.
+    fn viscosity(self, n: u32) -> f64 {
+        let of_side = match self {
+            Torus::TaylorGreen => 0.0,
+            Torus::ShearLayer => VISCOSITY,
+            Torus::LambOseen => (CORES[1] * CORES[1] - CORES[0] * CORES[0]) / 4.0,
+        };
+        of_side * f64::from(n)
+    }
+
+    /// At first, where the solver has it.
+    fn velocity(self, solver: &Solver, n: u32) -> Vec<f64> {
+        let side = f64::from(n);
+        let eddies = |x: f64, y: f64| [(TAU * x).sin() * (TAU * y).cos(), -(TAU * x).cos() * (TAU * y).sin()];
+        match self {
+            Torus::TaylorGreen => solver.sampled(|x, y| eddies(x / side, y / side)),
+            Torus::ShearLayer => solver.sampled(|x, y| shear_layers(RHO, x / side, y / side)),
+            Torus::LambOseen => vortex(solver, n, CORES[0]),
+        }
+    }
+
+    /// A method with the scene in it.
+    pub fn solver(self, name: &str, n: u32, courant: f64) -> Solver {
+        let solver = Solver::new(name, Flow { n, dt: courant, viscosity: self.viscosity(n) });
+        let solver = if name.starts_with("guay") { solver.stiffness(1.0) } else { solver };
+        let side = f64::from(n);
+        let pressure = sampled(n as usize, |x, y| match self {
+            Torus::TaylorGreen => 0.25 * ((2.0 * TAU * x / side).cos() + (2.0 * TAU * y / side).cos()),
+            // The layers' own pressure is small, and the vortex's is found in the first steps.
+            Torus::ShearLayer | Torus::LambOseen => 0.0,
+        });
+        let velocity = self.velocity(&solver, n);
+        solver.begin_from(&velocity, &pressure)
+    }
+
+    /// The exact velocity at the end, where the solver has it.
+    pub fn exact(self, solver: &Solver, n: u32) -> Vec<f64> {
+        match self {
+            Torus::TaylorGreen => self.velocity(solver, n),
+            Torus::ShearLayer => ROLLED_UP.0.velocity(n as usize, places(solver)),
+            Torus::LambOseen => vortex(solver, n, CORES[1]),
+        }
+    }
+
+    /// The velocity of a method at first and at the end, with its solver and the frames between.
+    pub fn run(self, rig: &Rig, name: &str, n: u32, courant: f64) -> Result<(Solver, [Vec<f64>; 2], u32), LabError> {
+        let solver = self.solver(name, n, courant);
+        let (frames, _) = solver.frames(f64::from(n));
+        let mut running = rig.open(&solver.setup)?;
+        let before = solver.velocity(&mut running)?;
+        running.frames(frames)?;
+        let after = solver.velocity(&mut running)?;
+        Ok((solver, [before, after], frames))
+    }
+}
+
+/// Where in a texel a solver has u and v.
+fn places(solver: &Solver) -> [(f64, f64); 2] {
+    if solver.is_staggered() { [(0.0, 0.5), (0.5, 0.0)] } else { [(0.5, 0.5); 2] }
+}
+
+/// The vortex of Lamb and Oseen where the solver has its velocity.
+fn vortex(solver: &Solver, n: u32, core: f64) -> Vec<f64> {
+    let velocity = lamb_oseen(WAVES, core).velocity(n as usize, places(solver));
+    velocity.into_iter().map(|u| CIRCULATION * u).collect()
+}
+
+/// Distance from the middle in texels, and size, of the greatest v on the horizontal line through the middle.
+fn peak(solver: &Solver, n: usize, velocity: &[f64]) -> (f64, f64) {
+    let v = &velocity[n * n..];
+    let row = |i: usize| match solver.is_staggered() {
+        true => v[n / 2 * n + i],
+        false => 0.5 * (v[(n / 2 - 1) * n + i] + v[n / 2 * n + i]),
+    };
+    let line: Vec<f64> = (n / 2..n).map(row).collect();
+    let inner = 1..line.len() - 1;
+    let top = inner.max_by(|a, b| line[*a].total_cmp(&line[*b])).unwrap_or(1);
+    let [a, b, c] = [line[top - 1], line[top], line[top + 1]];
+    let bend = a - 2.0 * b + c;
+    let shift = if bend < 0.0 { 0.5 * (a - c) / bend } else { 0.0 };
+    (top as f64 + 0.5 + shift, b - 0.25 * (a - c) * shift)
+}
+
+impl Study for Torus {
+    fn about(&self) -> About {
+        let (name, title, text) = match self {
+            Torus::TaylorGreen => (
+                "taylor-green",
+                "Taylor-Green without viscosity",
+                "One vortex pair of speed 1 in a box of side 1, for one unit of time. The exact solution stands still. A finer \
+                 grid at the same Courant number is the same problem, so that the observed order is the method's. The hard case \
+                 is that the energy never exceeds that at first by .001 of it.",
+            ),
+            Torus::ShearLayer => (
+                "shear-layer",
+                "Doubly periodic shear layer",
+                "Two layers tanh(30 (y - 1/4)) and tanh(30 (3/4 - y)) with v = .05 sin(2 pi x), nu = 1e-4, which roll up within \
+                 t = 1 (Brown and Minion 1995), against a pseudo-spectral solution with 128 x 128 waves in f64, which keeps \
+                 .98279 of the energy. energy is what a method keeps, energy_error the difference of the two. The hard case is \
+                 that the energy never exceeds that at first by .001 of it.",
+            ),
+            Torus::LambOseen => (
+                "lamb-oseen",
+                "Lamb-Oseen vortex",
+                "A vortex of greatest speed 1 whose core grows from .03 to .05 of the side of the box in one unit of time, \
+                 nearly five turns, against its closed form with its images. r_peak and u_peak are the radius and the size of \
+                 the greatest speed over those of the closed form read in the same way. The hard case is that the energy never \
+                 exceeds that at first by .001 of it.",
+            ),
+        };
+        About { name, title, text, knob: "Courant number", unit: Unit::Scene, error: "of the velocity" }
+    }
+
+    fn methods(&self) -> &'static [Method] {
+        // Without viscosity a lattice has no relaxation.
+        if *self == Torus::TaylorGreen { &METHODS[..METHODS.len() - 1] } else { METHODS }
+    }
+
+    fn grids(&self, extent: Extent) -> &'static [u32] {
+        match extent {
+            Extent::Quick => &[16, 32, 64],
+            Extent::Full => &[32, 64, 128],
+        }
+    }
+
+    fn setup(&self, point: &Point) -> Setup {
+        self.solver(&point.method, point.grid, point.setting).setup
+    }
+
+    fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
+        let (solver, [before, after], frames) = self.run(rig, &point.method, point.grid, point.setting)?;
+        let exact = self.exact(&solver, point.grid);
+        let norms = Norms::of(&after, &exact);
+        let kept = 1.0 + square_drift(&before, &after);
+        let mut measured = Measured { norms, frames_per_unit: f64::from(frames), ..Measured::default() }
+            .value("energy", kept)
+            .value("divergence", divergence(&solver, &after, 1.0));
+        if *self == Torus::ShearLayer {
+            measured = measured.value("energy_error", kept - energy_kept());
+        }
+        if *self == Torus::LambOseen {
+            let n = point.grid as usize;
+            let ((r, u), (exact_r, exact_u)) = (peak(&solver, n, &after), peak(&solver, n, &exact));
+            measured = measured.value("r_peak", r / exact_r).value("u_peak", u / exact_u);
+        }
+        if let Some(sound) = solver.sound() {
+            measured = measured.value("mach", 1.0 / sound);
+        }
+        Ok(measured.hard(HardCase::at_most("energy over that at first", kept, 1.001)))
+    }
+}
