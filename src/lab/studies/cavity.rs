@@ -10,17 +10,20 @@ use crate::lab::{
 pub struct Cavity;
 
 const METHODS: &[Method] = &[
-    Method { name: "fluid-accurate", title: "the preset fluid-accurate", settings: &[1.0, 2.0, 4.0], usual: 2.0 },
-    Method { name: "maccormack-jacobi-20", title: "MacCormack, Jacobi 20", settings: &[0.05, 0.1, 0.15], usual: 0.1 },
-    Method { name: "lattice", title: "lattice Boltzmann D2Q9", settings: &[0.05, 0.1, 0.2], usual: 0.1 },
+    Method { name: "fluid-accurate", title: "the preset fluid-accurate", settings: &[1.0, 2.0, 4.0], usual: 1.0 },
+    Method { name: "maccormack-jacobi-4", title: "MacCormack, Jacobi 4", settings: &[0.1, 0.15], usual: 0.15 },
+    Method { name: "lattice", title: "lattice Boltzmann D2Q9", settings: &[0.1, 0.2], usual: 0.2 },
     Method { name: "guay", title: "Guay, one pass", settings: &[0.1, 0.15], usual: 0.15 },
 ];
 
 /// Times, in sides of the box over the speed of the lid, after which a flow of each Reynolds number stands still.
 const TIMES: [f64; 3] = [12.0, 40.0, 70.0];
 
-/// From this grid on the tables of Re = 400 and 1000 are asked too, and the bounds of the hard cases hold.
+/// From this grid on the bounds of the hard cases hold.
 const FINE: u32 = 128;
+
+/// At this Courant number Re = 400 and 1000 are asked too: with shorter steps they take many minutes.
+const THOROUGH: f64 = 2.0;
 
 /// A method's project at a Courant number of the lid, which crosses a texel in a unit of time.
 pub fn solver(name: &str, n: u32, courant: f64, reynolds: f64) -> Solver {
@@ -141,11 +144,12 @@ impl Study for Cavity {
             text: "A box of side 1 whose lid has speed 1, from rest until the flow stands still. The error is that of three \
                    extrema at Re = 100 (least u on the vertical middle line, largest and least v on the horizontal one) against \
                    those of high-order methods; ghia_u and ghia_v are the largest differences from the tables of Ghia, Ghia and \
-                   Shin 1982, which are right to 1 and 2 %. On 128 x 128 texels the same of Re = 400 and 1000 are added, with \
-                   high_ for the extrema and lines of high-order methods at Re = 1000, and v where the table of Re = 400 has a \
-                   misprint (-.238; it is not scored). noise is the largest fourth difference of u along x under the lid. Hard \
-                   cases, on 128 x 128: within .01 of each table in u and v, noise at most .0005. Guay's program has no walls \
-                   of its own; it is reported with K = nu (at most 1), the stiffest that is stable at rest, and is compressible: \
+                   Shin 1982. fluid-accurate is asked for Re = 400 and 1000 too, on 128 x 128 texels at two texels a step, with \
+                   high_ for the lines and extrema of high-order methods at Re = 1000, from which the table's v is up to .0185 \
+                   off, and v where the table of Re = 400 has a misprint (-.238; it is not scored). noise is the largest fourth \
+                   difference of u along x under the lid. Hard cases, on 128 x 128: u and v within .01 of the tables of Re = 100 \
+                   and 400 and of the high-order lines of Re = 1000, noise at most .0005. Guay's program has no walls of its own; \
+                   with walls it is reported with K = nu (at most 1), the stiffest that is stable at rest, and is compressible: \
                    mach is the lid's.",
             knob: "Courant number of the lid",
             unit: Unit::Scene,
@@ -189,8 +193,13 @@ impl Study for Cavity {
             return Ok(measured);
         }
         let within = |column: usize, (u, v): (f64, f64)| {
-            HardCase::at_most(&format!("tables of Re = {}", REYNOLDS[column]), u.max(v), 0.01)
+            HardCase::at_most(&format!("lines of Re = {}", REYNOLDS[column]), u.max(v), 0.01)
         };
+        let quiet = |noise: f64| HardCase::at_most("noise under the lid", noise, 5e-4);
+        measured = measured.hard(within(0, (u, v)));
+        if courant != THOROUGH {
+            return Ok(measured.hard(quiet(slow.noise)));
+        }
         let (middle, fast) = (run(1)?.0, run(2)?.0);
         let ((u4, v4), (u10, v10), high) = (middle.off_tables(1), fast.off_tables(2), fast.off_high());
         Ok(measured
@@ -202,10 +211,9 @@ impl Study for Cavity {
             .value("high_u_1000", high.0)
             .value("high_v_1000", high.1)
             .value("high_extrema_1000", norms(&fast, extrema(REYNOLDS[2])).unwrap_or_default().l2)
-            .hard(within(0, (u, v)))
             .hard(within(1, (u4, v4)))
-            .hard(within(2, (u10, v10)))
-            .hard(HardCase::at_most("noise under the lid", slow.noise.max(middle.noise).max(fast.noise), 5e-4)))
+            .hard(within(2, high))
+            .hard(quiet(slow.noise.max(middle.noise).max(fast.noise))))
     }
 }
 
