@@ -72,8 +72,13 @@ impl Running {
     }
 
     pub fn read(&mut self, name: &str) -> Result<Field, LabError> {
+        self.read_target(name, 0)
+    }
+
+    /// One of the targets of a geometry pass.
+    pub fn read_target(&mut self, name: &str, target: usize) -> Result<Field, LabError> {
         let lacks = |_| LabError::Setup { method: self.name.clone(), what: format!("pass {name}") };
-        self.engine.read(&pass(name)).map(Field).map_err(lacks)
+        self.engine.read_target(&pass(name), target).map(Field).map_err(lacks)
     }
 
     pub(super) fn engine(&mut self) -> &mut Engine {

@@ -18,6 +18,15 @@ pub enum Storage {
     Half,
 }
 
+/// In a pass's text, or Common's, `old` becomes `new`.
+#[derive(Clone)]
+struct Edit {
+    /// `None`: Common's.
+    pass: Option<PassId>,
+    old: String,
+    new: String,
+}
+
 /// Adds passes to a project.
 type Build = Arc<dyn Fn(&mut Project) + Send + Sync>;
 
@@ -26,10 +35,12 @@ type Build = Arc<dyn Fn(&mut Project) + Send + Sync>;
 pub struct Setup {
     folder: &'static str,
     size: (u32, u32),
-    knobs: Vec<(String, f64)>,
+    knobs: Vec<(String, KnobValue)>,
     defines: Vec<(&'static str, String)>,
     steps: Vec<(&'static str, u32)>,
     initial: Vec<(PassId, Fill)>,
+    texts: Vec<(PassId, String)>,
+    edits: Vec<Edit>,
     states: Vec<(PathBuf, Arc<Texels>)>,
     storage: Storage,
     wanted: Vec<PassId>,
@@ -46,6 +57,8 @@ impl Setup {
             defines: Vec::new(),
             steps: Vec::new(),
             initial: Vec::new(),
+            texts: Vec::new(),
+            edits: Vec::new(),
             states: Vec::new(),
             storage: Storage::AsWritten,
             wanted: vec![pass("field")],
@@ -69,7 +82,14 @@ impl Setup {
     /// range among them, is an error of [`Setup::project`].
     #[must_use]
     pub fn knob(mut self, name: &str, value: f64) -> Self {
-        self.knobs.push((name.into(), value));
+        self.knobs.push((name.into(), KnobValue::Float(value)));
+        self
+    }
+
+    /// A switch: the value of an `#iUniform bool`.
+    #[must_use]
+    pub fn flag(mut self, name: &str, value: bool) -> Self {
+        self.knobs.push((name.into(), KnobValue::Bool(value)));
         self
     }
 
@@ -84,6 +104,22 @@ impl Setup {
     #[must_use]
     pub fn steps(mut self, group: &'static str, steps: u32) -> Self {
         self.steps.push((group, steps));
+        self
+    }
+
+    /// Gives a pass another text: another scene for a filter that reads it.
+    #[must_use]
+    pub fn text(mut self, name: &str, text: impl Into<String>) -> Self {
+        self.texts.push((pass(name), text.into()));
+        self
+    }
+
+    /// Puts `new` in place of `old` in a pass's text or in `common`, which must have it. For what a preset gives no knob: its scene,
+    /// or the light before the curve that a screen needs.
+    #[must_use]
+    pub fn edit(mut self, name: &str, old: &str, new: &str) -> Self {
+        let pass = (name != "common").then(|| pass(name));
+        self.edits.push(Edit { pass, old: old.into(), new: new.into() });
         self
     }
 
@@ -141,6 +177,17 @@ impl Setup {
         if let Some(build) = &self.built {
             build(&mut project);
         }
+        for (id, text) in &self.texts {
+            project.pass_mut(id).ok_or_else(|| lacks(id.title()))?.source.text = text.as_str().into();
+        }
+        for Edit { pass, old, new } in &self.edits {
+            let source = match pass {
+                Some(id) => project.pass_mut(id).map(|p| &mut p.source),
+                None => project.common.as_mut(),
+            };
+            let source = source.filter(|s| s.text.contains(old)).ok_or_else(|| lacks(format!("text `{old}`")))?;
+            source.text = source.text.replace(old, new).into();
+        }
         if !self.defines.is_empty() {
             let common = project.common.as_mut().ok_or_else(|| lacks("common.glsl to define macros in".into()))?;
             let lines: String = self.defines.iter().map(|(name, value)| format!("#define {name} {value}\n")).collect();
@@ -149,9 +196,9 @@ impl Setup {
         let known = project.knobs();
         for (name, value) in &self.knobs {
             let knob = known.get(name).ok_or_else(|| lacks(format!("knob {name}")))?;
-            let value = match knob.ty {
-                KnobType::Bool => KnobValue::Bool(*value >= 0.5),
-                _ => KnobValue::Float(*value),
+            let value = match (knob.ty, value) {
+                (KnobType::Bool, KnobValue::Float(number)) => KnobValue::Bool(*number >= 0.5),
+                (_, value) => value.clone(),
             };
             let fitting = knob.fit(&value).map_err(|why| lacks(format!("{value:?} for knob {name}, which {why}")))?;
             project.knob_values.insert(name.clone(), fitting);
@@ -178,8 +225,11 @@ impl Setup {
     }
 }
 
-/// A buffer by the name its file has.
+/// A buffer by the name its file has, or `image`.
 pub fn pass(name: &str) -> PassId {
+    if name == "image" {
+        return PassId::Image;
+    }
     PassId::parse(&format!("buffer_{name}")).unwrap_or(PassId::Image)
 }
 
@@ -220,5 +270,10 @@ mod tests {
         assert!(beyond.contains("5.0") && beyond.contains("knob dt") && beyond.contains("0.0 to 4.0"), "{beyond}");
         assert!(said(Setup::new("floor", (8, 8)).steps("nope", 1)).contains("has no group nope"));
         assert!(said(Setup::new("floor", (8, 8)).initial("nope", "vec4(0)")).contains("has no Buffer nope"));
+        let far = said(Setup::new("taa", (8, 8)).knob("gamma", 40.0));
+        assert!(far.contains("knob gamma") && far.contains("0.25 to 4"), "{far}");
+        assert!(said(Setup::new("floor", (8, 8)).text("nope", "")).contains("has no Buffer nope"));
+        assert!(said(Setup::new("floor", (8, 8)).edit("copy", "nope", "")).contains("has no text `nope`"));
+        assert!(said(Setup::new("floor", (8, 8)).edit("common", "nope", "")).contains("has no text `nope`"));
     }
 }
