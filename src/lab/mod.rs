@@ -7,8 +7,10 @@
 
 pub mod cost;
 mod error;
+pub mod flip;
 pub mod metrics;
 mod number;
+pub mod picture;
 pub mod reference;
 pub mod report;
 mod results;

@@ -1,0 +1,117 @@
+//! How far a picture is from another, as a screen shows them: colours in sRGB's own values, 0 to 1.
+
+/// Colours from the bottom left, row 0 first.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    pub width: usize,
+    pub rgb: Vec<[f64; 3]>,
+}
+
+impl Picture {
+    pub fn new(width: usize, rgb: Vec<[f64; 3]>) -> Picture {
+        Picture { width, rgb }
+    }
+
+    /// The colours of a pass, without its alpha.
+    pub fn of(field: &super::Field) -> Picture {
+        let rgb = field.texels().iter().map(|t| [0, 1, 2].map(|i| f64::from(t[i]))).collect();
+        Picture { width: field.width(), rgb }
+    }
+
+    pub fn height(&self) -> usize {
+        self.rgb.len() / self.width
+    }
+
+    /// Every component, one after the other.
+    pub fn values(&self) -> Vec<f64> {
+        self.rgb.iter().flatten().copied().collect()
+    }
+
+    /// Rec. 601's luma.
+    pub fn luma(&self) -> Vec<f64> {
+        self.rgb.iter().map(|[r, g, b]| 0.299 * r + 0.587 * g + 0.114 * b).collect()
+    }
+}
+
+/// Peak signal to noise ratio of all three components in dB, for a peak of 1.
+pub fn psnr(picture: &Picture, reference: &Picture) -> f64 {
+    super::metrics::psnr(&picture.values(), &reference.values())
+}
+
+/// Filters a field along its rows and columns; the field goes on as its edge is.
+pub(super) fn separable(field: &[f64], width: usize, across: &[f64], up: &[f64]) -> Vec<f64> {
+    let height = field.len() / width;
+    let (rx, ry) = ((across.len() / 2) as isize, (up.len() / 2) as isize);
+    let within = |at: usize, by: isize, n: usize| (at as isize + by).clamp(0, n as isize - 1) as usize;
+    let mut rows = vec![0.0; field.len()];
+    for (i, out) in rows.iter_mut().enumerate() {
+        let (x, y) = (i % width, i / width);
+        *out = (-rx..=rx).map(|d| across[(d + rx) as usize] * field[y * width + within(x, d, width)]).sum();
+    }
+    let mut both = vec![0.0; field.len()];
+    for (i, out) in both.iter_mut().enumerate() {
+        let (x, y) = (i % width, i / width);
+        *out = (-ry..=ry).map(|d| up[(d + ry) as usize] * rows[within(y, d, height) * width + x]).sum();
+    }
+    both
+}
+
+/// Mean structural similarity of luma over all windows of 11 x 11 that lie inside, weighted by a Gaussian of sigma 1.5.
+/// Z. Wang, A. Bovik, H. Sheikh, E. Simoncelli, "Image Quality Assessment: From Error Visibility to Structural Similarity",
+/// IEEE Transactions on Image Processing 13, 2004: K1 = .01, K2 = .03. 1 for equal pictures.
+///
+/// # Panics
+/// If the sizes differ, or a side is less than 11.
+pub fn ssim(picture: &Picture, reference: &Picture) -> f64 {
+    const REACH: usize = 5;
+    let (width, height) = (picture.width, picture.height());
+    assert_eq!((width, height), (reference.width, reference.height()), "pictures of one size are compared");
+    assert!(width.min(height) > 2 * REACH, "the window does not fit in");
+    let weights: Vec<f64> = (0..=2 * REACH).map(|i| (-((i as f64 - REACH as f64) / 1.5).powi(2) / 2.0).exp()).collect();
+    let sum: f64 = weights.iter().sum();
+    let weights: Vec<f64> = weights.iter().map(|w| w / sum).collect();
+    let mean = |field: &[f64]| separable(field, width, &weights, &weights);
+    let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).collect::<Vec<f64>>();
+    let (a, b) = (picture.luma(), reference.luma());
+    let (ma, mb) = (mean(&a), mean(&b));
+    let (aa, bb, ab) = (mean(&product(&a, &a)), mean(&product(&b, &b)), mean(&product(&a, &b)));
+    let (c1, c2) = (0.01f64.powi(2), 0.03f64.powi(2));
+    let inside = (REACH..height - REACH).flat_map(|y| (REACH..width - REACH).map(move |x| y * width + x));
+    let all: Vec<f64> = inside
+        .map(|i| {
+            let (va, vb, cov) = (aa[i] - ma[i] * ma[i], bb[i] - mb[i] * mb[i], ab[i] - ma[i] * mb[i]);
+            (2.0 * ma[i] * mb[i] + c1) * (2.0 * cov + c2) / ((ma[i].powi(2) + mb[i].powi(2) + c1) * (va + vb + c2))
+        })
+        .collect();
+    super::metrics::mean(&all)
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    /// A disc of three colours on a ramp, so large; moved to the right by so much.
+    pub(in crate::lab) fn scene(width: usize, height: usize, moved: f64) -> Picture {
+        let rgb = (0..width * height).map(|i| {
+            let (x, y) = ((i % width) as f64 - moved, (i / width) as f64);
+            let ramp = 0.2 + 0.5 * x / width as f64;
+            let r = (x - 20.0).hypot(y - 16.0);
+            if r < 10.0 { [0.9, 0.3 + 0.02 * r, 0.1] } else { [ramp, ramp, 0.3 + 0.01 * y] }
+        });
+        Picture::new(width, rgb.collect())
+    }
+
+    #[test]
+    fn pictures_that_differ_are_called_so() {
+        let truth = scene(48, 32, 0.0);
+        assert!((ssim(&truth, &truth) - 1.0).abs() < 1e-12 && psnr(&truth, &truth) == f64::INFINITY);
+        // A grey that is a little off everywhere keeps its structure; noise of the same PSNR does not.
+        let bright = Picture { rgb: truth.rgb.iter().map(|c| c.map(|v| v + 0.03)).collect(), ..truth.clone() };
+        let noise = |i: usize| if (i * 7919) % 2 == 0 { 0.03 } else { -0.03 };
+        let noisy = truth.rgb.iter().enumerate().map(|(i, c)| c.map(|v| v + noise(i + i / 48)));
+        let noisy = Picture { rgb: noisy.collect(), ..truth.clone() };
+        assert!((psnr(&bright, &truth) - psnr(&noisy, &truth)).abs() < 1e-6);
+        assert!(ssim(&bright, &truth) > 0.97 && ssim(&noisy, &truth) < 0.75, "{}", ssim(&noisy, &truth));
+        assert!(ssim(&scene(48, 32, 3.0), &truth) < 0.9);
+    }
+}
