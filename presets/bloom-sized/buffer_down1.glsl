@@ -1,5 +1,5 @@
 // Level 1 of the pyramid: 1/2 of the canvas. Channel 0 is Buffer A, the picture.
 
 void mainImage(out vec4 light, in vec2 fragCoord) {
-    light = down13(iChannel0, 2.0 * fragCoord, iChannelResolution[0].xy, calm);
+    light = down(iChannel0, fragCoord, 1, iChannelResolution[0].xy, iResolution.xy);
 }

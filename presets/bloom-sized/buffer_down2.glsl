@@ -1,5 +1,5 @@
 // Level 2 of the pyramid: 1/4 of the canvas. Channel 0 is the level before, channel 1 Buffer A, for its size.
 
 void mainImage(out vec4 light, in vec2 fragCoord) {
-    light = down13(iChannel0, 2.0 * fragCoord, iChannelResolution[1].xy / 2.0, false);
+    light = down(iChannel0, fragCoord, 2, iChannelResolution[1].xy, iResolution.xy);
 }

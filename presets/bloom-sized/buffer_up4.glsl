@@ -2,6 +2,6 @@
 // its size.
 
 void mainImage(out vec4 light, in vec2 fragCoord) {
-    vec4 wider = tent(iChannel1, 0.5 * fragCoord, iChannelResolution[2].xy / 32.0);
-    light = mix(texelFetch(iChannel0, ivec2(fragCoord), 0), wider, spread);
+    vec4 wider = tent(iChannel1, fragCoord, 5, iChannelResolution[2].xy);
+    light = mix(plain(texelFetch(iChannel0, ivec2(fragCoord), 0)), wider, spread);
 }

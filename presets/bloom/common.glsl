@@ -14,7 +14,7 @@
 // ratio of sizes; a box would move a texel by up to half of a coarse one. On the way up each level is drawn by cubic
 // B-splines, which have both properties too and show no corners. Level k spreads a texel over sigma = 1.58 * 2^k pixels.
 //
-// Measured (tests/preset_filters.rs), strength 1, over the phases, at 640 x 360, 641 x 359, 333 x 187 and 187 x 333:
+// Measured (tests/preset_bloom.rs, `eddy lab bloom`), strength 1, over the phases, at 640 x 360, 641 x 359, 333 x 187, 187 x 333:
 // a spot's total is 0.993 to 1.001 of its light, also at the edges, and its centroid moves by 0.01 pixels at most.
 
 #iUniform float strength = 0.35 in { 0.0, 1.0 } // the part of the light that is spread

@@ -3,5 +3,5 @@
 #include "pyramid.glsl"
 
 void mainImage(out vec4 light, in vec2 fragCoord) {
-    light = down13(iChannel0, 2.0 * fragCoord, iChannelResolution[0].xy);
+    light = down(iChannel0, fragCoord, 1, iChannelResolution[0].xy, iResolution.xy);
 }

@@ -3,5 +3,5 @@
 #include "pyramid.glsl"
 
 void mainImage(out vec4 light, in vec2 fragCoord) {
-    light = down13(iChannel0, 2.0 * fragCoord, iChannelResolution[1].xy / 2.0);
+    light = down(iChannel0, fragCoord, 2, iChannelResolution[1].xy, iResolution.xy);
 }

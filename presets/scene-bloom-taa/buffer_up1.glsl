@@ -6,6 +6,6 @@
 #iUniform float spread = 0.65 in { 0.0, 1.0 }
 
 void mainImage(out vec4 light, in vec2 fragCoord) {
-    vec4 wider = tent(iChannel1, 0.5 * fragCoord, iChannelResolution[2].xy / 4.0);
-    light = mix(texelFetch(iChannel0, ivec2(fragCoord), 0), wider, spread);
+    vec4 wider = tent(iChannel1, fragCoord, 2, iChannelResolution[2].xy);
+    light = mix(plain(texelFetch(iChannel0, ivec2(fragCoord), 0)), wider, spread);
 }
