@@ -80,7 +80,10 @@ void mainImage(out vec4 occluded, in vec2 fragCoord) {
                 // comes after a gap hides what is before and within it, and there.
                 bool goesOn = length(delta - previous) < 4.0 * (far - last) / perUnit + 0.01;
                 float away = length(delta), here = sectorOf(delta, view, float(side), s);
-                float where = goesOn ? 0.5 * (away + before) : away, other = edge;
+                // What comes after a gap and stands nearer to the camera hides with its back, which is nearer than its front. How
+                // much nearer the G-buffer does not know: a fifth of the thickness, more lets things hide the open table.
+                float back = 0.2 * clamp(dot(delta, view), 0.0, thickness);
+                float where = goesOn ? 0.5 * (away + before) : length(delta - back * view), other = edge;
                 previous = delta;
                 before = away;
                 edge = here;

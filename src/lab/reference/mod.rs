@@ -8,6 +8,9 @@ pub mod gray_scott;
 pub mod linear;
 pub mod poisson;
 pub mod spectral;
+pub mod rays;
+pub mod star;
+pub mod still_life;
 
 use std::f64::consts::TAU;
 

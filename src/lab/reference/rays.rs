@@ -1,7 +1,9 @@
-//! Ambient occlusion by rays, in f64: what the presets that guess it from a depth buffer are held against.
-#![allow(dead_code, reason = "every test file uses its own part")]
+//! Ambient occlusion by rays, in f64, with its closed forms, and meshes for rays to meet.
 
-use eddy::{media::mesh, project::MeshDraw};
+use crate::{
+    media::mesh::{self, MeshError},
+    project::MeshDraw,
+};
 
 pub type V = [f64; 3];
 
@@ -43,6 +45,47 @@ pub fn hidden(from: V, normal: V, side: u32, hit: impl Fn(V, V) -> Option<f64>, 
     sum / f64::from(side * side)
 }
 
+/// What a wall without ends, of a height and a distance, hides of a floor's cosine-weighted sky: (1 - cos t) / 2, t = atan(height /
+/// distance).
+pub fn behind_wall(height: f64, distance: f64) -> f64 {
+    0.5 * (1.0 - (height / distance).atan().cos())
+}
+
+/// What a sphere hides of a floor's cosine-weighted sky, where its middle is `height` above the floor, at least a radius, and
+/// `beside` to the side: R^2 h / (r^2 + h^2)^(3/2).
+pub fn under_sphere(radius: f64, height: f64, beside: f64) -> f64 {
+    radius * radius * height / (beside * beside + height * height).powf(1.5)
+}
+
+/// Where a ray of length 1 meets a sphere first.
+pub fn meets_sphere(centre: V, radius: f64, from: V, ray: V) -> Option<f64> {
+    let q = add(from, centre, -1.0);
+    let (b, c) = (dot(q, ray), dot(q, q) - radius * radius);
+    let root = b * b - c;
+    (root > 0.0 && -b - root.sqrt() > 0.0).then(|| -b - root.sqrt())
+}
+
+/// Root mean square, mean and largest size of differences, and how many there are.
+#[derive(Clone, Copy, Debug)]
+pub struct Errors {
+    pub rms: f64,
+    pub mean: f64,
+    pub most: f64,
+    pub count: usize,
+}
+
+impl Errors {
+    /// Of what is measured less what is expected.
+    pub fn of(pairs: impl Iterator<Item = (f64, f64)>) -> Errors {
+        let (mut square, mut sum, mut most, mut count) = (0.0, 0.0, 0.0f64, 0);
+        for (measured, expected) in pairs {
+            let off = measured - expected;
+            (square, sum, most, count) = (square + off * off, sum + off, most.max(off.abs()), count + 1);
+        }
+        Errors { rms: (square / count as f64).sqrt(), mean: sum / count as f64, most, count }
+    }
+}
+
 /// Does `work` for every item, on all cores.
 pub fn on_all_cores<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
@@ -50,7 +93,7 @@ pub fn on_all_cores<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync
     std::thread::scope(|scope| {
         let jobs: Vec<_> =
             items.chunks(share).map(|part| scope.spawn(|| part.iter().map(&work).collect::<Vec<R>>())).collect();
-        jobs.into_iter().flat_map(|job| job.join().unwrap()).collect()
+        jobs.into_iter().flat_map(|job| job.join().unwrap_or_else(|e| std::panic::resume_unwind(e))).collect()
     })
 }
 
@@ -68,11 +111,11 @@ struct Node {
 }
 
 impl Meshes {
-    /// What a geometry pass draws, in the world.
-    pub fn of(draws: &[MeshDraw]) -> Meshes {
+    /// What a geometry pass draws, in the world. The meshes are builtin ones.
+    pub fn of(draws: &[MeshDraw]) -> Result<Meshes, MeshError> {
         let mut triangles = Vec::new();
         for draw in draws {
-            let mesh = mesh::load(&draw.mesh, None).unwrap();
+            let mesh = mesh::load(&draw.mesh, None)?;
             let [x, y, z] = draw.rotation.map(f64::to_radians);
             let turned = |[a, b, c]: V| {
                 let [b, c] = [b * x.cos() - c * x.sin(), b * x.sin() + c * x.cos()];
@@ -87,7 +130,7 @@ impl Meshes {
         }
         let mut meshes = Meshes { triangles, nodes: Vec::new() };
         meshes.split(0..meshes.triangles.len());
-        meshes
+        Ok(meshes)
     }
 
     fn split(&mut self, range: std::ops::Range<usize>) {
@@ -99,7 +142,8 @@ impl Meshes {
         if range.len() <= 4 {
             return;
         }
-        let axis = (0..3).max_by(|&a, &b| (high[a] - low[a]).total_cmp(&(high[b] - low[b]))).unwrap();
+        let size = [0, 1, 2].map(|i| high[i] - low[i]);
+        let axis = if size[0] >= size[1].max(size[2]) { 0 } else { 1 + usize::from(size[2] > size[1]) };
         let middle = |t: &[V; 3]| t[0][axis] + t[1][axis] + t[2][axis];
         let half = range.len() / 2;
         self.triangles[range.clone()].select_nth_unstable_by(half, |a, b| middle(a).total_cmp(&middle(b)));
@@ -150,4 +194,51 @@ fn meets([a, b, c]: &[V; 3], from: V, ray: V) -> Option<f64> {
     let v = dot(ray, q) / size;
     let t = dot(f, q) / size;
     (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 1e-6).then_some(t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::project::MeshSource;
+
+    const UP: V = [0.0, 1.0, 0.0];
+
+    #[test]
+    fn rays_find_the_closed_forms() {
+        for (height, distance) in [(1.0, 4.0), (1.0, 1.0), (4.0, 1.0)] {
+            let wall = |from: V, ray: V| {
+                let t = (distance - from[0]) / ray[0];
+                (t > 0.0 && t * ray[1] < height).then_some(t)
+            };
+            let found = hidden([0.0; 3], UP, 64, wall, |_| 1.0);
+            assert!((found - behind_wall(height, distance)).abs() < 4e-3, "{height}, {distance}: {found}");
+        }
+        for (height, beside) in [(1.0, 0.0), (1.5, 0.7), (1.0, 2.0)] {
+            let centre = [beside, height, 0.0];
+            let found = hidden([0.0; 3], UP, 64, |from, ray| meets_sphere(centre, 0.8, from, ray), |_| 1.0);
+            assert!((found - under_sphere(0.8, height, beside)).abs() < 4e-3, "{height}, {beside}: {found}");
+        }
+        // The uniform hemisphere, which a wrong kernel would measure, is t / pi: far off.
+        assert!((std::f64::consts::FRAC_1_PI * 0.25f64.atan() - behind_wall(1.0, 4.0)).abs() > 0.05);
+    }
+
+    #[test]
+    fn a_ray_meets_a_mesh_where_it_is() {
+        let ssao = crate::project::presets::load("ssao").unwrap().project;
+        let geometry = ssao.passes.iter().find_map(|p| p.settings.geometry.as_ref()).unwrap();
+        let draw = MeshDraw { mesh: MeshSource::parse("builtin:cube"), ..geometry.draws[0].clone() };
+        let draw = MeshDraw { scale: 0.5, rotation: [0.0; 3], position: [0.0, 2.0, 0.0], ..draw };
+        let cube = Meshes::of(&[draw]).unwrap();
+        let at = cube.hit([0.1, 0.0, 0.05], UP, 10.0).unwrap();
+        assert!((at - 1.5).abs() < 1e-6, "{at}");
+        assert_eq!(cube.hit([0.6, 0.0, 0.05], UP, 10.0), None);
+        assert_eq!(cube.hit([0.1, 0.0, 0.05], UP, 1.4), None);
+    }
+
+    #[test]
+    fn errors_have_a_size_and_a_side() {
+        let off = Errors::of([(1.0, 0.5), (0.0, 0.5), (0.5, 0.5)].into_iter());
+        assert!((off.rms - (0.5f64 / 3.0).sqrt()).abs() < 1e-12 && off.mean == 0.0 && off.most == 0.5);
+        assert!(Errors::of([(0.4, 0.5)].into_iter()).mean < -0.09);
+    }
 }

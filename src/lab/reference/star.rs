@@ -1,0 +1,108 @@
+//! A Siemens star, a hairline and a moving disc, sampled as finely as one likes.
+
+use crate::lab::picture::Picture;
+use std::ops::RangeInclusive;
+
+/// Side of the canvas in pixels.
+pub const SIDE: usize = 192;
+
+/// Pixels that the disc moves in a frame, to the right.
+pub const SPEED: f64 = 2.37;
+
+const RADIUS: f64 = 20.0;
+pub const DISC: [f64; 3] = [0.95, 0.90, 0.80];
+
+/// The scene at a frame; without the disc for `None`.
+#[derive(Clone, Copy, Debug)]
+pub struct Star {
+    pub frame: Option<u32>,
+}
+
+impl Star {
+    /// Where the disc's middle is, in pixels from the canvas's.
+    fn disc(frame: u32) -> [f64; 2] {
+        [-60.0 + SPEED * f64::from(frame), -20.0]
+    }
+
+    fn is_disc(frame: u32, [x, y]: [f64; 2]) -> bool {
+        let [cx, cy] = Star::disc(frame);
+        (x - cx).hypot(y - cy) < RADIUS
+    }
+
+    /// The colour at a place, in pixels from the canvas's middle.
+    fn colour(self, [x, y]: [f64; 2]) -> [f64; 3] {
+        if self.frame.is_some_and(|frame| Star::is_disc(frame, [x, y])) {
+            return DISC;
+        }
+        // 72 rays of a 144th of the circle each, 90 pixels long; a line of one pixel's width.
+        let sector = (y.atan2(x) / std::f64::consts::PI * 72.0).floor();
+        let is_ray = sector.rem_euclid(2.0) < 1.0 && x.hypot(y) < 90.0;
+        let is_hair = (y - 0.3 * x - 82.56).abs() / 1.0f64.hypot(0.3) < 0.5;
+        [if is_ray || is_hair { 0.64 } else { 0.36 }; 3]
+    }
+
+    /// The mean of 8 x 8 samples in each pixel.
+    pub fn picture(self) -> Picture {
+        let middle = SIDE as f64 / 2.0;
+        let pixel = |i: usize| {
+            let (x, y) = ((i % SIDE) as f64 - middle, (i / SIDE) as f64 - middle);
+            let mut sum = [0.0; 3];
+            for j in 0..64 {
+                let at = [x + (f64::from(j % 8) + 0.5) / 8.0, y + (f64::from(j / 8) + 0.5) / 8.0];
+                let colour = self.colour(at);
+                (0..3).for_each(|c| sum[c] += colour[c] / 64.0);
+            }
+            sum
+        };
+        Picture::new(SIDE, (0..SIDE * SIDE).map(pixel).collect())
+    }
+
+    /// The pixels that the disc covered wholly at `frame` and touched in none of the frames `since`.
+    pub fn vacated(frame: u32, since: RangeInclusive<u32>) -> Vec<usize> {
+        let middle = SIDE as f64 / 2.0;
+        let corners = |i: usize| {
+            [0, 1, 2, 3].map(|c| [((i % SIDE) + c % 2) as f64 - middle, ((i / SIDE) + c / 2) as f64 - middle])
+        };
+        // Rows that the disc never comes to are left out.
+        let rows = (middle - 20.0 - RADIUS) as usize - 1..(middle - 20.0 + RADIUS) as usize + 2;
+        (rows.start * SIDE..rows.end * SIDE)
+            .filter(|&i| {
+                let is_covered = corners(i).iter().all(|p| Star::is_disc(frame, *p));
+                is_covered && since.clone().all(|f| !corners(i).iter().any(|p| Star::is_disc(f, *p)))
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn half_of_the_star_is_light_and_the_disc_has_its_area() {
+        let still = Star { frame: None }.picture();
+        let middle = SIDE as f64 / 2.0;
+        let (mut sum, mut n) = (0.0, 0.0);
+        for (i, c) in still.rgb.iter().enumerate() {
+            let (x, y) = ((i % SIDE) as f64 + 0.5 - middle, (i / SIDE) as f64 + 0.5 - middle);
+            if x.hypot(y) < 70.0 {
+                (sum, n) = (sum + c[0], n + 1.0);
+            }
+        }
+        assert!((sum / n - 0.5).abs() < 2e-3, "{}", sum / n);
+        let moved = Star { frame: Some(20) }.picture();
+        let blue = moved.rgb.iter().filter(|c| (c[0] - DISC[0]).abs() < 1e-9 && (c[2] - DISC[2]).abs() < 1e-9).count();
+        let area = std::f64::consts::PI * RADIUS * RADIUS;
+        assert!((blue as f64) < area && blue as f64 > 0.88 * area, "{blue}");
+    }
+
+    #[test]
+    fn what_is_vacated_lies_behind_the_disc() {
+        let all = Star::vacated(34, 40..=40);
+        let right = Star::disc(40)[0] - RADIUS * 0.2 + SIDE as f64 / 2.0;
+        assert!(all.len() > 300 && all.iter().all(|i| ((i % SIDE) as f64) < right), "{}", all.len());
+        // A strip of what one frame uncovers.
+        let strip = Star::vacated(34, 35..=40);
+        assert!(strip.len() > 10 && strip.len() < all.len() / 3 && strip.iter().all(|i| all.contains(i)));
+    }
+}
