@@ -2,6 +2,7 @@
 //
 //   A            one jittered sample a pixel, linear light, and the distance of what was hit
 //   B            the history, reprojected by that distance and the camera of the frame before
+//   C            the distances and the time of the frame before
 //   down1..4     the history halved four times; up3..1 put together again: the bloom
 //   Image        chromatic aberration and vignette of a simple lens, exposure, tone curve, grain
 //

@@ -85,7 +85,7 @@ void mainImage(out vec4 resolved, in vec2 fragCoord) {
     if (length(old - held) > 0.1) age = 1.0;
     // A young history is the plain mean of what there is; one that rests may have more samples than one that moves, which is
     // blurred a little in every frame.
-    float least = length(own) < 0.01 ? blend * mix(1.0, 0.4, trust) : blend;
+    float least = length(own) < 0.01 ? pow(blend, 1.0 + 0.4 * trust) : blend;
     resolved.rgb = mix(fromYCoCg(held), now.rgb, max(least, 1.0 / (age + 1.0)));
     resolved.a = min(age + 1.0, 255.0);
 }
