@@ -44,6 +44,7 @@ pub struct Setup {
     states: Vec<(PathBuf, Arc<Texels>)>,
     storage: Storage,
     wanted: Vec<PassId>,
+    skip: bool,
     built: Option<Build>,
 }
 
@@ -62,6 +63,7 @@ impl Setup {
             states: Vec::new(),
             storage: Storage::AsWritten,
             wanted: vec![pass("field")],
+            skip: true,
             built: None,
         }
     }
@@ -76,6 +78,18 @@ impl Setup {
 
     pub fn wanted(&self) -> &[PassId] {
         &self.wanted
+    }
+
+    /// Whether a pass rests while nothing that it reads has changed.
+    pub fn skips(&self) -> bool {
+        self.skip
+    }
+
+    /// Every pass is drawn in every frame: what a picture costs while its camera moves.
+    #[must_use]
+    pub fn restless(mut self) -> Self {
+        self.skip = false;
+        self
     }
 
     /// Value of an `#iUniform` that is a float, an int, or a bool (1 for true). A value that the knob cannot take, one beyond its
