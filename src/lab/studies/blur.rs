@@ -35,7 +35,7 @@ const DOWN: &str = include_str!("../../../assets/lab/blur_pyramid/down.glsl");
 const UP: &str = include_str!("../../../assets/lab/blur_pyramid/up.glsl");
 
 /// Adds `levels` passes down and those back up before `field`.
-fn pyramid(project: &mut Project, levels: u32) {
+pub(super) fn pyramid(project: &mut Project, levels: u32) {
     let pass = |name: &str, text: &str, level: u32, reads: String| {
         let sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true };
         let mut pass = Pass {

@@ -1,6 +1,8 @@
 //! The studies. A new one is a file here with its [`Study`], and its projects in `assets/lab`.
 
 mod advection;
+pub mod ao;
+pub mod bloom;
 mod blur;
 pub mod cavity;
 pub mod cycle;
@@ -11,6 +13,8 @@ pub mod gray_scott;
 pub mod poisson;
 pub mod rest;
 pub mod torus;
+pub mod ssr;
+pub mod taa;
 
 use super::{LabError, Study};
 use crate::project::{listed, nearest};
@@ -28,6 +32,10 @@ pub fn all() -> Vec<&'static dyn Study> {
         &torus::Torus::LambOseen,
         &cavity::Cavity,
         &blur::Blur,
+        &bloom::Bloom,
+        &taa::Taa,
+        &ao::Ao,
+        &ssr::Ssr,
     ]
 }
 

@@ -1,0 +1,220 @@
+//! Temporal anti-aliasing against plain supersampling: how much of a resting picture it resolves, what a moving thing leaves
+//! behind, and how much it flickers.
+
+use crate::lab::{
+    About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit, flip,
+    metrics::{Norms, mean},
+    picture::{Picture, psnr, ssim},
+    reference::star::{DISC, SIDE, SPEED, Star},
+};
+
+pub struct Taa;
+
+/// Frames until the picture is looked at: four rounds of the jitter.
+const REST: u32 = 64;
+/// The frame of the moving scene that is looked at.
+const NOW: u32 = 40;
+/// Frames of a round of the jitter.
+const ROUND: u32 = 16;
+
+/// What leaves less of the disc than this is no ghost.
+const FAINT: f64 = 0.01;
+
+const METHODS: &[Method] = &[
+    Method { name: "taa", title: "preset taa, by gamma", settings: &[0.5, 0.75, 1.0, 1.5, 2.5], usual: 0.75 },
+    Method {
+        name: "taa-narrow",
+        title: "taa, one box everywhere, by gamma",
+        settings: &[0.75, 1.0, 1.25, 4.0],
+        usual: 0.75,
+    },
+    Method { name: "taa-linear", title: "taa, history read by a linear filter", settings: &[0.75], usual: 0.75 },
+    Method {
+        name: "taa-blind",
+        title: "taa without motion vectors, by gamma",
+        settings: &[0.75, 1.0, 1.25, 4.0],
+        usual: 0.75,
+    },
+    Method { name: "one-sample", title: "taa with blend = 1: one jittered sample", settings: &[1.0], usual: 1.0 },
+    Method {
+        name: "supersampling",
+        title: "so many samples in each frame",
+        settings: &[1.0, 2.0, 4.0, 8.0, 16.0],
+        usual: 4.0,
+    },
+];
+
+const SCENE: &str = include_str!("../../../assets/lab/supersampling/scene.glsl");
+
+/// In place of the preset's own scene. Alpha tells the object.
+const SAMPLED: &str = "
+void mainImage(out vec4 sampled, in vec2 fragCoord) {
+    vec2 q = fragCoord + jitter(iFrame) - 0.5 * iResolution.xy;
+    sampled = scene(q * 192.0 / iResolution.y, float(iFrame));
+}
+";
+
+/// A method's project with the star in it, at rest or with the disc moving before it.
+fn scene(method: &str, setting: f64, side: u32, moves: bool) -> Setup {
+    let size = (side, side);
+    let moving = u32::from(moves);
+    if method == "supersampling" {
+        return Setup::new("supersampling", size).define("SAMPLES", setting as u32).define("MOVES", moving);
+    }
+    // As the scene has it: pixels over the preset's unit, which is .7 of the width here.
+    let disc = "vec2 cogAt(float t) { return vec2(-60.0 + 2.37 * 60.0 * t, -20.0) / (0.7 * 192.0); }";
+    let setup = Setup::new("taa", size)
+        .wants(&["b"])
+        .text("a", format!("{SCENE}{SAMPLED}"))
+        .define("MOVES", moving)
+        .edit("common", "vec2 cogAt(float t) { return vec2(-0.48 + 0.10 * sin(0.7 * t), -0.12); }", disc)
+        .edit("common", "return p + vec2(0.06 * t, 0.0);", "return p;")
+        .edit("common", "return q - vec2(0.06 * t, 0.0);", "return q;");
+    match method {
+        "taa" => setup.knob("gamma", setting),
+        // No wider than gamma, whatever the history.
+        "taa-narrow" => setup.knob("gamma", setting).knob("relaxed", 0.25),
+        "taa-linear" => setup.knob("gamma", setting).flag("catmullRom", false),
+        "taa-blind" => setup.knob("gamma", setting).flag("motionVectors", false),
+        _ => setup.knob("blend", 1.0),
+    }
+}
+
+fn result(method: &str) -> &'static str {
+    if method == "supersampling" { "field" } else { "b" }
+}
+
+/// A resting picture.
+#[derive(Clone, Debug)]
+pub struct Rest {
+    pub picture: Picture,
+    /// Root mean square over all pixels of the deviation in time, over a round of the jitter.
+    pub flicker: f64,
+}
+
+/// The star at rest, after [`REST`] frames and a round more.
+pub fn rest(rig: &Rig, method: &str, setting: f64) -> Result<Rest, LabError> {
+    let mut running = rig.open(&scene(method, setting, SIDE as u32, false))?;
+    running.frames(REST + 1)?;
+    let mut frames = Vec::new();
+    for _ in 0..ROUND {
+        frames.push(Picture::of(&running.read(result(method))?));
+        running.frames(1)?;
+    }
+    let values: Vec<Vec<f64>> = frames.iter().map(Picture::luma).collect();
+    let deviation = |i: usize| {
+        let all: Vec<f64> = values.iter().map(|v| v[i]).collect();
+        let middle = mean(&all);
+        mean(&all.iter().map(|v| (v - middle).powi(2)).collect::<Vec<f64>>())
+    };
+    let variances: Vec<f64> = (0..values[0].len()).map(deviation).collect();
+    Ok(Rest { picture: frames.swap_remove(0), flicker: mean(&variances).sqrt() })
+}
+
+/// What a moving disc leaves.
+#[derive(Clone, Debug)]
+pub struct Moving {
+    /// At frame [`NOW`].
+    pub picture: Picture,
+    /// Of the pixels that it left so many frames ago (1, 2 …), what is left of its colour: 1 is all. The mean over a round of the
+    /// jitter, which takes most of the noise.
+    pub ghost: Vec<f64>,
+    /// Mean distance from the truth of what it left within the last six frames.
+    pub beside: f64,
+}
+
+impl Moving {
+    /// How long the tail is in pixels: what lies before the first place with less than [`FAINT`] of the disc's colour. At most as
+    /// long as what is looked at.
+    pub fn tail(&self) -> f64 {
+        let end = self.ghost.iter().position(|g| g.abs() < FAINT).unwrap_or(self.ghost.len());
+        end as f64 * SPEED
+    }
+}
+
+/// Frames after which a tail's end is no longer looked for.
+const LONGEST: u32 = 30;
+
+pub fn moving(rig: &Rig, method: &str, setting: f64) -> Result<Moving, LabError> {
+    let mut running = rig.open(&scene(method, setting, SIDE as u32, true))?;
+    running.frames(NOW)?;
+    let (mut ghost, mut off, mut first) = (vec![(0.0, 0.0); LONGEST as usize], Vec::new(), None);
+    for frame in NOW..NOW + ROUND {
+        running.frames(1)?;
+        let picture = Picture::of(&running.read(result(method))?);
+        let truth = Star { frame: Some(frame) }.picture();
+        for (ago, (sum, all)) in (1..).zip(&mut ghost) {
+            for i in Star::vacated(frame - ago, frame - ago + 1..=frame) {
+                for (c, disc) in DISC.iter().enumerate() {
+                    *sum += picture.rgb[i][c] - truth.rgb[i][c];
+                    *all += disc - truth.rgb[i][c];
+                }
+            }
+        }
+        let near = Star::vacated(frame - 6, frame..=frame);
+        let distance = |i: usize| (0..3).map(|c| (picture.rgb[i][c] - truth.rgb[i][c]).abs()).sum::<f64>() / 3.0;
+        off.extend(near.into_iter().map(distance));
+        first.get_or_insert(picture);
+    }
+    let ghost = ghost.into_iter().map(|(sum, all)| sum / all).collect();
+    let picture = first.unwrap_or_else(|| Star { frame: None }.picture());
+    Ok(Moving { picture, ghost, beside: mean(&off) })
+}
+
+impl Study for Taa {
+    fn about(&self) -> About {
+        About {
+            name: "taa",
+            title: "Temporal anti-aliasing",
+            text: "A Siemens star of 72 rays and a hairline, .36 and .64 bright, 192 x 192, at frame 64, and a light disc that \
+                   crosses them by 2.37 pixels a frame, at frame 40; the truth is the mean of 8 x 8 samples a pixel in \
+                   f64. Errors are those of colours as a screen shows them, of the resting picture. Of the moving one the \
+                   table gives PSNR and FLIP, and how much of the disc's colour is left where it was six frames ago at \
+                   most, and how many pixels behind it 1 % of it is left. Flicker is the deviation in time over a round of \
+                   the jitter. Hard cases: 31 dB at rest; no more than .02 flicker; a tail of at most 24 pixels.",
+            knob: "gamma, or samples",
+            unit: Unit::Frame,
+            error: "of the resting picture",
+        }
+    }
+
+    fn methods(&self) -> &'static [Method] {
+        METHODS
+    }
+
+    fn grids(&self, _: Extent) -> &'static [u32] {
+        &[48, 96, SIDE as u32]
+    }
+
+    /// The truth is that of one canvas.
+    fn has_order(&self) -> bool {
+        false
+    }
+
+    fn setup(&self, point: &Point) -> Setup {
+        scene(&point.method, point.setting, point.grid, true)
+    }
+
+    fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
+        let still = Star { frame: None }.picture();
+        let truth = Star { frame: Some(NOW) }.picture();
+        let rest = rest(rig, &point.method, point.setting)?;
+        let moving = moving(rig, &point.method, point.setting)?;
+        let off = psnr(&rest.picture, &still);
+        let norms = Norms::of(&rest.picture.values(), &still.values());
+        Ok(Measured { norms, frames_per_unit: 1.0, ..Measured::default() }
+            .value("psnr_db", off)
+            .value("ssim", ssim(&rest.picture, &still))
+            .value("flip", flip::mean(&rest.picture, &still))
+            .value("flicker", rest.flicker)
+            .value("moving_psnr_db", psnr(&moving.picture, &truth))
+            .value("moving_ssim", ssim(&moving.picture, &truth))
+            .value("moving_flip", flip::mean(&moving.picture, &truth))
+            .value("ghost", moving.beside)
+            .value("ghost_px", moving.tail())
+            // A root mean square of 10^(-31 / 20).
+            .hard(HardCase::at_most("31 dB at rest", 10f64.powf(-off / 20.0), 0.0282))
+            .hard(HardCase::at_most("flicker", rest.flicker, 0.02))
+            .hard(HardCase::at_most("tail, pixels", moving.tail(), 24.0)))
+    }
+}
