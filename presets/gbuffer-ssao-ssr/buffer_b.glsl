@@ -81,8 +81,8 @@ void mainImage(out vec4 occluded, in vec2 fragCoord) {
                 bool goesOn = length(delta - previous) < 4.0 * (far - last) / perUnit + 0.01;
                 float away = length(delta), here = sectorOf(delta, view, float(side), s);
                 // What comes after a gap and stands nearer to the camera hides with its back, which is nearer than its front. How
-                // much nearer the G-buffer does not know: a fifth of the thickness, more lets things hide the open table.
-                float back = 0.2 * clamp(dot(delta, view), 0.0, thickness);
+                // much nearer the G-buffer does not know: 0.15 of the thickness, more lets things hide the open table.
+                float back = 0.15 * clamp(dot(delta, view), 0.0, thickness);
                 float where = goesOn ? 0.5 * (away + before) : length(delta - back * view), other = edge;
                 previous = delta;
                 before = away;

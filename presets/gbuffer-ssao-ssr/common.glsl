@@ -6,8 +6,8 @@
 //   soft   its noise averaged away, half the size     picture  the two together, as a screen shows them
 //   C      at the full size                           Image    edges smoothed
 //
-// Against 1,024 rays a point in the scene itself, of the same radius and falloff, the occlusion is 0.032 off (root mean square,
-// 640 x 360; 0.036 at 320 x 320); 0.04 too little on the die's upright faces, one of which looks at the ball's back, which the
+// Against 1,024 rays a point in the scene itself, of the same radius and falloff, the occlusion is 0.033 off (root mean square,
+// 640 x 360; 0.037 at 320 x 320); 0.04 too little on the die's upright faces, one of which looks at the ball's back, which the
 // camera does not see; none on the open table (tests/preset_occlusion.rs, `eddy lab ao`). Reflections look where the exact ray ends
 // within 0.2 pixels in the median and 1 pixel for 95 of 100 (320 x 320, `eddy lab ssr`).
 
