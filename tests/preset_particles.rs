@@ -2,7 +2,7 @@
 
 mod support;
 
-use eddy::{engine::Pixels, media::MediaSet};
+use eddy::{engine::Pixels, lab::reference::motion::flight, media::MediaSet};
 use support::{presets::*, *};
 
 /// (age, lifetime, type, births) of all.
@@ -60,14 +60,13 @@ fn sparks_fall_as_far_as_gravity_says() {
     let [before, _] = read(&mut engine);
     draw(&mut engine, 30..31, untouched);
     let [after, life] = read(&mut engine);
-    let (step, mut seen) = (1.0f32 / 60.0, 0);
+    let (step, mut seen) = (1.0 / 60.0, 0);
     for ((b, a), l) in before.iter().zip(&after).zip(&life) {
         // Sparks in the air, not born just now and not at the floor.
         if l[2] == 1.0 && l[0] > 0.0 && b[1] > -0.3 && a[1] > -0.3 {
-            let drag = (-0.15 * step).exp();
-            let expected = [b[2] * drag, (b[3] - 0.45 * step) * drag];
-            let off = (a[2] - expected[0]).abs().max((a[3] - expected[1]).abs());
-            assert!(off < 1e-5 && (a[1] - b[1] - step * a[3]).abs() < 1e-5, "{b:?} became {a:?}");
+            let expected = flight(b.map(f64::from), 0.45, 0.15, step);
+            let off = (0..4).map(|i| (f64::from(a[i]) - expected[i]).abs()).fold(0.0, f64::max);
+            assert!(off < 2e-7, "{b:?} became {a:?}, not {expected:?}");
             seen += 1;
         }
     }

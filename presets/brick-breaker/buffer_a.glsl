@@ -19,11 +19,16 @@ const bool SOLID_FLOOR = false;     // true: practice, the ball cannot be lost
 // Impacts a frame, far more than a game needs: at 10,000 units a frame the ball meets about 100 walls. Should they run
 // out, the rest of the frame is dropped: the ball is late, never through.
 const int MAX_IMPACTS = 512;
-const uint TICKS = 0x40000000u; // in a frame
 
-// A ball this close to a face and moving at it touches it. Without the tolerance a ball that meets two faces at once
-// could be past the second by a rounding error when its turn comes, and never be stopped.
-const float TOUCH = 1e-2;
+// During a frame the ball is counted in whole ticks of a unit. A 32-bit float holds each of those up to 2^24, so from frame to
+// frame nothing is lost, and a reflection is exact: what is left of the frame's way turns, and place plus rest is the mirrored
+// end of the straight way, however an impact was rounded. After 100,000 bounces the ball is where the unfolded path has it, to
+// the tick; with floats it was 1 unit off.
+const float TICKS = 32768.0;
+const float LONGEST = 2.0e9; // ticks a frame, 61,000 units
+
+// A ball this many ticks past a face that it moves at touches it: impacts are rounded, by up to 3 ticks at 10,000 units a frame.
+const int TOUCH = 8;
 const float NEVER = 1e9;
 
 const int KEY_SPACE = 32, KEY_LEFT = 37, KEY_RIGHT = 39;
@@ -34,6 +39,7 @@ vec2 ball, velocity;
 float paddle, paddleBefore;
 vec4 mouseSeen;
 float score, lives, level, phase, phaseTime;
+ivec2 at, rest;        // in ticks: the ball, and what is left of the frame's way
 uint wall[ROWS];       // one bit a brick, bit 0 the leftmost
 vec4 hits[BURSTS];     // of this frame, newest first
 int hitCount;
@@ -108,104 +114,118 @@ bool wallIsDown() {
 
 // ---------------------------------------------------------------------------------------------------------- the sweep
 
-// Seconds until the ball, moving along one axis, is at `face`; NEVER if it moves away or is past it.
-float timeTo(float face, float at, float v) {
-    float far = (face - at) * sign(v);
-    return v == 0.0 || far < -TOUCH ? NEVER : max(far, 0.0) / abs(v);
+int ticks(float units) {
+    return int(clamp(roundEven(units * TICKS), -LONGEST, LONGEST));
 }
 
-// Seconds until the ball enters the box, and through which face: x (true) or y. A vertex hit dead on counts as both faces,
-// one after the other: the second is touched when the first has been dealt with.
-float timeToBox(vec2 centre, vec2 halfSize, out bool throughX) {
+ivec2 ticks(vec2 units) {
+    return ivec2(ticks(units.x), ticks(units.y));
+}
+
+// What part of `rest` there is until the ball is at `face`, along one axis; NEVER if it moves away or is past it.
+float partTo(int face, int from, int way) {
+    int far = way > 0 ? face - from : from - face;
+    return way == 0 || far < -TOUCH ? NEVER : float(max(far, 0)) / float(abs(way));
+}
+
+// What part of `rest` there is until the ball enters the box, and through which face: x (true) or y. At a vertex hit dead on
+// it is y.
+float partToBox(ivec2 centre, ivec2 halfSize, out bool throughX) {
     vec2 near = vec2(-NEVER), far = vec2(NEVER);
     for (int k = 0; k < 2; k++) {
-        float low = centre[k] - halfSize[k] - ball[k], high = centre[k] + halfSize[k] - ball[k];
-        float v = velocity[k];
-        if (v == 0.0) {
-            if (low >= 0.0 || high <= 0.0) return NEVER;
+        int low = centre[k] - halfSize[k] - at[k], high = centre[k] + halfSize[k] - at[k], way = rest[k];
+        if (way == 0) {
+            if (low >= 0 || high <= 0) return NEVER;
         } else {
-            near[k] = (v > 0.0 ? low : high) / v;
-            far[k] = (v > 0.0 ? high : low) / v;
+            near[k] = float(way > 0 ? low : high) / float(way);
+            far[k] = float(way > 0 ? high : low) / float(way);
         }
     }
     throughX = near.x > near.y;
     float enters = max(near.x, near.y);
     float leaves = min(far.x, far.y);
-    float touch = TOUCH / max(abs(velocity.x), abs(velocity.y));
+    float touch = float(TOUCH) / float(max(abs(rest.x), abs(rest.y)));
     return enters < leaves && enters >= -touch ? max(enters, 0.0) : NEVER;
 }
 
 // Moves the ball for `seconds`; the paddle glides from where it was to where it is meanwhile.
 void sweep(float seconds) {
-    // Time passed is counted in whole TICKS of the frame. A sum of floats would round the same flight from wall to wall the
-    // same way again and again: 4 units in 100,000 bounces at 10,000 units a frame, against 1 as it is, which is a float's
-    // precision of the path. (Carrying along what a sum drops is no help: compilers may, and some do, find that it is zero.)
-    uint passed = 0u;
+    at = ticks(ball);
+    rest = ticks(velocity * seconds);
+    ivec2 low = ivec2(ticks(BALL_RADIUS)), high = ticks(vec2(FIELD.x - BALL_RADIUS, CEILING - BALL_RADIUS));
+    ivec2 brick = ticks(0.5 * BRICK - GAP + BALL_RADIUS);
+    int above = ticks(PADDLE_Y + PADDLE_HALF.y + BALL_RADIUS);
+    float whole = float(max(abs(rest.x), abs(rest.y))), gone = 0.0; // of the frame, up to the paddle's last hit
     for (int n = 0; n < impacts; n++) {
-        float rest = seconds * (float(TICKS - passed) / float(TICKS));
-        if (rest <= 0.0) break;
+        if (rest == ivec2(0)) break;
+        float left = float(max(abs(rest.x), abs(rest.y))) / whole;
 
         // The earliest face. Of equals the first asked is taken: edges, paddle, bricks from the bottom left.
-        float first = rest;
+        float first = 1.0;
         int what = 0; // 1 left or right edge, 2 ceiling, 3 floor, 4 paddle, 5 brick
-        float edge = velocity.x > 0.0 ? FIELD.x - BALL_RADIUS : BALL_RADIUS;
-        float t = timeTo(edge, ball.x, velocity.x);
+        int edge = rest.x > 0 ? high.x : low.x, hitColumn = 0, hitRow = 0;
+        float t = partTo(edge, at.x, rest.x);
         if (t < first) { first = t; what = 1; }
 
-        if (velocity.y > 0.0) {
-            t = timeTo(CEILING - BALL_RADIUS, ball.y, velocity.y);
-            if (t < first) { first = t; what = 2; }
-        } else {
-            t = timeTo(SOLID_FLOOR ? BALL_RADIUS : -BALL_RADIUS, ball.y, velocity.y);
-            if (t < first) { first = t; what = 3; }
-            t = timeTo(PADDLE_Y + PADDLE_HALF.y + BALL_RADIUS, ball.y, velocity.y);
-            float there = mix(paddleBefore, paddle, clamp(float(passed) / float(TICKS) + t / seconds, 0.0, 1.0));
-            if (t < first && abs(ball.x + velocity.x * t - there) <= PADDLE_HALF.x + BALL_RADIUS) { first = t; what = 4; }
+        int flat_ = rest.y > 0 ? high.y : SOLID_FLOOR ? low.y : -low.y;
+        t = partTo(flat_, at.y, rest.y);
+        if (t < first) { first = t; what = rest.y > 0 ? 2 : 3; }
+        if (rest.y < 0) {
+            t = partTo(above, at.y, rest.y);
+            float there = mix(paddleBefore, paddle, clamp(gone + (1.0 - gone) * (1.0 - left * (1.0 - t)), 0.0, 1.0));
+            if (t < first && abs((float(at.x) + float(rest.x) * t) / TICKS - there) <= PADDLE_HALF.x + BALL_RADIUS) { first = t; what = 4; }
         }
 
-        int column = 0, row = 0;
         bool throughX = false;
         for (int r = 0; r < rows; r++) {
             if (wall[r] == 0u) continue;
             for (int c = 0; c < COLUMNS; c++) {
                 if ((wall[r] >> uint(c) & 1u) == 0u) continue;
                 bool x;
-                t = timeToBox(brickCentre(c, r), 0.5 * BRICK - GAP + BALL_RADIUS, x);
-                if (t < first) { first = t; what = 5; column = c; row = r; throughX = x; }
+                t = partToBox(ticks(brickCentre(c, r)), brick, x);
+                if (t < first) { first = t; what = 5; hitColumn = c; hitRow = r; throughX = x; }
             }
         }
 
-        ball += velocity * first;
+        // Along the axis of the hit the ball is at the face; along the other it is rounded, and the rest makes up for it.
+        ivec2 step_ = what == 0 ? rest : ivec2(roundEven(vec2(rest) * first));
+        ivec2 centre = ticks(brickCentre(hitColumn, hitRow));
+        bool isAcross = what == 1 || what == 5 && throughX;
+        if (what == 1) step_.x = edge - at.x;
+        else if (what == 2 || what == 3) step_.y = flat_ - at.y;
+        else if (what == 4) step_.y = above - at.y;
+        else if (what == 5 && throughX) step_.x = centre.x - (rest.x > 0 ? brick.x : -brick.x) - at.x;
+        else if (what == 5) step_.y = centre.y - (rest.y > 0 ? brick.y : -brick.y) - at.y;
+        at += step_;
+        rest -= step_;
+        ball = vec2(at) / TICKS;
         if (what == 0) break;
-        passed = min(passed + uint(first / seconds * float(TICKS) + 0.5), TICKS);
-        float part = float(passed) / float(TICKS);
-        if (what == 1) {
-            ball.x = edge;
-            velocity.x = -velocity.x;
-            remember(ball + vec2(sign(-velocity.x) * BALL_RADIUS, 0.0), SPARK);
-        } else if (what == 2) {
-            ball.y = CEILING - BALL_RADIUS;
-            velocity.y = -velocity.y;
-            remember(ball + vec2(0.0, BALL_RADIUS), SPARK);
-        } else if (what == 3) {
-            if (!SOLID_FLOOR) {
-                lives -= 1.0;
-                enter(lives > 0.0 ? READY : OVER);
-                break;
-            }
-            ball.y = BALL_RADIUS;
-            velocity.y = -velocity.y;
-        } else if (what == 4) {
-            ball.y = PADDLE_Y + PADDLE_HALF.y + BALL_RADIUS;
-            float there = mix(paddleBefore, paddle, part);
-            launch((ball.x - there) / (PADDLE_HALF.x + BALL_RADIUS));
+        if (what == 3 && !SOLID_FLOOR) {
+            lives -= 1.0;
+            enter(lives > 0.0 ? READY : OVER);
+            break;
+        }
+        if (what == 4) {
+            gone += (1.0 - gone) * (1.0 - float(max(abs(rest.x), abs(rest.y))) / whole);
+            launch((ball.x - mix(paddleBefore, paddle, gone)) / (PADDLE_HALF.x + BALL_RADIUS));
             remember(ball - vec2(0.0, BALL_RADIUS), SPARK);
+            rest = ticks(velocity * seconds * (1.0 - gone));
+            whole = float(max(max(abs(rest.x), abs(rest.y)), 1));
+            continue;
+        }
+        if (what == 1) remember(ball + vec2(sign(velocity.x) * BALL_RADIUS, 0.0), SPARK);
+        if (what == 2) remember(ball + vec2(0.0, BALL_RADIUS), SPARK);
+        if (isAcross) {
+            velocity.x = -velocity.x;
+            rest.x = -rest.x;
         } else {
-            if (throughX) velocity.x = -velocity.x;
-            else velocity.y = -velocity.y;
-            wall[row] &= ~(1u << uint(column));
-            score += 10.0 * float(row + 1);
-            remember(brickCentre(column, row), float(row));
+            velocity.y = -velocity.y;
+            rest.y = -rest.y;
+        }
+        if (what == 5) {
+            wall[hitRow] &= ~(1u << uint(hitColumn));
+            score += 10.0 * float(hitRow + 1);
+            remember(brickCentre(hitColumn, hitRow), float(hitRow));
             if (wallIsDown()) {
                 level += 1.0;
                 buildWall();

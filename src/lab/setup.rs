@@ -42,6 +42,7 @@ pub struct Setup {
     texts: Vec<(PassId, String)>,
     edits: Vec<Edit>,
     states: Vec<(PathBuf, Arc<Texels>)>,
+    replaced: Vec<(PassId, &'static str, String)>,
     storage: Storage,
     wanted: Vec<PassId>,
     skip: bool,
@@ -61,6 +62,7 @@ impl Setup {
             texts: Vec::new(),
             edits: Vec::new(),
             states: Vec::new(),
+            replaced: Vec::new(),
             storage: Storage::AsWritten,
             wanted: vec![pass("field")],
             skip: true,
@@ -104,6 +106,12 @@ impl Setup {
     #[must_use]
     pub fn flag(mut self, name: &str, value: bool) -> Self {
         self.knobs.push((name.into(), KnobValue::Bool(value)));
+        self
+    }
+
+    /// Values of an `#iUniform` of several components.
+    pub fn knobs(mut self, name: &str, values: &[f64]) -> Self {
+        self.knobs.push((name.into(), KnobValue::Vector(values.to_vec())));
         self
     }
 
@@ -158,6 +166,13 @@ impl Setup {
         let bytes = bytemuck::cast_slice(texels).to_vec();
         self.states.push((path.clone(), Arc::new(Texels { width, height, format: TexelFormat::Rgba32Float, bytes })));
         self.initial.push((pass(name), Fill::file(path)));
+        self
+    }
+
+    /// Puts `new` in place of `old` in a pass's text, which has to have it: a constant that is no knob.
+    #[must_use]
+    pub fn replace(mut self, name: &str, old: &'static str, new: impl ToString) -> Self {
+        self.replaced.push((pass(name), old, new.to_string()));
         self
     }
 
@@ -225,6 +240,13 @@ impl Setup {
             let pass = project.pass_mut(id).ok_or_else(|| lacks(id.title()))?;
             pass.settings.initial = Some(fill.clone());
         }
+        for (id, old, new) in &self.replaced {
+            let source = &mut project.pass_mut(id).ok_or_else(|| lacks(id.title()))?.source;
+            if !source.text.contains(old) {
+                return Err(lacks(format!("text \"{old}\" in {}", id.title())));
+            }
+            source.text = source.text.replace(old, new).into();
+        }
         if self.storage == Storage::Half {
             for pass in &mut project.passes {
                 pass.settings.format = half(pass.settings.format);
@@ -289,5 +311,6 @@ mod tests {
         assert!(said(Setup::new("floor", (8, 8)).text("nope", "")).contains("has no Buffer nope"));
         assert!(said(Setup::new("floor", (8, 8)).edit("copy", "nope", "")).contains("has no text `nope`"));
         assert!(said(Setup::new("floor", (8, 8)).edit("common", "nope", "")).contains("has no text `nope`"));
+        assert!(said(Setup::new("fluid", (8, 8)).replace("a", "nope", "")).contains("has no text \"nope\" in Buffer A"));
     }
 }

@@ -3,9 +3,11 @@
 //! Fields are n x n values, row 0 first; texel (x, y) is the point (x + 1/2, y + 1/2).
 
 pub mod cavity;
+pub mod billiard;
 pub mod fft;
 pub mod gray_scott;
 pub mod linear;
+pub mod motion;
 pub mod poisson;
 pub mod spectral;
 pub mod rays;

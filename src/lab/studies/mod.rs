@@ -5,11 +5,13 @@ pub mod ao;
 pub mod bloom;
 mod blur;
 pub mod cavity;
+pub mod brick_breaker;
 pub mod cycle;
 mod diffusion;
 pub mod flow;
 pub mod fluid;
 pub mod gray_scott;
+pub mod particles;
 pub mod poisson;
 pub mod rest;
 pub mod torus;
@@ -36,6 +38,8 @@ pub fn all() -> Vec<&'static dyn Study> {
         &taa::Taa,
         &ao::Ao,
         &ssr::Ssr,
+        &particles::Particles,
+        &brick_breaker::BrickBreaker,
     ]
 }
 
