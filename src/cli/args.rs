@@ -185,6 +185,29 @@ pub enum LabCommand {
         #[arg(long, value_name = "DIR")]
         out: PathBuf,
     },
+    /// Compare projects in 16-bit floats with themselves in 32; without one, run the study of that name
+    Precision(PrecisionArgs),
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = PROJECT)]
+pub struct PrecisionArgs {
+    /// What to compare [default: the study's presets, which need --out]
+    pub project: Vec<String>,
+    /// Frames to draw
+    #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(1..=1 << 30))]
+    pub frames: u32,
+    #[command(flatten)]
+    pub run: RunArgs,
+    /// One JSON object a line instead of a table
+    #[arg(long)]
+    pub json: bool,
+    /// Without a PROJECT: the folder of the results and the report
+    #[arg(long, value_name = "DIR", conflicts_with = "project")]
+    pub out: Option<PathBuf>,
+    /// Without a PROJECT: a small canvas and few frames
+    #[arg(long, conflicts_with = "project")]
+    pub quick: bool,
 }
 
 #[derive(Debug, Args)]
@@ -337,6 +360,8 @@ mod tests {
             ("eddy lab", "--out"),
             ("eddy lab --out o --repeats 3", "7"),
             ("eddy lab merge --out o", "DIR"),
+            ("eddy lab precision fluid --out o", "--out"),
+            ("eddy lab precision fluid --frames 0", "frames"),
             ("eddy import a.json", "--out"),
             ("eddy export", "PROJECT"),
         ] {

@@ -3,10 +3,12 @@
 use super::{
     args::{LabArgs, LabCommand},
     machine::Machine,
-    told, trouble,
+    precision, told, trouble,
 };
 use crate::lab::{
-    Extent, LabError, Results, Shard, Study, report,
+    Extent, LabError, Results, Shard, Study,
+    cost::MIN_REPEATS,
+    report,
     run::{self, Options, Step},
     studies,
 };
@@ -17,8 +19,23 @@ use std::{
 };
 
 pub fn run(args: &LabArgs) -> io::Result<u8> {
-    if let Some(LabCommand::Merge { from, out }) = &args.command {
-        return finish(merge(from, out));
+    match &args.command {
+        Some(LabCommand::Merge { from, out }) => return finish(merge(from, out)),
+        Some(LabCommand::Precision(args)) if args.project.is_empty() && args.out.is_none() => {
+            return Ok(trouble("name a PROJECT, or --out DIR for the study of all presets"));
+        }
+        Some(LabCommand::Precision(args)) if args.project.is_empty() => {
+            let (study, out) = (vec!["precision".to_owned()], args.out.clone());
+            let (repeats, shard) = (MIN_REPEATS, "0/1".to_owned());
+            return run(&LabArgs { command: None, study, out, list: false, quick: args.quick, repeats, shard });
+        }
+        Some(LabCommand::Precision(args)) => {
+            return match args.run.inputs() {
+                Ok(inputs) => precision::run(args, &inputs),
+                Err(usage) => Ok(trouble(usage)),
+            };
+        }
+        None => {}
     }
     let studies = match studies::named(&args.study) {
         Ok(studies) => studies,

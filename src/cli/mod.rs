@@ -9,6 +9,7 @@ mod check;
 mod lab;
 mod library;
 mod machine;
+mod precision;
 mod quiet;
 mod render;
 mod report;

@@ -11,6 +11,7 @@ pub mod flip;
 pub mod metrics;
 mod number;
 pub mod picture;
+pub mod precision;
 pub mod reference;
 pub mod report;
 mod results;

@@ -110,6 +110,7 @@ impl Setup {
     }
 
     /// Values of an `#iUniform` of several components.
+    #[must_use]
     pub fn knobs(mut self, name: &str, values: &[f64]) -> Self {
         self.knobs.push((name.into(), KnobValue::Vector(values.to_vec())));
         self
@@ -189,6 +190,13 @@ impl Setup {
         self
     }
 
+    /// The picture is looked at.
+    #[must_use]
+    pub fn wants_picture(mut self) -> Self {
+        self.wanted = vec![PassId::Image];
+        self
+    }
+
     /// Passes that depend on the size or the setting are added in code.
     #[must_use]
     pub fn built(mut self, build: impl Fn(&mut Project) + Send + Sync + 'static) -> Self {
@@ -248,9 +256,7 @@ impl Setup {
             source.text = source.text.replace(old, new).into();
         }
         if self.storage == Storage::Half {
-            for pass in &mut project.passes {
-                pass.settings.format = half(pass.settings.format);
-            }
+            halve(&mut project);
         }
         project.origin = Origin::Unsaved;
         let mut media = MediaSet::new();
@@ -267,6 +273,18 @@ pub fn pass(name: &str) -> PassId {
         return PassId::Image;
     }
     PassId::parse(&format!("buffer_{name}")).unwrap_or(PassId::Image)
+}
+
+/// Text of a pass whose value a 16-bit float has no room for: 1 and three quarters of its last bit.
+pub(super) const PROBE: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0 + 0.75 / 1024.0); }";
+
+/// Makes every 32-bit float format the 16-bit one of as many components.
+pub(super) fn halve(project: &mut Project) {
+    for settings in project.passes.iter_mut().map(|p| &mut p.settings) {
+        settings.format = half(settings.format);
+        let more = settings.geometry.iter_mut().flat_map(|g| &mut g.more_targets);
+        more.for_each(|format| *format = half(*format));
+    }
 }
 
 fn half(format: PassFormat) -> PassFormat {

@@ -125,6 +125,11 @@ pub struct Race {
 pub trait Study: Sync {
     fn about(&self) -> About;
 
+    /// What a plot's y axis is called.
+    fn error_label(&self) -> String {
+        format!("relative L2 error {}", self.about().error)
+    }
+
     fn methods(&self) -> &'static [Method];
 
     /// Grids from coarse to fine, at least three, each twice the one before. The plot shows [`Study::main_grid`].

@@ -13,6 +13,7 @@ pub mod spectral;
 pub mod rays;
 pub mod star;
 pub mod still_life;
+pub mod shapes;
 
 use std::f64::consts::TAU;
 

@@ -104,7 +104,7 @@ fn draw<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<bool, LabErr
     chart
         .configure_mesh()
         .x_desc(format!("{} ({} x {} texels)", table.about.unit.label(), table.grid, table.grid))
-        .y_desc(format!("relative L2 error {}", table.about.error))
+        .y_desc(&table.error_label)
         .x_label_formatter(&tick)
         .y_label_formatter(&tick)
         .label_style((FONT, 17, &INK))

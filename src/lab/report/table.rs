@@ -67,6 +67,7 @@ pub struct Convergence {
 #[derive(Clone, Debug)]
 pub struct Table {
     pub about: About,
+    pub error_label: String,
     pub grid: u32,
     pub rows: Vec<Row>,
     pub convergence: Vec<Convergence>,
@@ -128,7 +129,8 @@ impl Table {
             let order = order(a, b, f64::from(fine) / f64::from(coarse));
             (errors.len() >= 3).then_some(Convergence { method, errors, order })
         });
-        Some(Table { about, grid, convergence: convergence.collect(), rows, race: study.race() })
+        let (error_label, race) = (study.error_label(), study.race());
+        Some(Table { about, error_label, grid, convergence: convergence.collect(), rows, race })
     }
 
     pub fn methods(&self) -> Vec<&'static Method> {

@@ -9,14 +9,18 @@ pub mod brick_breaker;
 pub mod cycle;
 mod diffusion;
 pub mod flow;
+pub mod edges;
 pub mod fluid;
 pub mod gray_scott;
+pub mod outline;
 pub mod particles;
 pub mod poisson;
 pub mod rest;
 pub mod torus;
 pub mod ssr;
 pub mod taa;
+mod precision;
+mod silhouettes;
 
 use super::{LabError, Study};
 use crate::project::{listed, nearest};
@@ -40,6 +44,9 @@ pub fn all() -> Vec<&'static dyn Study> {
         &ssr::Ssr,
         &particles::Particles,
         &brick_breaker::BrickBreaker,
+        &edges::Edges,
+        &outline::Outline,
+        &precision::Precision,
     ]
 }
 

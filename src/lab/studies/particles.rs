@@ -182,9 +182,11 @@ impl Study for Particles {
             .value("order_in_dt", order(coarse.l2, norms.l2, 2.0));
         if name == "preset" {
             let [below, fastest] = bounds(rig, side, dt)?;
-            return Ok(measured
-                .hard(HardCase::at_most("below the floor", below, 1e-6))
-                .hard(HardCase::at_most("speed", fastest, 3.0 + 1e-5)));
+            return Ok(measured.hard(HardCase::at_most("below the floor", below, 1e-6)).hard(HardCase::at_most(
+                "speed",
+                fastest,
+                3.0 + 1e-5,
+            )));
         }
         let drift = energy_drift(rig, name, side, dt)?;
         let case = HardCase::at_most("energy drift of 10,000 steps on an orbit", drift.abs(), ENERGY_BOUND);

@@ -1,0 +1,115 @@
+//! `eddy lab precision PROJECT`: what a project loses where its passes are stored in 16-bit floats.
+
+use super::{
+    args::PrecisionArgs,
+    machine::{Machine, Trouble},
+    report::{Printer, Report},
+};
+use crate::{
+    lab::{
+        Rig,
+        precision::{self, Comparison, PrecisionError},
+    },
+    media, project,
+    session::script::ScriptedInputs,
+};
+use serde::Serialize;
+use std::{fmt::Write, io};
+
+#[derive(Debug, Serialize)]
+struct Compared {
+    width: u32,
+    height: u32,
+    device: String,
+    /// The device does not round 16-bit stores but cuts them off.
+    cuts_off: bool,
+    #[serde(flatten)]
+    comparison: Comparison,
+}
+
+/// The report of `render`, and the comparison.
+#[derive(Serialize)]
+struct Line<'a> {
+    #[serde(flatten)]
+    report: &'a Report,
+    #[serde(flatten)]
+    compared: Option<&'a Compared>,
+}
+
+pub fn run(args: &PrecisionArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
+    let mut printer = Printer::new(args.json);
+    let mut machine = Machine::default();
+    for spec in &args.project {
+        let mut report = Report::new(spec);
+        let compared =
+            machine.attempt(&mut report, |machine, report| compare(machine, report, args, spec, inputs.clone()));
+        let words = compared.as_ref().map_or(String::new(), |c| words(spec, c));
+        printer.print_as(&Line { report: &report, compared: compared.as_ref() }, &report, words.trim_end())?;
+    }
+    Ok(printer.exit_code())
+}
+
+fn compare(
+    machine: &mut Machine,
+    report: &mut Report,
+    args: &PrecisionArgs,
+    spec: &str,
+    mut inputs: ScriptedInputs,
+) -> Result<Compared, Trouble> {
+    let loaded = project::load(spec)?;
+    let mut project = loaded.project;
+    report.diagnose(&loaded.warnings, &loaded.sources, Some(&project));
+    for assignment in &args.run.set {
+        project.set_knob(assignment).map_err(|why| anyhow::anyhow!("--set {why}"))?;
+    }
+    let (media, missing) = media::gather(&project, args.run.media.as_deref());
+    report.diagnose(&missing, &loaded.sources, Some(&project));
+    let gpu = machine.gpu()?;
+    let (width, height) = args.run.size;
+    let next = || inputs.next_frame();
+    let comparison =
+        precision::halved(&gpu, &project, &media, (width, height), args.frames, next).map_err(|e| match e {
+            PrecisionError::Build(error) => error.into(),
+            PrecisionError::Engine(error) => error.into(),
+            PrecisionError::NoFloats => Trouble::Other(e.into()),
+        })?;
+    report.frames = args.frames;
+    let cuts_off = precision::cuts_off(&Rig::new(gpu.clone())).map_err(anyhow::Error::from)?;
+    Ok(Compared { width, height, device: gpu.describe(), cuts_off, comparison })
+}
+
+fn words(spec: &str, compared: &Compared) -> String {
+    let Compared { width, height, device, cuts_off, comparison } = compared;
+    let mut out =
+        format!("{spec}: 16-bit floats against 32, {width}x{height}, {} frames, {device}\n", comparison.frames);
+    out.push_str(if *cuts_off {
+        "This device cuts 16-bit stores off; one that rounds them to the nearest, as GPUs do, errs by half as much, on both sides.\n"
+    } else {
+        "This device rounds 16-bit stores to the nearest.\n"
+    });
+    let _ = writeln!(
+        out,
+        "{:<20} {:<18} {:>6} {:>10} {:>10} {:>10} {:>11}",
+        "pass", "formats", "frame", "L1", "L2", "Linf", "mass drift"
+    );
+    let mut rows: Vec<_> = comparison.rows.iter().collect();
+    rows.sort_by(|a, b| a.pass.cmp(&b.pass).then(a.frame.cmp(&b.frame)));
+    for row in rows {
+        let formats = if row.formats[0] == row.formats[1] { row.formats[0].into() } else { row.formats.join(", ") };
+        let n = row.norms;
+        let _ = writeln!(
+            out,
+            "{:<20} {formats:<18} {:>6} {:>10.2e} {:>10.2e} {:>10.2e} {:>11.2e}",
+            row.pass, row.frame, n.l1, n.l2, n.linf, row.mass_drift
+        );
+    }
+    let _ = match comparison.first_visible {
+        Some(frame) => writeln!(
+            out,
+            "The picture differs by more than 1/255 from frame {frame} on; at most by {:.3}.",
+            comparison.largest
+        ),
+        None => writeln!(out, "The picture differs by at most {:.5}, which is less than 1/255.", comparison.largest),
+    };
+    out
+}
