@@ -19,7 +19,7 @@ pub const VISIBLE: f64 = 1.0 / 255.0;
 /// A pass in a frame.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
-    /// As `--pass` spells it.
+    /// As `--pass` calls it.
     pub pass: String,
     /// Of the target in each run.
     pub formats: [&'static str; 2],
@@ -34,6 +34,8 @@ pub struct Row {
 /// Both runs side by side.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Comparison {
+    /// Drawn.
+    #[serde(skip)]
     pub frames: u32,
     /// Pass by pass, each in the frames that were asked for.
     pub rows: Vec<Row>,
@@ -66,7 +68,7 @@ pub enum PrecisionError {
     Build(BuildError),
     #[error(transparent)]
     Engine(#[from] EngineError),
-    #[error("no pass of the project has a 32-bit float format: there is nothing to store in 16 bits")]
+    #[error("no buffer of the project has a 32-bit float format: there is nothing to store in 16 bits")]
     NoFloats,
 }
 
@@ -134,6 +136,8 @@ pub fn halved(
         pass.settings.format = whole.settings.format;
     }
     if half.passes.iter().zip(&project.passes).all(|(a, b)| a.settings.formats() == b.settings.formats()) {
+        // What does not compile says that first.
+        open(gpu, project, media, size)?;
         return Err(PrecisionError::NoFloats);
     }
     compare(gpu, [project, &half], media, size, (frames, &moments(frames)), inputs)

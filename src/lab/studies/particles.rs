@@ -10,15 +10,15 @@ use std::f64::consts::TAU;
 
 pub struct Particles;
 
-/// Frames a second, as the preset's steps: 1 / 60 is what people see.
-const STEPS: &[f64] = &[1.0 / 240.0, 1.0 / 120.0, 1.0 / 60.0, 1.0 / 30.0, 1.0 / 15.0];
+/// Steps a second: 60 is what people see.
+const RATES: &[f64] = &[15.0, 30.0, 60.0, 120.0, 240.0];
 
 const METHODS: &[Method] = &[
-    Method { name: "preset", title: "the preset particles", settings: STEPS, usual: 1.0 / 60.0 },
-    Method { name: "euler", title: "explicit Euler", settings: STEPS, usual: 1.0 / 60.0 },
-    Method { name: "semi-implicit", title: "semi-implicit Euler", settings: STEPS, usual: 1.0 / 60.0 },
-    Method { name: "verlet", title: "velocity Verlet", settings: STEPS, usual: 1.0 / 60.0 },
-    Method { name: "runge-kutta", title: "Runge-Kutta, fourth order", settings: STEPS, usual: 1.0 / 60.0 },
+    Method { name: "preset", title: "the preset particles", settings: RATES, usual: 60.0 },
+    Method { name: "euler", title: "explicit Euler", settings: RATES, usual: 60.0 },
+    Method { name: "semi-implicit", title: "semi-implicit Euler", settings: RATES, usual: 60.0 },
+    Method { name: "verlet", title: "velocity Verlet", settings: RATES, usual: 60.0 },
+    Method { name: "runge-kutta", title: "Runge-Kutta, fourth order", settings: RATES, usual: 60.0 },
 ];
 
 /// Seconds of the flight: a whole number of steps of every setting, and of half of it.
@@ -32,7 +32,7 @@ const SIDE: u32 = 32;
 const SPARK: f64 = 1.0;
 
 const ECCENTRICITY: f64 = 0.5;
-/// Steps on an orbit, and in one turn of it where the setting is 1 / 60.
+/// Steps on an orbit, and in one turn of it where the setting is 60.
 const ORBIT_STEPS: u32 = 10_000;
 const STEPS_A_TURN: f64 = 200.0;
 /// Energy that may be gained or lost on the orbit, as a part of what there was.
@@ -125,7 +125,7 @@ pub fn energy_drift(rig: &Rig, name: &str, side: u32, dt: f64) -> Result<f64, La
     Ok(mean(&energies) / -0.5 - 1.0)
 }
 
-/// The highest place, speed and fall below the floor that the preset's sparks have in 600 frames.
+/// The deepest fall below the floor and the greatest speed of the preset's particles in 600 frames.
 fn bounds(rig: &Rig, side: u32, dt: f64) -> Result<[f64; 2], LabError> {
     let mut running = rig.open(&flying("preset", side, dt))?;
     let mut worst = [0.0f64; 2];
@@ -146,11 +146,11 @@ impl Study for Particles {
             title: "Particles",
             text: "A thousand particles are flung up and fly for .8 s under gravity .45 and a drag of .15 times the velocity, \
                    those of the preset as it starts them, against the closed form; the error is that of the way they went. \
-                   order_in_dt is observed between twice the setting and the setting. The hard case of the peers is 10,000 \
-                   steps on orbits of eccentricity .5, 200 steps a turn at 1/60 s: the mean energy may drift by 1 % at most. \
+                   order_in_dt is observed between half of the setting and the setting. The hard case of the peers is 10,000 \
+                   steps on orbits of eccentricity .5, 200 steps a turn at 60 a second: the mean energy may drift by 1 % at most. \
                    The preset has no orbit; its hard cases are that in 600 frames nothing is below the floor and nothing is \
                    faster than its limit of 3 heights a second.",
-            knob: "seconds a step",
+            knob: "steps a second",
             unit: Unit::Scene,
             error: "of the way gone",
         }
@@ -170,11 +170,11 @@ impl Study for Particles {
     }
 
     fn setup(&self, point: &Point) -> Setup {
-        flying(&point.method, point.grid, point.setting)
+        flying(&point.method, point.grid, 1.0 / point.setting)
     }
 
     fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-        let (name, side, dt) = (point.method.as_str(), point.grid, point.setting);
+        let (name, side, dt) = (point.method.as_str(), point.grid, 1.0 / point.setting);
         let norms = flown(rig, name, side, dt)?;
         let coarse = flown(rig, name, side, 2.0 * dt)?;
         let frames_per_unit = FLIGHT / dt;

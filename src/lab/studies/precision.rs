@@ -31,7 +31,7 @@ const METHODS: &[Method] = &[
 ];
 
 fn frames(grid: u32) -> u32 {
-    if grid <= 64 { 60 } else { 300 }
+    if grid <= 64 { 40 } else { 300 }
 }
 
 fn setup(name: &'static str, grid: u32, bits: f64) -> Setup {
@@ -61,7 +61,7 @@ impl Study for Precision {
             name: "precision",
             title: "16 bits against 32",
             text: "Presets with every 32-bit float format made a 16-bit one, against themselves as they are, untouched; `eddy lab \
-                   precision PROJECT` does the same to any project. The error is the picture's in the last frame (60 frames in a \
+                   precision PROJECT` does the same to any project. The error is the picture's in the last frame (40 frames in a \
                    quick run, 300 in a full one). The table gives the largest error of a buffer, the largest drift of a \
                    buffer's sum, and the first frame whose picture differs by more than 1/255 (-1: none). Chaotic flows part \
                    whatever the rounding; then the pattern counts, not the texel. A device may round a 16-bit store to the \
