@@ -97,15 +97,15 @@ fn the_g_buffers_lines_are_where_geometry_has_them() {
 fn outlines_cover_what_an_exact_hull_covers() {
     let Some(rig) = rig() else { return };
     for method in ["scaled", "baked"] {
-        let (all, each, width) = outline::judged(&rig, method, 96, 0.24).unwrap();
-        assert!((width - 1.0).abs() < 0.03, "{method}: {width} of the formula");
+        let (all, each, width) = outline::judged(&rig, method, 128, 0.16).unwrap();
+        assert!((width - 1.0).abs() < 0.05, "{method}: {width} of the formula");
         assert!(all.f1() > 0.93, "{method}: {all:?}");
         // Scaling is right for what is star-shaped, which a torus is not.
         let wanted = if method == "scaled" { 2 } else { 3 };
         assert!(each[..wanted].iter().all(|f| f.f1() > 0.9), "{method}: {each:?}");
     }
     // Along split normals the cube's line has gaps at its corners; that is seen.
-    let (_, [_, cube, _], _) = outline::judged(&rig, "normals", 96, 0.24).unwrap();
+    let (_, [_, cube, _], _) = outline::judged(&rig, "normals", 128, 0.16).unwrap();
     assert!(cube.recall < 0.95, "{cube:?}");
 }
 
@@ -178,7 +178,7 @@ fn a_nan_in_the_middle_of_a_simulation_is_gone_within_its_frames() {
     let Some(gpu) = gpu() else { return };
     for (name, state, frames) in CONTAINED {
         let mut broken = preset(name, &[]);
-        let at = if name == "particles" { (9, 14) } else { (48, 27) };
+        let at = if name == "particles" { (9, 14) } else { (20, 10) };
         break_texel(&mut broken, state, at, 4, "0x7fc00000u");
         let mut engine = whole(&gpu, &broken, (96, 54));
         draw(&mut engine, 0..5);

@@ -12,15 +12,15 @@ use crate::{
 pub struct Outline;
 
 /// Units of the scene.
-const WIDTHS: &[f64] = &[0.03, 0.06, 0.12, 0.24];
+const WIDTHS: &[f64] = &[0.02, 0.04, 0.08, 0.16];
 
 const METHODS: &[Method] = &[
-    Method { name: "normals", title: "along the mesh's own normals", settings: WIDTHS, usual: 0.12 },
-    Method { name: "scaled", title: "positions scaled from the origin", settings: WIDTHS, usual: 0.12 },
-    Method { name: "baked", title: "along smooth normals from a texture", settings: WIDTHS, usual: 0.12 },
+    Method { name: "normals", title: "along the mesh's own normals", settings: WIDTHS, usual: 0.08 },
+    Method { name: "scaled", title: "positions scaled from the origin", settings: WIDTHS, usual: 0.08 },
+    Method { name: "baked", title: "along smooth normals from a texture", settings: WIDTHS, usual: 0.08 },
 ];
 
-const DISTANCE: f64 = 12.0;
+const DISTANCE: f64 = 13.0;
 const PITCH: f64 = 20.0;
 const FOV: f64 = 30.0;
 /// The fade of a line with distance: whole up to the first, gone from the second.
@@ -38,13 +38,13 @@ struct Thing {
 }
 
 const THINGS: [Thing; 3] = [
-    Thing { page: 0, mesh: "builtin:sphere", shape: Shape::Sphere(1.0), at: [-2.9, 0.0, 0.0], turn: [0.0; 3] },
+    Thing { page: 0, mesh: "builtin:sphere", shape: Shape::Sphere(1.0), at: [-3.3, 0.0, 0.0], turn: [0.0; 3] },
     Thing { page: 1, mesh: "builtin:cube", shape: Shape::Cuboid([1.0; 3]), at: [0.0; 3], turn: [0.0, 30.0, 0.0] },
     Thing {
         page: 2,
         mesh: "builtin:torus",
         shape: Shape::Torus(1.0, 0.4),
-        at: [2.9, 0.0, 0.0],
+        at: [3.3, 0.0, 0.0],
         turn: [40.0, 0.0, 0.0],
     },
 ];
