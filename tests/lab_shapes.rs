@@ -59,7 +59,7 @@ fn an_orbit_keeps_its_energy_by_symplectic_steps_alone() {
 #[test]
 fn the_ball_breaks_the_bricks_that_the_exact_ball_breaks() {
     let Some(rig) = rig() else { return };
-    for (speed, frames) in [(3.0, 200), (30.0, 60), (300.0, 12), (1e4, 1)] {
+    for (speed, frames) in [(30.0, 40), (300.0, 8), (1e4, 1)] {
         let game = brick_breaker::played(&rig, "preset", 16, speed, frames).unwrap();
         assert!(game.bricks_hit > 2, "{speed}: {game:?}");
         // To the tick, not nearly: 2^-15 units.
