@@ -71,7 +71,8 @@ fn the_ball_breaks_the_bricks_that_the_exact_ball_breaks() {
     assert!(peer.bricks_wrong > 0 && peer.off > 1.0, "{peer:?}");
 }
 
-/// The sheet's gate is less than .001 px after 1e5 bounces, which `tests/presets.rs` has as an equality; this is its study.
+/// The sheet's gate is less than .001 px after 1e5 bounces, which `tests/presets.rs` has as an equality; this is its
+/// study.
 #[test]
 fn the_ball_is_on_the_unfolded_path_after_a_thousand_bounces() {
     let Some(rig) = rig() else { return };
@@ -120,7 +121,8 @@ fn halved(gpu: &eddy::gpu::Gpu, project: &Project, frames: u32) -> precision::Co
 #[test]
 fn sixteen_bits_lose_what_they_must_and_the_first_frame_that_shows_it_is_named() {
     let Some(gpu) = gpu() else { return };
-    // A sum of 2^-13 a frame from 1 on: 32 bits add it up, 16 bits never see it. The picture is the sum's hundredfold excess.
+    // A sum of 2^-13 a frame from 1 on: 32 bits add it up, 16 bits never see it. The picture is the sum's hundredfold
+    // excess.
     let sum = pass(
         PassId::Buffer("A".into()),
         "void mainImage(out vec4 o, in vec2 p) { vec4 b = texelFetch(iChannel0, ivec2(p), 0); \
@@ -153,7 +155,8 @@ fn a_device_either_rounds_or_cuts_off_and_gray_scott_stalls_where_that_says() {
     assert!((stall - expected).abs() < 3e-4, "{stall}, not {expected}: cuts off {cuts}");
 }
 
-// ------------------------------------------------------------------------------------------------- numbers that are none
+// ------------------------------------------------------------------------------------------------- numbers that are
+// none
 
 /// A simulation, its state, and how many frames a broken number may live on for.
 const CONTAINED: [(&str, &str, i32); 8] = [

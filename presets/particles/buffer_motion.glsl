@@ -1,4 +1,5 @@
-// Places and velocities. Channel 0 is this buffer in the last frame, channel 1 this frame's ages, channel 2 the mouse, channel 3 anything as large
+// Places and velocities. Channel 0 is this buffer in the last frame, channel 1 this frame's ages, channel 2 the mouse,
+// channel 3 anything as large
 // as the canvas.
 
 const float DRAG = 0.15;   // of a spark, a second
@@ -59,7 +60,8 @@ void mainImage(out vec4 motion, in vec2 fragCoord) {
             v += seconds * 3.0 * off / (dot(off, off) + 0.01) * exp(-dot(off, off) / 0.02);
         }
     } else if (life.z == SPARK) {
-        // The trapezoidal rule for gravity and drag, and the place goes with the mean of both velocities: second order. With the
+        // The trapezoidal rule for gravity and drag, and the place goes with the mean of both velocities: second
+        // order. With the
         // new velocity alone a spark was 1.5 % of its way off after .8 s at 60 steps a second; it is 1e-5 now.
         float half_ = 0.5 * DRAG * seconds;
         v = ((1.0 - half_) * before - vec2(0.0, gravity * seconds)) / (1.0 + half_);

@@ -79,7 +79,8 @@ pub fn moments(frames: u32) -> Vec<u32> {
     at
 }
 
-/// Draws `frames` frames of a project with its formats and with `other`'s, which has the same passes; passes are compared in the
+/// Draws `frames` frames of a project with its formats and with `other`'s, which has the same passes; passes are
+/// compared in the
 /// frames `at`, the picture in all.
 pub fn compare(
     gpu: &Gpu,

@@ -41,7 +41,8 @@ enum Hit {
 }
 
 impl Billiard {
-    /// Goes a whole step, or up to the last brick. Gives the centres of the bricks met, in that order; they are gone. A vertex met
+    /// Goes a whole step, or up to the last brick. Gives the centres of the bricks met, in that order; they are gone.
+    /// A vertex met
     /// dead on is a face across y.
     pub fn step(&mut self) -> Vec<[i64; 2]> {
         let (mut from, mut now, mut gone) = (self.at, Moment(0, 1), Vec::new());

@@ -3,7 +3,8 @@
 /// Place and velocity: x, y, u, v.
 pub type Particle = [f64; 4];
 
-/// A flight of `t` under the pull of `gravity` downwards and a drag of `drag` times the velocity; without drag, the parabola.
+/// A flight of `t` under the pull of `gravity` downwards and a drag of `drag` times the velocity; without drag, the
+/// parabola.
 pub fn flight([x, y, u, v]: Particle, gravity: f64, drag: f64, t: f64) -> Particle {
     if drag == 0.0 {
         return [x + u * t, y + v * t - 0.5 * gravity * t * t, u, v - gravity * t];
@@ -15,7 +16,8 @@ pub fn flight([x, y, u, v]: Particle, gravity: f64, drag: f64, t: f64) -> Partic
     [x + u * gone, y + (v + terminal) * gone - terminal * t, u * left, (v + terminal) * left - terminal]
 }
 
-/// A particle on an ellipse of semi-major axis 1 about the origin, which pulls by 1 / r^2: `anomaly` (the mean one) is the angle that
+/// A particle on an ellipse of semi-major axis 1 about the origin, which pulls by 1 / r^2: `anomaly` (the mean one) is
+/// the angle that
 /// grows evenly in time, by 2 pi each turn. The ellipse is turned by `turn`.
 pub fn orbit(eccentricity: f64, turn: f64, anomaly: f64) -> Particle {
     // Kepler's equation, by Newton's method.
@@ -41,7 +43,8 @@ pub fn orbit_energy([x, y, u, v]: Particle) -> f64 {
 mod tests {
     use super::*;
 
-    /// Largest difference between a path's derivative, by central differences, and what the equation of motion says of it.
+    /// Largest difference between a path's derivative, by central differences, and what the equation of motion says of
+    /// it.
     fn residual(path: impl Fn(f64) -> Particle, force: impl Fn(Particle) -> [f64; 2], t: f64) -> f64 {
         let h = 1e-4;
         let (before, now, after) = (path(t - h), path(t), path(t + h));

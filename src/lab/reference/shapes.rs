@@ -198,7 +198,8 @@ fn edges(e: V, half: V, count: usize) -> Vec<V> {
     points
 }
 
-/// Points of a torus whose normal is at right angles to the way from `e`, with that normal. For each angle of the ring the angle f of
+/// Points of a torus whose normal is at right angles to the way from `e`, with that normal. For each angle of the ring
+/// the angle f of
 /// the tube obeys A cos f + B sin f + r = 0.
 fn contour(e: V, ring: f64, tube: f64, count: usize) -> Vec<(V, V)> {
     let mut points = Vec::new();

@@ -115,7 +115,8 @@ pub fn flown(rig: &Rig, name: &str, side: u32, dt: f64) -> Result<Norms, LabErro
     Ok(Norms::of(&measured, &exact))
 }
 
-/// What became of the energy in 10,000 steps on orbits, as a part of what there was; the mean of particles that are evenly spread in
+/// What became of the energy in 10,000 steps on orbits, as a part of what there was; the mean of particles that are
+/// evenly spread in
 /// time, so that what an orbit takes and gives back is not counted.
 pub fn energy_drift(rig: &Rig, name: &str, side: u32, dt: f64) -> Result<f64, LabError> {
     let (frames, steps) = frames_of(ORBIT_STEPS, 100);
@@ -144,11 +145,16 @@ impl Study for Particles {
         About {
             name: "particles",
             title: "Particles",
-            text: "A thousand particles are flung up and fly for .8 s under gravity .45 and a drag of .15 times the velocity, \
-                   those of the preset as it starts them, against the closed form; the error is that of the way they went. \
-                   order_in_dt is observed between half of the setting and the setting. The hard case of the peers is 10,000 \
-                   steps on orbits of eccentricity .5, 200 steps a turn at 60 a second: the mean energy may drift by 1 % at most. \
-                   The preset has no orbit; its hard cases are that in 600 frames nothing is below the floor and nothing is \
+            text: "A thousand particles are flung up and fly for .8 s under gravity .45 and a drag of .15 times the \
+                   velocity, \
+                   those of the preset as it starts them, against the closed form; the error is that of the way they \
+                   went. \
+                   order_in_dt is observed between half of the setting and the setting. The hard case of the peers \
+                   is 10,000 \
+                   steps on orbits of eccentricity .5, 200 steps a turn at 60 a second: the mean energy may drift by \
+                   1 % at most. \
+                   The preset has no orbit; its hard cases are that in 600 frames nothing is below the floor and \
+                   nothing is \
                    faster than its limit of 3 heights a second.",
             knob: "steps a second",
             unit: Unit::Scene,

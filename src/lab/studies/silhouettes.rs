@@ -29,7 +29,8 @@ impl Found {
         Found { precision: part(both, count(found)), recall: part(both, count(exact)) }
     }
 
-    /// Of lines: texels found, and points of the exact lines in texels; `reach` texels may lie between. What is within `border`
+    /// Of lines: texels found, and points of the exact lines in texels; `reach` texels may lie between. What is within
+    /// `border`
     /// texels of the picture's end is left out.
     pub fn of_lines(found: &[bool], width: usize, lines: &[[f64; 2]], reach: f64, border: usize) -> Found {
         let height = found.len() / width;
