@@ -182,19 +182,14 @@ impl Study for BrickBreaker {
         About {
             name: "brick-breaker",
             title: "Brick breaker",
-            text: "A ball flies 1,200 units among 96 bricks and four walls, at 1 to 300 units a frame; the bricks \
-                   are 18.4 x 7.4. The \
-                   reference is event-driven and computed in fractions, so that nothing is rounded but the way of a \
-                   frame, to 2^-15 \
-                   units. The error is that of the ball's place in all frames; half of 2^-15 units is added, as no \
-                   place is known \
-                   closer. The preset finds the time of each impact; its peers move the ball and look what it \
-                   overlaps. The hard \
-                   cases: the same bricks are broken, no brick comes back, the ball stays within the walls, its \
-                   velocity changes \
-                   sign and nothing else; and for the preset, at its usual setting, that at 10,000 units a frame it \
-                   is within .001 units of the unfolded \
-                   path after 10,000 bounces.",
+            text: "A ball flies 1,200 units among 96 bricks and four walls, at 1 to 300 units a frame; the bricks are \
+                   18.4 x 7.4. The reference is event-driven and computed in fractions, so that nothing is rounded \
+                   but the way of a frame, to 2^-15 units. The error is that of the ball's place in all frames; half \
+                   of 2^-15 units is added, as no place is known closer. The preset finds the time of each impact; \
+                   its peers move the ball and look what it overlaps. The hard cases: the same bricks are broken, no \
+                   brick comes back, the ball stays within the walls, its velocity changes sign and nothing else; and \
+                   for the preset, at its usual setting, that at 10,000 units a frame it is within .001 units of the \
+                   unfolded path after 10,000 bounces.",
             knob: "units a frame",
             unit: Unit::Scene,
             error: "of the ball's place",

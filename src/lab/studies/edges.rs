@@ -160,20 +160,14 @@ impl Study for Edges {
             name: "edges",
             title: "Edges",
             text: "A sphere, a cube and a torus hover before a wall, over a floor seen at 8 to 20 degrees. Normals \
-                   and depths of \
-                   each texel are computed in f64 and handed to all methods. The lines there are follow from \
-                   geometry: the \
-                   circle in which a cone touches the sphere, the cube's edges, the torus's contour in closed form, \
-                   each where \
-                   nothing hides it, and the corner of the room. Precision is the part of the texels found that lie \
-                   within 1 \
-                   texel of such a line, recall the part of the lines that has a texel found within 1. The error, as \
-                   L2, is \
-                   1 - F1, F1 the harmonic mean of both; Linf is the worse of 1 - precision and 1 - recall, each \
-                   with half of a point of the lines added, as less is not resolved. The hard case is that \
-                   the open floor is no line, on .1 % of its texels at most. At sensitivity 1 a step of 2 % of the \
-                   depth and a \
-                   turn of 32 degrees are lines.",
+                   and depths of each texel are computed in f64 and handed to all methods. The lines there are follow \
+                   from geometry: the circle in which a cone touches the sphere, the cube's edges, the torus's \
+                   contour in closed form, each where nothing hides it, and the corner of the room. Precision is the \
+                   part of the texels found that lie within 1 texel of such a line, recall the part of the lines that \
+                   has a texel found within 1. The error, as L2, is 1 - F1, F1 the harmonic mean of both; Linf is the \
+                   worse of 1 - precision and 1 - recall, each with half of a point of the lines added, as less is \
+                   not resolved. The hard case is that the open floor is no line, on .1 % of its texels at most. At \
+                   sensitivity 1 a step of 2 % of the depth and a turn of 32 degrees are lines.",
             knob: "sensitivity",
             unit: Unit::Frame,
             error: "1 - F1 of the lines found",

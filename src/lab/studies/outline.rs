@@ -185,18 +185,13 @@ impl Study for Outline {
             name: "outline",
             title: "Outlines",
             text: "The preset toon-outline draws a sphere, a cube and a torus with lines of so many units' width, \
-                   faded with \
-                   distance as its formula says. The exact lines are found by f64 rays: a texel is one if the far \
-                   side of a \
-                   shape whose vertices have moved by the width is seen before any surface. A cube's vertices move \
-                   along the \
-                   faces' normals (its corners should close), or away from its middle. Precision and recall are \
-                   counted in \
-                   texels; the error, as L2, is 1 - F1, F1 the harmonic mean of both, and Linf is the worse of 1 - \
-                   precision and \
-                   1 - recall. The hard cases: the sphere's line is as wide as the formula within 3 %, or a quarter \
-                   of a \
-                   texel where that is more, and each shape's F1 is at least .9: along split normals a cube's line comes apart.",
+                   faded with distance as its formula says. The exact lines are found by f64 rays: a texel is one if \
+                   the far side of a shape whose vertices have moved by the width is seen before any surface. A \
+                   cube's vertices move along the faces' normals (its corners should close), or away from its middle. \
+                   Precision and recall are counted in texels; the error, as L2, is 1 - F1, F1 the harmonic mean of \
+                   both, and Linf is the worse of 1 - precision and 1 - recall. The hard cases: the sphere's line is \
+                   as wide as the formula within 3 %, or a quarter of a texel where that is more, and each shape's F1 \
+                   is at least .9: along split normals a cube's line comes apart.",
             knob: "width of the line",
             unit: Unit::Frame,
             error: "1 - F1 of the lines",

@@ -146,16 +146,11 @@ impl Study for Particles {
             name: "particles",
             title: "Particles",
             text: "A thousand particles are flung up and fly for .8 s under gravity .45 and a drag of .15 times the \
-                   velocity, \
-                   those of the preset as it starts them, against the closed form; the error is that of the way they \
-                   went. \
-                   order_in_dt is observed between half of the setting and the setting. The hard case of the peers \
-                   is 10,000 \
-                   steps on orbits of eccentricity .5, 200 steps a turn at 60 a second: the mean energy may drift by \
-                   1 % at most. \
-                   The preset has no orbit; its hard cases are that in 600 frames nothing is below the floor and \
-                   nothing is \
-                   faster than its limit of 3 heights a second.",
+                   velocity, those of the preset as it starts them, against the closed form; the error is that of the \
+                   way they went. order_in_dt is observed between half of the setting and the setting. The hard case \
+                   of the peers is 10,000 steps on orbits of eccentricity .5, 200 steps a turn at 60 a second: the \
+                   mean energy may drift by 1 % at most. The preset has no orbit; its hard cases are that in 600 \
+                   frames nothing is below the floor and nothing is faster than its limit of 3 heights a second.",
             knob: "steps a second",
             unit: Unit::Scene,
             error: "of the way gone",

@@ -61,20 +61,14 @@ impl Study for Precision {
             name: "precision",
             title: "16 bits against 32",
             text: "Presets with every 32-bit float format made a 16-bit one, against themselves as they are, \
-                   untouched; `eddy lab \
-                   precision PROJECT` does the same to any project. The error is the picture's in the last frame (40 \
-                   frames in a \
-                   quick run, 300 in a full one). The table gives the largest error of a buffer, the largest drift \
-                   of a \
-                   buffer's sum, and the first frame whose picture differs by more than 1/255 (-1: none). Chaotic \
-                   flows part \
-                   whatever the rounding; then the pattern counts, not the texel. A device may round a 16-bit store \
-                   to the \
-                   nearest or cut it off (cuts_off is 1), and errors of the second kind add up on one side: \
-                   Gray-Scott's u, \
-                   fed at .037, stalls at .9937 where stores are rounded, as on GPUs, and at .98682 where they are \
-                   cut off, as \
-                   in Mesa's lavapipe. The hard case at 32 bits is that two runs are equal, at 16 that the picture is finite.",
+                   untouched; `eddy lab precision PROJECT` does the same to any project. The error is the picture's \
+                   in the last frame (40 frames in a quick run, 300 in a full one). The table gives the largest error \
+                   of a buffer, the largest drift of a buffer's sum, and the first frame whose picture differs by \
+                   more than 1/255 (-1: none). Chaotic flows part whatever the rounding; then the pattern counts, not \
+                   the texel. A device may round a 16-bit store to the nearest or cut it off (cuts_off is 1), and \
+                   errors of the second kind add up on one side: Gray-Scott's u, fed at .037, stalls at .9937 where \
+                   stores are rounded, as on GPUs, and at .98682 where they are cut off, as in Mesa's lavapipe. The \
+                   hard case at 32 bits is that two runs are equal, at 16 that the picture is finite.",
             knob: "bits a component",
             unit: Unit::Frame,
             error: "of the picture",
