@@ -32,6 +32,7 @@ void mainImage(out vec4 trail, in vec2 fragCoord) {
     // Initialisation guard: on the first frame there is nothing to fade. After a resize the buffer keeps what fits, and
     // is zero elsewhere, which is no trail; only the remembered mouse is of another canvas then, and is not joined up.
     trail = iFrame == 0 ? vec4(0.0) : kept(iResolution.y) * texelFetch(iChannel0, p, 0);
+    if (!isFinite(trail)) trail = vec4(0.0); // it would never fade
     bool drawing = held && iFrame > 0 && mouseBefore.z > 0.0 && mouseBefore.w == iResolution.y;
 
     // The larger of the two, not the sum: ink on ink is still ink, and the age stays right.

@@ -13,6 +13,11 @@ float kept(float canvasHeight) {
     return exp(-FADE / canvasHeight);
 }
 
+// NaN and infinity have all exponent bits set; what min() and max() make of a NaN is undefined (GLSL ES 3.00, section 4.5.1).
+bool isFinite(vec4 q) {
+    return all(lessThan(floatBitsToUint(q) & uvec4(0x7f800000u), uvec4(0x7f800000u)));
+}
+
 // How many half-lives ago the pen was here.
 float age(float trail) {
     return log2(INK / max(trail, 1e-20));

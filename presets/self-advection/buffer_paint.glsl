@@ -33,6 +33,13 @@ vec4 paintAt(vec2 at) {
     return clamp(sum, min(min(a, b), min(c, d)), max(max(a, b), max(c, d)));
 }
 
+// A vector after a time t, whose length s grows by ds/dt = s (1 - s^2). The equation's own solution and no step of it: however long
+// t is, none passes the length 1.
+vec2 grown(vec2 v, float t) {
+    float size2 = dot(v, v);
+    return v * inversesqrt(max(mix(1.0, size2, 1.0 - exp(-2.0 * t)), 1e-20));
+}
+
 // Smooth noise at frame 0: four octaves of random values, interpolated.
 vec4 noise(vec2 uv) {
     vec4 sum = vec4(0.0);
@@ -62,9 +69,8 @@ void mainImage(out vec4 paint, in vec2 fragCoord) {
     paint = paintAt(vec2(p) - strength * iResolution.y / 270.0 * flow);
 
     // Vectors grow towards length 1; what they carry follows more slowly, so that colours do not all end in the corners.
-    float size = length(paint.xy);
-    paint.xy *= exp(vigour * iTimeDelta * (1.0 - size * size));
-    paint.zw *= exp(0.3 * vigour * iTimeDelta * (1.0 - dot(paint.zw, paint.zw)));
+    paint.xy = grown(paint.xy, vigour * iTimeDelta);
+    paint.zw = grown(paint.zw, 0.3 * vigour * iTimeDelta);
 
     vec4 mouse = texelFetch(iChannel2, ivec2(0), 0);
     if (mouse.z > 0.0) {

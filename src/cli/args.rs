@@ -1,6 +1,7 @@
 //! What the command line may say, as clap reads it. Scripts rely on it: an option is added here, never changed.
 
 use crate::{
+    lab::stability::BoundArgument,
     project::PassId,
     session::{
         capture::Format,
@@ -178,6 +179,8 @@ pub struct LabArgs {
 
 #[derive(Debug, Subcommand)]
 pub enum LabCommand {
+    /// Draw simulations under hard conditions and say which leave their bounds
+    Stability(StabilityArgs),
     /// Make one report of the results of several folders
     Merge {
         #[arg(required = true, value_name = "DIR")]
@@ -208,6 +211,28 @@ pub struct PrecisionArgs {
     /// Without a PROJECT: a small canvas and few frames
     #[arg(long, conflicts_with = "project")]
     pub quick: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = PROJECT)]
+pub struct StabilityArgs {
+    /// [default: every preset that has a state]
+    pub project: Vec<String>,
+    /// The folder of the results, a CSV and a page; a run that was stopped goes on there
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Small canvases and few frames: a minute on two cores
+    #[arg(long)]
+    pub quick: bool,
+    /// The range of all components of a pass, in place of what is declared or of -1e4..1e4
+    #[arg(long, value_name = "PASS=LOW..HIGH", value_parser = BoundArgument::parse, allow_hyphen_values = true)]
+    pub bound: Vec<BoundArgument>,
+    /// Only cases that have this text in their name or kind, as in drag, strength=50 or odd sizes
+    #[arg(long, value_name = "TEXT")]
+    pub only: Option<String>,
+    /// Part i of n of the cases, from 0/n; auto: what Slurm, AWS Batch or Kubernetes says of the array's task
+    #[arg(long, value_name = "I/N|auto", default_value = "0/1")]
+    pub shard: String,
 }
 
 #[derive(Debug, Args)]

@@ -3,7 +3,7 @@
 use super::{
     args::{LabArgs, LabCommand},
     machine::Machine,
-    precision, told, trouble,
+    precision, stability, told, trouble,
 };
 use crate::lab::{
     Extent, LabError, Results, Shard, Study,
@@ -35,6 +35,7 @@ pub fn run(args: &LabArgs) -> io::Result<u8> {
                 Err(usage) => Ok(trouble(usage)),
             };
         }
+        Some(LabCommand::Stability(args)) => return stability::run(args),
         None => {}
     }
     let studies = match studies::named(&args.study) {
@@ -73,7 +74,8 @@ fn report(out: &Path, studies: &[&dyn Study], results: &Results) -> Result<Strin
         let name = s.about().name;
         studies.iter().any(|s| s.about().name == name) || results.errors.iter().any(|e| e.point.study == name)
     });
-    let files = report::write(out, &known.copied().collect::<Vec<_>>(), results)?;
+    let mut files = report::write(out, &known.copied().collect::<Vec<_>>(), results)?;
+    files.extend(stability::files(out, results)?);
     let failed: Vec<String> = results
         .errors
         .iter()

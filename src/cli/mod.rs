@@ -13,6 +13,7 @@ mod precision;
 mod quiet;
 mod render;
 mod report;
+mod stability;
 mod targets;
 
 pub use args::Window;

@@ -178,6 +178,31 @@ impl Engine {
         self.ledger.forget();
     }
 
+    /// Texels of a pass, across and up.
+    pub fn pass_size(&self, pass: &PassId) -> Option<(u32, u32)> {
+        self.targets.iter().find(|t| t.id == *pass).map(Target::size)
+    }
+
+    /// Overwrites a texel of a pass's newest ones by NaN, in a format of floats; in any other by its largest value. For who asks
+    /// how a project recovers. A place outside of the pass's texels is held inside.
+    pub fn poison(&mut self, pass: &PassId, (x, y): (u32, u32)) -> Result<(), EngineError> {
+        let target = self.targets.iter().find(|t| t.id == *pass);
+        let target = target.ok_or_else(|| EngineError::NoSuchPass(pass.title()))?;
+        let texture = target.newest();
+        let bytes = texture.raw.format().block_copy_size(None).unwrap_or(4);
+        // All bits set: an exponent of ones and a mantissa that is not zero.
+        let place = (x.min(texture.width() - 1), y.min(texture.height() - 1));
+        texture.write_texel(&self.gpu, place, &vec![0xff; bytes as usize]);
+        if let Some(chain) = target.chains.get(target.front) {
+            let mut encoder =
+                self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("poison") });
+            self.mips.build(&self.gpu, &mut encoder, chain);
+            self.gpu.queue.submit([encoder.finish()]);
+        }
+        self.ledger.forget();
+        Ok(())
+    }
+
     pub fn size(&self) -> (u32, u32) {
         self.size
     }

@@ -84,6 +84,15 @@ impl Texture {
         );
     }
 
+    /// Writes one texel of level 0. `bytes`: as many as a texel of the format has.
+    pub fn write_texel(&self, gpu: &Gpu, (x, y): (u32, u32), bytes: &[u8]) {
+        let mut place = self.raw.as_image_copy();
+        place.origin = wgpu::Origin3d { x, y, z: 0 };
+        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: None, rows_per_image: None };
+        let one = wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 };
+        gpu.queue.write_texture(place, bytes, layout, one);
+    }
+
     /// Copies the overlap of two textures of one format, texel for texel from row 0, column 0.
     pub fn copy_overlap(&self, encoder: &mut wgpu::CommandEncoder, to: &Texture) {
         let size = wgpu::Extent3d {

@@ -33,6 +33,10 @@ pub enum LabError {
     NoStudy { name: String, near: Option<String>, known: String },
     #[error("--shard {0}")]
     Shard(String),
+    #[error(
+        "{project}: {case}: a bound was left in one run and not in the next of the same inputs; the device does not repeat itself"
+    )]
+    NotRepeated { project: String, case: String },
     #[error("a plot could not be drawn: {0}")]
     Plot(String),
 }

@@ -19,6 +19,7 @@ mod rig;
 pub mod run;
 pub mod setup;
 mod shard;
+pub mod stability;
 pub mod studies;
 mod study;
 

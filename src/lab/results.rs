@@ -1,6 +1,6 @@
 //! What was measured, as JSON lines: each record is written when it is known, so that whoever stops a run loses one point.
 
-use super::{Extent, LabError, Measured, Point, cost::Cost};
+use super::{Extent, LabError, Measured, Point, cost::Cost, stability::StabilityRecord};
 use serde::{Deserialize, Serialize};
 use std::{
     fs::{self, File, OpenOptions},
@@ -45,6 +45,7 @@ pub enum Record {
     Run(Provenance),
     Error(ErrorRecord),
     Cost(CostRecord),
+    Stability(StabilityRecord),
 }
 
 /// Everything that is known.
@@ -53,6 +54,7 @@ pub struct Results {
     pub runs: Vec<Provenance>,
     pub errors: Vec<ErrorRecord>,
     pub costs: Vec<CostRecord>,
+    pub cases: Vec<StabilityRecord>,
 }
 
 impl Results {
@@ -72,6 +74,10 @@ impl Results {
                 self.costs.retain(|c| c.point != cost.point);
                 self.costs.push(cost);
             }
+            Record::Stability(case) => {
+                self.cases.retain(|c| !c.is_same_case(&case));
+                self.cases.push(case);
+            }
         }
     }
 
@@ -90,7 +96,8 @@ impl Results {
     fn records(&self) -> impl Iterator<Item = Record> {
         let runs = self.runs.iter().cloned().map(Record::Run);
         let errors = self.errors.iter().cloned().map(Record::Error);
-        runs.chain(errors).chain(self.costs.iter().cloned().map(Record::Cost))
+        let costs = self.costs.iter().cloned().map(Record::Cost);
+        runs.chain(errors).chain(costs).chain(self.cases.iter().cloned().map(Record::Stability))
     }
 
     /// The records of a folder; none where there is no file yet. A last line that was cut short is left out.

@@ -1,0 +1,78 @@
+//! `eddy lab stability`: simulations under hard conditions, and which of them leave their bounds.
+
+use super::{args::StabilityArgs, machine::Machine, told, trouble};
+use crate::lab::{
+    Extent, LabError, Results, Shard,
+    stability::{
+        self, Subject, presets,
+        run::{self, Options, Step},
+    },
+};
+use std::{
+    env,
+    io::{self, IsTerminal, Write},
+    path::Path,
+};
+
+/// Exit code 1: a bound was left that should have been kept, or a case could not be drawn.
+const LEFT: u8 = 1;
+
+pub fn run(args: &StabilityArgs) -> io::Result<u8> {
+    let names: Vec<String> = match args.project.as_slice() {
+        [] => presets::NAMES.map(str::to_owned).into(),
+        some => some.to_vec(),
+    };
+    let subjects: Result<Vec<Subject>, LabError> = names.iter().map(|name| Subject::load(name, &args.bound)).collect();
+    let subjects = match subjects {
+        Ok(subjects) => subjects,
+        Err(error) => return Ok(trouble(error)),
+    };
+    if let Some(bound) = args.bound.iter().find(|b| subjects.iter().all(|s| s.project.pass(&b.pass).is_none())) {
+        return Ok(trouble(format_args!("--bound: no project of this call has a pass {}", bound.pass.key())));
+    }
+    let shard = match Shard::parse(&args.shard, |name| env::var(name).ok()) {
+        Ok(shard) => shard,
+        Err(error) => return Ok(trouble(error)),
+    };
+    let gpu = match Machine::default().gpu() {
+        Ok(gpu) => gpu,
+        Err(error) => return Ok(trouble(told(&error))),
+    };
+    let extent = if args.quick { Extent::Quick } else { Extent::Full };
+    let options = Options { out: args.out.clone(), extent, shard, only: args.only.clone() };
+    let results = match run::run(&gpu, &subjects, &options, tell) {
+        Ok(results) => results,
+        Err(error) => return Ok(trouble(error)),
+    };
+    if io::stderr().is_terminal() {
+        writeln!(io::stderr())?;
+    }
+    let of_these: Vec<_> = results.cases.iter().filter(|c| names.contains(&c.project)).cloned().collect();
+    if of_these.is_empty() && options.shard == Shard::WHOLE {
+        return Ok(trouble("there is no such case"));
+    }
+    let mut out = io::stdout().lock();
+    write!(out, "{}", stability::table(&of_these))?;
+    if let Some(folder) = &args.out {
+        match files(folder, &results) {
+            Ok(_) => writeln!(out, "\n{}", folder.join("stability.html").display())?,
+            Err(error) => return Ok(trouble(error)),
+        }
+    }
+    out.flush()?;
+    Ok(if of_these.iter().all(|c| c.is_right()) { 0 } else { LEFT })
+}
+
+/// The report of what stability there is among results.
+pub fn files(out: &Path, results: &Results) -> Result<Vec<String>, LabError> {
+    stability::write(out, results)
+}
+
+/// Says on standard error what is drawn: on a terminal in one line that is written over, else a line a case.
+fn tell(step: Step<'_>) {
+    let words = format!("{}/{} {}: {}", step.done + 1, step.all, step.project, step.case.name);
+    let mut err = io::stderr().lock();
+    // Nobody is left to tell where standard error is closed.
+    let _ = if err.is_terminal() { write!(err, "\r\x1b[2K{words}") } else { writeln!(err, "{words}") };
+    let _ = err.flush();
+}

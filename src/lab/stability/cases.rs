@@ -1,0 +1,298 @@
+//! What is done to a project: the list of cases, from what it is by itself to what is unlikely.
+
+use super::{
+    Subject,
+    inputs::{Hand, Steps},
+    pairs,
+};
+use crate::{
+    lab::Extent,
+    project::{Knob, KnobType, KnobValue, KnobValues},
+};
+use serde::{Deserialize, Serialize};
+
+/// Seed of the rows of pairs.
+const SEED: u64 = 20_240_501;
+
+/// Why a case is there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// Defaults, nobody near.
+    Untouched,
+    /// So many cells a step.
+    Courant,
+    /// A slider at an end, all others at their defaults.
+    End,
+    Drag,
+    /// Frames that are long, uneven, or take no time.
+    Step,
+    Resize,
+    /// A texel that is no number.
+    Broken,
+    /// Canvases of odd and extreme sizes.
+    Size,
+    /// Several sliders at their ends.
+    Pairs,
+    /// Larger canvases.
+    Large,
+    /// 100,000 frames.
+    Long,
+}
+
+impl Kind {
+    pub fn title(self) -> &'static str {
+        match self {
+            Kind::Untouched => "left alone",
+            Kind::Courant => "cells a step",
+            Kind::End => "a slider at an end",
+            Kind::Drag => "the mouse",
+            Kind::Step => "time steps",
+            Kind::Resize => "resize",
+            Kind::Broken => "a texel that is no number",
+            Kind::Size => "odd sizes",
+            Kind::Pairs => "pairs of sliders at their ends",
+            Kind::Large => "large canvases",
+            Kind::Long => "100,000 frames",
+        }
+    }
+}
+
+/// One thing that is done.
+#[derive(Clone, Debug)]
+pub struct Case {
+    pub kind: Kind,
+    /// Unlike that of any other case of the project.
+    pub name: String,
+    pub size: (u32, u32),
+    pub frames: u32,
+    /// Texels are looked at after every so many frames, and after each frame of a disturbance.
+    pub every: u32,
+    /// Sliders that are not at their defaults.
+    pub values: KnobValues,
+    pub hand: Hand,
+    pub steps: Steps,
+    /// New sizes, each before a frame.
+    pub resizes: Vec<(u32, (u32, u32))>,
+    /// The frame before which a texel of every state becomes NaN.
+    pub poison: Option<u32>,
+    /// Frames in which something is done, from the first to before the last.
+    pub disturbed: Option<(u32, u32)>,
+}
+
+impl Case {
+    fn new(kind: Kind, name: impl Into<String>, size: (u32, u32), frames: u32, every: u32) -> Case {
+        Case {
+            kind,
+            name: name.into(),
+            size,
+            frames,
+            every,
+            values: KnobValues::new(),
+            hand: Hand::Away,
+            steps: Steps::Usual,
+            resizes: Vec::new(),
+            poison: None,
+            disturbed: None,
+        }
+    }
+
+    fn disturbed(mut self, from: u32, to: u32) -> Case {
+        self.disturbed = Some((from, to));
+        self
+    }
+
+    /// Whether texels are looked at after this frame.
+    pub fn is_checked(&self, frame: u32) -> bool {
+        let is_near = self.disturbed.is_some_and(|(from, to)| (from..to + 2).contains(&frame));
+        is_near || (frame + 1).is_multiple_of(self.every) || frame + 1 == self.frames
+    }
+
+    /// The sliders as the command line sets them.
+    pub fn settings(&self) -> String {
+        let all: Vec<String> = self.values.iter().map(|(name, value)| format!("{name}={}", written(value))).collect();
+        all.join(" ")
+    }
+}
+
+fn written(value: &KnobValue) -> String {
+    let short = |x: &f64| format!("{}", (x * 1e6).round() / 1e6);
+    match value {
+        KnobValue::Bool(on) => on.to_string(),
+        other => other.components().iter().map(short).collect::<Vec<_>>().join(","),
+    }
+}
+
+/// How long and how large cases are.
+struct Measure {
+    base: (u32, u32),
+    untouched: u32,
+    /// Frames before a disturbance, and the longest time to recover that is waited for.
+    calm: u32,
+    recover: u32,
+    drag: u32,
+    end: u32,
+    every: u32,
+    courant: &'static [f64],
+    sizes: &'static [(u32, u32)],
+    size_frames: u32,
+    /// Sliders that a row of pairs turns.
+    most: usize,
+    resized: &'static [(u32, u32)],
+    large: &'static [((u32, u32), u32)],
+    long: Option<((u32, u32), u32)>,
+}
+
+const QUICK: Measure = Measure {
+    base: (160, 90),
+    untouched: 60,
+    calm: 6,
+    recover: 12,
+    drag: 10,
+    end: 14,
+    every: 7,
+    courant: &[4.0],
+    sizes: &[(1, 1), (1, 33), (57, 33)],
+    size_frames: 8,
+    most: usize::MAX,
+    resized: &[(83, 47), (1, 1), (160, 90)],
+    large: &[],
+    long: None,
+};
+
+const FULL: Measure = Measure {
+    base: (640, 360),
+    untouched: 2000,
+    calm: 60,
+    recover: 240,
+    drag: 90,
+    end: 240,
+    every: 10,
+    courant: &[0.5, 1.0, 2.0, 4.0],
+    sizes: &[(1, 1), (1, 2), (2, 1), (3, 3), (17, 31), (333, 187), (641, 359), (1, 4096), (4096, 1)],
+    size_frames: 120,
+    most: 4,
+    resized: &[(333, 187), (1280, 720), (1, 1), (640, 360)],
+    large: &[((1280, 720), 300), ((1920, 1080), 120)],
+    long: Some(((48, 27), 100_000)),
+};
+
+/// Everything that is done to a project, in the order in which it is done.
+pub fn list(subject: &Subject, extent: Extent) -> Vec<Case> {
+    let m = if extent == Extent::Quick { &QUICK } else { &FULL };
+    let mut cases = vec![Case::new(Kind::Untouched, "left alone", m.base, m.untouched, m.every)];
+    let sliders = subject.sliders();
+    courant(subject, &sliders, m, &mut cases);
+    for slider in &sliders {
+        for is_high in [false, true] {
+            let values = KnobValues::from([(slider.name.clone(), end(slider, is_high))]);
+            let case = Case { values, ..Case::new(Kind::End, "", m.base, m.end, m.every) };
+            cases.push(Case { name: case.settings(), ..case });
+        }
+    }
+    disturbances(m, &mut cases);
+    for &size in m.sizes {
+        let name = format!("{}x{}, dragged", size.0, size.1);
+        let (from, to) = (m.size_frames / 4, m.size_frames / 2);
+        let case = Case::new(Kind::Size, name, size, m.size_frames, m.every).disturbed(from, to);
+        cases.push(Case { hand: Hand::Across, ..case });
+    }
+    for row in pairs::rows(sliders.len(), m.most, SEED).into_iter().filter(|row| row.len() > 1) {
+        let values = row.iter().map(|(n, is_high)| (sliders[*n].name.clone(), end(&sliders[*n], *is_high))).collect();
+        let case = Case { values, ..Case::new(Kind::Pairs, "", m.base, m.end / 2, m.every) };
+        cases.push(Case { name: case.settings(), ..case });
+    }
+    for &(size, frames) in m.large {
+        cases.push(Case::new(Kind::Large, format!("{}x{}", size.0, size.1), size, frames, m.every));
+    }
+    if let Some((size, frames)) = m.long {
+        cases.push(Case::new(Kind::Long, format!("{frames} frames"), size, frames, 200));
+    }
+    cases
+}
+
+fn courant(subject: &Subject, sliders: &[Knob], m: &Measure, cases: &mut Vec<Case>) {
+    let Some(courant) = subject.courant else { return };
+    let Some(slider) = sliders.iter().find(|k| k.name == courant.slider) else { return };
+    for &cells in m.courant {
+        let range = slider.range.map_or((f64::MIN, f64::MAX), |r| (r.min[0], r.max[0]));
+        let value = (courant.value)(cells, m.base).clamp(range.0, range.1);
+        let values = KnobValues::from([(slider.name.clone(), KnobValue::Float(value))]);
+        cases
+            .push(Case { values, ..Case::new(Kind::Courant, format!("{cells} cells a step"), m.base, m.end, m.every) });
+    }
+}
+
+fn disturbances(m: &Measure, cases: &mut Vec<Case>) {
+    let case = |kind, name: &str, lasts: u32| {
+        Case::new(kind, name, m.base, m.calm + lasts + m.recover, m.every).disturbed(m.calm, m.calm + lasts)
+    };
+    for (hand, name) in Hand::DRAGS {
+        cases.push(Case { hand, ..case(Kind::Drag, name, m.drag) });
+    }
+    for (steps, name, lasts) in [
+        (Steps::Times(10.0), "frames ten times as long", m.drag / 2),
+        (Steps::Seconds(0.25), "a frame of 250 ms", 1),
+        (Steps::Seconds(10.0), "a frame of 10 s", 1),
+        (Steps::Still, "frames that take no time", m.drag / 2),
+        (Steps::Uneven, "uneven frames", m.drag),
+    ] {
+        cases.push(Case { steps, ..case(Kind::Step, name, lasts) });
+    }
+    let apart = m.drag / 3;
+    let resizes: Vec<(u32, (u32, u32))> = (0..).map(|n| m.calm + n * apart).zip(m.resized.iter().copied()).collect();
+    let lasts = apart * (resizes.len() as u32 - 1) + 1;
+    cases.push(Case { resizes, ..case(Kind::Resize, "resize on the way", lasts) });
+    cases.push(Case { poison: Some(m.calm), ..case(Kind::Broken, "NaN in a texel of every state", 1) });
+}
+
+fn end(slider: &Knob, is_high: bool) -> KnobValue {
+    match (slider.range, slider.ty) {
+        (None, _) | (_, KnobType::Bool) => KnobValue::Bool(is_high),
+        (Some(range), ty) => KnobValue::new(ty, if is_high { &range.max } else { &range.min }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn cases_have_names_of_their_own_and_every_slider_is_at_both_ends() {
+        for name in super::super::presets::NAMES {
+            let subject = Subject::load(name, &[]).unwrap();
+            for extent in [Extent::Quick, Extent::Full] {
+                let cases = list(&subject, extent);
+                let names: BTreeSet<&str> = cases.iter().map(|c| c.name.as_str()).collect();
+                assert_eq!(names.len(), cases.len(), "{name}");
+                let ends = cases.iter().filter(|c| c.kind == Kind::End).count();
+                assert_eq!(ends, 2 * subject.sliders().len(), "{name}");
+                for case in &cases {
+                    let (from, to) = case.disturbed.unwrap_or((0, 0));
+                    assert!(from <= to && to < case.frames, "{name}: {}", case.name);
+                    assert!(case.is_checked(case.frames - 1));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn all_pairs_of_ends_are_among_the_cases() {
+        let subject = Subject::load("mip-fluid", &[]).unwrap();
+        let sliders = subject.sliders();
+        for extent in [Extent::Quick, Extent::Full] {
+            let cases = list(&subject, extent);
+            for (n, a) in sliders.iter().enumerate() {
+                for b in &sliders[n + 1..] {
+                    for (x, y) in [(false, false), (false, true), (true, false), (true, true)] {
+                        let is_there = cases.iter().any(|c| {
+                            c.values.get(&a.name) == Some(&end(a, x)) && c.values.get(&b.name) == Some(&end(b, y))
+                        });
+                        assert!(is_there, "{} and {}", a.name, b.name);
+                    }
+                }
+            }
+        }
+    }
+}

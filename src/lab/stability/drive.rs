@@ -1,0 +1,292 @@
+//! A case on the device: drawn from its first frame, looked at every few frames, and where a bound was left drawn again to find
+//! the frame in which that happened.
+
+use super::{
+    Case, Subject,
+    check::{self, Allowed, Check, Found, HARD_LIMIT, Situation},
+    inputs::Inputs,
+    record::{Offence, Outcome, Recovery, StabilityRecord},
+};
+use crate::{
+    engine::{BuildOptions, Engine, Pixels, Program},
+    gpu::Gpu,
+    lab::{LabError, Number},
+    project::PassId,
+};
+use std::collections::BTreeMap;
+
+/// Frames that may wait on the device at once.
+const FRAMES_IN_FLIGHT: u32 = 8;
+
+/// How much livelier than undisturbed (as a root mean square) a project may be that has recovered.
+const RECOVERED: f64 = 1.1;
+
+/// A subject that is compiled once, and drawn case by case.
+pub struct Driver<'s> {
+    subject: &'s Subject,
+    engine: Engine,
+    state: Vec<PassId>,
+    /// Largest root mean square of each check without any disturbance, by size and frames.
+    calm: BTreeMap<((u32, u32), u32), Vec<f64>>,
+}
+
+/// A case that is being drawn.
+struct Run<'d, 's, 'c> {
+    driver: &'d mut Driver<'s>,
+    case: &'c Case,
+    inputs: Inputs,
+    frame: u32,
+}
+
+impl<'s> Driver<'s> {
+    /// Compiles. Fails with the author's diagnostics.
+    pub fn new(gpu: &Gpu, subject: &'s Subject, size: (u32, u32)) -> Result<Driver<'s>, LabError> {
+        let mut wanted: Vec<PassId> = vec![PassId::Image];
+        wanted.extend(subject.checks.iter().map(|c| c.pass.clone()));
+        wanted.extend(subject.stateful());
+        wanted.sort();
+        wanted.dedup();
+        let mut engine = Engine::new(gpu.clone(), size.0, size.1)?;
+        let options = BuildOptions { wanted, skip: true };
+        let built = Program::build(gpu, &subject.project, &subject.media, &options);
+        engine.set_program(built.map_err(|e| LabError::build(&subject.name, e))?.program)?;
+        Ok(Driver { subject, engine, state: subject.stateful().into_iter().collect(), calm: BTreeMap::new() })
+    }
+
+    /// Draws a case and says what came of it. What the device refuses, as a canvas that is too large, is told in the record.
+    pub fn measure(&mut self, case: &Case) -> StabilityRecord {
+        let situation = self.subject.situation(&case.values, case.size, case.steps.longest());
+        let mut excuses: Vec<String> =
+            self.subject.checks.iter().filter_map(|c| c.allowed(&situation).excuse).map(str::to_owned).collect();
+        excuses.sort();
+        excuses.dedup();
+        let mut record = StabilityRecord {
+            project: self.subject.name.clone(),
+            texts: self.subject.fingerprint(),
+            kind: case.kind,
+            case: case.name.clone(),
+            size: case.size,
+            frames: case.frames,
+            settings: case.settings(),
+            excuses,
+            outcome: None,
+            trouble: None,
+            recovery: None,
+            extremes: BTreeMap::new(),
+            courant: None,
+        };
+        if let Err(trouble) = self.fill(case, &situation, &mut record) {
+            record.trouble = Some(trouble.to_string());
+            record.outcome = None;
+        }
+        record
+    }
+
+    fn fill(&mut self, case: &Case, situation: &Situation, record: &mut StabilityRecord) -> Result<(), LabError> {
+        let calm = match case.disturbed {
+            Some(_) => self.calm(case)?,
+            None => Vec::new(),
+        };
+        let mut seen = Seen::default();
+        let mut run = self.begin(case)?;
+        while run.frame < case.frames {
+            let frame = run.draw()?;
+            if !case.is_checked(frame) {
+                continue;
+            }
+            let all = run.look(situation)?;
+            seen.take(frame, &all, case, &calm);
+        }
+        let subject = self.subject;
+        record.outcome = Some(match (seen.left, seen.excused) {
+            // What was outside after the frame before is known; when it left lies in between.
+            (Some(at), _) => Outcome::Left(self.first(case, situation, at, |l| l.is_left)?),
+            (None, Some(at)) => Outcome::LeftAsExpected(self.first(case, situation, at, |_| true)?),
+            (None, None) => Outcome::Held,
+        });
+        for (check, (low, high)) in subject.checks.iter().zip(&seen.extremes) {
+            let name = check.name();
+            let entry = record.extremes.entry(name).or_insert((Number(*low), Number(*high)));
+            *entry = (Number(entry.0.0.min(*low)), Number(entry.1.0.max(*high)));
+        }
+        if let Some((_, end)) = case.disturbed {
+            record.recovery = Some(match seen.restless {
+                None => Recovery::Frames(0),
+                Some(last) if last + 1 >= case.frames => Recovery::NotWithin(case.frames - end),
+                Some(_) => Recovery::Frames(seen.calm_since.map_or(0, |f| (f + 1).saturating_sub(end))),
+            });
+        }
+        if let Some(courant) = subject.courant
+            && let Some((_, high)) = seen.extremes.get(courant.speed)
+        {
+            record.courant = Some(Number((courant.cells)(*high, situation)));
+        }
+        Ok(())
+    }
+
+    /// The first frame after `at.0`, which was seen within all bounds, in which one is left; `at.1` is known to be one.
+    fn first(
+        &mut self,
+        case: &Case,
+        situation: &Situation,
+        at: (u32, u32),
+        counts: impl Fn(&Looked) -> bool,
+    ) -> Result<Offence, LabError> {
+        let mut run = self.begin(case)?;
+        let mut last = None;
+        while run.frame <= at.1 {
+            let frame = run.draw()?;
+            if frame < at.0 {
+                continue;
+            }
+            let all = run.look(situation)?;
+            let found = all.iter().enumerate().filter(|(_, l)| l.offence.is_some() && counts(l));
+            if let Some((n, looked)) = found.into_iter().next() {
+                let check = &run.driver.subject.checks[n];
+                last = looked.offence.map(|worst| Offence {
+                    frame,
+                    pass: check.pass.key(),
+                    quantity: check.quantity.name(),
+                    texel: worst.texel,
+                    value: Number(worst.value),
+                    low: Number(looked.allowed.low),
+                    high: Number(looked.allowed.high),
+                    count: worst.count,
+                });
+                break;
+            }
+        }
+        last.ok_or_else(|| LabError::NotRepeated { project: self.subject.name.clone(), case: case.name.clone() })
+    }
+
+    /// The liveliest moment of each check where nothing is done in the same number of frames.
+    fn calm(&mut self, case: &Case) -> Result<Vec<f64>, LabError> {
+        let key = (case.size, case.frames);
+        if let Some(known) = self.calm.get(&key) {
+            return Ok(known.clone());
+        }
+        let twin = Case { disturbed: None, poison: None, resizes: Vec::new(), ..case.clone() };
+        let situation = self.subject.situation(&twin.values, twin.size, twin.steps.longest());
+        let mut most = vec![0.0f64; self.subject.checks.len()];
+        let mut run = self.begin(&twin)?;
+        while run.frame < twin.frames {
+            let frame = run.draw()?;
+            if twin.is_checked(frame) {
+                for (most, looked) in most.iter_mut().zip(run.look(&situation)?) {
+                    *most = most.max(looked.found.rms);
+                }
+            }
+        }
+        self.calm.insert(key, most.clone());
+        Ok(most)
+    }
+
+    fn begin<'d, 'c>(&'d mut self, case: &'c Case) -> Result<Run<'d, 's, 'c>, LabError> {
+        self.engine.resize(case.size.0, case.size.1)?;
+        let mut values = self.subject.project.knob_values.clone();
+        values.extend(case.values.clone());
+        self.engine.set_knobs(&values);
+        self.engine.reset();
+        Ok(Run { driver: self, case, inputs: Inputs::new(case.hand, case.steps, case.disturbed), frame: 0 })
+    }
+}
+
+/// A check after a frame.
+struct Looked {
+    found: Found,
+    allowed: Allowed,
+    /// Outside of the range, or, where that may be left, of what everything must keep.
+    offence: Option<check::Worst>,
+    /// It ought to have been kept.
+    is_left: bool,
+}
+
+impl Run<'_, '_, '_> {
+    /// Draws the next frame and gives its number.
+    fn draw(&mut self) -> Result<u32, LabError> {
+        let engine = &mut self.driver.engine;
+        let frame = self.frame;
+        for (_, (width, height)) in self.case.resizes.iter().filter(|(at, _)| *at == frame) {
+            engine.resize(*width, *height)?;
+        }
+        if self.case.poison == Some(frame) {
+            for id in &self.driver.state {
+                let (width, height) = engine.pass_size(id).unwrap_or((1, 1));
+                engine.poison(id, (width / 2, height / 2))?;
+            }
+        }
+        let inputs = self.inputs.next(engine.size());
+        engine.draw(&inputs)?;
+        if (frame + 1).is_multiple_of(FRAMES_IN_FLIGHT) {
+            engine.gpu().wait()?;
+        }
+        self.frame += 1;
+        Ok(frame)
+    }
+
+    /// Every check, of the newest texels.
+    fn look(&mut self, situation: &Situation) -> Result<Vec<Looked>, LabError> {
+        let engine = &mut self.driver.engine;
+        let situation = Situation { size: engine.size(), ..situation.clone() };
+        let mut read: BTreeMap<&PassId, Pixels> = BTreeMap::new();
+        let mut all = Vec::new();
+        for check in &self.driver.subject.checks {
+            if !read.contains_key(&check.pass) {
+                read.insert(&check.pass, engine.read(&check.pass)?);
+            }
+            all.push(look(check, &read[&check.pass], &situation));
+        }
+        Ok(all)
+    }
+}
+
+fn look(check: &Check, pixels: &Pixels, situation: &Situation) -> Looked {
+    let allowed = check.allowed(situation);
+    let found = check::find(check.quantity, check.area, pixels, allowed.low, allowed.high);
+    let is_excused = allowed.excuse.is_some();
+    let is_wild = found.worst.is_some_and(|w| !w.value.is_finite() || w.value.abs() > HARD_LIMIT.max(allowed.high));
+    Looked { found, allowed, offence: found.worst, is_left: found.worst.is_some() && (!is_excused || is_wild) }
+}
+
+/// What the checked frames of a run came to.
+#[derive(Default)]
+struct Seen {
+    extremes: Vec<(f64, f64)>,
+    /// The last frame seen within its bounds and the first that was not: of what ought to be kept, and of what may be left.
+    left: Option<(u32, u32)>,
+    excused: Option<(u32, u32)>,
+    before: u32,
+    /// The last frame after the disturbance in which something was livelier than without it or outside of its bounds.
+    restless: Option<u32>,
+    /// The first checked frame after that.
+    calm_since: Option<u32>,
+}
+
+impl Seen {
+    fn take(&mut self, frame: u32, all: &[Looked], case: &Case, calm: &[f64]) {
+        if self.extremes.is_empty() {
+            self.extremes = vec![(f64::INFINITY, f64::NEG_INFINITY); all.len()];
+        }
+        for ((low, high), looked) in self.extremes.iter_mut().zip(all) {
+            (*low, *high) = (low.min(looked.found.low), high.max(looked.found.high));
+            if looked.found.low.is_nan() {
+                (*low, *high) = (f64::NAN, f64::NAN);
+            }
+        }
+        if self.left.is_none() && all.iter().any(|l| l.is_left) {
+            self.left = Some((self.before, frame));
+        }
+        if self.excused.is_none() && all.iter().any(|l| l.offence.is_some()) {
+            self.excused = Some((self.before, frame));
+        }
+        self.before = frame + 1;
+        if case.disturbed.is_some_and(|(_, end)| frame >= end) {
+            let is_lively = |(looked, calm): (&Looked, &f64)| looked.found.rms > RECOVERED * calm + 1e-6;
+            if all.iter().any(|l| l.is_left) || all.iter().zip(calm).any(is_lively) {
+                (self.restless, self.calm_since) = (Some(frame), None);
+            } else {
+                self.calm_since = self.calm_since.or(Some(frame));
+            }
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! What the hand and the clock do in a case, frame by frame. Nothing here is random: the same case has the same inputs.
+
+use crate::engine::FrameInputs;
+
+/// Of the usual step.
+const FRAMES_A_SECOND: f64 = 60.0;
+
+/// What the mouse does while a disturbance lasts. It is pressed in the first frame of it and released in the first frame after.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hand {
+    Away,
+    /// Half of the canvas, in one even stroke.
+    Slow,
+    /// To and fro across most of the canvas, eight frames each way.
+    Fast,
+    /// Pulled out past the left edge and held there, moving along it.
+    Edge,
+    /// From corner to corner, another one each frame: the whole picture in one frame.
+    Across,
+}
+
+impl Hand {
+    pub const DRAGS: [(Hand, &'static str); 4] = [
+        (Hand::Slow, "slow drag"),
+        (Hand::Fast, "fast drag"),
+        (Hand::Edge, "drag held at an edge"),
+        (Hand::Across, "drag across the whole picture in a frame"),
+    ];
+
+    /// Where the mouse is `t` frames after the press of a drag of so many frames, in whole canvas pixels from the bottom left.
+    fn at(self, t: u32, frames: u32, size: (u32, u32)) -> [f32; 2] {
+        let (w, h) = (f64::from(size.0), f64::from(size.1));
+        let part = f64::from(t) / f64::from(frames.max(1));
+        let (x, y) = match self {
+            Hand::Away => (0.0, 0.0),
+            Hand::Slow => (w * (0.25 + 0.5 * part), h * (0.5 + 0.1 * (6.0 * part).sin())),
+            Hand::Fast => {
+                let there = f64::from(t % 16) / 8.0;
+                (w * (0.1 + 0.8 * there.min(2.0 - there)), h * (0.2 + 0.6 * part))
+            }
+            Hand::Edge => (w * (0.2 - 0.03 * f64::from(t)).max(-0.1), h * (0.5 + 0.45 * (12.0 * part).sin())),
+            Hand::Across => match t % 4 {
+                0 => (1.0, 1.0),
+                1 => (w - 2.0, h - 2.0),
+                2 => (1.0, h - 2.0),
+                _ => (w - 2.0, 1.0),
+            },
+        };
+        [x.floor() as f32, y.floor() as f32]
+    }
+}
+
+/// How long frames are.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Steps {
+    /// A sixtieth of a second.
+    Usual,
+    /// So many times that, while the disturbance lasts.
+    Times(f64),
+    /// Frames of the disturbance take so many seconds, as when a program was stopped for that long.
+    Seconds(f64),
+    /// No time passes while the disturbance lasts: frames drawn during a pause.
+    Still,
+    /// From a 240th to a 15th of a second in turn, while the disturbance lasts.
+    Uneven,
+}
+
+impl Steps {
+    /// Seconds of a frame, `t` frames after the disturbance began; `None`: it has not, or is over.
+    fn seconds(self, t: Option<u32>) -> f64 {
+        let usual = 1.0 / FRAMES_A_SECOND;
+        let Some(t) = t else { return usual };
+        match self {
+            Steps::Usual => usual,
+            Steps::Times(factor) => factor * usual,
+            Steps::Seconds(seconds) => seconds,
+            Steps::Still => 0.0,
+            Steps::Uneven => usual * [0.25, 4.0, 1.0, 2.0, 0.5][t as usize % 5],
+        }
+    }
+
+    pub fn longest(self) -> f64 {
+        (0..5).map(|t| self.seconds(Some(t))).fold(1.0 / FRAMES_A_SECOND, f64::max)
+    }
+}
+
+/// The inputs of one frame after the other.
+pub struct Inputs {
+    hand: Hand,
+    steps: Steps,
+    /// Frames from the first to before the last.
+    disturbed: Option<(u32, u32)>,
+    frame: u32,
+    seconds: f64,
+    mouse: [f32; 4],
+    drag: [f32; 2],
+}
+
+impl Inputs {
+    pub fn new(hand: Hand, steps: Steps, disturbed: Option<(u32, u32)>) -> Inputs {
+        Inputs { hand, steps, disturbed, frame: 0, seconds: 0.0, mouse: [0.0, 0.0, -0.0, -0.0], drag: [0.0; 2] }
+    }
+
+    /// Of the next frame, on a canvas of this size.
+    pub fn next(&mut self, size: (u32, u32)) -> FrameInputs {
+        let since = self.disturbed.filter(|(from, to)| (*from..*to).contains(&self.frame));
+        let t = since.map(|(from, _)| self.frame - from);
+        let delta = self.steps.seconds(t);
+        match (t, since) {
+            (Some(t), Some((from, to))) if self.hand != Hand::Away => {
+                let [x, y] = self.hand.at(t, to - from, size);
+                if t > 0 {
+                    self.drag = [self.drag[0] + x - self.mouse[0], self.drag[1] + y - self.mouse[1]];
+                } else {
+                    (self.mouse[2], self.mouse[3]) = (x.abs(), y.abs());
+                }
+                (self.mouse[0], self.mouse[1]) = (x, y);
+                if t > 0 {
+                    self.mouse[3] = -self.mouse[3].abs();
+                }
+            }
+            _ => (self.mouse[2], self.mouse[3]) = (-self.mouse[2].abs(), -self.mouse[3].abs()),
+        }
+        // As in the window: `iTime` is that of the frame's beginning.
+        let inputs = FrameInputs {
+            frame: self.frame as i32,
+            time_secs: self.seconds,
+            time_delta_secs: delta as f32,
+            frame_rate: if delta > 0.0 { (1.0 / delta) as f32 } else { FRAMES_A_SECOND as f32 },
+            mouse: self.mouse,
+            drag: self.drag,
+            ..FrameInputs::at_fixed_step(self.frame as i32, FRAMES_A_SECOND)
+        };
+        self.frame += 1;
+        self.seconds += self
+            .steps
+            .seconds(self.disturbed.filter(|(a, b)| (*a..*b).contains(&self.frame)).map(|(a, _)| self.frame - a));
+        inputs
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_drag_is_pressed_once_held_and_released() {
+        let mut inputs = Inputs::new(Hand::Across, Steps::Usual, Some((2, 5)));
+        let mice: Vec<[f32; 4]> = (0..7).map(|_| inputs.next((64, 36)).mouse).collect();
+        assert_eq!(mice[2], [1.0, 1.0, 1.0, 1.0]);
+        assert_eq!(mice[3], [62.0, 34.0, 1.0, -1.0], "across in one frame");
+        assert_eq!(mice[4], [1.0, 34.0, 1.0, -1.0]);
+        assert_eq!(mice[5], [1.0, 34.0, -1.0, -1.0]);
+        assert!(mice[1][2].is_sign_negative() && mice[0][2] == 0.0);
+        assert_eq!(mice[6], mice[5]);
+    }
+
+    #[test]
+    fn a_held_drag_goes_past_the_edge() {
+        let size = (640, 360);
+        assert!(Hand::Edge.at(60, 60, size)[0] < 0.0);
+        let far = |hand: Hand| {
+            (1..60).map(|t| (hand.at(t, 60, size)[0] - hand.at(t - 1, 60, size)[0]).abs()).fold(0.0, f32::max)
+        };
+        assert!(far(Hand::Slow) < 7.0 && far(Hand::Fast) > 50.0 && far(Hand::Across) > 600.0);
+    }
+
+    #[test]
+    fn time_is_the_sum_of_its_steps() {
+        for steps in [Steps::Usual, Steps::Times(10.0), Steps::Seconds(0.25), Steps::Still, Steps::Uneven] {
+            let mut inputs = Inputs::new(Hand::Away, steps, Some((3, 9)));
+            let (mut before, mut most) = (inputs.next((8, 8)).time_secs, 0.0f64);
+            for _ in 1..20 {
+                let now = inputs.next((8, 8));
+                assert!((now.time_secs - before - f64::from(now.time_delta_secs)).abs() < 1e-6, "{steps:?}");
+                before = now.time_secs;
+                most = most.max(f64::from(now.time_delta_secs));
+            }
+            assert!((most - steps.longest()).abs() < 1e-6, "{steps:?}");
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! Fluids, and what is carried by a flow.
+
+use super::{Courant, always, by, mouse};
+use crate::lab::stability::check::{Allowed, Area, Check, Quantity, Situation};
+
+type Bounds = (Vec<Check>, Option<Courant>);
+
+/// Row 0 of the compressible fluids is the mouse's memory.
+const FLUID: Area = Area::FromRow(1);
+
+/// c dt, nu dt and the time step of the compressible fluids, as solver.glsl has them: (nu dt, K dt, dt).
+fn steps(s: &Situation) -> (f64, f64, f64) {
+    let (dt, nu, k) = (s.slider("dt"), s.slider("viscosity"), s.slider("stiffness"));
+    match is_classic(s) {
+        true => (nu * dt, k * dt, dt),
+        false => ((nu * dt).min(0.15), (k * dt).min(0.15 + 10.0 * nu * dt).min(0.45), dt),
+    }
+}
+
+fn is_classic(s: &Situation) -> bool {
+    s.slider("form") == 0.0
+}
+
+const CLASSIC: &str = "the published form is unstable at rest where nu < K or nu dt > 1/4 (von Neumann)";
+const NO_PRESSURE: &str = "without stiffness there is no pressure, and nothing keeps mass from piling up";
+
+fn is_beyond_classic(s: &Situation) -> bool {
+    let (nu, k) = (s.slider("viscosity"), s.slider("stiffness"));
+    is_classic(s) && (nu < k || nu * s.slider("dt") > 0.25)
+}
+
+/// The speed up to which the step is stable, and to which all forces push at most.
+fn speed(s: &Situation) -> Allowed {
+    let (nu, k, dt) = steps(s);
+    let sound = k.sqrt() / dt;
+    let most = if is_classic(s) { 3.0 } else { (0.4 * sound).max(0.05) };
+    let limit = ((1.0 - 4.0 * nu) / dt).clamp(0.05, most.max(0.05));
+    // The jets and the hand push after the limit, to a speed of their own.
+    let pushed = if is_classic(s) { 3.0 } else { 0.4 * sound };
+    Allowed::new(0.0, limit.max(pushed) * 1.0001)
+}
+
+/// A flow of Mach M makes differences of M^2 / 2 to M^2 in density, sound waves of it differences of M: 0.4 at most.
+fn density(s: &Situation) -> Allowed {
+    Allowed::new(0.6, 1.6)
+        .unless(is_beyond_classic(s), CLASSIC)
+        .unless(is_classic(s), "the paper's form lets a flow be faster than sound")
+        .unless(s.slider("stiffness") == 0.0, NO_PRESSURE)
+}
+
+fn mass(s: &Situation) -> Allowed {
+    Allowed::new(0.98, 1.02)
+        .unless(is_beyond_classic(s), CLASSIC)
+        .unless(is_classic(s), "the paper's form does not conserve mass where its limits are reached")
+        .unless(s.slider("stiffness") == 0.0, NO_PRESSURE)
+}
+
+fn smooth(s: &Situation) -> Allowed {
+    Allowed::new(0.0, 0.25)
+        .unless(is_beyond_classic(s), CLASSIC)
+        .unless(is_classic(s), "a density that alternates is seen by none of the paper's differences")
+        .unless(s.slider("stiffness") == 0.0, NO_PRESSURE)
+}
+
+const SPEED: &str = "the step is stable up to Mach 0.4, and every force pushes to less";
+const DENSITY: &str = "at Mach 0.4 and below density differs from 1 by less than 0.4, and a wall doubles it at most";
+const MASS: &str = "fluxes conserve mass; what the density's limits take comes back";
+const SMOOTH: &str = "a field that alternates from cell to cell is an instability and no flow";
+
+/// A pass is the compressible fluid.
+fn compressible(name: &str) -> Vec<Check> {
+    vec![
+        by(name, Quantity::Length(0, 1), FLUID, speed, SPEED),
+        by(name, Quantity::Component(2), FLUID, density, DENSITY),
+        by(name, Quantity::Mean(2), FLUID, mass, MASS),
+        by(name, Quantity::Roughness(0), FLUID, smooth, SMOOTH),
+        by(name, Quantity::Roughness(1), FLUID, smooth, SMOOTH),
+        by(name, Quantity::Roughness(2), FLUID, smooth, SMOOTH),
+    ]
+}
+
+/// The jets blow with some 1.8 cells a unit of time.
+const COMPRESSIBLE: Courant =
+    Courant { slider: "dt", value: |cells, _| cells / 1.8, speed: 0, cells: |speed, s| speed * s.slider("dt") };
+
+pub fn fluid() -> Bounds {
+    let mut checks = compressible("c");
+    let reason = "paint is a mean of paints: its colour and its thickness are at most 1";
+    checks.push(always("d", Quantity::Any, FLUID, (0.0, 1.0001), reason));
+    (checks, Some(COMPRESSIBLE))
+}
+
+pub fn fluid_dye() -> Bounds {
+    let mut checks = compressible("a");
+    // Two nozzles and a brush of twice their weight, and what each pours until it has decayed.
+    let rule =
+        |s: &Situation| Allowed::new(0.0, 4.0 * s.slider("pours") * (s.slider("decay_seconds") + s.longest_step));
+    checks.push(by("dye", Quantity::Any, FLUID, rule, "what is poured out in one place until it has decayed"));
+    (checks, Some(COMPRESSIBLE))
+}
+
+pub fn fluid_lit() -> Bounds {
+    let mut checks = compressible("a");
+    // An eddy of the jets turns by 0.05 in a unit of time on a canvas 360 high; smaller ones pass before they have dented much.
+    let rule = |s: &Situation| {
+        let dented =
+            s.slider("dent") * s.slider("settle_seconds").max(s.longest_step) * f64::from(s.size.1.max(90)) / 90.0;
+        let most = s.slider("swell") + 0.2 * dented;
+        Allowed::new(-most, most).unless(is_beyond_classic(s), CLASSIC)
+    };
+    checks.push(by("height", Quantity::Component(0), FLUID, rule, "the swell, and what an eddy dents while it lasts"));
+    checks.push(by("height", Quantity::Roughness(0), FLUID, smooth, SMOOTH));
+    (checks, Some(COMPRESSIBLE))
+}
+
+pub fn fluid_accurate() -> Bounds {
+    // Without forces the energy cannot grow. Jets, hand and lid push to a speed and no further.
+    fn source(s: &Situation) -> f64 {
+        s.slider("jet_speed").max(3.0).max(s.sliders["lid_speed"][0].abs())
+    }
+    let speed = |s: &Situation| Allowed::new(0.0, 1.5 * source(s));
+    let energy = |s: &Situation| Allowed::new(0.0, 0.5 * source(s).powi(2));
+    let checks = vec![
+        by(
+            "velocity",
+            Quantity::Length(0, 1),
+            Area::All,
+            speed,
+            "jets and lid push to 2 and the hand to 3 heights a second; pressure adds half of that at a stagnation point",
+        ),
+        by(
+            "velocity",
+            Quantity::Energy(0, 1),
+            Area::All,
+            energy,
+            "nothing has more energy than all of it at the speed of what pushes",
+        ),
+        always("velocity", Quantity::Roughness(0), Area::All, (0.0, 0.25), SMOOTH),
+        always("velocity", Quantity::Roughness(1), Area::All, (0.0, 0.25), SMOOTH),
+        always(
+            "drift",
+            Quantity::Any,
+            Area::All,
+            (-20.0, 20.0),
+            "a velocity, extrapolated by at most twice its change in a step",
+        ),
+        always("bottom", Quantity::Any, Area::All, (-1e3, 1e3), "a pressure times a step"),
+        always("dye", Quantity::Any, Area::All, (0.0, 1.3001), "a mean of dyes, which are poured at 1.3"),
+        mouse(),
+    ];
+    // The jets blow with 0.55 heights a second on half of the canvas' rows.
+    let courant = Courant {
+        slider: "speed",
+        value: |cells, size| cells / (0.55 * 0.5 * f64::from(size.1) / 60.0),
+        speed: 0,
+        cells: |speed, s| speed * s.slider("speed") * s.longest_step * 0.5 * f64::from(s.size.1),
+    };
+    (checks, Some(courant))
+}
+
+pub fn mip_fluid() -> Bounds {
+    let checks = vec![
+        always(
+            "velocity",
+            Quantity::Length(0, 1),
+            Area::All,
+            (0.0, 3.0),
+            "no more than 2 heights a second before the pressure, which turns and does not push",
+        ),
+        always(
+            "velocity",
+            Quantity::Energy(0, 1),
+            Area::All,
+            (0.0, 1.0),
+            "half of the picture at the limit of speed is a storm that nothing blows",
+        ),
+        always("velocity", Quantity::Roughness(0), Area::All, (0.0, 0.25), SMOOTH),
+        always("velocity", Quantity::Roughness(1), Area::All, (0.0, 0.25), SMOOTH),
+        always(
+            "measure",
+            Quantity::Any,
+            Area::All,
+            (-1e4, 1e4),
+            "a vorticity: a speed of 2 over a texel, for canvases up to 4,000 rows",
+        ),
+        always("paint", Quantity::Colour, Area::All, (-0.0001, 1.0001), "a mean of paints"),
+        always("paint", Quantity::Component(3), Area::All, (0.0, 3.0), "a mean of speeds"),
+        mouse(),
+    ];
+    let courant = Courant {
+        slider: "speed",
+        value: |cells, size| cells / (0.5 * f64::from(size.1) / 60.0),
+        speed: 0,
+        cells: |speed, s| speed * s.slider("speed") * s.longest_step * 0.5 * f64::from(s.size.1),
+    };
+    (checks, Some(courant))
+}
+
+pub fn self_advection() -> Bounds {
+    const FRAYS: &str = "from a strength of about 10 on paint leaps over the eddies that move it, and edges fray";
+    let smooth = |s: &Situation| Allowed::new(0.0, 0.25).unless(s.slider("strength") > 10.0, FRAYS);
+    let checks = vec![
+        always(
+            "paint",
+            Quantity::Length(0, 1),
+            Area::All,
+            (0.0, 1.6),
+            "vectors grow to the length 1; noise begins with 1.54 at most",
+        ),
+        always(
+            "paint",
+            Quantity::Length(2, 3),
+            Area::All,
+            (0.0, 1.9),
+            "as the vectors: noise and brush give 1.42 at most, and a mean no more",
+        ),
+        by("paint", Quantity::Roughness(0), Area::All, smooth, SMOOTH),
+        by("paint", Quantity::Roughness(1), Area::All, smooth, SMOOTH),
+        mouse(),
+    ];
+    let courant = Courant {
+        slider: "strength",
+        value: |cells, size| cells * 270.0 / f64::from(size.1),
+        speed: 0,
+        cells: |speed, s| speed * s.slider("strength") * f64::from(s.size.1) / 270.0,
+    };
+    (checks, Some(courant))
+}

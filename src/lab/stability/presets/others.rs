@@ -1,0 +1,162 @@
+//! Presets whose state is no flow.
+
+use super::{Courant, always, by, mouse};
+use crate::lab::stability::check::{Allowed, Area, Check, Quantity, Situation};
+
+pub fn reaction_diffusion() -> (Vec<Check>, Option<Courant>) {
+    let checks = vec![
+        always("a", Quantity::Component(0), Area::All, (0.0, 1.0), "1 - u, a part of what is fed"),
+        always("a", Quantity::Component(1), Area::All, (0.0, 1.0), "v: what is not fed cannot be eaten"),
+        always(
+            "a",
+            Quantity::Roughness(0),
+            Area::All,
+            (0.0, 0.2),
+            "a pattern is ten cells long; one of two is a step too long",
+        ),
+        always(
+            "a",
+            Quantity::Roughness(1),
+            Area::All,
+            (0.0, 0.2),
+            "a pattern is ten cells long; one of two is a step too long",
+        ),
+        mouse(),
+    ];
+    (checks, None)
+}
+
+const INK: &str = "ink is a mean of inks, times a strength of at most 1";
+
+pub fn mouse_state() -> Vec<Check> {
+    vec![
+        always("a", Quantity::Any, Area::FromRow(1), (0.0, 1.0001), INK),
+        always("b", Quantity::Any, Area::ButLast, (0.0, 1.0001), INK),
+    ]
+}
+
+pub fn feedback() -> Vec<Check> {
+    vec![always("a", Quantity::Any, Area::ButFirst, (0.0, 4.0), "a trail begins with 4 and fades")]
+}
+
+pub fn brick_breaker() -> Vec<Check> {
+    const CUT: &str = "a canvas of fewer than 16 x 7 pixels has no room for the game's state";
+    // A canvas that has room for the state.
+    fn room(s: &Situation, low: f64, high: f64) -> Allowed {
+        Allowed::new(low, high).unless(s.size.0 < 16 || s.size.1 < 7, CUT)
+    }
+    vec![
+        by("a", Quantity::Component(0), Area::Texel(0, 0), |s| room(s, 2.38, 317.62), "the ball is between the walls"),
+        by(
+            "a",
+            Quantity::Component(1),
+            Area::Texel(0, 0),
+            |s| room(s, -2.41, 159.62),
+            "the ball is below the ceiling, and at most just lost",
+        ),
+        by(
+            "a",
+            Quantity::Length(2, 3),
+            Area::Texel(0, 0),
+            |s| room(s, 0.0, 300.1),
+            "180 units a second, 15 more for each of eight levels",
+        ),
+        by(
+            "a",
+            Quantity::Component(0),
+            Area::Texel(1, 0),
+            |s| room(s, 21.99, 298.01),
+            "the paddle is between the walls",
+        ),
+        by("a", Quantity::Component(1), Area::Texel(2, 0), |s| room(s, 0.0, 3.0), "lives"),
+        by("a", Quantity::Component(3), Area::Texel(2, 0), |s| room(s, 0.0, 3.0), "phases of the game"),
+        by("a", Quantity::Component(0), Area::Block(0, 1, 16, 6), |s| room(s, 0.0, 1.0), "a brick is whole or gone"),
+        by("a", Quantity::Any, Area::All, |_| Allowed::new(-1e4, 1e7), "seconds, pixels and a score"),
+    ]
+}
+
+pub fn particles() -> Vec<Check> {
+    let lifetime = |s: &Situation| Allowed::new(0.0, 14.0 * 1.4 * s.slider("lifetime") + 10.0 * s.longest_step);
+    // Flung up at 0.75 heights a second, for the longest life of a spark.
+    let reach =
+        |s: &Situation| Allowed::new(-0.75 * 3.7 * s.slider("lifetime") - 3.0, 0.75 * 3.7 * s.slider("lifetime") + 3.0);
+    // A tile has room for 64; a streak gives 12 times its colour a second, which fades.
+    let light = |s: &Situation| {
+        let kept = (12.0 * (s.slider("exposure_seconds") + 2.0 * s.longest_step)).max(1.0);
+        Allowed::new(0.0, (64.0 * 2.6 * s.slider("brightness") * kept).max(1.0))
+    };
+    vec![
+        by("life", Quantity::Component(0), Area::All, lifetime, "no one is older than the longest life"),
+        by(
+            "motion",
+            Quantity::Component(0),
+            Area::All,
+            reach,
+            "as far as a spark flies in its life, and a canvas' half width",
+        ),
+        by(
+            "motion",
+            Quantity::Component(1),
+            Area::All,
+            |s| Allowed::new(-0.5, 0.75 * 3.7 * s.slider("lifetime") + 3.0),
+            "above the floor, and below what a spark reaches",
+        ),
+        always("motion", Quantity::Length(2, 3), Area::All, (0.0, 3.001), "three heights a second"),
+        by(
+            "light",
+            Quantity::Any,
+            Area::All,
+            light,
+            "64 particles at their brightest, for as long as the exposure lasts",
+        ),
+        mouse(),
+    ]
+}
+
+pub fn gallery_of_tricks() -> Vec<Check> {
+    const BALL: &str = "a ball is in a box of size 1";
+    vec![
+        always("discard", Quantity::Length(0, 1), Area::Block(0, 0, 24, 1), (0.0, 1.415), BALL),
+        always("region", Quantity::Length(0, 1), Area::Block(0, 0, 24, 1), (0.0, 1.415), BALL),
+        always("discard", Quantity::Any, Area::All, (-1.0, 1.0), "lines that are at most white, and balls"),
+        always("region", Quantity::Any, Area::All, (-1.0, 1.0), BALL),
+        always(
+            "waves",
+            Quantity::Component(0),
+            Area::All,
+            (-3.0, 3.0),
+            "a drop of height 1 each 150 frames; six of them in a box that rings",
+        ),
+        always("waves", Quantity::Component(1), Area::All, (-3.0, 3.0), "a change a frame is less than a height"),
+        always("noise", Quantity::Component(0), Area::All, (-1.0, 1.0), "a hyperbolic tangent, mixed"),
+        always(
+            "progress",
+            Quantity::Any,
+            Area::All,
+            (0.0, 8.0),
+            "octaves that sum to less than 1, and how many of eight there are",
+        ),
+    ]
+}
+
+pub fn taa() -> Vec<Check> {
+    vec![
+        always("b", Quantity::Colour, Area::All, (0.0, 1.0001), "a screen has no more than 1"),
+        always("b", Quantity::Component(3), Area::All, (0.0, 255.0), "an age in frames"),
+        always("c", Quantity::Any, Area::All, (-1e4, 1e5), "an object's number and the time of a frame"),
+    ]
+}
+
+pub fn scene_bloom_taa() -> Vec<Check> {
+    let light = |s: &Situation| Allowed::new(0.0, 8.0 + 4.0 * s.slider("lamps"));
+    vec![
+        by(
+            "b",
+            Quantity::Colour,
+            Area::All,
+            light,
+            "the lamps' radiance, four times over where two lamps and their mirror images meet",
+        ),
+        always("b", Quantity::Component(3), Area::All, (0.0, 1e5), "one more than the seconds of a frame"),
+    ]
+}

@@ -1,0 +1,95 @@
+//! Draws the cases of projects, each recorded when it is known.
+
+use super::{Case, Driver, StabilityRecord, Subject, cases};
+use crate::{
+    gpu::Gpu,
+    lab::{
+        Extent, LabError, Results, Shard,
+        results::{Journal, Record},
+        run as studies,
+    },
+};
+use std::path::PathBuf;
+
+/// How to run.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// The folder of the results; `None`: they are kept in memory alone.
+    pub out: Option<PathBuf>,
+    pub extent: Extent,
+    pub shard: Shard,
+    /// Only cases whose name, or whose kind's title, holds this text.
+    pub only: Option<String>,
+}
+
+/// The case that is drawn next; `done` of `all` are, of all projects together.
+#[derive(Clone, Copy, Debug)]
+pub struct Step<'a> {
+    pub project: &'a str,
+    pub case: &'a Case,
+    pub done: usize,
+    pub all: usize,
+}
+
+/// Draws what is not among the results of `options.out` yet, and gives the records of these projects, those that were known among
+/// them. A project that does not compile is an error; one whose case fails goes on with the next.
+pub fn run(
+    gpu: &Gpu,
+    subjects: &[Subject],
+    options: &Options,
+    mut tell: impl FnMut(Step<'_>),
+) -> Result<Results, LabError> {
+    let (mut journal, mut results) = match &options.out {
+        None => (None, Results::default()),
+        Some(out) => {
+            let provenance = studies::provenance(
+                gpu,
+                &studies::Options { out: out.clone(), extent: options.extent, repeats: 0, shard: options.shard },
+            );
+            let (journal, results) = Journal::open(out, &provenance)?;
+            (Some(journal), results)
+        }
+    };
+    let is_asked = |case: &Case| {
+        options.only.as_ref().is_none_or(|text| case.name.contains(text) || case.kind.title().contains(text.as_str()))
+    };
+    let listed: Vec<(&Subject, Vec<Case>)> =
+        subjects.iter().map(|s| (s, cases::list(s, options.extent).into_iter().filter(is_asked).collect())).collect();
+    // Cases are dealt out in turn, so that every shard gets its part of the slow ones.
+    let own = |n: usize| options.shard.owns(n);
+    let all = (0..listed.iter().map(|(_, cases)| cases.len()).sum()).filter(|n| own(*n)).count();
+    let (mut number, mut done) = (0, 0);
+    for (subject, cases) in &listed {
+        let fingerprint = subject.fingerprint();
+        let mut driver = None;
+        for case in cases {
+            number += 1;
+            if !own(number - 1) {
+                continue;
+            }
+            done += 1;
+            if results.cases.iter().any(|r| is_known(r, subject, case, &fingerprint)) {
+                continue;
+            }
+            tell(Step { project: &subject.name, case, done: done - 1, all });
+            let driver = match &mut driver {
+                Some(driver) => driver,
+                none => none.insert(Driver::new(gpu, subject, case.size)?),
+            };
+            let record = Record::Stability(driver.measure(case));
+            if let Some(journal) = &mut journal {
+                journal.append(&record)?;
+            }
+            results.add(record);
+        }
+    }
+    Ok(results)
+}
+
+fn is_known(record: &StabilityRecord, subject: &Subject, case: &Case, fingerprint: &str) -> bool {
+    record.project == subject.name
+        && record.texts == fingerprint
+        && record.case == case.name
+        && (record.size, record.frames) == (case.size, case.frames)
+        && record.settings == case.settings()
+}

@@ -1,0 +1,209 @@
+//! A project whose stability is asked for, and what it is held to.
+
+use super::{
+    check::{Allowed, Area, Check, Quantity, Rule, Situation},
+    presets,
+};
+use crate::{
+    lab::LabError,
+    media::{self, MediaSet},
+    project::{self, Input, Knob, KnobValues, Origin, PassId, Project},
+};
+use std::collections::BTreeSet;
+
+/// What a number of a project that declares nothing may come to: what is larger is no colour, and no state that a picture needs.
+pub const ANY_BOUND: f64 = 1e4;
+
+/// A range for all components of a pass, as `--bound buffer_a=-2..2` says it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BoundArgument {
+    pub pass: PassId,
+    pub low: f64,
+    pub high: f64,
+}
+
+impl BoundArgument {
+    /// Reads `PASS=LOW..HIGH`. Err: one line that says what is wrong.
+    pub fn parse(text: &str) -> Result<BoundArgument, String> {
+        let form = || format!("{text}: a bound is written PASS=LOW..HIGH, as in buffer_a=-2..2");
+        let (pass, range) = text.split_once('=').ok_or_else(form)?;
+        let (low, high) = range.split_once("..").ok_or_else(form)?;
+        let number = |t: &str| t.trim().parse::<f64>().ok().filter(|x| x.is_finite()).ok_or_else(form);
+        let pass = PassId::parse(pass.trim()).ok_or_else(form)?;
+        let (low, high) = (number(low)?, number(high)?);
+        if low > high {
+            return Err(format!("{text}: the lower bound is above the upper one"));
+        }
+        Ok(BoundArgument { pass, low, high })
+    }
+}
+
+/// A project with its checks.
+#[derive(Clone)]
+pub struct Subject {
+    /// As it was named.
+    pub name: String,
+    pub project: Project,
+    pub media: MediaSet,
+    pub checks: Vec<Check>,
+    /// How its Courant number is set and measured, where it has one.
+    pub courant: Option<presets::Courant>,
+}
+
+impl Subject {
+    /// A preset by its name, else a project on disk. `bounds` come before what is declared for the pass.
+    pub fn load(spec: &str, bounds: &[BoundArgument]) -> Result<Subject, LabError> {
+        let loaded = project::load(spec)?;
+        let (media, _) = media::gather(&loaded.project, None);
+        let mut subject = Subject::of(spec, loaded.project, media);
+        subject.bound(bounds);
+        Ok(subject)
+    }
+
+    /// A project as it is. A preset has its checks, and so has a copy of it on disk that still has its name and its passes.
+    pub fn of(name: &str, project: Project, media: MediaSet) -> Subject {
+        let declared = match &project.origin {
+            Origin::Preset(preset) => presets::declared(preset),
+            _ => presets::declared_for_copy(&project),
+        };
+        let (checks, courant) = declared.map_or((Vec::new(), None), |d| (d.checks, d.courant));
+        let mut subject = Subject { name: name.into(), project, media, checks, courant };
+        for id in subject.stateful() {
+            if !subject.checks.iter().any(|c| c.pass == id) {
+                subject.checks.push(any(
+                    id,
+                    -ANY_BOUND,
+                    ANY_BOUND,
+                    "no range is declared: finite, and no larger than 1e4",
+                ));
+            }
+        }
+        if !subject.checks.iter().any(|c| c.pass == PassId::Image) {
+            subject.checks.push(any(PassId::Image, -ANY_BOUND, ANY_BOUND, "a colour"));
+        }
+        subject
+    }
+
+    /// Puts these ranges in place of what is declared for their passes. Passes that the project does not have are passed over: one
+    /// call may name projects that do not all have them.
+    pub fn bound(&mut self, bounds: &[BoundArgument]) {
+        for bound in bounds.iter().filter(|b| self.project.pass(&b.pass).is_some()) {
+            self.checks.retain(|c| c.pass != bound.pass);
+            self.checks.push(any(bound.pass.clone(), bound.low, bound.high, "--bound"));
+            // The check of the speed may be gone, or have another place.
+            self.courant = None;
+        }
+    }
+
+    /// Buffers of which a pass reads what the last frame left in them: the project's state.
+    pub fn stateful(&self) -> BTreeSet<PassId> {
+        let passes = &self.project.passes;
+        let read = |index: usize| {
+            passes[index].channels.iter().flatten().filter_map(|c| match &c.input {
+                Input::Buffer(name) | Input::Target { buffer: name, .. } => {
+                    passes.iter().position(|p| p.id == PassId::Buffer(name.clone()))
+                }
+                _ => None,
+            })
+        };
+        // A pass that is drawn later still holds the last frame.
+        let pairs = (0..passes.len()).flat_map(|index| read(index).filter(move |of| *of >= index));
+        pairs.map(|of| passes[of].id.clone()).collect()
+    }
+
+    /// Sliders that have two ends.
+    pub fn sliders(&self) -> Vec<Knob> {
+        self.project.knobs().list.into_iter().filter(|k| k.range.is_some() || k.ty == project::KnobType::Bool).collect()
+    }
+
+    pub fn situation(&self, values: &KnobValues, size: (u32, u32), longest_step: f64) -> Situation {
+        let knobs = self.project.knobs();
+        let mut all = self.project.knob_values.clone();
+        all.extend(values.clone());
+        let sliders = knobs.list.iter().map(|k| (k.name.clone(), k.value(&all).components())).collect();
+        Situation { size, longest_step, sliders }
+    }
+
+    /// A number for all the texts: what was measured of other texts says nothing about these. FNV-1a (G. Fowler, L. Noll, K.-P. Vo).
+    pub fn fingerprint(&self) -> String {
+        let mut hash = 0xcbf2_9ce4_8422_2325u64;
+        let mut eat = |bytes: &[u8]| {
+            for byte in bytes.iter().chain(&[0xff]) {
+                hash = (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+            }
+        };
+        for (_, source) in self.project.sources().iter() {
+            eat(source.text.as_bytes());
+        }
+        eat(format!("{:?} {:?}", self.project.groups, self.project.knob_values).as_bytes());
+        for pass in &self.project.passes {
+            eat(format!("{:?} {:?}", pass.channels, pass.settings).as_bytes());
+        }
+        let usual = self.situation(&KnobValues::new(), (640, 360), 1.0 / 60.0);
+        for check in &self.checks {
+            eat(format!("{} {:?}", check.name(), check.allowed(&usual)).as_bytes());
+        }
+        format!("{hash:016x}")
+    }
+}
+
+fn any(pass: PassId, low: f64, high: f64, reason: &str) -> Check {
+    Check {
+        pass,
+        quantity: Quantity::Any,
+        area: Area::All,
+        allowed: Rule::Always(Allowed::new(low, high)),
+        reason: reason.into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::project::presets as library;
+
+    #[test]
+    fn a_bound_is_read_or_refused_with_the_mend() {
+        let bound = BoundArgument::parse("buffer_a=-2..2.5").unwrap();
+        assert_eq!((bound.pass, bound.low, bound.high), (PassId::Buffer("A".into()), -2.0, 2.5));
+        for (text, hint) in [
+            ("buffer_a", "PASS=LOW..HIGH"),
+            ("buffer_a=1", "PASS=LOW..HIGH"),
+            ("buffer_a=x..2", "PASS=LOW..HIGH"),
+            ("buffer_a=nan..2", "PASS=LOW..HIGH"),
+            ("=1..2", "PASS=LOW..HIGH"),
+            ("a=3..2", "above the upper"),
+        ] {
+            let said = BoundArgument::parse(text).unwrap_err();
+            assert!(said.contains(hint), "{text}: {said}");
+        }
+    }
+
+    #[test]
+    fn every_state_of_every_preset_has_a_declared_range() {
+        for name in library::names() {
+            let subject = Subject::load(name, &[]).unwrap();
+            for id in subject.stateful() {
+                let its: Vec<&Check> = subject.checks.iter().filter(|c| c.pass == id).collect();
+                assert!(
+                    !its.is_empty() && its.iter().all(|c| !c.reason.contains("no range is declared")),
+                    "{name}: {}",
+                    id.title()
+                );
+            }
+            for check in &subject.checks {
+                assert!(subject.project.pass(&check.pass).is_some(), "{name} has no {}", check.pass.title());
+            }
+        }
+    }
+
+    #[test]
+    fn what_a_shader_says_is_part_of_the_fingerprint() {
+        let one = Subject::load("feedback", &[]).unwrap();
+        let mut other = one.clone();
+        assert_eq!(one.fingerprint(), other.fingerprint());
+        let pass = &mut other.project.passes[0];
+        pass.source.text = (pass.source.text.to_string() + " ").into();
+        assert_ne!(one.fingerprint(), other.fingerprint());
+    }
+}
