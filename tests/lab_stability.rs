@@ -1,4 +1,5 @@
-//! The presets under hard conditions, on small canvases; and simulations that are known to be unstable, which must be found.
+//! The presets under hard conditions, on small canvases; and simulations that are known to be unstable, which must be
+//! found.
 
 mod support;
 
@@ -18,7 +19,7 @@ use std::path::Path;
 use support::{buffer, gpu, image, nearest, pass, project};
 
 fn options(only: Option<&str>) -> Options {
-    Options { out: None, extent: Extent::Quick, shard: Shard::WHOLE, only: only.map(str::to_owned) }
+    Options { out: None, extent: Extent::Quick, size: None, shard: Shard::WHOLE, only: only.map(str::to_owned) }
 }
 
 fn measured(subject: &Subject, only: Option<&str>) -> Option<Vec<StabilityRecord>> {

@@ -224,6 +224,9 @@ pub struct StabilityArgs {
     /// Small canvases and few frames: a minute on two cores
     #[arg(long)]
     pub quick: bool,
+    /// The canvas of all cases but those of odd sizes [default: 640x360, quick 160x90]
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<(u32, u32)>,
     /// The range of all components of a pass, in place of what is declared or of -1e4..1e4
     #[arg(long, value_name = "PASS=LOW..HIGH", value_parser = BoundArgument::parse, allow_hyphen_values = true)]
     pub bound: Vec<BoundArgument>,

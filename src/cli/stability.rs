@@ -39,7 +39,7 @@ pub fn run(args: &StabilityArgs) -> io::Result<u8> {
         Err(error) => return Ok(trouble(told(&error))),
     };
     let extent = if args.quick { Extent::Quick } else { Extent::Full };
-    let options = Options { out: args.out.clone(), extent, shard, only: args.only.clone() };
+    let options = Options { out: args.out.clone(), extent, size: args.size, shard, only: args.only.clone() };
     let results = match run::run(&gpu, &subjects, &options, tell) {
         Ok(results) => results,
         Err(error) => return Ok(trouble(error)),

@@ -155,7 +155,7 @@ const QUICK: Measure = Measure {
     sizes: &[(1, 1), (1, 33), (57, 33)],
     size_frames: 8,
     most: usize::MAX,
-    resized: &[(83, 47), (1, 1), (160, 90)],
+    resized: &[(83, 47), (1, 1)],
     large: &[],
     long: None,
 };
@@ -172,14 +172,20 @@ const FULL: Measure = Measure {
     sizes: &[(1, 1), (1, 2), (2, 1), (3, 3), (17, 31), (333, 187), (641, 359), (1, 4096), (4096, 1)],
     size_frames: 120,
     most: 4,
-    resized: &[(333, 187), (1280, 720), (1, 1), (640, 360)],
+    resized: &[(333, 187), (1280, 720), (1, 1)],
     large: &[((1280, 720), 300), ((1920, 1080), 120)],
     long: Some(((48, 27), 100_000)),
 };
 
-/// Everything that is done to a project, in the order in which it is done.
-pub fn list(subject: &Subject, extent: Extent) -> Vec<Case> {
-    let m = if extent == Extent::Quick { &QUICK } else { &FULL };
+/// The canvas of the cases that are about no size.
+pub fn base(extent: Extent) -> (u32, u32) {
+    if extent == Extent::Quick { QUICK.base } else { FULL.base }
+}
+
+/// Everything that is done to a project on a canvas of this size, in the order in which it is done.
+pub fn list(subject: &Subject, extent: Extent, base: (u32, u32)) -> Vec<Case> {
+    let m = Measure { base, ..if extent == Extent::Quick { QUICK } else { FULL } };
+    let m = &m;
     let mut cases = vec![Case::new(Kind::Untouched, "left alone", m.base, m.untouched, m.every)];
     let sliders = subject.sliders();
     courant(subject, &sliders, m, &mut cases);
@@ -240,7 +246,8 @@ fn disturbances(m: &Measure, cases: &mut Vec<Case>) {
         cases.push(Case { steps, ..case(Kind::Step, name, lasts) });
     }
     let apart = m.drag / 3;
-    let resizes: Vec<(u32, (u32, u32))> = (0..).map(|n| m.calm + n * apart).zip(m.resized.iter().copied()).collect();
+    let resizes: Vec<(u32, (u32, u32))> =
+        (0..).map(|n| m.calm + n * apart).zip(m.resized.iter().copied().chain([m.base])).collect();
     let lasts = apart * (resizes.len() as u32 - 1) + 1;
     cases.push(Case { resizes, ..case(Kind::Resize, "resize on the way", lasts) });
     cases.push(Case { poison: Some(m.calm), ..case(Kind::Broken, "NaN in a texel of every state", 1) });
@@ -263,7 +270,7 @@ mod tests {
         for name in super::super::presets::NAMES {
             let subject = Subject::load(name, &[]).unwrap();
             for extent in [Extent::Quick, Extent::Full] {
-                let cases = list(&subject, extent);
+                let cases = list(&subject, extent, base(extent));
                 let names: BTreeSet<&str> = cases.iter().map(|c| c.name.as_str()).collect();
                 assert_eq!(names.len(), cases.len(), "{name}");
                 let ends = cases.iter().filter(|c| c.kind == Kind::End).count();
@@ -282,7 +289,7 @@ mod tests {
         let subject = Subject::load("mip-fluid", &[]).unwrap();
         let sliders = subject.sliders();
         for extent in [Extent::Quick, Extent::Full] {
-            let cases = list(&subject, extent);
+            let cases = list(&subject, extent, base(extent));
             for (n, a) in sliders.iter().enumerate() {
                 for b in &sliders[n + 1..] {
                     for (x, y) in [(false, false), (false, true), (true, false), (true, true)] {

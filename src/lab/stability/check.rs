@@ -2,8 +2,8 @@
 
 use crate::{engine::Pixels, project::PassId};
 
-/// Of a quantity: the largest size a number may have where nothing better is known, and everywhere where a case is expected to
-/// leave its own range.
+/// Of a quantity: the largest size a number may have where nothing better is known, and everywhere where a case is
+/// expected to leave its own range.
 pub const HARD_LIMIT: f64 = 1e4;
 
 /// A number that is made of a pass's texels.
@@ -21,9 +21,9 @@ pub enum Quantity {
     Mean(usize),
     /// Half of the mean square of two components.
     Energy(usize, usize),
-    /// How much of a component's variance alternates from texel to texel: the mean square of a - 2 b + c over 16, along x and along y
-    /// together, by twice the variance. 1 for a checkerboard, 0.375 for noise, 0.02 for waves 8 texels long, below 0.01 for
-    /// longer ones. 0 where the component hardly varies (see [`FLAT`]).
+    /// How much of a component's variance alternates from texel to texel: the mean square of a - 2 b + c over 16, along
+    /// x and along y together, by twice the variance. 1 for a checkerboard, 0.375 for noise, 0.02 for waves 8 texels
+    /// long, below 0.01 for longer ones. 0 where the component hardly varies (see [`FLAT`]).
     Roughness(usize),
 }
 
@@ -62,6 +62,15 @@ pub enum Area {
 }
 
 impl Area {
+    /// A texel in its middle.
+    pub fn middle(self, (width, height): (u32, u32)) -> (u32, u32) {
+        match self {
+            Area::Texel(x, y) => (x, y),
+            Area::Block(x, y, w, h) => (x + w / 2, y + h / 2),
+            _ => (width / 2, height / 2),
+        }
+    }
+
     fn holds(self, x: u32, y: u32, size: (u32, u32)) -> bool {
         match self {
             Area::All => true,
@@ -79,7 +88,8 @@ impl Area {
 pub struct Allowed {
     pub low: f64,
     pub high: f64,
-    /// Why theory expects the range to be left in this situation. Then all must be finite and within [`HARD_LIMIT`] still.
+    /// Why theory expects the range to be left in this situation. Then all must be finite and within [`HARD_LIMIT`]
+    /// still.
     pub excuse: Option<&'static str>,
 }
 

@@ -1,9 +1,9 @@
-//! A case on the device: drawn from its first frame, looked at every few frames, and where a bound was left drawn again to find
-//! the frame in which that happened.
+//! A case on the device: drawn from its first frame, looked at every few frames, and where a bound was left drawn again
+//! to find the frame in which that happened.
 
 use super::{
     Case, Subject,
-    check::{self, Allowed, Check, Found, HARD_LIMIT, Situation},
+    check::{self, Allowed, Area, Check, Found, HARD_LIMIT, Situation},
     inputs::Inputs,
     record::{Offence, Outcome, Recovery, StabilityRecord},
 };
@@ -53,7 +53,8 @@ impl<'s> Driver<'s> {
         Ok(Driver { subject, engine, state: subject.stateful().into_iter().collect(), calm: BTreeMap::new() })
     }
 
-    /// Draws a case and says what came of it. What the device refuses, as a canvas that is too large, is told in the record.
+    /// Draws a case and says what came of it. What the device refuses, as a canvas that is too large, is told in the
+    /// record.
     pub fn measure(&mut self, case: &Case) -> StabilityRecord {
         let situation = self.subject.situation(&case.values, case.size, case.steps.longest());
         let mut excuses: Vec<String> =
@@ -211,8 +212,9 @@ impl Run<'_, '_, '_> {
         }
         if self.case.poison == Some(frame) {
             for id in &self.driver.state {
-                let (width, height) = engine.pass_size(id).unwrap_or((1, 1));
-                engine.poison(id, (width / 2, height / 2))?;
+                let size = engine.pass_size(id).unwrap_or((1, 1));
+                let check = self.driver.subject.checks.iter().find(|c| c.pass == *id);
+                engine.poison(id, check.map_or(Area::All, |c| c.area).middle(size))?;
             }
         }
         let inputs = self.inputs.next(engine.size());
@@ -252,7 +254,8 @@ fn look(check: &Check, pixels: &Pixels, situation: &Situation) -> Looked {
 #[derive(Default)]
 struct Seen {
     extremes: Vec<(f64, f64)>,
-    /// The last frame seen within its bounds and the first that was not: of what ought to be kept, and of what may be left.
+    /// The last frame seen within its bounds and the first that was not: of what ought to be kept, and of what may be
+    /// left.
     left: Option<(u32, u32)>,
     excused: Option<(u32, u32)>,
     before: u32,

@@ -5,7 +5,8 @@ use crate::engine::FrameInputs;
 /// Of the usual step.
 const FRAMES_A_SECOND: f64 = 60.0;
 
-/// What the mouse does while a disturbance lasts. It is pressed in the first frame of it and released in the first frame after.
+/// What the mouse does while a disturbance lasts. It is pressed in the first frame of it and released in the first
+/// frame after.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hand {
     Away,
@@ -27,7 +28,8 @@ impl Hand {
         (Hand::Across, "drag across the whole picture in a frame"),
     ];
 
-    /// Where the mouse is `t` frames after the press of a drag of so many frames, in whole canvas pixels from the bottom left.
+    /// Where the mouse is `t` frames after the press of a drag of so many frames, in whole canvas pixels from the
+    /// bottom left.
     fn at(self, t: u32, frames: u32, size: (u32, u32)) -> [f32; 2] {
         let (w, h) = (f64::from(size.0), f64::from(size.1));
         let part = f64::from(t) / f64::from(frames.max(1));

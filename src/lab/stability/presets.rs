@@ -1,8 +1,10 @@
-//! The presets' bounds, in one place: for every state the range that physics, the method or the picture allows, and why.
+//! The presets' bounds, in one place: for every state the range that physics, the method or the picture allows, and
+//! why.
 //!
-//! A bound is that of the quantity and not of the clamp that would hold it there: a clamp that is reached is a fault that has
-//! been hidden. Where theory says that a slider's end leads out of the range, the rule says so with its reason; then the case is
-//! expected to leave it, and has to stay finite and below [`HARD_LIMIT`](super::check::HARD_LIMIT).
+//! A bound is that of the quantity and not of the clamp that would hold it there: a clamp that is reached is a fault
+//! that has been hidden. Where theory says that a slider's end leads out of the range, the rule says so with its
+//! reason; then the case is expected to leave it, and has to stay finite and below
+//! [`HARD_LIMIT`](super::check::HARD_LIMIT).
 
 mod flows;
 mod others;
@@ -46,13 +48,14 @@ pub fn declared(name: &str) -> Option<Declared> {
         "gallery-of-tricks" => (others::gallery_of_tricks(), None),
         "taa" => (others::taa(), None),
         "scene-bloom-taa" => (others::scene_bloom_taa(), None),
+        "ssao" => (others::ssao(), None),
         _ => return None,
     };
     Some(Declared { checks, courant })
 }
 
 /// The presets that have a state, in the order in which they are measured.
-pub const NAMES: [&str; 14] = [
+pub const NAMES: [&str; 15] = [
     "fluid",
     "fluid-dye",
     "fluid-lit",
@@ -67,6 +70,7 @@ pub const NAMES: [&str; 14] = [
     "feedback",
     "taa",
     "scene-bloom-taa",
+    "ssao",
 ];
 
 /// For a project on disk that has the name of a preset and the passes of its checks.

@@ -12,7 +12,8 @@ pub struct Offence {
     pub frame: u32,
     pub pass: String,
     pub quantity: String,
-    /// The texel that is furthest outside in that frame, from the bottom left; `None`: the quantity is of the whole picture.
+    /// The texel that is furthest outside in that frame, from the bottom left; `None`: the quantity is of the whole
+    /// picture.
     pub texel: Option<(u32, u32)>,
     pub value: Number,
     pub low: Number,
@@ -32,7 +33,8 @@ pub enum Outcome {
     Left(Offence),
 }
 
-/// How long it took, after what was done had ended, until everything was within its bounds and no livelier than it is without.
+/// How long it took, after what was done had ended, until everything was within its bounds and no livelier than it is
+/// without.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Recovery {

@@ -17,6 +17,8 @@ pub struct Options {
     /// The folder of the results; `None`: they are kept in memory alone.
     pub out: Option<PathBuf>,
     pub extent: Extent,
+    /// The canvas of the cases that are about no size; `None`: [`cases::base`].
+    pub size: Option<(u32, u32)>,
     pub shard: Shard,
     /// Only cases whose name, or whose kind's title, holds this text.
     pub only: Option<String>,
@@ -31,8 +33,8 @@ pub struct Step<'a> {
     pub all: usize,
 }
 
-/// Draws what is not among the results of `options.out` yet, and gives the records of these projects, those that were known among
-/// them. A project that does not compile is an error; one whose case fails goes on with the next.
+/// Draws what is not among the results of `options.out` yet, and gives the records of these projects, those that were
+/// known among them. A project that does not compile is an error; one whose case fails goes on with the next.
 pub fn run(
     gpu: &Gpu,
     subjects: &[Subject],
@@ -53,8 +55,11 @@ pub fn run(
     let is_asked = |case: &Case| {
         options.only.as_ref().is_none_or(|text| case.name.contains(text) || case.kind.title().contains(text.as_str()))
     };
-    let listed: Vec<(&Subject, Vec<Case>)> =
-        subjects.iter().map(|s| (s, cases::list(s, options.extent).into_iter().filter(is_asked).collect())).collect();
+    let size = options.size.unwrap_or(cases::base(options.extent));
+    let listed: Vec<(&Subject, Vec<Case>)> = subjects
+        .iter()
+        .map(|s| (s, cases::list(s, options.extent, size).into_iter().filter(is_asked).collect()))
+        .collect();
     // Cases are dealt out in turn, so that every shard gets its part of the slow ones.
     let own = |n: usize| options.shard.owns(n);
     let all = (0..listed.iter().map(|(_, cases)| cases.len()).sum()).filter(|n| own(*n)).count();

@@ -11,7 +11,8 @@ use crate::{
 };
 use std::collections::BTreeSet;
 
-/// What a number of a project that declares nothing may come to: what is larger is no colour, and no state that a picture needs.
+/// What a number of a project that declares nothing may come to: what is larger is no colour, and no state that a
+/// picture needs.
 pub const ANY_BOUND: f64 = 1e4;
 
 /// A range for all components of a pass, as `--bound buffer_a=-2..2` says it.
@@ -60,7 +61,8 @@ impl Subject {
         Ok(subject)
     }
 
-    /// A project as it is. A preset has its checks, and so has a copy of it on disk that still has its name and its passes.
+    /// A project as it is. A preset has its checks, and so has a copy of it on disk that still has its name and its
+    /// passes.
     pub fn of(name: &str, project: Project, media: MediaSet) -> Subject {
         let declared = match &project.origin {
             Origin::Preset(preset) => presets::declared(preset),
@@ -84,8 +86,8 @@ impl Subject {
         subject
     }
 
-    /// Puts these ranges in place of what is declared for their passes. Passes that the project does not have are passed over: one
-    /// call may name projects that do not all have them.
+    /// Puts these ranges in place of what is declared for their passes. Passes that the project does not have are
+    /// passed over: one call may name projects that do not all have them.
     pub fn bound(&mut self, bounds: &[BoundArgument]) {
         for bound in bounds.iter().filter(|b| self.project.pass(&b.pass).is_some()) {
             self.checks.retain(|c| c.pass != bound.pass);
@@ -124,7 +126,8 @@ impl Subject {
         Situation { size, longest_step, sliders }
     }
 
-    /// A number for all the texts: what was measured of other texts says nothing about these. FNV-1a (G. Fowler, L. Noll, K.-P. Vo).
+    /// A number for all the texts: what was measured of other texts says nothing about these. FNV-1a (G. Fowler, L.
+    /// Noll, K.-P. Vo).
     pub fn fingerprint(&self) -> String {
         let mut hash = 0xcbf2_9ce4_8422_2325u64;
         let mut eat = |bytes: &[u8]| {

@@ -95,13 +95,14 @@ pub fn fluid_dye() -> Bounds {
     // Two nozzles and a brush of twice their weight, and what each pours until it has decayed.
     let rule =
         |s: &Situation| Allowed::new(0.0, 4.0 * s.slider("pours") * (s.slider("decay_seconds") + s.longest_step));
-    checks.push(by("dye", Quantity::Any, FLUID, rule, "what is poured out in one place until it has decayed"));
+    checks.push(by("dye", Quantity::Colour, FLUID, rule, "what is poured out in one place until it has decayed"));
     (checks, Some(COMPRESSIBLE))
 }
 
 pub fn fluid_lit() -> Bounds {
     let mut checks = compressible("a");
-    // An eddy of the jets turns by 0.05 in a unit of time on a canvas 360 high; smaller ones pass before they have dented much.
+    // An eddy of the jets turns by 0.05 in a unit of time on a canvas 360 high; smaller ones pass before they have
+    // dented much.
     let rule = |s: &Situation| {
         let dented =
             s.slider("dent") * s.slider("settle_seconds").max(s.longest_step) * f64::from(s.size.1.max(90)) / 90.0;
@@ -120,13 +121,17 @@ pub fn fluid_accurate() -> Bounds {
     }
     let speed = |s: &Situation| Allowed::new(0.0, 1.5 * source(s));
     let energy = |s: &Situation| Allowed::new(0.0, 0.5 * source(s).powi(2));
+    // Jets are 0.028 heights wide, on half of the rows.
+    let resolved = |s: &Situation| {
+        Allowed::new(0.0, 0.25).unless(s.size.1 < 72, "on fewer than 72 rows a jet is narrower than a cell")
+    };
     let checks = vec![
         by(
             "velocity",
             Quantity::Length(0, 1),
             Area::All,
             speed,
-            "jets and lid push to 2 and the hand to 3 heights a second; pressure adds half of that at a stagnation point",
+            "jets and lid push to 2 heights a second and the hand to 3; pressure adds half of that where a jet ends",
         ),
         by(
             "velocity",
@@ -196,9 +201,17 @@ pub fn mip_fluid() -> Bounds {
     (checks, Some(courant))
 }
 
+/// Pixels a frame on a canvas 270 pixels high that the largest ring of self-advection moves paint by, where vectors
+/// have length 1.
+fn leap(s: &Situation) -> f64 {
+    let rings = ((0.35 * f64::from(s.size.1)).ln() / s.slider("growth").ln()).floor();
+    s.slider("strength") * s.slider("slope").powf(rings.clamp(0.0, (s.slider("scales") - 1.0).max(0.0))).max(1.0)
+}
+
 pub fn self_advection() -> Bounds {
-    const FRAYS: &str = "from a strength of about 10 on paint leaps over the eddies that move it, and edges fray";
-    let smooth = |s: &Situation| Allowed::new(0.0, 0.25).unless(s.slider("strength") > 10.0, FRAYS);
+    const FRAYS: &str =
+        "at a strength above 10, or as much by the weight of large rings, paint leaps over its eddies and frays";
+    let smooth = |s: &Situation| Allowed::new(0.0, 0.25).unless(leap(s) > 60.0, FRAYS);
     let checks = vec![
         always(
             "paint",

@@ -71,7 +71,7 @@ pub fn brick_breaker() -> Vec<Check> {
         by("a", Quantity::Component(1), Area::Texel(2, 0), |s| room(s, 0.0, 3.0), "lives"),
         by("a", Quantity::Component(3), Area::Texel(2, 0), |s| room(s, 0.0, 3.0), "phases of the game"),
         by("a", Quantity::Component(0), Area::Block(0, 1, 16, 6), |s| room(s, 0.0, 1.0), "a brick is whole or gone"),
-        by("a", Quantity::Any, Area::All, |_| Allowed::new(-1e4, 1e7), "seconds, pixels and a score"),
+        by("a", Quantity::Any, Area::Block(0, 0, 16, 7), |_| Allowed::new(-1e4, 1e7), "seconds, pixels and a score"),
     ]
 }
 
@@ -119,7 +119,7 @@ pub fn gallery_of_tricks() -> Vec<Check> {
         always("discard", Quantity::Length(0, 1), Area::Block(0, 0, 24, 1), (0.0, 1.415), BALL),
         always("region", Quantity::Length(0, 1), Area::Block(0, 0, 24, 1), (0.0, 1.415), BALL),
         always("discard", Quantity::Any, Area::All, (-1.0, 1.0), "lines that are at most white, and balls"),
-        always("region", Quantity::Any, Area::All, (-1.0, 1.0), BALL),
+        always("region", Quantity::Any, Area::Block(0, 0, 24, 1), (-1.0, 1.0), BALL),
         always(
             "waves",
             Quantity::Component(0),
@@ -159,4 +159,8 @@ pub fn scene_bloom_taa() -> Vec<Check> {
         ),
         always("b", Quantity::Component(3), Area::All, (0.0, 1e5), "one more than the seconds of a frame"),
     ]
+}
+
+pub fn ssao() -> Vec<Check> {
+    vec![always("mode", Quantity::Component(0), Area::All, (0.0, 2.0), "which of three pictures is shown")]
 }
