@@ -195,3 +195,38 @@ fn a_run_goes_on_and_shards_together_are_the_whole() {
     run::run(&gpu, &[other], &options, |_| again += 1).unwrap();
     assert_eq!(again, all);
 }
+
+#[test]
+fn the_command_says_what_left_and_ends_with_one() {
+    if gpu().is_none() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let toml = "name = \"Heat\"\n[passes.buffer_a]\nchannels.0 = { buffer = \"A\", filter = \"nearest\", wrap = \"clamp\" }\n\
+                [passes.image]\nchannels.0 = { buffer = \"A\", filter = \"nearest\", wrap = \"clamp\" }\n";
+    let mut heat = heat();
+    let text = heat
+        .passes
+        .remove(0)
+        .source
+        .text
+        .replace("o = vec4(", "if (iFrame == 0) { o = vec4(p == ivec2(40, 30) ? 1.0 : 0.0); return; }\no = vec4(");
+    std::fs::write(dir.path().join("eddy.toml"), toml).unwrap();
+    std::fs::write(dir.path().join("buffer_a.glsl"), text).unwrap();
+    std::fs::write(dir.path().join("image.glsl"), &*heat.passes[0].source.text).unwrap();
+    let eddy = |only: &str, bound: &str| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_eddy"));
+        command.args(["lab", "stability", "--quick", "--bound", bound, "--only", only]).arg(dir.path());
+        let output = command.output().unwrap();
+        let said = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
+        (output.status.code(), said.concat())
+    };
+    let (code, said) = eddy("rate=0.3", "buffer_a=-1..1");
+    assert!(code == Some(1) && said.contains("buffer_a texel (") && said.contains("not -1 to 1"), "{code:?} {said}");
+    let (code, said) = eddy("rate=0.05", "buffer_a=-1..1");
+    assert!(code == Some(0) && said.contains("a slider at an end"), "{code:?} {said}");
+    let (code, said) = eddy("rate", "buffer_z=-1..1");
+    assert!(code == Some(2) && said.contains("buffer_z"), "{code:?} {said}");
+    let (code, said) = eddy("no such case", "buffer_a=-1..1");
+    assert!(code == Some(2) && said.contains("no such case"), "{code:?} {said}");
+}
