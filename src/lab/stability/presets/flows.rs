@@ -140,8 +140,8 @@ pub fn fluid_accurate() -> Bounds {
             energy,
             "nothing has more energy than all of it at the speed of what pushes",
         ),
-        always("velocity", Quantity::Roughness(0), Area::All, (0.0, 0.25), SMOOTH),
-        always("velocity", Quantity::Roughness(1), Area::All, (0.0, 0.25), SMOOTH),
+        by("velocity", Quantity::Roughness(0), Area::All, resolved, SMOOTH),
+        by("velocity", Quantity::Roughness(1), Area::All, resolved, SMOOTH),
         always(
             "drift",
             Quantity::Any,
