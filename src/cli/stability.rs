@@ -53,6 +53,7 @@ pub fn run(args: &StabilityArgs) -> io::Result<u8> {
     }
     let mut out = io::stdout().lock();
     write!(out, "{}", stability::table(&of_these))?;
+    write!(out, "\n{}", run::coverage(&subjects, &options, &results))?;
     if let Some(folder) = &args.out {
         match files(folder, &results) {
             Ok(_) => writeln!(out, "\n{}", folder.join("stability.html").display())?,

@@ -10,6 +10,7 @@ use crate::{
     project::{Knob, KnobType, KnobValue, KnobValues},
 };
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeSet;
 
 /// Seed of the rows of pairs.
 const SEED: u64 = 20_240_501;
@@ -217,6 +218,17 @@ pub fn list(subject: &Subject, extent: Extent, base: (u32, u32)) -> Vec<Case> {
     cases
 }
 
+/// Of the pairs of ends of a project's sliders those that the drawn cases have among what they turn, and how many there are.
+pub fn coverage(subject: &Subject, drawn: &[Case]) -> (usize, usize) {
+    let sliders = subject.sliders();
+    let row = |case: &Case| -> Vec<pairs::End> {
+        let ends = (0..sliders.len()).flat_map(|n| [(n, false), (n, true)]);
+        ends.filter(|(n, is_high)| case.values.get(&sliders[*n].name) == Some(&end(&sliders[*n], *is_high))).collect()
+    };
+    let seen: BTreeSet<pairs::Pair> = drawn.iter().flat_map(|c| pairs::covered(&row(c)).collect::<Vec<_>>()).collect();
+    (seen.len(), pairs::all(sliders.len()).len())
+}
+
 fn courant(subject: &Subject, sliders: &[Knob], m: &Measure, cases: &mut Vec<Case>) {
     let Some(courant) = subject.courant else { return };
     let Some(slider) = sliders.iter().find(|k| k.name == courant.slider) else { return };
@@ -263,7 +275,6 @@ fn end(slider: &Knob, is_high: bool) -> KnobValue {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::collections::BTreeSet;
 
     #[test]
     fn cases_have_names_of_their_own_and_every_slider_is_at_both_ends() {
@@ -290,6 +301,10 @@ mod tests {
         let sliders = subject.sliders();
         for extent in [Extent::Quick, Extent::Full] {
             let cases = list(&subject, extent, base(extent));
+            let all = 2 * sliders.len() * (sliders.len() - 1);
+            assert_eq!(coverage(&subject, &cases), (all, all));
+            let without_last = &cases[..cases.iter().rposition(|c| c.kind == Kind::Pairs).unwrap()];
+            assert!(coverage(&subject, without_last).0 < all);
             for (n, a) in sliders.iter().enumerate() {
                 for b in &sliders[n + 1..] {
                     for (x, y) in [(false, false), (false, true), (true, false), (true, true)] {

@@ -91,6 +91,19 @@ pub fn run(
     Ok(results)
 }
 
+/// For each project a line that says how many pairs of its sliders' ends were drawn.
+pub fn coverage(subjects: &[Subject], options: &Options, results: &Results) -> String {
+    let size = options.size.unwrap_or(cases::base(options.extent));
+    let told = |subject: &Subject| {
+        let fingerprint = subject.fingerprint();
+        let mut drawn = cases::list(subject, options.extent, size);
+        drawn.retain(|case| results.cases.iter().any(|r| is_known(r, subject, case, &fingerprint)));
+        let (seen, all) = cases::coverage(subject, &drawn);
+        format!("{}: {seen} of {all} pairs of sliders' ends\n", subject.name)
+    };
+    subjects.iter().map(told).collect()
+}
+
 fn is_known(record: &StabilityRecord, subject: &Subject, case: &Case, fingerprint: &str) -> bool {
     record.project == subject.name
         && record.texts == fingerprint
