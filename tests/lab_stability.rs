@@ -133,10 +133,19 @@ fn the_lit_fluid_with_its_tension_at_the_texel_diverges_and_is_found() {
     let here = "mix(mix(a, b, f.x), mix(c, d, f.x), f.y) + smoothed(0.0, heightOf(p - ivec2(1, 0)) - heightOf(p), \
                 heightOf(p + ivec2(1, 0)) - heightOf(p), heightOf(p - ivec2(0, 1)) - heightOf(p), heightOf(p + ivec2(0, 1)) - heightOf(p))";
     let upstream = "mix(mix(smoothA, smoothB, f.x), mix(smoothC, smoothD, f.x), f.y)";
-    let subject = changed("fluid-lit", buffer("height"), upstream, here);
-    let Some(cases) = measured(&subject, Some("tension=1")) else { return };
-    let found: Vec<_> = cases.iter().filter(|c| !c.is_right()).map(|c| left(c).clone()).collect();
-    assert!(found.iter().any(|o| o.pass == "buffer_height"), "{}", table(&cases));
+    // The paper's form within its limits, where flows are fast.
+    let set = |mut subject: Subject| {
+        for assignment in ["form=0", "stiffness=0.5", "viscosity=0.6", "tension=1"] {
+            subject.project.set_knob(assignment).unwrap();
+        }
+        subject
+    };
+    let broken = set(changed("fluid-lit", buffer("height"), upstream, here));
+    let Some(cases) = measured(&broken, Some("left alone")) else { return };
+    let found = left(&cases[0]);
+    assert!(found.pass == "buffer_height" && found.frame > 20, "{}", table(&cases));
+    let mended = measured(&set(Subject::load("fluid-lit", &[]).unwrap()), Some("left alone")).unwrap();
+    assert!(mended[0].is_right(), "{}", table(&mended));
 }
 
 #[test]
@@ -181,9 +190,13 @@ fn a_run_goes_on_and_shards_together_are_the_whole() {
     let halves = [drawn(dirs[1].path(), "0/2").unwrap().0, drawn(dirs[2].path(), "1/2").unwrap().0];
     assert_eq!(halves[0] + halves[1], all);
     let merged = Results::merge(&[dirs[1].path().into(), dirs[2].path().into()]).unwrap();
-    for case in &whole.cases {
-        assert!(merged.cases.contains(case), "{} is not the same in its shard", case.case);
-    }
+    // As texts: NaN is not equal to itself.
+    let told = |results: &Results| {
+        let mut all: Vec<String> = results.cases.iter().map(|case| format!("{case:?}")).collect();
+        all.sort();
+        all
+    };
+    assert_eq!(told(&whole), told(&merged), "a case is not the same in its shard");
     // The report names what it should, and a change of the text measures anew.
     assert_eq!(write(dirs[0].path(), &whole).unwrap(), ["stability.csv", "stability.html"]);
     let csv = std::fs::read_to_string(dirs[0].path().join("stability.csv")).unwrap();
