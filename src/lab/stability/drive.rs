@@ -141,8 +141,8 @@ impl<'s> Driver<'s> {
                 continue;
             }
             let all = run.look(situation)?;
-            let found = all.iter().enumerate().filter(|(_, l)| l.offence.is_some() && counts(l));
-            if let Some((n, looked)) = found.into_iter().next() {
+            let found = all.iter().enumerate().find(|(_, l)| l.offence.is_some() && counts(l));
+            if let Some((n, looked)) = found {
                 let check = &run.driver.subject.checks[n];
                 last = looked.offence.map(|worst| Offence {
                     frame,
