@@ -17,8 +17,8 @@ use crate::{
     graph::{ChannelFacts, Draw, FramePlan, PassFacts, Source},
     media::{MediaKey, MediaSet, TexelFormat, Texels},
     project::{
-        Camera, Channel, FillKind, FillValue, Filter, Geometry, Input, Knob, KnobValues, PassFormat, PassId,
-        PassSettings, PassSize, Project,
+        Camera, Channel, FillKind, Filter, Geometry, Input, Knob, KnobValues, PassFormat, PassId, PassSettings,
+        PassSize, Project,
     },
 };
 use std::{collections::HashMap, sync::Arc};
@@ -167,7 +167,7 @@ impl Program {
                 let (Some(compiled), Some(fill)) = (compiled, pass.fill(kind)) else { continue };
                 let mut channels: [BoundChannel; 4] = Default::default();
                 let mut is_picture = false;
-                if let FillValue::File(path) = &fill.value
+                if let Some(path) = fill.value.path()
                     && let Some(texels) = media.fill(path)
                 {
                     let used = compiled.reflection.channels[0];

@@ -57,13 +57,14 @@ pub fn gather(project: &Project, media_dir: Option<&Path>) -> (MediaSet, Vec<Dia
 pub fn fills(project: &Project, set: &mut MediaSet) {
     let base = project.origin.base_dir();
     for (.., fill) in project.fills() {
-        let FillValue::File(path) = &fill.value else { continue };
-        if set.fill(path).is_some() {
-            continue;
-        }
-        match load_within(&Media::File(path.clone()), true, base, None, set.room()) {
+        let Some(path) = fill.value.path().filter(|path| set.fill(path).is_none()) else { continue };
+        let texels = match &fill.value {
+            FillValue::Held { npy, .. } => super::npy::read(npy, path, set.room()),
+            _ => load_within(&Media::File(path.to_owned()), true, base, None, set.room()),
+        };
+        match texels {
             Ok(texels) => set.insert_fill(path, Arc::new(texels)),
-            Err(error) => drop(set.missing_fills.insert(path.clone(), (error.to_string(), error.hint()))),
+            Err(error) => drop(set.missing_fills.insert(path.to_owned(), (error.to_string(), error.hint()))),
         }
     }
 }

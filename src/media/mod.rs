@@ -14,10 +14,11 @@ mod site;
 pub use gather::{fills, gather, meshes};
 pub use keyboard::Keyboard;
 pub use load::{MediaError, load};
+pub use npy::{bytes as npy_bytes, header as npy_header};
 
 use crate::{
     diag::Diagnostic,
-    project::{Fill, FillKind, FillValue, Media, MeshSource, Project},
+    project::{Fill, FillKind, Media, MeshSource, Project},
 };
 use mesh::{Mesh, MeshError};
 use std::{
@@ -92,7 +93,7 @@ impl MediaSet {
     /// One error for each file of the project's fills that is not there.
     pub fn fill_errors(&self, project: &Project) -> Vec<Diagnostic> {
         let error = |(pass, kind, fill): (usize, FillKind, &Fill)| {
-            let FillValue::File(path) = &fill.value else { return None };
+            let path = fill.value.path()?;
             if self.fill(path).is_some() {
                 return None;
             }

@@ -14,6 +14,35 @@ pub(super) fn read(bytes: &[u8], path: &Path, room: u64) -> Result<Texels, Media
     decode(bytes, room).map_err(|reason| MediaError::Npy { path: path.to_owned(), reason })
 }
 
+/// What an `.npy` file of version 1.0 begins with, for rows of numbers of the type `descr` in C order. The data that follows
+/// starts at a multiple of 64.
+pub fn header(descr: &str, shape: &[u32]) -> Vec<u8> {
+    let shape: String = shape.iter().map(|n| format!("{n}, ")).collect();
+    let shape = shape.trim_end_matches(", ");
+    let mut text = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': ({shape}), }}");
+    // Magic, version and length take 10 bytes; the header ends in a line break.
+    let padding = (64 - (10 + text.len() + 1) % 64) % 64;
+    text.extend(std::iter::repeat_n(' ', padding));
+    text.push('\n');
+    [MAGIC, b"\x01\x00", &(text.len() as u16).to_le_bytes(), text.as_bytes()].concat()
+}
+
+/// Texels as a whole file: float32 of shape (height, width, 4), or uint8 of shape (height, width, 1 or 4).
+pub fn bytes(texels: &Texels) -> Vec<u8> {
+    let (descr, components) = match texels.format {
+        TexelFormat::R8 => ("|u1", 1),
+        TexelFormat::Rgba8 => ("|u1", 4),
+        TexelFormat::Rgba32Float => ("<f4", 4),
+    };
+    let mut file = header(descr, &[texels.height, texels.width, components]);
+    if descr == "<f4" && cfg!(target_endian = "big") {
+        file.extend(texels.bytes.chunks_exact(4).flat_map(|number| number.iter().rev()));
+    } else {
+        file.extend_from_slice(&texels.bytes);
+    }
+    file
+}
+
 #[derive(Clone, Copy)]
 enum Number {
     U8,

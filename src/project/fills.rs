@@ -2,7 +2,11 @@
 
 use super::{Pass, Project};
 use crate::diag::{SourceId, Span};
-use std::{ops::Range, path::PathBuf, sync::Arc};
+use std::{
+    ops::Range,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 /// What texels are filled with, and where `eddy.toml` says so.
 #[derive(Clone, Debug)]
@@ -20,6 +24,19 @@ pub enum FillValue {
     /// A picture or a `.npy` file, by its name in the project's folder. Where its size is the pass's it is taken
     /// texel for texel, else stretched over the pass with linear filtering.
     File(PathBuf),
+    /// The bytes of an `.npy` file that is nowhere yet, and the name it will have. Lives in memory alone: saving writes the file
+    /// into the project's folder and makes a [`FillValue::File`] of it, and nothing that is read from a project is one.
+    Held { name: PathBuf, npy: Arc<[u8]> },
+}
+
+impl FillValue {
+    /// The name of the picture; `None` for an expression.
+    pub fn path(&self) -> Option<&Path> {
+        match self {
+            FillValue::Expression(_) => None,
+            FillValue::File(path) | FillValue::Held { name: path, .. } => Some(path),
+        }
+    }
 }
 
 /// A place in a manifest.
@@ -52,7 +69,7 @@ impl Fill {
     fn text(&self) -> (Arc<str>, Range<usize>) {
         let value: Arc<str> = match &self.value {
             FillValue::Expression(text) => text.clone(),
-            FillValue::File(path) => path.to_string_lossy().into(),
+            FillValue::File(path) | FillValue::Held { name: path, .. } => path.to_string_lossy().into(),
         };
         let Some(Written { manifest, range }) = &self.written else { return (value.clone(), 0..value.len()) };
         let written = manifest.get(range.clone()).unwrap_or_default();

@@ -3,7 +3,9 @@
 //! A picked picture is shown at once from where it lies. Saving copies it into the project's folder and names the copy, so that
 //! the project never names anything outside its folder.
 
-use super::{Input, Media, Project, ProjectError, atomic::Content, confine, limits, writes::Writes};
+use super::{
+    Fill, FillKind, FillValue, Input, Media, Project, ProjectError, atomic::Content, confine, limits, writes::Writes,
+};
 use std::path::Path;
 
 /// An input with the whole path of its picked picture, or with the picture's name where it lies in the project's folder already.
@@ -53,9 +55,34 @@ pub(super) fn copy_in(project: &mut Project, target: &Path, writes: &mut Writes)
     Ok(())
 }
 
+/// Writes what a project holds in memory of the files that fill its passes, and names these files, as [`copy_in`] does.
+pub(super) fn write_held(project: &mut Project, target: &Path, writes: &mut Writes) -> Result<(), ProjectError> {
+    for pass in &mut project.passes {
+        for kind in FillKind::ALL {
+            let Some(fill) = pass.fill_mut(kind) else { continue };
+            let FillValue::Held { name, npy } = &fill.value else { continue };
+            let name = add(parts(name), npy.to_vec(), target, writes)?;
+            *fill = Fill::file(name);
+        }
+    }
+    Ok(())
+}
+
 fn copy(path: &Path, target: &Path, writes: &mut Writes) -> Result<String, ProjectError> {
     let (stem, extension) = parts(path);
-    let Ok(bytes) = confine::read_own(path, limits::MEDIA_FILE) else { return Ok(format!("{stem}.{extension}")) };
+    match confine::read_own(path, limits::MEDIA_FILE) {
+        Ok(bytes) => add((stem, extension), bytes, target, writes),
+        Err(_) => Ok(format!("{stem}.{extension}")),
+    }
+}
+
+/// Writes bytes under this name, or one with a number where it is taken.
+fn add(
+    (stem, extension): (String, String),
+    bytes: Vec<u8>,
+    target: &Path,
+    writes: &mut Writes,
+) -> Result<String, ProjectError> {
     let mut number = 1;
     loop {
         let name = if number == 1 { format!("{stem}.{extension}") } else { format!("{stem}_{number}.{extension}") };

@@ -132,6 +132,7 @@ fn save_folder(project: &Project, target: &Path, overwrite: Overwrite) -> Result
         copy_media(&saved, &mut writes)?;
     }
     picked::copy_in(&mut saved, target, &mut writes)?;
+    picked::write_held(&mut saved, target, &mut writes)?;
     saved.origin = Origin::Folder { path: target.to_owned(), has_manifest: true };
     let name = folder_name(target);
     let after = folder_after(target, &writes);

@@ -2,20 +2,12 @@
 //!
 //! Format: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>.
 
-use crate::engine::Pixels;
+use crate::{engine::Pixels, media};
 use std::io::{self, Write};
 
 /// Writes the whole file.
 pub fn write(out: &mut impl Write, pixels: &Pixels) -> io::Result<()> {
-    let mut header =
-        format!("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}, 4), }}", pixels.height, pixels.width);
-    // Magic, version and length take 10 bytes; the data starts at a multiple of 64, the header ends in a line break.
-    let padding = (64 - (10 + header.len() + 1) % 64) % 64;
-    header.extend(std::iter::repeat_n(' ', padding));
-    header.push('\n');
-    out.write_all(b"\x93NUMPY\x01\x00")?;
-    out.write_all(&(header.len() as u16).to_le_bytes())?;
-    out.write_all(header.as_bytes())?;
+    out.write_all(&media::npy_header("<f4", &[pixels.height, pixels.width, 4]))?;
     if cfg!(target_endian = "little") {
         out.write_all(bytemuck::cast_slice(&pixels.texels))
     } else {
