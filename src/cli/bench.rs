@@ -7,8 +7,8 @@ use super::{
     report::{Printer, Report},
 };
 use crate::{
-    engine::Engine,
-    graph::{FramePlan, PassFacts, TargetKind},
+    engine::{CostClock, Engine, PassRole, PassTime},
+    graph::{FramePlan, PassFacts},
     project::{PassId, Project},
     session::script::ScriptedInputs,
 };
@@ -28,8 +28,12 @@ struct Costs {
     cpu_us_per_pass: f64,
     /// The slowest frame.
     worst_ms: f64,
+    /// How the passes' `ms` were taken: `timestamps` of the device, or `waited`: each pass handed in and waited for by itself.
+    clock: &'static str,
     /// In drawing order.
     passes: Vec<PassCost>,
+    /// Sum of the passes'.
+    moved_bytes: u64,
     /// Passes of the project that no wanted picture needs.
     passes_skipped: Vec<String>,
     /// Bytes of the targets, and how many more they were if nothing were left out.
@@ -48,6 +52,19 @@ struct PassCost {
     title: String,
     /// `None` where the device has no timestamps.
     gpu_ms: Option<f64>,
+    /// As `clock` of the project says.
+    ms: Option<f64>,
+    /// Texels of its targets.
+    width: u32,
+    height: u32,
+    /// Of each of its targets, as `eddy.toml` spells them.
+    formats: Vec<&'static str>,
+    /// How often it is drawn in a frame.
+    steps: u32,
+    /// Bytes its textures take, mip levels, the second one of a pair and the depth buffer among them.
+    held_bytes: u64,
+    /// Fewest bytes that a frame moves for it: its texels written, those of each pass it reads read once, at each step.
+    moved_bytes: u64,
 }
 
 /// The report of `render`, and the costs.
@@ -98,43 +115,69 @@ fn measure(
         millis.push(millis_since(began));
         report.frames += 1;
     }
-    // Apart from the others: timestamps cost a little in every frame.
-    let gpu_millis = pass_times(&mut engine, &mut inputs, args.frames)?;
+    // Apart from the others: timestamps cost a little in every frame, and waiting for each pass more.
+    let clock = engine.cost_clock();
+    let millis_of = pass_times(&mut engine, &mut inputs, args.frames)?;
     let worst_ms = millis.iter().copied().fold(0.0, f64::max);
     report.frame_ms = median(millis);
     let (width, height) = args.run.size;
     let (device, plan) = (engine.gpu().describe(), engine.program().map(|p| p.plan().clone()).unwrap_or_default());
     let drawable = drawable(&project);
-    let passes = plan.draws.iter().map(|d| &drawable.passes[d.pass].id);
+    let passes = engine.pass_costs(&project).into_iter().filter(|c| matches!(c.role, PassRole::Drawn { .. }));
+    let passes = passes.map(|cost| {
+        let ms = millis_of.get(&cost.pass).copied();
+        PassCost {
+            pass: cost.pass.key(),
+            title: cost.pass.title(),
+            gpu_ms: ms.filter(|_| clock == CostClock::Timestamps),
+            ms,
+            width: cost.size.0,
+            height: cost.size.1,
+            formats: cost.formats.iter().map(|f| f.name()).collect(),
+            steps: cost.steps,
+            held_bytes: cost.held_bytes,
+            moved_bytes: cost.moved_bytes,
+        }
+    });
+    let passes: Vec<PassCost> = passes.collect();
     let everything = FramePlan::new(&drawable, &vec![PassFacts::ANYTHING; drawable.passes.len()], &[], false);
-    let target_bytes = bytes(&plan, width, height);
+    let target_bytes = plan.target_bytes((width, height));
     Ok(Costs {
         width,
         height,
         device,
         cpu_us_per_pass: median(cpu).unwrap_or_default(),
         worst_ms,
-        passes: passes
-            .map(|id| PassCost { pass: id.key(), title: id.title(), gpu_ms: gpu_millis.get(id).copied() })
-            .collect(),
+        clock: match clock {
+            CostClock::Timestamps => "timestamps",
+            CostClock::Waited => "waited",
+        },
+        moved_bytes: passes.iter().map(|p| p.moved_bytes).sum(),
+        passes,
         passes_skipped: plan.skipped.iter().map(|i| drawable.passes[*i].id.key()).collect(),
         target_bytes,
-        target_bytes_saved: bytes(&everything, width, height).saturating_sub(target_bytes),
+        target_bytes_saved: everything.target_bytes((width, height)).saturating_sub(target_bytes),
         passes_rested: passes_rested as f64 / f64::from(args.frames),
         bytes_rested: bytes_rested as f64 / f64::from(args.frames),
     })
 }
 
-/// Median time of each pass on the device; empty where it has no timestamps.
+/// Median time of each pass in the frames in which it was drawn.
 fn pass_times(engine: &mut Engine, inputs: &mut ScriptedInputs, frames: u32) -> Result<HashMap<PassId, f64>, Trouble> {
     let mut times: HashMap<PassId, Vec<f64>> = HashMap::new();
-    if engine.set_timing(true) {
-        for _ in 0..frames {
-            engine.draw(&inputs.next_frame())?;
+    let has_stamps = engine.set_timing(true);
+    let began = Instant::now();
+    for _ in 0..frames {
+        let inputs = inputs.next_frame();
+        let of_frame: Vec<PassTime> = if has_stamps {
+            engine.draw(&inputs)?;
             engine.gpu().wait()?;
-            for time in engine.pass_times().unwrap_or_default() {
-                times.entry(time.pass).or_default().push(time.gpu_millis);
-            }
+            engine.pass_times().unwrap_or_default()
+        } else {
+            engine.draw_waited(&inputs, &mut || millis_since(began))?.1
+        };
+        for time in of_frame {
+            times.entry(time.pass).or_default().push(time.gpu_millis);
         }
     }
     Ok(times.into_iter().filter_map(|(id, times)| Some((id, median(times)?))).collect())
@@ -145,27 +188,6 @@ fn drawable(project: &Project) -> Project {
     let mut drawable = project.clone();
     drawable.passes.retain(|p| !matches!(p.id, PassId::Cubemap | PassId::Sound));
     drawable
-}
-
-/// What the targets of a plan take on the device.
-fn bytes(plan: &FramePlan, width: u32, height: u32) -> u64 {
-    let of = |target: &crate::graph::Target| {
-        let (mut w, mut h, faces) = match target.kind {
-            TargetKind::Canvas => {
-                let (w, h) = target.size.of((width, height));
-                (w, h, 1)
-            }
-            TargetKind::Cube => (1024, 1024, 6),
-        };
-        let level = |w: u32, h: u32| u64::from(w) * u64::from(h) * target.format.bytes();
-        let mut sum = level(w, h);
-        while target.mips && (w, h) != (1, 1) {
-            (w, h) = ((w / 2).max(1), (h / 2).max(1));
-            sum += level(w, h);
-        }
-        sum * faces * if target.doubled { 2 } else { 1 }
-    };
-    plan.targets.iter().map(of).sum()
 }
 
 fn words(report: &Report, costs: &Costs) -> String {
@@ -182,9 +204,32 @@ fn words(report: &Report, costs: &Costs) -> String {
         costs.height,
         costs.device
     );
+    let name = costs.passes.iter().map(|p| p.title.chars().count()).max().unwrap_or_default().max(12);
     for pass in &costs.passes {
-        let time = pass.gpu_ms.map_or("no timestamps".into(), |ms| format!("{ms:.3} ms"));
-        let _ = writeln!(out, "  {:12} {time:>14}", pass.title);
+        let time = pass.ms.map_or("no time".into(), |ms| format!("{ms:.3} ms"));
+        let size = format!("{}x{}", pass.width, pass.height);
+        let steps = if pass.steps > 1 { format!(", {} steps", pass.steps) } else { String::new() };
+        let _ = writeln!(
+            out,
+            "  {:name$} {time:>14}  {size:>9} {:8} {:>8.2} MiB held {:>8.2} MiB moved{steps}",
+            pass.title,
+            pass.formats.join(" "),
+            mib(pass.held_bytes as f64),
+            mib(pass.moved_bytes as f64),
+        );
+    }
+    let sum: f64 = costs.passes.iter().filter_map(|p| p.ms).sum();
+    let held: u64 = costs.passes.iter().map(|p| p.held_bytes).sum();
+    let _ = writeln!(
+        out,
+        "  {:name$} {sum:>11.3} ms  {:18} {:>8.2} MiB held {:>8.2} MiB moved",
+        "all passes",
+        "",
+        mib(held as f64),
+        mib(costs.moved_bytes as f64)
+    );
+    if costs.clock == "waited" {
+        out.push_str("  (no timestamps here: each pass was handed in and waited for by itself, by the wall's clock)\n");
     }
     let _ = writeln!(out, "  {:12} {:>11.1} µs a pass a frame", "engine", costs.cpu_us_per_pass);
     let _ = writeln!(out, "  {:12} {:>10.1} MiB", "targets", mib(costs.target_bytes as f64));
@@ -208,33 +253,4 @@ fn words(report: &Report, costs: &Costs) -> String {
         );
     }
     out
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{
-        graph::Target,
-        project::{PassFormat, PassSize},
-    };
-
-    #[test]
-    fn a_mip_chain_and_a_second_texture_are_counted() {
-        let target = |doubled, mips| Target {
-            id: PassId::Image,
-            index: 0,
-            kind: TargetKind::Canvas,
-            size: Default::default(),
-            format: Default::default(),
-            doubled,
-            mips,
-            undrawn: false,
-        };
-        let plan = |t| FramePlan { targets: vec![t], ..Default::default() };
-        assert_eq!(bytes(&plan(target(false, false)), 4, 2), 8 * 16);
-        assert_eq!(bytes(&plan(target(true, false)), 4, 2), 2 * 8 * 16);
-        assert_eq!(bytes(&plan(target(true, true)), 4, 2), 2 * (8 + 2 + 1) * 16);
-        let half = Target { size: PassSize::Scale(0.5), format: PassFormat::R16f, ..target(false, false) };
-        assert_eq!(bytes(&plan(half), 4, 2), 2 * 2);
-    }
 }

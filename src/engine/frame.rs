@@ -1,7 +1,8 @@
 //! A frame: the loop that executes a plan. The only place where passes are encoded.
 
 use super::{
-    Engine, EngineError, FrameInputs, FrameStats,
+    Engine, EngineError, FrameInputs, FrameStats, PassTime,
+    costs::Watch,
     fill::FillParts,
     program::{CompiledDraw, Program},
     uniforms,
@@ -16,13 +17,44 @@ impl Engine {
     /// Draws one frame. Does not wait for the device.
     pub fn draw(&mut self, inputs: &FrameInputs) -> Result<FrameStats, EngineError> {
         let Some(program) = self.program.take() else { return Ok(FrameStats::default()) };
-        let stats = self.draw_program(&program, inputs);
+        let stats = self.draw_program(&program, inputs, None);
         self.program = Some(program);
+        let stats = stats?;
         self.gpu.take_trouble("a frame")?;
         Ok(stats)
     }
 
-    fn draw_program(&mut self, program: &Program, inputs: &FrameInputs) -> FrameStats {
+    /// As [`Engine::draw`], with the same picture, but hands in each pass by itself and waits for it: how long each takes can then
+    /// be told where the device has no timestamps. `now` gives milliseconds since any moment. A frame takes longer so.
+    pub fn draw_waited(
+        &mut self,
+        inputs: &FrameInputs,
+        now: &mut dyn FnMut() -> f64,
+    ) -> Result<(FrameStats, Vec<PassTime>), EngineError> {
+        let Some(program) = self.program.take() else { return Ok(Default::default()) };
+        let mut watch = Watch { now, floor: 0.0, millis: vec![0.0; program.draws.len()] };
+        let stats = self.draw_program(&program, inputs, Some(&mut watch));
+        let times = watch.times(program.draws.iter().map(|d| &d.id));
+        self.program = Some(program);
+        let stats = stats?;
+        self.gpu.take_trouble("a frame")?;
+        Ok((stats, times))
+    }
+
+    /// Hands in what is encoded, and waits for it.
+    fn flush(&self, encoder: &mut wgpu::CommandEncoder) -> Result<(), EngineError> {
+        let descriptor = wgpu::CommandEncoderDescriptor { label: Some("a pass of a frame") };
+        let full = std::mem::replace(encoder, self.gpu.device.create_command_encoder(&descriptor));
+        self.gpu.queue.submit([full.finish()]);
+        Ok(self.gpu.wait()?)
+    }
+
+    fn draw_program(
+        &mut self,
+        program: &Program,
+        inputs: &FrameInputs,
+        mut watch: Option<&mut Watch<'_>>,
+    ) -> Result<FrameStats, EngineError> {
         if self.shown_keys != inputs.keyboard.bytes() {
             self.stock.keyboard.write(&self.gpu, inputs.keyboard.bytes());
             self.shown_keys = inputs.keyboard.bytes().to_vec();
@@ -48,14 +80,30 @@ impl Engine {
             .collect();
         let mut encoder =
             self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
-        if let Some(timer) = &mut self.timer {
+        // Stamps of a frame in pieces would not be of one submission.
+        if let Some(timer) = self.timer.as_mut().filter(|_| watch.is_none()) {
             timer.begin();
         }
+        if let Some(watch) = &mut watch {
+            // What was handed in before is not this frame's.
+            self.flush(&mut encoder)?;
+            let began = (watch.now)();
+            self.flush(&mut encoder)?;
+            watch.floor = (watch.now)() - began;
+        }
+        self.steps_drawn.clear();
+        self.steps_drawn.resize(program.draws.len(), 0);
         let mut stats = FrameStats::default();
         for run in &program.plan.runs {
             for _ in 0..run.steps {
                 for index in run.draws.clone() {
-                    self.step(&mut encoder, program, index, &outside[index], &mut stats);
+                    let began = watch.as_mut().map(|watch| (watch.now)());
+                    let is_drawn = self.step(&mut encoder, program, index, &outside[index], &mut stats);
+                    self.steps_drawn[index] += u32::from(is_drawn);
+                    if let (Some(watch), Some(began), true) = (&mut watch, began, is_drawn) {
+                        self.flush(&mut encoder)?;
+                        watch.add(index, began);
+                    }
                 }
             }
         }
@@ -70,7 +118,7 @@ impl Engine {
         if let Some(timer) = &mut self.timer {
             timer.submitted();
         }
-        stats
+        Ok(stats)
     }
 
     /// Everything a draw reads that is no target; for [`crate::graph::Ledger::is_due`].
@@ -85,7 +133,7 @@ impl Engine {
         seen
     }
 
-    /// Does one draw, if it is due.
+    /// Does one draw, if it is due; whether it was.
     fn step(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
@@ -93,21 +141,21 @@ impl Engine {
         index: usize,
         outside: &[u8],
         stats: &mut FrameStats,
-    ) {
+    ) -> bool {
         let (compiled, draw) = (&program.draws[index], &program.plan.draws[index]);
         let size = self.targets[draw.targets.start].size();
         let texels = match draw.region {
             None => u64::from(size.0) * u64::from(size.1),
             Some(region) => match region.within(size) {
                 Some(region) => u64::from(region.width) * u64::from(region.height),
-                None => return,
+                None => return false,
             },
         };
         if !self.ledger.is_due(index, draw, outside) {
             stats.passes_rested += 1;
             let bytes = program.plan.targets[draw.targets.clone()].iter().map(|t| t.format.bytes());
             stats.bytes_rested += texels * bytes.sum::<u64>();
-            return;
+            return false;
         }
         stats.passes_drawn += 1;
         let (uniforms, channels) = self.bindings[index].groups(&self.gpu, &self.stock, compiled, draw, &self.targets);
@@ -179,5 +227,6 @@ impl Engine {
                 self.mips.build(&self.gpu, encoder, chain);
             }
         }
+        true
     }
 }

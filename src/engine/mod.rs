@@ -5,6 +5,7 @@
 
 mod bind;
 mod compile;
+mod costs;
 mod fill;
 mod frame;
 mod geometry;
@@ -17,6 +18,7 @@ mod targets;
 mod uniforms;
 
 pub use compile::{Sources, channel_kinds, pass_kind, stage_kind};
+pub use costs::{CostClock, PassCost, PassRole};
 pub use inputs::FrameInputs;
 pub use program::{BuildError, BuildOptions, Built, Program};
 pub use run::{Engine, EngineError, FrameStats, PassTime, Pixels};

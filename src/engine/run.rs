@@ -74,6 +74,8 @@ pub struct Engine {
     pub(super) key_changes: u64,
     pub(super) display: Display,
     pub(super) timer: Option<PassTimer>,
+    /// Of each draw, how often it was done in the newest frame.
+    pub(super) steps_drawn: Vec<u32>,
     /// For reading back what is no rgba32float; made when first needed.
     converter: Option<FloatConverter>,
 }
@@ -111,6 +113,7 @@ impl Engine {
             key_changes: 0,
             display: Display { presenter, texture, shown: None, bound: Vec::new(), target: 0 },
             timer: None,
+            steps_drawn: Vec::new(),
             converter: None,
             gpu,
         })
@@ -122,6 +125,7 @@ impl Engine {
         let old = self.remake_targets(&program, self.size)?;
         self.uniforms = Uniforms::new(&self.gpu, program.draws.len(), program.knobs.len(), program.meshes());
         self.ledger = Ledger::new(&program.plan);
+        self.steps_drawn.clear();
         self.timer = self.timer.is_some().then(|| timer(&self.gpu, Some(&program))).flatten();
         let values = program.knob_values.clone();
         self.program = Some(program);

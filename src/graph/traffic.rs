@@ -1,8 +1,8 @@
 //! Bytes that a frame cannot do without, from its plan alone.
 
-use super::{FramePlan, Source};
+use super::{FramePlan, Source, Target, TargetKind};
 
-/// What one frame moves at least, if nothing rests.
+/// What is moved at least, if nothing rests.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Traffic {
     /// Bytes of texels written, and of texels read, each texel of each source once a draw: neighbours come from a cache.
@@ -14,36 +14,76 @@ pub struct Traffic {
 impl FramePlan {
     /// The least that a frame on a canvas moves. Pictures and the keyboard are not counted, which are read and never written.
     pub fn traffic(&self, canvas: (u32, u32)) -> Traffic {
-        let count = |(w, h): (u32, u32)| u64::from(w) * u64::from(h);
         let mut sum = Traffic::default();
         for run in &self.runs {
-            for draw in &self.draws[run.draws.clone()] {
-                let size = self.targets[draw.targets.start].size.of(canvas);
-                let texels = match draw.region {
-                    None => count(size),
-                    Some(region) => region.within(size).map_or(0, |r| count((r.width, r.height))),
-                };
-                let mut bytes = 0;
-                for target in &self.targets[draw.targets.clone()] {
-                    // Each level is made of the one before, of four times its texels: 4/3 are read, 1/3 written.
-                    let mips = if target.mips { count(size) * target.format.bytes() * 5 / 3 } else { 0 };
-                    bytes += texels * target.format.bytes() + mips;
-                }
-                let mut sources: Vec<usize> = draw.reads.iter().flatten().filter_map(target_of).collect();
-                sources.sort_unstable();
-                sources.dedup();
-                for source in sources {
-                    let source = &self.targets[source];
-                    let all = count(source.size.of(canvas));
-                    // A part of a pass may do with a part of what it reads.
-                    let read = if draw.region.is_some() { all.min(texels) } else { all };
-                    bytes += read * source.format.bytes();
-                }
-                sum.bytes += bytes * u64::from(run.steps);
-                sum.texels += texels * u64::from(run.steps);
+            for draw in run.draws.clone() {
+                let step = self.traffic_of(draw, canvas);
+                sum.bytes += step.bytes * u64::from(run.steps);
+                sum.texels += step.texels * u64::from(run.steps);
             }
         }
         sum
+    }
+
+    /// The part of one draw, done once.
+    ///
+    /// # Panics
+    /// If there is no such draw.
+    pub fn traffic_of(&self, draw: usize, canvas: (u32, u32)) -> Traffic {
+        let count = |(w, h): (u32, u32)| u64::from(w) * u64::from(h);
+        let draw = &self.draws[draw];
+        let size = self.targets[draw.targets.start].size.of(canvas);
+        let texels = match draw.region {
+            None => count(size),
+            Some(region) => region.within(size).map_or(0, |r| count((r.width, r.height))),
+        };
+        let mut bytes = 0;
+        for target in &self.targets[draw.targets.clone()] {
+            // Each level is made of the one before, of four times its texels: 4/3 are read, 1/3 written.
+            let mips = if target.mips { count(size) * target.format.bytes() * 5 / 3 } else { 0 };
+            bytes += texels * target.format.bytes() + mips;
+        }
+        let mut sources: Vec<usize> = draw.reads.iter().flatten().filter_map(target_of).collect();
+        sources.sort_unstable();
+        sources.dedup();
+        for source in sources {
+            let source = &self.targets[source];
+            let all = count(source.size.of(canvas));
+            // A part of a pass may do with a part of what it reads.
+            let read = if draw.region.is_some() { all.min(texels) } else { all };
+            bytes += read * source.format.bytes();
+        }
+        Traffic { bytes, texels }
+    }
+
+    /// How often a draw is done in a frame.
+    pub fn steps_of(&self, draw: usize) -> u32 {
+        self.runs.iter().find(|run| run.draws.contains(&draw)).map_or(1, |run| run.steps)
+    }
+
+    /// What the targets take on the device.
+    pub fn target_bytes(&self, canvas: (u32, u32)) -> u64 {
+        self.targets.iter().map(|target| target.bytes(canvas)).sum()
+    }
+}
+
+impl Target {
+    /// What its textures take on the device, mip levels and the second one of a pair among them.
+    pub fn bytes(&self, canvas: (u32, u32)) -> u64 {
+        let (mut w, mut h, faces) = match self.kind {
+            TargetKind::Canvas => {
+                let (w, h) = self.size.of(canvas);
+                (w, h, 1)
+            }
+            TargetKind::Cube => (1024, 1024, 6),
+        };
+        let level = |w: u32, h: u32| u64::from(w) * u64::from(h) * self.format.bytes();
+        let mut sum = level(w, h);
+        while self.mips && (w, h) != (1, 1) {
+            (w, h) = ((w / 2).max(1), (h / 2).max(1));
+            sum += level(w, h);
+        }
+        sum * faces * if self.doubled { 2 } else { 1 }
     }
 }
 
@@ -51,5 +91,31 @@ fn target_of(read: &super::Read) -> Option<usize> {
     match read.source {
         Source::Target { index, .. } => Some(index),
         Source::Keyboard | Source::Media | Source::Nothing => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::project::{PassFormat, PassId, PassSize};
+
+    #[test]
+    fn a_mip_chain_and_a_second_texture_are_counted() {
+        let target = |doubled, mips| Target {
+            id: PassId::Image,
+            index: 0,
+            kind: TargetKind::Canvas,
+            size: Default::default(),
+            format: Default::default(),
+            doubled,
+            mips,
+            undrawn: false,
+        };
+        let plan = |t| FramePlan { targets: vec![t], ..Default::default() };
+        assert_eq!(plan(target(false, false)).target_bytes((4, 2)), 8 * 16);
+        assert_eq!(plan(target(true, false)).target_bytes((4, 2)), 2 * 8 * 16);
+        assert_eq!(plan(target(true, true)).target_bytes((4, 2)), 2 * (8 + 2 + 1) * 16);
+        let half = Target { size: PassSize::Scale(0.5), format: PassFormat::R16f, ..target(false, false) };
+        assert_eq!(plan(half).target_bytes((4, 2)), 2 * 2);
     }
 }

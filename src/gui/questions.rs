@@ -71,7 +71,7 @@ fn name_of(answer: &Answer) -> &'static str {
 fn unsaved(ui: &mut Ui, session: &Session, then: &Then, tabs: &[Tab], out: &mut Outbox) {
     ui.heading(format!("Save the changes to {}?", session.project().name));
     let what = match then {
-        Then::Open(_) => "when another project is opened",
+        Then::Open(_) | Then::OpenProject { .. } => "when another project is opened",
         Then::New => "when a new shader is begun",
         Then::Close => "when the window closes",
     };

@@ -17,6 +17,7 @@ impl Session {
         self.changed = true;
         match command {
             Command::Open(_)
+            | Command::OpenProject { .. }
             | Command::New
             | Command::Save
             | Command::SaveAs(_)
@@ -51,7 +52,7 @@ impl Session {
             }
             Command::SetScale(scale) => self.set_scale(scale),
             Command::SetFixedSize(size) => {
-                self.canvas.fixed = size;
+                (self.canvas.fixed, self.canvas.is_fixed_by_project) = (size, false);
                 self.canvas.refused = None;
             }
             Command::SetChannel { pass, index, channel } => {
@@ -95,6 +96,7 @@ impl Session {
             Command::Screenshot => self.capture(super::capture::Format::Png),
             Command::SaveTexels => self.capture(super::capture::Format::Npy),
             Command::ShowPass(pass) => self.show_pass(pass),
+            Command::WatchCosts(on) => self.run.costs.watch(on),
             Command::SetResetOnReload(on) => self.disk.reset_on_reload = on,
             Command::DismissNotice(id) => self.notices.retain(|n| n.id != id),
         }

@@ -1,6 +1,6 @@
 //! What a front end may ask of a [`Session`](super::Session), and what the session may ask back.
 
-use crate::project::{Channel, KnobValue, PassId, Tab};
+use crate::project::{Channel, KnobValue, PassId, Project, Tab};
 use std::{path::PathBuf, sync::Arc};
 
 /// Something the user did. Takes effect in [`Session::apply`](super::Session::apply); what needs time (compiling,
@@ -9,6 +9,12 @@ use std::{path::PathBuf, sync::Arc};
 pub enum Command {
     /// Opens what the command line calls PROJECT: a folder, a `.glsl` or `.json` file, or a preset's name.
     Open(String),
+    /// A project that was made in memory, with the canvas size it is made for, until another project is opened. Its origin is
+    /// [`Origin::Unsaved`](crate::project::Origin::Unsaved).
+    OpenProject {
+        project: Box<Project>,
+        size: Option<(u32, u32)>,
+    },
     /// A new project of one Image pass.
     New,
     /// Writes the project where it came from. What has no such place (new, preset, JSON) leads to
@@ -87,6 +93,8 @@ pub enum Command {
     SaveTexels,
     /// Which pass is shown and captured.
     ShowPass(PassId),
+    /// Whether what each pass costs is looked at: only then is it gathered. See [`Session::pass_costs`](super::Session::pass_costs).
+    WatchCosts(bool),
     /// Whether a reload from disk starts time and buffers anew.
     SetResetOnReload(bool),
     /// The answer to [`Session::question`](super::Session::question). One that does not fit it changes nothing.
@@ -122,6 +130,7 @@ pub enum Question {
 #[derive(Clone, Debug, PartialEq)]
 pub enum Then {
     Open(String),
+    OpenProject { project: Box<Project>, size: Option<(u32, u32)> },
     New,
     Close,
 }

@@ -28,6 +28,7 @@ impl Session {
                 self.notice(Level::Warning, "answer the question that stands first");
             }
             Command::Open(spec) => self.unless_unsaved(Then::Open(spec)),
+            Command::OpenProject { project, size } => self.unless_unsaved(Then::OpenProject { project, size }),
             Command::New => self.unless_unsaved(Then::New),
             Command::Close => self.unless_unsaved(Then::Close),
             Command::Save => {
@@ -55,6 +56,13 @@ impl Session {
     fn go_on(&mut self, then: Then) {
         match then {
             Then::Open(spec) => self.open(&spec),
+            Then::OpenProject { project, size } => {
+                self.replace(*project);
+                self.canvas.refused = None;
+                if size.is_some() {
+                    (self.canvas.fixed, self.canvas.is_fixed_by_project) = (size, true);
+                }
+            }
             Then::New => self.replace(template::project()),
             Then::Close => self.dialog.requests.push_back(Request::Exit),
         }
@@ -82,6 +90,9 @@ impl Session {
         }
         self.engine.set_timing(true);
         self.documents = Documents::new(project);
+        if std::mem::take(&mut self.canvas.is_fixed_by_project) {
+            self.canvas.fixed = None;
+        }
         // Conflicts of the project that goes.
         self.dialog.questions.clear();
         self.compile.has_program = false;
@@ -96,7 +107,7 @@ impl Session {
         self.run.keyboard = Keyboard::default();
         self.run.clock = super::clock::Clock::default();
         self.run.fps.restart();
-        self.run.pass_times.clear();
+        self.run.costs.forget();
         self.text_generation += 1;
         self.display_generation += 1;
         self.disk_is_known();

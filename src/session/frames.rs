@@ -194,12 +194,9 @@ impl Session {
         self.run.is_frame_due = false;
         self.run.keyboard.frame_painted();
         let start = Instant::now();
-        match self.engine.draw(&inputs) {
-            Ok(_) => {
+        match self.run.costs.draw(&mut self.engine, &inputs) {
+            Ok(()) => {
                 self.run.cpu_micros = start.elapsed().as_secs_f64() * 1e6;
-                if let Some(times) = self.engine.pass_times() {
-                    self.run.pass_times = times;
-                }
                 self.changed |= !self.run.clock.is_playing();
                 true
             }

@@ -11,6 +11,7 @@ pub mod capture;
 pub mod clock;
 pub mod command;
 mod compile;
+mod costs;
 pub mod date;
 mod debounce;
 mod documents;
@@ -30,5 +31,6 @@ mod worker;
 
 pub use analysis::TabAnalysis;
 pub use command::{Answer, Command, DiffLine, Question, Request, Then};
+pub use costs::{PassCosts, TimedPass};
 pub use state::{Session, SessionError, SessionOptions};
 pub use view::{CompileState, Level, Meanwhile, Notice, Outcome, TabDiagnostic, Tick, Transport};

@@ -6,6 +6,7 @@ use super::{
     clock::Clock,
     command::{Question, Request, Then},
     compile,
+    costs::{Costs, PassCosts},
     debounce::Debounce,
     documents::Documents,
     mouse::Mouse,
@@ -92,6 +93,8 @@ pub(super) struct Canvas {
     pub viewport: Option<(u32, u32)>,
     pub scale: f32,
     pub fixed: Option<(u32, u32)>,
+    /// The open project asked for that size: it goes with the project.
+    pub is_fixed_by_project: bool,
     /// A size the device did not take; not tried again.
     pub refused: Option<(u32, u32)>,
 }
@@ -154,7 +157,7 @@ pub(super) struct Run {
     pub is_device_lost: bool,
     pub fps: FpsMeter,
     pub cpu_micros: f64,
-    pub pass_times: Vec<PassTime>,
+    pub costs: Costs,
 }
 
 impl Session {
@@ -181,7 +184,7 @@ impl Session {
             analyst,
             engine,
             documents: Documents::new(super::template::project()),
-            canvas: Canvas { viewport: None, scale: 1.0, fixed: None, refused: None },
+            canvas: Canvas { viewport: None, scale: 1.0, fixed: None, is_fixed_by_project: false, refused: None },
             compile: Compile {
                 edits: Debounce::new(options.edit_debounce),
                 edited: false,
@@ -214,7 +217,7 @@ impl Session {
                 is_device_lost: false,
                 fps: FpsMeter::default(),
                 cpu_micros: 0.0,
-                pass_times: Vec::new(),
+                costs: Costs::default(),
             },
             notices: Vec::new(),
             next_notice: 0,
@@ -292,7 +295,7 @@ impl Session {
     }
 
     pub fn transport(&self) -> Transport {
-        let times = &self.run.pass_times;
+        let times = self.pass_times();
         Transport {
             playing: self.run.clock.is_playing(),
             time_secs: self.run.clock.time_secs(),
@@ -308,7 +311,14 @@ impl Session {
 
     /// Device time of each pass, of the newest frame the device has finished; empty where it cannot tell.
     pub fn pass_times(&self) -> &[PassTime] {
-        &self.run.pass_times
+        self.run.costs.newest()
+    }
+
+    /// What each pass of the running program costs, in drawing order, then those that are not drawn. Milliseconds are there once
+    /// [`Command::WatchCosts`] has been given and a frame was drawn since.
+    pub fn pass_costs(&self) -> PassCosts {
+        let passes = self.engine.pass_costs(self.project());
+        self.run.costs.of(passes, self.engine.cost_clock())
     }
 
     pub fn shown_pass(&self) -> &PassId {

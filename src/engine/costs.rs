@@ -1,0 +1,123 @@
+//! What each pass costs: what its textures hold, what it moves, and how long it takes.
+
+use super::{Engine, PassTime};
+use crate::project::{PassFormat, PassId, Project};
+
+/// Bytes a texel of a depth buffer.
+const DEPTH_BYTES: u64 = 4;
+
+/// How the milliseconds of passes are taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CostClock {
+    /// The device's timestamps before and after each pass.
+    Timestamps,
+    /// The wall's clock, on a device without timestamps: each pass is handed in and waited for by itself, less the time of handing
+    /// in nothing. See [`Engine::draw_waited`].
+    Waited,
+}
+
+/// What becomes of a pass in a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PassRole {
+    /// It is drawn, or rested in the newest frame because nothing that it reads had changed.
+    Drawn { rested: bool },
+    /// Nobody reads it: it is left out.
+    Unread,
+    /// Eddy does not draw passes of its kind.
+    Unsupported,
+}
+
+/// A pass's part of a frame, by its plan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PassCost {
+    pub pass: PassId,
+    pub role: PassRole,
+    /// Texels of its targets.
+    pub size: (u32, u32),
+    /// Of each of its targets.
+    pub formats: Vec<PassFormat>,
+    /// How often it is drawn in a frame.
+    pub steps: u32,
+    /// Bytes of its textures on the device, mip levels, the second one of a pair and the depth buffer among them.
+    pub held_bytes: u64,
+    /// Fewest bytes that a frame moves for it, all steps together: its own texels written, and those of each distinct pass that
+    /// it reads read once a step. 0 where it is not drawn.
+    pub moved_bytes: u64,
+    /// Texels that a frame draws of it, all steps together.
+    pub texels: u64,
+}
+
+impl Engine {
+    /// What each pass of the running program costs, in drawing order; then the passes of `project` that are not drawn. Empty
+    /// without a program.
+    pub fn pass_costs(&self, project: &Project) -> Vec<PassCost> {
+        let Some(program) = &self.program else { return Vec::new() };
+        let plan = &program.plan;
+        let mut costs: Vec<PassCost> = Vec::new();
+        for (index, (compiled, draw)) in program.draws.iter().zip(&plan.draws).enumerate() {
+            let targets = &plan.targets[draw.targets.clone()];
+            let size = targets[0].size.of(self.size);
+            let step = plan.traffic_of(index, self.size);
+            let steps = plan.steps_of(index);
+            let depth = if compiled.camera.is_some() { DEPTH_BYTES } else { 0 };
+            costs.push(PassCost {
+                pass: compiled.id.clone(),
+                role: PassRole::Drawn { rested: self.steps_drawn.get(index) == Some(&0) },
+                size,
+                formats: targets.iter().map(|t| t.format).collect(),
+                steps,
+                held_bytes: targets.iter().map(|t| t.bytes(self.size)).sum::<u64>()
+                    + depth * u64::from(size.0) * u64::from(size.1),
+                moved_bytes: step.bytes * u64::from(steps),
+                texels: step.texels * u64::from(steps),
+            });
+        }
+        for pass in &project.passes {
+            if costs.iter().any(|c| c.pass == pass.id) {
+                continue;
+            }
+            let is_known = !matches!(pass.id, PassId::Cubemap | PassId::Sound);
+            costs.push(PassCost {
+                pass: pass.id.clone(),
+                role: if is_known { PassRole::Unread } else { PassRole::Unsupported },
+                size: pass.settings.size.of(self.size),
+                formats: pass.settings.formats(),
+                steps: 0,
+                // What reads a pass that is not drawn reads zeros, which take their room.
+                held_bytes: plan.targets.iter().filter(|t| t.id == pass.id).map(|t| t.bytes(self.size)).sum(),
+                moved_bytes: 0,
+                texels: 0,
+            });
+        }
+        costs
+    }
+
+    /// How [`Engine::pass_times`] or [`Engine::draw_waited`] tell what passes take on this device.
+    pub fn cost_clock(&self) -> CostClock {
+        if self.gpu.has_timestamps { CostClock::Timestamps } else { CostClock::Waited }
+    }
+}
+
+/// The time of each draw, taken while a frame is drawn piece by piece.
+pub(super) struct Watch<'a> {
+    /// Milliseconds since any moment.
+    pub now: &'a mut dyn FnMut() -> f64,
+    /// Of handing in nothing and waiting for it.
+    pub floor: f64,
+    /// Of each draw, all steps together.
+    pub millis: Vec<f64>,
+}
+
+impl Watch<'_> {
+    /// Adds what a draw took since `began`.
+    pub fn add(&mut self, draw: usize, began: f64) {
+        let millis = (self.now)() - began - self.floor;
+        if let Some(sum) = self.millis.get_mut(draw) {
+            *sum += millis.max(0.0);
+        }
+    }
+
+    pub fn times<'p>(&self, passes: impl Iterator<Item = &'p PassId>) -> Vec<PassTime> {
+        passes.zip(&self.millis).map(|(pass, &gpu_millis)| PassTime { pass: pass.clone(), gpu_millis }).collect()
+    }
+}

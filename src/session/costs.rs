@@ -1,0 +1,87 @@
+//! What each pass costs, while somebody looks.
+
+use crate::engine::{CostClock, Engine, EngineError, FrameInputs, PassCost, PassTime};
+use std::{collections::VecDeque, time::Instant};
+
+/// Frames whose median counts: half a second at 60 a second.
+const FRAMES: usize = 30;
+
+/// A pass, and how long it takes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TimedPass {
+    pub cost: PassCost,
+    /// Median of the newest frames in which it was drawn; `None` before the first.
+    pub millis: Option<f64>,
+}
+
+/// All passes of the open project.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PassCosts {
+    /// In drawing order; then those that are not drawn.
+    pub passes: Vec<TimedPass>,
+    pub clock: CostClock,
+}
+
+/// Times of the newest frames.
+#[derive(Default)]
+pub(super) struct Costs {
+    newest: Vec<PassTime>,
+    is_watched: bool,
+    frames: VecDeque<Vec<PassTime>>,
+}
+
+impl Costs {
+    /// Of the newest frame the device has finished.
+    pub fn newest(&self) -> &[PassTime] {
+        &self.newest
+    }
+
+    /// Another program, or another project: what was measured is no longer of it.
+    pub fn forget(&mut self) {
+        self.newest.clear();
+        self.frames.clear();
+    }
+
+    pub fn watch(&mut self, on: bool) {
+        if self.is_watched != on {
+            self.is_watched = on;
+            self.frames.clear();
+            // While paused no other frame comes.
+            self.frames.extend((on && !self.newest.is_empty()).then(|| self.newest.clone()));
+        }
+    }
+
+    /// Draws a frame. On a device without timestamps each pass is waited for while somebody looks.
+    pub fn draw(&mut self, engine: &mut Engine, inputs: &FrameInputs) -> Result<(), EngineError> {
+        let times = if self.is_watched && engine.cost_clock() == CostClock::Waited {
+            let began = Instant::now();
+            let (_, times) = engine.draw_waited(inputs, &mut || began.elapsed().as_secs_f64() * 1e3)?;
+            Some(times)
+        } else {
+            engine.draw(inputs)?;
+            engine.pass_times()
+        };
+        let Some(times) = times else { return Ok(()) };
+        if self.is_watched {
+            self.frames.truncate(FRAMES - 1);
+            self.frames.push_front(times.clone());
+        }
+        // Waited for, the passes are no measure of a frame.
+        self.newest = if engine.cost_clock() == CostClock::Timestamps { times } else { Vec::new() };
+        Ok(())
+    }
+
+    /// Each pass with its median.
+    pub fn of(&self, passes: Vec<PassCost>, clock: CostClock) -> PassCosts {
+        let timed = |cost: PassCost| TimedPass { millis: self.median(&cost), cost };
+        PassCosts { passes: passes.into_iter().map(timed).collect(), clock }
+    }
+
+    fn median(&self, cost: &PassCost) -> Option<f64> {
+        let of_frame = |times: &Vec<PassTime>| times.iter().find(|t| t.pass == cost.pass).map(|t| t.gpu_millis);
+        // A pass that rested took nothing in that frame.
+        let mut all: Vec<f64> = self.frames.iter().filter_map(of_frame).filter(|millis| *millis > 0.0).collect();
+        all.sort_by(f64::total_cmp);
+        all.get(all.len() / 2).copied()
+    }
+}
