@@ -137,6 +137,9 @@ impl Progress {
                     )
                 }
                 Step::Cost { study, points } => format!("[{}] {study}: costs of {points} points", "#".repeat(WIDTH)),
+                Step::Known(_) | Step::Measured(_) | Step::Estimate { .. } | Step::Turn { .. } | Step::Costed(_) => {
+                    return;
+                }
             };
             let mut err = io::stderr().lock();
             // Nobody is left to tell where standard error is closed.

@@ -107,6 +107,23 @@ impl Gpu {
         Err(GpuError::NoAdapter(reasons.join("; ")))
     }
 
+    /// Another device on the adapter that `info` is of, from an instance of its own: neither waits in the other's queue. Threads
+    /// that a driver starts for it are those of the calling thread. Where the adapter is not found again, as [`Gpu::new`].
+    pub fn another(info: &wgpu::AdapterInfo, options: &GpuOptions) -> Result<Gpu, GpuError> {
+        let is_same = |other: &wgpu::AdapterInfo| {
+            (&other.name, other.backend, other.vendor, other.device, &other.device_pci_bus_id)
+                == (&info.name, info.backend, info.vendor, info.device, &info.device_pci_bus_id)
+        };
+        for descriptor in Self::instance_descriptors() {
+            let instance = wgpu::Instance::new(descriptor);
+            let adapters = pollster::block_on(instance.enumerate_adapters(info.backend.into()));
+            if let Some(adapter) = adapters.iter().find(|adapter| is_same(&adapter.get_info())) {
+                return Self::from_adapter(adapter, options);
+            }
+        }
+        Self::new(options)
+    }
+
     /// How to make the instance, best first, also where a window's surface must be made from it: Vulkan, Metal or DX12, and
     /// OpenGL only where none of them has a device, since merely opening it costs start-up time. `WGPU_BACKEND` overrides both.
     pub fn instance_descriptors() -> [wgpu::InstanceDescriptor; 2] {

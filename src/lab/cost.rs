@@ -30,6 +30,12 @@ pub enum Clock {
     Wall,
 }
 
+impl Clock {
+    fn of(rig: &Rig) -> Clock {
+        if rig.gpu().has_timestamps && !rig.gpu().is_cpu() { Clock::Timestamps } else { Clock::Wall }
+    }
+}
+
 /// Times of one method, in milliseconds a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Times {
@@ -100,21 +106,24 @@ pub struct Care {
 }
 
 /// Measures setups against each other. `size` is that of the studied grid, by whose texels costs are told; a setup's canvas may be
-/// larger, as that of a preset which solves on a coarser grid than it paints.
-pub fn interleaved(rig: &Rig, setups: &[Setup], size: (u32, u32), care: Care) -> Result<Vec<Cost>, LabError> {
-    let clock = if rig.gpu().has_timestamps && !rig.gpu().is_cpu() { Clock::Timestamps } else { Clock::Wall };
+/// larger, as that of a preset which solves on a coarser grid than it paints. `tell` gets the turns that each has had, and how
+/// many there are.
+pub fn interleaved(
+    rig: &Rig,
+    setups: &[Setup],
+    size: (u32, u32),
+    care: Care,
+    mut tell: impl FnMut(u32, u32),
+) -> Result<Vec<Cost>, LabError> {
+    let clock = Clock::of(rig);
     let floor = ["copy", "empty"].map(|name| Setup::new("floor", size).wants(&[name]).steps(name, FLOOR_STEPS));
     let mut turns = Vec::new();
     for setup in floor.iter().chain(setups) {
-        let mut running = rig.open(setup)?;
-        if clock == Clock::Timestamps {
-            running.engine().set_timing(true);
-        }
-        let batch = warm_up(&mut running, care.turn_millis)?;
-        turns.push(Turn { running, canvas: setup.size(), batch, samples: Vec::new() });
+        turns.push(Turn::begin(rig, setup, care.turn_millis, clock)?);
     }
     let repeats = care.repeats.max(MIN_REPEATS);
-    for _ in 0..repeats {
+    for done in 0..repeats {
+        tell(done, repeats);
         for turn in &mut turns {
             let millis = turn.take(clock)?;
             turn.samples.push(millis);
@@ -140,6 +149,12 @@ pub fn interleaved(rig: &Rig, setups: &[Setup], size: (u32, u32), care: Care) ->
     Ok(turns.iter_mut().zip(&times).skip(floor.len()).map(cost).collect())
 }
 
+/// Milliseconds a frame of one setup by itself, in a single turn: what it will cost about, long before all have taken turns.
+pub fn estimate(rig: &Rig, setup: &Setup, turn_millis: f64) -> Result<f64, LabError> {
+    let clock = Clock::of(rig);
+    Turn::begin(rig, setup, turn_millis, clock)?.take(clock)
+}
+
 struct Turn {
     running: Running,
     canvas: (u32, u32),
@@ -148,6 +163,16 @@ struct Turn {
 }
 
 impl Turn {
+    /// Opens a setup and warms it up.
+    fn begin(rig: &Rig, setup: &Setup, turn_millis: f64, clock: Clock) -> Result<Turn, LabError> {
+        let mut running = rig.open(setup)?;
+        if clock == Clock::Timestamps {
+            running.engine().set_timing(true);
+        }
+        let batch = warm_up(&mut running, turn_millis)?;
+        Ok(Turn { running, canvas: setup.size(), batch, samples: Vec::new() })
+    }
+
     /// Milliseconds a frame.
     fn take(&mut self, clock: Clock) -> Result<f64, LabError> {
         match clock {

@@ -37,6 +37,8 @@ pub enum LabError {
         "{project}: {case}: a bound was left in one run and not in the next of the same inputs; the device does not repeat itself"
     )]
     NotRepeated { project: String, case: String },
+    #[error("the run was stopped")]
+    Stopped,
     #[error("a plot could not be drawn: {0}")]
     Plot(String),
 }

@@ -5,6 +5,7 @@
 //! appends it to a file of results at once; [`report`] makes tables and plots of such a file. Owns no window, no argument and
 //! no environment variable: the command line hands them in. Reads the clock only to measure what a frame costs ([`cost`]).
 
+pub mod background;
 pub mod cost;
 mod error;
 pub mod flip;
@@ -12,6 +13,7 @@ pub mod metrics;
 mod number;
 pub mod picture;
 pub mod precision;
+pub mod open;
 pub mod reference;
 pub mod report;
 mod results;
@@ -20,13 +22,15 @@ pub mod run;
 pub mod setup;
 mod shard;
 pub mod stability;
+mod stop;
 pub mod studies;
 mod study;
 
 pub use error::LabError;
 pub use number::Number;
-pub use results::{CostRecord, ErrorRecord, Provenance, Record, Results};
+pub use results::{CostRecord, ErrorRecord, FILE as RESULTS_FILE, Provenance, Record, Results};
 pub use rig::{Field, Rig, Running};
 pub use setup::Setup;
 pub use shard::Shard;
+pub use stop::Stop;
 pub use study::{About, Extent, HardCase, Measured, Method, Point, Race, Study, Unit};

@@ -20,6 +20,13 @@ pub struct Provenance {
     pub extent: Extent,
     pub repeats: u32,
     pub seed: u64,
+    /// A window was drawing at the same time.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub beside_window: bool,
+}
+
+fn is_false(flag: &bool) -> bool {
+    !flag
 }
 
 /// How wrong a point is, or why that is not known.
@@ -79,6 +86,12 @@ impl Results {
                 self.cases.push(case);
             }
         }
+    }
+
+    /// Leaves out what is known of a study.
+    pub fn forget(&mut self, study: &str) {
+        self.errors.retain(|e| e.point.study != study);
+        self.costs.retain(|c| c.point.study != study);
     }
 
     pub fn error(&self, point: &Point) -> Option<&ErrorRecord> {
@@ -159,11 +172,13 @@ impl Journal {
         let mut results = Results::read(folder)?;
         for before in &results.runs {
             let extent = |e: Extent| if e == Extent::Quick { "--quick" } else { "a full run" };
+            let beside = |window| if window { "measured beside a window" } else { "measured by eddy lab" };
             for (what, theirs, ours) in [
                 ("device", before.device.as_str(), run.device.as_str()),
                 ("driver", &before.driver, &run.driver),
                 ("version", &before.version, &run.version),
                 ("extent", extent(before.extent), extent(run.extent)),
+                ("costs", beside(before.beside_window), beside(run.beside_window)),
             ] {
                 if theirs != ours {
                     let (theirs, ours) = (theirs.to_owned(), ours.to_owned());
@@ -206,6 +221,7 @@ mod tests {
             extent: Extent::Quick,
             repeats: 7,
             seed: 1,
+            beside_window: false,
         }
     }
 

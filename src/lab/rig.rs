@@ -1,6 +1,6 @@
 //! A method on the device: set up, drawn for so many frames, read back.
 
-use super::{LabError, Setup, setup::pass};
+use super::{LabError, Setup, Stop, setup::pass};
 use crate::{
     engine::{BuildOptions, Engine, FrameInputs, Pixels, Program},
     gpu::Gpu,
@@ -12,6 +12,7 @@ const FRAMES_IN_FLIGHT: u32 = 8;
 /// What measures: a device.
 pub struct Rig {
     gpu: Gpu,
+    stop: Stop,
 }
 
 /// A method's project that is being drawn.
@@ -19,6 +20,7 @@ pub struct Running {
     engine: Engine,
     name: String,
     frame: i32,
+    stop: Stop,
 }
 
 /// Texels of a pass.
@@ -26,7 +28,12 @@ pub struct Field(Pixels);
 
 impl Rig {
     pub fn new(gpu: Gpu) -> Rig {
-        Rig { gpu }
+        Rig::stoppable(gpu, Stop::default())
+    }
+
+    /// What it draws ends with [`LabError::Stopped`] once `stop` is given.
+    pub fn stoppable(gpu: Gpu, stop: Stop) -> Rig {
+        Rig { gpu, stop }
     }
 
     pub fn gpu(&self) -> &Gpu {
@@ -41,7 +48,7 @@ impl Rig {
         let options = BuildOptions { wanted: setup.wanted().to_vec(), skip: setup.skips() };
         let built = Program::build(&self.gpu, &project, &media, &options);
         engine.set_program(built.map_err(|e| LabError::build(setup.folder(), e))?.program)?;
-        Ok(Running { engine, name: setup.folder().into(), frame: 0 })
+        Ok(Running { engine, name: setup.folder().into(), frame: 0, stop: self.stop.clone() })
     }
 
     /// A setup's pass after so many frames.
@@ -66,6 +73,7 @@ impl Running {
 
     /// Draws a frame; does not wait.
     pub(super) fn draw(&mut self) -> Result<(), LabError> {
+        self.stop.check()?;
         self.engine.draw(&FrameInputs::at_fixed_step(self.frame, 60.0))?;
         self.frame += 1;
         Ok(())

@@ -37,11 +37,12 @@ fn provenance(out: &mut String, sections: &[(Table, Option<String>)], results: &
         let extent = if run.extent == Extent::Quick { "a quick run" } else { "a full run" };
         let _ = writeln!(
             out,
-            "<p class=\"quiet\">{} &middot; Eddy {} &middot; {extent} &middot; {} turns of each method &middot; seed {}</p>",
+            "<p class=\"quiet\">{} &middot; Eddy {} &middot; {extent} &middot; {} turns of each method &middot; seed {}{}</p>",
             escaped(&run.driver),
             escaped(&run.version),
             run.repeats,
-            run.seed
+            run.seed,
+            if run.beside_window { " &middot; <b>costs measured while a window was drawing</b>" } else { "" }
         );
     }
     let clock = sections.iter().flat_map(|(t, _)| &t.rows).find_map(|r| r.cost.map(|c| c.clock));

@@ -1,13 +1,15 @@
 //! What was measured, for people: a CSV and a plot a study, and one page of all.
 
+mod axis;
 mod csv;
 mod html;
 mod plot;
 mod table;
 
 use super::{LabError, Results, Study};
+pub use axis::{decades, tick};
 use std::{fs, path::Path};
-pub use table::{Row, Table};
+pub use table::{Look, Row, TARGET, Table, sign};
 
 /// Writes `index.html` and, of each study with any result, `NAME.csv`, `NAME.svg` and `NAME.png`. Gives the names of the files.
 pub fn write(out: &Path, studies: &[&dyn Study], results: &Results) -> Result<Vec<String>, LabError> {

@@ -18,7 +18,7 @@ pub struct Row {
     pub measured: Option<Measured>,
     pub trouble: Option<String>,
     pub cost: Option<Cost>,
-    /// Milliseconds for the study's unit.
+    /// Milliseconds for the study's unit; where there is no `cost`, an estimate.
     pub millis: Option<Times>,
     /// Nothing that passes its hard cases is both cheaper and closer.
     pub is_frontier: bool,
@@ -48,9 +48,41 @@ impl Row {
         (x.is_finite() && y.is_finite() && x > 0.0 && y > 0.0).then_some((x, y))
     }
 
+    pub fn look(&self) -> Look {
+        match (self.passes(), self.is_dominated) {
+            (false, _) => Look::Hollow,
+            (true, true) => Look::Grey,
+            (true, false) => Look::Full,
+        }
+    }
+
     pub fn value(&self, name: &str) -> Option<f64> {
         self.measured.as_ref()?.values.get(name).map(|Number(x)| *x)
     }
+}
+
+/// How a point's sign is filled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Look {
+    /// Nothing is cheaper and closer.
+    Full,
+    /// Something is.
+    Grey,
+    /// It fails a hard case.
+    Hollow,
+}
+
+/// Corners of the sign of the nth method about (0, 0), y down; the last is the first. About 8 from the middle.
+pub fn sign(n: usize) -> Vec<[f64; 2]> {
+    // Methods of the same colour have different signs.
+    let sign = (n + n / COLOURS.len()) % 6;
+    let (count, turn) = [(16, 0.0), (4, 0.125), (3, -0.25), (4, 0.0), (3, 0.25), (6, 0.0)][sign];
+    let radius = [7.5, 9.0, 9.5, 8.5, 9.5, 8.0][sign];
+    let corner = |i: i32| {
+        let angle = std::f64::consts::TAU * (f64::from(i) / f64::from(count) + turn);
+        [radius * angle.cos(), radius * angle.sin()]
+    };
+    (0..=count).map(corner).collect()
 }
 
 /// What a method comes to on several grids.
@@ -87,6 +119,15 @@ pub enum Reach {
 impl Table {
     /// `None` where nothing of the study is known.
     pub fn new(study: &dyn Study, results: &Results) -> Option<Table> {
+        Self::with_estimates(study, results, |_| None)
+    }
+
+    /// As [`Table::new`], where `estimate` stands for the cost of a point that has none yet: milliseconds a frame.
+    pub fn with_estimates(
+        study: &dyn Study,
+        results: &Results,
+        estimate: impl Fn(&Point) -> Option<f64>,
+    ) -> Option<Table> {
         let extent = results.runs.iter().map(|r| r.extent).max_by_key(|e| *e == Extent::Full)?;
         let (about, grid) = (study.about(), study.main_grid(extent));
         let points = study.points(extent);
@@ -96,7 +137,9 @@ impl Table {
                 let Some(record) = results.error(point) else { continue };
                 let cost = results.cost(point).copied();
                 let measured = record.measured.clone();
-                let millis = cost.zip(measured.as_ref()).map(|(cost, m)| cost.frame.by(m.frames_per_unit));
+                let estimated = || estimate(point).map(|ms| Times { median: ms, min: ms, max: ms });
+                let frame = cost.map(|cost| cost.frame).or_else(estimated);
+                let millis = frame.zip(measured.as_ref()).map(|(frame, m)| frame.by(m.frames_per_unit));
                 rows.push(Row {
                     method,
                     point: point.clone(),

@@ -1,0 +1,48 @@
+//! A point of a study as a project that stands by itself: to be looked at, turned, and saved.
+
+use super::{LabError, Point, Study};
+use crate::{
+    media,
+    project::{FillKind, FillValue, PassId, Project},
+};
+
+/// A point's project.
+pub struct Opened {
+    /// With the point's settings in it. What the study gives its passes in memory goes with the project, and is written with it.
+    pub project: Project,
+    /// Of its canvas.
+    pub size: (u32, u32),
+    /// The pass that is measured.
+    pub pass: PassId,
+}
+
+/// The project of a point of a study.
+pub fn project(study: &dyn Study, point: &Point) -> Result<Opened, LabError> {
+    let setup = study.setup(point);
+    let (mut project, media) = setup.project()?;
+    for pass in &mut project.passes {
+        for kind in FillKind::ALL {
+            let Some(fill) = pass.fill_mut(kind) else { continue };
+            let FillValue::File(name) = &fill.value else { continue };
+            let Some(texels) = media.fill(name) else { continue };
+            fill.value = FillValue::Held { name: name.clone(), npy: media::npy_bytes(texels).into() };
+        }
+    }
+    // As a person's hand leaves them, which is how they are read again.
+    for knob in project.knobs().list {
+        if project.knob_values.contains_key(&knob.name) {
+            let value = knob.value(&project.knob_values);
+            project.turn_knob(&knob, value);
+        }
+    }
+    let about = study.about();
+    let method = study.methods().iter().find(|m| m.name == point.method);
+    let title = method.map_or(point.method.as_str(), |m| m.title);
+    project.name = format!("{} {} {}", about.name, point.method, point.setting);
+    project.info.description = format!(
+        "{}: {title}, {} = {}, on {} x {} texels.",
+        about.title, about.knob, point.setting, point.grid, point.grid
+    );
+    let pass = setup.wanted().first().cloned().unwrap_or(PassId::Image);
+    Ok(Opened { project, size: setup.size(), pass })
+}
