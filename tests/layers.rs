@@ -27,7 +27,7 @@ const LAYERS: &[(&str, &[&str])] = &[
 
 /// Crates that only some layers may name.
 const CRATES: &[(&[&str], &[&str])] = &[
-    (&["egui", "egui_winit", "egui_wgpu", "winit", "rfd"], &["gui"]),
+    (&["egui", "egui_winit", "egui_wgpu", "egui_plot", "winit", "rfd"], &["gui"]),
     (&["clap"], &["cli"]),
     (&["anyhow"], &["cli", "main"]),
     // `gpu` makes pipelines of modules and `engine` hands them over; what is in one is known to `glsl` alone.

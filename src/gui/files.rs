@@ -100,6 +100,8 @@ impl Files {
         let (title, action) = match &typing.pick {
             Pick::OpenFolder | Pick::OpenFile => ("Open a project", "Open"),
             Pick::SaveAs(_) => ("Save into a folder", "Save"),
+            Pick::LabFolder => ("Keep the lab's results in a folder", "Keep"),
+            Pick::LabReport => ("Write the lab's report into a folder", "Write"),
             Pick::Picture { .. } => ("A picture for the channel", "Use"),
         };
         let modal = Modal::new(Id::unique("path")).frame(theme::dialog(ui.style())).show(ui.ctx(), |ui| {
@@ -161,6 +163,8 @@ fn help(pick: &Pick) -> &'static str {
             "A folder with eddy.toml, a folder of .glsl files, one .glsl file, or a Shadertoy .json"
         }
         Pick::SaveAs(_) => "A folder for the project; it is made if it is not there",
+        Pick::LabFolder => "A folder for results.jsonl; a run that was stopped there goes on",
+        Pick::LabReport => "An empty or a new folder for tables, plots and index.html",
         Pick::Picture { .. } => "png, jpg, webp, bmp, tga, gif or hdr",
     }
 }
@@ -182,6 +186,8 @@ fn desktop_dialog(pick: &Pick, start: Option<PathBuf>) -> Option<PathBuf> {
         Pick::OpenFile => {
             dialog.set_title("Open a shader").add_filter("Shaders", &["glsl", "frag", "json", "toml"]).pick_file()
         }
+        Pick::LabFolder => dialog.set_title("Keep the lab's results in a folder").pick_folder(),
+        Pick::LabReport => dialog.set_title("Write the lab's report into a folder").pick_folder(),
         Pick::SaveAs(name) => dialog.set_title("Save into a folder").set_file_name(name).save_file(),
         Pick::Picture { .. } => {
             dialog.set_title("A picture for the channel").add_filter("Pictures", &PICTURES).pick_file()

@@ -7,6 +7,7 @@
 mod app;
 mod channels;
 mod code;
+mod costs;
 mod editor;
 mod files;
 mod gallery;
@@ -15,6 +16,7 @@ mod help;
 mod icons;
 mod keys;
 mod knobs;
+mod lab;
 mod outbox;
 mod problems;
 mod questions;

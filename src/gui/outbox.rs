@@ -14,6 +14,10 @@ pub enum Pick {
     OpenFile,
     /// A folder to save the project in, and a name for it.
     SaveAs(String),
+    /// A folder where the lab's results are kept.
+    LabFolder,
+    /// A folder for the lab's report.
+    LabReport,
     /// A picture for a channel of the pass in front.
     Picture { channel: usize },
 }

@@ -3,8 +3,10 @@
 use super::{
     channels,
     code::CodePanel,
+    costs,
     files::{Files, Picked},
     gallery, help, knobs,
+    lab::Lab,
     outbox::{Outbox, Pick, Wish},
     problems, questions,
     report::Report,
@@ -32,6 +34,10 @@ pub struct Shell {
     viewport: Viewport,
     code: CodePanel,
     files: Files,
+    lab: Lab,
+    /// The lab's panel is open; a run goes on without it.
+    lab_open: bool,
+    costs_open: bool,
     thumbnails: Thumbnails,
     gallery: bool,
     /// The picture ran when the gallery covered it, and goes on when it is uncovered.
@@ -55,6 +61,9 @@ impl Shell {
             viewport,
             code: CodePanel::new(),
             files: Files::new(wake.clone()),
+            lab: Lab::new(&gpu, wake.clone()),
+            lab_open: false,
+            costs_open: false,
             thumbnails: Thumbnails::new(gpu, wake),
             gallery,
             runs_behind_gallery: gallery,
@@ -89,6 +98,7 @@ impl Shell {
     /// One frame. What the session is to do comes back.
     pub fn show(&mut self, ui: &mut Ui, session: &Session) -> Vec<Command> {
         self.thumbnails.update(ui.ctx());
+        self.lab.update();
         let mut out = Outbox::default();
         out.wishes.append(&mut self.wishes);
         let asking = session.question().is_some();
@@ -124,7 +134,7 @@ impl Shell {
         Panel::top("top")
             .exact_size(38.0)
             .frame(Frame::NONE.fill(theme::PANEL).inner_margin(Margin::symmetric(8, 0)))
-            .show(ui, |ui| top_bar::show(ui, session, self.gallery, out));
+            .show(ui, |ui| top_bar::show(ui, session, self.gallery, self.lab_open, out));
         if self.gallery {
             let can_close = session.project().origin != Origin::Unsaved || session.is_dirty();
             let frame = Frame::NONE.fill(theme::BACKGROUND);
@@ -137,6 +147,17 @@ impl Shell {
             .exact_size(36.0)
             .frame(Frame::NONE.fill(theme::PANEL).inner_margin(Margin::symmetric(8, 0)))
             .show(ui, |ui| transport::show(ui, session, self.viewport.shape(), out));
+        if let Some(tab) = self.lab.take_tab(session) {
+            out.wishes.push(Wish::GoTo(tab, Some((0, 0))));
+        }
+        if self.lab_open {
+            Panel::bottom("lab")
+                .default_size(window.height() * 0.48)
+                .size_range(150.0..=(window.height() - 180.0).max(150.0))
+                .resizable(true)
+                .frame(Frame::NONE.fill(theme::PANEL).inner_margin(Margin { left: 10, right: 8, top: 5, bottom: 6 }))
+                .show(ui, |ui| self.lab.show(ui, out));
+        }
         // A tall window has the code below the picture, where lines are long enough to read.
         let tall = window.height() > window.width() * 1.1;
         let side = if tall {
@@ -150,12 +171,14 @@ impl Shell {
         };
         side.resizable(true).frame(Frame::NONE.fill(theme::PANEL)).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
+            // The lab takes its height from the code, and sliders and channels leave their share of it.
+            let height = if self.lab_open { ui.available_height() } else { window.height() };
             Panel::bottom("channels")
-                .exact_size(channels::height(window.height()))
+                .exact_size(channels::height(height))
                 .frame(Frame::NONE.fill(theme::PANEL))
                 .show_separator_line(false)
                 .show(ui, |ui| channels::show(ui, session, self.code.current(), &mut self.thumbnails, out));
-            if let Some(height) = knobs::height(ui, session, window.height()) {
+            if let Some(height) = knobs::height(ui, session, height) {
                 Panel::bottom("knobs")
                     .exact_size(height)
                     .frame(Frame::NONE.fill(theme::PANEL).inner_margin(Margin::symmetric(8, 0)))
@@ -164,7 +187,18 @@ impl Shell {
             }
             CentralPanel::default().frame(Frame::NONE).show(ui, |ui| self.code.show(ui, session, out));
         });
-        CentralPanel::default().frame(Frame::NONE).show(ui, |ui| self.viewport.show(ui, session, false, out));
+        CentralPanel::default().frame(Frame::NONE).show(ui, |ui| {
+            if self.costs_open {
+                let height = ui.available_height();
+                Panel::bottom("costs")
+                    .default_size((height * 0.42).min(260.0))
+                    .size_range(84.0..=(height - 60.0).max(84.0))
+                    .resizable(true)
+                    .frame(Frame::NONE.fill(theme::PANEL).inner_margin(Margin { left: 8, right: 6, top: 2, bottom: 4 }))
+                    .show(ui, |ui| costs::show(ui, session, out));
+            }
+            CentralPanel::default().frame(Frame::NONE).show(ui, |ui| self.viewport.show(ui, session, false, out));
+        });
     }
 
     /// The window's own keys, taken before any widget sees them.
@@ -234,6 +268,8 @@ impl Shell {
                 self.close_gallery(out);
             }
             Pick::SaveAs(_) => out.ask(Command::SaveAs(path)),
+            Pick::LabFolder => self.lab.keep_in(path),
+            Pick::LabReport => self.lab.save_report(path),
             Pick::Picture { channel } => {
                 if let Tab::Pass(pass) = self.code.current() {
                     let media = Media::Picked(path);
@@ -271,6 +307,16 @@ impl Shell {
             Action::Fullscreen => {
                 self.fullscreen = !self.fullscreen;
                 self.viewport.focus();
+            }
+            Action::Lab => {
+                self.lab_open = self.gallery || !self.lab_open;
+                if self.gallery {
+                    self.close_gallery(out);
+                }
+            }
+            Action::Costs => {
+                self.costs_open = !self.costs_open;
+                out.ask(Command::WatchCosts(self.costs_open));
             }
             Action::Help => self.help = !self.help,
             Action::Find => self.code.open_find(),
@@ -313,6 +359,12 @@ impl Shell {
         report.say_if_new("question", json!({ "kind": question }));
         let dirty: Vec<String> = session.tabs().iter().filter(|t| session.is_tab_dirty(t)).map(Tab::title).collect();
         report.say_if_new("dirty", json!({ "dirty": session.is_dirty(), "tabs": dirty }));
+        if self.lab_open {
+            report.say_if_new("lab", self.lab.report());
+        }
+        if self.costs_open {
+            report.say_if_new("costs", costs::report(session));
+        }
         report.layout(window, transport.resolution, scale, &self.places.areas(scale));
         let frame = json!({
             "frame": transport.frame,

@@ -12,7 +12,7 @@ use crate::{
 };
 use egui::{Align, Align2, Button, FontId, Layout, Sense, Ui};
 
-pub fn show(ui: &mut Ui, session: &Session, gallery: bool, out: &mut Outbox) {
+pub fn show(ui: &mut Ui, session: &Session, gallery: bool, lab: bool, out: &mut Outbox) {
     ui.spacing_mut().item_spacing.x = 4.0;
     ui.horizontal_centered(|ui| {
         let item =
@@ -43,6 +43,18 @@ pub fn show(ui: &mut Ui, session: &Session, gallery: bool, out: &mut Outbox) {
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             item(ui, "button:help", "?", "Keys", Action::Help, false, out);
+            // Where there is room beside the rest.
+            if ui.available_width() > 90.0 {
+                item(
+                    ui,
+                    "button:lab",
+                    "Lab",
+                    "Measure methods: speed against error",
+                    Action::Lab,
+                    lab && !gallery,
+                    out,
+                );
+            }
             if !gallery {
                 let full = icons::button(ui, Icon::Expand, "Full screen")
                     .on_hover_text(format!("Picture alone, full screen ({})", shortcuts::hint(Action::Fullscreen)));

@@ -42,7 +42,7 @@ pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
             value(ui, 58.0, &format!("{:.1} fps", transport.fps), "Frames a second, over the last half second");
         }
         if width > 400.0 {
-            cost(ui, session);
+            cost(ui, session, out);
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
@@ -63,13 +63,19 @@ fn value(ui: &mut Ui, width: f32, text: &str, tip: &str) {
 }
 
 /// Milliseconds a frame; on hover, where they go.
-fn cost(ui: &mut Ui, session: &Session) {
+fn cost(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     let transport = session.transport();
     let (text, of) = match transport.gpu_millis {
         Some(millis) => (format!("{millis:.2} ms"), "graphics device"),
         None => (format!("{:.2} ms", transport.cpu_micros / 1000.0), "processor"),
     };
-    let (rect, response) = ui.allocate_exact_size(vec2(70.0, 24.0), egui::Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(vec2(70.0, 24.0), egui::Sense::click());
+    if out.clicked("button:costs", &response) {
+        out.act(Action::Costs);
+    }
+    if response.hovered() {
+        ui.painter().rect_filled(rect.expand2(vec2(4.0, 0.0)), 4.0, theme::BUTTON);
+    }
     ui.painter().text(
         rect.right_center(),
         egui::Align2::RIGHT_CENTER,
@@ -92,6 +98,10 @@ fn cost(ui: &mut Ui, session: &Session) {
         if session.pass_times().is_empty() {
             ui.colored_label(theme::WEAK, "This device does not say what each pass takes.");
         }
+        ui.colored_label(
+            theme::WEAK,
+            format!("Click for a table with sizes and bytes ({})", shortcuts::hint(Action::Costs)),
+        );
     });
 }
 
@@ -170,6 +180,7 @@ fn options(ui: &mut Ui, session: &Session, out: &mut Outbox) {
             ("Save a picture (PNG)", Action::Screenshot),
             ("Save float texels (.npy)", Action::SaveTexels),
             ("Picture alone, full screen", Action::Fullscreen),
+            ("What each pass costs", Action::Costs),
             ("Compile now", Action::Compile),
         ] {
             let item = Button::new(label).shortcut_text(shortcuts::hint(action));

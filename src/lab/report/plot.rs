@@ -157,6 +157,7 @@ impl Look {
     }
 }
 
+/// The nth method's sign in whole pixels.
 fn corners(n: usize) -> Vec<(i32, i32)> {
     sign(n).into_iter().map(|[x, y]| (x.round() as i32, y.round() as i32)).collect()
 }

@@ -1,0 +1,264 @@
+//! The table under the picture: what each pass of the open project costs. Nothing is gathered while it is closed.
+
+use super::{
+    icons::{self, Icon},
+    outbox::Outbox,
+    shortcuts::{self, Action},
+    theme,
+};
+use crate::{
+    engine::{CostClock, PassRole},
+    session::{PassCosts, Session, TimedPass},
+};
+use egui::{Align2, Color32, FontId, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
+
+const ROW: f32 = 19.0;
+const HEADER: f32 = 26.0;
+const SIZE: f32 = 12.0;
+
+/// Right edges of the columns, as distances from the table's right edge; the name takes what is left.
+struct Columns {
+    size: Option<f32>,
+    format: Option<f32>,
+    millis: f32,
+    held: f32,
+    moved: f32,
+}
+
+impl Columns {
+    /// Narrow tables leave out what matters least.
+    fn of(width: f32) -> Columns {
+        let (moved, held, millis) = (8.0, 84.0, 160.0);
+        let has_size = width > 400.0;
+        Columns {
+            moved,
+            held,
+            millis,
+            size: has_size.then_some(236.0),
+            // Where it begins: it is text.
+            format: (width > 520.0).then_some(384.0),
+        }
+    }
+
+    fn name_end(&self) -> f32 {
+        self.format.or(self.size.map(|s| s + 84.0)).unwrap_or(self.millis + 66.0)
+    }
+}
+
+pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+    let costs = session.pass_costs();
+    ui.spacing_mut().item_spacing.y = 0.0;
+    header(ui, &costs, out);
+    let columns = Columns::of(ui.available_width());
+    line(ui, &columns, ["Pass", "Format", "Size", "Time", "Held", "Moved"], theme::WEAK, theme::WEAK);
+    let list_height = (ui.available_height() - ROW - 6.0).max(ROW);
+    let most = costs.passes.iter().filter_map(|p| p.millis).fold(0.0, f64::max);
+    ScrollArea::vertical().id_salt("costs").max_height(list_height).auto_shrink([false, true]).show_rows(
+        ui,
+        ROW,
+        costs.passes.len(),
+        |ui, rows| {
+            for pass in &costs.passes[rows] {
+                row(ui, &columns, pass, most, out);
+            }
+        },
+    );
+    sum(ui, &columns, &costs, out);
+}
+
+fn header(ui: &mut Ui, costs: &PassCosts, out: &mut Outbox) {
+    ui.allocate_ui(vec2(ui.available_width(), HEADER), |ui| {
+        ui.horizontal_centered(|ui| {
+            ui.label(RichText::new("Costs of a frame").color(theme::STRONG));
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                let close = icons::button(ui, Icon::Close, "Close");
+                let close = close.on_hover_text(format!("Close ({})", shortcuts::hint(Action::Costs)));
+                if out.clicked("costs:close", &close) {
+                    out.act(Action::Costs);
+                }
+                let (short, long) = match costs.clock {
+                    CostClock::Timestamps => (
+                        "device timestamps",
+                        "Milliseconds between the device's timestamps before and after each pass: the median of the newest 30 frames",
+                    ),
+                    CostClock::Waited => (
+                        "passes one by one",
+                        "This device has no timestamps. While this table is open each pass is handed in and waited for by itself, \
+                         by the wall's clock, less the time of handing in nothing: the median of the newest 30 frames. \
+                         Frames take longer so",
+                    ),
+                };
+                let text = RichText::new(short).size(11.5).color(theme::WEAK);
+                ui.add(egui::Label::new(text).truncate()).on_hover_text(long);
+            });
+        });
+    });
+}
+
+/// One row of texts, in the order of the columns.
+fn line(ui: &mut Ui, columns: &Columns, texts: [&str; 6], name: Color32, color: Color32) -> egui::Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
+    if response.hovered() {
+        ui.painter().rect_filled(rect, 0.0, theme::RAISED);
+    }
+    texts_in(ui, columns, rect, texts, name, color);
+    response
+}
+
+fn texts_in(ui: &Ui, columns: &Columns, rect: Rect, texts: [&str; 6], name: Color32, color: Color32) {
+    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+    let [title, format, size, millis, held, moved] = texts;
+    let y = rect.center().y;
+    let mut job = egui::text::LayoutJob::simple_singleline(title.to_owned(), FontId::proportional(12.5), name);
+    let room = rect.width() - columns.name_end() - 12.0;
+    job.wrap = egui::text::TextWrapping::truncate_at_width(room.max(20.0));
+    let galley = painter.layout_job(job);
+    painter.galley(pos2(rect.left() + 4.0, y - galley.size().y / 2.0), galley, name);
+    let number = |end: f32, text: &str| {
+        painter.text(pos2(rect.right() - end, y), Align2::RIGHT_CENTER, text, FontId::monospace(SIZE), color);
+    };
+    if let Some(begin) = columns.format {
+        let at = pos2(rect.right() - begin, y);
+        painter.text(at, Align2::LEFT_CENTER, format, FontId::monospace(SIZE), color);
+    }
+    if let Some(end) = columns.size {
+        number(end, size);
+    }
+    number(columns.millis, millis);
+    number(columns.held, held);
+    number(columns.moved, moved);
+}
+
+fn row(ui: &mut Ui, columns: &Columns, pass: &TimedPass, most: f64, out: &mut Outbox) {
+    let cost = &pass.cost;
+    let mut title = cost.pass.title();
+    if cost.steps > 1 {
+        title += &format!("  ×{}", cost.steps);
+    }
+    let (why, is_drawn) = match cost.role {
+        PassRole::Drawn { rested: false } => (None, true),
+        PassRole::Drawn { rested: true } => (Some("at rest"), true),
+        PassRole::Unread => (Some("not drawn"), false),
+        PassRole::Unsupported => (Some("not played"), false),
+    };
+    let millis = match (why, pass.millis) {
+        (Some(why), _) => why.to_owned(),
+        (None, Some(ms)) => format!("{ms:.3} ms"),
+        (None, None) => "–".into(),
+    };
+    let formats: Vec<&str> = cost.formats.iter().map(|f| f.name()).collect();
+    let (held, moved) = (bytes(cost.held_bytes), bytes(cost.moved_bytes));
+    let size = format!("{}×{}", cost.size.0, cost.size.1);
+    let color = if is_drawn { theme::TEXT } else { theme::WEAK };
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
+    if response.hovered() {
+        ui.painter().rect_filled(rect, 0.0, theme::RAISED);
+    }
+    if let (None, Some(ms)) = (why, pass.millis) {
+        // How it stands to the dearest, behind its name.
+        let width = (rect.width() - columns.name_end() - 12.0).max(0.0) * (ms / most.max(1e-9)) as f32;
+        let bar = Rect::from_min_size(rect.min + vec2(0.0, 2.0), vec2(width, ROW - 4.0));
+        ui.painter().rect_filled(bar, 2.0, theme::ACCENT_FILL.gamma_multiply(0.6));
+    }
+    let joined = formats.join(" ");
+    let format = if formats.len() > 1 { format!("{}×{}", formats[0], formats.len()) } else { joined.clone() };
+    texts_in(ui, columns, rect, [&title, &format, &size, &millis, &held, &moved], color, color);
+    out.place(format!("cost:{}", cost.pass.title()), rect);
+    response.on_hover_ui(|ui| {
+        ui.label(cost.pass.title());
+        match cost.role {
+            PassRole::Drawn { rested: false } => {}
+            PassRole::Drawn { rested: true } => {
+                drop(ui.label("At rest: nothing that it reads has changed since it was drawn."));
+            }
+            PassRole::Unread => drop(ui.label("Not drawn: no picture that is shown needs it.")),
+            PassRole::Unsupported => {
+                drop(ui.label("Eddy does not draw passes of this kind; what reads it reads black."))
+            }
+        }
+        ui.label(format!("{} × {} texels, {joined}, {} to draw a frame", cost.size.0, cost.size.1, count(cost.texels)));
+        ui.label(format!("{held} held: its textures, mip levels, the second one of a pair, the depth buffer"));
+        ui.label(format!(
+            "{moved} moved a frame at least: its texels written, and those of each pass it reads read once"
+        ));
+        if let (Some(ms), true) = (pass.millis, cost.moved_bytes > 0) {
+            ui.label(format!("{:.2} GB/s of these", cost.moved_bytes as f64 / ms / 1e6));
+        }
+    });
+}
+
+fn sum(ui: &mut Ui, columns: &Columns, costs: &PassCosts, out: &mut Outbox) {
+    let is_at_work = |p: &&TimedPass| p.cost.role == PassRole::Drawn { rested: false };
+    let at_work: Vec<&TimedPass> = costs.passes.iter().filter(is_at_work).collect();
+    let left: usize = costs.passes.len() - at_work.len();
+    let millis: f64 = at_work.iter().filter_map(|p| p.millis).sum();
+    let held: u64 = costs.passes.iter().map(|p| p.cost.held_bytes).sum();
+    let moved: u64 = at_work.iter().map(|p| p.cost.moved_bytes).sum();
+    let title = match left {
+        0 => format!("{} passes", at_work.len()),
+        n => format!("{} of {} passes drawn", at_work.len(), at_work.len() + n),
+    };
+    let texts = [title.as_str(), "", "", &format!("{millis:.3} ms"), &bytes(held), &bytes(moved)];
+    ui.painter().hline(ui.max_rect().x_range(), ui.cursor().top(), egui::Stroke::new(1.0, theme::LINE));
+    let response = line(ui, columns, texts, theme::STRONG, theme::STRONG);
+    out.place("costs:sum", response.rect);
+}
+
+/// Bytes as people read them, in powers of 1024.
+fn bytes(n: u64) -> String {
+    const KIB: f64 = 1024.0;
+    let x = n as f64;
+    match x {
+        x if x < KIB => format!("{n} B"),
+        x if x < KIB * KIB => format!("{:.1} KiB", x / KIB),
+        x if x < KIB * KIB * KIB => format!("{:.1} MiB", x / KIB / KIB),
+        x => format!("{:.2} GiB", x / KIB / KIB / KIB),
+    }
+}
+
+fn count(texels: u64) -> String {
+    match texels {
+        n if n < 10_000 => format!("{n} texels"),
+        n if n < 1_000_000 => format!("{:.1} thousand texels", n as f64 / 1e3),
+        n => format!("{:.2} million texels", n as f64 / 1e6),
+    }
+}
+
+/// What the table says, for scripts that drive the window.
+pub fn report(session: &Session) -> serde_json::Value {
+    let costs = session.pass_costs();
+    let passes: Vec<serde_json::Value> = costs
+        .passes
+        .iter()
+        .map(|p| {
+            serde_json::json!({
+                "pass": p.cost.pass.title(),
+                "drawn": matches!(p.cost.role, PassRole::Drawn { rested: false }),
+                "timed": p.millis.is_some(),
+                "held_bytes": p.cost.held_bytes,
+                "moved_bytes": p.cost.moved_bytes,
+            })
+        })
+        .collect();
+    serde_json::json!({ "passes": passes })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bytes_are_read_at_a_glance() {
+        let said = [0, 1023, 1536, 3_686_400, 5 << 30].map(bytes);
+        assert_eq!(said, ["0 B", "1023 B", "1.5 KiB", "3.5 MiB", "5.00 GiB"]);
+        assert_eq!([96, 230_400, 8_294_400].map(count), ["96 texels", "230.4 thousand texels", "8.29 million texels"]);
+    }
+
+    #[test]
+    fn a_narrow_table_keeps_time_and_bytes() {
+        assert!(Columns::of(300.0).size.is_none() && Columns::of(300.0).format.is_none());
+        let wide = Columns::of(640.0);
+        assert!(wide.size.is_some() && wide.format.is_some());
+        assert!(300.0 - Columns::of(300.0).name_end() > 60.0 && 640.0 - wide.name_end() > 200.0);
+    }
+}

@@ -1,0 +1,138 @@
+//! The row over the plot: what is run, how far it is, and where it goes.
+
+use super::{Folder, Lab, model};
+use crate::{
+    gui::{
+        icons::{self, Icon},
+        outbox::{Outbox, Pick},
+        shortcuts::{self, Action},
+        theme,
+    },
+    lab::Extent,
+};
+use egui::{Align, Button, ComboBox, Layout, Popup, ProgressBar, RichText, Ui, vec2};
+
+const HEIGHT: f32 = 28.0;
+
+pub fn show(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
+    ui.allocate_ui_with_layout(vec2(ui.available_width(), HEIGHT), Layout::left_to_right(Align::Center), |ui| {
+        study(ui, lab, out);
+        extent(ui, lab, out);
+        start(ui, lab, out);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let close = icons::button(ui, Icon::Close, "Close the lab");
+            let close = close.on_hover_text(format!("Close the lab ({})", shortcuts::hint(Action::Lab)));
+            if out.clicked("lab:close", &close) {
+                out.act(Action::Lab);
+            }
+            more(ui, lab, out);
+            let is_known = !lab.known(lab.extent).results.errors.is_empty();
+            let save = ui.add_enabled(is_known && lab.saving.is_none(), Button::new("Save report…"));
+            let save = save.on_hover_text(
+                "Tables, plots and one HTML page of all that is measured, as `eddy lab --out` writes them",
+            );
+            if out.clicked("lab:save-report", &save) {
+                Lab::pick(out, Pick::LabReport);
+            }
+            progress(ui, lab);
+        });
+    });
+}
+
+fn study(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
+    let mut chosen = lab.study;
+    let response = ComboBox::from_id_salt("lab study")
+        .width(170.0)
+        .height(420.0)
+        .selected_text(lab.study().about().title)
+        .show_ui(ui, |ui| {
+            for (n, study) in lab.studies.iter().enumerate() {
+                let about = study.about();
+                let entry = ui.selectable_label(n == lab.study, about.title).on_hover_text(about.text);
+                if out.clicked(&format!("lab:study:{}", about.name), &entry) {
+                    chosen = n;
+                }
+            }
+        })
+        .response
+        .on_hover_text(lab.study().about().text);
+    out.place("lab:study", response.rect);
+    lab.choose(chosen, lab.extent);
+}
+
+fn extent(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
+    ui.spacing_mut().item_spacing.x = 2.0;
+    let mut chosen = lab.extent;
+    for (extent, name, tip) in [
+        (Extent::Quick, "Quick", "Small grids and every second setting: seconds"),
+        (Extent::Full, "Full", "The grids of the report and every setting: minutes"),
+    ] {
+        let button = ui.add(Button::new(name).selected(lab.extent == extent)).on_hover_text(tip);
+        if out.clicked(&format!("lab:{}", super::name_of(extent)), &button) {
+            chosen = extent;
+        }
+    }
+    lab.choose(lab.study, chosen);
+    ui.spacing_mut().item_spacing.x = 6.0;
+}
+
+fn start(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
+    if let Some(run) = &lab.run {
+        let is_stopping = run.background.is_stopping();
+        let button = ui.add_enabled(!is_stopping, Button::new(if is_stopping { "Stopping…" } else { "Stop" }));
+        let button = button.on_hover_text("What is measured is kept; Start goes on where it was");
+        if out.clicked("lab:stop", &button) {
+            run.background.stop();
+        }
+        return;
+    }
+    let is_whole = lab.known(lab.extent).is_whole(lab.study(), lab.extent);
+    let is_temporary = matches!(lab.folder, Folder::Temporary(_));
+    let is_begun = lab.shown.is_some();
+    let (label, tip) = match (is_whole, is_begun) {
+        (true, _) if is_temporary => ("Run again", "Measure all of it anew"),
+        (true, _) => ("Start", "All is measured. To measure it again, choose another folder"),
+        (false, true) => ("Go on", "Measure what is missing"),
+        (false, false) => ("Start", "Measure in the background; the window goes on"),
+    };
+    let text = RichText::new(label).color(theme::STRONG);
+    let button = ui.add_enabled(!is_whole || is_temporary, Button::new(text).fill(theme::ACCENT_FILL));
+    if out.clicked("lab:start", &button.on_hover_text(tip).on_disabled_hover_text(tip)) {
+        lab.start();
+    }
+}
+
+/// In what room is left.
+fn progress(ui: &mut Ui, lab: &Lab) {
+    let Some(run) = &lab.run else { return };
+    let (part, words) = model::told(&run.progress);
+    let is_other = (run.study, run.extent) != (lab.study, lab.extent);
+    let words = if is_other { format!("{}: {words}", lab.studies[run.study].about().title) } else { words };
+    let width = ui.available_width() - 8.0;
+    if width < 60.0 {
+        return;
+    }
+    let bar = ProgressBar::new(part).desired_width(width).desired_height(18.0).fill(theme::ACCENT_FILL);
+    let text = RichText::new(words.clone()).size(11.5).color(theme::STRONG);
+    let tip = "Costs are measured beside this window: a picture at work makes them larger. `eddy lab` on a quiet machine gives those to publish";
+    ui.add(bar.text(text).corner_radius(4)).on_hover_text(format!("{words}\n{tip}"));
+}
+
+fn more(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
+    let button = icons::button(ui, Icon::More, "More");
+    out.place("lab:more", button.rect);
+    Popup::menu(&button).show(|ui| {
+        let place = match &lab.folder {
+            Folder::Temporary(_) => "Results are kept until the window closes".to_owned(),
+            Folder::Chosen(path) => format!("Results are kept in {}", path.display()),
+        };
+        ui.colored_label(theme::WEAK, place);
+        let choose = ui.add_enabled(lab.run.is_none(), Button::new("Keep results in a folder…"));
+        let choose =
+            choose.on_hover_text("A run goes on where the folder's was; `eddy lab merge` can join it with others");
+        if out.clicked("lab:choose-folder", &choose) {
+            Lab::pick(out, Pick::LabFolder);
+            ui.close();
+        }
+    });
+}
