@@ -139,7 +139,7 @@ impl<T: FnMut(Step<'_>)> Work<T> {
     fn record(&mut self, record: Record) -> Result<(), LabError> {
         self.journal.append(&record)?;
         match &record {
-            Record::Run(_) => {}
+            Record::Run(_) | Record::Stability(_) => {}
             Record::Error(record) => (self.tell)(Step::Measured(record)),
             Record::Cost(record) => (self.tell)(Step::Costed(record)),
         }

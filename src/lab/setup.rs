@@ -42,7 +42,6 @@ pub struct Setup {
     texts: Vec<(PassId, String)>,
     edits: Vec<Edit>,
     states: Vec<(PathBuf, Arc<Texels>)>,
-    replaced: Vec<(PassId, &'static str, String)>,
     storage: Storage,
     wanted: Vec<PassId>,
     skip: bool,
@@ -62,7 +61,6 @@ impl Setup {
             texts: Vec::new(),
             edits: Vec::new(),
             states: Vec::new(),
-            replaced: Vec::new(),
             storage: Storage::AsWritten,
             wanted: vec![pass("field")],
             skip: true,
@@ -140,7 +138,7 @@ impl Setup {
     /// Puts `new` in place of `old` in a pass's text or in `common`, which must have it. For what a preset gives no knob: its scene,
     /// or the light before the curve that a screen needs.
     #[must_use]
-    pub fn edit(mut self, name: &str, old: &str, new: &str) -> Self {
+    pub fn edit(mut self, name: &str, old: &str, new: impl Into<String>) -> Self {
         let pass = (name != "common").then(|| pass(name));
         self.edits.push(Edit { pass, old: old.into(), new: new.into() });
         self
@@ -167,13 +165,6 @@ impl Setup {
         let bytes = bytemuck::cast_slice(texels).to_vec();
         self.states.push((path.clone(), Arc::new(Texels { width, height, format: TexelFormat::Rgba32Float, bytes })));
         self.initial.push((pass(name), Fill::file(path)));
-        self
-    }
-
-    /// Puts `new` in place of `old` in a pass's text, which has to have it: a constant that is no knob.
-    #[must_use]
-    pub fn replace(mut self, name: &str, old: &'static str, new: impl ToString) -> Self {
-        self.replaced.push((pass(name), old, new.to_string()));
         self
     }
 
@@ -247,13 +238,6 @@ impl Setup {
         for (id, fill) in &self.initial {
             let pass = project.pass_mut(id).ok_or_else(|| lacks(id.title()))?;
             pass.settings.initial = Some(fill.clone());
-        }
-        for (id, old, new) in &self.replaced {
-            let source = &mut project.pass_mut(id).ok_or_else(|| lacks(id.title()))?.source;
-            if !source.text.contains(old) {
-                return Err(lacks(format!("text \"{old}\" in {}", id.title())));
-            }
-            source.text = source.text.replace(old, new).into();
         }
         if self.storage == Storage::Half {
             halve(&mut project);
@@ -329,6 +313,5 @@ mod tests {
         assert!(said(Setup::new("floor", (8, 8)).text("nope", "")).contains("has no Buffer nope"));
         assert!(said(Setup::new("floor", (8, 8)).edit("copy", "nope", "")).contains("has no text `nope`"));
         assert!(said(Setup::new("floor", (8, 8)).edit("common", "nope", "")).contains("has no text `nope`"));
-        assert!(said(Setup::new("fluid", (8, 8)).replace("a", "nope", "")).contains("has no text \"nope\" in Buffer A"));
     }
 }

@@ -17,7 +17,7 @@ use egui_plot::{AxisHints, Plot, PlotPoint, PlotTransform};
 
 /// Colours that are told apart by people who see fewer (Okabe and Ito 2008), lightened for a dark ground, and further ones
 /// that differ in brightness. In the order of the report's.
-const COLOURS: [Color32; 12] = [
+const COLOURS: [Color32; report::COLOURS] = [
     Color32::from_rgb(70, 160, 235),
     Color32::from_rgb(240, 120, 50),
     Color32::from_rgb(30, 190, 140),

@@ -2,18 +2,18 @@
 //!
 //! Fields are n x n values, row 0 first; texel (x, y) is the point (x + 1/2, y + 1/2).
 
-pub mod cavity;
 pub mod billiard;
+pub mod cavity;
 pub mod fft;
 pub mod gray_scott;
 pub mod linear;
 pub mod motion;
 pub mod poisson;
-pub mod spectral;
 pub mod rays;
+pub mod shapes;
+pub mod spectral;
 pub mod star;
 pub mod still_life;
-pub mod shapes;
 
 use std::f64::consts::TAU;
 

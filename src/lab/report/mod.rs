@@ -9,7 +9,7 @@ mod table;
 use super::{LabError, Results, Study};
 pub use axis::{decades, tick};
 use std::{fs, path::Path};
-pub use table::{Look, Row, TARGET, Table, sign};
+pub use table::{COLOURS, Look, Row, TARGET, Table, sign};
 
 /// Writes `index.html` and, of each study with any result, `NAME.csv`, `NAME.svg` and `NAME.png`. Gives the names of the files.
 pub fn write(out: &Path, studies: &[&dyn Study], results: &Results) -> Result<Vec<String>, LabError> {

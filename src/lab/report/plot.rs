@@ -19,7 +19,7 @@ const LEGEND: u32 = 380;
 const FONT: &str = "sans-serif";
 
 /// Colours that are told apart by people who see fewer (Okabe and Ito 2008), and further ones that differ in brightness.
-const COLOURS: [RGBColor; 12] = [
+const COLOURS: [RGBColor; super::COLOURS] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),

@@ -72,10 +72,13 @@ pub enum Look {
     Hollow,
 }
 
+/// Colours that methods take in turn, in the report and in the window.
+pub const COLOURS: usize = 12;
+
 /// Corners of the sign of the nth method about (0, 0), y down; the last is the first. About 8 from the middle.
 pub fn sign(n: usize) -> Vec<[f64; 2]> {
     // Methods of the same colour have different signs.
-    let sign = (n + n / COLOURS.len()) % 6;
+    let sign = (n + n / COLOURS) % 6;
     let (count, turn) = [(16, 0.0), (4, 0.125), (3, -0.25), (4, 0.0), (3, 0.25), (6, 0.0)][sign];
     let radius = [7.5, 9.0, 9.5, 8.5, 9.5, 8.0][sign];
     let corner = |i: i32| {
@@ -313,7 +316,7 @@ mod tests {
     fn table(rows: Vec<Row>, peers: &'static [&'static str]) -> Table {
         let about = About { name: "s", title: "S", text: "", knob: "dt", unit: Unit::Frame, error: "of it" };
         let race = Some(Race { method: "own", peers, peers_are: "one-pass settings" });
-        Table { about, grid: 1, rows, convergence: Vec::new(), race }
+        Table { about, error_label: about.error.into(), grid: 1, rows, convergence: Vec::new(), race }
     }
 
     #[test]

@@ -40,9 +40,9 @@ fn practice(side: u32, speed: f64) -> Setup {
     let [u, v] = velocity(speed);
     Setup::new("brick-breaker", (side, side))
         .wants(&["a"])
-        .replace("a", "SOLID_FLOOR = false", "SOLID_FLOOR = true")
-        .replace("a", "launch(0.42);", format!("velocity = vec2({u:?}, {v:?});"))
-        .replace("a", "<= PADDLE_HALF.x + BALL_RADIUS", "< -1.0")
+        .edit("a", "SOLID_FLOOR = false", "SOLID_FLOOR = true")
+        .edit("a", "launch(0.42);", format!("velocity = vec2({u:?}, {v:?});"))
+        .edit("a", "<= PADDLE_HALF.x + BALL_RADIUS", "< -1.0")
 }
 
 fn is_preset(name: &str) -> bool {
@@ -157,7 +157,7 @@ pub fn played(rig: &Rig, name: &str, side: u32, speed: f64, frames: u32) -> Resu
 
 /// The preset's ball without bricks at 10,000 units a frame: (bounces, units off the unfolded path at most).
 pub fn unfolded(rig: &Rig, side: u32, frames: u32) -> Result<(f64, f64), LabError> {
-    let setup = practice(side, FASTEST).replace("a", "if (brickInLevel(c, r, level))", "if (c < 0)");
+    let setup = practice(side, FASTEST).edit("a", "if (brickInLevel(c, r, level))", "if (c < 0)");
     let mut running = rig.open(&setup)?;
     running.frames(1)?;
     let begin = seen(&mut running, "preset")?;
