@@ -107,7 +107,7 @@ pub(super) mod tests {
         assert!((ssim(&truth, &truth) - 1.0).abs() < 1e-12 && psnr(&truth, &truth) == f64::INFINITY);
         // A grey that is a little off everywhere keeps its structure; noise of the same PSNR does not.
         let bright = Picture { rgb: truth.rgb.iter().map(|c| c.map(|v| v + 0.03)).collect(), ..truth.clone() };
-        let noise = |i: usize| if (i * 7919) % 2 == 0 { 0.03 } else { -0.03 };
+        let noise = |i: usize| if (i * 7919).is_multiple_of(2) { 0.03 } else { -0.03 };
         let noisy = truth.rgb.iter().enumerate().map(|(i, c)| c.map(|v| v + noise(i + i / 48)));
         let noisy = Picture { rgb: noisy.collect(), ..truth.clone() };
         assert!((psnr(&bright, &truth) - psnr(&noisy, &truth)).abs() < 1e-6);

@@ -27,6 +27,23 @@ pub struct Geometry {
     pub stages: Vec<Source>,
 }
 
+impl Geometry {
+    /// Leaves out the stages that no draw has, as they are once read from a manifest: in the order in which draws name them.
+    pub fn drop_unused_stages(&mut self) {
+        let all = std::mem::take(&mut self.stages);
+        let mut order = Vec::new();
+        for stage in self.draws.iter_mut().flat_map(|draw| [&mut draw.vertex, &mut draw.fragment]) {
+            let Stage::File(at) = stage else { continue };
+            let place = order.iter().position(|one| one == at).unwrap_or_else(|| {
+                order.push(*at);
+                order.len() - 1
+            });
+            *at = place;
+        }
+        self.stages = order.into_iter().filter_map(|at| all.get(at).cloned()).collect();
+    }
+}
+
 /// The text of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Stage {

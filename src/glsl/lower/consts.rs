@@ -1,7 +1,8 @@
 //! Folded composites as naga constants, and tables that are indexed at run time.
 //!
 //! naga refuses infinities and NaN as literals. A composite that holds one is built from bit patterns where it is used; a table
-//! with one is filled when the entry point starts. So are long ones where the driver needs it ([`super::long_arrays`]).
+//! with one is filled when the entry point starts. So is a long global that the program writes, where the driver needs it
+//! ([`super::long_arrays`]); what is only read the driver takes for a constant of its own.
 
 use naga::{Expression, GlobalVariable, Handle, Literal, Span};
 
@@ -10,7 +11,7 @@ use crate::glsl::hir::{ConstId, Scalar, Type, TypeId};
 
 /// Constants made so far.
 pub(super) struct Constants {
-    /// By [`ConstId::index`]; `Some(None)`: holds something that is no literal, or is long.
+    /// By [`ConstId::index`]; `Some(None)`: holds something that is no literal.
     inits: Vec<Option<Option<Handle<Expression>>>>,
     constants: Vec<Option<Handle<naga::Constant>>>,
     literals: Map<(u8, u32), Handle<Expression>>,
@@ -47,6 +48,9 @@ impl Lowering<'_> {
         if let Some(made) = self.consts.constants[id.index()] {
             return Some(made);
         }
+        if self.is_long(self.hir[id].ty) {
+            return None;
+        }
         let init = self.constant_init(id)?;
         let ty = self.ty(self.hir[id].ty);
         let made = self.out.constants.append(naga::Constant { name: None, ty, init }, Span::UNDEFINED);
@@ -77,8 +81,7 @@ impl Lowering<'_> {
         let constant = hir[id];
         let words = &hir[constant.words];
         // Judged beforehand, so that no half-built composite stays behind.
-        let is_expression = !self.is_long(constant.ty) && self.all_finite(constant.ty, &mut words.iter().copied());
-        let init = is_expression.then(|| {
+        let init = self.all_finite(constant.ty, &mut words.iter().copied()).then(|| {
             let mut words = words.iter().copied();
             self.global_expression(constant.ty, &mut words)
         });

@@ -12,7 +12,7 @@ use naga::{
 use super::{Lowering, Map};
 use crate::glsl::{
     ChannelKind, UniformSet,
-    hir::{BuiltinVar, GlobalId, Scalar, TypeId, Uniform},
+    hir::{BuiltinVar, GlobalId, Scalar, TypeId, Uniform, VarFlags},
     interface::{self, GeometryBlock, UniformBlock},
 };
 
@@ -271,7 +271,8 @@ impl Lowering<'_> {
         }
         let global = self.hir[id];
         let ty = self.ty(global.ty);
-        let init = global.value.and_then(|value| self.constant_init(value));
+        let is_copied = global.flags.contains(VarFlags::WRITTEN) && self.is_long(global.ty);
+        let init = global.value.filter(|_| !is_copied).and_then(|value| self.constant_init(value));
         let made = self.private(ty, init);
         if let (Some(value), None) = (global.value, init) {
             self.consts.set_at_start.push((made, value));

@@ -144,6 +144,7 @@ fn staged(project: &mut Project, method: &str, width: f64) {
     // The mesh and its line; the third draw of each is for depth alone.
     geometry.draws =
         THINGS.iter().flat_map(|t| draws[3 * t.page..3 * t.page + 2].iter().map(move |d| place(t, d))).collect();
+    geometry.drop_unused_stages();
 }
 
 fn setup(name: &str, n: u32, width: f64) -> Setup {

@@ -157,7 +157,9 @@ pub fn scene_bloom_taa() -> Vec<Check> {
             light,
             "the lamps' radiance, four times over where two lamps and their mirror images meet",
         ),
-        always("b", Quantity::Component(3), Area::All, (0.0, 1e5), "one more than the seconds of a frame"),
+        always("b", Quantity::Component(3), Area::All, (0.0, 255.0), "an age in frames"),
+        always("c", Quantity::Component(0), Area::All, (0.0, 60.0), "a distance; a ray that hits nothing ends at 60"),
+        always("c", Quantity::Component(1), Area::All, (0.0, 1e5), "one more than the seconds of a frame"),
     ]
 }
 
