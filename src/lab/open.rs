@@ -28,10 +28,6 @@ pub fn project(study: &dyn Study, point: &Point) -> Result<Opened, LabError> {
             fill.value = FillValue::Held { name: name.clone(), npy: media::npy_bytes(texels).into() };
         }
     }
-    // Image is of 32-bit floats in every project that is written; what is measured is a buffer.
-    if let Some(image) = project.pass_mut(&PassId::Image) {
-        image.settings.format = Default::default();
-    }
     // As a person's hand leaves them, which is how they are read again.
     for knob in project.knobs().list {
         if project.knob_values.contains_key(&knob.name) {

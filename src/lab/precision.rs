@@ -132,10 +132,6 @@ pub fn halved(
 ) -> Result<Comparison, PrecisionError> {
     let mut half = project.clone();
     halve(&mut half);
-    // The picture itself is not stored between frames, and shown in 8 bits.
-    for (pass, whole) in half.passes.iter_mut().zip(&project.passes).filter(|(p, _)| p.id == PassId::Image) {
-        pass.settings.format = whole.settings.format;
-    }
     if half.passes.iter().zip(&project.passes).all(|(a, b)| a.settings.formats() == b.settings.formats()) {
         // What does not compile says that first.
         open(gpu, project, media, size)?;

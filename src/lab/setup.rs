@@ -262,9 +262,10 @@ pub fn pass(name: &str) -> PassId {
 /// Text of a pass whose value a 16-bit float has no room for: 1 and three quarters of its last bit.
 pub(super) const PROBE: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0 + 0.75 / 1024.0); }";
 
-/// Makes every 32-bit float format the 16-bit one of as many components.
+/// Makes every 32-bit float format of a buffer the 16-bit one of as many components. The picture itself is not stored between
+/// frames, and is shown in 8 bits.
 pub(super) fn halve(project: &mut Project) {
-    for settings in project.passes.iter_mut().map(|p| &mut p.settings) {
+    for settings in project.passes.iter_mut().filter(|p| p.id != PassId::Image).map(|p| &mut p.settings) {
         settings.format = half(settings.format);
         let more = settings.geometry.iter_mut().flat_map(|g| &mut g.more_targets);
         more.for_each(|format| *format = half(*format));
