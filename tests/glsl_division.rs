@@ -33,6 +33,8 @@ const TRAPS: &[&str] = &[
     "int d = int(p.x) * 0; int x = d != 0 ? LEAST / d : 3; o = vec4(x, d == -1 ? 0 : LEAST % (d - 1), 0, 0);",
     "int d = int(p.x) * 0; if (d > 5) o = vec4(LEAST / d); else if (d < 0) o = vec4(7 % d); else o = vec4(1);",
     "int d = int(p.x) * 0; for (int i = 0; i < 40; i++) { d = min(d, 0); o.x += float((LEAST + i * 0) / (d - 1)); }",
+    // A loop without a round: its counter lies between 1 and 0.
+    "o = vec4(0); for (int i = 1; i < 1; i++) o.x += float(7 / i / 3 + 5 % (7 / i));",
     "int s = int(p.x) * 0; o = vec4(1 << (s + 33), 1 >> (s - 1), 8u >> (s + 64), -1 << (s + 32));",
     "float f = p.x * 0.0; o = vec4(int(1e30 + f), int(-1e30 + f), uint(1e30 + f), int(f / (f * f)));",
     "float f = float(int(p.x) * 0); o = vec4(int(1.0 / f), uint(-1.0 / f), int(f / f), int(sqrt(f - 1.0)));",

@@ -70,7 +70,9 @@ impl Builder<'_, '_> {
     fn bounds_here(&self, local: LocalId) -> Option<Bounds> {
         let counters = self.loops.iter().rev().filter(|at| at.part == Part::Body).filter_map(|at| at.counter);
         let of_round = counters.into_iter().find_map(|(counter, bounds)| (counter == local).then_some(bounds));
-        of_round.or_else(|| self.declared.get(&(local.index() as u32)).copied())
+        let bounds = of_round.or_else(|| self.declared.get(&(local.index() as u32)).copied());
+        // A loop without a round has a counter without a value: nothing follows from what its body does with it.
+        bounds.filter(|(least, greatest)| least <= greatest)
     }
 
     fn range_within(&self, expr: ExprId, depth: u32) -> Option<Bounds> {

@@ -63,7 +63,7 @@ impl Lines {
             let at = |d: usize| u[y * n + x + d - 2];
             at(0) - 4.0 * at(1) + 6.0 * at(2) - 4.0 * at(3) + at(4)
         };
-        let inner = (n / 8..7 * n / 8).flat_map(|x| (0..n).map(move |y| (x, y)));
+        let inner = ((n / 8).max(2)..(7 * n / 8).min(n - 2)).flat_map(|x| (0..n).map(move |y| (x, y)));
         Lines {
             u: line(&|i, m| u[i * n + m], 1.0),
             v: line(&|i, m| v[m * n + i], 0.0),
