@@ -17,18 +17,8 @@ const COMPARED: u32 = 2 * PERIOD;
 const LEVELS: &[f64] = &[2.0, 3.0, 4.0, 5.0];
 
 const METHODS: &[Method] = &[
-    Method {
-        name: "bloom",
-        title: "preset bloom: linear weights down, B-splines up",
-        settings: &[0.6, 1.15, 2.0],
-        usual: 1.15,
-    },
-    Method {
-        name: "bloom-sized",
-        title: "preset bloom-sized: 13 reads down, transposed up",
-        settings: &[0.3, 0.62, 1.0],
-        usual: 0.62,
-    },
+    Method { name: "bloom", title: "the preset bloom", settings: &[0.6, 1.15, 2.0], usual: 1.15 },
+    Method { name: "bloom-sized", title: "the preset bloom-sized", settings: &[0.3, 0.62, 1.0], usual: 0.62 },
     Method { name: "box-pyramid", title: "mip levels, bilinear", settings: LEVELS, usual: 4.0 },
     Method { name: "dual-pyramid", title: "dual filter", settings: LEVELS, usual: 4.0 },
     Method { name: "tent-pyramid", title: "13 reads down, tent up", settings: LEVELS, usual: 4.0 },
