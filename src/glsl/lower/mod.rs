@@ -179,7 +179,8 @@ struct Lowering<'a> {
     uses: Vec<u32>,
     zeros: Zeros,
     functions: HashMap<Instance, Handle<naga::Function>>,
-    /// Private globals that each call of the one function that knows them stores as a whole before all else.
+    /// Private globals that are stored as a whole before all else: by each call of the one function that knows them, or where the
+    /// program starts.
     filled: HashSet<Handle<naga::GlobalVariable>>,
     reflection: Reflection,
 }

@@ -42,8 +42,7 @@ const BLOCK: u32 = 32;
 /// with initialisers, and take up to twice as long with loops.
 const MOST_IN_BLOCKS: u32 = 512;
 
-/// Gives all long arrays these forms. `filled` are globals that are stored as a whole before all else, in each call of the one
-/// function that knows them.
+/// Gives all long arrays these forms. `filled` are globals that are stored as a whole before all else.
 ///
 /// Returns the length in scalars from which on every array has its zeros, or another value, before anything reads it,
 /// though its variable had no initialiser; `None` if the program has few and was left as it is.
