@@ -5,6 +5,7 @@ mod compute;
 mod support;
 
 use compute::*;
+use support::*;
 
 #[test]
 fn loops_of_known_rounds() {
@@ -142,4 +143,69 @@ fn tests_and_steps_begin_anew() {
             [3., 10., 0., 0.],
         ),
     ]);
+}
+
+/// What eight pixels in a row draw, each `vec4` that `body` gives `o` for `x`, its number.
+fn row(body: &str) -> Option<Vec<[f32; 4]>> {
+    let gpu = gpu()?;
+    let code = format!("void mainImage(out vec4 o, in vec2 p) {{ int x = int(p.x); {body} }}");
+    let mut engine = engine(&gpu, &project(vec![image(&code, Default::default())]), (8, 1));
+    run(&mut engine, 0, 1);
+    let pixels = engine.read(&eddy::project::PassId::Image).unwrap();
+    Some((0..8).map(|x| texel(&pixels, x, 0)).collect())
+}
+
+/// A pixel keeps what it left a loop with while others go on.
+#[test]
+fn pixels_leave_a_loop_one_by_one() {
+    // `old` is of the round's begin, and each exit has the same value of it.
+    let old = |x: f32| {
+        let (mut a, mut b) = (x * 0.25, x * 0.5);
+        loop {
+            let old = a * 2.0 + b * x;
+            a += (a.floor() + 1.0).min(2.0);
+            b += a * 0.5;
+            if a > x {
+                return [old, a, b, 1.0];
+            }
+        }
+    };
+    let expected: Vec<_> = (0..8).map(|x| old(x as f32)).collect();
+    let start = "float a = float(x) * .25, b = float(x) * .5, old = 0.;";
+    let round = "old = a * 2. + b * float(x); for (int i = 0; i < 1 + min(iFrame, 0); i++) a += min(floor(a) + 1., 2.); b += a * .5;";
+    for way in [
+        "while (true) { ROUND if (a > float(x)) break; }",
+        "for (;;) { ROUND if (a > float(x) || b > 1e6) break; }",
+        "do { ROUND } while (a <= float(x));",
+        "while (old = -1., true) { ROUND if (a > float(x)) break; }",
+    ] {
+        let body = format!("{start} {} o = vec4(old, a, b, 1);", way.replace("ROUND", round));
+        let Some(drawn) = row(&body) else { return };
+        assert_eq!(drawn, expected, "{way}");
+    }
+    let counted = "ivec3 v = ivec3(0, 0, 2); int fuel = 40;\n\
+                   while (true) { int c = v[x]; v[x] = c + 1; if (c < 2) break; if (--fuel < 0) break; } o = vec4(v, 1);";
+    let Some(drawn) = row(counted) else { return };
+    let first = [[1., 0., 2., 1.], [0., 1., 2., 1.]];
+    assert_eq!(drawn, [&first[..], &[[0., 0., 43., 1.]; 6]].concat());
+}
+
+/// A limit that is the lesser of two is no least number of a loop that counts down to it.
+#[test]
+fn loops_count_down_to_a_minimum() {
+    let sum = |x: i32| (x.min(6) + 1..5).sum::<i32>() as f32;
+    let expected: Vec<_> = (0..8).map(|x| [sum(x), 0.0, 0.0, 1.0]).collect();
+    for way in [
+        "for (int i = 4; i > min(6, x); i--) n += i;",
+        "int least = min(x, 6); for (int i = 4; i >= least + 1; i -= 1) n += i;",
+        "int least = min(x, 6); for (int i = 4; !(least >= i); i -= 1) n += i;",
+        "for (int i = 4;; i--) { if (i <= min(6, x)) break; n += i; }",
+        "for (int i = 4;; i--) { if (min(6, x) < i && n < 100) { n += i; } else { break; } }",
+        "int i = 5; while (--i > min(6, x)) n += i;",
+        "int i = 4; if (i > min(6, x)) do { n += i; i--; } while (i > min(6, x));",
+        "for (float f = 4.; f > min(6., float(x)); f--) n += int(f);",
+    ] {
+        let Some(drawn) = row(&format!("int n = 0; {way} o = vec4(n, 0, 0, 1);")) else { return };
+        assert_eq!(drawn, expected, "{way}");
+    }
 }

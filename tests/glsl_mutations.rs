@@ -265,8 +265,8 @@ fn any_text_gets_an_answer() {
         cases += 1;
         let kind =
             [PassKind::Image, PassKind::Buffer, PassKind::Cubemap, PassKind::Sound][random.below(9).saturating_sub(5)];
-        let [tables_in_memory, opaque_uniforms, may_discard, nan_angle, array_loops] =
-            [(); 5].map(|()| random.below(2) == 0);
+        let [tables_in_memory, opaque_uniforms, may_discard, nan_angle, array_loops, loop_closing_exits, hidden_limits] =
+            [(); 7].map(|()| random.below(2) == 0);
         let compile = || {
             let result = glsl::compile(&PassSource {
                 kind,
@@ -274,7 +274,15 @@ fn any_text_gets_an_answer() {
                 code: Text { id: SourceId(0), text: &text },
                 channels: [ChannelKind::Sampler2D; 4],
                 bilinear_by_hand: [false; 4],
-                driver: Driver { tables_in_memory, opaque_uniforms, may_discard, nan_angle, array_loops },
+                driver: Driver {
+                    tables_in_memory,
+                    opaque_uniforms,
+                    may_discard,
+                    nan_angle,
+                    array_loops,
+                    loop_closing_exits,
+                    hidden_limits,
+                },
                 knobs: &[],
                 values: &[],
                 includes: &[],

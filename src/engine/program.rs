@@ -250,6 +250,8 @@ fn compile(
             may_discard: gpu.keeps_denormals && has_small_floats,
             nan_angle: gpu.nan_angle,
             array_loops: gpu.wants_array_loops,
+            loop_closing_exits: gpu.keeps_loops_open,
+            hidden_limits: gpu.misjudges_limits,
         };
         let mut fills: CompiledFills = [None, None];
         let mut said = Vec::new();

@@ -151,6 +151,12 @@ pub struct Driver {
     /// Long arrays are filled, also with the zeros that they begin with, and copied by loops ([`Compiled::filled_arrays`]):
     /// Mesa's lavapipe takes minutes to compile stores of some hundred scalars one by one.
     pub array_loops: bool,
+    /// Each loop that can change variables before its first exit begins with an exit that is never taken. Mesa's gallivm runs a
+    /// loop until its last pixel leaves, and does not bring it into loop-closed SSA form (`nir_to_lcssa.c`): a value that all
+    /// exits agree on, and which needs no phi for that, is computed anew for pixels that have left.
+    pub loop_closing_exits: bool,
+    /// What a loop counts down to is hidden: Mesa takes `min(c, x)` for at least `c` there (`nir_loop_analyze.c`).
+    pub hidden_limits: bool,
 }
 
 /// A pass that compiled.

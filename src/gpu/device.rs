@@ -75,6 +75,11 @@ pub struct Gpu {
     /// Long arrays are to be filled and copied by loops, and initialisers of their zeros left out: lavapipe makes one store a
     /// scalar of each, for which LLVM takes time that grows faster than their square.
     pub wants_array_loops: bool,
+    /// What a loop computes before its first exit may be wrong after it, for pixels that leave before others do: gallivm, the
+    /// compiler of llvmpipe and lavapipe, does not bring loops into loop-closed SSA form.
+    pub keeps_loops_open: bool,
+    /// A loop that counts down to `min(c, x)` ends at `c`: Mesa's compiler takes the one for the other.
+    pub misjudges_limits: bool,
     /// Timestamps can be written between passes.
     pub has_timestamps: bool,
     pub(super) runtime_checks: bool,
@@ -185,6 +190,8 @@ impl Gpu {
             recompiles_for_uniforms: is_lavapipe,
             keeps_denormals: is_lavapipe,
             wants_array_loops: features.contains(wgpu::Features::PASSTHROUGH_SHADERS),
+            misjudges_limits: info.driver_info.contains("Mesa"),
+            keeps_loops_open: info.name.starts_with("llvmpipe"),
             nan_angle: info.backend == wgpu::Backend::Dx12,
             runtime_checks: options.runtime_checks,
             fences: is_lavapipe.then(|| super::pass::FenceKeeper::new(&device)),

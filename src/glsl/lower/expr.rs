@@ -66,8 +66,9 @@ impl Builder<'_, '_> {
                 if op == BinaryOp::Div {
                     right = self.divisor(rhs, right);
                 }
+                let (left, right) = (self.limit(lhs, value), self.limit(rhs, right));
                 let operands = self.operands_of(op, lhs, rhs);
-                self.operation(op, shape, (hir[lhs].ty, value), (hir[rhs].ty, right), operands)
+                self.operation(op, shape, (hir[lhs].ty, left), (hir[rhs].ty, right), operands)
             }
             ExprKind::Logical { op, lhs, rhs } => self.logical(op, lhs, value, rhs),
             ExprKind::Convert(_) => self.convert(value, hir[link].ty),

@@ -137,6 +137,7 @@ impl Builder<'_, '_> {
         self.forget_written(body, test.into_iter().chain(step));
         self.loops.push(Loop { step: repeated, counter: counter.or(float_counter), part: Part::Test });
         let (body, _) = self.branch_block(|b| {
+            b.close_loop(test.filter(|_| known.is_none()), body);
             if let (None, Some(test)) = (known, test) {
                 let condition = b.loop_test(test, rounds);
                 let mut leave = Block::new();
@@ -181,7 +182,10 @@ impl Builder<'_, '_> {
         let known = known_bool(self.cx.hir, test);
         self.forget_written(body, [test]);
         self.loops.push(Loop { step: None, counter: None, part: Part::Test });
-        let (body, _) = self.branch_block(|b| b.body_of_loop(body));
+        let (body, _) = self.branch_block(|b| {
+            b.close_loop(None, body);
+            b.body_of_loop(body);
+        });
         let mut break_if = None;
         let (continuing, _) = self.nested(|b| {
             if known != Some(true) {

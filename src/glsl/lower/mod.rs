@@ -36,6 +36,7 @@ mod flow;
 mod function;
 mod geometry;
 mod inline;
+mod limits;
 mod long_arrays;
 mod matrix;
 mod memory;
@@ -104,6 +105,7 @@ pub(in crate::glsl) fn lower(module: &hir::Module, source: &PassSource<'_>, inte
         resources: Resources::new(module.globals.len()),
         costs: cost::costs(module),
         counted: steps::counted(module, &writes),
+        limits: if source.driver.hidden_limits { limits::limits(module) } else { HashSet::new() },
         writes,
         arguments,
         inlined: inline::inlined(module, &reach),
@@ -172,6 +174,8 @@ struct Lowering<'a> {
     writes: Vec<u32>,
     /// Locals that one loop counts.
     counted: HashMap<usize, steps::Counted>,
+    /// Operands that the driver shall not see through.
+    limits: HashSet<hir::ExprId>,
     arguments: Arguments,
     /// Functions that become part of their callers, by [`hir::FuncId::index`].
     inlined: Vec<bool>,

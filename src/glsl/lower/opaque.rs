@@ -6,7 +6,10 @@ use super::{
     function::{Builder, Value},
     resources::CUBE_FACE,
 };
-use crate::glsl::hir::{Scalar, Type, TypeId};
+use crate::glsl::{
+    ast::List,
+    hir::{ExprFlags, ExprId, Scalar, StmtId, StmtKind, Type, TypeId},
+};
 
 impl Builder<'_, '_> {
     /// The same bits, of a scalar or vector type `ty` of numbers, but joined with a zero that the driver cannot know.
@@ -49,12 +52,44 @@ impl Builder<'_, '_> {
         self.store(pointer, sign);
     }
 
+    /// The value of an operand, hidden if it is one of [`limits`](super::limits).
+    pub fn limit(&mut self, expr: ExprId, value: Value) -> Value {
+        if self.cx.limits.contains(&expr) { self.hidden(self.cx.hir[expr].ty, value) } else { value }
+    }
+
     /// Discards what never is, for a driver that asks for it.
     pub fn seem_to_discard(&mut self) {
+        self.seem_to(Statement::Kill);
+    }
+
+    /// Begins the body of a loop with an exit that is never taken, where the driver asks for it and the loop has no exit there
+    /// that changes nothing before it: in `test` or as the first statement of `body`. With it each variable that the loop changes
+    /// has two values at its exits, the one with which a round began and a new one, and needs a phi after the loop.
+    pub fn close_loop(&mut self, test: Option<ExprId>, body: List<StmtId>) {
+        let hir = self.cx.hir;
+        let is_calm = |expr: ExprId| !hir[expr].flags.contains(ExprFlags::EFFECTS);
+        let leaves = |list: List<StmtId>| match hir[list].first() {
+            Some(&stmt) => matches!(hir[stmt].kind, StmtKind::Break),
+            None => false,
+        };
+        let begins_with_exit = match (test, hir[body].first()) {
+            (Some(test), _) => is_calm(test),
+            (None, Some(&stmt)) => {
+                matches!(hir[stmt].kind, StmtKind::If { cond, then, .. } if is_calm(cond) && leaves(then))
+            }
+            (None, None) => false,
+        };
+        if self.cx.source.driver.loop_closing_exits && !begins_with_exit {
+            self.seem_to(Statement::Break);
+        }
+    }
+
+    /// A jump that never happens, though the driver cannot know it.
+    fn seem_to(&mut self, jump: Statement) {
         let number = self.unknown_zero();
         let zero = self.literal(Scalar::Int, 0);
         let condition = self.op(Op::NotEqual, number, zero);
-        let (accept, _) = self.nested(|b| b.push(Statement::Kill));
+        let (accept, _) = self.nested(|b| b.push(jump));
         self.push(Statement::If { condition, accept, reject: Block::new() });
     }
 

@@ -1,0 +1,68 @@
+//! What loops count down to, hidden from drivers that take its largest value for its least.
+//!
+//! Mesa's `nir_loop_analyze.c` bounds the rounds of a loop whose counter is compared with `min(c, x)` as if that were `c`. This
+//! is right for `i < min(c, x)`, but `for (int i = 4; i > min(6, x); i--)` then has no round at all. The comparison may lie in any
+//! exit of the loop, and the `min` in a variable, so each limit that is no constant is hidden.
+
+use std::collections::HashSet;
+
+use super::{ranges::mirrored, walk};
+use crate::glsl::{
+    ast::List,
+    hir::{BinaryOp, ExprFlags, ExprId, ExprKind, LogicalOp, Module, Shape, StmtId, StmtKind, UnaryOp},
+};
+
+/// The operands that a place is compared with where a loop goes on while it is greater than these.
+pub(super) fn limits(module: &Module) -> HashSet<ExprId> {
+    let mut found = HashSet::new();
+    for stmt in &module.stmts {
+        let (test, body) = match stmt.kind {
+            StmtKind::For { test, body, .. } => (test, body),
+            StmtKind::DoWhile { body, test } => (Some(test), body),
+            _ => continue,
+        };
+        test.into_iter().for_each(|test| compared(module, test, true, &mut found));
+        walk::walk(module, &module[body], &[], |node, _| {
+            let walk::Node::Stmt(stmt) = node else { return };
+            let StmtKind::If { cond, then, otherwise } = module[stmt].kind else { return };
+            if ends_with_break(module, then) {
+                compared(module, cond, false, &mut found);
+            }
+            if ends_with_break(module, otherwise) {
+                compared(module, cond, true, &mut found);
+            }
+        });
+    }
+    found
+}
+
+fn ends_with_break(module: &Module, list: List<StmtId>) -> bool {
+    module[list].last().is_some_and(|&stmt| match module[stmt].kind {
+        StmtKind::Break => true,
+        StmtKind::Block(list) => ends_with_break(module, list),
+        _ => false,
+    })
+}
+
+/// Adds the limits in a condition with which, if it is `goes_on`, the loop goes on.
+fn compared(module: &Module, cond: ExprId, goes_on: bool, out: &mut HashSet<ExprId>) {
+    match module[cond].kind {
+        ExprKind::Logical { op: LogicalOp::And | LogicalOp::Or, lhs, rhs } => {
+            compared(module, lhs, goes_on, out);
+            compared(module, rhs, goes_on, out);
+        }
+        ExprKind::Unary { op: UnaryOp::Not, operand } => compared(module, operand, !goes_on, out),
+        ExprKind::Binary { op, shape: Shape::Same, lhs, rhs } => {
+            let Some(mirrored) = mirrored(op) else { return };
+            for (place, op, limit) in [(lhs, op, rhs), (rhs, mirrored, lhs)] {
+                let is_counter = matches!(module[place].kind, ExprKind::IncDec { .. })
+                    || module[place].flags.contains(ExprFlags::PLACE);
+                let is_greater = matches!(op, BinaryOp::Greater | BinaryOp::GreaterEqual) == goes_on;
+                if is_counter && is_greater && !module[limit].flags.contains(ExprFlags::CONSTANT) {
+                    out.insert(limit);
+                }
+            }
+        }
+        _ => {}
+    }
+}
