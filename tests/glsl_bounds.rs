@@ -172,6 +172,10 @@ int twice(int at) { int n = at; if (at > 3) { G[n] = 5; return n; } for (int i =
 #[test]
 fn products_of_large_bounds() {
     check_guarded(&[
+        // What is known of an argument in one call is not of the next, nor of the counter behind its loop.
+        bounds("for (int i = 0; i < 3; i++) put(a, i); put(a, I + 9);", 7777.),
+        bounds("int i; for (i = 1; i < 3; i++) put(a, i); put(a, i * 9);", 7770.),
+        bounds("int w = I - int(iResolution.x); put(a, w); put(a, 9 * int(iResolution.y));", 7007.),
         bounds("uint u = uint(I) + 3u; a[int(((u & 0xffffffffu) * (u & 0xffffffffu)) % 16u)] = 7;", 7000.),
         bounds("uint u = uint(I) + 3u; a[int(50u / ((u & 0xffffffffu) * (u & 0xffffffffu)))] = 7;", 7000.),
         bounds("int i = I - 3; a[(i * 0x7fffffff) * (i * 0x7fffffff)] = 7;", 7000.),

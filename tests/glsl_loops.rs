@@ -145,10 +145,10 @@ fn tests_and_steps_begin_anew() {
     ]);
 }
 
-/// What eight pixels in a row draw, each `vec4` that `body` gives `o` for `x`, its number.
-fn row(body: &str) -> Option<Vec<[f32; 4]>> {
+/// What eight pixels in a row draw, each a `vec4` that `body` gives `o` for `x`, its number; `before` is at file scope.
+fn row(before: &str, body: &str) -> Option<Vec<[f32; 4]>> {
     let gpu = gpu()?;
-    let code = format!("void mainImage(out vec4 o, in vec2 p) {{ int x = int(p.x); {body} }}");
+    let code = format!("{before}\nvoid mainImage(out vec4 o, in vec2 p) {{ int x = int(p.x); {body} }}");
     let mut engine = engine(&gpu, &project(vec![image(&code, Default::default())]), (8, 1));
     run(&mut engine, 0, 1);
     let pixels = engine.read(&eddy::project::PassId::Image).unwrap();
@@ -180,12 +180,12 @@ fn pixels_leave_a_loop_one_by_one() {
         "while (old = -1., true) { ROUND if (a > float(x)) break; }",
     ] {
         let body = format!("{start} {} o = vec4(old, a, b, 1);", way.replace("ROUND", round));
-        let Some(drawn) = row(&body) else { return };
+        let Some(drawn) = row("", &body) else { return };
         assert_eq!(drawn, expected, "{way}");
     }
     let counted = "ivec3 v = ivec3(0, 0, 2); int fuel = 40;\n\
                    while (true) { int c = v[x]; v[x] = c + 1; if (c < 2) break; if (--fuel < 0) break; } o = vec4(v, 1);";
-    let Some(drawn) = row(counted) else { return };
+    let Some(drawn) = row("", counted) else { return };
     let first = [[1., 0., 2., 1.], [0., 1., 2., 1.]];
     assert_eq!(drawn, [&first[..], &[[0., 0., 43., 1.]; 6]].concat());
 }
@@ -193,6 +193,7 @@ fn pixels_leave_a_loop_one_by_one() {
 /// A limit that is the lesser of two is no least number of a loop that counts down to it.
 #[test]
 fn loops_count_down_to_a_minimum() {
+    const RETURNS: &str = "int until(int least) { int n = 0; for (int i = 4; i > 0; i--) { if (i <= least) return n; n += i; } return n; }";
     let sum = |x: i32| (x.min(6) + 1..5).sum::<i32>() as f32;
     let expected: Vec<_> = (0..8).map(|x| [sum(x), 0.0, 0.0, 1.0]).collect();
     for way in [
@@ -203,9 +204,10 @@ fn loops_count_down_to_a_minimum() {
         "for (int i = 4;; i--) { if (min(6, x) < i && n < 100) { n += i; } else { break; } }",
         "int i = 5; while (--i > min(6, x)) n += i;",
         "int i = 4; if (i > min(6, x)) do { n += i; i--; } while (i > min(6, x));",
+        "n = until(min(6, x));",
         "for (float f = 4.; f > min(6., float(x)); f--) n += int(f);",
     ] {
-        let Some(drawn) = row(&format!("int n = 0; {way} o = vec4(n, 0, 0, 1);")) else { return };
+        let Some(drawn) = row(RETURNS, &format!("int n = 0; {way} o = vec4(n, 0, 0, 1);")) else { return };
         assert_eq!(drawn, expected, "{way}");
     }
 }

@@ -257,7 +257,8 @@ impl Builder<'_, '_> {
             copies_out.push((place, copy));
         }
         let result = if self.cx.inlined[func.index()] {
-            let result = self.inline(func, given, arguments);
+            let known = self.bounds_of_arguments(func, args);
+            let result = self.inline(func, given, arguments, known);
             self.returned.extend(result);
             result
         } else {

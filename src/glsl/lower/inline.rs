@@ -9,12 +9,13 @@ use naga::{Block, Statement};
 use super::{
     calls::Given,
     function::{Builder, Value},
+    ranges::Bounds,
     reach::{Reach, known_bool},
     walk::{Node, walk},
 };
 use crate::glsl::{
     ast::{List, MAX_NESTING},
-    hir::{ExprId, ExprKind, FuncId, Module, Scalar, StmtId, StmtKind, TypeId},
+    hir::{ExprId, ExprKind, FuncId, LocalId, Module, Scalar, StmtId, StmtKind, TypeId},
 };
 
 /// Expressions and statements of a function, with those of what is inlined into it, that are written again for each call.
@@ -190,10 +191,18 @@ pub(super) struct Leaving {
 
 impl Builder<'_, '_> {
     /// Does what a function does with these arguments, which are as [`Builder::call`] would pass them; `None` if it is void.
-    pub fn inline(&mut self, func: FuncId, given: Box<[Given]>, arguments: Vec<Value>) -> Option<Value> {
+    /// `known` are bounds of parameters.
+    pub fn inline(
+        &mut self,
+        func: FuncId,
+        given: Box<[Given]>,
+        arguments: Vec<Value>,
+        known: Vec<(LocalId, Bounds)>,
+    ) -> Option<Value> {
         let hir = self.cx.hir;
         let function = &hir[func];
         let outer = self.enter(func, given);
+        self.declared.extend(known.into_iter().map(|(param, bounds)| (param.index() as u32, bounds)));
         let mut arguments = arguments.into_iter();
         self.parameters(func, |_, _| arguments.next().expect("an argument for each parameter"));
         let body = &hir[function.body.unwrap_or(List::EMPTY)];

@@ -25,10 +25,10 @@ pub(super) fn limits(module: &Module) -> HashSet<ExprId> {
         walk::walk(module, &module[body], &[], |node, _| {
             let walk::Node::Stmt(stmt) = node else { return };
             let StmtKind::If { cond, then, otherwise } = module[stmt].kind else { return };
-            if ends_with_break(module, then) {
+            if leaves(module, then) {
                 compared(module, cond, false, &mut found);
             }
-            if ends_with_break(module, otherwise) {
+            if leaves(module, otherwise) {
                 compared(module, cond, true, &mut found);
             }
         });
@@ -36,10 +36,11 @@ pub(super) fn limits(module: &Module) -> HashSet<ExprId> {
     found
 }
 
-fn ends_with_break(module: &Module, list: List<StmtId>) -> bool {
+/// Whether statements end with leaving the loop: a `return` becomes a `break` where the function becomes part of its caller.
+fn leaves(module: &Module, list: List<StmtId>) -> bool {
     module[list].last().is_some_and(|&stmt| match module[stmt].kind {
-        StmtKind::Break => true,
-        StmtKind::Block(list) => ends_with_break(module, list),
+        StmtKind::Break | StmtKind::Return(_) => true,
+        StmtKind::Block(list) => leaves(module, list),
         _ => false,
     })
 }

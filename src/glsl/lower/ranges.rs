@@ -6,7 +6,7 @@
 //! - What [`Builder::note_range`] finds holds for each value that the local has from its declaration until it is
 //!   declared again, wherever the code between is written out: it follows from the declaration and from the only
 //!   expression that writes the local. A function that becomes part of its caller again begins anew
-//!   ([`Builder::enter`]).
+//!   ([`Builder::enter`]), with what is known there of arguments whose parameters nothing writes.
 //! - The bounds of a counter in the rounds of its loop hold in the loop's body alone. They are part of the entry in
 //!   [`Builder::loops`], which says in which part of the loop the code at hand lies ([`Builder::within`]).
 //!
@@ -18,7 +18,10 @@ use super::{
 };
 use crate::glsl::{
     ast::List,
-    hir::{BinaryOp, Builtin, ExprId, ExprKind, IncDec, LocalId, Module, Scalar, Shape, StmtId, StmtKind, TypeId},
+    hir::{
+        BinaryOp, Builtin, ExprId, ExprKind, FuncId, IncDec, LocalId, Module, Scalar, Shape, StmtId, StmtKind, TypeId,
+        Uniform,
+    },
 };
 
 /// Least and greatest value.
@@ -26,6 +29,9 @@ pub(super) type Bounds = (i64, i64);
 
 /// How deep an index expression is looked into.
 const DEPTH: u32 = 8;
+
+/// More pixels than a side of any target has (`maxImageDimension2D` is 32,768 at most today). None is empty.
+const LARGEST_CANVAS: i64 = 1 << 20;
 
 /// How many expressions write each local, anywhere; declarations are not counted.
 pub(super) fn write_counts(module: &Module) -> Vec<u32> {
@@ -93,6 +99,11 @@ impl Builder<'_, '_> {
                 Some(Scalar::Int | Scalar::Uint) => fits(self.range_within(of, depth)?),
                 Some(Scalar::Float) => match hir[of].kind {
                     ExprKind::Local(local) => fits(self.bounds_here(local)?),
+                    ExprKind::Swizzle { base, swizzle }
+                        if matches!(hir[base].kind, ExprKind::Uniform(Uniform::Resolution)) && swizzle.get(0) < 2 =>
+                    {
+                        Some((1, LARGEST_CANVAS))
+                    }
                     _ => None,
                 },
                 _ => None,
@@ -140,6 +151,15 @@ impl Builder<'_, '_> {
             }
             _ => None,
         }
+    }
+
+    /// Bounds of the parameters that a function does not write, where it is called here with `args`.
+    pub fn bounds_of_arguments(&self, func: FuncId, args: &[ExprId]) -> Vec<(LocalId, Bounds)> {
+        let hir = self.cx.hir;
+        let first = hir[func].locals.start as usize;
+        let params = (first..).map(LocalId::new).zip(args);
+        let unwritten = params.filter(|(param, _)| self.cx.writes[param.index()] == 0);
+        unwritten.filter_map(|(param, &arg)| Some((param, self.range(arg)?))).collect()
     }
 
     /// For `for (int i = a; i < b; i++)` whose `i` is written by the step alone: `i` and its bounds in the body. Any
