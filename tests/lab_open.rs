@@ -38,6 +38,17 @@ fn drawn(rig: &Rig, project: &Project, (width, height): (u32, u32), pass: &PassI
 }
 
 #[test]
+fn every_setting_on_every_grid_is_a_project() {
+    for study in studies::all() {
+        for point in [Extent::Quick, Extent::Full].into_iter().flat_map(|extent| study.points(extent)) {
+            if let Err(error) = open::project(study, &point) {
+                panic!("{point:?}: {error}");
+            }
+        }
+    }
+}
+
+#[test]
 fn every_method_saved_as_a_project_draws_what_was_measured() {
     let Some(gpu) = gpu() else { return };
     let rig = Rig::new(gpu);

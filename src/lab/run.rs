@@ -5,8 +5,14 @@ use super::{
     cost::{self, Care},
     results::{CostRecord, ErrorRecord, Journal, Record, Results},
 };
-use crate::gpu::Gpu;
-use std::path::PathBuf;
+use crate::gpu::{Gpu, GpuOptions};
+use std::{
+    path::PathBuf,
+    sync::{
+        atomic::{AtomicUsize, Ordering},
+        mpsc::channel,
+    },
+};
 
 /// Seed of every random field.
 pub const SEED: u64 = 20_240_501;
@@ -118,17 +124,7 @@ impl<T: FnMut(Step<'_>)> Work<T> {
         let points: Vec<(&dyn Study, Point)> =
             studies.iter().flat_map(|s| s.points(options.extent).into_iter().map(|p| (*s, p))).collect();
         let own: Vec<_> = points.iter().enumerate().filter(|(n, _)| options.shard.owns(*n)).map(|(_, p)| p).collect();
-        for (done, (study, point)) in own.iter().enumerate() {
-            if self.results.error(point).is_none() {
-                (self.tell)(Step::Error { point, done, all: own.len() });
-                self.measure(*study, point)?;
-            }
-            let is_costed = point.grid == study.main_grid(options.extent) && self.results.cost(point).is_none();
-            if control.estimates && is_costed && self.results.measured(point).is_some() {
-                let millis = cost::estimate(&self.rig, &study.setup(point), turn_millis(options.extent))?;
-                (self.tell)(Step::Estimate { point, millis });
-            }
-        }
+        self.errors(&own, options, control)?;
         // Costs are comparable only where they were measured in turns: a study's belong to one machine.
         for (_, study) in studies.iter().enumerate().filter(|(n, _)| options.shard.owns(*n)) {
             self.costs(*study, options)?;
@@ -147,14 +143,55 @@ impl<T: FnMut(Step<'_>)> Work<T> {
         Ok(())
     }
 
-    fn measure(&mut self, study: &dyn Study, point: &Point) -> Result<(), LabError> {
-        let (measured, trouble) = match study.measure(&self.rig, point) {
-            Ok(measured) => (Some(measured), None),
-            // No fault of the method's.
-            Err(LabError::Stopped) => return Err(LabError::Stopped),
-            Err(trouble) => (None, Some(trouble.to_string())),
-        };
-        self.record(Record::Error(ErrorRecord { point: point.clone(), measured, trouble }))
+    /// Measures the errors of points that are not known yet, on as many devices as [`rigs`] gives.
+    fn errors(
+        &mut self,
+        points: &[&(&dyn Study, Point)],
+        options: &Options,
+        control: &Control,
+    ) -> Result<(), LabError> {
+        let (known, missing): (Vec<_>, Vec<_>) =
+            points.iter().copied().partition(|(_, point)| self.results.error(point).is_some());
+        for (study, point) in known {
+            if self.results.measured(point).is_some() && self.results.cost(point).is_none() {
+                let estimate = estimate(&self.rig, *study, point, options, control)?;
+                estimate.into_iter().for_each(|millis| (self.tell)(Step::Estimate { point, millis }));
+            }
+        }
+        let (mut done, all) = (points.len() - missing.len(), points.len());
+        let rigs = rigs(&self.rig, missing.len(), control);
+        let next = AtomicUsize::new(0);
+        let (sender, events) = channel();
+        std::thread::scope(|scope| {
+            for rig in &rigs {
+                let (sender, missing, next) = (sender.clone(), &missing, &next);
+                // Ends where nobody listens any more: the run has ended.
+                scope.spawn(move || {
+                    while let Some((study, point)) = missing.get(next.fetch_add(1, Ordering::Relaxed)) {
+                        let ends = sender.send((point, None)).is_err()
+                            || sender.send((point, Some(measure(rig, *study, point, options, control)))).is_err();
+                        if ends {
+                            return;
+                        }
+                    }
+                });
+            }
+            drop(sender);
+            for (point, outcome) in events {
+                match outcome {
+                    None => (self.tell)(Step::Error { point, done, all }),
+                    Some(outcome) => {
+                        let (error, estimate) = outcome?;
+                        self.record(Record::Error(error))?;
+                        if let Some(millis) = estimate {
+                            (self.tell)(Step::Estimate { point, millis });
+                        }
+                        done += 1;
+                    }
+                }
+            }
+            Ok(())
+        })
     }
 
     fn costs(&mut self, study: &dyn Study, options: &Options) -> Result<(), LabError> {
@@ -176,6 +213,54 @@ impl<T: FnMut(Step<'_>)> Work<T> {
         }
         Ok(())
     }
+}
+
+/// Most devices at once: a driver that draws on the processor starts threads of its own for each.
+const MOST_RIGS: usize = 4;
+
+/// The devices that measure errors. A processor that draws small grids mostly waits for its own threads, so that it has a device
+/// for each core; costs, and what is measured beside a window, have one alone.
+fn rigs(first: &Rig, points: usize, control: &Control) -> Vec<Rig> {
+    let gpu = first.gpu();
+    let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
+    let count = if gpu.is_cpu() && !control.beside_window { cores.min(points).min(MOST_RIGS) } else { 1 };
+    let others = (1..count).map_while(|_| Gpu::another(&gpu.info, &GpuOptions::default()).ok());
+    std::iter::once(gpu.clone()).chain(others).map(|gpu| Rig::stoppable(gpu, control.stop.clone())).collect()
+}
+
+/// The error of a point, and about what a frame of it costs where that is asked for. A method that fails is a record as well.
+fn measure(
+    rig: &Rig,
+    study: &dyn Study,
+    point: &Point,
+    options: &Options,
+    control: &Control,
+) -> Result<(ErrorRecord, Option<f64>), LabError> {
+    let (measured, trouble) = match study.measure(rig, point) {
+        Ok(measured) => (Some(measured), None),
+        // No fault of the method's.
+        Err(LabError::Stopped) => return Err(LabError::Stopped),
+        Err(trouble) => (None, Some(trouble.to_string())),
+    };
+    let estimate = match &measured {
+        Some(_) => estimate(rig, study, point, options, control)?,
+        None => None,
+    };
+    Ok((ErrorRecord { point: point.clone(), measured, trouble }, estimate))
+}
+
+/// About what a frame of a point costs, if it is one whose cost will be measured and estimates are asked for.
+fn estimate(
+    rig: &Rig,
+    study: &dyn Study,
+    point: &Point,
+    options: &Options,
+    control: &Control,
+) -> Result<Option<f64>, LabError> {
+    if !control.estimates || point.grid != study.main_grid(options.extent) {
+        return Ok(None);
+    }
+    cost::estimate(rig, &study.setup(point), turn_millis(options.extent)).map(Some)
 }
 
 /// Milliseconds that a turn takes at least.

@@ -157,8 +157,8 @@ pub trait Study: Sync {
         None
     }
 
-    /// Everything to measure: every setting on the main grid (every second one in a quick run), and, where an order can be
-    /// observed, the usual one on the others.
+    /// Everything to measure: every setting on the main grid, and, where an order can be observed, the usual one on the others.
+    /// A quick run has the usual setting and each second one of the others: the second, the fourth and so on.
     fn points(&self, extent: Extent) -> Vec<Point> {
         let main = self.main_grid(extent);
         let step = if extent == Extent::Quick { 2 } else { 1 };
@@ -167,7 +167,7 @@ pub trait Study: Sync {
             let point =
                 |setting, grid| Point { study: self.about().name.into(), method: method.name.into(), setting, grid };
             let settings = method.settings.iter().enumerate();
-            let settings = settings.filter(|(n, s)| n % step == 0 || **s == method.usual);
+            let settings = settings.filter(|(n, s)| (n + 1) % step == 0 || **s == method.usual);
             points.extend(settings.map(|(_, &setting)| point(setting, main)));
             let others = self.grids(extent).iter().filter(|grid| **grid != main && self.has_order());
             points.extend(others.map(|&grid| point(method.usual, grid)));

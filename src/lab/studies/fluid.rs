@@ -39,6 +39,9 @@ const METHODS: &[Method] = &[
     Method { name: "mip-fluid", title: "the preset mip-fluid", settings: &[0.3, 0.6, 1.2, 2.4, 4.8], usual: 0.6 },
 ];
 
+/// Of a quick run and a full one.
+const MAIN_GRIDS: [u32; 2] = [64, 128];
+
 /// Grid of the hard cases; and of those with a step so long that on a smaller one it is beyond the slider of the presets.
 const HARD_GRID: u32 = 32;
 const HARD_GRID_OF_LONG_STEPS: u32 = 64;
@@ -165,8 +168,8 @@ impl Study for Fluid {
 
     fn grids(&self, extent: Extent) -> &'static [u32] {
         match extent {
-            Extent::Quick => &[16, 32, 64],
-            Extent::Full => &[32, 64, 128],
+            Extent::Quick => &[16, 32, MAIN_GRIDS[0]],
+            Extent::Full => &[32, 64, MAIN_GRIDS[1]],
         }
     }
 
@@ -205,7 +208,7 @@ impl Study for Fluid {
             measured = measured.value("mass_drift", drift);
         }
         // The hard cases and the single waves are the same on every grid.
-        if point.grid < 64 {
+        if !MAIN_GRIDS.contains(&point.grid) {
             return Ok(measured);
         }
         let (base, stiffness) = base(&point.method);

@@ -5,8 +5,12 @@ use crate::lab::{
     About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit, flip,
     metrics::{Norms, mean},
     picture::{Picture, psnr, ssim},
-    reference::star::{DISC, SIDE, SPEED, Star},
+    reference::{
+        rays::on_all_cores,
+        star::{DISC, SIDE, SPEED, Star},
+    },
 };
+use std::sync::LazyLock;
 
 pub struct Taa;
 
@@ -16,6 +20,13 @@ const REST: u32 = 64;
 const NOW: u32 = 40;
 /// Frames of a round of the jitter.
 const ROUND: u32 = 16;
+
+/// The star at rest, and with the disc in each frame from [`NOW`] on for a round. Every point is compared with these.
+static STILL: LazyLock<Picture> = LazyLock::new(|| Star { frame: None }.picture());
+static PASSING: LazyLock<Vec<Picture>> = LazyLock::new(|| {
+    let frames: Vec<u32> = (NOW..NOW + ROUND).collect();
+    on_all_cores(&frames, |frame| Star { frame: Some(*frame) }.picture())
+});
 
 /// What leaves less of the disc than this is no ghost.
 const FAINT: f64 = 0.01;
@@ -139,10 +150,9 @@ pub fn moving(rig: &Rig, method: &str, setting: f64) -> Result<Moving, LabError>
     let mut running = rig.open(&scene(method, setting, SIDE as u32, true))?;
     running.frames(NOW)?;
     let (mut ghost, mut off, mut first) = (vec![(0.0, 0.0); LONGEST as usize], Vec::new(), None);
-    for frame in NOW..NOW + ROUND {
+    for (frame, truth) in (NOW..).zip(PASSING.iter()) {
         running.frames(1)?;
         let picture = Picture::of(&running.read(result(method))?);
-        let truth = Star { frame: Some(frame) }.picture();
         for (ago, (sum, all)) in (1..).zip(&mut ghost) {
             for i in Star::vacated(frame - ago, frame - ago + 1..=frame) {
                 for (c, disc) in DISC.iter().enumerate() {
@@ -157,7 +167,7 @@ pub fn moving(rig: &Rig, method: &str, setting: f64) -> Result<Moving, LabError>
         first.get_or_insert(picture);
     }
     let ghost = ghost.into_iter().map(|(sum, all)| sum / all).collect();
-    let picture = first.unwrap_or_else(|| Star { frame: None }.picture());
+    let picture = first.unwrap_or_else(|| STILL.clone());
     Ok(Moving { picture, ghost, beside: mean(&off) })
 }
 
@@ -196,20 +206,19 @@ impl Study for Taa {
     }
 
     fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
-        let still = Star { frame: None }.picture();
-        let truth = Star { frame: Some(NOW) }.picture();
+        let (still, truth) = (&*STILL, &PASSING[0]);
         let rest = rest(rig, &point.method, point.setting)?;
         let moving = moving(rig, &point.method, point.setting)?;
-        let off = psnr(&rest.picture, &still);
+        let off = psnr(&rest.picture, still);
         let norms = Norms::of(&rest.picture.values(), &still.values());
         Ok(Measured { norms, frames_per_unit: 1.0, ..Measured::default() }
             .value("psnr_db", off)
-            .value("ssim", ssim(&rest.picture, &still))
-            .value("flip", flip::mean(&rest.picture, &still))
+            .value("ssim", ssim(&rest.picture, still))
+            .value("flip", flip::mean(&rest.picture, still))
             .value("flicker", rest.flicker)
-            .value("moving_psnr_db", psnr(&moving.picture, &truth))
-            .value("moving_ssim", ssim(&moving.picture, &truth))
-            .value("moving_flip", flip::mean(&moving.picture, &truth))
+            .value("moving_psnr_db", psnr(&moving.picture, truth))
+            .value("moving_ssim", ssim(&moving.picture, truth))
+            .value("moving_flip", flip::mean(&moving.picture, truth))
             .value("ghost", moving.beside)
             .value("ghost_px", moving.tail())
             // A root mean square of 10^(-31 / 20).
