@@ -84,6 +84,22 @@ fn check_finds_every_error_of_every_pass_reached_or_not() {
 }
 
 #[test]
+fn check_names_pictures_that_cannot_be_read() {
+    let b = Bench::new();
+    b.image("p/image.glsl", "fragColor = texture(iChannel0, fragCoord) + texture(iChannel1, fragCoord);");
+    b.write(
+        "p/eddy.toml",
+        "eddy = 1\n[passes.image]\nchannels.0 = { file = \"../x.png\" }\nchannels.1 = { file = \"none.png\" }\n",
+    );
+    let lines = b.line("check --json p").expect(0).json();
+    let messages: Vec<_> =
+        lines[0]["diagnostics"].as_array().unwrap().iter().map(|d| d["message"].as_str().unwrap()).collect();
+    assert_eq!(messages.len(), 2, "{messages:?}");
+    assert!(messages[0].starts_with("iChannel0 of Image: ../x.png leads out of the project's folder"), "{messages:?}");
+    assert!(messages[1].starts_with("iChannel1 of Image: ") && messages[1].contains("none.png"), "{messages:?}");
+}
+
+#[test]
 fn check_says_where_the_site_would_read_differently() {
     let b = Bench::new();
     b.image("p/buffer_a.glsl", RED);

@@ -44,6 +44,7 @@ fn check(report: &mut Report, spec: &str) -> Result<(), Trouble> {
     let mut found = compile(project);
     report.compile_ms = Some(millis_since(began));
     let mut files = MediaSet::new();
+    found.extend(media::files(project, &mut files));
     media::fills(project, &mut files);
     media::meshes(project, &mut files);
     found.extend(files.fill_errors(project));

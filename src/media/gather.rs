@@ -12,10 +12,27 @@ use std::{collections::HashMap, path::Path, sync::Arc};
 /// names pass, channel and mend.
 pub fn gather(project: &Project, media_dir: Option<&Path>) -> (MediaSet, Vec<Diagnostic>) {
     let mut set = MediaSet::new();
+    let warnings = pictures(project, media_dir, &mut set, |_| true);
+    fills(project, &mut set);
+    meshes(project, &mut set);
+    (set, warnings)
+}
+
+/// Loads the picture files of the project's own folder alone, with the warnings of [`gather`].
+pub fn files(project: &Project, set: &mut MediaSet) -> Vec<Diagnostic> {
+    pictures(project, None, set, |input| matches!(input, Input::Texture(Media::File(_))))
+}
+
+fn pictures(
+    project: &Project,
+    media_dir: Option<&Path>,
+    set: &mut MediaSet,
+    is_wanted: impl Fn(&Input) -> bool,
+) -> Vec<Diagnostic> {
     let mut failed: HashMap<MediaKey, (String, String)> = HashMap::new();
     let mut warnings = Vec::new();
     let base = project.origin.base_dir();
-    for (pass, n, input, vflip) in inputs(project) {
+    for (pass, n, input, vflip) in inputs(project).filter(|(_, _, input, _)| is_wanted(input)) {
         let mut warn = |message: String, hint: String| {
             warnings
                 .push(Diagnostic::warning(None, format!("iChannel{n} of {}: {message}", pass.id.title())).hint(hint));
@@ -48,9 +65,7 @@ pub fn gather(project: &Project, media_dir: Option<&Path>) -> (MediaSet, Vec<Dia
             }
         }
     }
-    fills(project, &mut set);
-    meshes(project, &mut set);
-    (set, warnings)
+    warnings
 }
 
 /// Loads every file that fills texels of a drawn pass. Why one cannot be had is kept: see [`MediaSet::fill_errors`].

@@ -11,7 +11,7 @@ pub mod mesh;
 mod npy;
 mod site;
 
-pub use gather::{fills, gather, meshes};
+pub use gather::{files, fills, gather, meshes};
 pub use keyboard::Keyboard;
 pub use load::{MediaError, load};
 pub use npy::{bytes as npy_bytes, header as npy_header};
