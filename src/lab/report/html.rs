@@ -8,11 +8,11 @@ const STYLE: &str = "
 body { font: 15px/1.5 system-ui, sans-serif; color: #23262d; background: #fff; max-width: 1280px; margin: 2rem auto; padding: 0 1rem }
 h1 { font-size: 1.7rem } h2 { margin-top: 3rem; border-top: 1px solid #d8dbe0; padding-top: 1.5rem }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; width: 100% }
-th, td { padding: .25rem .55rem; text-align: right; border-bottom: 1px solid #e6e8ec; white-space: nowrap }
-th { font-weight: 600; background: #f4f5f7; position: sticky; top: 0 }
+th, td { padding: .25rem .5rem; text-align: right; border-bottom: 1px solid #e6e8ec; white-space: nowrap }
+th { font-weight: 600; line-height: 1.25; white-space: normal; vertical-align: bottom; background: #f4f5f7; position: sticky; top: 0 }
 th:first-child, td:first-child { text-align: left } tr.study td { font-weight: 600; background: #fafbfc; text-align: left }
 td.bad { color: #a3131f } td.best { background: #fff3c9 } small, .quiet { color: #646a75 } svg { max-width: 100%; height: auto }
-details { margin: 1rem 0 } summary { cursor: pointer }
+details { margin: 1rem 0; overflow-x: auto } summary { cursor: pointer }
 ";
 
 pub fn page(sections: &[(Table, Option<String>)], results: &Results) -> String {
@@ -67,7 +67,7 @@ const COLUMNS: [&str; 11] = [
     "ms",
     "Mtexel/s",
     "% of roofline",
-    "bytes/texel/frame",
+    "bytes a texel and frame",
     "L2",
     "L&infin;",
     "order",

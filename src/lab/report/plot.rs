@@ -36,6 +36,9 @@ const COLOURS: [RGBColor; super::COLOURS] = [
 const GREY: RGBColor = RGBColor(165, 168, 172);
 const INK: RGBColor = RGBColor(40, 44, 52);
 
+/// Errors above this are drawn on the upper edge, where there are smaller ones.
+const BLOWN_UP: f64 = 9.0;
+
 type Area<B> = DrawingArea<B, Shift>;
 
 /// `None` where no point has both a cost and an error.
@@ -75,9 +78,14 @@ fn draw<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<bool, LabErr
     register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
         .map_err(|_| LabError::Plot("the font cannot be read".into()))?;
     let places = || table.rows.iter().filter_map(Row::place);
-    let (Some((x0, x1)), Some((y0, y1))) = (decades(places().map(|p| p.0)), decades(places().map(|p| p.1))) else {
+    // What has blown up would leave no room for the others.
+    let least = places().map(|p| p.1).fold(f64::INFINITY, f64::min);
+    let errors = places().map(|p| p.1.min(BLOWN_UP.max(least)));
+    let (Some((x0, x1)), Some((y0, y1))) = (decades(places().map(|p| p.0)), decades(errors)) else {
         return Ok(false);
     };
+    let place_of = |row: &Row| row.place().map(|(x, y)| (x, y.min(y1)));
+    let is_cut = places().any(|p| p.1 > y1);
     area.fill(&WHITE).map_err(trouble)?;
     let (chart_area, legend) = area.split_horizontally(WIDTH - LEGEND);
     let mut chart = ChartBuilder::on(&chart_area)
@@ -122,7 +130,7 @@ fn draw<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<bool, LabErr
     chart.draw_series([PathElement::new(steps, gold)]).map_err(trouble)?;
     for (n, method) in table.methods().into_iter().enumerate() {
         let colour = COLOURS[n % COLOURS.len()];
-        let rows: Vec<(&Row, (f64, f64))> = table.of(method).filter_map(|r| Some((r, r.place()?))).collect();
+        let rows: Vec<(&Row, (f64, f64))> = table.of(method).filter_map(|r| Some((r, place_of(r)?))).collect();
         let line = rows.iter().map(|(_, place)| *place);
         chart.draw_series(LineSeries::new(line, colour.stroke_width(2))).map_err(trouble)?;
         for (row, (x, y)) in &rows {
@@ -142,7 +150,7 @@ fn draw<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<bool, LabErr
             chart.draw_series([at]).map_err(trouble)?;
         }
     }
-    self::legend(&legend, table).map_err(trouble)?;
+    self::legend(&legend, table, is_cut.then_some(y1)).map_err(trouble)?;
     area.present().map_err(trouble)?;
     Ok(true)
 }
@@ -164,7 +172,7 @@ fn corners(n: usize) -> Vec<(i32, i32)> {
 
 const LEGEND_TOP: i32 = 62;
 /// Of what the legend says below the methods.
-const LEGEND_FOOT: i32 = 180;
+const LEGEND_FOOT: i32 = 205;
 
 /// Of a method in the legend, with its settings below it where there are several.
 fn entry_height(settings: usize) -> i32 {
@@ -177,7 +185,12 @@ fn height(table: &Table) -> u32 {
     HEIGHT.max((LEGEND_TOP + entries + LEGEND_FOOT) as u32)
 }
 
-fn legend<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
+/// `cut`: the upper edge of the plot, on which lie points that are above it.
+fn legend<B: DrawingBackend>(
+    area: &Area<B>,
+    table: &Table,
+    cut: Option<f64>,
+) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
     let text = |size: u32, colour: &RGBColor| (FONT, size).into_font().color(colour);
     let (left, mut y) = (14, LEGEND_TOP);
     let sign = |y: i32, n: usize, colour: RGBColor, fill: RGBColor| {
@@ -208,7 +221,12 @@ fn legend<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<(), Drawin
     let gold = RGBColor(255, 205, 60).mix(0.65).stroke_width(9);
     area.draw(&PathElement::new(vec![(left, y + 9), (left + 22, y + 9)], gold))?;
     area.draw(&Text::new("the frontier", (left + 32, y), text(15, &INK)))?;
-    area.draw(&Text::new("bars: least and most of all turns", (left, y + 27), text(15, &INK)))
+    area.draw(&Text::new("bars: least and most of all turns", (left, y + 27), text(15, &INK)))?;
+    if let Some(edge) = cut {
+        let words = format!("on the upper edge: an error above {edge}");
+        area.draw(&Text::new(words, (left, y + 52), text(15, &INK)))?;
+    }
+    Ok(())
 }
 
 #[cfg(test)]
