@@ -314,3 +314,41 @@ fn bench_says_what_rests_and_no_skip_draws_it_all_the_same() {
     let exported = b.line("export p --out p.json").expect(0);
     assert!(exported.out.contains("the site has none"), "{}", exported.out);
 }
+
+#[test]
+fn a_sweep_draws_once_for_each_value() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    b.write(
+        "p/image.glsl",
+        "#iUniform float gain = 0.1 in { 0.0, 1.0 }\n#iUniform color3 tint = color3(1.0, 1.0, 1.0)\n\
+         void mainImage(out vec4 o, in vec2 p) { o = vec4(gain * tint, 1); }\n",
+    );
+    let run = b
+        .eddy([
+            "render",
+            "p",
+            "--size",
+            "2x2",
+            "--out",
+            "o",
+            "--sweep",
+            "gain=0..1:3",
+            "--sweep",
+            "tint=1,0,0;0,1,0",
+            "--json",
+        ])
+        .expect(0);
+    let lines = run.json();
+    assert_eq!(lines.len(), 6);
+    assert_eq!(lines[5]["sweep"], serde_json::json!(["gain=1", "tint=0,1,0"]));
+    let texel = |name: &str| image::open(b.path(name)).unwrap().to_rgb8().get_pixel(0, 0).0;
+    assert_eq!(texel("o/p_gain=0.5_tint=1,0,0.png"), [128, 0, 0]);
+    assert_eq!(texel("o/p_gain=1_tint=0,1,0.png"), [0, 255, 0]);
+    let run = b.line("bench p --size 2x2 --frames 2 --sweep gain=0;1 --json").expect(0).json();
+    assert_eq!(run.iter().map(|l| l["sweep"][0].as_str().unwrap()).collect::<Vec<_>>(), ["gain=0", "gain=1"]);
+    let run = b.line("render p --size 2x2 --out o --sweep gian=0;1").expect(2);
+    assert!(run.err.contains("--sweep") && run.err.contains("gain"), "{}", run.err);
+    let run = b.line("render p --size 2x2 --out o/x.png --sweep gain=0;1").expect(2);
+    assert!(run.err.contains("2 pictures"), "{}", run.err);
+}

@@ -1,5 +1,6 @@
 //! What the command line may say, as clap reads it. Scripts rely on it: an option is added here, never changed.
 
+use super::sweep::Sweep;
 use crate::{
     lab::stability::BoundArgument,
     project::PassId,
@@ -85,6 +86,10 @@ pub struct RenderArgs {
     pub format: Option<Format>,
     #[command(flatten)]
     pub run: RunArgs,
+    /// Draw once for each value of a uniform: tint=1,0,0;0,1,0 or viscosity=0..0.01:5, five values of even distance (of even
+    /// ratio: 0.001..1:4:log). Pictures are called STEM_viscosity=0.005.png. May be repeated, for every combination
+    #[arg(long, value_name = "NAME=VALUES", value_parser = Sweep::parse)]
+    pub sweep: Vec<Sweep>,
     /// One JSON object a line instead of words: project, status, diagnostics, compile_ms, frame_ms, frames
     #[arg(long)]
     pub json: bool,
@@ -148,6 +153,9 @@ pub struct BenchArgs {
     pub frames: u32,
     #[command(flatten)]
     pub run: RunArgs,
+    /// Measure once for each value of a uniform, as `eddy render` draws; may be repeated, for every combination
+    #[arg(long, value_name = "NAME=VALUES", value_parser = Sweep::parse)]
+    pub sweep: Vec<Sweep>,
     /// One JSON object a line instead of a table
     #[arg(long)]
     pub json: bool,

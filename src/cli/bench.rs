@@ -76,11 +76,12 @@ struct Line<'a> {
     costs: Option<&'a Costs>,
 }
 
-pub fn run(args: &BenchArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
+/// Measures every project at every combination of `sweep`.
+pub fn run(args: &BenchArgs, sweep: &[Vec<String>], inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
     let mut machine = Machine::default();
-    for spec in &args.project {
-        let mut report = Report::new(spec);
+    for (spec, swept) in args.project.iter().flat_map(|spec| sweep.iter().map(move |swept| (spec, swept))) {
+        let mut report = Report::swept(spec, swept);
         let costs =
             machine.attempt(&mut report, |machine, report| measure(machine, report, args, spec, inputs.clone()));
         let words = costs.as_ref().map_or(String::new(), |c| words(&report, c));
@@ -196,7 +197,7 @@ fn words(report: &Report, costs: &Costs) -> String {
     let _ = writeln!(
         out,
         "{}: {:.3} ms a frame (slowest {:.3}), {} frames of {}x{} on {}",
-        report.project,
+        report.title(),
         report.frame_ms.unwrap_or_default(),
         costs.worst_ms,
         report.frames,

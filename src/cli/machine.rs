@@ -120,7 +120,7 @@ impl Machine {
     }
 }
 
-/// Reads, compiles and sets up a project, its warnings going into the report.
+/// Reads, compiles and sets up a project, its warnings going into the report, by which it is swept.
 pub fn open(
     machine: &mut Machine,
     report: &mut Report,
@@ -142,8 +142,10 @@ pub fn open(
         }
         Some(_) => {}
     }
-    for assignment in &run.set {
-        project.set_knob(assignment).map_err(|why| anyhow::anyhow!("--set {why}"))?;
+    for (option, assignments) in [("--set", &run.set), ("--sweep", &report.sweep)] {
+        for assignment in assignments {
+            project.set_knob(assignment).map_err(|why| anyhow::anyhow!("{option} {why}"))?;
+        }
     }
     let (media, missing) = media::gather(&project, run.media.as_deref());
     report.diagnose(&missing, &loaded.sources, Some(&project));

@@ -14,6 +14,7 @@ mod quiet;
 mod render;
 mod report;
 mod stability;
+mod sweep;
 mod targets;
 
 pub use args::Window;
@@ -84,8 +85,8 @@ fn run(command: &Command) -> u8 {
             render::run(args, &targets, &inputs)
         }
         Command::Check(args) => check::run(args),
-        Command::Bench(args) => match args.run.inputs() {
-            Ok(inputs) => bench::run(args, &inputs),
+        Command::Bench(args) => match args.run.inputs().and_then(|i| Ok((sweep::combinations(&args.sweep)?, i))) {
+            Ok((sweep, inputs)) => bench::run(args, &sweep, &inputs),
             Err(usage) => return trouble(usage),
         },
         Command::Lab(args) => lab::run(args),

@@ -12,15 +12,16 @@ use std::{io, path::PathBuf, time::Instant};
 pub fn run(args: &RenderArgs, targets: &Targets, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
     let mut machine = Machine::default();
-    for (index, spec) in args.project.iter().enumerate() {
-        let mut report = Report::new(spec);
+    let runs = args.project.iter().enumerate();
+    for ((index, spec), swept) in runs.flat_map(|run| targets.sweep.iter().map(move |swept| (run, swept))) {
+        let mut report = Report::swept(spec, swept);
         let written =
             machine.attempt(&mut report, |machine, report| draw(machine, report, args, targets, inputs, index));
         let words = written.map_or(String::new(), |written| {
             let millis = report.frame_ms.unwrap_or_default();
             let paths: Vec<String> = written.iter().map(|p| p.display().to_string()).collect();
             let frames = if report.frames == 1 { "1 frame".into() } else { format!("{} frames", report.frames) };
-            format!("{spec}: {frames}, {millis:.2} ms each: {}", paths.join(" "))
+            format!("{}: {frames}, {millis:.2} ms each: {}", report.title(), paths.join(" "))
         });
         printer.print(&report, &words)?;
     }
@@ -47,7 +48,7 @@ fn draw(
         millis.push(millis_since(began));
         report.frames += 1;
         if targets.at.binary_search(&frame).is_ok()
-            && let Some(path) = targets.path(index, frame)
+            && let Some(path) = targets.path(index, &report.sweep, frame)
         {
             targets::write(&path, &engine.read_target(&args.pass.pass, args.pass.target)?, targets.format)?;
             written.push(path);

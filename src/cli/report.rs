@@ -36,6 +36,9 @@ impl Status {
 pub struct Report {
     /// As it was named on the command line.
     pub project: String,
+    /// What `--sweep` set.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub sweep: Vec<String>,
     pub status: Status,
     pub diagnostics: Vec<Message>,
     /// Milliseconds; `None` where nothing was compiled.
@@ -83,6 +86,7 @@ impl Report {
     pub fn new(project: &str) -> Report {
         Report {
             project: project.to_owned(),
+            sweep: Vec::new(),
             status: Status::Ok,
             diagnostics: Vec::new(),
             compile_ms: None,
@@ -90,6 +94,16 @@ impl Report {
             frames: 0,
             carets: String::new(),
         }
+    }
+
+    /// Of a project that is drawn with these assignments.
+    pub fn swept(project: &str, sweep: &[String]) -> Report {
+        Report { sweep: sweep.to_vec(), ..Report::new(project) }
+    }
+
+    /// The project, and what `--sweep` set.
+    pub fn title(&self) -> String {
+        self.sweep.iter().fold(self.project.clone(), |title, set| format!("{title} {set}"))
     }
 
     /// Adds diagnostics; an error among them is what became of the project.
@@ -142,7 +156,7 @@ impl Printer {
             return out.write_all(b"\n").and_then(|()| out.flush());
         }
         if !report.carets.is_empty() {
-            writeln!(io::stderr().lock(), "{}:\n{}", report.project, report.carets)?;
+            writeln!(io::stderr().lock(), "{}:\n{}", report.title(), report.carets)?;
         }
         if !words.is_empty() {
             writeln!(out, "{words}")?;

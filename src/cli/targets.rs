@@ -1,7 +1,10 @@
 //! Where pictures go: which file each frame of each project is written to, worked out before anything is drawn, so that no
 //! picture of a call is written over another one of it.
 
-use super::args::{RenderArgs, format_of};
+use super::{
+    args::{RenderArgs, format_of},
+    sweep,
+};
 use crate::{
     engine::Pixels,
     project,
@@ -26,6 +29,8 @@ pub struct Targets {
     pub at: Vec<u32>,
     /// Frames to draw: past the last one written.
     pub frames: u32,
+    /// What each drawing of a project sets.
+    pub sweep: Vec<Vec<String>>,
     place: Place,
 }
 
@@ -42,8 +47,10 @@ impl Targets {
     /// Err: what was asked for cannot be meant.
     pub fn of(args: &RenderArgs) -> Result<Targets, String> {
         let (at, frames) = frames(args)?;
+        let sweep = sweep::combinations(&args.sweep)?;
         let Some(out) = &args.out else {
-            return Ok(Targets { format: args.format.unwrap_or(Format::Png), at, frames, place: Place::Nowhere });
+            let format = args.format.unwrap_or(Format::Png);
+            return Ok(Targets { format, at, frames, sweep, place: Place::Nowhere });
         };
         let shown = out.display();
         let named = out.extension().and_then(|e| format_of(&e.to_string_lossy()));
@@ -51,18 +58,18 @@ impl Targets {
             if out.is_dir() { None } else { named.transpose().map_err(|why| format!("--out {shown}: {why}"))? };
         let Some(named) = named else {
             let place = Place::Folder(out.clone(), stems(&args.project, || tells_case_apart(out))?);
-            return Ok(Targets { format: args.format.unwrap_or(Format::Png), at, frames, place });
+            return Ok(Targets { format: args.format.unwrap_or(Format::Png), at, frames, sweep, place });
         };
         if let Some(format) = args.format
             && format != named
         {
             return Err(format!("--out {shown} and --format {} do not agree", format.extension()));
         }
-        let pictures = args.project.len() * at.len();
+        let pictures = args.project.len() * sweep.len() * at.len();
         if pictures != 1 {
             return Err(format!("--out {shown} is one file, and {pictures} pictures are to be written: name a folder"));
         }
-        Ok(Targets { format: named, at, frames, place: Place::File(out.clone()) })
+        Ok(Targets { format: named, at, frames, sweep, place: Place::File(out.clone()) })
     }
 
     /// Makes the folder, so that a place nothing can be written to is known before hours of drawing.
@@ -85,13 +92,14 @@ impl Targets {
         self.at.last().map_or(0, |last| last.to_string().len()).max(LEAST_DIGITS)
     }
 
-    /// The file for a frame of a project, counted as on the command line.
-    pub fn path(&self, project: usize, frame: u32) -> Option<PathBuf> {
+    /// The file for a frame of a project, counted as on the command line, where `swept` is set.
+    pub fn path(&self, project: usize, swept: &[String], frame: u32) -> Option<PathBuf> {
         match &self.place {
             Place::Nowhere => None,
             Place::File(file) => Some(file.clone()),
             Place::Folder(folder, stems) => {
-                let (stem, extension) = (&stems[project], self.format.extension());
+                let (mut stem, extension) = (stems[project].clone(), self.format.extension());
+                swept.iter().for_each(|set| stem.push_str(&format!("_{set}")));
                 Some(folder.join(match self.at.len() {
                     1 => format!("{stem}.{extension}"),
                     _ => format!("{stem}_{frame:0digits$}.{extension}", digits = self.digits()),
@@ -173,7 +181,7 @@ mod tests {
     }
 
     fn path(line: &str, project: usize, frame: u32) -> String {
-        targets(line).unwrap().path(project, frame).unwrap().to_string_lossy().into_owned()
+        targets(line).unwrap().path(project, &[], frame).unwrap().to_string_lossy().into_owned()
     }
 
     #[test]
@@ -187,6 +195,10 @@ mod tests {
         assert_eq!(path("fluid --out a.v1/x.npy", 0, 0), "a.v1/x.npy");
         assert_eq!(path("src/ --out o", 0, 0), "o/src.png");
         assert_ne!(path(". --out o", 0, 0), "o/picture.png", "the folder's name is looked up");
+        let swept = targets("fluid --out o --sweep a=0..1:3 --sweep b=1;2 --at 1,2").unwrap();
+        let (last, folder) = (swept.sweep.last().unwrap(), Path::new("o"));
+        assert_eq!(swept.sweep.len(), 6);
+        assert_eq!(swept.path(0, last, 2).unwrap(), folder.join("fluid_a=1_b=2_0002.png"));
     }
 
     #[test]
@@ -204,6 +216,8 @@ mod tests {
         for (line, says) in [
             ("a b --out x.png", "2 pictures"),
             ("a --out x.png --at 1,2", "2 pictures"),
+            ("a --out x.png --sweep b=1;2", "2 pictures"),
+            ("a --out o --sweep b=1;2 --sweep b=3;4", "swept twice"),
             ("x/a.json y/a.json --out o", "x/a.json and y/a.json"),
             ("fluid fluid --out o", "would both be written"),
             ("a --out x.png --format npy", "do not agree"),
@@ -212,7 +226,7 @@ mod tests {
             let message = targets(line).expect_err(line);
             assert!(message.contains(says), "{line}: {message}");
         }
-        assert_eq!(targets("fluid fluid --json").unwrap().path(0, 0), None);
+        assert_eq!(targets("fluid fluid --json").unwrap().path(0, &[], 0), None);
     }
 
     #[test]
