@@ -67,7 +67,6 @@ fn join(all: &mut Reflection, one: &Reflection) {
         all.mips |= one.mips;
     }
     all.discards |= one.discards;
-    all.derivatives |= one.derivatives;
     all.geometry |= one.geometry;
 }
 

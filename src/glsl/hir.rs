@@ -155,8 +155,6 @@ impl ExprFlags {
     pub const PLACE: ExprFlags = ExprFlags(1);
     /// Evaluating may change something: an assignment, `++`, a user call, a built-in with `out` argument, `st_assert`.
     pub const EFFECTS: ExprFlags = ExprFlags(2);
-    /// Contains `&&`, `||` or `?:`, or a user call: evaluating may need more than straight code.
-    pub const BRANCHES: ExprFlags = ExprFlags(4);
     /// A constant expression (section 4.3.3): always a `Literal` or `Const`.
     pub const CONSTANT: ExprFlags = ExprFlags(8);
 
@@ -169,10 +167,10 @@ impl ExprFlags {
         Self(self.0 | other.0)
     }
 
-    /// What a parent takes over from a child: effects and branches.
+    /// What a parent takes over from a child: effects.
     #[must_use]
     pub fn inherited(self) -> Self {
-        Self(self.0 & (Self::EFFECTS.0 | Self::BRANCHES.0))
+        Self(self.0 & Self::EFFECTS.0)
     }
 }
 

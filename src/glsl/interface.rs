@@ -101,8 +101,9 @@ pub struct UniformBlock {
     pub time_offset: f32,
     /// `int iSampleOffset` at 196 (sound), samples.
     pub sample_offset: i32,
-    /// `float iChannel_loaded` of `iCh0..3` at 208 (Image): 1 where the channel's media is there.
+    /// So that what follows lies at a multiple of 16.
     pub pad: [i32; 2],
+    /// `int loaded` of `iCh0` to `iCh3` at 208: 1 where the channel has a texture.
     pub channel_loaded: [i32; 4],
 }
 

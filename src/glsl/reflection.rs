@@ -115,21 +115,4 @@ pub struct Reflection {
     pub varyings: Vec<super::Varying>,
     /// Of a fragment stage of a mesh: the targets it has an output for.
     pub outputs: [bool; super::interface::MAX_TARGETS],
-    /// Screen-space derivatives are taken (also by implicit-level texture reads).
-    pub derivatives: bool,
-}
-
-impl Reflection {
-    /// Whether the picture can change though no channel and no input event does.
-    pub fn depends_on_time(&self) -> bool {
-        let clocks = [
-            UniformSet::TIME,
-            UniformSet::TIME_DELTA,
-            UniformSet::FRAME,
-            UniformSet::FRAME_RATE,
-            UniformSet::DATE,
-            UniformSet::CHANNEL_TIME,
-        ];
-        clocks.into_iter().any(|u| self.uniforms.intersects(u))
-    }
 }

@@ -98,7 +98,7 @@ impl Checker<'_> {
         self.note_call(func, loc);
         let result = self.module[func].result;
         let id = if legal {
-            let flags = self.inherited(&self.expr_stack[base..]).with(ExprFlags::EFFECTS).with(ExprFlags::BRANCHES);
+            let flags = self.inherited(&self.expr_stack[base..]).with(ExprFlags::EFFECTS);
             let args = self.module.list(&self.expr_stack[base..]);
             self.push(ExprKind::Call { func, args }, result, flags, loc)
         } else {

@@ -310,7 +310,7 @@ impl<'a> Checker<'a> {
             let hir::Expr { kind, ty, .. } = self.module[chosen];
             return self.push(kind, ty, ExprFlags::CONSTANT, loc);
         }
-        let flags = self.inherited(&[c, t, o]).with(ExprFlags::BRANCHES);
+        let flags = self.inherited(&[c, t, o]);
         self.push(ExprKind::Ternary { cond: c, then: t, otherwise: o }, tt, flags, loc)
     }
 

@@ -115,7 +115,7 @@ impl Checker<'_> {
                 let value = if logical == LogicalOp::And { on(l) && on(r) } else { on(l) || on(r) };
                 return self.literal(value.into(), TypeId::BOOL, loc);
             }
-            let flags = self.inherited(&[l, r]).with(ExprFlags::BRANCHES);
+            let flags = self.inherited(&[l, r]);
             return self.push(ExprKind::Logical { op: logical, lhs: l, rhs: r }, TypeId::BOOL, flags, loc);
         }
         let op = eager(op);

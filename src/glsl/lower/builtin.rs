@@ -247,7 +247,6 @@ impl Builder<'_, '_> {
             let zero = self.float(0.0);
             return self.op(Op::Multiply, expr, zero);
         }
-        self.cx.reflection.derivatives = true;
         self.add(Expression::Derivative { axis, ctrl: DerivativeControl::None, expr })
     }
 

@@ -125,11 +125,9 @@ impl Builder<'_, '_> {
             level = SampleLevel::Exact(self.float(0.0));
         }
         match level {
-            SampleLevel::Auto | SampleLevel::Bias(_) => {
+            SampleLevel::Auto | SampleLevel::Bias(_) | SampleLevel::Gradient { .. } => {
                 self.cx.reflection.channels[usize::from(channel)].mips = true;
-                self.cx.reflection.derivatives = true;
             }
-            SampleLevel::Gradient { .. } => self.cx.reflection.channels[usize::from(channel)].mips = true,
             SampleLevel::Exact(_) | SampleLevel::Zero => {}
         }
         if form.proj {
