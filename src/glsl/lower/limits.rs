@@ -14,22 +14,33 @@ use crate::glsl::{
 
 /// The operands that a place is compared with where a loop goes on while it is greater than these.
 pub(super) fn limits(module: &Module) -> HashSet<ExprId> {
-    let mut found = HashSet::new();
-    for stmt in &module.stmts {
-        let (test, body) = match stmt.kind {
-            StmtKind::For { test, body, .. } => (test, body),
-            StmtKind::DoWhile { body, test } => (Some(test), body),
-            _ => continue,
-        };
-        test.into_iter().for_each(|test| compared(module, test, true, &mut found));
-        walk::walk(module, &module[body], &[], |node, _| {
+    let (mut found, mut seen) = (HashSet::new(), HashSet::new());
+    // What consists of statements comes after these: an outer loop is met first, and its inner ones with it.
+    for stmt in (0..module.stmts.len()).rev().map(StmtId::new) {
+        let is_loop = matches!(module[stmt].kind, StmtKind::For { .. } | StmtKind::DoWhile { .. });
+        if !is_loop || seen.contains(&stmt) {
+            continue;
+        }
+        walk::walk(module, &[stmt], &[], |node, _| {
             let walk::Node::Stmt(stmt) = node else { return };
-            let StmtKind::If { cond, then, otherwise } = module[stmt].kind else { return };
-            if leaves(module, then) {
-                compared(module, cond, false, &mut found);
-            }
-            if leaves(module, otherwise) {
-                compared(module, cond, true, &mut found);
+            match module[stmt].kind {
+                StmtKind::For { test, .. } => {
+                    seen.insert(stmt);
+                    test.into_iter().for_each(|test| compared(module, test, true, &mut found));
+                }
+                StmtKind::DoWhile { test, .. } => {
+                    seen.insert(stmt);
+                    compared(module, test, true, &mut found);
+                }
+                StmtKind::If { cond, then, otherwise } => {
+                    if leaves(module, then) {
+                        compared(module, cond, false, &mut found);
+                    }
+                    if leaves(module, otherwise) {
+                        compared(module, cond, true, &mut found);
+                    }
+                }
+                _ => {}
             }
         });
     }
