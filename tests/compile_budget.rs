@@ -3,30 +3,19 @@
 
 #[path = "support/first_frame.rs"]
 mod first_frame;
+#[path = "support/source.rs"]
+mod source;
 
 use eddy::{
-    diag::{Diagnostic, SourceId},
-    glsl::{self, ChannelKind, Compiled, Driver, PassKind, PassSource, Text},
+    diag::Diagnostic,
+    glsl::{self, Compiled},
 };
 use first_frame::first_frame;
+use source::source;
 use std::{
     fmt::Write,
     time::{Duration, Instant},
 };
-
-fn source(text: &str) -> PassSource<'_> {
-    PassSource {
-        kind: PassKind::Image,
-        common: None,
-        code: Text { id: SourceId(0), text },
-        includes: &[],
-        channels: [ChannelKind::Sampler2D; 4],
-        knobs: &[],
-        values: &[],
-        bilinear_by_hand: [false; 4],
-        driver: Driver::default(),
-    }
-}
 
 fn compile(text: &str) -> Result<Compiled, Vec<Diagnostic>> {
     glsl::compile(&source(text))

@@ -2,27 +2,13 @@
 
 #[path = "support/first_frame.rs"]
 mod first_frame;
+#[path = "support/source.rs"]
+mod source;
 
-use eddy::{
-    diag::SourceId,
-    glsl::{self, ChannelKind, Driver, PassKind, PassSource, Text},
-};
+use eddy::glsl::{self, Driver, PassSource};
 use first_frame::first_frame;
+use source::source;
 use std::time::Duration;
-
-fn source(text: &str) -> PassSource<'_> {
-    PassSource {
-        kind: PassKind::Image,
-        common: None,
-        code: Text { id: SourceId(0), text },
-        includes: &[],
-        channels: [ChannelKind::Sampler2D; 4],
-        knobs: &[],
-        values: &[],
-        bilinear_by_hand: [false; 4],
-        driver: Driver::default(),
-    }
-}
 
 /// Texels of a picture as NumPy's format has it, rows from the bottom.
 fn texels(npy: &[u8]) -> Vec<[f32; 4]> {

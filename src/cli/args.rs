@@ -174,7 +174,7 @@ pub struct LabArgs {
     /// Print the studies and their methods, and measure nothing
     #[arg(long)]
     pub list: bool,
-    /// Small grids and every second setting: minutes on two cores
+    /// Small grids, each method's usual setting and every second other one: a minute and a half on two cores
     #[arg(long)]
     pub quick: bool,
     /// Turns that methods take while costs are measured, at least 7
