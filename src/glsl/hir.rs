@@ -19,14 +19,13 @@
 //!   at entry, a non-void function that ends without `return` returns zero. No expression stands for it; lowering does it.
 
 mod declarations;
-mod given;
-mod types;
 
+use super::ast::{self, Ident, List, Loc, Symbol, TokenId};
+pub use super::{
+    builtins::{Builtin, BuiltinVar, Uniform},
+    types::{SamplerDim, Scalar, StructId, Swizzle, Type, TypeId, TypeTable},
+};
 pub use declarations::{Const, Function, Global, GlobalStorage, Local, LocalKind, VarFlags};
-pub use given::{Builtin, BuiltinVar, Uniform};
-pub use types::{SamplerDim, Scalar, Struct, StructMember, Type, TypeId, TypeTable};
-
-use super::ast::{self, List, Loc, Symbol, TokenId};
 
 ast::ids! {
     /// An expression of [`Module::exprs`].
@@ -35,8 +34,6 @@ ast::ids! {
     StmtId;
     /// A folded composite of [`Module::consts`].
     ConstId;
-    /// A struct of [`Module::structs`].
-    StructId;
     /// A parameter or local variable of [`Module::locals`], unique in the module.
     LocalId;
     /// A file-scope variable of [`Module::globals`].
@@ -131,6 +128,23 @@ impl Module {
         let function = &self[func];
         &self.locals[function.locals.start as usize..][..function.param_count as usize]
     }
+}
+
+/// A struct type. Member types are complete and none is void; names are distinct.
+#[derive(Clone, Copy, Debug)]
+pub struct Struct {
+    /// `None` for `struct { .. } x;`.
+    pub name: Option<Ident>,
+    pub ty: TypeId,
+    pub members: List<StructMember>,
+    #[expect(dead_code, reason = "every node says where it stands")]
+    pub loc: Loc,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub struct StructMember {
+    pub name: Ident,
+    pub ty: TypeId,
 }
 
 // -------------------------------------------------------------------------------------------------------- expressions
@@ -376,55 +390,12 @@ pub enum IncDec {
     PostDecrement,
 }
 
-/// One to four components of a vector, 0 to 3 each, packed. The checker guarantees they exist in the base.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
-pub struct Swizzle(u16);
-
-impl Swizzle {
-    /// `components` has 1 to 4 entries below 4.
-    pub fn new(components: &[u8]) -> Self {
-        debug_assert!((1..=4).contains(&components.len()));
-        let mut bits = (components.len() as u16) << 8;
-        for (i, &component) in components.iter().enumerate() {
-            debug_assert!(component < 4);
-            bits |= u16::from(component) << (2 * i);
-        }
-        Self(bits)
-    }
-
-    pub fn len(self) -> usize {
-        usize::from(self.0 >> 8)
-    }
-
-    pub fn get(self, i: usize) -> usize {
-        usize::from(self.0 >> (2 * i)) & 3
-    }
-
-    pub fn iter(self) -> impl Iterator<Item = usize> {
-        (0..self.len()).map(move |i| self.get(i))
-    }
-
-    /// A component occurs twice: not a place.
-    pub fn repeats(self) -> bool {
-        let seen = self.iter().fold(0u8, |seen, c| seen | 1 << c);
-        seen.count_ones() as usize != self.len()
-    }
-}
-
-impl std::fmt::Debug for Swizzle {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(".")?;
-        self.iter().try_for_each(|c| f.write_str(["x", "y", "z", "w"][c]))
-    }
-}
-
 // --------------------------------------------------------------------------------------------------------- statements
 
 /// A statement. Empty statements, `const` declarations and struct definitions leave none.
 #[derive(Clone, Copy, Debug)]
 pub struct Stmt {
     pub kind: StmtKind,
-    #[expect(dead_code, reason = "every node says where it stands")]
     pub loc: Loc,
 }
 

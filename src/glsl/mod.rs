@@ -6,12 +6,16 @@
 //! uniform block, entry point) is fixed in [`interface`], so that the GPU side can be written without reading this one.
 
 pub(crate) mod ast;
+pub(crate) mod builtins;
 pub(crate) mod check;
+pub(crate) mod emit;
 pub(crate) mod hir;
 pub mod interface;
+pub(crate) mod ir;
 mod lex;
 pub(crate) mod lower;
 mod near;
+pub(crate) mod opt;
 pub(crate) mod parse;
 mod pieces;
 mod preprocess;
@@ -19,6 +23,7 @@ pub mod reflection;
 mod report;
 pub mod services;
 pub mod stages;
+pub(crate) mod types;
 
 pub use reflection::{ChannelUse, KnobSet, Reflection, UniformSet};
 use stages::Interface;
@@ -214,15 +219,16 @@ pub fn compile_linked(source: &PassSource<'_>, link: &Link<'_>) -> Result<Compil
         return Err(diagnostics);
     }
     lower::settle(&mut checked);
-    let lower::Lowered { module, reflection, tables, knob_bytes, filled_arrays } =
-        lower::lower(&checked, source, interface);
-    if let Err(reason) = lower::validate(&module) {
+    let lower::Lowered { mut program, mut reflection } = lower::lower(&checked, source, interface);
+    opt::optimise(&mut program, &[], |_, _| {});
+    let emit::Emitted { module, tables, knob_bytes, filled_arrays } = emit::emit(&program, source, &mut reflection);
+    if let Err(reason) = emit::validate(&module) {
         let bug =
             Diagnostic::error(None, format!("this is a bug in Eddy: the generated program is not valid: {reason}"));
         diagnostics.push(bug.hint("the program itself is right; please report it with this text"));
         return Err(diagnostics);
     }
-    let lower::TableBytes { uniform: uniform_tables, storage: tables } = tables;
+    let emit::TableBytes { uniform: uniform_tables, storage: tables } = tables;
     Ok(Compiled { module, reflection, tables, uniform_tables, knob_bytes, filled_arrays, diagnostics })
 }
 

@@ -9,13 +9,13 @@ use std::{
 };
 
 /// A token of the preprocessed stream the parser read: an index into [`Origins::tokens`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct TokenId(pub u32);
 
 /// Where a node stands: its first and last token, both included. Turned into text positions by [`Origins`] only when a
 /// diagnostic or an editor asks, so nodes stay small. Parentheses around an expression are outside its `Loc`, but inside its
 /// parent's. A node the checker inserts (a conversion) takes the `Loc` of its operand.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
 pub struct Loc {
     pub first: TokenId,
     pub last: TokenId,

@@ -1,14 +1,8 @@
 //! Parts of variables and values: members, components, elements; places that are assigned to; clamped indices.
 
-use naga::{Expression, MathFunction, ScalarKind, SwizzleComponent};
-
-use super::{
-    function::{Builder, Slot, Value},
-    resources, types,
-};
-use crate::glsl::hir::{
-    BuiltinVar, ExprId, ExprKind, GlobalStorage, LocalId, Scalar, Swizzle, Type, TypeId, Uniform, VarFlags,
-};
+use super::function::{Builder, Slot};
+use crate::glsl::hir::{BuiltinVar, ExprId, ExprKind, GlobalStorage, LocalId, Scalar, Swizzle, Type, TypeId, VarFlags};
+use crate::glsl::ir::{Binary, Math, Op, Value};
 
 /// Something in memory.
 #[derive(Clone, Copy, Debug)]
@@ -18,16 +12,13 @@ pub(super) struct Place {
     pub ty: TypeId,
     /// Components of it that are meant; none: all of it.
     pub swizzle: Option<Swizzle>,
-    /// Points to an array whose scalars and vectors lie in slots of 16 bytes, of which the first components count
-    /// (`iChannelTime`, constant tables in a uniform buffer).
-    pub padded: bool,
     /// Read from a uniform block: see [`Builder::load_uniform`].
     pub uniform: bool,
 }
 
 impl Place {
     pub fn of(pointer: Value, ty: TypeId) -> Self {
-        Self { pointer, ty, swizzle: None, padded: false, uniform: false }
+        Self { pointer, ty, swizzle: None, uniform: false }
     }
 }
 
@@ -73,7 +64,10 @@ impl Builder<'_, '_> {
         let global = match hir[root].kind {
             ExprKind::Local(local) => match self.slot(local) {
                 Slot::Memory(pointer) => return Some(Place::of(pointer, ty)),
-                Slot::Table(id) => return Some(self.table(id, ty)),
+                Slot::Table(id) => {
+                    let table = self.cx.table(id);
+                    return Some(Place::of(self.global(table), ty));
+                }
                 Slot::Unset if self.needs_memory(local) => {
                     let pointer = self.memory(local);
                     return Some(Place::of(pointer, ty));
@@ -96,22 +90,14 @@ impl Builder<'_, '_> {
                     return None;
                 }
                 if let (false, Some(value)) = (varies, global.value) {
-                    return Some(self.table(value, ty));
+                    self.cx.table(super::const_id(value))
+                } else {
+                    self.cx.global(id)
                 }
-                self.cx.global(id)
             }
             ExprKind::Uniform(uniform) => {
-                if let Some(index) = uniform.geometry_member() {
-                    let block = self.cx.geometry_block();
-                    let base = self.global(block);
-                    let pointer = self.add(Expression::AccessIndex { base, index });
-                    return Some(Place { uniform: true, ..Place::of(pointer, ty) });
-                }
-                let (member, name) = resources::uniform(uniform);
-                self.cx.reflection.uniforms.insert(name);
-                let pointer = self.block_member(member);
-                let padded = uniform == Uniform::ChannelTime;
-                return Some(Place { padded, uniform: true, ..Place::of(pointer, ty) });
+                let global = self.cx.uniform(uniform);
+                return Some(Place { uniform: true, ..Place::of(self.global(global), ty) });
             }
             ExprKind::BuiltinVar(BuiltinVar::FragCoord) => self.cx.frag_coord(),
             ExprKind::BuiltinVar(BuiltinVar::FragDepth) => self.cx.frag_depth(),
@@ -121,37 +107,28 @@ impl Builder<'_, '_> {
             {
                 self.cx.stage_variable(variable)
             }
-            ExprKind::Const(id) if self.indexes_aggregate(links) => return Some(self.table(id, ty)),
+            ExprKind::Const(id) if self.indexes_aggregate(links) => self.cx.table(super::const_id(id)),
             _ => return None,
         };
         Some(Place::of(self.global(global), ty))
     }
 
-    /// Pointer to a member of the uniform block.
-    pub fn block_member(&mut self, index: u32) -> Value {
-        let block = self.cx.block();
-        let base = self.global(block);
-        self.add(Expression::AccessIndex { base, index })
-    }
-
     /// The value of one of the author's own uniforms: words of its slot, read as what it is.
     fn knob(&mut self, index: u16, ty: TypeId) -> Value {
         let slot = self.cx.source.knobs[usize::from(index)].slot;
-        self.cx.reflection.knobs.insert(slot);
-        let block = self.cx.knob_block();
-        let base = self.global(block);
-        let pointer = self.add(Expression::AccessIndex { base, index: slot.into() });
+        let block = self.cx.knob(slot);
+        let pointer = self.global(block);
         let words = self.load_uniform(pointer, TypeId::vector(Scalar::Uint, 4));
         let size = self.cx.hir.types.components(ty).expect("a scalar or a vector") as usize;
         let words = self.swizzle(words, TypeId::vector(Scalar::Uint, 4), Swizzle::new(&[0, 1, 2, 3][..size]));
         match self.cx.hir.types.scalar(ty) {
             Some(Scalar::Bool) => {
                 let zero = self.literal(Scalar::Uint, 0);
-                self.op(naga::BinaryOperator::NotEqual, words, zero)
+                self.op(Binary::NotEqual, words, zero)
             }
-            Some(Scalar::Int) => self.bitcast(words, ScalarKind::Sint),
+            Some(Scalar::Int) => self.bitcast(words, Scalar::Int),
             Some(Scalar::Uint) => words,
-            _ => self.bitcast(words, ScalarKind::Float),
+            _ => self.bitcast(words, Scalar::Float),
         }
     }
 
@@ -191,7 +168,7 @@ impl Builder<'_, '_> {
         let ty = hir[link].ty;
         let base = place.pointer;
         let pointer = match hir[link].kind {
-            ExprKind::Member { index, .. } => self.add(Expression::AccessIndex { base, index }),
+            ExprKind::Member { index, .. } => self.add(Op::Part { base, index }),
             ExprKind::Swizzle { swizzle, .. } => {
                 let swizzle = match place.swizzle {
                     None => swizzle,
@@ -200,57 +177,34 @@ impl Builder<'_, '_> {
                 if swizzle.len() > 1 {
                     return Place { swizzle: Some(swizzle), ..place };
                 }
-                self.add(Expression::AccessIndex { base, index: swizzle.get(0) as u32 })
+                self.add(Op::Part { base, index: swizzle.get(0) as u32 })
             }
             ExprKind::Index { index, .. } => {
                 let pointer = match (hir[index].kind, place.swizzle) {
-                    (ExprKind::Literal(i), None) => self.add(Expression::AccessIndex { base, index: i }),
+                    (ExprKind::Literal(i), None) => self.add(Op::Part { base, index: i }),
                     (ExprKind::Literal(i), Some(swizzle)) => {
-                        self.add(Expression::AccessIndex { base, index: swizzle.get(i as usize) as u32 })
+                        self.add(Op::Part { base, index: swizzle.get(i as usize) as u32 })
                     }
                     (_, None) => {
                         let index = self.index(index, self.extent(place.ty));
-                        self.add(Expression::Access { base, index })
+                        self.add(Op::Element { base, index })
                     }
                     (_, Some(swizzle)) => {
                         let index = self.index(index, swizzle.len() as u32);
                         let components = swizzle.iter().map(|c| self.literal(Scalar::Uint, c as u32)).collect();
                         let table = self.compose(TypeId::vector(Scalar::Uint, swizzle.len() as u8), components);
-                        let index = self.add(Expression::Access { base: table, index });
-                        self.add(Expression::Access { base, index })
+                        let index = self.add(Op::Element { base: table, index });
+                        self.add(Op::Element { base, index })
                     }
                 };
-                return match place.padded {
-                    true => self.slot_of_array(pointer, ty),
-                    false => Place::of(pointer, ty),
-                };
+                return Place::of(pointer, ty);
             }
             other => unreachable!("{other:?} is no part"),
         };
         Place::of(pointer, ty)
     }
 
-    /// The element of type `ty` in what an element of an array of slots holds.
-    fn slot_of_array(&mut self, pointer: Value, ty: TypeId) -> Place {
-        match self.cx.hir.types.get(ty) {
-            Type::Scalar(_) => Place::of(self.add(Expression::AccessIndex { base: pointer, index: 0 }), ty),
-            Type::Vector { scalar, size: 2 } => {
-                Place { swizzle: Some(Swizzle::new(&[0, 1])), ..Place::of(pointer, TypeId::vector(scalar, 4)) }
-            }
-            _ => Place::of(pointer, ty),
-        }
-    }
-
     pub fn load_place(&mut self, place: Place) -> Value {
-        if let (true, Type::Array { element, len }) = (place.padded, self.cx.hir.types.get(place.ty)) {
-            let parts = (0..len).map(|index| {
-                let slot = self.add(Expression::AccessIndex { base: place.pointer, index });
-                let part = self.slot_of_array(slot, element);
-                self.load_place(Place { uniform: place.uniform, ..part })
-            });
-            let parts = parts.collect();
-            return self.compose(place.ty, parts);
-        }
         let value = match place.uniform {
             true => self.load_uniform(place.pointer, place.ty),
             false => self.load(place.pointer),
@@ -264,8 +218,8 @@ impl Builder<'_, '_> {
     pub fn store_place(&mut self, place: Place, value: Value) {
         let Some(swizzle) = place.swizzle else { return self.store(place.pointer, value) };
         for (i, component) in swizzle.iter().enumerate() {
-            let part = self.add(Expression::AccessIndex { base: value, index: i as u32 });
-            let pointer = self.add(Expression::AccessIndex { base: place.pointer, index: component as u32 });
+            let part = self.add(Op::Part { base: value, index: i as u32 });
+            let pointer = self.add(Op::Part { base: place.pointer, index: component as u32 });
             self.store(pointer, part);
         }
     }
@@ -274,21 +228,21 @@ impl Builder<'_, '_> {
     pub fn part_of_value(&mut self, base: Value, link: ExprId) -> Value {
         let hir = self.cx.hir;
         match hir[link].kind {
-            ExprKind::Member { index, .. } => self.add(Expression::AccessIndex { base, index }),
+            ExprKind::Member { index, .. } => self.add(Op::Part { base, index }),
             ExprKind::Swizzle { base: of, swizzle } => self.swizzle(base, hir[of].ty, swizzle),
             ExprKind::Index { base: of, index } => {
                 if let ExprKind::Literal(index) = hir[index].kind {
-                    return self.add(Expression::AccessIndex { base, index });
+                    return self.add(Op::Part { base, index });
                 }
                 let of = hir[of].ty;
                 let index = self.index(index, self.extent(of));
                 if self.is_vector_or_scalar(of) {
-                    return self.add(Expression::Access { base, index });
+                    return self.add(Op::Element { base, index });
                 }
                 // Only memory can be indexed at run time.
                 let memory = self.temporary(of);
                 self.store(memory, base);
-                let pointer = self.add(Expression::Access { base: memory, index });
+                let pointer = self.add(Op::Element { base: memory, index });
                 self.load(pointer)
             }
             other => unreachable!("{other:?} is no part"),
@@ -298,18 +252,12 @@ impl Builder<'_, '_> {
     /// Components of a vector of type `ty`.
     pub fn swizzle(&mut self, vector: Value, ty: TypeId, swizzle: Swizzle) -> Value {
         if swizzle.len() == 1 {
-            return self.add(Expression::AccessIndex { base: vector, index: swizzle.get(0) as u32 });
+            return self.add(Op::Part { base: vector, index: swizzle.get(0) as u32 });
         }
         if swizzle.len() as u32 == self.extent(ty) && swizzle.iter().enumerate().all(|(i, c)| i == c) {
             return vector;
         }
-        const XYZW: [SwizzleComponent; 4] =
-            [SwizzleComponent::X, SwizzleComponent::Y, SwizzleComponent::Z, SwizzleComponent::W];
-        let mut pattern = [SwizzleComponent::X; 4];
-        for (i, component) in swizzle.iter().enumerate() {
-            pattern[i] = XYZW[component];
-        }
-        self.add(Expression::Swizzle { size: types::vector_size(swizzle.len()), vector, pattern })
+        self.add(Op::Swizzle { vector, swizzle })
     }
 
     /// Elements of an array, columns of a matrix, components of a vector.
@@ -333,16 +281,16 @@ impl Builder<'_, '_> {
         }
         if self.cx.hir[index].ty == TypeId::UINT {
             let last = self.literal(Scalar::Uint, last as u32);
-            return self.math2(MathFunction::Min, value, last);
+            return self.math2(Math::Min, value, last);
         }
         let mut value = value;
         if known.is_none_or(|(least, _)| least < 0) {
             let zero = self.literal(Scalar::Int, 0);
-            value = self.math2(MathFunction::Max, value, zero);
+            value = self.math2(Math::Max, value, zero);
         }
         if known.is_none_or(|(_, greatest)| greatest > last) {
             let last = self.literal(Scalar::Int, last as u32);
-            value = self.math2(MathFunction::Min, value, last);
+            value = self.math2(Math::Min, value, last);
         }
         value
     }
@@ -352,14 +300,14 @@ impl Builder<'_, '_> {
         match self.cx.hir.types.get(ty) {
             Type::Vector { size, .. } => {
                 for index in 0..u32::from(size) {
-                    let part = self.add(Expression::AccessIndex { base: value, index });
+                    let part = self.add(Op::Part { base: value, index });
                     out.push(part);
                 }
             }
             Type::Matrix { columns, rows } => {
                 let column_ty = TypeId::vector(Scalar::Float, rows);
                 for index in 0..u32::from(columns) {
-                    let column = self.add(Expression::AccessIndex { base: value, index });
+                    let column = self.add(Op::Part { base: value, index });
                     self.components(column, column_ty, out);
                 }
             }
@@ -368,8 +316,8 @@ impl Builder<'_, '_> {
     }
 
     /// Reinterprets the bits of a scalar or vector.
-    pub fn bitcast(&mut self, expr: Value, kind: ScalarKind) -> Value {
-        self.add(Expression::As { expr, kind, convert: None })
+    pub fn bitcast(&mut self, value: Value, to: Scalar) -> Value {
+        self.add(Op::Bitcast { value, to })
     }
 
     /// The variable of this function that an expression names as a whole, if it is memory.

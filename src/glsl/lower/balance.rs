@@ -5,10 +5,11 @@
 //! several things at once.
 
 use super::{
-    function::{Builder, Slot, Value},
+    function::{Builder, Slot},
     operators::Typed,
 };
 use crate::glsl::hir::{BinaryOp, ExprId, ExprKind, Scalar, Shape, Type, TypeId};
+use crate::glsl::ir::Value;
 
 /// Shorter chains are left alone, as there is nothing to balance.
 const SHORTEST: usize = 4;
@@ -189,8 +190,7 @@ mod tests {
 
     #[test]
     fn chains_become_trees() {
-        let mut expressions = naga::Arena::new();
-        let zero = expressions.append(naga::Expression::Literal(naga::Literal::F32(0.0)), naga::Span::UNDEFINED);
+        let zero = Value::new(0);
         for (count, expected) in [
             (1, "x"),
             (2, "(xx)"),

@@ -3,94 +3,86 @@
 //! Four reads of texel centres through the channel's own (nearest) sampler, which wraps them as it is told to, and a mix with the
 //! weights of section 8.13 (equation 3.25 there) of the OpenGL ES 3.0 specification. Between two mip levels, the same in both.
 
-use naga::{BinaryOperator as Op, DerivativeAxis, DerivativeControl, Expression, ImageQuery, MathFunction as Math};
-use naga::{SampleLevel, ScalarKind};
-
-use super::function::{Builder, Value};
+use super::function::Builder;
 use crate::glsl::hir::{Scalar, TypeId};
+use crate::glsl::ir::{Axis, Binary, Level, Math, Op, Value};
 
 impl Builder<'_, '_> {
     /// A filtered read of a 2D channel. `offset` counts texels.
-    pub fn sample_by_hand(&mut self, channel: u8, at: Value, level: SampleLevel, offset: Option<Value>) -> Value {
+    pub fn sample_by_hand(&mut self, channel: u8, at: Value, level: Level, offset: Option<Value>) -> Value {
         let lod = match level {
-            SampleLevel::Zero => None,
-            SampleLevel::Exact(lod) => Some(lod),
-            SampleLevel::Auto => {
-                let (x, y) = (self.axis(DerivativeAxis::X, at), self.axis(DerivativeAxis::Y, at));
+            Level::Exact(lod) => Some(lod),
+            Level::Auto => {
+                let (x, y) = (self.axis(Axis::X, at), self.axis(Axis::Y, at));
                 Some(self.lod(channel, x, y))
             }
-            SampleLevel::Bias(bias) => {
-                let (x, y) = (self.axis(DerivativeAxis::X, at), self.axis(DerivativeAxis::Y, at));
+            Level::Bias(bias) => {
+                let (x, y) = (self.axis(Axis::X, at), self.axis(Axis::Y, at));
                 let lod = self.lod(channel, x, y);
-                Some(self.op(Op::Add, lod, bias))
+                Some(self.op(Binary::Add, lod, bias))
             }
-            SampleLevel::Gradient { x, y } => Some(self.lod(channel, x, y)),
+            Level::Gradient { x, y } => Some(self.lod(channel, x, y)),
         };
         let Some(lod) = lod else {
             let zero = self.float(0.0);
             return self.four_reads(channel, at, zero, offset);
         };
-        let image = self.cx.texture(channel);
-        let image = self.global(image);
-        let levels = self.add(Expression::ImageQuery { image, query: ImageQuery::NumLevels });
-        let levels = self.add(Expression::As { expr: levels, kind: ScalarKind::Float, convert: Some(4) });
+        let levels = self.add(Op::TextureLevels { channel });
+        let levels = self.add(Op::Convert { value: levels, to: Scalar::Float });
         let one = self.float(1.0);
         let zero = self.float(0.0);
-        let last = self.op(Op::Subtract, levels, one);
+        let last = self.op(Binary::Subtract, levels, one);
         let lod = self.math3(Math::Clamp, lod, zero, last);
         let fine = self.math(Math::Floor, lod);
         let coarse = self.math(Math::Ceil, lod);
-        let weight = self.op(Op::Subtract, lod, fine);
+        let weight = self.op(Binary::Subtract, lod, fine);
         let fine = self.four_reads(channel, at, fine, offset);
         let coarse = self.four_reads(channel, at, coarse, offset);
         let weight = self.splat(weight, TypeId::VEC4);
         self.math3(Math::Mix, fine, coarse, weight)
     }
 
-    fn axis(&mut self, axis: DerivativeAxis, expr: Value) -> Value {
-        self.add(Expression::Derivative { axis, ctrl: DerivativeControl::None, expr })
+    fn axis(&mut self, axis: Axis, expr: Value) -> Value {
+        self.add(Op::Derivative { axis, value: expr })
     }
 
     /// Section 8.14 (3.8.10 in older editions): the logarithm of the longer of the two footprints in texels.
     fn lod(&mut self, channel: u8, x: Value, y: Value) -> Value {
         let size = self.size_of_level(channel, None);
-        let x = self.op(Op::Multiply, x, size);
-        let y = self.op(Op::Multiply, y, size);
+        let x = self.op(Binary::Multiply, x, size);
+        let y = self.op(Binary::Multiply, y, size);
         let (x, y) = (self.math(Math::Length, x), self.math(Math::Length, y));
         let longer = self.math2(Math::Max, x, y);
         self.math(Math::Log2, longer)
     }
 
     fn size_of_level(&mut self, channel: u8, level: Option<Value>) -> Value {
-        let image = self.cx.texture(channel);
-        let image = self.global(image);
-        let level =
-            level.map(|level| self.add(Expression::As { expr: level, kind: ScalarKind::Sint, convert: Some(4) }));
-        let size = self.add(Expression::ImageQuery { image, query: ImageQuery::Size { level } });
-        self.add(Expression::As { expr: size, kind: ScalarKind::Float, convert: Some(4) })
+        let level = level.map(|level| self.add(Op::Convert { value: level, to: Scalar::Int }));
+        let size = self.texture_extent(channel, level);
+        self.add(Op::Convert { value: size, to: Scalar::Float })
     }
 
     fn four_reads(&mut self, channel: u8, at: Value, level: Value, offset: Option<Value>) -> Value {
         let size = self.size_of_level(channel, Some(level));
-        let mut texel = self.op(Op::Multiply, at, size);
+        let mut texel = self.op(Binary::Multiply, at, size);
         if let Some(offset) = offset {
-            let offset = self.add(Expression::As { expr: offset, kind: ScalarKind::Float, convert: Some(4) });
-            texel = self.op(Op::Add, texel, offset);
+            let offset = self.add(Op::Convert { value: offset, to: Scalar::Float });
+            texel = self.op(Binary::Add, texel, offset);
         }
         let half = self.float_of(TypeId::VEC2, 0.5);
-        let corner = self.op(Op::Subtract, texel, half);
+        let corner = self.op(Binary::Subtract, texel, half);
         let whole = self.math(Math::Floor, corner);
-        let weight = self.op(Op::Subtract, corner, whole);
+        let weight = self.op(Binary::Subtract, corner, whole);
         let mut reads = Vec::with_capacity(4);
         for (x, y) in [(0.5, 0.5), (1.5, 0.5), (0.5, 1.5), (1.5, 1.5)] {
             let (x, y) = (self.float(x), self.float(y));
             let centre = self.compose(TypeId::VEC2, vec![x, y]);
-            let texel = self.op(Op::Add, whole, centre);
-            let coordinate = self.op(Op::Divide, texel, size);
-            reads.push(self.image_sample(channel, coordinate, SampleLevel::Exact(level), None));
+            let texel = self.op(Binary::Add, whole, centre);
+            let coordinate = self.op(Binary::Divide, texel, size);
+            reads.push(self.image_sample(channel, coordinate, Level::Exact(level), None));
         }
         let parts = [0, 1].map(|index| {
-            let part = self.add(Expression::AccessIndex { base: weight, index });
+            let part = self.add(Op::Part { base: weight, index });
             self.splat(part, TypeId::vector(Scalar::Float, 4))
         });
         let lower = self.math3(Math::Mix, reads[0], reads[1], parts[0]);

@@ -1,34 +1,27 @@
 //! Built-in functions of chapter 8, textures excepted.
 
+use crate::glsl::ir::{Axis, Binary, Block, Math, Op, Stmt, Value};
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use naga::{
-    BinaryOperator as Op, DerivativeAxis, DerivativeControl, Expression, Literal, MathFunction as Math,
-    RelationalFunction, ScalarKind, Statement,
-};
-
-use super::{
-    function::{Builder, Value},
-    scalars,
-};
+use super::{function::Builder, scalars};
 use crate::glsl::hir::{Builtin, ExprId, Scalar, TypeId};
 
 impl Builder<'_, '_> {
     pub fn math(&mut self, fun: Math, arg: Value) -> Value {
-        self.add(Expression::Math { fun, arg, arg1: None, arg2: None, arg3: None })
+        self.add(Op::Math { fun, arg, arg1: None, arg2: None, arg3: None })
     }
 
     pub fn math2(&mut self, fun: Math, arg: Value, arg1: Value) -> Value {
-        self.add(Expression::Math { fun, arg, arg1: Some(arg1), arg2: None, arg3: None })
+        self.add(Op::Math { fun, arg, arg1: Some(arg1), arg2: None, arg3: None })
     }
 
     pub fn math3(&mut self, fun: Math, arg: Value, arg1: Value, arg2: Value) -> Value {
-        self.add(Expression::Math { fun, arg, arg1: Some(arg1), arg2: Some(arg2), arg3: None })
+        self.add(Op::Math { fun, arg, arg1: Some(arg1), arg2: Some(arg2), arg3: None })
     }
 
     /// Calls a built-in of result type `ty`; `None` for void ones.
     pub fn builtin(&mut self, builtin: Builtin, ty: TypeId, args: &[ExprId]) -> Option<Value> {
-        if (Builtin::TextureSize..=Builtin::TextureProjGradOffset).contains(&builtin) {
+        if builtin.is_texture() {
             return Some(self.texture(builtin, ty, args));
         }
         match builtin {
@@ -110,19 +103,18 @@ impl Builder<'_, '_> {
             B::Length => return self.length(ty, a),
             B::Inverse => return self.inverse(ty, a),
             B::Determinant => return self.determinant(ty, a),
-            B::FloatBitsToInt => return self.bitcast(a, ScalarKind::Sint),
-            B::FloatBitsToUint => return self.bitcast(a, ScalarKind::Uint),
-            B::IntBitsToFloat | B::UintBitsToFloat => return self.bitcast(a, ScalarKind::Float),
-            B::IsNan => return self.exponent_test(Op::Greater, ty, a),
-            B::IsInf => return self.exponent_test(Op::Equal, ty, a),
+            B::FloatBitsToInt => return self.bitcast(a, Scalar::Int),
+            B::FloatBitsToUint => return self.bitcast(a, Scalar::Uint),
+            B::IntBitsToFloat | B::UintBitsToFloat => return self.bitcast(a, Scalar::Float),
+            B::IsNan => return self.exponent_test(Binary::Greater, ty, a),
+            B::IsInf => return self.exponent_test(Binary::Equal, ty, a),
             B::Not => return self.not(a),
             B::Any | B::All => {
-                let fun = if builtin == B::Any { RelationalFunction::Any } else { RelationalFunction::All };
-                return self.add(Expression::Relational { fun, argument: a });
+                return self.add(if builtin == B::Any { Op::Any(a) } else { Op::All(a) });
             }
-            B::DFdx => return self.derivative(DerivativeAxis::X, a),
-            B::DFdy => return self.derivative(DerivativeAxis::Y, a),
-            B::Fwidth => return self.derivative(DerivativeAxis::Width, a),
+            B::DFdx => return self.derivative(Axis::X, a),
+            B::DFdy => return self.derivative(Axis::Y, a),
+            B::Fwidth => return self.derivative(Axis::Width, a),
             other => unreachable!("{other:?} takes more than one argument"),
         };
         self.math(fun, a)
@@ -152,20 +144,20 @@ impl Builder<'_, '_> {
             B::Step => {
                 // Zero for NaN on either side, as OpenGL drivers have it; SPIR-V's `Step` may say one.
                 let a = fit(self, a, a_ty);
-                let reached = self.op(Op::GreaterEqual, b, a);
-                self.add(Expression::As { expr: reached, kind: ScalarKind::Float, convert: Some(4) })
+                let reached = self.op(Binary::GreaterEqual, b, a);
+                self.add(Op::Convert { value: reached, to: Scalar::Float })
             }
             B::Mod => {
                 // x - y * floor(x / y): naga's remainder truncates. Where y is a constant zero drivers drop the product, and x is
                 // left: shaders repeat space along some axes alone by it, so that divisor must stay in sight.
                 let b = fit(self, b, b_ty);
-                let quotient = self.op(Op::Divide, a, b);
+                let quotient = self.op(Binary::Divide, a, b);
                 let whole = self.math(Math::Floor, quotient);
-                let multiple = self.op(Op::Multiply, b, whole);
-                self.op(Op::Subtract, a, multiple)
+                let multiple = self.op(Binary::Multiply, b, whole);
+                self.op(Binary::Subtract, a, multiple)
             }
             B::Distance => {
-                let difference = self.op(Op::Subtract, a, b);
+                let difference = self.op(Binary::Subtract, a, b);
                 self.length(a_ty, difference)
             }
             B::Dot => self.dot(a_ty, a, b),
@@ -173,14 +165,14 @@ impl Builder<'_, '_> {
             B::Reflect => self.reflect(ty, a, b),
             B::MatrixCompMult => self.matrix_comp_mult(a_ty, a, b),
             B::OuterProduct => self.outer_product(ty, b_ty, a, b),
-            B::LessThan => self.op(Op::Less, a, b),
-            B::LessThanEqual => self.op(Op::LessEqual, a, b),
-            B::GreaterThan => self.op(Op::Greater, a, b),
-            B::GreaterThanEqual => self.op(Op::GreaterEqual, a, b),
-            B::Equal => self.op(Op::Equal, a, b),
+            B::LessThan => self.op(Binary::Less, a, b),
+            B::LessThanEqual => self.op(Binary::LessEqual, a, b),
+            B::GreaterThan => self.op(Binary::Greater, a, b),
+            B::GreaterThanEqual => self.op(Binary::GreaterEqual, a, b),
+            B::Equal => self.op(Binary::Equal, a, b),
             B::NotEqual => {
                 // Not `!=`: naga's is false for NaN.
-                let equal = self.op(Op::Equal, a, b);
+                let equal = self.op(Binary::Equal, a, b);
                 self.not(equal)
             }
             other => unreachable!("{other:?} does not take two arguments"),
@@ -218,11 +210,11 @@ impl Builder<'_, '_> {
                 self.smoothstep(ty, a, b, c)
             }
             B::FaceForward if ty == TypeId::FLOAT => {
-                let product = self.op(Op::Multiply, c, b);
+                let product = self.op(Binary::Multiply, c, b);
                 let zero = self.float(0.0);
-                let faces = self.op(Op::Less, product, zero);
+                let faces = self.op(Binary::Less, product, zero);
                 let minus = self.float(-1.0);
-                let turned = self.op(Op::Multiply, a, minus);
+                let turned = self.op(Binary::Multiply, a, minus);
                 self.select(faces, a, turned)
             }
             B::FaceForward => self.math3(Math::FaceForward, a, b, c),
@@ -232,34 +224,34 @@ impl Builder<'_, '_> {
     }
 
     /// `isnan` and `isinf` by the bits: a driver that takes all floats for finite folds the tests themselves away.
-    fn exponent_test(&mut self, op: Op, ty: TypeId, value: Value) -> Value {
+    fn exponent_test(&mut self, op: Binary, ty: TypeId, value: Value) -> Value {
         let ty = TypeId::vector(Scalar::Uint, self.extent(ty) as u8);
-        let bits = self.bitcast(value, ScalarKind::Uint);
+        let bits = self.bitcast(value, Scalar::Uint);
         let mask = self.int_of(ty, 0x7fff_ffff);
-        let magnitude = self.op(Op::And, bits, mask);
+        let magnitude = self.op(Binary::And, bits, mask);
         let infinity = self.int_of(ty, 0x7f80_0000);
         self.op(op, magnitude, infinity)
     }
 
-    fn derivative(&mut self, axis: DerivativeAxis, expr: Value) -> Value {
+    fn derivative(&mut self, axis: Axis, expr: Value) -> Value {
         if self.cx.source.kind == crate::glsl::PassKind::Vertex {
             // Of a function of Common that the checker let pass.
             let zero = self.float(0.0);
-            return self.op(Op::Multiply, expr, zero);
+            return self.op(Binary::Multiply, expr, zero);
         }
-        self.add(Expression::Derivative { axis, ctrl: DerivativeControl::None, expr })
+        self.add(Op::Derivative { axis, value: expr })
     }
 
     /// `atan(y, x)`. The angle of (0, 0), which section 8.1 leaves undefined, is the device's, unless that is no number: then 0,
     /// which constants fold to.
     fn angle(&mut self, y: Value, x: Value) -> Value {
-        let is_number = |this: &Self, value| matches!(this.f.expressions[value], Expression::Literal(Literal::F32(number)) if number != 0.0);
+        let is_number = |this: &Self, value| this.number(value).is_some_and(|number| number != 0.0);
         if !self.cx.source.driver.nan_angle || is_number(self, y) || is_number(self, x) {
             return self.math2(Math::Atan2, y, x);
         }
         let zero = self.float(0.0);
-        let (none, flat) = (self.op(Op::Equal, x, zero), self.op(Op::Equal, y, zero));
-        let nowhere = self.op(Op::LogicalAnd, none, flat);
+        let (none, flat) = (self.op(Binary::Equal, x, zero), self.op(Binary::Equal, y, zero));
+        let nowhere = self.op(Binary::LogicalAnd, none, flat);
         let one = self.float(1.0);
         let x = self.select(nowhere, one, x);
         self.math2(Math::Atan2, y, x)
@@ -272,16 +264,16 @@ impl Builder<'_, '_> {
         let size = self.math(Math::Abs, x);
         let mut sum = self.float(-0.031_029_55);
         for coefficient in [0.086_566_724, FRAC_PI_4 - 1.0, FRAC_PI_2] {
-            let term = self.op(Op::Multiply, size, sum);
+            let term = self.op(Binary::Multiply, size, sum);
             let coefficient = self.float(coefficient);
-            sum = self.op(Op::Add, coefficient, term);
+            sum = self.op(Binary::Add, coefficient, term);
         }
-        let rest = self.op(Op::Subtract, one, size);
+        let rest = self.op(Binary::Subtract, one, size);
         let root = self.math(Math::Sqrt, rest);
-        let rest = self.op(Op::Multiply, root, sum);
-        let angle = self.op(Op::Subtract, right_angle, rest);
+        let rest = self.op(Binary::Multiply, root, sum);
+        let angle = self.op(Binary::Subtract, right_angle, rest);
         let sign = self.math(Math::Sign, x);
-        self.op(Op::Multiply, sign, angle)
+        self.op(Binary::Multiply, sign, angle)
     }
 
     fn modf(&mut self, args: &[ExprId]) -> Value {
@@ -289,7 +281,7 @@ impl Builder<'_, '_> {
         let place = self.place(args[1]);
         let whole = self.math(Math::Trunc, value);
         self.store_place(place, whole);
-        self.op(Op::Subtract, value, whole)
+        self.op(Binary::Subtract, value, whole)
     }
 
     /// `st_assert(bool[, int])`: the entry point paints what failed.
@@ -302,16 +294,16 @@ impl Builder<'_, '_> {
         let failed = self.cx.failed_asserts();
         let failed = self.global(failed);
         let (reject, _) = self.branch_block(|b| {
-            let bits = b.bitcast(number, ScalarKind::Uint);
+            let bits = b.bitcast(number, Scalar::Uint);
             // Any other number than 0 to 2 paints like 3.
             let three = b.literal(Scalar::Uint, 3);
             let bit = b.math2(Math::Min, bits, three);
             let one = b.literal(Scalar::Uint, 1);
-            let flag = b.op(Op::ShiftLeft, one, bit);
+            let flag = b.op(Binary::ShiftLeft, one, bit);
             let old = b.load(failed);
-            let new = b.op(Op::InclusiveOr, old, flag);
+            let new = b.op(Binary::InclusiveOr, old, flag);
             b.store(failed, new);
         });
-        self.push(Statement::If { condition, accept: naga::Block::new(), reject });
+        self.push(Stmt::If { condition, accept: Block::new(), reject });
     }
 }

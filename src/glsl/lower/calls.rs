@@ -1,14 +1,12 @@
 //! Calls of user functions, and how arguments are handed over: without a copy wherever nobody can see the difference.
 
+use crate::glsl::ir::Value;
 use std::collections::HashSet;
 
-use naga::{Expression, Statement};
-
 use super::{
-    Instance,
+    Instance, NOT_UNROLLED,
     access::Place,
-    function::{Builder, Slot, Value},
-    tables::NOT_UNROLLED,
+    function::{Builder, Slot},
     writes,
 };
 use crate::glsl::{
@@ -278,19 +276,10 @@ impl Builder<'_, '_> {
         }
     }
 
-    fn call_apart(&mut self, instance: Instance, mut arguments: Vec<Value>) -> Option<Value> {
+    fn call_apart(&mut self, instance: Instance, arguments: Vec<Value>) -> Option<Value> {
         let function = self.cx.functions[&instance];
-        let result = self.cx.hir[instance.func].result;
-        if self.cx.is_long(result) {
-            let place = self.temporary(result);
-            arguments.push(place);
-            self.push(Statement::Call { function, arguments, result: None });
-            return Some(self.load(place));
-        }
-        let has_result = result != TypeId::VOID;
-        let result = has_result.then(|| self.computed_elsewhere(Expression::CallResult(function)));
-        self.push(Statement::Call { function, arguments, result });
-        result
+        let result = self.push_call(function, arguments);
+        (self.cx.hir[instance.func].result != TypeId::VOID).then_some(result)
     }
 
     /// The channel a sampler argument stands for.

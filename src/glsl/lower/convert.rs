@@ -1,21 +1,15 @@
 //! Constructors and conversions (section 5.4).
 
-use naga::{Expression, ScalarKind};
-
-use super::function::{Builder, Value};
+use super::function::Builder;
 use crate::glsl::hir::{ExprId, Scalar, Type, TypeId};
+use crate::glsl::ir::{Op, Value};
 
 impl Builder<'_, '_> {
     /// A scalar or vector to the same size of another component type.
     pub fn convert(&mut self, value: Value, to: TypeId) -> Value {
-        let (kind, width) = match self.cx.hir.types.scalar(to).expect("a scalar or vector") {
-            Scalar::Bool => (ScalarKind::Bool, 1),
-            Scalar::Int => (ScalarKind::Sint, 4),
-            Scalar::Uint => (ScalarKind::Uint, 4),
-            Scalar::Float => (ScalarKind::Float, 4),
-        };
+        let to = self.cx.hir.types.scalar(to).expect("a scalar or vector");
         // From float to uint, negative numbers give zero: GLSL leaves it open, Direct3D asks for it, and devices do it.
-        self.add(Expression::As { expr: value, kind, convert: Some(width) })
+        self.add(Op::Convert { value, to })
     }
 
     /// `vecN(..)` of scalars, vectors and matrices.
@@ -53,7 +47,7 @@ impl Builder<'_, '_> {
     }
 
     fn is_constant(&self, value: Value) -> bool {
-        matches!(self.f.expressions[value], Expression::Constant(_) | Expression::ZeroValue(_))
+        matches!(self.f[value], Op::Const(_) | Op::Zero(_))
     }
 
     /// `matCxR(..)` of scalars and vectors, column by column.
@@ -97,13 +91,10 @@ impl Builder<'_, '_> {
         let mut out = Vec::with_capacity(columns.into());
         for c in 0..columns {
             let mut column = Vec::with_capacity(rows.into());
-            let source =
-                (c < from_columns).then(|| self.add(Expression::AccessIndex { base: value, index: u32::from(c) }));
+            let source = (c < from_columns).then(|| self.add(Op::Part { base: value, index: u32::from(c) }));
             for r in 0..rows {
                 column.push(match source {
-                    Some(source) if r < from_rows => {
-                        self.add(Expression::AccessIndex { base: source, index: u32::from(r) })
-                    }
+                    Some(source) if r < from_rows => self.add(Op::Part { base: source, index: u32::from(r) }),
                     _ => self.float(if r == c { 1.0 } else { 0.0 }),
                 });
             }

@@ -9,14 +9,9 @@
 //!
 //! naga has guards too, but as functions that are called, and without regard to what is known of the operands.
 
-use naga::{BinaryOperator as Op, Expression, MathFunction};
-
-use super::{
-    function::{Builder, Value},
-    operators::Typed,
-    ranges::Bounds,
-};
+use super::{function::Builder, operators::Typed, ranges::Bounds};
 use crate::glsl::hir::{BinaryOp, ExprId, Scalar, Shape, TypeId};
+use crate::glsl::ir::{Binary, Math, Op, Value};
 
 const MINUS_ONE: u32 = -1i32 as u32;
 
@@ -58,7 +53,7 @@ impl Builder<'_, '_> {
             // The divisor that is no divisor, without a division.
             Some(()) if signed && numbers.iter().all(|&number| number == MINUS_ONE) => {
                 let zero = self.zero(ty);
-                return if op == BinaryOp::Rem { zero } else { self.op(Op::Subtract, zero, dividend) };
+                return if op == BinaryOp::Rem { zero } else { self.op(Binary::Subtract, zero, dividend) };
             }
             Some(()) => {
                 let minus_one = signed && numbers.contains(&MINUS_ONE);
@@ -74,10 +69,10 @@ impl Builder<'_, '_> {
         let one = self.int_of(ty, 1);
         let safe = match (zero, minus_one) {
             (false, false) => divisor,
-            (true, false) if !signed || positive => self.math2(MathFunction::Max, divisor, one),
+            (true, false) if !signed || positive => self.math2(Math::Max, divisor, one),
             (true, false) => {
                 let none = self.zero(ty);
-                let bad = self.op(Op::Equal, divisor, none);
+                let bad = self.op(Binary::Equal, divisor, none);
                 self.select(bad, one, divisor)
             }
             (false, true) => {
@@ -86,24 +81,24 @@ impl Builder<'_, '_> {
             }
             // Both at once: one more is 0 or 1.
             (true, true) => {
-                let more = self.op(Op::Add, divisor, one);
+                let more = self.op(Binary::Add, divisor, one);
                 let unsigned = TypeId::vector(Scalar::Uint, self.extent(ty) as u8);
                 let more = self.convert(more, unsigned);
                 let two = self.int_of(unsigned, 2);
-                let bad = self.op(Op::Less, more, two);
+                let bad = self.op(Binary::Less, more, two);
                 self.select(bad, one, divisor)
             }
         };
         match op {
             BinaryOp::Rem if signed => self.remainder(ty, dividend, safe),
-            BinaryOp::Rem => self.op(Op::Modulo, dividend, safe),
+            BinaryOp::Rem => self.op(Binary::Modulo, dividend, safe),
             _ => {
-                let quotient = self.op(Op::Divide, dividend, safe);
+                let quotient = self.op(Binary::Divide, dividend, safe);
                 if !minus_one {
                     return quotient;
                 }
                 let none = self.zero(ty);
-                let negative = self.op(Op::Subtract, none, quotient);
+                let negative = self.op(Binary::Subtract, none, quotient);
                 let turned = self.is_minus_one(ty, divisor);
                 self.select(turned, negative, quotient)
             }
@@ -112,7 +107,7 @@ impl Builder<'_, '_> {
 
     fn is_minus_one(&mut self, ty: TypeId, divisor: Value) -> Value {
         let minus_one = self.int_of(ty, MINUS_ONE);
-        self.op(Op::Equal, divisor, minus_one)
+        self.op(Binary::Equal, divisor, minus_one)
     }
 
     fn splat_to(&mut self, value: Value, from: TypeId, ty: TypeId) -> Value {
@@ -136,33 +131,16 @@ impl Builder<'_, '_> {
     /// Adds the components of a constant; `None` if it is not known, or no constant.
     fn int_components(&self, ty: TypeId, value: Value, out: &mut Vec<u32>) -> Option<()> {
         let count = self.extent(ty) as usize;
-        let literal = |expression: &Expression| match *expression {
-            Expression::Literal(naga::Literal::I32(number)) => Some(number as u32),
-            Expression::Literal(naga::Literal::U32(number)) => Some(number),
-            Expression::ZeroValue(_) => Some(0),
-            _ => None,
-        };
-        match &self.f.expressions[value] {
-            Expression::ZeroValue(_) => out.extend(std::iter::repeat_n(0, count)),
-            Expression::Splat { value, .. } => {
-                let number = literal(&self.f.expressions[*value])?;
-                out.extend(std::iter::repeat_n(number, count));
-            }
-            Expression::Compose { components, .. } => {
-                for &part in components {
-                    out.push(literal(&self.f.expressions[part])?);
+        match &self.f[value] {
+            Op::Zero(_) => out.extend(std::iter::repeat_n(0, count)),
+            Op::Splat { value, .. } => out.extend(std::iter::repeat_n(self.integer(*value)?, count)),
+            Op::Compose { parts, .. } => {
+                for &part in parts {
+                    out.push(if let Op::Zero(_) = self.f[part] { 0 } else { self.integer(part)? });
                 }
             }
-            Expression::Constant(constant) => {
-                let expressions = &self.cx.out.global_expressions;
-                let Expression::Compose { components, .. } = &expressions[self.cx.out.constants[*constant].init] else {
-                    return None;
-                };
-                for &part in components {
-                    out.push(literal(&expressions[part])?);
-                }
-            }
-            expression => out.push(literal(expression)?),
+            Op::Const(id) => out.extend(&self.cx.out[*id].words),
+            _ => out.push(self.integer(value)?),
         }
         // A zero within a vector that is put together may stand for more than one component.
         (out.len() == count).then_some(())
@@ -172,33 +150,30 @@ impl Builder<'_, '_> {
     /// site make of it: a remainder with the divisor's sign.
     fn remainder(&mut self, ty: TypeId, left: Value, right: Value) -> Value {
         let mut divisor = right;
-        if let Expression::Splat { value, .. } = self.f.expressions[divisor] {
+        if let Op::Splat { value, .. } = self.f[divisor] {
             divisor = value;
         }
-        let known = match self.f.expressions[divisor] {
-            Expression::Literal(naga::Literal::I32(divisor)) if divisor > 0 => Some(divisor as u32),
-            _ => None,
-        };
+        let known = self.integer(divisor).filter(|&divisor| divisor as i32 > 0);
         if let Some(divisor) = known.filter(|divisor| divisor.is_power_of_two()) {
             let mask = self.int_of(ty, divisor - 1);
-            return self.op(Op::And, left, mask);
+            return self.op(Binary::And, left, mask);
         }
         // Not naga's `%`, whose SPIR-V form guards once more against what cannot be here.
-        let quotient = self.op(Op::Divide, left, right);
-        let multiple = self.op(Op::Multiply, quotient, right);
-        let rest = self.op(Op::Subtract, left, multiple);
+        let quotient = self.op(Binary::Divide, left, right);
+        let multiple = self.op(Binary::Multiply, quotient, right);
+        let rest = self.op(Binary::Subtract, left, multiple);
         let zero = self.zero(ty);
         // A rest of 0 has no sign: for a positive divisor it is not below zero, and for a negative one the test is on
         // the product of signs, which 0 must not enter.
         let wrong_side = if known.is_some() {
-            self.op(Op::Less, rest, zero)
+            self.op(Binary::Less, rest, zero)
         } else {
-            let signs = self.op(Op::ExclusiveOr, rest, right);
-            let differ = self.op(Op::Less, signs, zero);
-            let some = self.op(Op::NotEqual, rest, zero);
-            self.op(Op::And, differ, some)
+            let signs = self.op(Binary::ExclusiveOr, rest, right);
+            let differ = self.op(Binary::Less, signs, zero);
+            let some = self.op(Binary::NotEqual, rest, zero);
+            self.op(Binary::And, differ, some)
         };
-        let moved = self.op(Op::Add, rest, right);
+        let moved = self.op(Binary::Add, rest, right);
         self.select(wrong_side, moved, rest)
     }
 }

@@ -1,51 +1,23 @@
 //! The fragment entry point: what the site's `main` does around the author's function, for each kind of pass.
 
-use naga::{
-    BinaryOperator as Op, Binding, Block, BuiltIn, EntryPoint, Expression, Function, FunctionArgument, FunctionResult,
-    MathFunction as Math, ScalarKind, ShaderStage, Statement, SwitchCase, SwitchValue,
-};
-
-use super::{
-    Lowering,
-    function::{Builder, Value},
-    reach::Reach,
-    resources::{self, CUBE_FACE},
-};
+use super::{Lowering, function::Builder, reach::Reach};
+use crate::glsl::ir::{self, Binary, Block, Case, Input, Math, Op, Output, Stmt, Value};
 use crate::glsl::{
     PassKind,
     hir::{GlobalId, GlobalStorage, Scalar, Swizzle, TypeId, Uniform},
-    interface::ENTRY_POINT,
 };
 
-/// Adds the entry point; every function is there already.
-pub(super) fn lower(cx: &mut Lowering<'_>, reach: &Reach) {
+/// The entry point; every function is there already.
+pub(super) fn lower(cx: &mut Lowering<'_>, reach: &Reach) -> ir::Function {
     let entry = reach.instances.last().expect("the entry point is reached").clone();
     let author = cx.functions[&entry];
     let kind = cx.source.kind;
-    let vec4 = cx.ty(TypeId::VEC4);
     let mut b = Builder::new(cx, 0, 0);
-    b.f.arguments.push(FunctionArgument {
-        name: None,
-        ty: vec4,
-        binding: Some(Binding::BuiltIn(BuiltIn::Position { invariant: false })),
-    });
-    b.f.result = Some(FunctionResult {
-        ty: vec4,
-        binding: Some(Binding::Location {
-            location: 0,
-            interpolation: Some(naga::Interpolation::Perspective),
-            sampling: Some(naga::Sampling::Center),
-            blend_src: None,
-            per_primitive: false,
-        }),
-    });
-    // Lowered before what precedes them: they may reach globals and tables that no function does.
+    // Lowered before what precedes them: they may reach globals that no function does.
     let (initialisers, _) = b.nested(|b| b.initialise_globals(reach));
-    b.set_tables();
-    let position = b.given(Expression::FunctionArgument(0));
+    let position = b.free(Op::Input(Input::Position));
     b.set_frag_coord(position);
-    b.set_unknown_zero(|b| b.add(Expression::AccessIndex { base: position, index: 0 }));
-    b.push(Statement::Block(initialisers));
+    b.splice(initialisers);
     let result = match kind {
         PassKind::Image | PassKind::Buffer => {
             let at = b.swizzle(position, TypeId::VEC4, Swizzle::new(&[0, 1]));
@@ -61,19 +33,8 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reach: &Reach) {
         PassKind::Sound => b.sound(author, position),
         PassKind::Vertex | PassKind::Fragment => unreachable!("stages have an entry point of their own"),
     };
-    b.push(Statement::Return { value: Some(result) });
-    let function = b.finish();
-    cx.out.entry_points.push(EntryPoint {
-        name: ENTRY_POINT.into(),
-        stage: ShaderStage::Fragment,
-        early_depth_test: None,
-        workgroup_size: [0; 3],
-        workgroup_size_overrides: None,
-        function,
-        mesh_info: None,
-        task_payload: None,
-        incoming_ray_payload: None,
-    });
+    b.push(Stmt::Output(vec![(Output::Target(0), result)]));
+    b.finish()
 }
 
 impl Builder<'_, '_> {
@@ -91,15 +52,6 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Tables and globals whose value naga has no constant for.
-    pub(super) fn set_tables(&mut self) {
-        for (variable, id) in std::mem::take(&mut self.cx.consts.set_at_start) {
-            let value = self.constant(id);
-            let pointer = self.global(variable);
-            self.store(pointer, value);
-        }
-    }
-
     /// As WebGL has it for a triangle at depth 0: z is one half, w is one.
     fn set_frag_coord(&mut self, position: Value) {
         let Some(variable) = self.cx.resources.frag_coord else { return };
@@ -111,11 +63,11 @@ impl Builder<'_, '_> {
     }
 
     /// Calls a function whose first parameter is `out vec4`; gives what it left there.
-    fn call_with_colour(&mut self, function: naga::Handle<Function>, rest: Vec<Value>) -> Value {
+    fn call_with_colour(&mut self, function: ir::FuncId, rest: Vec<Value>) -> Value {
         let colour = self.temporary(TypeId::VEC4);
         let mut arguments = vec![colour];
         arguments.extend(rest);
-        self.push(Statement::Call { function, arguments, result: None });
+        self.push_call(function, arguments);
         self.load(colour)
     }
 
@@ -129,8 +81,8 @@ impl Builder<'_, '_> {
             {
                 let mask = self.literal(Scalar::Uint, 1 << bit);
                 let zero = self.literal(Scalar::Uint, 0);
-                let flag = self.op(Op::And, failed, mask);
-                let condition = self.op(Op::NotEqual, flag, zero);
+                let flag = self.op(Binary::And, failed, mask);
+                let condition = self.op(Binary::NotEqual, flag, zero);
                 let parts = paint.map(|part| self.float(part)).to_vec();
                 let paint = self.compose(TypeId::VEC3, parts);
                 rgb = self.select(condition, paint, rgb);
@@ -143,19 +95,18 @@ impl Builder<'_, '_> {
     /// The direction from the centre to a texel of the face the uniform block names: corners as OpenGL ES 3.0, table 3.21, has
     /// them, in its order of faces.
     fn cube_direction(&mut self, at: Value) -> Value {
-        let (member, name) = resources::uniform(Uniform::Resolution);
-        self.cx.reflection.uniforms.insert(name);
-        let resolution = self.block_member(member);
+        let resolution = self.cx.uniform(Uniform::Resolution);
+        let resolution = self.global(resolution);
         let resolution = self.load(resolution);
         let size = self.swizzle(resolution, TypeId::VEC3, Swizzle::new(&[0, 1]));
-        let unit = self.op(Op::Divide, at, size);
+        let unit = self.op(Binary::Divide, at, size);
         let (two, one) = (self.float_of(TypeId::VEC2, 2.0), self.float_of(TypeId::VEC2, 1.0));
-        let twice = self.op(Op::Multiply, unit, two);
-        let st = self.op(Op::Subtract, twice, one);
-        let s = self.add(Expression::AccessIndex { base: st, index: 0 });
-        let t = self.add(Expression::AccessIndex { base: st, index: 1 });
+        let twice = self.op(Binary::Multiply, unit, two);
+        let st = self.op(Binary::Subtract, twice, one);
+        let s = self.add(Op::Part { base: st, index: 0 });
+        let t = self.add(Op::Part { base: st, index: 1 });
         let minus = self.float(-1.0);
-        let (minus_s, minus_t) = (self.op(Op::Multiply, s, minus), self.op(Op::Multiply, t, minus));
+        let (minus_s, minus_t) = (self.op(Binary::Multiply, s, minus), self.op(Binary::Multiply, t, minus));
         let one = self.float(1.0);
         let direction = self.temporary(TypeId::VEC3);
         let faces = [
@@ -166,8 +117,8 @@ impl Builder<'_, '_> {
             [s, minus_t, one],
             [minus_s, minus_t, minus],
         ];
-        let pad = self.block_member(CUBE_FACE);
-        let face = self.add(Expression::AccessIndex { base: pad, index: 0 });
+        let face = self.cx.cube_face();
+        let face = self.global(face);
         let selector = self.load(face);
         let mut cases = Vec::with_capacity(6);
         for (i, parts) in faces.into_iter().enumerate() {
@@ -175,49 +126,47 @@ impl Builder<'_, '_> {
                 let value = b.compose(TypeId::VEC3, parts.to_vec());
                 b.store(direction, value);
             });
-            let value = if i == 5 { SwitchValue::Default } else { SwitchValue::I32(i as i32) };
-            cases.push(SwitchCase { value, body, fall_through: false });
+            let label = (i != 5).then_some(i as u32);
+            cases.push(Case { label, body, falls_through: false });
         }
-        self.push(Statement::Switch { selector, cases });
+        self.push(Stmt::Switch { selector, cases });
         let direction = self.load(direction);
         self.math(Math::Normalize, direction)
     }
 
     /// One sample a pixel, row by row of 512: left in red and green, right in blue and alpha, 16 bits each, low byte first.
-    fn sound(&mut self, function: naga::Handle<Function>, position: Value) -> Value {
+    fn sound(&mut self, function: ir::FuncId, position: Value) -> Value {
         let at = self.swizzle(position, TypeId::VEC4, Swizzle::new(&[0, 1]));
-        let at = self.add(Expression::As { expr: at, kind: ScalarKind::Sint, convert: Some(4) });
-        let column = self.add(Expression::AccessIndex { base: at, index: 0 });
-        let row = self.add(Expression::AccessIndex { base: at, index: 1 });
+        let at = self.add(Op::Convert { value: at, to: Scalar::Int });
+        let column = self.add(Op::Part { base: at, index: 0 });
+        let row = self.add(Op::Part { base: at, index: 1 });
         let width = self.literal(Scalar::Int, 512);
-        let before = self.op(Op::Multiply, row, width);
-        let number = self.op(Op::Add, before, column);
+        let before = self.op(Binary::Multiply, row, width);
+        let number = self.op(Binary::Add, before, column);
         let [time_offset, sample_offset] = [Uniform::TimeOffset, Uniform::SampleOffset].map(|uniform| {
-            let (member, name) = resources::uniform(uniform);
-            self.cx.reflection.uniforms.insert(name);
-            let pointer = self.block_member(member);
-            self.load(pointer)
+            let global = self.cx.uniform(uniform);
+            let place = self.global(global);
+            self.load(place)
         });
         let rate = self.float(44100.0);
-        let float = self.add(Expression::As { expr: number, kind: ScalarKind::Float, convert: Some(4) });
-        let seconds = self.op(Op::Divide, float, rate);
-        let time = self.op(Op::Add, time_offset, seconds);
-        let sample = self.op(Op::Add, sample_offset, number);
-        let result = self.computed_elsewhere(Expression::CallResult(function));
-        self.push(Statement::Call { function, arguments: vec![sample, time], result: Some(result) });
+        let float = self.add(Op::Convert { value: number, to: Scalar::Float });
+        let seconds = self.op(Binary::Divide, float, rate);
+        let time = self.op(Binary::Add, time_offset, seconds);
+        let sample = self.op(Binary::Add, sample_offset, number);
+        let result = self.push_call(function, vec![sample, time]);
         let half = self.float_of(TypeId::VEC2, 0.5);
         let scale = self.float_of(TypeId::VEC2, 65536.0);
-        let halved = self.op(Op::Multiply, half, result);
-        let shifted = self.op(Op::Add, half, halved);
-        let scaled = self.op(Op::Multiply, shifted, scale);
+        let halved = self.op(Binary::Multiply, half, result);
+        let shifted = self.op(Binary::Add, half, halved);
+        let scaled = self.op(Binary::Multiply, shifted, scale);
         let value = self.math(Math::Floor, scaled);
         let (byte, last) = (self.float_of(TypeId::VEC2, 256.0), self.float_of(TypeId::VEC2, 255.0));
-        let quotient = self.op(Op::Divide, value, byte);
+        let quotient = self.op(Binary::Divide, value, byte);
         let high = self.math(Math::Floor, quotient);
-        let multiple = self.op(Op::Multiply, byte, high);
-        let low = self.op(Op::Subtract, value, multiple);
-        let (low, high) = (self.op(Op::Divide, low, last), self.op(Op::Divide, high, last));
-        let part = |b: &mut Self, base, index| b.add(Expression::AccessIndex { base, index });
+        let multiple = self.op(Binary::Multiply, byte, high);
+        let low = self.op(Binary::Subtract, value, multiple);
+        let (low, high) = (self.op(Binary::Divide, low, last), self.op(Binary::Divide, high, last));
+        let part = |b: &mut Self, base, index| b.add(Op::Part { base, index });
         let parts = vec![part(self, low, 0), part(self, high, 0), part(self, low, 1), part(self, high, 1)];
         self.compose(TypeId::VEC4, parts)
     }

@@ -1,13 +1,8 @@
 //! Expressions: what they evaluate to, in which order, under which conditions.
 
-use naga::{BinaryOperator, Block, Expression, Statement, UnaryOperator};
-
-use super::{
-    cost::CHEAP,
-    function::{Builder, Value},
-    reach::known_bool,
-};
+use super::{cost::CHEAP, function::Builder, reach::known_bool};
 use crate::glsl::hir::{BinaryOp, ConstId, ExprFlags, ExprId, ExprKind, LogicalOp, Scalar, Type, TypeId};
+use crate::glsl::ir::{Binary, Block, Op, Stmt, Unary, Value};
 
 impl Builder<'_, '_> {
     /// The value of an expression that is not void.
@@ -60,6 +55,7 @@ impl Builder<'_, '_> {
     /// One step up a left spine, from the value of the inner expression.
     fn link(&mut self, link: ExprId, value: Value) -> Value {
         let hir = self.cx.hir;
+        self.loc = hir[link].loc;
         match hir[link].kind {
             ExprKind::Binary { op, shape, lhs, rhs } => {
                 let mut right = self.value(rhs);
@@ -78,6 +74,7 @@ impl Builder<'_, '_> {
 
     fn leaf(&mut self, expr: ExprId) -> Value {
         let hir = self.cx.hir;
+        self.loc = hir[expr].loc;
         let ty = hir[expr].ty;
         match hir[expr].kind {
             ExprKind::Literal(bits) => self.scalar_literal(ty, bits),
@@ -167,7 +164,7 @@ impl Builder<'_, '_> {
                     let condition = self.value(cond);
                     let (accept, _) = self.branch_block(|b| b.effect(then));
                     let (reject, _) = self.branch_block(|b| b.effect(otherwise));
-                    self.push(Statement::If { condition, accept, reject });
+                    self.push(Stmt::If { condition, accept, reject });
                 }
             },
             _ => {
@@ -189,10 +186,10 @@ impl Builder<'_, '_> {
         if self.is_cheap(rhs) {
             let right = self.value(rhs);
             let op = match op {
-                LogicalOp::And => BinaryOperator::LogicalAnd,
-                LogicalOp::Or => BinaryOperator::LogicalOr,
+                LogicalOp::And => Binary::LogicalAnd,
+                LogicalOp::Or => Binary::LogicalOr,
             };
-            return self.add(Expression::Binary { op, left, right });
+            return self.add(Op::Binary { op, left, right });
         }
         let result = self.temporary(TypeId::BOOL);
         self.store(result, left);
@@ -204,7 +201,7 @@ impl Builder<'_, '_> {
             LogicalOp::And => (needed, Block::new()),
             LogicalOp::Or => (Block::new(), needed),
         };
-        self.push(Statement::If { condition: left, accept, reject });
+        self.push(Stmt::If { condition: left, accept, reject });
         self.load(result)
     }
 
@@ -214,11 +211,11 @@ impl Builder<'_, '_> {
         }
         let condition = self.value(cond);
         if self.is_vector_or_scalar(ty) && self.is_cheap(then) && self.is_cheap(otherwise) {
-            self.choice = self.f.expressions.len();
+            self.choice = self.f.len();
             let accept = self.value(then);
             let reject = self.value(otherwise);
             let chosen = self.select(condition, accept, reject);
-            self.choice = self.f.expressions.len();
+            self.choice = self.f.len();
             self.returned.insert(chosen);
             return chosen;
         }
@@ -231,28 +228,26 @@ impl Builder<'_, '_> {
             let value = b.value(otherwise);
             b.store(result, value);
         });
-        self.push(Statement::If { condition, accept, reject });
+        self.push(Stmt::If { condition, accept, reject });
         self.load(result)
     }
 
     pub fn select(&mut self, condition: Value, accept: Value, reject: Value) -> Value {
-        self.add(Expression::Select { condition, accept, reject })
+        self.add(Op::Select { condition, accept, reject })
     }
 
     pub fn not(&mut self, expr: Value) -> Value {
-        self.add(Expression::Unary { op: UnaryOperator::LogicalNot, expr })
+        self.add(Op::Unary { op: Unary::LogicalNot, operand: expr })
     }
 
-    pub fn op(&mut self, op: BinaryOperator, left: Value, right: Value) -> Value {
-        self.add(Expression::Binary { op, left, right })
+    pub fn op(&mut self, op: Binary, left: Value, right: Value) -> Value {
+        self.add(Op::Binary { op, left, right })
     }
 
     /// A scalar repeated to a vector of type `ty`; itself if `ty` is a scalar.
     pub fn splat(&mut self, value: Value, ty: TypeId) -> Value {
         match self.cx.hir.types.get(ty) {
-            Type::Vector { size, .. } => {
-                self.add(Expression::Splat { size: super::types::vector_size(size.into()), value })
-            }
+            Type::Vector { size, .. } => self.add(Op::Splat { size, value }),
             _ => value,
         }
     }

@@ -1,12 +1,11 @@
 //! Statements: declarations, branches, loops, switches, jumps.
 
-use naga::{Block, Expression, Span, Statement, SwitchCase, SwitchValue};
-
 use super::{
     cost::CHEAP,
     function::{Builder, Loop, Part, Slot},
     reach::known_bool,
 };
+use crate::glsl::ir::{self, Binary, Block, Op, Stmt, Value};
 use crate::glsl::{
     ast::List,
     hir::{Case, ExprId, ExprKind, LocalId, StmtId, StmtKind, TypeId},
@@ -26,6 +25,7 @@ impl Builder<'_, '_> {
 
     pub fn statement(&mut self, stmt: StmtId) {
         let hir = self.cx.hir;
+        self.loc = hir[stmt].loc;
         match hir[stmt].kind {
             StmtKind::Block(list) => self.statements(list),
             StmtKind::Expr(expr) => self.effect(expr),
@@ -47,25 +47,25 @@ impl Builder<'_, '_> {
             StmtKind::Return(value) => match value {
                 Some(expr) if self.result != TypeId::VOID => {
                     let value = self.value(expr);
-                    self.return_value(value);
+                    self.push(Stmt::Return(Some(value)));
                 }
                 value => {
                     value.into_iter().for_each(|expr| self.effect(expr));
-                    self.push(Statement::Return { value: None });
+                    self.push(Stmt::Return(None));
                 }
             },
-            StmtKind::Break => self.push(Statement::Break),
+            StmtKind::Break => self.push(Stmt::Break),
             StmtKind::Continue => {
                 if let Some(Loop { step: Some(step), .. }) = self.loops.last().copied() {
                     self.step_of_loop(step);
                 }
-                self.push(Statement::Continue);
+                self.push(Stmt::Continue);
             }
             // Of a function of Common that the checker let pass.
             StmtKind::Discard if self.cx.source.kind == crate::glsl::PassKind::Vertex => {}
             StmtKind::Discard => {
                 self.cx.reflection.discards = true;
-                self.push(Statement::Kill);
+                self.push(Stmt::Discard);
             }
         }
     }
@@ -78,7 +78,7 @@ impl Builder<'_, '_> {
             && let (ExprKind::Const(id), 0) = (hir[init].kind, self.cx.writes[local.index()])
             && !self.is_vector_or_scalar(hir[local].ty)
         {
-            self.set_slot(local, Slot::Table(id));
+            self.set_slot(local, Slot::Table(super::const_id(id)));
             return;
         }
         if self.starts_with_value(local, init) {
@@ -100,12 +100,12 @@ impl Builder<'_, '_> {
         }
         let value = match init.map(|init| hir[init].kind) {
             None => None,
-            Some(ExprKind::Const(id)) if self.cx.constant(id).is_some() => Some(self.constant(id)),
+            Some(ExprKind::Const(id)) if self.is_initialiser(id) => Some(self.constant(id)),
             Some(_) => return false,
         };
         let pointer = self.memory(local);
-        if let Expression::LocalVariable(variable) = self.f.expressions[pointer] {
-            self.f.local_variables[variable].init = value;
+        if let Op::Var(variable) = self.f[pointer] {
+            self.f.vars[variable.index()].init = value;
         }
         true
     }
@@ -117,7 +117,7 @@ impl Builder<'_, '_> {
         let condition = self.value(cond);
         let (accept, then_ended) = self.branch_block(|b| b.statements(then));
         let (reject, else_ended) = self.branch_block(|b| b.statements(otherwise));
-        self.push(Statement::If { condition, accept, reject });
+        self.push(Stmt::If { condition, accept, reject });
         self.ended = then_ended && else_ended;
     }
 
@@ -141,8 +141,8 @@ impl Builder<'_, '_> {
             if let (None, Some(test)) = (known, test) {
                 let condition = b.loop_test(test, rounds);
                 let mut leave = Block::new();
-                leave.push(Statement::Break, Span::UNDEFINED);
-                b.push(Statement::If { condition, accept: Block::new(), reject: leave });
+                leave.push(Stmt::Break);
+                b.push(Stmt::If { condition, accept: Block::new(), reject: leave });
             }
             b.body_of_loop(body);
             if let (Some(step), false) = (repeated, b.ended) {
@@ -154,7 +154,7 @@ impl Builder<'_, '_> {
             _ => Block::new(),
         };
         self.loops.pop();
-        self.push(Statement::Loop { body, continuing, break_if: None });
+        self.push(Stmt::Loop { body, continuing, break_if: None });
     }
 
     fn body_of_loop(&mut self, body: List<StmtId>) {
@@ -194,13 +194,11 @@ impl Builder<'_, '_> {
             }
         });
         self.loops.pop();
-        self.push(Statement::Loop { body, continuing, break_if });
+        self.push(Stmt::Loop { body, continuing, break_if });
     }
 
     fn switch(&mut self, value: ExprId, cases: &[Case]) {
-        let hir = self.cx.hir;
         let selector = self.value(value);
-        let unsigned = hir[value].ty == TypeId::UINT;
         for case in cases {
             self.force_declared(case.body);
         }
@@ -214,46 +212,39 @@ impl Builder<'_, '_> {
         let last = cases.len().saturating_sub(1);
         let falls = bodies.iter().enumerate().any(|(i, (body, ended))| i != last && !*ended && !body.is_empty());
         if falls {
-            return self.switch_with_fall_through(selector, unsigned, cases, bodies);
+            return self.switch_with_fall_through(selector, cases, bodies);
         }
         let mut out = Vec::with_capacity(cases.len() + 1);
         let mut labels = Vec::new();
         for (case, (body, _)) in cases.iter().zip(bodies) {
-            labels.extend(self.labels(case, unsigned));
+            labels.extend(self.labels(case));
             // Without a body of its own: the labels belong to the next one.
             if body.is_empty() && !std::ptr::eq(case, &cases[last]) {
                 continue;
             }
             let Some(main) = labels.pop() else { continue };
-            let empty = |value| SwitchCase { value, body: Block::new(), fall_through: true };
+            let empty = |label| ir::Case { label, body: Block::new(), falls_through: true };
             out.extend(labels.drain(..).map(empty));
-            out.push(SwitchCase { value: main, body, fall_through: false });
+            out.push(ir::Case { label: main, body, falls_through: false });
         }
         self.finish_switch(selector, out);
     }
 
-    fn labels(&self, case: &Case, unsigned: bool) -> Vec<SwitchValue> {
+    fn labels(&self, case: &Case) -> Vec<Option<u32>> {
         let values = self.cx.hir[case.values].iter();
-        let values = values.map(|&bits| if unsigned { SwitchValue::U32(bits) } else { SwitchValue::I32(bits as i32) });
-        values.chain(case.is_default.then_some(SwitchValue::Default)).collect()
+        values.map(|&bits| Some(bits)).chain(case.is_default.then_some(None)).collect()
     }
 
-    fn finish_switch(&mut self, selector: super::function::Value, mut cases: Vec<SwitchCase>) {
-        if !cases.iter().any(|case| case.value == SwitchValue::Default) {
-            cases.push(SwitchCase { value: SwitchValue::Default, body: Block::new(), fall_through: false });
+    fn finish_switch(&mut self, selector: Value, mut cases: Vec<ir::Case>) {
+        if !cases.iter().any(|case| case.label.is_none()) {
+            cases.push(ir::Case { label: None, body: Block::new(), falls_through: false });
         }
-        self.push(Statement::Switch { selector, cases });
+        self.push(Stmt::Switch { selector, cases });
     }
 
     /// Where a body runs into the next one, naga's writers disagree on what they accept. So a first switch finds the number of
     /// the body to begin with, and a second, with one case, holds all bodies, each under a test that it is reached; a `break` leaves it.
-    fn switch_with_fall_through(
-        &mut self,
-        selector: super::function::Value,
-        unsigned: bool,
-        cases: &[Case],
-        bodies: Vec<(Block, bool)>,
-    ) {
+    fn switch_with_fall_through(&mut self, selector: Value, cases: &[Case], bodies: Vec<(Block, bool)>) {
         use crate::glsl::hir::Scalar;
         let first = self.temporary(TypeId::INT);
         let none = self.literal(Scalar::Int, cases.len() as u32);
@@ -261,29 +252,29 @@ impl Builder<'_, '_> {
         let mut has_default = false;
         for (i, case) in cases.iter().enumerate() {
             has_default |= case.is_default;
-            let mut labels = self.labels(case, unsigned);
+            let mut labels = self.labels(case);
             let Some(main) = labels.pop() else { continue };
             let number = self.literal(Scalar::Int, i as u32);
             let (body, _) = self.branch_block(|b| b.store(first, number));
-            let empty = |value| SwitchCase { value, body: Block::new(), fall_through: true };
+            let empty = |label| ir::Case { label, body: Block::new(), falls_through: true };
             out.extend(labels.into_iter().map(empty));
-            out.push(SwitchCase { value: main, body, fall_through: false });
+            out.push(ir::Case { label: main, body, falls_through: false });
         }
         if !has_default {
             let (body, _) = self.branch_block(|b| b.store(first, none));
-            out.push(SwitchCase { value: SwitchValue::Default, body, fall_through: false });
+            out.push(ir::Case { label: None, body, falls_through: false });
         }
-        self.push(Statement::Switch { selector, cases: out });
+        self.push(Stmt::Switch { selector, cases: out });
         let start = self.load(first);
         let (body, _) = self.nested(|b| {
             for (i, (accept, _)) in bodies.into_iter().enumerate() {
                 let number = b.literal(Scalar::Int, i as u32);
-                let condition = b.op(naga::BinaryOperator::LessEqual, start, number);
-                b.push(Statement::If { condition, accept, reject: Block::new() });
+                let condition = b.op(Binary::LessEqual, start, number);
+                b.push(Stmt::If { condition, accept, reject: Block::new() });
             }
         });
-        let only = SwitchCase { value: SwitchValue::Default, body, fall_through: false };
-        self.push(Statement::Switch { selector: start, cases: vec![only] });
+        let only = ir::Case { label: None, body, falls_through: false };
+        self.push(Stmt::Switch { selector: start, cases: vec![only] });
     }
 
     /// Locals declared in one case can be named in the next, whose code their declaration does not dominate.

@@ -5,18 +5,14 @@ mod blocks;
 mod constants;
 mod variables;
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
-use naga::{Block, Expression, FastHashSet, FunctionArgument, FunctionResult, Handle, Span, Statement};
-
-use super::{Instance, Lowering, Map, calls::Given, filled, inline::Leaving, ranges::Bounds, scalars, split::split};
+use super::{Instance, Lowering, Map, calls::Given, inline::Leaving, ranges::Bounds, scalars};
 use crate::glsl::{
-    ast::List,
-    hir::{ConstId, ExprId, FuncId, LocalId, LocalKind, TypeId},
+    ast::{List, Loc},
+    hir::{ExprId, FuncId, LocalId, LocalKind, TypeId},
+    ir::{self, Block, Op, Param, Stmt, Value},
 };
-
-/// An expression of the function being built.
-pub(super) type Value = Handle<Expression>;
 
 /// What a parameter or local variable is in the generated code.
 #[derive(Clone, Copy, Debug)]
@@ -25,10 +21,10 @@ pub(super) enum Slot {
     Unset,
     /// Never written: a value.
     Value(Value),
-    /// A pointer.
+    /// A place.
     Memory(Value),
     /// Never written, and its value is a constant that is indexed.
-    Table(ConstId),
+    Table(ir::ConstId),
     /// A sampler parameter.
     Channel(u8),
 }
@@ -66,14 +62,14 @@ pub(super) struct Outer {
 
 pub(super) struct Builder<'m, 'a> {
     pub cx: &'m mut Lowering<'a>,
-    pub f: naga::Function,
+    pub f: ir::Function,
     block: Block,
+    /// The part of the text that the code at hand is lowered from.
+    pub loc: Loc,
     /// What comes before all else; `None` in the code around the entry point, which has an order of its own.
     start: Option<Block>,
     /// Uniforms that were read there: pointer to the block, members and indices that lead to what was read.
     pub uniforms: HashMap<(Value, Vec<u32>), Value>,
-    /// First and last expression not yet emitted.
-    unemitted: Option<(Value, Value)>,
     /// Control cannot reach the end of the block: nothing more belongs into it.
     pub ended: bool,
     first_local: usize,
@@ -81,28 +77,26 @@ pub(super) struct Builder<'m, 'a> {
     /// Locals that are memory though nobody writes them: their uses are not dominated by their declaration.
     forced: Vec<bool>,
     literals: Map<(u8, u32), Value>,
-    zeros: Map<Handle<naga::Type>, Value>,
+    zeros: Map<TypeId, Value>,
     constants: Map<u32, Value>,
-    /// Constant vectors, for [`Builder::column`].
-    pub vectors: Map<Handle<naga::Constant>, Value>,
-    globals: Map<Handle<naga::GlobalVariable>, Value>,
+    globals: Map<ir::GlobalId, Value>,
     /// The factors of each product of matrices: how many columns the left one has, left, right.
     pub matrix_products: Map<Value, (u8, Value, Value)>,
     /// Values that variables stand for.
-    named: std::collections::HashSet<Value>,
+    named: HashSet<Value>,
     /// Values that variables stand for which are used more than once.
-    pub shared: std::collections::HashSet<Value>,
+    pub shared: HashSet<Value>,
     /// What vectors were put together from, and what was written to memory.
-    pub constructed: std::collections::HashSet<Value>,
+    pub constructed: HashSet<Value>,
     /// Where in `f.expressions` the run of statements without branches begins that the builder is at.
     run: usize,
     /// Where in `f.expressions` the last choice between two values ended that is an instruction here and a branch to
     /// OpenGL's compilers: no variable's expression is moved over it.
     pub choice: usize,
     /// What calls of functions that became part of this one gave.
-    pub returned: std::collections::HashSet<Value>,
+    pub returned: HashSet<Value>,
     /// Vectors that an operation gave, component by component.
-    pub by_component: std::collections::HashSet<Value>,
+    pub by_component: HashSet<Value>,
     /// Pure operations of the blocks at hand, from the outermost on, and where to find them.
     made: Map<scalars::Key, Value>,
     made_in_order: Vec<scalars::Key>,
@@ -110,11 +104,11 @@ pub(super) struct Builder<'m, 'a> {
     pub loaded: Map<Value, Map<Value, Value>>,
     pub loaded_in_order: Vec<(Value, Value)>,
     /// The module-scope variables among them.
-    pub loaded_globals: FastHashSet<Value>,
+    pub loaded_globals: HashSet<Value>,
     /// Members of structures as they were when these were read.
     pub members: Map<(Value, u32), Value>,
     /// Variables written in the block at hand.
-    pub written: std::collections::HashSet<Value>,
+    pub written: HashSet<Value>,
     /// A call in the block at hand may have written every module-scope variable.
     pub globals_written: bool,
     /// From the outermost to the innermost, with those of the functions that this one is part of.
@@ -130,39 +124,29 @@ pub(super) struct Builder<'m, 'a> {
     pub given: Box<[Given]>,
     /// Of a function that becomes part of its caller.
     pub leaving: Option<Leaving>,
-    /// Where the function's result goes if it is long ([`super::long_arrays`]).
-    long_result: Option<Value>,
 }
 
 /// Lowers one copy of a user function.
-pub(super) fn lower(cx: &mut Lowering<'_>, instance: &Instance) -> naga::Function {
+pub(super) fn lower(cx: &mut Lowering<'_>, instance: &Instance) -> ir::Function {
     let hir = cx.hir;
     let function = &hir[instance.func];
     let mut builder = Builder::new(cx, function.locals.start as usize, function.locals.len());
     builder.start = Some(Block::new());
     builder.result = function.result;
+    builder.f.result = function.result;
     builder.func = Some(instance.func);
     builder.given = instance.given.clone();
-    builder.parameters(instance.func, |b, ty| {
-        let index = b.f.arguments.len() as u32;
-        b.f.arguments.push(FunctionArgument { name: None, ty, binding: None });
-        b.given(Expression::FunctionArgument(index))
+    builder.loc = function.header;
+    builder.parameters(instance.func, |b, param| {
+        let index = b.f.params.len() as u32;
+        b.f.params.push(param);
+        b.free(Op::Param(index))
     });
-    if builder.cx.is_long(function.result) {
-        let index = builder.f.arguments.len() as u32;
-        let ty = builder.cx.pointer_ty(function.result);
-        builder.f.arguments.push(FunctionArgument { name: None, ty, binding: None });
-        builder.long_result = Some(builder.given(Expression::FunctionArgument(index)));
-    }
     builder.statements(function.body.unwrap_or(List::EMPTY));
     if !builder.ended && function.result != TypeId::VOID {
         // Falling off the end gives zero.
         let value = builder.zero(function.result);
-        builder.return_value(value);
-    }
-    if function.result != TypeId::VOID && builder.long_result.is_none() {
-        let ty = builder.cx.ty(function.result);
-        builder.f.result = Some(FunctionResult { ty, binding: None });
+        builder.push(Stmt::Return(Some(value)));
     }
     builder.finish()
 }
@@ -172,11 +156,11 @@ impl<'m, 'a> Builder<'m, 'a> {
     pub fn new(cx: &'m mut Lowering<'a>, first_local: usize, count: usize) -> Self {
         Self {
             cx,
-            f: naga::Function::default(),
+            f: ir::Function::new(TypeId::VOID),
             block: Block::new(),
+            loc: Loc::default(),
             start: None,
             uniforms: HashMap::new(),
-            unemitted: None,
             ended: false,
             first_local,
             slots: vec![Slot::Unset; count],
@@ -184,7 +168,6 @@ impl<'m, 'a> Builder<'m, 'a> {
             literals: Map::default(),
             zeros: Map::default(),
             constants: Map::default(),
-            vectors: Map::default(),
             globals: Map::default(),
             matrix_products: Map::default(),
             named: Default::default(),
@@ -209,43 +192,24 @@ impl<'m, 'a> Builder<'m, 'a> {
             func: None,
             given: Box::default(),
             leaving: None,
-            long_result: None,
         }
     }
 
-    pub fn finish(mut self) -> naga::Function {
-        self.emit();
-        let is_called = self.start.is_some();
+    pub fn finish(mut self) -> ir::Function {
         let mut body = self.start.unwrap_or_default();
         body.append(&mut self.block);
         self.f.body = body;
-        if is_called {
-            filled::make_global(&mut self.f, self.cx);
-        }
-        split(&mut self.f, &mut self.cx.out.types);
         self.f
     }
 
-    /// Leaves the function.
-    pub fn return_value(&mut self, value: Value) {
-        let value = match self.long_result {
-            Some(place) => {
-                self.store(place, value);
-                None
-            }
-            None => Some(value),
-        };
-        self.push(Statement::Return { value });
-    }
-
     /// Says what a function's parameters are; `argument` gives the next one, of this type.
-    pub fn parameters(&mut self, func: FuncId, mut argument: impl FnMut(&mut Self, Handle<naga::Type>) -> Value) {
+    pub fn parameters(&mut self, func: FuncId, mut argument: impl FnMut(&mut Self, Param) -> Value) {
         let hir = self.cx.hir;
         for (local, given) in self.cx.arguments.givable(func).to_vec().into_iter().zip(self.given.clone()) {
             let slot = match given {
                 Given::Argument => continue,
                 Given::Channel(channel) => Slot::Channel(channel),
-                Given::Table(table) => Slot::Table(table),
+                Given::Table(table) => Slot::Table(super::const_id(table)),
                 Given::Global(global) => {
                     let variable = self.cx.global(global);
                     Slot::Memory(self.global(variable))
@@ -260,8 +224,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             }
             let in_place = self.cx.arguments.reads_in_place(hir, local);
             let by_pointer = param.kind.copies_out() || in_place || self.cx.is_long(param.ty);
-            let ty = if by_pointer { self.cx.pointer_ty(param.ty) } else { self.cx.ty(param.ty) };
-            let argument = argument(self, ty);
+            let argument = argument(self, Param { ty: param.ty, by_reference: by_pointer });
             if by_pointer {
                 if param.kind == LocalKind::Out {
                     let zero = self.zero(param.ty);
@@ -305,31 +268,30 @@ impl<'m, 'a> Builder<'m, 'a> {
         } = outer;
     }
 
-    /// An expression to be computed here, if it was not yet.
-    pub fn add(&mut self, expression: Expression) -> Value {
-        if let Expression::AccessIndex { base, index } = expression
+    /// An operation to be computed here, if it was not yet.
+    pub fn add(&mut self, op: Op) -> Value {
+        if let Op::Part { base, index } = op
             && let Some(component) = self.known_component(base, index)
         {
             return component;
         }
-        if let Some(number) = self.folded_number(&expression) {
+        if let Some(number) = self.folded_number(&op) {
             return self.float(number);
         }
-        if let Some(same) = self.unchanged(&expression) {
+        if let Some(same) = self.unchanged(&op) {
             return same;
         }
-        self.add_as_is(expression)
+        self.add_as_is(op)
     }
 
     /// The same of what is neither folded nor left out.
-    pub fn add_as_is(&mut self, expression: Expression) -> Value {
-        let key = scalars::key(&expression);
+    pub fn add_as_is(&mut self, op: Op) -> Value {
+        let key = scalars::key(&op);
         if let Some(&made) = key.as_ref().and_then(|key| self.made.get(key)) {
             return made;
         }
-        let value = self.f.expressions.append(expression, Span::UNDEFINED);
-        let first = self.unemitted.map_or(value, |(first, _)| first);
-        self.unemitted = Some((first, value));
+        let ty = ir::infer::ty(&self.cx.out, &self.f, &op);
+        let value = self.add_typed(op, ty);
         if let Some(key) = key {
             self.made.insert(key, value);
             self.made_in_order.push(key);
@@ -337,9 +299,15 @@ impl<'m, 'a> Builder<'m, 'a> {
         value
     }
 
+    /// An operation of this type that is computed here in any case.
+    pub fn add_typed(&mut self, op: Op, ty: TypeId) -> Value {
+        let value = self.f.append(op, ty, self.loc);
+        self.block.push(Stmt::Let(value));
+        value
+    }
+
     /// What `make` computes, before all else that the function does; `None` in the code around the entry point.
     pub fn at_start(&mut self, make: impl FnOnce(&mut Self) -> Value) -> Option<Value> {
-        self.emit();
         let start = self.start.take()?;
         let block = std::mem::replace(&mut self.block, start);
         // What is known here is not known there, nor the other way round.
@@ -347,7 +315,6 @@ impl<'m, 'a> Builder<'m, 'a> {
         let loaded = (std::mem::take(&mut self.loaded), std::mem::take(&mut self.loaded_in_order));
         let loaded_globals = std::mem::take(&mut self.loaded_globals);
         let value = make(self);
-        self.emit();
         (self.made, self.made_in_order) = made;
         (self.loaded, self.loaded_in_order) = loaded;
         self.loaded_globals = loaded_globals;
@@ -355,16 +322,10 @@ impl<'m, 'a> Builder<'m, 'a> {
         Some(value)
     }
 
-    /// An expression that is there from the start of the function.
-    pub fn given(&mut self, expression: Expression) -> Value {
-        debug_assert!(expression.needs_pre_emit());
-        self.emit();
-        self.f.expressions.append(expression, Span::UNDEFINED)
-    }
-
-    /// An expression some statement computes.
-    pub fn computed_elsewhere(&mut self, expression: Expression) -> Value {
-        self.emit();
-        self.f.expressions.append(expression, Span::UNDEFINED)
+    /// A free operation: one that no statement computes.
+    pub fn free(&mut self, op: Op) -> Value {
+        debug_assert!(op.is_free());
+        let ty = ir::infer::ty(&self.cx.out, &self.f, &op);
+        self.f.append(op, ty, self.loc)
     }
 }

@@ -4,10 +4,9 @@
 //! OpenGL sibling. Real shaders blow up last bits (`fract(sin(dot(p, k)) * 43758.5453)`), so the pictures differ. The
 //! instructions are as many either way, and drivers may still fuse them.
 
-use naga::{BinaryOperator as Op, Expression, Literal, MathFunction as Math};
-
-use super::function::{Builder, Value};
+use super::function::Builder;
 use crate::glsl::hir::{Scalar, TypeId};
+use crate::glsl::ir::{Binary, Math, Op, Value};
 
 impl Builder<'_, '_> {
     /// `((w w' + z z') + y y') + x x'`: the side the sum is on matters to what drivers join it with. What is multiplied by a
@@ -15,18 +14,18 @@ impl Builder<'_, '_> {
     pub fn dot(&mut self, ty: TypeId, a: Value, b: Value) -> Value {
         let size = self.extent(ty);
         if size == 1 {
-            return self.op(Op::Multiply, a, b);
+            return self.op(Binary::Multiply, a, b);
         }
         let product = |this: &mut Self, index| {
-            let a = this.add(Expression::AccessIndex { base: a, index });
-            let b = this.add(Expression::AccessIndex { base: b, index });
-            let is_zero = |side| matches!(this.f.expressions[side], Expression::Literal(Literal::F32(0.0)));
-            if is_zero(a) || is_zero(b) { this.float(0.0) } else { this.op(Op::Multiply, a, b) }
+            let a = this.add(Op::Part { base: a, index });
+            let b = this.add(Op::Part { base: b, index });
+            let is_zero = |side| this.number(side) == Some(0.0);
+            if is_zero(a) || is_zero(b) { this.float(0.0) } else { this.op(Binary::Multiply, a, b) }
         };
         let mut sum = product(self, size - 1);
         for index in (0..size - 1).rev() {
             let term = product(self, index);
-            sum = self.op(Op::Add, sum, term);
+            sum = self.op(Binary::Add, sum, term);
         }
         sum
     }
@@ -42,17 +41,17 @@ impl Builder<'_, '_> {
     pub fn normalize(&mut self, ty: TypeId, vector: Value) -> Value {
         let square = self.dot(ty, vector, vector);
         let scale = self.math(Math::InverseSqrt, square);
-        self.each(ty, [(ty, vector), (TypeId::FLOAT, scale)], |b, [x, scale]| b.op(Op::Multiply, x, scale))
+        self.each(ty, [(ty, vector), (TypeId::FLOAT, scale)], |b, [x, scale]| b.op(Binary::Multiply, x, scale))
     }
 
     /// `i - 2 dot(n, i) n`.
     pub fn reflect(&mut self, ty: TypeId, i: Value, n: Value) -> Value {
         let dot = self.dot(ty, n, i);
         let two = self.float(2.0);
-        let twice = self.op(Op::Multiply, two, dot);
+        let twice = self.op(Binary::Multiply, two, dot);
         self.each(ty, [(ty, i), (ty, n), (TypeId::FLOAT, twice)], |b, [i, n, twice]| {
-            let along = b.op(Op::Multiply, n, twice);
-            b.op(Op::Subtract, i, along)
+            let along = b.op(Binary::Multiply, n, twice);
+            b.op(Binary::Subtract, i, along)
         })
     }
 
@@ -60,22 +59,22 @@ impl Builder<'_, '_> {
     pub fn refract(&mut self, ty: TypeId, i: Value, n: Value, eta: Value) -> Value {
         let one = self.float(1.0);
         let dot = self.dot(ty, n, i);
-        let dot_squared = self.op(Op::Multiply, dot, dot);
-        let sine = self.op(Op::Subtract, one, dot_squared);
-        let bent = self.op(Op::Multiply, eta, sine);
-        let bent = self.op(Op::Multiply, eta, bent);
-        let k = self.op(Op::Subtract, one, bent);
+        let dot_squared = self.op(Binary::Multiply, dot, dot);
+        let sine = self.op(Binary::Subtract, one, dot_squared);
+        let bent = self.op(Binary::Multiply, eta, sine);
+        let bent = self.op(Binary::Multiply, eta, bent);
+        let k = self.op(Binary::Subtract, one, bent);
         let root = self.math(Math::Sqrt, k);
-        let along = self.op(Op::Multiply, eta, dot);
-        let sum = self.op(Op::Add, along, root);
+        let along = self.op(Binary::Multiply, eta, dot);
+        let sum = self.op(Binary::Add, along, root);
         let float = TypeId::FLOAT;
         let refracted = self.each(ty, [(ty, i), (float, eta), (ty, n), (float, sum)], |b, [i, eta, n, sum]| {
-            let normal = b.op(Op::Multiply, n, sum);
-            let scaled = b.op(Op::Multiply, i, eta);
-            b.op(Op::Subtract, scaled, normal)
+            let normal = b.op(Binary::Multiply, n, sum);
+            let scaled = b.op(Binary::Multiply, i, eta);
+            b.op(Binary::Subtract, scaled, normal)
         });
         let zero_k = self.float(0.0);
-        let total = self.op(Op::Less, k, zero_k);
+        let total = self.op(Binary::Less, k, zero_k);
         let zero = self.zero(ty);
         self.select(total, zero, refracted)
     }
@@ -101,13 +100,13 @@ impl Builder<'_, '_> {
         let ty = TypeId::vector(Scalar::Float, rows);
         let mut sum = None;
         for index in 0..u32::from(columns) {
-            let column = self.add(Expression::AccessIndex { base: matrix, index });
-            let factor = self.add(Expression::AccessIndex { base: vector, index });
-            let term =
-                self.each(ty, [(ty, column), (TypeId::FLOAT, factor)], |b, [x, factor]| b.op(Op::Multiply, x, factor));
+            let column = self.add(Op::Part { base: matrix, index });
+            let factor = self.add(Op::Part { base: vector, index });
+            let term = self
+                .each(ty, [(ty, column), (TypeId::FLOAT, factor)], |b, [x, factor]| b.op(Binary::Multiply, x, factor));
             sum = Some(match sum {
                 Some(sum) => self.each(ty, [(ty, sum), (ty, term)], |b, [sum, term]| {
-                    b.with_constant_factored(sum, term).unwrap_or_else(|| b.op(Op::Add, sum, term))
+                    b.with_constant_factored(sum, term).unwrap_or_else(|| b.op(Binary::Add, sum, term))
                 }),
                 None => term,
             });
@@ -130,7 +129,7 @@ impl Builder<'_, '_> {
     pub fn matrix_times_matrix(&mut self, (columns, rows): (u8, u8), inner: u8, left: Value, right: Value) -> Value {
         let ty = TypeId::matrix(columns, rows);
         let columns = (0..u32::from(columns)).map(|index| {
-            let column = self.add(Expression::AccessIndex { base: right, index });
+            let column = self.add(Op::Part { base: right, index });
             self.matrix_times_vector((inner, rows), left, column)
         });
         let columns = columns.collect();

@@ -4,15 +4,14 @@
 //! twice, across the borders that the author drew; a SPIR-V driver finds most of that done for each function alone, and last
 //! bits come out differently (see [`super::regroup`]).
 
-use naga::{Block, Statement};
-
 use super::{
     calls::Given,
-    function::{Builder, Value},
+    function::Builder,
     ranges::Bounds,
     reach::{Reach, known_bool},
     walk::{Node, walk},
 };
+use crate::glsl::ir::{Block, Stmt, Value};
 use crate::glsl::{
     ast::{List, MAX_NESTING},
     hir::{ExprId, ExprKind, FuncId, LocalId, Module, Scalar, StmtId, StmtKind, TypeId},
@@ -262,7 +261,7 @@ impl Builder<'_, '_> {
                 }
                 let (accept, _) = self.branch_block(|b| b.body(then));
                 let (reject, _) = self.branch_block(|b| b.body(otherwise));
-                self.push(Statement::If { condition, accept, reject });
+                self.push(Stmt::If { condition, accept, reject });
             }
             StmtKind::Return(_) => {
                 rest.clear();
@@ -273,7 +272,7 @@ impl Builder<'_, '_> {
         if let (false, Some(flag)) = (rest.is_empty(), self.leaving.and_then(|leaving| leaving.flag)) {
             let condition = self.load(flag);
             let (reject, _) = self.branch_block(|b| b.body(rest));
-            self.push(Statement::If { condition, accept: Block::new(), reject });
+            self.push(Stmt::If { condition, accept: Block::new(), reject });
         }
     }
 
@@ -292,7 +291,7 @@ impl Builder<'_, '_> {
             self.store(flag, returned);
         }
         if self.breakable > leaving.breakable {
-            self.push(Statement::Break);
+            self.push(Stmt::Break);
         }
     }
 
@@ -303,8 +302,8 @@ impl Builder<'_, '_> {
             && leaves(self.cx.hir, inner)
         {
             let condition = self.load(flag);
-            let (accept, _) = self.branch_block(|b| b.push(Statement::Break));
-            self.push(Statement::If { condition, accept, reject: Block::new() });
+            let (accept, _) = self.branch_block(|b| b.push(Stmt::Break));
+            self.push(Stmt::If { condition, accept, reject: Block::new() });
         }
     }
 }

@@ -1,10 +1,9 @@
 //! Matrix functions (section 8.6). `inverse` is written out because naga's Metal and HLSL writers have none, and like `determinant`
 //! in the order of OpenGL's compilers (see [`super::geometry`]).
 
-use naga::{BinaryOperator as Op, Expression, MathFunction as Math};
-
-use super::function::{Builder, Value};
+use super::function::Builder;
 use crate::glsl::hir::{Scalar, Type, TypeId};
+use crate::glsl::ir::{Binary, Math, Op, Value};
 
 impl Builder<'_, '_> {
     /// The inverse of a square matrix: transposed cofactors over the determinant.
@@ -26,7 +25,7 @@ impl Builder<'_, '_> {
             .into_iter()
             .map(|column| {
                 let column = self.compose(column_ty, column);
-                self.op(Op::Divide, column, divisor)
+                self.op(Binary::Divide, column, divisor)
             })
             .collect();
         self.compose(ty, columns)
@@ -44,7 +43,7 @@ impl Builder<'_, '_> {
     /// `m[c][r]`: column c, row r.
     fn elements(&mut self, ty: TypeId, matrix: Value) -> Vec<Vec<Value>> {
         let n = self.extent(ty);
-        let part = |this: &mut Self, base, index| this.add(Expression::AccessIndex { base, index });
+        let part = |this: &mut Self, base, index| this.add(Op::Part { base, index });
         (0..n)
             .map(|c| {
                 let column = part(self, matrix, c);
@@ -55,15 +54,15 @@ impl Builder<'_, '_> {
 
     /// A determinant from its first column and that column's cofactors.
     fn expand(&mut self, column: &[Value], cofactors: &[Value]) -> Value {
-        let terms: Vec<_> = column.iter().zip(cofactors).map(|(&e, &c)| self.op(Op::Multiply, e, c)).collect();
+        let terms: Vec<_> = column.iter().zip(cofactors).map(|(&e, &c)| self.op(Binary::Multiply, e, c)).collect();
         match terms[..] {
             // Four are added from the end, fewer from the start.
             [a, b, c, d] => {
-                let sum = self.op(Op::Add, c, d);
-                let sum = self.op(Op::Add, b, sum);
-                self.op(Op::Add, a, sum)
+                let sum = self.op(Binary::Add, c, d);
+                let sum = self.op(Binary::Add, b, sum);
+                self.op(Binary::Add, a, sum)
             }
-            _ => terms.into_iter().reduce(|sum, term| self.op(Op::Add, sum, term)).expect("a matrix has columns"),
+            _ => terms.into_iter().reduce(|sum, term| self.op(Binary::Add, sum, term)).expect("a matrix has columns"),
         }
     }
 
@@ -75,7 +74,7 @@ impl Builder<'_, '_> {
             return minor;
         }
         let minus = self.float(-1.0);
-        self.op(Op::Multiply, minor, minus)
+        self.op(Binary::Multiply, minor, minus)
     }
 
     /// Determinant of the named columns and rows, expanded along the first of the columns.
@@ -88,10 +87,10 @@ impl Builder<'_, '_> {
         for (i, &row) in rows.iter().enumerate() {
             let others: Vec<usize> = rows.iter().copied().filter(|&r| r != row).collect();
             let below = self.minor(m, rest, &others);
-            let term = self.op(Op::Multiply, m[first][row], below);
+            let term = self.op(Binary::Multiply, m[first][row], below);
             sum = Some(match sum {
                 None => term,
-                Some(sum) => self.op(if i % 2 == 0 { Op::Add } else { Op::Subtract }, sum, term),
+                Some(sum) => self.op(if i % 2 == 0 { Binary::Add } else { Binary::Subtract }, sum, term),
             });
         }
         sum.expect("a minor has a row")
@@ -100,9 +99,9 @@ impl Builder<'_, '_> {
     pub fn matrix_comp_mult(&mut self, ty: TypeId, a: Value, b: Value) -> Value {
         let Type::Matrix { columns, .. } = self.cx.hir.types.get(ty) else { unreachable!("a matrix type") };
         let columns = (0..u32::from(columns)).map(|index| {
-            let left = self.add(Expression::AccessIndex { base: a, index });
-            let right = self.add(Expression::AccessIndex { base: b, index });
-            self.op(Op::Multiply, left, right)
+            let left = self.add(Op::Part { base: a, index });
+            let right = self.add(Op::Part { base: b, index });
+            self.op(Binary::Multiply, left, right)
         });
         let columns = columns.collect();
         self.compose(ty, columns)
@@ -112,7 +111,7 @@ impl Builder<'_, '_> {
     pub fn outer_product(&mut self, ty: TypeId, b_ty: TypeId, a: Value, b: Value) -> Value {
         let mut parts = Vec::new();
         self.components(b, b_ty, &mut parts);
-        let columns = parts.into_iter().map(|part| self.op(Op::Multiply, a, part)).collect();
+        let columns = parts.into_iter().map(|part| self.op(Binary::Multiply, a, part)).collect();
         self.compose(ty, columns)
     }
 }

@@ -3,20 +3,21 @@
 //! Then terms of two expressions are seen to be the same, and constants reach the place where they are used, as OpenGL's compilers
 //! have it.
 
+use crate::glsl::ir::{Op, Stmt, Value};
 use std::collections::HashSet;
 
-use naga::{Expression, Handle, Statement, Type, TypeInner};
-
 use super::{
-    function::{Builder, Slot, Value},
-    split,
+    function::{Builder, Slot},
     walk::{Node, walk},
     writes,
 };
 use crate::glsl::{
     ast::List,
-    hir::{Builtin, ExprId, ExprKind, FuncId, StmtId},
+    hir::{Builtin, ExprId, ExprKind, FuncId, StmtId, Type, TypeId},
 };
+
+/// A structure of more scalars is not told apart when it is written as a whole.
+const MOST_SCALARS: usize = 256;
 
 /// Parts of one variable of which it is known what they hold. All are looked through where one of them is written; a
 /// shader that a person wrote knows a few dozen.
@@ -33,20 +34,20 @@ impl Builder<'_, '_> {
         if let Some(&value) = known.and_then(|parts| parts.get(&pointer)) {
             return value;
         }
-        if let Expression::AccessIndex { base, index } = self.f.expressions[pointer]
+        if let Op::Part { base, index } = self.f[pointer]
             && let Some(&whole) = known.and_then(|parts| parts.get(&base))
         {
-            return self.add(Expression::AccessIndex { base: whole, index });
+            return self.add(Op::Part { base: whole, index });
         }
         let is_structure = self.is_structure(pointer);
         let members: Vec<(u32, Value)> = known.filter(|_| is_structure).map_or_else(Vec::new, |parts| {
-            let member = |(&part, &value): (&Value, &Value)| match self.f.expressions[part] {
-                Expression::AccessIndex { base, index } if base == pointer => Some((index, value)),
+            let member = |(&part, &value): (&Value, &Value)| match self.f[part] {
+                Op::Part { base, index } if base == pointer => Some((index, value)),
                 _ => None,
             };
             parts.iter().filter_map(member).collect()
         });
-        let value = self.add(Expression::Load { pointer });
+        let value = self.add(Op::Load { place: pointer });
         if is_structure {
             self.members.extend(members.into_iter().map(|(index, member)| ((value, index), member)));
         }
@@ -57,12 +58,12 @@ impl Builder<'_, '_> {
     /// Writes to memory. Of a scalar or vector that is no part of an array, matrix or vector it is known from then on what it
     /// holds.
     pub fn store(&mut self, pointer: Value, value: Value) {
-        self.push(Statement::Store { pointer, value });
+        self.push(Stmt::Store { place: pointer, value });
         let Some(ty) = self.pointee(pointer) else { return };
-        if matches!(self.cx.out.types[ty].inner, TypeInner::Scalar(_) | TypeInner::Vector { .. }) {
+        if self.is_vector_or_scalar(ty) {
             self.name(value);
             self.constructed.insert(value);
-            if let Expression::Compose { components, .. } = &self.f.expressions[value] {
+            if let Op::Compose { parts: components, .. } = &self.f[value] {
                 self.constructed.extend(components);
             }
             let variable = self.variable(pointer);
@@ -74,19 +75,19 @@ impl Builder<'_, '_> {
     }
 
     /// Whether what a type holds is not too much to be told apart.
-    fn is_few_parts(&self, ty: Handle<Type>) -> bool {
-        let mut scalars = 0;
-        split::count_scalars(&self.cx.out.types, ty, &mut scalars);
-        scalars <= split::MOST_SCALARS
+    fn is_few_parts(&self, ty: TypeId) -> bool {
+        self.cx.out.scalars_up_to(ty, MOST_SCALARS) <= MOST_SCALARS
     }
 
     /// A structure was written: what is known of its members is known of those of the memory.
     fn know_members(&mut self, variable: Value, pointer: Value, value: Value) {
         let Some(ty) = self.pointee(pointer) else { return };
-        let TypeInner::Struct { members, .. } = &self.cx.out.types[ty].inner else { return };
-        for index in 0..members.len() as u32 {
+        if !matches!(self.cx.out.types.get(ty), Type::Struct(_)) {
+            return;
+        }
+        for index in 0..self.cx.out.extent(ty) {
             let Some(member) = self.known_component(value, index) else { continue };
-            let place = self.add(Expression::AccessIndex { base: pointer, index });
+            let place = self.add(Op::Part { base: pointer, index });
             if self.is_structure(place) {
                 self.know_members(variable, place, member);
             } else {
@@ -136,7 +137,7 @@ impl Builder<'_, '_> {
             }
         }
         for variable in self.loaded_globals.iter().copied().collect::<Vec<_>>() {
-            let Expression::GlobalVariable(handle) = self.f.expressions[variable] else { continue };
+            let Op::Global(handle) = self.f[variable] else { continue };
             let written = match self.cx.authors_global(handle) {
                 Some(global) => {
                     globals.contains(&global) || called.iter().any(|&func| self.cx.arguments.writes(func, global))
@@ -177,7 +178,7 @@ impl Builder<'_, '_> {
     /// What a pointer points into. Different ones are different memory: arguments are passed in place where they are the only way
     /// to what they point to.
     fn variable(&self, mut pointer: Value) -> Value {
-        while let Expression::Access { base, .. } | Expression::AccessIndex { base, .. } = self.f.expressions[pointer] {
+        while let Op::Element { base, .. } | Op::Part { base, .. } = self.f[pointer] {
             pointer = base;
         }
         pointer
@@ -188,8 +189,8 @@ impl Builder<'_, '_> {
     fn path(&self, mut pointer: Value) -> (Value, Vec<u32>) {
         let mut path = Vec::new();
         loop {
-            match self.f.expressions[pointer] {
-                Expression::AccessIndex { base, index } => {
+            match self.f[pointer] {
+                Op::Part { base, index } => {
                     if self.is_structure(base) {
                         path.push(index);
                     } else {
@@ -197,7 +198,7 @@ impl Builder<'_, '_> {
                     }
                     pointer = base;
                 }
-                Expression::Access { base, .. } => {
+                Op::Element { base, .. } => {
                     path.clear();
                     pointer = base;
                 }
@@ -209,27 +210,24 @@ impl Builder<'_, '_> {
     }
 
     fn is_structure(&self, pointer: Value) -> bool {
-        self.pointee(pointer).is_some_and(|ty| matches!(self.cx.out.types[ty].inner, TypeInner::Struct { .. }))
+        self.pointee(pointer).is_some_and(|ty| matches!(self.cx.out.types.get(ty), Type::Struct(_)))
     }
 
     /// The type of a variable of this module, or of a member of one.
-    fn pointee(&self, pointer: Value) -> Option<Handle<Type>> {
-        match self.f.expressions[pointer] {
-            Expression::LocalVariable(variable) => Some(self.f.local_variables[variable].ty),
-            Expression::GlobalVariable(variable) => Some(self.cx.out.global_variables[variable].ty),
-            Expression::AccessIndex { base, index } => match &self.cx.out.types[self.pointee(base)?].inner {
-                TypeInner::Struct { members, .. } => Some(members[index as usize].ty),
-                _ => None,
-            },
+    fn pointee(&self, pointer: Value) -> Option<TypeId> {
+        match self.f[pointer] {
+            Op::Var(_) | Op::Global(_) => Some(self.f.ty(pointer)),
+            Op::Part { base, .. } => {
+                let structure = self.pointee(base)?;
+                matches!(self.cx.out.types.get(structure), Type::Struct(_)).then(|| self.f.ty(pointer))
+            }
             _ => None,
         }
     }
 
     /// What `pointer`, into `variable`, points to is `value`.
     fn know(&mut self, variable: Value, pointer: Value, value: Value) {
-        if matches!(self.f.expressions[variable], Expression::GlobalVariable(_))
-            && !self.loaded_globals.contains(&variable)
-        {
+        if matches!(self.f[variable], Op::Global(_)) && !self.loaded_globals.contains(&variable) {
             if self.loaded_globals.len() >= MOST_GLOBALS {
                 return;
             }

@@ -3,13 +3,9 @@
 //! Mesa keeps it whole until what is around it is simplified, which a SPIR-V driver that meets its sums and products can no
 //! longer do. See [`super::regroup`] for why the last bits matter.
 
-use naga::{BinaryOperator as Op, Expression, Literal, MathFunction as Math, ScalarKind, UnaryOperator};
-
-use super::{
-    function::{Builder, Value},
-    regroup::Part,
-};
-use crate::glsl::hir::TypeId;
+use super::{function::Builder, regroup::Part};
+use crate::glsl::hir::{Scalar, TypeId};
+use crate::glsl::ir::{Binary, Math, Op, Unary, Value};
 
 /// `mix` of scalars.
 #[derive(Clone, Copy)]
@@ -26,7 +22,7 @@ impl Builder<'_, '_> {
         for index in 0..self.extent(ty) {
             let [x, y, a] = [x, y, a].map(|value| match ty {
                 TypeId::FLOAT => value,
-                _ => self.add(Expression::AccessIndex { base: value, index }),
+                _ => self.add(Op::Part { base: value, index }),
             });
             let mut factors = Vec::new();
             mixes.push(self.without_common(Mix { x, y, a }, &mut factors));
@@ -49,11 +45,11 @@ impl Builder<'_, '_> {
 
     /// Takes out what both sides are sums or products with: `mix(p + x, p + y, a)` is `mix(x, y, a) + p`. What was taken out goes
     /// to `around`, the outermost first.
-    fn without_common(&self, mix: Mix, around: &mut Vec<(Op, Value)>) -> Mix {
+    fn without_common(&self, mix: Mix, around: &mut Vec<(Binary, Value)>) -> Mix {
         if self.condition(mix.a).is_some() {
             return mix;
         }
-        for op in [Op::Add, Op::Multiply] {
+        for op in [Binary::Add, Binary::Multiply] {
             let (Some([x0, x1]), Some([y0, y1])) = (self.operands(op, mix.x), self.operands(op, mix.y)) else {
                 continue;
             };
@@ -68,11 +64,9 @@ impl Builder<'_, '_> {
     }
 
     /// The sides of a sum or product that is used here alone.
-    fn operands(&self, op: Op, value: Value) -> Option<[Value; 2]> {
-        match self.f.expressions[value] {
-            Expression::Binary { op: found, left, right } if found == op && !self.is_named(value) => {
-                Some([left, right])
-            }
+    fn operands(&self, op: Binary, value: Value) -> Option<[Value; 2]> {
+        match self.f[value] {
+            Op::Binary { op: found, left, right } if found == op && !self.is_named(value) => Some([left, right]),
             _ => None,
         }
     }
@@ -86,7 +80,7 @@ impl Builder<'_, '_> {
             let condition = self.test(condition);
             return self.select(condition, y, x);
         }
-        if let Some([left, right]) = self.operands(Op::Multiply, y)
+        if let Some([left, right]) = self.operands(Binary::Multiply, y)
             && (left == x || right == x)
             && self.floats(x).is_none()
         {
@@ -94,35 +88,35 @@ impl Builder<'_, '_> {
             let one = self.float(1.0);
             let inner = Mix { x: one, y: factor, a };
             let inner = self.mix_written_out(&[inner], 0);
-            return self.op(Op::Multiply, inner, x);
+            return self.op(Binary::Multiply, inner, x);
         }
         if self.mix_shares_work(mixes, index) {
             let one = self.float(1.0);
-            let rest = self.op(Op::Subtract, one, a);
+            let rest = self.op(Binary::Subtract, one, a);
             let x = self.gathered(x);
-            let (left, right) = (self.op(Op::Multiply, x, rest), self.op(Op::Multiply, y, a));
-            return self.op(Op::Add, left, right);
+            let (left, right) = (self.op(Binary::Multiply, x, rest), self.op(Binary::Multiply, y, a));
+            return self.op(Binary::Add, left, right);
         }
-        let difference = self.op(Op::Subtract, y, x);
-        let part = self.op(Op::Multiply, a, difference);
-        self.op(Op::Add, x, part)
+        let difference = self.op(Binary::Subtract, y, x);
+        let part = self.op(Binary::Multiply, a, difference);
+        self.op(Binary::Add, x, part)
     }
 
     /// `(b + c) k²` for `(b k + c k) k` with one literal `k`, as in the part of a vector along a constant axis: of a mix that is
     /// written out as a sum of products, the sides were simplified before.
     fn gathered(&mut self, x: Value) -> Value {
         let gathered = || {
-            let is_literal = |value| matches!(self.f.expressions[value], Expression::Literal(_));
-            let [a, b] = self.operands(Op::Multiply, x)?;
+            let is_literal = |value| self.number(value).is_some();
+            let [a, b] = self.operands(Binary::Multiply, x)?;
             let (sum, k) = if is_literal(a) { (b, a) } else { (a, b) };
-            let [left, right] = self.operands(Op::Add, sum)?;
+            let [left, right] = self.operands(Binary::Add, sum)?;
             is_literal(k).then_some((left, right, k))
         };
         let Some((left, right, k)) = gathered() else { return x };
         let Some(product) = self.with_constant_factored(left, right) else { return x };
-        let Expression::Binary { left: sum, right: inner, .. } = self.f.expressions[product] else { return x };
-        let k = self.op(Op::Multiply, inner, k);
-        self.op(Op::Multiply, sum, k)
+        let Op::Binary { left: sum, right: inner, .. } = self.f[product] else { return x };
+        let k = self.op(Binary::Multiply, inner, k);
+        self.op(Binary::Multiply, sum, k)
     }
 
     fn mix_shares_work(&self, mixes: &[Mix], index: usize) -> bool {
@@ -151,20 +145,20 @@ impl Builder<'_, '_> {
     fn condition_within(&self, number: Value, depth: u32) -> Option<Test> {
         let depth = depth.checked_sub(1)?;
         let pair = |left, right| Some((self.condition_within(left, depth)?, self.condition_within(right, depth)?));
-        match self.f.expressions[number] {
-            Expression::As { expr, kind: ScalarKind::Float, .. } if self.is_test(expr) => Some(Test::Of(expr, None)),
-            Expression::AccessIndex { base, index } => match self.f.expressions[base] {
-                Expression::As { expr, kind: ScalarKind::Float, .. } if self.is_test(expr) => {
+        match self.f[number] {
+            Op::Convert { value: expr, to: Scalar::Float } if self.is_test(expr) => Some(Test::Of(expr, None)),
+            Op::Part { base, index } => match self.f[base] {
+                Op::Convert { value: expr, to: Scalar::Float } if self.is_test(expr) => {
                     Some(Test::Of(expr, Some(index)))
                 }
                 _ => None,
             },
-            Expression::Binary { op: Op::Multiply, left, right } => pair(left, right).map(Test::both(Op::LogicalAnd)),
-            Expression::Math { fun: Math::Min, arg, arg1: Some(other), .. } => {
-                pair(arg, other).map(Test::both(Op::LogicalAnd))
+            Op::Binary { op: Binary::Multiply, left, right } => pair(left, right).map(Test::both(Binary::LogicalAnd)),
+            Op::Math { fun: Math::Min, arg, arg1: Some(other), .. } => {
+                pair(arg, other).map(Test::both(Binary::LogicalAnd))
             }
-            Expression::Math { fun: Math::Max, arg, arg1: Some(other), .. } => {
-                pair(arg, other).map(Test::both(Op::LogicalOr))
+            Op::Math { fun: Math::Max, arg, arg1: Some(other), .. } => {
+                pair(arg, other).map(Test::both(Binary::LogicalOr))
             }
             _ => None,
         }
@@ -172,13 +166,10 @@ impl Builder<'_, '_> {
 
     /// Whether a value is boolean, as far as can be told by the operation.
     fn is_test(&self, value: Value) -> bool {
-        use Op::*;
-        match self.f.expressions[value] {
-            Expression::Binary { op, .. } => {
-                matches!(op, Equal | NotEqual | Less | LessEqual | Greater | GreaterEqual | LogicalAnd | LogicalOr)
-            }
-            Expression::Unary { op, .. } => op == UnaryOperator::LogicalNot,
-            Expression::Relational { .. } | Expression::Literal(Literal::Bool(_)) => true,
+        match self.f[value] {
+            Op::Binary { op, .. } => op.is_comparison() || matches!(op, Binary::LogicalAnd | Binary::LogicalOr),
+            Op::Unary { op, .. } => op == Unary::LogicalNot,
+            Op::All(_) | Op::Any(_) | Op::Literal(Scalar::Bool, _) => true,
             _ => false,
         }
     }
@@ -186,7 +177,7 @@ impl Builder<'_, '_> {
     fn test(&mut self, test: Test) -> Value {
         match test {
             Test::Of(value, None) => value,
-            Test::Of(base, Some(index)) => self.add(Expression::AccessIndex { base, index }),
+            Test::Of(base, Some(index)) => self.add(Op::Part { base, index }),
             Test::Both(op, tests) => {
                 let (left, right) = *tests;
                 let (left, right) = (self.test(left), self.test(right));
@@ -200,11 +191,11 @@ impl Builder<'_, '_> {
 enum Test {
     /// A value, or a component of it.
     Of(Value, Option<u32>),
-    Both(Op, Box<(Test, Test)>),
+    Both(Binary, Box<(Test, Test)>),
 }
 
 impl Test {
-    fn both(op: Op) -> impl Fn((Test, Test)) -> Test {
+    fn both(op: Binary) -> impl Fn((Test, Test)) -> Test {
         move |pair| Test::Both(op, Box::new(pair))
     }
 }

@@ -1,5 +1,5 @@
-//! Lowering: the checked program of [`super::hir`] to a validated-by-construction [`naga::Module`], and the [`Reflection`] of
-//! what it reaches.
+//! Lowering: the checked program of [`super::hir`] to the intermediate representation ([`super::ir`]), and the
+//! [`Reflection`] of what it reaches.
 //!
 //! Owns the meaning of running code: evaluation order, copies of `out` and `inout` arguments, the zero that WebGL gives to
 //! everything undefined, clamped indices. Judges nothing: it runs only on programs without errors, and reports none.
@@ -25,19 +25,16 @@ mod balance;
 mod bilinear;
 mod builtin;
 mod calls;
-mod consts;
 mod convert;
 mod cost;
 mod divide;
 mod entry;
 mod expr;
-mod filled;
 mod flow;
 mod function;
 mod geometry;
 mod inline;
 mod limits;
-mod long_arrays;
 mod matrix;
 mod memory;
 mod mix;
@@ -49,45 +46,37 @@ mod regroup;
 mod resources;
 mod scalars;
 mod settled;
-mod split;
 mod stage;
 mod steps;
-mod tables;
 mod texture;
-mod types;
 mod walk;
 mod writes;
 mod zeros;
 
 use std::collections::{HashMap, HashSet};
 
-use naga::{FastHashMap, Handle};
-
-pub(crate) use self::tables::TableBytes;
 use self::{
     calls::{Arguments, Given},
-    consts::Constants,
     reach::Reach,
     resources::Resources,
-    tables::Tables,
-    types::Types,
     zeros::Zeros,
 };
 pub(in crate::glsl) use self::{reach::reached, settled::settle};
-use super::{PassSource, Reflection, hir, interface::KNOB_BYTES, stages::Interface};
+use super::{
+    PassSource, Reflection, hir,
+    ir::{self, layout::Layouts},
+    stages::Interface,
+};
+
+pub(in crate::glsl) use super::emit::{LARGE, NOT_UNROLLED};
 
 /// What lowering makes.
 pub(crate) struct Lowered {
-    pub module: naga::Module,
+    pub program: ir::Module,
     pub reflection: Reflection,
-    pub tables: TableBytes,
-    /// Size of the array of the author's own uniforms; 0 if the module has none.
-    pub knob_bytes: u64,
-    /// See [`super::Compiled::filled_arrays`].
-    pub filled_arrays: Option<u32>,
 }
 
-/// Lowers a program without errors. The result validates; a validation error is a bug of this module.
+/// Lowers a program without errors. The result keeps the rules of [`ir::verify`]; what does not is a bug of this module.
 ///
 /// # Panics
 /// If `module` breaks the promises of [`hir`], such as having no entry point.
@@ -98,10 +87,8 @@ pub(in crate::glsl) fn lower(module: &hir::Module, source: &PassSource<'_>, inte
         hir: module,
         source,
         interface,
-        out: naga::Module::default(),
-        types: Types::new(module.types.len()),
-        consts: Constants::new(module.consts.len()),
-        tables: Tables::default(),
+        out: begin(module),
+        layouts: Layouts::default(),
         resources: Resources::new(module.globals.len()),
         costs: cost::costs(module),
         counted: steps::counted(module, &writes),
@@ -112,42 +99,35 @@ pub(in crate::glsl) fn lower(module: &hir::Module, source: &PassSource<'_>, inte
         uses: ranges::use_counts(module),
         zeros: Zeros::new(module),
         functions: HashMap::with_capacity(reach.instances.len()),
-        filled: HashSet::new(),
         reflection: Reflection::default(),
     };
     let apart: Vec<_> = reach.instances.iter().filter(|i| !cx.inlined[i.func.index()]).collect();
     for instance in apart {
         let function = function::lower(&mut cx, instance);
-        let handle = cx.out.functions.append(function, naga::Span::UNDEFINED);
-        cx.functions.insert(instance.clone(), handle);
+        cx.out.functions.push(function);
+        let id = ir::FuncId::new(cx.out.functions.len() - 1);
+        cx.functions.insert(instance.clone(), id);
     }
-    if source.kind.is_stage() {
-        stage::lower(&mut cx, &reach);
-    } else {
-        entry::lower(&mut cx, &reach);
-    }
-    let tables = cx.finish_tables();
-    let knob_bytes = if cx.reflection.knobs.is_empty() { 0 } else { u64::from(cx.knob_slots()) * KNOB_BYTES };
-    let filled_arrays = if source.driver.array_loops { long_arrays::write(&mut cx.out, &cx.filled) } else { None };
-    Lowered { module: cx.out, filled_arrays, reflection: cx.reflection, tables, knob_bytes }
+    let entry = if source.kind.is_stage() { stage::lower(&mut cx, &reach) } else { entry::lower(&mut cx, &reach) };
+    cx.out.functions.push(entry);
+    Lowered { program: cx.out, reflection: cx.reflection }
 }
 
-/// Checks a lowered module. An error is a bug of this module, never the author's.
-pub(crate) fn validate(module: &naga::Module) -> Result<naga::valid::ModuleInfo, String> {
-    use naga::valid::{Capabilities, ValidationFlags, Validator};
-    // `packHalf2x16` needs the second; every desktop device has it.
-    let capabilities = Capabilities::default() | Capabilities::SHADER_FLOAT16_IN_FLOAT32;
-    Validator::new(ValidationFlags::all(), capabilities).validate(module).map_err(|error| {
-        let error = error.into_inner();
-        let mut text = error.to_string();
-        let mut source = std::error::Error::source(&error);
-        while let Some(cause) = source {
-            text.push_str(": ");
-            text.push_str(&cause.to_string());
-            source = cause.source();
-        }
-        text
-    })
+/// A program without functions: types and constants.
+fn begin(module: &hir::Module) -> ir::Module {
+    let members = |structure: &hir::Struct| module[structure.members].iter().map(|member| member.ty).collect();
+    let constant = |constant: &hir::Const| ir::Const { ty: constant.ty, words: module[constant.words].to_vec() };
+    ir::Module {
+        types: module.types.clone(),
+        structs: module.structs.iter().map(members).collect(),
+        consts: module.consts.iter().map(constant).collect(),
+        ..ir::Module::default()
+    }
+}
+
+/// The constant of the program that a folded value is.
+fn const_id(id: hir::ConstId) -> ir::ConstId {
+    ir::ConstId::new(id.index())
 }
 
 /// A user function with what it has in place of samplers and of arrays that it only reads, in order.
@@ -163,10 +143,8 @@ struct Lowering<'a> {
     source: &'a PassSource<'a>,
     /// Of a stage: where its inputs and outputs lie.
     interface: Interface,
-    out: naga::Module,
-    types: Types,
-    consts: Constants,
-    tables: Tables,
+    out: ir::Module,
+    layouts: Layouts,
     resources: Resources,
     /// Cost of each expression, by [`hir::ExprId::index`].
     costs: Vec<u16>,
@@ -182,12 +160,18 @@ struct Lowering<'a> {
     /// How many expressions name each local, by [`hir::LocalId::index`].
     uses: Vec<u32>,
     zeros: Zeros,
-    functions: HashMap<Instance, Handle<naga::Function>>,
-    /// Private globals that are stored as a whole before all else: by each call of the one function that knows them, or where the
-    /// program starts.
-    filled: HashSet<Handle<naga::GlobalVariable>>,
+    functions: HashMap<Instance, ir::FuncId>,
     reflection: Reflection,
 }
 
-/// Handles by 32-bit keys, with naga's quick hash.
-type Map<K, V> = FastHashMap<K, V>;
+impl Lowering<'_> {
+    /// Whether values of a type are copied by loops where the driver needs it, and passed by reference for that.
+    pub fn is_long(&mut self, ty: hir::TypeId) -> bool {
+        self.source.driver.array_loops
+            && matches!(self.hir.types.get(ty), hir::Type::Array { .. } | hir::Type::Struct(_))
+            && self.layouts.of(&self.out, ty).size >= 4 * super::emit::LEAST_COPY
+    }
+}
+
+/// By 32-bit keys, with a quick hash.
+type Map<K, V> = naga::FastHashMap<K, V>;

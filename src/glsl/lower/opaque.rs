@@ -1,11 +1,7 @@
 //! Values that the driver shall not see through: a zero that it cannot know, and what is joined with it.
 
-use naga::{BinaryOperator as Op, Block, Expression, ScalarKind, Statement};
-
-use super::{
-    function::{Builder, Value},
-    resources::CUBE_FACE,
-};
+use super::function::Builder;
+use crate::glsl::ir::{Binary, Block, Op, Stmt, Value};
 use crate::glsl::{
     ast::List,
     hir::{ExprFlags, ExprId, Scalar, StmtId, StmtKind, Type, TypeId},
@@ -17,39 +13,13 @@ impl Builder<'_, '_> {
         let zero = self.unknown_zero();
         let ints = TypeId::vector(Scalar::Int, self.extent(ty) as u8);
         let zero = self.splat(zero, ints);
-        let bits = self.bitcast(value, ScalarKind::Sint);
-        let bits = self.op(Op::InclusiveOr, bits, zero);
-        let kind = match self.cx.hir.types.scalar(ty) {
-            Some(Scalar::Int) => ScalarKind::Sint,
-            Some(Scalar::Uint) => ScalarKind::Uint,
-            _ => ScalarKind::Float,
-        };
-        self.bitcast(bits, kind)
+        let bits = self.bitcast(value, Scalar::Int);
+        let bits = self.op(Binary::InclusiveOr, bits, zero);
+        self.bitcast(bits, self.cx.hir.types.scalar(ty).unwrap_or(Scalar::Float))
     }
 
-    /// An `int`: a uniform that is always zero or, where the driver compiles anew for those, what [`Builder::set_unknown_zero`]
-    /// made.
     fn unknown_zero(&mut self) -> Value {
-        let pointer = if self.cx.source.driver.opaque_uniforms {
-            let variable = self.cx.unknown_zero();
-            self.global(variable)
-        } else {
-            let pad = self.block_member(CUBE_FACE);
-            self.add(Expression::AccessIndex { base: pad, index: 1 })
-        };
-        self.load(pointer)
-    }
-
-    /// Makes the zero of an entry point, if some code reads it, of the sign of a number whose bits, read as an `int`, are
-    /// never negative: of where a pixel lies, or of a vertex's number.
-    pub fn set_unknown_zero(&mut self, never_negative: impl FnOnce(&mut Self) -> Value) {
-        let Some(variable) = self.cx.resources.unknown_zero else { return };
-        let number = never_negative(self);
-        let bits = self.bitcast(number, ScalarKind::Sint);
-        let places = self.literal(Scalar::Uint, 31);
-        let sign = self.op(Op::ShiftRight, bits, places);
-        let pointer = self.global(variable);
-        self.store(pointer, sign);
+        self.add(Op::OpaqueZero)
     }
 
     /// The value of an operand, hidden if it is one of [`limits`](super::limits).
@@ -59,7 +29,7 @@ impl Builder<'_, '_> {
 
     /// Discards what never is, for a driver that asks for it.
     pub fn seem_to_discard(&mut self) {
-        self.seem_to(Statement::Kill);
+        self.seem_to(Stmt::Discard);
     }
 
     /// Begins the body of a loop with an exit that is never taken, where the driver asks for it and the loop has no exit there
@@ -80,17 +50,17 @@ impl Builder<'_, '_> {
             (None, None) => false,
         };
         if self.cx.source.driver.loop_closing_exits && !begins_with_exit {
-            self.seem_to(Statement::Break);
+            self.seem_to(Stmt::Break);
         }
     }
 
     /// A jump that never happens, though the driver cannot know it.
-    fn seem_to(&mut self, jump: Statement) {
+    fn seem_to(&mut self, jump: Stmt) {
         let number = self.unknown_zero();
         let zero = self.literal(Scalar::Int, 0);
-        let condition = self.op(Op::NotEqual, number, zero);
+        let condition = self.op(Binary::NotEqual, number, zero);
         let (accept, _) = self.nested(|b| b.push(jump));
-        self.push(Statement::If { condition, accept, reject: Block::new() });
+        self.push(Stmt::If { condition, accept, reject: Block::new() });
     }
 
     /// Reads a value of type `ty` from a uniform block: so that the driver takes it for a value of the pixel, where
@@ -105,7 +75,7 @@ impl Builder<'_, '_> {
             return value;
         }
         let at_start = self.at_start(|b| {
-            let pointer = path.1.iter().fold(path.0, |base, &index| b.add(Expression::AccessIndex { base, index }));
+            let pointer = path.1.iter().fold(path.0, |base, &index| b.add(Op::Part { base, index }));
             b.load_hidden(pointer, ty)
         });
         let Some(value) = at_start else { return self.load_hidden(pointer, ty) };
@@ -116,12 +86,12 @@ impl Builder<'_, '_> {
     /// The module-scope variable that constant members and indices lead from to what a pointer points to, and these.
     fn constant_path(&self, mut pointer: Value) -> Option<(Value, Vec<u32>)> {
         let mut path = Vec::new();
-        while let Expression::AccessIndex { base, index } = self.f.expressions[pointer] {
+        while let Op::Part { base, index } = self.f[pointer] {
             path.push(index);
             pointer = base;
         }
         path.reverse();
-        matches!(self.f.expressions[pointer], Expression::GlobalVariable(_)).then_some((pointer, path))
+        matches!(self.f[pointer], Op::Global(_)).then_some((pointer, path))
     }
 
     fn load_hidden(&mut self, pointer: Value, ty: TypeId) -> Value {
@@ -134,7 +104,7 @@ impl Builder<'_, '_> {
             }
         };
         let parts = (0..self.extent(ty)).map(|index| {
-            let pointer = self.add(Expression::AccessIndex { base: pointer, index });
+            let pointer = self.add(Op::Part { base: pointer, index });
             self.load_hidden(pointer, part)
         });
         let parts = parts.collect();

@@ -1,19 +1,15 @@
 //! Operators, assignments, equality.
 
-use naga::{BinaryOperator as Op, Expression, RelationalFunction, ScalarKind, UnaryOperator};
-
-use super::{
-    divide::Operands,
-    function::{Builder, Value},
-};
+use super::{divide::Operands, function::Builder};
 use crate::glsl::hir::{BinaryOp, ExprId, ExprKind, IncDec, Scalar, Shape, Type, TypeId, UnaryOp};
+use crate::glsl::ir::{Binary, Op, Unary, Value};
 
 /// A value and its type.
 pub(super) type Typed = (TypeId, Value);
 
 /// Whether an operator gives a number for each component.
-fn is_arithmetic(op: Op) -> bool {
-    matches!(op, Op::Add | Op::Subtract | Op::Multiply | Op::Divide)
+fn is_arithmetic(op: Binary) -> bool {
+    matches!(op, Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Divide)
 }
 
 impl Builder<'_, '_> {
@@ -21,14 +17,14 @@ impl Builder<'_, '_> {
         let types = &self.cx.hir.types;
         match op {
             UnaryOp::Not => self.not(expr),
-            UnaryOp::BitNot => self.add(Expression::Unary { op: UnaryOperator::BitwiseNot, expr }),
+            UnaryOp::BitNot => self.add(Op::Unary { op: Unary::BitwiseNot, operand: expr }),
             UnaryOp::Negate if matches!(types.get(ty), Type::Matrix { .. }) => {
                 let minus = self.float(-1.0);
-                self.op(Op::Multiply, expr, minus)
+                self.op(Binary::Multiply, expr, minus)
             }
             UnaryOp::Negate if types.scalar(ty) == Some(Scalar::Uint) => {
                 let zero = self.zero(ty);
-                self.op(Op::Subtract, zero, expr)
+                self.op(Binary::Subtract, zero, expr)
             }
             UnaryOp::Negate if self.is_float_vector(ty) => self.each(ty, [(ty, expr)], |b, [expr]| b.negate(expr)),
             UnaryOp::Negate => self.negate(expr),
@@ -36,7 +32,7 @@ impl Builder<'_, '_> {
     }
 
     fn negate(&mut self, expr: Value) -> Value {
-        self.add(Expression::Unary { op: UnaryOperator::Negate, expr })
+        self.add(Op::Unary { op: Unary::Negate, operand: expr })
     }
 
     pub fn binary(&mut self, source: BinaryOp, shape: Shape, left: Typed, right: Typed) -> Value {
@@ -50,27 +46,27 @@ impl Builder<'_, '_> {
                 let equal = self.equal(left.0, left.1, right.1);
                 return self.not(equal);
             }
-            B::LogicalXor => return self.op(Op::NotEqual, left.1, right.1),
-            B::Shl => return self.shift(Op::ShiftLeft, left, right),
-            B::Shr => return self.shift(Op::ShiftRight, left, right),
+            B::LogicalXor => return self.op(Binary::NotEqual, left.1, right.1),
+            B::Shl => return self.shift(Binary::ShiftLeft, left, right),
+            B::Shr => return self.shift(Binary::ShiftRight, left, right),
             B::Div | B::Rem if types.scalar(left.0) != Some(Scalar::Float) => {
                 return self.int_division(op, shape, left, right, Operands::default());
             }
             _ => {}
         }
         let op = match op {
-            B::Add => Op::Add,
-            B::Sub => Op::Subtract,
-            B::Mul => Op::Multiply,
-            B::Div => Op::Divide,
-            B::Rem => Op::Modulo,
-            B::BitAnd => Op::And,
-            B::BitOr => Op::InclusiveOr,
-            B::BitXor => Op::ExclusiveOr,
-            B::Less => Op::Less,
-            B::Greater => Op::Greater,
-            B::LessEqual => Op::LessEqual,
-            B::GreaterEqual => Op::GreaterEqual,
+            B::Add => Binary::Add,
+            B::Sub => Binary::Subtract,
+            B::Mul => Binary::Multiply,
+            B::Div => Binary::Divide,
+            B::Rem => Binary::Modulo,
+            B::BitAnd => Binary::And,
+            B::BitOr => Binary::InclusiveOr,
+            B::BitXor => Binary::ExclusiveOr,
+            B::Less => Binary::Less,
+            B::Greater => Binary::Greater,
+            B::LessEqual => Binary::LessEqual,
+            B::GreaterEqual => Binary::GreaterEqual,
             B::Equal | B::NotEqual | B::LogicalXor | B::Shl | B::Shr => unreachable!("seen above"),
         };
         let matrix = match shape {
@@ -89,14 +85,16 @@ impl Builder<'_, '_> {
             }
             _ => {}
         }
-        if matches!(op, Op::Less | Op::LessEqual | Op::Greater | Op::GreaterEqual) && left.0 == TypeId::FLOAT {
+        if matches!(op, Binary::Less | Binary::LessEqual | Binary::Greater | Binary::GreaterEqual)
+            && left.0 == TypeId::FLOAT
+        {
             return self.order(op, left.1, right.1);
         }
         let vector_ty = match shape {
             Shape::ScalarLeft => right.0,
             _ => left.0,
         };
-        if matches!(op, Op::Multiply | Op::Add)
+        if matches!(op, Binary::Multiply | Binary::Add)
             && let Some(regrouped) = self.with_constants_joined(op, vector_ty, left, right)
         {
             return regrouped;
@@ -106,13 +104,13 @@ impl Builder<'_, '_> {
             return self
                 .each(vector_ty, [left, right], |b, [l, r]| b.binary(source, Shape::Same, (float, l), (float, r)));
         }
-        if op == Op::Add
+        if op == Binary::Add
             && let Some(product) = self.with_constant_factored(left.1, right.1)
         {
             return product;
         }
         // naga multiplies matrices and scalars itself, and vectors and scalars of floats.
-        if op == Op::Multiply {
+        if op == Binary::Multiply {
             let scaled = if shape == Shape::ScalarLeft { right.0 } else { left.0 };
             if shape == Shape::Same || types.scalar(scaled) == Some(Scalar::Float) {
                 return self.op(op, left.1, right.1);
@@ -121,7 +119,7 @@ impl Builder<'_, '_> {
         if let (Type::Matrix { columns, rows }, true) =
             (matrix, matches!(shape, Shape::Same | Shape::ScalarLeft | Shape::ScalarRight))
         {
-            if shape == Shape::Same && op != Op::Divide {
+            if shape == Shape::Same && op != Binary::Divide {
                 return self.op(op, left.1, right.1);
             }
             return self.by_column(op, shape, (columns, rows), left.1, right.1);
@@ -135,7 +133,7 @@ impl Builder<'_, '_> {
     }
 
     /// Component by component on matrices, where naga has no operator for it.
-    fn by_column(&mut self, op: Op, shape: Shape, (columns, rows): (u8, u8), left: Value, right: Value) -> Value {
+    fn by_column(&mut self, op: Binary, shape: Shape, (columns, rows): (u8, u8), left: Value, right: Value) -> Value {
         let column_ty = TypeId::vector(Scalar::Float, rows);
         let scalar = match shape {
             Shape::ScalarLeft => Some(self.splat(left, column_ty)),
@@ -146,11 +144,11 @@ impl Builder<'_, '_> {
         for index in 0..u32::from(columns) {
             let l = match (shape, scalar) {
                 (Shape::ScalarLeft, Some(scalar)) => scalar,
-                _ => self.add(Expression::AccessIndex { base: left, index }),
+                _ => self.add(Op::Part { base: left, index }),
             };
             let r = match (shape, scalar) {
                 (Shape::ScalarRight, Some(scalar)) => scalar,
-                _ => self.add(Expression::AccessIndex { base: right, index }),
+                _ => self.add(Op::Part { base: right, index }),
             };
             out.push(self.each(column_ty, [(column_ty, l), (column_ty, r)], |b, [l, r]| b.op(op, l, r)));
         }
@@ -158,24 +156,20 @@ impl Builder<'_, '_> {
     }
 
     /// Distances of 32 and more are undefined in GLSL and refused by naga: the low five bits count, as on all hardware.
-    fn shift(&mut self, op: Op, left: Typed, right: Typed) -> Value {
+    fn shift(&mut self, op: Binary, left: Typed, right: Typed) -> Value {
         let hir = self.cx.hir;
-        let small = match self.f.expressions[right.1] {
-            Expression::Literal(naga::Literal::I32(by)) => (0..32).contains(&by),
-            Expression::Literal(naga::Literal::U32(by)) => by < 32,
-            _ => false,
-        };
+        let small = self.integer(right.1).is_some_and(|by| by < 32);
         let mut by = right.1;
         if hir.types.scalar(right.0) == Some(Scalar::Int) {
-            by = match self.f.expressions[by] {
-                Expression::Literal(naga::Literal::I32(bits)) => self.literal(Scalar::Uint, bits as u32),
-                _ => self.bitcast(by, ScalarKind::Uint),
+            by = match self.integer(by) {
+                Some(bits) => self.literal(Scalar::Uint, bits),
+                None => self.bitcast(by, Scalar::Uint),
             };
         }
         if !small {
             let size = self.extent(right.0) as u8;
             let mask = self.int_of(TypeId::vector(Scalar::Uint, size), 31);
-            by = self.op(Op::And, by, mask);
+            by = self.op(Binary::And, by, mask);
         }
         if self.extent(right.0) == 1 {
             by = self.splat(by, left.0);
@@ -188,22 +182,22 @@ impl Builder<'_, '_> {
         let hir = self.cx.hir;
         let parts: Vec<TypeId> = match hir.types.get(ty) {
             Type::Vector { .. } => {
-                let each = self.op(Op::Equal, left, right);
-                return self.add(Expression::Relational { fun: RelationalFunction::All, argument: each });
+                let each = self.op(Binary::Equal, left, right);
+                return self.add(Op::All(each));
             }
             Type::Matrix { columns, rows } => vec![TypeId::vector(Scalar::Float, rows); columns.into()],
             Type::Array { element, len } => vec![element; len as usize],
             Type::Struct(id) => hir[hir[id].members].iter().map(|member| member.ty).collect(),
-            _ => return self.op(Op::Equal, left, right),
+            _ => return self.op(Binary::Equal, left, right),
         };
         let mut all = None;
         for (index, ty) in parts.into_iter().enumerate() {
             let index = index as u32;
-            let l = self.add(Expression::AccessIndex { base: left, index });
-            let r = self.add(Expression::AccessIndex { base: right, index });
+            let l = self.add(Op::Part { base: left, index });
+            let r = self.add(Op::Part { base: right, index });
             let equal = self.equal(ty, l, r);
             all = Some(match all {
-                Some(all) => self.op(Op::LogicalAnd, all, equal),
+                Some(all) => self.op(Binary::LogicalAnd, all, equal),
                 None => equal,
             });
         }

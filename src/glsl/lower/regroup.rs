@@ -4,13 +4,9 @@
 //! blow up last bits (`fract(sin(x) * 43758.5453)`), so the constants of a chain are joined here, as the GLSL compilers people
 //! write their shaders on join them, before a SPIR-V driver joins them in another order.
 
-use naga::{BinaryOperator as Op, Expression, Literal, MathFunction as Math, UnaryOperator};
-
-use super::{
-    function::{Builder, Value},
-    operators::Typed,
-};
-use crate::glsl::hir::{Scalar, TypeId};
+use super::{function::Builder, operators::Typed};
+use crate::glsl::hir::{Scalar, Type, TypeId};
+use crate::glsl::ir::{Binary, Math, Op, Unary, Value};
 
 /// One component of a value, as far as it can be told.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,7 +19,7 @@ pub(super) enum Part {
 impl Builder<'_, '_> {
     /// `left op right`, a sum or product of type `ty`, where one side is constant and the other has a constant deeper in its
     /// own chain of `op`: `(a * 2.0) * 3.0` becomes `a * 6.0`. `None` where there is nothing to join.
-    pub fn with_constants_joined(&mut self, op: Op, ty: TypeId, left: Typed, right: Typed) -> Option<Value> {
+    pub fn with_constants_joined(&mut self, op: Binary, ty: TypeId, left: Typed, right: Typed) -> Option<Value> {
         if self.cx.hir.types.scalar(ty) != Some(Scalar::Float) || !self.is_vector_or_scalar(ty) {
             return None;
         }
@@ -33,7 +29,7 @@ impl Builder<'_, '_> {
             _ => return None,
         };
         // Unlike its products, naga's sums have sides of one type, and what is a scalar within a chain is not known there.
-        if op == Op::Add && chain_ty != ty {
+        if op == Binary::Add && chain_ty != ty {
             return None;
         }
         let (joined, freed) = self.join(op, ty, chain, &constant, 0)?;
@@ -43,10 +39,10 @@ impl Builder<'_, '_> {
     }
 
     /// Puts a constant beside the first one of a chain, in the place of that one's neighbour: the chain and the neighbour.
-    fn join(&mut self, op: Op, ty: TypeId, chain: Value, constant: &[f32], depth: u32) -> Option<(Value, Value)> {
+    fn join(&mut self, op: Binary, ty: TypeId, chain: Value, constant: &[f32], depth: u32) -> Option<(Value, Value)> {
         /// Chains are short; without a limit a long one would be searched for each of its links.
         const DEEP: u32 = 8;
-        let Expression::Binary { op: inner, left, right } = self.f.expressions[chain] else { return None };
+        let Op::Binary { op: inner, left, right } = self.f[chain] else { return None };
         if inner != op || depth > DEEP || self.is_apart(chain) || (depth > 0 && self.is_named(chain)) {
             return None;
         }
@@ -68,7 +64,7 @@ impl Builder<'_, '_> {
         let at = |side: &[f32], i: usize| side[i.min(side.len() - 1)];
         let joined: Vec<f32> = (0..size)
             .map(|i| match op {
-                Op::Multiply => at(&known, i) * at(constant, i),
+                Binary::Multiply => at(&known, i) * at(constant, i),
                 _ => at(&known, i) + at(constant, i),
             })
             .collect();
@@ -89,7 +85,9 @@ impl Builder<'_, '_> {
     pub fn with_constant_factored(&mut self, left: Value, right: Value) -> Option<Value> {
         let (left, right) = (self.factors(left)?, self.factors(right)?);
         for (b, k) in [(left[0], left[1]), (left[1], left[0])] {
-            let Expression::Literal(Literal::F32(_)) = self.f.expressions[k] else { continue };
+            if self.number(k).is_none() {
+                continue;
+            }
             let c = if right[1] == k {
                 right[0]
             } else if right[0] == k {
@@ -97,26 +95,26 @@ impl Builder<'_, '_> {
             } else {
                 continue;
             };
-            let sum = self.op(Op::Add, b, c);
-            return Some(self.op(Op::Multiply, sum, k));
+            let sum = self.op(Binary::Add, b, c);
+            return Some(self.op(Binary::Multiply, sum, k));
         }
         None
     }
 
     fn factors(&self, value: Value) -> Option<[Value; 2]> {
-        match self.f.expressions[value] {
-            Expression::Binary { op: Op::Multiply, left, right } => Some([left, right]),
+        match self.f[value] {
+            Op::Binary { op: Binary::Multiply, left, right } => Some([left, right]),
             _ => None,
         }
     }
 
     /// Of floats; a literal counts for every component of `ty`.
-    fn sum_or_product(&mut self, op: Op, ty: TypeId, left: Value, right: Value) -> Value {
-        if op == Op::Multiply || ty == TypeId::FLOAT {
+    fn sum_or_product(&mut self, op: Binary, ty: TypeId, left: Value, right: Value) -> Value {
+        if op == Binary::Multiply || ty == TypeId::FLOAT {
             return self.op(op, left, right);
         }
-        let [left, right] = [left, right].map(|side| match self.f.expressions[side] {
-            Expression::Literal(_) => self.splat(side, ty),
+        let [left, right] = [left, right].map(|side| match self.f[side] {
+            Op::Literal(..) => self.splat(side, ty),
             _ => side,
         });
         self.op(op, left, right)
@@ -124,10 +122,10 @@ impl Builder<'_, '_> {
 
     /// An order of two floats as OpenGL's compilers have it, which take comparisons for inexact: `abs(a) > 0.0` is `a != 0.0`,
     /// which NaN is.
-    pub fn order(&mut self, op: Op, left: Value, right: Value) -> Value {
+    pub fn order(&mut self, op: Binary, left: Value, right: Value) -> Value {
         let positive = match op {
-            Op::Less => self.magnitude_above_zero(right, left),
-            Op::Greater => self.magnitude_above_zero(left, right),
+            Binary::Less => self.magnitude_above_zero(right, left),
+            Binary::Greater => self.magnitude_above_zero(left, right),
             _ => None,
         };
         let Some(number) = positive else {
@@ -137,19 +135,19 @@ impl Builder<'_, '_> {
             };
         };
         let zero = self.float(0.0);
-        let equal = self.op(Op::Equal, number, zero);
+        let equal = self.op(Binary::Equal, number, zero);
         self.not(equal)
     }
 
     /// `a + b < c` for literals `b` and `c` as `a < c - b`, and so for `>=`: Mesa looks for the sum on the left, once it has turned
     /// `>` and `<=` around.
-    fn order_with_constant(&mut self, op: Op, left: Value, right: Value) -> Option<Value> {
+    fn order_with_constant(&mut self, op: Binary, left: Value, right: Value) -> Option<Value> {
         let (sum, limit) = match op {
-            Op::Less | Op::GreaterEqual => (left, right),
-            Op::Greater | Op::LessEqual => (right, left),
+            Binary::Less | Binary::GreaterEqual => (left, right),
+            Binary::Greater | Binary::LessEqual => (right, left),
             _ => return None,
         };
-        let is_less = matches!(op, Op::Less | Op::Greater);
+        let is_less = matches!(op, Binary::Less | Binary::Greater);
         let number = |b: &Self, value| match b.floats(value)?[..] {
             [number] => Some(number),
             _ => None,
@@ -159,12 +157,12 @@ impl Builder<'_, '_> {
         if self.shared.contains(&sum) || (self.is_named(sum) && self.constructed.contains(&sum)) {
             return None;
         }
-        let Expression::Binary { op: inner, left: a, right: b } = self.f.expressions[sum] else { return None };
+        let Op::Binary { op: inner, left: a, right: b } = self.f[sum] else { return None };
         let (rest, by) = match (inner, number(self, a), number(self, b)) {
-            (Op::Add, None, Some(by)) => (a, by),
-            (Op::Add, Some(by), None) => (b, by),
-            (Op::Subtract, None, Some(by)) => (a, -by),
-            (Op::Subtract, Some(by), None) => (self.add(Expression::Unary { op: UnaryOperator::Negate, expr: b }), by),
+            (Binary::Add, None, Some(by)) => (a, by),
+            (Binary::Add, Some(by), None) => (b, by),
+            (Binary::Subtract, None, Some(by)) => (a, -by),
+            (Binary::Subtract, Some(by), None) => (self.add(Op::Unary { op: Unary::Negate, operand: b }), by),
             _ => return None,
         };
         let limit = limit - by;
@@ -172,12 +170,12 @@ impl Builder<'_, '_> {
             return None;
         }
         let limit = self.float(limit);
-        Some(self.op(if is_less { Op::Less } else { Op::GreaterEqual }, rest, limit))
+        Some(self.op(if is_less { Binary::Less } else { Binary::GreaterEqual }, rest, limit))
     }
 
     /// What `abs` is taken of, in `abs(..) > 0.0`.
     fn magnitude_above_zero(&self, magnitude: Value, zero: Value) -> Option<Value> {
-        let Expression::Math { fun: Math::Abs, arg, .. } = self.f.expressions[magnitude] else { return None };
+        let Op::Math { fun: Math::Abs, arg, .. } = self.f[magnitude] else { return None };
         (self.floats(zero)?[..] == [0.0]).then_some(arg)
     }
 
@@ -188,7 +186,7 @@ impl Builder<'_, '_> {
         if !is(a, 0.0) && !is(b, 0.0) {
             return None;
         }
-        let Expression::Math { fun: Math::Min, arg, arg1: Some(arg1), .. } = self.f.expressions[inner] else {
+        let Op::Math { fun: Math::Min, arg, arg1: Some(arg1), .. } = self.f[inner] else {
             return None;
         };
         match (is(arg, 1.0), is(arg1, 1.0)) {
@@ -200,33 +198,19 @@ impl Builder<'_, '_> {
 
     /// The components of a float constant; one for a scalar or a repeated one.
     pub fn floats(&self, value: Value) -> Option<Vec<f32>> {
-        let float = |literal: &Literal| match literal {
-            Literal::F32(number) => Some(*number),
-            _ => None,
-        };
-        match &self.f.expressions[value] {
-            Expression::Literal(literal) => Some(vec![float(literal)?]),
-            Expression::Splat { value, .. } => self.floats(*value),
-            Expression::Compose { components, .. } => {
-                let parts = components.iter().map(|&part| match &self.f.expressions[part] {
-                    Expression::Literal(literal) => float(literal),
-                    _ => None,
-                });
-                parts.collect()
+        match &self.f[value] {
+            Op::Literal(..) => Some(vec![self.number(value)?]),
+            Op::Splat { value, .. } => self.floats(*value),
+            Op::Compose { parts, .. } => parts.iter().map(|&part| self.number(part)).collect(),
+            Op::Const(id) => {
+                let constant = &self.cx.out[*id];
+                let is_vector =
+                    matches!(self.cx.out.types.get(constant.ty), Type::Vector { scalar: Scalar::Float, .. });
+                let numbers = || constant.words.iter().map(|&bits| f32::from_bits(bits));
+                (is_vector && numbers().all(f32::is_finite)).then(|| numbers().collect())
             }
-            Expression::Constant(constant) => {
-                let expressions = &self.cx.out.global_expressions;
-                let Expression::Compose { components, .. } = &expressions[self.cx.out.constants[*constant].init] else {
-                    return None;
-                };
-                let parts = components.iter().map(|&part| match &expressions[part] {
-                    Expression::Literal(literal) => float(literal),
-                    _ => None,
-                });
-                parts.collect()
-            }
-            Expression::AccessIndex { base, index } => match self.f.expressions[*base] {
-                Expression::Constant(_) => Some(vec![*self.floats(*base)?.get(*index as usize)?]),
+            Op::Part { base, index } => match self.f[*base] {
+                Op::Const(_) => Some(vec![*self.floats(*base)?.get(*index as usize)?]),
                 _ => None,
             },
             _ => None,
@@ -237,8 +221,8 @@ impl Builder<'_, '_> {
         if let Some(floats) = self.floats(value) {
             return Part::Known(floats[(index as usize).min(floats.len() - 1)]);
         }
-        match self.f.expressions[value] {
-            Expression::Splat { value, .. } => Part::Of(value, 0),
+        match self.f[value] {
+            Op::Splat { value, .. } => Part::Of(value, 0),
             _ => Part::Of(value, index),
         }
     }
@@ -255,15 +239,15 @@ impl Builder<'_, '_> {
         if (0..self.extent(ty)).all(differ) {
             return self.math3(Math::SmoothStep, a, b, x);
         }
-        let width = self.op(Op::Subtract, b, a);
+        let width = self.op(Binary::Subtract, b, a);
         let width = self.hidden(ty, width);
-        let distance = self.op(Op::Subtract, x, a);
-        let quotient = self.op(Op::Divide, distance, width);
+        let distance = self.op(Binary::Subtract, x, a);
+        let quotient = self.op(Binary::Divide, distance, width);
         let t = self.math(Math::Saturate, quotient);
         let (two, three) = (self.float_of(ty, 2.0), self.float_of(ty, 3.0));
-        let twice = self.op(Op::Multiply, two, t);
-        let slope = self.op(Op::Subtract, three, twice);
-        let product = self.op(Op::Multiply, t, slope);
-        self.op(Op::Multiply, t, product)
+        let twice = self.op(Binary::Multiply, two, t);
+        let slope = self.op(Binary::Subtract, three, twice);
+        let product = self.op(Binary::Multiply, t, slope);
+        self.op(Binary::Multiply, t, product)
     }
 }

@@ -1,321 +1,140 @@
-//! Module-scope variables: the uniform block, channels, the author's globals, what the entry point hands to functions.
+//! Module-scope variables: uniforms, the author's globals, tables, and what the entry point hands to functions.
 //!
-//! Each is declared when it is first reached, and noted in the reflection.
+//! Each is declared when it is first reached.
 
-use std::{collections::HashMap, num::NonZeroU32};
-
-use naga::{
-    AddressSpace, ArraySize, GlobalVariable, Handle, ImageClass, ImageDimension, ResourceBinding, ScalarKind, Span,
-    StructMember, TypeInner, VectorSize,
-};
+use std::collections::HashMap;
 
 use super::{Lowering, Map};
 use crate::glsl::{
-    ChannelKind, UniformSet,
-    hir::{BuiltinVar, GlobalId, Scalar, TypeId, Uniform, VarFlags},
-    interface::{self, GeometryBlock, UniformBlock},
+    hir::{BuiltinVar, GlobalId, Scalar, TypeId, Uniform},
+    ir::{self, GlobalKind},
 };
 
 /// Variables declared so far.
 pub(super) struct Resources {
-    block: Option<Handle<GlobalVariable>>,
-    knob_block: Option<Handle<GlobalVariable>>,
-    textures: [Option<Handle<GlobalVariable>>; 4],
-    samplers: [Option<Handle<GlobalVariable>>; 4],
+    read_only: HashMap<GlobalKind, ir::GlobalId>,
+    vectors: HashMap<Vec<u32>, ir::ConstId>,
     /// By [`GlobalId::index`].
-    globals: Vec<Option<Handle<GlobalVariable>>>,
+    globals: Vec<Option<ir::GlobalId>>,
     /// The other way round.
-    authors: Map<Handle<GlobalVariable>, GlobalId>,
+    authors: Map<ir::GlobalId, GlobalId>,
     /// `gl_FragCoord`, where something other than the entry point reads it.
-    pub frag_coord: Option<Handle<GlobalVariable>>,
-    pub frag_depth: Option<Handle<GlobalVariable>>,
-    geometry: Option<Handle<GlobalVariable>>,
+    pub frag_coord: Option<ir::GlobalId>,
+    pub frag_depth: Option<ir::GlobalId>,
     /// Built-in variables of stages, besides those two.
-    pub stage: HashMap<BuiltinVar, Handle<GlobalVariable>>,
+    pub stage: HashMap<BuiltinVar, ir::GlobalId>,
     /// Bit i: an `st_assert(.., i)` failed.
-    pub failed_asserts: Option<Handle<GlobalVariable>>,
-    /// Holds a zero that the driver cannot know.
-    pub unknown_zero: Option<Handle<GlobalVariable>>,
+    pub failed_asserts: Option<ir::GlobalId>,
 }
 
 impl Resources {
     pub fn new(globals: usize) -> Self {
         Self {
-            block: None,
-            knob_block: None,
-            textures: [None; 4],
-            samplers: [None; 4],
+            read_only: HashMap::new(),
+            vectors: HashMap::new(),
             globals: vec![None; globals],
             authors: Map::default(),
             frag_coord: None,
             frag_depth: None,
-            geometry: None,
             stage: HashMap::new(),
             failed_asserts: None,
-            unknown_zero: None,
         }
     }
 }
-
-/// Member of the block: name, offset, and what the reflection calls it.
-macro_rules! members {
-    ($($name:literal $field:ident $kind:ident;)*) => {
-        [$(($name, std::mem::offset_of!(UniformBlock, $field) as u32, Member::$kind)),*]
-    };
-}
-
-#[derive(Clone, Copy)]
-enum Member {
-    Float,
-    Int,
-    Vec3,
-    Vec4,
-    Int2,
-    Int4,
-    /// `float[4]` in slots of 16 bytes.
-    Floats,
-    Vec3s,
-}
-
-/// Fields of [`UniformBlock`] in order.
-const MEMBERS: [(&str, u32, Member); 14] = members! {
-    "iResolution" resolution Vec3;
-    "iTime" time Float;
-    "iMouse" mouse Vec4;
-    "iDate" date Vec4;
-    "iTimeDelta" time_delta Float;
-    "iFrameRate" frame_rate Float;
-    "iSampleRate" sample_rate Float;
-    "iFrame" frame Int;
-    "iChannelTime" channel_time Floats;
-    "iChannelResolution" channel_resolution Vec3s;
-    "iTimeOffset" time_offset Float;
-    "iSampleOffset" sample_offset Int;
-    "cube_face" pad Int2;
-    "iChannelLoaded" channel_loaded Int4;
-};
-
-/// Position of a uniform in [`MEMBERS`], and its name in the reflection.
-pub(super) fn uniform(uniform: Uniform) -> (u32, UniformSet) {
-    match uniform {
-        Uniform::Resolution => (0, UniformSet::RESOLUTION),
-        Uniform::Time => (1, UniformSet::TIME),
-        Uniform::Mouse => (2, UniformSet::MOUSE),
-        Uniform::Date => (3, UniformSet::DATE),
-        Uniform::TimeDelta => (4, UniformSet::TIME_DELTA),
-        Uniform::FrameRate => (5, UniformSet::FRAME_RATE),
-        Uniform::SampleRate => (6, UniformSet::SAMPLE_RATE),
-        Uniform::Frame => (7, UniformSet::FRAME),
-        Uniform::ChannelTime => (8, UniformSet::CHANNEL_TIME),
-        Uniform::ChannelResolution => (9, UniformSet::CHANNEL_RESOLUTION),
-        Uniform::TimeOffset => (10, UniformSet::TIME_OFFSET),
-        Uniform::SampleOffset => (11, UniformSet::SAMPLE_OFFSET),
-        Uniform::ChannelLoaded => (13, UniformSet::CHANNEL_LOADED),
-        Uniform::Model | Uniform::View | Uniform::Projection | Uniform::NormalMatrix | Uniform::CameraPosition => {
-            unreachable!("they lie in the geometry block")
-        }
-    }
-}
-
-/// Position of the cube face in [`MEMBERS`].
-pub(super) const CUBE_FACE: u32 = 12;
 
 impl Lowering<'_> {
-    pub(super) fn variable(
-        &mut self,
-        space: AddressSpace,
-        ty: Handle<naga::Type>,
-        binding: Option<ResourceBinding>,
-        init: Option<Handle<naga::Expression>>,
-    ) -> Handle<GlobalVariable> {
-        let memory_decorations = naga::MemoryDecorations::empty();
-        let variable = GlobalVariable { name: None, space, binding, ty, init, memory_decorations };
-        self.out.global_variables.append(variable, Span::UNDEFINED)
+    /// Memory of one invocation, zero at its start.
+    fn private(&mut self, ty: TypeId) -> ir::GlobalId {
+        self.out.add_global(ty, GlobalKind::Private { init: None, overwritten: false })
     }
 
-    /// Memory of one invocation, zero at its start unless `init` says otherwise.
-    pub fn private(
-        &mut self,
-        ty: Handle<naga::Type>,
-        init: Option<Handle<naga::Expression>>,
-    ) -> Handle<GlobalVariable> {
-        self.variable(AddressSpace::Private, ty, None, init)
+    fn read_only(&mut self, ty: TypeId, kind: GlobalKind) -> ir::GlobalId {
+        if let Some(&made) = self.resources.read_only.get(&kind) {
+            return made;
+        }
+        let made = self.out.add_global(ty, kind);
+        self.resources.read_only.insert(kind, made);
+        made
     }
 
-    /// The uniform block.
-    pub fn block(&mut self) -> Handle<GlobalVariable> {
-        if let Some(block) = self.resources.block {
-            return block;
-        }
-        let mut members = Vec::with_capacity(MEMBERS.len());
-        for (name, offset, member) in MEMBERS {
-            let four = ArraySize::Constant(NonZeroU32::new(4).expect("not zero"));
-            let vector = |size, scalar| TypeInner::Vector { size, scalar };
-            let inner = match member {
-                Member::Float => TypeInner::Scalar(naga::Scalar::F32),
-                Member::Int => TypeInner::Scalar(naga::Scalar::I32),
-                Member::Vec3 => vector(VectorSize::Tri, naga::Scalar::F32),
-                Member::Vec4 => vector(VectorSize::Quad, naga::Scalar::F32),
-                Member::Int2 => vector(VectorSize::Bi, naga::Scalar::I32),
-                Member::Int4 => vector(VectorSize::Quad, naga::Scalar::I32),
-                Member::Floats => TypeInner::Array { base: self.ty(TypeId::VEC4), size: four, stride: 16 },
-                Member::Vec3s => TypeInner::Array { base: self.ty(TypeId::VEC3), size: four, stride: 16 },
-            };
-            let ty = self.insert_type(inner);
-            members.push(StructMember { name: Some(name.into()), ty, binding: None, offset });
-        }
-        let span = size_of::<UniformBlock>() as u32;
-        let ty = self.insert_type(TypeInner::Struct { members, span });
-        let binding = ResourceBinding { group: interface::UNIFORM_GROUP, binding: 0 };
-        let block = self.variable(AddressSpace::Uniform, ty, Some(binding), None);
-        self.resources.block = Some(block);
-        block
+    pub fn uniform(&mut self, uniform: Uniform) -> ir::GlobalId {
+        // Its arrays were interned by the checker.
+        let ty = uniform.ty(&mut self.out.types);
+        self.read_only(ty, GlobalKind::Uniform(uniform))
     }
 
-    /// What a mesh is drawn with.
-    pub fn geometry_block(&mut self) -> Handle<GlobalVariable> {
-        if let Some(block) = self.resources.geometry {
-            return block;
+    /// The words of one of the author's own uniforms.
+    pub fn knob(&mut self, slot: u16) -> ir::GlobalId {
+        self.read_only(TypeId::vector(Scalar::Uint, 4), GlobalKind::Knob(slot))
+    }
+
+    pub fn cube_face(&mut self) -> ir::GlobalId {
+        self.read_only(TypeId::INT, GlobalKind::CubeFace)
+    }
+
+    /// A constant that is indexed.
+    pub fn table(&mut self, id: ir::ConstId) -> ir::GlobalId {
+        let ty = self.out[id].ty;
+        self.read_only(ty, GlobalKind::Table(id))
+    }
+
+    /// A vector of finite floats, by their bits.
+    pub fn vector_constant(&mut self, words: Vec<u32>) -> ir::ConstId {
+        if let Some(&made) = self.resources.vectors.get(&words) {
+            return made;
         }
-        let mat4 = TypeId::matrix(4, 4);
-        let fields = [
-            ("iModel", mat4, std::mem::offset_of!(GeometryBlock, model)),
-            ("iView", mat4, std::mem::offset_of!(GeometryBlock, view)),
-            ("iProjection", mat4, std::mem::offset_of!(GeometryBlock, projection)),
-            ("iNormalMatrix", TypeId::matrix(3, 3), std::mem::offset_of!(GeometryBlock, normal)),
-            ("iCameraPosition", TypeId::VEC3, std::mem::offset_of!(GeometryBlock, camera)),
-        ];
-        let mut member = |(name, ty, offset): (&str, TypeId, usize)| {
-            let ty = self.ty(ty);
-            StructMember { name: Some(name.into()), ty, binding: None, offset: offset as u32 }
-        };
-        let members = fields.into_iter().map(&mut member).collect();
-        let span = size_of::<GeometryBlock>() as u32;
-        let ty = self.insert_type(TypeInner::Struct { members, span });
-        let binding = ResourceBinding { group: interface::UNIFORM_GROUP, binding: interface::GEOMETRY_BINDING };
-        let block = self.variable(AddressSpace::Uniform, ty, Some(binding), None);
-        self.resources.geometry = Some(block);
-        self.reflection.geometry = true;
-        block
+        let ty = TypeId::vector(Scalar::Float, words.len() as u8);
+        let made = self.out.constant(ty, words.clone());
+        self.resources.vectors.insert(words, made);
+        made
     }
 
     /// The memory of a built-in variable of a stage.
-    pub fn stage_variable(&mut self, variable: BuiltinVar) -> Handle<GlobalVariable> {
+    pub fn stage_variable(&mut self, variable: BuiltinVar) -> ir::GlobalId {
         if let Some(&made) = self.resources.stage.get(&variable) {
             return made;
         }
-        let ty = self.ty(variable.ty());
-        let made = self.private(ty, None);
+        let made = self.private(variable.ty());
         self.resources.stage.insert(variable, made);
         made
     }
 
-    /// Slots up to the last that the pass may name.
-    pub fn knob_slots(&self) -> u32 {
-        self.source.knobs.iter().map(|k| u32::from(k.slot) + 1).max().unwrap_or(0)
-    }
-
-    /// The author's own uniforms: an array of slots, because every backend lays that out alike.
-    pub fn knob_block(&mut self) -> Handle<GlobalVariable> {
-        if let Some(block) = self.resources.knob_block {
-            return block;
-        }
-        let base = self.ty(TypeId::vector(Scalar::Uint, 4));
-        let size = ArraySize::Constant(NonZeroU32::new(self.knob_slots()).expect("at least one"));
-        let ty = self.insert_type(TypeInner::Array { base, size, stride: interface::KNOB_BYTES as u32 });
-        let binding = ResourceBinding { group: interface::UNIFORM_GROUP, binding: interface::KNOB_BINDING };
-        let block = self.variable(AddressSpace::Uniform, ty, Some(binding), None);
-        self.resources.knob_block = Some(block);
-        block
-    }
-
-    /// The texture of a channel.
-    pub fn texture(&mut self, channel: u8) -> Handle<GlobalVariable> {
-        let i = usize::from(channel);
-        if let Some(texture) = self.resources.textures[i] {
-            return texture;
-        }
-        let dim = match self.source.channels[i] {
-            ChannelKind::Sampler2D => ImageDimension::D2,
-            ChannelKind::Sampler3D => ImageDimension::D3,
-            ChannelKind::SamplerCube => ImageDimension::Cube,
-        };
-        let class = ImageClass::Sampled { kind: ScalarKind::Float, multi: false };
-        let ty = self.insert_type(TypeInner::Image { dim, arrayed: false, class });
-        let binding = ResourceBinding { group: interface::CHANNEL_GROUP, binding: interface::texture_binding(i) };
-        let texture = self.variable(AddressSpace::Handle, ty, Some(binding), None);
-        self.resources.textures[i] = Some(texture);
-        self.reflection.channels[i].texture = true;
-        texture
-    }
-
-    /// The sampler of a channel.
-    pub fn sampler(&mut self, channel: u8) -> Handle<GlobalVariable> {
-        let i = usize::from(channel);
-        if let Some(sampler) = self.resources.samplers[i] {
-            return sampler;
-        }
-        let ty = self.insert_type(TypeInner::Sampler { comparison: false });
-        let binding = ResourceBinding { group: interface::CHANNEL_GROUP, binding: interface::sampler_binding(i) };
-        let sampler = self.variable(AddressSpace::Handle, ty, Some(binding), None);
-        self.resources.samplers[i] = Some(sampler);
-        self.reflection.channels[i].sampler = true;
-        sampler
-    }
-
-    /// The memory of one of the author's globals (storage `Private` or `Out`, in a stage `In` too), set to its constant value where it has one. What
-    /// is not constant the entry point computes.
-    pub fn global(&mut self, id: GlobalId) -> Handle<GlobalVariable> {
+    /// The memory of one of the author's globals (storage `Private` or `Out`, in a stage `In` too), set to its constant value
+    /// where it has one. What is not constant the entry point computes.
+    pub fn global(&mut self, id: GlobalId) -> ir::GlobalId {
         if let Some(made) = self.resources.globals[id.index()] {
             return made;
         }
         let global = self.hir[id];
-        let ty = self.ty(global.ty);
-        let is_copied = global.flags.contains(VarFlags::WRITTEN) && self.is_long(global.ty);
-        let init = global.value.filter(|_| !is_copied).and_then(|value| self.constant_init(value));
-        let made = self.private(ty, init);
-        if let (Some(value), None) = (global.value, init) {
-            self.consts.set_at_start.push((made, value));
-            self.filled.insert(made);
-        }
+        let init = global.value.map(super::const_id);
+        let made = self.out.add_global(global.ty, GlobalKind::Private { init, overwritten: false });
         self.resources.globals[id.index()] = Some(made);
         self.resources.authors.insert(made, id);
         made
     }
 
     /// Which of the author's globals some memory is.
-    pub fn authors_global(&self, memory: Handle<GlobalVariable>) -> Option<GlobalId> {
+    pub fn authors_global(&self, memory: ir::GlobalId) -> Option<GlobalId> {
         self.resources.authors.get(&memory).copied()
     }
 
-    pub fn frag_coord(&mut self) -> Handle<GlobalVariable> {
+    pub fn frag_coord(&mut self) -> ir::GlobalId {
         if self.resources.frag_coord.is_none() {
-            let ty = self.ty(TypeId::VEC4);
-            self.resources.frag_coord = Some(self.private(ty, None));
+            self.resources.frag_coord = Some(self.private(TypeId::VEC4));
         }
         self.resources.frag_coord.expect("just set")
     }
 
-    pub fn frag_depth(&mut self) -> Handle<GlobalVariable> {
+    pub fn frag_depth(&mut self) -> ir::GlobalId {
         if self.resources.frag_depth.is_none() {
-            let ty = self.ty(TypeId::FLOAT);
-            self.resources.frag_depth = Some(self.private(ty, None));
+            self.resources.frag_depth = Some(self.private(TypeId::FLOAT));
         }
         self.resources.frag_depth.expect("just set")
     }
 
-    pub fn unknown_zero(&mut self) -> Handle<GlobalVariable> {
-        if self.resources.unknown_zero.is_none() {
-            let ty = self.ty(TypeId::INT);
-            self.resources.unknown_zero = Some(self.private(ty, None));
-        }
-        self.resources.unknown_zero.expect("just set")
-    }
-
-    pub fn failed_asserts(&mut self) -> Handle<GlobalVariable> {
+    pub fn failed_asserts(&mut self) -> ir::GlobalId {
         if self.resources.failed_asserts.is_none() {
-            let ty = self.ty(TypeId::UINT);
-            self.resources.failed_asserts = Some(self.private(ty, None));
+            self.resources.failed_asserts = Some(self.private(TypeId::UINT));
         }
         self.resources.failed_asserts.expect("just set")
     }

@@ -4,28 +4,24 @@
 //! is computed twice. OpenGL drivers do both first, Vulkan ones later, so last bits differ (see [`super::regroup`]); here both is
 //! done beforehand. Devices that compute by component have as much to do either way.
 
-use naga::{BinaryOperator, Expression, Literal, MathFunction as Math, TypeInner, UnaryOperator};
-
-use super::{
-    function::{Builder, Value},
-    operators::Typed,
-};
+use super::{function::Builder, operators::Typed};
 use crate::glsl::hir::{Builtin, Scalar, Type, TypeId};
+use crate::glsl::ir::{Binary, Math, Op, Unary, Value};
 
 /// What tells pure operations apart: kind, operator, operands.
 pub(super) type Key = (u8, u32, [Option<Value>; 4]);
 
 /// `None` for what may be another value each time.
-pub(super) fn key(expression: &Expression) -> Option<Key> {
-    use Expression as E;
-    Some(match *expression {
-        E::Binary { op, left, right } => (0, op as u32, [Some(left), Some(right), None, None]),
-        E::AccessIndex { base, index } => (1, index, [Some(base), None, None, None]),
-        E::Unary { op, expr } => (2, op as u32, [Some(expr), None, None, None]),
-        E::Math { fun, arg, arg1, arg2, arg3 } => (3, fun as u32, [Some(arg), arg1, arg2, arg3]),
-        E::Splat { size, value } => (4, size as u32, [Some(value), None, None, None]),
-        E::As { expr, kind, convert: Some(_) } => (5, kind as u32, [Some(expr), None, None, None]),
-        E::Select { condition, accept, reject } => (6, 0, [Some(condition), Some(accept), Some(reject), None]),
+pub(super) fn key(op: &Op) -> Option<Key> {
+    Some(match *op {
+        Op::Binary { op, left, right } => (0, op as u32, [Some(left), Some(right), None, None]),
+        Op::Part { base, index } => (1, index, [Some(base), None, None, None]),
+        Op::Unary { op, operand } => (2, op as u32, [Some(operand), None, None, None]),
+        Op::Math { fun, arg, arg1, arg2, arg3 } => (3, fun as u32, [Some(arg), arg1, arg2, arg3]),
+        Op::Splat { size, value } => (4, size.into(), [Some(value), None, None, None]),
+        Op::Convert { value, to } => (5, to as u32, [Some(value), None, None, None]),
+        Op::Select { condition, accept, reject } => (6, 0, [Some(condition), Some(accept), Some(reject), None]),
+        Op::OpaqueZero => (7, 0, [None; 4]),
         _ => return None,
     })
 }
@@ -50,7 +46,7 @@ impl Builder<'_, '_> {
         for index in 0..size {
             let values = operands.map(|(ty, value)| match self.extent(ty) {
                 1 => value,
-                _ => self.add(Expression::AccessIndex { base: value, index }),
+                _ => self.add(Op::Part { base: value, index }),
             });
             parts.push(f(self, values));
         }
@@ -61,34 +57,33 @@ impl Builder<'_, '_> {
 
     /// The result of an operation on literals, as they meet where a small function is inlined. None that is not finite: it is
     /// left to the device. In single precision, as OpenGL's compilers do it.
-    pub fn folded_number(&self, expression: &Expression) -> Option<f32> {
-        use BinaryOperator as Op;
-        let number = |value| match self.f.expressions[value] {
-            Expression::Literal(Literal::F32(number)) => Some(number),
-            Expression::AccessIndex { .. } => self.floats(value).map(|all| all[0]),
+    pub fn folded_number(&self, expression: &Op) -> Option<f32> {
+        let number = |value| match self.f[value] {
+            Op::Literal(..) => self.number(value),
+            Op::Part { .. } => self.floats(value).map(|all| all[0]),
             _ => None,
         };
         let folded = match *expression {
-            Expression::Unary { op: UnaryOperator::Negate, expr } => -number(expr)?,
-            Expression::Binary { op, left, right } => {
+            Op::Unary { op: Unary::Negate, operand } => -number(operand)?,
+            Op::Binary { op, left, right } => {
                 let (left, right) = (number(left)?, number(right)?);
                 match op {
-                    Op::Add => left + right,
-                    Op::Subtract => left - right,
-                    Op::Multiply => left * right,
-                    Op::Divide => left / right,
+                    Binary::Add => left + right,
+                    Binary::Subtract => left - right,
+                    Binary::Multiply => left * right,
+                    Binary::Divide => left / right,
                     _ => return None,
                 }
             }
-            Expression::Math { fun: Math::Pow, arg, arg1: Some(power), .. } => {
+            Op::Math { fun: Math::Pow, arg, arg1: Some(power), .. } => {
                 let (x, power) = (number(arg)?, number(power)?);
                 x.powf(power)
             }
-            Expression::Math { fun: Math::Atan2, arg, arg1: Some(x), .. } => {
+            Op::Math { fun: Math::Atan2, arg, arg1: Some(x), .. } => {
                 let (y, x) = (number(arg)?, number(x)?);
                 y.atan2(x)
             }
-            Expression::Math { fun, arg, arg1: None, .. } => {
+            Op::Math { fun, arg, arg1: None, .. } => {
                 let x = number(arg)?;
                 match fun {
                     Math::Sin => x.sin(),
@@ -112,18 +107,14 @@ impl Builder<'_, '_> {
     }
 
     /// The operand that an operation with a literal leaves as it is.
-    pub fn unchanged(&self, expression: &Expression) -> Option<Value> {
-        use BinaryOperator as Op;
-        let Expression::Binary { op, left, right } = *expression else { return None };
-        let is = |value, number| match self.f.expressions[value] {
-            Expression::Literal(Literal::F32(found)) => found == number,
-            _ => false,
-        };
+    pub fn unchanged(&self, expression: &Op) -> Option<Value> {
+        let Op::Binary { op, left, right } = *expression else { return None };
+        let is = |value, number| self.number(value) == Some(number);
         match op {
-            Op::Add if is(left, 0.0) => Some(right),
-            Op::Add | Op::Subtract if is(right, 0.0) => Some(left),
-            Op::Multiply if is(left, 1.0) => Some(right),
-            Op::Multiply | Op::Divide if is(right, 1.0) => Some(left),
+            Binary::Add if is(left, 0.0) => Some(right),
+            Binary::Add | Binary::Subtract if is(right, 0.0) => Some(left),
+            Binary::Multiply if is(left, 1.0) => Some(right),
+            Binary::Multiply | Binary::Divide if is(right, 1.0) => Some(left),
             _ => None,
         }
     }
@@ -131,7 +122,7 @@ impl Builder<'_, '_> {
     /// A column of a matrix. Where it is constant and has one number twice, its components are those of a constant instead of
     /// literals: of a sum of products Mesa takes out what is one literal, but not what is two components of one vector.
     pub fn column(&mut self, ty: TypeId, matrix: Value, index: u32) -> Value {
-        let column = self.add(Expression::AccessIndex { base: matrix, index });
+        let column = self.add(Op::Part { base: matrix, index });
         match self.floats(column) {
             Some(numbers) if (1..numbers.len()).any(|i| numbers[..i].contains(&numbers[i])) => {
                 let parts = (0..numbers.len() as u32).map(|index| self.constant_component(&numbers, index)).collect();
@@ -146,52 +137,38 @@ impl Builder<'_, '_> {
         if matches!(number.abs(), 0.0 | 1.0) {
             return self.float(number);
         }
-        let constant = self.cx.vector_constant(numbers);
-        let base = match self.vectors.get(&constant) {
-            Some(&base) => base,
-            None => {
-                let base = self.given(Expression::Constant(constant));
-                self.vectors.insert(constant, base);
-                base
-            }
-        };
-        self.add_as_is(Expression::AccessIndex { base, index })
+        let words = numbers.iter().map(|number| number.to_bits()).collect();
+        let constant = self.cx.vector_constant(words);
+        let base = self.const_value(constant);
+        self.add_as_is(Op::Part { base, index })
     }
 
     /// What a component of a value is, if no instruction is needed to take it out.
     pub fn known_component(&mut self, base: Value, index: u32) -> Option<Value> {
-        match self.f.expressions[base] {
-            Expression::Splat { value, .. } => Some(value),
-            Expression::Swizzle { vector: mut base, pattern, .. } => {
-                let mut index = pattern[index as usize] as u32;
+        match self.f[base] {
+            Op::Splat { value, .. } => Some(value),
+            Op::Swizzle { vector: mut base, swizzle } => {
+                let mut index = swizzle.get(index as usize) as u32;
                 // Thousands may stand one behind the other.
-                while let Expression::Swizzle { vector, pattern, .. } = self.f.expressions[base] {
-                    index = pattern[index as usize] as u32;
+                while let Op::Swizzle { vector, swizzle } = self.f[base] {
+                    index = swizzle.get(index as usize) as u32;
                     base = vector;
                 }
-                Some(self.add(Expression::AccessIndex { base, index }))
+                Some(self.add(Op::Part { base, index }))
             }
-            Expression::Compose { ty, ref components } => {
-                let whole = match self.cx.out.types[ty].inner {
-                    TypeInner::Vector { size, .. } => components.len() == size as usize,
-                    _ => true,
-                };
-                whole.then(|| components[index as usize])
+            Op::Compose { ty, ref parts } => {
+                let is_whole = parts.len() == self.cx.out.extent(ty) as usize;
+                is_whole.then(|| parts[index as usize])
             }
-            Expression::Constant(_) => match self.floats(base)?[..] {
+            Op::Const(_) => match self.floats(base)?[..] {
                 [] | [_] => None,
                 ref all => {
                     let number = all[index as usize];
                     Some(self.float(number))
                 }
             },
-            Expression::ZeroValue(ty) => match self.cx.out.types[ty].inner {
-                TypeInner::Vector { scalar: naga::Scalar { kind: naga::ScalarKind::Float, .. }, .. } => {
-                    Some(self.float(0.0))
-                }
-                _ => None,
-            },
-            Expression::Load { .. } => self.members.get(&(base, index)).copied(),
+            Op::Zero(ty) if self.is_float_vector(ty) => Some(self.float(0.0)),
+            Op::Load { .. } => self.members.get(&(base, index)).copied(),
             _ => None,
         }
     }

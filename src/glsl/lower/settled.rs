@@ -7,7 +7,7 @@
 //! them: 550 triangles keep lavapipe busy for minutes where Mesa's OpenGL, which sees the constants and needs no zeros,
 //! takes a second. As a table ([`super::tables`]) they are a buffer.
 
-use super::{tables::LARGE, writes};
+use super::{LARGE, writes};
 use crate::glsl::{
     ast::List,
     hir::{ExprId, ExprKind, GlobalId, GlobalStorage, Module, Stmt, StmtId, StmtKind, Swizzle, Type, TypeId, VarFlags},

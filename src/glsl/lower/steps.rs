@@ -3,12 +3,11 @@
 //! In `int n = 4; while (n >= 1) { ..; n--; }` nothing but `n--` writes `n`, at most once for each time that the test held: so
 //! `n` lies between 0 and 4 from its declaration on. [`ranges`](super::ranges) knows less, but more exactly, of `for (int i ..)`.
 
+use crate::glsl::ir::{Binary, Math, Value};
 use std::collections::HashMap;
 
-use naga::{BinaryOperator, MathFunction};
-
 use super::{
-    function::{Builder, Value},
+    function::Builder,
     ranges::{Bounds, limits, mirrored},
 };
 use crate::glsl::{
@@ -114,8 +113,8 @@ impl Builder<'_, '_> {
             let left = self.value(lhs);
             let right = self.value(rhs);
             let most = self.literal(scalar, most as u32);
-            let right = self.math2(MathFunction::Min, right, most);
-            let op = if op == BinaryOp::Less { BinaryOperator::Less } else { BinaryOperator::LessEqual };
+            let right = self.math2(Math::Min, right, most);
+            let op = if op == BinaryOp::Less { Binary::Less } else { Binary::LessEqual };
             return self.op(op, left, right);
         }
         self.value(test)

@@ -1,8 +1,7 @@
 //! Texture functions (section 8.8) on channels.
 
-use naga::{Expression, ImageQuery, SampleLevel, ScalarKind};
-
-use super::function::{Builder, Value};
+use super::function::Builder;
+use crate::glsl::ir::{Binary, Level, Op, Value};
 use crate::glsl::{
     ChannelKind,
     hir::{Builtin, ExprId, ExprKind, Scalar, Swizzle, TypeId},
@@ -13,10 +12,10 @@ struct Form {
     /// The coordinate's last component divides.
     proj: bool,
     offset: bool,
-    level: Level,
+    level: LevelForm,
 }
 
-enum Level {
+enum LevelForm {
     /// With or without a bias at the end.
     Implicit,
     Lod,
@@ -26,18 +25,18 @@ enum Level {
 fn form(builtin: Builtin) -> Form {
     use Builtin as B;
     let (proj, offset, level) = match builtin {
-        B::Texture => (false, false, Level::Implicit),
-        B::TextureOffset => (false, true, Level::Implicit),
-        B::TextureProj => (true, false, Level::Implicit),
-        B::TextureProjOffset => (true, true, Level::Implicit),
-        B::TextureLod => (false, false, Level::Lod),
-        B::TextureLodOffset => (false, true, Level::Lod),
-        B::TextureProjLod => (true, false, Level::Lod),
-        B::TextureProjLodOffset => (true, true, Level::Lod),
-        B::TextureGrad => (false, false, Level::Grad),
-        B::TextureGradOffset => (false, true, Level::Grad),
-        B::TextureProjGrad => (true, false, Level::Grad),
-        B::TextureProjGradOffset => (true, true, Level::Grad),
+        B::Texture => (false, false, LevelForm::Implicit),
+        B::TextureOffset => (false, true, LevelForm::Implicit),
+        B::TextureProj => (true, false, LevelForm::Implicit),
+        B::TextureProjOffset => (true, true, LevelForm::Implicit),
+        B::TextureLod => (false, false, LevelForm::Lod),
+        B::TextureLodOffset => (false, true, LevelForm::Lod),
+        B::TextureProjLod => (true, false, LevelForm::Lod),
+        B::TextureProjLodOffset => (true, true, LevelForm::Lod),
+        B::TextureGrad => (false, false, LevelForm::Grad),
+        B::TextureGradOffset => (false, true, LevelForm::Grad),
+        B::TextureProjGrad => (true, false, LevelForm::Grad),
+        B::TextureProjGradOffset => (true, true, LevelForm::Grad),
         other => unreachable!("{other:?} does not sample"),
     };
     Form { proj, offset, level }
@@ -73,11 +72,17 @@ impl Builder<'_, '_> {
                 Some(self.value(lod))
             }
         };
-        let image = self.cx.texture(channel);
-        let image = self.global(image);
-        let size = self.add(Expression::ImageQuery { image, query: ImageQuery::Size { level } });
         debug_assert_eq!(self.cx.hir.types.scalar(ty), Some(Scalar::Int));
-        self.bitcast(size, ScalarKind::Sint)
+        self.texture_extent(channel, level)
+    }
+
+    /// Texels along each axis, as ints.
+    pub fn texture_extent(&mut self, channel: u8, level: Option<Value>) -> Value {
+        let size = match self.kind(channel) {
+            ChannelKind::Sampler2D | ChannelKind::SamplerCube => 2,
+            ChannelKind::Sampler3D => 3,
+        };
+        self.add_typed(Op::TextureSize { channel, level }, TypeId::vector(Scalar::Int, size))
     }
 
     /// `texelFetch(sampler, coordinate, level[, offset])`. Outside the texture it gives zeros: the driver sees to it.
@@ -89,11 +94,9 @@ impl Builder<'_, '_> {
         }
         if let Some(&offset) = args.get(3) {
             let offset = self.value(offset);
-            coordinate = self.op(naga::BinaryOperator::Add, coordinate, offset);
+            coordinate = self.op(Binary::Add, coordinate, offset);
         }
-        let image = self.cx.texture(channel);
-        let image = self.global(image);
-        self.add(Expression::ImageLoad { image, coordinate, array_index: None, sample: None, level: Some(level) })
+        self.add(Op::Fetch { channel, coordinate, level })
     }
 
     fn sample(&mut self, channel: u8, form: Form, args: &[ExprId]) -> Value {
@@ -102,33 +105,31 @@ impl Builder<'_, '_> {
         let mut next = || rest.next();
         let mut coordinate = self.value(args[1]);
         let mut level = match form.level {
-            Level::Implicit => SampleLevel::Auto,
-            Level::Lod => {
+            LevelForm::Implicit => Level::Auto,
+            LevelForm::Lod => {
                 let lod = next().expect("a level");
                 let is_base = self.literal_bits(lod).is_some_and(|bits| f32::from_bits(bits) == 0.0);
                 self.cx.reflection.channels[usize::from(channel)].mips |= !is_base;
-                SampleLevel::Exact(self.value(lod))
+                Level::Exact(self.value(lod))
             }
-            Level::Grad => {
+            LevelForm::Grad => {
                 let (x, y) = (next().expect("a gradient"), next().expect("a gradient"));
-                SampleLevel::Gradient { x: self.value(x), y: self.value(y) }
+                Level::Gradient { x: self.value(x), y: self.value(y) }
             }
         };
         let offset = if form.offset { next() } else { None };
-        if let (Level::Implicit, Some(bias)) = (form.level, next()) {
-            level = SampleLevel::Bias(self.value(bias));
+        if let (LevelForm::Implicit, Some(bias)) = (form.level, next()) {
+            level = Level::Bias(self.value(bias));
         }
-        if self.cx.source.kind == crate::glsl::PassKind::Vertex
-            && matches!(level, SampleLevel::Auto | SampleLevel::Bias(_))
-        {
+        if self.cx.source.kind == crate::glsl::PassKind::Vertex && matches!(level, Level::Auto | Level::Bias(_)) {
             // Section 8.8: without derivatives it is the base level that is read.
-            level = SampleLevel::Exact(self.float(0.0));
+            level = Level::Exact(self.float(0.0));
         }
         match level {
-            SampleLevel::Auto | SampleLevel::Bias(_) | SampleLevel::Gradient { .. } => {
+            Level::Auto | Level::Bias(_) | Level::Gradient { .. } => {
                 self.cx.reflection.channels[usize::from(channel)].mips = true;
             }
-            SampleLevel::Exact(_) | SampleLevel::Zero => {}
+            Level::Exact(_) => {}
         }
         if form.proj {
             coordinate = self.divide_by_last(coordinate, hir[args[1]].ty, self.dimensions(channel));
@@ -141,20 +142,8 @@ impl Builder<'_, '_> {
         self.image_sample(channel, coordinate, level, offset)
     }
 
-    pub fn image_sample(&mut self, channel: u8, coordinate: Value, level: SampleLevel, offset: Option<Value>) -> Value {
-        let (image, sampler) = (self.cx.texture(channel), self.cx.sampler(channel));
-        let (image, sampler) = (self.global(image), self.global(sampler));
-        self.add(Expression::ImageSample {
-            image,
-            sampler,
-            gather: None,
-            coordinate,
-            array_index: None,
-            offset,
-            level,
-            depth_ref: None,
-            clamp_to_edge: false,
-        })
+    pub fn image_sample(&mut self, channel: u8, coordinate: Value, level: Level, offset: Option<Value>) -> Value {
+        self.add(Op::Sample { channel, coordinate, level, offset })
     }
 
     /// A constant offset, in the form naga's validator takes for constant.
@@ -165,15 +154,13 @@ impl Builder<'_, '_> {
 
     fn divide_by_last(&mut self, coordinate: Value, ty: TypeId, dimensions: u8) -> Value {
         let last = self.extent(ty) - 1;
-        let divisor = self.add(Expression::AccessIndex { base: coordinate, index: last });
+        let divisor = self.add(Op::Part { base: coordinate, index: last });
         let components: Vec<u8> = (0..dimensions).collect();
         let numerator = self.swizzle(coordinate, ty, Swizzle::new(&components));
         // Times the reciprocal, as drivers do that read with a projection themselves.
         let one = self.float(1.0);
-        let scale = self.op(naga::BinaryOperator::Divide, one, divisor);
+        let scale = self.op(Binary::Divide, one, divisor);
         let ty = TypeId::vector(Scalar::Float, dimensions);
-        self.each(ty, [(ty, numerator), (TypeId::FLOAT, scale)], |b, [x, scale]| {
-            b.op(naga::BinaryOperator::Multiply, x, scale)
-        })
+        self.each(ty, [(ty, numerator), (TypeId::FLOAT, scale)], |b, [x, scale]| b.op(Binary::Multiply, x, scale))
     }
 }

@@ -4,16 +4,14 @@
 //! chooses a side. Mesa's llvmpipe takes a quotient for undefined once it sees that the divisor is zero, after it has inlined
 //! functions and spread constants. So what may be such a zero is kept out of its sight.
 
-use super::{
-    function::{Builder, Value},
-    regroup::Part,
-};
+use super::{function::Builder, regroup::Part};
 use crate::glsl::{
     ast::List,
     hir::{
         BinaryOp, Builtin, ExprId, ExprKind, FuncId, Global, GlobalStorage, LocalKind, Module, Scalar, Stmt, StmtId,
         StmtKind, TypeId,
     },
+    ir::Value,
 };
 
 /// How often all expressions are looked at. One time more is needed for each step by which a zero gets from variable to

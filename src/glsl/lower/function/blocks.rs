@@ -1,35 +1,35 @@
 //! Statements and blocks, and what of memory is known in them.
 
-use naga::{Block, Range, Span, Statement};
-
 use super::Builder;
+use crate::glsl::ir::{Block, Op, Stmt};
 
 impl Builder<'_, '_> {
-    pub(super) fn emit(&mut self) {
-        if let Some((first, last)) = self.unemitted.take() {
-            self.block.push(Statement::Emit(Range::new_from_bounds(first, last)), Span::UNDEFINED);
-        }
-    }
-
-    pub fn push(&mut self, statement: Statement) {
-        self.emit();
+    pub fn push(&mut self, statement: Stmt) {
         match &statement {
-            Statement::Store { pointer, .. } => self.forget(*pointer),
-            Statement::Call { arguments, .. } => {
-                for &pointer in arguments {
-                    self.forget(pointer);
-                }
-                self.forget_globals();
-                self.run = self.f.expressions.len();
-            }
-            Statement::If { .. } | Statement::Loop { .. } | Statement::Switch { .. } => {
-                self.run = self.f.expressions.len();
-            }
+            Stmt::Store { place, .. } => self.forget(*place),
+            Stmt::If { .. } | Stmt::Loop { .. } | Stmt::Switch { .. } => self.run = self.f.len(),
             _ => {}
         }
-        self.ended =
-            matches!(statement, Statement::Break | Statement::Continue | Statement::Return { .. } | Statement::Kill);
-        self.block.push(statement, Span::UNDEFINED);
+        self.ended = matches!(statement, Stmt::Break | Stmt::Continue | Stmt::Return(_) | Stmt::Discard);
+        self.block.push(statement);
+    }
+
+    /// Statements that were lowered before.
+    pub fn splice(&mut self, mut block: Block) {
+        self.run = self.f.len();
+        self.block.append(&mut block);
+    }
+
+    /// Calls a function; the value of a void one is none.
+    pub fn push_call(&mut self, function: crate::glsl::ir::FuncId, args: Vec<super::Value>) -> super::Value {
+        let ty = self.cx.out[function].result;
+        let value = self.add_typed(Op::Call { function, args: args.clone().into() }, ty);
+        for place in args {
+            self.forget(place);
+        }
+        self.forget_globals();
+        self.run = self.f.len();
+        value
     }
 
     /// A nested block, filled by `fill`, before which nothing is known of memory. Tells also whether its end can not be reached.
@@ -71,13 +71,11 @@ impl Builder<'_, '_> {
     }
 
     fn block_of(&mut self, fill: impl FnOnce(&mut Self)) -> (Block, bool) {
-        self.emit();
         let outer = std::mem::take(&mut self.block);
         let outer_ended = std::mem::take(&mut self.ended);
         let made = self.made_in_order.len();
-        self.run = self.f.expressions.len();
+        self.run = self.f.len();
         fill(self);
-        self.emit();
         for key in self.made_in_order.drain(made..) {
             self.made.remove(&key);
         }

@@ -1,9 +1,8 @@
 //! Locals: what each stands for, and what is known of where values come from.
 
-use naga::{Expression, LocalVariable, Span};
-
-use super::{Builder, Slot, Value};
+use super::{Builder, Slot};
 use crate::glsl::hir::{LocalId, Type, TypeId, VarFlags};
+use crate::glsl::ir::{Op, Value};
 
 impl Builder<'_, '_> {
     pub fn slot(&self, local: LocalId) -> Slot {
@@ -33,7 +32,7 @@ impl Builder<'_, '_> {
             self.name(value);
             if self.cx.uses[local.index()] > 1 {
                 self.shared.insert(value);
-                if let Expression::Compose { components, .. } = &self.f.expressions[value] {
+                if let Op::Compose { parts: components, .. } = &self.f[value] {
                     self.shared.extend(components);
                 }
             }
@@ -44,7 +43,7 @@ impl Builder<'_, '_> {
     /// Notes that a variable stands for a value and its components.
     pub fn name(&mut self, value: Value) {
         self.named.insert(value);
-        if let Expression::Compose { components, .. } = &self.f.expressions[value] {
+        if let Op::Compose { parts: components, .. } = &self.f[value] {
             self.named.extend(components);
         }
     }
@@ -64,17 +63,18 @@ impl Builder<'_, '_> {
 
     /// Whether a value is the result of an operation, and no variable, argument or part of one.
     pub fn is_computed(&self, mut value: Value) -> bool {
-        use Expression as E;
-        while let E::Swizzle { vector: of, .. } | E::AccessIndex { base: of, .. } = self.f.expressions[value] {
+        use Op as E;
+        while let E::Swizzle { vector: of, .. } | E::Part { base: of, .. } = self.f[value] {
             value = of;
         }
-        match self.f.expressions[value] {
+        match self.f[value] {
             E::Binary { .. }
             | E::Unary { .. }
             | E::Math { .. }
             | E::Select { .. }
-            | E::As { .. }
-            | E::CallResult(_) => true,
+            | E::Convert { .. }
+            | E::Bitcast { .. }
+            | E::Call { .. } => true,
             _ => self.by_component.contains(&value),
         }
     }
@@ -99,9 +99,8 @@ impl Builder<'_, '_> {
 
     /// A new variable of this function.
     pub fn temporary(&mut self, ty: TypeId) -> Value {
-        let ty = self.cx.ty(ty);
-        let variable = self.f.local_variables.append(LocalVariable { name: None, ty, init: None }, Span::UNDEFINED);
-        self.given(Expression::LocalVariable(variable))
+        let variable = self.f.add_var(ty);
+        self.free(Op::Var(variable))
     }
 
     pub fn is_vector_or_scalar(&self, ty: TypeId) -> bool {

@@ -8,25 +8,22 @@
 
 use std::num::NonZeroU32;
 
-use naga::{
-    AddressSpace, ArraySize, Expression, GlobalVariable, Handle, ResourceBinding, StorageAccess, StructMember,
-    TypeInner,
-};
+use naga::{AddressSpace, ArraySize, GlobalVariable, Handle, ResourceBinding, StorageAccess, StructMember, TypeInner};
 
-use super::{Lowering, Map, access::Place, function::Builder, long_arrays, types::round_up};
+use super::{Emitter, Map, long_arrays};
 use crate::glsl::{
-    PassKind,
-    hir::{ConstId, Scalar, Type, TypeId},
-    interface,
+    PassKind, interface,
+    ir::{ConstId, layout::round_up},
+    types::{Scalar, Type, TypeId},
 };
 
 /// Scalars from which on a table goes into the storage buffer. Its load is slow where neighbours read different places (five times
 /// the frame of a loop over 14 triangles on llvmpipe), and a driver that unrolls such a loop folds reads of memory away.
-pub(super) const LARGE: usize = 256;
+pub(in crate::glsl) const LARGE: usize = 256;
 
 /// Elements from which on an array goes into the uniform buffer. To fill memory takes llvmpipe a store for each pixel and component
 /// at every start of the program; but Mesa unrolls loops of up to 32 turns, and then folds what they read of memory away.
-pub(super) const NOT_UNROLLED: u32 = 33;
+pub(in crate::glsl) const NOT_UNROLLED: u32 = 33;
 
 /// Bytes of a slot there: what a uniform buffer's array elements lie apart at least.
 const SLOT: u32 = 16;
@@ -47,6 +44,8 @@ struct Buffer {
     variable: Option<Handle<GlobalVariable>>,
     members: Vec<StructMember>,
     bytes: Vec<u8>,
+    /// The largest alignment of a member, in bytes.
+    align: u32,
 }
 
 /// What the buffers with constant tables hold; empty: the module has none of that kind.
@@ -55,8 +54,9 @@ pub(crate) struct TableBytes {
     pub storage: Vec<u8>,
 }
 
+/// Where a table lies.
 #[derive(Clone, Copy)]
-enum TablePlace {
+pub(super) enum TablePlace {
     Private(Handle<GlobalVariable>),
     /// A member of the uniform buffer.
     Uniform(u32),
@@ -64,50 +64,21 @@ enum TablePlace {
     Storage(u32),
 }
 
-impl Builder<'_, '_> {
-    /// Memory that holds a folded value of type `ty`, for indexing.
-    pub fn table(&mut self, id: ConstId, ty: TypeId) -> Place {
-        let (buffer, index, padded) = match self.cx.table_place(id) {
-            TablePlace::Private(global) => return Place::of(self.global(global), ty),
-            TablePlace::Uniform(index) => (self.cx.uniform_tables(), index, true),
-            TablePlace::Storage(index) => (self.cx.storage_tables(), index, false),
-        };
-        let base = self.global(buffer);
-        let pointer = self.add(Expression::AccessIndex { base, index });
-        Place { padded, ..Place::of(pointer, ty) }
-    }
-}
-
-impl Builder<'_, '_> {
-    /// Where a long constant is copied from; `None` if it is not long, or lies in no buffer.
-    pub fn long_table(&mut self, id: ConstId) -> Option<Place> {
-        let ty = self.cx.hir[id].ty;
-        if !self.cx.is_long(ty) || self.cx.source.driver.tables_in_memory || self.cx.holds_booleans(ty) {
-            return None;
-        }
-        let index = self.cx.storage_index(id);
-        let base = self.cx.storage_tables();
-        let base = self.global(base);
-        let pointer = self.add(Expression::AccessIndex { base, index });
-        Some(Place::of(pointer, ty))
-    }
-}
-
-impl Lowering<'_> {
+impl Emitter<'_> {
     /// Whether values of a type are copied by loops where the driver needs it ([`super::long_arrays`]).
     pub fn is_long(&mut self, ty: TypeId) -> bool {
         self.source.driver.array_loops
-            && matches!(self.hir.types.get(ty), Type::Array { .. } | Type::Struct(_))
-            && self.laid_out(ty).1.size >= 4 * long_arrays::LEAST_COPY
+            && matches!(self.ir.types.get(ty), Type::Array { .. } | Type::Struct(_))
+            && self.layout(ty).size >= 4 * long_arrays::LEAST_COPY
     }
 
-    fn table_place(&mut self, id: ConstId) -> TablePlace {
+    pub fn table_place(&mut self, id: ConstId) -> TablePlace {
         let key = id.index() as u32;
         if let Some(&place) = self.tables.places.get(&key) {
             return place;
         }
-        let constant = self.hir[id];
-        let scalars = self.hir[constant.words].len();
+        let constant = &self.ir[id];
+        let scalars = constant.words.len();
         let place = if let Some((ty, size)) = self.in_slots(constant.ty)
             && self.tables.uniform.bytes.len() + size as usize <= interface::UNIFORM_TABLE_BYTES
         {
@@ -124,8 +95,8 @@ impl Lowering<'_> {
     /// An array as a uniform buffer has it, and its bytes: its scalars and vectors lie in slots of 16 bytes, in the first
     /// components of vectors of three or four. `None` for what is no array of these, or too short to be worth it.
     fn in_slots(&mut self, ty: TypeId) -> Option<(Handle<naga::Type>, u32)> {
-        let Type::Array { element, len: len @ NOT_UNROLLED.. } = self.hir.types.get(ty) else { return None };
-        let base = match self.hir.types.get(element) {
+        let Type::Array { element, len: len @ NOT_UNROLLED.. } = self.ir.types.get(ty) else { return None };
+        let base = match self.ir.types.get(element) {
             Type::Scalar(Scalar::Bool) | Type::Vector { scalar: Scalar::Bool, .. } => return None,
             Type::Vector { size: 3.., .. } => self.ty(element),
             Type::Scalar(scalar) | Type::Vector { scalar, .. } => self.ty(TypeId::vector(scalar, 4)),
@@ -136,8 +107,7 @@ impl Lowering<'_> {
     }
 
     fn append_to_uniform(&mut self, id: ConstId, ty: Handle<naga::Type>, size: u32) -> u32 {
-        let constant = self.hir[id];
-        let words = &self.hir[constant.words];
+        let words = &self.ir[id].words;
         let slots = size / SLOT;
         let buffer = &mut self.tables.uniform;
         let offset = buffer.bytes.len() as u32;
@@ -151,7 +121,7 @@ impl Lowering<'_> {
     }
 
     /// The member of the storage buffer that holds a constant.
-    fn storage_index(&mut self, id: ConstId) -> u32 {
+    pub fn storage_index(&mut self, id: ConstId) -> u32 {
         let key = id.index() as u32;
         if let Some(&index) = self.tables.stored.get(&key) {
             return index;
@@ -162,14 +132,15 @@ impl Lowering<'_> {
     }
 
     fn append_to_storage(&mut self, id: ConstId) -> u32 {
-        let constant = self.hir[id];
-        let (ty, layout) = self.laid_out(constant.ty);
+        let constant = &self.ir[id];
+        let (ty, layout) = (self.ty(constant.ty), self.layout(constant.ty));
         let buffer = &mut self.tables.storage;
         let offset = round_up(layout.align, buffer.bytes.len() as u32);
         buffer.members.push(StructMember { name: None, ty, binding: None, offset });
+        buffer.align = buffer.align.max(layout.align);
         let mut bytes = std::mem::take(&mut buffer.bytes);
         bytes.resize((offset + layout.size) as usize, 0);
-        let mut words = self.hir[constant.words].iter().copied();
+        let mut words = constant.words.iter().copied();
         self.write(constant.ty, offset as usize, &mut words, &mut bytes);
         self.tables.storage.bytes = bytes;
         self.tables.storage.members.len() as u32 - 1
@@ -177,31 +148,30 @@ impl Lowering<'_> {
 
     /// Puts a value's words where its layout has them.
     fn write(&mut self, ty: TypeId, at: usize, words: &mut dyn Iterator<Item = u32>, bytes: &mut [u8]) {
-        let hir = self.hir;
+        let ir = self.ir;
         let mut put = |at: usize| {
             let word = words.next().expect("as many words as scalars");
             bytes[at..at + 4].copy_from_slice(&word.to_ne_bytes());
         };
-        match hir.types.get(ty) {
+        match ir.types.get(ty) {
             Type::Scalar(_) => put(at),
             Type::Vector { size, .. } => (0..usize::from(size)).for_each(|i| put(at + 4 * i)),
             Type::Matrix { columns, rows } => {
-                let stride = self.laid_out(TypeId::vector(Scalar::Float, rows)).1.align as usize;
+                let stride = self.layout(TypeId::vector(Scalar::Float, rows)).align as usize;
                 for column in 0..usize::from(columns) {
                     (0..usize::from(rows)).for_each(|row| put(at + column * stride + 4 * row));
                 }
             }
             Type::Array { element, len } => {
-                let layout = self.laid_out(element).1;
-                let stride = round_up(layout.align, layout.size) as usize;
+                let stride = self.layout(element).stride() as usize;
                 (0..len as usize).for_each(|i| self.write(element, at + i * stride, words, bytes));
             }
             Type::Struct(id) => {
                 let mut offset = 0;
-                for member in &hir[hir[id].members] {
-                    let layout = self.laid_out(member.ty).1;
+                for &member in &ir.structs[id.index()] {
+                    let layout = self.layout(member);
                     offset = round_up(layout.align, offset);
-                    self.write(member.ty, at + offset as usize, words, bytes);
+                    self.write(member, at + offset as usize, words, bytes);
                     offset += layout.size;
                 }
             }
@@ -209,16 +179,16 @@ impl Lowering<'_> {
         }
     }
 
-    fn holds_booleans(&self, ty: TypeId) -> bool {
-        match self.hir.types.get(ty) {
+    pub fn holds_booleans(&self, ty: TypeId) -> bool {
+        match self.ir.types.get(ty) {
             Type::Scalar(scalar) | Type::Vector { scalar, .. } => scalar == Scalar::Bool,
             Type::Array { element, .. } => self.holds_booleans(element),
-            Type::Struct(id) => self.hir[self.hir[id].members].iter().any(|m| self.holds_booleans(m.ty)),
+            Type::Struct(id) => self.ir.structs[id.index()].iter().any(|&member| self.holds_booleans(member)),
             _ => false,
         }
     }
 
-    fn uniform_tables(&mut self) -> Handle<GlobalVariable> {
+    pub fn uniform_tables(&mut self) -> Handle<GlobalVariable> {
         if let Some(made) = self.tables.uniform.variable {
             return made;
         }
@@ -230,7 +200,7 @@ impl Lowering<'_> {
         *self.tables.uniform.variable.insert(made)
     }
 
-    fn storage_tables(&mut self) -> Handle<GlobalVariable> {
+    pub fn storage_tables(&mut self) -> Handle<GlobalVariable> {
         if let Some(made) = self.tables.storage.variable {
             return made;
         }
@@ -247,21 +217,16 @@ impl Lowering<'_> {
     /// Gives the buffers their types; their bytes.
     pub fn finish_tables(&mut self) -> TableBytes {
         let (uniform, storage) = (std::mem::take(&mut self.tables.uniform), std::mem::take(&mut self.tables.storage));
-        let align = storage.members.iter().map(|m| self.alignment(m.ty)).max().unwrap_or(4);
+        let align = storage.align.max(4);
         TableBytes { uniform: self.finish_buffer(uniform, SLOT), storage: self.finish_buffer(storage, align) }
     }
 
     fn finish_buffer(&mut self, buffer: Buffer, align: u32) -> Vec<u8> {
-        let Buffer { variable: Some(variable), members, mut bytes } = buffer else { return Vec::new() };
+        let Buffer { variable: Some(variable), members, mut bytes, .. } = buffer else { return Vec::new() };
         let span = round_up(align, bytes.len() as u32);
         bytes.resize(span as usize, 0);
         let ty = self.insert_type(TypeInner::Struct { members, span });
         self.out.global_variables[variable].ty = ty;
         bytes
-    }
-
-    /// Alignment of a type made by [`Lowering::laid_out`].
-    fn alignment(&self, ty: Handle<naga::Type>) -> u32 {
-        self.types.layout_of(ty).map_or(16, |layout| layout.align)
     }
 }

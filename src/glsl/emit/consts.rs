@@ -1,4 +1,4 @@
-//! Folded composites as naga constants, and tables that are indexed at run time.
+//! Constants as naga's.
 //!
 //! naga refuses infinities and NaN as literals. A composite that holds one is built from bit patterns where it is used; a table
 //! with one is filled when the entry point starts. So is a long global that the program writes, where the driver needs it
@@ -6,8 +6,11 @@
 
 use naga::{Expression, GlobalVariable, Handle, Literal, Span};
 
-use super::{Lowering, Map};
-use crate::glsl::hir::{ConstId, Scalar, Type, TypeId};
+use super::{Emitter, Map};
+use crate::glsl::{
+    ir::ConstId,
+    types::{Scalar, Type, TypeId},
+};
 
 /// Constants made so far.
 pub(super) struct Constants {
@@ -15,7 +18,6 @@ pub(super) struct Constants {
     inits: Vec<Option<Option<Handle<Expression>>>>,
     constants: Vec<Option<Handle<naga::Constant>>>,
     literals: Map<(u8, u32), Handle<Expression>>,
-    vectors: Map<Vec<u32>, Handle<naga::Constant>>,
     /// Globals whose constant value is no constant expression of naga's.
     pub set_at_start: Vec<(Handle<GlobalVariable>, ConstId)>,
 }
@@ -26,7 +28,6 @@ impl Constants {
             inits: vec![None; count],
             constants: vec![None; count],
             literals: Map::default(),
-            vectors: Map::default(),
             set_at_start: Vec::new(),
         }
     }
@@ -42,34 +43,21 @@ pub(super) fn literal(scalar: Scalar, bits: u32) -> Option<Literal> {
     })
 }
 
-impl Lowering<'_> {
-    /// A folded value as a naga constant; `None` if it holds an infinity or NaN, or is long.
+impl Emitter<'_> {
+    /// A naga constant; `None` if it holds an infinity or NaN, or is long.
     pub fn constant(&mut self, id: ConstId) -> Option<Handle<naga::Constant>> {
         if let Some(made) = self.consts.constants[id.index()] {
             return Some(made);
         }
-        if self.is_long(self.hir[id].ty) {
+        let ty = self.ir[id].ty;
+        if self.is_long(ty) {
             return None;
         }
         let init = self.constant_init(id)?;
-        let ty = self.ty(self.hir[id].ty);
+        let ty = self.ty(ty);
         let made = self.out.constants.append(naga::Constant { name: None, ty, init }, Span::UNDEFINED);
         self.consts.constants[id.index()] = Some(made);
         Some(made)
-    }
-
-    /// A vector of finite floats as a naga constant.
-    pub fn vector_constant(&mut self, floats: &[f32]) -> Handle<naga::Constant> {
-        let words: Vec<u32> = floats.iter().map(|number| number.to_bits()).collect();
-        if let Some(&made) = self.consts.vectors.get(&words) {
-            return made;
-        }
-        let ty = TypeId::vector(Scalar::Float, floats.len() as u8);
-        let init = self.global_expression(ty, &mut words.iter().copied());
-        let ty = self.ty(ty);
-        let made = self.out.constants.append(naga::Constant { name: None, ty, init }, Span::UNDEFINED);
-        self.consts.vectors.insert(words, made);
-        made
     }
 
     /// The same as a module-scope expression.
@@ -77,12 +65,10 @@ impl Lowering<'_> {
         if let Some(init) = self.consts.inits[id.index()] {
             return init;
         }
-        let hir = self.hir;
-        let constant = hir[id];
-        let words = &hir[constant.words];
+        let constant = &self.ir[id];
         // Judged beforehand, so that no half-built composite stays behind.
-        let init = self.all_finite(constant.ty, &mut words.iter().copied()).then(|| {
-            let mut words = words.iter().copied();
+        let init = self.all_finite(constant.ty, &mut constant.words.iter().copied()).then(|| {
+            let mut words = constant.words.iter().copied();
             self.global_expression(constant.ty, &mut words)
         });
         self.consts.inits[id.index()] = Some(init);
@@ -90,22 +76,20 @@ impl Lowering<'_> {
     }
 
     fn all_finite(&self, ty: TypeId, words: &mut dyn Iterator<Item = u32>) -> bool {
-        let hir = self.hir;
-        match hir.types.get(ty) {
+        match self.ir.types.get(ty) {
             Type::Array { element, len } => (0..len).all(|_| self.all_finite(element, words)),
-            Type::Struct(id) => hir[hir[id].members].iter().all(|member| self.all_finite(member.ty, words)),
+            Type::Struct(id) => self.ir.structs[id.index()].iter().all(|&member| self.all_finite(member, words)),
             _ => {
-                let scalar = hir.types.scalar(ty).expect("a value");
-                let count = hir.types.components(ty).expect("a value");
-                // Takes all words of this part even after a bad one is seen: the caller goes on only if all are good.
+                let scalar = self.ir.scalar(ty);
+                let count = self.ir.types.components(ty).expect("a value");
                 (0..count).all(|_| words.next().is_some_and(|bits| literal(scalar, bits).is_some()))
             }
         }
     }
 
     fn global_expression(&mut self, ty: TypeId, words: &mut dyn Iterator<Item = u32>) -> Handle<Expression> {
-        let hir = self.hir;
-        let components = match hir.types.get(ty) {
+        let ir = self.ir;
+        let components = match ir.types.get(ty) {
             Type::Scalar(scalar) => {
                 return self.global_literal(scalar, words.next().expect("as many words as scalars"));
             }
@@ -119,7 +103,7 @@ impl Lowering<'_> {
             }
             Type::Array { element, len } => (0..len).map(|_| self.global_expression(element, words)).collect(),
             Type::Struct(id) => {
-                hir[hir[id].members].iter().map(|member| self.global_expression(member.ty, words)).collect()
+                ir.structs[id.index()].iter().map(|&member| self.global_expression(member, words)).collect()
             }
             other => unreachable!("{other:?} is no type of a value"),
         };
@@ -137,14 +121,14 @@ impl Lowering<'_> {
         })
     }
 
-    /// A private global that holds a folded value, for indexing.
+    /// A private global that holds a constant, for indexing.
     pub(super) fn private_table(&mut self, id: ConstId) -> Handle<GlobalVariable> {
-        let ty = self.ty(self.hir[id].ty);
+        let ty = self.ty(self.ir[id].ty);
         let init = self.constant_init(id);
         let table = self.private(ty, init);
         if init.is_none() {
             self.consts.set_at_start.push((table, id));
-            self.filled.insert(table);
+            self.overwritten.insert(table);
         }
         table
     }

@@ -1,11 +1,15 @@
-//! Types of the language, interned.
+//! Types of the language, interned: the vocabulary that the checked program and the intermediate representation share.
 
-use super::StructId;
-use crate::glsl::ast::{BasicType, Ident, List, Loc};
+use super::ast::{self, BasicType};
 use std::collections::HashMap;
 
+ast::ids! {
+    /// A struct type: an index into its module's structs.
+    StructId;
+}
+
 /// A type, interned: equal types have equal ids. The keyword types have fixed ids, for matching without a look-up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct TypeId(pub u32);
 
 impl TypeId {
@@ -206,19 +210,44 @@ fn basic_type(basic: BasicType) -> Type {
     }
 }
 
-/// A struct type. Member types are complete and none is void; names are distinct.
-#[derive(Clone, Copy, Debug)]
-pub struct Struct {
-    /// `None` for `struct { .. } x;`.
-    pub name: Option<Ident>,
-    pub ty: TypeId,
-    pub members: List<StructMember>,
-    #[expect(dead_code, reason = "every node says where it stands")]
-    pub loc: Loc,
+/// One to four components of a vector, 0 to 3 each, packed. The checker guarantees they exist in the base.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Swizzle(u16);
+
+impl Swizzle {
+    /// `components` has 1 to 4 entries below 4.
+    pub fn new(components: &[u8]) -> Self {
+        debug_assert!((1..=4).contains(&components.len()));
+        let mut bits = (components.len() as u16) << 8;
+        for (i, &component) in components.iter().enumerate() {
+            debug_assert!(component < 4);
+            bits |= u16::from(component) << (2 * i);
+        }
+        Self(bits)
+    }
+
+    pub fn len(self) -> usize {
+        usize::from(self.0 >> 8)
+    }
+
+    pub fn get(self, i: usize) -> usize {
+        usize::from(self.0 >> (2 * i)) & 3
+    }
+
+    pub fn iter(self) -> impl Iterator<Item = usize> {
+        (0..self.len()).map(move |i| self.get(i))
+    }
+
+    /// A component occurs twice: not a place.
+    pub fn repeats(self) -> bool {
+        let seen = self.iter().fold(0u8, |seen, c| seen | 1 << c);
+        seen.count_ones() as usize != self.len()
+    }
 }
 
-#[derive(Clone, Copy, Debug)]
-pub struct StructMember {
-    pub name: Ident,
-    pub ty: TypeId,
+impl std::fmt::Debug for Swizzle {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(".")?;
+        self.iter().try_for_each(|c| f.write_str(["x", "y", "z", "w"][c]))
+    }
 }

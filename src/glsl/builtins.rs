@@ -1,7 +1,9 @@
 //! What the language and the site bring along: built-in functions, uniforms, variables.
 
-use super::{TypeId, TypeTable};
-use crate::glsl::ast::Symbol;
+use super::{
+    ast::Symbol,
+    types::{TypeId, TypeTable},
+};
 
 /// Declares an enum of names that are seeded into the interner in order.
 macro_rules! named {
@@ -173,6 +175,13 @@ named! {
     CameraPosition = "iCameraPosition";
     /// `int[4]`, reached only as `iCh0.loaded`; its name is no identifier a user can write.
     ChannelLoaded = "iCh*.loaded";
+}
+
+impl Builtin {
+    /// Whether it is of section 8.8, texture look-up functions.
+    pub fn is_texture(self) -> bool {
+        (Builtin::TextureSize..=Builtin::TextureProjGradOffset).contains(&self)
+    }
 }
 
 impl Uniform {

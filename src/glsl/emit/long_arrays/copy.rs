@@ -8,8 +8,8 @@ use naga::{
     TypeInner,
 };
 
+use super::Value;
 use super::{LEAST_ARRAY, LEAST_COPY, fill::Writer};
-use crate::glsl::lower::function::Value;
 
 /// Loads since which nothing has written what they read, each with its pointer's root.
 #[derive(Default)]

@@ -7,7 +7,7 @@
 //! - writes the zeros that arrays begin with by loops ([`fill`]), and says so, so that the initialisers can be left out
 //!   ([`crate::glsl::Compiled::filled_arrays`]);
 //! - copies long arrays by loops, and tables into those that begin with constants ([`copy`]; the tables are made where
-//!   constants are lowered, and calls pass and return long values by pointer, [`super::Lowering::is_long`]).
+//!   constants are emitted, and calls pass and return long values by pointer, [`super::Emitter::is_long`]).
 
 mod copy;
 mod fill;
@@ -23,6 +23,9 @@ use naga::{
 use fill::Writer;
 use sizes::Sizes;
 
+/// An expression of a function.
+type Value = Handle<Expression>;
+
 /// Scalars of all arrays without a value of a program, from which on it is changed at all. 100 zeros take lavapipe 0.4 s,
 /// 160 take 1.5 s, 256 take 6 s.
 const FEWEST_SCALARS: u32 = 128;
@@ -32,7 +35,7 @@ const LEAST_ARRAY: u32 = 16;
 
 /// Scalars from which on an array, and a constant, is copied by a loop. lavapipe stores to an element that a loop counts lane
 /// by lane, which takes up to twice as long.
-pub(super) const LEAST_COPY: u32 = 128;
+pub(in crate::glsl) const LEAST_COPY: u32 = 128;
 
 /// Scalars that one block of zeros writes.
 const BLOCK: u32 = 32;

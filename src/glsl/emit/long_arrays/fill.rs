@@ -5,8 +5,8 @@ use naga::{
     LocalVariable, Range, ScalarKind, Span, Statement, Type, TypeInner, UniqueArena,
 };
 
+use super::Value;
 use super::{BLOCK, LEAST_ARRAY, copy::Loads, sizes::Sizes};
-use crate::glsl::lower::function::Value;
 
 /// Writes loops into one function.
 pub(super) struct Writer<'a> {

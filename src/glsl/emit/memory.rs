@@ -1,0 +1,192 @@
+//! Places: the memory that a program names, in the blocks and buffers where it lies.
+//!
+//! In a uniform buffer the elements of an array of scalars and vectors lie in slots of 16 bytes: `iChannelTime` and constant
+//! tables are read as such.
+
+use naga::{Expression, GlobalVariable, Handle, SwizzleComponent};
+
+use super::{
+    function::Builder,
+    resources::{self, CUBE_FACE, ZERO},
+    tables::TablePlace,
+};
+use crate::glsl::{
+    builtins::Uniform,
+    ir::{GlobalId, GlobalKind, Op, Value},
+    types::{Type, TypeId},
+};
+
+/// A pointer to what an element of a padded array lies in.
+enum Slot {
+    /// The element itself.
+    Whole(Handle<Expression>),
+    /// A vector of four, of which the first two count.
+    Two(Handle<Expression>),
+}
+
+impl Builder<'_, '_> {
+    /// The handle of a module-scope variable, or the pointer to it.
+    pub fn variable(&mut self, variable: Handle<GlobalVariable>) -> Handle<Expression> {
+        // naga makes no instruction of it: as many as there are uses do no harm.
+        self.given(Expression::GlobalVariable(variable))
+    }
+
+    /// The variable that a global of the program is by itself; none for a member of a block.
+    pub fn global(&mut self, id: GlobalId) -> Option<Handle<GlobalVariable>> {
+        match self.cx.ir[id].kind {
+            GlobalKind::Private { .. } => Some(self.cx.private_global(id)),
+            GlobalKind::Table(table) => match self.cx.table_place(table) {
+                TablePlace::Private(variable) => Some(variable),
+                TablePlace::Uniform(_) | TablePlace::Storage(_) => None,
+            },
+            GlobalKind::Uniform(_) | GlobalKind::Knob(_) | GlobalKind::CubeFace => None,
+        }
+    }
+
+    /// The pointer to a member of a block or buffer.
+    pub fn block_member_of(&mut self, id: GlobalId) -> Handle<Expression> {
+        let (block, index) = match self.cx.ir[id].kind {
+            GlobalKind::Uniform(uniform) => match uniform.geometry_member() {
+                Some(index) => (self.cx.geometry_block(), index),
+                None => {
+                    let (member, name) = resources::uniform(uniform);
+                    self.cx.reflection.uniforms.insert(name);
+                    (self.cx.block(), member)
+                }
+            },
+            GlobalKind::Knob(slot) => {
+                self.cx.reflection.knobs.insert(slot);
+                (self.cx.knob_block(), slot.into())
+            }
+            GlobalKind::CubeFace => (self.cx.block(), CUBE_FACE),
+            GlobalKind::Table(table) => match self.cx.table_place(table) {
+                TablePlace::Uniform(index) => (self.cx.uniform_tables(), index),
+                TablePlace::Storage(index) => (self.cx.storage_tables(), index),
+                TablePlace::Private(_) => unreachable!("it is a variable of its own"),
+            },
+            GlobalKind::Private { .. } => unreachable!("it is a variable of its own"),
+        };
+        let is_face = self.cx.ir[id].kind == GlobalKind::CubeFace;
+        let base = self.variable(block);
+        let pointer = self.add(Expression::AccessIndex { base, index });
+        if is_face { self.add(Expression::AccessIndex { base: pointer, index: 0 }) } else { pointer }
+    }
+
+    /// Whether the elements of this array lie in slots.
+    fn is_padded(&mut self, place: Value) -> bool {
+        let Op::Global(id) = self.ir[place] else { return false };
+        match self.cx.ir[id].kind {
+            GlobalKind::Uniform(uniform) => uniform == Uniform::ChannelTime,
+            GlobalKind::Table(table) => matches!(self.cx.table_place(table), TablePlace::Uniform(_)),
+            _ => false,
+        }
+    }
+
+    /// The pointer to a part of a place; none where it is an element of which only a part of its slot counts.
+    pub fn part_of_place(&mut self, place: Value) -> Option<Handle<Expression>> {
+        let ir = self.ir;
+        let (Op::Part { base, .. } | Op::Element { base, .. }) = ir[place] else { unreachable!("it has a base") };
+        if self.is_padded(base) {
+            return match self.slot(place) {
+                Slot::Whole(pointer) => Some(pointer),
+                Slot::Two(_) => None,
+            };
+        }
+        let base = match ir[base] {
+            // A component of a vector of two in a slot of four.
+            Op::Part { base: array, .. } | Op::Element { base: array, .. } if self.is_padded(array) => {
+                match self.slot(base) {
+                    Slot::Whole(pointer) | Slot::Two(pointer) => pointer,
+                }
+            }
+            _ => self.value(base),
+        };
+        Some(match ir[place] {
+            Op::Part { index, .. } => self.add(Expression::AccessIndex { base, index }),
+            Op::Element { index, .. } => {
+                let index = self.value(index);
+                self.add(Expression::Access { base, index })
+            }
+            _ => unreachable!("seen above"),
+        })
+    }
+
+    /// Where an element of a padded array lies.
+    fn slot(&mut self, element: Value) -> Slot {
+        let ir = self.ir;
+        let (base, pointer) = match ir[element] {
+            Op::Part { base, index } => {
+                let array = self.value(base);
+                (base, self.add(Expression::AccessIndex { base: array, index }))
+            }
+            Op::Element { base, index } => {
+                let (array, index) = (self.value(base), self.value(index));
+                (base, self.add(Expression::Access { base: array, index }))
+            }
+            _ => unreachable!("an element has an index"),
+        };
+        debug_assert!(self.is_padded(base));
+        self.within_slot(pointer, ir.ty(element))
+    }
+
+    fn within_slot(&mut self, pointer: Handle<Expression>, ty: TypeId) -> Slot {
+        match self.cx.ir.types.get(ty) {
+            Type::Scalar(_) => Slot::Whole(self.add(Expression::AccessIndex { base: pointer, index: 0 })),
+            Type::Vector { size: 2, .. } => Slot::Two(pointer),
+            _ => Slot::Whole(pointer),
+        }
+    }
+
+    fn load_slot(&mut self, slot: Slot) -> Handle<Expression> {
+        match slot {
+            Slot::Whole(pointer) => self.add(Expression::Load { pointer }),
+            Slot::Two(pointer) => {
+                let vector = self.add(Expression::Load { pointer });
+                let pattern = [SwizzleComponent::X, SwizzleComponent::Y, SwizzleComponent::X, SwizzleComponent::X];
+                self.add(Expression::Swizzle { size: naga::VectorSize::Bi, vector, pattern })
+            }
+        }
+    }
+
+    /// What a place holds.
+    pub fn load(&mut self, place: Value) -> Handle<Expression> {
+        let ir = self.ir;
+        if self.is_padded(place) {
+            let Type::Array { element, len } = self.cx.ir.types.get(ir.ty(place)) else {
+                unreachable!("only arrays are padded")
+            };
+            let base = self.value(place);
+            let parts = (0..len).map(|index| {
+                let pointer = self.add(Expression::AccessIndex { base, index });
+                let slot = self.within_slot(pointer, element);
+                self.load_slot(slot)
+            });
+            let parts = parts.collect();
+            return self.compose(ir.ty(place), parts);
+        }
+        if let Op::Part { base, .. } | Op::Element { base, .. } = ir[place]
+            && self.is_padded(base)
+        {
+            let slot = self.slot(place);
+            return self.load_slot(slot);
+        }
+        let pointer = self.value(place);
+        self.add(Expression::Load { pointer })
+    }
+
+    /// The int that is always zero, though the driver cannot know it: a uniform or, where the driver compiles anew for each
+    /// value of those, what the entry point made.
+    pub fn opaque_zero(&mut self) -> Handle<Expression> {
+        let pointer = if self.cx.source.driver.opaque_uniforms {
+            let variable = self.cx.opaque_zero();
+            self.variable(variable)
+        } else {
+            let block = self.cx.block();
+            let base = self.variable(block);
+            let (member, component) = ZERO;
+            let pad = self.add(Expression::AccessIndex { base, index: member });
+            self.add(Expression::AccessIndex { base: pad, index: component })
+        };
+        self.add(Expression::Load { pointer })
+    }
+}

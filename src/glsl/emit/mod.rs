@@ -1,0 +1,110 @@
+//! Emission: the intermediate representation as a [`naga::Module`].
+//!
+//! Owns types, constants, tables, resources and entry points of the module, the order of its expressions, and what drivers need
+//! done otherwise ([`long_arrays`]; each names the driver and the fault). Says in the reflection what the module declares.
+//!
+//! naga knows no bounds of indices and guards divisions by functions of its own: both are taken care of before
+//! ([`super::ir`]), so that modules need none.
+
+mod consts;
+mod entry;
+mod function;
+mod long_arrays;
+mod memory;
+mod resources;
+mod tables;
+mod types;
+
+use std::collections::HashSet;
+
+use naga::{FastHashMap, GlobalVariable, Handle};
+
+pub(in crate::glsl) use self::long_arrays::LEAST_COPY;
+pub(crate) use self::tables::TableBytes;
+pub(in crate::glsl) use self::tables::{LARGE, NOT_UNROLLED};
+use self::{consts::Constants, resources::Resources, tables::Tables};
+use super::{
+    PassSource, Reflection,
+    interface::KNOB_BYTES,
+    ir::{self, layout::Layouts},
+};
+
+/// What emission makes.
+pub(crate) struct Emitted {
+    pub module: naga::Module,
+    pub tables: TableBytes,
+    /// Size of the array of the author's own uniforms; 0 if the module has none.
+    pub knob_bytes: u64,
+    /// See [`super::Compiled::filled_arrays`].
+    pub filled_arrays: Option<u32>,
+}
+
+/// Emits a program, which keeps the rules of [`ir::verify`]; adds to `reflection` what the module declares. The result
+/// validates; a validation error is a bug of this compiler.
+pub(in crate::glsl) fn emit(program: &ir::Module, source: &PassSource<'_>, reflection: &mut Reflection) -> Emitted {
+    let mut emitter = Emitter {
+        ir: program,
+        source,
+        reflection,
+        out: naga::Module::default(),
+        types: vec![None; program.types.len()],
+        layouts: Layouts::default(),
+        consts: Constants::new(program.consts.len()),
+        tables: Tables::default(),
+        resources: Resources::default(),
+        functions: Vec::with_capacity(program.functions.len()),
+        overwritten: HashSet::new(),
+    };
+    let (entry, functions) = program.functions.split_last().expect("a program has an entry point");
+    for function in functions {
+        let function = function::emit(&mut emitter, function);
+        let handle = emitter.out.functions.append(function, naga::Span::UNDEFINED);
+        emitter.functions.push(handle);
+    }
+    entry::emit(&mut emitter, entry);
+    let tables = emitter.finish_tables();
+    let slots = u64::from(emitter.knob_slots());
+    let knob_bytes = if emitter.reflection.knobs.is_empty() { 0 } else { slots * KNOB_BYTES };
+    let Emitter { mut out, overwritten, .. } = emitter;
+    let filled_arrays = if source.driver.array_loops { long_arrays::write(&mut out, &overwritten) } else { None };
+    Emitted { module: out, tables, knob_bytes, filled_arrays }
+}
+
+/// Checks an emitted module. An error is a bug of this compiler, never the author's.
+pub(crate) fn validate(module: &naga::Module) -> Result<naga::valid::ModuleInfo, String> {
+    use naga::valid::{Capabilities, ValidationFlags, Validator};
+    // `packHalf2x16` needs the second; every desktop device has it.
+    let capabilities = Capabilities::default() | Capabilities::SHADER_FLOAT16_IN_FLOAT32;
+    Validator::new(ValidationFlags::all(), capabilities).validate(module).map_err(|error| {
+        let error = error.into_inner();
+        let mut text = error.to_string();
+        let mut source = std::error::Error::source(&error);
+        while let Some(cause) = source {
+            text.push_str(": ");
+            text.push_str(&cause.to_string());
+            source = cause.source();
+        }
+        text
+    })
+}
+
+/// State of emitting one module. What belongs to one function is in [`function::Builder`].
+struct Emitter<'a> {
+    ir: &'a ir::Module,
+    source: &'a PassSource<'a>,
+    reflection: &'a mut Reflection,
+    out: naga::Module,
+    /// By [`TypeId`](super::types::TypeId).
+    types: Vec<Option<Handle<naga::Type>>>,
+    layouts: Layouts,
+    consts: Constants,
+    tables: Tables,
+    resources: Resources,
+    /// By [`ir::FuncId`].
+    functions: Vec<Handle<naga::Function>>,
+    /// Private memory that is stored as a whole before anything reads it.
+    overwritten: HashSet<Handle<GlobalVariable>>,
+}
+
+/// Handles by 32-bit keys, with naga's quick hash.
+type Map<K, V> = FastHashMap<K, V>;

@@ -1,0 +1,266 @@
+//! Module-scope variables: the uniform blocks, channels, and the memory that functions share.
+//!
+//! Each is declared when it is first reached, and noted in the reflection.
+
+use std::num::NonZeroU32;
+
+use naga::{
+    AddressSpace, ArraySize, GlobalVariable, Handle, ImageClass, ImageDimension, ResourceBinding, ScalarKind, Span,
+    StructMember, TypeInner, VectorSize,
+};
+
+use super::Emitter;
+use crate::glsl::{
+    ChannelKind, UniformSet,
+    builtins::Uniform,
+    interface::{self, GeometryBlock, UniformBlock},
+    ir::{GlobalId, GlobalKind},
+    types::{Scalar, TypeId},
+};
+
+/// Variables declared so far.
+#[derive(Default)]
+pub(super) struct Resources {
+    block: Option<Handle<GlobalVariable>>,
+    knob_block: Option<Handle<GlobalVariable>>,
+    textures: [Option<Handle<GlobalVariable>>; 4],
+    samplers: [Option<Handle<GlobalVariable>>; 4],
+    /// Private memory, by [`GlobalId::index`].
+    private: Vec<Option<Handle<GlobalVariable>>>,
+    geometry: Option<Handle<GlobalVariable>>,
+    /// Holds the zero that the driver cannot know.
+    pub opaque_zero: Option<Handle<GlobalVariable>>,
+}
+
+/// Member of the block: name, offset, and what the reflection calls it.
+macro_rules! members {
+    ($($name:literal $field:ident $kind:ident;)*) => {
+        [$(($name, std::mem::offset_of!(UniformBlock, $field) as u32, Member::$kind)),*]
+    };
+}
+
+#[derive(Clone, Copy)]
+enum Member {
+    Float,
+    Int,
+    Vec3,
+    Vec4,
+    Int2,
+    Int4,
+    /// `float[4]` in slots of 16 bytes.
+    Floats,
+    Vec3s,
+}
+
+/// Fields of [`UniformBlock`] in order.
+const MEMBERS: [(&str, u32, Member); 14] = members! {
+    "iResolution" resolution Vec3;
+    "iTime" time Float;
+    "iMouse" mouse Vec4;
+    "iDate" date Vec4;
+    "iTimeDelta" time_delta Float;
+    "iFrameRate" frame_rate Float;
+    "iSampleRate" sample_rate Float;
+    "iFrame" frame Int;
+    "iChannelTime" channel_time Floats;
+    "iChannelResolution" channel_resolution Vec3s;
+    "iTimeOffset" time_offset Float;
+    "iSampleOffset" sample_offset Int;
+    "cube_face" pad Int2;
+    "iChannelLoaded" channel_loaded Int4;
+};
+
+/// Position of a uniform in [`MEMBERS`], and its name in the reflection.
+pub(super) fn uniform(uniform: Uniform) -> (u32, UniformSet) {
+    match uniform {
+        Uniform::Resolution => (0, UniformSet::RESOLUTION),
+        Uniform::Time => (1, UniformSet::TIME),
+        Uniform::Mouse => (2, UniformSet::MOUSE),
+        Uniform::Date => (3, UniformSet::DATE),
+        Uniform::TimeDelta => (4, UniformSet::TIME_DELTA),
+        Uniform::FrameRate => (5, UniformSet::FRAME_RATE),
+        Uniform::SampleRate => (6, UniformSet::SAMPLE_RATE),
+        Uniform::Frame => (7, UniformSet::FRAME),
+        Uniform::ChannelTime => (8, UniformSet::CHANNEL_TIME),
+        Uniform::ChannelResolution => (9, UniformSet::CHANNEL_RESOLUTION),
+        Uniform::TimeOffset => (10, UniformSet::TIME_OFFSET),
+        Uniform::SampleOffset => (11, UniformSet::SAMPLE_OFFSET),
+        Uniform::ChannelLoaded => (13, UniformSet::CHANNEL_LOADED),
+        Uniform::Model | Uniform::View | Uniform::Projection | Uniform::NormalMatrix | Uniform::CameraPosition => {
+            unreachable!("they lie in the geometry block")
+        }
+    }
+}
+
+/// Position of the cube face in [`MEMBERS`].
+pub(super) const CUBE_FACE: u32 = 12;
+
+/// A member of the block that is always zero.
+pub(super) const ZERO: (u32, u32) = (CUBE_FACE, 1);
+
+impl Emitter<'_> {
+    pub(super) fn variable(
+        &mut self,
+        space: AddressSpace,
+        ty: Handle<naga::Type>,
+        binding: Option<ResourceBinding>,
+        init: Option<Handle<naga::Expression>>,
+    ) -> Handle<GlobalVariable> {
+        let memory_decorations = naga::MemoryDecorations::empty();
+        let variable = GlobalVariable { name: None, space, binding, ty, init, memory_decorations };
+        self.out.global_variables.append(variable, Span::UNDEFINED)
+    }
+
+    /// Memory of one invocation, zero at its start unless `init` says otherwise.
+    pub fn private(
+        &mut self,
+        ty: Handle<naga::Type>,
+        init: Option<Handle<naga::Expression>>,
+    ) -> Handle<GlobalVariable> {
+        self.variable(AddressSpace::Private, ty, None, init)
+    }
+
+    /// The uniform block.
+    pub fn block(&mut self) -> Handle<GlobalVariable> {
+        if let Some(block) = self.resources.block {
+            return block;
+        }
+        let mut members = Vec::with_capacity(MEMBERS.len());
+        for (name, offset, member) in MEMBERS {
+            let four = ArraySize::Constant(NonZeroU32::new(4).expect("not zero"));
+            let vector = |size, scalar| TypeInner::Vector { size, scalar };
+            let inner = match member {
+                Member::Float => TypeInner::Scalar(naga::Scalar::F32),
+                Member::Int => TypeInner::Scalar(naga::Scalar::I32),
+                Member::Vec3 => vector(VectorSize::Tri, naga::Scalar::F32),
+                Member::Vec4 => vector(VectorSize::Quad, naga::Scalar::F32),
+                Member::Int2 => vector(VectorSize::Bi, naga::Scalar::I32),
+                Member::Int4 => vector(VectorSize::Quad, naga::Scalar::I32),
+                Member::Floats => TypeInner::Array { base: self.ty(TypeId::VEC4), size: four, stride: 16 },
+                Member::Vec3s => TypeInner::Array { base: self.ty(TypeId::VEC3), size: four, stride: 16 },
+            };
+            let ty = self.insert_type(inner);
+            members.push(StructMember { name: Some(name.into()), ty, binding: None, offset });
+        }
+        let span = size_of::<UniformBlock>() as u32;
+        let ty = self.insert_type(TypeInner::Struct { members, span });
+        let binding = ResourceBinding { group: interface::UNIFORM_GROUP, binding: 0 };
+        let block = self.variable(AddressSpace::Uniform, ty, Some(binding), None);
+        self.resources.block = Some(block);
+        block
+    }
+
+    /// What a mesh is drawn with.
+    pub fn geometry_block(&mut self) -> Handle<GlobalVariable> {
+        if let Some(block) = self.resources.geometry {
+            return block;
+        }
+        let mat4 = TypeId::matrix(4, 4);
+        let fields = [
+            ("iModel", mat4, std::mem::offset_of!(GeometryBlock, model)),
+            ("iView", mat4, std::mem::offset_of!(GeometryBlock, view)),
+            ("iProjection", mat4, std::mem::offset_of!(GeometryBlock, projection)),
+            ("iNormalMatrix", TypeId::matrix(3, 3), std::mem::offset_of!(GeometryBlock, normal)),
+            ("iCameraPosition", TypeId::VEC3, std::mem::offset_of!(GeometryBlock, camera)),
+        ];
+        let mut member = |(name, ty, offset): (&str, TypeId, usize)| {
+            let ty = self.ty(ty);
+            StructMember { name: Some(name.into()), ty, binding: None, offset: offset as u32 }
+        };
+        let members = fields.into_iter().map(&mut member).collect();
+        let span = size_of::<GeometryBlock>() as u32;
+        let ty = self.insert_type(TypeInner::Struct { members, span });
+        let binding = ResourceBinding { group: interface::UNIFORM_GROUP, binding: interface::GEOMETRY_BINDING };
+        let block = self.variable(AddressSpace::Uniform, ty, Some(binding), None);
+        self.resources.geometry = Some(block);
+        self.reflection.geometry = true;
+        block
+    }
+
+    /// Slots up to the last that the pass may name.
+    pub fn knob_slots(&self) -> u32 {
+        self.source.knobs.iter().map(|k| u32::from(k.slot) + 1).max().unwrap_or(0)
+    }
+
+    /// The author's own uniforms: an array of slots, because every backend lays that out alike.
+    pub fn knob_block(&mut self) -> Handle<GlobalVariable> {
+        if let Some(block) = self.resources.knob_block {
+            return block;
+        }
+        let base = self.ty(TypeId::vector(Scalar::Uint, 4));
+        let size = ArraySize::Constant(NonZeroU32::new(self.knob_slots()).expect("at least one"));
+        let ty = self.insert_type(TypeInner::Array { base, size, stride: interface::KNOB_BYTES as u32 });
+        let binding = ResourceBinding { group: interface::UNIFORM_GROUP, binding: interface::KNOB_BINDING };
+        let block = self.variable(AddressSpace::Uniform, ty, Some(binding), None);
+        self.resources.knob_block = Some(block);
+        block
+    }
+
+    /// The texture of a channel.
+    pub fn texture(&mut self, channel: u8) -> Handle<GlobalVariable> {
+        let i = usize::from(channel);
+        if let Some(texture) = self.resources.textures[i] {
+            return texture;
+        }
+        let dim = match self.source.channels[i] {
+            ChannelKind::Sampler2D => ImageDimension::D2,
+            ChannelKind::Sampler3D => ImageDimension::D3,
+            ChannelKind::SamplerCube => ImageDimension::Cube,
+        };
+        let class = ImageClass::Sampled { kind: ScalarKind::Float, multi: false };
+        let ty = self.insert_type(TypeInner::Image { dim, arrayed: false, class });
+        let binding = ResourceBinding { group: interface::CHANNEL_GROUP, binding: interface::texture_binding(i) };
+        let texture = self.variable(AddressSpace::Handle, ty, Some(binding), None);
+        self.resources.textures[i] = Some(texture);
+        self.reflection.channels[i].texture = true;
+        texture
+    }
+
+    /// The sampler of a channel.
+    pub fn sampler(&mut self, channel: u8) -> Handle<GlobalVariable> {
+        let i = usize::from(channel);
+        if let Some(sampler) = self.resources.samplers[i] {
+            return sampler;
+        }
+        let ty = self.insert_type(TypeInner::Sampler { comparison: false });
+        let binding = ResourceBinding { group: interface::CHANNEL_GROUP, binding: interface::sampler_binding(i) };
+        let sampler = self.variable(AddressSpace::Handle, ty, Some(binding), None);
+        self.resources.samplers[i] = Some(sampler);
+        self.reflection.channels[i].sampler = true;
+        sampler
+    }
+
+    /// Private memory, set to its constant value where it has one.
+    pub fn private_global(&mut self, id: GlobalId) -> Handle<GlobalVariable> {
+        if let Some(&Some(made)) = self.resources.private.get(id.index()) {
+            return made;
+        }
+        let global = self.ir[id];
+        let GlobalKind::Private { init, overwritten } = global.kind else { unreachable!("not private: {global:?}") };
+        let ty = self.ty(global.ty);
+        let is_copied = self.is_long(global.ty);
+        let value = init.filter(|_| !is_copied).and_then(|init| self.constant_init(init));
+        let made = self.private(ty, value);
+        if let (Some(init), None) = (init, value) {
+            self.consts.set_at_start.push((made, init));
+            self.overwritten.insert(made);
+        }
+        if overwritten {
+            self.overwritten.insert(made);
+        }
+        if self.resources.private.len() <= id.index() {
+            self.resources.private.resize(self.ir.globals.len().max(id.index() + 1), None);
+        }
+        self.resources.private[id.index()] = Some(made);
+        made
+    }
+
+    /// The memory that holds the zero which the driver cannot know; the entry point sets it.
+    pub fn opaque_zero(&mut self) -> Handle<GlobalVariable> {
+        if self.resources.opaque_zero.is_none() {
+            let ty = self.ty(TypeId::INT);
+            self.resources.opaque_zero = Some(self.private(ty, None));
+        }
+        self.resources.opaque_zero.expect("just set")
+    }
+}

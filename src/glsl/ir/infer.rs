@@ -1,0 +1,59 @@
+//! The type of what an op computes.
+
+use super::{Function, Input, Math, Module, Op, Unary, Value};
+use crate::glsl::types::{Scalar, Type, TypeId};
+
+/// The type of an op of this function, or for a place that of what it holds.
+pub fn ty(module: &Module, function: &Function, op: &Op) -> TypeId {
+    let of = |value: Value| function.ty(value);
+    let size = |value: Value| (module.types.components(of(value)).unwrap_or(1)) as u8;
+    match *op {
+        Op::Literal(scalar, _) => TypeId::vector(scalar, 1),
+        Op::Zero(ty) | Op::Compose { ty, .. } => ty,
+        Op::Const(id) => module[id].ty,
+        Op::Param(index) => function.params[index as usize].ty,
+        Op::Var(id) => function.vars[id.index()].ty,
+        Op::Global(id) => module[id].ty,
+        Op::Input(Input::Position) => TypeId::VEC4,
+        Op::Input(Input::VertexIndex | Input::InstanceIndex) | Op::TextureLevels { .. } => TypeId::UINT,
+        Op::Input(Input::FrontFacing) | Op::All(_) | Op::Any(_) => TypeId::BOOL,
+        Op::Input(Input::Attribute { ty, .. } | Input::Varying { ty, .. }) => ty,
+        Op::Part { base, index } => module.part(of(base), index),
+        Op::Element { base, .. } => module.part(of(base), 0),
+        Op::Swizzle { vector, swizzle } => TypeId::vector(module.scalar(of(vector)), swizzle.len() as u8),
+        Op::Splat { size, value } => TypeId::vector(module.scalar(of(value)), size),
+        Op::Unary { op: Unary::LogicalNot | Unary::Negate | Unary::BitwiseNot, operand } => of(operand),
+        Op::Binary { op, left, right } => {
+            if op.is_comparison() {
+                return TypeId::vector(Scalar::Bool, size(left));
+            }
+            // A scalar meets each component of the other side.
+            match module.types.get(of(left)) {
+                Type::Scalar(_) => of(right),
+                _ => of(left),
+            }
+        }
+        Op::Math { fun, arg, .. } => math(module, fun, of(arg)),
+        Op::Select { accept, .. } => of(accept),
+        Op::Convert { value, to } | Op::Bitcast { value, to } => TypeId::vector(to, size(value)),
+        Op::Derivative { value, .. } => of(value),
+        Op::Sample { .. } | Op::Fetch { .. } => TypeId::VEC4,
+        Op::TextureSize { .. } => unreachable!("its type is the channel's"),
+        Op::Load { place } => of(place),
+        Op::Call { function, .. } => module[function].result,
+        Op::OpaqueZero => TypeId::INT,
+    }
+}
+
+fn math(module: &Module, fun: Math, arg: TypeId) -> TypeId {
+    match fun {
+        Math::Dot | Math::Length | Math::Determinant => TypeId::FLOAT,
+        Math::Pack2x16snorm | Math::Pack2x16unorm | Math::Pack2x16float => TypeId::UINT,
+        Math::Unpack2x16snorm | Math::Unpack2x16unorm | Math::Unpack2x16float => TypeId::VEC2,
+        Math::Transpose => match module.types.get(arg) {
+            Type::Matrix { columns, rows } => TypeId::matrix(rows, columns),
+            _ => arg,
+        },
+        _ => arg,
+    }
+}

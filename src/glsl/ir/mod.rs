@@ -1,0 +1,343 @@
+//! The intermediate representation: a program between the checked tree ([`super::hir`]) and the module of a graphics API.
+//!
+//! Owns its data ([`Module`], [`Function`], [`Op`]), the types of values ([`infer`]), the text form ([`print`]) and the rules that
+//! every program keeps ([`verify`]). Knows neither where programs come from nor what they become.
+//!
+//! The form is structured SSA over memory:
+//! - A [`Value`] is computed once, by the [`Op`] that it names, where a [`Stmt::Let`] stands. It may be used wherever that
+//!   statement dominates: later in the same block, and in blocks within.
+//! - Constants, inputs and addresses of variables are *free* ([`Op::is_free`]): no statement computes them, and they may be used
+//!   everywhere in their function.
+//! - A variable is memory. [`Op::Load`] reads it, [`Stmt::Store`] writes it. There are no phis: what differs between two ways to
+//!   one place lies in a variable.
+//! - A *place* is an address: a variable, or a part of one. [`Op::Part`] and [`Op::Element`] of a place are places. Places are
+//!   operands of loads, stores, calls and of these two only.
+//! - Control flow is structured: [`Stmt::If`], [`Stmt::Loop`], [`Stmt::Switch`] hold blocks.
+//!
+//! All integers wrap; a divisor is never zero, nor -1 where the quotient would overflow; an index is always in range. Lowering
+//! sees to that, and each pass keeps it. So a program can be run, by a device or step by step on the processor.
+
+pub mod infer;
+pub mod layout;
+mod op;
+pub mod print;
+pub mod verify;
+
+pub use op::{Axis, Binary, Input, Level, Math, Op, Unary};
+
+use super::{
+    ast::{self, Loc},
+    builtins::Uniform,
+    types::{Scalar, TypeId, TypeTable},
+};
+
+ast::ids! {
+    /// A value, or an address, of one function: an index into [`Function::ops`].
+    Value;
+    /// A variable of one function.
+    VarId;
+    /// A variable of the module.
+    GlobalId;
+    /// A function of the module.
+    FuncId;
+    /// A constant that is no scalar.
+    ConstId;
+}
+
+/// A program: functions, and the memory that they share.
+#[derive(Clone, Debug, Default)]
+pub struct Module {
+    pub types: TypeTable,
+    /// Types of the members of each structure, by [`StructId`](super::types::StructId).
+    pub structs: Vec<Vec<TypeId>>,
+    pub consts: Vec<Const>,
+    pub globals: Vec<Global>,
+    /// Callees before their callers; the last is the entry point.
+    pub functions: Vec<Function>,
+}
+
+/// A constant vector, matrix, array or structure.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Const {
+    pub ty: TypeId,
+    /// All scalars in memory order, 32 bits each: floats and ints bit for bit, bools 0 or 1; matrices column by column,
+    /// structures member by member.
+    pub words: Vec<u32>,
+}
+
+/// A variable of the module.
+#[derive(Clone, Copy, Debug)]
+pub struct Global {
+    pub ty: TypeId,
+    pub kind: GlobalKind,
+}
+
+/// Where a variable of the module lies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum GlobalKind {
+    /// Memory of one invocation. It begins with `init`, or with zeros; with anything if it is `overwritten`, that is, stored as
+    /// a whole before anything reads it.
+    Private { init: Option<ConstId>, overwritten: bool },
+    /// One of the site's uniforms: read only.
+    Uniform(Uniform),
+    /// The words, a `uvec4`, of the author's own uniform in this slot: read only.
+    Knob(u16),
+    /// Face of the cube map that is drawn, 0 to 5: read only.
+    CubeFace,
+    /// A constant that is indexed at run time: read only.
+    Table(ConstId),
+}
+
+impl GlobalKind {
+    /// Whether nothing writes it.
+    pub fn is_read_only(self) -> bool {
+        !matches!(self, GlobalKind::Private { .. })
+    }
+}
+
+/// A function.
+#[derive(Clone, Debug, Default)]
+pub struct Function {
+    pub params: Vec<Param>,
+    pub result: TypeId,
+    pub vars: Vec<Var>,
+    pub body: Block,
+    ops: Vec<Op>,
+    types: Vec<TypeId>,
+    locs: Vec<Loc>,
+}
+
+/// A parameter.
+#[derive(Clone, Copy, Debug)]
+pub struct Param {
+    pub ty: TypeId,
+    /// It is the address of a variable of the caller's that nothing else leads to.
+    pub by_reference: bool,
+}
+
+/// A variable of a function.
+#[derive(Clone, Copy, Debug)]
+pub struct Var {
+    pub ty: TypeId,
+    /// A constant that it holds whenever the function begins; else zeros.
+    pub init: Option<Value>,
+}
+
+/// Statements that run one after the other.
+pub type Block = Vec<Stmt>;
+
+/// A statement.
+#[derive(Clone, Debug)]
+pub enum Stmt {
+    /// Computes a value.
+    Let(Value),
+    /// Writes a value to a place.
+    Store {
+        place: Value,
+        value: Value,
+    },
+    If {
+        condition: Value,
+        accept: Block,
+        reject: Block,
+    },
+    /// Runs `body`, then `continuing`, until a `Break`, or until `break_if` is true after `continuing`.
+    Loop {
+        body: Block,
+        continuing: Block,
+        break_if: Option<Value>,
+    },
+    /// Runs the case that has the selector's value, or the default.
+    Switch {
+        selector: Value,
+        cases: Vec<Case>,
+    },
+    /// Leaves the innermost loop or switch.
+    Break,
+    /// Goes to the `continuing` part of the innermost loop.
+    Continue,
+    Return(Option<Value>),
+    /// Ends the invocation; it draws nothing.
+    Discard,
+    /// Ends the entry point, and hands these on.
+    Output(Vec<(Output, Value)>),
+}
+
+/// A case of a [`Stmt::Switch`].
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// Bits of an int or uint; none for the default.
+    pub label: Option<u32>,
+    pub body: Block,
+    /// The body is empty, and control goes on with the next case.
+    pub falls_through: bool,
+}
+
+/// What an entry point hands on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Output {
+    /// A target of a fragment stage.
+    Target(u32),
+    /// A variable for the fragment stage.
+    Varying { location: u32, flat: bool },
+    /// Where a vertex lies, in clip space.
+    Position,
+    /// The depth of a fragment.
+    Depth,
+}
+
+impl Function {
+    /// An empty function.
+    pub fn new(result: TypeId) -> Self {
+        Self { result, ..Self::default() }
+    }
+
+    /// Appends an op, for a statement to compute, or a free one.
+    pub fn append(&mut self, op: Op, ty: TypeId, loc: Loc) -> Value {
+        self.ops.push(op);
+        self.types.push(ty);
+        self.locs.push(loc);
+        Value::new(self.ops.len() - 1)
+    }
+
+    /// Puts another op in the place of the one that computes a value. Its type stays.
+    pub fn replace(&mut self, value: Value, op: Op) {
+        self.ops[value.index()] = op;
+    }
+
+    /// The type of a value, or of what a place holds.
+    pub fn ty(&self, value: Value) -> TypeId {
+        self.types[value.index()]
+    }
+
+    /// The part of the text that a value is computed for.
+    pub fn loc(&self, value: Value) -> Loc {
+        self.locs[value.index()]
+    }
+
+    /// How many values there are.
+    pub fn len(&self) -> usize {
+        self.ops.len()
+    }
+
+    /// All values, computed or not, operands before what uses them.
+    pub fn values(&self) -> impl Iterator<Item = (Value, &Op)> {
+        self.ops.iter().enumerate().map(|(i, op)| (Value::new(i), op))
+    }
+
+    pub fn add_var(&mut self, ty: TypeId) -> VarId {
+        self.vars.push(Var { ty, init: None });
+        VarId::new(self.vars.len() - 1)
+    }
+
+    /// The variable, parameter or global that a place is or lies in.
+    pub fn root(&self, mut place: Value) -> Value {
+        while let Op::Part { base, .. } | Op::Element { base, .. } = self[place] {
+            place = base;
+        }
+        place
+    }
+
+    /// Whether a value is an address.
+    pub fn is_place(&self, value: Value) -> bool {
+        match self[self.root(value)] {
+            Op::Var(_) | Op::Global(_) => true,
+            Op::Param(index) => self.params[index as usize].by_reference,
+            _ => false,
+        }
+    }
+}
+
+impl std::ops::Index<Value> for Function {
+    type Output = Op;
+
+    fn index(&self, value: Value) -> &Op {
+        &self.ops[value.index()]
+    }
+}
+
+impl Module {
+    /// Appends a constant.
+    pub fn constant(&mut self, ty: TypeId, words: Vec<u32>) -> ConstId {
+        self.consts.push(Const { ty, words });
+        ConstId::new(self.consts.len() - 1)
+    }
+
+    pub fn add_global(&mut self, ty: TypeId, kind: GlobalKind) -> GlobalId {
+        self.globals.push(Global { ty, kind });
+        GlobalId::new(self.globals.len() - 1)
+    }
+
+    /// How many parts a value of a type has: components, columns, elements, members. None of a scalar.
+    pub fn extent(&self, ty: TypeId) -> u32 {
+        use super::types::Type;
+        match self.types.get(ty) {
+            Type::Vector { size, .. } => size.into(),
+            Type::Matrix { columns, .. } => columns.into(),
+            Type::Array { len, .. } => len,
+            Type::Struct(id) => self.structs[id.index()].len() as u32,
+            _ => 0,
+        }
+    }
+
+    /// The type of a part.
+    pub fn part(&self, ty: TypeId, index: u32) -> TypeId {
+        use super::types::Type;
+        match self.types.get(ty) {
+            Type::Struct(id) => self.structs[id.index()][index as usize],
+            _ => self.types.element(ty).expect("only what has parts is taken apart"),
+        }
+    }
+
+    /// How many scalars a value has; stops counting past `most`, as structures may hold each other many times.
+    pub fn scalars_up_to(&self, ty: TypeId, most: usize) -> usize {
+        use super::types::Type;
+        match self.types.get(ty) {
+            Type::Struct(id) => self.structs[id.index()].iter().fold(0, |count, &member| match count > most {
+                true => count,
+                false => count + self.scalars_up_to(member, most - count),
+            }),
+            Type::Array { .. } => 1,
+            _ => self.types.components(ty).unwrap_or(1) as usize,
+        }
+    }
+
+    /// Whether some scalar of a value is a float.
+    pub fn holds_floats(&self, ty: TypeId) -> bool {
+        use super::types::Type;
+        match self.types.get(ty) {
+            Type::Array { element, .. } => self.holds_floats(element),
+            Type::Struct(id) => self.structs[id.index()].iter().any(|&member| self.holds_floats(member)),
+            _ => self.types.scalar(ty) == Some(Scalar::Float),
+        }
+    }
+
+    /// The component type of a scalar, vector or matrix.
+    pub fn scalar(&self, ty: TypeId) -> Scalar {
+        self.types.scalar(ty).expect("a scalar, vector or matrix")
+    }
+}
+
+impl std::ops::Index<ConstId> for Module {
+    type Output = Const;
+
+    fn index(&self, id: ConstId) -> &Const {
+        &self.consts[id.index()]
+    }
+}
+
+impl std::ops::Index<GlobalId> for Module {
+    type Output = Global;
+
+    fn index(&self, id: GlobalId) -> &Global {
+        &self.globals[id.index()]
+    }
+}
+
+impl std::ops::Index<FuncId> for Module {
+    type Output = Function;
+
+    fn index(&self, id: FuncId) -> &Function {
+        &self.functions[id.index()]
+    }
+}

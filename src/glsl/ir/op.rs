@@ -1,0 +1,333 @@
+//! Operations: what computes a value.
+
+use super::{ConstId, FuncId, GlobalId, Value, VarId};
+use crate::glsl::types::{Scalar, Swizzle, TypeId};
+
+/// What computes a value. Operands have the types that each op says; `verify` checks them.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Op {
+    // Free: no statement computes these.
+    /// A scalar, bit for bit; bools are 0 or 1.
+    Literal(Scalar, u32),
+    Zero(TypeId),
+    Const(ConstId),
+    /// A parameter: a value, or an address.
+    Param(u32),
+    /// The address of a variable of the function.
+    Var(VarId),
+    /// The address of a variable of the module.
+    Global(GlobalId),
+    /// Of the entry point: what the device hands it.
+    Input(Input),
+
+    // Parts of values and of places.
+    /// A member, an element, a column or a component, at an index that is in range.
+    Part {
+        base: Value,
+        index: u32,
+    },
+    /// The same at an index, int or uint, that is known when the program runs. Of values only vectors have such.
+    Element {
+        base: Value,
+        index: Value,
+    },
+    /// Two to four components of a vector.
+    Swizzle {
+        vector: Value,
+        swizzle: Swizzle,
+    },
+    /// A vector of `size` equal components.
+    Splat {
+        size: u8,
+        value: Value,
+    },
+    /// A value of its parts, in order. Of a vector they may be vectors themselves.
+    Compose {
+        ty: TypeId,
+        parts: Box<[Value]>,
+    },
+
+    // Arithmetic.
+    Unary {
+        op: Unary,
+        operand: Value,
+    },
+    Binary {
+        op: Binary,
+        left: Value,
+        right: Value,
+    },
+    Math {
+        fun: Math,
+        arg: Value,
+        arg1: Option<Value>,
+        arg2: Option<Value>,
+        arg3: Option<Value>,
+    },
+    /// One of two values of one type; `condition` is a bool, or a vector of as many.
+    Select {
+        condition: Value,
+        accept: Value,
+        reject: Value,
+    },
+    /// A scalar or vector of another component type.
+    Convert {
+        value: Value,
+        to: Scalar,
+    },
+    /// The same bits as another component type of 32 bits.
+    Bitcast {
+        value: Value,
+        to: Scalar,
+    },
+    /// Whether all components of a vector of bools are true.
+    All(Value),
+    /// Whether some component of a vector of bools is true.
+    Any(Value),
+    /// How a float changes from pixel to pixel.
+    Derivative {
+        axis: Axis,
+        value: Value,
+    },
+
+    // Textures: of a channel, 0 to 3.
+    Sample {
+        channel: u8,
+        coordinate: Value,
+        level: Level,
+        offset: Option<Value>,
+    },
+    /// A texel; zeros outside of the texture.
+    Fetch {
+        channel: u8,
+        coordinate: Value,
+        level: Value,
+    },
+    /// Ints.
+    TextureSize {
+        channel: u8,
+        level: Option<Value>,
+    },
+    /// A uint.
+    TextureLevels {
+        channel: u8,
+    },
+
+    // Memory and calls.
+    Load {
+        place: Value,
+    },
+    /// Void if the function is; a parameter by reference takes a place.
+    Call {
+        function: FuncId,
+        args: Box<[Value]>,
+    },
+
+    // Barriers.
+    /// The int 0, which no compiler behind this one can know.
+    OpaqueZero,
+}
+
+/// What the device hands to an entry point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Input {
+    /// `vec4`: where a fragment lies.
+    Position,
+    /// `uint`.
+    VertexIndex,
+    /// `uint`.
+    InstanceIndex,
+    /// `bool`.
+    FrontFacing,
+    /// A vertex attribute.
+    Attribute { location: u32, ty: TypeId },
+    /// A variable from the vertex stage.
+    Varying { location: u32, ty: TypeId, flat: bool },
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Unary {
+    Negate,
+    LogicalNot,
+    BitwiseNot,
+}
+
+/// Operators on scalars and vectors of one type. `Multiply` also takes a float scalar and a vector or matrix, in either order,
+/// and sums and differences take two matrices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(u8)]
+pub enum Binary {
+    Add,
+    Subtract,
+    Multiply,
+    Divide,
+    /// Of uints.
+    Modulo,
+    Equal,
+    NotEqual,
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+    And,
+    ExclusiveOr,
+    InclusiveOr,
+    LogicalAnd,
+    LogicalOr,
+    /// The right side is a uint below 32.
+    ShiftLeft,
+    ShiftRight,
+}
+
+impl Binary {
+    /// Whether the result is a bool for each component.
+    pub fn is_comparison(self) -> bool {
+        use Binary::*;
+        matches!(self, Equal | NotEqual | Less | LessEqual | Greater | GreaterEqual)
+    }
+}
+
+/// Functions of numbers: those of GLSL ES 3.00, chapter 8, that graphics APIs have too.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(u8)]
+pub enum Math {
+    Abs,
+    Sign,
+    Floor,
+    Ceil,
+    Trunc,
+    Round,
+    Fract,
+    Min,
+    Max,
+    Clamp,
+    Saturate,
+    Mix,
+    SmoothStep,
+    Sqrt,
+    InverseSqrt,
+    Pow,
+    Exp,
+    Exp2,
+    Log,
+    Log2,
+    Radians,
+    Degrees,
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    /// `atan(y, x)`.
+    Atan2,
+    Sinh,
+    Cosh,
+    Tanh,
+    Asinh,
+    Acosh,
+    Atanh,
+    Dot,
+    Cross,
+    Length,
+    Normalize,
+    FaceForward,
+    Determinant,
+    Transpose,
+    Pack2x16snorm,
+    Pack2x16unorm,
+    Pack2x16float,
+    Unpack2x16snorm,
+    Unpack2x16unorm,
+    Unpack2x16float,
+}
+
+/// A direction in which a value changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Axis {
+    X,
+    Y,
+    /// The sum of the magnitudes along both.
+    Width,
+}
+
+/// Which mip level a sample reads.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Level {
+    /// By the derivatives of the coordinate.
+    Auto,
+    Exact(Value),
+    Bias(Value),
+    Gradient {
+        x: Value,
+        y: Value,
+    },
+}
+
+impl Op {
+    /// Whether the value is there from the start of its function, without a statement.
+    pub fn is_free(&self) -> bool {
+        use Op::*;
+        matches!(self, Literal(..) | Zero(_) | Const(_) | Param(_) | Var(_) | Global(_) | Input(_))
+    }
+
+    /// Whether the same operands give the same value, anywhere and any number of times, without an effect.
+    pub fn is_pure(&self) -> bool {
+        use Op::*;
+        !matches!(self, Load { .. } | Call { .. } | Sample { .. } | Derivative { .. })
+    }
+
+    /// Visits the operands, in order.
+    pub fn operands(&self, mut visit: impl FnMut(Value)) {
+        self.clone().operands_mut(|operand| visit(*operand));
+    }
+
+    /// Visits the operands, in order, each of which may be changed.
+    pub fn operands_mut(&mut self, mut visit: impl FnMut(&mut Value)) {
+        use Op::*;
+        match self {
+            Literal(..)
+            | Zero(_)
+            | Const(_)
+            | Param(_)
+            | Var(_)
+            | Global(_)
+            | Input(_)
+            | TextureLevels { .. }
+            | OpaqueZero => {}
+            Compose { parts: all, .. } | Call { args: all, .. } => all.iter_mut().for_each(visit),
+            Element { base: a, index: b }
+            | Binary { left: a, right: b, .. }
+            | Fetch { coordinate: a, level: b, .. } => {
+                [a, b].into_iter().for_each(visit);
+            }
+            Part { base: a, .. }
+            | Swizzle { vector: a, .. }
+            | Splat { value: a, .. }
+            | Unary { operand: a, .. }
+            | Convert { value: a, .. }
+            | Bitcast { value: a, .. }
+            | All(a)
+            | Any(a)
+            | Derivative { value: a, .. }
+            | Load { place: a } => visit(a),
+            Select { condition, accept, reject } => [condition, accept, reject].into_iter().for_each(visit),
+            Math { arg, arg1, arg2, arg3, .. } => {
+                visit(arg);
+                [arg1, arg2, arg3].into_iter().flatten().for_each(visit);
+            }
+            Sample { coordinate, level, offset, .. } => {
+                visit(coordinate);
+                match level {
+                    Level::Auto => {}
+                    Level::Exact(level) | Level::Bias(level) => visit(level),
+                    Level::Gradient { x, y } => [x, y].into_iter().for_each(&mut visit),
+                }
+                offset.iter_mut().for_each(visit);
+            }
+            TextureSize { level, .. } => level.iter_mut().for_each(visit),
+        }
+    }
+}
+
+const _: () = assert!(size_of::<Op>() <= 32);

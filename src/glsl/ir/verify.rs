@@ -1,0 +1,263 @@
+//! The rules that every program keeps. A broken one is a bug of the part of the compiler that ran last.
+
+use super::{Block, FuncId, Function, Module, Op, Stmt, Value};
+use crate::glsl::types::{Scalar, Type, TypeId};
+
+/// Checks a program; an error says which rule is broken, and where.
+///
+/// - Each value is computed once, and where it is used its statement dominates.
+/// - Places are operands of loads, stores, parts and calls alone; stores write no read-only memory.
+/// - Types agree.
+/// - A `Break` or `Continue` stands in a loop or switch, and is the last statement of its block.
+pub fn verify(module: &Module) -> Result<(), String> {
+    for (index, function) in module.functions.iter().enumerate() {
+        let mut check =
+            Check { module, function, index, available: vec![false; function.len()], breakable: 0, loops: 0 };
+        for (value, op) in function.values() {
+            if op.is_free() {
+                check.available[value.index()] = true;
+            }
+        }
+        check.block(&function.body).map_err(|reason| format!("function {index}: {reason}"))?;
+    }
+    Ok(())
+}
+
+struct Check<'a> {
+    module: &'a Module,
+    function: &'a Function,
+    /// The function's number: it calls those before it alone.
+    index: usize,
+    /// Whether the value is computed wherever control passes here, by [`Value::index`].
+    available: Vec<bool>,
+    /// Loops and switches around, and loops.
+    breakable: usize,
+    loops: usize,
+}
+
+impl Check<'_> {
+    fn block(&mut self, block: &Block) -> Result<(), String> {
+        let mut defined = Vec::new();
+        for (i, stmt) in block.iter().enumerate() {
+            let ends = matches!(stmt, Stmt::Break | Stmt::Continue | Stmt::Return(_) | Stmt::Discard | Stmt::Output(_));
+            if ends && i + 1 < block.len() {
+                return Err(format!("statements follow {stmt:?}"));
+            }
+            self.statement(stmt, &mut defined)?;
+        }
+        for value in defined {
+            self.available[value.index()] = false;
+        }
+        Ok(())
+    }
+
+    fn statement(&mut self, stmt: &Stmt, defined: &mut Vec<Value>) -> Result<(), String> {
+        match stmt {
+            Stmt::Let(value) => {
+                self.op(*value)?;
+                if std::mem::replace(&mut self.available[value.index()], true) {
+                    return Err(format!("{value:?} is computed twice"));
+                }
+                defined.push(*value);
+            }
+            Stmt::Store { place, value } => {
+                self.place(*place)?;
+                self.value(*value)?;
+                self.expect(*value, self.function.ty(*place))?;
+                if let Op::Global(id) = self.function[self.function.root(*place)]
+                    && self.module[id].kind.is_read_only()
+                {
+                    return Err(format!("a store to {:?}", self.module[id]));
+                }
+            }
+            Stmt::If { condition, accept, reject } => {
+                self.value(*condition)?;
+                self.expect(*condition, TypeId::BOOL)?;
+                self.block(accept)?;
+                self.block(reject)?;
+            }
+            Stmt::Loop { body, continuing, break_if } => {
+                self.breakable += 1;
+                self.loops += 1;
+                self.block(body)?;
+                self.continuing(continuing, *break_if)?;
+                self.breakable -= 1;
+                self.loops -= 1;
+            }
+            Stmt::Switch { selector, cases } => {
+                self.value(*selector)?;
+                if !matches!(self.function.ty(*selector), TypeId::INT | TypeId::UINT) {
+                    return Err(format!("{selector:?} selects a case"));
+                }
+                self.breakable += 1;
+                for case in cases {
+                    self.block(&case.body)?;
+                }
+                self.breakable -= 1;
+            }
+            Stmt::Break if self.breakable == 0 => return Err("a break without a loop".into()),
+            Stmt::Continue if self.loops == 0 => return Err("a continue without a loop".into()),
+            Stmt::Return(value) => {
+                if let Some(value) = value {
+                    self.value(*value)?;
+                    self.expect(*value, self.function.result)?;
+                } else if self.function.result != TypeId::VOID {
+                    return Err("a return without a value".into());
+                }
+            }
+            Stmt::Output(parts) => {
+                for (_, value) in parts {
+                    self.value(*value)?;
+                }
+            }
+            Stmt::Break | Stmt::Continue | Stmt::Discard => {}
+        }
+        Ok(())
+    }
+
+    /// What `break_if` names may be computed in the block.
+    fn continuing(&mut self, block: &Block, break_if: Option<Value>) -> Result<(), String> {
+        let mut defined = Vec::new();
+        for stmt in block {
+            self.statement(stmt, &mut defined)?;
+        }
+        if let Some(value) = break_if {
+            self.value(value)?;
+            self.expect(value, TypeId::BOOL)?;
+        }
+        for value in defined {
+            self.available[value.index()] = false;
+        }
+        Ok(())
+    }
+
+    fn value(&self, value: Value) -> Result<(), String> {
+        if !self.available[value.index()] {
+            return Err(format!("{value:?} = {:?} is used where it is not computed", self.function[value]));
+        }
+        if self.function.is_place(value) {
+            return Err(format!("{value:?} is a place, and used as a value"));
+        }
+        Ok(())
+    }
+
+    fn place(&self, place: Value) -> Result<(), String> {
+        if !self.available[place.index()] {
+            return Err(format!("{place:?} = {:?} is used where it is not computed", self.function[place]));
+        }
+        if !self.function.is_place(place) {
+            return Err(format!("{place:?} = {:?} is no place", self.function[place]));
+        }
+        Ok(())
+    }
+
+    fn expect(&self, value: Value, ty: TypeId) -> Result<(), String> {
+        let found = self.function.ty(value);
+        match found == ty {
+            true => Ok(()),
+            false => Err(format!("{value:?} = {:?} has type {found:?}, not {ty:?}", self.function[value])),
+        }
+    }
+
+    fn op(&self, value: Value) -> Result<(), String> {
+        let f = self.function;
+        let op = &f[value];
+        if op.is_free() {
+            return Err(format!("{value:?} = {op:?} needs no statement"));
+        }
+        match *op {
+            Op::Part { base, index } => {
+                if !self.available[base.index()] {
+                    return self.value(base);
+                }
+                if index >= self.module.extent(f.ty(base)) {
+                    return Err(format!("{value:?} = {op:?} is out of range"));
+                }
+            }
+            Op::Element { base, index } => {
+                self.value(index)?;
+                if !matches!(f.ty(index), TypeId::INT | TypeId::UINT) {
+                    return Err(format!("{value:?} = {op:?} is indexed by {:?}", f.ty(index)));
+                }
+                if !f.is_place(base) {
+                    self.value(base)?;
+                    if !matches!(self.module.types.get(f.ty(base)), Type::Vector { .. }) {
+                        return Err(format!("{value:?} = {op:?} indexes a value that is no vector"));
+                    }
+                }
+            }
+            Op::Load { place } => self.place(place)?,
+            Op::Call { function, ref args } => self.call(function, args)?,
+            _ => {
+                let mut result = Ok(());
+                op.operands(|operand| {
+                    if result.is_ok() {
+                        result = self.value(operand);
+                    }
+                });
+                result?;
+            }
+        }
+        self.types(value)
+    }
+
+    fn call(&self, callee: FuncId, args: &[Value]) -> Result<(), String> {
+        if callee.index() >= self.index {
+            return Err(format!("a call of {callee:?}, which comes later"));
+        }
+        let params = &self.module[callee].params;
+        if params.len() != args.len() {
+            return Err(format!("a call of {callee:?} with {} arguments", args.len()));
+        }
+        for (param, &arg) in params.iter().zip(args) {
+            match param.by_reference {
+                true => self.place(arg)?,
+                false => self.value(arg)?,
+            }
+            self.expect(arg, param.ty)?;
+        }
+        Ok(())
+    }
+
+    fn types(&self, value: Value) -> Result<(), String> {
+        let f = self.function;
+        let op = &f[value];
+        let module = self.module;
+        let scalar = |value: Value| module.types.scalar(f.ty(value));
+        let fits = match *op {
+            Op::Binary { left, right, .. } => {
+                scalar(left) == scalar(right)
+                    || matches!(op, Op::Binary { op: super::Binary::ShiftLeft | super::Binary::ShiftRight, .. })
+            }
+            Op::Select { condition, accept, reject } => {
+                scalar(condition) == Some(Scalar::Bool) && f.ty(accept) == f.ty(reject)
+            }
+            Op::All(operand) | Op::Any(operand) => scalar(operand) == Some(Scalar::Bool),
+            Op::Compose { ty, ref parts } => self.composes(ty, parts),
+            _ => true,
+        };
+        let inferred = match op {
+            Op::TextureSize { .. } => f.ty(value),
+            _ => super::infer::ty(module, f, op),
+        };
+        if !fits || inferred != f.ty(value) {
+            return Err(format!("{value:?} = {op:?} does not fit its operands, or is no {:?}", f.ty(value)));
+        }
+        Ok(())
+    }
+
+    fn composes(&self, ty: TypeId, parts: &[Value]) -> bool {
+        let f = self.function;
+        match self.module.types.get(ty) {
+            Type::Vector { scalar, size } => {
+                let components = |part: &Value| self.module.types.components(f.ty(*part)).unwrap_or(0);
+                parts.iter().map(components).sum::<u32>() == u32::from(size)
+                    && parts.iter().all(|&part| self.module.types.scalar(f.ty(part)) == Some(scalar))
+            }
+            _ => {
+                parts.len() == self.module.extent(ty) as usize
+                    && (0..).zip(parts).all(|(i, &part)| f.ty(part) == self.module.part(ty, i))
+            }
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! The optimiser: passes over the intermediate representation, in one list.
+//!
+//! Owns what makes programs smaller, quicker, or alike to what other compilers make of them; their meaning it leaves alone. Each
+//! pass is a function over a whole program that keeps the rules of [`ir::verify`]: in debug builds they are checked after each.
+//! `docs/compiler.md` says what each pass is worth, and how to add one.
+
+mod array_to_global;
+mod sroa;
+
+use super::ir::{self, Module};
+
+/// A step of the optimiser.
+pub struct Pass {
+    pub name: &'static str,
+    /// One line: what it does, and what for.
+    pub purpose: &'static str,
+    pub run: fn(&mut Module),
+}
+
+/// All passes, in the order in which they run.
+pub const PASSES: &[Pass] = &[
+    Pass {
+        name: "array-to-global",
+        purpose: "moves arrays that each call fills anew to the module, so that they are not zeroed at each call",
+        run: array_to_global::run,
+    },
+    Pass { name: "sroa", purpose: "replaces vectors, matrices and structures in memory by scalars", run: sroa::run },
+];
+
+/// Runs all passes but those that are left out. `seen` gets the program before the first and after each.
+pub fn optimise(program: &mut Module, without: &[&str], mut seen: impl FnMut(&str, &Module)) {
+    verify(program, "lowering");
+    seen("lower", program);
+    for pass in PASSES.iter().filter(|pass| !without.contains(&pass.name)) {
+        (pass.run)(program);
+        verify(program, pass.name);
+        seen(pass.name, program);
+    }
+}
+
+/// # Panics
+/// In debug builds, if a rule is broken.
+fn verify(program: &Module, culprit: &str) {
+    if cfg!(debug_assertions)
+        && let Err(reason) = ir::verify::verify(program)
+    {
+        panic!("{culprit} breaks a rule of the intermediate representation: {reason}\n{}", ir::print::print(program));
+    }
+}
