@@ -136,9 +136,6 @@ impl Builder<'_, '_> {
             B::Pow => self.math2(Math::Pow, a, b),
             B::Min | B::Max => {
                 let b = fit(self, b, b_ty);
-                if let (B::Max, Some(inner)) = (builtin, self.cut_to_unit(a, b)) {
-                    return self.math(Math::Saturate, inner);
-                }
                 self.math2(if builtin == B::Min { Math::Min } else { Math::Max }, a, b)
             }
             B::Step => {

@@ -179,23 +179,6 @@ impl Builder<'_, '_> {
         (self.floats(zero)?[..] == [0.0]).then_some(arg)
     }
 
-    /// `x` of `max(min(x, 1.0), 0.0)`, which OpenGL's compilers take for `clamp(x, 0.0, 1.0)`: that says another thing of NaN.
-    pub fn cut_to_unit(&self, a: Value, b: Value) -> Option<Value> {
-        let is = |value, number: f32| self.floats(value).is_some_and(|all| all.iter().all(|&one| one == number));
-        let inner = if is(b, 0.0) { a } else { b };
-        if !is(a, 0.0) && !is(b, 0.0) {
-            return None;
-        }
-        let Op::Math { fun: Math::Min, arg, arg1: Some(arg1), .. } = self.f[inner] else {
-            return None;
-        };
-        match (is(arg, 1.0), is(arg1, 1.0)) {
-            (false, true) => Some(arg),
-            (true, false) => Some(arg1),
-            _ => None,
-        }
-    }
-
     /// The components of a float constant; one for a scalar or a repeated one.
     pub fn floats(&self, value: Value) -> Option<Vec<f32>> {
         match &self.f[value] {
