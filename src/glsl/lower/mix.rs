@@ -93,30 +93,12 @@ impl Builder<'_, '_> {
         if self.mix_shares_work(mixes, index) {
             let one = self.float(1.0);
             let rest = self.op(Binary::Subtract, one, a);
-            let x = self.gathered(x);
             let (left, right) = (self.op(Binary::Multiply, x, rest), self.op(Binary::Multiply, y, a));
             return self.op(Binary::Add, left, right);
         }
         let difference = self.op(Binary::Subtract, y, x);
         let part = self.op(Binary::Multiply, a, difference);
         self.op(Binary::Add, x, part)
-    }
-
-    /// `(b + c) k²` for `(b k + c k) k` with one literal `k`, as in the part of a vector along a constant axis: of a mix that is
-    /// written out as a sum of products, the sides were simplified before.
-    fn gathered(&mut self, x: Value) -> Value {
-        let gathered = || {
-            let is_literal = |value| self.number(value).is_some();
-            let [a, b] = self.operands(Binary::Multiply, x)?;
-            let (sum, k) = if is_literal(a) { (b, a) } else { (a, b) };
-            let [left, right] = self.operands(Binary::Add, sum)?;
-            is_literal(k).then_some((left, right, k))
-        };
-        let Some((left, right, k)) = gathered() else { return x };
-        let Some(product) = self.with_constant_factored(left, right) else { return x };
-        let Op::Binary { left: sum, right: inner, .. } = self.f[product] else { return x };
-        let k = self.op(Binary::Multiply, inner, k);
-        self.op(Binary::Multiply, sum, k)
     }
 
     fn mix_shares_work(&self, mixes: &[Mix], index: usize) -> bool {
