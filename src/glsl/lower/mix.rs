@@ -17,22 +17,16 @@ struct Mix {
 
 impl Builder<'_, '_> {
     pub fn mix(&mut self, ty: TypeId, x: Value, y: Value, a: Value) -> Value {
-        let mut mixes = Vec::new();
-        let mut around = Vec::new();
-        for index in 0..self.extent(ty) {
-            let [x, y, a] = [x, y, a].map(|value| match ty {
-                TypeId::FLOAT => value,
-                _ => self.add(Op::Part { base: value, index }),
-            });
-            let mut factors = Vec::new();
-            mixes.push(self.without_common(Mix { x, y, a }, &mut factors));
-            around.push(factors);
-        }
-        let mut parts = Vec::with_capacity(mixes.len());
-        for (index, factors) in around.into_iter().enumerate() {
-            let inner = self.mix_written_out(&mixes, index);
-            parts.push(factors.into_iter().rev().fold(inner, |inner, (op, common)| self.op(op, inner, common)));
-        }
+        let mixes: Vec<Mix> = (0..self.extent(ty))
+            .map(|index| {
+                let [x, y, a] = [x, y, a].map(|value| match ty {
+                    TypeId::FLOAT => value,
+                    _ => self.add(Op::Part { base: value, index }),
+                });
+                Mix { x, y, a }
+            })
+            .collect();
+        let parts: Vec<Value> = (0..mixes.len()).map(|index| self.mix_written_out(&mixes, index)).collect();
         match parts[..] {
             [scalar] => scalar,
             _ => {
@@ -41,26 +35,6 @@ impl Builder<'_, '_> {
                 vector
             }
         }
-    }
-
-    /// Takes out what both sides are sums or products with: `mix(p + x, p + y, a)` is `mix(x, y, a) + p`. What was taken out goes
-    /// to `around`, the outermost first.
-    fn without_common(&self, mix: Mix, around: &mut Vec<(Binary, Value)>) -> Mix {
-        if self.condition(mix.a).is_some() {
-            return mix;
-        }
-        for op in [Binary::Add, Binary::Multiply] {
-            let (Some([x0, x1]), Some([y0, y1])) = (self.operands(op, mix.x), self.operands(op, mix.y)) else {
-                continue;
-            };
-            for (common, x, other, y) in [(x0, x1, y0, y1), (x0, x1, y1, y0), (x1, x0, y0, y1), (x1, x0, y1, y0)] {
-                if common == other {
-                    around.push((op, common));
-                    return self.without_common(Mix { x, y, ..mix }, around);
-                }
-            }
-        }
-        mix
     }
 
     /// The sides of a sum or product that is used here alone.
