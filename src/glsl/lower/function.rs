@@ -80,8 +80,6 @@ pub(super) struct Builder<'m, 'a> {
     zeros: Map<TypeId, Value>,
     constants: Map<u32, Value>,
     globals: Map<ir::GlobalId, Value>,
-    /// The factors of each product of matrices: how many columns the left one has, left, right.
-    pub matrix_products: Map<Value, (u8, Value, Value)>,
     /// Values that variables stand for.
     named: HashSet<Value>,
     /// Values that variables stand for which are used more than once.
@@ -169,7 +167,6 @@ impl<'m, 'a> Builder<'m, 'a> {
             zeros: Map::default(),
             constants: Map::default(),
             globals: Map::default(),
-            matrix_products: Map::default(),
             named: Default::default(),
             shared: Default::default(),
             constructed: Default::default(),

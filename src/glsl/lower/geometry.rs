@@ -79,22 +79,6 @@ impl Builder<'_, '_> {
         self.select(total, zero, refracted)
     }
 
-    /// `m1 * m2 * v` as `m1 * (m2 * v)`, which is less work: GLSL leaves the order open. Not where `m1 * m2` is what a function
-    /// gave and a branch lies between.
-    pub fn matrices_times_vector(&mut self, size: (u8, u8), matrix: Value, vector: Value) -> Value {
-        let mut factors = vec![(size, matrix)];
-        while let Some(&(_, last)) = factors.last()
-            && let Some(&(inner, left, right)) = self.matrix_products.get(&last)
-            && !self.is_named(last)
-            && !(self.returned.contains(&last) && self.is_apart(last))
-        {
-            let ((columns, rows), _) = factors.pop().expect("seen above");
-            factors.extend([((inner, rows), left), ((columns, inner), right)]);
-        }
-        let product = |vector, (size, matrix)| self.matrix_times_vector(size, matrix, vector);
-        factors.into_iter().rev().fold(vector, product)
-    }
-
     /// `matCxR * vecC`: columns times components, added from the first on.
     pub fn matrix_times_vector(&mut self, (columns, rows): (u8, u8), matrix: Value, vector: Value) -> Value {
         let ty = TypeId::vector(Scalar::Float, rows);
@@ -133,8 +117,6 @@ impl Builder<'_, '_> {
             self.matrix_times_vector((inner, rows), left, column)
         });
         let columns = columns.collect();
-        let product = self.compose(ty, columns);
-        self.matrix_products.insert(product, (inner, left, right));
-        product
+        self.compose(ty, columns)
     }
 }

@@ -75,7 +75,7 @@ impl Builder<'_, '_> {
         };
         match (shape, types.get(left.0), types.get(right.0)) {
             (Shape::MatVec, Type::Matrix { columns, rows }, _) => {
-                return self.matrices_times_vector((columns, rows), left.1, right.1);
+                return self.matrix_times_vector((columns, rows), left.1, right.1);
             }
             (Shape::VecMat, _, Type::Matrix { columns, rows }) => {
                 return self.vector_times_matrix((columns, rows), left.1, right.1);
