@@ -85,11 +85,6 @@ impl Builder<'_, '_> {
             }
             _ => {}
         }
-        if matches!(op, Binary::Less | Binary::LessEqual | Binary::Greater | Binary::GreaterEqual)
-            && left.0 == TypeId::FLOAT
-        {
-            return self.order(op, left.1, right.1);
-        }
         let vector_ty = match shape {
             Shape::ScalarLeft => right.0,
             _ => left.0,

@@ -120,65 +120,6 @@ impl Builder<'_, '_> {
         self.op(op, left, right)
     }
 
-    /// An order of two floats as OpenGL's compilers have it, which take comparisons for inexact: `abs(a) > 0.0` is `a != 0.0`,
-    /// which NaN is.
-    pub fn order(&mut self, op: Binary, left: Value, right: Value) -> Value {
-        let positive = match op {
-            Binary::Less => self.magnitude_above_zero(right, left),
-            Binary::Greater => self.magnitude_above_zero(left, right),
-            _ => None,
-        };
-        let Some(number) = positive else {
-            return match self.order_with_constant(op, left, right) {
-                Some(order) => order,
-                None => self.op(op, left, right),
-            };
-        };
-        let zero = self.float(0.0);
-        let equal = self.op(Binary::Equal, number, zero);
-        self.not(equal)
-    }
-
-    /// `a + b < c` for literals `b` and `c` as `a < c - b`, and so for `>=`: Mesa looks for the sum on the left, once it has turned
-    /// `>` and `<=` around.
-    fn order_with_constant(&mut self, op: Binary, left: Value, right: Value) -> Option<Value> {
-        let (sum, limit) = match op {
-            Binary::Less | Binary::GreaterEqual => (left, right),
-            Binary::Greater | Binary::LessEqual => (right, left),
-            _ => return None,
-        };
-        let is_less = matches!(op, Binary::Less | Binary::Greater);
-        let number = |b: &Self, value| match b.floats(value)?[..] {
-            [number] => Some(number),
-            _ => None,
-        };
-        let limit = number(self, limit)?;
-        // A sum that is needed all the same stays, and a variable's may be.
-        if self.shared.contains(&sum) || (self.is_named(sum) && self.constructed.contains(&sum)) {
-            return None;
-        }
-        let Op::Binary { op: inner, left: a, right: b } = self.f[sum] else { return None };
-        let (rest, by) = match (inner, number(self, a), number(self, b)) {
-            (Binary::Add, None, Some(by)) => (a, by),
-            (Binary::Add, Some(by), None) => (b, by),
-            (Binary::Subtract, None, Some(by)) => (a, -by),
-            (Binary::Subtract, Some(by), None) => (self.add(Op::Unary { op: Unary::Negate, operand: b }), by),
-            _ => return None,
-        };
-        let limit = limit - by;
-        if !limit.is_finite() {
-            return None;
-        }
-        let limit = self.float(limit);
-        Some(self.op(if is_less { Binary::Less } else { Binary::GreaterEqual }, rest, limit))
-    }
-
-    /// What `abs` is taken of, in `abs(..) > 0.0`.
-    fn magnitude_above_zero(&self, magnitude: Value, zero: Value) -> Option<Value> {
-        let Op::Math { fun: Math::Abs, arg, .. } = self.f[magnitude] else { return None };
-        (self.floats(zero)?[..] == [0.0]).then_some(arg)
-    }
-
     /// The components of a float constant; one for a scalar or a repeated one.
     pub fn floats(&self, value: Value) -> Option<Vec<f32>> {
         match &self.f[value] {
