@@ -102,7 +102,7 @@ impl Builder<'_, '_> {
     pub fn vector_times_matrix(&mut self, (columns, rows): (u8, u8), vector: Value, matrix: Value) -> Value {
         let column_ty = TypeId::vector(Scalar::Float, rows);
         let parts = (0..u32::from(columns)).map(|index| {
-            let column = self.column(column_ty, matrix, index);
+            let column = self.add(Op::Part { base: matrix, index });
             self.dot(column_ty, vector, column)
         });
         let parts = parts.collect();

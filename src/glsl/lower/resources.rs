@@ -13,7 +13,6 @@ use crate::glsl::{
 /// Variables declared so far.
 pub(super) struct Resources {
     read_only: HashMap<GlobalKind, ir::GlobalId>,
-    vectors: HashMap<Vec<u32>, ir::ConstId>,
     /// By [`GlobalId::index`].
     globals: Vec<Option<ir::GlobalId>>,
     /// The other way round.
@@ -31,7 +30,6 @@ impl Resources {
     pub fn new(globals: usize) -> Self {
         Self {
             read_only: HashMap::new(),
-            vectors: HashMap::new(),
             globals: vec![None; globals],
             authors: Map::default(),
             frag_coord: None,
@@ -76,17 +74,6 @@ impl Lowering<'_> {
     pub fn table(&mut self, id: ir::ConstId) -> ir::GlobalId {
         let ty = self.out[id].ty;
         self.read_only(ty, GlobalKind::Table(id))
-    }
-
-    /// A vector of finite floats, by their bits.
-    pub fn vector_constant(&mut self, words: Vec<u32>) -> ir::ConstId {
-        if let Some(&made) = self.resources.vectors.get(&words) {
-            return made;
-        }
-        let ty = TypeId::vector(Scalar::Float, words.len() as u8);
-        let made = self.out.constant(ty, words.clone());
-        self.resources.vectors.insert(words, made);
-        made
     }
 
     /// The memory of a built-in variable of a stage.

@@ -119,30 +119,6 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// A column of a matrix. Where it is constant and has one number twice, its components are those of a constant instead of
-    /// literals: of a sum of products Mesa takes out what is one literal, but not what is two components of one vector.
-    pub fn column(&mut self, ty: TypeId, matrix: Value, index: u32) -> Value {
-        let column = self.add(Op::Part { base: matrix, index });
-        match self.floats(column) {
-            Some(numbers) if (1..numbers.len()).any(|i| numbers[..i].contains(&numbers[i])) => {
-                let parts = (0..numbers.len() as u32).map(|index| self.constant_component(&numbers, index)).collect();
-                self.compose(ty, parts)
-            }
-            _ => column,
-        }
-    }
-
-    fn constant_component(&mut self, numbers: &[f32], index: u32) -> Value {
-        let number = numbers[index as usize];
-        if matches!(number.abs(), 0.0 | 1.0) {
-            return self.float(number);
-        }
-        let words = numbers.iter().map(|number| number.to_bits()).collect();
-        let constant = self.cx.vector_constant(words);
-        let base = self.const_value(constant);
-        self.add_as_is(Op::Part { base, index })
-    }
-
     /// What a component of a value is, if no instruction is needed to take it out.
     pub fn known_component(&mut self, base: Value, index: u32) -> Option<Value> {
         match self.f[base] {
