@@ -1,8 +1,6 @@
 //! Built-in functions of chapter 8, textures excepted.
 
 use crate::glsl::ir::{Axis, Binary, Block, Math, Op, Stmt, Value};
-use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
-
 use super::{function::Builder, scalars};
 use crate::glsl::hir::{Builtin, ExprId, Scalar, TypeId};
 
@@ -67,7 +65,7 @@ impl Builder<'_, '_> {
             B::Sin => Math::Sin,
             B::Cos => Math::Cos,
             B::Tan => Math::Tan,
-            B::Asin => return self.asin(a),
+            B::Asin => Math::Asin,
             B::Acos => Math::Acos,
             B::Atan => Math::Atan,
             B::Sinh => Math::Sinh,
@@ -252,25 +250,6 @@ impl Builder<'_, '_> {
         let one = self.float(1.0);
         let x = self.select(nowhere, one, x);
         self.math2(Math::Atan2, y, x)
-    }
-
-    /// The polynomial of OpenGL's compilers, right to 0.0002. Mesa's Vulkan drivers have another one near zero, and a ray that is
-    /// marched by the difference ends elsewhere.
-    fn asin(&mut self, x: Value) -> Value {
-        let (one, right_angle) = (self.float(1.0), self.float(FRAC_PI_2));
-        let size = self.math(Math::Abs, x);
-        let mut sum = self.float(-0.031_029_55);
-        for coefficient in [0.086_566_724, FRAC_PI_4 - 1.0, FRAC_PI_2] {
-            let term = self.op(Binary::Multiply, size, sum);
-            let coefficient = self.float(coefficient);
-            sum = self.op(Binary::Add, coefficient, term);
-        }
-        let rest = self.op(Binary::Subtract, one, size);
-        let root = self.math(Math::Sqrt, rest);
-        let rest = self.op(Binary::Multiply, root, sum);
-        let angle = self.op(Binary::Subtract, right_angle, rest);
-        let sign = self.math(Math::Sign, x);
-        self.op(Binary::Multiply, sign, angle)
     }
 
     fn modf(&mut self, args: &[ExprId]) -> Value {
