@@ -127,13 +127,7 @@ impl Builder<'_, '_> {
             | ExprKind::Uniform(_)
             | ExprKind::Knob(_)
             | ExprKind::BuiltinVar(_) => self.is_vector_or_scalar(hir[expr].ty),
-            ExprKind::Local(local) => {
-                let stands_for_expression = match self.slot(local) {
-                    Slot::Value(value) => self.is_computed(value) && self.cx.uses[local.index()] == 1,
-                    _ => false,
-                };
-                self.is_vector_or_scalar(hir[expr].ty) && !stands_for_expression
-            }
+            ExprKind::Local(_) => self.is_vector_or_scalar(hir[expr].ty),
             // Filled component by component, it is a variable.
             ExprKind::Vector(args) => {
                 hir[args].len() > 1 && !matches!(hir.types.get(hir[expr].ty), Type::Matrix { .. })

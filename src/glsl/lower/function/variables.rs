@@ -61,24 +61,6 @@ impl Builder<'_, '_> {
             || (value.index() < self.choice && (self.is_named(value) || self.returned.contains(&value)))
     }
 
-    /// Whether a value is the result of an operation, and no variable, argument or part of one.
-    pub fn is_computed(&self, mut value: Value) -> bool {
-        use Op as E;
-        while let E::Swizzle { vector: of, .. } | E::Part { base: of, .. } = self.f[value] {
-            value = of;
-        }
-        match self.f[value] {
-            E::Binary { .. }
-            | E::Unary { .. }
-            | E::Math { .. }
-            | E::Select { .. }
-            | E::Convert { .. }
-            | E::Bitcast { .. }
-            | E::Call { .. } => true,
-            _ => self.by_component.contains(&value),
-        }
-    }
-
     /// Whether a local is written, or indexed in a way values cannot be.
     pub fn needs_memory(&self, local: LocalId) -> bool {
         let declared = self.cx.hir[local];
