@@ -256,9 +256,7 @@ impl Builder<'_, '_> {
         }
         let result = if self.cx.inlined[func.index()] {
             let known = self.bounds_of_arguments(func, args);
-            let result = self.inline(func, given, arguments, known);
-            self.returned.extend(result);
-            result
+            self.inline(func, given, arguments, known)
         } else {
             self.call_apart(Instance { func, given }, arguments)
         };

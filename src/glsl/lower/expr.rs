@@ -211,13 +211,9 @@ impl Builder<'_, '_> {
         }
         let condition = self.value(cond);
         if self.is_vector_or_scalar(ty) && self.is_cheap(then) && self.is_cheap(otherwise) {
-            self.choice = self.f.len();
             let accept = self.value(then);
             let reject = self.value(otherwise);
-            let chosen = self.select(condition, accept, reject);
-            self.choice = self.f.len();
-            self.returned.insert(chosen);
-            return chosen;
+            return self.select(condition, accept, reject);
         }
         let result = self.temporary(ty);
         let (accept, _) = self.branch_block(|b| {

@@ -88,13 +88,6 @@ pub(super) struct Builder<'m, 'a> {
     pub constructed: HashSet<Value>,
     /// Where in `f.expressions` the run of statements without branches begins that the builder is at.
     run: usize,
-    /// Where in `f.expressions` the last choice between two values ended that is an instruction here and a branch to
-    /// OpenGL's compilers: no variable's expression is moved over it.
-    pub choice: usize,
-    /// What calls of functions that became part of this one gave.
-    pub returned: HashSet<Value>,
-    /// Vectors that an operation gave, component by component.
-    pub by_component: HashSet<Value>,
     /// Pure operations of the blocks at hand, from the outermost on, and where to find them.
     made: Map<scalars::Key, Value>,
     made_in_order: Vec<scalars::Key>,
@@ -171,9 +164,6 @@ impl<'m, 'a> Builder<'m, 'a> {
             shared: Default::default(),
             constructed: Default::default(),
             run: 0,
-            choice: 0,
-            returned: Default::default(),
-            by_component: Default::default(),
             made: Map::default(),
             made_in_order: Vec::new(),
             loaded: Map::default(),

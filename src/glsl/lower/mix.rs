@@ -30,9 +30,7 @@ impl Builder<'_, '_> {
         match parts[..] {
             [scalar] => scalar,
             _ => {
-                let vector = self.compose(ty, parts);
-                self.by_component.insert(vector);
-                vector
+                self.compose(ty, parts)
             }
         }
     }

@@ -50,9 +50,7 @@ impl Builder<'_, '_> {
             });
             parts.push(f(self, values));
         }
-        let vector = self.compose(ty, parts);
-        self.by_component.insert(vector);
-        vector
+        self.compose(ty, parts)
     }
 
     /// The result of an operation on literals, as they meet where a small function is inlined. None that is not finite: it is

@@ -56,9 +56,7 @@ impl Builder<'_, '_> {
     /// Whether a value is a variable to OpenGL's compilers, however it was computed: they join constants of one expression, which
     /// ends at branches, at the components of a vector, and where something is written to memory.
     pub fn is_apart(&self, value: Value) -> bool {
-        value.index() < self.run
-            || self.constructed.contains(&value)
-            || (value.index() < self.choice && (self.is_named(value) || self.returned.contains(&value)))
+        value.index() < self.run || self.constructed.contains(&value)
     }
 
     /// Whether a local is written, or indexed in a way values cannot be.
