@@ -1,6 +1,6 @@
 //! The type of what an op computes.
 
-use super::{Function, Input, Math, Module, Op, Unary, Value};
+use super::{Binary, Function, Input, Math, Module, Op, Unary, Value};
 use crate::glsl::types::{Scalar, Type, TypeId};
 
 /// The type of an op of this function, or for a place that of what it holds.
@@ -26,6 +26,9 @@ pub fn ty(module: &Module, function: &Function, op: &Op) -> TypeId {
         Op::Binary { op, left, right } => {
             if op.is_comparison() {
                 return TypeId::vector(Scalar::Bool, size(left));
+            }
+            if matches!(op, Binary::ShiftLeft | Binary::ShiftRight) {
+                return of(left);
             }
             // A scalar meets each component of the other side.
             match module.types.get(of(left)) {

@@ -230,6 +230,24 @@ impl Function {
         VarId::new(self.vars.len() - 1)
     }
 
+    /// Puts other places in the place of variables, by [`VarId::index`]; variables without one stay.
+    pub fn replace_vars(&mut self, replacements: Vec<Option<Op>>) {
+        let mut kept = Vec::new();
+        let ops = std::mem::take(&mut self.vars).into_iter().zip(replacements).map(|(var, replacement)| {
+            replacement.unwrap_or_else(|| {
+                kept.push(var);
+                Op::Var(VarId::new(kept.len() - 1))
+            })
+        });
+        let ops: Vec<Op> = ops.collect();
+        self.vars = kept;
+        for op in &mut self.ops {
+            if let Op::Var(var) = *op {
+                *op = ops[var.index()].clone();
+            }
+        }
+    }
+
     /// The variable, parameter or global that a place is or lies in.
     pub fn root(&self, mut place: Value) -> Value {
         while let Op::Part { base, .. } | Op::Element { base, .. } = self[place] {
@@ -257,12 +275,6 @@ impl std::ops::Index<Value> for Function {
 }
 
 impl Module {
-    /// Appends a constant.
-    pub fn constant(&mut self, ty: TypeId, words: Vec<u32>) -> ConstId {
-        self.consts.push(Const { ty, words });
-        ConstId::new(self.consts.len() - 1)
-    }
-
     pub fn add_global(&mut self, ty: TypeId, kind: GlobalKind) -> GlobalId {
         self.globals.push(Global { ty, kind });
         GlobalId::new(self.globals.len() - 1)

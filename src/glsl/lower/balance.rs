@@ -4,10 +4,7 @@
 //! are those of the balanced form; see [`super::regroup`] for why they matter. It is also a shorter wait for a device that does
 //! several things at once.
 
-use super::{
-    function::{Builder, Slot},
-    operators::Typed,
-};
+use super::{function::Builder, operators::Typed};
 use crate::glsl::hir::{BinaryOp, ExprId, ExprKind, Scalar, Shape, Type, TypeId};
 use crate::glsl::ir::Value;
 

@@ -29,9 +29,7 @@ impl Builder<'_, '_> {
         let parts: Vec<Value> = (0..mixes.len()).map(|index| self.mix_written_out(&mixes, index)).collect();
         match parts[..] {
             [scalar] => scalar,
-            _ => {
-                self.compose(ty, parts)
-            }
+            _ => self.compose(ty, parts),
         }
     }
 

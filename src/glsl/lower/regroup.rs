@@ -6,7 +6,7 @@
 
 use super::{function::Builder, operators::Typed};
 use crate::glsl::hir::{Scalar, Type, TypeId};
-use crate::glsl::ir::{Binary, Math, Op, Unary, Value};
+use crate::glsl::ir::{Binary, Math, Op, Value};
 
 /// One component of a value, as far as it can be told.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -38,25 +38,14 @@ fn make_global(f: &mut Function, module: &mut Module) {
         }
     }
     let states = walk.states;
-    let (mut kept, mut ops) = (Vec::new(), Vec::new());
-    for (index, var) in std::mem::take(&mut f.vars).into_iter().enumerate() {
-        ops.push(match states[index] {
-            State::Filled(_) if indexed[index] => {
-                Op::Global(module.add_global(var.ty, GlobalKind::Private { init: None, overwritten: true }))
-            }
-            _ => {
-                kept.push(var);
-                Op::Var(VarId::new(kept.len() - 1))
-            }
-        });
-    }
-    f.vars = kept;
-    for index in 0..f.len() {
-        let value = Value::new(index);
-        if let Op::Var(var) = f[value] {
-            f.replace(value, ops[var.index()].clone());
+    let replacements = f.vars.iter().enumerate().map(|(index, var)| match states[index] {
+        State::Filled(_) if indexed[index] => {
+            Some(Op::Global(module.add_global(var.ty, GlobalKind::Private { init: None, overwritten: true })))
         }
-    }
+        _ => None,
+    });
+    let replacements = replacements.collect();
+    f.replace_vars(replacements);
 }
 
 /// The variable that each place lies in, by [`Value::index`].

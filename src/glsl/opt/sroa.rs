@@ -63,7 +63,11 @@ fn split(f: &mut Function, module: &Module) {
     let new = (0..f.len()).map(Value::new).collect();
     let mut split = Split { module, f, places, parts, new, out: Block::new() };
     split.block(body);
+    let gone: Vec<bool> = split.parts.iter().map(|parts| !parts.is_empty()).collect();
     f.body = std::mem::take(&mut split.out);
+    // Nothing reaches them any more.
+    let nothing = |var| gone.get(var).is_some_and(|gone| *gone).then_some(Op::Zero(TypeId::FLOAT));
+    f.replace_vars((0..f.vars.len()).map(nothing).collect());
 }
 
 /// A part of a variable.
