@@ -292,6 +292,9 @@ impl<'m, 'a> Builder<'m, 'a> {
     }
 
     fn expression(&mut self, value: Value, op: &Op) -> Expression {
+        if let Op::Compose { ty, ref parts } = *op {
+            return self.compose_op(ty, parts);
+        }
         let mut of = |value: Value| self.value(value);
         match *op {
             Op::Part { base, index } => Expression::AccessIndex { base: of(base), index },
@@ -302,10 +305,6 @@ impl<'m, 'a> Builder<'m, 'a> {
                 pattern: pattern(swizzle),
             },
             Op::Splat { size, value } => Expression::Splat { size: types::vector_size(size.into()), value: of(value) },
-            Op::Compose { ty, ref parts } => {
-                let components = parts.iter().map(|&part| of(part)).collect();
-                Expression::Compose { ty: self.cx.ty(ty), components }
-            }
             Op::Unary { op, operand } => Expression::Unary { op: unary(op), expr: of(operand) },
             Op::Binary { op, left, right } => Expression::Binary { op: binary(op), left: of(left), right: of(right) },
             Op::Math { fun, arg, arg1, arg2, arg3 } => {
@@ -375,6 +374,28 @@ impl<'m, 'a> Builder<'m, 'a> {
             }
             ref other => unreachable!("{value:?} = {other:?} is no expression"),
         }
+    }
+
+    fn compose_op(&mut self, ty: TypeId, parts: &[Value]) -> Expression {
+        let mut components = Vec::with_capacity(parts.len());
+        let is_vector = matches!(self.cx.ir.types.get(ty), Type::Vector { .. });
+        for &part in parts {
+            match self.ir[part] {
+                // naga's SPIR-V writer takes a constant vector within a constant vector for one component.
+                Op::Const(id) if is_vector => {
+                    let ir = self.cx.ir;
+                    let scalar = ir.scalar(ir[id].ty);
+                    components.extend(ir[id].words.iter().map(|&bits| self.literal(scalar, bits)));
+                }
+                Op::Zero(zero) if is_vector => {
+                    let scalar = self.cx.ir.scalar(zero);
+                    let size = self.cx.ir.extent(zero).max(1);
+                    components.extend((0..size).map(|_| self.literal(scalar, 0)));
+                }
+                _ => components.push(self.value(part)),
+            }
+        }
+        Expression::Compose { ty: self.cx.ty(ty), components }
     }
 
     fn call(&mut self, callee: ir::FuncId, args: &[Value]) -> Option<Handle<Expression>> {

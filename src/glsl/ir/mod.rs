@@ -17,6 +17,7 @@
 //! All integers wrap; a divisor is never zero, nor -1 where the quotient would overflow; an index is always in range. Lowering
 //! sees to that, and each pass keeps it. So a program can be run, by a device or step by step on the processor.
 
+mod compact;
 pub mod infer;
 pub mod layout;
 mod op;
@@ -246,6 +247,28 @@ impl Function {
                 *op = ops[var.index()].clone();
             }
         }
+    }
+
+    /// Visits all statements, those that hold blocks before what is in them.
+    pub fn each_statement<'a>(&'a self, visit: &mut impl FnMut(&'a Stmt)) {
+        fn block<'a>(all: &'a Block, visit: &mut impl FnMut(&'a Stmt)) {
+            for stmt in all {
+                visit(stmt);
+                match stmt {
+                    Stmt::If { accept: a, reject: b, .. } | Stmt::Loop { body: a, continuing: b, .. } => {
+                        block(a, visit);
+                        block(b, visit);
+                    }
+                    Stmt::Switch { cases, .. } => {
+                        for case in cases {
+                            block(&case.body, visit);
+                        }
+                    }
+                    _ => {}
+                }
+            }
+        }
+        block(&self.body, visit);
     }
 
     /// The variable, parameter or global that a place is or lies in.

@@ -1,6 +1,6 @@
 //! The rules that every program keeps. A broken one is a bug of the part of the compiler that ran last.
 
-use super::{Binary, Block, FuncId, Function, Module, Op, Stmt, Value};
+use super::{Block, FuncId, Function, Module, Op, Stmt, Value};
 use crate::glsl::types::{Scalar, Type, TypeId};
 
 /// Checks a program; an error says which rule is broken, and where.

@@ -1,6 +1,6 @@
 //! Built-in functions of chapter 8, textures excepted.
 
-use super::{function::Builder, scalars};
+use super::function::{Builder, PartOf};
 use crate::glsl::hir::{Builtin, ExprId, Scalar, TypeId};
 use crate::glsl::ir::{Axis, Binary, Block, Math, Op, Stmt, Value};
 
@@ -36,20 +36,6 @@ impl Builder<'_, '_> {
             *value = Some((hir[arg].ty, self.value(arg)));
         }
         let (first_ty, a) = values[0].expect("every built-in has an argument");
-        if self.is_float_vector(ty) && scalars::is_by_component(builtin) {
-            let [first, second, third] = values;
-            let float = TypeId::FLOAT;
-            let first = first.expect("every built-in has an argument");
-            return Some(match (second, third) {
-                (None, _) => self.each(ty, [first], |b, [x]| b.unary_builtin(builtin, float, x)),
-                (Some(second), None) => {
-                    self.each(ty, [first, second], |b, [x, y]| b.binary_builtin(builtin, float, (float, x), (float, y)))
-                }
-                (Some(second), Some(third)) => self.each(ty, [first, second, third], |b, [x, y, z]| {
-                    b.ternary_builtin(builtin, float, (float, x), y, (float, z))
-                }),
-            });
-        }
         Some(match (values[1], values[2]) {
             (None, _) => self.unary_builtin(builtin, first_ty, a),
             (Some(b), None) => self.binary_builtin(builtin, ty, (first_ty, a), b),
@@ -130,7 +116,7 @@ impl Builder<'_, '_> {
         let (b_ty, b) = b;
         let fit = |this: &mut Self, value, from| if from == ty { value } else { this.splat(value, ty) };
         match builtin {
-            B::Atan => self.angle(a, b),
+            B::Atan => self.angle(ty, a, b),
             B::Pow => self.math2(Math::Pow, a, b),
             B::Min | B::Max => {
                 let b = fit(self, b, b_ty);
@@ -195,7 +181,7 @@ impl Builder<'_, '_> {
                 Some(Scalar::Bool) => self.select(c, b, a),
                 _ => {
                     let c = if c_ty == ty { c } else { self.splat(c, ty) };
-                    self.mix(ty, a, b, c)
+                    self.math3(Math::Mix, a, b, c)
                 }
             },
             B::Smoothstep => {
@@ -239,17 +225,42 @@ impl Builder<'_, '_> {
 
     /// `atan(y, x)`. The angle of (0, 0), which section 8.1 leaves undefined, is the device's, unless that is no number: then 0,
     /// which constants fold to.
-    fn angle(&mut self, y: Value, x: Value) -> Value {
-        let is_number = |this: &Self, value| this.number(value).is_some_and(|number| number != 0.0);
+    fn angle(&mut self, ty: TypeId, y: Value, x: Value) -> Value {
+        let is_number =
+            |this: &Self, value| this.floats(value).is_some_and(|numbers| numbers.iter().all(|&number| number != 0.0));
         if !self.cx.source.driver.nan_angle || is_number(self, y) || is_number(self, x) {
             return self.math2(Math::Atan2, y, x);
         }
-        let zero = self.float(0.0);
+        let zero = self.float_of(ty, 0.0);
         let (none, flat) = (self.op(Binary::Equal, x, zero), self.op(Binary::Equal, y, zero));
-        let nowhere = self.op(Binary::LogicalAnd, none, flat);
-        let one = self.float(1.0);
+        let nowhere = self.op(Binary::And, none, flat);
+        let one = self.float_of(ty, 1.0);
         let x = self.select(nowhere, one, x);
         self.math2(Math::Atan2, y, x)
+    }
+
+    /// Section 8.3: `t = clamp((x - a) / (b - a), 0, 1)`, then `t t (3 - 2 t)`.
+    ///
+    /// Undefined for `a == b`, but shaders use it as a step: infinities clamp to 0 and 1. So no driver must see that the divisor
+    /// is zero ([`super::zeros`]).
+    fn smoothstep(&mut self, ty: TypeId, a: Value, b: Value, x: Value) -> Value {
+        let differ = |index| match (self.part(a, index), self.part(b, index)) {
+            (PartOf::Known(a), PartOf::Known(b)) => a != b,
+            _ => false,
+        };
+        if (0..self.extent(ty)).all(differ) {
+            return self.math3(Math::SmoothStep, a, b, x);
+        }
+        let width = self.op(Binary::Subtract, b, a);
+        let width = self.hidden(ty, width);
+        let distance = self.op(Binary::Subtract, x, a);
+        let quotient = self.op(Binary::Divide, distance, width);
+        let t = self.math(Math::Saturate, quotient);
+        let (two, three) = (self.float_of(ty, 2.0), self.float_of(ty, 3.0));
+        let twice = self.op(Binary::Multiply, two, t);
+        let slope = self.op(Binary::Subtract, three, twice);
+        let product = self.op(Binary::Multiply, t, slope);
+        self.op(Binary::Multiply, t, product)
     }
 
     fn modf(&mut self, args: &[ExprId]) -> Value {
@@ -269,7 +280,7 @@ impl Builder<'_, '_> {
         };
         let failed = self.cx.failed_asserts();
         let failed = self.global(failed);
-        let (reject, _) = self.branch_block(|b| {
+        let (reject, _) = self.nested(|b| {
             let bits = b.bitcast(number, Scalar::Uint);
             // Any other number than 0 to 2 paints like 3.
             let three = b.literal(Scalar::Uint, 3);

@@ -39,10 +39,7 @@ impl Builder<'_, '_> {
         }
         match parts[..] {
             [whole] => whole,
-            _ => {
-                self.constructed.extend(&parts);
-                self.compose(ty, parts)
-            }
+            _ => self.compose(ty, parts),
         }
     }
 

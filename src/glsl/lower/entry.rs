@@ -122,7 +122,7 @@ impl Builder<'_, '_> {
         let selector = self.load(face);
         let mut cases = Vec::with_capacity(6);
         for (i, parts) in faces.into_iter().enumerate() {
-            let (body, _): (Block, _) = self.branch_block(|b| {
+            let (body, _): (Block, _) = self.nested(|b| {
                 let value = b.compose(TypeId::VEC3, parts.to_vec());
                 b.store(direction, value);
             });

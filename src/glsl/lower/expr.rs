@@ -11,8 +11,6 @@ impl Builder<'_, '_> {
         let hir = self.cx.hir;
         let mut spine = Vec::new();
         let mut at = expr;
-        // Links that need not be looked at, lest a chain be looked through for each of its links.
-        let mut too_long = 0;
         let mut value = loop {
             match hir[at].kind {
                 ExprKind::Member { .. } | ExprKind::Swizzle { .. } | ExprKind::Index { .. } => match self.read(at) {
@@ -29,13 +27,6 @@ impl Builder<'_, '_> {
                     }
                 },
                 ExprKind::Binary { lhs: inner, .. } => {
-                    if too_long > 0 {
-                        too_long -= 1;
-                    } else if let Some(value) = self.balanced(at) {
-                        break value;
-                    } else {
-                        too_long = self.links_too_long(at);
-                    }
                     spine.push(at);
                     at = inner;
                 }
@@ -162,8 +153,8 @@ impl Builder<'_, '_> {
                 Some(known) => self.effect(if known { then } else { otherwise }),
                 None => {
                     let condition = self.value(cond);
-                    let (accept, _) = self.branch_block(|b| b.effect(then));
-                    let (reject, _) = self.branch_block(|b| b.effect(otherwise));
+                    let (accept, _) = self.nested(|b| b.effect(then));
+                    let (reject, _) = self.nested(|b| b.effect(otherwise));
                     self.push(Stmt::If { condition, accept, reject });
                 }
             },
@@ -193,7 +184,7 @@ impl Builder<'_, '_> {
         }
         let result = self.temporary(TypeId::BOOL);
         self.store(result, left);
-        let (needed, _) = self.branch_block(|b| {
+        let (needed, _) = self.nested(|b| {
             let right = b.value(rhs);
             b.store(result, right);
         });
@@ -216,11 +207,11 @@ impl Builder<'_, '_> {
             return self.select(condition, accept, reject);
         }
         let result = self.temporary(ty);
-        let (accept, _) = self.branch_block(|b| {
+        let (accept, _) = self.nested(|b| {
             let value = b.value(then);
             b.store(result, value);
         });
-        let (reject, _) = self.branch_block(|b| {
+        let (reject, _) = self.nested(|b| {
             let value = b.value(otherwise);
             b.store(result, value);
         });

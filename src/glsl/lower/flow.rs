@@ -115,8 +115,8 @@ impl Builder<'_, '_> {
             return self.statements(if known { then } else { otherwise });
         }
         let condition = self.value(cond);
-        let (accept, then_ended) = self.branch_block(|b| b.statements(then));
-        let (reject, else_ended) = self.branch_block(|b| b.statements(otherwise));
+        let (accept, then_ended) = self.nested(|b| b.statements(then));
+        let (reject, else_ended) = self.nested(|b| b.statements(otherwise));
         self.push(Stmt::If { condition, accept, reject });
         self.ended = then_ended && else_ended;
     }
@@ -134,9 +134,8 @@ impl Builder<'_, '_> {
         // Drivers analyse a loop whose step ends the body more readily than one with a `continuing` part that several places
         // jump to; a short step is repeated before each `continue` instead, as their own GLSL compilers do.
         let repeated = step.filter(|step| self.cx.costs[step.index()] <= CHEAP);
-        self.forget_written(body, test.into_iter().chain(step));
         self.loops.push(Loop { step: repeated, counter: counter.or(float_counter), part: Part::Test });
-        let (body, _) = self.branch_block(|b| {
+        let (body, _) = self.nested(|b| {
             b.close_loop(test.filter(|_| known.is_none()), body);
             if let (None, Some(test)) = (known, test) {
                 let condition = b.loop_test(test, rounds);
@@ -180,9 +179,8 @@ impl Builder<'_, '_> {
 
     fn do_while(&mut self, body: List<StmtId>, test: ExprId) {
         let known = known_bool(self.cx.hir, test);
-        self.forget_written(body, [test]);
         self.loops.push(Loop { step: None, counter: None, part: Part::Test });
-        let (body, _) = self.branch_block(|b| {
+        let (body, _) = self.nested(|b| {
             b.close_loop(None, body);
             b.body_of_loop(body);
         });
@@ -206,7 +204,7 @@ impl Builder<'_, '_> {
         let mut bodies = Vec::with_capacity(cases.len());
         self.breakable += 1;
         for case in cases {
-            bodies.push(self.branch_block(|b| b.statements(case.body)));
+            bodies.push(self.nested(|b| b.statements(case.body)));
         }
         self.breakable -= 1;
         let last = cases.len().saturating_sub(1);
@@ -255,13 +253,13 @@ impl Builder<'_, '_> {
             let mut labels = self.labels(case);
             let Some(main) = labels.pop() else { continue };
             let number = self.literal(Scalar::Int, i as u32);
-            let (body, _) = self.branch_block(|b| b.store(first, number));
+            let (body, _) = self.nested(|b| b.store(first, number));
             let empty = |label| ir::Case { label, body: Block::new(), falls_through: true };
             out.extend(labels.into_iter().map(empty));
             out.push(ir::Case { label: main, body, falls_through: false });
         }
         if !has_default {
-            let (body, _) = self.branch_block(|b| b.store(first, none));
+            let (body, _) = self.nested(|b| b.store(first, none));
             out.push(ir::Case { label: None, body, falls_through: false });
         }
         self.push(Stmt::Switch { selector, cases: out });

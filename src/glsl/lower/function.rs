@@ -5,9 +5,11 @@ mod blocks;
 mod constants;
 mod variables;
 
-use std::collections::{HashMap, HashSet};
+pub(super) use self::constants::Part as PartOf;
 
-use super::{Instance, Lowering, Map, calls::Given, inline::Leaving, ranges::Bounds, scalars};
+use std::collections::HashMap;
+
+use super::{Instance, Lowering, Map, calls::Given, inline::Leaving, ranges::Bounds};
 use crate::glsl::{
     ast::{List, Loc},
     hir::{ExprId, FuncId, LocalId, LocalKind, TypeId},
@@ -80,28 +82,6 @@ pub(super) struct Builder<'m, 'a> {
     zeros: Map<TypeId, Value>,
     constants: Map<u32, Value>,
     globals: Map<ir::GlobalId, Value>,
-    /// Values that variables stand for.
-    named: HashSet<Value>,
-    /// Values that variables stand for which are used more than once.
-    pub shared: HashSet<Value>,
-    /// What vectors were put together from, and what was written to memory.
-    pub constructed: HashSet<Value>,
-    /// Where in `f.expressions` the run of statements without branches begins that the builder is at.
-    run: usize,
-    /// Pure operations of the blocks at hand, from the outermost on, and where to find them.
-    made: Map<scalars::Key, Value>,
-    made_in_order: Vec<scalars::Key>,
-    /// What was read from memory and not written since: by variable, then by pointer into it.
-    pub loaded: Map<Value, Map<Value, Value>>,
-    pub loaded_in_order: Vec<(Value, Value)>,
-    /// The module-scope variables among them.
-    pub loaded_globals: HashSet<Value>,
-    /// Members of structures as they were when these were read.
-    pub members: Map<(Value, u32), Value>,
-    /// Variables written in the block at hand.
-    pub written: HashSet<Value>,
-    /// A call in the block at hand may have written every module-scope variable.
-    pub globals_written: bool,
     /// From the outermost to the innermost, with those of the functions that this one is part of.
     pub loops: Vec<Loop>,
     /// How many loops and switches the code at hand lies in.
@@ -160,18 +140,6 @@ impl<'m, 'a> Builder<'m, 'a> {
             zeros: Map::default(),
             constants: Map::default(),
             globals: Map::default(),
-            named: Default::default(),
-            shared: Default::default(),
-            constructed: Default::default(),
-            run: 0,
-            made: Map::default(),
-            made_in_order: Vec::new(),
-            loaded: Map::default(),
-            loaded_in_order: Vec::new(),
-            loaded_globals: Default::default(),
-            members: Map::default(),
-            written: Default::default(),
-            globals_written: false,
             loops: Vec::new(),
             breakable: 0,
             declared: Map::default(),
@@ -255,35 +223,10 @@ impl<'m, 'a> Builder<'m, 'a> {
         } = outer;
     }
 
-    /// An operation to be computed here, if it was not yet.
+    /// An operation to be computed here.
     pub fn add(&mut self, op: Op) -> Value {
-        if let Op::Part { base, index } = op
-            && let Some(component) = self.known_component(base, index)
-        {
-            return component;
-        }
-        if let Some(number) = self.folded_number(&op) {
-            return self.float(number);
-        }
-        if let Some(same) = self.unchanged(&op) {
-            return same;
-        }
-        self.add_as_is(op)
-    }
-
-    /// The same of what is neither folded nor left out.
-    pub fn add_as_is(&mut self, op: Op) -> Value {
-        let key = scalars::key(&op);
-        if let Some(&made) = key.as_ref().and_then(|key| self.made.get(key)) {
-            return made;
-        }
         let ty = ir::infer::ty(&self.cx.out, &self.f, &op);
-        let value = self.add_typed(op, ty);
-        if let Some(key) = key {
-            self.made.insert(key, value);
-            self.made_in_order.push(key);
-        }
-        value
+        self.add_typed(op, ty)
     }
 
     /// An operation of this type that is computed here in any case.
@@ -297,14 +240,7 @@ impl<'m, 'a> Builder<'m, 'a> {
     pub fn at_start(&mut self, make: impl FnOnce(&mut Self) -> Value) -> Option<Value> {
         let start = self.start.take()?;
         let block = std::mem::replace(&mut self.block, start);
-        // What is known here is not known there, nor the other way round.
-        let made = (std::mem::take(&mut self.made), std::mem::take(&mut self.made_in_order));
-        let loaded = (std::mem::take(&mut self.loaded), std::mem::take(&mut self.loaded_in_order));
-        let loaded_globals = std::mem::take(&mut self.loaded_globals);
         let value = make(self);
-        (self.made, self.made_in_order) = made;
-        (self.loaded, self.loaded_in_order) = loaded;
-        self.loaded_globals = loaded_globals;
         self.start = Some(std::mem::replace(&mut self.block, block));
         Some(value)
     }

@@ -4,9 +4,11 @@
 //! OpenGL sibling. Real shaders blow up last bits (`fract(sin(dot(p, k)) * 43758.5453)`), so the pictures differ. The
 //! instructions are as many either way, and drivers may still fuse them.
 
-use super::function::Builder;
-use crate::glsl::hir::{Scalar, TypeId};
-use crate::glsl::ir::{Binary, Math, Op, Value};
+use super::function::{Builder, PartOf};
+use crate::glsl::{
+    hir::{Scalar, TypeId},
+    ir::{Binary, Math, Op, Value},
+};
 
 impl Builder<'_, '_> {
     /// `((w w' + z z') + y y') + x x'`: the side the sum is on matters to what drivers join it with. What is multiplied by a
@@ -17,10 +19,12 @@ impl Builder<'_, '_> {
             return self.op(Binary::Multiply, a, b);
         }
         let product = |this: &mut Self, index| {
+            if [a, b].iter().any(|&side| this.part(side, index) == PartOf::Known(0.0)) {
+                return this.float(0.0);
+            }
             let a = this.add(Op::Part { base: a, index });
             let b = this.add(Op::Part { base: b, index });
-            let is_zero = |side| this.number(side) == Some(0.0);
-            if is_zero(a) || is_zero(b) { this.float(0.0) } else { this.op(Binary::Multiply, a, b) }
+            this.op(Binary::Multiply, a, b)
         };
         let mut sum = product(self, size - 1);
         for index in (0..size - 1).rev() {
@@ -41,7 +45,7 @@ impl Builder<'_, '_> {
     pub fn normalize(&mut self, ty: TypeId, vector: Value) -> Value {
         let square = self.dot(ty, vector, vector);
         let scale = self.math(Math::InverseSqrt, square);
-        self.each(ty, [(ty, vector), (TypeId::FLOAT, scale)], |b, [x, scale]| b.op(Binary::Multiply, x, scale))
+        self.op(Binary::Multiply, vector, scale)
     }
 
     /// `i - 2 dot(n, i) n`.
@@ -49,10 +53,8 @@ impl Builder<'_, '_> {
         let dot = self.dot(ty, n, i);
         let two = self.float(2.0);
         let twice = self.op(Binary::Multiply, two, dot);
-        self.each(ty, [(ty, i), (ty, n), (TypeId::FLOAT, twice)], |b, [i, n, twice]| {
-            let along = b.op(Binary::Multiply, n, twice);
-            b.op(Binary::Subtract, i, along)
-        })
+        let along = self.op(Binary::Multiply, n, twice);
+        self.op(Binary::Subtract, i, along)
     }
 
     /// Section 8.5: zero where all light is reflected.
@@ -67,12 +69,9 @@ impl Builder<'_, '_> {
         let root = self.math(Math::Sqrt, k);
         let along = self.op(Binary::Multiply, eta, dot);
         let sum = self.op(Binary::Add, along, root);
-        let float = TypeId::FLOAT;
-        let refracted = self.each(ty, [(ty, i), (float, eta), (ty, n), (float, sum)], |b, [i, eta, n, sum]| {
-            let normal = b.op(Binary::Multiply, n, sum);
-            let scaled = b.op(Binary::Multiply, i, eta);
-            b.op(Binary::Subtract, scaled, normal)
-        });
+        let normal = self.op(Binary::Multiply, n, sum);
+        let scaled = self.op(Binary::Multiply, i, eta);
+        let refracted = self.op(Binary::Subtract, scaled, normal);
         let zero_k = self.float(0.0);
         let total = self.op(Binary::Less, k, zero_k);
         let zero = self.zero(ty);
@@ -80,18 +79,14 @@ impl Builder<'_, '_> {
     }
 
     /// `matCxR * vecC`: columns times components, added from the first on.
-    pub fn matrix_times_vector(&mut self, (columns, rows): (u8, u8), matrix: Value, vector: Value) -> Value {
-        let ty = TypeId::vector(Scalar::Float, rows);
+    pub fn matrix_times_vector(&mut self, (columns, _): (u8, u8), matrix: Value, vector: Value) -> Value {
         let mut sum = None;
         for index in 0..u32::from(columns) {
             let column = self.add(Op::Part { base: matrix, index });
             let factor = self.add(Op::Part { base: vector, index });
-            let term = self
-                .each(ty, [(ty, column), (TypeId::FLOAT, factor)], |b, [x, factor]| b.op(Binary::Multiply, x, factor));
+            let term = self.op(Binary::Multiply, column, factor);
             sum = Some(match sum {
-                Some(sum) => self.each(ty, [(ty, sum), (ty, term)], |b, [sum, term]| {
-                    b.with_constant_factored(sum, term).unwrap_or_else(|| b.op(Binary::Add, sum, term))
-                }),
+                Some(sum) => self.op(Binary::Add, sum, term),
                 None => term,
             });
         }
@@ -111,12 +106,11 @@ impl Builder<'_, '_> {
 
     /// `matKxR * matCxK`: the left one times each column of the right one.
     pub fn matrix_times_matrix(&mut self, (columns, rows): (u8, u8), inner: u8, left: Value, right: Value) -> Value {
-        let ty = TypeId::matrix(columns, rows);
-        let columns = (0..u32::from(columns)).map(|index| {
+        let columns_of_right = (0..u32::from(columns)).map(|index| {
             let column = self.add(Op::Part { base: right, index });
             self.matrix_times_vector((inner, rows), left, column)
         });
-        let columns = columns.collect();
-        self.compose(ty, columns)
+        let parts = columns_of_right.collect();
+        self.compose(TypeId::matrix(columns, rows), parts)
     }
 }

@@ -259,8 +259,8 @@ impl Builder<'_, '_> {
                 } else if always_returns(hir, &otherwise) {
                     then.append(&mut rest);
                 }
-                let (accept, _) = self.branch_block(|b| b.body(then));
-                let (reject, _) = self.branch_block(|b| b.body(otherwise));
+                let (accept, _) = self.nested(|b| b.body(then));
+                let (reject, _) = self.nested(|b| b.body(otherwise));
                 self.push(Stmt::If { condition, accept, reject });
             }
             StmtKind::Return(_) => {
@@ -271,7 +271,7 @@ impl Builder<'_, '_> {
         }
         if let (false, Some(flag)) = (rest.is_empty(), self.leaving.and_then(|leaving| leaving.flag)) {
             let condition = self.load(flag);
-            let (reject, _) = self.branch_block(|b| b.body(rest));
+            let (reject, _) = self.nested(|b| b.body(rest));
             self.push(Stmt::If { condition, accept: Block::new(), reject });
         }
     }
@@ -302,7 +302,7 @@ impl Builder<'_, '_> {
             && leaves(self.cx.hir, inner)
         {
             let condition = self.load(flag);
-            let (accept, _) = self.branch_block(|b| b.push(Stmt::Break));
+            let (accept, _) = self.nested(|b| b.push(Stmt::Break));
             self.push(Stmt::If { condition, accept, reject: Block::new() });
         }
     }

@@ -21,7 +21,6 @@
 //! - `&&`, `||` and `?:` become selects where both sides are cheap and have no effects, branches elsewhere.
 
 mod access;
-mod balance;
 mod bilinear;
 mod builtin;
 mod calls;
@@ -36,15 +35,11 @@ mod geometry;
 mod inline;
 mod limits;
 mod matrix;
-mod memory;
-mod mix;
 mod opaque;
 mod operators;
 mod ranges;
 mod reach;
-mod regroup;
 mod resources;
-mod scalars;
 mod settled;
 mod stage;
 mod steps;
@@ -96,7 +91,6 @@ pub(in crate::glsl) fn lower(module: &hir::Module, source: &PassSource<'_>, inte
         writes,
         arguments,
         inlined: inline::inlined(module, &reach),
-        uses: ranges::use_counts(module),
         zeros: Zeros::new(module),
         functions: HashMap::with_capacity(reach.instances.len()),
         reflection: Reflection::default(),
@@ -157,8 +151,6 @@ struct Lowering<'a> {
     arguments: Arguments,
     /// Functions that become part of their callers, by [`hir::FuncId::index`].
     inlined: Vec<bool>,
-    /// How many expressions name each local, by [`hir::LocalId::index`].
-    uses: Vec<u32>,
     zeros: Zeros,
     functions: HashMap<Instance, ir::FuncId>,
     reflection: Reflection,

@@ -7,11 +7,6 @@ use crate::glsl::ir::{Binary, Op, Unary, Value};
 /// A value and its type.
 pub(super) type Typed = (TypeId, Value);
 
-/// Whether an operator gives a number for each component.
-fn is_arithmetic(op: Binary) -> bool {
-    matches!(op, Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Divide)
-}
-
 impl Builder<'_, '_> {
     pub fn unary(&mut self, op: UnaryOp, ty: TypeId, expr: Value) -> Value {
         let types = &self.cx.hir.types;
@@ -26,7 +21,6 @@ impl Builder<'_, '_> {
                 let zero = self.zero(ty);
                 self.op(Binary::Subtract, zero, expr)
             }
-            UnaryOp::Negate if self.is_float_vector(ty) => self.each(ty, [(ty, expr)], |b, [expr]| b.negate(expr)),
             UnaryOp::Negate => self.negate(expr),
         }
     }
@@ -85,25 +79,6 @@ impl Builder<'_, '_> {
             }
             _ => {}
         }
-        let vector_ty = match shape {
-            Shape::ScalarLeft => right.0,
-            _ => left.0,
-        };
-        if matches!(op, Binary::Multiply | Binary::Add)
-            && let Some(regrouped) = self.with_constants_joined(op, vector_ty, left, right)
-        {
-            return regrouped;
-        }
-        if is_arithmetic(op) && self.is_float_vector(vector_ty) {
-            let float = TypeId::FLOAT;
-            return self
-                .each(vector_ty, [left, right], |b, [l, r]| b.binary(source, Shape::Same, (float, l), (float, r)));
-        }
-        if op == Binary::Add
-            && let Some(product) = self.with_constant_factored(left.1, right.1)
-        {
-            return product;
-        }
         // naga multiplies matrices and scalars itself, and vectors and scalars of floats.
         if op == Binary::Multiply {
             let scaled = if shape == Shape::ScalarLeft { right.0 } else { left.0 };
@@ -145,7 +120,7 @@ impl Builder<'_, '_> {
                 (Shape::ScalarRight, Some(scalar)) => scalar,
                 _ => self.add(Op::Part { base: right, index }),
             };
-            out.push(self.each(column_ty, [(column_ty, l), (column_ty, r)], |b, [l, r]| b.op(op, l, r)));
+            out.push(self.op(op, l, r));
         }
         self.compose(TypeId::matrix(columns, rows), out)
     }

@@ -46,17 +46,6 @@ pub(super) fn write_counts(module: &Module) -> Vec<u32> {
     counts
 }
 
-/// How many expressions name each local, anywhere.
-pub(super) fn use_counts(module: &Module) -> Vec<u32> {
-    let mut counts = vec![0; module.locals.len()];
-    for expr in &module.exprs {
-        if let ExprKind::Local(local) = expr.kind {
-            counts[local.index()] += 1;
-        }
-    }
-    counts
-}
-
 pub(super) fn limits(ty: TypeId) -> Option<Bounds> {
     match ty {
         TypeId::INT => Some((i32::MIN.into(), i32::MAX.into())),

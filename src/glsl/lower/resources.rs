@@ -4,7 +4,7 @@
 
 use std::collections::HashMap;
 
-use super::{Lowering, Map};
+use super::Lowering;
 use crate::glsl::{
     hir::{BuiltinVar, GlobalId, Scalar, TypeId, Uniform},
     ir::{self, GlobalKind},
@@ -15,8 +15,6 @@ pub(super) struct Resources {
     read_only: HashMap<GlobalKind, ir::GlobalId>,
     /// By [`GlobalId::index`].
     globals: Vec<Option<ir::GlobalId>>,
-    /// The other way round.
-    authors: Map<ir::GlobalId, GlobalId>,
     /// `gl_FragCoord`, where something other than the entry point reads it.
     pub frag_coord: Option<ir::GlobalId>,
     pub frag_depth: Option<ir::GlobalId>,
@@ -31,7 +29,6 @@ impl Resources {
         Self {
             read_only: HashMap::new(),
             globals: vec![None; globals],
-            authors: Map::default(),
             frag_coord: None,
             frag_depth: None,
             stage: HashMap::new(),
@@ -96,13 +93,7 @@ impl Lowering<'_> {
         let init = global.value.map(super::const_id);
         let made = self.out.add_global(global.ty, GlobalKind::Private { init, overwritten: false });
         self.resources.globals[id.index()] = Some(made);
-        self.resources.authors.insert(made, id);
         made
-    }
-
-    /// Which of the author's globals some memory is.
-    pub fn authors_global(&self, memory: ir::GlobalId) -> Option<GlobalId> {
-        self.resources.authors.get(&memory).copied()
     }
 
     pub fn frag_coord(&mut self) -> ir::GlobalId {

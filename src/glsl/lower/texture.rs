@@ -160,7 +160,6 @@ impl Builder<'_, '_> {
         // Times the reciprocal, as drivers do that read with a projection themselves.
         let one = self.float(1.0);
         let scale = self.op(Binary::Divide, one, divisor);
-        let ty = TypeId::vector(Scalar::Float, dimensions);
-        self.each(ty, [(ty, numerator), (TypeId::FLOAT, scale)], |b, [x, scale]| b.op(Binary::Multiply, x, scale))
+        self.op(Binary::Multiply, numerator, scale)
     }
 }

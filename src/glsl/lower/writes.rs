@@ -29,23 +29,3 @@ pub(super) fn root(module: &Module, mut place: ExprId) -> ExprId {
     }
     place
 }
-
-/// The members of structures that lead from that variable to a place or, where it lies within something else, to that.
-pub(super) fn members(module: &Module, mut place: ExprId) -> Vec<u32> {
-    let mut path = Vec::new();
-    loop {
-        match module[place].kind {
-            ExprKind::Member { base, index } => {
-                path.push(index);
-                place = base;
-            }
-            ExprKind::Swizzle { base, .. } | ExprKind::Index { base, .. } => {
-                path.clear();
-                place = base;
-            }
-            _ => break,
-        }
-    }
-    path.reverse();
-    path
-}

@@ -4,7 +4,7 @@
 //! chooses a side. Mesa's llvmpipe takes a quotient for undefined once it sees that the divisor is zero, after it has inlined
 //! functions and spread constants. So what may be such a zero is kept out of its sight.
 
-use super::{function::Builder, regroup::Part};
+use super::function::{Builder, PartOf};
 use crate::glsl::{
     ast::List,
     hir::{
@@ -228,6 +228,6 @@ impl Builder<'_, '_> {
     /// Whether every component is a number other than zero, which what [`Zeros`] has to say of all calls of a function together
     /// is in the one that is inlined here.
     fn is_known_not_zero(&self, ty: TypeId, value: Value) -> bool {
-        (0..self.extent(ty)).all(|index| matches!(self.part(value, index), Part::Known(number) if number != 0.0))
+        (0..self.extent(ty)).all(|index| matches!(self.part(value, index), PartOf::Known(number) if number != 0.0))
     }
 }

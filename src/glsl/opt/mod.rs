@@ -5,6 +5,13 @@
 //! `docs/compiler.md` says what each pass is worth, and how to add one.
 
 mod array_to_global;
+mod cse;
+mod dce;
+mod fold;
+mod forward;
+mod reassociate;
+mod rewrite;
+mod scalarize;
 mod sroa;
 
 use super::ir::{self, Module};
@@ -19,6 +26,20 @@ pub struct Pass {
 
 /// All passes, in the order in which they run.
 pub const PASSES: &[Pass] = &[
+    Pass {
+        name: "forward",
+        purpose: "replaces loads of what is known to be in memory (store-to-load forwarding)",
+        run: forward::run,
+    },
+    Pass { name: "scalarize", purpose: "writes arithmetic on vectors out by component", run: scalarize::run },
+    Pass {
+        name: "fold",
+        purpose: "computes what is constant, takes parts of what is put together, and drops what changes nothing",
+        run: fold::run,
+    },
+    Pass { name: "reassociate", purpose: "joins the constants of sums and products", run: reassociate::run },
+    Pass { name: "cse", purpose: "computes common subexpressions once", run: cse::run },
+    Pass { name: "dce", purpose: "drops what nothing uses (dead code elimination)", run: dce::run },
     Pass {
         name: "array-to-global",
         purpose: "moves arrays that each call fills anew to the module, so that they are not zeroed at each call",

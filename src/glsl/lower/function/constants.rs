@@ -2,10 +2,18 @@
 
 use super::Builder;
 use crate::glsl::{
-    hir::{ConstId, Scalar, TypeId},
+    hir::{ConstId, Scalar, Type, TypeId},
     ir::{self, Op, Value},
     lower::const_id,
 };
+
+/// One component of a value, as far as it can be told.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(in crate::glsl::lower) enum Part {
+    Known(f32),
+    /// Component `.1` of a vector, or a scalar.
+    Of(Value, u32),
+}
 
 impl Builder<'_, '_> {
     /// A scalar constant, bit for bit.
@@ -87,5 +95,36 @@ impl Builder<'_, '_> {
         let value = self.free(Op::Global(global));
         self.globals.insert(global, value);
         value
+    }
+
+    /// The components of a float constant; one for a scalar or a repeated one.
+    pub fn floats(&self, value: Value) -> Option<Vec<f32>> {
+        match &self.f[value] {
+            Op::Literal(..) => Some(vec![self.number(value)?]),
+            Op::Splat { value, .. } => self.floats(*value),
+            Op::Compose { parts, .. } => parts.iter().map(|&part| self.number(part)).collect(),
+            Op::Const(id) => {
+                let constant = &self.cx.out[*id];
+                let is_vector =
+                    matches!(self.cx.out.types.get(constant.ty), Type::Vector { scalar: Scalar::Float, .. });
+                let numbers = || constant.words.iter().map(|&bits| f32::from_bits(bits));
+                (is_vector && numbers().all(f32::is_finite)).then(|| numbers().collect())
+            }
+            Op::Part { base, index } => match self.f[*base] {
+                Op::Const(_) => Some(vec![*self.floats(*base)?.get(*index as usize)?]),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
+    pub fn part(&self, value: Value, index: u32) -> Part {
+        if let Some(floats) = self.floats(value) {
+            return Part::Known(floats[(index as usize).min(floats.len() - 1)]);
+        }
+        match self.f[value] {
+            Op::Splat { value, .. } => Part::Of(value, 0),
+            _ => Part::Of(value, index),
+        }
     }
 }

@@ -29,34 +29,8 @@ impl Builder<'_, '_> {
             let pointer = self.memory(local);
             self.store(pointer, value);
         } else {
-            self.name(value);
-            if self.cx.uses[local.index()] > 1 {
-                self.shared.insert(value);
-                if let Op::Compose { parts: components, .. } = &self.f[value] {
-                    self.shared.extend(components);
-                }
-            }
             self.set_slot(local, Slot::Value(value));
         }
-    }
-
-    /// Notes that a variable stands for a value and its components.
-    pub fn name(&mut self, value: Value) {
-        self.named.insert(value);
-        if let Op::Compose { parts: components, .. } = &self.f[value] {
-            self.named.extend(components);
-        }
-    }
-
-    /// Whether a variable stands for a value: then it may be used more than once.
-    pub fn is_named(&self, value: Value) -> bool {
-        self.named.contains(&value)
-    }
-
-    /// Whether a value is a variable to OpenGL's compilers, however it was computed: they join constants of one expression, which
-    /// ends at branches, at the components of a vector, and where something is written to memory.
-    pub fn is_apart(&self, value: Value) -> bool {
-        value.index() < self.run || self.constructed.contains(&value)
     }
 
     /// Whether a local is written, or indexed in a way values cannot be.

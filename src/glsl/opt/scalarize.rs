@@ -1,0 +1,87 @@
+//! Vector arithmetic, written out by component.
+//!
+//! Which terms of sums and products a driver joins depends on whether it looks before or after it splits vectors and finds what
+//! is computed twice. OpenGL drivers do both first, Vulkan ones later, so last bits differ; here both is done beforehand.
+//! Devices that compute by component have as much to do either way.
+
+use super::rewrite::{self, Rewriter, Rule};
+use crate::glsl::{
+    ir::{Binary, Math, Module, Op, Unary, Value},
+    types::{Scalar, Type, TypeId},
+};
+
+pub(super) fn run(module: &mut Module) {
+    rewrite::each_function(module, |_, _| Scalarize);
+}
+
+struct Scalarize;
+
+impl Rule for Scalarize {
+    fn operation(&mut self, r: &mut Rewriter<'_>, value: Value, op: &Op) -> Option<Value> {
+        let ty = r.f.ty(value);
+        let Type::Vector { scalar: Scalar::Float, size } = r.module.types.get(ty) else { return None };
+        let by_component = match *op {
+            Op::Unary { op, .. } => op == Unary::Negate,
+            Op::Binary { op, .. } => {
+                matches!(op, Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Divide)
+            }
+            Op::Math { fun, .. } => is_by_component(fun),
+            _ => false,
+        };
+        if !by_component {
+            return None;
+        }
+        let parts = (0..u32::from(size)).map(|index| {
+            let mut part = op.clone();
+            part.operands_mut(|operand| *operand = component(r, *operand, index));
+            r.add_typed(part, TypeId::FLOAT)
+        });
+        let parts = parts.collect();
+        Some(r.add_typed(Op::Compose { ty, parts }, ty))
+    }
+}
+
+/// A component of an operand; a scalar meets each.
+fn component(r: &mut Rewriter<'_>, operand: Value, index: u32) -> Value {
+    match r.module.types.get(r.f.ty(operand)) {
+        Type::Vector { .. } => r.add(Op::Part { base: operand, index }),
+        _ => operand,
+    }
+}
+
+/// Whether a function works on each component alone.
+fn is_by_component(fun: Math) -> bool {
+    use Math::*;
+    matches!(
+        fun,
+        Radians
+            | Degrees
+            | Sin
+            | Cos
+            | Tan
+            | Asin
+            | Acos
+            | Atan
+            | Atan2
+            | Exp
+            | Log
+            | Exp2
+            | Log2
+            | Sqrt
+            | InverseSqrt
+            | Abs
+            | Sign
+            | Floor
+            | Trunc
+            | Round
+            | Ceil
+            | Fract
+            | Pow
+            | Min
+            | Max
+            | Clamp
+            | Saturate
+            | SmoothStep
+            | Mix
+    )
+}
