@@ -497,7 +497,6 @@ fn math(fun: Math) -> MathFunction {
         Math::Asinh => To::Asinh,
         Math::Acosh => To::Acosh,
         Math::Atanh => To::Atanh,
-        Math::Dot => To::Dot,
         Math::Cross => To::Cross,
         Math::Length => To::Length,
         Math::Normalize => To::Normalize,

@@ -50,7 +50,7 @@ pub fn ty(module: &Module, function: &Function, op: &Op) -> TypeId {
 
 fn math(module: &Module, fun: Math, arg: TypeId) -> TypeId {
     match fun {
-        Math::Dot | Math::Length | Math::Determinant => TypeId::FLOAT,
+        Math::Length | Math::Determinant => TypeId::FLOAT,
         Math::Pack2x16snorm | Math::Pack2x16unorm | Math::Pack2x16float => TypeId::UINT,
         Math::Unpack2x16snorm | Math::Unpack2x16unorm | Math::Unpack2x16float => TypeId::VEC2,
         Math::Transpose => match module.types.get(arg) {

@@ -227,7 +227,6 @@ pub enum Math {
     Asinh,
     Acosh,
     Atanh,
-    Dot,
     Cross,
     Length,
     Normalize,
@@ -269,12 +268,6 @@ impl Op {
     pub fn is_free(&self) -> bool {
         use Op::*;
         matches!(self, Literal(..) | Zero(_) | Const(_) | Param(_) | Var(_) | Global(_) | Input(_))
-    }
-
-    /// Whether the same operands give the same value, anywhere and any number of times, without an effect.
-    pub fn is_pure(&self) -> bool {
-        use Op::*;
-        !matches!(self, Load { .. } | Call { .. } | Sample { .. } | Derivative { .. })
     }
 
     /// Visits the operands, in order.

@@ -9,7 +9,6 @@ mod cse;
 mod dce;
 mod fold;
 mod forward;
-mod reassociate;
 mod rewrite;
 mod scalarize;
 mod sroa;
@@ -37,7 +36,6 @@ pub const PASSES: &[Pass] = &[
         purpose: "computes what is constant, takes parts of what is put together, and drops what changes nothing",
         run: fold::run,
     },
-    Pass { name: "reassociate", purpose: "joins the constants of sums and products", run: reassociate::run },
     Pass { name: "cse", purpose: "computes common subexpressions once", run: cse::run },
     Pass { name: "dce", purpose: "drops what nothing uses (dead code elimination)", run: dce::run },
     Pass {
