@@ -252,6 +252,7 @@ fn compile(
             array_loops: gpu.wants_array_loops,
             loop_closing_exits: gpu.keeps_loops_open,
             hidden_limits: gpu.misjudges_limits,
+            without: Default::default(),
         };
         let mut fills: CompiledFills = [None, None];
         let mut said = Vec::new();

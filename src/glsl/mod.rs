@@ -15,7 +15,7 @@ pub(crate) mod ir;
 mod lex;
 pub(crate) mod lower;
 mod near;
-pub(crate) mod opt;
+pub mod opt;
 pub(crate) mod parse;
 mod pieces;
 mod preprocess;
@@ -162,6 +162,8 @@ pub struct Driver {
     pub loop_closing_exits: bool,
     /// What a loop counts down to is hidden: Mesa takes `min(c, x)` for at least `c` there (`nir_loop_analyze.c`).
     pub hidden_limits: bool,
+    /// Passes of the optimiser that are left out: for who works on the compiler.
+    pub without: opt::PassSet,
 }
 
 /// A pass that compiled.
@@ -214,13 +216,44 @@ pub fn compile(source: &PassSource<'_>) -> Result<Compiled, Vec<Diagnostic>> {
 /// Compiles one stage of a program that draws meshes. The vertex stage comes first: what it gives
 /// ([`Reflection::varyings`]) is part of the fragment stage's [`Link`].
 pub fn compile_linked(source: &PassSource<'_>, link: &Link<'_>) -> Result<Compiled, Vec<Diagnostic>> {
+    compile_seen(source, link, |_, _| {})
+}
+
+/// The text of the intermediate representation of a pass, as lowering made it and after each pass of the optimiser; or before
+/// and after the one of this name alone.
+pub fn dump_ir(source: &PassSource<'_>, link: &Link<'_>, pass: Option<&str>) -> Result<String, Vec<Diagnostic>> {
+    let mut out = String::new();
+    let mut before: Option<(String, String)> = None;
+    compile_seen(source, link, |name, program| {
+        let mut write = |name: &str, text: &str| out.push_str(&format!("; after {name}\n{text}\n"));
+        let text = ir::print::print(program);
+        match pass {
+            None => write(name, &text),
+            Some(pass) if pass == name => {
+                if let Some((name, text)) = &before {
+                    write(name, text);
+                }
+                write(name, &text);
+            }
+            Some(_) => before = Some((name.to_owned(), text)),
+        }
+    })?;
+    Ok(out)
+}
+
+/// Compiles; `seen` gets the program under the name of each pass that made it.
+fn compile_seen(
+    source: &PassSource<'_>,
+    link: &Link<'_>,
+    seen: impl FnMut(&str, &ir::Module),
+) -> Result<Compiled, Vec<Diagnostic>> {
     let ((mut checked, mut diagnostics), interface) = check_linked(source, link);
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(diagnostics);
     }
     lower::settle(&mut checked);
     let lower::Lowered { mut program, mut reflection } = lower::lower(&checked, source, interface);
-    opt::optimise(&mut program, &[], |_, _| {});
+    opt::optimise(&mut program, source.driver.without, seen);
     let emit::Emitted { module, tables, knob_bytes, filled_arrays } = emit::emit(&program, source, &mut reflection);
     if let Err(reason) = emit::validate(&module) {
         let bug =

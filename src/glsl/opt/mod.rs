@@ -12,6 +12,8 @@ mod forward;
 mod rewrite;
 mod scalarize;
 mod sroa;
+#[cfg(test)]
+mod tests;
 
 use super::ir::{self, Module};
 
@@ -20,7 +22,7 @@ pub struct Pass {
     pub name: &'static str,
     /// One line: what it does, and what for.
     pub purpose: &'static str,
-    pub run: fn(&mut Module),
+    run: fn(&mut Module),
 }
 
 /// All passes, in the order in which they run.
@@ -46,11 +48,41 @@ pub const PASSES: &[Pass] = &[
     Pass { name: "sroa", purpose: "replaces vectors, matrices and structures in memory by scalars", run: sroa::run },
 ];
 
-/// Runs all passes but those that are left out. `seen` gets the program before the first and after each.
-pub fn optimise(program: &mut Module, without: &[&str], mut seen: impl FnMut(&str, &Module)) {
-    verify(program, "lowering");
+/// Some of the passes, by their places in [`PASSES`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct PassSet(u32);
+
+const _: () = assert!(PASSES.len() <= u32::BITS as usize);
+
+impl PassSet {
+    /// Adds the pass of this name; an error names those there are.
+    pub fn insert(&mut self, name: &str) -> Result<(), String> {
+        match PASSES.iter().position(|pass| pass.name == name) {
+            Some(index) => {
+                self.0 |= 1 << index;
+                Ok(())
+            }
+            None => {
+                let names: Vec<_> = PASSES.iter().map(|pass| pass.name).collect();
+                Err(format!("there is no pass `{name}`; there are {}", names.join(", ")))
+            }
+        }
+    }
+
+    fn contains(self, index: usize) -> bool {
+        self.0 & 1 << index != 0
+    }
+}
+
+/// Runs all passes but those that are left out. `seen` gets the program as lowering made it, under the name `lower`, and after
+/// each pass under its name.
+pub(super) fn optimise(program: &mut Module, without: PassSet, mut seen: impl FnMut(&str, &Module)) {
+    verify(program, "lower");
     seen("lower", program);
-    for pass in PASSES.iter().filter(|pass| !without.contains(&pass.name)) {
+    for (index, pass) in PASSES.iter().enumerate() {
+        if without.contains(index) {
+            continue;
+        }
         (pass.run)(program);
         verify(program, pass.name);
         seen(pass.name, program);
@@ -63,6 +95,9 @@ fn verify(program: &Module, culprit: &str) {
     if cfg!(debug_assertions)
         && let Err(reason) = ir::verify::verify(program)
     {
-        panic!("{culprit} breaks a rule of the intermediate representation: {reason}\n{}", ir::print::print(program));
+        panic!(
+            "the pass `{culprit}` breaks a rule of the intermediate representation: {reason}\n{}",
+            ir::print::print(program)
+        );
     }
 }
