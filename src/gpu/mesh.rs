@@ -10,8 +10,8 @@ const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// A vertex and a fragment shader over triangles.
 pub struct MeshPipelineDescriptor<'a> {
     pub label: &'a str,
-    pub vertex: Shader,
-    pub fragment: Shader,
+    pub vertex: Shader<'a>,
+    pub fragment: Shader<'a>,
     pub entry_point: &'a str,
     /// Bind groups from 0 on, as both shaders see them.
     pub groups: &'a [Vec<(u32, Binding)>],

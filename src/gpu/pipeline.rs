@@ -9,7 +9,7 @@ const VERTEX: &str = "
 ";
 
 /// One slot of a bind group.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Binding {
     /// A uniform buffer of at least so many bytes.
     Uniform { bytes: u64 },
@@ -55,8 +55,9 @@ impl Binding {
 }
 
 /// A shader of the front end.
-pub struct Shader {
-    pub module: naga::Module,
+#[derive(Clone, Copy)]
+pub struct Shader<'a> {
+    pub module: &'a naga::Module,
     /// Arrays of at least so many scalars that the module's own variables hold are written before anything reads them,
     /// if their variables have no initialiser.
     pub filled_arrays: Option<u32>,
@@ -65,7 +66,7 @@ pub struct Shader {
 /// A fragment shader over the whole target.
 pub struct FragmentPipelineDescriptor<'a> {
     pub label: &'a str,
-    pub shader: Shader,
+    pub shader: Shader<'a>,
     pub entry_point: &'a str,
     /// Bind groups from 0 on: binding number and what lies there.
     pub groups: &'a [Vec<(u32, Binding)>],
@@ -122,12 +123,12 @@ pub(super) fn pipeline_layout(gpu: &Gpu, label: &str, layouts: &[wgpu::BindGroup
 pub(super) fn shader_module(
     gpu: &Gpu,
     label: &str,
-    shader: Shader,
+    shader: Shader<'_>,
     groups: &[Vec<(u32, Binding)>],
 ) -> wgpu::ShaderModule {
     let Shader { module, filled_arrays } = shader;
     if let Some(filled_arrays) = filled_arrays.filter(|_| gpu.wants_array_loops && !gpu.runtime_checks)
-        && let Some(made) = spirv::shader_module(gpu, label, &module, filled_arrays, groups)
+        && let Some(made) = spirv::shader_module(gpu, label, module, filled_arrays, groups)
     {
         return made;
     }
@@ -154,7 +155,7 @@ pub(super) fn shader_module(
         gpu.device.create_shader_module_trusted(
             wgpu::ShaderModuleDescriptor {
                 label: Some(label),
-                source: wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(module)),
+                source: wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(module.clone())),
             },
             checks,
         )

@@ -1,7 +1,7 @@
 //! The plan of a frame.
 
 use super::effective_sampler;
-use crate::project::{Filter, Input, PassFormat, PassId, PassSize, Project, Region, Sampler};
+use crate::project::{Filter, Input, PassFormat, PassId, PassSize, Project, Region, Sampler, Wrap};
 use std::{collections::BTreeSet, ops::Range};
 
 /// What a pass does with one channel, as its compiled form says.
@@ -104,9 +104,20 @@ pub struct Draw {
     pub has_initial: bool,
     /// So many of the outermost texels are overwritten after it is drawn.
     pub boundary: Option<u32>,
-    /// It need not be drawn while nothing it reads has changed: what it draws depends on nothing else, and on its own picture
-    /// of before it does not depend.
-    pub can_rest: bool,
+    /// Its picture of before will do while nothing it reads has changed: what it draws depends on nothing else, and on its own
+    /// picture of before it does not depend.
+    pub is_cacheable: bool,
+}
+
+/// How a fill's picture is read.
+const FILL_SAMPLER: Sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true };
+
+impl Draw {
+    /// Returns what a fill of the pass is drawn as. It reads nothing of what the pass reads, but its own picture if it is one.
+    pub fn of_fill(&self, is_picture: bool) -> Draw {
+        let read = is_picture.then_some(Read { source: Source::Media, sampler: FILL_SAMPLER, mips: false });
+        Draw { reads: [read, None, None, None], keeps_content: true, is_cacheable: false, ..self.clone() }
+    }
 }
 
 /// Draws that follow each other, all done once in order, then again.
@@ -165,7 +176,7 @@ impl FramePlan {
                 region,
                 has_initial: project.passes[pass].settings.initial.is_some(),
                 boundary: project.passes[pass].settings.boundary.as_ref().map(|b| b.width),
-                can_rest: false,
+                is_cacheable: false,
             });
         }
         plan.runs(project);
@@ -289,7 +300,7 @@ impl FramePlan {
                 .flatten()
                 .any(|r| matches!(r.source, Source::Target { index, .. } if own.contains(&index)));
             let shows_before = facts[draw.pass].discards && project.passes[draw.pass].settings.geometry.is_none();
-            draw.can_rest = skip && !shows_before && !reads_itself;
+            draw.is_cacheable = skip && !shows_before && !reads_itself;
             for read in draw.reads.iter_mut().flatten() {
                 read.mips = read.sampler.filter == Filter::Mipmap
                     && match read.source {

@@ -320,6 +320,9 @@ impl Tab {
 /// Sources of a project by [`crate::diag::SourceId`]: 0 is Common (an empty text where there is none), then the passes in order,
 /// then the stages of geometry passes in order, then the files they include, then the texts of fills.
 impl Project {
+    /// The id of Common's text.
+    pub const COMMON_ID: crate::diag::SourceId = crate::diag::SourceId(0);
+
     /// Every stage that lies in a file of its own, with the index of its pass.
     pub fn stages(&self) -> impl Iterator<Item = (usize, &Source)> {
         self.passes
