@@ -83,7 +83,7 @@ pub struct Gpu {
     /// Timestamps can be written between passes.
     pub has_timestamps: bool,
     pub(super) runtime_checks: bool,
-    pub(super) fences: Option<super::pass::FenceKeeper>,
+    pub(super) fences: Option<super::fences::FenceKeeper>,
     state: Arc<State>,
 }
 
@@ -194,7 +194,7 @@ impl Gpu {
             keeps_loops_open: info.name.starts_with("llvmpipe"),
             nan_angle: info.backend == wgpu::Backend::Dx12,
             runtime_checks: options.runtime_checks,
-            fences: is_lavapipe.then(|| super::pass::FenceKeeper::new(&device)),
+            fences: is_lavapipe.then(|| super::fences::FenceKeeper::new(&device)),
             has_timestamps: features.contains(wgpu::Features::TIMESTAMP_QUERY),
             device,
             queue,

@@ -2,7 +2,8 @@
 
 use super::{
     Binding, Gpu, GpuError, Pipeline, Shader,
-    pipeline::{layouts, pipeline_layout, shader_module},
+    bindings::{layouts, pipeline_layout},
+    pipeline::shader_module,
 };
 
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
