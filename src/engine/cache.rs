@@ -40,6 +40,11 @@ impl<K: Eq + Hash, V> Cache<K, V> {
         self.entries.insert(key, Entry { value, used_by: self.build, is_of_whole: false });
     }
 
+    /// Returns every value that is there.
+    pub fn values(&self) -> impl Iterator<Item = &V> {
+        self.entries.values().map(|entry| &entry.value)
+    }
+
     /// Ends a build. Forgets what neither it nor the newest whole build before it used.
     pub fn end_build(&mut self, is_whole: bool) {
         let build = self.build;

@@ -10,7 +10,8 @@ use std::{
     sync::Arc,
 };
 
-/// Stages by their texts and settings. Passes of equal texts and settings share a stage.
+/// Stages by their texts and settings. Passes of equal texts and settings share a stage, and so do those of texts that compile
+/// to the same.
 #[derive(Default)]
 pub(super) struct StageCache {
     stages: Cache<StageKey, Outcome>,
@@ -22,6 +23,8 @@ pub(super) struct StageCache {
 struct Outcome {
     /// `None`: there are errors.
     stage: Option<Arc<Compiled>>,
+    /// All of the stage as text, which tells equal stages of different texts.
+    content: String,
     diagnostics: Vec<Diagnostic>,
     ids: Vec<SourceId>,
 }
@@ -120,14 +123,17 @@ impl StageCache {
             return (outcome.stage.clone(), moved(&outcome.diagnostics, &outcome.ids, &ids));
         }
         self.compiled += 1;
-        let (stage, diagnostics) = match glsl::compile_linked(source, link) {
+        let (stage, content, diagnostics) = match glsl::compile_linked(source, link) {
             Ok(mut stage) => {
                 let diagnostics = std::mem::take(&mut stage.diagnostics);
-                (Some(Arc::new(stage)), diagnostics)
+                let content = format!("{stage:?}");
+                // A comment, or a function of Common that the pass does not call, makes another text and the same stage.
+                let same = self.stages.values().find(|o| o.content == content).and_then(|o| o.stage.clone());
+                (Some(same.unwrap_or_else(|| Arc::new(stage))), content, diagnostics)
             }
-            Err(errors) => (None, errors),
+            Err(errors) => (None, String::new(), errors),
         };
-        self.stages.insert(key, Outcome { stage: stage.clone(), diagnostics: diagnostics.clone(), ids });
+        self.stages.insert(key, Outcome { stage: stage.clone(), content, diagnostics: diagnostics.clone(), ids });
         (stage, diagnostics)
     }
 

@@ -83,8 +83,6 @@ pub struct Target {
     pub doubled: bool,
     /// A mip chain is built after each draw.
     pub mips: bool,
-    /// No pass draws it: it stays zero.
-    pub undrawn: bool,
 }
 
 /// One pass of a frame.
@@ -199,7 +197,6 @@ impl FramePlan {
                 format,
                 doubled: false,
                 mips: false,
-                undrawn: true,
             }));
             first
         });
@@ -290,7 +287,7 @@ impl FramePlan {
             let reached = reads_of(None).iter().any(|&(p, c)| facts[p].channels[c].reaches_mips);
             let mips = sampler_asks && (reached || !skip);
             let target = &mut self.targets[index];
-            (target.doubled, target.mips, target.undrawn) = (doubled, mips, drawn_by.is_none());
+            (target.doubled, target.mips) = (doubled, mips);
         }
         for draw in &mut self.draws {
             let own = draw.targets.clone();

@@ -109,7 +109,6 @@ mod tests {
             format: Default::default(),
             doubled,
             mips,
-            undrawn: false,
         };
         let plan = |t| FramePlan { targets: vec![t], ..Default::default() };
         assert_eq!(plan(target(false, false)).target_bytes((4, 2)), 8 * 16);
