@@ -344,9 +344,8 @@ fn buffers_keep_their_texels_through_edits_of_their_shape() {
     ]);
     let mut engine = engine(&gpu, &project, (4, 4));
     run(&mut engine, 0, 3);
-    let mut drawn = 3;
     // Mips on and off, and a doubled buffer that becomes single.
-    for change in ["mips", "none", "no mips", "single"] {
+    for (drawn, change) in (3..).zip(["mips", "none", "no mips", "single"]) {
         match change {
             "mips" => project.passes[1].channels[0] = a(Filter::Mipmap),
             "no mips" => project.passes[1].channels[0] = a(Filter::Nearest),
@@ -357,7 +356,6 @@ fn buffers_keep_their_texels_through_edits_of_their_shape() {
         engine.set_program(built.program).unwrap();
         assert_eq!(texel(&engine.read(&buffer("A")).unwrap(), 3, 3)[0], drawn as f32, "{change}");
         run(&mut engine, drawn, drawn + 1);
-        drawn += 1;
     }
     assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 0, 0), [9.0, 9.0, 9.0, 1.0]);
 }

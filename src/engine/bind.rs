@@ -2,6 +2,7 @@
 //! that a frame only sets them.
 
 use super::{
+    pipelines::StagePipeline,
     program::{BoundChannel, CompiledDraw, FillProgram, Mixing, Program},
     shared::Shared,
     targets::Target,
@@ -16,20 +17,17 @@ use crate::{
 
 /// The bind groups of one draw.
 pub(super) struct DrawBindings {
-    /// Of each program.
+    /// One for each program.
     uniforms: Vec<wgpu::BindGroup>,
-    /// By which of its two textures each channel's target shows, a bit for each; made when first needed.
+    /// One for each choice of textures: bit i says which of its two the target of channel i shows. Made when first needed.
     channels: [Option<wgpu::BindGroup>; 16],
 }
 
 impl DrawBindings {
     /// Binds the uniforms of draw `index`.
     fn new(gpu: &Gpu, compiled: &CompiledDraw, index: usize, uniforms: &Uniforms) -> Self {
-        let programs = 0..compiled.programs.len();
-        Self {
-            uniforms: programs.map(|n| uniform_group(gpu, compiled, n, index, uniforms)).collect(),
-            channels: Default::default(),
-        }
+        let group = |(n, pipeline)| uniform_group(gpu, compiled, (n, pipeline), index, uniforms);
+        Self { uniforms: compiled.body.pipelines().enumerate().map(group).collect(), channels: Default::default() }
     }
 
     /// Uniforms, and the channels as the targets stand now.
@@ -61,7 +59,7 @@ pub(super) struct FillBindings {
 #[derive(Default)]
 pub(super) struct Bindings {
     pub draws: Vec<DrawBindings>,
-    /// Of each draw.
+    /// One for each draw.
     pub fills: Vec<FillBindings>,
 }
 
@@ -87,15 +85,22 @@ pub(super) fn draw_fill(
     pass: &mut wgpu::RenderPass<'_>,
 ) {
     let (uniforms, channels) = bindings.groups(shared, &fill.compiled, &fill.draw, &[]);
-    pass.set_pipeline(&fill.compiled.programs[0].pipeline.pipeline.raw);
-    pass.set_bind_group(interface::UNIFORM_GROUP, &uniforms[0], &[]);
     pass.set_bind_group(interface::CHANNEL_GROUP, channels, &[]);
-    pass.draw(0..3, 0..1);
+    for (program, uniforms) in fill.compiled.body.pipelines().zip(uniforms) {
+        pass.set_pipeline(&program.pipeline.raw);
+        pass.set_bind_group(interface::UNIFORM_GROUP, uniforms, &[]);
+        pass.draw(0..3, 0..1);
+    }
 }
 
-/// Uniforms of program `n` of draw `index`.
-fn uniform_group(gpu: &Gpu, compiled: &CompiledDraw, n: usize, index: usize, uniforms: &Uniforms) -> wgpu::BindGroup {
-    let program = &compiled.programs[n].pipeline;
+/// Binds the uniforms of program `n` of draw `index`.
+fn uniform_group(
+    gpu: &Gpu,
+    compiled: &CompiledDraw,
+    (n, program): (usize, &StagePipeline),
+    index: usize,
+    uniforms: &Uniforms,
+) -> wgpu::BindGroup {
     let mut entries = vec![wgpu::BindGroupEntry { binding: 0, resource: uniforms.block_binding(index) }];
     for (binding, table) in &program.tables {
         entries.push(wgpu::BindGroupEntry { binding: *binding, resource: table.as_entire_binding() });
@@ -104,7 +109,8 @@ fn uniform_group(gpu: &Gpu, compiled: &CompiledDraw, n: usize, index: usize, uni
         entries.push(wgpu::BindGroupEntry { binding: interface::KNOB_BINDING, resource: uniforms.knob_binding() });
     }
     if compiled.reads_geometry {
-        let resource = uniforms.mesh_binding(compiled.first_mesh + n);
+        let first = compiled.body.meshes().map_or(0, |meshes| meshes.first);
+        let resource = uniforms.mesh_binding(first + n);
         entries.push(wgpu::BindGroupEntry { binding: interface::GEOMETRY_BINDING, resource });
     }
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -131,10 +137,11 @@ fn channel_group(shared: &Shared, compiled: &CompiledDraw, draw: &Draw, targets:
             });
         }
     }
+    // The same for every program of the pass, of which there is one at least.
+    let first = compiled.body.pipelines().next().expect("a pass has a program");
     shared.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("channels"),
-        // The same for every program of the pass.
-        layout: &compiled.programs[0].pipeline.pipeline.layouts[interface::CHANNEL_GROUP as usize],
+        layout: &first.pipeline.layouts[interface::CHANNEL_GROUP as usize],
         entries: &entries,
     })
 }

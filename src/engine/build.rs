@@ -2,26 +2,25 @@
 
 use super::{
     BuildError, EngineError, Sources,
-    channels::{ChannelBinder, channel_bindings, mixing, mixing_of_fill},
+    channels::{ChannelBinder, mixing, mixing_of_fill},
     compile::PassOptions,
     compiled::CompiledPass,
-    pipelines::{MeshState, PipelineCache, PipelineOrder, StagePipeline},
-    placed::PlacedMesh,
-    program::{BoundChannel, CompiledDraw, DrawProgram, FillProgram, Mixing, Program},
+    draft::{CompiledParts, DrawDraft},
+    pipelines::PipelineCache,
+    program::{Mixing, Program},
     stage_cache::StageCache,
     uploads::Uploads,
 };
 use crate::{
     diag::{Diagnostic, SourceMap},
-    glsl::{Driver, interface},
-    gpu::{Binding, Gpu},
-    graph::{ChannelFacts, Draw, FramePlan, PassFacts},
+    glsl::Driver,
+    gpu::Gpu,
+    graph::{ChannelFacts, FramePlan, PassFacts},
     media::MediaSet,
     project::{FillKind, Input, Media, Pass, PassFormat, PassId, Project},
 };
-use std::sync::Arc;
 
-/// What may be left out, and what is wanted.
+/// The pictures that are wanted, and whether the others may be left out.
 #[derive(Clone, Debug)]
 pub struct BuildOptions {
     /// The passes whose pictures are wanted; nothing they do not need is compiled into the frame. Empty: Image.
@@ -45,7 +44,7 @@ pub struct Built {
     pub work: BuildWork,
 }
 
-/// What a build had to make; everything else was there from earlier builds of the same [`Builder`].
+/// The number of things that a build had to make. Everything else was there from earlier builds of the same [`Builder`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BuildWork {
     /// Stages that were compiled: texts with their settings, each distinct one once.
@@ -107,18 +106,15 @@ impl Builder {
         let plan = FramePlan::new(&drawable, &facts, &options.wanted, options.skip);
         let mut passes: Vec<Option<CompiledParts>> = passes.into_iter().map(Some).collect();
         let mut drafts = Vec::with_capacity(plan.draws.len());
+        let binder = ChannelBinder { gpu: &self.gpu, project: &drawable, media };
         for draw in &plan.draws {
             let Some(parts) = passes[draw.pass].take() else { continue };
-            drafts.push(self.draft(&drawable, media, &plan, draw, parts)?);
+            drafts.push(DrawDraft::new(&binder, &mut self.uploads, &plan, draw, parts)?);
         }
         let orders = drafts.iter_mut().flat_map(DrawDraft::take_orders).collect();
         let mut made = self.pipelines.make(&self.gpu, orders)?.into_iter();
-        let mut draws: Vec<CompiledDraw> = drafts.into_iter().map(|draft| draft.finish(&mut made)).collect();
-        let mut first_mesh = 0;
-        for draw in draws.iter_mut().filter(|d| d.camera.is_some()) {
-            draw.first_mesh = first_mesh;
-            first_mesh += draw.programs.len();
-        }
+        let mut meshes = 0;
+        let draws = drafts.into_iter().map(|draft| draft.finish(&mut made, &mut meshes)).collect();
         let program =
             Program { plan, draws, knobs: texts.knobs().list.clone(), knob_values: project.knob_values.clone() };
         Ok(Built { program, diagnostics, sources, work: BuildWork::default() })
@@ -186,46 +182,6 @@ impl Builder {
             Ok(Compilation { drawable, passes, diagnostics })
         }
     }
-
-    /// Uploads what a draw reads, and says which pipelines it needs.
-    fn draft(
-        &mut self,
-        project: &Project,
-        media: &MediaSet,
-        plan: &FramePlan,
-        draw: &Draw,
-        parts: CompiledParts,
-    ) -> Result<DrawDraft, EngineError> {
-        let pass = &project.passes[draw.pass];
-        let CompiledParts { compiled, fills, mixing } = parts;
-        let binder = ChannelBinder { gpu: &self.gpu, project, media };
-        let mut channels: [BoundChannel; 4] = Default::default();
-        for (index, bound) in channels.iter_mut().enumerate() {
-            let mips = draw.reads[index].as_ref().is_some_and(|r| r.mips);
-            let (channel, used) = (pass.channels[index].as_ref(), compiled.reflection.channels[index]);
-            *bound = binder.bind(&mut self.uploads, channel, used, mixing[index], mips)?;
-        }
-        let geometry = pass.settings.geometry.as_ref();
-        let states = geometry.map_or(Vec::new(), |g| g.draws.iter().map(MeshState::of).collect());
-        let meshes = geometry.map_or(Ok(Vec::new()), |g| self.uploads.placed(&self.gpu, media, g))?;
-        let formats: Vec<PassFormat> = plan.targets[draw.targets.clone()].iter().map(|t| t.format).collect();
-        let mut done = DrawDraft::new(pass, compiled, channels, draw, &formats, &states);
-        done.compiled.camera = geometry.map(|g| g.camera);
-        done.meshes = meshes;
-        for ((drafted, compiled), kind) in done.fills.iter_mut().zip(fills).zip(FillKind::ALL) {
-            let (Some(compiled), Some(fill)) = (compiled, pass.fill(kind)) else { continue };
-            let mut channels: [BoundChannel; 4] = Default::default();
-            let texels = fill.value.path().and_then(|path| media.fill(path));
-            if let Some(texels) = texels {
-                let used = compiled.reflection.channels[0];
-                channels[0] = binder.bind_fill(&mut self.uploads, texels, used)?;
-            }
-            let draw = draw.of_fill(texels.is_some());
-            let draft = DrawDraft::new(pass, compiled, channels, &draw, &formats[..1], &[]);
-            *drafted = Some((Box::new(draft), draw));
-        }
-        Ok(done)
-    }
 }
 
 /// The passes that can be drawn, compiled; the project with only these, and every warning.
@@ -233,95 +189,6 @@ struct Compilation {
     drawable: Project,
     passes: Vec<CompiledParts>,
     diagnostics: Vec<Diagnostic>,
-}
-
-/// A compiled pass, its fills in the order of [`FillKind::ALL`], and how its channels mix texels.
-struct CompiledParts {
-    compiled: CompiledPass,
-    fills: [Option<CompiledPass>; 2],
-    mixing: [Mixing; 4],
-}
-
-/// A draw that waits for its pipelines.
-struct DrawDraft {
-    compiled: CompiledDraw,
-    orders: Vec<PipelineOrder>,
-    programs: usize,
-    meshes: Vec<PlacedMesh>,
-    fills: [Option<(Box<DrawDraft>, Draw)>; 2],
-}
-
-impl DrawDraft {
-    fn new(
-        pass: &Pass,
-        compiled: CompiledPass,
-        channels: [BoundChannel; 4],
-        draw: &Draw,
-        formats: &[PassFormat],
-        states: &[MeshState],
-    ) -> Self {
-        let CompiledPass { programs, reflection, .. } = compiled;
-        let channel_group = channel_bindings(&channels, draw);
-        let orders: Vec<PipelineOrder> = programs
-            .into_iter()
-            .enumerate()
-            .map(|(n, program)| {
-                let mut uniforms = vec![(0, Binding::Uniform { bytes: size_of::<interface::UniformBlock>() as u64 })];
-                for (number, bytes) in program.tables() {
-                    let uniform = Binding::Uniform { bytes: bytes.len() as u64 };
-                    let is_storage = number == interface::TABLE_BINDING;
-                    uniforms.push((number, if is_storage { Binding::Storage } else { uniform }));
-                }
-                if !reflection.knobs.is_empty() {
-                    uniforms.push((interface::KNOB_BINDING, Binding::Uniform { bytes: program.knob_bytes() }));
-                }
-                if reflection.geometry {
-                    let bytes = size_of::<interface::GeometryBlock>() as u64;
-                    uniforms.push((interface::GEOMETRY_BINDING, Binding::Uniform { bytes }));
-                }
-                PipelineOrder {
-                    label: pass.id.title(),
-                    program,
-                    groups: [uniforms, channel_group.clone()],
-                    formats: formats.to_vec(),
-                    mesh: states.get(n).copied(),
-                }
-            })
-            .collect();
-        let compiled = CompiledDraw {
-            id: pass.id.clone(),
-            programs: Vec::new(),
-            camera: None,
-            first_mesh: 0,
-            reads_geometry: reflection.geometry,
-            channels,
-            initial: None,
-            boundary: None,
-            uniforms: reflection.uniforms,
-            knobs: reflection.knobs,
-        };
-        Self { compiled, programs: orders.len(), orders, meshes: Vec::new(), fills: [None, None] }
-    }
-
-    /// Gives the orders of the pass, then those of its fills.
-    fn take_orders(&mut self) -> Vec<PipelineOrder> {
-        let mut orders = std::mem::take(&mut self.orders);
-        for (fill, _) in self.fills.iter_mut().flatten() {
-            orders.extend(fill.take_orders());
-        }
-        orders
-    }
-
-    /// Takes a pipeline for each of its orders.
-    fn finish(self, made: &mut impl Iterator<Item = Arc<StagePipeline>>) -> CompiledDraw {
-        let Self { mut compiled, programs, meshes, fills, .. } = self;
-        let mut meshes = meshes.into_iter();
-        compiled.programs =
-            made.by_ref().take(programs).map(|pipeline| DrawProgram { pipeline, mesh: meshes.next() }).collect();
-        let [initial, boundary] = fills
-            .map(|fill| fill.map(|(draft, draw)| Box::new(FillProgram { compiled: draft.finish(&mut *made), draw })));
-        CompiledDraw { initial, boundary, ..compiled }
-    }
 }
 
 /// Returns what the device's driver needs of the code of a pass.

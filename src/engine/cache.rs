@@ -1,4 +1,4 @@
-//! What one build leaves for the next, found by content.
+//! A cache that one build leaves for the next. Values are found by content.
 
 use std::{
     collections::HashMap,

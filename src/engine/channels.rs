@@ -1,4 +1,4 @@
-//! What each channel of a pass is bound to, and how it is read on a device.
+//! The textures that the channels of a pass are bound to, and the way they are read on a device.
 
 use super::{
     program::{BoundChannel, Mixing},
@@ -38,7 +38,7 @@ fn mixing_of(gpu: &Gpu, filter: Filter, is_float: bool) -> Mixing {
     }
 }
 
-/// What the channels of a pass are bound to.
+/// Binds the channels of passes.
 pub(super) struct ChannelBinder<'a> {
     pub gpu: &'a Gpu,
     pub project: &'a Project,
@@ -96,7 +96,7 @@ fn resolution(texels: &Texels) -> [f32; 3] {
     [texels.width as f32, texels.height as f32, 1.0]
 }
 
-/// The picture a channel names, if it names one and it is there.
+/// Returns the picture that a channel names, if it names one and it is there.
 fn picture<'m>(media: &'m MediaSet, channel: &Channel) -> Option<&'m Arc<Texels>> {
     match &channel.input {
         Input::Texture(of) => media.get(&MediaKey { media: of.clone(), vflip: channel.sampler.vflip }),
@@ -104,7 +104,7 @@ fn picture<'m>(media: &'m MediaSet, channel: &Channel) -> Option<&'m Arc<Texels>
     }
 }
 
-/// How the buffer is drawn that the channel names, if it names one.
+/// Returns the settings of the buffer that the channel names, if it names one; the format is that of the target.
 fn settings_of(project: &Project, channel: &Channel) -> Option<PassSettings> {
     let (name, index) = channel.input.buffer()?;
     let mut settings = project.pass(&PassId::Buffer(name.to_owned())).map(|p| p.settings.clone()).unwrap_or_default();

@@ -4,7 +4,7 @@ use super::{Sources, compiled::CompiledPass, fill_text, sources, stage_cache::St
 use crate::{
     diag::Diagnostic,
     glsl::{Compiled, Driver, Link, PassKind, PassSource, Reflection},
-    project::{FillKind, Geometry, Stage},
+    project::{FillKind, Geometry, PassBody, PassId, Stage},
 };
 use std::sync::Arc;
 
@@ -40,7 +40,7 @@ impl Sources<'_> {
         self.compile_fill_with(&mut StageCache::default(), index, kind, options)
     }
 
-    /// As [`Self::compile_pass`], with the stages of earlier builds.
+    /// Does the same as [`Self::compile_pass`], with the stages of earlier builds.
     pub(super) fn compile_pass_with(
         &self,
         cache: &mut StageCache,
@@ -48,10 +48,20 @@ impl Sources<'_> {
         options: PassOptions,
     ) -> Result<CompiledPass> {
         let pass = &self.project.passes[index];
-        if let Some(geometry) = &pass.settings.geometry {
-            return self.compile_meshes(cache, index, geometry, options);
+        match &pass.settings.body {
+            PassBody::Screen => self.compile_screen(cache, index, &pass.id, options),
+            PassBody::Meshes(geometry) => self.compile_meshes(cache, index, geometry, options),
         }
-        let (id, kind) = (self.stage_id(index, Stage::Own), sources::pass_kind(&pass.id));
+    }
+
+    fn compile_screen(
+        &self,
+        cache: &mut StageCache,
+        index: usize,
+        id: &PassId,
+        options: PassOptions,
+    ) -> Result<CompiledPass> {
+        let (id, kind) = (self.stage_id(index, Stage::Own), sources::pass_kind(id));
         let link = Link::default();
         let (fragment, said) = self.with_source(index, id, kind, |source| self.compile(cache, source, &link, options));
         match fragment {
@@ -60,7 +70,7 @@ impl Sources<'_> {
         }
     }
 
-    /// As [`Self::compile_fill`], with the stages of earlier builds.
+    /// Does the same as [`Self::compile_fill`], with the stages of earlier builds.
     pub(super) fn compile_fill_with(
         &self,
         cache: &mut StageCache,

@@ -10,7 +10,7 @@ use std::sync::Arc;
 pub struct CompiledPass {
     /// One, or one for each mesh the pass draws.
     pub(super) programs: Vec<CompiledProgram>,
-    /// Of all programs together.
+    /// The reads of all programs together.
     pub reflection: Reflection,
     /// Warnings and notes; never an error.
     pub diagnostics: Vec<Diagnostic>,

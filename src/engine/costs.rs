@@ -1,4 +1,4 @@
-//! What each pass costs: what its textures hold, what it moves, and how long it takes.
+//! The costs of each pass: the bytes that its textures hold, the bytes that it moves, and the time that it takes.
 
 use super::Engine;
 use crate::project::{PassFormat, PassId, Project};
@@ -6,7 +6,7 @@ use crate::project::{PassFormat, PassId, Project};
 /// Bytes a texel of a depth buffer.
 const DEPTH_BYTES: u64 = 4;
 
-/// How the milliseconds of passes are taken.
+/// The clock that the milliseconds of passes are taken from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CostClock {
     /// The device's timestamps before and after each pass.
@@ -16,7 +16,7 @@ pub enum CostClock {
     Waited,
 }
 
-/// What becomes of a pass in a frame.
+/// The part of a pass in a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PassRole {
     /// It is drawn; cached, if its picture of before did in the newest frame because nothing that it reads had changed.
@@ -34,9 +34,9 @@ pub struct PassCost {
     pub role: PassRole,
     /// Texels of its targets.
     pub size: (u32, u32),
-    /// Of each of its targets.
+    /// The format of each of its targets.
     pub formats: Vec<PassFormat>,
-    /// How often it is drawn in a frame.
+    /// The number of times that a frame draws it.
     pub steps: u32,
     /// Bytes of its textures on the device, mip levels, the second one of a pair and the depth buffer among them.
     pub held_bytes: u64,
@@ -48,7 +48,7 @@ pub struct PassCost {
 }
 
 impl Engine {
-    /// What each pass of the running program costs, in drawing order; then the passes of `project` that are not drawn. Empty
+    /// Returns the costs of each pass of the running program in drawing order, then those of `project` that are not drawn. Empty
     /// without a program.
     pub fn pass_costs(&self, project: &Project) -> Vec<PassCost> {
         let Some(running) = self.running() else { return Vec::new() };
@@ -59,7 +59,7 @@ impl Engine {
             let size = targets[0].size.of(canvas);
             let step = plan.traffic_of(index, canvas);
             let steps = plan.steps_of(index);
-            let depth = if compiled.camera.is_some() { DEPTH_BYTES } else { 0 };
+            let depth = if compiled.body.meshes().is_some() { DEPTH_BYTES } else { 0 };
             costs.push(PassCost {
                 pass: compiled.id.clone(),
                 role: PassRole::Drawn { is_cached: running.steps_drawn.get(index) == Some(&0) },
@@ -92,7 +92,8 @@ impl Engine {
         costs
     }
 
-    /// How [`Engine::pass_times`] or [`Engine::draw_waited`] tell what passes take on this device.
+    /// Returns the clock by which this device can say how long passes take: that of [`Engine::pass_times`] or of
+    /// [`Engine::draw_waited`].
     pub fn cost_clock(&self) -> CostClock {
         if self.gpu().has_timestamps { CostClock::Timestamps } else { CostClock::Waited }
     }

@@ -14,7 +14,7 @@ pub(super) struct Display {
     shown: Option<PassId>,
     /// The shown target's textures, bound for presenting.
     bound: Vec<wgpu::BindGroup>,
-    /// Which target that is.
+    /// The place of the shown target in the plan.
     target: usize,
 }
 

@@ -1,4 +1,4 @@
-//! Why there is no program, or no frame.
+//! The errors of building a program and of drawing a frame.
 
 use crate::{
     diag::{Diagnostic, SourceMap},
@@ -6,7 +6,7 @@ use crate::{
     media::mesh::MeshError,
 };
 
-/// Why a frame could not be drawn or read.
+/// A frame could not be drawn or read.
 #[derive(Debug, thiserror::Error)]
 pub enum EngineError {
     #[error(transparent)]
@@ -19,7 +19,7 @@ pub enum EngineError {
     Mesh(#[from] MeshError),
 }
 
-/// Why there is no program.
+/// A program could not be built.
 #[derive(Debug, thiserror::Error)]
 pub enum BuildError {
     /// The author's to mend: at least one error, all of all passes.

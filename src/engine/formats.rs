@@ -1,4 +1,4 @@
-//! What the words of a project are called in the graphics layer.
+//! The words of a project in those of the graphics layer.
 
 use crate::project::{Cull, DepthTest, PassFormat};
 

@@ -1,7 +1,7 @@
 //! A frame: the loop that executes a plan. The only place where passes are encoded.
 
 use super::{EngineError, FrameInputs, FrameStats, display::Display, running::Running};
-use super::{bind::draw_fill, shared::Shared, uniforms, watch::Watch};
+use super::{bind::draw_fill, pipelines::StagePipeline, program::DrawBody, shared::Shared, uniforms, watch::Watch};
 use crate::{
     glsl::interface::{CHANNEL_GROUP, UNIFORM_GROUP},
     gpu::Gpu,
@@ -76,9 +76,9 @@ impl Running {
         for (index, (compiled, draw)) in self.program.planned_draws().enumerate() {
             let own = self.targets[draw.targets.start].size();
             self.uniforms.set(index, &uniforms::block(inputs, own, self.canvas, &compiled.channels));
-            let Some(camera) = &compiled.camera else { continue };
-            for (n, mesh) in compiled.programs.iter().filter_map(|p| p.mesh.as_ref()).enumerate() {
-                self.uniforms.set_mesh(compiled.first_mesh + n, &mesh.block(camera, inputs, own, self.canvas));
+            let Some(meshes) = compiled.body.meshes() else { continue };
+            for (n, (_, mesh)) in meshes.programs.iter().enumerate() {
+                self.uniforms.set_mesh(meshes.first + n, &mesh.block(&meshes.camera, inputs, own, self.canvas));
             }
         }
         self.uniforms.write(gpu);
@@ -132,9 +132,7 @@ impl Running {
         }
         let attachments: Vec<_> = own
             .iter()
-            .map(|target| {
-                Some(target.textures[target.back()].attachment(load_op(&shared.gpu, draw, compiled.camera.is_some())))
-            })
+            .map(|target| Some(target.textures[target.back()].attachment(load_op(&shared.gpu, draw, &compiled.body))))
             .collect();
         let depth = depths.get(index).and_then(Option::as_ref);
         let descriptor = wgpu::RenderPassDescriptor {
@@ -154,13 +152,19 @@ impl Running {
             if let Some(region) = draw.region.and_then(|r| r.within(size)) {
                 pass.set_scissor_rect(region.x, region.y, region.width, region.height);
             }
-            for (program, uniforms) in compiled.programs.iter().zip(uniforms) {
-                pass.set_pipeline(&program.pipeline.pipeline.raw);
-                pass.set_bind_group(UNIFORM_GROUP, uniforms, &[]);
-                pass.set_bind_group(CHANNEL_GROUP, channels, &[]);
-                match &program.mesh {
-                    None => pass.draw(0..3, 0..1),
-                    Some(mesh) => {
+            pass.set_bind_group(CHANNEL_GROUP, channels, &[]);
+            let begin = |pass: &mut wgpu::RenderPass<'_>, program: &StagePipeline, n: usize| {
+                pass.set_pipeline(&program.pipeline.raw);
+                pass.set_bind_group(UNIFORM_GROUP, &uniforms[n], &[]);
+            };
+            match &compiled.body {
+                DrawBody::Screen(program) => {
+                    begin(pass, program, 0);
+                    pass.draw(0..3, 0..1);
+                }
+                DrawBody::Meshes(meshes) => {
+                    for (n, (program, mesh)) in meshes.programs.iter().enumerate() {
+                        begin(pass, program, n);
                         pass.set_vertex_buffer(0, mesh.buffers.vertices.slice(..));
                         pass.set_index_buffer(mesh.buffers.indices.slice(..), wgpu::IndexFormat::Uint32);
                         pass.draw_indexed(0..mesh.buffers.count, 0, 0..1);
@@ -185,11 +189,11 @@ impl Running {
 }
 
 /// Returns what the targets of a draw hold as it begins.
-fn load_op(gpu: &Gpu, draw: &Draw, draws_meshes: bool) -> wgpu::LoadOp<wgpu::Color> {
-    match (draw.keeps_content, draws_meshes) {
-        (true, _) => wgpu::LoadOp::Load,
+fn load_op(gpu: &Gpu, draw: &Draw, body: &DrawBody) -> wgpu::LoadOp<wgpu::Color> {
+    match body {
+        _ if draw.keeps_content => wgpu::LoadOp::Load,
         // The triangle covers all, and nothing of it is discarded.
-        (false, false) => gpu.load_what_is_overwritten(),
-        (false, true) => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+        DrawBody::Screen(_) => gpu.load_what_is_overwritten(),
+        DrawBody::Meshes(_) => wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
     }
 }

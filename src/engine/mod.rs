@@ -11,6 +11,7 @@ mod compile;
 mod compiled;
 mod costs;
 mod display;
+mod draft;
 mod error;
 mod fill_text;
 mod formats;

@@ -36,7 +36,7 @@ pub(super) struct StagePipeline {
 /// Bindings of the uniform group and of the channel group.
 pub(super) type Groups = [Vec<(u32, Binding)>; 2];
 
-/// What a pipeline is to be made of.
+/// Everything that a pipeline is made of.
 pub(super) struct PipelineOrder {
     /// Names the pipeline in messages; pipelines that differ in nothing else are one.
     pub label: String,
@@ -46,7 +46,7 @@ pub(super) struct PipelineOrder {
     pub mesh: Option<MeshState>,
 }
 
-/// How the triangles of a mesh reach the targets.
+/// The state with which the triangles of a mesh are drawn.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct MeshState {
     cull: Cull,

@@ -24,12 +24,7 @@ pub struct Program {
 /// The pipelines of one draw and what its channels are bound to.
 pub(super) struct CompiledDraw {
     pub id: PassId,
-    /// One, or one for each mesh the pass draws.
-    pub programs: Vec<DrawProgram>,
-    /// The camera of a pass that draws meshes.
-    pub camera: Option<Camera>,
-    /// Place of its first mesh among those of all draws.
-    pub first_mesh: usize,
+    pub body: DrawBody,
     /// Some program reads what meshes are drawn with.
     pub reads_geometry: bool,
     pub channels: [BoundChannel; 4],
@@ -42,11 +37,37 @@ pub(super) struct CompiledDraw {
     pub knobs: KnobSet,
 }
 
-/// One program of a draw.
-pub(super) struct DrawProgram {
-    pub pipeline: Arc<StagePipeline>,
-    /// `None`: the triangle over the whole target.
-    pub mesh: Option<PlacedMesh>,
+/// The triangle or the meshes of a draw.
+pub(super) enum DrawBody {
+    /// The triangle over the whole target.
+    Screen(Arc<StagePipeline>),
+    Meshes(Meshes),
+}
+
+/// Meshes as one camera sees them.
+pub(super) struct Meshes {
+    pub camera: Camera,
+    /// Place of the first among those of all draws.
+    pub first: usize,
+    pub programs: Vec<(Arc<StagePipeline>, PlacedMesh)>,
+}
+
+impl DrawBody {
+    pub fn meshes(&self) -> Option<&Meshes> {
+        match self {
+            DrawBody::Screen(_) => None,
+            DrawBody::Meshes(meshes) => Some(meshes),
+        }
+    }
+
+    /// Every pipeline, in drawing order.
+    pub fn pipelines(&self) -> impl Iterator<Item = &StagePipeline> {
+        let (screen, meshes) = match self {
+            DrawBody::Screen(pipeline) => (Some(pipeline), &[][..]),
+            DrawBody::Meshes(meshes) => (None, &meshes.programs[..]),
+        };
+        screen.into_iter().chain(meshes.iter().map(|(pipeline, _)| pipeline)).map(|pipeline| &**pipeline)
+    }
 }
 
 /// A fill's program, and the draw it is done as.
@@ -55,7 +76,7 @@ pub(super) struct FillProgram {
     pub draw: Draw,
 }
 
-/// How the texels that a channel reads are mixed.
+/// The way in which the texels that a channel reads are mixed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Mixing {
     /// Each read takes one texel.
@@ -95,7 +116,7 @@ impl Program {
 
     /// Returns the number of meshes that all passes together draw.
     pub(super) fn meshes(&self) -> usize {
-        self.draws.iter().filter(|d| d.camera.is_some()).map(|d| d.programs.len()).sum()
+        self.draws.iter().filter_map(|d| d.body.meshes()).map(|m| m.programs.len()).sum()
     }
 
     /// The plan of each frame.

@@ -1,4 +1,4 @@
-//! What comes out of frames.
+//! Times, counts and texels of frames.
 
 use crate::project::PassId;
 
@@ -9,7 +9,7 @@ pub struct PassTime {
     pub gpu_millis: f64,
 }
 
-/// What one frame was.
+/// The work of one frame.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FrameStats {
     /// Passes drawn in this frame, every step of a group counted.
@@ -29,7 +29,7 @@ pub struct Pixels {
 }
 
 impl Pixels {
-    /// As a PNG shows them: clamped to 0..1, rounded to 8 bits, NaN as 0, the top row first. The one way from a picture to
+    /// Returns the bytes that a PNG shows: clamped to 0..1, rounded to 8 bits, NaN as 0, the top row first. The one way from a picture to
     /// bytes: screenshots, `eddy render` and the golden tests share it.
     pub fn to_rgba8(&self) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(self.texels.len() * 4);

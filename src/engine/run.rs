@@ -80,7 +80,7 @@ impl Engine {
         Ok(stats)
     }
 
-    /// As [`Engine::draw`], with the same picture, but hands in each pass by itself and waits for it: how long each takes can then
+    /// Does the same as [`Engine::draw`], with the same picture, but hands in each pass by itself and waits for it: how long each takes can then
     /// be told where the device has no timestamps. `now` gives milliseconds since any moment. A frame takes longer so.
     pub fn draw_waited(
         &mut self,
@@ -183,7 +183,7 @@ impl Engine {
         self.read_target(pass, 0)
     }
 
-    /// As [`Engine::read`], of one of the pass's targets.
+    /// Does the same as [`Engine::read`] for one of the pass's targets.
     pub fn read_target(&mut self, pass: &PassId, index: usize) -> Result<Pixels, EngineError> {
         let gpu = &self.shared.gpu;
         let running = self.running.as_ref().ok_or_else(|| EngineError::NoSuchPass(pass.title()))?;

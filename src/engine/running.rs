@@ -5,7 +5,7 @@ use super::{
     EngineError, FrameInputs,
     bind::{Bindings, draw_fill},
     knobs,
-    program::Program,
+    program::{Meshes, Program},
     shared::Shared,
     targets::{NewTargets, Target},
     uniforms::{self, Uniforms},
@@ -21,14 +21,14 @@ pub(super) struct Running {
     pub program: Program,
     pub canvas: (u32, u32),
     pub targets: Vec<Target>,
-    /// Of each draw that draws meshes, the depth buffer.
+    /// One for each draw; `None` for those without meshes.
     pub depths: Vec<Option<wgpu::TextureView>>,
     pub bindings: Bindings,
     pub uniforms: Uniforms,
     pub changes: Changes,
     /// Measures the passes, where that is asked for and the device can.
     pub timer: Option<PassTimer>,
-    /// Of each draw, how often it was done in the newest frame.
+    /// The number of times that each draw was done in the newest frame.
     pub steps_drawn: Vec<u32>,
 }
 
@@ -46,11 +46,11 @@ impl NewTextures {
         present: &[Target],
     ) -> Result<Self, EngineError> {
         let depths = program.planned_draws().map(|(compiled, draw)| {
-            let of = |_| {
+            let of = |_: &Meshes| {
                 let (width, height) = program.plan.targets[draw.targets.start].size.of(canvas);
                 depth_buffer(&shared.gpu, &format!("depth of {}", compiled.id.title()), width, height)
             };
-            compiled.camera.map(of).transpose()
+            compiled.body.meshes().map(of).transpose()
         });
         Ok(Self {
             depths: depths.collect::<Result<_, _>>()?,
@@ -113,7 +113,7 @@ impl Running {
         self.uniforms.set_knobs(&shared.gpu, knobs::block(&self.program.knobs, values))
     }
 
-    /// Every target as before frame 0.
+    /// Sets every target to its state before frame 0.
     pub fn reset(&mut self, shared: &Shared) {
         let descriptor = wgpu::CommandEncoderDescriptor { label: Some("reset") };
         let mut encoder = shared.gpu.device.create_command_encoder(&descriptor);

@@ -5,7 +5,8 @@ use crate::{
     diag::{Diagnostic, SourceId},
     glsl::{self, ChannelKind, Driver, Include, PassKind, PassSource, Text, UniformValue, services::Analysis},
     project::{
-        Channel, FillKind, FillText, Geometry, IncludeLines, Input, Knobs, Pass, PassId, Project, Source, Stage,
+        Channel, FillKind, FillText, Geometry, IncludeLines, Input, Knobs, Pass, PassBody, PassId, Project, Source,
+        Stage,
     },
 };
 use std::{borrow::Cow, collections::BTreeSet, sync::Arc};
@@ -13,24 +14,24 @@ use std::{borrow::Cow, collections::BTreeSet, sync::Arc};
 /// The texts of a project as the compiler takes them, what they include and what they declare.
 pub struct Sources<'p> {
     pub(super) project: &'p Project,
-    /// By [`SourceId`], each as long as the author's own.
+    /// The texts by [`SourceId`], each as long as the author's own.
     texts: Vec<Arc<str>>,
     lines: IncludeLines,
     knobs: Knobs,
-    /// Of uniforms that are no knobs.
+    /// The values of uniforms that are no knobs.
     values: Vec<UniformValue>,
-    /// Of fills, each with its pass.
+    /// The texts of fills, each with its pass.
     fills: Vec<(usize, FillKind, FillText)>,
-    /// What is wrong with them before any is compiled.
+    /// Errors and warnings that are found before any text is compiled.
     pub diagnostics: Vec<Diagnostic>,
 }
 
 impl<'p> Sources<'p> {
     pub fn new(project: &'p Project) -> Self {
         let common = project.common.as_ref().map_or_else(|| "".into(), compile_text);
-        let passes = project.passes.iter().map(|p| match &p.settings.geometry {
-            Some(_) => stage_text(&p.source),
-            None => compile_text(&p.source),
+        let passes = project.passes.iter().map(|p| match &p.settings.body {
+            PassBody::Screen => compile_text(&p.source),
+            PassBody::Meshes(_) => stage_text(&p.source),
         });
         let stages = project.stages().map(|(_, s)| stage_text(s));
         let included = project.includes.iter().map(|i| compile_text(&i.source));
@@ -108,13 +109,13 @@ impl<'p> Sources<'p> {
         self.analyse_stage(index, Stage::Own)
     }
 
-    /// As [`Sources::analyse`], of a stage of a pass that draws meshes.
+    /// Does the same as [`Sources::analyse`] for a stage of a pass that draws meshes.
     ///
     /// # Panics
     /// If there is no such pass or stage.
     pub fn analyse_stage(&self, index: usize, stage: Stage) -> Analysis {
         let pass = &self.project.passes[index];
-        let kind = pass.settings.geometry.as_ref().map_or_else(|| pass_kind(&pass.id), |g| stage_kind(g, stage));
+        let kind = pass.settings.meshes().map_or_else(|| pass_kind(&pass.id), |g| stage_kind(g, stage));
         self.with_source(index, self.stage_id(index, stage), kind, Analysis::new)
     }
 

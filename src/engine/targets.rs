@@ -11,12 +11,12 @@ use crate::{
 /// then they change places.
 pub(super) struct Target {
     pub id: PassId,
-    /// Which of the pass's targets.
+    /// The place among the pass's targets.
     pub index: usize,
     pub textures: Vec<Texture>,
     /// For each texture, where the plan asks for mips.
     pub chains: Vec<MipChain>,
-    /// Which texture was drawn last.
+    /// The index of the texture that was drawn last.
     pub front: usize,
 }
 
@@ -33,7 +33,7 @@ impl Target {
         Ok(Target { id: planned.id.clone(), index: planned.index, textures, chains, front: 0 })
     }
 
-    /// Whether it is the target that a plan asks for.
+    /// Returns true if it is the target that a plan asks for.
     fn is(&self, planned: &graph::Target) -> bool {
         self.id == planned.id && self.index == planned.index
     }

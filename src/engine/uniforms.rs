@@ -1,4 +1,4 @@
-//! What a pass sees in one frame that is no texture: the site's uniforms and the author's own.
+//! The uniforms of the passes in one frame: the site's, the author's own, and those of meshes.
 
 use super::{
     FrameInputs,
@@ -22,7 +22,7 @@ const _: () = assert!(size_of::<UniformBlock>() <= STRIDE as usize && size_of::<
 pub(super) struct Uniforms {
     /// The site's uniforms, a block for each draw.
     blocks: Blocks,
-    /// What meshes are drawn with, a block for each program of each pass.
+    /// The matrices of meshes, a block for each program of each pass.
     meshes: Blocks,
     /// The author's own, one block for all passes, written when one changes.
     knobs: wgpu::Buffer,
@@ -129,8 +129,8 @@ impl Uniforms {
         if let Some(boundary) = &draw.boundary {
             self.add_read_by(index, &boundary.compiled, read);
         }
-        if draw.reads_geometry {
-            (0..draw.programs.len()).for_each(|n| read.extend_from_slice(self.meshes.block(draw.first_mesh + n)));
+        if let Some(meshes) = draw.body.meshes().filter(|_| draw.reads_geometry) {
+            (0..meshes.programs.len()).for_each(|n| read.extend_from_slice(self.meshes.block(meshes.first + n)));
         }
     }
 }

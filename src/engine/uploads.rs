@@ -15,10 +15,10 @@ use crate::{
 };
 use std::sync::Arc;
 
-/// What was uploaded for this build and those before it.
+/// Pictures and meshes of this build and those before it.
 pub(super) struct Uploads {
     mips: MipMaker,
-    /// By the texels, and whether they have mips.
+    /// The key holds the texels, and whether the picture has mips.
     pictures: Cache<(ByAddress<Texels>, bool), Texture>,
     meshes: Cache<ByAddress<Mesh>, Arc<MeshBuffers>>,
 }

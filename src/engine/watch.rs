@@ -8,7 +8,7 @@ pub(super) struct Watch<'a> {
     now: &'a mut dyn FnMut() -> f64,
     /// The time of handing in nothing and waiting for it.
     floor: f64,
-    /// Of each draw, all steps together.
+    /// The milliseconds of each draw, all steps together.
     millis: Vec<f64>,
 }
 

@@ -1,4 +1,4 @@
-//! What lies in the bind groups of a pipeline.
+//! The bind groups of a pipeline.
 
 use super::Gpu;
 

@@ -149,7 +149,7 @@ pub fn depth_buffer(gpu: &Gpu, label: &str, width: u32, height: u32) -> Result<w
     Ok(texture.create_view(&Default::default()))
 }
 
-/// Whether the device can draw into targets of these formats at once; by the rule of WebGPU, "calculating color attachment
+/// Returns an error if the device cannot draw into targets of these formats at once; by the rule of WebGPU, "calculating color attachment
 /// bytes per sample".
 pub fn check_targets(gpu: &Gpu, what: &str, formats: &[wgpu::TextureFormat]) -> Result<(), GpuError> {
     let limits = gpu.device.limits();

@@ -3,7 +3,7 @@
 use super::Gpu;
 
 impl Gpu {
-    /// How a colour target begins of which a pass writes every texel. Cleared, which costs nothing where the device draws tile
+    /// Returns how a colour target begins of which a pass writes every texel. It is cleared, which costs nothing where the device draws tile
     /// by tile; lavapipe, which draws a clearing by itself, begins with what was there.
     pub fn load_what_is_overwritten(&self) -> wgpu::LoadOp<wgpu::Color> {
         if self.fences.is_some() { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) }

@@ -7,7 +7,7 @@ pub fn mip_levels(width: u32, height: u32) -> u32 {
     width.max(height).max(1).ilog2() + 1
 }
 
-/// What to make.
+/// The texture that is to be made.
 #[derive(Clone, Copy, Debug)]
 pub struct TextureDescriptor<'a> {
     pub label: &'a str,

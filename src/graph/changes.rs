@@ -1,14 +1,14 @@
-//! Which draws of a frame may be left out because nothing they read has changed.
+//! The draws of a frame that may be left out because nothing they read has changed.
 
 use super::{Draw, FramePlan, Source};
 
-/// What has changed since each draw was done. A count goes up with every drawing of a target, so that a change is seen however
+/// Finds what has changed since each draw was done. A count goes up with every drawing of a target, so that a change is seen however
 /// many passes lie between; uniforms and keys are compared byte for byte.
 #[derive(Clone, Debug, Default)]
 pub struct Changes {
-    /// Of each target: how often it was drawn.
+    /// The number of times that each target was drawn.
     drawn: Vec<u64>,
-    /// Of each draw: what it read when it was done last. `None`: it must be done.
+    /// What each draw read when it was done last. `None`: it must be done.
     read: Vec<Option<WasRead>>,
 }
 

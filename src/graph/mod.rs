@@ -1,4 +1,4 @@
-//! What each frame draws, reads and keeps, decided without a device.
+//! The plan of a frame: what it draws, reads and keeps, decided without a device.
 //!
 //! Owns [`FramePlan`]: which passes are drawn and in what order, whether a read sees this frame or the last, which buffers
 //! are doubled, where mips exist, which sampler counts, how often a pass is drawn, and when its picture of before will do

@@ -1,10 +1,10 @@
 //! The plan of a frame.
 
 use super::effective_sampler;
-use crate::project::{Filter, Input, PassFormat, PassId, PassSize, Project, Region, Sampler, Wrap};
+use crate::project::{Filter, Input, PassFormat, PassId, PassSize, Project, Region, Sampler, Turn, Wrap};
 use std::{collections::BTreeSet, ops::Range};
 
-/// What a pass does with one channel, as its compiled form says.
+/// The use that a compiled pass makes of one channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ChannelFacts {
     /// Some read of it can be reached.
@@ -13,7 +13,7 @@ pub struct ChannelFacts {
     pub reaches_mips: bool,
 }
 
-/// What the planner has to know of a compiled pass. Conservative: what may happen counts as happening.
+/// The facts of a compiled pass that the planner needs. Conservative: what may happen counts as happening.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PassFacts {
     pub channels: [ChannelFacts; 4],
@@ -27,17 +27,17 @@ impl PassFacts {
         PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: true }; 4], discards: true };
 }
 
-/// Which frame's picture of a target a read sees.
+/// The frame whose picture of a target a read sees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum When {
-    /// What has been drawn in this frame already.
+    /// The one that has been drawn in this frame already.
     ThisFrame,
-    /// What was drawn last before that: the reader is the target itself, or is drawn before it. In a group that is the step
+    /// The one that was drawn last before that: the reader is the target itself, or is drawn before it. In a group that is the step
     /// before, at its first step the frame before.
     LastFrame,
 }
 
-/// What a channel reads.
+/// The source of a channel's texels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
     /// An index into [`FramePlan::targets`].
@@ -61,7 +61,7 @@ pub struct Read {
     pub mips: bool,
 }
 
-/// What kind of texture a target needs.
+/// The kind of texture that a target needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum TargetKind {
     /// One picture.
@@ -74,7 +74,7 @@ pub enum TargetKind {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
     pub id: PassId,
-    /// Which of the pass's targets, from 0.
+    /// The place among the pass's targets, from 0.
     pub index: usize,
     pub kind: TargetKind,
     pub size: PassSize,
@@ -94,7 +94,7 @@ pub struct Draw {
     pub targets: Range<usize>,
     /// `None` where the compiled pass does not read the channel.
     pub reads: [Option<Read>; 4],
-    /// What the target held must still be there as the pass begins.
+    /// The pass begins with the texels that the target held.
     pub keeps_content: bool,
     /// Only these texels are drawn; the others are as they were drawn last.
     pub region: Option<Region>,
@@ -107,7 +107,7 @@ pub struct Draw {
     pub is_cacheable: bool,
 }
 
-/// How a fill's picture is read.
+/// The sampler of a fill's picture.
 const FILL_SAMPLER: Sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true };
 
 impl Draw {
@@ -121,7 +121,7 @@ impl Draw {
 /// Draws that follow each other, all done once in order, then again.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Run {
-    /// Of [`FramePlan::draws`].
+    /// Indices into [`FramePlan::draws`].
     pub draws: Range<usize>,
     /// At least 1.
     pub steps: u32,
@@ -133,7 +133,7 @@ pub struct FramePlan {
     pub targets: Vec<Target>,
     /// In drawing order.
     pub draws: Vec<Draw>,
-    /// How the draws are gone through: every draw in one run, in order.
+    /// The order in which draws are repeated: every draw is in one run.
     pub runs: Vec<Run>,
     /// Passes of the project that no wanted picture needs, as indices into [`Project::passes`].
     pub skipped: Vec<usize>,
@@ -165,7 +165,7 @@ impl FramePlan {
             });
             let region = project.passes[pass].settings.region;
             // Where meshes are drawn everything is cleared first, on the site's terms or not.
-            let is_cleared = project.passes[pass].settings.geometry.is_some();
+            let is_cleared = project.passes[pass].settings.meshes().is_some();
             plan.draws.push(Draw {
                 pass,
                 targets,
@@ -220,7 +220,7 @@ impl FramePlan {
         }
     }
 
-    /// Draws of a frame in which nothing rests, each step counted.
+    /// Returns the number of draws of a frame in which everything has changed, each step counted.
     pub fn draws_a_frame(&self) -> u64 {
         self.runs.iter().map(|r| r.draws.len() as u64 * u64::from(r.steps)).sum()
     }
@@ -255,7 +255,7 @@ impl FramePlan {
         Source::Target { index, when: if earlier { When::ThisFrame } else { When::LastFrame } }
     }
 
-    /// What each target needs, now that every read is known.
+    /// Decides what each target needs, now that every read is known.
     fn settle(&mut self, project: &Project, facts: &[PassFacts], skip: bool) {
         for index in 0..self.targets.len() {
             let (id, own_index) = (self.targets[index].id.clone(), self.targets[index].index);
@@ -272,7 +272,7 @@ impl FramePlan {
             };
             let drawn_by = self.draws.iter().find(|d| d.targets.contains(&index)).map(|d| d.pass);
             // What a cleared target held before cannot show.
-            let is_cleared = |p: usize| project.passes[p].settings.geometry.is_some();
+            let is_cleared = |p: usize| project.passes[p].settings.meshes().is_some();
             let discards = drawn_by.is_some_and(|p| facts[p].discards && !is_cleared(p));
             // Image keeps the canvas of one frame before; only buffers take turns.
             let takes_turns = id != PassId::Image && drawn_by.is_some();
@@ -296,7 +296,7 @@ impl FramePlan {
                 .iter()
                 .flatten()
                 .any(|r| matches!(r.source, Source::Target { index, .. } if own.contains(&index)));
-            let shows_before = facts[draw.pass].discards && project.passes[draw.pass].settings.geometry.is_none();
+            let shows_before = facts[draw.pass].discards && project.passes[draw.pass].settings.meshes().is_none();
             draw.is_cacheable = skip && !shows_before && !reads_itself;
             for read in draw.reads.iter_mut().flatten() {
                 read.mips = read.sampler.filter == Filter::Mipmap
@@ -320,14 +320,9 @@ fn input_is(input: &Input, id: &PassId, target: usize) -> bool {
 
 /// Buffers in the project's order, then the cubemap, then Image. Sound makes no picture.
 fn drawing_order(project: &Project) -> Vec<usize> {
-    let rank = |i: usize| match project.passes[i].id {
-        PassId::Buffer(_) => Some(0),
-        PassId::Cubemap => Some(1),
-        PassId::Image => Some(2),
-        PassId::Sound => None,
-    };
-    let mut order: Vec<usize> = (0..project.passes.len()).filter(|&i| rank(i).is_some()).collect();
-    order.sort_by_key(|&i| rank(i));
+    let turn = |i: usize| project.passes[i].id.turn();
+    let mut order: Vec<usize> = (0..project.passes.len()).filter(|&i| turn(i) != Turn::Sound).collect();
+    order.sort_by_key(|&i| turn(i));
     order
 }
 

@@ -2,8 +2,8 @@
 
 use super::{Changes, ChannelFacts, FramePlan, PassFacts, Source, TargetKind, When, effective_sampler};
 use crate::project::{
-    Channel, Filter, Group, Info, Input, Origin, Pass, PassFormat, PassId, PassSize, Project, Region, Sampler,
-    SamplerRules, Wrap,
+    Channel, Filter, Group, Info, Input, Origin, Pass, PassBody, PassFormat, PassId, PassSize, Project, Region,
+    Sampler, SamplerRules, Wrap,
 };
 
 const LETTERS: [&str; 4] = ["A", "B", "C", "D"];
@@ -285,7 +285,7 @@ fn with_scene() -> (Project, Vec<PassFacts>) {
     let id = PassId::Buffer("scene".into());
     let mut scene = pass(id, Default::default());
     scene.settings.format = PassFormat::Rgba8;
-    scene.settings.geometry = Some(crate::project::Geometry {
+    scene.settings.body = PassBody::Meshes(crate::project::Geometry {
         draws: Vec::new(),
         more_targets: vec![PassFormat::Rgba16f],
         camera: Default::default(),

@@ -106,7 +106,8 @@ struct Media {
 
 impl Media {
     fn named(&mut self, job: &Job) -> Named {
-        let meshes = |p: &Pass| p.settings.geometry.iter().flat_map(|g| &g.draws).map(|d| d.mesh.clone()).collect();
+        let meshes =
+            |p: &Pass| p.settings.meshes().into_iter().flat_map(|g| &g.draws).map(|d| d.mesh.clone()).collect();
         let channels = job.project.passes.iter().map(|p| (p.id.clone(), p.channels.clone(), meshes(p))).collect();
         let base = super::capture::base_folder(&job.project).unwrap_or_default();
         Named { opened: job.opened, base, channels, stamps: self.stamps.take(&job.project) }
