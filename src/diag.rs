@@ -15,6 +15,11 @@ use std::{ops::Range, sync::Arc};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SourceId(pub u16);
 
+impl SourceId {
+    /// The id of a text that is in no [`SourceMap`].
+    pub const NONE: SourceId = SourceId(u16::MAX);
+}
+
 /// A half-open range of bytes `[start, end)` in one source text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Span {

@@ -41,7 +41,7 @@ fn bytes_are_those_of_the_plan_and_an_unread_pass_is_said() {
     let costs = engine.pass_costs(&project);
     let texels = u64::from(SIZE.0 * SIZE.1);
     let seen: Vec<_> = costs.iter().map(|c| (c.pass.key(), c.role, c.held_bytes, c.moved_bytes, c.texels)).collect();
-    let drawn = PassRole::Drawn { rested: false };
+    let drawn = PassRole::Drawn { is_cached: false };
     let name = |key: &str| key.to_owned();
     assert_eq!(
         seen,
@@ -69,7 +69,7 @@ fn a_pass_that_rests_is_said_to() {
         engine.draw(&FrameInputs::at_fixed_step(frame, 60.0)).unwrap();
         engine.pass_costs(&project)[0].role
     };
-    assert_eq!([role(0), role(1)], [PassRole::Drawn { rested: false }, PassRole::Drawn { rested: true }]);
+    assert_eq!([role(0), role(1)], [PassRole::Drawn { is_cached: false }, PassRole::Drawn { is_cached: true }]);
 }
 
 #[test]

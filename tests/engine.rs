@@ -3,10 +3,10 @@
 mod support;
 
 use eddy::{
-    engine::{BuildOptions, FrameInputs},
+    engine::{BuildError, BuildOptions, BuildWork, Builder, Engine, FrameInputs, Program},
     gpu::{GpuError, GpuOptions},
     media::MediaSet,
-    project::{Filter, PassId, Wrap},
+    project::{Filter, PassFormat, PassId, Project, Source, Wrap},
 };
 use support::*;
 
@@ -211,4 +211,151 @@ fn bilinear_reads_by_hand_match_the_samplers() {
         .map(|(a, b)| (a - b).abs())
         .fold(0.0, f32::max);
     assert!(worst <= 1.0 / 255.0, "differs by {worst}");
+}
+
+/// The k-th of three texts, each of which the buffers of [`many`] use eight times.
+fn step_text(k: usize, n: u32) -> String {
+    format!(
+        "void mainImage(out vec4 o, in vec2 p) {{ o = texelFetch(iChannel0, ivec2(p), 0) + noise({k}.0) + {n}.0; }}\n"
+    )
+}
+
+/// 24 buffers over three texts, each reading the one before, and Image.
+fn many() -> Project {
+    let name = |i: usize| format!("b{i}");
+    let mut passes: Vec<_> = (0..24)
+        .map(|i| pass(buffer(&name(i)), &step_text(i % 3, 0), [nearest(&name((i + 23) % 24)), None, None, None]))
+        .collect();
+    passes.push(image(&show(1), [nearest("b23"), None, None, None]));
+    let common =
+        Source { name: "Common".into(), path: None, text: "float noise(float x) { return x * 0.5; }\n".into() };
+    Project { common: Some(common), ..project(passes) }
+}
+
+fn show(n: u32) -> String {
+    format!("void mainImage(out vec4 o, in vec2 p) {{ o = texelFetch(iChannel0, ivec2(p), 0) * noise({n}.0); }}\n")
+}
+
+fn edit(project: &mut Project, pass: &PassId, code: &str) {
+    project.pass_mut(pass).unwrap().source.text = code.into();
+}
+
+fn work(stages: usize, pipelines: usize) -> BuildWork {
+    BuildWork { stages, pipelines }
+}
+
+/// Builds and takes the program up, and draws three frames.
+fn rebuild(builder: &mut Builder, engine: &mut Engine, project: &Project) -> (BuildWork, Vec<[f32; 4]>) {
+    let built = builder.build(project, &MediaSet::new(), &BuildOptions::default()).unwrap_or_else(|e| panic!("{e:?}"));
+    engine.set_program(built.program).unwrap();
+    engine.reset();
+    run(engine, 0, 3);
+    (built.work, engine.read(&PassId::Image).unwrap().texels)
+}
+
+#[test]
+fn an_edit_builds_what_it_changes_and_nothing_else() {
+    let Some(gpu) = gpu() else { return };
+    let (mut builder, mut engine) = (Builder::new(gpu.clone()), Engine::new(gpu.clone(), 2, 2).unwrap());
+    let mut rebuild = |project: &Project| {
+        let (work, picture) = rebuild(&mut builder, &mut engine, project);
+        let mut fresh = engine_with(&gpu, project, &MediaSet::new(), &BuildOptions::default(), (2, 2));
+        run(&mut fresh, 0, 3);
+        assert_eq!(picture, fresh.read(&PassId::Image).unwrap().texels, "as with nothing from before");
+        (work, picture)
+    };
+    let mut project = many();
+    let (first, before) = rebuild(&project);
+    assert_eq!(first, work(4, 4), "25 passes over four texts");
+    assert_eq!(rebuild(&project).0, work(0, 0), "nothing has changed");
+
+    edit(&mut project, &PassId::Image, &show(2));
+    let (one, after) = rebuild(&project);
+    assert_eq!(one, work(1, 1));
+    assert_ne!(before, after);
+
+    edit(&mut project, &PassId::Image, &show(1));
+    assert_eq!(rebuild(&project), (work(0, 0), before), "back to the text of before");
+
+    edit(&mut project, &buffer("b7"), &step_text(1, 5));
+    assert_eq!(rebuild(&project).0, work(1, 1), "one of the eight passes of a text");
+
+    edit(&mut project, &PassId::Image, &format!("// a word\n{}", show(1)));
+    assert_eq!(rebuild(&project).0, work(1, 0), "what compiles to the same needs no new pipeline");
+
+    project.passes[3].settings.format = PassFormat::Rg32f;
+    assert_eq!(rebuild(&project).0, work(0, 1), "another format is another pipeline of the same stage");
+
+    project.common.as_mut().unwrap().text = "float noise(float x) { return x * 0.25; }\n".into();
+    assert_eq!(rebuild(&project).0, work(5, 6), "Common is part of every stage");
+
+    project.common.as_mut().unwrap().text = "float noise(float x) { return x * 0.25; }\nfloat unused;\n".into();
+    assert_eq!(rebuild(&project).0, work(5, 0), "what no pass of it uses changes no stage");
+}
+
+#[test]
+fn a_broken_edit_costs_nothing_that_was_there() {
+    let Some(gpu) = gpu() else { return };
+    let (mut builder, mut engine) = (Builder::new(gpu.clone()), Engine::new(gpu, 2, 2).unwrap());
+    let project = many();
+    let (_, before) = rebuild(&mut builder, &mut engine, &project);
+    let mut broken = project.clone();
+    for n in 0..5 {
+        edit(&mut broken, &PassId::Image, &format!("{} {n}", show(1)));
+        let built = builder.build(&broken, &MediaSet::new(), &BuildOptions::default());
+        assert!(matches!(built, Err(BuildError::Diagnostics { .. })));
+    }
+    assert_eq!(rebuild(&mut builder, &mut engine, &project), (work(0, 0), before));
+}
+
+/// Passes of one text share what the compiler says of it, each at its own place.
+#[test]
+fn what_is_wrong_with_a_shared_text_is_said_of_each_pass_that_has_it() {
+    let Some(gpu) = gpu() else { return };
+    let mut builder = Builder::new(gpu);
+    let mut project = many();
+    let broken = "void mainImage(out vec4 o, in vec2 p) { o = lenght(p); }\n";
+    let broken_passes = [2, 7, 11];
+    for place in broken_passes {
+        let id = project.passes[place].id.clone();
+        edit(&mut project, &id, broken);
+    }
+    for _ in 0..2 {
+        let built = builder.build(&project, &MediaSet::new(), &BuildOptions::default());
+        let Err(BuildError::Diagnostics { diagnostics, sources }) = built else { panic!("it compiles") };
+        let places: Vec<_> = diagnostics.iter().map(|d| d.span.unwrap()).collect();
+        let at = broken.find("lenght").unwrap();
+        assert!(places.iter().all(|span| span.range() == (at..at + 6)), "{diagnostics:?}");
+        let names: Vec<_> = places.iter().map(|span| sources.get(span.source).unwrap().name.clone()).collect();
+        assert_eq!(names, broken_passes.map(|place| project.passes[place].source.name.clone()));
+    }
+}
+
+/// Targets that are as before are kept, others keep what both sizes or formats have.
+#[test]
+fn buffers_keep_their_texels_through_edits_of_their_shape() {
+    let Some(gpu) = gpu() else { return };
+    let count = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0) + 1.0; }";
+    let show = "void mainImage(out vec4 o, in vec2 p) { o = textureLod(iChannel0, vec2(0.5), 9.0); }";
+    let a = |filter| reads("A", filter, Wrap::Clamp);
+    let mut project = project(vec![
+        pass(buffer("A"), count, [nearest("A"), None, None, None]),
+        image(show, [a(Filter::Nearest), None, None, None]),
+    ]);
+    let mut engine = engine(&gpu, &project, (4, 4));
+    run(&mut engine, 0, 3);
+    // Mips on and off, and a doubled buffer that becomes single.
+    for (drawn, change) in (3..).zip(["mips", "none", "no mips", "single"]) {
+        match change {
+            "mips" => project.passes[1].channels[0] = a(Filter::Mipmap),
+            "no mips" => project.passes[1].channels[0] = a(Filter::Nearest),
+            "single" => edit(&mut project, &buffer("A"), "void mainImage(out vec4 o, in vec2 p) { o = vec4(9.0); }"),
+            _ => {}
+        }
+        let built = Program::build(&gpu, &project, &MediaSet::new(), &BuildOptions::default()).unwrap();
+        engine.set_program(built.program).unwrap();
+        assert_eq!(texel(&engine.read(&buffer("A")).unwrap(), 3, 3)[0], drawn as f32, "{change}");
+        run(&mut engine, drawn, drawn + 1);
+    }
+    assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 0, 0), [9.0, 9.0, 9.0, 1.0]);
 }

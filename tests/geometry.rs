@@ -6,8 +6,8 @@ use eddy::{
     engine::{BuildError, BuildOptions, Engine, FrameInputs, Program},
     media::MediaSet,
     project::{
-        Camera, Channel, Cull, DepthTest, Filter, Geometry, Input, MeshDraw, MeshSource, Pass, PassFormat, PassId,
-        Project, Sampler, Source, Stage, Wrap,
+        Camera, Channel, Cull, DepthTest, Filter, Geometry, Input, MeshDraw, MeshSource, Pass, PassBody, PassFormat,
+        PassId, Project, Sampler, Source, Stage, Wrap,
     },
 };
 use glam::{Mat4, Vec3, Vec4};
@@ -67,7 +67,7 @@ fn source(name: &str, text: &str) -> Source {
 /// A pass `scene` of 32-bit targets; its own text is the fragment stage, `stages` are further texts.
 fn scene(fragment: &str, stages: &[&str], targets: usize, camera: Camera, draws: Vec<MeshDraw>) -> Pass {
     let mut scene = pass(buffer("scene"), fragment, Default::default());
-    scene.settings.geometry = Some(Geometry {
+    scene.settings.body = PassBody::Meshes(Geometry {
         draws,
         more_targets: vec![PassFormat::Rgba32f; targets - 1],
         camera,

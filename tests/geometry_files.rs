@@ -71,7 +71,7 @@ fn a_folder_is_read_and_written_back_as_it_was() {
     let mut p = loaded.project;
     let settings = &p.passes[0].settings;
     assert_eq!(settings.formats(), [PassFormat::Rgba8, PassFormat::Rgba16f]);
-    let g = settings.geometry.as_ref().unwrap();
+    let g = settings.meshes().unwrap();
     assert_eq!(p.passes[0].source.name, "scene.frag.glsl");
     assert_eq!((g.draws[0].vertex, g.draws[0].fragment), (Text::File(0), Text::Own));
     assert_eq!((g.draws[1].vertex, g.draws[1].fragment), (Text::File(1), Text::Own));
@@ -89,7 +89,7 @@ fn a_folder_is_read_and_written_back_as_it_was() {
     assert_eq!(fs::read_to_string(home.join("eddy.toml")).unwrap(), TOML, "nothing was changed");
 
     // A change of one thing leaves the rest as it is written, comments too.
-    p.passes[0].settings.geometry.as_mut().unwrap().camera.yaw = 10.0;
+    p.passes[0].settings.meshes_mut().unwrap().camera.yaw = 10.0;
     p.source_mut(&scene_tab("hull.vert.glsl")).unwrap().text = "// hull\n".into();
     project::save(&p, &home, Overwrite::Refuse).unwrap();
     let text = fs::read_to_string(home.join("eddy.toml")).unwrap();
@@ -97,7 +97,7 @@ fn a_folder_is_read_and_written_back_as_it_was() {
     assert_eq!(fs::read_to_string(home.join("hull.vert.glsl")).unwrap(), "// hull\n");
 
     // Elsewhere: stages, models, all of it.
-    p.passes[0].settings.geometry.as_mut().unwrap().draws[0].cull = project::Cull::Front;
+    p.passes[0].settings.meshes_mut().unwrap().draws[0].cull = project::Cull::Front;
     let away = dir.path().join("away");
     let saved = project::save(&p, &away, Overwrite::Refuse).unwrap();
     assert_eq!(fs::read_to_string(away.join("models/tri.obj")).unwrap(), TRIANGLE);

@@ -229,8 +229,9 @@ fn with_stage(name: &str) -> Project {
         position: [0.0; 3],
     };
     let stage = Source { name: name.into(), path: Some(name.into()), text: "evil".into() };
-    scene.settings.geometry =
-        Some(Geometry { draws: vec![draw], more_targets: vec![], camera: Default::default(), stages: vec![stage] });
+    let camera = Default::default();
+    let meshes = Geometry { draws: vec![draw], more_targets: vec![], camera, stages: vec![stage] };
+    scene.settings.body = eddy::project::PassBody::Meshes(meshes);
     support::project(vec![scene, support::image(IMAGE, Default::default())])
 }
 

@@ -200,13 +200,13 @@ fn what_did_not_change_is_not_drawn_again_and_every_change_is() {
     let mut inputs = FrameInputs::at_fixed_step(0, 60.0);
     let draw = |engine: &mut Engine, inputs: &FrameInputs, what: &str, drawn: u64| {
         let stats = engine.draw(inputs).unwrap();
-        assert_eq!((stats.passes_drawn, stats.passes_rested), (drawn, 5 - drawn), "{what}");
+        assert_eq!((stats.passes_drawn, stats.passes_cached), (drawn, 5 - drawn), "{what}");
         // What it shows is what drawing everything shows.
         let mut full = no_skip(&gpu, &project, engine.size());
         full.set_knobs(&project.knob_values);
         full.draw(inputs).unwrap();
         assert_eq!(engine.read(&PassId::Image).unwrap(), full.read(&PassId::Image).unwrap(), "{what}");
-        stats.bytes_rested
+        stats.bytes_cached
     };
     draw(&mut engine, &inputs, "the first frame", 5);
     inputs = FrameInputs::at_fixed_step(1, 60.0);
@@ -230,7 +230,7 @@ fn what_did_not_change_is_not_drawn_again_and_every_change_is() {
     let built = eddy::engine::Program::build(&gpu, &project, &MediaSet::new(), &BuildOptions::default()).unwrap();
     engine.set_program(built.program).unwrap();
     assert_eq!(engine.draw(&inputs).unwrap().passes_drawn, 5, "a new program");
-    assert_eq!(full.draw(&inputs).unwrap().passes_rested, 0, "--no-skip");
+    assert_eq!(full.draw(&inputs).unwrap().passes_cached, 0, "--no-skip");
 }
 
 #[test]

@@ -25,7 +25,7 @@ fn camera() -> Camera {
 /// In place of the scene a floor that ends at a wall of a height, which faces the camera; the wall and the floor go on to the sides.
 fn corner(project: &mut Project, height: Option<f64>) {
     for name in ["geometry", "backs", "occlusion", "lighting"] {
-        let geometry = project.pass_mut(&buffer(name)).unwrap().settings.geometry.as_mut().unwrap();
+        let geometry = project.pass_mut(&buffer(name)).unwrap().settings.meshes_mut().unwrap();
         geometry.camera = camera();
         if name == "geometry" || name == "backs" {
             let floor = geometry.draws[0].clone();

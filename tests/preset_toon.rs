@@ -45,7 +45,7 @@ fn scene(page: Page, mesh: &str, rotation: [f64; 3], distance: f64, knobs: &[&st
     let mut project = preset("toon-outline", &PLAIN);
     // One by one: a knob may be turned once.
     knobs.iter().for_each(|knob| project.set_knob(knob).unwrap());
-    let geometry = project.pass_mut(&buffer("scene")).unwrap().settings.geometry.as_mut().unwrap();
+    let geometry = project.pass_mut(&buffer("scene")).unwrap().settings.meshes_mut().unwrap();
     geometry.camera = camera(distance);
     let first = 3 * page as usize;
     let place = |draw: &MeshDraw| MeshDraw {
@@ -131,7 +131,7 @@ fn without_width_and_with_depth_alone_there_is_no_line() {
     for (page, mesh) in [(Page::Figure, "builtin:figure"), (Page::Cube, "builtin:cube"), (Page::Knot, "builtin:knot")] {
         let with = |knobs: &[&str]| drawn(&gpu, page, mesh, [20.0, 30.0, 0.0], 7.0, knobs);
         let mut bare = scene(page, mesh, [20.0, 30.0, 0.0], 7.0, &[]);
-        bare.pass_mut(&buffer("scene")).unwrap().settings.geometry.as_mut().unwrap().draws.truncate(1);
+        bare.pass_mut(&buffer("scene")).unwrap().settings.meshes_mut().unwrap().draws.truncate(1);
         let bare = picture_of(&gpu, &bare);
         assert!(count(&with(&[]), is_line) > 500, "{mesh}");
         assert_eq!(with(&["outlineWidth=0"]).texels, bare.texels, "{mesh}");
@@ -145,7 +145,7 @@ fn depth_alone_hides_what_is_drawn_behind() {
     // A large cube behind the sphere, drawn after it.
     let with = |z_only: &str| {
         let mut project = scene(Page::Figure, "builtin:sphere", [0.0; 3], 6.0, &[z_only]);
-        let geometry = project.pass_mut(&buffer("scene")).unwrap().settings.geometry.as_mut().unwrap();
+        let geometry = project.pass_mut(&buffer("scene")).unwrap().settings.meshes_mut().unwrap();
         let cube = MeshDraw {
             mesh: MeshSource::parse("builtin:cube"),
             scale: 3.0,
@@ -301,7 +301,7 @@ fn depth_alone_of_no_width_hides_what_the_mesh_hides() {
     // The hull alone, and a large cube behind it, drawn after it.
     let seen = |knobs: &[&str]| {
         let mut project = scene(Page::Figure, "builtin:sphere", [0.0; 3], 6.0, knobs);
-        let geometry = project.pass_mut(&buffer("scene")).unwrap().settings.geometry.as_mut().unwrap();
+        let geometry = project.pass_mut(&buffer("scene")).unwrap().settings.meshes_mut().unwrap();
         let position = [0.0, 0.0, -5.0];
         let cube = MeshSource::parse("builtin:cube");
         let cube = MeshDraw { mesh: cube, scale: 3.0, position, ..geometry.draws[0].clone() };

@@ -109,8 +109,8 @@ fn measure(
         let began = Instant::now();
         let stats = engine.draw(&inputs)?;
         let drawn = stats.passes_drawn;
-        passes_rested += stats.passes_rested;
-        bytes_rested += stats.bytes_rested;
+        passes_rested += stats.passes_cached;
+        bytes_rested += stats.bytes_cached;
         cpu.push(millis_since(began) * 1000.0 / drawn.max(1) as f64);
         engine.gpu().wait()?;
         millis.push(millis_since(began));

@@ -1,76 +1,30 @@
-//! A project's texts on their way through the compiler.
+//! From a project's texts to compiled passes.
 
-use super::{fill, knobs, program::kind_of, stages::CompiledPass};
+use super::{Sources, compiled::CompiledPass, fill_text, sources, stage_cache::StageCache};
 use crate::{
-    diag::{Diagnostic, SourceId},
-    glsl::{self, ChannelKind, Driver, Include, PassKind, PassSource, Text, UniformValue, services::Analysis},
-    project::{FillKind, FillText, Geometry, IncludeLines, Knobs, Pass, PassId, Project, Stage},
+    diag::Diagnostic,
+    glsl::{Compiled, Driver, Link, PassKind, PassSource, Reflection},
+    project::{FillKind, Geometry, PassBody, PassId, Stage},
 };
-use std::borrow::Cow;
+use std::sync::Arc;
 
-/// The texts of a project as the compiler takes them, what they include and what they declare.
-pub struct Sources<'p> {
-    project: &'p Project,
-    /// By [`SourceId`], each as long as the author's own.
-    texts: Vec<Cow<'p, str>>,
-    lines: IncludeLines,
-    knobs: Knobs,
-    /// Of uniforms that are no knobs.
-    values: Vec<UniformValue>,
-    /// Of fills, each with its pass.
-    fills: Vec<(usize, FillKind, FillText)>,
-    /// What is wrong with them before any is compiled.
-    pub diagnostics: Vec<Diagnostic>,
+type Result<T> = std::result::Result<T, Vec<Diagnostic>>;
+
+/// The settings of a pass that its texts do not say.
+#[derive(Clone, Copy)]
+pub(super) struct PassOptions {
+    pub bilinear_by_hand: [bool; 4],
+    pub driver: Driver,
 }
 
-impl<'p> Sources<'p> {
-    pub fn new(project: &'p Project) -> Self {
-        let common = project.common.as_ref().map_or(Cow::Borrowed(""), |c| c.compile_text());
-        let of_stage = |source: &'p crate::project::Source| without_version(source.compile_text());
-        let passes = project.passes.iter().map(|p| match &p.settings.geometry {
-            Some(_) => of_stage(&p.source),
-            None => p.source.compile_text(),
-        });
-        let stages = project.stages().map(|(_, s)| of_stage(s));
-        let included = project.includes.iter().map(|i| i.source.compile_text());
-        let (lines, knobs) = (project.include_lines(), knobs::knobs(project));
-        let fills = project.fills().filter_map(|(p, kind, _)| Some((p, kind, project.fill_text(p, kind)?))).collect();
-        let diagnostics = lines.diagnostics.iter().chain(&knobs.diagnostics).cloned().collect();
-        let values = knobs::given(&knobs, &project.knob_values);
-        Self {
-            project,
-            texts: [common].into_iter().chain(passes).chain(stages).chain(included).collect(),
-            lines,
-            knobs,
-            values,
-            fills,
-            diagnostics,
-        }
-    }
-
-    pub fn knobs(&self) -> &Knobs {
-        &self.knobs
-    }
-
+impl Sources<'_> {
     /// Compiles `project.passes[index]` as it is, of whichever kind and reached or not. Needs no device, but is told which
     /// channels the device that shall run it cannot filter, and what its driver needs.
     ///
     /// # Panics
     /// If there is no such pass.
-    pub fn compile_pass(
-        &self,
-        index: usize,
-        bilinear_by_hand: [bool; 4],
-        driver: Driver,
-    ) -> Result<CompiledPass, Vec<Diagnostic>> {
-        let pass = &self.project.passes[index];
-        if let Some(geometry) = &pass.settings.geometry {
-            return self.compile_geometry(index, geometry, bilinear_by_hand, driver);
-        }
-        let id = SourceId(index as u16 + 1);
-        self.with_source(index, id, pass_kind(&pass.id), |source| {
-            glsl::compile(&PassSource { bilinear_by_hand, driver, ..*source }).map(CompiledPass::screen)
-        })
+    pub fn compile_pass(&self, index: usize, bilinear_by_hand: [bool; 4], driver: Driver) -> Result<CompiledPass> {
+        self.compile_pass_with(&mut StageCache::default(), index, PassOptions { bilinear_by_hand, driver })
     }
 
     /// Compiles what fills texels of `project.passes[index]`, if something does. It sees Common, and of the author's own uniforms
@@ -81,128 +35,103 @@ impl<'p> Sources<'p> {
         kind: FillKind,
         bilinear_by_hand: bool,
         driver: Driver,
-    ) -> Option<Result<CompiledPass, Vec<Diagnostic>>> {
-        let value = &self.project.passes[index].fill(kind)?.value;
-        let (.., written) = self.fills.iter().find(|(p, k, _)| (*p, *k) == (index, kind))?;
-        Some(fill::compile(self, value, written, bilinear_by_hand, driver))
+    ) -> Option<Result<CompiledPass>> {
+        let options = PassOptions { bilinear_by_hand: [bilinear_by_hand, false, false, false], driver };
+        self.compile_fill_with(&mut StageCache::default(), index, kind, options)
     }
 
-    /// As [`Self::with_source`], of a text that stands in no tab. Of texts of the project it sees Common.
-    pub(super) fn with_fill<T>(
+    /// Does the same as [`Self::compile_pass`], with the stages of earlier builds.
+    pub(super) fn compile_pass_with(
         &self,
-        code: Text<'_>,
-        value: Option<Include<'_>>,
-        work: impl FnOnce(&PassSource<'_>) -> T,
-    ) -> T {
-        let mut includes = self.includes();
-        includes.extend(value);
-        work(&PassSource {
-            kind: PassKind::Buffer,
-            common: if value.is_some() { self.common() } else { None },
-            code,
-            includes: &includes,
-            channels: Default::default(),
-            knobs: &knobs::in_scope(&self.knobs, &self.lines, None),
-            values: &self.values,
-            bilinear_by_hand: [false; 4],
-            driver: Driver::default(),
-        })
-    }
-
-    /// Gives a text of `project.passes[index]` as the compiler takes it.
-    pub(super) fn with_source<T>(
-        &self,
+        cache: &mut StageCache,
         index: usize,
-        id: SourceId,
-        kind: PassKind,
-        work: impl FnOnce(&PassSource<'_>) -> T,
-    ) -> T {
-        work(&PassSource {
-            kind,
-            common: self.common(),
-            code: self.text(id),
-            includes: &self.includes(),
-            channels: channel_kinds(&self.project.passes[index]),
-            knobs: &knobs::in_scope(&self.knobs, &self.lines, Some(id)),
-            values: &self.values,
-            bilinear_by_hand: [false; 4],
-            driver: Driver::default(),
+        options: PassOptions,
+    ) -> Result<CompiledPass> {
+        let pass = &self.project.passes[index];
+        match &pass.settings.body {
+            PassBody::Screen => self.compile_screen(cache, index, &pass.id, options),
+            PassBody::Meshes(geometry) => self.compile_meshes(cache, index, geometry, options),
+        }
+    }
+
+    fn compile_screen(
+        &self,
+        cache: &mut StageCache,
+        index: usize,
+        id: &PassId,
+        options: PassOptions,
+    ) -> Result<CompiledPass> {
+        let (id, kind) = (self.stage_id(index, Stage::Own), sources::pass_kind(id));
+        let link = Link::default();
+        let (fragment, said) = self.with_source(index, id, kind, |source| self.compile(cache, source, &link, options));
+        match fragment {
+            Some(fragment) => Ok(CompiledPass::screen(fragment, said)),
+            None => Err(said),
+        }
+    }
+
+    /// Does the same as [`Self::compile_fill`], with the stages of earlier builds.
+    pub(super) fn compile_fill_with(
+        &self,
+        cache: &mut StageCache,
+        index: usize,
+        kind: FillKind,
+        options: PassOptions,
+    ) -> Option<Result<CompiledPass>> {
+        let value = &self.project.passes[index].fill(kind)?.value;
+        let text = fill_text::FillSource::new(value, self.fill_text(index, kind)?);
+        let (fragment, said) =
+            self.with_fill(text.code(), text.value(), |source| self.compile(cache, source, &Link::default(), options));
+        let said = text.told(said);
+        Some(match fragment {
+            Some(fragment) => Ok(CompiledPass::screen(fragment, said)),
+            None => Err(said),
         })
     }
 
-    pub(super) fn stage_id(&self, index: usize, stage: Stage) -> SourceId {
-        self.project.stage_id(index, stage)
+    /// Compiles the program of every draw; each text once for each partner it has.
+    fn compile_meshes(
+        &self,
+        cache: &mut StageCache,
+        index: usize,
+        geometry: &Geometry,
+        options: PassOptions,
+    ) -> Result<CompiledPass> {
+        let mut compile = |stage: Stage, kind: PassKind, link: &Link<'_>| {
+            let mut options = options;
+            // A vertex stage can read no storage buffer on every device.
+            options.driver.tables_in_memory |= kind == PassKind::Vertex;
+            self.with_source(index, self.stage_id(index, stage), kind, |source| {
+                self.compile(cache, source, link, options)
+            })
+        };
+        let targets = Some(self.project.passes[index].settings.formats().len());
+        let mut pass =
+            CompiledPass { programs: Vec::new(), reflection: Reflection::default(), diagnostics: Vec::new() };
+        for draw in &geometry.draws {
+            let (vertex, of_vertex) = compile(draw.vertex, PassKind::Vertex, &Link::default());
+            let link = Link { varyings: vertex.as_ref().map(|v| &v.reflection.varyings[..]), targets };
+            let (fragment, of_fragment) = compile(draw.fragment, PassKind::Fragment, &link);
+            for diagnostic in of_vertex.into_iter().chain(of_fragment) {
+                if !pass.diagnostics.contains(&diagnostic) {
+                    pass.diagnostics.push(diagnostic);
+                }
+            }
+            if let (Some(vertex), Some(fragment)) = (vertex, fragment) {
+                pass.add_mesh(vertex, fragment);
+            }
+        }
+        if pass.diagnostics.iter().any(Diagnostic::is_error) { Err(pass.diagnostics) } else { Ok(pass) }
     }
 
-    pub(super) fn targets(&self, index: usize) -> usize {
-        self.project.passes[index].settings.formats().len()
+    fn compile(
+        &self,
+        cache: &mut StageCache,
+        source: &PassSource<'_>,
+        link: &Link<'_>,
+        options: PassOptions,
+    ) -> (Option<Arc<Compiled>>, Vec<Diagnostic>) {
+        let PassOptions { bilinear_by_hand, driver } = options;
+        cache.compile(&PassSource { bilinear_by_hand, driver, ..*source }, link, |text| self.shared(text))
     }
-
-    /// `project.passes[index]` as an editor understands it, whether it compiles or not.
-    ///
-    /// # Panics
-    /// If there is no such pass.
-    pub fn analyse(&self, index: usize) -> Analysis {
-        self.analyse_stage(index, Stage::Own)
-    }
-
-    /// As [`Sources::analyse`], of a stage of a pass that draws meshes.
-    ///
-    /// # Panics
-    /// If there is no such pass or stage.
-    pub fn analyse_stage(&self, index: usize, stage: Stage) -> Analysis {
-        let pass = &self.project.passes[index];
-        let kind = pass.settings.geometry.as_ref().map_or_else(|| pass_kind(&pass.id), |g| stage_kind(g, stage));
-        self.with_source(index, self.stage_id(index, stage), kind, Analysis::new)
-    }
-
-    /// What the site would refuse in Common; see [`glsl::check_common`].
-    pub fn check_common(&self) -> Vec<Diagnostic> {
-        let knobs = knobs::in_scope(&self.knobs, &self.lines, None);
-        self.common().map_or(Vec::new(), |common| glsl::check_common(common, &self.includes(), &knobs))
-    }
-
-    fn common(&self) -> Option<Text<'_>> {
-        self.project.common.is_some().then(|| self.text(SourceId(0)))
-    }
-
-    fn text(&self, id: SourceId) -> Text<'_> {
-        Text { id, text: &self.texts[usize::from(id.0)] }
-    }
-
-    fn includes(&self) -> Vec<Include<'_>> {
-        self.lines.lines.iter().map(|&(line, of)| Include { line, text: self.text(of) }).collect()
-    }
-}
-
-/// A stage of GLSL ES 3.00 may begin with its version, which here goes without saying.
-fn without_version(text: Cow<'_, str>) -> Cow<'_, str> {
-    let begin = text.len() - text.trim_start_matches(|c: char| c.is_whitespace() || c == '\u{feff}').len();
-    let line = text[begin..].lines().next().unwrap_or_default();
-    let is_version = line.split_whitespace().eq(["#version", "300", "es"]);
-    if !is_version {
-        return text;
-    }
-    let blank = " ".repeat(line.len());
-    Cow::Owned(format!("{}{blank}{}", &text[..begin], &text[begin + line.len()..]))
-}
-
-/// Which stage a text of a pass is: that of vertices if some draw uses it so.
-pub fn stage_kind(geometry: &Geometry, stage: Stage) -> PassKind {
-    if geometry.draws.iter().any(|d| d.vertex == stage) { PassKind::Vertex } else { PassKind::Fragment }
-}
-
-/// What the compiler calls a pass.
-pub fn pass_kind(id: &PassId) -> PassKind {
-    match id {
-        PassId::Image => PassKind::Image,
-        PassId::Buffer(_) => PassKind::Buffer,
-        PassId::Cubemap => PassKind::Cubemap,
-        PassId::Sound => PassKind::Sound,
-    }
-}
-
-/// The types `iChannel0..3` of a pass are declared with.
-pub fn channel_kinds(pass: &Pass) -> [ChannelKind; 4] {
-    std::array::from_fn(|i| kind_of(pass.channels[i].as_ref()))
 }

@@ -1,12 +1,12 @@
-//! What each pass costs: what its textures hold, what it moves, and how long it takes.
+//! The costs of each pass: the bytes that its textures hold, the bytes that it moves, and the time that it takes.
 
-use super::{Engine, PassTime};
+use super::Engine;
 use crate::project::{PassFormat, PassId, Project};
 
 /// Bytes a texel of a depth buffer.
 const DEPTH_BYTES: u64 = 4;
 
-/// How the milliseconds of passes are taken.
+/// The clock that the milliseconds of passes are taken from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CostClock {
     /// The device's timestamps before and after each pass.
@@ -16,11 +16,11 @@ pub enum CostClock {
     Waited,
 }
 
-/// What becomes of a pass in a frame.
+/// The part of a pass in a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PassRole {
-    /// It is drawn, or rested in the newest frame because nothing that it reads had changed.
-    Drawn { rested: bool },
+    /// It is drawn; cached, if its picture of before did in the newest frame because nothing that it reads had changed.
+    Drawn { is_cached: bool },
     /// Nobody reads it: it is left out.
     Unread,
     /// Eddy does not draw passes of its kind.
@@ -34,9 +34,9 @@ pub struct PassCost {
     pub role: PassRole,
     /// Texels of its targets.
     pub size: (u32, u32),
-    /// Of each of its targets.
+    /// The format of each of its targets.
     pub formats: Vec<PassFormat>,
-    /// How often it is drawn in a frame.
+    /// The number of times that a frame draws it.
     pub steps: u32,
     /// Bytes of its textures on the device, mip levels, the second one of a pair and the depth buffer among them.
     pub held_bytes: u64,
@@ -48,25 +48,25 @@ pub struct PassCost {
 }
 
 impl Engine {
-    /// What each pass of the running program costs, in drawing order; then the passes of `project` that are not drawn. Empty
+    /// Returns the costs of each pass of the running program in drawing order, then those of `project` that are not drawn. Empty
     /// without a program.
     pub fn pass_costs(&self, project: &Project) -> Vec<PassCost> {
-        let Some(program) = &self.program else { return Vec::new() };
-        let plan = &program.plan;
+        let Some(running) = self.running() else { return Vec::new() };
+        let (plan, canvas) = (&running.program.plan, running.canvas);
         let mut costs: Vec<PassCost> = Vec::new();
-        for (index, (compiled, draw)) in program.draws.iter().zip(&plan.draws).enumerate() {
+        for (index, (compiled, draw)) in running.program.planned_draws().enumerate() {
             let targets = &plan.targets[draw.targets.clone()];
-            let size = targets[0].size.of(self.size);
-            let step = plan.traffic_of(index, self.size);
+            let size = targets[0].size.of(canvas);
+            let step = plan.traffic_of(index, canvas);
             let steps = plan.steps_of(index);
-            let depth = if compiled.camera.is_some() { DEPTH_BYTES } else { 0 };
+            let depth = if compiled.body.meshes().is_some() { DEPTH_BYTES } else { 0 };
             costs.push(PassCost {
                 pass: compiled.id.clone(),
-                role: PassRole::Drawn { rested: self.steps_drawn.get(index) == Some(&0) },
+                role: PassRole::Drawn { is_cached: running.steps_drawn.get(index) == Some(&0) },
                 size,
                 formats: targets.iter().map(|t| t.format).collect(),
                 steps,
-                held_bytes: targets.iter().map(|t| t.bytes(self.size)).sum::<u64>()
+                held_bytes: targets.iter().map(|t| t.bytes(canvas)).sum::<u64>()
                     + depth * u64::from(size.0) * u64::from(size.1),
                 moved_bytes: step.bytes * u64::from(steps),
                 texels: step.texels * u64::from(steps),
@@ -80,11 +80,11 @@ impl Engine {
             costs.push(PassCost {
                 pass: pass.id.clone(),
                 role: if is_known { PassRole::Unread } else { PassRole::Unsupported },
-                size: pass.settings.size.of(self.size),
+                size: pass.settings.size.of(canvas),
                 formats: pass.settings.formats(),
                 steps: 0,
                 // What reads a pass that is not drawn reads zeros, which take their room.
-                held_bytes: plan.targets.iter().filter(|t| t.id == pass.id).map(|t| t.bytes(self.size)).sum(),
+                held_bytes: plan.targets.iter().filter(|t| t.id == pass.id).map(|t| t.bytes(canvas)).sum(),
                 moved_bytes: 0,
                 texels: 0,
             });
@@ -92,32 +92,9 @@ impl Engine {
         costs
     }
 
-    /// How [`Engine::pass_times`] or [`Engine::draw_waited`] tell what passes take on this device.
+    /// Returns the clock by which this device can say how long passes take: that of [`Engine::pass_times`] or of
+    /// [`Engine::draw_waited`].
     pub fn cost_clock(&self) -> CostClock {
-        if self.gpu.has_timestamps { CostClock::Timestamps } else { CostClock::Waited }
-    }
-}
-
-/// The time of each draw, taken while a frame is drawn piece by piece.
-pub(super) struct Watch<'a> {
-    /// Milliseconds since any moment.
-    pub now: &'a mut dyn FnMut() -> f64,
-    /// Of handing in nothing and waiting for it.
-    pub floor: f64,
-    /// Of each draw, all steps together.
-    pub millis: Vec<f64>,
-}
-
-impl Watch<'_> {
-    /// Adds what a draw took since `began`.
-    pub fn add(&mut self, draw: usize, began: f64) {
-        let millis = (self.now)() - began - self.floor;
-        if let Some(sum) = self.millis.get_mut(draw) {
-            *sum += millis.max(0.0);
-        }
-    }
-
-    pub fn times<'p>(&self, passes: impl Iterator<Item = &'p PassId>) -> Vec<PassTime> {
-        passes.zip(&self.millis).map(|(pass, &gpu_millis)| PassTime { pass: pass.clone(), gpu_millis }).collect()
+        if self.gpu().has_timestamps { CostClock::Timestamps } else { CostClock::Waited }
     }
 }

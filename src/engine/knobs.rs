@@ -9,7 +9,7 @@ use crate::{
 /// Slots in the 64 KiB that a uniform buffer has on every device.
 const MAX_KNOBS: usize = (64 << 10) / KNOB_BYTES as usize;
 
-/// What the texts of a project declare, with what the language has against it.
+/// Returns the uniforms that the texts of a project declare, with errors for names that the language has taken.
 pub(super) fn knobs(project: &Project) -> Knobs {
     let mut knobs = project.knobs();
     for knob in &knobs.list {
@@ -30,9 +30,9 @@ pub(super) fn knobs(project: &Project) -> Knobs {
     knobs
 }
 
-/// Those that the texts of a pass may name: its own, Common's, and those of what they include. `None`: Common alone.
+/// Returns those that the texts of a pass may name: its own, Common's, and those of what they include. `None`: Common alone.
 pub(super) fn in_scope<'k>(knobs: &'k Knobs, lines: &IncludeLines, pass: Option<SourceId>) -> Vec<glsl::Knob<'k>> {
-    let mut texts = lines.reach(SourceId(0));
+    let mut texts = lines.reach(Project::COMMON_ID);
     texts.extend(pass.map(|id| lines.reach(id)).unwrap_or_default());
     let is_there = |knob: &Knob| knob.declared_in.iter().any(|id| texts.contains(id));
     knobs
@@ -45,7 +45,7 @@ pub(super) fn in_scope<'k>(knobs: &'k Knobs, lines: &IncludeLines, pass: Option<
         .collect()
 }
 
-/// What is given for uniforms that the texts declare in GLSL's own way: values that are no knob's.
+/// Returns the values for uniforms that the texts declare in GLSL's own way: those that are no knob's.
 pub(super) fn given(knobs: &Knobs, values: &KnobValues) -> Vec<UniformValue> {
     let others = values.iter().filter(|(name, _)| knobs.get(name).is_none());
     others.map(|(name, value)| UniformValue { name: name.clone(), value: as_given(value) }).collect()
@@ -72,7 +72,7 @@ fn kind(ty: KnobType) -> KnobKind {
     }
 }
 
-/// The block's slots, for knobs at these values.
+/// Returns the block's slots for knobs at these values.
 pub(super) fn block(knobs: &[Knob], values: &KnobValues) -> Vec<[u32; 4]> {
     let slot = |knob: &Knob| {
         let mut words = [0; 4];

@@ -4,22 +4,40 @@
 //! frame. Reads no clock, no file and no environment variable: same project, same inputs, same bytes. Knows no window.
 
 mod bind;
+mod build;
+mod cache;
+mod channels;
 mod compile;
+mod compiled;
 mod costs;
-mod fill;
+mod display;
+mod draft;
+mod error;
+mod fill_text;
+mod formats;
 mod frame;
-mod geometry;
 mod inputs;
 mod knobs;
+mod pipelines;
+mod placed;
 mod program;
+mod results;
 mod run;
-mod stages;
+mod running;
+mod shared;
+mod sources;
+mod stage_cache;
 mod targets;
 mod uniforms;
+mod uploads;
+mod watch;
 
-pub use compile::{Sources, channel_kinds, pass_kind, stage_kind};
+pub use build::{BuildOptions, BuildWork, Builder, Built};
+pub use compiled::CompiledPass;
 pub use costs::{CostClock, PassCost, PassRole};
+pub use error::{BuildError, EngineError};
 pub use inputs::FrameInputs;
-pub use program::{BuildError, BuildOptions, Built, Program};
-pub use run::{Engine, EngineError, FrameStats, PassTime, Pixels};
-pub use stages::CompiledPass;
+pub use program::Program;
+pub use results::{FrameStats, PassTime, Pixels};
+pub use run::Engine;
+pub use sources::{Sources, channel_kinds, pass_kind, stage_kind};

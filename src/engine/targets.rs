@@ -1,66 +1,54 @@
 //! The textures passes draw into, kept from frame to frame and, where it makes sense, from program to program.
 
+use super::formats::texture_format;
 use crate::{
     gpu::{Gpu, GpuError, MipChain, MipMaker, Texture, TextureDescriptor, mip_levels},
-    graph::FramePlan,
-    project::{PassFormat, PassId},
+    graph::{self, FramePlan},
+    project::PassId,
 };
-
-pub(super) fn texture_format(format: PassFormat) -> wgpu::TextureFormat {
-    use wgpu::TextureFormat as T;
-    match format {
-        PassFormat::R8 => T::R8Unorm,
-        PassFormat::Rg8 => T::Rg8Unorm,
-        PassFormat::Rgba8 => T::Rgba8Unorm,
-        PassFormat::R16f => T::R16Float,
-        PassFormat::Rg16f => T::Rg16Float,
-        PassFormat::Rgba16f => T::Rgba16Float,
-        PassFormat::R32f => T::R32Float,
-        PassFormat::Rg32f => T::Rg32Float,
-        PassFormat::Rgba32f => T::Rgba32Float,
-    }
-}
 
 /// One or two textures of a pass. Of two, one holds what was drawn last and is read; the next draw goes into the other, and
 /// then they change places.
 pub(super) struct Target {
     pub id: PassId,
-    /// Which of the pass's targets.
+    /// The place among the pass's targets.
     pub index: usize,
     pub textures: Vec<Texture>,
     /// For each texture, where the plan asks for mips.
     pub chains: Vec<MipChain>,
-    /// Which texture was drawn last.
+    /// The index of the texture that was drawn last.
     pub front: usize,
 }
 
 impl Target {
-    fn new(
-        gpu: &Gpu,
-        mips: &mut MipMaker,
-        planned: &crate::graph::Target,
-        canvas: (u32, u32),
-    ) -> Result<Target, GpuError> {
-        let (width, height) = planned.size.of(canvas);
-        let format = texture_format(planned.format);
+    fn new(gpu: &Gpu, mips: &mut MipMaker, planned: &graph::Target, canvas: (u32, u32)) -> Result<Target, GpuError> {
         let label = match planned.index {
             0 => planned.id.title(),
             n => format!("{}, target {n}", planned.id.title()),
         };
-        let levels = if planned.mips { mip_levels(width, height) } else { 1 };
+        let Shape { size: (width, height), format, levels, count } = Shape::of(planned, canvas);
         let descriptor = TextureDescriptor { label: &label, width, height, format, levels, is_target: true };
-        let count = if planned.doubled { 2 } else { 1 };
         let textures = (0..count).map(|_| Texture::new(gpu, &descriptor)).collect::<Result<Vec<_>, _>>()?;
         let chains = if planned.mips { textures.iter().map(|t| mips.chain(gpu, t)).collect() } else { Vec::new() };
         Ok(Target { id: planned.id.clone(), index: planned.index, textures, chains, front: 0 })
     }
 
-    /// What was drawn last.
+    /// Returns true if it is the target that a plan asks for.
+    fn is(&self, planned: &graph::Target) -> bool {
+        self.id == planned.id && self.index == planned.index
+    }
+
+    fn shape(&self) -> Shape {
+        let first = &self.textures[0];
+        Shape { size: self.size(), format: first.raw.format(), levels: first.levels(), count: self.textures.len() }
+    }
+
+    /// The texture that was drawn last.
     pub fn newest(&self) -> &Texture {
         &self.textures[self.front]
     }
 
-    /// Index of the texture that the next draw goes into.
+    /// Returns the index of the texture that the next draw goes into.
     pub fn back(&self) -> usize {
         (self.front + 1) % self.textures.len()
     }
@@ -96,12 +84,55 @@ impl Target {
     }
 }
 
-/// Targets for a plan on a canvas, all zeros.
-pub(super) fn make(
-    gpu: &Gpu,
-    mips: &mut MipMaker,
-    plan: &FramePlan,
-    canvas: (u32, u32),
-) -> Result<Vec<Target>, GpuError> {
-    plan.targets.iter().map(|planned| Target::new(gpu, mips, planned, canvas)).collect()
+/// The textures of a target.
+#[derive(PartialEq, Eq)]
+struct Shape {
+    size: (u32, u32),
+    format: wgpu::TextureFormat,
+    levels: u32,
+    count: usize,
+}
+
+impl Shape {
+    fn of(planned: &graph::Target, canvas: (u32, u32)) -> Self {
+        let size = planned.size.of(canvas);
+        Self {
+            size,
+            format: texture_format(planned.format),
+            levels: if planned.mips { mip_levels(size.0, size.1) } else { 1 },
+            count: if planned.doubled { 2 } else { 1 },
+        }
+    }
+}
+
+/// New targets of a plan, all zeros; `None` where the present one is as the plan asks.
+pub(super) struct NewTargets(Vec<Option<Target>>);
+
+impl NewTargets {
+    /// Makes those targets of a plan on a canvas that `present` lacks or has otherwise.
+    pub fn make(
+        gpu: &Gpu,
+        mips: &mut MipMaker,
+        plan: &FramePlan,
+        canvas: (u32, u32),
+        present: &[Target],
+    ) -> Result<Self, GpuError> {
+        let make = |planned: &graph::Target| {
+            let is_kept = present.iter().any(|t| t.is(planned) && t.shape() == Shape::of(planned, canvas));
+            if is_kept { Ok(None) } else { Target::new(gpu, mips, planned, canvas).map(Some) }
+        };
+        plan.targets.iter().map(make).collect::<Result<_, _>>().map(Self)
+    }
+
+    /// Puts the targets of the plan in place of the present ones, of which it keeps those that are as the plan asks. Returns the
+    /// others, and for each target of the plan whether it is new.
+    pub fn replace(self, plan: &FramePlan, present: &mut Vec<Target>) -> (Vec<Target>, Vec<bool>) {
+        let is_new = self.0.iter().map(Option::is_some).collect();
+        let mut old = std::mem::take(present);
+        for (made, planned) in self.0.into_iter().zip(&plan.targets) {
+            let kept = || old.iter().position(|t| t.is(planned)).map(|at| old.swap_remove(at));
+            present.extend(made.or_else(kept));
+        }
+        (old, is_new)
+    }
 }

@@ -1,9 +1,8 @@
-//! What a pass sees in one frame that is no texture: the site's uniforms and the author's own.
+//! The uniforms of the passes in one frame: the site's, the author's own, and those of meshes.
 
 use super::{
     FrameInputs,
-    bind::UNIFORM_STRIDE,
-    program::{BoundChannel, CompiledDraw},
+    program::{BoundChannel, CompiledDraw, Program},
 };
 use crate::{
     glsl::{
@@ -12,81 +11,131 @@ use crate::{
     },
     gpu::Gpu,
 };
-use bytemuck::Zeroable;
+use std::{mem::offset_of, ops::Range};
 
-/// Blocks of meshes lie this far apart, which is what every device allows.
-pub(super) const GEOMETRY_STRIDE: u64 = 256;
+/// Blocks lie this far apart in their buffers, which is what every device allows.
+const STRIDE: u64 = 256;
 
-/// All passes' uniform blocks in one buffer, written once a frame.
+const _: () = assert!(size_of::<UniformBlock>() <= STRIDE as usize && size_of::<GeometryBlock>() <= STRIDE as usize);
+
+/// All passes' uniform blocks as bytes and in buffers, which are written once a frame.
 pub(super) struct Uniforms {
-    pub buffer: wgpu::Buffer,
-    bytes: Vec<u8>,
+    /// The site's uniforms, a block for each draw.
+    blocks: Blocks,
+    /// The matrices of meshes, a block for each program of each pass.
+    meshes: Blocks,
     /// The author's own, one block for all passes, written when one changes.
-    pub knobs: wgpu::Buffer,
-    pub knob_slots: Vec<[u32; 4]>,
-    /// What meshes are drawn with, a block for each program of each pass.
-    pub geometry: wgpu::Buffer,
-    geometry_bytes: Vec<u8>,
+    knobs: wgpu::Buffer,
+    knob_slots: Vec<[u32; 4]>,
+}
+
+/// Blocks of one size, [`STRIDE`] apart.
+struct Blocks {
+    buffer: wgpu::Buffer,
+    bytes: Vec<u8>,
+}
+
+impl Blocks {
+    fn new(gpu: &Gpu, label: &str, count: usize) -> Self {
+        // As a new buffer is.
+        let bytes = vec![0; count.max(1) * STRIDE as usize];
+        Self { buffer: uniform_buffer(gpu, label, bytes.len() as u64), bytes }
+    }
+
+    fn block(&self, index: usize) -> &[u8] {
+        &self.bytes[index * STRIDE as usize..][..STRIDE as usize]
+    }
+
+    fn set(&mut self, index: usize, block: &[u8]) {
+        self.bytes[index * STRIDE as usize..][..block.len()].copy_from_slice(block);
+    }
+
+    fn binding(&self, index: usize, bytes: usize) -> wgpu::BindingResource<'_> {
+        wgpu::BindingResource::Buffer(wgpu::BufferBinding {
+            buffer: &self.buffer,
+            offset: index as u64 * STRIDE,
+            size: std::num::NonZero::new(bytes as u64),
+        })
+    }
+}
+
+fn uniform_buffer(gpu: &Gpu, label: &str, size: u64) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
 }
 
 impl Uniforms {
-    pub fn new(gpu: &Gpu, passes: usize, knobs: usize, meshes: usize) -> Self {
-        let make = |label, size| {
-            gpu.device.create_buffer(&wgpu::BufferDescriptor {
-                label: Some(label),
-                size,
-                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-                mapped_at_creation: false,
-            })
-        };
-        let bytes = vec![0; passes.max(1) * UNIFORM_STRIDE as usize];
-        let buffer = make("uniforms", bytes.len() as u64);
-        let own = make("own uniforms", knobs.max(1) as u64 * KNOB_BYTES);
-        // As a new buffer is.
-        let geometry_bytes = vec![0; meshes.max(1) * GEOMETRY_STRIDE as usize];
-        let geometry = make("geometry", geometry_bytes.len() as u64);
-        Self { buffer, bytes, knobs: own, knob_slots: vec![[0; 4]; knobs], geometry, geometry_bytes }
+    pub fn new(gpu: &Gpu, program: &Program) -> Self {
+        let knobs = program.knobs.len();
+        Self {
+            blocks: Blocks::new(gpu, "uniforms", program.draws.len()),
+            meshes: Blocks::new(gpu, "geometry", program.meshes()),
+            knobs: uniform_buffer(gpu, "own uniforms", knobs.max(1) as u64 * KNOB_BYTES),
+            knob_slots: vec![[0; 4]; knobs],
+        }
     }
 
-    pub fn set(&mut self, draw: usize, block: &UniformBlock) {
-        let at = draw * UNIFORM_STRIDE as usize;
-        self.bytes[at..at + size_of::<UniformBlock>()].copy_from_slice(bytemuck::bytes_of(block));
-    }
-
-    pub fn get(&self, draw: usize) -> UniformBlock {
-        let at = draw * UNIFORM_STRIDE as usize;
-        bytemuck::pod_read_unaligned(&self.bytes[at..at + size_of::<UniformBlock>()])
-    }
-
-    pub fn write(&self, gpu: &Gpu) {
-        gpu.queue.write_buffer(&self.buffer, 0, &self.bytes);
-        gpu.queue.write_buffer(&self.geometry, 0, &self.geometry_bytes);
+    /// The block of draw `index`.
+    pub fn set(&mut self, index: usize, block: &UniformBlock) {
+        self.blocks.set(index, bytemuck::bytes_of(block));
     }
 
     /// The block of a mesh, counted through all passes.
-    pub fn set_geometry(&mut self, mesh: usize, block: &GeometryBlock) {
-        let at = mesh * GEOMETRY_STRIDE as usize;
-        self.geometry_bytes[at..at + size_of::<GeometryBlock>()].copy_from_slice(bytemuck::bytes_of(block));
+    pub fn set_mesh(&mut self, mesh: usize, block: &GeometryBlock) {
+        self.meshes.set(mesh, bytemuck::bytes_of(block));
     }
 
-    /// What draw `index` reads of all this, and nothing else: equal bytes, equal values.
-    pub fn seen_by(&self, index: usize, draw: &CompiledDraw) -> Vec<u8> {
-        let mut seen = bytemuck::bytes_of(&masked(&self.get(index), draw.uniforms)).to_vec();
+    /// Hands the blocks to the device.
+    pub fn write(&self, gpu: &Gpu) {
+        gpu.queue.write_buffer(&self.blocks.buffer, 0, &self.blocks.bytes);
+        gpu.queue.write_buffer(&self.meshes.buffer, 0, &self.meshes.bytes);
+    }
+
+    /// Values of the author's own uniforms. Says whether any is different now.
+    pub fn set_knobs(&mut self, gpu: &Gpu, slots: Vec<[u32; 4]>) -> bool {
+        if slots == self.knob_slots {
+            return false;
+        }
+        gpu.queue.write_buffer(&self.knobs, 0, bytemuck::cast_slice(&slots));
+        self.knob_slots = slots;
+        true
+    }
+
+    pub fn block_binding(&self, index: usize) -> wgpu::BindingResource<'_> {
+        self.blocks.binding(index, size_of::<UniformBlock>())
+    }
+
+    pub fn mesh_binding(&self, mesh: usize) -> wgpu::BindingResource<'_> {
+        self.meshes.binding(mesh, size_of::<GeometryBlock>())
+    }
+
+    pub fn knob_binding(&self) -> wgpu::BindingResource<'_> {
+        self.knobs.as_entire_binding()
+    }
+
+    /// Adds what draw `index` reads of all this, and nothing else: equal bytes, equal values.
+    pub fn add_read_by(&self, index: usize, draw: &CompiledDraw, read: &mut Vec<u8>) {
+        let block = self.blocks.block(index);
+        for range in places(draw.uniforms) {
+            read.extend_from_slice(&block[range]);
+        }
         for slot in draw.knobs.iter() {
-            seen.extend_from_slice(bytemuck::cast_slice(&self.knob_slots[usize::from(slot)]));
+            read.extend_from_slice(bytemuck::cast_slice(&self.knob_slots[usize::from(slot)]));
         }
         if let Some(boundary) = &draw.boundary {
-            seen.extend(self.seen_by(index, &boundary.compiled));
+            self.add_read_by(index, &boundary.compiled, read);
         }
-        if draw.reads_geometry {
-            let begin = draw.first_mesh * GEOMETRY_STRIDE as usize;
-            seen.extend_from_slice(&self.geometry_bytes[begin..][..draw.programs.len() * GEOMETRY_STRIDE as usize]);
+        if let Some(meshes) = draw.body.meshes().filter(|_| draw.reads_geometry) {
+            (0..meshes.programs.len()).for_each(|n| read.extend_from_slice(self.meshes.block(meshes.first + n)));
         }
-        seen
     }
 }
 
-/// The block of a pass of size `own`, on a canvas.
+/// Returns the block of a pass of size `own` on a canvas.
 pub(super) fn block(
     inputs: &FrameInputs,
     own: (u32, u32),
@@ -116,17 +165,15 @@ pub(super) fn block(
     }
 }
 
-/// The block with zeros in place of what is not read.
-fn masked(block: &UniformBlock, read: UniformSet) -> UniformBlock {
-    let mut out = UniformBlock::zeroed();
-    macro_rules! keep {
+/// Returns where in a block the uniforms of a set lie.
+fn places(read: UniformSet) -> impl Iterator<Item = Range<usize>> {
+    /// Makes the places of fields, with the sizes of their types.
+    macro_rules! places {
         ($($name:ident $field:ident;)*) => {
-            $(if read.contains(UniformSet::$name) {
-                out.$field = block.$field;
-            })*
+            [$((UniformSet::$name, offset_of!(UniformBlock, $field), size_of_field(|b| &b.$field))),*]
         };
     }
-    keep! {
+    let all = places! {
         RESOLUTION resolution;
         TIME time;
         MOUSE mouse;
@@ -140,8 +187,12 @@ fn masked(block: &UniformBlock, read: UniformSet) -> UniformBlock {
         TIME_OFFSET time_offset;
         SAMPLE_OFFSET sample_offset;
         CHANNEL_LOADED channel_loaded;
-    }
-    out
+    };
+    all.into_iter().filter(move |(name, ..)| read.contains(*name)).map(|(_, begin, size)| begin..begin + size)
+}
+
+fn size_of_field<T>(_: fn(&UniformBlock) -> &T) -> usize {
+    size_of::<T>()
 }
 
 #[cfg(test)]
@@ -149,19 +200,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_uniform_that_is_read_is_seen() {
-        let full: UniformBlock = bytemuck::pod_read_unaligned(&[1u8; size_of::<UniformBlock>()]);
-        let mut all = UniformSet::EMPTY;
+    fn every_uniform_has_a_place_of_its_own_and_nothing_else_lies_there() {
+        let mut taken = [0u8; size_of::<UniformBlock>()];
         for bit in 0..16 {
-            // Each uniform by itself shows in the bytes, and none shows unasked.
             let name = UniformSet::from_bit(bit);
-            if name.names().is_empty() {
-                continue;
-            }
-            assert_ne!(masked(&full, name), UniformBlock::zeroed(), "{:?}", name.names());
-            all.insert(name);
+            let places: Vec<_> = places(name).collect();
+            assert_eq!(places.len(), name.names().len(), "{:?}", name.names());
+            places.into_iter().flatten().for_each(|byte| taken[byte] += 1);
         }
-        assert_eq!(masked(&full, UniformSet::EMPTY), UniformBlock::zeroed());
-        assert_eq!(masked(&full, all), UniformBlock { pad: [0; 2], ..full });
+        let pad = offset_of!(UniformBlock, pad);
+        for (byte, taken) in taken.into_iter().enumerate() {
+            assert_eq!(taken, u8::from(!(pad..pad + 8).contains(&byte)), "byte {byte}");
+        }
+        assert_eq!(places(UniformSet::EMPTY).count(), 0);
     }
 }

@@ -5,7 +5,7 @@ use std::sync::{
     atomic::{AtomicBool, Ordering},
 };
 
-/// What to ask of the machine.
+/// The features that are asked of the machine.
 #[derive(Clone, Debug)]
 pub struct GpuOptions {
     /// Use filtering of 32-bit float textures where the adapter has it. Off, every such read is written by hand: how the
@@ -75,7 +75,7 @@ pub struct Gpu {
     /// Long arrays are to be filled and copied by loops, and initialisers of their zeros left out: lavapipe makes one store a
     /// scalar of each, for which LLVM takes time that grows faster than their square.
     pub wants_array_loops: bool,
-    /// What a loop computes before its first exit may be wrong after it, for pixels that leave before others do: gallivm, the
+    /// A value that a loop computes before its first exit may be wrong after it, for pixels that leave before others do: gallivm, the
     /// compiler of llvmpipe and lavapipe, does not bring loops into loop-closed SSA form.
     pub keeps_loops_open: bool,
     /// A loop that counts down to `min(c, x)` ends at `c`: Mesa's compiler takes the one for the other.
@@ -83,7 +83,7 @@ pub struct Gpu {
     /// Timestamps can be written between passes.
     pub has_timestamps: bool,
     pub(super) runtime_checks: bool,
-    pub(super) fences: Option<super::pass::FenceKeeper>,
+    pub(super) fences: Option<super::fences::FenceKeeper>,
     state: Arc<State>,
 }
 
@@ -129,7 +129,7 @@ impl Gpu {
         Self::new(options)
     }
 
-    /// How to make the instance, best first, also where a window's surface must be made from it: Vulkan, Metal or DX12, and
+    /// Returns how to make the instance, best first, also where a window's surface must be made from it: Vulkan, Metal or DX12, and
     /// OpenGL only where none of them has a device, since merely opening it costs start-up time. `WGPU_BACKEND` overrides both.
     pub fn instance_descriptors() -> [wgpu::InstanceDescriptor; 2] {
         [wgpu::Backends::PRIMARY, wgpu::Backends::GL].map(|backends| {
@@ -194,7 +194,7 @@ impl Gpu {
             keeps_loops_open: info.name.starts_with("llvmpipe"),
             nan_angle: info.backend == wgpu::Backend::Dx12,
             runtime_checks: options.runtime_checks,
-            fences: is_lavapipe.then(|| super::pass::FenceKeeper::new(&device)),
+            fences: is_lavapipe.then(|| super::fences::FenceKeeper::new(&device)),
             has_timestamps: features.contains(wgpu::Features::TIMESTAMP_QUERY),
             device,
             queue,
@@ -248,7 +248,7 @@ impl Gpu {
         self.take_trouble("a frame")
     }
 
-    /// What went wrong since the last call, if anything did.
+    /// Returns what went wrong since the last call as an error, if anything did.
     pub fn take_trouble(&self, what: &str) -> Result<(), GpuError> {
         if self.state.lost.load(Ordering::Relaxed) {
             return Err(GpuError::Lost("the driver gave up, often because a shader ran too long".into()));

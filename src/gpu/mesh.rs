@@ -2,7 +2,8 @@
 
 use super::{
     Binding, Gpu, GpuError, Pipeline, Shader,
-    pipeline::{layouts, pipeline_layout, shader_module},
+    bindings::{layouts, pipeline_layout},
+    pipeline::shader_module,
 };
 
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
@@ -10,8 +11,8 @@ const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// A vertex and a fragment shader over triangles.
 pub struct MeshPipelineDescriptor<'a> {
     pub label: &'a str,
-    pub vertex: Shader,
-    pub fragment: Shader,
+    pub vertex: Shader<'a>,
+    pub fragment: Shader<'a>,
     pub entry_point: &'a str,
     /// Bind groups from 0 on, as both shaders see them.
     pub groups: &'a [Vec<(u32, Binding)>],
@@ -148,7 +149,7 @@ pub fn depth_buffer(gpu: &Gpu, label: &str, width: u32, height: u32) -> Result<w
     Ok(texture.create_view(&Default::default()))
 }
 
-/// Whether the device can draw into targets of these formats at once; by the rule of WebGPU, "calculating color attachment
+/// Returns an error if the device cannot draw into targets of these formats at once; by the rule of WebGPU, "calculating color attachment
 /// bytes per sample".
 pub fn check_targets(gpu: &Gpu, what: &str, formats: &[wgpu::TextureFormat]) -> Result<(), GpuError> {
     let limits = gpu.device.limits();

@@ -1,15 +1,11 @@
 //! Mip chains, level by level: each texel is the bilinear read of the finer level at its centre, which is what GL drivers'
 //! `glGenerateMipmap` does. Read by hand, so it works where 32-bit floats cannot be filtered, too.
 
-use super::{Gpu, Texture};
+use super::{Gpu, Texture, full_screen::PictureShader};
 use std::collections::HashMap;
 
 const SHADER: &str = "
 @group(0) @binding(0) var finer: texture_2d<f32>;
-
-@vertex fn vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4<f32> {
-    return vec4(f32(i & 1u) * 4.0 - 1.0, f32(i >> 1u) * 4.0 - 1.0, 0.0, 1.0);
-}
 
 @fragment fn fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {
     let size = vec2<i32>(textureDimensions(finer));
@@ -28,9 +24,7 @@ const SHADER: &str = "
 
 /// Builds mip chains of colour formats. One for each engine.
 pub struct MipMaker {
-    layout: wgpu::BindGroupLayout,
-    pipeline_layout: wgpu::PipelineLayout,
-    shader: wgpu::ShaderModule,
+    shader: PictureShader,
     pipelines: HashMap<wgpu::TextureFormat, wgpu::RenderPipeline>,
 }
 
@@ -42,45 +36,13 @@ pub struct MipChain {
 
 impl MipMaker {
     pub fn new(gpu: &Gpu) -> Self {
-        let shader = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("mips"),
-            source: wgpu::ShaderSource::Wgsl(SHADER.into()),
-        });
-        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("mips"),
-            entries: &[wgpu::BindGroupLayoutEntry {
-                binding: 0,
-                visibility: wgpu::ShaderStages::FRAGMENT,
-                ty: wgpu::BindingType::Texture {
-                    sample_type: wgpu::TextureSampleType::Float { filterable: false },
-                    view_dimension: wgpu::TextureViewDimension::D2,
-                    multisampled: false,
-                },
-                count: None,
-            }],
-        });
-        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("mips"),
-            bind_group_layouts: &[Some(&layout)],
-            immediate_size: 0,
-        });
-        Self { layout, pipeline_layout, shader, pipelines: HashMap::new() }
+        Self { shader: PictureShader::new(gpu, "mips", SHADER), pipelines: HashMap::new() }
     }
 
     /// Prepares the chain of a texture.
     pub fn chain(&mut self, gpu: &Gpu, texture: &Texture) -> MipChain {
         let format = texture.raw.format();
-        self.pipelines.entry(format).or_insert_with(|| {
-            super::pipeline::full_screen(
-                gpu,
-                "mips",
-                &self.pipeline_layout,
-                &self.shader,
-                &self.shader,
-                "fragment",
-                format,
-            )
-        });
+        self.pipelines.entry(format).or_insert_with(|| self.shader.pipeline(gpu, format));
         let view = |level| {
             texture.raw.create_view(&wgpu::TextureViewDescriptor {
                 label: Some("mip level"),
@@ -89,43 +51,20 @@ impl MipMaker {
                 ..Default::default()
             })
         };
-        let steps = (1..texture.levels())
-            .map(|level| {
-                let finer = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                    label: Some("mips"),
-                    layout: &self.layout,
-                    entries: &[wgpu::BindGroupEntry {
-                        binding: 0,
-                        resource: wgpu::BindingResource::TextureView(&view(level - 1)),
-                    }],
-                });
-                (view(level), finer)
-            })
-            .collect();
+        let steps = (1..texture.levels()).map(|level| (view(level), self.shader.bind(gpu, &view(level - 1)))).collect();
         MipChain { steps, format }
     }
 
     /// Encodes the draws that make every level anew from level 0.
     pub fn build(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, chain: &MipChain) {
-        for (target, finer) in &chain.steps {
-            gpu.pass(
-                encoder,
-                wgpu::RenderPassDescriptor {
-                    label: Some("mips"),
-                    color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                        view: target,
-                        depth_slice: None,
-                        resolve_target: None,
-                        ops: wgpu::Operations { load: gpu.load_what_is_overwritten(), store: wgpu::StoreOp::Store },
-                    })],
-                    ..Default::default()
-                },
-                |pass| {
-                    pass.set_pipeline(&self.pipelines[&chain.format]);
-                    pass.set_bind_group(0, finer, &[]);
-                    pass.draw(0..3, 0..1);
-                },
-            );
+        for (level, finer) in &chain.steps {
+            let target = wgpu::RenderPassColorAttachment {
+                view: level,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations { load: gpu.load_what_is_overwritten(), store: wgpu::StoreOp::Store },
+            };
+            self.shader.draw(gpu, encoder, &self.pipelines[&chain.format], finer, target);
         }
     }
 }

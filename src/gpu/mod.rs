@@ -2,9 +2,12 @@
 //!
 //! Every object carries a label. Knows nothing of shaders' languages, of projects or of who draws what.
 
+mod bindings;
 mod buffer;
 mod convert;
 mod device;
+mod fences;
+mod full_screen;
 mod mesh;
 mod mips;
 mod pass;
@@ -16,12 +19,13 @@ mod spirv;
 mod texture;
 mod timer;
 
+pub use bindings::Binding;
 pub use buffer::constant_buffer;
 pub use convert::FloatConverter;
 pub use device::{Gpu, GpuError, GpuOptions};
 pub use mesh::{MeshBuffers, MeshPipelineDescriptor, check_targets, depth_buffer};
 pub use mips::{MipChain, MipMaker};
-pub use pipeline::{Binding, FragmentPipelineDescriptor, Pipeline, Shader};
+pub use pipeline::{FragmentPipelineDescriptor, Pipeline, Shader};
 pub use present::Presenter;
 pub use readback::read_rgba32float;
 pub use samplers::{Address, Filtering, Samplers};

@@ -2,7 +2,7 @@
 
 use super::Gpu;
 
-/// How texels are mixed.
+/// The way in which texels are mixed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Filtering {
     Nearest,
@@ -14,7 +14,7 @@ pub enum Filtering {
     NearestOfLevel,
 }
 
-/// What lies beyond the edge.
+/// The texels beyond the edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Address {
     Clamp,

@@ -7,7 +7,7 @@ pub fn mip_levels(width: u32, height: u32) -> u32 {
     width.max(height).max(1).ilog2() + 1
 }
 
-/// What to make.
+/// The texture that is to be made.
 #[derive(Clone, Copy, Debug)]
 pub struct TextureDescriptor<'a> {
     pub label: &'a str,
@@ -61,6 +61,16 @@ impl Texture {
         Ok(Texture { raw, all_levels, level_0 })
     }
 
+    /// Returns level 0 as a pass draws into it and keeps it.
+    pub fn attachment(&self, load: wgpu::LoadOp<wgpu::Color>) -> wgpu::RenderPassColorAttachment<'_> {
+        wgpu::RenderPassColorAttachment {
+            view: &self.level_0,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
+        }
+    }
+
     pub fn width(&self) -> u32 {
         self.raw.width()
     }
@@ -109,15 +119,7 @@ impl Texture {
             encoder,
             wgpu::RenderPassDescriptor {
                 label: Some("clear"),
-                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                    view: &self.level_0,
-                    depth_slice: None,
-                    resolve_target: None,
-                    ops: wgpu::Operations {
-                        load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                        store: wgpu::StoreOp::Store,
-                    },
-                })],
+                color_attachments: &[Some(self.attachment(wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)))],
                 ..Default::default()
             },
             |_| (),

@@ -24,7 +24,7 @@ struct Slot {
     mapped: wgpu::Buffer,
     state: State,
     frame: u64,
-    /// Which draw each pair of stamps is of.
+    /// The draw of each pair of stamps.
     draws: Vec<usize>,
 }
 
@@ -87,7 +87,7 @@ impl PassTimer {
         }
     }
 
-    /// Where the frame's next pass writes its stamps; `draw` is what its time is added to. `None` past the capacity.
+    /// Returns where the frame's next pass writes its stamps; `draw` is what its time is added to. `None` past the capacity.
     pub fn writes(&mut self, draw: usize) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
         let slot = &mut self.slots[self.recording?];
         let index = slot.draws.len() as u32;

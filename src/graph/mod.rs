@@ -1,17 +1,18 @@
-//! What each frame draws, reads and keeps, decided without a device.
+//! The plan of a frame: what it draws, reads and keeps, decided without a device.
 //!
 //! Owns [`FramePlan`]: which passes are drawn and in what order, whether a read sees this frame or the last, which buffers
-//! are doubled, where mips exist, which sampler counts, how often a pass is drawn, and when it may rest ([`Ledger`]). Knows neither GLSL nor wgpu: what a pass really reads comes in as
-//! [`PassFacts`], and a plan is data that an engine executes in a loop.
+//! are doubled, where mips exist, which sampler counts, how often a pass is drawn, and when its picture of before will do
+//! ([`Changes`]). Knows neither GLSL nor wgpu: what a pass really reads comes in as [`PassFacts`], and a plan is data that an
+//! engine executes in a loop.
 
+mod changes;
 mod plan;
-mod rest;
 mod samplers;
 #[cfg(test)]
 mod tests;
 mod traffic;
 
+pub use changes::Changes;
 pub use plan::{ChannelFacts, Draw, FramePlan, PassFacts, Read, Run, Source, Target, TargetKind, When};
-pub use rest::Ledger;
 pub use samplers::effective_sampler;
 pub use traffic::Traffic;

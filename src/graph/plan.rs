@@ -1,10 +1,10 @@
 //! The plan of a frame.
 
 use super::effective_sampler;
-use crate::project::{Filter, Input, PassFormat, PassId, PassSize, Project, Region, Sampler};
+use crate::project::{Filter, Input, PassFormat, PassId, PassSize, Project, Region, Sampler, Turn, Wrap};
 use std::{collections::BTreeSet, ops::Range};
 
-/// What a pass does with one channel, as its compiled form says.
+/// The use that a compiled pass makes of one channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ChannelFacts {
     /// Some read of it can be reached.
@@ -13,7 +13,7 @@ pub struct ChannelFacts {
     pub reaches_mips: bool,
 }
 
-/// What the planner has to know of a compiled pass. Conservative: what may happen counts as happening.
+/// The facts of a compiled pass that the planner needs. Conservative: what may happen counts as happening.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PassFacts {
     pub channels: [ChannelFacts; 4],
@@ -27,17 +27,17 @@ impl PassFacts {
         PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: true }; 4], discards: true };
 }
 
-/// Which frame's picture of a target a read sees.
+/// The frame whose picture of a target a read sees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum When {
-    /// What has been drawn in this frame already.
+    /// The one that has been drawn in this frame already.
     ThisFrame,
-    /// What was drawn last before that: the reader is the target itself, or is drawn before it. In a group that is the step
+    /// The one that was drawn last before that: the reader is the target itself, or is drawn before it. In a group that is the step
     /// before, at its first step the frame before.
     LastFrame,
 }
 
-/// What a channel reads.
+/// The source of a channel's texels.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
     /// An index into [`FramePlan::targets`].
@@ -61,7 +61,7 @@ pub struct Read {
     pub mips: bool,
 }
 
-/// What kind of texture a target needs.
+/// The kind of texture that a target needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum TargetKind {
     /// One picture.
@@ -74,7 +74,7 @@ pub enum TargetKind {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
     pub id: PassId,
-    /// Which of the pass's targets, from 0.
+    /// The place among the pass's targets, from 0.
     pub index: usize,
     pub kind: TargetKind,
     pub size: PassSize,
@@ -83,8 +83,6 @@ pub struct Target {
     pub doubled: bool,
     /// A mip chain is built after each draw.
     pub mips: bool,
-    /// No pass draws it: it stays zero.
-    pub undrawn: bool,
 }
 
 /// One pass of a frame.
@@ -96,7 +94,7 @@ pub struct Draw {
     pub targets: Range<usize>,
     /// `None` where the compiled pass does not read the channel.
     pub reads: [Option<Read>; 4],
-    /// What the target held must still be there as the pass begins.
+    /// The pass begins with the texels that the target held.
     pub keeps_content: bool,
     /// Only these texels are drawn; the others are as they were drawn last.
     pub region: Option<Region>,
@@ -104,15 +102,26 @@ pub struct Draw {
     pub has_initial: bool,
     /// So many of the outermost texels are overwritten after it is drawn.
     pub boundary: Option<u32>,
-    /// It need not be drawn while nothing it reads has changed: what it draws depends on nothing else, and on its own picture
-    /// of before it does not depend.
-    pub can_rest: bool,
+    /// Its picture of before will do while nothing it reads has changed: what it draws depends on nothing else, and on its own
+    /// picture of before it does not depend.
+    pub is_cacheable: bool,
+}
+
+/// The sampler of a fill's picture.
+const FILL_SAMPLER: Sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true };
+
+impl Draw {
+    /// Returns what a fill of the pass is drawn as. It reads nothing of what the pass reads, but its own picture if it is one.
+    pub fn of_fill(&self, is_picture: bool) -> Draw {
+        let read = is_picture.then_some(Read { source: Source::Media, sampler: FILL_SAMPLER, mips: false });
+        Draw { reads: [read, None, None, None], keeps_content: true, is_cacheable: false, ..self.clone() }
+    }
 }
 
 /// Draws that follow each other, all done once in order, then again.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Run {
-    /// Of [`FramePlan::draws`].
+    /// Indices into [`FramePlan::draws`].
     pub draws: Range<usize>,
     /// At least 1.
     pub steps: u32,
@@ -124,7 +133,7 @@ pub struct FramePlan {
     pub targets: Vec<Target>,
     /// In drawing order.
     pub draws: Vec<Draw>,
-    /// How the draws are gone through: every draw in one run, in order.
+    /// The order in which draws are repeated: every draw is in one run.
     pub runs: Vec<Run>,
     /// Passes of the project that no wanted picture needs, as indices into [`Project::passes`].
     pub skipped: Vec<usize>,
@@ -156,7 +165,7 @@ impl FramePlan {
             });
             let region = project.passes[pass].settings.region;
             // Where meshes are drawn everything is cleared first, on the site's terms or not.
-            let is_cleared = project.passes[pass].settings.geometry.is_some();
+            let is_cleared = project.passes[pass].settings.meshes().is_some();
             plan.draws.push(Draw {
                 pass,
                 targets,
@@ -165,7 +174,7 @@ impl FramePlan {
                 region,
                 has_initial: project.passes[pass].settings.initial.is_some(),
                 boundary: project.passes[pass].settings.boundary.as_ref().map(|b| b.width),
-                can_rest: false,
+                is_cacheable: false,
             });
         }
         plan.runs(project);
@@ -188,7 +197,6 @@ impl FramePlan {
                 format,
                 doubled: false,
                 mips: false,
-                undrawn: true,
             }));
             first
         });
@@ -212,7 +220,7 @@ impl FramePlan {
         }
     }
 
-    /// Draws of a frame in which nothing rests, each step counted.
+    /// Returns the number of draws of a frame in which everything has changed, each step counted.
     pub fn draws_a_frame(&self) -> u64 {
         self.runs.iter().map(|r| r.draws.len() as u64 * u64::from(r.steps)).sum()
     }
@@ -247,7 +255,7 @@ impl FramePlan {
         Source::Target { index, when: if earlier { When::ThisFrame } else { When::LastFrame } }
     }
 
-    /// What each target needs, now that every read is known.
+    /// Decides what each target needs, now that every read is known.
     fn settle(&mut self, project: &Project, facts: &[PassFacts], skip: bool) {
         for index in 0..self.targets.len() {
             let (id, own_index) = (self.targets[index].id.clone(), self.targets[index].index);
@@ -264,7 +272,7 @@ impl FramePlan {
             };
             let drawn_by = self.draws.iter().find(|d| d.targets.contains(&index)).map(|d| d.pass);
             // What a cleared target held before cannot show.
-            let is_cleared = |p: usize| project.passes[p].settings.geometry.is_some();
+            let is_cleared = |p: usize| project.passes[p].settings.meshes().is_some();
             let discards = drawn_by.is_some_and(|p| facts[p].discards && !is_cleared(p));
             // Image keeps the canvas of one frame before; only buffers take turns.
             let takes_turns = id != PassId::Image && drawn_by.is_some();
@@ -279,7 +287,7 @@ impl FramePlan {
             let reached = reads_of(None).iter().any(|&(p, c)| facts[p].channels[c].reaches_mips);
             let mips = sampler_asks && (reached || !skip);
             let target = &mut self.targets[index];
-            (target.doubled, target.mips, target.undrawn) = (doubled, mips, drawn_by.is_none());
+            (target.doubled, target.mips) = (doubled, mips);
         }
         for draw in &mut self.draws {
             let own = draw.targets.clone();
@@ -288,8 +296,8 @@ impl FramePlan {
                 .iter()
                 .flatten()
                 .any(|r| matches!(r.source, Source::Target { index, .. } if own.contains(&index)));
-            let shows_before = facts[draw.pass].discards && project.passes[draw.pass].settings.geometry.is_none();
-            draw.can_rest = skip && !shows_before && !reads_itself;
+            let shows_before = facts[draw.pass].discards && project.passes[draw.pass].settings.meshes().is_none();
+            draw.is_cacheable = skip && !shows_before && !reads_itself;
             for read in draw.reads.iter_mut().flatten() {
                 read.mips = read.sampler.filter == Filter::Mipmap
                     && match read.source {
@@ -312,14 +320,9 @@ fn input_is(input: &Input, id: &PassId, target: usize) -> bool {
 
 /// Buffers in the project's order, then the cubemap, then Image. Sound makes no picture.
 fn drawing_order(project: &Project) -> Vec<usize> {
-    let rank = |i: usize| match project.passes[i].id {
-        PassId::Buffer(_) => Some(0),
-        PassId::Cubemap => Some(1),
-        PassId::Image => Some(2),
-        PassId::Sound => None,
-    };
-    let mut order: Vec<usize> = (0..project.passes.len()).filter(|&i| rank(i).is_some()).collect();
-    order.sort_by_key(|&i| rank(i));
+    let turn = |i: usize| project.passes[i].id.turn();
+    let mut order: Vec<usize> = (0..project.passes.len()).filter(|&i| turn(i) != Turn::Sound).collect();
+    order.sort_by_key(|&i| turn(i));
     order
 }
 

@@ -1,8 +1,8 @@
-//! Which sampler counts where several channels read one buffer (`shadertoy.md`, section 7).
+//! The sampler that counts where several channels read one buffer (`shadertoy.md`, section 7).
 
 use crate::project::{Filter, Input, Project, Sampler, SamplerRules, Wrap};
 
-/// The sampler with which `pass`'s channel `index` is really read; `None` where the channel is empty.
+/// Returns the sampler with which `pass`'s channel `index` is really read; `None` where the channel is empty.
 ///
 /// A keyboard is always nearest and clamped. Under [`SamplerRules::Site`] a buffer's filter is that of the last channel of the
 /// same pass that reads it, because the site sets it on the texture just before the pass draws, and its wrap that of the last

@@ -1,9 +1,9 @@
 //! The plan's rules, with no device.
 
-use super::{ChannelFacts, FramePlan, Ledger, PassFacts, Source, TargetKind, When, effective_sampler};
+use super::{Changes, ChannelFacts, FramePlan, PassFacts, Source, TargetKind, When, effective_sampler};
 use crate::project::{
-    Channel, Filter, Group, Info, Input, Origin, Pass, PassFormat, PassId, PassSize, Project, Region, Sampler,
-    SamplerRules, Wrap,
+    Channel, Filter, Group, Info, Input, Origin, Pass, PassBody, PassFormat, PassId, PassSize, Project, Region,
+    Sampler, SamplerRules, Wrap,
 };
 
 const LETTERS: [&str; 4] = ["A", "B", "C", "D"];
@@ -187,8 +187,8 @@ fn keyboard_is_nearest_and_clamped_whatever_the_project_says() {
 fn a_buffer_without_a_pass_is_a_target_nobody_draws() {
     let project = project(vec![pass(PassId::Image, [buffer("C"), None, None, None])]);
     let plan = plan(&project);
-    let target = plan.targets.iter().find(|t| t.id == PassId::Buffer("C".into())).unwrap();
-    assert!(target.undrawn && !target.doubled);
+    let place = plan.targets.iter().position(|t| t.id == PassId::Buffer("C".into())).unwrap();
+    assert!(!plan.targets[place].doubled && plan.draws.iter().all(|draw| !draw.targets.contains(&place)));
 }
 
 fn id(letter: &str) -> PassId {
@@ -246,13 +246,14 @@ fn only_what_depends_on_nothing_of_its_own_may_rest() {
     ]);
     let mut facts = vec![reads_all(); 4];
     facts[2].discards = true;
-    let rests = |skip| FramePlan::new(&project, &facts, &[], skip).draws.iter().map(|d| d.can_rest).collect::<Vec<_>>();
+    let rests =
+        |skip| FramePlan::new(&project, &facts, &[], skip).draws.iter().map(|d| d.is_cacheable).collect::<Vec<_>>();
     assert_eq!(rests(true), [true, false, false, true]);
     assert_eq!(rests(false), [false; 4], "--no-skip draws everything");
 }
 
 #[test]
-fn a_draw_rests_until_something_it_reads_has_changed_however_far_away() {
+fn a_draw_is_left_out_until_something_it_reads_has_changed_however_far_away() {
     // A -> B -> Image, and C reads Image's sources of the frame before.
     let project = project(vec![
         pass(id("C"), [buffer("B"), None, None, None]),
@@ -261,21 +262,22 @@ fn a_draw_rests_until_something_it_reads_has_changed_however_far_away() {
         pass(PassId::Image, [buffer("B"), buffer("C"), None, None]),
     ]);
     let plan = plan(&project);
-    let mut ledger = Ledger::new(&plan);
-    let frame = |ledger: &mut Ledger, outside: [u8; 4]| -> String {
-        let due =
-            |(i, draw)| ledger.is_due(i, draw, &outside[i..=i]).then(|| project.passes[plan.draws[i].pass].id.title());
+    let mut changes = Changes::new(&plan);
+    let frame = |changes: &mut Changes, inputs: [u8; 4]| -> String {
+        let due = |(i, draw)| {
+            changes.must_draw(i, draw, &inputs[i..=i]).then(|| project.passes[plan.draws[i].pass].id.title())
+        };
         let titles: Vec<String> = plan.draws.iter().enumerate().filter_map(due).collect();
         titles.iter().map(|t| t.chars().last().unwrap()).collect()
     };
-    assert_eq!(frame(&mut ledger, [0; 4]), "CABe");
-    assert_eq!(frame(&mut ledger, [0; 4]), "Ce", "C sees the B of the frame before");
-    assert_eq!(frame(&mut ledger, [0; 4]), "");
-    assert_eq!(frame(&mut ledger, [0, 1, 0, 0]), "ABe", "A's uniform");
-    assert_eq!(frame(&mut ledger, [0, 1, 0, 0]), "Ce");
-    assert_eq!(frame(&mut ledger, [0, 1, 0, 7]), "e");
-    ledger.forget();
-    assert_eq!(frame(&mut ledger, [0, 1, 0, 7]), "CABe");
+    assert_eq!(frame(&mut changes, [0; 4]), "CABe");
+    assert_eq!(frame(&mut changes, [0; 4]), "Ce", "C sees the B of the frame before");
+    assert_eq!(frame(&mut changes, [0; 4]), "");
+    assert_eq!(frame(&mut changes, [0, 1, 0, 0]), "ABe", "A's uniform");
+    assert_eq!(frame(&mut changes, [0, 1, 0, 0]), "Ce");
+    assert_eq!(frame(&mut changes, [0, 1, 0, 7]), "e");
+    changes.invalidate();
+    assert_eq!(frame(&mut changes, [0, 1, 0, 7]), "CABe");
 }
 
 /// `scene` draws meshes into two targets and may discard; A reads its second, Image A and its first.
@@ -283,7 +285,7 @@ fn with_scene() -> (Project, Vec<PassFacts>) {
     let id = PassId::Buffer("scene".into());
     let mut scene = pass(id, Default::default());
     scene.settings.format = PassFormat::Rgba8;
-    scene.settings.geometry = Some(crate::project::Geometry {
+    scene.settings.body = PassBody::Meshes(crate::project::Geometry {
         draws: Vec::new(),
         more_targets: vec![PassFormat::Rgba16f],
         camera: Default::default(),
@@ -308,23 +310,23 @@ fn a_scene_has_a_target_for_each_of_its_pictures() {
         [(scene(), 0, PassFormat::Rgba8, false, false), (scene(), 1, PassFormat::Rgba16f, true, false)]
     );
     assert_eq!(plan.draws[0].targets, 0..2);
-    assert!(!plan.draws[0].keeps_content && plan.draws[0].can_rest);
+    assert!(!plan.draws[0].keeps_content && plan.draws[0].is_cacheable);
     let read = |draw: usize, c: usize| plan.draws[draw].reads[c].as_ref().unwrap().source.clone();
     assert_eq!(read(1, 0), Source::Target { index: 1, when: When::ThisFrame });
     assert_eq!(read(2, 0), Source::Target { index: 0, when: When::ThisFrame });
     // Without skipping it is drawn each frame, and cleared all the same.
     let full = FramePlan::new(&project, &facts, &[], false);
-    assert!(!full.draws[0].keeps_content && !full.draws[0].can_rest);
+    assert!(!full.draws[0].keeps_content && !full.draws[0].is_cacheable);
 }
 
 #[test]
 fn readers_of_any_target_follow_a_scene_that_was_drawn() {
     let (project, facts) = with_scene();
     let plan = FramePlan::new(&project, &facts, &[], true);
-    let mut ledger = Ledger::new(&plan);
+    let mut changes = Changes::new(&plan);
     let mut due = |camera: &[u8]| -> Vec<bool> {
-        let outside = [camera, b"", b""];
-        plan.draws.iter().enumerate().map(|(i, d)| ledger.is_due(i, d, outside[i])).collect()
+        let inputs = [camera, b"", b""];
+        plan.draws.iter().enumerate().map(|(i, d)| changes.must_draw(i, d, inputs[i])).collect()
     };
     assert_eq!(due(b"here"), [true; 3]);
     assert_eq!(due(b"here"), [false; 3]);

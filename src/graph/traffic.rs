@@ -2,7 +2,7 @@
 
 use super::{FramePlan, Source, Target, TargetKind};
 
-/// What is moved at least, if nothing rests.
+/// The least that is moved if everything is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Traffic {
     /// Bytes of texels written, and of texels read, each texel of each source once a draw: neighbours come from a cache.
@@ -12,7 +12,7 @@ pub struct Traffic {
 }
 
 impl FramePlan {
-    /// The least that a frame on a canvas moves. Pictures and the keyboard are not counted, which are read and never written.
+    /// Returns the least that a frame on a canvas moves. Pictures and the keyboard are not counted, which are read and never written.
     pub fn traffic(&self, canvas: (u32, u32)) -> Traffic {
         let mut sum = Traffic::default();
         for run in &self.runs {
@@ -25,7 +25,7 @@ impl FramePlan {
         sum
     }
 
-    /// The part of one draw, done once.
+    /// Returns the part of one draw, done once.
     ///
     /// # Panics
     /// If there is no such draw.
@@ -56,19 +56,19 @@ impl FramePlan {
         Traffic { bytes, texels }
     }
 
-    /// How often a draw is done in a frame.
+    /// Returns the number of times that a frame does a draw.
     pub fn steps_of(&self, draw: usize) -> u32 {
         self.runs.iter().find(|run| run.draws.contains(&draw)).map_or(1, |run| run.steps)
     }
 
-    /// What the targets take on the device.
+    /// Returns the bytes that the targets take on the device.
     pub fn target_bytes(&self, canvas: (u32, u32)) -> u64 {
         self.targets.iter().map(|target| target.bytes(canvas)).sum()
     }
 }
 
 impl Target {
-    /// What its textures take on the device, mip levels and the second one of a pair among them.
+    /// Returns the bytes that its textures take on the device, mip levels and the second one of a pair among them.
     pub fn bytes(&self, canvas: (u32, u32)) -> u64 {
         let (mut w, mut h, faces) = match self.kind {
             TargetKind::Canvas => {
@@ -109,7 +109,6 @@ mod tests {
             format: Default::default(),
             doubled,
             mips,
-            undrawn: false,
         };
         let plan = |t| FramePlan { targets: vec![t], ..Default::default() };
         assert_eq!(plan(target(false, false)).target_bytes((4, 2)), 8 * 16);

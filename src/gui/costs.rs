@@ -136,8 +136,8 @@ fn row(ui: &mut Ui, columns: &Columns, pass: &TimedPass, most: f64, out: &mut Ou
         title += &format!("  ×{}", cost.steps);
     }
     let (why, is_drawn) = match cost.role {
-        PassRole::Drawn { rested: false } => (None, true),
-        PassRole::Drawn { rested: true } => (Some("at rest"), true),
+        PassRole::Drawn { is_cached: false } => (None, true),
+        PassRole::Drawn { is_cached: true } => (Some("at rest"), true),
         PassRole::Unread => (Some("not drawn"), false),
         PassRole::Unsupported => (Some("not played"), false),
     };
@@ -167,8 +167,8 @@ fn row(ui: &mut Ui, columns: &Columns, pass: &TimedPass, most: f64, out: &mut Ou
     response.on_hover_ui(|ui| {
         ui.label(cost.pass.title());
         match cost.role {
-            PassRole::Drawn { rested: false } => {}
-            PassRole::Drawn { rested: true } => {
+            PassRole::Drawn { is_cached: false } => {}
+            PassRole::Drawn { is_cached: true } => {
                 drop(ui.label("At rest: nothing that it reads has changed since it was drawn."));
             }
             PassRole::Unread => drop(ui.label("Not drawn: no picture that is shown needs it.")),
@@ -188,7 +188,7 @@ fn row(ui: &mut Ui, columns: &Columns, pass: &TimedPass, most: f64, out: &mut Ou
 }
 
 fn sum(ui: &mut Ui, columns: &Columns, costs: &PassCosts, out: &mut Outbox) {
-    let is_at_work = |p: &&TimedPass| p.cost.role == PassRole::Drawn { rested: false };
+    let is_at_work = |p: &&TimedPass| p.cost.role == PassRole::Drawn { is_cached: false };
     let at_work: Vec<&TimedPass> = costs.passes.iter().filter(is_at_work).collect();
     let left: usize = costs.passes.len() - at_work.len();
     let millis: f64 = at_work.iter().filter_map(|p| p.millis).sum();
@@ -233,7 +233,7 @@ pub fn report(session: &Session) -> serde_json::Value {
         .map(|p| {
             serde_json::json!({
                 "pass": p.cost.pass.title(),
-                "drawn": matches!(p.cost.role, PassRole::Drawn { rested: false }),
+                "drawn": matches!(p.cost.role, PassRole::Drawn { is_cached: false }),
                 "timed": p.millis.is_some(),
                 "held_bytes": p.cost.held_bytes,
                 "moved_bytes": p.cost.moved_bytes,

@@ -45,7 +45,7 @@ impl Rig {
         let (project, media) = setup.project()?;
         let (width, height) = setup.size();
         let mut engine = Engine::new(self.gpu.clone(), width, height)?;
-        let options = BuildOptions { wanted: setup.wanted().to_vec(), skip: setup.skips() };
+        let options = BuildOptions { wanted: setup.wanted().to_vec(), skip: setup.skips(), ..BuildOptions::default() };
         let built = Program::build(&self.gpu, &project, &media, &options);
         engine.set_program(built.map_err(|e| LabError::build(setup.folder(), e))?.program)?;
         Ok(Running { engine, name: setup.folder().into(), frame: 0, stop: self.stop.clone() })

@@ -267,7 +267,7 @@ pub(super) const PROBE: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4
 pub(super) fn halve(project: &mut Project) {
     for settings in project.passes.iter_mut().filter(|p| p.id != PassId::Image).map(|p| &mut p.settings) {
         settings.format = half(settings.format);
-        let more = settings.geometry.iter_mut().flat_map(|g| &mut g.more_targets);
+        let more = settings.meshes_mut().into_iter().flat_map(|g| &mut g.more_targets);
         more.for_each(|format| *format = half(*format));
     }
 }

@@ -88,7 +88,7 @@ pub fn fills(project: &Project, set: &mut MediaSet) {
 /// [`MediaSet::mesh_errors`].
 pub fn meshes(project: &Project, set: &mut MediaSet) {
     let base = project.origin.base_dir();
-    for draw in project.passes.iter().filter_map(|p| p.settings.geometry.as_ref()).flat_map(|g| &g.draws) {
+    for draw in project.passes.iter().filter_map(|p| p.settings.meshes()).flat_map(|g| &g.draws) {
         if !set.meshes.contains_key(&draw.mesh) {
             set.insert_mesh(draw.mesh.clone(), super::mesh::load_within(&draw.mesh, base, set.room()).map(Arc::new));
         }

@@ -129,7 +129,7 @@ impl MediaSet {
         let mut told: Vec<&MeshSource> = Vec::new();
         let mut errors = Vec::new();
         for pass in &project.passes {
-            for (n, draw) in pass.settings.geometry.iter().flat_map(|g| g.draws.iter().enumerate()) {
+            for (n, draw) in pass.settings.meshes().into_iter().flat_map(|g| g.draws.iter().enumerate()) {
                 if told.contains(&&draw.mesh) {
                     continue;
                 }

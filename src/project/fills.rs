@@ -155,10 +155,9 @@ impl Project {
 
     /// The text a fill of `passes[pass]` is written in, by its id in [`Project::sources`].
     pub fn fill_text(&self, pass: usize, kind: FillKind) -> Option<FillText> {
-        let first = 1 + self.passes.len() + self.stages().count() + self.includes.len();
         let (n, (.., fill)) = self.fills().enumerate().find(|(_, (p, k, _))| (*p, *k) == (pass, kind))?;
         let (text, range) = fill.text();
-        Some(FillText { id: SourceId((first + n) as u16), text, range })
+        Some(FillText { id: self.fill_id(n), text, range })
     }
 
     /// Where a fill is written.

@@ -62,12 +62,7 @@ pub(super) fn role_of_file(name: &str) -> Option<Role> {
 
 /// The order passes lie in: buffers as they come, the cubemap pass, Image, Sound.
 pub(super) fn sort_passes(passes: &mut [Pass]) {
-    passes.sort_by_key(|p| match p.id {
-        PassId::Buffer(_) => 0,
-        PassId::Cubemap => 1,
-        PassId::Image => 2,
-        PassId::Sound => 3,
-    });
+    passes.sort_by_key(|p| p.id.turn());
 }
 
 /// What a convention makes of texts by file name, besides the texts.
@@ -113,7 +108,7 @@ pub fn declare_channels(project: &mut Project) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
     let buffers: Vec<PassId> = project.passes.iter().map(|p| p.id.clone()).collect();
     for (i, pass) in project.passes.iter_mut().enumerate() {
-        let declared = directives::read(&pass.source.text, crate::diag::SourceId(i as u16 + 1), &pass.id);
+        let declared = directives::read(&pass.source.text, Project::pass_id(i), &pass.id);
         diagnostics.extend(declared.diagnostics);
         pass.channels = declared.channels.unwrap_or_else(|| match pass.id {
             PassId::Sound => Default::default(),

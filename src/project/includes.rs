@@ -159,7 +159,7 @@ impl Project {
         let sources = self.texts();
         // A buffer and another may share a file: the first is as good as the second.
         let mut ids: BTreeMap<&str, SourceId> = BTreeMap::new();
-        for (id, source) in sources.iter().filter(|(id, _)| id.0 > 0 || self.common.is_some()) {
+        for (id, source) in sources.iter().filter(|(id, _)| *id != Self::COMMON_ID || self.common.is_some()) {
             ids.entry(&source.name).or_insert(id);
         }
         for (id, source) in sources.iter() {
@@ -177,7 +177,7 @@ impl Project {
                     }
                 };
                 match ids.get(name.as_str()) {
-                    Some(SourceId(0)) if id.0 != 0 => found.diagnostics.push(
+                    Some(&target) if target == Self::COMMON_ID && id != Self::COMMON_ID => found.diagnostics.push(
                         Diagnostic::warning(
                             span,
                             format!("{name} is Common, which stands before every pass: it is not put in again"),
@@ -203,10 +203,6 @@ impl Project {
         }
         self.cut_cycles(&mut found);
         found
-    }
-
-    fn included(&self, id: SourceId) -> Option<&Included> {
-        self.includes.get(usize::from(id.0).checked_sub(self.passes.len() + self.stages().count() + 1)?)
     }
 
     /// Takes out lines that lead back to a text they stand in, each with an error that shows the way.

@@ -24,6 +24,7 @@ mod picked;
 pub mod presets;
 mod save;
 mod settings;
+mod source_ids;
 mod writes;
 
 pub use atomic::write_with;
@@ -39,9 +40,9 @@ pub use knobs::{Knob, KnobRange, KnobType, KnobValue, KnobValues, Knobs};
 pub use load::{Loaded, load, stem};
 pub use manifest::write as write_manifest;
 pub use model::{
-    Channel, Filter, Info, Input, Media, Origin, Pass, PassId, Project, Sampler, SamplerRules, Source, Tab, Wrap,
+    Channel, Filter, Info, Input, Media, Origin, Pass, PassId, Project, Sampler, SamplerRules, Source, Tab, Turn, Wrap,
 };
 pub use names::{listed, nearest};
 pub use picked::at_home;
 pub use save::{Overwrite, save};
-pub use settings::{Group, PassFormat, PassSettings, PassSize, Region};
+pub use settings::{Group, PassBody, PassFormat, PassSettings, PassSize, Region};

@@ -89,7 +89,27 @@ pub enum PassId {
     Image,
 }
 
+/// When in a frame passes of a kind are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Turn {
+    Buffers,
+    Cubemap,
+    Image,
+    /// Makes no picture.
+    Sound,
+}
+
 impl PassId {
+    /// Returns when the pass has its turn. Passes of the same turn are drawn in the project's order.
+    pub fn turn(&self) -> Turn {
+        match self {
+            PassId::Buffer(_) => Turn::Buffers,
+            PassId::Cubemap => Turn::Cubemap,
+            PassId::Image => Turn::Image,
+            PassId::Sound => Turn::Sound,
+        }
+    }
+
     /// As tabs show it: `Buffer A`, `Cube A`, `Sound`, `Image`.
     pub fn title(&self) -> String {
         match self {
@@ -317,15 +337,13 @@ impl Tab {
     }
 }
 
-/// Sources of a project by [`crate::diag::SourceId`]: 0 is Common (an empty text where there is none), then the passes in order,
-/// then the stages of geometry passes in order, then the files they include, then the texts of fills.
+/// The texts of a project. Their ids are given out in `source_ids`.
 impl Project {
     /// Every stage that lies in a file of its own, with the index of its pass.
     pub fn stages(&self) -> impl Iterator<Item = (usize, &Source)> {
-        self.passes
-            .iter()
-            .enumerate()
-            .flat_map(|(index, pass)| pass.settings.geometry.iter().flat_map(|g| &g.stages).map(move |s| (index, s)))
+        self.passes.iter().enumerate().flat_map(|(index, pass)| {
+            pass.settings.meshes().into_iter().flat_map(|g| &g.stages).map(move |s| (index, s))
+        })
     }
 
     /// Every text that is a tab: Common, the passes', the stages'.
@@ -338,20 +356,9 @@ impl Project {
         let mut all: Vec<&mut Source> = self.common.iter_mut().collect();
         for pass in &mut self.passes {
             all.push(&mut pass.source);
-            all.extend(pass.settings.geometry.iter_mut().flat_map(|g| &mut g.stages));
+            all.extend(pass.settings.meshes_mut().into_iter().flat_map(|g| &mut g.stages));
         }
         all
-    }
-
-    /// Where a stage of `passes[pass]` lies among [`Project::sources`].
-    pub fn stage_id(&self, pass: usize, stage: super::Stage) -> crate::diag::SourceId {
-        crate::diag::SourceId(match stage {
-            super::Stage::Own => pass as u16 + 1,
-            super::Stage::File(n) => {
-                let before = self.stages().take_while(|(index, _)| *index < pass).count();
-                (1 + self.passes.len() + before + n) as u16
-            }
-        })
     }
 
     /// Every text of the project, and behind them, once for each fill (see [`Project::fills`]), the text it is written in.
@@ -384,23 +391,11 @@ impl Project {
         map
     }
 
-    /// The tab a diagnostic's source belongs to; `None` for one this project does not have.
-    pub fn tab_of(&self, source: crate::diag::SourceId) -> Option<Tab> {
-        match usize::from(source.0) {
-            0 => Some(Tab::Common),
-            i if i <= self.passes.len() => Some(Tab::Pass(self.passes[i - 1].id.clone())),
-            i => {
-                let (pass, stage) = self.stages().nth(i - 1 - self.passes.len())?;
-                Some(Tab::Stage(self.passes[pass].id.clone(), stage.name.clone()))
-            }
-        }
-    }
-
     pub fn source(&self, tab: &Tab) -> Option<&Source> {
         match tab {
             Tab::Common => self.common.as_ref(),
             Tab::Pass(id) => self.pass(id).map(|p| &p.source),
-            Tab::Stage(id, file) => self.pass(id)?.settings.geometry.as_ref()?.stages.iter().find(|s| s.name == *file),
+            Tab::Stage(id, file) => self.pass(id)?.settings.meshes()?.stages.iter().find(|s| s.name == *file),
         }
     }
 
@@ -409,24 +404,18 @@ impl Project {
             Tab::Common => self.common.as_mut(),
             Tab::Pass(id) => self.pass_mut(id).map(|p| &mut p.source),
             Tab::Stage(id, file) => {
-                self.pass_mut(id)?.settings.geometry.as_mut()?.stages.iter_mut().find(|s| s.name == *file)
+                self.pass_mut(id)?.settings.meshes_mut()?.stages.iter_mut().find(|s| s.name == *file)
             }
         }
     }
 
     /// Every tab there is, in the site's order: Common, buffers, cubemap, Image, Sound; a pass's stages behind it.
     pub fn tabs(&self) -> Vec<Tab> {
-        let rank = |id: &PassId| match id {
-            PassId::Buffer(_) => 0,
-            PassId::Cubemap => 1,
-            PassId::Image => 2,
-            PassId::Sound => 3,
-        };
         let mut ids: Vec<_> = self.passes.iter().map(|p| p.id.clone()).collect();
-        ids.sort_by(|a, b| rank(a).cmp(&rank(b)).then_with(|| a.cmp(b)));
+        ids.sort_by(|a, b| a.turn().cmp(&b.turn()).then_with(|| a.cmp(b)));
         let mut tabs: Vec<Tab> = self.common.iter().map(|_| Tab::Common).collect();
         for id in ids {
-            let stages = self.pass(&id).and_then(|p| p.settings.geometry.as_ref()).map_or(&[][..], |g| &g.stages);
+            let stages = self.pass(&id).and_then(|p| p.settings.meshes()).map_or(&[][..], |g| &g.stages);
             tabs.push(Tab::Pass(id.clone()));
             tabs.extend(stages.iter().map(|s| Tab::Stage(id.clone(), s.name.clone())));
         }

@@ -47,7 +47,7 @@ pub fn save(project: &Project, target: &Path, overwrite: Overwrite) -> Result<Pr
 
 fn save_json(project: &Project, target: &Path, overwrite: Overwrite) -> Result<Project, ProjectError> {
     let own = matches!(&project.origin, Origin::Json(path) if is_same(path, target));
-    if let Some(pass) = project.passes.iter().find(|p| p.settings.geometry.is_some()) {
+    if let Some(pass) = project.passes.iter().find(|p| p.settings.meshes().is_some()) {
         let what = format!("{}, which draws meshes: the site has no such pass", pass.id.title());
         return Err(ProjectError::CannotHold { path: target.to_owned(), what });
     }
@@ -118,7 +118,7 @@ fn save_folder(project: &Project, target: &Path, overwrite: Overwrite) -> Result
     for pass in &mut saved.passes {
         let name = usual(&pass.source, &pass.id.key());
         place(&mut pass.source, name, is_home, target, &mut writes)?;
-        for stage in pass.settings.geometry.iter_mut().flat_map(|g| &mut g.stages) {
+        for stage in pass.settings.meshes_mut().into_iter().flat_map(|g| &mut g.stages) {
             let name = with_ending(stage.name.clone());
             place(stage, name, is_home, target, &mut writes)?;
         }
@@ -200,7 +200,7 @@ fn copy_media(project: &Project, writes: &mut Writes) -> Result<(), ProjectError
     let Some(base) = project.origin.base_dir() else { return Ok(()) };
     let mut names: BTreeSet<String> = BTreeSet::new();
     let named = |path: &Path| path.to_str().and_then(|name| confine::relative("", name).ok());
-    for draw in project.passes.iter().filter_map(|p| p.settings.geometry.as_ref()).flat_map(|g| &g.draws) {
+    for draw in project.passes.iter().filter_map(|p| p.settings.meshes()).flat_map(|g| &g.draws) {
         let MeshSource::File(path) = &draw.mesh else { continue };
         if let Some(model) = named(path) {
             names.extend(files_beside(base, &model));

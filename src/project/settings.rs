@@ -11,15 +11,39 @@ pub struct PassSettings {
     pub initial: Option<super::Fill>,
     /// Texels at the edge that are overwritten after each draw.
     pub boundary: Option<super::Boundary>,
-    /// Meshes to draw instead of the full-screen triangle.
-    pub geometry: Option<super::Geometry>,
+    pub body: PassBody,
+}
+
+/// What a pass draws.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum PassBody {
+    /// Every texel of its one target, as on the site.
+    #[default]
+    Screen,
+    /// Meshes into its targets, which are cleared before, with a depth buffer.
+    Meshes(super::Geometry),
 }
 
 impl PassSettings {
     /// The format of each target the pass draws into, at least one.
     pub fn formats(&self) -> Vec<PassFormat> {
-        let more = self.geometry.iter().flat_map(|g| g.more_targets.iter().copied());
+        let more = self.meshes().into_iter().flat_map(|g| g.more_targets.iter().copied());
         [self.format].into_iter().chain(more).collect()
+    }
+
+    /// The meshes, where the pass draws meshes.
+    pub fn meshes(&self) -> Option<&super::Geometry> {
+        match &self.body {
+            PassBody::Screen => None,
+            PassBody::Meshes(geometry) => Some(geometry),
+        }
+    }
+
+    pub fn meshes_mut(&mut self) -> Option<&mut super::Geometry> {
+        match &mut self.body {
+            PassBody::Screen => None,
+            PassBody::Meshes(geometry) => Some(geometry),
+        }
     }
 }
 

@@ -10,7 +10,7 @@ use crate::{
 };
 use std::{ops::Range, sync::Arc};
 
-const COMMON: SourceId = SourceId(0);
+const COMMON: SourceId = Project::COMMON_ID;
 
 /// What an editor can ask of a tab; see [`Analysis`].
 #[derive(Debug)]
@@ -56,7 +56,7 @@ impl Texts {
             && mine.iter().zip(&theirs).all(|(a, b)| Arc::ptr_eq(a, b))
             && self.pass().id == other.pass().id
             && self.stage == other.stage
-            && self.pass().settings.geometry == other.pass().settings.geometry
+            && self.pass().settings.body == other.pass().settings.body
             && engine::channel_kinds(self.pass()) == engine::channel_kinds(other.pass())
     }
 
@@ -138,9 +138,9 @@ impl Session {
             let texts = engine::Sources::new(project);
             for (index, pass) in project.passes.iter().enumerate().filter(|(_, p)| p.id != of.texts.pass().id) {
                 let uses = texts.analyse(index).uses(COMMON, shared.start as usize);
-                let there = uses.iter().filter(|s| s.source == SourceId(index as u16 + 1));
+                let there = uses.iter().filter(|s| s.source == Project::pass_id(index));
                 found.extend(there.map(|s| (Tab::Pass(pass.id.clone()), s.range())));
-                for n in 0..pass.settings.geometry.as_ref().map_or(0, |g| g.stages.len()) {
+                for n in 0..pass.settings.meshes().map_or(0, |g| g.stages.len()) {
                     let id = project.stage_id(index, Stage::File(n));
                     let uses = texts.analyse_stage(index, Stage::File(n)).uses(COMMON, shared.start as usize);
                     let there = uses.iter().filter(|s| s.source == id);
@@ -172,7 +172,7 @@ impl Session {
         if project.passes.is_empty() {
             return;
         }
-        let stages = project.passes[index].settings.geometry.as_ref().map_or(&[][..], |g| &g.stages);
+        let stages = project.passes[index].settings.meshes().map_or(&[][..], |g| &g.stages);
         let file = self.analyst.stage.as_ref();
         let stage = stages.iter().position(|s| Some(&s.name) == file).map_or(Stage::Own, Stage::File);
         let texts = Texts::of(project, index, stage);

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     diag::{Diagnostic, SourceMap},
-    engine::{BuildError, BuildOptions, EngineError, Program},
+    engine::{BuildError, BuildOptions, Builder, EngineError, Program},
     gpu::Gpu,
     media::{self, MediaSet},
     project::{self, Channel, MeshSource, Pass, PassId, Project},
@@ -44,6 +44,7 @@ pub(super) struct Compiled {
 /// The worker's work, with the pictures it has read so far.
 pub(super) fn work(gpu: Gpu, media_dir: Option<PathBuf>) -> impl FnMut(Job) -> Done + Send {
     let mut media = Media { dir: media_dir, ..Media::default() };
+    let mut builder = Builder::new(gpu);
     move |job| {
         let named = media.named(&job);
         let files = named.stamps.iter().map(|(path, _)| path.clone()).collect();
@@ -51,7 +52,7 @@ pub(super) fn work(gpu: Gpu, media_dir: Option<PathBuf>) -> impl FnMut(Job) -> D
             return Done { files, is_changed: media.of != Some(named), compiled: None };
         }
         let mut diagnostics = media.update(&job, named);
-        let options = BuildOptions { wanted: wanted(&job), skip: true };
+        let options = BuildOptions { wanted: wanted(&job), skip: true, ..BuildOptions::default() };
         let tabs = |d: &[Diagnostic], sources: &SourceMap| -> Vec<TabDiagnostic> {
             d.iter().map(|d| TabDiagnostic::new(d, sources, |id| job.project.tab_of(id))).collect()
         };
@@ -59,7 +60,7 @@ pub(super) fn work(gpu: Gpu, media_dir: Option<PathBuf>) -> impl FnMut(Job) -> D
             diagnostics.extend(tabs(&project::declare_channels(&mut job.project.clone()), &job.project.sources()));
         }
         let start = Instant::now();
-        let program = match Program::build(&gpu, &job.project, &media.set, &options) {
+        let program = match builder.build(&job.project, &media.set, &options) {
             Ok(built) => {
                 diagnostics.extend(tabs(&built.diagnostics, &built.sources));
                 Ok(Some((built.program, start.elapsed().as_secs_f64() * 1e3)))
@@ -105,7 +106,8 @@ struct Media {
 
 impl Media {
     fn named(&mut self, job: &Job) -> Named {
-        let meshes = |p: &Pass| p.settings.geometry.iter().flat_map(|g| &g.draws).map(|d| d.mesh.clone()).collect();
+        let meshes =
+            |p: &Pass| p.settings.meshes().into_iter().flat_map(|g| &g.draws).map(|d| d.mesh.clone()).collect();
         let channels = job.project.passes.iter().map(|p| (p.id.clone(), p.channels.clone(), meshes(p))).collect();
         let base = super::capture::base_folder(&job.project).unwrap_or_default();
         Named { opened: job.opened, base, channels, stamps: self.stamps.take(&job.project) }

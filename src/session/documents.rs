@@ -4,7 +4,7 @@
 //! and changed on disk too is a conflict for the user to settle. Reads and writes no file.
 
 use super::command::DiffLine;
-use crate::project::{Origin, Pass, PassId, Project, Source, Tab};
+use crate::project::{Origin, Pass, Project, Source, Tab};
 use std::{collections::BTreeSet, path::PathBuf, sync::Arc};
 
 /// A project being edited.
@@ -208,8 +208,8 @@ fn structure(project: &Project) -> Project {
     }
     for (bare, pass) in bare.passes.iter_mut().zip(&project.passes) {
         // Which file a draw names is structure.
-        let stages = pass.settings.geometry.iter().flat_map(|g| &g.stages);
-        for (bare, stage) in bare.settings.geometry.iter_mut().flat_map(|g| &mut g.stages).zip(stages) {
+        let stages = pass.settings.meshes().into_iter().flat_map(|g| &g.stages);
+        for (bare, stage) in bare.settings.meshes_mut().into_iter().flat_map(|g| &mut g.stages).zip(stages) {
             bare.name = stage.name.clone();
         }
     }
@@ -237,13 +237,7 @@ fn reinsert(to: &mut Project, from: &Project, tab: &Tab) {
 /// Puts a pass where the drawing order wants it: buffers by name, then the cubemap pass, Image, Sound. Passes that are there
 /// keep their order, which an author may have chosen.
 pub(super) fn insert_pass(project: &mut Project, pass: Pass) {
-    let rank = |id: &PassId| match id {
-        PassId::Buffer(_) => 0,
-        PassId::Cubemap => 1,
-        PassId::Image => 2,
-        PassId::Sound => 3,
-    };
-    let is_before = |other: &Pass| match rank(&other.id).cmp(&rank(&pass.id)) {
+    let is_before = |other: &Pass| match other.id.turn().cmp(&pass.id.turn()) {
         std::cmp::Ordering::Equal => other.id < pass.id,
         order => order.is_lt(),
     };

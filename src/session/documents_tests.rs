@@ -1,7 +1,7 @@
 //! Tests of merging what was edited with what changed on disk.
 
 use super::*;
-use crate::project::{Channel, Info, Input, Sampler, SamplerRules};
+use crate::project::{Channel, Info, Input, PassId, Sampler, SamplerRules};
 
 fn project(texts: &[(&str, &str)], has_manifest: bool) -> Project {
     let mut project = Project {

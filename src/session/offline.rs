@@ -51,7 +51,7 @@ impl Offline {
             return Err(EngineError::NoSuchPass(pass.title()).into());
         }
         let mut engine = Engine::new(gpu.clone(), options.size.0, options.size.1)?;
-        let build = BuildOptions { wanted: vec![pass.clone()], skip: options.skip };
+        let build = BuildOptions { wanted: vec![pass.clone()], skip: options.skip, ..BuildOptions::default() };
         let built = Program::build(gpu, project, media, &build)?;
         engine.set_program(built.program)?;
         Ok(Offline { engine, inputs, pass, diagnostics: built.diagnostics, sources: built.sources })

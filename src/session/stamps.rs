@@ -100,7 +100,7 @@ fn files(project: &Project, base: Option<&Path>) -> BTreeMap<PathBuf, Option<Str
         }
     }
     let Some(base) = base else { return files };
-    for draw in project.passes.iter().filter_map(|p| p.settings.geometry.as_ref()).flat_map(|g| &g.draws) {
+    for draw in project.passes.iter().filter_map(|p| p.settings.meshes()).flat_map(|g| &g.draws) {
         let MeshSource::File(path) = &draw.mesh else { continue };
         let Some(model) = relative(path) else { continue };
         own.extend(project::files_beside(base, &model));

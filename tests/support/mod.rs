@@ -6,7 +6,7 @@ pub mod program;
 
 use eddy::{
     engine::{BuildOptions, Engine, FrameInputs, Pixels, Program},
-    gpu::{Gpu, GpuError, GpuOptions},
+    gpu::{Gpu, GpuOptions},
     media::MediaSet,
     project::{Channel, Filter, Info, Input, Origin, Pass, PassId, Project, Sampler, SamplerRules, Source, Wrap},
 };
@@ -23,7 +23,7 @@ pub fn gpu_with(options: &GpuOptions) -> Option<Gpu> {
         Ok(gpu) => Some(gpu),
         Err(error) if std::env::var_os("EDDY_REQUIRE_GPU").is_some() => panic!("a device is required here: {error}"),
         Err(error) => {
-            skipped(&error);
+            skipped(&error.to_string());
             None
         }
     }
@@ -31,8 +31,8 @@ pub fn gpu_with(options: &GpuOptions) -> Option<Gpu> {
 
 /// Says so on standard error, past the harness, which keeps a passing test's words to itself; and in the file that
 /// `EDDY_SKIPS` names, whose lines `scripts/test` counts.
-fn skipped(error: &GpuError) {
-    let line = format!("{}: {error}\n", std::thread::current().name().unwrap_or("a test"));
+pub fn skipped(why: &str) {
+    let line = format!("{}: {why}\n", std::thread::current().name().unwrap_or("a test"));
     let _ = write!(std::io::stderr(), "SKIPPED {line}");
     if let Some(path) = std::env::var_os("EDDY_SKIPS") {
         let mut file = OpenOptions::new().append(true).create(true).open(path).unwrap();

@@ -121,7 +121,7 @@ fn in_the_room(rig: &Rig, setup: &Setup) -> Result<Vec<Occluded>, LabError> {
     let open = running.read("blur")?;
     let (project, _) = setup.project()?;
     let pass = project.pass(&crate::lab::setup::pass("geometry"));
-    let geometry = pass.and_then(|p| p.settings.geometry.as_ref()).ok_or_else(lacks)?;
+    let geometry = pass.and_then(|p| p.settings.meshes()).ok_or_else(lacks)?;
     let meshes = Meshes::of(&geometry.draws).map_err(|_| lacks())?;
     // A sample of the length s = radius (0.1 + 0.9 u u), u uniform, finds what is no farther than s.
     let falloff = |d: f64| 1.0 - ((d / ROOM_RADIUS - 0.1).max(0.0) / 0.9).sqrt();

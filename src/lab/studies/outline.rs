@@ -121,7 +121,7 @@ fn staged(project: &mut Project, method: &str, width: f64) {
         // The preset has them; a test of the studies opens each setup.
         project.set_knob(&knob).unwrap_or_else(|why| panic!("{knob}: {why}"));
     }
-    let scene = project.pass_mut(&super::super::setup::pass("scene")).and_then(|p| p.settings.geometry.as_mut());
+    let scene = project.pass_mut(&super::super::setup::pass("scene")).and_then(|p| p.settings.meshes_mut());
     let geometry = scene.expect("the preset draws meshes");
     geometry.camera = Camera {
         yaw: 0.0,

@@ -19,19 +19,20 @@ pub fn export(project: &Project) -> String {
     info.insert("description".into(), json!(project.info.description));
     info.insert("tags".into(), json!(project.info.tags));
     let (knobs, includes) = (project.knobs(), project.include_lines());
-    let text = |id: u16| {
-        let (common, own) = (includes.reach(SourceId(0)), includes.reach(SourceId(id)));
+    let text = |id: SourceId| {
+        let (common, own) = (includes.reach(Project::COMMON_ID), includes.reach(id));
         let declared = |knob: &Knob, within: &BTreeSet<SourceId>| knob.declared_in.iter().any(|id| within.contains(id));
-        let here = knobs.list.iter().filter(|k| declared(k, &own) && (id == 0 || !declared(k, &common)));
-        constants::text(&project.inlined(SourceId(id), &includes), here, &project.knob_values)
+        let here =
+            knobs.list.iter().filter(|k| declared(k, &own) && (id == Project::COMMON_ID || !declared(k, &common)));
+        constants::text(&project.inlined(id, &includes), here, &project.knob_values)
     };
-    let pass = |(index, pass): (usize, &Pass)| self::pass(pass, text(index as u16 + 1));
+    let pass = |(index, pass): (usize, &Pass)| self::pass(pass, text(Project::pass_id(index)));
     // Image first, as the site writes it.
     let image = project.passes.iter().enumerate().filter(|(_, p)| p.id == PassId::Image);
     let others = project.passes.iter().enumerate().filter(|(_, p)| p.id != PassId::Image);
     let mut passes: Vec<Value> = image.map(pass).collect();
     passes.extend(project.common.iter().map(|_| {
-        json!({ "inputs": [], "outputs": [], "code": text(0), "name": "Common", "description": "", "type": "common" })
+        json!({ "inputs": [], "outputs": [], "code": text(Project::COMMON_ID), "name": "Common", "description": "", "type": "common" })
     }));
     passes.extend(others.map(pass));
     let shader = json!({ "ver": "0.1", "info": info, "renderpass": passes });

@@ -20,7 +20,7 @@ impl Reader<'_> {
                     "no pass reads what Image held; give a buffer this key, and show it"
                 }
                 PassId::Cubemap | PassId::Sound => "only buffers and Image are drawn",
-                _ if settings.geometry.is_some() => "a pass that draws meshes is cleared in every frame",
+                _ if settings.meshes().is_some() => "a pass that draws meshes is cleared in every frame",
                 _ => continue,
             };
             self.error(item.span(), format!("{} has no {key}", id.title()), why);

@@ -252,7 +252,7 @@ fn targets(item: &Item) -> Option<Vec<PassFormat>> {
 
 /// Changes no more of a pass's table than needed.
 pub(super) fn write_geometry(pass: &mut dyn TableLike, own: &Source, settings: &PassSettings) {
-    let Some(geometry) = &settings.geometry else {
+    let Some(geometry) = settings.meshes() else {
         KEYS.iter().for_each(|key| drop(pass.remove(key)));
         return;
     };

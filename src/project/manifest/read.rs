@@ -4,7 +4,7 @@ use super::{KINDS, VERSION, default_sampler, fills, geometry, settings};
 use crate::{
     diag::{Diagnostic, SourceId, SourceMap, Span},
     project::{
-        Channel, FileError, Filter, Info, Input, Loaded, MAX_TARGETS, Media, Origin, Pass, PassId, Project,
+        Channel, FileError, Filter, Info, Input, Loaded, MAX_TARGETS, Media, Origin, Pass, PassBody, PassId, Project,
         ProjectError, SamplerRules, Source, Wrap,
         files::{self, Files, Read},
         folder::{self, Role},
@@ -226,7 +226,8 @@ impl Reader<'_> {
             let source = self.source(&file, &id.title(), file_at);
             let channels = self.channels(table);
             let mut settings = self.settings(&id, table);
-            settings.geometry = self.geometry(&id, table, &file, &mut settings);
+            let meshes = self.geometry(&id, table, &file, &mut settings);
+            settings.body = meshes.map_or(PassBody::Screen, PassBody::Meshes);
             self.fills(&id, table, &mut settings);
             if let Some(source) = source {
                 passes.push(Pass { id, source, channels, settings });

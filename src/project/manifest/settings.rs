@@ -108,7 +108,7 @@ impl Reader<'_> {
     fn check_draws(&mut self, passes: &[Pass], groups: &[Group], table: Option<&dyn TableLike>) {
         let draws = |pass: &Pass| {
             let steps = groups.iter().find(|g| g.passes.contains(&pass.id)).map_or(1, |g| u64::from(g.steps));
-            let meshes = pass.settings.geometry.as_ref().map_or(1, |g| g.draws.len().max(1) as u64);
+            let meshes = pass.settings.meshes().map_or(1, |g| g.draws.len().max(1) as u64);
             meshes.saturating_mul(steps)
         };
         let all = passes.iter().map(draws).fold(0, u64::saturating_add);

@@ -1,0 +1,227 @@
+//! From a project to everything a frame needs that does not change from frame to frame.
+
+use super::{
+    BuildError, EngineError, Sources,
+    channels::{ChannelBinder, mixing, mixing_of_fill},
+    compile::PassOptions,
+    compiled::CompiledPass,
+    draft::{CompiledParts, DrawDraft},
+    pipelines::PipelineCache,
+    program::{Mixing, Program},
+    stage_cache::StageCache,
+    uploads::Uploads,
+};
+use crate::{
+    diag::{Diagnostic, SourceMap},
+    glsl::Driver,
+    gpu::Gpu,
+    graph::{ChannelFacts, FramePlan, PassFacts},
+    media::MediaSet,
+    project::{FillKind, Input, Media, Pass, PassFormat, PassId, Project},
+};
+
+/// The pictures that are wanted, and whether the others may be left out.
+#[derive(Clone, Debug)]
+pub struct BuildOptions {
+    /// The passes whose pictures are wanted; nothing they do not need is compiled into the frame. Empty: Image.
+    pub wanted: Vec<PassId>,
+    /// Leave out what nobody reads. Off (`--no-skip`), everything is drawn, with the same bytes in every picture.
+    pub skip: bool,
+    /// Passes of the shader compiler's optimiser that are left out: for who works on it.
+    pub without: PassSet,
+}
+
+impl Default for BuildOptions {
+    fn default() -> Self {
+        Self { wanted: Vec::new(), skip: true, without: PassSet::default() }
+    }
+}
+
+/// A program and what the compiler wants to say of it.
+pub struct Built {
+    pub program: Program,
+    /// Warnings and notes.
+    pub diagnostics: Vec<Diagnostic>,
+    pub sources: SourceMap,
+    pub work: BuildWork,
+}
+
+/// The number of things that a build had to make. Everything else was there from earlier builds of the same [`Builder`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct BuildWork {
+    /// Stages that were compiled: texts with their settings, each distinct one once.
+    pub stages: usize,
+    /// Pipelines that were made of them.
+    pub pipelines: usize,
+}
+
+/// Builds programs on one device, one after the other. Compiled stages, pipelines, pictures and meshes that the last two
+/// programs have are not made again.
+pub struct Builder {
+    gpu: Gpu,
+    stages: StageCache,
+    pipelines: PipelineCache,
+    uploads: Uploads,
+}
+
+impl Program {
+    /// Builds a program, with nothing from before; see [`Builder::build`].
+    pub fn build(gpu: &Gpu, project: &Project, media: &MediaSet, options: &BuildOptions) -> Result<Built, BuildError> {
+        Builder::new(gpu.clone()).build(project, media, options)
+    }
+}
+
+impl Builder {
+    pub fn new(gpu: Gpu) -> Self {
+        let uploads = Uploads::new(&gpu);
+        Self { gpu, stages: StageCache::default(), pipelines: PipelineCache::default(), uploads }
+    }
+
+    /// Compiles every pass, plans the frame and makes the pipelines of the passes it needs. `media` holds the pictures the
+    /// channels name; one that is missing reads as the site's unloaded channel.
+    pub fn build(&mut self, project: &Project, media: &MediaSet, options: &BuildOptions) -> Result<Built, BuildError> {
+        let built = self.build_program(project, media, options);
+        let is_whole = built.is_ok();
+        let work = BuildWork { stages: self.stages.end_build(is_whole), pipelines: self.pipelines.end_build(is_whole) };
+        self.uploads.end_build(is_whole);
+        built.map(|built| Built { work, ..built })
+    }
+
+    fn build_program(
+        &mut self,
+        project: &Project,
+        media: &MediaSet,
+        options: &BuildOptions,
+    ) -> Result<Built, BuildError> {
+        let sources = project.sources();
+        let texts = Sources::new(project);
+        let Compilation { drawable, passes, diagnostics } = match self.compile(project, &texts, media, options.without) {
+            Ok(done) => done,
+            Err(diagnostics) => return Err(BuildError::Diagnostics { diagnostics, sources }),
+        };
+        for id in &options.wanted {
+            if drawable.pass(id).is_none() {
+                return Err(EngineError::NoSuchPass(id.title()).into());
+            }
+        }
+        let facts: Vec<PassFacts> = passes.iter().map(|p| facts(&p.compiled)).collect();
+        let plan = FramePlan::new(&drawable, &facts, &options.wanted, options.skip);
+        let mut passes: Vec<Option<CompiledParts>> = passes.into_iter().map(Some).collect();
+        let mut drafts = Vec::with_capacity(plan.draws.len());
+        let binder = ChannelBinder { gpu: &self.gpu, project: &drawable, media };
+        for draw in &plan.draws {
+            let Some(parts) = passes[draw.pass].take() else { continue };
+            drafts.push(DrawDraft::new(&binder, &mut self.uploads, &plan, draw, parts)?);
+        }
+        let orders = drafts.iter_mut().flat_map(DrawDraft::take_orders).collect();
+        let mut made = self.pipelines.make(&self.gpu, orders)?.into_iter();
+        let mut meshes = 0;
+        let draws = drafts.into_iter().map(|draft| draft.finish(&mut made, &mut meshes)).collect();
+        let program =
+            Program { plan, draws, knobs: texts.knobs().list.clone(), knob_values: project.knob_values.clone() };
+        Ok(Built { program, diagnostics, sources, work: BuildWork::default() })
+    }
+
+    /// Compiles every pass that can be drawn, and its fills.
+    fn compile(
+        &mut self,
+        project: &Project,
+        texts: &Sources<'_>,
+        media: &MediaSet,
+        without: PassSet,
+    ) -> Result<Compilation, Vec<Diagnostic>> {
+        let mut drawable = project.clone();
+        drawable.passes.clear();
+        let mut passes = Vec::new();
+        let mut diagnostics: Vec<Diagnostic> = texts.diagnostics.clone();
+        diagnostics.extend(media.mesh_errors(project));
+        diagnostics.extend(media.fill_errors(project));
+        for (index, pass) in project.passes.iter().enumerate() {
+            if matches!(pass.id, PassId::Cubemap | PassId::Sound) {
+                let what = pass.id.title();
+                diagnostics.push(Diagnostic::warning(
+                    None,
+                    format!("the pass {what} is not drawn; what reads it reads black"),
+                ));
+                continue;
+            }
+            let driver = Driver { without, ..driver(&self.gpu, pass) };
+            let mut said = Vec::new();
+            let fills = FillKind::ALL.map(|kind| {
+                let texels = pass.fill(kind).and_then(|fill| media.fill(fill.value.path()?));
+                let by_hand = texels.is_some_and(|t| mixing_of_fill(&self.gpu, t) == Mixing::ByHand);
+                let options = PassOptions { bilinear_by_hand: [by_hand, false, false, false], driver };
+                match texts.compile_fill_with(&mut self.stages, index, kind, options)? {
+                    Ok(mut fill) => {
+                        said.append(&mut fill.diagnostics);
+                        Some(fill)
+                    }
+                    Err(errors) => {
+                        said.extend(errors);
+                        None
+                    }
+                }
+            });
+            let mixing = mixing(&self.gpu, project, media, index);
+            let options = PassOptions { bilinear_by_hand: mixing.map(|m| m == Mixing::ByHand), driver };
+            match texts.compile_pass_with(&mut self.stages, index, options) {
+                Ok(mut compiled) => {
+                    said.append(&mut compiled.diagnostics);
+                    drawable.passes.push(without_cubemap_passes(pass.clone()));
+                    passes.push(CompiledParts { compiled, fills, mixing });
+                }
+                Err(errors) => said.extend(errors),
+            }
+            for d in said {
+                // What is wrong in Common is found again in every pass.
+                if !diagnostics.contains(&d) {
+                    diagnostics.push(d);
+                }
+            }
+        }
+        if diagnostics.iter().any(Diagnostic::is_error) {
+            Err(diagnostics)
+        } else {
+            Ok(Compilation { drawable, passes, diagnostics })
+        }
+    }
+}
+
+/// The passes that can be drawn, compiled; the project with only these, and every warning.
+struct Compilation {
+    drawable: Project,
+    passes: Vec<CompiledParts>,
+    diagnostics: Vec<Diagnostic>,
+}
+
+/// Returns what the device's driver needs of the code of a pass.
+fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
+    let has_small_floats = pass.settings.formats().into_iter().any(PassFormat::is_small_float);
+    Driver {
+        tables_in_memory: !gpu.has_storage_buffers,
+        opaque_uniforms: gpu.recompiles_for_uniforms,
+        may_discard: gpu.keeps_denormals && has_small_floats,
+        nan_angle: gpu.nan_angle,
+        array_loops: gpu.wants_array_loops,
+        loop_closing_exits: gpu.keeps_loops_open,
+        hidden_limits: gpu.misjudges_limits,
+        without: PassSet::default(),
+    }
+}
+
+/// A cubemap pass is not drawn, so a channel that reads it is as one whose file is missing.
+fn without_cubemap_passes(mut pass: Pass) -> Pass {
+    for channel in pass.channels.iter_mut().flatten() {
+        if channel.input == Input::CubemapPass {
+            channel.input = Input::Cubemap(Media::Builtin("cube_a".into()));
+        }
+    }
+    pass
+}
+
+fn facts(compiled: &CompiledPass) -> PassFacts {
+    PassFacts {
+        channels: compiled.reflection.channels.map(|c| ChannelFacts { is_read: c.is_read(), reaches_mips: c.mips }),
+        discards: compiled.reflection.discards,
+    }
+}

@@ -1,0 +1,135 @@
+//! The textures that the channels of a pass are bound to, and the way they are read on a device.
+
+use super::{
+    program::{BoundChannel, Mixing},
+    sources::channel_kind,
+    uploads::Uploads,
+};
+use crate::{
+    glsl::{ChannelUse, interface},
+    gpu::{Binding, Gpu, GpuError},
+    graph::{Draw, Source, effective_sampler},
+    media::{MediaKey, MediaSet, TexelFormat, Texels},
+    project::{Channel, Filter, Input, PassId, PassSettings, Project},
+};
+use std::sync::Arc;
+
+/// Returns how each channel of `project.passes[pass]` mixes texels on a device: the one place that decides it.
+pub(super) fn mixing(gpu: &Gpu, project: &Project, media: &MediaSet, pass: usize) -> [Mixing; 4] {
+    std::array::from_fn(|index| {
+        let Some(sampler) = effective_sampler(project, pass, index) else { return Mixing::Nearest };
+        let channel = project.passes[pass].channels[index].as_ref();
+        let is_float = channel.and_then(|c| settings_of(project, c)).is_some_and(|s| s.format.is_32_bit())
+            || channel.and_then(|c| picture(media, c)).is_some_and(|t| t.format == TexelFormat::Rgba32Float);
+        mixing_of(gpu, sampler.filter, is_float)
+    })
+}
+
+/// Returns how the picture of a fill is mixed.
+pub(super) fn mixing_of_fill(gpu: &Gpu, texels: &Texels) -> Mixing {
+    mixing_of(gpu, Filter::Linear, texels.format == TexelFormat::Rgba32Float)
+}
+
+fn mixing_of(gpu: &Gpu, filter: Filter, is_float: bool) -> Mixing {
+    match filter {
+        Filter::Nearest => Mixing::Nearest,
+        Filter::Linear | Filter::Mipmap if is_float && !gpu.filters_float32 => Mixing::ByHand,
+        Filter::Linear | Filter::Mipmap => Mixing::BySampler,
+    }
+}
+
+/// Binds the channels of passes.
+pub(super) struct ChannelBinder<'a> {
+    pub gpu: &'a Gpu,
+    pub project: &'a Project,
+    pub media: &'a MediaSet,
+}
+
+impl ChannelBinder<'_> {
+    /// Returns one channel of a pass, whose picture is on the device if the program reads it.
+    pub fn bind(
+        &self,
+        uploads: &mut Uploads,
+        channel: Option<&Channel>,
+        used: ChannelUse,
+        mixing: Mixing,
+        mips: bool,
+    ) -> Result<BoundChannel, GpuError> {
+        let texels = channel.and_then(|c| picture(self.media, c));
+        let is_used = used.texture || used.sampler;
+        Ok(BoundChannel {
+            kind: channel_kind(channel),
+            texture: used.texture,
+            sampler: used.sampler,
+            mixing,
+            media: match texels.filter(|_| is_used) {
+                Some(texels) => Some(uploads.picture(self.gpu, texels, mips)?),
+                None => None,
+            },
+            resolution: match channel.map(|c| &c.input) {
+                Some(Input::Keyboard) => [256.0, 3.0, 1.0],
+                _ => texels.map_or([0.0; 3], |t| resolution(t)),
+            },
+            buffer: channel.and_then(|c| settings_of(self.project, c)).map(|s| s.size),
+        })
+    }
+
+    /// Returns the one channel of a fill that is a picture.
+    pub fn bind_fill(
+        &self,
+        uploads: &mut Uploads,
+        texels: &Arc<Texels>,
+        used: ChannelUse,
+    ) -> Result<BoundChannel, GpuError> {
+        Ok(BoundChannel {
+            texture: used.texture,
+            sampler: used.sampler,
+            mixing: mixing_of_fill(self.gpu, texels),
+            resolution: resolution(texels),
+            media: Some(uploads.picture(self.gpu, texels, false)?),
+            ..BoundChannel::default()
+        })
+    }
+}
+
+fn resolution(texels: &Texels) -> [f32; 3] {
+    [texels.width as f32, texels.height as f32, 1.0]
+}
+
+/// Returns the picture that a channel names, if it names one and it is there.
+fn picture<'m>(media: &'m MediaSet, channel: &Channel) -> Option<&'m Arc<Texels>> {
+    match &channel.input {
+        Input::Texture(of) => media.get(&MediaKey { media: of.clone(), vflip: channel.sampler.vflip }),
+        _ => None,
+    }
+}
+
+/// Returns the settings of the buffer that the channel names, if it names one; the format is that of the target.
+fn settings_of(project: &Project, channel: &Channel) -> Option<PassSettings> {
+    let (name, index) = channel.input.buffer()?;
+    let mut settings = project.pass(&PassId::Buffer(name.to_owned())).map(|p| p.settings.clone()).unwrap_or_default();
+    settings.format = settings.formats().get(index).copied().unwrap_or_default();
+    Some(settings)
+}
+
+/// Returns the bind group that the channels of a draw are laid out in.
+pub(super) fn channel_bindings(channels: &[BoundChannel; 4], draw: &Draw) -> Vec<(u32, Binding)> {
+    let mut bindings = Vec::new();
+    for (index, channel) in channels.iter().enumerate() {
+        let dimension = match channel.kind {
+            crate::glsl::ChannelKind::Sampler2D => wgpu::TextureViewDimension::D2,
+            crate::glsl::ChannelKind::Sampler3D => wgpu::TextureViewDimension::D3,
+            crate::glsl::ChannelKind::SamplerCube => wgpu::TextureViewDimension::Cube,
+        };
+        // An empty channel is an 8-bit texture and can always be filtered; it is bound like the others to need no third case.
+        let is_keyboard = matches!(draw.reads[index].as_ref().map(|r| &r.source), Some(Source::Keyboard));
+        let filterable = channel.mixing == Mixing::BySampler && !is_keyboard;
+        if channel.texture {
+            bindings.push((interface::texture_binding(index), Binding::Texture { dimension, filterable }));
+        }
+        if channel.sampler {
+            bindings.push((interface::sampler_binding(index), Binding::Sampler { filtering: filterable }));
+        }
+    }
+    bindings
+}

@@ -1,0 +1,69 @@
+//! A pass out of the compiler, whether it is one full-screen program or the programs of several meshes.
+
+use crate::{
+    diag::Diagnostic,
+    glsl::{Compiled, Reflection, interface},
+};
+use std::sync::Arc;
+
+/// A pass that compiled.
+pub struct CompiledPass {
+    /// One, or one for each mesh the pass draws.
+    pub(super) programs: Vec<CompiledProgram>,
+    /// The reads of all programs together.
+    pub reflection: Reflection,
+    /// Warnings and notes; never an error.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+/// One program of a pass. Its diagnostics are those of the pass.
+pub(super) struct CompiledProgram {
+    /// `None`: the triangle over the whole target.
+    pub vertex: Option<Arc<Compiled>>,
+    pub fragment: Arc<Compiled>,
+}
+
+impl CompiledProgram {
+    /// Returns the bytes of the constant tables of both stages by their bindings; only those that there are.
+    pub fn tables(&self) -> impl Iterator<Item = (u32, &[u8])> {
+        let vertex = self.vertex.as_ref().map(|v| (interface::VERTEX_TABLE_BINDING, &v.uniform_tables[..]));
+        let fragment = [
+            (interface::TABLE_BINDING, &self.fragment.tables[..]),
+            (interface::UNIFORM_TABLE_BINDING, &self.fragment.uniform_tables[..]),
+        ];
+        fragment.into_iter().chain(vertex).filter(|(_, bytes)| !bytes.is_empty())
+    }
+
+    /// Returns the number of bytes of the author's own uniforms that it reads.
+    pub fn knob_bytes(&self) -> u64 {
+        self.vertex.as_ref().map_or(0, |v| v.knob_bytes).max(self.fragment.knob_bytes)
+    }
+}
+
+impl CompiledPass {
+    /// A pass over the whole target.
+    pub(super) fn screen(fragment: Arc<Compiled>, diagnostics: Vec<Diagnostic>) -> Self {
+        let reflection = fragment.reflection.clone();
+        Self { programs: vec![CompiledProgram { vertex: None, fragment }], reflection, diagnostics }
+    }
+
+    /// Adds the program of a mesh.
+    pub(super) fn add_mesh(&mut self, vertex: Arc<Compiled>, fragment: Arc<Compiled>) {
+        join(&mut self.reflection, &vertex.reflection);
+        join(&mut self.reflection, &fragment.reflection);
+        self.programs.push(CompiledProgram { vertex: Some(vertex), fragment });
+    }
+}
+
+/// Adds what a stage reads to what others of the pass read.
+fn join(all: &mut Reflection, one: &Reflection) {
+    all.uniforms.insert(one.uniforms);
+    one.knobs.iter().for_each(|slot| all.knobs.insert(slot));
+    for (all, one) in all.channels.iter_mut().zip(one.channels) {
+        all.texture |= one.texture;
+        all.sampler |= one.sampler;
+        all.mips |= one.mips;
+    }
+    all.discards |= one.discards;
+    all.geometry |= one.geometry;
+}

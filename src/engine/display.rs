@@ -1,0 +1,74 @@
+//! The 8-bit picture that a window shows.
+
+use super::targets::Target;
+use crate::{
+    gpu::{Gpu, GpuError, Presenter, Texture},
+    project::PassId,
+};
+
+/// Shows the newest texels of one pass.
+pub(super) struct Display {
+    presenter: Presenter,
+    texture: Texture,
+    /// `None`: nobody looks.
+    shown: Option<PassId>,
+    /// The shown target's textures, bound for presenting.
+    bound: Vec<wgpu::BindGroup>,
+    /// The place of the shown target in the plan.
+    target: usize,
+}
+
+impl Display {
+    pub fn new(gpu: &Gpu, (width, height): (u32, u32)) -> Result<Self, GpuError> {
+        let (presenter, texture) = (Presenter::new(gpu), Presenter::texture(gpu, width, height)?);
+        Ok(Self { presenter, texture, shown: None, bound: Vec::new(), target: 0 })
+    }
+
+    /// The picture, its first row the top.
+    pub fn view(&self) -> &wgpu::TextureView {
+        &self.texture.level_0
+    }
+
+    /// Takes another texture for its own.
+    pub fn set_texture(&mut self, texture: Texture) {
+        self.texture = texture;
+    }
+
+    /// Chooses the pass that is shown.
+    pub fn show(&mut self, pass: PassId) {
+        self.shown = Some(pass);
+    }
+
+    /// Shows the chosen pass, if one is chosen, from these targets on; a pass without a target is black and of the canvas's size.
+    pub fn rebind(&mut self, gpu: &Gpu, canvas: (u32, u32), targets: &[Target]) {
+        let Some(shown) = &self.shown else { return };
+        self.bound.clear();
+        let place = targets.iter().position(|t| t.id == *shown);
+        let size = place.map_or(canvas, |i| targets[i].size());
+        if (self.texture.width(), self.texture.height()) != size {
+            match Presenter::texture(gpu, size.0, size.1) {
+                Ok(texture) => self.texture = texture,
+                Err(error) => log::error!("the picture cannot be shown: {error}"),
+            }
+        }
+        if (self.texture.width(), self.texture.height()) == size
+            && let Some(i) = place
+        {
+            self.target = i;
+            self.bound = targets[i].textures.iter().map(|t| self.presenter.bind(gpu, t)).collect();
+        }
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("show") });
+        if !self.present(gpu, &mut encoder, targets) {
+            self.texture.clear(gpu, &mut encoder);
+        }
+        gpu.queue.submit([encoder.finish()]);
+    }
+
+    /// Draws the shown pass's newest texels, if a pass is shown. Says whether one is.
+    pub fn present(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, targets: &[Target]) -> bool {
+        let newest = targets.get(self.target).map_or(0, |t| t.front);
+        let Some(bound) = self.bound.get(newest) else { return false };
+        self.presenter.present(gpu, encoder, bound, &self.texture);
+        true
+    }
+}

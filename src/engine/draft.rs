@@ -1,0 +1,171 @@
+//! A draw on its way to its pipelines: what it reads is on the device, and what it asks for is known.
+
+use super::{
+    EngineError,
+    channels::{ChannelBinder, channel_bindings},
+    compiled::{CompiledPass, CompiledProgram},
+    pipelines::{MeshState, PipelineOrder, StagePipeline},
+    placed::PlacedMesh,
+    program::{BoundChannel, CompiledDraw, DrawBody, FillProgram, Meshes, Mixing},
+    uploads::Uploads,
+};
+use crate::{
+    glsl::{Reflection, interface},
+    gpu::Binding,
+    graph::{Draw, FramePlan},
+    project::{Camera, FillKind, Pass, PassBody, PassFormat},
+};
+use std::sync::Arc;
+
+/// A compiled pass, its fills in the order of [`FillKind::ALL`], and how its channels mix texels.
+pub(super) struct CompiledParts {
+    pub compiled: CompiledPass,
+    pub fills: [Option<CompiledPass>; 2],
+    pub mixing: [Mixing; 4],
+}
+
+/// A draw that waits for its pipelines.
+pub(super) struct DrawDraft {
+    program: ProgramDraft,
+    fills: [Option<(ProgramDraft, Draw)>; 2],
+}
+
+impl DrawDraft {
+    /// Uploads what a draw reads, and says which pipelines it needs.
+    pub fn new(
+        binder: &ChannelBinder<'_>,
+        uploads: &mut Uploads,
+        plan: &FramePlan,
+        draw: &Draw,
+        parts: CompiledParts,
+    ) -> Result<Self, EngineError> {
+        let pass = &binder.project.passes[draw.pass];
+        let CompiledParts { compiled, fills, mixing } = parts;
+        let mut channels: [BoundChannel; 4] = Default::default();
+        for (index, bound) in channels.iter_mut().enumerate() {
+            let mips = draw.reads[index].as_ref().is_some_and(|r| r.mips);
+            let (channel, used) = (pass.channels[index].as_ref(), compiled.reflection.channels[index]);
+            *bound = binder.bind(uploads, channel, used, mixing[index], mips)?;
+        }
+        let body = match &pass.settings.body {
+            PassBody::Screen => BodyDraft::Screen,
+            PassBody::Meshes(geometry) => BodyDraft::Meshes {
+                camera: geometry.camera,
+                states: geometry.draws.iter().map(MeshState::of).collect(),
+                placed: uploads.placed(binder.gpu, binder.media, geometry)?,
+            },
+        };
+        let formats: Vec<PassFormat> = plan.targets[draw.targets.clone()].iter().map(|t| t.format).collect();
+        let program = ProgramDraft::new(pass, compiled, channels, draw, &formats, body);
+        let mut drafted = [None, None];
+        for ((drafted, compiled), kind) in drafted.iter_mut().zip(fills).zip(FillKind::ALL) {
+            let (Some(compiled), Some(fill)) = (compiled, pass.fill(kind)) else { continue };
+            let mut channels: [BoundChannel; 4] = Default::default();
+            let texels = fill.value.path().and_then(|path| binder.media.fill(path));
+            if let Some(texels) = texels {
+                channels[0] = binder.bind_fill(uploads, texels, compiled.reflection.channels[0])?;
+            }
+            let draw = draw.of_fill(texels.is_some());
+            let program = ProgramDraft::new(pass, compiled, channels, &draw, &formats[..1], BodyDraft::Screen);
+            *drafted = Some((program, draw));
+        }
+        Ok(Self { program, fills: drafted })
+    }
+
+    /// Gives the orders of the pass, then those of its fills.
+    pub fn take_orders(&mut self) -> Vec<PipelineOrder> {
+        let fills = self.fills.iter_mut().flatten().map(|(program, _)| program);
+        [&mut self.program].into_iter().chain(fills).flat_map(|program| std::mem::take(&mut program.orders)).collect()
+    }
+
+    /// Takes a pipeline for each of its orders from `made`, and adds its meshes to those of the draws before it.
+    pub fn finish(self, made: &mut impl Iterator<Item = Arc<StagePipeline>>, meshes: &mut usize) -> CompiledDraw {
+        let compiled = self.program.finish(made, meshes);
+        let [initial, boundary] = self.fills.map(|fill| {
+            fill.map(|(program, draw)| Box::new(FillProgram { compiled: program.finish(&mut *made, meshes), draw }))
+        });
+        CompiledDraw { initial, boundary, ..compiled }
+    }
+}
+
+/// The triangle or the meshes that a program is to draw.
+enum BodyDraft {
+    Screen,
+    Meshes { camera: Camera, states: Vec<MeshState>, placed: Vec<PlacedMesh> },
+}
+
+/// The programs of a pass or of one of its fills.
+struct ProgramDraft {
+    pass: crate::project::PassId,
+    reflection: Reflection,
+    channels: [BoundChannel; 4],
+    body: BodyDraft,
+    orders: Vec<PipelineOrder>,
+}
+
+impl ProgramDraft {
+    fn new(
+        pass: &Pass,
+        compiled: CompiledPass,
+        channels: [BoundChannel; 4],
+        draw: &Draw,
+        formats: &[PassFormat],
+        body: BodyDraft,
+    ) -> Self {
+        let CompiledPass { programs, reflection, .. } = compiled;
+        let channel_group = channel_bindings(&channels, draw);
+        let order = |(n, program): (usize, CompiledProgram)| PipelineOrder {
+            label: pass.id.title(),
+            groups: [uniform_bindings(&program, &reflection), channel_group.clone()],
+            formats: formats.to_vec(),
+            mesh: match &body {
+                BodyDraft::Screen => None,
+                BodyDraft::Meshes { states, .. } => states.get(n).copied(),
+            },
+            program,
+        };
+        let orders = programs.into_iter().enumerate().map(order).collect();
+        Self { pass: pass.id.clone(), orders, reflection, channels, body }
+    }
+
+    fn finish(self, made: &mut impl Iterator<Item = Arc<StagePipeline>>, meshes: &mut usize) -> CompiledDraw {
+        let Self { pass, reflection, channels, body, .. } = self;
+        let mut next = || made.next().expect("a pipeline was made for each order");
+        CompiledDraw {
+            id: pass,
+            body: match body {
+                BodyDraft::Screen => DrawBody::Screen(next()),
+                BodyDraft::Meshes { camera, placed, .. } => {
+                    let first = *meshes;
+                    *meshes += placed.len();
+                    let programs = placed.into_iter().map(|mesh| (next(), mesh)).collect();
+                    DrawBody::Meshes(Meshes { camera, first, programs })
+                }
+            },
+            reads_geometry: reflection.geometry,
+            channels,
+            initial: None,
+            boundary: None,
+            uniforms: reflection.uniforms,
+            knobs: reflection.knobs,
+        }
+    }
+}
+
+/// Returns the bind group that the uniforms of a program are laid out in.
+fn uniform_bindings(program: &CompiledProgram, reflection: &Reflection) -> Vec<(u32, Binding)> {
+    let mut bindings = vec![(0, Binding::Uniform { bytes: size_of::<interface::UniformBlock>() as u64 })];
+    for (number, bytes) in program.tables() {
+        let uniform = Binding::Uniform { bytes: bytes.len() as u64 };
+        let is_storage = number == interface::TABLE_BINDING;
+        bindings.push((number, if is_storage { Binding::Storage } else { uniform }));
+    }
+    if !reflection.knobs.is_empty() {
+        bindings.push((interface::KNOB_BINDING, Binding::Uniform { bytes: program.knob_bytes() }));
+    }
+    if reflection.geometry {
+        let bytes = size_of::<interface::GeometryBlock>() as u64;
+        bindings.push((interface::GEOMETRY_BINDING, Binding::Uniform { bytes }));
+    }
+    bindings
+}

@@ -1,0 +1,30 @@
+//! The errors of building a program and of drawing a frame.
+
+use crate::{
+    diag::{Diagnostic, SourceMap},
+    gpu::GpuError,
+    media::mesh::MeshError,
+};
+
+/// A frame could not be drawn or read.
+#[derive(Debug, thiserror::Error)]
+pub enum EngineError {
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    #[error("the project has no pass {0}, or nothing reached it")]
+    NoSuchPass(String),
+    #[error("{pass} has no target {index}")]
+    NoSuchTarget { pass: String, index: usize },
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+}
+
+/// A program could not be built.
+#[derive(Debug, thiserror::Error)]
+pub enum BuildError {
+    /// The author's to mend: at least one error, all of all passes.
+    #[error("the project does not compile")]
+    Diagnostics { diagnostics: Vec<Diagnostic>, sources: SourceMap },
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+}

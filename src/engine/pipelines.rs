@@ -1,0 +1,205 @@
+//! Pipelines of compiled stages, found by all that they are made of.
+
+use super::{
+    EngineError,
+    cache::{ByAddress, Cache},
+    compiled::CompiledProgram,
+    formats::{compare_function, cull_mode, texture_format},
+};
+use crate::{
+    glsl::{Attribute, Compiled, interface},
+    gpu::{
+        Binding, FragmentPipelineDescriptor, Gpu, GpuError, MeshPipelineDescriptor, Pipeline, Shader, check_targets,
+        constant_buffer,
+    },
+    media::mesh::Vertex,
+    project::{Cull, DepthTest, MeshDraw, PassFormat},
+};
+use std::{
+    collections::HashMap,
+    mem::offset_of,
+    num::NonZero,
+    sync::{
+        Arc,
+        atomic::{AtomicUsize, Ordering},
+    },
+    thread,
+};
+
+/// The pipeline of one program.
+pub(super) struct StagePipeline {
+    pub pipeline: Pipeline,
+    /// The constant tables of its stages, where they have any, by their bindings.
+    pub tables: Vec<(u32, wgpu::Buffer)>,
+}
+
+/// Bindings of the uniform group and of the channel group.
+pub(super) type Groups = [Vec<(u32, Binding)>; 2];
+
+/// Everything that a pipeline is made of.
+pub(super) struct PipelineOrder {
+    /// Names the pipeline in messages; pipelines that differ in nothing else are one.
+    pub label: String,
+    pub program: CompiledProgram,
+    pub groups: Groups,
+    pub formats: Vec<PassFormat>,
+    pub mesh: Option<MeshState>,
+}
+
+/// The state with which the triangles of a mesh are drawn.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) struct MeshState {
+    cull: Cull,
+    depth: DepthTest,
+    depth_write: bool,
+    color_write: bool,
+}
+
+impl MeshState {
+    pub fn of(draw: &MeshDraw) -> Self {
+        let &MeshDraw { cull, depth, depth_write, color_write, .. } = draw;
+        Self { cull, depth, depth_write, color_write }
+    }
+}
+
+#[derive(Clone, PartialEq, Eq, Hash)]
+struct PipelineKey {
+    vertex: Option<ByAddress<Compiled>>,
+    fragment: ByAddress<Compiled>,
+    groups: Groups,
+    formats: Vec<PassFormat>,
+    mesh: Option<MeshState>,
+}
+
+/// Pipelines of this build and those before it.
+#[derive(Default)]
+pub(super) struct PipelineCache {
+    made: Cache<PipelineKey, Arc<StagePipeline>>,
+    /// Number of pipelines that the current build has made.
+    built: usize,
+}
+
+impl PipelineCache {
+    /// Returns a pipeline for each order. Those that are not there are made side by side: a driver takes a tenth of a second for
+    /// one.
+    pub fn make(&mut self, gpu: &Gpu, orders: Vec<PipelineOrder>) -> Result<Vec<Arc<StagePipeline>>, EngineError> {
+        let keys: Vec<PipelineKey> = orders.iter().map(PipelineOrder::key).collect();
+        let mut missing: HashMap<&PipelineKey, PipelineOrder> = HashMap::new();
+        let mut in_order = Vec::new();
+        for (key, order) in keys.iter().zip(orders) {
+            if self.made.get(key).is_none() && !missing.contains_key(key) {
+                in_order.push(key);
+                missing.insert(key, order);
+            }
+        }
+        let todo: Vec<PipelineOrder> = in_order.iter().filter_map(|key| missing.remove(*key)).collect();
+        self.built += todo.len();
+        for (key, made) in in_order.into_iter().zip(side_by_side(&todo, |order| order.make(gpu))) {
+            self.made.insert(key.clone(), Arc::new(made?));
+        }
+        Ok(keys.iter().filter_map(|key| self.made.get(key).cloned()).collect())
+    }
+
+    /// Ends a build; see [`Cache::end_build`]. Returns the number of pipelines that it made.
+    pub fn end_build(&mut self, is_whole: bool) -> usize {
+        self.made.end_build(is_whole);
+        std::mem::take(&mut self.built)
+    }
+}
+
+/// Does work on as many threads as the machine runs at once. Results are in the order of the jobs.
+fn side_by_side<J: Sync, T: Send>(jobs: &[J], work: impl Fn(&J) -> T + Sync) -> Vec<T> {
+    let threads = thread::available_parallelism().map_or(1, NonZero::get).min(jobs.len());
+    if threads <= 1 {
+        return jobs.iter().map(work).collect();
+    }
+    let next = AtomicUsize::new(0);
+    let take = || {
+        let mut done = Vec::new();
+        while let Some((index, job)) = Some(next.fetch_add(1, Ordering::Relaxed)).and_then(|i| Some((i, jobs.get(i)?)))
+        {
+            done.push((index, work(job)));
+        }
+        done
+    };
+    let mut done: Vec<(usize, T)> = thread::scope(|scope| {
+        let threads: Vec<_> = (0..threads).map(|_| scope.spawn(take)).collect();
+        threads.into_iter().flat_map(|t| t.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))).collect()
+    });
+    done.sort_unstable_by_key(|(index, _)| *index);
+    done.into_iter().map(|(_, result)| result).collect()
+}
+
+impl PipelineOrder {
+    fn key(&self) -> PipelineKey {
+        PipelineKey {
+            vertex: self.program.vertex.as_ref().map(ByAddress::of),
+            fragment: ByAddress::of(&self.program.fragment),
+            groups: self.groups.clone(),
+            formats: self.formats.clone(),
+            mesh: self.mesh,
+        }
+    }
+
+    fn make(&self, gpu: &Gpu) -> Result<StagePipeline, GpuError> {
+        let table = |(number, bytes): (u32, &[u8])| {
+            let is_storage = number == interface::TABLE_BINDING;
+            let usage = if is_storage { wgpu::BufferUsages::STORAGE } else { wgpu::BufferUsages::UNIFORM };
+            Ok((number, constant_buffer(gpu, "constant tables", usage, bytes)?))
+        };
+        let tables = self.program.tables().map(table).collect::<Result<Vec<_>, GpuError>>()?;
+        let pipeline = match (&self.program.vertex, &self.mesh) {
+            (Some(vertex), Some(mesh)) => self.mesh_pipeline(gpu, vertex, mesh)?,
+            _ => Pipeline::new(
+                gpu,
+                FragmentPipelineDescriptor {
+                    label: &self.label,
+                    shader: shader(&self.program.fragment),
+                    entry_point: interface::ENTRY_POINT,
+                    groups: &self.groups,
+                    target: texture_format(self.formats[0]),
+                },
+            )?,
+        };
+        Ok(StagePipeline { pipeline, tables })
+    }
+
+    fn mesh_pipeline(&self, gpu: &Gpu, vertex: &Compiled, mesh: &MeshState) -> Result<Pipeline, GpuError> {
+        let attributes: Vec<(u32, u8, u64)> = vertex.reflection.attributes.iter().map(|a| attribute(*a)).collect();
+        let outputs = self.program.fragment.reflection.outputs;
+        let formats: Vec<_> = self.formats.iter().map(|format| texture_format(*format)).collect();
+        check_targets(gpu, &self.label, &formats)?;
+        let written = outputs.iter().map(|has_output| mesh.color_write && *has_output);
+        let targets: Vec<_> = formats.into_iter().zip(written).collect();
+        let descriptor = MeshPipelineDescriptor {
+            label: &self.label,
+            vertex: shader(vertex),
+            fragment: shader(&self.program.fragment),
+            entry_point: interface::ENTRY_POINT,
+            groups: &self.groups,
+            stride: size_of::<Vertex>() as u64,
+            attributes: &attributes,
+            targets: &targets,
+            cull: cull_mode(mesh.cull),
+            depth: compare_function(mesh.depth),
+            depth_write: mesh.depth_write,
+        };
+        Pipeline::for_meshes(gpu, descriptor)
+    }
+}
+
+fn shader(stage: &Compiled) -> Shader<'_> {
+    Shader { module: &stage.module, filled_arrays: stage.filled_arrays }
+}
+
+/// Returns the location, the number of floats and the offset of an attribute in a vertex.
+fn attribute(attribute: Attribute) -> (u32, u8, u64) {
+    let offset = match attribute {
+        Attribute::Position => offset_of!(Vertex, position),
+        Attribute::Normal => offset_of!(Vertex, normal),
+        Attribute::Tangent => offset_of!(Vertex, tangent),
+        Attribute::Uv => offset_of!(Vertex, uv),
+        Attribute::Color => offset_of!(Vertex, color),
+    };
+    (attribute.location(), attribute.components(), offset as u64)
+}

@@ -1,0 +1,178 @@
+//! A program that is running: its textures over time, what they are bound to, and what has changed. How a frame of it is drawn is
+//! in `frame`.
+
+use super::{
+    EngineError, FrameInputs,
+    bind::{Bindings, draw_fill},
+    knobs,
+    program::{Meshes, Program},
+    shared::Shared,
+    targets::{NewTargets, Target},
+    uniforms::{self, Uniforms},
+};
+use crate::{
+    gpu::{PassTimer, depth_buffer},
+    graph::Changes,
+    project::{KnobValues, PassId},
+};
+
+/// A program with its textures, on a canvas of one size.
+pub(super) struct Running {
+    pub program: Program,
+    pub canvas: (u32, u32),
+    pub targets: Vec<Target>,
+    /// One for each draw; `None` for those without meshes.
+    pub depths: Vec<Option<wgpu::TextureView>>,
+    pub bindings: Bindings,
+    pub uniforms: Uniforms,
+    pub changes: Changes,
+    /// Measures the passes, where that is asked for and the device can.
+    pub timer: Option<PassTimer>,
+    /// The number of times that each draw was done in the newest frame.
+    pub steps_drawn: Vec<u32>,
+}
+
+/// Textures that a program needs besides those that are there.
+struct NewTextures {
+    targets: NewTargets,
+    depths: Vec<Option<wgpu::TextureView>>,
+}
+
+impl NewTextures {
+    fn make(
+        shared: &mut Shared,
+        program: &Program,
+        canvas: (u32, u32),
+        present: &[Target],
+    ) -> Result<Self, EngineError> {
+        let depths = program.planned_draws().map(|(compiled, draw)| {
+            let of = |_: &Meshes| {
+                let (width, height) = program.plan.targets[draw.targets.start].size.of(canvas);
+                depth_buffer(&shared.gpu, &format!("depth of {}", compiled.id.title()), width, height)
+            };
+            compiled.body.meshes().map(of).transpose()
+        });
+        Ok(Self {
+            depths: depths.collect::<Result<_, _>>()?,
+            targets: NewTargets::make(&shared.gpu, &mut shared.mips, &program.plan, canvas, present)?,
+        })
+    }
+}
+
+impl Running {
+    /// Starts a program in place of `before`. Targets that both have keep their texels; new ones start as the project says, else
+    /// as zeros. On an error `before` stays.
+    pub fn start(
+        shared: &mut Shared,
+        program: Program,
+        canvas: (u32, u32),
+        before: &mut Option<Running>,
+    ) -> Result<Running, EngineError> {
+        let present = before.as_ref().map_or(&[][..], |running| &running.targets);
+        let new = NewTextures::make(shared, &program, canvas, present)?;
+        let mut running = Running {
+            canvas,
+            targets: before.take().map_or_else(Vec::new, |running| running.targets),
+            depths: Vec::new(),
+            bindings: Bindings::default(),
+            uniforms: Uniforms::new(&shared.gpu, &program),
+            changes: Changes::new(&program.plan),
+            timer: None,
+            steps_drawn: Vec::new(),
+            program,
+        };
+        running.uniforms.set_knobs(&shared.gpu, knobs::block(&running.program.knobs, &running.program.knob_values));
+        running.take(shared, new);
+        Ok(running)
+    }
+
+    /// Goes on with another canvas. Targets keep the overlap; the rest is as before frame 0. On an error everything stays.
+    pub fn resize(&mut self, shared: &mut Shared, canvas: (u32, u32)) -> Result<(), EngineError> {
+        let new = NewTextures::make(shared, &self.program, canvas, &self.targets)?;
+        self.canvas = canvas;
+        self.changes.invalidate();
+        self.take(shared, new);
+        Ok(())
+    }
+
+    /// Takes up new textures. They hold what the present ones held, and else what they hold before frame 0.
+    fn take(&mut self, shared: &Shared, new: NewTextures) {
+        self.depths = new.depths;
+        let (old, is_new) = new.targets.replace(&self.program.plan, &mut self.targets);
+        self.bindings = Bindings::new(&shared.gpu, &self.program, &self.uniforms);
+        self.fill_initial(shared, |target| is_new[target]);
+        for (target, _) in self.targets.iter_mut().zip(is_new).filter(|(_, is_new)| *is_new) {
+            if let Some(before) = old.iter().find(|t| t.id == target.id && t.index == target.index) {
+                target.take_over(&shared.gpu, &shared.mips, before);
+            }
+        }
+    }
+
+    /// Sets values of the author's own uniforms. Says whether anything is different now.
+    pub fn set_knobs(&mut self, shared: &Shared, values: &KnobValues) -> bool {
+        self.uniforms.set_knobs(&shared.gpu, knobs::block(&self.program.knobs, values))
+    }
+
+    /// Sets every target to its state before frame 0.
+    pub fn reset(&mut self, shared: &Shared) {
+        let descriptor = wgpu::CommandEncoderDescriptor { label: Some("reset") };
+        let mut encoder = shared.gpu.device.create_command_encoder(&descriptor);
+        for target in &self.targets {
+            target.clear(&shared.gpu, &mut encoder, &shared.mips);
+        }
+        shared.gpu.queue.submit([encoder.finish()]);
+        self.fill_initial(shared, |_| true);
+        self.changes.invalidate();
+    }
+
+    /// Draws what targets hold before frame 0, of those that are named by their place in the plan.
+    fn fill_initial(&mut self, shared: &Shared, is_named: impl Fn(usize) -> bool) {
+        let Self { program, canvas, targets, bindings, uniforms, .. } = self;
+        if !program.draws.iter().any(|draw| draw.initial.is_some()) {
+            return;
+        }
+        let inputs = FrameInputs::at_fixed_step(0, 60.0);
+        for (index, (compiled, draw)) in program.planned_draws().enumerate() {
+            let own = targets[draw.targets.start].size();
+            uniforms.set(index, &uniforms::block(&inputs, own, *canvas, &compiled.channels));
+        }
+        uniforms.write(&shared.gpu);
+        let descriptor = wgpu::CommandEncoderDescriptor { label: Some("initial") };
+        let mut encoder = shared.gpu.device.create_command_encoder(&descriptor);
+        for ((compiled, draw), bound) in program.planned_draws().zip(&mut bindings.fills) {
+            let (Some(fill), Some(bound)) = (&compiled.initial, &mut bound.initial) else { continue };
+            if !is_named(draw.targets.start) {
+                continue;
+            }
+            let target = &targets[draw.targets.start];
+            for texture in &target.textures {
+                let load = shared.gpu.load_what_is_overwritten();
+                let descriptor = wgpu::RenderPassDescriptor {
+                    label: Some("initial"),
+                    color_attachments: &[Some(texture.attachment(load))],
+                    ..Default::default()
+                };
+                shared.gpu.pass(&mut encoder, descriptor, |pass| draw_fill(bound, shared, fill, pass));
+            }
+            for chain in &target.chains {
+                shared.mips.build(&shared.gpu, &mut encoder, chain);
+            }
+        }
+        shared.gpu.queue.submit([encoder.finish()]);
+    }
+
+    /// Turns measuring on or off. Room is made for every draw of a frame.
+    pub fn set_timing(&mut self, shared: &Shared, on: bool) {
+        let draws = u32::try_from(self.program.plan.draws_a_frame().max(1)).unwrap_or(u32::MAX);
+        self.timer = if on { PassTimer::new(&shared.gpu, draws) } else { None };
+    }
+
+    /// The target of a pass by its place among the pass's targets.
+    pub fn target(&self, pass: &PassId, index: usize) -> Result<&Target, EngineError> {
+        let own = || self.targets.iter().filter(|t| t.id == *pass);
+        if own().next().is_none() {
+            return Err(EngineError::NoSuchPass(pass.title()));
+        }
+        own().find(|t| t.index == index).ok_or_else(|| EngineError::NoSuchTarget { pass: pass.title(), index })
+    }
+}

@@ -1,0 +1,83 @@
+//! The parts that every program draws with: the device, samplers, the keyboard, and textures for channels that have none.
+
+use crate::{
+    gpu::{Gpu, GpuError, MipMaker, Samplers, Texture, TextureDescriptor},
+    media::Keyboard,
+};
+
+pub(super) struct Shared {
+    pub gpu: Gpu,
+    pub samplers: Samplers,
+    pub fallbacks: FallbackTextures,
+    pub keyboard: KeyboardTexture,
+    pub mips: MipMaker,
+}
+
+impl Shared {
+    pub fn new(gpu: Gpu) -> Result<Self, GpuError> {
+        Ok(Self {
+            samplers: Samplers::new(&gpu),
+            fallbacks: FallbackTextures::new(&gpu)?,
+            keyboard: KeyboardTexture::new(&gpu)?,
+            mips: MipMaker::new(&gpu),
+            gpu,
+        })
+    }
+}
+
+/// One black texel without alpha in each dimension: what a channel with nothing in it reads.
+pub(super) struct FallbackTextures {
+    pub flat: wgpu::TextureView,
+    pub volume: wgpu::TextureView,
+    pub cube: wgpu::TextureView,
+}
+
+impl FallbackTextures {
+    fn new(gpu: &Gpu) -> Result<Self, GpuError> {
+        let view = |dimension, layers, view_dimension| {
+            gpu.device
+                .create_texture(&wgpu::TextureDescriptor {
+                    label: Some("fallback"),
+                    size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: layers },
+                    mip_level_count: 1,
+                    sample_count: 1,
+                    dimension,
+                    format: wgpu::TextureFormat::Rgba8Unorm,
+                    usage: wgpu::TextureUsages::TEXTURE_BINDING,
+                    view_formats: &[],
+                })
+                .create_view(&wgpu::TextureViewDescriptor { dimension: Some(view_dimension), ..Default::default() })
+        };
+        Ok(Self {
+            flat: view(wgpu::TextureDimension::D2, 1, wgpu::TextureViewDimension::D2),
+            volume: view(wgpu::TextureDimension::D3, 1, wgpu::TextureViewDimension::D3),
+            cube: view(wgpu::TextureDimension::D2, 6, wgpu::TextureViewDimension::Cube),
+        })
+    }
+}
+
+/// The keyboard as a texture, 256 x 3 texels.
+pub(super) struct KeyboardTexture {
+    pub texture: Texture,
+    shown: Vec<u8>,
+    /// Number of times that it has changed.
+    pub changes: u64,
+}
+
+impl KeyboardTexture {
+    fn new(gpu: &Gpu) -> Result<Self, GpuError> {
+        let format = wgpu::TextureFormat::R8Unorm;
+        let descriptor =
+            TextureDescriptor { label: "keyboard", width: 256, height: 3, format, levels: 1, is_target: false };
+        Ok(Self { texture: Texture::new(gpu, &descriptor)?, shown: Vec::new(), changes: 0 })
+    }
+
+    /// Writes the keys of a frame if they are other than before.
+    pub fn show(&mut self, gpu: &Gpu, keyboard: &Keyboard) {
+        if self.shown != keyboard.bytes() {
+            self.texture.write(gpu, keyboard.bytes());
+            self.shown = keyboard.bytes().to_vec();
+            self.changes += 1;
+        }
+    }
+}

@@ -1,0 +1,159 @@
+//! Compiled stages, found by everything that compiling them reads.
+
+use super::cache::Cache;
+use crate::{
+    diag::{Diagnostic, SourceId, Span},
+    glsl::{self, ChannelKind, Compiled, Driver, GivenValue, KnobKind, Link, PassKind, PassSource, Text, Varying},
+};
+use std::{
+    hash::{Hash, Hasher},
+    sync::Arc,
+};
+
+/// Stages by their texts and settings. Passes of equal texts and settings share a stage, and so do those of texts that compile
+/// to the same.
+#[derive(Default)]
+pub(super) struct StageCache {
+    stages: Cache<StageKey, Outcome>,
+    /// Number of stages that the current build has compiled.
+    compiled: usize,
+}
+
+/// The result of compiling a stage. Spans name the texts that it was compiled with.
+struct Outcome {
+    /// `None`: there are errors.
+    stage: Option<Arc<Compiled>>,
+    /// All of the stage as text, which tells equal stages of different texts.
+    content: String,
+    diagnostics: Vec<Diagnostic>,
+    ids: Vec<SourceId>,
+}
+
+/// Everything that the compiler reads of a stage: equal keys compile to equal stages. Ids of texts are their places among the
+/// ids of this stage, which say the same for every pass that has the texts.
+#[derive(PartialEq, Eq)]
+struct StageKey {
+    kind: PassKind,
+    common: Option<(usize, Arc<str>)>,
+    code: (usize, Arc<str>),
+    includes: Vec<IncludeKey>,
+    channels: [ChannelKind; 4],
+    knobs: Vec<(String, KnobKind, u16)>,
+    values: Vec<(String, Vec<u64>)>,
+    bilinear_by_hand: [bool; 4],
+    driver: Driver,
+    varyings: Option<Vec<Varying>>,
+    targets: Option<usize>,
+}
+
+/// A line and the text in its place.
+#[derive(PartialEq, Eq)]
+struct IncludeKey {
+    line: (usize, u32, u32),
+    text: (usize, Arc<str>),
+}
+
+impl Hash for StageKey {
+    /// Other members seldom differ where these agree.
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        (self.kind, &self.code.1, &self.common).hash(state);
+    }
+}
+
+impl StageKey {
+    /// The key of a stage whose texts have the given ids, rising. `shared` returns a text as the key keeps it.
+    fn new(source: &PassSource<'_>, link: &Link<'_>, ids: &[SourceId], shared: impl Fn(Text<'_>) -> Arc<str>) -> Self {
+        // Every setting that the compiler knows stands here: a new one does not compile until it does.
+        let PassSource { kind, common, code, includes, channels, knobs, values, bilinear_by_hand, driver } = *source;
+        let Link { varyings, targets } = *link;
+        let text = |text: Text<'_>| (place(ids, text.id), shared(text));
+        Self {
+            kind,
+            common: common.map(text),
+            code: text(code),
+            includes: includes
+                .iter()
+                .map(|i| IncludeKey { line: (place(ids, i.line.source), i.line.start, i.line.end), text: text(i.text) })
+                .collect(),
+            channels,
+            knobs: knobs.iter().map(|k| (k.name.to_owned(), k.kind, k.slot)).collect(),
+            values: values.iter().map(|v| (v.name.clone(), words(&v.value))).collect(),
+            bilinear_by_hand,
+            driver,
+            varyings: varyings.map(<[Varying]>::to_vec),
+            targets,
+        }
+    }
+}
+
+fn place(ids: &[SourceId], id: SourceId) -> usize {
+    ids.binary_search(&id).unwrap_or(usize::MAX)
+}
+
+/// Returns every text of a stage once, rising.
+fn ids_of(source: &PassSource<'_>) -> Vec<SourceId> {
+    let included = source.includes.iter().flat_map(|i| [i.line.source, i.text.id]);
+    let mut ids: Vec<SourceId> = source.common.iter().map(|c| c.id).chain([source.code.id]).chain(included).collect();
+    ids.sort_unstable();
+    ids.dedup();
+    ids
+}
+
+/// Returns a value as words: equal words, equal values, bit for bit.
+fn words(value: &GivenValue) -> Vec<u64> {
+    match value {
+        GivenValue::Bool(on) => vec![0, u64::from(*on)],
+        GivenValue::Number(x) => vec![1, x.to_bits()],
+        GivenValue::List(all) => [2, all.len() as u64].into_iter().chain(all.iter().flat_map(words)).collect(),
+    }
+}
+
+impl StageCache {
+    /// Compiles a stage unless an equal one is there. Returns it, or `None` where the diagnostics hold an error; they point
+    /// into the texts of `source`. `shared` returns a text of `source` as the cache keeps it.
+    pub fn compile(
+        &mut self,
+        source: &PassSource<'_>,
+        link: &Link<'_>,
+        shared: impl Fn(Text<'_>) -> Arc<str>,
+    ) -> (Option<Arc<Compiled>>, Vec<Diagnostic>) {
+        let ids = ids_of(source);
+        let key = StageKey::new(source, link, &ids, shared);
+        if let Some(outcome) = self.stages.get(&key) {
+            return (outcome.stage.clone(), moved(&outcome.diagnostics, &outcome.ids, &ids));
+        }
+        self.compiled += 1;
+        let (stage, content, diagnostics) = match glsl::compile_linked(source, link) {
+            Ok(mut stage) => {
+                let diagnostics = std::mem::take(&mut stage.diagnostics);
+                let content = format!("{stage:?}");
+                // A comment, or a function of Common that the pass does not call, makes another text and the same stage.
+                let same = self.stages.values().find(|o| o.content == content).and_then(|o| o.stage.clone());
+                (Some(same.unwrap_or_else(|| Arc::new(stage))), content, diagnostics)
+            }
+            Err(errors) => (None, String::new(), errors),
+        };
+        self.stages.insert(key, Outcome { stage: stage.clone(), content, diagnostics: diagnostics.clone(), ids });
+        (stage, diagnostics)
+    }
+
+    /// Ends a build; see [`Cache::end_build`]. Returns the number of stages that it compiled.
+    pub fn end_build(&mut self, is_whole: bool) -> usize {
+        self.stages.end_build(is_whole);
+        std::mem::take(&mut self.compiled)
+    }
+}
+
+/// Returns diagnostics of a stage with texts `from` as they are for an equal one with texts `to`.
+fn moved(diagnostics: &[Diagnostic], from: &[SourceId], to: &[SourceId]) -> Vec<Diagnostic> {
+    let mut diagnostics = diagnostics.to_vec();
+    let turn = |span: &mut Span| {
+        if let Some(id) = to.get(place(from, span.source)) {
+            span.source = *id;
+        }
+    };
+    for diagnostic in &mut diagnostics {
+        diagnostic.span.iter_mut().chain(diagnostic.labels.iter_mut().map(|l| &mut l.span)).for_each(turn);
+    }
+    diagnostics
+}

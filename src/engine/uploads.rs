@@ -1,0 +1,85 @@
+//! Pictures and meshes on the device, each once.
+
+use super::{
+    EngineError,
+    cache::{ByAddress, Cache},
+    placed::PlacedMesh,
+};
+use crate::{
+    gpu::{Gpu, GpuError, MeshBuffers, MipMaker, Texture, TextureDescriptor, mip_levels},
+    media::{
+        MediaSet, TexelFormat, Texels,
+        mesh::{Mesh, MeshError},
+    },
+    project::Geometry,
+};
+use std::sync::Arc;
+
+/// Pictures and meshes of this build and those before it.
+pub(super) struct Uploads {
+    mips: MipMaker,
+    /// The key holds the texels, and whether the picture has mips.
+    pictures: Cache<(ByAddress<Texels>, bool), Texture>,
+    meshes: Cache<ByAddress<Mesh>, Arc<MeshBuffers>>,
+}
+
+impl Uploads {
+    pub fn new(gpu: &Gpu) -> Self {
+        Self { mips: MipMaker::new(gpu), pictures: Cache::default(), meshes: Cache::default() }
+    }
+
+    pub fn picture(&mut self, gpu: &Gpu, texels: &Arc<Texels>, mips: bool) -> Result<Texture, GpuError> {
+        let key = (ByAddress::of(texels), mips);
+        if let Some(texture) = self.pictures.get(&key) {
+            return Ok(texture.clone());
+        }
+        let (width, height) = (texels.width, texels.height);
+        let descriptor = TextureDescriptor {
+            label: "picture",
+            width,
+            height,
+            format: match texels.format {
+                TexelFormat::R8 => wgpu::TextureFormat::R8Unorm,
+                TexelFormat::Rgba8 => wgpu::TextureFormat::Rgba8Unorm,
+                TexelFormat::Rgba32Float => wgpu::TextureFormat::Rgba32Float,
+            },
+            levels: if mips { mip_levels(width, height) } else { 1 },
+            is_target: false,
+        };
+        let texture = Texture::new(gpu, &descriptor)?;
+        texture.write(gpu, &texels.bytes);
+        if mips {
+            let chain = self.mips.chain(gpu, &texture);
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            self.mips.build(gpu, &mut encoder, &chain);
+            gpu.queue.submit([encoder.finish()]);
+        }
+        self.pictures.insert(key, texture.clone());
+        Ok(texture)
+    }
+
+    /// Returns the mesh of each draw of a pass, in order.
+    pub fn placed(&mut self, gpu: &Gpu, media: &MediaSet, geometry: &Geometry) -> Result<Vec<PlacedMesh>, EngineError> {
+        let placed = |draw: &crate::project::MeshDraw| {
+            let mesh = media.mesh(&draw.mesh).map_err(|error: MeshError| EngineError::from(error))?;
+            Ok(PlacedMesh::new(self.mesh(gpu, &draw.mesh.name(), &mesh)?, draw))
+        };
+        geometry.draws.iter().map(placed).collect()
+    }
+
+    fn mesh(&mut self, gpu: &Gpu, name: &str, mesh: &Arc<Mesh>) -> Result<Arc<MeshBuffers>, GpuError> {
+        let key = ByAddress::of(mesh);
+        if let Some(made) = self.meshes.get(&key) {
+            return Ok(made.clone());
+        }
+        let made = Arc::new(MeshBuffers::new(gpu, name, bytemuck::cast_slice(&mesh.vertices), &mesh.indices)?);
+        self.meshes.insert(key, made.clone());
+        Ok(made)
+    }
+
+    /// Ends a build; see [`Cache::end_build`].
+    pub fn end_build(&mut self, is_whole: bool) {
+        self.pictures.end_build(is_whole);
+        self.meshes.end_build(is_whole);
+    }
+}

@@ -1,0 +1,118 @@
+//! One triangle over the whole target.
+
+use super::{Gpu, bindings::pipeline_layout};
+
+/// The triangle's corners lie at (-1, -1), (3, -1) and (-1, 3).
+const TRIANGLE: &str = "
+@vertex fn vertex(@builtin(vertex_index) i: u32) -> @builtin(position) vec4<f32> {
+    return vec4(f32(i & 1u) * 4.0 - 1.0, f32(i >> 1u) * 4.0 - 1.0, 0.0, 1.0);
+}
+";
+
+/// Makes a pipeline that draws the triangle with the entry point of a fragment shader; no blending, no depth.
+pub(super) fn pipeline(
+    gpu: &Gpu,
+    label: &str,
+    layout: &wgpu::PipelineLayout,
+    (fragment, entry_point): (&wgpu::ShaderModule, &str),
+    target: wgpu::TextureFormat,
+) -> wgpu::RenderPipeline {
+    let vertex = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some("full-screen triangle"),
+        source: wgpu::ShaderSource::Wgsl(TRIANGLE.into()),
+    });
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(label),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module: &vertex,
+            entry_point: Some("vertex"),
+            compilation_options: Default::default(),
+            buffers: &[],
+        },
+        primitive: Default::default(),
+        depth_stencil: None,
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module: fragment,
+            entry_point: Some(entry_point),
+            // Textures and private variables start as zeros without this; workgroup memory there is none.
+            compilation_options: Default::default(),
+            targets: &[Some(wgpu::ColorTargetState {
+                format: target,
+                blend: None,
+                write_mask: wgpu::ColorWrites::ALL,
+            })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
+
+/// A fragment shader of Eddy's own that reads one picture.
+pub(super) struct PictureShader {
+    label: &'static str,
+    fragment: wgpu::ShaderModule,
+    layout: wgpu::BindGroupLayout,
+    pipeline_layout: wgpu::PipelineLayout,
+}
+
+impl PictureShader {
+    /// Compiles WGSL with an entry point `fragment` that reads a `texture_2d<f32>` at group 0, binding 0.
+    pub fn new(gpu: &Gpu, label: &'static str, wgsl: &str) -> Self {
+        let fragment = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(label),
+            source: wgpu::ShaderSource::Wgsl(wgsl.into()),
+        });
+        let entry = wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: wgpu::ShaderStages::FRAGMENT,
+            ty: wgpu::BindingType::Texture {
+                sample_type: wgpu::TextureSampleType::Float { filterable: false },
+                view_dimension: wgpu::TextureViewDimension::D2,
+                multisampled: false,
+            },
+            count: None,
+        };
+        let layout = gpu
+            .device
+            .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &[entry] });
+        let pipeline_layout = pipeline_layout(gpu, label, std::slice::from_ref(&layout));
+        Self { label, fragment, layout, pipeline_layout }
+    }
+
+    /// Makes the pipeline that draws into targets of a format.
+    pub fn pipeline(&self, gpu: &Gpu, target: wgpu::TextureFormat) -> wgpu::RenderPipeline {
+        pipeline(gpu, self.label, &self.pipeline_layout, (&self.fragment, "fragment"), target)
+    }
+
+    /// Binds the picture that is read.
+    pub fn bind(&self, gpu: &Gpu, picture: &wgpu::TextureView) -> wgpu::BindGroup {
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(self.label),
+            layout: &self.layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(picture) }],
+        })
+    }
+
+    /// Draws into every texel of a target.
+    pub fn draw(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        pipeline: &wgpu::RenderPipeline,
+        picture: &wgpu::BindGroup,
+        target: wgpu::RenderPassColorAttachment<'_>,
+    ) {
+        let descriptor = wgpu::RenderPassDescriptor {
+            label: Some(self.label),
+            color_attachments: &[Some(target)],
+            ..Default::default()
+        };
+        gpu.pass(encoder, descriptor, |pass| {
+            pass.set_pipeline(pipeline);
+            pass.set_bind_group(0, picture, &[]);
+            pass.draw(0..3, 0..1);
+        });
+    }
+}

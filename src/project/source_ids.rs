@@ -1,0 +1,61 @@
+//! Which text of a project a [`SourceId`] names: Common (an empty text where there is none), then the passes in order, then the
+//! stages of passes that draw meshes in order, then the files they include, then the texts of fills. Nothing else counts them.
+
+use super::{Included, Project, Stage, Tab};
+use crate::diag::SourceId;
+
+impl Project {
+    /// The id of Common's text.
+    pub const COMMON_ID: SourceId = SourceId(0);
+
+    /// Returns the id of the own text of `passes[pass]`.
+    pub fn pass_id(pass: usize) -> SourceId {
+        id(1 + pass)
+    }
+
+    /// Returns the id of a stage of `passes[pass]`.
+    pub fn stage_id(&self, pass: usize, stage: Stage) -> SourceId {
+        match stage {
+            Stage::Own => Self::pass_id(pass),
+            Stage::File(n) => {
+                let before = self.stages().take_while(|(index, _)| *index < pass).count();
+                id(self.first_stage() + before + n)
+            }
+        }
+    }
+
+    /// Returns the id of the text that the `n`-th of [`Project::fills`] is written in.
+    pub(super) fn fill_id(&self, n: usize) -> SourceId {
+        id(self.first_included() + self.includes.len() + n)
+    }
+
+    /// Returns the file of a text that others include.
+    pub(super) fn included(&self, source: SourceId) -> Option<&Included> {
+        self.includes.get(usize::from(source.0).checked_sub(self.first_included())?)
+    }
+
+    /// Returns the tab a diagnostic's source belongs to; `None` for one this project does not have.
+    pub fn tab_of(&self, source: SourceId) -> Option<Tab> {
+        match usize::from(source.0) {
+            0 => Some(Tab::Common),
+            i if i < self.first_stage() => Some(Tab::Pass(self.passes[i - 1].id.clone())),
+            i => {
+                let (pass, stage) = self.stages().nth(i - self.first_stage())?;
+                Some(Tab::Stage(self.passes[pass].id.clone(), stage.name.clone()))
+            }
+        }
+    }
+
+    fn first_stage(&self) -> usize {
+        1 + self.passes.len()
+    }
+
+    fn first_included(&self) -> usize {
+        self.first_stage() + self.stages().count()
+    }
+}
+
+/// A project holds far fewer texts than there are ids; see [`super::limits`].
+fn id(place: usize) -> SourceId {
+    SourceId(place as u16)
+}

@@ -1,0 +1,138 @@
+//! The paths that a Rust text names, with the module and the line each stands in.
+
+use proc_macro2::{TokenStream, TokenTree};
+use syn::{
+    Attribute, File, ItemMod, ItemUse, Macro, Meta, UseTree, Visibility,
+    spanned::Spanned,
+    visit::{self, Visit},
+};
+
+/// A path as it is written.
+#[derive(Debug, PartialEq, Eq)]
+pub struct Named {
+    /// The modules of the same file that it stands in, from outside in.
+    pub within: Vec<String>,
+    pub segments: Vec<String>,
+    pub line: usize,
+    /// The name that a `use` gives it here.
+    pub bound: Option<String>,
+    /// It stands in a module for tests alone.
+    pub is_test: bool,
+}
+
+/// Returns every path of at least two segments. Comments and strings name nothing; what macros are given counts.
+pub fn of_file(file: &File) -> Vec<Named> {
+    let mut reader = Reader::default();
+    reader.visit_file(file);
+    reader.found
+}
+
+/// As [`of_file`], of a text that is no whole file: single statements, for example.
+pub fn of_tokens(tokens: TokenStream) -> Vec<Named> {
+    let mut reader = Reader::default();
+    reader.scan(tokens);
+    reader.found
+}
+
+#[derive(Default)]
+struct Reader {
+    within: Vec<String>,
+    /// Modules for tests that are open.
+    tests: usize,
+    found: Vec<Named>,
+}
+
+impl Reader {
+    fn add(&mut self, segments: Vec<String>, line: usize, bound: Option<String>) {
+        if segments.len() > 1 {
+            let (within, is_test) = (self.within.clone(), self.tests > 0);
+            self.found.push(Named { within, segments, line, bound, is_test });
+        }
+    }
+
+    fn tree(&mut self, tree: &UseTree, before: &[String]) {
+        let with = |name: String| before.iter().cloned().chain([name]).collect::<Vec<_>>();
+        let line = tree.span().start().line;
+        match tree {
+            UseTree::Path(path) => self.tree(&path.tree, &with(path.ident.to_string())),
+            UseTree::Name(name) if name.ident == "self" => {
+                self.add(before.to_vec(), line, before.last().cloned());
+            }
+            UseTree::Name(name) => self.add(with(name.ident.to_string()), line, Some(name.ident.to_string())),
+            UseTree::Rename(name) => {
+                self.add(with(name.ident.to_string()), line, Some(name.rename.to_string()));
+            }
+            UseTree::Glob(_) => self.add(with("*".into()), line, None),
+            UseTree::Group(group) => group.items.iter().for_each(|tree| self.tree(tree, before)),
+        }
+    }
+
+    fn scan(&mut self, tokens: TokenStream) {
+        let (mut segments, mut line, mut colons) = (Vec::new(), 0, 0);
+        for token in tokens {
+            match token {
+                TokenTree::Ident(name) if segments.is_empty() || colons == 2 => {
+                    if segments.is_empty() {
+                        line = name.span().start().line;
+                    }
+                    segments.push(name.to_string());
+                    colons = 0;
+                    continue;
+                }
+                TokenTree::Punct(sign) if sign.as_char() == ':' && !segments.is_empty() && colons < 2 => {
+                    colons += 1;
+                    continue;
+                }
+                TokenTree::Ident(name) => {
+                    self.add(std::mem::take(&mut segments), line, None);
+                    (segments, line, colons) = (vec![name.to_string()], name.span().start().line, 0);
+                    continue;
+                }
+                TokenTree::Group(group) => self.scan(group.stream()),
+                TokenTree::Punct(_) | TokenTree::Literal(_) => {}
+            }
+            self.add(std::mem::take(&mut segments), line, None);
+            colons = 0;
+        }
+        self.add(segments, line, None);
+    }
+}
+
+/// Whether an item is compiled for tests alone.
+fn is_for_tests(attributes: &[Attribute]) -> bool {
+    attributes.iter().any(|attribute| {
+        matches!(&attribute.meta, Meta::List(list) if list.path.is_ident("cfg") && list.tokens.to_string() == "test")
+    })
+}
+
+impl<'ast> Visit<'ast> for Reader {
+    fn visit_item_mod(&mut self, module: &'ast ItemMod) {
+        if module.content.is_none() {
+            return;
+        }
+        let tests = usize::from(is_for_tests(&module.attrs));
+        self.within.push(module.ident.to_string());
+        self.tests += tests;
+        visit::visit_item_mod(self, module);
+        self.tests -= tests;
+        self.within.pop();
+    }
+
+    fn visit_item_use(&mut self, item: &'ast ItemUse) {
+        self.tree(&item.tree, &[]);
+    }
+
+    fn visit_path(&mut self, path: &'ast syn::Path) {
+        let segments = path.segments.iter().map(|s| s.ident.to_string()).collect();
+        self.add(segments, path.span().start().line, None);
+        visit::visit_path(self, path);
+    }
+
+    fn visit_macro(&mut self, found: &'ast Macro) {
+        visit::visit_macro(self, found);
+        self.scan(found.tokens.clone());
+    }
+
+    /// Who may see an item is no use of it.
+    fn visit_visibility(&mut self, _: &'ast Visibility) {}
+}
