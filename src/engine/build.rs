@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     diag::{Diagnostic, SourceMap},
-    glsl::Driver,
+    glsl::{Driver, opt::PassSet},
     gpu::Gpu,
     graph::{ChannelFacts, FramePlan, PassFacts},
     media::MediaSet,
@@ -95,7 +95,8 @@ impl Builder {
     ) -> Result<Built, BuildError> {
         let sources = project.sources();
         let texts = Sources::new(project);
-        let Compilation { drawable, passes, diagnostics } = match self.compile(project, &texts, media, options.without) {
+        let Compilation { drawable, passes, diagnostics } = match self.compile(project, &texts, media, options.without)
+        {
             Ok(done) => done,
             Err(diagnostics) => return Err(BuildError::Diagnostics { diagnostics, sources }),
         };
