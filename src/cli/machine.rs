@@ -153,7 +153,7 @@ pub fn open(
     let (width, height) = run.size;
     let mut engine = Engine::new(gpu.clone(), width, height)?;
     let began = Instant::now();
-    let options = BuildOptions { wanted: vec![wanted.clone()], skip: !run.no_skip };
+    let options = BuildOptions { wanted: vec![wanted.clone()], skip: !run.no_skip, without: run.without_pass.set() };
     let built = Program::build(&gpu, &project, &media, &options);
     report.compile_ms = Some(millis_since(began));
     let built = match built {
