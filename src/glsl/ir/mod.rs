@@ -249,28 +249,6 @@ impl Function {
         }
     }
 
-    /// Visits all statements, those that hold blocks before what is in them.
-    pub fn each_statement<'a>(&'a self, visit: &mut impl FnMut(&'a Stmt)) {
-        fn block<'a>(all: &'a Block, visit: &mut impl FnMut(&'a Stmt)) {
-            for stmt in all {
-                visit(stmt);
-                match stmt {
-                    Stmt::If { accept: a, reject: b, .. } | Stmt::Loop { body: a, continuing: b, .. } => {
-                        block(a, visit);
-                        block(b, visit);
-                    }
-                    Stmt::Switch { cases, .. } => {
-                        for case in cases {
-                            block(&case.body, visit);
-                        }
-                    }
-                    _ => {}
-                }
-            }
-        }
-        block(&self.body, visit);
-    }
-
     /// The variable, parameter or global that a place is or lies in.
     pub fn root(&self, mut place: Value) -> Value {
         while let Op::Part { base, .. } | Op::Element { base, .. } = self[place] {
