@@ -201,9 +201,9 @@ impl Function {
         Value::new(self.ops.len() - 1)
     }
 
-    /// Puts another op in the place of the one that computes a value. Its type stays.
-    pub fn replace(&mut self, value: Value, op: Op) {
-        self.ops[value.index()] = op;
+    /// Puts another op in the place of the one that computes a value, which it returns. Its type stays.
+    pub fn replace(&mut self, value: Value, op: Op) -> Op {
+        std::mem::replace(&mut self.ops[value.index()], op)
     }
 
     /// The type of a value, or of what a place holds.

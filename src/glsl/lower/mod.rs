@@ -166,4 +166,4 @@ impl Lowering<'_> {
 }
 
 /// By 32-bit keys, with a quick hash.
-type Map<K, V> = naga::FastHashMap<K, V>;
+type Map<K, V> = rustc_hash::FxHashMap<K, V>;
