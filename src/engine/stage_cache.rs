@@ -23,8 +23,6 @@ pub(super) struct StageCache {
 struct Outcome {
     /// `None`: there are errors.
     stage: Option<Arc<Compiled>>,
-    /// All of the stage as text, which tells equal stages of different texts.
-    content: String,
     diagnostics: Vec<Diagnostic>,
     ids: Vec<SourceId>,
 }
@@ -123,17 +121,16 @@ impl StageCache {
             return (outcome.stage.clone(), moved(&outcome.diagnostics, &outcome.ids, &ids));
         }
         self.compiled += 1;
-        let (stage, content, diagnostics) = match glsl::compile_linked(source, link) {
+        let (stage, diagnostics) = match glsl::compile_linked(source, link) {
             Ok(mut stage) => {
                 let diagnostics = std::mem::take(&mut stage.diagnostics);
-                let content = format!("{stage:?}");
                 // A comment, or a function of Common that the pass does not call, makes another text and the same stage.
-                let same = self.stages.values().find(|o| o.content == content).and_then(|o| o.stage.clone());
-                (Some(same.unwrap_or_else(|| Arc::new(stage))), content, diagnostics)
+                let same = self.stages.values().filter_map(|o| o.stage.as_ref()).find(|other| is_same(other, &stage));
+                (Some(same.cloned().unwrap_or_else(|| Arc::new(stage))), diagnostics)
             }
-            Err(errors) => (None, String::new(), errors),
+            Err(errors) => (None, errors),
         };
-        self.stages.insert(key, Outcome { stage: stage.clone(), content, diagnostics: diagnostics.clone(), ids });
+        self.stages.insert(key, Outcome { stage: stage.clone(), diagnostics: diagnostics.clone(), ids });
         (stage, diagnostics)
     }
 
@@ -142,6 +139,24 @@ impl StageCache {
         self.stages.end_build(is_whole);
         std::mem::take(&mut self.compiled)
     }
+}
+
+/// Returns whether two stages are the same module, and are drawn with the same tables.
+fn is_same(a: &Compiled, b: &Compiled) -> bool {
+    let sizes = |stage: &Compiled| {
+        let functions =
+            stage.module.functions.iter().map(|(_, f)| f).chain(stage.module.entry_points.iter().map(|e| &e.function));
+        let expressions: usize = functions.map(|f| f.expressions.len()).sum();
+        (
+            expressions,
+            stage.module.types.len(),
+            stage.module.constants.len(),
+            stage.tables.len(),
+            stage.uniform_tables.len(),
+        )
+    };
+    // naga's modules compare as text alone, which is slow: most differ in this.
+    sizes(a) == sizes(b) && a.reflection == b.reflection && format!("{a:?}") == format!("{b:?}")
 }
 
 /// Returns diagnostics of a stage with texts `from` as they are for an equal one with texts `to`.

@@ -274,10 +274,19 @@ impl Op {
     pub fn operands(&self, mut visit: impl FnMut(Value)) {
         use Op::*;
         match *self {
-            Literal(..) | Zero(_) | Const(_) | Param(_) | Var(_) | Global(_) | Input(_) | TextureLevels { .. }
+            Literal(..)
+            | Zero(_)
+            | Const(_)
+            | Param(_)
+            | Var(_)
+            | Global(_)
+            | Input(_)
+            | TextureLevels { .. }
             | OpaqueZero => {}
             Compose { parts: ref all, .. } | Call { args: ref all, .. } => all.iter().for_each(|&part| visit(part)),
-            Element { base: a, index: b } | Binary { left: a, right: b, .. } | Fetch { coordinate: a, level: b, .. } => {
+            Element { base: a, index: b }
+            | Binary { left: a, right: b, .. }
+            | Fetch { coordinate: a, level: b, .. } => {
                 [a, b].into_iter().for_each(visit);
             }
             Part { base: a, .. }
