@@ -63,8 +63,6 @@ use super::{
     stages::Interface,
 };
 
-pub(in crate::glsl) use super::emit::{LARGE, NOT_UNROLLED};
-
 /// What lowering makes.
 pub(crate) struct Lowered {
     pub program: ir::Module,
@@ -161,7 +159,7 @@ impl Lowering<'_> {
     pub fn is_long(&mut self, ty: hir::TypeId) -> bool {
         self.source.driver.array_loops
             && matches!(self.hir.types.get(ty), hir::Type::Array { .. } | hir::Type::Struct(_))
-            && self.layouts.of(&self.out, ty).size >= 4 * super::emit::LEAST_COPY
+            && self.layouts.of(&self.out, ty).size >= 4 * ir::layout::LEAST_COPY
     }
 }
 
