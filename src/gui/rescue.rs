@@ -73,15 +73,14 @@ fn save(project: &Project, places: impl Iterator<Item = PathBuf>) -> Result<Path
 mod tests {
     use super::*;
     use crate::{
-        gpu::{Gpu, GpuOptions},
         project::{PassId, Tab},
-        session::Command,
+        session::{Command, testing},
     };
     use std::{sync::Arc, time::Instant};
 
     #[test]
     fn a_panic_in_the_window_saves_what_was_not() {
-        let Ok(gpu) = Gpu::new(&GpuOptions::default()) else { return };
+        let Some(gpu) = testing::gpu() else { return };
         let folder = tempfile::tempdir().unwrap();
         let project = folder.path().join("mine");
         std::fs::create_dir(&project).unwrap();

@@ -3,8 +3,8 @@
 //! Owns what is unsaved, and the three-way merge of a change on disk: what was not edited follows the disk, what was edited
 //! and changed on disk too is a conflict for the user to settle. Reads and writes no file.
 
-use super::command::DiffLine;
-use crate::project::{Origin, Pass, PassId, Project, Source, Tab};
+use super::{command::DiffLine, structure};
+use crate::project::{Origin, Pass, PassId, Project, Tab};
 use std::{collections::BTreeSet, path::PathBuf, sync::Arc};
 
 /// A project being edited.
@@ -80,7 +80,7 @@ impl Documents {
 
     /// Passes, channels or names differ from those on disk.
     pub fn is_structure_dirty(&self) -> bool {
-        structure(&self.current) != structure(&self.saved)
+        !structure::is_same(&self.current, &self.saved)
     }
 
     /// The tab's file is known to be gone from disk.
@@ -100,7 +100,9 @@ impl Documents {
     }
 
     pub fn is_dirty(&self) -> bool {
-        self.is_structure_dirty() || self.current.tabs().iter().any(|t| self.is_tab_dirty(t))
+        self.is_structure_dirty()
+            || !structure::has_same_texts(&self.current, &self.saved)
+            || self.missing.iter().any(|tab| self.current.source(tab).is_some())
     }
 
     /// Takes what is on disk now. Whatever was not edited since follows it; the rest comes back as conflicts, with the
@@ -108,12 +110,11 @@ impl Documents {
     pub fn merge(&mut self, mut disk: Project) -> Merge {
         let mut merge = Merge::default();
         self.keep_gone(&mut disk, &mut merge);
-        let was_edited = structure(&self.current) != structure(&self.saved);
-        if structure(&disk) != structure(&self.saved) {
-            if !was_edited {
+        if !structure::is_same(&disk, &self.saved) {
+            if !self.is_structure_dirty() {
                 self.take_structure(&disk);
                 merge.took_structure = true;
-            } else if structure(&disk) != structure(&self.current) {
+            } else if !structure::is_same(&disk, &self.current) {
                 merge.structure_conflict = true;
             }
         }
@@ -196,24 +197,6 @@ impl Documents {
         }
         self.current = next;
     }
-}
-
-/// Everything but the texts and the place on disk.
-fn structure(project: &Project) -> Project {
-    let mut bare = project.clone();
-    bare.origin = Origin::Unsaved;
-    bare.includes.clear();
-    for source in bare.tab_sources_mut() {
-        *source = Source { name: String::new(), path: None, text: "".into() };
-    }
-    for (bare, pass) in bare.passes.iter_mut().zip(&project.passes) {
-        // Which file a draw names is structure.
-        let stages = pass.settings.geometry.iter().flat_map(|g| &g.stages);
-        for (bare, stage) in bare.settings.geometry.iter_mut().flat_map(|g| &mut g.stages).zip(stages) {
-            bare.name = stage.name.clone();
-        }
-    }
-    bare
 }
 
 /// Copies a tab of `from` into `to`, at its place in the drawing order.

@@ -24,7 +24,10 @@ mod reload;
 pub mod script;
 mod stamps;
 mod state;
+mod structure;
 mod template;
+#[cfg(test)]
+pub(crate) mod testing;
 pub mod view;
 mod watch;
 mod worker;
