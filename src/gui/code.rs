@@ -66,6 +66,14 @@ impl CodePanel {
         &self.current
     }
 
+    /// The tab in front, and the line of its caret from 0.
+    #[cfg(test)]
+    pub fn caret(&self) -> (Tab, usize) {
+        let buffer = &self.editors[&self.current].buffer;
+        let before = &buffer.text()[..buffer.selection().range().start];
+        (self.current.clone(), before.matches('\n').count())
+    }
+
     /// The text has the keyboard.
     pub fn has_keys(&self, ctx: &egui::Context) -> bool {
         ctx.memory(|m| m.has_focus(Self::id(&self.current)))

@@ -10,6 +10,7 @@ mod code;
 mod costs;
 mod editor;
 mod files;
+mod frame;
 mod gallery;
 mod geometry;
 mod help;

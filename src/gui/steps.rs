@@ -10,8 +10,7 @@ use egui::{Event, Key, Modifiers, RawInput};
 /// The input of each pass to make, in order; at least one.
 pub fn split(input: RawInput) -> Vec<RawInput> {
     let mut steps = vec![RawInput { events: Vec::new(), ..input.clone() }];
-    // Files are dropped once.
-    let nothing = RawInput { events: Vec::new(), dropped_files: Vec::new(), ..input.clone() };
+    let nothing = without_events(&input);
     let mut is_ended = false;
     for event in input.events {
         if std::mem::take(&mut is_ended) {
@@ -24,6 +23,11 @@ pub fn split(input: RawInput) -> Vec<RawInput> {
         }
     }
     steps
+}
+
+/// The same moment in which nothing has happened: files are dropped once.
+pub fn without_events(input: &RawInput) -> RawInput {
+    RawInput { events: Vec::new(), dropped_files: Vec::new(), ..input.clone() }
 }
 
 fn ends_step(event: &Event) -> bool {

@@ -3,7 +3,6 @@
 use super::{
     geometry::{Area, Letterbox},
     outbox::Outbox,
-    surface::Surface,
     theme,
 };
 use crate::{
@@ -11,6 +10,7 @@ use crate::{
     session::{Command, Meanwhile, Outcome, Session},
 };
 use egui::{Align2, Color32, EventFilter, FontId, Id, PointerButton, Pos2, Rect, Sense, TextureId, Ui, pos2, vec2};
+use egui_wgpu::Renderer;
 
 /// Left free round the picture, so that the frame of what has the keyboard covers none of it. Physical pixels.
 const RIM: f32 = 3.0;
@@ -70,18 +70,17 @@ impl Viewport {
     }
 
     /// Hands egui the picture as the engine has it now.
-    pub fn prepare(&mut self, session: &Session, surface: &mut Surface) {
+    pub fn prepare(&mut self, session: &Session, renderer: &mut Renderer) {
         let whole = self.letterbox.is_none_or(|l| l.shows_whole_texels());
         let shows = (session.display_generation(), whole);
         if self.texture.is_some() && shows == self.shows {
             return;
         }
         let filter = if whole { wgpu::FilterMode::Nearest } else { wgpu::FilterMode::Linear };
-        let device = surface.gpu().device.clone();
-        let renderer = surface.renderer();
+        let device = &session.gpu().device;
         match self.texture {
-            None => self.texture = Some(renderer.register_native_texture(&device, session.display(), filter)),
-            Some(id) => renderer.update_egui_texture_from_wgpu_texture(&device, session.display(), filter, id),
+            None => self.texture = Some(renderer.register_native_texture(device, session.display(), filter)),
+            Some(id) => renderer.update_egui_texture_from_wgpu_texture(device, session.display(), filter, id),
         }
         self.shows = shows;
     }

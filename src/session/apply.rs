@@ -14,7 +14,7 @@ use crate::{
 impl Session {
     /// Does what the user asked. Never fails: trouble becomes a notice.
     pub fn apply(&mut self, command: Command) {
-        self.changed = true;
+        self.changed |= !is_input(&command);
         match command {
             Command::Open(_)
             | Command::OpenProject { .. }
@@ -264,4 +264,16 @@ impl Session {
 /// Whether something other than the texts says what channels read.
 pub(super) fn has_manifest(origin: &Origin) -> bool {
     !matches!(origin, Origin::File(_) | Origin::Folder { has_manifest: false, .. })
+}
+
+/// Whether only the shader sees it: no panel shows where the mouse is or which keys are down.
+fn is_input(command: &Command) -> bool {
+    matches!(
+        command,
+        Command::MouseDown { .. }
+            | Command::MouseMove { .. }
+            | Command::MouseUp
+            | Command::KeyDown(_)
+            | Command::KeyUp(_)
+    )
 }
