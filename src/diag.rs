@@ -115,6 +115,15 @@ impl Diagnostic {
     }
 }
 
+/// Adds what `all` has not yet. A mistake in a text that several passes share is found in each of them, and told of once.
+pub fn append(all: &mut Vec<Diagnostic>, found: impl IntoIterator<Item = Diagnostic>) {
+    for diagnostic in found {
+        if !all.contains(&diagnostic) {
+            all.push(diagnostic);
+        }
+    }
+}
+
 /// A named text that spans point into.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourceText {

@@ -7,7 +7,7 @@ use super::{
     report::{Printer, Report},
 };
 use crate::{
-    diag::Diagnostic,
+    diag::{self, Diagnostic},
     engine,
     glsl::Driver,
     media::{self, MediaSet},
@@ -66,12 +66,7 @@ fn compile(project: &Project) -> Vec<Diagnostic> {
             .map_or_else(|errors| errors, |done| done.diagnostics);
         let fills = FillKind::ALL.into_iter().filter_map(|k| texts.compile_fill(index, k, false, Driver::default()));
         let fills = fills.flat_map(|f| f.map_or_else(|errors| errors, |done| done.diagnostics));
-        for d in said.into_iter().chain(fills) {
-            // What is wrong in Common is found again in every pass.
-            if !found.contains(&d) {
-                found.push(d);
-            }
-        }
+        diag::append(&mut found, said.into_iter().chain(fills));
     }
     found
 }

@@ -8,7 +8,7 @@ use super::{
     targets::texture_format,
 };
 use crate::{
-    diag::{Diagnostic, SourceMap},
+    diag::{self, Diagnostic, SourceMap},
     glsl::{ChannelKind, Driver, KnobSet, UniformSet, interface},
     gpu::{
         Binding, FragmentPipelineDescriptor, Gpu, MipMaker, Pipeline, Texture, TextureDescriptor, constant_buffer,
@@ -274,12 +274,7 @@ fn compile(
             }
             Err(errors) => said.extend(errors),
         }
-        for d in said {
-            // What is wrong in Common is found again in every pass.
-            if !diagnostics.contains(&d) {
-                diagnostics.push(d);
-            }
-        }
+        diag::append(&mut diagnostics, said);
     }
     if diagnostics.iter().any(Diagnostic::is_error) { Err(diagnostics) } else { Ok((drawable, compiled, diagnostics)) }
 }

@@ -3,14 +3,13 @@
 use super::{
     editor::{Ask, CodeEditor, Help, Look, Mark, Query},
     icons::{self, Icon},
-    outbox::{Outbox, Wish},
+    outbox::Outbox,
     problems, tabs, theme,
     uses::Uses,
 };
 use crate::{
-    diag::Severity,
     project::{Origin, PassId, Tab},
-    session::{Command, Session},
+    session::{Command, Session, TabDiagnostic},
 };
 use egui::{Button, Frame, Id, Key, Margin, Panel, TextEdit, Ui};
 use std::{collections::HashMap, ops::Range};
@@ -106,11 +105,13 @@ impl CodePanel {
         let list = session.diagnostics();
         let next = self.problem.map_or(0, |i| i + 1);
         let order = (next..list.len()).chain(0..next.min(list.len()));
-        let found = order.into_iter().find_map(|i| Some((i, list[i].tab.clone()?)));
-        if let Some((i, tab)) = found {
+        let found = order.into_iter().find_map(|i| {
+            let place = list[i].place.as_ref()?;
+            Some((i, place.tab.clone()?, (place.line - 1, place.column - 1)))
+        });
+        if let Some((i, tab, place)) = found {
             self.problem = Some(i);
-            let place = (list[i].line > 0).then(|| (list[i].line - 1, list[i].column.saturating_sub(1)));
-            self.go_to(tab, place);
+            self.go_to(tab, Some(place));
         }
     }
 
@@ -372,26 +373,19 @@ fn same_place(a: &Origin, b: &Origin) -> bool {
 }
 
 fn marks(session: &Session, tab: &Tab) -> Vec<Mark> {
-    let here = session.diagnostics().iter().filter(|d| d.line > 0 && d.tab.as_ref() == Some(tab));
-    here.map(|d| Mark {
-        line: d.line - 1,
-        range: d.range.clone(),
-        severity: d.severity,
-        message: d.message.clone(),
-        hints: d.hints.clone(),
-    })
-    .collect()
-}
-
-/// Where a diagnostic leads: its tab, and line and column from 0.
-pub fn wish_of(d: &crate::session::TabDiagnostic) -> Option<Wish> {
-    Some(Wish::GoTo(d.tab.clone()?, (d.line > 0).then(|| (d.line - 1, d.column.saturating_sub(1)))))
-}
-
-/// Counts of errors and of warnings.
-pub fn counts(session: &Session) -> (usize, usize) {
-    let count = |s: Severity| session.diagnostics().iter().filter(|d| d.severity == s).count();
-    (count(Severity::Error), count(Severity::Warning))
+    let here = |d: &TabDiagnostic| d.place.clone().filter(|place| place.tab.as_ref() == Some(tab));
+    let mark = |d: &TabDiagnostic| {
+        let place = here(d)?;
+        let labels = d.labels.iter().map(|l| format!("{}:{}: {}", l.place.text, l.place.line, l.message));
+        Some(Mark {
+            line: place.line - 1,
+            range: place.range,
+            severity: d.severity,
+            message: d.message.clone(),
+            hints: labels.chain(d.hints.iter().cloned()).collect(),
+        })
+    };
+    session.diagnostics().iter().filter_map(mark).collect()
 }
 
 #[cfg(test)]

@@ -1,7 +1,10 @@
 //! Frames of the window's contents without a window.
 
 use super::*;
-use crate::session::{Command, SessionOptions, testing};
+use crate::{
+    project::{PassId, Tab},
+    session::{Command, SessionOptions, testing},
+};
 use egui::{Event, Modifiers, PointerButton, Pos2, Rect, pos2, vec2};
 use std::{
     path::{Path, PathBuf},
@@ -38,6 +41,12 @@ impl Stage {
         }
         stage.frame(vec![]);
         Some(stage)
+    }
+
+    fn click(&mut self, widget: &str) {
+        let at = self.shell.place(widget).unwrap_or_else(|| panic!("no {widget}")).center();
+        self.frame(vec![Event::PointerMoved(at), button(at, true), button(at, false)]);
+        self.frame(vec![]);
     }
 
     fn frame(&mut self, events: Vec<Event>) -> Frame {
@@ -116,4 +125,20 @@ fn a_new_size_is_drawn_and_placed_in_the_frame_that_asks_for_it() {
     assert_eq!(stage.session.transport().resolution, (64, 32));
     let place = stage.shell.place("viewport").unwrap();
     assert!((place.width() / place.height() - 2.0).abs() < 0.01, "{place:?}");
+}
+
+#[test]
+fn a_problem_and_the_further_places_it_speaks_of_lead_to_their_tabs() {
+    let common = "float one() { return 1.0; }\n\nfloat ring(float r) { return r; }\n";
+    let image = "void mainImage(out vec4 o, in vec2 p) {\n    o = vec4(ring(1, 2));\n}\n";
+    let Some(mut stage) = Stage::open(&[("common.glsl", common), ("image.glsl", image)]) else { return };
+    let problems = stage.session.diagnostics();
+    let label = &problems[0].labels[0];
+    assert_eq!((problems.len(), problems[0].tab()), (1, Some(&Tab::Pass(PassId::Image))), "{problems:?}");
+    assert_eq!((&label.place.tab, label.place.line), (&Some(Tab::Common), 3), "{label:?}");
+    stage.frame(vec![]);
+    stage.click("problem:0:0");
+    assert_eq!(stage.shell.caret(), (Tab::Common, 2));
+    stage.click("problem:0");
+    assert_eq!(stage.shell.caret(), (Tab::Pass(PassId::Image), 1));
 }

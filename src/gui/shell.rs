@@ -396,12 +396,13 @@ fn compiled(session: &Session) -> Value {
         .diagnostics()
         .iter()
         .map(|d| {
+            let place = d.place.as_ref();
             json!({
                 "severity": d.severity.name(),
-                "tab": d.tab.as_ref().map(Tab::title),
-                "file": d.file,
-                "line": d.line,
-                "column": d.column,
+                "tab": d.tab().map(Tab::title),
+                "file": place.filter(|place| place.tab.is_none()).map(|place| &place.text),
+                "line": place.map_or(0, |place| place.line),
+                "column": place.map_or(0, |place| place.column),
                 "message": d.message,
             })
         })

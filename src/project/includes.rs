@@ -66,6 +66,14 @@ fn named<'t>(line: &HashLine<'t>) -> Option<&'t str> {
         .then_some(path)
 }
 
+/// Returns the paths that the `#include` lines of a text name, in their order and as they are written.
+pub fn include_names(text: &str) -> Vec<&str> {
+    if !text.contains("include") {
+        return Vec::new();
+    }
+    hash_lines(text).iter().filter(|l| is_include(l)).filter_map(named).map(str::trim).collect()
+}
+
 /// Reads every file that texts of the project name, and those that these name.
 pub(super) fn read(project: &mut Project, files: Option<&Files<'_>>) {
     let tabs: BTreeSet<String> = tab_sources(project).map(|s| s.name.clone()).collect();

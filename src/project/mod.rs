@@ -34,7 +34,7 @@ pub use folder::declare_channels;
 pub use geometry::{
     Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Stage, files_beside, unescaped,
 };
-pub use includes::{IncludeLines, Included};
+pub use includes::{IncludeLines, Included, include_names};
 pub use knobs::{Knob, KnobRange, KnobType, KnobValue, KnobValues, Knobs};
 pub use load::{Loaded, load, stem};
 pub use manifest::write as write_manifest;

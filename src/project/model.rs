@@ -280,6 +280,14 @@ impl Origin {
     }
 }
 
+impl Origin {
+    /// Returns whether `#iChannel` lines of the texts say what channels read. An `eddy.toml`, the site's JSON, a preset and the
+    /// window say it otherwise.
+    pub fn has_channels_in_texts(&self) -> bool {
+        matches!(self, Origin::File(_) | Origin::Folder { has_manifest: false, .. })
+    }
+}
+
 impl Project {
     pub fn pass(&self, id: &PassId) -> Option<&Pass> {
         self.passes.iter().find(|p| p.id == *id)

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     media::Keyboard,
-    project::{self, Channel, KnobValue, KnobValues, Origin, PassId, Tab},
+    project::{self, Channel, KnobValue, KnobValues, PassId, Tab, include_names},
 };
 
 impl Session {
@@ -115,8 +115,12 @@ impl Session {
         }
         // Without `eddy.toml` the text says what its channels read; with one these lines count for nothing.
         let declares = |text: &str| text.contains("#iChannel");
-        let is_asked = !has_manifest(&self.project().origin) && (declares(&source.text) || declares(text));
+        let is_asked = self.project().origin.has_channels_in_texts() && (declares(&source.text) || declares(text));
         let before = is_asked.then(|| self.declared_channels(tab));
+        // The worker reads them when it compiles: a keystroke waits for no file.
+        if include_names(&source.text) != include_names(text) {
+            self.compile.include_edits += 1;
+        }
         if let Some(source) = self.documents.current_mut().source_mut(tab) {
             source.text = text.into();
         }
@@ -128,7 +132,6 @@ impl Session {
                 pass.channels = now;
             }
         }
-        self.refresh_includes();
         self.compile.edited = true;
         self.compile.state.compiling = true;
     }
@@ -248,6 +251,7 @@ impl Session {
                 project.groups.retain(|g| !g.passes.is_empty());
             }
         }
+        self.compile.include_edits += 1;
         self.text_generation += 1;
         self.show_image_if_gone();
         self.compile_soon();
@@ -259,11 +263,6 @@ impl Session {
             self.run.shown = PassId::Image;
         }
     }
-}
-
-/// Whether something other than the texts says what channels read.
-pub(super) fn has_manifest(origin: &Origin) -> bool {
-    !matches!(origin, Origin::File(_) | Origin::Folder { has_manifest: false, .. })
 }
 
 /// Whether only the shader sees it: no panel shows where the mouse is or which keys are down.

@@ -90,6 +90,7 @@ impl Session {
         }
         self.engine.set_timing(true);
         self.documents = Documents::new(project);
+        self.compile.includes_read = self.compile.include_edits;
         if std::mem::take(&mut self.canvas.is_fixed_by_project) {
             self.canvas.fixed = None;
         }
@@ -126,6 +127,7 @@ impl Session {
         if !self.may_overwrite() {
             return false;
         }
+        self.settle_includes();
         if !self.is_dirty() {
             self.notice(Level::Info, "nothing to save: the disk holds the same");
             return true;
@@ -167,6 +169,7 @@ impl Session {
         if home.is_some_and(|home| folder.canonicalize().is_ok_and(|folder| folder == home)) && !self.may_overwrite() {
             return;
         }
+        self.settle_includes();
         match project::save(self.project(), folder, overwrite) {
             Ok(saved) => {
                 self.saved(saved);

@@ -36,4 +36,4 @@ pub use analysis::TabAnalysis;
 pub use command::{Answer, Command, DiffLine, Question, Request, Then};
 pub use costs::{PassCosts, TimedPass};
 pub use state::{Session, SessionError, SessionOptions};
-pub use view::{CompileState, Level, Meanwhile, Notice, Outcome, TabDiagnostic, Tick, Transport};
+pub use view::{CompileState, Level, Meanwhile, Notice, Outcome, Place, TabDiagnostic, TabLabel, Tick, Transport};

@@ -96,6 +96,7 @@ impl Session {
         }
         let before = self.project().includes.clone();
         self.documents.current_mut().read_includes();
+        self.compile.includes_read = self.compile.include_edits;
         if self.project().includes != before {
             self.compile_soon();
         }
@@ -106,8 +107,17 @@ impl Session {
     /// The project here was changed from outside the editor.
     pub(super) fn after_reload(&mut self) {
         self.text_generation += 1;
+        self.compile.include_edits += 1;
         self.show_image_if_gone();
         self.compile_soon();
+    }
+
+    /// Reads what the texts include where no compile has done it yet: included files are saved with the project.
+    pub(super) fn settle_includes(&mut self) {
+        if self.compile.includes_read != self.compile.include_edits {
+            self.documents.current_mut().read_includes();
+            self.compile.includes_read = self.compile.include_edits;
+        }
     }
 
     fn ask_conflicts(&mut self, merge: &Merge) {
@@ -190,16 +200,6 @@ impl Session {
     pub(super) fn disk_is_known(&mut self) {
         self.watch_what_is_read();
         self.disk.manifest = read_manifest(self.documents.saved());
-    }
-
-    /// Reads what the texts include now; the compile to come takes it.
-    pub(super) fn refresh_includes(&mut self) {
-        let project = self.documents.current();
-        let includes = |s: &project::Source| s.text.contains("#include");
-        if !project.includes.is_empty() || project.tab_sources().any(includes) {
-            self.documents.current_mut().read_includes();
-            self.watch_what_is_read();
-        }
     }
 
     /// Watches the folders of all files that the project reads, as far as the last compile has found them.

@@ -104,6 +104,9 @@ pub(super) struct Compile {
     pub edits: Debounce,
     /// A text was edited since the last tick.
     pub edited: bool,
+    /// Counts the edits after which the texts include other files, and how many of them have been followed by reading.
+    pub include_edits: u64,
+    pub includes_read: u64,
     /// Compile in the next tick, whatever the debounce says.
     pub is_wanted: bool,
     /// See whether a picture or a model has changed on disk, as soon as the worker has time.
@@ -188,6 +191,8 @@ impl Session {
             compile: Compile {
                 edits: Debounce::new(options.edit_debounce),
                 edited: false,
+                include_edits: 0,
+                includes_read: 0,
                 is_wanted: true,
                 is_look_wanted: false,
                 reset_when_built: false,
