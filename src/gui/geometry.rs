@@ -56,6 +56,25 @@ impl Letterbox {
     }
 }
 
+/// The shape of a picture that follows the view.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// 16:9, which pictures on the site are composed for.
+    Site,
+    /// The view's own.
+    Fill,
+}
+
+impl Shape {
+    /// The largest size of this shape in whole pixels.
+    pub fn within(self, width: u32, height: u32) -> (u32, u32) {
+        match self {
+            Shape::Fill => (width, height),
+            Shape::Site => (width.min(height * 16 / 9), height.min((width * 9).div_ceil(16))),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -95,5 +114,14 @@ mod tests {
         let none = Area { width: 0.0, height: 0.0, ..AREA };
         assert_eq!(Letterbox::new(none, (640, 360)).canvas_from_window(5.0, 5.0), (0.0, 0.0));
         assert!(Letterbox::new(AREA, (0, 0)).zoom.is_finite());
+    }
+
+    #[test]
+    fn the_sites_shape_fits_whatever_there_is() {
+        assert_eq!(Shape::Site.within(640, 999), (640, 360));
+        assert_eq!(Shape::Site.within(9999, 360), (640, 360));
+        assert_eq!(Shape::Site.within(634, 680), (634, 357));
+        assert_eq!(Shape::Site.within(1, 1), (1, 1));
+        assert_eq!(Shape::Fill.within(634, 680), (634, 680));
     }
 }

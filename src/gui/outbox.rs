@@ -1,6 +1,9 @@
 //! What the panels of one frame want, gathered: commands for the session, actions for the shell, and where things are.
 
-use super::{geometry::Area, shortcuts::Action};
+use super::{
+    geometry::{Area, Shape},
+    shortcuts::Action,
+};
 use crate::{project::Tab, session::Command};
 use egui::{Rect, Response};
 use std::{collections::BTreeMap, path::PathBuf};
@@ -31,7 +34,7 @@ pub enum Wish {
     GoTo(Tab, Option<(usize, usize)>),
     Picked(Pick, PathBuf),
     CloseGallery,
-    Shape(super::viewport::Shape),
+    Shape(Shape),
 }
 
 #[derive(Debug, Default)]

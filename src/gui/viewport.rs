@@ -1,7 +1,7 @@
 //! The picture, and the mouse over it.
 
 use super::{
-    geometry::{Area, Letterbox},
+    geometry::{Area, Letterbox, Shape},
     outbox::Outbox,
     theme,
 };
@@ -24,15 +24,6 @@ pub struct Viewport {
     mouse_is_down: bool,
     take_focus: bool,
     shape: Shape,
-}
-
-/// The shape of a picture that follows the view.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
-    /// 16:9, which pictures on the site are composed for.
-    Site,
-    /// The view's own.
-    Fill,
 }
 
 impl Viewport {
@@ -168,16 +159,6 @@ impl Viewport {
     }
 }
 
-impl Shape {
-    /// The largest size of this shape in whole pixels.
-    fn within(self, width: u32, height: u32) -> (u32, u32) {
-        match self {
-            Shape::Fill => (width, height),
-            Shape::Site => (width.min(height * 16 / 9), height.min((width * 9).div_ceil(16))),
-        }
-    }
-}
-
 fn reads_keyboard(session: &Session) -> bool {
     session.project().passes.iter().flat_map(|p| p.channels.iter().flatten()).any(|c| c.input == Input::Keyboard)
 }
@@ -219,14 +200,5 @@ mod tests {
         assert_eq!(trouble(1, Meanwhile::LastGood), "1 error – the last good picture runs on");
         assert_eq!(trouble(2, Meanwhile::Newest), "2 errors – drawn all the same");
         assert_eq!(trouble(0, Meanwhile::Nothing), "Not compiled – nothing to draw yet");
-    }
-
-    #[test]
-    fn the_sites_shape_fits_whatever_there_is() {
-        assert_eq!(Shape::Site.within(640, 999), (640, 360));
-        assert_eq!(Shape::Site.within(9999, 360), (640, 360));
-        assert_eq!(Shape::Site.within(634, 680), (634, 357));
-        assert_eq!(Shape::Site.within(1, 1), (1, 1));
-        assert_eq!(Shape::Fill.within(634, 680), (634, 680));
     }
 }

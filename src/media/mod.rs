@@ -4,6 +4,7 @@
 //! leaves this module.
 
 pub mod builtin;
+mod error;
 mod gather;
 pub mod keyboard;
 mod load;
@@ -11,9 +12,10 @@ pub mod mesh;
 mod npy;
 mod site;
 
+pub use error::MediaError;
 pub use gather::{files, fills, gather, meshes};
 pub use keyboard::Keyboard;
-pub use load::{MediaError, load};
+pub use load::load;
 pub use npy::{bytes as npy_bytes, header as npy_header};
 
 use crate::{

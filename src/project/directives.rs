@@ -17,7 +17,7 @@
 //! ```
 
 use super::{
-    Channel, Filter, Input, Media, PassId, Sampler, Wrap, includes, knobs,
+    Channel, Filter, Input, Media, PassId, Sampler, Source, Wrap, file_names, includes, knobs,
     lines::{HashLine, hash_lines},
     nearest,
 };
@@ -142,7 +142,7 @@ fn input(value: &str, id: &PassId, span: Span, diagnostics: &mut Vec<Diagnostic>
         None => (value, false),
     };
     let file = std::path::Path::new(path);
-    let is_glsl = file.extension().is_some_and(super::folder::is_glsl_extension);
+    let is_glsl = file.extension().is_some_and(file_names::is_glsl_extension);
     let word = if is_glsl { file.file_stem().and_then(|s| s.to_str()).unwrap_or_default() } else { path };
     if is_file && !is_glsl {
         return picture(path);
@@ -162,7 +162,7 @@ fn input(value: &str, id: &PassId, span: Span, diagnostics: &mut Vec<Diagnostic>
         "keyboard" => return with(Input::Keyboard, Sampler::KEYBOARD),
         _ => {}
     }
-    match super::folder::pass_of_stem(word) {
+    match file_names::pass_of_stem(word) {
         Some(PassId::Buffer(name)) => return with(Input::Buffer(name), Sampler::BUFFER),
         Some(PassId::Cubemap) => return with(Input::CubemapPass, Sampler::BUFFER),
         Some(other) => {
@@ -232,6 +232,14 @@ fn set(sampler: &mut Sampler, setting: &str, value: &str, span: Span, diagnostic
             _ => unknown("vertical flip", value, &["true", "false"]),
         },
         _ => unknown("setting", setting, &["MinFilter", "MagFilter", "WrapMode", "VFlip"]),
+    }
+}
+
+impl Source {
+    /// What a compiler gets: the text with every `#iChannel`, `#iUniform` and `#include` line (see the module's page) and a byte order mark
+    /// overwritten with spaces, byte for byte, so that offsets and lines are those of `text`.
+    pub fn compile_text(&self) -> Cow<'_, str> {
+        blank(&self.text)
     }
 }
 

@@ -14,6 +14,9 @@ use std::{
     path::{Path, PathBuf},
 };
 
+/// Name of the file that describes a folder.
+pub(super) const MANIFEST: &str = "eddy.toml";
+
 /// The text files of a project, by name relative to its folder.
 pub(super) struct Files<'a> {
     place: Place<'a>,

@@ -8,12 +8,13 @@
 //! that comes of it ([`Project::inlined`]).
 
 use super::{
-    Project, Source,
+    Included, Project, Source,
     confine::{self, Reason},
+    embedded,
     files::{Files, Read},
     limits,
     lines::{HashLine, hash_lines},
-    nearest, presets,
+    nearest,
 };
 use crate::diag::{Diagnostic, SourceId, Span};
 use std::{
@@ -21,17 +22,6 @@ use std::{
     collections::{BTreeMap, BTreeSet, VecDeque},
     path::Path,
 };
-
-/// A file that some text names in an `#include` line.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Included {
-    /// Called by its path from the project's folder, with `/`.
-    pub source: Source,
-    /// Why it has no text, if it has none.
-    pub trouble: Option<String>,
-    /// The trouble is a limit of the whole project: what is named after it was not looked for.
-    pub is_limit: bool,
-}
 
 /// Why a file has no text.
 struct Trouble {
@@ -150,7 +140,7 @@ impl Project {
     pub fn read_includes(&mut self) {
         match &self.origin {
             super::Origin::Preset(name) => {
-                let dir = presets::folder(name);
+                let dir = embedded::folder(name);
                 read(self, dir.map(Files::embedded).as_ref());
             }
             other => {

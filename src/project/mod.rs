@@ -6,10 +6,14 @@
 mod atomic;
 pub mod confine;
 pub mod directives;
+mod embedded;
 mod error;
+mod file_names;
 mod files;
+mod fill_texts;
 mod fills;
 mod folder;
+mod format;
 mod geometry;
 mod includes;
 pub mod json;
@@ -17,31 +21,39 @@ mod knobs;
 pub mod limits;
 mod lines;
 mod load;
+mod loaded;
+mod locate;
 mod manifest;
 mod model;
 mod names;
+mod pass_id;
 mod picked;
 pub mod presets;
 mod save;
 mod settings;
+mod source;
 mod writes;
 
 pub use atomic::write_with;
 pub use confine::FileError;
 pub use error::ProjectError;
-pub use fills::{Boundary, Fill, FillKind, FillText, FillValue, Written};
+pub use fill_texts::FillText;
+pub use fills::{Boundary, Fill, FillKind, FillValue, Written};
 pub use folder::declare_channels;
+pub use format::PassFormat;
 pub use geometry::{
     Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Stage, files_beside, unescaped,
 };
-pub use includes::{IncludeLines, Included, include_names};
+pub use includes::{IncludeLines, include_names};
 pub use knobs::{Knob, KnobRange, KnobType, KnobValue, KnobValues, Knobs};
-pub use load::{Loaded, load, stem};
+pub use loaded::Loaded;
+pub use locate::{load, stem};
 pub use manifest::write as write_manifest;
-pub use model::{
-    Channel, Filter, Info, Input, Media, Origin, Pass, PassId, Project, Sampler, SamplerRules, Source, Tab, Wrap,
-};
+pub use model::{Channel, Filter, Info, Input, Media, Origin, Pass, Project, Sampler, SamplerRules, Tab, Wrap};
 pub use names::{listed, nearest};
+pub use pass_id::PassId;
 pub use picked::at_home;
-pub use save::{Overwrite, save};
-pub use settings::{Group, PassFormat, PassSettings, PassSize, Region};
+pub use save::save;
+pub use settings::{Group, PassSettings, PassSize, Region};
+pub use source::{Included, Source};
+pub use writes::Overwrite;

@@ -1,7 +1,7 @@
 //! A project as pure data: passes in their drawing order, what each channel reads, and where the texts came from.
 
-use super::{Group, Included, KnobValues, PassSettings};
-use std::{path::PathBuf, sync::Arc};
+use super::{Group, Included, KnobValues, PassId, PassSettings, Source};
+use std::path::PathBuf;
 
 /// What the author wrote, whole: enough to compile, plan and draw, and to write it back unchanged.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,24 +52,6 @@ pub enum Origin {
     Json(PathBuf),
 }
 
-/// A text of the project, and the file it lives in.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Source {
-    /// What diagnostics and tabs call it: the file's name (`buffer_a.glsl`) or the tab's (`Buffer A`).
-    pub name: String,
-    /// The file, where there is one of its own.
-    pub path: Option<PathBuf>,
-    pub text: Arc<str>,
-}
-
-impl Source {
-    /// What a compiler gets: the text with every `#iChannel`, `#iUniform` and `#include` line (see [`crate::project::directives`]) and a byte order mark
-    /// overwritten with spaces, byte for byte, so that offsets and lines are those of `text`.
-    pub fn compile_text(&self) -> std::borrow::Cow<'_, str> {
-        super::directives::blank(&self.text)
-    }
-}
-
 /// One render pass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pass {
@@ -78,69 +60,6 @@ pub struct Pass {
     /// `iChannel0..3`; `None` reads as a 2D texture that is black and of size 0.
     pub channels: [Option<Channel>; 4],
     pub settings: PassSettings,
-}
-
-/// Which pass. Buffers are told apart by name: `A`..`D` as on the site, or any further name a project gives.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum PassId {
-    Buffer(String),
-    Cubemap,
-    Sound,
-    Image,
-}
-
-impl PassId {
-    /// As tabs show it: `Buffer A`, `Cube A`, `Sound`, `Image`.
-    pub fn title(&self) -> String {
-        match self {
-            PassId::Buffer(name) => format!("Buffer {name}"),
-            PassId::Cubemap => "Cube A".into(),
-            PassId::Sound => "Sound".into(),
-            PassId::Image => "Image".into(),
-        }
-    }
-
-    /// As file names, `eddy.toml` and `--pass` spell it: `buffer_a`, `cube_a`, `sound`, `image`.
-    pub fn key(&self) -> String {
-        match self {
-            PassId::Buffer(name) => format!("buffer_{}", name.to_lowercase()),
-            PassId::Cubemap => "cube_a".into(),
-            PassId::Sound => "sound".into(),
-            PassId::Image => "image".into(),
-        }
-    }
-
-    /// What names buffers have, as a message says it.
-    pub const NAMES: &str = "a buffer's name has letters, digits, _, - and blanks, at most 64 of them";
-
-    /// Reads either spelling, without regard to case, spaces or underscores; a bare letter is a buffer. Names become parts of
-    /// files' names, so `None` for one with anything but letters, digits, blanks, `_` and `-`, or longer than
-    /// [`super::limits::NAME`].
-    pub fn parse(text: &str) -> Option<PassId> {
-        if text.chars().nth(super::limits::NAME + "buffer_".len()).is_some() {
-            return None;
-        }
-        let flat: String = text.chars().filter(|c| !matches!(c, ' ' | '_' | '-')).collect::<String>().to_lowercase();
-        Some(match flat.as_str() {
-            "" => return None,
-            "image" => PassId::Image,
-            "sound" => PassId::Sound,
-            "cubea" | "cubemap" | "cubemapa" => PassId::Cubemap,
-            _ => {
-                let name = flat.strip_prefix("buffer").or_else(|| flat.strip_prefix("buf")).unwrap_or(&flat);
-                if !PassId::is_name(name) {
-                    return None;
-                }
-                // A site buffer is one capital letter; further names are kept in lower case, as file names fold case.
-                PassId::Buffer(if name.len() == 1 { name.to_uppercase() } else { name.to_owned() })
-            }
-        })
-    }
-
-    /// Whether a buffer may be called so: letters and digits, not too many.
-    pub fn is_name(name: &str) -> bool {
-        !name.is_empty() && name.chars().count() <= super::limits::NAME && name.chars().all(char::is_alphanumeric)
-    }
 }
 
 /// What one `iChannelN` reads and how.
@@ -367,7 +286,7 @@ impl Project {
         let mut map = self.texts();
         for (pass, kind, _) in self.fills() {
             if let Some(text) = self.fill_text(pass, kind) {
-                map.add(super::load::MANIFEST, text.text);
+                map.add(super::files::MANIFEST, text.text);
             }
         }
         map

@@ -5,26 +5,18 @@
 use super::{
     FillValue, Media, MeshSource, Origin, PassId, Project, ProjectError, SamplerRules, Source,
     atomic::Content,
-    confine,
-    files::Files,
+    confine, file_names,
+    files::{Files, MANIFEST},
     files_beside, folder, json, limits,
-    load::{MANIFEST, folder_name},
+    load::folder_name,
     manifest, picked,
-    writes::{self, Writes},
+    writes::{self, Overwrite, Writes},
 };
 use crate::diag::Diagnostic;
 use std::{
     collections::{BTreeMap, BTreeSet},
     path::Path,
 };
-
-/// What to do about a file in the way that is not this project's.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Overwrite {
-    /// Fail with [`ProjectError::WouldOverwrite`], having written nothing.
-    Refuse,
-    Allow,
-}
 
 /// Writes the project to `target`: one file for a path that ends in `.json` or `.glsl` (which holds a lone Image pass),
 /// else a folder, made if need be. Returns the project as it is now read from there. Files the project came from are its
@@ -38,7 +30,7 @@ pub fn save(project: &Project, target: &Path, overwrite: Overwrite) -> Result<Pr
         save_folder(project, target.parent().unwrap_or(Path::new("")), overwrite)
     } else if extension.eq_ignore_ascii_case("json") {
         save_json(project, target, overwrite)
-    } else if folder::is_glsl_extension(extension) {
+    } else if file_names::is_glsl_extension(extension) {
         save_glsl(project, target, overwrite)
     } else {
         save_folder(project, target, overwrite)
@@ -229,7 +221,7 @@ fn copy_media(project: &Project, writes: &mut Writes) -> Result<(), ProjectError
 fn folder_after(target: &Path, writes: &Writes) -> BTreeMap<String, Vec<u8>> {
     let mut files = BTreeMap::new();
     for name in Files::on_disk(target).names().unwrap_or_default() {
-        if folder::role_of_file(&name).is_some() {
+        if file_names::role_of_file(&name).is_some() {
             files.insert(name.clone(), confine::read(target, &name, limits::GLSL_TEXT).unwrap_or_default());
         }
     }
@@ -269,7 +261,7 @@ fn manifest_text(
     target: &Path,
     files: &BTreeMap<String, Vec<u8>>,
 ) -> Result<String, ProjectError> {
-    let has_common_file = files.keys().any(|name| folder::role_of_file(name) == Some(folder::Role::Common));
+    let has_common_file = files.keys().any(|name| file_names::role_of_file(name) == Some(file_names::Role::Common));
     for old in [old, None] {
         let text = manifest::write(project, old, name, has_common_file);
         let read = manifest::project("", name.to_owned(), &text, &Files::in_memory(files), Origin::Unsaved);

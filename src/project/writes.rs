@@ -8,14 +8,21 @@ use super::{
     ProjectError,
     atomic::{self, Content},
     confine::{self, FileError},
-    folder::is_glsl_extension,
-    load::MANIFEST,
-    save::Overwrite,
+    file_names::is_glsl_extension,
+    files::MANIFEST,
 };
 use std::{
     collections::{BTreeMap, BTreeSet},
     path::{Path, PathBuf},
 };
+
+/// What to do about a file in the way that is not this project's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overwrite {
+    /// Fail with [`ProjectError::WouldOverwrite`], having written nothing.
+    Refuse,
+    Allow,
+}
 
 /// Endings of texts besides those of passes.
 const TEXTS: [&str; 16] = [

@@ -5,6 +5,7 @@
 //! window. A front end hands it [`Command`]s and calls [`Session::tick`]; everything it shows it reads from
 //! `&Session`. Draws no widget and knows no window.
 
+mod analyse;
 mod analysis;
 mod apply;
 pub mod capture;

@@ -3,29 +3,11 @@
 //! Owns every change of a text (all go through [`Buffer::replace`], so every one can be undone) and the index of its lines.
 //! Knows no window, no keys and no GLSL. Positions are bytes on character boundaries; lines count from 0.
 
-use super::history::{Change, History, Kind};
+use super::{
+    history::{Change, History, Kind},
+    selection::Selection,
+};
 use std::ops::Range;
-
-/// Where the caret is (`head`) and where the selection began (`anchor`); equal when nothing is selected.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Selection {
-    pub anchor: usize,
-    pub head: usize,
-}
-
-impl Selection {
-    pub fn caret(at: usize) -> Self {
-        Self { anchor: at, head: at }
-    }
-
-    pub fn range(self) -> Range<usize> {
-        self.anchor.min(self.head)..self.anchor.max(self.head)
-    }
-
-    pub fn is_empty(self) -> bool {
-        self.anchor == self.head
-    }
-}
 
 /// The ends of a text that are as they were, in bytes: what lies between has changed. They do not overlap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,7 @@
 //!
 //! `cargo test --lib editor::cost -- --ignored --nocapture`
 
-use super::view::{CodeEditor, Look};
+use super::{look::Look, view::CodeEditor};
 use egui::{Event, Id, RawInput, Rect, pos2, vec2};
 use std::time::Instant;
 

@@ -1,10 +1,6 @@
 //! What the editor's keys do to a text: typing, indenting, comments, whole lines.
 
-use super::{
-    buffer::{Buffer, Selection},
-    history::Kind,
-    motion::Motion,
-};
+use super::{buffer::Buffer, history::Kind, motion::Motion, selection::Selection};
 use std::ops::Range;
 
 const INDENT: &str = "    ";

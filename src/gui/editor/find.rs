@@ -1,9 +1,6 @@
 //! Finding and replacing in one text.
 
-use super::{
-    buffer::{Buffer, Selection},
-    history::Kind,
-};
+use super::{buffer::Buffer, history::Kind, selection::Selection};
 use std::ops::Range;
 
 /// What is looked for.

@@ -1,6 +1,6 @@
 //! Steps of undo and redo. Knows what was put where, not why.
 
-use super::buffer::Selection;
+use super::selection::Selection;
 
 /// One replacement, with the selection on both sides of it.
 #[derive(Clone, Debug)]

@@ -1,6 +1,6 @@
 //! Where the caret goes: letters, words, lines, pages.
 
-use super::buffer::{Buffer, Selection};
+use super::{buffer::Buffer, selection::Selection};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {

@@ -3,7 +3,7 @@
 use super::{
     buffer::Buffer,
     lines::{Lines, MARGIN, touching},
-    view::{Look, Mark},
+    look::{Look, Mark},
 };
 use crate::{diag::Severity, gui::theme};
 use egui::{

@@ -1,8 +1,8 @@
 //! Colours by meaning, from an analysis that may be of a slightly older text.
 
 use super::{
-    assist::Help,
     lexer::{Token, TokenKind},
+    look::Help,
 };
 use crate::glsl::services::{Class, ClassSpan};
 use std::ops::Range;

@@ -1,42 +1,17 @@
 //! The widget: scrolling, pointer, focus, input methods.
 
 use super::{
-    assist::{Ask, Assist, Help},
+    assist::{Ask, Assist},
     buffer::Buffer,
     highlight::Highlight,
     input,
     lines::Lines,
+    look::{Help, Look},
     paint::{self, Painted},
     semantic::Semantic,
 };
-use crate::diag::Severity;
 use egui::{EventFilter, FontId, Id, Rect, ScrollArea, Sense, Ui, emath::GuiRounding as _, pos2, vec2};
 use std::ops::Range;
-
-/// A diagnostic at a line.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Mark {
-    /// From 0.
-    pub line: usize,
-    /// What is underlined, in bytes of the text; may be empty.
-    pub range: Range<usize>,
-    pub severity: Severity,
-    pub message: String,
-    pub hints: Vec<String>,
-}
-
-/// How a text is shown; not a part of it.
-#[derive(Clone, Copy, Debug)]
-pub struct Look<'a> {
-    pub font_size: f32,
-    pub marks: &'a [Mark],
-    /// Places found, tinted.
-    pub matches: &'a [Range<usize>],
-    /// A text whose macros count in this one.
-    pub shared: &'a str,
-    /// What is known of the text, or of what it was a moment ago.
-    pub help: Option<Help<'a>>,
-}
 
 /// What happened in a frame.
 #[derive(Clone, Debug)]

@@ -11,7 +11,7 @@
 //!
 //! Without a default it is the least of the range, else zero.
 
-use super::{Knob, KnobRange, KnobType, KnobValue};
+use super::types::{Knob, KnobRange, KnobType, KnobValue};
 use crate::{
     diag::{Diagnostic, SourceId, Span},
     project::{lines::HashLine, listed, nearest},

@@ -65,9 +65,11 @@
 //! A `file` is a picture unless `kind` says otherwise (`"cubemap"`, `"volume"`, `"video"`, `"music"`); a stock file of the
 //! site is `site = "/media/a/…"` with its `site_id`. `[shadertoy]` keeps what the site's JSON said and Eddy has no use for.
 
+mod edit;
 mod fills;
 mod geometry;
 mod read;
+mod reader;
 mod settings;
 mod uniforms;
 mod write;

@@ -1,6 +1,6 @@
 //! `[uniforms]` of `eddy.toml`: values of the author's own uniforms.
 
-use super::read::Reader;
+use super::reader::Reader;
 use crate::{
     diag::Diagnostic,
     project::{KnobValue, KnobValues, Project, knobs::words_of_uniforms, limits},

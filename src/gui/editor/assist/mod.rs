@@ -8,25 +8,11 @@ mod completion;
 mod draw;
 mod tips;
 
-use super::{buffer::Buffer, history, lines::Lines};
-use crate::{
-    diag::{SourceId, Span},
-    glsl::services::{Analysis, ClassSpan, SignatureHelp},
-};
+use super::{buffer::Buffer, history, lines::Lines, look::Help};
+use crate::{diag::Span, glsl::services::SignatureHelp};
 use completion::Popup;
 use egui::{Event, Key, Rect, Ui};
 use std::ops::Range;
-
-/// What is known of the text that an editor shows.
-#[derive(Clone, Copy, Debug)]
-pub struct Help<'a> {
-    pub analysis: &'a Analysis,
-    /// The editor's text in `analysis`.
-    pub source: SourceId,
-    pub classes: &'a [ClassSpan],
-    /// The text it was made of; where it is not the editor's, it is older.
-    pub text: &'a str,
-}
 
 /// Something the editor wants of those who know the other tabs.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! Tips over the code: what the name under the pointer is, and the signature of the call around the caret.
 
 use super::{
-    super::{buffer::Buffer, lines::Lines},
-    Help, draw,
+    super::{buffer::Buffer, lines::Lines, look::Help},
+    draw,
 };
 use crate::{
     glsl::services::{Hover, SignatureHelp},

@@ -1,7 +1,7 @@
 //! Tests of opening: every kind of project, and what is said of those that are broken.
 
 use super::*;
-use crate::project::{Channel, Filter, Input, Media, PassFormat, PassSize, Region, Sampler, Wrap};
+use crate::project::{Channel, Filter, Input, Media, Origin, PassFormat, PassSize, Region, Sampler, Wrap};
 use std::{fs, path::Path};
 use tempfile::TempDir;
 
