@@ -1,5 +1,5 @@
-//! `eddy bench`: what a frame costs, by the clock, by pass on the device, and in the engine itself; and what leaving out
-//! what nobody reads is worth.
+//! `eddy bench`: what a frame costs, by the clock, by pass on the device, and in the engine itself; and what leaving
+//! out what nobody reads is worth.
 
 use super::{
     args::BenchArgs,
@@ -28,7 +28,8 @@ struct Costs {
     cpu_us_per_pass: f64,
     /// The slowest frame.
     worst_ms: f64,
-    /// How the passes' `ms` were taken: `timestamps` of the device, or `waited`: each pass handed in and waited for by itself.
+    /// How the passes' `ms` were taken: `timestamps` of the device, or `waited`: each pass handed in and waited for by
+    /// itself.
     clock: &'static str,
     /// In drawing order.
     passes: Vec<PassCost>,
@@ -39,8 +40,8 @@ struct Costs {
     /// Bytes of the targets, and how many more they were if nothing were left out.
     target_bytes: u64,
     target_bytes_saved: u64,
-    /// Passes that a frame left out because nothing they read had changed, and the bytes of texels not written for it; means
-    /// over the measured frames.
+    /// Passes that a frame left out because nothing they read had changed, and the bytes of texels not written for it;
+    /// means over the measured frames.
     passes_rested: f64,
     bytes_rested: f64,
 }
@@ -57,7 +58,7 @@ struct PassCost {
     /// Texels of its targets.
     width: u32,
     height: u32,
-    /// Of each of its targets, as `eddy.toml` spells them.
+    /// The format of each of its targets, as `eddy.toml` spells them.
     formats: Vec<&'static str>,
     /// How often it is drawn in a frame.
     steps: u32,

@@ -71,8 +71,8 @@ fn compile(project: &Project) -> Vec<Diagnostic> {
     found
 }
 
-/// Where channels with samplers of their own read a buffer differently from each other, which the site cannot: there a
-/// buffer has one wrap, and one filter while a pass draws (`shadertoy.md`, section 7).
+/// Returns where channels with samplers of their own read a buffer differently from each other, which the site cannot:
+/// there a buffer has one wrap, and one filter while a pass draws (`shadertoy.md`, section 7).
 fn shared_samplers(project: &Project) -> Vec<Diagnostic> {
     if project.sampler_rules == SamplerRules::Site {
         return Vec::new();
@@ -114,6 +114,7 @@ fn differ<T: PartialEq + std::fmt::Debug>(
                 name(wins)
             ),
         )
-        .hint(format!("give both the same {what}, or set sampler_rules = \"site\" in eddy.toml to see what the site shows")),
+        .hint(format!("give both the same {what}, or set sampler_rules = \"site\" in eddy.toml to see what the site \
+        shows")),
     )
 }

@@ -1,5 +1,5 @@
-//! What every command that draws shares: the one device of a call, and the trouble a project can bring without taking the
-//! others with it.
+//! This module holds what every command that draws shares: the one device of a call, and the trouble a project can
+//! bring without taking the others with it.
 
 use super::{
     args::RunArgs,
@@ -18,7 +18,7 @@ use std::{
     time::Instant,
 };
 
-/// Why a project came to nothing.
+/// The reason why a project was not drawn.
 pub enum Trouble {
     Diagnostics(Vec<Diagnostic>, SourceMap),
     Unsupported(String),
@@ -65,7 +65,7 @@ impl From<anyhow::Error> for Trouble {
 #[derive(Default)]
 pub struct Machine {
     gpu: Option<Gpu>,
-    /// Why there is none; asked once.
+    /// The reason why there is no device, which is asked for once.
     refusal: Option<String>,
 }
 
@@ -86,8 +86,8 @@ impl Machine {
         }
     }
 
-    /// Does a project's work, and puts what went wrong into its report. A panic is this project's alone, and a device that
-    /// was lost, or may have been left in disorder, is made anew for the next one.
+    /// Does a project's work, and puts what went wrong into its report. A panic is this project's alone, and a device
+    /// that was lost, or may have been left in disorder, is made anew for the next one.
     pub fn attempt<T>(
         &mut self,
         report: &mut Report,

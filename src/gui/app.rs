@@ -1,7 +1,7 @@
 //! The event loop: the window system's events in, frames out, and sleep in between.
 //!
-//! Owns the window, the session and the moment of the next frame. A still window costs nothing: a frame is painted when an
-//! event, the session or egui asks for one.
+//! Owns the window, the session and the moment of the next frame. A still window costs nothing: a frame is painted when
+//! an event, the session or egui asks for one.
 
 use super::{
     GuiError, Options,

@@ -20,7 +20,7 @@ const FONT_SIZE: f32 = 13.0;
 pub struct CodePanel {
     editors: HashMap<Tab, CodeEditor>,
     current: Tab,
-    /// Of the texts the editors hold.
+    /// The session's text generation that the editors hold.
     generation: Option<u64>,
     /// Which project they are of: another one's undo must not lead back here.
     project: (String, Origin),
@@ -39,7 +39,7 @@ pub struct CodePanel {
 struct Find {
     query: Query,
     with: String,
-    /// What `matches` was made for.
+    /// The tab, revision and query that `matches` belongs to.
     made_for: Option<(Tab, u64, Query)>,
     matches: Vec<Range<usize>>,
 }
@@ -364,7 +364,7 @@ fn parse_place(text: &str) -> Option<(usize, usize)> {
     Some((from_0(line)?, from_0(column)?))
 }
 
-/// Whether two origins are one project: saving makes a manifest where there was none.
+/// Returns whether two origins are one project: saving makes a manifest where there was none.
 fn same_place(a: &Origin, b: &Origin) -> bool {
     match (a, b) {
         (Origin::Folder { path: a, .. }, Origin::Folder { path: b, .. }) => a == b,

@@ -1,7 +1,8 @@
 //! One frame of the window: input, apply, draw, show again.
 //!
-//! Owns the order. The panels take the input first, the session does what they ask, and only then is the picture drawn, so
-//! that a shader sees the mouse where the hand has it now. Knows no window and no surface: what is to be painted comes back.
+//! Owns the order. The panels take the input first, the session does what they ask, and only then is the picture drawn,
+//! so that a shader sees the mouse where the hand has it now. Knows no window and no surface: what is to be painted
+//! comes back.
 
 use super::{shell::Shell, steps};
 use crate::session::{Session, Tick};

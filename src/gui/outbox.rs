@@ -1,4 +1,5 @@
-//! What the panels of one frame want, gathered: commands for the session, actions for the shell, and where things are.
+//! An outbox gathers what the panels of one frame want: commands for the session, actions for the shell, and where
+//! things are.
 
 use super::{
     geometry::{Area, Shape},
@@ -8,7 +9,7 @@ use crate::{project::Tab, session::Command};
 use egui::{Rect, Response};
 use std::{collections::BTreeMap, path::PathBuf};
 
-/// What a file dialog is asked for.
+/// The purpose of a file dialog.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Pick {
     /// A project: a folder.

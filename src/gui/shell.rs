@@ -224,7 +224,7 @@ impl Shell {
         }
     }
 
-    /// Where a named widget was shown last, in points.
+    /// Returns where a named widget was shown last, in points.
     #[cfg(test)]
     pub fn place(&self, name: &str) -> Option<egui::Rect> {
         self.places.places.get(name).copied()
@@ -421,7 +421,7 @@ fn origin(origin: &Origin) -> Value {
     }
 }
 
-/// Where a file dialog begins: beside the project.
+/// Returns where a file dialog begins: beside the project.
 fn start_folder(session: &Session) -> Option<PathBuf> {
     match &session.project().origin {
         Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => path.parent().map(Path::to_owned),

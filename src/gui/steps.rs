@@ -1,9 +1,10 @@
-//! What came since the last frame, cut into the steps in which it happened.
+//! The input since the last frame is cut into the steps in which it happened.
 //!
-//! egui gives a pass all its events at once, and a widget that gets the keyboard in that pass only sees the keys of the next.
-//! Where frames are slow, a click and the keys that follow it come together: the keys would go nowhere, and arrow keys, which
-//! the widget can claim only once it has the keyboard, would move it on to some other widget. So a pass ends behind each event
-//! that can move the keyboard or open something, and one without events follows, in which what was opened takes its place.
+//! egui gives a pass all its events at once, and a widget that gets the keyboard in that pass only sees the keys of the
+//! next. When frames are slow, a click and the keys that follow it come together: the keys would go nowhere, and arrow
+//! keys, which the widget can claim only once it has the keyboard, would move it on to some other widget. So a pass
+//! ends behind each event that can move the keyboard or open something, and one without events follows, in which what
+//! was opened takes its place.
 
 use egui::{Event, Key, Modifiers, RawInput};
 
@@ -32,7 +33,8 @@ pub fn without_events(input: &RawInput) -> RawInput {
 
 fn ends_step(event: &Event) -> bool {
     match event {
-        // A press too: a slider moves to where the pointer is held, and held it is in no pass that sees the release as well.
+        // A press too: a slider moves to where the pointer is held, and held it is in no pass that sees the release as
+        // well.
         Event::PointerButton { .. } => true,
         Event::Key { key, pressed: true, modifiers, .. } => {
             let is_command = modifiers.contains(Modifiers::COMMAND) || modifiers.alt;

@@ -17,7 +17,7 @@ const RIM: f32 = 3.0;
 
 pub struct Viewport {
     texture: Option<TextureId>,
-    /// Of the display the texture shows, and whether it is magnified texel by texel.
+    /// The generation of the display that the texture shows, and whether it is magnified texel by texel.
     shows: (u64, bool),
     letterbox: Option<Letterbox>,
     asked_size: (u32, u32),
@@ -174,7 +174,7 @@ fn pill(ui: &Ui, rect: Rect, corner: Align2, text: &str, color: Color32) {
     ui.painter().galley(place.min + vec2(8.0, 4.0), galley, color);
 }
 
-/// What there is instead of the newest text's picture, and why.
+/// Returns what there is instead of the newest text's picture, and why.
 fn trouble(errors: usize, meanwhile: Meanwhile) -> String {
     let why = match errors {
         // The compiler or the device gave up, which a notice tells of.

@@ -1,11 +1,11 @@
-//! Why a picture is not to be had, and how to mend it.
+//! Errors of loading a picture, with how to mend them.
 
 use super::builtin;
 use crate::project::{FileError, limits, listed};
 use image::ImageError;
 use std::{io, path::PathBuf};
 
-/// Why a picture is not to be had. Its text is complete but for the pass and the channel.
+/// An error of loading a picture. Its text is complete but for the pass and the channel.
 #[derive(Debug, thiserror::Error)]
 pub enum MediaError {
     #[error(transparent)]

@@ -110,7 +110,8 @@ fn decoded(bytes: Vec<u8>, path: &Path, vflip: bool, room: u64) -> Result<Texels
     Ok(if vflip { flipped(texels) } else { texels })
 }
 
-/// Texels in the picture's own order of rows. Values as stored: no colour space is undone and alpha is not multiplied in.
+/// Texels in the picture's own order of rows. Values as stored: no colour space is undone and alpha is not multiplied
+/// in.
 fn texels(image: DynamicImage) -> Texels {
     let (width, height) = (image.width(), image.height());
     match image {
@@ -199,7 +200,8 @@ mod tests {
             (write("huge.png", &with_size(0x7fff_ffff, 0x7fff_ffff)), "huge.png"),
             (
                 write("large.png", &with_size(20000, 20000)),
-                "large.png: the picture has 20000x20000 texels, which take 1600000000 bytes; a picture may take 512 MiB",
+                "large.png: the picture has 20000x20000 texels, which take 1600000000 bytes; a picture may take 512 \
+                MiB",
             ),
             (write("long.png", &with_size(40000, 2)), "40000x2 texels, and a side may have 32768"),
             (dir.path().join("missing.png"), "cannot read"),

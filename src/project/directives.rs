@@ -1,8 +1,8 @@
 //! `#iChannelN "…"` lines: what a channel reads, said in the GLSL text itself.
 //!
-//! Owns the reading of these lines, in the form the VS Code extension "Shader Toy" made common, and their removal before a
-//! compiler sees the text. They count only where there is no `eddy.toml`. Not a preprocessor: it knows comments, and no
-//! conditionals.
+//! Owns the reading of these lines, in the form the VS Code extension "Shader Toy" made common, and their removal
+//! before a compiler sees the text. They count only where there is no `eddy.toml`. Not a preprocessor: it knows
+//! comments, and no conditionals.
 //!
 //! ```glsl
 //! #iChannel0 "buffer_a"               // a buffer, by pass or file name; also "file://buffer_a.glsl"
@@ -28,7 +28,8 @@ fn is_channel(line: &HashLine<'_>) -> bool {
     line.body.strip_prefix("iChannel").is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
 }
 
-/// `text` with `#iChannel`, `#iUniform` and `#include` lines and a byte order mark overwritten with spaces, byte for byte.
+/// `text` with `#iChannel`, `#iUniform` and `#include` lines and a byte order mark overwritten with spaces, byte for
+/// byte.
 pub fn blank(text: &str) -> Cow<'_, str> {
     let mut ranges: Vec<Range<usize>> = hash_lines(text)
         .into_iter()
@@ -53,7 +54,7 @@ pub fn blank(text: &str) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// What the directives of one pass say.
+/// The directives of one pass.
 #[derive(Debug, Default)]
 pub(super) struct Declared {
     /// `None` where the text has no directive at all.
@@ -183,7 +184,8 @@ fn input(value: &str, id: &PassId, span: Span, diagnostics: &mut Vec<Diagnostic>
         diagnostic = diagnostic.hint(format!("did you mean \"{near}\"?"));
     }
     diagnostics.push(diagnostic.hint(
-        "a channel reads \"buffer_a\", \"self\", \"cube_a\", \"keyboard\", \"file://pic.png\" or \"builtin://noise-rgba-256\"",
+        "a channel reads \"buffer_a\", \"self\", \"cube_a\", \"keyboard\", \"file://pic.png\" or \
+        \"builtin://noise-rgba-256\"",
     ));
     None
 }
@@ -236,8 +238,9 @@ fn set(sampler: &mut Sampler, setting: &str, value: &str, span: Span, diagnostic
 }
 
 impl Source {
-    /// What a compiler gets: the text with every `#iChannel`, `#iUniform` and `#include` line (see the module's page) and a byte order mark
-    /// overwritten with spaces, byte for byte, so that offsets and lines are those of `text`.
+    /// Returns what a compiler gets: the text with every `#iChannel`, `#iUniform` and `#include` line (see the module's
+    /// page) and a byte order mark overwritten with spaces, byte for byte, so that offsets and lines are those of
+    /// `text`.
     pub fn compile_text(&self) -> Cow<'_, str> {
         blank(&self.text)
     }

@@ -22,7 +22,7 @@ fn is_buffer(stem: &str) -> bool {
         || lower.strip_prefix("buf").is_some_and(|rest| rest.len() == 1 || rest.starts_with([' ', '_', '-']))
 }
 
-/// What is wrong with a file that would be a buffer if its name were one.
+/// Returns what is wrong with a file that would be a buffer if its name were one.
 pub(super) fn misnamed(file: &str) -> Option<Diagnostic> {
     let path = Path::new(file);
     let stem = path.file_stem()?.to_str().filter(|stem| is_buffer(stem) && PassId::parse(stem).is_none())?;

@@ -57,8 +57,8 @@ impl<'a> Files<'a> {
         Self { place, left: Cell::new(limits::ALL_TEXTS.bytes) }
     }
 
-    /// Names of the files directly in the folder, sorted. Links count as files wherever they lead. Fails for a folder of more than
-    /// [`limits::FILES`].
+    /// Names of the files directly in the folder, sorted. Links count as files wherever they lead. Fails for a folder
+    /// of more than [`limits::FILES`].
     pub fn names(&self) -> Result<Vec<String>, ProjectError> {
         let mut names: Vec<String> = match self.place {
             Place::Disk(path) => {
@@ -116,8 +116,8 @@ impl<'a> Files<'a> {
         decode(bytes)
     }
 
-    /// Whether something other than a folder has this name directly in the folder, also where it is of no use: then reading
-    /// says why.
+    /// Returns whether something other than a folder has this name directly in the folder, also where it is of no use:
+    /// then reading says why.
     pub fn exists(&self, name: &str) -> bool {
         match self.place {
             Place::Disk(folder) => folder.join(name).symlink_metadata().is_ok_and(|m| !m.is_dir()),

@@ -43,7 +43,7 @@ impl Project {
         Some(FillText { id: SourceId((first + n) as u16), text, range })
     }
 
-    /// Where a fill is written.
+    /// Returns where a fill is written.
     pub fn fill_span(&self, pass: usize, kind: FillKind) -> Option<Span> {
         let FillText { id, range, .. } = self.fill_text(pass, kind)?;
         Some(Span::new(id, range))

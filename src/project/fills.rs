@@ -6,7 +6,7 @@ use std::{
     sync::Arc,
 };
 
-/// What texels are filled with, and where `eddy.toml` says so.
+/// A value that texels are filled with, and its place in `eddy.toml`.
 #[derive(Clone, Debug)]
 pub struct Fill {
     pub value: FillValue,
@@ -22,8 +22,9 @@ pub enum FillValue {
     /// A picture or a `.npy` file, by its name in the project's folder. Where its size is the pass's it is taken
     /// texel for texel, else stretched over the pass with linear filtering.
     File(PathBuf),
-    /// The bytes of an `.npy` file that is nowhere yet, and the name it will have. Lives in memory alone: saving writes the file
-    /// into the project's folder and makes a [`FillValue::File`] of it, and nothing that is read from a project is one.
+    /// The bytes of an `.npy` file that is nowhere yet, and the name it will have. Lives in memory alone: saving writes
+    /// the file into the project's folder and makes a [`FillValue::File`] of it, and nothing that is read from a
+    /// project is one.
     Held { name: PathBuf, npy: Arc<[u8]> },
 }
 
@@ -62,8 +63,8 @@ impl Fill {
         Fill { value: FillValue::File(path.into()), written: None }
     }
 
-    /// The text that diagnostics about it point into, and where in it the value stands: the manifest, where that holds the value
-    /// as it is; else the value alone, at the manifest's line.
+    /// The text that diagnostics about it point into, and where in it the value stands: the manifest, where that holds
+    /// the value as it is; else the value alone, at the manifest's line.
     pub(super) fn text(&self) -> (Arc<str>, Range<usize>) {
         let value: Arc<str> = match &self.value {
             FillValue::Expression(text) => text.clone(),

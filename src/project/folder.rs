@@ -10,8 +10,9 @@
 //! | `sound.glsl` | Sound |
 //! | `image.glsl` | Image, which must be there |
 //!
-//! Case does not matter, and `.frag` is as good as `.glsl`. A pass whose text has `#iChannel` lines reads what they say (see
-//! [`super::directives`]); any other pass reads Buffer A, B, C and D in iChannel0, 1, 2 and 3, as far as these exist.
+//! Case does not matter, and `.frag` is as good as `.glsl`. A pass whose text has `#iChannel` lines reads what they say
+//! (see [`super::directives`]); any other pass reads Buffer A, B, C and D in iChannel0, 1, 2 and 3, as far as these
+//! exist.
 
 use super::{
     Channel, Info, Input, Origin, Pass, PassId, Project, Sampler, SamplerRules, Source, directives,
@@ -29,7 +30,7 @@ pub(super) fn sort_passes(passes: &mut [Pass]) {
     });
 }
 
-/// What a convention makes of texts by file name, besides the texts.
+/// The facts that a convention makes of texts by file name, besides the texts.
 pub(super) struct ByConvention {
     pub common: Option<Source>,
     pub passes: Vec<Pass>,

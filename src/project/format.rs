@@ -1,6 +1,6 @@
-//! What a texel of a pass holds.
+//! The formats that the texels of a pass may have.
 
-/// What a texel of a pass holds. Components a format lacks are read as 0, alpha as 1.
+/// The format of a pass's texels. Components a format lacks are read as 0, alpha as 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum PassFormat {
     R8,

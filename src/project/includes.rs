@@ -1,11 +1,11 @@
 //! `#include "file"` lines: texts inside texts.
 //!
-//! A path is relative to the file whose line names it, and stays within the project's folder; an included file may include
-//! others. The lines count wherever they stand outside comments, in conditionals too. A file that is a tab of the project is
-//! taken as the tab has it; Common, which stands before every pass anyway, is not put in again.
+//! A path is relative to the file whose line names it, and stays within the project's folder; an included file may
+//! include others. The lines count wherever they stand outside comments, in conditionals too. A file that is a tab of
+//! the project is taken as the tab has it; Common, which stands before every pass anyway, is not put in again.
 //!
-//! Owns which files are read ([`Project::read_includes`]), what the lines lead to ([`Project::include_lines`]) and the text
-//! that comes of it ([`Project::inlined`]).
+//! Owns which files are read ([`Project::read_includes`]), what the lines lead to ([`Project::include_lines`]) and the
+//! text that comes of it ([`Project::inlined`]).
 
 use super::{
     Included, Project, Source,
@@ -23,7 +23,7 @@ use std::{
     path::Path,
 };
 
-/// Why a file has no text.
+/// The reason why a file has no text.
 struct Trouble {
     why: String,
     is_limit: bool,
@@ -35,7 +35,7 @@ impl From<String> for Trouble {
     }
 }
 
-/// What the `#include` lines of a project lead to.
+/// The texts that the `#include` lines of a project lead to.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct IncludeLines {
     /// A line, and the text that stands in its place; no text leads to itself.
@@ -150,8 +150,8 @@ impl Project {
         }
     }
 
-    /// What every `#include` line leads to, and what is wrong with those that lead nowhere. Spans and ids are of
-    /// [`Project::sources`].
+    /// Returns what every `#include` line leads to, and what is wrong with those that lead nowhere. Spans and ids are
+    /// of [`Project::sources`].
     pub fn include_lines(&self) -> IncludeLines {
         let mut found = IncludeLines::default();
         let sources = self.texts();
@@ -163,8 +163,8 @@ impl Project {
         for (id, source) in sources.iter() {
             for line in hash_lines(&source.text).iter().filter(|l| is_include(l)) {
                 let span = Span::new(id, line.range.clone());
-                // Any other form is left to the compiler, which skips it where another language's text stands in a group that is not
-                // compiled.
+                // Any other form is left to the compiler, which skips it where another language's text stands in a
+                // group that is not compiled.
                 let Some(path) = named(line) else { continue };
                 let name = match confine::relative(&source.name, path.trim()) {
                     Ok(name) => name,

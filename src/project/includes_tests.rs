@@ -1,4 +1,4 @@
-//! Where `#include` lines lead.
+//! Tests of `#include` lines.
 
 use crate::{
     diag::{SourceId, render_all},

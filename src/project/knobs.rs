@@ -1,9 +1,9 @@
 //! The author's own uniforms: declared by a line of a text, turned by a person, saved with the project.
 //!
-//! Owns what `#iUniform` lines say ([`Project::knobs`]; the form is in [`line`]) and which values fit them. A knob that Common
-//! declares is there for every pass, one that a pass declares for that pass; one name is one knob wherever it stands. Values
-//! that are not the default lie in [`Project::knob_values`], and in `eddy.toml` under `[uniforms]`. How a value reaches a
-//! shader is the engine's matter.
+//! Owns what `#iUniform` lines say ([`Project::knobs`]; the form is in [`line`]) and which values fit them. A knob that
+//! Common declares is there for every pass, one that a pass declares for that pass; one name is one knob wherever it
+//! stands. Values that are not the default lie in [`Project::knob_values`], and in `eddy.toml` under `[uniforms]`. How
+//! a value reaches a shader is the engine's matter.
 
 pub(super) mod constants;
 mod declared;
@@ -17,7 +17,7 @@ use line::Line;
 pub(super) use line::is_declaration;
 pub use types::{Knob, KnobRange, KnobType, KnobValue, KnobValues};
 
-/// What the texts of a project declare.
+/// The uniforms that the texts of a project declare in `#iUniform` lines.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Knobs {
     /// In the order they are first declared: Common, then the passes.
@@ -73,7 +73,7 @@ impl Knobs {
         self.list.iter().find(|k| k.name == name)
     }
 
-    /// Why `name` is no knob of this project, with the one that may be meant.
+    /// Returns why `name` is no knob of this project, with the one that may be meant.
     pub(super) fn unknown(&self, name: &str) -> (String, String) {
         let message = format!("no #iUniform line declares `{name}`");
         let names: Vec<&str> = self.list.iter().map(|k| k.name.as_str()).collect();
@@ -87,14 +87,14 @@ impl Knobs {
 }
 
 impl Project {
-    /// What the texts declare in `#iUniform` lines. Spans point into [`Project::sources`].
+    /// Returns what the texts declare in `#iUniform` lines. Spans point into [`Project::sources`].
     pub fn knobs(&self) -> Knobs {
         let sources = self.texts();
         Knobs::read(sources.iter().map(|(id, source)| (id, &*source.text)))
     }
 
-    /// Sets one knob from what a person writes: `viscosity=0.3`, `tint=1,0.5,0`, `tint=color3(1, .5, 0)`, `on=true`. Err: one
-    /// line that says what is wrong.
+    /// Sets one knob from what a person writes: `viscosity=0.3`, `tint=1,0.5,0`, `tint=color3(1, .5, 0)`, `on=true`.
+    /// Err: one line that says what is wrong.
     pub fn set_knob(&mut self, assignment: &str) -> Result<(), String> {
         let shape = || format!("{assignment}: a uniform is set as in viscosity=0.3 or tint=1,0.5,0");
         let (name, written) = assignment.split_once('=').ok_or_else(shape)?;

@@ -1,4 +1,4 @@
-//! What reading a project gives.
+//! The result of reading a project.
 
 use super::Project;
 use crate::diag::{Diagnostic, SourceMap};

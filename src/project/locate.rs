@@ -13,8 +13,8 @@ use std::{
 };
 
 /// Reads a project by what a person calls it: a folder with `eddy.toml`, a folder of GLSL files (or one of these named
-/// directly: `eddy.toml`), one GLSL file, a Shadertoy JSON file, a preset's name. A path wins over a preset, except that a
-/// bare preset's name is not taken for a folder of that name that holds no project.
+/// directly: `eddy.toml`), one GLSL file, a Shadertoy JSON file, a preset's name. A path wins over a preset, except
+/// that a bare preset's name is not taken for a folder of that name that holds no project.
 pub fn load(spec: &str) -> Result<Loaded, ProjectError> {
     match locate(spec)? {
         Place::Preset(name) => presets::load(name),
@@ -24,7 +24,8 @@ pub fn load(spec: &str) -> Result<Loaded, ProjectError> {
     }
 }
 
-/// What an output of `spec` is named after: the preset's, the folder's or the file's name without its extension.
+/// Returns what an output of `spec` is named after: the preset's, the folder's or the file's name without its
+/// extension.
 pub fn stem(spec: &str) -> String {
     let path = match locate(spec) {
         Ok(Place::Preset(name)) => return name.to_owned(),

@@ -1,7 +1,7 @@
-//! What the author wrote, as pure data, and its forms on disk.
+//! A project is what the author wrote, as pure data, with its forms on disk.
 //!
-//! Owns [`Project`], `eddy.toml`, folders of GLSL files, Shadertoy JSON in and out, the presets inside the binary. Knows
-//! nothing of wgpu or naga; reads files only where a caller names them.
+//! Owns [`Project`], `eddy.toml`, folders of GLSL files, Shadertoy JSON in and out, the presets inside the binary.
+//! Knows nothing of wgpu or naga; reads files only where a caller names them.
 
 mod atomic;
 pub mod confine;

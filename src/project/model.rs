@@ -3,7 +3,7 @@
 use super::{Group, Included, KnobValues, PassId, PassSettings, Source};
 use std::path::PathBuf;
 
-/// What the author wrote, whole: enough to compile, plan and draw, and to write it back unchanged.
+/// All that the author wrote: enough to compile, plan and draw, and to write it back unchanged.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Project {
     /// Shown in the title bar and the gallery; never empty.
@@ -11,21 +11,22 @@ pub struct Project {
     pub info: Info,
     /// Text put before every pass's own.
     pub common: Option<Source>,
-    /// Buffers in the order they are drawn each frame, then the cubemap pass, then Image. (Sound passes lie here too and are
-    /// not drawn.) Exactly one Image.
+    /// Buffers in the order they are drawn each frame, then the cubemap pass, then Image. (Sound passes lie here too
+    /// and are not drawn.) Exactly one Image.
     pub passes: Vec<Pass>,
     pub sampler_rules: SamplerRules,
     /// Passes drawn several times a frame; those in none are drawn once.
     pub groups: Vec<Group>,
-    /// Values of the author's own uniforms by name: of [`Project::knobs`] those that differ from the default, and those of
-    /// uniforms that a text declares in GLSL's own way.
+    /// Values of the author's own uniforms by name: of [`Project::knobs`] those that differ from the default, and those
+    /// of uniforms that a text declares in GLSL's own way.
     pub knob_values: KnobValues,
     /// Files that the texts have in them, as [`Project::read_includes`] last found them.
     pub includes: Vec<Included>,
     pub origin: Origin,
 }
 
-/// What the site's JSON says of a shader besides its passes. Kept so that an export gives back what an import took.
+/// The part of the site's JSON that says more of a shader than its passes. It is kept so that an export gives back what
+/// an import took.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Info {
     pub id: String,
@@ -36,7 +37,7 @@ pub struct Info {
     pub extra: serde_json::Map<String, serde_json::Value>,
 }
 
-/// Where a project was read from, and so where saving goes.
+/// The place that a project was read from, and that saving writes to.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Origin {
     /// Nowhere yet: new, or a copy of something that is not written in place.
@@ -62,7 +63,7 @@ pub struct Pass {
     pub settings: PassSettings,
 }
 
-/// What one `iChannelN` reads and how.
+/// The input of one `iChannelN`, and how it is sampled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
     pub input: Input,
@@ -93,17 +94,19 @@ pub enum Input {
     Webcam,
 }
 
-/// Where a picture, volume or sound comes from.
+/// The source of a picture, volume or sound.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Media {
     /// One of Eddy's own, by name (`noise-rgba-256`): see `media::builtin`.
     Builtin(String),
     /// A file of the project, relative to its folder: see [`super::confine`].
     File(PathBuf),
-    /// A file that the person at the machine picked, wherever it lies, by its whole path. Lives in memory alone: saving copies
-    /// the file into the project's folder and makes a [`Media::File`] of it, and nothing that is read from a project is one.
+    /// A file that the person at the machine picked, wherever it lies, by its whole path. Lives in memory alone: saving
+    /// copies the file into the project's folder and makes a [`Media::File`] of it, and nothing that is read from a
+    /// project is one.
     Picked(PathBuf),
-    /// One of the site's stock files. Stands for a built-in of the same size and kind, or a file of that name in `--media`.
+    /// One of the site's stock files. Stands for a built-in of the same size and kind, or a file of that name in
+    /// `--media`.
     Site { id: String, path: String },
 }
 
@@ -117,9 +120,9 @@ pub struct Sampler {
 }
 
 impl Sampler {
-    /// What a new channel reading a buffer starts with on the site.
+    /// The sampler of a new channel that reads a buffer on the site.
     pub const BUFFER: Sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true };
-    /// What a new channel reading a picture starts with on the site.
+    /// The sampler of a new channel that reads a picture on the site.
     pub const TEXTURE: Sampler = Sampler { filter: Filter::Mipmap, wrap: Wrap::Repeat, vflip: true };
     /// The keyboard is always read so, whatever is stored.
     pub const KEYBOARD: Sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: true };
@@ -147,13 +150,13 @@ pub enum SamplerRules {
     /// Every channel has its own (`eddy.toml`, and GLSL files without one).
     #[default]
     PerChannel,
-    /// As on the site, for projects read from its JSON: the filter belongs to the buffer while a pass draws (the pass's last
-    /// channel wins), the wrap to the buffer for good (the last channel of the whole project wins).
+    /// As on the site, for projects read from its JSON: the filter belongs to the buffer while a pass draws (the pass's
+    /// last channel wins), the wrap to the buffer for good (the last channel of the whole project wins).
     Site,
 }
 
 impl Input {
-    /// What is read from outside the passes.
+    /// Returns what is read from outside the passes.
     pub fn media(&self) -> Option<&Media> {
         match self {
             Input::Texture(m) | Input::Cubemap(m) | Input::Volume(m) | Input::Video(m) | Input::Music(m) => Some(m),
@@ -200,8 +203,8 @@ impl Origin {
 }
 
 impl Origin {
-    /// Returns whether `#iChannel` lines of the texts say what channels read. An `eddy.toml`, the site's JSON, a preset and the
-    /// window say it otherwise.
+    /// Returns whether `#iChannel` lines of the texts say what channels read. An `eddy.toml`, the site's JSON, a preset
+    /// and the window say it otherwise.
     pub fn has_channels_in_texts(&self) -> bool {
         matches!(self, Origin::File(_) | Origin::Folder { has_manifest: false, .. })
     }
@@ -244,8 +247,8 @@ impl Tab {
     }
 }
 
-/// Sources of a project by [`crate::diag::SourceId`]: 0 is Common (an empty text where there is none), then the passes in order,
-/// then the stages of geometry passes in order, then the files they include, then the texts of fills.
+/// Sources of a project by [`crate::diag::SourceId`]: 0 is Common (an empty text where there is none), then the passes
+/// in order, then the stages of geometry passes in order, then the files they include, then the texts of fills.
 impl Project {
     /// Every stage that lies in a file of its own, with the index of its pass.
     pub fn stages(&self) -> impl Iterator<Item = (usize, &Source)> {
@@ -270,7 +273,7 @@ impl Project {
         all
     }
 
-    /// Where a stage of `passes[pass]` lies among [`Project::sources`].
+    /// Returns where a stage of `passes[pass]` lies among [`Project::sources`].
     pub fn stage_id(&self, pass: usize, stage: super::Stage) -> crate::diag::SourceId {
         crate::diag::SourceId(match stage {
             super::Stage::Own => pass as u16 + 1,
@@ -281,7 +284,8 @@ impl Project {
         })
     }
 
-    /// Every text of the project, and behind them, once for each fill (see [`Project::fills`]), the text it is written in.
+    /// Every text of the project, and behind them, once for each fill (see [`Project::fills`]), the text it is written
+    /// in.
     pub fn sources(&self) -> crate::diag::SourceMap {
         let mut map = self.texts();
         for (pass, kind, _) in self.fills() {

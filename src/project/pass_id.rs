@@ -1,4 +1,4 @@
-//! What a pass is called.
+//! The names of passes.
 
 use super::limits;
 
@@ -32,11 +32,11 @@ impl PassId {
         }
     }
 
-    /// What names buffers have, as a message says it.
+    /// The rule for buffers' names, as a message says it.
     pub const NAMES: &str = "a buffer's name has letters, digits, _, - and blanks, at most 64 of them";
 
-    /// Reads either spelling, without regard to case, spaces or underscores; a bare letter is a buffer. Names become parts of
-    /// files' names, so `None` for one with anything but letters, digits, blanks, `_` and `-`, or longer than
+    /// Reads either spelling, without regard to case, spaces or underscores; a bare letter is a buffer. Names become
+    /// parts of files' names, so `None` for one with anything but letters, digits, blanks, `_` and `-`, or longer than
     /// [`limits::NAME`].
     pub fn parse(text: &str) -> Option<PassId> {
         if text.chars().nth(limits::NAME + "buffer_".len()).is_some() {
@@ -59,7 +59,7 @@ impl PassId {
         })
     }
 
-    /// Whether a buffer may be called so: letters and digits, not too many.
+    /// Returns whether a buffer may be called so: letters and digits, not too many.
     pub fn is_name(name: &str) -> bool {
         !name.is_empty() && name.chars().count() <= limits::NAME && name.chars().all(char::is_alphanumeric)
     }

@@ -19,9 +19,9 @@ use std::{
 };
 
 /// Writes the project to `target`: one file for a path that ends in `.json` or `.glsl` (which holds a lone Image pass),
-/// else a folder, made if need be. Returns the project as it is now read from there. Files the project came from are its
-/// own and written without asking; a picture in the old folder is copied along into a new one. No file is ever seen half
-/// written, and on failure every old one is still there; files whose content stays the same are not touched.
+/// else a folder, made if need be. Returns the project as it is now read from there. Files the project came from are
+/// its own and written without asking; a picture in the old folder is copied along into a new one. No file is ever seen
+/// half written, and on failure every old one is still there; files whose content stays the same are not touched.
 pub fn save(project: &Project, target: &Path, overwrite: Overwrite) -> Result<Project, ProjectError> {
     let extension = target.extension().unwrap_or_default();
     if target.is_dir() {
@@ -161,8 +161,8 @@ fn with_ending(name: String) -> String {
     if writes::is_text(&name) { name } else { format!("{name}.glsl") }
 }
 
-/// Gives a text its file: the one it has in this folder, else the one of its name. Two passes may share a file as long as
-/// they say the same.
+/// Gives a text its file: the one it has in this folder, else the one of its name. Two passes may share a file as long
+/// as they say the same.
 fn place(
     source: &mut Source,
     usual: String,
@@ -186,8 +186,8 @@ fn place(
     Ok(())
 }
 
-/// Copies the pictures and models of the old folder to the same places in the new one. What is not there, or may not be read or
-/// written, is left out: it reads black here and there.
+/// Copies the pictures and models of the old folder to the same places in the new one. What is not there, or may not be
+/// read or written, is left out: it reads black here and there.
 fn copy_media(project: &Project, writes: &mut Writes) -> Result<(), ProjectError> {
     let Some(base) = project.origin.base_dir() else { return Ok(()) };
     let mut names: BTreeSet<String> = BTreeSet::new();
@@ -229,7 +229,7 @@ fn folder_after(target: &Path, writes: &Writes) -> BTreeMap<String, Vec<u8>> {
     files
 }
 
-/// Whether the GLSL files alone, without `eddy.toml`, give this project.
+/// Returns whether the GLSL files alone, without `eddy.toml`, give this project.
 fn says_the_same(project: &Project, folder_name: &str, files: &BTreeMap<String, Vec<u8>>) -> bool {
     let texts = files
         .iter()
@@ -276,7 +276,7 @@ fn manifest_text(
     })
 }
 
-/// Whether two paths name one place, also where one is written in another way.
+/// Returns whether two paths name one place, also where one is written in another way.
 fn is_same(a: &Path, b: &Path) -> bool {
     a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }

@@ -1,4 +1,5 @@
-//! What `eddy.toml` may say of how a pass is drawn: its size, what a texel holds, which of them are drawn, how often a frame.
+//! Settings in `eddy.toml` say how a pass is drawn: its size, the format of its texels, which of them are drawn, how
+//! often a frame.
 
 use super::{Boundary, Fill, Geometry, PassFormat, PassId};
 
@@ -9,7 +10,7 @@ pub struct PassSettings {
     pub format: PassFormat,
     /// Only these texels are drawn, as far as the pass has them; the others keep what they held. `None`: all.
     pub region: Option<Region>,
-    /// What the pass's texture of the frame before holds in frame 0. `None`: zeros.
+    /// The content of the pass's texture of the frame before in frame 0. `None`: zeros.
     pub initial: Option<Fill>,
     /// Texels at the edge that are overwritten after each draw.
     pub boundary: Option<Boundary>,
@@ -67,11 +68,11 @@ impl Region {
     }
 }
 
-/// Passes that follow each other and are drawn several times a frame: all once, in order, then all again. Every time they see
-/// the same uniforms, and of each other what was drawn last.
+/// Passes that follow each other and are drawn several times a frame: all once, in order, then all again. Every time
+/// they see the same uniforms, and of each other what was drawn last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group {
-    /// What the file calls it.
+    /// The name in the file.
     pub name: String,
     /// In the order they are drawn; each of them buffers of the project, without another pass between them.
     pub passes: Vec<PassId>,

@@ -1,4 +1,4 @@
-//! Which tab is analysed, when, and what a front end asks of the answer.
+//! A session has the tab in front analysed after each change, and answers a front end from the newest analysis.
 
 use super::{
     Session,
@@ -12,13 +12,13 @@ use crate::{
 use std::{ops::Range, sync::Arc};
 
 impl Session {
-    /// Of the tab in front, the newest there is; may be of an older text.
+    /// Returns the newest analysis of the tab in front, which may be of an older text.
     pub fn analysis(&self) -> Option<&Arc<TabAnalysis>> {
         self.analyst.newest.as_ref()
     }
 
-    /// Every place in the project where what a place of `of` stands for is named. What is declared in Common is looked for in
-    /// every pass, which takes about a millisecond for a thousand lines.
+    /// Every place in the project where what a place of `of` stands for is named. What is declared in Common is looked
+    /// for in every pass, which takes about a millisecond for a thousand lines.
     pub fn uses(&self, of: &TabAnalysis, source: SourceId, offset: usize) -> Vec<(Tab, Range<usize>)> {
         let here = of.analysis.uses(source, offset);
         let mut found: Vec<(Tab, Range<usize>)> =

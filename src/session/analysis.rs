@@ -1,5 +1,5 @@
-//! The texts as an editor understands them: the tab in front with its Common, analysed anew after each change, on a thread
-//! of its own so that no keystroke waits for it.
+//! The texts as an editor understands them: the tab in front with its Common, analysed anew after each change, on a
+//! thread of its own so that no keystroke waits for it.
 
 use super::worker::Worker;
 use crate::{
@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 pub(super) const COMMON: SourceId = SourceId(0);
 
-/// What an editor can ask of a tab; see [`Analysis`].
+/// The answers that an editor can have about a tab; see [`Analysis`].
 #[derive(Debug)]
 pub struct TabAnalysis {
     pub analysis: Analysis,
@@ -27,7 +27,7 @@ pub struct TabAnalysis {
 pub(super) struct Texts {
     project: Project,
     index: usize,
-    /// Of the pass's texts, the one that is read.
+    /// The text of the pass that is read.
     stage: Stage,
 }
 
@@ -44,7 +44,8 @@ impl Texts {
         self.project.stage_id(self.index, self.stage)
     }
 
-    /// Whether nothing has changed. Texts are shared until they are edited, so looking at where they are is enough.
+    /// Returns whether nothing has changed. Texts are shared until they are edited, so looking at where they are is
+    /// enough.
     pub fn is_same(&self, other: &Self) -> bool {
         let all = |p: &Project| -> Vec<Arc<str>> {
             let texts = p.tab_sources();

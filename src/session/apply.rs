@@ -1,4 +1,5 @@
-//! Commands of the front ends that concern the open project, its picture and its input. Those about files are in `files`.
+//! Commands of the front ends that concern the open project, its picture and its input. Those about files are in
+//! `files`.
 
 use super::{
     Session, capture,
@@ -154,7 +155,7 @@ impl Session {
         self.run.is_frame_due |= self.engine.set_knobs(&self.documents.current().knob_values);
     }
 
-    /// What the tab's pass reads by its text alone.
+    /// Returns what the tab's pass reads by its text alone.
     fn declared_channels(&self, tab: &Tab) -> Option<[Option<Channel>; 4]> {
         let Tab::Pass(id) = tab else { return None };
         let mut project = self.project().clone();
@@ -201,7 +202,8 @@ impl Session {
         if focused {
             self.run.clock.rebase();
             self.run.fps.restart();
-            // A watch can miss things (a network drive, a folder that was replaced); coming back is a good time to look.
+            // A watch can miss things (a network drive, a folder that was replaced); coming back is a good time to
+            // look.
             self.disk.is_check_wanted = true;
         } else if self.run.keyboard.bytes()[..2 * Keyboard::WIDTH].iter().any(|b| *b != 0) {
             // The key-up of a key held now will go to another window.
@@ -265,7 +267,7 @@ impl Session {
     }
 }
 
-/// Whether only the shader sees it: no panel shows where the mouse is or which keys are down.
+/// Returns whether only the shader sees it: no panel shows where the mouse is or which keys are down.
 fn is_input(command: &Command) -> bool {
     matches!(
         command,

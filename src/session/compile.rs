@@ -1,4 +1,4 @@
-//! What the compile worker does with a project: read its media, build its program.
+//! The compile worker reads a project's media and builds its program.
 
 use super::{
     stamps::{Stamp, Stamps},
@@ -26,13 +26,13 @@ pub(super) struct Job {
     pub is_look: bool,
 }
 
-/// What came of it.
+/// The result of a job.
 pub(super) struct Done {
     /// Pictures, models and the files these name, those among them that are not there.
     pub files: Vec<PathBuf>,
-    /// Of a look: pictures and models are other than those of the last compile.
+    /// True for a look that found other pictures or models than those of the last compile.
     pub is_changed: bool,
-    /// What the texts include, where the job had to read it, and [`Job::include_edit`].
+    /// The files that the texts include, where the job had to read them, with [`Job::include_edit`].
     pub includes: Option<(u64, Vec<Included>)>,
     /// `None` for a look.
     pub compiled: Option<Compiled>,
@@ -82,12 +82,12 @@ pub(super) fn work(gpu: Gpu, media_dir: Option<PathBuf>) -> impl FnMut(Job) -> D
     }
 }
 
-/// What decides which pictures and models are read, and how these are on disk. Always taken before they are read: then a
+/// The names of pictures and models, and how these are on disk. They are always taken before they are read: then a
 /// change in between shows as one more reading, and never as none.
 #[derive(PartialEq)]
 struct Named {
     opened: u64,
-    /// Where the names start from.
+    /// The folder that the names start from.
     base: PathBuf,
     channels: Vec<(PassId, [Option<Channel>; 4], Vec<MeshSource>)>,
     stamps: Vec<Stamp>,

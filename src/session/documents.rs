@@ -1,7 +1,7 @@
 //! The open project in two states: as it is edited, and as it is on disk.
 //!
-//! Owns what is unsaved, and the three-way merge of a change on disk: what was not edited follows the disk, what was edited
-//! and changed on disk too is a conflict for the user to settle. Reads and writes no file.
+//! Owns what is unsaved, and the three-way merge of a change on disk: what was not edited follows the disk, what was
+//! edited and changed on disk too is a conflict for the user to settle. Reads and writes no file.
 
 use super::{command::DiffLine, structure};
 use crate::project::{Origin, Pass, PassId, Project, Tab};
@@ -11,7 +11,7 @@ use std::{collections::BTreeSet, path::PathBuf, sync::Arc};
 #[derive(Clone, Debug)]
 pub(super) struct Documents {
     current: Project,
-    /// What is on disk as far as is known; for a project that is nowhere, what it began as.
+    /// The project on disk as far as is known; for one that is nowhere, its beginning.
     saved: Project,
     /// Tabs whose files are gone from disk: unsaved, whatever their text.
     missing: BTreeSet<Tab>,
@@ -26,7 +26,7 @@ pub(super) struct Conflict {
     pub disk: Arc<str>,
 }
 
-/// What a change on disk came to.
+/// The result of merging a change on disk.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Merge {
     /// Tabs that now show the disk's text.
@@ -157,8 +157,8 @@ impl Documents {
         }
     }
 
-    /// Puts tabs that the disk has no more back into `disk`, unless `eddy.toml` was rewritten without them and nothing in
-    /// them is unsaved.
+    /// Puts tabs that the disk has no more back into `disk`, unless `eddy.toml` was rewritten without them and nothing
+    /// in them is unsaved.
     fn keep_gone(&mut self, disk: &mut Project, merge: &mut Merge) {
         let is_listed = matches!(disk.origin, Origin::Folder { has_manifest: true, .. });
         for tab in self.saved.tabs() {
@@ -171,7 +171,8 @@ impl Documents {
                 }
             }
         }
-        // Without `eddy.toml` the channels are what the files that are there suggest; a missing one takes its readers along.
+        // Without `eddy.toml` the channels are what the files that are there suggest; a missing one takes its readers
+        // along.
         if !is_listed && !self.missing.is_empty() {
             for pass in &mut disk.passes {
                 if let Some(saved) = self.saved.pass(&pass.id) {
@@ -217,8 +218,8 @@ fn reinsert(to: &mut Project, from: &Project, tab: &Tab) {
     }
 }
 
-/// Puts a pass where the drawing order wants it: buffers by name, then the cubemap pass, Image, Sound. Passes that are there
-/// keep their order, which an author may have chosen.
+/// Puts a pass where the drawing order wants it: buffers by name, then the cubemap pass, Image, Sound. Passes that are
+/// there keep their order, which an author may have chosen.
 pub(super) fn insert_pass(project: &mut Project, pass: Pass) {
     let rank = |id: &PassId| match id {
         PassId::Buffer(_) => 0,

@@ -154,7 +154,7 @@ impl Session {
         }
     }
 
-    /// Whether the project's own files hold nothing that the user has not seen.
+    /// Returns whether the project's own files hold nothing that the user has not seen.
     fn may_overwrite(&mut self) -> bool {
         let is_asked = self.dialog.questions.iter().any(|q| matches!(q, Question::Conflict { .. }));
         let may = !is_asked && self.disk_is_as_read();
@@ -239,8 +239,8 @@ impl Session {
         }
     }
 
-    /// Settles a conflict, with the other text in a file of its own first. Fails with what to say, or silently for an answer
-    /// that does not fit; then the question stands on.
+    /// Settles a conflict, with the other text in a file of its own first. Fails with what to say, or silently for an
+    /// answer that does not fit; then the question stands on.
     fn settle(
         &mut self,
         tab: Option<&Tab>,

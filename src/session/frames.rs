@@ -16,8 +16,8 @@ use crate::{
 use std::time::Instant;
 
 impl Session {
-    /// Takes finished compiles and changes on disk, and draws a frame if one is due: while playing one a call, while paused
-    /// only when something the picture depends on has changed. Call it once for each frame shown.
+    /// Takes finished compiles and changes on disk, and draws a frame if one is due: while playing one a call, while
+    /// paused only when something the picture depends on has changed. Call it once for each frame shown.
     pub fn tick(&mut self, now: Instant) -> Tick {
         self.now = now;
         self.check_disk();

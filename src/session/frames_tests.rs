@@ -1,4 +1,4 @@
-//! What a session does when what works for it gives up.
+//! Tests of a session whose workers give up.
 
 use super::super::{
     Command, SessionOptions,

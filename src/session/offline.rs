@@ -1,7 +1,7 @@
 //! A project drawn without a window, at a fixed step: what `eddy render`, `eddy bench` and the tests use.
 //!
-//! Same project, pictures, inputs and size: same bytes. A run of N frames and one of N/2 with N/2 more after it draw the
-//! same.
+//! Same project, pictures, inputs and size: same bytes. A run of N frames and one of N/2 with N/2 more after it draw
+//! the same.
 
 use super::script::ScriptedInputs;
 use crate::{
@@ -40,8 +40,8 @@ impl Offline {
         Ok(Offline { engine, inputs, build_millis: None, has_stamps: None })
     }
 
-    /// Compiles a project and takes it for the frames to come. Gives warnings and notes with the texts that they point into.
-    /// Fails with the author's diagnostics, or for a pass the project does not have.
+    /// Compiles a project and takes it for the frames to come. Gives warnings and notes with the texts that they point
+    /// into. Fails with the author's diagnostics, or for a pass the project does not have.
     pub fn build(
         &mut self,
         project: &Project,
@@ -71,8 +71,8 @@ impl Offline {
         Ok(DrawnFrame { number: inputs.frame, stats, cpu_millis, millis: millis_since(began) })
     }
 
-    /// Draws the next frame and gives the time of each pass: by the device's timestamps, or, where it has none, each pass
-    /// handed in and waited for by itself.
+    /// Draws the next frame and gives the time of each pass: by the device's timestamps, or, where it has none, each
+    /// pass handed in and waited for by itself.
     pub fn draw_timed(&mut self) -> Result<Vec<PassTime>, EngineError> {
         if self.has_stamps.is_none() {
             self.has_stamps = Some(self.engine.set_timing(true));

@@ -1,4 +1,4 @@
-//! What happens when the project's files change under it.
+//! A session follows the project's files when they change under it.
 
 use super::{
     Session, capture,
@@ -10,7 +10,7 @@ use super::{
 use crate::project::{self, Origin, Project, Tab, confine, limits};
 use std::{collections::BTreeSet, fs, path::PathBuf};
 
-/// What is on disk, if it can be used.
+/// The project on disk, if it can be used.
 enum OnDisk {
     Project(Box<Project>),
     /// It makes no whole project, perhaps because somebody is writing it just now.
@@ -159,8 +159,8 @@ impl Session {
         );
     }
 
-    /// Whether every file is still as it was read, so that saving overwrites nothing of somebody else's. What has changed is
-    /// merged first, and conflicts are asked.
+    /// Returns whether every file is still as it was read, so that saving overwrites nothing of somebody else's. What
+    /// has changed is merged first, and conflicts are asked.
     pub(super) fn disk_is_as_read(&mut self) -> bool {
         let (saved, current) = (self.documents.saved(), self.documents.current());
         let is_text_known = saved.tabs().iter().all(|tab| {
@@ -188,7 +188,8 @@ impl Session {
             Some(OnDisk::Unusable(why)) => {
                 self.notice(
                     Level::Error,
-                    format!("not saved: the files have changed on disk and cannot be read whole. {why}\nMend them, or save to another folder"),
+                    format!("not saved: the files have changed on disk and cannot be read whole. {why}\nMend them, \
+                    or save to another folder"),
                 );
                 false
             }
@@ -196,7 +197,7 @@ impl Session {
         }
     }
 
-    /// What lies on disk is what `documents` says: remember it, and watch it.
+    /// Remembers that what lies on disk is what `documents` says, and watches it.
     pub(super) fn disk_is_known(&mut self) {
         self.watch_what_is_read();
         self.disk.manifest = read_manifest(self.documents.saved());

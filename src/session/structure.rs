@@ -1,5 +1,5 @@
-//! What of a project is not text: passes, channels, settings, names. Compared without copying anything, as the window asks in
-//! each frame.
+//! The structure of a project is all that is not text: passes, channels, settings, names. It is compared without a
+//! copy, as the window asks in each frame.
 
 use crate::project::{Geometry, Pass, PassSettings, Project};
 

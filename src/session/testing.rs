@@ -3,8 +3,8 @@
 use crate::gpu::{Gpu, GpuOptions};
 use std::{fs::OpenOptions, io::Write};
 
-/// Returns a device, or `None` after saying so: on standard error, past the harness, and in the file that `EDDY_SKIPS` names,
-/// whose lines `scripts/test` counts. Where `EDDY_REQUIRE_GPU` is set a missing device is a failure.
+/// Returns a device, or `None` after saying so: on standard error, past the harness, and in the file that `EDDY_SKIPS`
+/// names, whose lines `scripts/test` counts. Where `EDDY_REQUIRE_GPU` is set a missing device is a failure.
 pub fn gpu() -> Option<Gpu> {
     let error = match Gpu::new(&GpuOptions::default()) {
         Ok(gpu) => return Some(gpu),

@@ -1,4 +1,4 @@
-//! What a front end shows of a session: plain values, made for reading.
+//! A front end shows these plain values of a session.
 
 use crate::{
     diag::{Diagnostic, Severity, SourceMap, Span},
@@ -6,13 +6,13 @@ use crate::{
 };
 use std::{ops::Range, time::Instant};
 
-/// What a [`tick`](super::Session::tick) did and wants.
+/// The effects of a [`tick`](super::Session::tick), and when the next one is due.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tick {
     /// A frame was drawn: the display texture holds a new picture.
     pub frame_drawn: bool,
-    /// When to tick again though nothing is heard of: at once while playing, at the end of a debounce; `None` when only an
-    /// event or the wake callback can change anything.
+    /// When to tick again though nothing is heard of: at once while playing, at the end of a debounce; `None` when only
+    /// an event or the wake callback can change anything.
     pub wake_at: Option<Instant>,
     /// Something a panel shows has changed (texts, diagnostics, notices, a question, transport).
     pub changed: bool,
@@ -112,7 +112,7 @@ impl TabDiagnostic {
     }
 }
 
-/// Where the newest text stands on its way to the picture.
+/// The state of the newest text on its way to the picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CompileState {
     /// A compile is wanted or under way; the picture still shows an older text.
@@ -129,7 +129,7 @@ pub enum Outcome {
     Failed { errors: usize, meanwhile: Meanwhile },
 }
 
-/// What is drawn while a text has errors.
+/// The picture that is drawn while a text has errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meanwhile {
     /// No text of this project has compiled yet.

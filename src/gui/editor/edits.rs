@@ -1,4 +1,4 @@
-//! What the editor's keys do to a text: typing, indenting, comments, whole lines.
+//! Edits are what the editor's keys do to a text: typing, indenting, comments, whole lines.
 
 use super::{buffer::Buffer, history::Kind, motion::Motion, selection::Selection};
 use std::ops::Range;
@@ -122,7 +122,7 @@ impl Buffer {
         );
     }
 
-    /// What Ctrl+C takes: the selection, or the caret's whole line.
+    /// Returns what Ctrl+C takes: the selection, or the caret's whole line.
     pub fn copied_range(&self) -> Range<usize> {
         let range = self.selection.range();
         if !range.is_empty() {

@@ -12,7 +12,7 @@ pub(super) struct Change {
     pub after: Selection,
 }
 
-/// What a change is, as far as joining it to the one before goes.
+/// The kind of a change, which decides whether it joins the one before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A character typed: joins a word being typed.

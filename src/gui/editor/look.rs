@@ -11,7 +11,7 @@ use std::ops::Range;
 pub struct Mark {
     /// From 0.
     pub line: usize,
-    /// What is underlined, in bytes of the text; may be empty.
+    /// The underlined bytes of the text; may be empty.
     pub range: Range<usize>,
     pub severity: Severity,
     pub message: String,
@@ -27,11 +27,11 @@ pub struct Look<'a> {
     pub matches: &'a [Range<usize>],
     /// A text whose macros count in this one.
     pub shared: &'a str,
-    /// What is known of the text, or of what it was a moment ago.
+    /// The analysis of the text, or of what it was a moment ago.
     pub help: Option<Help<'a>>,
 }
 
-/// What is known of the text that an editor shows.
+/// An analysis of the text that an editor shows.
 #[derive(Clone, Copy, Debug)]
 pub struct Help<'a> {
     pub analysis: &'a Analysis,

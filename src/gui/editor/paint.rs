@@ -1,4 +1,4 @@
-//! What the editor looks like: lines of code, the selection, marks, numbers.
+//! Paints the editor: lines of code, the selection, marks, numbers.
 
 use super::{
     buffer::Buffer,
@@ -21,7 +21,7 @@ pub(super) struct Caret<'a> {
     pub uses: &'a [Range<usize>],
 }
 
-/// What painting found out.
+/// The places that painting found.
 #[derive(Debug)]
 pub(super) struct Painted {
     pub caret: Rect,

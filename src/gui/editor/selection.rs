@@ -1,8 +1,8 @@
-//! What is selected of a text.
+//! The selection in a text.
 
 use std::ops::Range;
 
-/// Where the caret is (`head`) and where the selection began (`anchor`); equal when nothing is selected.
+/// The caret (`head`) and the place where the selection began (`anchor`). They are equal when nothing is selected.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Selection {
     pub anchor: usize,

@@ -13,15 +13,15 @@ use super::{
 use egui::{EventFilter, FontId, Id, Rect, ScrollArea, Sense, Ui, emath::GuiRounding as _, pos2, vec2};
 use std::ops::Range;
 
-/// What happened in a frame.
+/// The results of a frame.
 #[derive(Clone, Debug)]
 pub struct EditorOutput {
     pub changed: bool,
-    /// Where the text is, without the numbers beside it.
+    /// The area of the text without the numbers beside it.
     pub text_rect: Rect,
     /// Lines with a mark that are in sight, counted from 0, and where they are.
     pub marked: Vec<(usize, Rect)>,
-    /// What the author asked for that concerns other texts.
+    /// The author's requests that concern other texts.
     pub asks: Vec<Ask>,
     /// Popups and tips that are open, and where.
     pub placed: Vec<(String, Rect)>,
@@ -33,19 +33,19 @@ pub struct CodeEditor {
     pub buffer: Buffer,
     highlight: Highlight,
     assist: Assist,
-    /// What an input method is composing.
+    /// The text that an input method is composing.
     preedit: String,
     follow_caret: bool,
     take_focus: bool,
     /// When the caret last moved, in seconds: it blinks from there.
     moved_at: f64,
-    /// Where a drag began, whole words or lines at a time.
+    /// The place where a drag began, whole words or lines at a time.
     drag: Option<(Range<usize>, Granularity)>,
     page: usize,
     pub(super) work: Work,
 }
 
-/// What the newest frame looked at: bytes, not time, so that a test can hold it to a bound.
+/// The bytes that the newest frame looked at: bytes, not time, so that a test can hold it to a bound.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Work {
     /// To keep lines, pieces and comments in step with the text.

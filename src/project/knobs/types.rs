@@ -3,7 +3,7 @@
 use crate::diag::{SourceId, Span};
 use std::collections::BTreeMap;
 
-/// What a knob is. In GLSL a `color3` is a `vec3`.
+/// The type of a knob. In GLSL a `color3` is a `vec3`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum KnobType {
     Bool,
@@ -65,7 +65,8 @@ pub enum KnobValue {
     Float(f64),
     /// Two to four numbers.
     Vector(Vec<f64>),
-    /// What no knob takes but a `uniform` that a text declares: longer lists of numbers, truth values, lists of lists.
+    /// A value that no knob takes but a `uniform` that a text declares: longer lists of numbers, truth values, lists of
+    /// lists.
     List(Vec<KnobValue>),
 }
 
@@ -109,7 +110,8 @@ impl KnobValue {
     }
 }
 
-/// The least and the greatest value, both included, of each component; beyond the type's components the numbers mean nothing.
+/// The least and the greatest value, both included, of each component; beyond the type's components the numbers mean
+/// nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KnobRange {
     pub min: [f64; 4],
@@ -124,7 +126,7 @@ pub struct Knob {
     pub default: KnobValue,
     /// `None`: any number. A `color3` that says nothing has 0 to 1.
     pub range: Option<KnobRange>,
-    /// What a slider moves by, where the author says it.
+    /// The step of a slider, where the author gives one.
     pub step: Option<[f64; 4]>,
     /// The name, where it is first declared.
     pub span: Span,
@@ -147,7 +149,8 @@ impl Knob {
         })
     }
 
-    /// What the knob stands at: its value where one is set that has the right shape, within the range; else the default.
+    /// Returns what the knob stands at: its value where one is set that has the right shape, within the range; else the
+    /// default.
     pub fn value(&self, values: &KnobValues) -> KnobValue {
         let set = values.get(&self.name).and_then(|v| self.shaped(v).ok());
         set.map_or_else(|| self.default.clone(), |v| self.clamped(&v))

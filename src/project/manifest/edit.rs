@@ -3,7 +3,8 @@
 use crate::project::{PassId, file_names::pass_of_stem};
 use toml_edit::{Item, Table, TableLike, Value};
 
-/// Sets, replaces or removes a value. One that says the same stays as it is written; a comment beside it stays in any case.
+/// Sets, replaces or removes a value. One that says the same stays as it is written; a comment beside it stays in any
+/// case.
 pub(super) fn set(table: &mut dyn TableLike, key: &str, value: Option<Value>) {
     let Some(mut value) = value else {
         table.remove(key);

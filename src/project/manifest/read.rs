@@ -48,7 +48,8 @@ const INPUTS: [&str; 12] = [
 ];
 const SETTINGS: [&str; 6] = ["filter", "wrap", "vflip", "kind", "site_id", "target"];
 
-/// The project that `text`, an `eddy.toml`, makes of `files`. Errors of the author's come back as [`ProjectError::Invalid`].
+/// The project that `text`, an `eddy.toml`, makes of `files`. Errors of the author's come back as
+/// [`ProjectError::Invalid`].
 pub fn project(
     what: &str,
     folder_name: String,

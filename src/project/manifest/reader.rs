@@ -16,7 +16,7 @@ pub(super) struct Reader<'a> {
     pub sources: SourceMap,
     pub id: SourceId,
     pub diagnostics: Vec<Diagnostic>,
-    /// What the machine refused, if anything.
+    /// The file that the machine refused, if any.
     pub refused: Option<FileError>,
 }
 
@@ -122,7 +122,7 @@ impl Reader<'_> {
     }
 }
 
-/// What `read` makes of a part of a file, if it finds no mistake there.
+/// Returns what `read` makes of a part of a file, if it finds no mistake there.
 pub(super) fn silent<T>(read: impl FnOnce(&mut Reader<'_>) -> T) -> Option<T> {
     let none = BTreeMap::new();
     let mut reader = Reader {

@@ -104,7 +104,7 @@ impl Reader<'_> {
         groups
     }
 
-    /// What a frame draws is not endless.
+    /// Refuses a project whose frame draws more than the limit.
     fn check_draws(&mut self, passes: &[Pass], groups: &[Group], table: Option<&dyn TableLike>) {
         let draws = |pass: &Pass| {
             let steps = groups.iter().find(|g| g.passes.contains(&pass.id)).map_or(1, |g| u64::from(g.steps));

@@ -26,7 +26,8 @@ impl Reader<'_> {
         values
     }
 
-    /// Values that no knob takes. Only warnings: a text may be changed so at any time, and the project must go on opening.
+    /// Values that no knob takes. Only warnings: a text may be changed so at any time, and the project must go on
+    /// opening.
     pub(super) fn check_uniforms(&mut self, root: &dyn TableLike, project: &Project) {
         let Some(table) = root.get("uniforms").and_then(Item::as_table_like) else { return };
         let knobs = project.knobs();

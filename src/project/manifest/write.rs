@@ -10,9 +10,9 @@ use crate::project::{
 };
 use toml_edit::{DocumentMut, InlineTable, Item, Key, Table, TableLike, Value};
 
-/// The text of `eddy.toml` for a project whose sources are called by their file names. `old` is the text it had; where the
-/// project says the same, so does the new one, byte for byte. `folder_name` is the name of a project that gives none;
-/// `has_common_file`: a file lies in the folder that would be read as Common if nothing were said.
+/// The text of `eddy.toml` for a project whose sources are called by their file names. `old` is the text it had; where
+/// the project says the same, so does the new one, byte for byte. `folder_name` is the name of a project that gives
+/// none; `has_common_file`: a file lies in the folder that would be read as Common if nothing were said.
 pub fn write(project: &Project, old: Option<&str>, folder_name: &str, has_common_file: bool) -> String {
     let mut document: DocumentMut = old.and_then(|text| text.parse().ok()).unwrap_or_default();
     let is_new = document.is_empty();
