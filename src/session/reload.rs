@@ -188,8 +188,10 @@ impl Session {
             Some(OnDisk::Unusable(why)) => {
                 self.notice(
                     Level::Error,
-                    format!("not saved: the files have changed on disk and cannot be read whole. {why}\nMend them, \
-                    or save to another folder"),
+                    format!(
+                        "not saved: the files have changed on disk and cannot be read whole. {why}\nMend them, \
+                    or save to another folder"
+                    ),
                 );
                 false
             }
