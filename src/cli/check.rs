@@ -7,7 +7,7 @@ use super::{
     report::{Printer, Report},
 };
 use crate::{
-    diag::Diagnostic,
+    diag::{self, Diagnostic},
     engine,
     glsl::Driver,
     media::{self, MediaSet},
@@ -66,18 +66,13 @@ fn compile(project: &Project) -> Vec<Diagnostic> {
             .map_or_else(|errors| errors, |done| done.diagnostics);
         let fills = FillKind::ALL.into_iter().filter_map(|k| texts.compile_fill(index, k, false, Driver::default()));
         let fills = fills.flat_map(|f| f.map_or_else(|errors| errors, |done| done.diagnostics));
-        for d in said.into_iter().chain(fills) {
-            // What is wrong in Common is found again in every pass.
-            if !found.contains(&d) {
-                found.push(d);
-            }
-        }
+        diag::append(&mut found, said.into_iter().chain(fills));
     }
     found
 }
 
-/// Where channels with samplers of their own read a buffer differently from each other, which the site cannot: there a
-/// buffer has one wrap, and one filter while a pass draws (`shadertoy.md`, section 7).
+/// Returns where channels with samplers of their own read a buffer differently from each other, which the site cannot:
+/// there a buffer has one wrap, and one filter while a pass draws (`shadertoy.md`, section 7).
 fn shared_samplers(project: &Project) -> Vec<Diagnostic> {
     if project.sampler_rules == SamplerRules::Site {
         return Vec::new();
@@ -119,6 +114,7 @@ fn differ<T: PartialEq + std::fmt::Debug>(
                 name(wins)
             ),
         )
-        .hint(format!("give both the same {what}, or set sampler_rules = \"site\" in eddy.toml to see what the site shows")),
+        .hint(format!("give both the same {what}, or set sampler_rules = \"site\" in eddy.toml to see what the site \
+        shows")),
     )
 }

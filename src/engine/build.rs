@@ -12,7 +12,7 @@ use super::{
     uploads::Uploads,
 };
 use crate::{
-    diag::{Diagnostic, SourceMap},
+    diag::{self, Diagnostic, SourceMap},
     glsl::{Driver, opt::PassSet},
     gpu::Gpu,
     graph::{ChannelFacts, FramePlan, PassFacts},
@@ -173,12 +173,7 @@ impl Builder {
                 }
                 Err(errors) => said.extend(errors),
             }
-            for d in said {
-                // What is wrong in Common is found again in every pass.
-                if !diagnostics.contains(&d) {
-                    diagnostics.push(d);
-                }
-            }
+            diag::append(&mut diagnostics, said);
         }
         if diagnostics.iter().any(Diagnostic::is_error) {
             Err(diagnostics)

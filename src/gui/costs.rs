@@ -79,7 +79,8 @@ fn header(ui: &mut Ui, costs: &PassCosts, out: &mut Outbox) {
                 let (short, long) = match costs.clock {
                     CostClock::Timestamps => (
                         "device timestamps",
-                        "Milliseconds between the device's timestamps before and after each pass: the median of the newest 30 frames",
+                        "Milliseconds between the device's timestamps before and after each pass: the median of the \
+                        newest 30 frames",
                     ),
                     CostClock::Waited => (
                         "passes one by one",
@@ -224,7 +225,7 @@ fn count(texels: u64) -> String {
     }
 }
 
-/// What the table says, for scripts that drive the window.
+/// Returns what the table says, for scripts that drive the window.
 pub fn report(session: &Session) -> serde_json::Value {
     let costs = session.pass_costs();
     let passes: Vec<serde_json::Value> = costs

@@ -1,4 +1,4 @@
-//! Why a project could not be read or written.
+//! Errors of reading and writing a project.
 
 use super::{FileError, limits};
 use crate::diag::{Diagnostic, SourceMap, render_all};
@@ -58,7 +58,7 @@ impl ProjectError {
         move |source| ProjectError::Io { action, path, source }
     }
 
-    /// What the author has to mend, where it is theirs.
+    /// Returns what the author has to mend, where it is theirs.
     pub fn diagnostics(&self) -> Option<(&[Diagnostic], &SourceMap)> {
         match self {
             ProjectError::Invalid { diagnostics, sources, .. } => Some((diagnostics, sources)),
