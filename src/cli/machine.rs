@@ -9,11 +9,13 @@ use crate::{
     diag::{Diagnostic, SourceMap},
     engine::{BuildError, BuildOptions, EngineError},
     gpu::{Gpu, GpuError, GpuOptions},
+    lab::Shard,
     media,
     project::{self, PassId, Project, ProjectError},
     session::{offline::Offline, script::ScriptedInputs},
 };
 use std::{
+    env,
     panic::{AssertUnwindSafe, catch_unwind},
     time::Instant,
 };
@@ -119,6 +121,13 @@ impl Machine {
         }
         None
     }
+}
+
+/// What a run of the lab begins with: its part of the work, by `--shard`, and the device. Err: one line that says what is wrong.
+pub fn shard_and_device(shard: &str) -> Result<(Shard, Gpu), String> {
+    let shard = Shard::parse(shard, |name| env::var(name).ok()).map_err(|error| error.to_string())?;
+    let gpu = Machine::default().gpu().map_err(|error| super::told(&error))?;
+    Ok((shard, gpu))
 }
 
 /// Reads, compiles and sets up a project, its warnings going into the report, by which it is swept.
