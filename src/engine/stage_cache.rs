@@ -11,8 +11,8 @@ use std::{
     sync::Arc,
 };
 
-/// Stages by their texts and settings. Passes of equal texts and settings share a stage, and so do those of texts that compile
-/// to the same.
+/// Stages by their texts and settings. Passes of equal texts and settings share a stage, and so do those of texts that
+/// compile to the same.
 #[derive(Default)]
 pub(super) struct StageCache {
     stages: Cache<StageKey, Outcome>,
@@ -31,7 +31,8 @@ struct Outcome {
 }
 
 impl Outcome {
-    /// Returns true if both compiled to the same. Types of naga cannot be compared, but their texts for debugging say all.
+    /// Returns true if both compiled to the same. Types of naga cannot be compared, but their texts for debugging say
+    /// all.
     fn is_same(&self, other: &Outcome) -> bool {
         let content = |outcome: &Outcome| format!("{:?}", outcome.stage);
         self.outline().is_some_and(|outline| other.outline() == Some(outline))
@@ -55,8 +56,8 @@ impl Outcome {
     }
 }
 
-/// Everything that the compiler reads of a stage: equal keys compile to equal stages. Ids of texts are their places among the
-/// ids of this stage, which say the same for every pass that has the texts.
+/// Everything that the compiler reads of a stage: equal keys compile to equal stages. Ids of texts are their places
+/// among the ids of this stage, which say the same for every pass that has the texts.
 #[derive(PartialEq, Eq)]
 struct StageKey {
     kind: PassKind,
@@ -135,8 +136,8 @@ fn words(value: &GivenValue) -> Vec<u64> {
 }
 
 impl StageCache {
-    /// Compiles a stage unless an equal one is there. Returns it, or `None` where the diagnostics hold an error; they point
-    /// into the texts of `source`. `shared` returns a text of `source` as the cache keeps it.
+    /// Compiles a stage unless an equal one is there. Returns it, or `None` where the diagnostics hold an error; they
+    /// point into the texts of `source`. `shared` returns a text of `source` as the cache keeps it.
     pub fn compile(
         &mut self,
         source: &PassSource<'_>,
