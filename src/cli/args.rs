@@ -2,6 +2,7 @@
 
 use super::sweep::Sweep;
 use crate::{
+    glsl::opt::PassSet,
     lab::stability::BoundArgument,
     project::PassId,
     session::{
@@ -124,6 +125,22 @@ pub struct RunArgs {
     /// Draw every pass in every frame, needed or not; the pictures stay the same
     #[arg(long)]
     pub no_skip: bool,
+    #[command(flatten)]
+    pub without_pass: WithoutPass,
+}
+
+/// Passes of the shader compiler's optimiser that are left out: for who works on it.
+#[derive(Debug, Default, Args)]
+pub struct WithoutPass {
+    /// Leave out a pass of the optimiser; may be repeated
+    #[arg(long = "without-pass", value_name = "NAME", value_parser = PassSet::of, hide = true)]
+    passes: Vec<PassSet>,
+}
+
+impl WithoutPass {
+    pub fn set(&self) -> PassSet {
+        self.passes.iter().fold(PassSet::default(), |all, &set| all.with(set))
+    }
 }
 
 impl RunArgs {
@@ -143,6 +160,20 @@ pub struct CheckArgs {
     /// One JSON object a line instead of words
     #[arg(long)]
     pub json: bool,
+    /// Print the compiler's intermediate representation of each pass, as it is lowered and after each pass of the optimiser, or
+    /// before and after that one (docs/compiler.md)
+    #[arg(long, value_name = "PASS", num_args = 0..=1, default_missing_value = "", require_equals = true, conflicts_with = "json", value_parser = dumped_pass)]
+    pub dump_ir: Option<String>,
+    #[command(flatten)]
+    pub without_pass: WithoutPass,
+}
+
+/// The name of a pass, or nothing.
+fn dumped_pass(name: &str) -> Result<String, String> {
+    if !name.is_empty() {
+        PassSet::of(name)?;
+    }
+    Ok(name.to_owned())
 }
 
 #[derive(Debug, Args)]

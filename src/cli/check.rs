@@ -13,7 +13,11 @@ use crate::{
     media::{self, MediaSet},
     project::{self, FillKind, Filter, Input, Project, SamplerRules, Wrap},
 };
-use std::{collections::BTreeMap, io, time::Instant};
+use std::{
+    collections::BTreeMap,
+    io::{self, Write},
+    time::Instant,
+};
 
 pub fn run(args: &CheckArgs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
@@ -21,7 +25,9 @@ pub fn run(args: &CheckArgs) -> io::Result<u8> {
     let mut machine = Machine::default();
     for spec in &args.project {
         let mut report = Report::new(spec);
-        machine.attempt(&mut report, |_, report| check(report, spec));
+        let mut dumped = String::new();
+        machine.attempt(&mut report, |_, report| check(report, spec, args, &mut dumped));
+        io::stdout().write_all(dumped.as_bytes())?;
         let errors = report.errors();
         let warnings = report.diagnostics.iter().filter(|m| m.severity == "warning").count();
         let counted = |n: usize, what: &str| format!("{n} {what}{}", if n == 1 { "" } else { "s" });
@@ -36,13 +42,17 @@ pub fn run(args: &CheckArgs) -> io::Result<u8> {
     Ok(printer.exit_code())
 }
 
-fn check(report: &mut Report, spec: &str) -> Result<(), Trouble> {
+fn check(report: &mut Report, spec: &str, args: &CheckArgs, dumped: &mut String) -> Result<(), Trouble> {
     let loaded = project::load(spec)?;
     let project = &loaded.project;
     report.diagnose(&loaded.warnings, &loaded.sources, Some(project));
     let began = Instant::now();
-    let mut found = compile(project);
+    let driver = Driver { without: args.without_pass.set(), ..Driver::default() };
+    let mut found = compile(project, driver);
     report.compile_ms = Some(millis_since(began));
+    if let Some(pass) = &args.dump_ir {
+        *dumped = dump_ir(project, driver, Some(pass.as_str()).filter(|pass| !pass.is_empty()));
+    }
     let mut files = MediaSet::new();
     found.extend(media::files(project, &mut files));
     media::fills(project, &mut files);
@@ -54,17 +64,27 @@ fn check(report: &mut Report, spec: &str) -> Result<(), Trouble> {
     Ok(())
 }
 
+/// The intermediate representation of every pass that compiles.
+fn dump_ir(project: &Project, driver: Driver, pass: Option<&str>) -> String {
+    let texts = engine::Sources::new(project);
+    let mut out = String::new();
+    for (index, own) in project.passes.iter().enumerate() {
+        if let Ok(text) = texts.dump_ir(index, driver, pass) {
+            out.push_str(&format!("; {}\n{text}", own.id.title()));
+        }
+    }
+    out
+}
+
 /// Everything the compiler says of Common alone and of every pass, each once.
-fn compile(project: &Project) -> Vec<Diagnostic> {
+fn compile(project: &Project, driver: Driver) -> Vec<Diagnostic> {
     let mut found: Vec<Diagnostic> = Vec::new();
     let texts = engine::Sources::new(project);
     found.extend(texts.diagnostics.iter().cloned());
     found.extend(texts.check_common());
     for index in 0..project.passes.len() {
-        let said = texts
-            .compile_pass(index, [false; 4], Driver::default())
-            .map_or_else(|errors| errors, |done| done.diagnostics);
-        let fills = FillKind::ALL.into_iter().filter_map(|k| texts.compile_fill(index, k, false, Driver::default()));
+        let said = texts.compile_pass(index, [false; 4], driver).map_or_else(|errors| errors, |done| done.diagnostics);
+        let fills = FillKind::ALL.into_iter().filter_map(|k| texts.compile_fill(index, k, false, driver));
         let fills = fills.flat_map(|f| f.map_or_else(|errors| errors, |done| done.diagnostics));
         diag::append(&mut found, said.into_iter().chain(fills));
     }

@@ -162,7 +162,7 @@ pub fn open(
     report.diagnose(&missing, &loaded.sources, Some(&project));
     let gpu = machine.gpu()?;
     let mut offline = Offline::new(&gpu, run.size, inputs)?;
-    let options = BuildOptions { wanted: vec![wanted.clone()], skip: !run.no_skip, ..BuildOptions::default() };
+    let options = BuildOptions { wanted: vec![wanted.clone()], skip: !run.no_skip, without: run.without_pass.set() };
     let built = offline.build(&project, &media, &options);
     report.compile_ms = offline.build_millis();
     let (diagnostics, sources) = match built {

@@ -3,7 +3,7 @@
 use super::knobs;
 use crate::{
     diag::{Diagnostic, SourceId},
-    glsl::{self, ChannelKind, Driver, Include, PassKind, PassSource, Text, UniformValue, services::Analysis},
+    glsl::{self, ChannelKind, Driver, Include, Link, PassKind, PassSource, Text, UniformValue, services::Analysis},
     project::{
         Channel, FillKind, FillText, Geometry, IncludeLines, Input, Knobs, Pass, PassBody, PassId, Project, Source,
         Stage,
@@ -100,6 +100,23 @@ impl<'p> Sources<'p> {
 
     pub(super) fn stage_id(&self, index: usize, stage: Stage) -> SourceId {
         self.project.stage_id(index, stage)
+    }
+
+    /// Returns the text of the compiler's intermediate representation of `project.passes[index]`, stage by stage; see
+    /// [`glsl::dump_ir`].
+    ///
+    /// # Panics
+    /// If there is no such pass.
+    pub fn dump_ir(&self, index: usize, driver: Driver, pass: Option<&str>) -> Result<String, Vec<Diagnostic>> {
+        let own = &self.project.passes[index];
+        let dump = |stage, kind| {
+            self.with_source(index, self.stage_id(index, stage), kind, |source| {
+                glsl::dump_ir(&PassSource { driver, ..*source }, &Link::default(), pass)
+            })
+        };
+        let Some(meshes) = own.settings.meshes() else { return dump(Stage::Own, pass_kind(&own.id)) };
+        let stages = meshes.draws.iter().flat_map(|draw| [draw.vertex, draw.fragment]);
+        stages.map(|stage| dump(stage, stage_kind(meshes, stage))).collect()
     }
 
     /// Analyses `project.passes[index]` as an editor understands it, whether it compiles or not.

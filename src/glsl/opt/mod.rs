@@ -55,18 +55,21 @@ pub struct PassSet(u32);
 const _: () = assert!(PASSES.len() <= u32::BITS as usize);
 
 impl PassSet {
-    /// Adds the pass of this name; an error names those there are.
-    pub fn insert(&mut self, name: &str) -> Result<(), String> {
+    /// The pass of this name; an error names those there are.
+    pub fn of(name: &str) -> Result<Self, String> {
         match PASSES.iter().position(|pass| pass.name == name) {
-            Some(index) => {
-                self.0 |= 1 << index;
-                Ok(())
-            }
+            Some(index) => Ok(Self(1 << index)),
             None => {
                 let names: Vec<_> = PASSES.iter().map(|pass| pass.name).collect();
                 Err(format!("there is no pass `{name}`; there are {}", names.join(", ")))
             }
         }
+    }
+
+    /// These and those.
+    #[must_use]
+    pub fn with(self, others: Self) -> Self {
+        Self(self.0 | others.0)
     }
 
     fn contains(self, index: usize) -> bool {
