@@ -15,8 +15,9 @@ use clap::{Args, Parser, Subcommand};
 use jiff::civil::DateTime;
 use std::path::PathBuf;
 
-const PROJECT: &str = "A PROJECT is a folder with eddy.toml, a folder of common.glsl, buffer_a.glsl … image.glsl, one .glsl \
-    file, a preset's name (see `eddy list`) or a Shadertoy API .json. One that is called like a command: `eddy ./render`.";
+const PROJECT: &str = "A PROJECT is a folder with eddy.toml, a folder of common.glsl, buffer_a.glsl … image.glsl, one \
+    .glsl file, a preset's name (see `eddy list`) or a Shadertoy API .json. One that is called like a command: \
+    `eddy ./render`.";
 
 /// Runs Shadertoy programs unchanged and says how fast and how wrong they are.
 #[derive(Debug, Parser)]

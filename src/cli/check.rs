@@ -128,13 +128,15 @@ fn differ<T: PartialEq + std::fmt::Debug>(
         Diagnostic::warning(
             None,
             format!(
-                "{other} reads Buffer {buffer} with {what} {}, {last} with {}: on the site a buffer has one {what} {when}, \
-                 the last one named, and the picture differs",
+                "{other} reads Buffer {buffer} with {what} {}, {last} with {}: on the site a buffer has one {what} \
+                 {when}, the last one named, and the picture differs",
                 name(loses),
                 name(wins)
             ),
         )
-        .hint(format!("give both the same {what}, or set sampler_rules = \"site\" in eddy.toml to see what the site \
-        shows")),
+        .hint(format!(
+            "give both the same {what}, or set sampler_rules = \"site\" in eddy.toml to see what the site \
+        shows"
+        )),
     )
 }

@@ -84,9 +84,9 @@ fn header(ui: &mut Ui, costs: &PassCosts, out: &mut Outbox) {
                     ),
                     CostClock::Waited => (
                         "passes one by one",
-                        "This device has no timestamps. While this table is open each pass is handed in and waited for by itself, \
-                         by the wall's clock, less the time of handing in nothing: the median of the newest 30 frames. \
-                         Frames take longer so",
+                        "This device has no timestamps. While this table is open each pass is handed in and waited for \
+                         by itself, by the wall's clock, less the time of handing in nothing: the median of the newest \
+                         30 frames. Frames take longer so",
                     ),
                 };
                 let text = RichText::new(short).size(11.5).color(theme::WEAK);

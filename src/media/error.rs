@@ -20,7 +20,10 @@ pub enum MediaError {
     TooLarge { path: PathBuf, width: u32, height: u32, excess: Excess },
     #[error("{} is relative, and the project has no folder yet to start from", path.display())]
     NoFolder { path: PathBuf },
-    #[error("there is no built-in texture {name}{}", near.as_ref().map(|n| format!(" (did you mean {n}?)")).unwrap_or_default())]
+    #[error(
+        "there is no built-in texture {name}{}",
+        near.as_ref().map(|n| format!(" (did you mean {n}?)")).unwrap_or_default()
+    )]
     UnknownBuiltin { name: String, near: Option<String> },
     #[error("the site's {path} has no stand-in")]
     NoStandIn { path: String },

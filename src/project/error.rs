@@ -17,7 +17,11 @@ pub enum ProjectError {
     #[error("{what} is not a usable project\n{}", render_all(diagnostics, sources))]
     Invalid { what: String, diagnostics: Vec<Diagnostic>, sources: SourceMap },
     /// A name that means nothing here.
-    #[error("{spec}: neither a file, a folder nor a preset{}; presets are {}", did_you_mean(near.as_deref()), presets_listed(presets))]
+    #[error(
+        "{spec}: neither a file, a folder nor a preset{}; presets are {}",
+        did_you_mean(near.as_deref()),
+        presets_listed(presets)
+    )]
     NotFound { spec: String, near: Option<String>, presets: Vec<String> },
     /// A file that is there, of a kind no project comes in.
     #[error(

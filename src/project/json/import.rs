@@ -34,8 +34,8 @@ pub fn import(text: &str, name: &str) -> Result<(Project, Vec<Diagnostic>), Proj
     })
 }
 
-const EXPECTED: &str = "expected is a Shadertoy shader: an object with \"ver\", \"info\" and \"renderpass\", the same inside \
-    \"Shader\", or a list of such objects";
+const EXPECTED: &str = "expected is a Shadertoy shader: an object with \"ver\", \"info\" and \"renderpass\", the \
+    same inside \"Shader\", or a list of such objects";
 
 fn read(text: &str, name: &str) -> Result<(Project, Vec<Diagnostic>), Vec<Diagnostic>> {
     let body = text.strip_prefix('\u{feff}').unwrap_or(text);
