@@ -42,7 +42,8 @@ impl Outcome {
     /// Returns what is quickly compared.
     fn outline(&self) -> Option<[usize; 8]> {
         let Compiled { module, tables, uniform_tables, .. } = &**self.stage.as_ref()?;
-        let function = &module.entry_points.first()?.function;
+        let entry = &module.entry_points.first()?.function;
+        let functions = module.functions.iter().map(|(_, function)| function).chain([entry]);
         Some([
             tables.len(),
             uniform_tables.len(),
@@ -50,8 +51,8 @@ impl Outcome {
             module.constants.len(),
             module.global_variables.len(),
             module.functions.len(),
-            function.expressions.len(),
-            function.body.len(),
+            functions.map(|f| f.expressions.len()).sum(),
+            entry.body.len(),
         ])
     }
 }

@@ -19,9 +19,7 @@ use std::collections::HashSet;
 
 use naga::{FastHashMap, GlobalVariable, Handle};
 
-pub(in crate::glsl) use self::long_arrays::LEAST_COPY;
 pub(crate) use self::tables::TableBytes;
-pub(in crate::glsl) use self::tables::{LARGE, NOT_UNROLLED};
 use self::{consts::Constants, resources::Resources, tables::Tables};
 use super::{
     PassSource, Reflection,

@@ -10,20 +10,15 @@ use std::num::NonZeroU32;
 
 use naga::{AddressSpace, ArraySize, GlobalVariable, Handle, ResourceBinding, StorageAccess, StructMember, TypeInner};
 
-use super::{Emitter, Map, long_arrays};
+use super::{Emitter, Map};
 use crate::glsl::{
     PassKind, interface,
-    ir::{ConstId, layout::round_up},
+    ir::{
+        ConstId,
+        layout::{LARGE, LEAST_COPY, NOT_UNROLLED, round_up},
+    },
     types::{Scalar, Type, TypeId},
 };
-
-/// Scalars from which on a table goes into the storage buffer. Its load is slow where neighbours read different places (five times
-/// the frame of a loop over 14 triangles on llvmpipe), and a driver that unrolls such a loop folds reads of memory away.
-pub(in crate::glsl) const LARGE: usize = 256;
-
-/// Elements from which on an array goes into the uniform buffer. To fill memory takes llvmpipe a store for each pixel and component
-/// at every start of the program; but Mesa unrolls loops of up to 32 turns, and then folds what they read of memory away.
-pub(in crate::glsl) const NOT_UNROLLED: u32 = 33;
 
 /// Bytes of a slot there: what a uniform buffer's array elements lie apart at least.
 const SLOT: u32 = 16;
@@ -69,7 +64,7 @@ impl Emitter<'_> {
     pub fn is_long(&mut self, ty: TypeId) -> bool {
         self.source.driver.array_loops
             && matches!(self.ir.types.get(ty), Type::Array { .. } | Type::Struct(_))
-            && self.layout(ty).size >= 4 * long_arrays::LEAST_COPY
+            && self.layout(ty).size >= 4 * LEAST_COPY
     }
 
     pub fn table_place(&mut self, id: ConstId) -> TablePlace {

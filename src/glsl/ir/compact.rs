@@ -6,12 +6,16 @@ impl Function {
     /// Numbers all values anew: operands come before what uses them, and what is not used is gone.
     pub fn compact(&mut self) {
         let mut body = std::mem::take(&mut self.body);
-        let old = std::mem::replace(self, Function { vars: Vec::new(), ..Function::new(self.result) });
-        self.params = old.params.clone();
-        self.ops.reserve(old.len());
-        let mut compact = Compact { map: vec![None; old.len()], old: &old, new: self };
-        let vars = old.vars.iter().map(|var| super::Var { init: var.init.map(|init| compact.value(init)), ..*var });
-        let vars = vars.collect();
+        let mut old = std::mem::replace(self, Function::new(self.result));
+        self.params = std::mem::take(&mut old.params);
+        let mut vars = std::mem::take(&mut old.vars);
+        self.types.reserve(old.ops.len());
+        self.ops.reserve(old.ops.len());
+        self.locs.reserve(old.ops.len());
+        let mut compact = Compact { map: vec![None; old.ops.len()], old, new: self };
+        for var in &mut vars {
+            var.init = var.init.map(|init| compact.value(init));
+        }
         compact.block(&mut body);
         self.vars = vars;
         self.body = body;
@@ -19,7 +23,7 @@ impl Function {
 }
 
 struct Compact<'a> {
-    old: &'a Function,
+    old: Function,
     new: &'a mut Function,
     map: Vec<Option<Value>>,
 }
@@ -30,9 +34,14 @@ impl Compact<'_> {
         if let Some(new) = self.map[old.index()] {
             return new;
         }
-        let op = self.old[old].clone();
+        let op = self.take(old);
         debug_assert!(op.is_free(), "{op:?} is used before it is computed");
         self.append(old, op)
+    }
+
+    /// Each is moved once.
+    fn take(&mut self, old: Value) -> Op {
+        std::mem::replace(&mut self.old.ops[old.index()], Op::OpaqueZero)
     }
 
     fn append(&mut self, old: Value, op: Op) -> Value {
@@ -45,7 +54,7 @@ impl Compact<'_> {
         for stmt in block {
             match stmt {
                 Stmt::Let(value) => {
-                    let mut op = self.old[*value].clone();
+                    let mut op = self.take(*value);
                     op.operands_mut(|operand| *operand = self.value(*operand));
                     *value = self.append(*value, op);
                 }

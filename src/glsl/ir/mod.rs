@@ -201,9 +201,9 @@ impl Function {
         Value::new(self.ops.len() - 1)
     }
 
-    /// Puts another op in the place of the one that computes a value. Its type stays.
-    pub fn replace(&mut self, value: Value, op: Op) {
-        self.ops[value.index()] = op;
+    /// Puts another op in the place of the one that computes a value, which it returns. Its type stays.
+    pub fn replace(&mut self, value: Value, op: Op) -> Op {
+        std::mem::replace(&mut self.ops[value.index()], op)
     }
 
     /// The type of a value, or of what a place holds.
@@ -247,28 +247,6 @@ impl Function {
                 *op = ops[var.index()].clone();
             }
         }
-    }
-
-    /// Visits all statements, those that hold blocks before what is in them.
-    pub fn each_statement<'a>(&'a self, visit: &mut impl FnMut(&'a Stmt)) {
-        fn block<'a>(all: &'a Block, visit: &mut impl FnMut(&'a Stmt)) {
-            for stmt in all {
-                visit(stmt);
-                match stmt {
-                    Stmt::If { accept: a, reject: b, .. } | Stmt::Loop { body: a, continuing: b, .. } => {
-                        block(a, visit);
-                        block(b, visit);
-                    }
-                    Stmt::Switch { cases, .. } => {
-                        for case in cases {
-                            block(&case.body, visit);
-                        }
-                    }
-                    _ => {}
-                }
-            }
-        }
-        block(&self.body, visit);
     }
 
     /// The variable, parameter or global that a place is or lies in.

@@ -272,7 +272,46 @@ impl Op {
 
     /// Visits the operands, in order.
     pub fn operands(&self, mut visit: impl FnMut(Value)) {
-        self.clone().operands_mut(|operand| visit(*operand));
+        use Op::*;
+        match *self {
+            Literal(..)
+            | Zero(_)
+            | Const(_)
+            | Param(_)
+            | Var(_)
+            | Global(_)
+            | Input(_)
+            | TextureLevels { .. }
+            | OpaqueZero => {}
+            Compose { parts: ref all, .. } | Call { args: ref all, .. } => all.iter().for_each(|&part| visit(part)),
+            Element { base: a, index: b }
+            | Binary { left: a, right: b, .. }
+            | Fetch { coordinate: a, level: b, .. } => {
+                [a, b].into_iter().for_each(visit);
+            }
+            Part { base: a, .. }
+            | Swizzle { vector: a, .. }
+            | Splat { value: a, .. }
+            | Unary { operand: a, .. }
+            | Convert { value: a, .. }
+            | Bitcast { value: a, .. }
+            | All(a)
+            | Any(a)
+            | Derivative { value: a, .. }
+            | Load { place: a } => visit(a),
+            Select { condition, accept, reject } => [condition, accept, reject].into_iter().for_each(visit),
+            Math { arg, arg1, arg2, arg3, .. } => [Some(arg), arg1, arg2, arg3].into_iter().flatten().for_each(visit),
+            Sample { coordinate, level, offset, .. } => {
+                visit(coordinate);
+                match level {
+                    Level::Auto => {}
+                    Level::Exact(level) | Level::Bias(level) => visit(level),
+                    Level::Gradient { x, y } => [x, y].into_iter().for_each(&mut visit),
+                }
+                offset.into_iter().for_each(visit);
+            }
+            TextureSize { level, .. } => level.into_iter().for_each(visit),
+        }
     }
 
     /// Visits the operands, in order, each of which may be changed.

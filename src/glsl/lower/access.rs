@@ -1,8 +1,10 @@
 //! Parts of variables and values: members, components, elements; places that are assigned to; clamped indices.
 
 use super::function::{Builder, Slot};
-use crate::glsl::hir::{BuiltinVar, ExprId, ExprKind, GlobalStorage, LocalId, Scalar, Swizzle, Type, TypeId, VarFlags};
-use crate::glsl::ir::{Binary, Math, Op, Value};
+use crate::glsl::{
+    hir::{BuiltinVar, ExprId, ExprKind, GlobalStorage, LocalId, Scalar, Swizzle, Type, TypeId, VarFlags},
+    ir::{Binary, Math, Op, Value},
+};
 
 /// Something in memory.
 #[derive(Clone, Copy, Debug)]

@@ -4,8 +4,10 @@
 //! weights of section 8.13 (equation 3.25 there) of the OpenGL ES 3.0 specification. Between two mip levels, the same in both.
 
 use super::function::Builder;
-use crate::glsl::hir::{Scalar, TypeId};
-use crate::glsl::ir::{Axis, Binary, Level, Math, Op, Value};
+use crate::glsl::{
+    hir::{Scalar, TypeId},
+    ir::{Axis, Binary, Level, Math, Op, Value},
+};
 
 impl Builder<'_, '_> {
     /// A filtered read of a 2D channel. `offset` counts texels.

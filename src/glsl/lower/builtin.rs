@@ -1,8 +1,10 @@
 //! Built-in functions of chapter 8, textures excepted.
 
 use super::function::{Builder, PartOf};
-use crate::glsl::hir::{Builtin, ExprId, Scalar, TypeId};
-use crate::glsl::ir::{Axis, Binary, Block, Math, Op, Stmt, Value};
+use crate::glsl::{
+    hir::{Builtin, ExprId, Scalar, TypeId},
+    ir::{Axis, Binary, Block, Math, Op, Stmt, Value},
+};
 
 impl Builder<'_, '_> {
     pub fn math(&mut self, fun: Math, arg: Value) -> Value {

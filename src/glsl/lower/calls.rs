@@ -1,10 +1,9 @@
 //! Calls of user functions, and how arguments are handed over: without a copy wherever nobody can see the difference.
 
-use crate::glsl::ir::Value;
 use std::collections::HashSet;
 
 use super::{
-    Instance, NOT_UNROLLED,
+    Instance,
     access::Place,
     function::{Builder, Slot},
     writes,
@@ -15,6 +14,8 @@ use crate::glsl::{
         ConstId, ExprFlags, ExprId, ExprKind, FuncId, GlobalId, GlobalStorage, Local, LocalId, LocalKind, Module, Type,
         TypeId, VarFlags,
     },
+    ir::Value,
+    ir::layout,
 };
 
 /// Globals that are looked at to find out which each function writes. A chain of ten thousand functions that write one
@@ -92,7 +93,7 @@ impl Arguments {
     /// Whether a constant is a table rather than a few numbers written into one call: those are cheaper put into memory where
     /// they are needed than at the start of every invocation.
     fn is_table(&self, module: &Module, id: ConstId) -> bool {
-        self.named[id.index()] > 1 || module[module[id].words].len() >= NOT_UNROLLED as usize
+        self.named[id.index()] > 1 || module[module[id].words].len() >= layout::NOT_UNROLLED as usize
     }
 
     pub fn givable(&self, func: FuncId) -> &[LocalId] {

@@ -1,8 +1,10 @@
 //! Constructors and conversions (section 5.4).
 
 use super::function::Builder;
-use crate::glsl::hir::{ExprId, Scalar, Type, TypeId};
-use crate::glsl::ir::{Op, Value};
+use crate::glsl::{
+    hir::{ExprId, Scalar, Type, TypeId},
+    ir::{Op, Value},
+};
 
 impl Builder<'_, '_> {
     /// A scalar or vector to the same size of another component type.

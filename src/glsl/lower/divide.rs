@@ -10,8 +10,10 @@
 //! naga has guards too, but as functions that are called, and without regard to what is known of the operands.
 
 use super::{function::Builder, operators::Typed, ranges::Bounds};
-use crate::glsl::hir::{BinaryOp, ExprId, Scalar, Shape, TypeId};
-use crate::glsl::ir::{Binary, Math, Op, Value};
+use crate::glsl::{
+    hir::{BinaryOp, ExprId, Scalar, Shape, TypeId},
+    ir::{Binary, Math, Op, Value},
+};
 
 const MINUS_ONE: u32 = -1i32 as u32;
 

@@ -1,10 +1,10 @@
 //! The fragment entry point: what the site's `main` does around the author's function, for each kind of pass.
 
 use super::{Lowering, function::Builder, reach::Reach};
-use crate::glsl::ir::{self, Binary, Block, Case, Input, Math, Op, Output, Stmt, Value};
 use crate::glsl::{
     PassKind,
     hir::{GlobalId, GlobalStorage, Scalar, Swizzle, TypeId, Uniform},
+    ir::{self, Binary, Block, Case, Input, Math, Op, Output, Stmt, Value},
 };
 
 /// The entry point; every function is there already.

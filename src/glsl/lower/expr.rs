@@ -1,8 +1,10 @@
 //! Expressions: what they evaluate to, in which order, under which conditions.
 
 use super::{cost::CHEAP, function::Builder, reach::known_bool};
-use crate::glsl::hir::{BinaryOp, ConstId, ExprFlags, ExprId, ExprKind, LogicalOp, Scalar, Type, TypeId};
-use crate::glsl::ir::{Binary, Block, Op, Stmt, Unary, Value};
+use crate::glsl::{
+    hir::{BinaryOp, ConstId, ExprFlags, ExprId, ExprKind, LogicalOp, Scalar, Type, TypeId},
+    ir::{Binary, Block, Op, Stmt, Unary, Value},
+};
 
 impl Builder<'_, '_> {
     /// The value of an expression that is not void.

@@ -5,10 +5,10 @@ use super::{
     function::{Builder, Loop, Part, Slot},
     reach::known_bool,
 };
-use crate::glsl::ir::{self, Binary, Block, Op, Stmt, Value};
 use crate::glsl::{
     ast::List,
     hir::{Case, ExprId, ExprKind, LocalId, StmtId, StmtKind, TypeId},
+    ir::{self, Binary, Block, Op, Stmt, Value},
 };
 
 impl Builder<'_, '_> {

@@ -11,10 +11,10 @@ use super::{
     reach::{Reach, known_bool},
     walk::{Node, walk},
 };
-use crate::glsl::ir::{Block, Stmt, Value};
 use crate::glsl::{
     ast::{List, MAX_NESTING},
     hir::{ExprId, ExprKind, FuncId, LocalId, Module, Scalar, StmtId, StmtKind, TypeId},
+    ir::{Block, Stmt, Value},
 };
 
 /// Expressions and statements of a function, with those of what is inlined into it, that are written again for each call.

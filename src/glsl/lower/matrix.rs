@@ -2,8 +2,10 @@
 //! in the order of OpenGL's compilers (see [`super::geometry`]).
 
 use super::function::Builder;
-use crate::glsl::hir::{Scalar, Type, TypeId};
-use crate::glsl::ir::{Binary, Math, Op, Value};
+use crate::glsl::{
+    hir::{Scalar, Type, TypeId},
+    ir::{Binary, Math, Op, Value},
+};
 
 impl Builder<'_, '_> {
     /// The inverse of a square matrix: transposed cofactors over the determinant.

@@ -6,15 +6,10 @@
 //!
 //! What the generated code looks like, and why:
 //! - Only what the entry point reaches is lowered ([`reach`]). A branch whose condition is a literal is not reached.
-//! - A variable nobody writes is a value, not memory. All others are `LocalVariable`s or private globals; what they hold is known
-//!   until they are written, into branches, and into loops that do not write them ([`memory`]). At last what is no array becomes scalars
-//!   ([`split`]), and arrays that each call fills become global ([`filled`]).
+//! - A variable that nobody writes is a value, not memory. All others are variables of the function or of the module.
 //! - Small functions, and those called at one place, become part of their callers ([`inline`]). Others have one copy for each
 //!   combination of channels, globals and tables that stand for parameters they only read ([`calls`]).
-//! - A constant table that is indexed at run time lives in a buffer ([`tables`]); a small one once in a private global
-//!   with an initialiser: naga's SPIR-V writer would otherwise copy the whole table to the stack at each access.
-//! - So does a large global array that the program fills with constants before all else ([`settled`]).
-//! - Where the driver needs it, long arrays are filled and copied by loops ([`long_arrays`]).
+//! - A large global array that the program fills with constants before all else is a constant ([`settled`]).
 //! - Every index that is not provably in range is clamped here ([`ranges`] tells what is known), as WebGL does; the modules
 //!   need no bounds checks from naga. Divisors of integers that may be zero are guarded ([`divide`]), as no driver's compiler
 //!   may meet one. Fetches outside a texture are left to the driver's image robustness, which gives the zeros WebGL promises.
@@ -62,8 +57,6 @@ use super::{
     ir::{self, layout::Layouts},
     stages::Interface,
 };
-
-pub(in crate::glsl) use super::emit::{LARGE, NOT_UNROLLED};
 
 /// What lowering makes.
 pub(crate) struct Lowered {
@@ -161,9 +154,9 @@ impl Lowering<'_> {
     pub fn is_long(&mut self, ty: hir::TypeId) -> bool {
         self.source.driver.array_loops
             && matches!(self.hir.types.get(ty), hir::Type::Array { .. } | hir::Type::Struct(_))
-            && self.layouts.of(&self.out, ty).size >= 4 * super::emit::LEAST_COPY
+            && self.layouts.of(&self.out, ty).size >= 4 * ir::layout::LEAST_COPY
     }
 }
 
 /// By 32-bit keys, with a quick hash.
-type Map<K, V> = naga::FastHashMap<K, V>;
+type Map<K, V> = rustc_hash::FxHashMap<K, V>;

@@ -1,10 +1,10 @@
 //! Values that the driver shall not see through: a zero that it cannot know, and what is joined with it.
 
 use super::function::Builder;
-use crate::glsl::ir::{Binary, Block, Op, Stmt, Value};
 use crate::glsl::{
     ast::List,
     hir::{ExprFlags, ExprId, Scalar, StmtId, StmtKind, Type, TypeId},
+    ir::{Binary, Block, Op, Stmt, Value},
 };
 
 impl Builder<'_, '_> {

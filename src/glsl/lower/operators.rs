@@ -1,8 +1,10 @@
 //! Operators, assignments, equality.
 
 use super::{divide::Operands, function::Builder};
-use crate::glsl::hir::{BinaryOp, ExprId, ExprKind, IncDec, Scalar, Shape, Type, TypeId, UnaryOp};
-use crate::glsl::ir::{Binary, Op, Unary, Value};
+use crate::glsl::{
+    hir::{BinaryOp, ExprId, ExprKind, IncDec, Scalar, Shape, Type, TypeId, UnaryOp},
+    ir::{Binary, Op, Unary, Value},
+};
 
 /// A value and its type.
 pub(super) type Typed = (TypeId, Value);

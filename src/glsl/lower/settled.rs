@@ -7,10 +7,11 @@
 //! them: 550 triangles keep lavapipe busy for minutes where Mesa's OpenGL, which sees the constants and needs no zeros,
 //! takes a second. As a table ([`super::tables`]) they are a buffer.
 
-use super::{LARGE, writes};
+use super::writes;
 use crate::glsl::{
     ast::List,
     hir::{ExprId, ExprKind, GlobalId, GlobalStorage, Module, Stmt, StmtId, StmtKind, Swizzle, Type, TypeId, VarFlags},
+    ir::layout,
 };
 
 /// Arrays that are looked for in one program: a bit each.
@@ -68,7 +69,7 @@ fn candidates(module: &Module) -> Vec<Array> {
             continue;
         }
         let size = words(module, global.ty);
-        if size < LARGE || members(module, global.ty) > MOST_MEMBERS {
+        if size < layout::LARGE || members(module, global.ty) > MOST_MEMBERS {
             continue;
         }
         let first = global.value.map_or_else(|| vec![0; size], |value| module[module[value].words].to_vec());

@@ -2,10 +2,10 @@
 //! author reads, and what the author left in others is handed on.
 
 use super::{Lowering, function::Builder, reach::Reach};
-use crate::glsl::ir::{self, Binary, Input, Op, Output, Stmt, Value};
 use crate::glsl::{
     Attribute, PassKind,
     hir::{BuiltinVar, GlobalId, Scalar, Swizzle, Type, TypeId},
+    ir::{self, Binary, Input, Op, Output, Stmt, Value},
     stages::slots,
 };
 

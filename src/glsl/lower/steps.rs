@@ -3,7 +3,6 @@
 //! In `int n = 4; while (n >= 1) { ..; n--; }` nothing but `n--` writes `n`, at most once for each time that the test held: so
 //! `n` lies between 0 and 4 from its declaration on. [`ranges`](super::ranges) knows less, but more exactly, of `for (int i ..)`.
 
-use crate::glsl::ir::{Binary, Math, Value};
 use std::collections::HashMap;
 
 use super::{
@@ -13,6 +12,7 @@ use super::{
 use crate::glsl::{
     ast::List,
     hir::{BinaryOp, ExprId, ExprKind, LocalId, LogicalOp, Module, Shape, StmtId, StmtKind},
+    ir::{Binary, Math, Value},
 };
 
 /// The loop's test, seen from the local at its left: `local op bound`.

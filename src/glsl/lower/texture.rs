@@ -1,10 +1,10 @@
 //! Texture functions (section 8.8) on channels.
 
 use super::function::Builder;
-use crate::glsl::ir::{Binary, Level, Op, Value};
 use crate::glsl::{
     ChannelKind,
     hir::{Builtin, ExprId, ExprKind, Scalar, Swizzle, TypeId},
+    ir::{Binary, Level, Op, Value},
 };
 
 /// What distinguishes the sampling functions.

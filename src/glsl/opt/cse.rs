@@ -1,6 +1,6 @@
 //! Common subexpressions: what was computed before, with the same operands, is not computed again.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::rewrite::{self, Rewriter, Rule};
 use crate::glsl::ir::{Module, Op, Value};
@@ -30,7 +30,7 @@ fn key(op: &Op) -> Option<Key> {
 /// Operations of the block at hand and of those around it.
 #[derive(Default)]
 struct Cse {
-    made: HashMap<Key, Value>,
+    made: FxHashMap<Key, Value>,
     in_order: Vec<Key>,
     /// How many there were as each block began.
     outer: Vec<usize>,

@@ -1,4 +1,4 @@
-//! Constant folding, and operations that leave an operand as it is.
+//! Constant folding, and parts of what is put together.
 
 use super::rewrite::{self, Rewriter, Rule};
 use crate::glsl::{
@@ -17,10 +17,7 @@ impl Rule for Fold {
         if let Op::Part { base, index } = *op {
             return part(r, base, index);
         }
-        if let Some(number) = number(r, op) {
-            return Some(r.float(number));
-        }
-        identity(r, op)
+        number(r, op).map(|number| r.float(number))
     }
 }
 
@@ -94,17 +91,4 @@ fn number(r: &Rewriter<'_>, op: &Op) -> Option<f32> {
         _ => return None,
     };
     folded.is_finite().then_some(folded)
-}
-
-/// The operand that an operation with a literal leaves as it is.
-fn identity(r: &Rewriter<'_>, op: &Op) -> Option<Value> {
-    let Op::Binary { op, left, right } = *op else { return None };
-    let is = |value, number| r.number(value) == Some(number);
-    match op {
-        Binary::Add if is(left, 0.0) => Some(right),
-        Binary::Add | Binary::Subtract if is(right, 0.0) => Some(left),
-        Binary::Multiply if is(left, 1.0) => Some(right),
-        Binary::Multiply | Binary::Divide if is(right, 1.0) => Some(left),
-        _ => None,
-    }
 }

@@ -3,7 +3,7 @@
 //! It is known from a load or a store of a variable, or of a part of one, until something writes there. So terms of two
 //! expressions are seen to be the same, and constants reach the place where they are used.
 
-use std::collections::{HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::rewrite::{self, Rewriter, Rule};
 use crate::glsl::{
@@ -27,12 +27,12 @@ pub(super) fn run(module: &mut Module) {
 }
 
 /// The globals that each function, or what it calls, writes.
-fn written_globals(module: &Module) -> Vec<HashSet<GlobalId>> {
-    let mut all: Vec<HashSet<GlobalId>> = Vec::with_capacity(module.functions.len());
+fn written_globals(module: &Module) -> Vec<FxHashSet<GlobalId>> {
+    let mut all: Vec<FxHashSet<GlobalId>> = Vec::with_capacity(module.functions.len());
     for f in &module.functions {
         let mut effects = Effects::default();
         effects.block(f, &f.body);
-        let mut written: HashSet<GlobalId> = effects.written.iter().filter_map(|&root| global(f, root)).collect();
+        let mut written: FxHashSet<GlobalId> = effects.written.iter().filter_map(|&root| global(f, root)).collect();
         for callee in effects.called {
             written.extend(&all[callee.index()]);
         }
@@ -138,9 +138,9 @@ impl Effects {
 
 struct Forward<'a> {
     /// By [`FuncId::index`].
-    written: &'a [HashSet<GlobalId>],
+    written: &'a [FxHashSet<GlobalId>],
     /// What places hold, by variable.
-    known: HashMap<Root, HashMap<Path, Value>>,
+    known: FxHashMap<Root, FxHashMap<Path, Value>>,
     in_order: Vec<(Root, Path)>,
     /// How many there were as each block began.
     outer: Vec<usize>,
@@ -148,8 +148,8 @@ struct Forward<'a> {
 }
 
 impl<'a> Forward<'a> {
-    fn new(written: &'a [HashSet<GlobalId>]) -> Self {
-        Self { written, known: HashMap::new(), in_order: Vec::new(), outer: Vec::new(), globals: 0 }
+    fn new(written: &'a [FxHashSet<GlobalId>]) -> Self {
+        Self { written, known: FxHashMap::default(), in_order: Vec::new(), outer: Vec::new(), globals: 0 }
     }
 
     fn know(&mut self, is_structure: bool, root: Root, path: Path, value: Value) {

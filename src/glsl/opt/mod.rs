@@ -9,6 +9,7 @@ mod cse;
 mod dce;
 mod fold;
 mod forward;
+mod identity;
 mod rewrite;
 mod scalarize;
 mod sroa;
@@ -35,9 +36,10 @@ pub const PASSES: &[Pass] = &[
     Pass { name: "scalarize", purpose: "writes arithmetic on vectors out by component", run: scalarize::run },
     Pass {
         name: "fold",
-        purpose: "computes what is constant, takes parts of what is put together, and drops what changes nothing",
+        purpose: "computes what is constant, and takes parts of what is put together",
         run: fold::run,
     },
+    Pass { name: "identity", purpose: "drops operations that leave an operand as it is", run: identity::run },
     Pass { name: "cse", purpose: "computes common subexpressions once", run: cse::run },
     Pass { name: "dce", purpose: "drops what nothing uses (dead code elimination)", run: dce::run },
     Pass {

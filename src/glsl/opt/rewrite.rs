@@ -2,7 +2,7 @@
 //!
 //! Operands are seen as what stands for them by now. A rule says what stands for an operation; what it adds for that comes before.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use crate::glsl::{
     ast::Loc,
@@ -53,14 +53,14 @@ pub(super) struct Rewriter<'m> {
     out: Block,
     /// What stands for each value of the old function.
     map: Vec<Value>,
-    literals: HashMap<(u8, u32), Value>,
+    literals: FxHashMap<(u8, u32), Value>,
     /// Of the operation at hand.
     loc: Loc,
 }
 
 impl<'m> Rewriter<'m> {
     fn new(module: &'m Module, f: Function) -> Self {
-        let mut literals = HashMap::new();
+        let mut literals = FxHashMap::default();
         for (value, op) in f.values() {
             if let Op::Literal(scalar, bits) = *op {
                 literals.entry((scalar as u8, bits)).or_insert(value);
@@ -131,15 +131,15 @@ impl<'m> Rewriter<'m> {
         for stmt in block {
             let stmt = match stmt {
                 Stmt::Let(value) => {
-                    let mut op = self.f[value].clone();
+                    // Taken out, so that the rule sees it while it changes the function.
+                    let mut op = self.f.replace(value, Op::OpaqueZero);
                     op.operands_mut(|operand| *operand = self.value(*operand));
                     self.loc = self.f.loc(value);
-                    match rule.operation(self, value, &op) {
+                    let other = rule.operation(self, value, &op);
+                    self.f.replace(value, op);
+                    match other {
                         Some(other) => self.map[value.index()] = other,
-                        None => {
-                            self.f.replace(value, op);
-                            self.out.push(Stmt::Let(value));
-                        }
+                        None => self.out.push(Stmt::Let(value)),
                     }
                     continue;
                 }

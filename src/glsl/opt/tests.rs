@@ -51,6 +51,11 @@ fn constants_are_folded() {
 }
 
 #[test]
+fn what_changes_nothing_is_dropped() {
+    insta::assert_snapshot!(around("identity", "o = vec4(p.x * 1.0, 0.0 + p.y, p.x / 1.0 - 0.0, 1.0 * 1.0);"));
+}
+
+#[test]
 fn the_same_is_computed_once() {
     insta::assert_snapshot!(around("cse", "o = vec4(sin(p.x) * p.y, sin(p.x) + p.y, 0, 1);"));
 }

@@ -9,7 +9,8 @@ use naga::{
 };
 
 use super::Value;
-use super::{LEAST_ARRAY, LEAST_COPY, fill::Writer};
+use super::{LEAST_ARRAY, fill::Writer};
+use crate::glsl::ir::layout::LEAST_COPY;
 
 /// Loads since which nothing has written what they read, each with its pointer's root.
 #[derive(Default)]

@@ -33,10 +33,6 @@ const FEWEST_SCALARS: u32 = 128;
 /// Scalars from which on an array of such a program gets its zeros by a loop. A loop also costs a driver time.
 const LEAST_ARRAY: u32 = 16;
 
-/// Scalars from which on an array, and a constant, is copied by a loop. lavapipe stores to an element that a loop counts lane
-/// by lane, which takes up to twice as long.
-pub(in crate::glsl) const LEAST_COPY: u32 = 128;
-
 /// Scalars that one block of zeros writes.
 const BLOCK: u32 = 32;
 

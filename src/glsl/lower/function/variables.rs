@@ -1,8 +1,10 @@
 //! Locals: what each stands for, and what is known of where values come from.
 
 use super::{Builder, Slot};
-use crate::glsl::hir::{LocalId, Type, TypeId, VarFlags};
-use crate::glsl::ir::{Op, Value};
+use crate::glsl::{
+    hir::{LocalId, Type, TypeId, VarFlags},
+    ir::{Op, Value},
+};
 
 impl Builder<'_, '_> {
     pub fn slot(&self, local: LocalId) -> Slot {
