@@ -221,7 +221,7 @@ impl Function {
         self.ops.len()
     }
 
-    /// All values, computed or not, operands before what uses them.
+    /// All values, computed or not.
     pub fn values(&self) -> impl Iterator<Item = (Value, &Op)> {
         self.ops.iter().enumerate().map(|(i, op)| (Value::new(i), op))
     }

@@ -50,15 +50,11 @@ fn make_global(f: &mut Function, module: &mut Module) {
 
 /// The variable that each place lies in, by [`Value::index`].
 fn roots(f: &Function) -> Vec<Option<VarId>> {
-    let mut roots: Vec<Option<VarId>> = Vec::with_capacity(f.len());
-    for (_, op) in f.values() {
-        roots.push(match *op {
-            Op::Var(var) => Some(var),
-            Op::Part { base, .. } | Op::Element { base, .. } => roots[base.index()],
-            _ => None,
-        });
-    }
-    roots
+    let root = |(value, op): (Value, &Op)| match (op, &f[f.root(value)]) {
+        (Op::Var(_) | Op::Part { .. } | Op::Element { .. }, Op::Var(var)) => Some(*var),
+        _ => None,
+    };
+    f.values().map(root).collect()
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]

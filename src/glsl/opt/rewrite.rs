@@ -82,7 +82,6 @@ impl<'m> Rewriter<'m> {
             self.f.vars[var].init = self.f.vars[var].init.map(|init| self.map[init.index()]);
         }
         self.f.body = std::mem::take(&mut self.out);
-        self.f.compact();
         self.f
     }
 

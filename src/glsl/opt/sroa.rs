@@ -232,19 +232,21 @@ fn scalars_of(module: &Module, ty: TypeId, out: &mut Vec<TypeId>) -> bool {
 
 /// What each value points to, if that is a part of a variable of these scalars that constant indices lead to.
 fn places(f: &Function, module: &Module, scalars: &[Vec<TypeId>]) -> Vec<Option<Place>> {
-    let mut places: Vec<Option<Place>> = Vec::with_capacity(f.len());
-    for (value, op) in f.values() {
-        places.push(match *op {
-            Op::Var(var) if !scalars[var.index()].is_empty() => Some(Place { var, before: 0, ty: f.ty(value) }),
-            Op::Part { base, index } => places[base.index()].map(|base| {
-                let skipped = (0..index).map(|index| count(module, module.part(base.ty, index)));
-                let before = base.before + skipped.sum::<usize>();
-                Place { before, ty: module.part(base.ty, index), ..base }
-            }),
-            _ => None,
-        });
+    f.values().map(|(value, _)| place(f, module, scalars, value)).collect()
+}
+
+fn place(f: &Function, module: &Module, scalars: &[Vec<TypeId>], value: Value) -> Option<Place> {
+    match f[value] {
+        Op::Var(var) if !scalars[var.index()].is_empty() => Some(Place { var, before: 0, ty: f.ty(value) }),
+        // As deep as types nest.
+        Op::Part { base, index } if f.is_place(base) => {
+            let base = place(f, module, scalars, base)?;
+            let skipped = (0..index).map(|index| count(module, module.part(base.ty, index)));
+            let before = base.before + skipped.sum::<usize>();
+            Some(Place { before, ty: module.part(base.ty, index), ..base })
+        }
+        _ => None,
     }
-    places
 }
 
 /// How many scalars a type holds.
