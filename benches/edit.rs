@@ -1,7 +1,8 @@
 //! How long an edit takes until its picture. `cargo bench --bench edit [PRESET]`.
 //!
 //! Changes a number in the text of Image, builds the program and draws a frame, again and again; prints the medians of
-//! building, of the time until the picture, and of a further frame, which is drawn in any case. Every edit is another text, so that no driver's cache on disk holds its pipeline.
+//! building, of the time until the picture, and of a further frame, which is drawn in any case. Every edit is another
+//! text, so that no driver's cache on disk holds its pipeline.
 
 use eddy::{
     engine::{BuildOptions, Builder, Engine, FrameInputs},

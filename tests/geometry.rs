@@ -298,8 +298,15 @@ fn a_scene_rests_until_what_it_reads_has_changed() {
     let Some(gpu) = gpu() else { return };
     let red = one_colour("1.0, 0.0, 0.0");
     let project = whole(scene(&red, &[FLAT_VERTEX], 1, straight(), vec![draw("builtin:cube")]));
-    let build =
-        |skip| engine_with(&gpu, &project, &MediaSet::new(), &BuildOptions { wanted: Vec::new(), skip }, (32, 24));
+    let build = |skip| {
+        engine_with(
+            &gpu,
+            &project,
+            &MediaSet::new(),
+            &BuildOptions { wanted: Vec::new(), skip, ..BuildOptions::default() },
+            (32, 24),
+        )
+    };
     let (mut lean, mut full): (Engine, Engine) = (build(true), build(false));
     let drags = [[0.0; 2], [0.0; 2], [9.0, -3.0], [9.0, -3.0]];
     let mut drawn = Vec::new();

@@ -282,6 +282,7 @@ fn any_text_gets_an_answer() {
                     array_loops,
                     loop_closing_exits,
                     hidden_limits,
+                    ..Driver::default()
                 },
                 knobs: &[],
                 values: &[],

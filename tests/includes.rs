@@ -63,7 +63,8 @@ fn an_included_file_is_watched_and_its_errors_name_it() {
     assert!(!stage.session.is_dirty());
     stage.write("lib/tone.glsl", "float tone() { return none; }");
     stage.until("the error", |s| {
-        s.diagnostics().iter().any(|d| d.file.as_deref() == Some("lib/tone.glsl") && d.line == 1)
+        let places = s.diagnostics().iter().filter_map(|d| d.place.as_ref());
+        places.into_iter().any(|p| p.tab.is_none() && p.text == "lib/tone.glsl" && p.line == 1)
     });
     // A line typed now, of a file that comes later.
     stage.edit(&USES.replace("tone.glsl", "late.glsl"));
@@ -76,4 +77,48 @@ fn an_included_file_is_watched_and_its_errors_name_it() {
     stage.until("a good compile", |s| s.diagnostics().is_empty());
     stage.until_compiled();
     assert_eq!(stage.red(), 153);
+}
+
+#[test]
+fn a_keystroke_reads_no_file_and_a_new_include_is_read_by_the_compile() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.0))]);
+    std::fs::create_dir(stage.path("lib")).unwrap();
+    stage.write("lib/tone.glsl", "float tone() { return 1.0; }");
+    stage.write("lib/late.glsl", "float tone() { return 0.6; }");
+    stage.write("image.glsl", USES);
+    let folder = stage.folder();
+    stage.session.apply(eddy::session::Command::Open(folder.to_str().unwrap().into()));
+    stage.session.apply(eddy::session::Command::Pause);
+    stage.until_compiled();
+    assert_eq!(stage.red(), 255);
+    stage.settle();
+    let read = |stage: &Stage| -> Vec<(String, String)> {
+        let includes = &stage.session.project().includes;
+        includes.iter().map(|i| (i.source.name.clone(), i.source.text.to_string())).collect()
+    };
+    let before = read(&stage);
+    stage.write("lib/tone.glsl", "float tone() { return 0.2; }");
+    stage.edit(&format!("{USES} // typed"));
+    stage.edit(&USES.replace("tone.glsl", "late.glsl"));
+    assert_eq!(read(&stage), before, "nothing is read where the keys come in");
+    stage.session.apply(eddy::session::Command::CompileNow);
+    stage.until("the new file", |s| s.project().includes[0].source.name == "lib/late.glsl");
+    stage.until_red(153);
+    // Back, within a text that is compiled anew: the file that has changed meanwhile is read.
+    stage.edit(USES);
+    stage.session.apply(eddy::session::Command::CompileNow);
+    stage.until_red(51);
+}
+
+#[test]
+fn a_file_that_is_included_just_before_a_save_is_saved_too() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.0))]);
+    std::fs::create_dir(stage.path("lib")).unwrap();
+    stage.write("lib/tone.glsl", "float tone() { return 1.0; }");
+    stage.edit(USES);
+    let copy = stage.path("copy");
+    stage.session.apply(eddy::session::Command::SaveAs(copy.clone()));
+    assert!(copy.join("lib/tone.glsl").is_file(), "{:?}", stage.session.notices());
 }

@@ -27,7 +27,7 @@ const FRAMES: i32 = 2;
 fn drawn(rig: &Rig, project: &Project, (width, height): (u32, u32), pass: &PassId) -> Vec<[f32; 4]> {
     let (media, warnings) = media::gather(project, None);
     assert!(warnings.is_empty(), "{warnings:?}");
-    let options = BuildOptions { wanted: vec![pass.clone()], skip: true };
+    let options = BuildOptions { wanted: vec![pass.clone()], skip: true, ..BuildOptions::default() };
     let program = Program::build(rig.gpu(), project, &media, &options).unwrap().program;
     let mut engine = Engine::new(rig.gpu().clone(), width, height).unwrap();
     engine.set_program(program).unwrap();

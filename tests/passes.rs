@@ -13,7 +13,13 @@ use support::*;
 const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
 
 fn no_skip(gpu: &Gpu, project: &Project, size: (u32, u32)) -> Engine {
-    engine_with(gpu, project, &MediaSet::new(), &BuildOptions { wanted: Vec::new(), skip: false }, size)
+    engine_with(
+        gpu,
+        project,
+        &MediaSet::new(),
+        &BuildOptions { wanted: Vec::new(), skip: false, ..BuildOptions::default() },
+        size,
+    )
 }
 
 /// Frames drawn with and without skipping give the same bytes; gives those of the last.

@@ -4,7 +4,8 @@
 mod support;
 
 use eddy::{
-    engine::{Engine, FrameInputs},
+    engine::{BuildOptions, Engine, FrameInputs},
+    media::MediaSet,
     project::{KnobType, KnobValue, PassId},
 };
 use support::{presets::*, *};
@@ -73,6 +74,29 @@ fn a_drag_across_the_whole_canvas_in_one_frame_is_survived() {
         check(s, &mut engine, "under a violent hand");
         draw(&mut engine, 40..100, untouched);
         check(s, &mut engine, "after it");
+    }
+}
+
+/// A brush is as wide as the canvas is high by a factor: on a large one it presses along more cells, where sound is no faster.
+#[test]
+fn a_violent_hand_on_a_large_canvas_keeps_the_density_in_the_corners() {
+    let Some(gpu) = gpu() else { return };
+    let size = (640, 360);
+    for (name, state) in [("fluid", "C"), ("fluid-dye", "A"), ("fluid-lit", "A")] {
+        let options = BuildOptions { wanted: vec![buffer(state)], ..Default::default() };
+        let mut engine = engine_with(&gpu, &preset(name), &MediaSet::new(), &options, size);
+        let (mut least, mut most) = (f32::MAX, f32::MIN);
+        for part in 0..4 {
+            draw(&mut engine, 10 * part..10 * part + 10, |f| violent(f, (640.0, 360.0)));
+            let pixels = engine.read(&buffer(state)).unwrap();
+            for texel in &pixels.texels[pixels.width as usize..] {
+                (least, most) = (least.min(texel[2]), most.max(texel[2]));
+            }
+        }
+        println!("{name}: density from {least} to {most}");
+        // 1 less or more Mach 0.4, the most that the method moves with, and half as much again where walls reflect it.
+        assert!(least > 0.6 && most < 1.6, "{name}: density from {least} to {most}");
+        assert!(least < 0.9, "{name} was not pressed: the test sees nothing");
     }
 }
 

@@ -12,21 +12,61 @@ use support::{presets::*, *};
 const LEFT_ARROW: u8 = 37;
 const SPACE: u8 = 32;
 
-/// A preset is copied as one folder, so what several need lies in each.
+/// A project is copied as one folder, so what several need lies in each.
 #[test]
-fn what_presets_share_is_the_same_in_each() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("presets");
-    for (presets, files) in [
-        (&["fluid", "fluid-lit", "fluid-dye"][..], &["solver.glsl", "step.glsl"][..]),
-        (&["bloom", "bloom-sized"], &["scene.glsl"]),
-        (&["gbuffer-edges", "gbuffer-ssao-ssr"], &["scene.glsl", "gbuffer.glsl"]),
+fn what_projects_share_is_the_same_in_each() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let texts = |folder: &str, projects: &[&str], file: &str| -> Vec<String> {
+        let paths = projects.iter().map(|p| root.join(folder).join(p).join(file));
+        paths.map(|p| std::fs::read_to_string(&p).unwrap_or_else(|e| panic!("{}: {e}", p.display()))).collect()
+    };
+    let are_same = |all: &[String]| all.iter().all(|t| *t == all[0]);
+    const LAB: &str = "assets/lab";
+    for (folder, projects, files) in [
+        ("presets", &["fluid", "fluid-lit", "fluid-dye"][..], &["solver.glsl", "step.glsl"][..]),
+        ("presets", &["fluid-lit", "fluid-dye"], &["buffer_a.glsl"]),
+        ("presets", &["bloom", "bloom-sized"], &["scene.glsl", "buffer_a.glsl"]),
+        ("presets", &["gbuffer-edges", "gbuffer-ssao-ssr"], &["scene.glsl", "gbuffer.glsl", "buffer_a.glsl"]),
+        (
+            "presets",
+            &["fluid-accurate", "mip-fluid", "particles", "reaction-diffusion", "self-advection"],
+            &["buffer_mouse.glsl"],
+        ),
+        (LAB, &["poisson_cycle", "poisson_jacobi"], &["common.glsl", "image.glsl"]),
+        (LAB, &["poisson_mips", "poisson_sor", "poisson_jacobi"], &["image.glsl"]),
+        (LAB, &["blur_pyramid", "blur_taps"], &["buffer_source.glsl", "image.glsl"]),
+        (LAB, &["fluid_guay", "fluid_projection"], &["image.glsl"]),
+        (LAB, &["gray_scott_blur", "gray_scott_stencil"], &["image.glsl"]),
+        (LAB, &["diffusion_blur", "diffusion_stencil"], &["image.glsl"]),
     ] {
         for file in files {
-            let texts = presets.iter().map(|p| std::fs::read_to_string(folder.join(p).join(file)).unwrap());
-            let texts: Vec<_> = texts.collect();
-            assert!(texts.iter().all(|t| *t == texts[0]), "{file} differs among {presets:?}");
+            assert!(are_same(&texts(folder, projects, file)), "{file} differs among {projects:?}");
         }
     }
+    // The scene and the equation of peers that solve them in different ways.
+    for (projects, begins) in [
+        (&["fluid_guay", "fluid_lattice", "fluid_projection"][..], &["vec2 vortex(", "#iUniform float noise"][..]),
+        (&["diffusion_blur", "diffusion_stencil"], &["float checker(", "float spot(", "#iUniform float noise"]),
+        (
+            &["gray_scott_blur", "gray_scott_stencil"],
+            &["const vec2 DIFFUSION", "vec2 reaction(", "vec4 seeded(", "#iUniform float feed", "#iUniform float kill"],
+        ),
+        (&["poisson_cycle", "poisson_jacobi", "poisson_sor"], &["vec2 at(", "float solved("]),
+    ] {
+        for begin in begins {
+            let all = texts(LAB, projects, "common.glsl");
+            let parts: Vec<String> = all.iter().map(|text| definition(text, begin)).collect();
+            assert!(are_same(&parts), "`{begin}` differs among {projects:?}: {parts:#?}");
+        }
+    }
+}
+
+/// What begins so at the start of a line: to the end of the line, or of the function.
+fn definition(text: &str, begin: &str) -> String {
+    let lines: Vec<&str> = text.lines().skip_while(|line| !line.starts_with(begin)).collect();
+    let first = lines.first().unwrap_or_else(|| panic!("there is no `{begin}`"));
+    let last = if first.ends_with('{') { lines.iter().position(|l| *l == "}").unwrap() } else { 0 };
+    lines[..=last].join("\n")
 }
 
 #[test]

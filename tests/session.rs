@@ -5,11 +5,12 @@ mod stage;
 mod support;
 
 use eddy::{
+    engine::BuildOptions,
     media,
     project::{self, Channel, Input, PassId, Sampler, Tab},
     session::{
-        Answer, Command, Level, Meanwhile, Outcome, Question, Request, Session, Then, capture,
-        offline::{Offline, OfflineOptions},
+        Answer, Command, Level, Meanwhile, Outcome, Question, Request, Session, TabDiagnostic, Then, capture,
+        offline::Offline,
         script::{ScriptedInputs, parse_keys, parse_mouse},
     },
 };
@@ -28,6 +29,10 @@ const HISTORY: &str = "void mainImage(out vec4 o, in vec2 p) {
 }";
 const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
 
+fn line(d: &TabDiagnostic) -> Option<usize> {
+    d.place.as_ref().map(|place| place.line)
+}
+
 #[test]
 fn a_screenshot_is_what_an_offline_run_draws() {
     let Some(gpu) = support::gpu() else { return };
@@ -45,22 +50,23 @@ fn a_screenshot_is_what_an_offline_run_draws() {
 
     let loaded = project::load(stage.folder().to_str().unwrap()).unwrap().project;
     let (media, _) = media::gather(&loaded, None);
-    let options = OfflineOptions { size: (8, 4), pass: PassId::Image, skip: true };
-    let inputs = ScriptedInputs::new(60.0).with_mouse(parse_mouse("1:down 3,2").unwrap());
-    let mut offline = Offline::new(&gpu, &loaded, &media, &options, inputs).unwrap();
-    offline.run(6, |_| false, |_, _| Ok::<_, eddy::engine::EngineError>(())).unwrap();
-    let pixels = offline.read().unwrap();
+    let drawn = |pass: PassId| {
+        let inputs = ScriptedInputs::new(60.0).with_mouse(parse_mouse("1:down 3,2").unwrap());
+        let mut offline = Offline::new(&gpu, (8, 4), inputs).unwrap();
+        let options = BuildOptions { wanted: vec![pass.clone()], skip: true, ..BuildOptions::default() };
+        offline.build(&loaded, &media, &options).unwrap();
+        let frames: Vec<i32> = (0..6).map(|_| offline.draw().unwrap().number).collect();
+        assert_eq!(frames, [0, 1, 2, 3, 4, 5]);
+        offline.read(&pass, 0).unwrap()
+    };
+    let pixels = drawn(PassId::Image);
     assert_eq!(image::open(&path).unwrap().to_rgba8().into_raw(), pixels.to_rgba8());
 
     stage.session.apply(Command::ShowPass(PassId::Buffer("A".into())));
     stage.session.apply(Command::SaveTexels);
     let npy = fs::read(stage.path("project-buffer_a-0001.npy")).unwrap();
     let mut want = Vec::new();
-    let options = OfflineOptions { pass: PassId::Buffer("A".into()), ..options };
-    let inputs = ScriptedInputs::new(60.0).with_mouse(parse_mouse("1:down 3,2").unwrap());
-    let mut offline = Offline::new(&gpu, &loaded, &media, &options, inputs).unwrap();
-    let write = |_, p| capture::encode(&mut want, &p, capture::Format::Npy).map_err(|e| panic!("{e}"));
-    offline.run::<eddy::engine::EngineError>(6, |f| f == 5, write).unwrap();
+    capture::encode(&mut want, &drawn(PassId::Buffer("A".into())), capture::Format::Npy).unwrap();
     assert_eq!(npy, want);
 }
 
@@ -73,34 +79,23 @@ fn a_run_is_the_same_in_one_piece_or_in_two() {
         let inputs = ScriptedInputs::new(30.0)
             .with_mouse(parse_mouse("2:down 1,1; 5:move 6,3; 7:up").unwrap())
             .with_keys(parse_keys("3:down 32").unwrap());
-        let options = OfflineOptions { size: (8, 4), pass: PassId::Image, skip: true };
-        Offline::new(&gpu, &project, &Default::default(), &options, inputs).unwrap()
+        let mut offline = Offline::new(&gpu, (8, 4), inputs).unwrap();
+        offline.build(&project, &Default::default(), &BuildOptions::default()).unwrap();
+        offline
     };
-    let mut seen = Vec::new();
-    let mut whole = start();
-    whole
-        .run::<eddy::engine::EngineError>(
-            10,
-            |f| f == 4 || f == 9,
-            |f, p| {
-                let _: () = seen.push((f, p));
-                Ok(())
-            },
-        )
-        .unwrap();
-    let mut halves = Vec::new();
+    let draw = |offline: &mut Offline, frames: u32, seen: &mut Vec<_>| {
+        for _ in 0..frames {
+            let frame = offline.draw().unwrap().number;
+            if frame == 4 || frame == 9 {
+                seen.push((frame, offline.read(&PassId::Image, 0).unwrap()));
+            }
+        }
+    };
+    let (mut seen, mut halves) = (Vec::new(), Vec::new());
+    draw(&mut start(), 10, &mut seen);
     let mut half = start();
-    for _ in 0..2 {
-        half.run::<eddy::engine::EngineError>(
-            5,
-            |f| f == 4 || f == 9,
-            |f, p| {
-                let _: () = halves.push((f, p));
-                Ok(())
-            },
-        )
-        .unwrap();
-    }
+    draw(&mut half, 5, &mut halves);
+    draw(&mut half, 5, &mut halves);
     assert_eq!(seen, halves);
     assert_eq!(seen.iter().map(|(f, _)| *f).collect::<Vec<_>>(), [4, 9]);
     assert_ne!(seen[0].1, seen[1].1);
@@ -184,7 +179,7 @@ fn an_edit_compiles_after_quiet_and_an_error_keeps_the_picture() {
     let failed = |meanwhile| Some(Outcome::Failed { errors: 1, meanwhile });
     assert_eq!(stage.session.compile_state().last, failed(Meanwhile::LastGood));
     let error = &stage.session.diagnostics()[0];
-    assert_eq!((error.tab.as_ref(), error.line), (Some(&IMAGE), 3), "{error:?}");
+    assert_eq!((error.tab(), line(error)), (Some(&IMAGE), Some(3)), "{error:?}");
     assert_eq!(stage.red(), 153, "the last good picture");
     stage.session.apply(Command::Step);
     stage.tick();
@@ -382,7 +377,7 @@ fn channel_lines_in_a_lone_file_count_as_they_are_typed() {
     stage.session.apply(Command::CompileNow);
     stage.until_compiled();
     let d = &stage.session.diagnostics()[0];
-    assert_eq!((d.tab.as_ref(), d.line), (Some(&IMAGE), 1), "{d:?}");
+    assert_eq!((d.tab(), line(d)), (Some(&IMAGE), Some(1)), "{d:?}");
     stage.edit(&plain(0.4));
     assert!(channels(&stage)[1].is_none());
 }

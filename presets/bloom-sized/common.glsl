@@ -15,8 +15,8 @@
 // last texel is the mirror image: light that a filter sends over the edge comes back.
 //
 // Measured (tests/preset_bloom.rs, `eddy lab bloom`), strength 1, over the phases, at 640 x 360, 641 x 359, 333 x 187, 187 x 333:
-// a spot's total is 0.994 to 0.998 of its light, also at the edges (16 bits leave out the faintest), and its centroid moves by
-// 0.15 pixels at most.
+// a spot's total is 0.998 to 0.999 of its light, also at the edges (0.996 to 0.998 at a spread of 1, where stores of 16 bits are cut
+// off and not rounded, as by Mesa's software driver), and its centroid moves by 0.2 pixels at most.
 
 #iUniform float strength = 0.35 in { 0.0, 1.0 } // the part of the light that is spread
 #iUniform float spread = 0.62 in { 0.0, 1.0 }   // of that, the part each level hands on to the next wider one
@@ -27,6 +27,12 @@
 // second weighs bright pixels down among darker ones (see `down`); it keeps no total: of one texel of 1 on black 57 % is left.
 #iUniform float brightest = 64.0 in { 1.0, 10000.0 }
 #iUniform bool calm = false
+
+// What the levels are stored times: as much as 16 bits have room for. They end at 6e-8, which a spot of 1 is soon below where it
+// is spread far: unscaled, 1.3 % of it is lost at a spread of 1.
+float scale() {
+    return exp2(floor(log2(32768.0 / brightest)));
+}
 
 // E. Reinhard et al., "Photographic Tone Reproduction for Digital Images", SIGGRAPH 2002, equation 4.
 vec3 reinhard(vec3 light) {
@@ -54,8 +60,8 @@ vec4 fetched(sampler2D source, vec2 at, vec2 size, vec2 extent, bool isPicture) 
     return part.x * part.y * light;
 }
 
-// A texel of level k out of the level before, which is the picture for k = 1: light times alpha, and alpha. Rows and columns are
-// 1 3 5 7 7 5 3 1, over 32, two weights a fetch. Sigma is 1.66 texels of the source.
+// A texel of level k out of the level before, which is the picture for k = 1: light times alpha and scale(), and alpha. Rows and
+// columns are 1 3 5 7 7 5 3 1, over 32, two weights a fetch. Sigma is 1.66 texels of the source.
 vec4 down(sampler2D source, vec2 fragCoord, int k, vec2 canvas, vec2 resolution) {
     const float PLACE[4] = float[4](-2.75, -11.0 / 12.0, 11.0 / 12.0, 2.75), WEIGHT[4] = float[4](0.125, 0.375, 0.375, 0.125);
     vec2 own = vec2(levelSize(k, canvas, resolution));
@@ -72,7 +78,8 @@ vec4 down(sampler2D source, vec2 fragCoord, int k, vec2 canvas, vec2 resolution)
         sum += weight * light;
         weights += weight;
     }
-    return sum / weights;
+    sum /= weights;
+    return k == 1 ? vec4(scale() * sum.rgb, sum.a) : sum;
 }
 
 // A texel of level k - 1 out of level k, whose light is no longer times alpha. Rows and columns are 1 2 1.

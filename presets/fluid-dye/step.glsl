@@ -35,5 +35,5 @@ void mainImage(out vec4 state, in vec2 fragCoord) {
 
     state = fluidStep(s, arriving, p, size);
     state.xy = emit(state.xy, fragCoord, iTime, idleness(before), iResolution.xy);
-    state.xy = drag(state.xy, fragCoord, before, iMouse, iResolution.xy);
+    state.xy = drag(state, fragCoord, before, iMouse, iResolution.xy);
 }

@@ -225,12 +225,19 @@ float brushRadius(vec2 resolution) {
 const float BRUSH_SPEED = 2.2;
 const float BRUSH_MACH = 0.4;
 
-vec2 drag(vec2 velocity, vec2 p, vec4 before, vec4 mouse, vec2 resolution) {
+// Against a wall, or against its own push of a frame ago, a hand moves nothing: all its force goes into the density, which comes
+// to differ by force times length over c^2, and the brush is longer on a larger canvas. The hand's grip loosens where the density
+// is off by more than SLIPS, and is gone at SLIDES.
+const float SLIPS = 0.15;
+const float SLIDES = 0.35;
+
+vec2 drag(vec4 state, vec2 p, vec4 before, vec4 mouse, vec2 resolution) {
     vec2 moved = mouse.xy - before.xy;
     float far = length(moved);
-    if (far < 0.5) return velocity;
+    if (far < 0.5) return state.xy;
     vec2 hand = moved / far * min(far / (SUBSTEPS * dt), subsonic(BRUSH_SPEED, BRUSH_MACH));
-    return mix(velocity, hand, 0.5 * brush(p, before, mouse, brushRadius(resolution)));
+    float grip = form == CLASSIC ? 1.0 : clamp((SLIDES - abs(state.z - 1.0)) / (SLIDES - SLIPS), 0.0, 1.0);
+    return mix(state.xy, hand, 0.5 * grip * brush(p, before, mouse, brushRadius(resolution)));
 }
 
 // ----------------------------------------------------------------------------------------------------------- the view

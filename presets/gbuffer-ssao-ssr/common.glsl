@@ -8,8 +8,13 @@
 //
 // Against 1,024 rays a point in the scene itself, of the same radius and falloff, the occlusion is 0.033 off (root mean square,
 // 640 x 360; 0.037 at 320 x 320); 0.04 too little on the die's upright faces, one of which looks at the ball's back, which the
-// camera does not see; none on the open table (tests/preset_occlusion.rs, `eddy lab ao`). Reflections look where the exact ray ends
-// within 0.2 pixels in the median and 1 pixel for 95 of 100 (320 x 320, `eddy lab ssr`).
+// camera does not see; none on the open table (tests/preset_occlusion.rs, `eddy lab ao`).
+//
+// Its limit: one layer of depths does not tell how thick things are. Behind the mug's handle and below the ball, which are thinner
+// than `thickness`, the table is hidden by more than 0.1 too much: 1.8 % of all points at 640 x 640 (1.4 % by 8 samples, 2.2 % by
+// 64). With thickness = 0.5 it is 0.5 %, but upright faces get too bright, and the whole is 0.045 off in place of 0.038.
+//
+// Reflections look where the exact ray ends within 0.2 pixels in the median and 1 pixel for 95 of 100 (320 x 320, `eddy lab ssr`).
 
 #include "gbuffer.glsl"
 

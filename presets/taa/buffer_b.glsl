@@ -9,6 +9,7 @@
 #iUniform bool catmullRom = true                // false: the history is looked up by a linear filter
 
 const float YOUNG = 8.0, OLD = 24.0; // ages between which the box grows from gamma to relaxed
+const float PARTED = 0.05;           // pixels a frame by which things move differently
 
 bool isFinite(vec4 q) {
     return all(lessThan(floatBitsToUint(q) & uvec4(0x7f800000u), uvec4(0x7f800000u)));
@@ -62,24 +63,30 @@ void mainImage(out vec4 resolved, in vec2 fragCoord) {
     if (any(lessThan(from, vec2(0.0))) || any(greaterThan(from, iResolution.xy))) return; // it came in over the edge
 
     vec3 mean = vec3(0.0), square = vec3(0.0);
+    int others = 0; // texels of the history that moved differently from what is here
     float shear = 0.0; // how differently things around here move, and those that were there: pixels a frame
     for (int y = -1; y <= 1; y++) {
         for (int x = -1; x <= 1; x++) {
             vec4 q = texelFetch(iChannel0, clamp(p + ivec2(x, y), ivec2(0), last), 0);
             int was = int(texelFetch(iChannel2, clamp(ivec2(from) + ivec2(x, y), ivec2(0), last), 0).x + 0.5);
+            float parts = length(ways[was] - own);
+            if (parts > PARTED) others++;
             vec3 c = toYCoCg(q.rgb);
             mean += c / 9.0;
             square += c * c / 9.0;
-            shear = max(shear, max(length(ways[int(q.a + 0.5)] - own), length(ways[was] - own)));
+            shear = max(shear, max(length(ways[int(q.a + 0.5)] - own), parts));
         }
     }
+    // Most of what was there has gone elsewhere: this place was hidden, and has no history. The clamp alone would keep of it what
+    // is within its box, for as long as that is wide.
+    if (others > 4) return;
     vec4 history = vec4(historyAt(from), 1.0);
     if (!isFinite(history)) return;
 
     // Where things part the history may show what is not there any more. The clamp is narrow until it has had the time to take
     // that away; from then on it may be wide, for what it would take away now is detail.
     vec3 sigma = sqrt(max(square - mean * mean, 0.0)), old = toYCoCg(history.rgb);
-    float age = shear > 0.05 ? min(before.a, 3.0) : before.a, trust = motionVectors ? smoothstep(YOUNG, OLD, age) : 0.0;
+    float age = shear > PARTED ? min(before.a, 3.0) : before.a, trust = motionVectors ? smoothstep(YOUNG, OLD, age) : 0.0;
     vec3 reach = mix(gamma, max(relaxed, gamma), trust) * sigma, held = clamp(old, mean - reach, mean + reach);
     // A history that is out of even this box was not true: something changed that no motion tells of.
     if (length(old - held) > 0.1) age = 1.0;

@@ -1,4 +1,4 @@
-//! What the command line may say, as clap reads it. Scripts rely on it: an option is added here, never changed.
+//! This module declares the command line for clap. Scripts rely on it: an option is added here, never changed.
 
 use super::sweep::Sweep;
 use crate::{
@@ -15,8 +15,9 @@ use clap::{Args, Parser, Subcommand};
 use jiff::civil::DateTime;
 use std::path::PathBuf;
 
-const PROJECT: &str = "A PROJECT is a folder with eddy.toml, a folder of common.glsl, buffer_a.glsl … image.glsl, one .glsl \
-    file, a preset's name (see `eddy list`) or a Shadertoy API .json. One that is called like a command: `eddy ./render`.";
+const PROJECT: &str = "A PROJECT is a folder with eddy.toml, a folder of common.glsl, buffer_a.glsl … image.glsl, one \
+    .glsl file, a preset's name (see `eddy list`) or a Shadertoy API .json. One that is called like a command: \
+    `eddy ./render`.";
 
 /// Runs Shadertoy programs unchanged and says how fast and how wrong they are.
 #[derive(Debug, Parser)]
@@ -67,16 +68,17 @@ pub enum Command {
 pub struct RenderArgs {
     #[arg(required = true)]
     pub project: Vec<String>,
-    /// Where to: a .png or .npy file, or a folder that gets STEM.png for each project (several --at:
-    /// STEM_0004.png, with more digits if the last one needs them). With --json it may be left out: every frame is drawn and
-    /// nothing written
+    /// Where to: a .png or .npy file, or a folder that gets STEM.png for each project (several --at: STEM_0004.png,
+    /// with more digits if the last one needs them). With --json it may be left out: every frame is drawn and nothing
+    /// written
     #[arg(long, value_name = "PATH", required_unless_present = "json")]
     pub out: Option<PathBuf>,
     /// Frames to draw [default: 1, or as many as --at needs]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 30))]
     pub frames: Option<u32>,
     /// Which frames to write, counted from 0 [default: the last]
-    #[arg(long, value_name = "F[,F...]", value_delimiter = ',', value_parser = clap::value_parser!(u32).range(..1 << 30))]
+    #[arg(long, value_name = "F[,F...]", value_delimiter = ',')]
+    #[arg(value_parser = clap::value_parser!(u32).range(..1 << 30))]
     pub at: Vec<u32>,
     /// Which pass to write: image, buffer_a, a further buffer's name …; scene:1 is target 1 of a pass that has several
     #[arg(long, value_name = "NAME", default_value = "image", value_parser = picture)]
@@ -87,8 +89,9 @@ pub struct RenderArgs {
     pub format: Option<Format>,
     #[command(flatten)]
     pub run: RunArgs,
-    /// Draw once for each value of a uniform: tint=1,0,0;0,1,0 or viscosity=0..0.01:5, five values of even distance (of even
-    /// ratio: 0.001..1:4:log). Pictures are called STEM_viscosity=0.005.png. May be repeated, for every combination
+    /// Draw once for each value of a uniform: tint=1,0,0;0,1,0 or viscosity=0..0.01:5, five values of even distance (of
+    /// even ratio: 0.001..1:4:log). Pictures are called STEM_viscosity=0.005.png. May be repeated, for every
+    /// combination
     #[arg(long, value_name = "NAME=VALUES", value_parser = Sweep::parse)]
     pub sweep: Vec<Sweep>,
     /// One JSON object a line instead of words: project, status, diagnostics, compile_ms, frame_ms, frames
@@ -142,7 +145,7 @@ impl WithoutPass {
 }
 
 impl RunArgs {
-    /// What the scripts, the date and the rate make of frame 0, 1, 2 … Err: a script that cannot be read.
+    /// Returns what the scripts, the date and the rate make of frame 0, 1, 2 … Err: a script that cannot be read.
     pub fn inputs(&self) -> Result<ScriptedInputs, String> {
         let mouse = parse_mouse(&self.mouse).map_err(|e| format!("--mouse: {e}"))?;
         let keys = parse_keys(&self.keys).map_err(|e| format!("--keys: {e}"))?;

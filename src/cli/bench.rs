@@ -1,19 +1,19 @@
-//! `eddy bench`: what a frame costs, by the clock, by pass on the device, and in the engine itself; and what leaving out
-//! what nobody reads is worth.
+//! `eddy bench`: what a frame costs, by the clock, by pass on the device, and in the engine itself; and what leaving
+//! out what nobody reads is worth.
 
 use super::{
     args::BenchArgs,
-    machine::{Machine, Trouble, median, millis_since, open},
+    machine::{Machine, Trouble, median, open},
     report::{Printer, Report},
 };
 use crate::{
-    engine::{CostClock, Engine, PassRole, PassTime},
+    engine::{CostClock, PassRole},
     graph::{FramePlan, PassFacts},
     project::{PassId, Project},
-    session::script::ScriptedInputs,
+    session::{offline::Offline, script::ScriptedInputs},
 };
 use serde::Serialize;
-use std::{collections::HashMap, fmt::Write, io, time::Instant};
+use std::{collections::HashMap, fmt::Write, io};
 
 /// Frames before the measured ones: the driver compiles, buffers fill, clocks rise.
 const WARM_UP: u32 = 10;
@@ -28,7 +28,8 @@ struct Costs {
     cpu_us_per_pass: f64,
     /// The slowest frame.
     worst_ms: f64,
-    /// How the passes' `ms` were taken: `timestamps` of the device, or `waited`: each pass handed in and waited for by itself.
+    /// How the passes' `ms` were taken: `timestamps` of the device, or `waited`: each pass handed in and waited for by
+    /// itself.
     clock: &'static str,
     /// In drawing order.
     passes: Vec<PassCost>,
@@ -39,8 +40,8 @@ struct Costs {
     /// Bytes of the targets, and how many more they were if nothing were left out.
     target_bytes: u64,
     target_bytes_saved: u64,
-    /// Passes that a frame left out because nothing they read had changed, and the bytes of texels not written for it; means
-    /// over the measured frames.
+    /// Passes that a frame left out because nothing they read had changed, and the bytes of texels not written for it;
+    /// means over the measured frames.
     passes_rested: f64,
     bytes_rested: f64,
 }
@@ -57,7 +58,7 @@ struct PassCost {
     /// Texels of its targets.
     width: u32,
     height: u32,
-    /// Of each of its targets, as `eddy.toml` spells them.
+    /// The format of each of its targets, as `eddy.toml` spells them.
     formats: Vec<&'static str>,
     /// How often it is drawn in a frame.
     steps: u32,
@@ -95,30 +96,26 @@ fn measure(
     report: &mut Report,
     args: &BenchArgs,
     spec: &str,
-    mut inputs: ScriptedInputs,
+    inputs: ScriptedInputs,
 ) -> Result<Costs, Trouble> {
-    let (project, mut engine) = open(machine, report, spec, &args.run, &PassId::Image)?;
+    let (project, mut offline) = open(machine, report, spec, &args.run, &PassId::Image, inputs)?;
     for _ in 0..WARM_UP {
-        engine.draw(&inputs.next_frame())?;
-        engine.gpu().wait()?;
+        offline.draw()?;
     }
     let (mut millis, mut cpu) = (Vec::new(), Vec::new());
     let (mut passes_rested, mut bytes_rested) = (0, 0);
     for _ in 0..args.frames {
-        let inputs = inputs.next_frame();
-        let began = Instant::now();
-        let stats = engine.draw(&inputs)?;
-        let drawn = stats.passes_drawn;
-        passes_rested += stats.passes_cached;
-        bytes_rested += stats.bytes_cached;
-        cpu.push(millis_since(began) * 1000.0 / drawn.max(1) as f64);
-        engine.gpu().wait()?;
-        millis.push(millis_since(began));
+        let frame = offline.draw()?;
+        passes_rested += frame.stats.passes_cached;
+        bytes_rested += frame.stats.bytes_cached;
+        cpu.push(frame.cpu_millis * 1000.0 / frame.stats.passes_drawn.max(1) as f64);
+        millis.push(frame.millis);
         report.frames += 1;
     }
     // Apart from the others: timestamps cost a little in every frame, and waiting for each pass more.
-    let clock = engine.cost_clock();
-    let millis_of = pass_times(&mut engine, &mut inputs, args.frames)?;
+    let clock = offline.engine().cost_clock();
+    let millis_of = pass_times(&mut offline, args.frames)?;
+    let engine = offline.engine();
     let worst_ms = millis.iter().copied().fold(0.0, f64::max);
     report.frame_ms = median(millis);
     let (width, height) = args.run.size;
@@ -164,20 +161,10 @@ fn measure(
 }
 
 /// Median time of each pass in the frames in which it was drawn.
-fn pass_times(engine: &mut Engine, inputs: &mut ScriptedInputs, frames: u32) -> Result<HashMap<PassId, f64>, Trouble> {
+fn pass_times(offline: &mut Offline, frames: u32) -> Result<HashMap<PassId, f64>, Trouble> {
     let mut times: HashMap<PassId, Vec<f64>> = HashMap::new();
-    let has_stamps = engine.set_timing(true);
-    let began = Instant::now();
     for _ in 0..frames {
-        let inputs = inputs.next_frame();
-        let of_frame: Vec<PassTime> = if has_stamps {
-            engine.draw(&inputs)?;
-            engine.gpu().wait()?;
-            engine.pass_times().unwrap_or_default()
-        } else {
-            engine.draw_waited(&inputs, &mut || millis_since(began))?.1
-        };
-        for time in of_frame {
+        for time in offline.draw_timed()? {
             times.entry(time.pass).or_default().push(time.gpu_millis);
         }
     }

@@ -7,7 +7,7 @@ use super::{
     report::{Printer, Report},
 };
 use crate::{
-    diag::Diagnostic,
+    diag::{self, Diagnostic},
     engine,
     glsl::Driver,
     media::{self, MediaSet},
@@ -86,18 +86,13 @@ fn compile(project: &Project, driver: Driver) -> Vec<Diagnostic> {
         let said = texts.compile_pass(index, [false; 4], driver).map_or_else(|errors| errors, |done| done.diagnostics);
         let fills = FillKind::ALL.into_iter().filter_map(|k| texts.compile_fill(index, k, false, driver));
         let fills = fills.flat_map(|f| f.map_or_else(|errors| errors, |done| done.diagnostics));
-        for d in said.into_iter().chain(fills) {
-            // What is wrong in Common is found again in every pass.
-            if !found.contains(&d) {
-                found.push(d);
-            }
-        }
+        diag::append(&mut found, said.into_iter().chain(fills));
     }
     found
 }
 
-/// Where channels with samplers of their own read a buffer differently from each other, which the site cannot: there a
-/// buffer has one wrap, and one filter while a pass draws (`shadertoy.md`, section 7).
+/// Returns where channels with samplers of their own read a buffer differently from each other, which the site cannot:
+/// there a buffer has one wrap, and one filter while a pass draws (`shadertoy.md`, section 7).
 fn shared_samplers(project: &Project) -> Vec<Diagnostic> {
     if project.sampler_rules == SamplerRules::Site {
         return Vec::new();
@@ -133,12 +128,15 @@ fn differ<T: PartialEq + std::fmt::Debug>(
         Diagnostic::warning(
             None,
             format!(
-                "{other} reads Buffer {buffer} with {what} {}, {last} with {}: on the site a buffer has one {what} {when}, \
-                 the last one named, and the picture differs",
+                "{other} reads Buffer {buffer} with {what} {}, {last} with {}: on the site a buffer has one {what} \
+                 {when}, the last one named, and the picture differs",
                 name(loses),
                 name(wins)
             ),
         )
-        .hint(format!("give both the same {what}, or set sampler_rules = \"site\" in eddy.toml to see what the site shows")),
+        .hint(format!(
+            "give both the same {what}, or set sampler_rules = \"site\" in eddy.toml to see what the site \
+        shows"
+        )),
     )
 }

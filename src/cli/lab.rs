@@ -2,18 +2,17 @@
 
 use super::{
     args::{LabArgs, LabCommand},
-    machine::Machine,
-    precision, stability, told, trouble,
+    machine::shard_and_device,
+    precision, stability, trouble,
 };
 use crate::lab::{
-    Extent, LabError, Results, Shard, Study,
+    Extent, LabError, Results, Study,
     cost::MIN_REPEATS,
     report,
     run::{self, Options, Step},
     studies,
 };
 use std::{
-    env,
     io::{self, IsTerminal, Write},
     path::{Path, PathBuf},
 };
@@ -47,13 +46,9 @@ pub fn run(args: &LabArgs) -> io::Result<u8> {
     }
     // clap asks for it.
     let Some(out) = &args.out else { return Ok(trouble("--out is missing")) };
-    let shard = match Shard::parse(&args.shard, |name| env::var(name).ok()) {
-        Ok(shard) => shard,
-        Err(error) => return Ok(trouble(error)),
-    };
-    let gpu = match Machine::default().gpu() {
-        Ok(gpu) => gpu,
-        Err(error) => return Ok(trouble(told(&error))),
+    let (shard, gpu) = match shard_and_device(&args.shard) {
+        Ok(both) => both,
+        Err(why) => return Ok(trouble(why)),
     };
     let extent = if args.quick { Extent::Quick } else { Extent::Full };
     let options = Options { out: out.clone(), extent, repeats: args.repeats, shard };

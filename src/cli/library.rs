@@ -57,7 +57,8 @@ pub fn export(args: &ExportArgs) -> io::Result<u8> {
         let has_settings =
             !project.groups.is_empty() || project.passes.iter().any(|p| p.settings != Default::default());
         let lost = if has_settings {
-            "; the sizes, formats, regions, initial states, boundaries and groups of passes are left out: the site has none"
+            "; the sizes, formats, regions, initial states, boundaries and groups of passes are left out: the site \
+            has none"
         } else {
             ""
         };

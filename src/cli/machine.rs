@@ -1,5 +1,5 @@
-//! What every command that draws shares: the one device of a call, and the trouble a project can bring without taking the
-//! others with it.
+//! This module holds what every command that draws shares: the one device of a call, and the trouble a project can
+//! bring without taking the others with it.
 
 use super::{
     args::RunArgs,
@@ -7,17 +7,20 @@ use super::{
 };
 use crate::{
     diag::{Diagnostic, SourceMap},
-    engine::{BuildError, BuildOptions, Engine, EngineError, Program},
+    engine::{BuildError, BuildOptions, EngineError},
     gpu::{Gpu, GpuError, GpuOptions},
+    lab::Shard,
     media,
     project::{self, PassId, Project, ProjectError},
+    session::{offline::Offline, script::ScriptedInputs},
 };
 use std::{
+    env,
     panic::{AssertUnwindSafe, catch_unwind},
     time::Instant,
 };
 
-/// Why a project came to nothing.
+/// The reason why a project was not drawn.
 pub enum Trouble {
     Diagnostics(Vec<Diagnostic>, SourceMap),
     Unsupported(String),
@@ -64,7 +67,7 @@ impl From<anyhow::Error> for Trouble {
 #[derive(Default)]
 pub struct Machine {
     gpu: Option<Gpu>,
-    /// Why there is none; asked once.
+    /// The reason why there is no device, which is asked for once.
     refusal: Option<String>,
 }
 
@@ -85,8 +88,8 @@ impl Machine {
         }
     }
 
-    /// Does a project's work, and puts what went wrong into its report. A panic is this project's alone, and a device that
-    /// was lost, or may have been left in disorder, is made anew for the next one.
+    /// Does a project's work, and puts what went wrong into its report. A panic is this project's alone, and a device
+    /// that was lost, or may have been left in disorder, is made anew for the next one.
     pub fn attempt<T>(
         &mut self,
         report: &mut Report,
@@ -120,6 +123,13 @@ impl Machine {
     }
 }
 
+/// What a run of the lab begins with: its part of the work, by `--shard`, and the device. Err: one line that says what is wrong.
+pub fn shard_and_device(shard: &str) -> Result<(Shard, Gpu), String> {
+    let shard = Shard::parse(shard, |name| env::var(name).ok()).map_err(|error| error.to_string())?;
+    let gpu = Machine::default().gpu().map_err(|error| super::told(&error))?;
+    Ok((shard, gpu))
+}
+
 /// Reads, compiles and sets up a project, its warnings going into the report, by which it is swept.
 pub fn open(
     machine: &mut Machine,
@@ -127,7 +137,8 @@ pub fn open(
     spec: &str,
     run: &RunArgs,
     wanted: &PassId,
-) -> Result<(Project, Engine), Trouble> {
+    inputs: ScriptedInputs,
+) -> Result<(Project, Offline), Trouble> {
     let loaded = project::load(spec)?;
     let mut project = loaded.project;
     report.diagnose(&loaded.warnings, &loaded.sources, Some(&project));
@@ -150,22 +161,19 @@ pub fn open(
     let (media, missing) = media::gather(&project, run.media.as_deref());
     report.diagnose(&missing, &loaded.sources, Some(&project));
     let gpu = machine.gpu()?;
-    let (width, height) = run.size;
-    let mut engine = Engine::new(gpu.clone(), width, height)?;
-    let began = Instant::now();
+    let mut offline = Offline::new(&gpu, run.size, inputs)?;
     let options = BuildOptions { wanted: vec![wanted.clone()], skip: !run.no_skip, without: run.without_pass.set() };
-    let built = Program::build(&gpu, &project, &media, &options);
-    report.compile_ms = Some(millis_since(began));
-    let built = match built {
+    let built = offline.build(&project, &media, &options);
+    report.compile_ms = offline.build_millis();
+    let (diagnostics, sources) = match built {
         Err(BuildError::Diagnostics { diagnostics, sources }) => {
             report.diagnose(&diagnostics, &sources, Some(&project));
             return Err(Trouble::Diagnostics(Vec::new(), sources));
         }
         other => other?,
     };
-    report.diagnose(&built.diagnostics, &built.sources, Some(&project));
-    engine.set_program(built.program)?;
-    Ok((project, engine))
+    report.diagnose(&diagnostics, &sources, Some(&project));
+    Ok((project, offline))
 }
 
 pub fn millis_since(began: Instant) -> f64 {

@@ -1,7 +1,7 @@
 //! The front end without a window: arguments, words and JSON lines, exit codes.
 //!
-//! Owns what the command line says and prints. Opens no window: [`main`] hands that wish back to the binary, because the
-//! front ends do not know each other. Holds nothing another front end would need too; that lies in `session`.
+//! Owns what the command line says and prints. Opens no window: [`main`] hands that wish back to the binary, because
+//! the front ends do not know each other. Holds nothing another front end would need too; that lies in `session`.
 
 mod args;
 mod bench;
@@ -29,7 +29,7 @@ const STACK_BYTES: usize = 256 << 20;
 /// Machine or usage.
 const TROUBLE: u8 = 2;
 
-/// What the binary shall do after [`main`].
+/// The work that is left to the binary after [`main`].
 pub enum Next {
     /// Leave.
     Exit(ExitCode),

@@ -2,11 +2,12 @@
 
 /// Keeps Mesa from looking for a Wayland server where there can be none.
 ///
-/// Its Vulkan layer `VK_LAYER_MESA_device_select` asks the server which device it draws with whenever devices are listed, and
-/// libwayland, without `XDG_RUNTIME_DIR`, then writes "XDG_RUNTIME_DIR is invalid or not set" to standard error, once for each
-/// of the two times that wgpu lists them. An absolute `WAYLAND_DISPLAY` needs no such folder, and one where nothing listens is
-/// passed over in silence. The C library reads the environment, which a program can change safely only for one that it starts:
-/// so this starts itself again in its own place, before anything was done. Where that fails, the lines are written.
+/// Its Vulkan layer `VK_LAYER_MESA_device_select` asks the server which device it draws with whenever devices are
+/// listed, and libwayland, without `XDG_RUNTIME_DIR`, then writes "XDG_RUNTIME_DIR is invalid or not set" to standard
+/// error, once for each of the two times that wgpu lists them. An absolute `WAYLAND_DISPLAY` needs no such folder, and
+/// one where nothing listens is passed over in silence. The C library reads the environment, which a program can change
+/// safely only for one that it starts: so this starts itself again in its own place, before anything was done. Where
+/// that fails, the lines are written.
 #[cfg(target_os = "linux")]
 pub fn ask_for_no_wayland() {
     use std::{env, os::unix::process::CommandExt, path::Path, process::Command};

@@ -2,12 +2,12 @@
 
 use super::{
     args::RenderArgs,
-    machine::{Machine, Trouble, median, millis_since, open},
+    machine::{Machine, Trouble, median, open},
     report::{Printer, Report},
     targets::{self, Targets},
 };
 use crate::session::script::ScriptedInputs;
-use std::{io, path::PathBuf, time::Instant};
+use std::{io, path::PathBuf};
 
 pub fn run(args: &RenderArgs, targets: &Targets, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
@@ -37,20 +37,16 @@ fn draw(
     inputs: &ScriptedInputs,
     index: usize,
 ) -> Result<Vec<PathBuf>, Trouble> {
-    let (_, mut engine) = open(machine, report, &args.project[index], &args.run, &args.pass.pass)?;
-    let mut inputs = inputs.clone();
+    let wanted = &args.pass;
+    let (_, mut offline) = open(machine, report, &args.project[index], &args.run, &wanted.pass, inputs.clone())?;
     let (mut millis, mut written) = (Vec::new(), Vec::new());
     for frame in 0..targets.frames {
-        let inputs = inputs.next_frame();
-        let began = Instant::now();
-        engine.draw(&inputs)?;
-        engine.gpu().wait()?;
-        millis.push(millis_since(began));
+        millis.push(offline.draw()?.millis);
         report.frames += 1;
         if targets.at.binary_search(&frame).is_ok()
             && let Some(path) = targets.path(index, &report.sweep, frame)
         {
-            targets::write(&path, &engine.read_target(&args.pass.pass, args.pass.target)?, targets.format)?;
+            targets::write(&path, &offline.read(&wanted.pass, wanted.target)?, targets.format)?;
             written.push(path);
         }
     }

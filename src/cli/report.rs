@@ -1,4 +1,4 @@
-//! What became of one project, in words or as one JSON object a line.
+//! A report says how one project fared, in words or as one JSON object a line.
 
 use crate::{
     diag::{self, Diagnostic, Severity, SourceMap},
@@ -36,7 +36,7 @@ impl Status {
 pub struct Report {
     /// As it was named on the command line.
     pub project: String,
-    /// What `--sweep` set.
+    /// The values that `--sweep` set.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub sweep: Vec<String>,
     pub status: Status,
@@ -96,7 +96,7 @@ impl Report {
         }
     }
 
-    /// Of a project that is drawn with these assignments.
+    /// Returns an empty report of a project that is drawn with these assignments.
     pub fn swept(project: &str, sweep: &[String]) -> Report {
         Report { sweep: sweep.to_vec(), ..Report::new(project) }
     }

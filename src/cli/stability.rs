@@ -1,6 +1,6 @@
 //! `eddy lab stability`: simulations under hard conditions, and which of them leave their bounds.
 
-use super::{args::StabilityArgs, machine::Machine, told, trouble};
+use super::{args::StabilityArgs, machine::shard_and_device, trouble};
 use crate::lab::{
     Extent, LabError, Results, Shard,
     stability::{
@@ -9,7 +9,6 @@ use crate::lab::{
     },
 };
 use std::{
-    env,
     io::{self, IsTerminal, Write},
     path::Path,
 };
@@ -30,13 +29,9 @@ pub fn run(args: &StabilityArgs) -> io::Result<u8> {
     if let Some(bound) = args.bound.iter().find(|b| subjects.iter().all(|s| s.project.pass(&b.pass).is_none())) {
         return Ok(trouble(format_args!("--bound: no project of this call has a pass {}", bound.pass.key())));
     }
-    let shard = match Shard::parse(&args.shard, |name| env::var(name).ok()) {
-        Ok(shard) => shard,
-        Err(error) => return Ok(trouble(error)),
-    };
-    let gpu = match Machine::default().gpu() {
-        Ok(gpu) => gpu,
-        Err(error) => return Ok(trouble(told(&error))),
+    let (shard, gpu) = match shard_and_device(&args.shard) {
+        Ok(both) => both,
+        Err(why) => return Ok(trouble(why)),
     };
     let extent = if args.quick { Extent::Quick } else { Extent::Full };
     let options = Options { out: args.out.clone(), extent, size: args.size, shard, only: args.only.clone() };

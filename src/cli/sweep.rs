@@ -74,8 +74,8 @@ fn short(value: f64) -> String {
     format!("{value:.8e}").parse::<f64>().unwrap_or(value).to_string()
 }
 
-/// Every combination of the sweeps' values, each as assignments for `--set`; the last sweep changes first. One without any
-/// assignment where there is no sweep.
+/// Every combination of the sweeps' values, each as assignments for `--set`; the last sweep changes first. One without
+/// any assignment where there is no sweep.
 pub fn combinations(sweeps: &[Sweep]) -> Result<Vec<Vec<String>>, String> {
     let mut names = BTreeSet::new();
     if let Some(twice) = sweeps.iter().find(|sweep| !names.insert(&sweep.name)) {

@@ -1,5 +1,5 @@
-//! Where pictures go: which file each frame of each project is written to, worked out before anything is drawn, so that no
-//! picture of a call is written over another one of it.
+//! The files that pictures are written to. They are worked out for all frames of all projects before anything is drawn,
+//! so that no picture of a call is written over another one of it.
 
 use super::{
     args::{RenderArgs, format_of},
@@ -21,7 +21,7 @@ use std::{
 /// Digits of a frame's number in a name, more where the last frame needs more.
 const LEAST_DIGITS: usize = 4;
 
-/// Where the pictures of one call go.
+/// The files that one call writes pictures to.
 #[derive(Debug, PartialEq, Eq)]
 pub struct Targets {
     pub format: Format,
@@ -29,7 +29,7 @@ pub struct Targets {
     pub at: Vec<u32>,
     /// Frames to draw: past the last one written.
     pub frames: u32,
-    /// What each drawing of a project sets.
+    /// The assignments of each drawing of a project.
     pub sweep: Vec<Vec<String>>,
     place: Place,
 }
@@ -87,7 +87,8 @@ impl Targets {
         }
     }
 
-    /// Of a frame's number in a name: what the last one needs, so that names in their order are frames in theirs.
+    /// Returns how many digits a frame's number has in a name: as many as the last one needs, so that names in their
+    /// order are frames in theirs.
     fn digits(&self) -> usize {
         self.at.last().map_or(0, |last| last.to_string().len()).max(LEAST_DIGITS)
     }
@@ -141,8 +142,8 @@ fn stems(projects: &[String], case_counts: impl Fn() -> bool) -> Result<Vec<Stri
     Ok(stems)
 }
 
-/// Whether files whose names differ by case alone are two files in a folder that may not be there yet. Tried out, as one
-/// machine can have both kinds of file systems; where nothing can be written, no.
+/// Returns whether files whose names differ by case alone are two files in a folder that may not be there yet. Tried
+/// out, as one machine can have both kinds of file systems; where nothing can be written, no.
 fn tells_case_apart(folder: &Path) -> bool {
     let there =
         folder.ancestors().map(|p| if p.as_os_str().is_empty() { Path::new(".") } else { p }).find(|p| p.is_dir());

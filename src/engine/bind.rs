@@ -1,5 +1,5 @@
-//! Bind groups: which textures the channels of each draw see. Made when first needed and kept for a program and a size, so
-//! that a frame only sets them.
+//! Bind groups: which textures the channels of each draw see. Made when first needed and kept for a program and a size,
+//! so that a frame only sets them.
 
 use super::{
     pipelines::StagePipeline,
@@ -19,7 +19,8 @@ use crate::{
 pub(super) struct DrawBindings {
     /// One for each program.
     uniforms: Vec<wgpu::BindGroup>,
-    /// One for each choice of textures: bit i says which of its two the target of channel i shows. Made when first needed.
+    /// One for each choice of textures: bit i says which of its two the target of channel i shows. Made when first
+    /// needed.
     channels: [Option<wgpu::BindGroup>; 16],
 }
 

@@ -12,7 +12,7 @@ use super::{
     uploads::Uploads,
 };
 use crate::{
-    diag::{Diagnostic, SourceMap},
+    diag::{self, Diagnostic, SourceMap},
     glsl::{Driver, opt::PassSet},
     gpu::Gpu,
     graph::{ChannelFacts, FramePlan, PassFacts},
@@ -46,7 +46,8 @@ pub struct Built {
     pub work: BuildWork,
 }
 
-/// The number of things that a build had to make. Everything else was there from earlier builds of the same [`Builder`].
+/// The number of things that a build had to make. Everything else was there from earlier builds of the same
+/// [`Builder`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct BuildWork {
     /// Stages that were compiled: texts with their settings, each distinct one once.
@@ -55,8 +56,8 @@ pub struct BuildWork {
     pub pipelines: usize,
 }
 
-/// Builds programs on one device, one after the other. Compiled stages, pipelines, pictures and meshes that the last two
-/// programs have are not made again.
+/// Builds programs on one device, one after the other. Compiled stages, pipelines, pictures and meshes that the last
+/// two programs have are not made again.
 pub struct Builder {
     gpu: Gpu,
     stages: StageCache,
@@ -77,8 +78,8 @@ impl Builder {
         Self { gpu, stages: StageCache::default(), pipelines: PipelineCache::default(), uploads }
     }
 
-    /// Compiles every pass, plans the frame and makes the pipelines of the passes it needs. `media` holds the pictures the
-    /// channels name; one that is missing reads as the site's unloaded channel.
+    /// Compiles every pass, plans the frame and makes the pipelines of the passes it needs. `media` holds the pictures
+    /// the channels name; one that is missing reads as the site's unloaded channel.
     pub fn build(&mut self, project: &Project, media: &MediaSet, options: &BuildOptions) -> Result<Built, BuildError> {
         let built = self.build_program(project, media, options);
         let is_whole = built.is_ok();
@@ -173,12 +174,7 @@ impl Builder {
                 }
                 Err(errors) => said.extend(errors),
             }
-            for d in said {
-                // What is wrong in Common is found again in every pass.
-                if !diagnostics.contains(&d) {
-                    diagnostics.push(d);
-                }
-            }
+            diag::append(&mut diagnostics, said);
         }
         if diagnostics.iter().any(Diagnostic::is_error) {
             Err(diagnostics)

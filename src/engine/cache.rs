@@ -6,8 +6,8 @@ use std::{
     sync::{Arc, Weak},
 };
 
-/// Values by all that they are made of. A value stays as long as the newest build or the newest whole one uses it, and the
-/// whole one before that until the next is done: what is kept is bounded by two programs and one that failed.
+/// Values by all that they are made of. A value stays as long as the newest build or the newest whole one uses it, and
+/// the whole one before that until the next is done: what is kept is bounded by two programs and one that failed.
 pub(super) struct Cache<K, V> {
     entries: HashMap<K, Entry<V>>,
     build: u64,
@@ -62,8 +62,8 @@ impl<K: Eq + Hash, V> Cache<K, V> {
     }
 }
 
-/// A value by its place in memory, which stays taken as long as this lives: equal places hold the same value. Does not keep
-/// the value itself.
+/// A value by its place in memory, which stays taken as long as this lives: equal places hold the same value. Does not
+/// keep the value itself.
 pub(super) struct ByAddress<T>(Weak<T>);
 
 impl<T> ByAddress<T> {

@@ -121,7 +121,8 @@ pub(super) fn channel_bindings(channels: &[BoundChannel; 4], draw: &Draw) -> Vec
             crate::glsl::ChannelKind::Sampler3D => wgpu::TextureViewDimension::D3,
             crate::glsl::ChannelKind::SamplerCube => wgpu::TextureViewDimension::Cube,
         };
-        // An empty channel is an 8-bit texture and can always be filtered; it is bound like the others to need no third case.
+        // An empty channel is an 8-bit texture and can always be filtered; it is bound like the others to need no third
+        // case.
         let is_keyboard = matches!(draw.reads[index].as_ref().map(|r| &r.source), Some(Source::Keyboard));
         let filterable = channel.mixing == Mixing::BySampler && !is_keyboard;
         if channel.texture {

@@ -18,8 +18,8 @@ pub(super) struct PassOptions {
 }
 
 impl Sources<'_> {
-    /// Compiles `project.passes[index]` as it is, of whichever kind and reached or not. Needs no device, but is told which
-    /// channels the device that shall run it cannot filter, and what its driver needs.
+    /// Compiles `project.passes[index]` as it is, of whichever kind and reached or not. Needs no device, but is told
+    /// which channels the device that shall run it cannot filter, and what its driver needs.
     ///
     /// # Panics
     /// If there is no such pass.
@@ -27,8 +27,8 @@ impl Sources<'_> {
         self.compile_pass_with(&mut StageCache::default(), index, PassOptions { bilinear_by_hand, driver })
     }
 
-    /// Compiles what fills texels of `project.passes[index]`, if something does. It sees Common, and of the author's own uniforms
-    /// those that Common declares. A file is what its one channel reads.
+    /// Compiles what fills texels of `project.passes[index]`, if something does. It sees Common, and of the author's
+    /// own uniforms those that Common declares. A file is what its one channel reads.
     pub fn compile_fill(
         &self,
         index: usize,

@@ -11,8 +11,8 @@ const DEPTH_BYTES: u64 = 4;
 pub enum CostClock {
     /// The device's timestamps before and after each pass.
     Timestamps,
-    /// The wall's clock, on a device without timestamps: each pass is handed in and waited for by itself, less the time of handing
-    /// in nothing. See [`Engine::draw_waited`].
+    /// The wall's clock, on a device without timestamps: each pass is handed in and waited for by itself, less the time
+    /// of handing in nothing. See [`Engine::draw_waited`].
     Waited,
 }
 
@@ -40,16 +40,16 @@ pub struct PassCost {
     pub steps: u32,
     /// Bytes of its textures on the device, mip levels, the second one of a pair and the depth buffer among them.
     pub held_bytes: u64,
-    /// Fewest bytes that a frame moves for it, all steps together: its own texels written, and those of each distinct pass that
-    /// it reads read once a step. 0 where it is not drawn.
+    /// Fewest bytes that a frame moves for it, all steps together: its own texels written, and those of each distinct
+    /// pass that it reads read once a step. 0 where it is not drawn.
     pub moved_bytes: u64,
     /// Texels that a frame draws of it, all steps together.
     pub texels: u64,
 }
 
 impl Engine {
-    /// Returns the costs of each pass of the running program in drawing order, then those of `project` that are not drawn. Empty
-    /// without a program.
+    /// Returns the costs of each pass of the running program in drawing order, then those of `project` that are not
+    /// drawn. Empty without a program.
     pub fn pass_costs(&self, project: &Project) -> Vec<PassCost> {
         let Some(running) = self.running() else { return Vec::new() };
         let (plan, canvas) = (&running.program.plan, running.canvas);

@@ -39,7 +39,8 @@ impl Display {
         self.shown = Some(pass);
     }
 
-    /// Shows the chosen pass, if one is chosen, from these targets on; a pass without a target is black and of the canvas's size.
+    /// Shows the chosen pass, if one is chosen, from these targets on; a pass without a target is black and of the
+    /// canvas's size.
     pub fn rebind(&mut self, gpu: &Gpu, canvas: (u32, u32), targets: &[Target]) {
         let Some(shown) = &self.shown else { return };
         self.bound.clear();

@@ -19,7 +19,8 @@ const PICTURE: &str = "void mainImage(out vec4 value, in vec2 fragCoord) {
 }
 ";
 
-/// The program of a fill. An expression is included into the text around it, so that its spans are those of the manifest.
+/// The program of a fill. An expression is included into the text around it, so that its spans are those of the
+/// manifest.
 pub(super) struct FillSource {
     code: String,
     /// The manifest with all else than the expression blank.

@@ -2,7 +2,8 @@
 
 use crate::media::Keyboard;
 
-/// The values that the uniforms and the keyboard texture show in one frame. They are as in `shadertoy.md` sections 3 to 6.
+/// The values that the uniforms and the keyboard texture show in one frame. They are as in `shadertoy.md` sections 3 to
+/// 6.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameInputs {
     /// `iFrame`.

@@ -30,7 +30,8 @@ pub(super) fn knobs(project: &Project) -> Knobs {
     knobs
 }
 
-/// Returns those that the texts of a pass may name: its own, Common's, and those of what they include. `None`: Common alone.
+/// Returns those that the texts of a pass may name: its own, Common's, and those of what they include. `None`: Common
+/// alone.
 pub(super) fn in_scope<'k>(knobs: &'k Knobs, lines: &IncludeLines, pass: Option<SourceId>) -> Vec<glsl::Knob<'k>> {
     let mut texts = lines.reach(Project::COMMON_ID);
     texts.extend(pass.map(|id| lines.reach(id)).unwrap_or_default());

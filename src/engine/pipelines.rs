@@ -80,8 +80,8 @@ pub(super) struct PipelineCache {
 }
 
 impl PipelineCache {
-    /// Returns a pipeline for each order. Those that are not there are made side by side: a driver takes a tenth of a second for
-    /// one.
+    /// Returns a pipeline for each order. Those that are not there are made side by side: a driver takes a tenth of a
+    /// second for one.
     pub fn make(&mut self, gpu: &Gpu, orders: Vec<PipelineOrder>) -> Result<Vec<Arc<StagePipeline>>, EngineError> {
         let keys: Vec<PipelineKey> = orders.iter().map(PipelineOrder::key).collect();
         let mut missing: HashMap<&PipelineKey, PipelineOrder> = HashMap::new();

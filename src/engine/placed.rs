@@ -38,8 +38,8 @@ impl PlacedMesh {
     }
 }
 
-/// Returns the matrix from the world to the camera, and where the camera stands. Dragging across the canvas turns it once round, dragging up it
-/// half round, as far as just short of the poles.
+/// Returns the matrix from the world to the camera, and where the camera stands. Dragging across the canvas turns it
+/// once round, dragging up it half round, as far as just short of the poles.
 fn view(camera: &Camera, drag: [f32; 2], canvas: (u32, u32)) -> (Mat4, Vec3) {
     let [x, y] = if camera.orbit { drag } else { [0.0; 2] };
     let yaw = (camera.yaw as f32 - 360.0 * x / canvas.0 as f32).to_radians();

@@ -9,8 +9,8 @@ use crate::{
 };
 use std::sync::Arc;
 
-/// A whole set of compiled passes and their plan. [`super::Builder`] makes it on any thread; [`super::Engine::set_program`]
-/// swaps it in at once.
+/// A whole set of compiled passes and their plan. [`super::Builder`] makes it on any thread;
+/// [`super::Engine::set_program`] swaps it in at once.
 pub struct Program {
     pub(super) plan: FramePlan,
     /// One for each of the plan's draws.

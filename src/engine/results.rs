@@ -14,8 +14,8 @@ pub struct PassTime {
 pub struct FrameStats {
     /// Passes drawn in this frame, every step of a group counted.
     pub passes_drawn: u64,
-    /// Passes left out because nothing they read has changed since they were drawn, and the bytes of texels that were not
-    /// written for it.
+    /// Passes left out because nothing they read has changed since they were drawn, and the bytes of texels that were
+    /// not written for it.
     pub passes_cached: u64,
     pub bytes_cached: u64,
 }
@@ -29,8 +29,8 @@ pub struct Pixels {
 }
 
 impl Pixels {
-    /// Returns the bytes that a PNG shows: clamped to 0..1, rounded to 8 bits, NaN as 0, the top row first. The one way from a picture to
-    /// bytes: screenshots, `eddy render` and the golden tests share it.
+    /// Returns the bytes that a PNG shows: clamped to 0..1, rounded to 8 bits, NaN as 0, the top row first. The one way
+    /// from a picture to bytes: screenshots, `eddy render` and the golden tests share it.
     pub fn to_rgba8(&self) -> Vec<u8> {
         let mut bytes = Vec::with_capacity(self.texels.len() * 4);
         for row in self.texels.chunks_exact(self.width as usize).rev() {

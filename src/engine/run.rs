@@ -32,8 +32,8 @@ impl Engine {
         })
     }
 
-    /// Swaps the whole program. Buffers that the new one has too keep their texels, so an edit does not restart a simulation;
-    /// new ones start as the project says, else as zeros. On an error the old program goes on.
+    /// Swaps the whole program. Buffers that the new one has too keep their texels, so an edit does not restart a
+    /// simulation; new ones start as the project says, else as zeros. On an error the old program goes on.
     pub fn set_program(&mut self, program: Program) -> Result<(), EngineError> {
         let mut running = Running::start(&mut self.shared, program, self.canvas, &mut self.running)?;
         running.set_timing(&self.shared, self.is_timing);
@@ -42,14 +42,14 @@ impl Engine {
         Ok(())
     }
 
-    /// Sets the values of the author's own uniforms from the next frame on; what `values` does not name stands at its default.
-    /// Compiles nothing. Says whether anything is different now.
+    /// Sets the values of the author's own uniforms from the next frame on; what `values` does not name stands at its
+    /// default. Compiles nothing. Says whether anything is different now.
     pub fn set_knobs(&mut self, values: &KnobValues) -> bool {
         self.running.as_mut().is_some_and(|running| running.set_knobs(&self.shared, values))
     }
 
-    /// New canvas size. Every buffer keeps the overlap, texel for texel from the bottom left; the rest is as before frame 0. On an error
-    /// everything stays as it was.
+    /// New canvas size. Every buffer keeps the overlap, texel for texel from the bottom left; the rest is as before
+    /// frame 0. On an error everything stays as it was.
     pub fn resize(&mut self, width: u32, height: u32) -> Result<(), EngineError> {
         if (width, height) == self.canvas {
             return Ok(());
@@ -80,8 +80,9 @@ impl Engine {
         Ok(stats)
     }
 
-    /// Does the same as [`Engine::draw`], with the same picture, but hands in each pass by itself and waits for it: how long each takes can then
-    /// be told where the device has no timestamps. `now` gives milliseconds since any moment. A frame takes longer so.
+    /// Does the same as [`Engine::draw`], with the same picture, but hands in each pass by itself and waits for it: how
+    /// long each takes can then be told where the device has no timestamps. `now` gives milliseconds since any moment.
+    /// A frame takes longer so.
     pub fn draw_waited(
         &mut self,
         inputs: &FrameInputs,
@@ -99,8 +100,8 @@ impl Engine {
         self.targets().iter().find(|t| t.id == *pass).map(Target::size)
     }
 
-    /// Overwrites a texel of a pass's newest ones by NaN, in a format of floats; in any other by its largest value. For who asks
-    /// how a project recovers. A place outside of the pass's texels is held inside.
+    /// Overwrites a texel of a pass's newest ones by NaN, in a format of floats; in any other by its largest value. For
+    /// who asks how a project recovers. A place outside of the pass's texels is held inside.
     pub fn poison(&mut self, pass: &PassId, (x, y): (u32, u32)) -> Result<(), EngineError> {
         let (gpu, none) = (&self.shared.gpu, || EngineError::NoSuchPass(pass.title()));
         let running = self.running.as_mut().ok_or_else(none)?;
@@ -141,8 +142,8 @@ impl Engine {
         self.running.as_ref().map_or(&[], |running| &running.targets)
     }
 
-    /// Measures the device's time of each pass from the next frame on, where it has timestamps. Off at first, as it costs a
-    /// little in every frame. Says whether it can.
+    /// Measures the device's time of each pass from the next frame on, where it has timestamps. Off at first, as it
+    /// costs a little in every frame. Says whether it can.
     pub fn set_timing(&mut self, on: bool) -> bool {
         self.is_timing = on && self.shared.gpu.has_timestamps;
         if let Some(running) = &mut self.running {
@@ -160,14 +161,15 @@ impl Engine {
         Some(draws.iter().zip(millis).map(|(d, gpu_millis)| PassTime { pass: d.id.clone(), gpu_millis }).collect())
     }
 
-    /// The picture of a pass for a window: rgba8unorm, turned so that its first row is the top, values as display values.
-    /// Made anew in [`Engine::draw`] for the pass chosen with [`Engine::show`]; black before that. A resize makes a new view.
+    /// The picture of a pass for a window: rgba8unorm, turned so that its first row is the top, values as display
+    /// values. Made anew in [`Engine::draw`] for the pass chosen with [`Engine::show`]; black before that. A resize
+    /// makes a new view.
     pub fn display(&self) -> &wgpu::TextureView {
         self.display.view()
     }
 
-    /// Chooses which pass [`Engine::display`] shows, from its newest texels on. Nothing is made for showing before the first
-    /// call. A pass that is not drawn shows black.
+    /// Chooses which pass [`Engine::display`] shows, from its newest texels on. Nothing is made for showing before the
+    /// first call. A pass that is not drawn shows black.
     pub fn show(&mut self, pass: PassId) {
         self.display.show(pass);
         self.rebind_display();

@@ -1,5 +1,5 @@
-//! A program that is running: its textures over time, what they are bound to, and what has changed. How a frame of it is drawn is
-//! in `frame`.
+//! A program that is running: its textures over time, what they are bound to, and what has changed. How a frame of it
+//! is drawn is in `frame`.
 
 use super::{
     EngineError, FrameInputs,
@@ -60,8 +60,8 @@ impl NewTextures {
 }
 
 impl Running {
-    /// Starts a program in place of `before`. Targets that both have keep their texels; new ones start as the project says, else
-    /// as zeros. On an error `before` stays.
+    /// Starts a program in place of `before`. Targets that both have keep their texels; new ones start as the project
+    /// says, else as zeros. On an error `before` stays.
     pub fn start(
         shared: &mut Shared,
         program: Program,
@@ -86,7 +86,8 @@ impl Running {
         Ok(running)
     }
 
-    /// Goes on with another canvas. Targets keep the overlap; the rest is as before frame 0. On an error everything stays.
+    /// Goes on with another canvas. Targets keep the overlap; the rest is as before frame 0. On an error everything
+    /// stays.
     pub fn resize(&mut self, shared: &mut Shared, canvas: (u32, u32)) -> Result<(), EngineError> {
         let new = NewTextures::make(shared, &self.program, canvas, &self.targets)?;
         self.canvas = canvas;

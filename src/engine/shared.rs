@@ -1,4 +1,5 @@
-//! The parts that every program draws with: the device, samplers, the keyboard, and textures for channels that have none.
+//! The parts that every program draws with: the device, samplers, the keyboard, and textures for channels that have
+//! none.
 
 use crate::{
     gpu::{Gpu, GpuError, MipMaker, Samplers, Texture, TextureDescriptor},

@@ -52,7 +52,8 @@ impl<'p> Sources<'p> {
         self.fills.iter().find(|(p, k, _)| (*p, *k) == (index, kind)).map(|(.., text)| text)
     }
 
-    /// Gives a text that stands in no tab as the compiler takes it. With a `value` it sees Common and what Common includes.
+    /// Gives a text that stands in no tab as the compiler takes it. With a `value` it sees Common and what Common
+    /// includes.
     pub(super) fn with_fill<T>(
         &self,
         code: Text<'_>,

@@ -6,12 +6,13 @@ use crate::{
     glsl::{self, ChannelKind, Compiled, Driver, GivenValue, KnobKind, Link, PassKind, PassSource, Text, Varying},
 };
 use std::{
+    cell::OnceCell,
     hash::{Hash, Hasher},
     sync::Arc,
 };
 
-/// Stages by their texts and settings. Passes of equal texts and settings share a stage, and so do those of texts that compile
-/// to the same.
+/// Stages by their texts and settings. Passes of equal texts and settings share a stage, and so do those of texts that
+/// compile to the same.
 #[derive(Default)]
 pub(super) struct StageCache {
     stages: Cache<StageKey, Outcome>,
@@ -23,12 +24,41 @@ pub(super) struct StageCache {
 struct Outcome {
     /// `None`: there are errors.
     stage: Option<Arc<Compiled>>,
+    /// All of the stage as text; made when first needed.
+    content: OnceCell<String>,
     diagnostics: Vec<Diagnostic>,
     ids: Vec<SourceId>,
 }
 
-/// Everything that the compiler reads of a stage: equal keys compile to equal stages. Ids of texts are their places among the
-/// ids of this stage, which say the same for every pass that has the texts.
+impl Outcome {
+    /// Returns true if both compiled to the same. Types of naga cannot be compared, but their texts for debugging say
+    /// all.
+    fn is_same(&self, other: &Outcome) -> bool {
+        let content = |outcome: &Outcome| format!("{:?}", outcome.stage);
+        self.outline().is_some_and(|outline| other.outline() == Some(outline))
+            && self.content.get_or_init(|| content(self)) == other.content.get_or_init(|| content(other))
+    }
+
+    /// Returns what is quickly compared.
+    fn outline(&self) -> Option<[usize; 8]> {
+        let Compiled { module, tables, uniform_tables, .. } = &**self.stage.as_ref()?;
+        let entry = &module.entry_points.first()?.function;
+        let functions = module.functions.iter().map(|(_, function)| function).chain([entry]);
+        Some([
+            tables.len(),
+            uniform_tables.len(),
+            module.types.len(),
+            module.constants.len(),
+            module.global_variables.len(),
+            module.functions.len(),
+            functions.map(|f| f.expressions.len()).sum(),
+            entry.body.len(),
+        ])
+    }
+}
+
+/// Everything that the compiler reads of a stage: equal keys compile to equal stages. Ids of texts are their places
+/// among the ids of this stage, which say the same for every pass that has the texts.
 #[derive(PartialEq, Eq)]
 struct StageKey {
     kind: PassKind,
@@ -107,8 +137,8 @@ fn words(value: &GivenValue) -> Vec<u64> {
 }
 
 impl StageCache {
-    /// Compiles a stage unless an equal one is there. Returns it, or `None` where the diagnostics hold an error; they point
-    /// into the texts of `source`. `shared` returns a text of `source` as the cache keeps it.
+    /// Compiles a stage unless an equal one is there. Returns it, or `None` where the diagnostics hold an error; they
+    /// point into the texts of `source`. `shared` returns a text of `source` as the cache keeps it.
     pub fn compile(
         &mut self,
         source: &PassSource<'_>,
@@ -124,14 +154,18 @@ impl StageCache {
         let (stage, diagnostics) = match glsl::compile_linked(source, link) {
             Ok(mut stage) => {
                 let diagnostics = std::mem::take(&mut stage.diagnostics);
-                // A comment, or a function of Common that the pass does not call, makes another text and the same stage.
-                let same = self.stages.values().filter_map(|o| o.stage.as_ref()).find(|other| is_same(other, &stage));
-                (Some(same.cloned().unwrap_or_else(|| Arc::new(stage))), diagnostics)
+                (Some(Arc::new(stage)), diagnostics)
             }
             Err(errors) => (None, errors),
         };
-        self.stages.insert(key, Outcome { stage: stage.clone(), diagnostics: diagnostics.clone(), ids });
-        (stage, diagnostics)
+        let mut outcome = Outcome { stage, content: OnceCell::new(), diagnostics, ids };
+        // A comment, or a function of Common that the pass does not call, makes another text and the same stage.
+        if let Some(same) = self.stages.values().find(|other| other.is_same(&outcome)) {
+            outcome.stage = same.stage.clone();
+        }
+        let result = (outcome.stage.clone(), outcome.diagnostics.clone());
+        self.stages.insert(key, outcome);
+        result
     }
 
     /// Ends a build; see [`Cache::end_build`]. Returns the number of stages that it compiled.
@@ -139,24 +173,6 @@ impl StageCache {
         self.stages.end_build(is_whole);
         std::mem::take(&mut self.compiled)
     }
-}
-
-/// Returns whether two stages are the same module, and are drawn with the same tables.
-fn is_same(a: &Compiled, b: &Compiled) -> bool {
-    let sizes = |stage: &Compiled| {
-        let functions =
-            stage.module.functions.iter().map(|(_, f)| f).chain(stage.module.entry_points.iter().map(|e| &e.function));
-        let expressions: usize = functions.map(|f| f.expressions.len()).sum();
-        (
-            expressions,
-            stage.module.types.len(),
-            stage.module.constants.len(),
-            stage.tables.len(),
-            stage.uniform_tables.len(),
-        )
-    };
-    // naga's modules compare as text alone, which is slow: most differ in this.
-    sizes(a) == sizes(b) && a.reflection == b.reflection && format!("{a:?}") == format!("{b:?}")
 }
 
 /// Returns diagnostics of a stage with texts `from` as they are for an equal one with texts `to`.

@@ -7,8 +7,8 @@ use crate::{
     project::PassId,
 };
 
-/// One or two textures of a pass. Of two, one holds what was drawn last and is read; the next draw goes into the other, and
-/// then they change places.
+/// One or two textures of a pass. Of two, one holds what was drawn last and is read; the next draw goes into the other,
+/// and then they change places.
 pub(super) struct Target {
     pub id: PassId,
     /// The place among the pass's targets.
@@ -124,8 +124,8 @@ impl NewTargets {
         plan.targets.iter().map(make).collect::<Result<_, _>>().map(Self)
     }
 
-    /// Puts the targets of the plan in place of the present ones, of which it keeps those that are as the plan asks. Returns the
-    /// others, and for each target of the plan whether it is new.
+    /// Puts the targets of the plan in place of the present ones, of which it keeps those that are as the plan asks.
+    /// Returns the others, and for each target of the plan whether it is new.
     pub fn replace(self, plan: &FramePlan, present: &mut Vec<Target>) -> (Vec<Target>, Vec<bool>) {
         let is_new = self.0.iter().map(Option::is_some).collect();
         let mut old = std::mem::take(present);

@@ -24,7 +24,8 @@ impl FloatConverter {
         Self { pipeline: shader.pipeline(gpu, FORMAT), shader }
     }
 
-    /// Level 0 of a texture as a new rgba32float texture: what a shader reads of it, missing components as 0, alpha as 1.
+    /// Level 0 of a texture as a new rgba32float texture: what a shader reads of it, missing components as 0, alpha as
+    /// 1.
     pub fn convert(&self, gpu: &Gpu, picture: &Texture) -> Result<Texture, GpuError> {
         let (width, height) = (picture.width(), picture.height());
         let descriptor =

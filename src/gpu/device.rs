@@ -8,13 +8,13 @@ use std::sync::{
 /// The features that are asked of the machine.
 #[derive(Clone, Debug)]
 pub struct GpuOptions {
-    /// Use filtering of 32-bit float textures where the adapter has it. Off, every such read is written by hand: how the
-    /// fallback is tested on a device that needs none.
+    /// Use filtering of 32-bit float textures where the adapter has it. Off, every such read is written by hand: how
+    /// the fallback is tested on a device that needs none.
     pub use_float32_filtering: bool,
     /// Use timestamp queries where the adapter has them.
     pub use_timestamps: bool,
-    /// Let naga add its own checks to shaders (indices, loops, integer division), which Eddy's front end makes needless: how
-    /// their cost is measured.
+    /// Let naga add its own checks to shaders (indices, loops, integer division), which Eddy's front end makes
+    /// needless: how their cost is measured.
     pub runtime_checks: bool,
 }
 
@@ -62,21 +62,21 @@ pub struct Gpu {
     pub filters_float32: bool,
     /// Fragment shaders can read storage buffers.
     pub has_storage_buffers: bool,
-    /// A program is compiled anew for every frame if one of its branches depends on uniforms alone: lavapipe, Mesa's Vulkan on
-    /// the processor, tries how much shorter it becomes with their values in it (`lvp_inline_uniforms.c`).
+    /// A program is compiled anew for every frame if one of its branches depends on uniforms alone: lavapipe, Mesa's
+    /// Vulkan on the processor, tries how much shorter it becomes with their values in it (`lvp_inline_uniforms.c`).
     pub recompiles_for_uniforms: bool,
-    /// Once a fragment that fails the depth test was meant for a target of 16-bit floats, the thread that met it no longer takes
-    /// denormal numbers for zeros, and which texels it draws is chance: llvmpipe lets them through to convert to 16 bits, and
-    /// returns on a way past the end of that (`generate_unswizzled_blend` in `lp_state_fs.c`). Programs that may discard test
-    /// depth on another way.
+    /// Once a fragment that fails the depth test was meant for a target of 16-bit floats, the thread that met it no
+    /// longer takes denormal numbers for zeros, and which texels it draws is chance: llvmpipe lets them through to
+    /// convert to 16 bits, and returns on a way past the end of that (`generate_unswizzled_blend` in `lp_state_fs.c`).
+    /// Programs that may discard test depth on another way.
     pub keeps_denormals: bool,
     /// `atan2(0, 0)` may be NaN, as Direct3D has it; on the site, which then asks for another angle, it is 0.
     pub nan_angle: bool,
-    /// Long arrays are to be filled and copied by loops, and initialisers of their zeros left out: lavapipe makes one store a
-    /// scalar of each, for which LLVM takes time that grows faster than their square.
+    /// Long arrays are to be filled and copied by loops, and initialisers of their zeros left out: lavapipe makes one
+    /// store a scalar of each, for which LLVM takes time that grows faster than their square.
     pub wants_array_loops: bool,
-    /// A value that a loop computes before its first exit may be wrong after it, for pixels that leave before others do: gallivm, the
-    /// compiler of llvmpipe and lavapipe, does not bring loops into loop-closed SSA form.
+    /// A value that a loop computes before its first exit may be wrong after it, for pixels that leave before others
+    /// do: gallivm, the compiler of llvmpipe and lavapipe, does not bring loops into loop-closed SSA form.
     pub keeps_loops_open: bool,
     /// A loop that counts down to `min(c, x)` ends at `c`: Mesa's compiler takes the one for the other.
     pub misjudges_limits: bool,
@@ -112,8 +112,9 @@ impl Gpu {
         Err(GpuError::NoAdapter(reasons.join("; ")))
     }
 
-    /// Another device on the adapter that `info` is of, from an instance of its own: neither waits in the other's queue. Threads
-    /// that a driver starts for it are those of the calling thread. Where the adapter is not found again, as [`Gpu::new`].
+    /// Another device on the adapter that `info` is of, from an instance of its own: neither waits in the other's
+    /// queue. Threads that a driver starts for it are those of the calling thread. Where the adapter is not found
+    /// again, as [`Gpu::new`].
     pub fn another(info: &wgpu::AdapterInfo, options: &GpuOptions) -> Result<Gpu, GpuError> {
         let is_same = |other: &wgpu::AdapterInfo| {
             (&other.name, other.backend, other.vendor, other.device, &other.device_pci_bus_id)
@@ -129,12 +130,14 @@ impl Gpu {
         Self::new(options)
     }
 
-    /// Returns how to make the instance, best first, also where a window's surface must be made from it: Vulkan, Metal or DX12, and
-    /// OpenGL only where none of them has a device, since merely opening it costs start-up time. `WGPU_BACKEND` overrides both.
+    /// Returns how to make the instance, best first, also where a window's surface must be made from it: Vulkan, Metal
+    /// or DX12, and OpenGL only where none of them has a device, since merely opening it costs start-up time.
+    /// `WGPU_BACKEND` overrides both.
     pub fn instance_descriptors() -> [wgpu::InstanceDescriptor; 2] {
         [wgpu::Backends::PRIMARY, wgpu::Backends::GL].map(|backends| {
             let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
-            // Validation layers cost a start-up second and are for people who debug Eddy itself: WGPU_VALIDATION turns them on.
+            // Validation layers cost a start-up second and are for people who debug Eddy itself: WGPU_VALIDATION turns
+            // them on.
             descriptor.flags = wgpu::InstanceFlags::empty();
             descriptor.backends = backends;
             descriptor.with_env()
@@ -225,8 +228,8 @@ impl Gpu {
         Ok(())
     }
 
-    /// Runs code that makes graphics objects and turns what the graphics layer says of it into an error, instead of leaving a
-    /// broken object behind.
+    /// Runs code that makes graphics objects and turns what the graphics layer says of it into an error, instead of
+    /// leaving a broken object behind.
     pub(super) fn guarded<T>(&self, what: &str, make: impl FnOnce() -> T) -> Result<T, GpuError> {
         let validation = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let memory = self.device.push_error_scope(wgpu::ErrorFilter::OutOfMemory);

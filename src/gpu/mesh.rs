@@ -149,8 +149,8 @@ pub fn depth_buffer(gpu: &Gpu, label: &str, width: u32, height: u32) -> Result<w
     Ok(texture.create_view(&Default::default()))
 }
 
-/// Returns an error if the device cannot draw into targets of these formats at once; by the rule of WebGPU, "calculating color attachment
-/// bytes per sample".
+/// Returns an error if the device cannot draw into targets of these formats at once; by the rule of WebGPU,
+/// "calculating color attachment bytes per sample".
 pub fn check_targets(gpu: &Gpu, what: &str, formats: &[wgpu::TextureFormat]) -> Result<(), GpuError> {
     let limits = gpu.device.limits();
     let bytes = bytes_a_sample(formats);

@@ -1,5 +1,5 @@
-//! Mip chains, level by level: each texel is the bilinear read of the finer level at its centre, which is what GL drivers'
-//! `glGenerateMipmap` does. Read by hand, so it works where 32-bit floats cannot be filtered, too.
+//! Mip chains, level by level: each texel is the bilinear read of the finer level at its centre, which is what GL
+//! drivers' `glGenerateMipmap` does. Read by hand, so it works where 32-bit floats cannot be filtered, too.
 
 use super::{Gpu, Texture, full_screen::PictureShader};
 use std::collections::HashMap;

@@ -3,8 +3,8 @@
 use super::Gpu;
 
 impl Gpu {
-    /// Returns how a colour target begins of which a pass writes every texel. It is cleared, which costs nothing where the device draws tile
-    /// by tile; lavapipe, which draws a clearing by itself, begins with what was there.
+    /// Returns how a colour target begins of which a pass writes every texel. It is cleared, which costs nothing where
+    /// the device draws tile by tile; lavapipe, which draws a clearing by itself, begins with what was there.
     pub fn load_what_is_overwritten(&self) -> wgpu::LoadOp<wgpu::Color> {
         if self.fences.is_some() { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT) }
     }

@@ -1,8 +1,8 @@
 //! SPIR-V without the zeros that long arrays begin with.
 //!
-//! naga's writer gives every variable an initialiser of zeros. lavapipe makes one store a scalar of it in one block, for which
-//! LLVM takes time that grows with about the cube of their number. The front end has such arrays filled by loops, and here
-//! their initialisers are left out.
+//! naga's writer gives every variable an initialiser of zeros. lavapipe makes one store a scalar of it in one block,
+//! for which LLVM takes time that grows with about the cube of their number. The front end has such arrays filled by
+//! loops, and here their initialisers are left out.
 
 use std::{borrow::Cow, collections::HashMap};
 
@@ -27,8 +27,8 @@ pub(super) fn shader_module(
     let words = without_zeros(&words(module, groups)?, filled_arrays);
     let entry_point = wgpu::PassthroughShaderEntryPoint { name: Cow::Borrowed(&entry.name), workgroup_size: (0, 0, 0) };
     // SAFETY: the driver gets what wgpu would give it, less some initialisers:
-    // - `words` validates the module as wgpu does and writes it with the writer and the options of wgpu's Vulkan backend
-    //   that `pipeline::shader_module` asks for; what the checks leave out is said there.
+    // - `words` validates the module as wgpu does and writes it with the writer and the options of wgpu's Vulkan
+    //   backend that `pipeline::shader_module` asks for; what the checks leave out is said there.
     // - The resources are those of the pipeline's layout: `binding_map` numbers them as wgpu does.
     // - A variable without an initialiser holds anything until it is written. `without_zeros` drops that of arrays of
     //   `filled_arrays` scalars alone, which the front end has filled before anything reads them, at the start of the
@@ -46,7 +46,8 @@ pub(super) fn shader_module(
     Some(module)
 }
 
-/// The module as wgpu's Vulkan backend writes it without runtime checks (`compile_stage` in wgpu-hal's `vulkan/device.rs`).
+/// The module as wgpu's Vulkan backend writes it without runtime checks (`compile_stage` in wgpu-hal's
+/// `vulkan/device.rs`).
 fn words(module: &naga::Module, groups: &[Vec<(u32, Binding)>]) -> Option<Vec<u32>> {
     use spv::Capability as C;
     let capabilities = Capabilities::default() | Capabilities::SHADER_FLOAT16_IN_FLOAT32;

@@ -87,7 +87,8 @@ impl PassTimer {
         }
     }
 
-    /// Returns where the frame's next pass writes its stamps; `draw` is what its time is added to. `None` past the capacity.
+    /// Returns where the frame's next pass writes its stamps; `draw` is what its time is added to. `None` past the
+    /// capacity.
     pub fn writes(&mut self, draw: usize) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
         let slot = &mut self.slots[self.recording?];
         let index = slot.draws.len() as u32;
@@ -126,8 +127,8 @@ impl PassTimer {
         slot.state = State::Mapping(done);
     }
 
-    /// Milliseconds of each of so many draws in the newest frame the device has finished since the last call; 0 for one that
-    /// was left out. Does not wait.
+    /// Milliseconds of each of so many draws in the newest frame the device has finished since the last call; 0 for one
+    /// that was left out. Does not wait.
     pub fn newest(&mut self, gpu: &Gpu, draws: usize) -> Option<Vec<f64>> {
         // The error is the device's loss, which drawing reports.
         let _ = gpu.device.poll(wgpu::PollType::Poll);

@@ -2,8 +2,8 @@
 
 use super::{Draw, FramePlan, Source};
 
-/// Finds what has changed since each draw was done. A count goes up with every drawing of a target, so that a change is seen however
-/// many passes lie between; uniforms and keys are compared byte for byte.
+/// Finds what has changed since each draw was done. A count goes up with every drawing of a target, so that a change is
+/// seen however many passes lie between; uniforms and keys are compared byte for byte.
 #[derive(Clone, Debug, Default)]
 pub struct Changes {
     /// The number of times that each target was drawn.
@@ -30,8 +30,8 @@ impl Changes {
         self.read.fill(None);
     }
 
-    /// Decides whether draw `index` of the plan is to be done now. `inputs` is everything it reads that is not a target, in any
-    /// form that is equal exactly when it is. The answer yes counts as done.
+    /// Decides whether draw `index` of the plan is to be done now. `inputs` is everything it reads that is not a
+    /// target, in any form that is equal exactly when it is. The answer yes counts as done.
     pub fn must_draw(&mut self, index: usize, draw: &Draw, inputs: &[u8]) -> bool {
         if draw.is_cacheable {
             let targets = std::array::from_fn(|channel| match draw.reads[channel].as_ref().map(|r| &r.source) {

@@ -1,9 +1,9 @@
 //! The plan of a frame: what it draws, reads and keeps, decided without a device.
 //!
-//! Owns [`FramePlan`]: which passes are drawn and in what order, whether a read sees this frame or the last, which buffers
-//! are doubled, where mips exist, which sampler counts, how often a pass is drawn, and when its picture of before will do
-//! ([`Changes`]). Knows neither GLSL nor wgpu: what a pass really reads comes in as [`PassFacts`], and a plan is data that an
-//! engine executes in a loop.
+//! Owns [`FramePlan`]: which passes are drawn and in what order, whether a read sees this frame or the last, which
+//! buffers are doubled, where mips exist, which sampler counts, how often a pass is drawn, and when its picture of
+//! before will do ([`Changes`]). Knows neither GLSL nor wgpu: what a pass really reads comes in as [`PassFacts`], and a
+//! plan is data that an engine executes in a loop.
 
 mod changes;
 mod plan;

@@ -32,8 +32,8 @@ impl PassFacts {
 pub enum When {
     /// The one that has been drawn in this frame already.
     ThisFrame,
-    /// The one that was drawn last before that: the reader is the target itself, or is drawn before it. In a group that is the step
-    /// before, at its first step the frame before.
+    /// The one that was drawn last before that: the reader is the target itself, or is drawn before it. In a group that
+    /// is the step before, at its first step the frame before.
     LastFrame,
 }
 
@@ -102,8 +102,8 @@ pub struct Draw {
     pub has_initial: bool,
     /// So many of the outermost texels are overwritten after it is drawn.
     pub boundary: Option<u32>,
-    /// Its picture of before will do while nothing it reads has changed: what it draws depends on nothing else, and on its own
-    /// picture of before it does not depend.
+    /// Its picture of before will do while nothing it reads has changed: what it draws depends on nothing else, and on
+    /// its own picture of before it does not depend.
     pub is_cacheable: bool,
 }
 
@@ -111,7 +111,8 @@ pub struct Draw {
 const FILL_SAMPLER: Sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true };
 
 impl Draw {
-    /// Returns what a fill of the pass is drawn as. It reads nothing of what the pass reads, but its own picture if it is one.
+    /// Returns what a fill of the pass is drawn as. It reads nothing of what the pass reads, but its own picture if it
+    /// is one.
     pub fn of_fill(&self, is_picture: bool) -> Draw {
         let read = is_picture.then_some(Read { source: Source::Media, sampler: FILL_SAMPLER, mips: false });
         Draw { reads: [read, None, None, None], keeps_content: true, is_cacheable: false, ..self.clone() }
@@ -140,8 +141,9 @@ pub struct FramePlan {
 }
 
 impl FramePlan {
-    /// Plans a frame of `project`. `facts[i]` belongs to `project.passes[i]`. `wanted` are the passes whose pictures somebody
-    /// will look at; empty means Image. Without `skip` everything is drawn, doubled and mipped as the site would.
+    /// Plans a frame of `project`. `facts[i]` belongs to `project.passes[i]`. `wanted` are the passes whose pictures
+    /// somebody will look at; empty means Image. Without `skip` everything is drawn, doubled and mipped as the site
+    /// would.
     ///
     /// # Panics
     /// If `facts` and the project's passes differ in length.

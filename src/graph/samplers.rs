@@ -4,9 +4,9 @@ use crate::project::{Filter, Input, Project, Sampler, SamplerRules, Wrap};
 
 /// Returns the sampler with which `pass`'s channel `index` is really read; `None` where the channel is empty.
 ///
-/// A keyboard is always nearest and clamped. Under [`SamplerRules::Site`] a buffer's filter is that of the last channel of the
-/// same pass that reads it, because the site sets it on the texture just before the pass draws, and its wrap that of the last
-/// channel of the whole project, because the site sets it once as channels load.
+/// A keyboard is always nearest and clamped. Under [`SamplerRules::Site`] a buffer's filter is that of the last channel
+/// of the same pass that reads it, because the site sets it on the texture just before the pass draws, and its wrap
+/// that of the last channel of the whole project, because the site sets it once as channels load.
 pub fn effective_sampler(project: &Project, pass: usize, index: usize) -> Option<Sampler> {
     let pass = &project.passes[pass];
     let channel = pass.channels[index].as_ref()?;

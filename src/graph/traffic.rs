@@ -5,14 +5,16 @@ use super::{FramePlan, Source, Target, TargetKind};
 /// The least that is moved if everything is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Traffic {
-    /// Bytes of texels written, and of texels read, each texel of each source once a draw: neighbours come from a cache.
+    /// Bytes of texels written, and of texels read, each texel of each source once a draw: neighbours come from a
+    /// cache.
     pub bytes: u64,
     /// Texels drawn, every step of a group counted.
     pub texels: u64,
 }
 
 impl FramePlan {
-    /// Returns the least that a frame on a canvas moves. Pictures and the keyboard are not counted, which are read and never written.
+    /// Returns the least that a frame on a canvas moves. Pictures and the keyboard are not counted, which are read and
+    /// never written.
     pub fn traffic(&self, canvas: (u32, u32)) -> Traffic {
         let mut sum = Traffic::default();
         for run in &self.runs {

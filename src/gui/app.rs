@@ -1,15 +1,16 @@
 //! The event loop: the window system's events in, frames out, and sleep in between.
 //!
-//! Owns the window, the session and the moment of the next frame. A still window costs nothing: a frame is painted when an
-//! event, the session or egui asks for one.
+//! Owns the window, the session and the moment of the next frame. A still window costs nothing: a frame is painted when
+//! an event, the session or egui asks for one.
 
 use super::{
     GuiError, Options,
+    frame::{self, Frame},
     keys::{HeldKeys, KeyChange},
     report::Report,
     rescue,
     shell::Shell,
-    shortcuts, steps,
+    shortcuts,
     surface::{Presented, Surface},
     theme,
 };
@@ -257,18 +258,10 @@ impl Running {
             return Ok(Next::Go);
         }
         let began = Instant::now();
-        let tick = self.session.tick(began);
-        let mut output = egui::FullOutput::default();
-        let mut asked = false;
-        for raw in steps::split(self.input.take_egui_input(&self.window)) {
-            self.shell.prepare(&self.session, &mut self.surface);
-            let mut commands = Vec::new();
-            output.append(self.ctx.run_ui(raw, |ui| commands.extend(self.shell.show(ui, &self.session))));
-            asked |= !commands.is_empty();
-            for command in commands {
-                self.session.apply(command);
-            }
-        }
+        let raw = self.input.take_egui_input(&self.window);
+        let renderer = self.surface.renderer();
+        let Frame { output, tick, wants_next } =
+            frame::run(&self.ctx, &mut self.shell, &mut self.session, renderer, raw, began);
         self.input.handle_platform_output(&self.window, output.platform_output.clone());
         let delay = output.viewport_output.values().map(|v| v.repaint_delay).min().unwrap_or(Duration::MAX);
         let presented = self.surface.paint(&self.window, output, &self.ctx);
@@ -291,7 +284,7 @@ impl Running {
             return Ok(Next::Exit);
         }
         let mut next = began.checked_add(delay);
-        if asked || presented == Presented::Again || (tick.changed && !tick.frame_drawn) {
+        if wants_next || presented == Presented::Again {
             next = Some(began);
         }
         if let Some(at) = tick.wake_at {

@@ -3,14 +3,13 @@
 use super::{
     editor::{Ask, CodeEditor, Help, Look, Mark, Query},
     icons::{self, Icon},
-    outbox::{Outbox, Wish},
+    outbox::Outbox,
     problems, tabs, theme,
     uses::Uses,
 };
 use crate::{
-    diag::Severity,
     project::{Origin, PassId, Tab},
-    session::{Command, Session},
+    session::{Command, Session, TabDiagnostic},
 };
 use egui::{Button, Frame, Id, Key, Margin, Panel, TextEdit, Ui};
 use std::{collections::HashMap, ops::Range};
@@ -21,7 +20,7 @@ const FONT_SIZE: f32 = 13.0;
 pub struct CodePanel {
     editors: HashMap<Tab, CodeEditor>,
     current: Tab,
-    /// Of the texts the editors hold.
+    /// The session's text generation that the editors hold.
     generation: Option<u64>,
     /// Which project they are of: another one's undo must not lead back here.
     project: (String, Origin),
@@ -40,7 +39,7 @@ pub struct CodePanel {
 struct Find {
     query: Query,
     with: String,
-    /// What `matches` was made for.
+    /// The tab, revision and query that `matches` belongs to.
     made_for: Option<(Tab, u64, Query)>,
     matches: Vec<Range<usize>>,
 }
@@ -64,6 +63,14 @@ impl CodePanel {
 
     pub fn current(&self) -> &Tab {
         &self.current
+    }
+
+    /// The tab in front, and the line of its caret from 0.
+    #[cfg(test)]
+    pub fn caret(&self) -> (Tab, usize) {
+        let buffer = &self.editors[&self.current].buffer;
+        let before = &buffer.text()[..buffer.selection().range().start];
+        (self.current.clone(), before.matches('\n').count())
     }
 
     /// The text has the keyboard.
@@ -98,11 +105,13 @@ impl CodePanel {
         let list = session.diagnostics();
         let next = self.problem.map_or(0, |i| i + 1);
         let order = (next..list.len()).chain(0..next.min(list.len()));
-        let found = order.into_iter().find_map(|i| Some((i, list[i].tab.clone()?)));
-        if let Some((i, tab)) = found {
+        let found = order.into_iter().find_map(|i| {
+            let place = list[i].place.as_ref()?;
+            Some((i, place.tab.clone()?, (place.line - 1, place.column - 1)))
+        });
+        if let Some((i, tab, place)) = found {
             self.problem = Some(i);
-            let place = (list[i].line > 0).then(|| (list[i].line - 1, list[i].column.saturating_sub(1)));
-            self.go_to(tab, place);
+            self.go_to(tab, Some(place));
         }
     }
 
@@ -355,7 +364,7 @@ fn parse_place(text: &str) -> Option<(usize, usize)> {
     Some((from_0(line)?, from_0(column)?))
 }
 
-/// Whether two origins are one project: saving makes a manifest where there was none.
+/// Returns whether two origins are one project: saving makes a manifest where there was none.
 fn same_place(a: &Origin, b: &Origin) -> bool {
     match (a, b) {
         (Origin::Folder { path: a, .. }, Origin::Folder { path: b, .. }) => a == b,
@@ -364,26 +373,19 @@ fn same_place(a: &Origin, b: &Origin) -> bool {
 }
 
 fn marks(session: &Session, tab: &Tab) -> Vec<Mark> {
-    let here = session.diagnostics().iter().filter(|d| d.line > 0 && d.tab.as_ref() == Some(tab));
-    here.map(|d| Mark {
-        line: d.line - 1,
-        range: d.range.clone(),
-        severity: d.severity,
-        message: d.message.clone(),
-        hints: d.hints.clone(),
-    })
-    .collect()
-}
-
-/// Where a diagnostic leads: its tab, and line and column from 0.
-pub fn wish_of(d: &crate::session::TabDiagnostic) -> Option<Wish> {
-    Some(Wish::GoTo(d.tab.clone()?, (d.line > 0).then(|| (d.line - 1, d.column.saturating_sub(1)))))
-}
-
-/// Counts of errors and of warnings.
-pub fn counts(session: &Session) -> (usize, usize) {
-    let count = |s: Severity| session.diagnostics().iter().filter(|d| d.severity == s).count();
-    (count(Severity::Error), count(Severity::Warning))
+    let here = |d: &TabDiagnostic| d.place.clone().filter(|place| place.tab.as_ref() == Some(tab));
+    let mark = |d: &TabDiagnostic| {
+        let place = here(d)?;
+        let labels = d.labels.iter().map(|l| format!("{}:{}: {}", l.place.text, l.place.line, l.message));
+        Some(Mark {
+            line: place.line - 1,
+            range: place.range,
+            severity: d.severity,
+            message: d.message.clone(),
+            hints: labels.chain(d.hints.iter().cloned()).collect(),
+        })
+    };
+    session.diagnostics().iter().filter_map(mark).collect()
 }
 
 #[cfg(test)]

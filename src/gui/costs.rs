@@ -79,13 +79,14 @@ fn header(ui: &mut Ui, costs: &PassCosts, out: &mut Outbox) {
                 let (short, long) = match costs.clock {
                     CostClock::Timestamps => (
                         "device timestamps",
-                        "Milliseconds between the device's timestamps before and after each pass: the median of the newest 30 frames",
+                        "Milliseconds between the device's timestamps before and after each pass: the median of the \
+                        newest 30 frames",
                     ),
                     CostClock::Waited => (
                         "passes one by one",
-                        "This device has no timestamps. While this table is open each pass is handed in and waited for by itself, \
-                         by the wall's clock, less the time of handing in nothing: the median of the newest 30 frames. \
-                         Frames take longer so",
+                        "This device has no timestamps. While this table is open each pass is handed in and waited for \
+                         by itself, by the wall's clock, less the time of handing in nothing: the median of the newest \
+                         30 frames. Frames take longer so",
                     ),
                 };
                 let text = RichText::new(short).size(11.5).color(theme::WEAK);
@@ -224,7 +225,7 @@ fn count(texels: u64) -> String {
     }
 }
 
-/// What the table says, for scripts that drive the window.
+/// Returns what the table says, for scripts that drive the window.
 pub fn report(session: &Session) -> serde_json::Value {
     let costs = session.pass_costs();
     let passes: Vec<serde_json::Value> = costs

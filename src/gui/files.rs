@@ -40,7 +40,7 @@ struct Typing {
     is_new: bool,
 }
 
-/// What became of a dialog.
+/// The outcome of a dialog.
 pub enum Picked {
     Path(Pick, PathBuf),
     Cancelled(Pick),

@@ -1,4 +1,4 @@
-//! Where the picture lies in the viewport, and which of its pixels a pointer is over. All in physical pixels.
+//! The place of the picture in the viewport, and the pixel of it that a pointer is over. All is in physical pixels.
 
 /// An area of the window: left, top, width, height.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,7 +12,7 @@ pub struct Area {
 /// A canvas shown inside an area without changing its shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Letterbox {
-    /// What the picture covers; starts on a whole pixel.
+    /// The area that the picture covers; it starts on a whole pixel.
     pub picture: Area,
     pub canvas: (u32, u32),
     /// Window pixels to canvas pixels.
@@ -20,8 +20,9 @@ pub struct Letterbox {
 }
 
 impl Letterbox {
-    /// The largest picture that fits: pixel for pixel where the canvas has just the area's size, a whole multiple where that
-    /// loses less than a tenth of the size (so that pixels stay square and equal), else as large as the area allows.
+    /// The largest picture that fits: pixel for pixel where the canvas has just the area's size, a whole multiple where
+    /// that loses less than a tenth of the size (so that pixels stay square and equal), else as large as the area
+    /// allows.
     pub fn new(area: Area, canvas: (u32, u32)) -> Letterbox {
         let (width, height) = (canvas.0.max(1) as f32, canvas.1.max(1) as f32);
         let fit = (area.width / width).min(area.height / height).max(0.0);
@@ -37,7 +38,8 @@ impl Letterbox {
         Letterbox { picture, canvas, zoom }
     }
 
-    /// Whether texels should be shown as they are. Between two whole zooms some would be wider than others, so those blend.
+    /// Returns whether texels should be shown as they are. Between two whole zooms some would be wider than others, so
+    /// those blend.
     pub fn shows_whole_texels(&self) -> bool {
         self.zoom >= 1.0 && (self.zoom - self.zoom.round()).abs() < 1e-3
     }
@@ -53,6 +55,25 @@ impl Letterbox {
     pub fn contains(&self, x: f32, y: f32) -> bool {
         let p = self.picture;
         x >= p.x && y >= p.y && x < p.x + p.width && y < p.y + p.height
+    }
+}
+
+/// The shape of a picture that follows the view.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// 16:9, which pictures on the site are composed for.
+    Site,
+    /// The view's own.
+    Fill,
+}
+
+impl Shape {
+    /// The largest size of this shape in whole pixels.
+    pub fn within(self, width: u32, height: u32) -> (u32, u32) {
+        match self {
+            Shape::Fill => (width, height),
+            Shape::Site => (width.min(height * 16 / 9), height.min((width * 9).div_ceil(16))),
+        }
     }
 }
 
@@ -95,5 +116,14 @@ mod tests {
         let none = Area { width: 0.0, height: 0.0, ..AREA };
         assert_eq!(Letterbox::new(none, (640, 360)).canvas_from_window(5.0, 5.0), (0.0, 0.0));
         assert!(Letterbox::new(AREA, (0, 0)).zoom.is_finite());
+    }
+
+    #[test]
+    fn the_sites_shape_fits_whatever_there_is() {
+        assert_eq!(Shape::Site.within(640, 999), (640, 360));
+        assert_eq!(Shape::Site.within(9999, 360), (640, 360));
+        assert_eq!(Shape::Site.within(634, 680), (634, 357));
+        assert_eq!(Shape::Site.within(1, 1), (1, 1));
+        assert_eq!(Shape::Fill.within(634, 680), (634, 680));
     }
 }

@@ -22,8 +22,12 @@ pub fn show(ui: &Ui, out: &mut Outbox) -> bool {
             });
         });
         ui.separator();
-        ScrollArea::vertical().max_height((window.height() - 150.0).max(80.0)).auto_shrink([false, true]).show(ui, |ui| {
-            ui.label("Click the picture to send keys and the mouse to the shader, the code to type. A blue frame shows who has the keyboard.");
+        let list = ScrollArea::vertical().max_height((window.height() - 150.0).max(80.0));
+        list.auto_shrink([false, true]).show(ui, |ui| {
+            ui.label(
+                "Click the picture to send keys and the mouse to the shader, the code to type. A blue frame \
+            shows who has the keyboard.",
+            );
             ui.add_space(6.0);
             Grid::new("keys").num_columns(2).spacing([28.0, 5.0]).striped(true).show(ui, |ui| {
                 for (i, s) in SHORTCUTS.iter().enumerate().filter(|(_, s)| !s.label.is_empty()) {

@@ -1,7 +1,8 @@
 //! From the window system's keys to the JavaScript `keyCode` that shaders know.
 //!
-//! Chromium's numbers, which are what the site's shaders were written against. A letter counts as what it types (so a French
-//! keyboard's A is 65 wherever it lies); everything that types no ASCII letter counts by its place on a US keyboard.
+//! Chromium's numbers, which are what the site's shaders were written against. A letter counts as what it types (so a
+//! French keyboard's A is 65 wherever it lies); everything that types no ASCII letter counts by its place on a US
+//! keyboard.
 
 use std::collections::HashMap;
 use winit::{
@@ -9,13 +10,14 @@ use winit::{
     keyboard::{Key, KeyCode, KeyLocation, NamedKey, PhysicalKey},
 };
 
-/// Keys that are down, so that the release gives the code that the press gave though a modifier or the layout has changed.
+/// Keys that are down, so that the release gives the code that the press gave though a modifier or the layout has
+/// changed.
 #[derive(Debug, Default)]
 pub struct HeldKeys {
     codes: HashMap<PhysicalKey, u8>,
 }
 
-/// What a key event means to a shader.
+/// The effect of a key event on a shader.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum KeyChange {
     Down(u8),

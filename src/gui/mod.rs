@@ -1,8 +1,8 @@
 //! The window: panels that show a [`Session`](crate::session::Session) and ask things of it.
 //!
-//! Owns the event loop, the surface, the panels, the code editor and the way from the window system's keys and pointer to
-//! the session's commands. Holds no logic that a command line would need too: a panel reads `&Session` and hands back
-//! commands. Only this module names egui or winit.
+//! Owns the event loop, the surface, the panels, the code editor and the way from the window system's keys and pointer
+//! to the session's commands. Holds no logic that a command line would need too: a panel reads `&Session` and hands
+//! back commands. Only this module names egui or winit.
 
 mod app;
 mod channels;
@@ -10,6 +10,7 @@ mod code;
 mod costs;
 mod editor;
 mod files;
+mod frame;
 mod gallery;
 mod geometry;
 mod help;
@@ -39,10 +40,10 @@ pub use app::run;
 
 use crate::{gpu::GpuError, session::SessionError};
 
-/// What to open, and how.
+/// The project to open, and how.
 #[derive(Clone, Debug, Default)]
 pub struct Options {
-    /// What the command line calls PROJECT; none: the gallery.
+    /// The PROJECT of the command line; `None` opens the gallery.
     pub project: Option<String>,
     /// Physical pixels inside the window's frame; none: what suits the screen.
     pub size: Option<(u32, u32)>,

@@ -1,11 +1,15 @@
-//! What the panels of one frame want, gathered: commands for the session, actions for the shell, and where things are.
+//! An outbox gathers what the panels of one frame want: commands for the session, actions for the shell, and where
+//! things are.
 
-use super::{geometry::Area, shortcuts::Action};
+use super::{
+    geometry::{Area, Shape},
+    shortcuts::Action,
+};
 use crate::{project::Tab, session::Command};
 use egui::{Rect, Response};
 use std::{collections::BTreeMap, path::PathBuf};
 
-/// What a file dialog is asked for.
+/// The purpose of a file dialog.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Pick {
     /// A project: a folder.
@@ -31,7 +35,7 @@ pub enum Wish {
     GoTo(Tab, Option<(usize, usize)>),
     Picked(Pick, PathBuf),
     CloseGallery,
-    Shape(super::viewport::Shape),
+    Shape(Shape),
 }
 
 #[derive(Debug, Default)]

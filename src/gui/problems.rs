@@ -1,13 +1,18 @@
 //! The line under the editor that says how the last compile went, and the list of what is wrong.
 
-use super::{code, outbox::Outbox, theme};
+use super::{
+    outbox::{Outbox, Wish},
+    theme,
+};
 use crate::{
     diag::Severity,
-    session::{Outcome, Session, TabDiagnostic},
+    session::{Outcome, Place, Session, TabDiagnostic},
 };
 use egui::{Align2, FontId, Rect, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
 
 const ROW: f32 = 22.0;
+/// A further place stands so far to the right of its problem.
+const INDENT: f32 = 14.0;
 
 /// `limit`: how high the list may be.
 pub fn show(ui: &mut Ui, session: &Session, limit: f32, out: &mut Outbox) {
@@ -33,19 +38,17 @@ pub fn show(ui: &mut Ui, session: &Session, limit: f32, out: &mut Outbox) {
         out.place("includes", end);
     }
     out.place("compile-state", rect);
-    let list = session.diagnostics();
-    if list.is_empty() {
+    let rows: Vec<Row<'_>> = session.diagnostics().iter().enumerate().flat_map(|(i, d)| rows_of(i, d)).collect();
+    if rows.is_empty() {
         return;
     }
     ScrollArea::vertical().id_salt("problem list").max_height(limit).auto_shrink([false, true]).show_rows(
         ui,
         ROW,
-        list.len(),
-        |ui, rows| {
+        rows.len(),
+        |ui, seen| {
             ui.spacing_mut().item_spacing.y = 0.0;
-            for i in rows {
-                row(ui, i, &list[i], out);
-            }
+            rows[seen].iter().for_each(|row| row.show(ui, out));
         },
     );
     ui.add_space(4.0);
@@ -57,7 +60,7 @@ pub fn state(session: &Session) -> (String, egui::Color32) {
         return ("Compiling…".into(), theme::ACCENT);
     }
     let some = |n: usize, noun: &str| format!("{n} {noun}{}", if n == 1 { "" } else { "s" });
-    let (errors, warnings) = code::counts(session);
+    let (errors, warnings) = counts(session);
     match &state.last {
         None => ("Nothing compiled yet".into(), theme::WEAK),
         Some(Outcome::Ok { millis, .. }) if warnings == 0 => (format!("Compiled in {millis:.0} ms"), theme::GOOD),
@@ -71,45 +74,77 @@ pub fn state(session: &Session) -> (String, egui::Color32) {
     }
 }
 
-fn row(ui: &mut Ui, index: usize, d: &TabDiagnostic, out: &mut Outbox) {
-    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
-    if response.hovered() {
-        ui.painter().rect_filled(rect, 0.0, theme::RAISED);
-    }
-    let color = match d.severity {
-        Severity::Error => theme::ERROR,
-        Severity::Warning => theme::WARNING,
-        Severity::Note => theme::ACCENT,
-    };
-    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
-    painter.circle_filled(pos2(rect.left() + 13.0, rect.center().y), 3.0, color);
-    let text = d.tab.as_ref().map(crate::project::Tab::title).or_else(|| d.file.clone());
-    let place = match (text, d.line) {
-        (None, _) => String::new(),
-        (Some(text), 0) => text,
-        (Some(text), line) => format!("{text} {line}:{}", d.column),
-    };
-    let mut x = rect.left() + 25.0;
-    if !place.is_empty() {
-        let end =
-            painter.text(pos2(x, rect.center().y), Align2::LEFT_CENTER, place, FontId::proportional(12.0), theme::WEAK);
-        x = end.right() + 10.0;
-    }
-    let mut job =
-        egui::text::LayoutJob::simple_singleline(d.message.replace('\n', " "), FontId::proportional(12.5), theme::TEXT);
-    job.wrap = egui::text::TextWrapping::truncate_at_width((rect.right() - x - 8.0).max(20.0));
-    let galley = painter.layout_job(job);
-    let place = Rect::from_min_size(pos2(x, rect.center().y - galley.size().y / 2.0), galley.size());
-    painter.galley(place.min, galley, theme::TEXT);
-    if out.clicked(&format!("problem:{index}"), &response)
-        && let Some(wish) = code::wish_of(d)
-    {
-        out.wishes.push(wish);
-    }
-    response.on_hover_cursor(egui::CursorIcon::PointingHand).on_hover_ui(|ui| {
-        ui.colored_label(color, &d.message);
-        for hint in &d.hints {
-            ui.label(hint);
-        }
+/// A line of the list: a problem, or below it a further place that it speaks of.
+struct Row<'a> {
+    name: String,
+    problem: &'a TabDiagnostic,
+    place: Option<&'a Place>,
+    message: &'a str,
+    is_label: bool,
+}
+
+fn rows_of(index: usize, problem: &TabDiagnostic) -> impl Iterator<Item = Row<'_>> {
+    let place = problem.place.as_ref();
+    let own = Row { name: format!("problem:{index}"), problem, place, message: &problem.message, is_label: false };
+    let labels = problem.labels.iter().enumerate().map(move |(n, label)| {
+        let place = Some(&label.place);
+        Row { name: format!("problem:{index}:{n}"), problem, place, message: &label.message, is_label: true }
     });
+    std::iter::once(own).chain(labels)
+}
+
+impl Row<'_> {
+    fn show(&self, ui: &mut Ui, out: &mut Outbox) {
+        let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
+        if response.hovered() {
+            ui.painter().rect_filled(rect, 0.0, theme::RAISED);
+        }
+        let color = match self.problem.severity {
+            Severity::Error => theme::ERROR,
+            Severity::Warning => theme::WARNING,
+            Severity::Note => theme::ACCENT,
+        };
+        let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
+        let mut x = rect.left() + 25.0;
+        if self.is_label {
+            x += INDENT;
+        } else {
+            painter.circle_filled(pos2(rect.left() + 13.0, rect.center().y), 3.0, color);
+        }
+        if let Some(place) = self.place {
+            let at = format!("{} {}:{}", place.title(), place.line, place.column);
+            let font = FontId::proportional(12.0);
+            let end = painter.text(pos2(x, rect.center().y), Align2::LEFT_CENTER, at, font, theme::WEAK);
+            x = end.right() + 10.0;
+        }
+        let color_of_text = if self.is_label { theme::WEAK } else { theme::TEXT };
+        let text = self.message.replace('\n', " ");
+        let mut job = egui::text::LayoutJob::simple_singleline(text, FontId::proportional(12.5), color_of_text);
+        job.wrap = egui::text::TextWrapping::truncate_at_width((rect.right() - x - 8.0).max(20.0));
+        let galley = painter.layout_job(job);
+        let text_rect = Rect::from_min_size(pos2(x, rect.center().y - galley.size().y / 2.0), galley.size());
+        painter.galley(text_rect.min, galley, color_of_text);
+        if out.clicked(&self.name, &response)
+            && let Some(wish) = self.place.and_then(wish_of)
+        {
+            out.wishes.push(wish);
+        }
+        response.on_hover_cursor(egui::CursorIcon::PointingHand).on_hover_ui(|ui| {
+            ui.colored_label(color, &self.problem.message);
+            for hint in &self.problem.hints {
+                ui.label(hint);
+            }
+        });
+    }
+}
+
+/// Returns the way to a place; `None` for one that is in no tab.
+fn wish_of(place: &Place) -> Option<Wish> {
+    Some(Wish::GoTo(place.tab.clone()?, Some((place.line - 1, place.column - 1))))
+}
+
+/// Returns the numbers of errors and of warnings.
+fn counts(session: &Session) -> (usize, usize) {
+    let count = |s: Severity| session.diagnostics().iter().filter(|d| d.severity == s).count();
+    (count(Severity::Error), count(Severity::Warning))
 }

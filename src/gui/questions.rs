@@ -96,7 +96,10 @@ fn overwrite(ui: &mut Ui, folder: &Path, files: &[PathBuf], out: &mut Outbox) {
 fn conflict(ui: &mut Ui, tab: Option<&Tab>, file: &Path, diff: &[DiffLine], room: f32, out: &mut Outbox) {
     let name = tab.map_or_else(|| "The project's settings".into(), Tab::title);
     ui.heading(format!("{name} changed on disk too"));
-    ui.label("Another program wrote the file while there are unsaved edits here. Whichever you take, the other text is kept in a file beside it.");
+    ui.label(
+        "Another program wrote the file while there are unsaved edits here. Whichever you take, the other text \
+    is kept in a file beside it.",
+    );
     ui.colored_label(theme::WEAK, file.display().to_string());
     ui.add_space(8.0);
     let half = (ui.available_width() - 8.0) / 2.0;

@@ -60,7 +60,7 @@ impl Report {
         }
     }
 
-    /// Where things are, in physical pixels of the window.
+    /// Tells where things are, in physical pixels of the window.
     pub fn layout(&mut self, window: (u32, u32), canvas: (u32, u32), scale: f32, areas: &BTreeMap<String, Area>) {
         if !self.enabled {
             return;

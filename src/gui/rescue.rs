@@ -1,4 +1,4 @@
-//! What is done with unsaved work when the window cannot go on.
+//! Saves unsaved work when the window cannot go on.
 
 use super::GuiError;
 use crate::{
@@ -10,8 +10,8 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Does a part of the window's work. A panic in it ends the window with an error that says so, after what was not saved has
-/// been: a bug in drawing is no reason to lose a text.
+/// Does a part of the window's work. A panic in it ends the window with an error that says so, after what was not saved
+/// has been: a bug in drawing is no reason to lose a text.
 pub fn caught<W, T>(
     window: &mut W,
     work: impl FnOnce(&mut W) -> Result<T, GuiError>,
@@ -29,8 +29,8 @@ pub fn caught<W, T>(
     Err(GuiError::Panicked { reason, rescue })
 }
 
-/// Writes what is not saved into a new folder, beside the project where that can be written, else at home, else among the
-/// temporary files. What to tell the user; nothing if nothing was unsaved.
+/// Writes what is not saved into a new folder, beside the project where that can be written, else at home, else among
+/// the temporary files. What to tell the user; nothing if nothing was unsaved.
 pub fn save_unsaved(session: &Session) -> String {
     if !session.is_dirty() {
         return String::new();
@@ -73,15 +73,14 @@ fn save(project: &Project, places: impl Iterator<Item = PathBuf>) -> Result<Path
 mod tests {
     use super::*;
     use crate::{
-        gpu::{Gpu, GpuOptions},
         project::{PassId, Tab},
-        session::Command,
+        session::{Command, testing},
     };
     use std::{sync::Arc, time::Instant};
 
     #[test]
     fn a_panic_in_the_window_saves_what_was_not() {
-        let Ok(gpu) = Gpu::new(&GpuOptions::default()) else { return };
+        let Some(gpu) = testing::gpu() else { return };
         let folder = tempfile::tempdir().unwrap();
         let project = folder.path().join("mine");
         std::fs::create_dir(&project).unwrap();

@@ -11,7 +11,6 @@ use super::{
     problems, questions,
     report::Report,
     shortcuts::{self, Action},
-    surface::Surface,
     theme,
     thumbnails::Thumbnails,
     toasts, top_bar, transport,
@@ -23,6 +22,7 @@ use crate::{
     session::{Command, Session},
 };
 use egui::{CentralPanel, Frame, Margin, Panel, Ui};
+use egui_wgpu::Renderer;
 use serde_json::{Value, json};
 use std::{
     path::{Path, PathBuf},
@@ -89,13 +89,13 @@ impl Shell {
         self.files.ask(Pick::SaveAs(name.to_owned()), None);
     }
 
-    /// Before a frame: takes over what the session has new.
-    pub fn prepare(&mut self, session: &Session, surface: &mut Surface) {
+    /// Takes over what the session has new, before it is shown or painted.
+    pub fn prepare(&mut self, session: &Session, renderer: &mut Renderer) {
         self.code.prepare(session);
-        self.viewport.prepare(session, surface);
+        self.viewport.prepare(session, renderer);
     }
 
-    /// One frame. What the session is to do comes back.
+    /// Shows everything once. What the session is to do comes back.
     pub fn show(&mut self, ui: &mut Ui, session: &Session) -> Vec<Command> {
         self.thumbnails.update(ui.ctx());
         self.lab.update();
@@ -222,6 +222,18 @@ impl Shell {
         if self.fullscreen && ui.input(|i| i.key_pressed(egui::Key::Escape)) {
             out.act(Action::Fullscreen);
         }
+    }
+
+    /// Returns where a named widget was shown last, in points.
+    #[cfg(test)]
+    pub fn place(&self, name: &str) -> Option<egui::Rect> {
+        self.places.places.get(name).copied()
+    }
+
+    /// The tab in front, and the line of its caret from 0.
+    #[cfg(test)]
+    pub fn caret(&self) -> (Tab, usize) {
+        self.code.caret()
     }
 
     /// Which channel's card a point is on.
@@ -384,12 +396,13 @@ fn compiled(session: &Session) -> Value {
         .diagnostics()
         .iter()
         .map(|d| {
+            let place = d.place.as_ref();
             json!({
                 "severity": d.severity.name(),
-                "tab": d.tab.as_ref().map(Tab::title),
-                "file": d.file,
-                "line": d.line,
-                "column": d.column,
+                "tab": d.tab().map(Tab::title),
+                "file": place.filter(|place| place.tab.is_none()).map(|place| &place.text),
+                "line": place.map_or(0, |place| place.line),
+                "column": place.map_or(0, |place| place.column),
                 "message": d.message,
             })
         })
@@ -408,7 +421,7 @@ fn origin(origin: &Origin) -> Value {
     }
 }
 
-/// Where a file dialog begins: beside the project.
+/// Returns where a file dialog begins: beside the project.
 fn start_folder(session: &Session) -> Option<PathBuf> {
     match &session.project().origin {
         Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => path.parent().map(Path::to_owned),

@@ -1,5 +1,5 @@
-//! The keys that mean something to the window, wherever the keyboard is: one table, used to act, to explain and to keep them
-//! from the shader.
+//! The keys that mean something to the window, wherever the keyboard is: one table, used to act, to explain and to keep
+//! them from the shader.
 
 use egui::{Key, Modifiers};
 
@@ -96,12 +96,12 @@ pub const EDITOR_KEYS: &[(&str, &str)] = &[
     ("Ctrl+Left, Ctrl+Right", "Word by word"),
 ];
 
-/// Whether the code has a meaning of its own for a key that otherwise is the window's.
+/// Returns whether the code has a meaning of its own for a key that otherwise is the window's.
 pub fn is_of_editor(key: Key, modifiers: Modifiers) -> bool {
     key == Key::F12 && (modifiers.is_none() || modifiers.shift_only())
 }
 
-/// What a key press means to the window.
+/// Returns what a key press means to the window.
 pub fn action(key: Key, modifiers: Modifiers) -> Option<Action> {
     // Ctrl+Shift+= is how Ctrl++ is typed on many keyboards.
     let plus = matches!(key, Key::Plus | Key::Equals);

@@ -1,17 +1,17 @@
-//! What came since the last frame, cut into the steps in which it happened.
+//! The input since the last frame is cut into the steps in which it happened.
 //!
-//! egui gives a pass all its events at once, and a widget that gets the keyboard in that pass only sees the keys of the next.
-//! Where frames are slow, a click and the keys that follow it come together: the keys would go nowhere, and arrow keys, which
-//! the widget can claim only once it has the keyboard, would move it on to some other widget. So a pass ends behind each event
-//! that can move the keyboard or open something, and one without events follows, in which what was opened takes its place.
+//! egui gives a pass all its events at once, and a widget that gets the keyboard in that pass only sees the keys of the
+//! next. When frames are slow, a click and the keys that follow it come together: the keys would go nowhere, and arrow
+//! keys, which the widget can claim only once it has the keyboard, would move it on to some other widget. So a pass
+//! ends behind each event that can move the keyboard or open something, and one without events follows, in which what
+//! was opened takes its place.
 
 use egui::{Event, Key, Modifiers, RawInput};
 
 /// The input of each pass to make, in order; at least one.
 pub fn split(input: RawInput) -> Vec<RawInput> {
     let mut steps = vec![RawInput { events: Vec::new(), ..input.clone() }];
-    // Files are dropped once.
-    let nothing = RawInput { events: Vec::new(), dropped_files: Vec::new(), ..input.clone() };
+    let nothing = without_events(&input);
     let mut is_ended = false;
     for event in input.events {
         if std::mem::take(&mut is_ended) {
@@ -26,9 +26,15 @@ pub fn split(input: RawInput) -> Vec<RawInput> {
     steps
 }
 
+/// The same moment in which nothing has happened: files are dropped once.
+pub fn without_events(input: &RawInput) -> RawInput {
+    RawInput { events: Vec::new(), dropped_files: Vec::new(), ..input.clone() }
+}
+
 fn ends_step(event: &Event) -> bool {
     match event {
-        // A press too: a slider moves to where the pointer is held, and held it is in no pass that sees the release as well.
+        // A press too: a slider moves to where the pointer is held, and held it is in no pass that sees the release as
+        // well.
         Event::PointerButton { .. } => true,
         Event::Key { key, pressed: true, modifiers, .. } => {
             let is_command = modifiers.contains(Modifiers::COMMAND) || modifiers.alt;

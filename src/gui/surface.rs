@@ -1,7 +1,7 @@
 //! The window's surface: egui's triangles onto the screen.
 //!
-//! Owns the surface and egui's renderer, and gets over a surface that is outdated, lost or hidden. Knows nothing of what is
-//! painted.
+//! Owns the surface and egui's renderer, and gets over a surface that is outdated, lost or hidden. Knows nothing of
+//! what is painted.
 
 use super::GuiError;
 use crate::gpu::{Gpu, GpuOptions};
@@ -38,7 +38,7 @@ fn open(
     Err(GuiError::Gpu(crate::gpu::GpuError::NoAdapter(reasons.join("; "))))
 }
 
-/// What became of a frame.
+/// The outcome of presenting a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Presented {
     Shown,
@@ -123,8 +123,9 @@ impl Surface {
         presented
     }
 
-    /// Gives the surface the window's size. False where it was refused and keeps the old one, to be asked again: configuring
-    /// waits until the device rests, and where another thread (a compile, a thumbnail) hands it work meanwhile, wgpu gives up.
+    /// Gives the surface the window's size. False where it was refused and keeps the old one, to be asked again:
+    /// configuring waits until the device rests, and where another thread (a compile, a thumbnail) hands it work
+    /// meanwhile, wgpu gives up.
     fn configure(&mut self) -> bool {
         let scope = self.gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
         self.surface.configure(&self.gpu.device, &self.config);

@@ -35,7 +35,7 @@ pub fn show(ui: &mut Ui, session: &Session, current: &Tab, out: &mut Outbox) {
 }
 
 fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &mut Outbox) {
-    let here = session.diagnostics().iter().filter(|d| d.tab.as_ref() == Some(tab));
+    let here = session.diagnostics().iter().filter(|d| d.tab() == Some(tab));
     let (mut errors, mut warnings) = (0, 0);
     for d in here {
         match d.severity {

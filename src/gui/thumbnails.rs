@@ -24,7 +24,7 @@ const FRAMES: i32 = 90;
 /// Longest side of a texture's picture.
 const SWATCH: usize = 96;
 
-/// What a picture is of.
+/// The subject of a small picture.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Subject {
     Preset(String),
@@ -32,12 +32,12 @@ pub enum Subject {
     Texture(Media, Option<PathBuf>),
 }
 
-/// What is known of a picture.
+/// The state of a small picture.
 #[derive(Clone)]
 pub enum Thumbnail {
     Waiting,
     Ready(TextureHandle),
-    /// Why there is none.
+    /// The reason why there is none.
     Failed(String),
 }
 

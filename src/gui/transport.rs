@@ -1,11 +1,11 @@
 //! The bar under the picture: time, speed, size, which pass is shown.
 
 use super::{
+    geometry::Shape,
     icons::{self, Icon},
     outbox::{Outbox, Wish},
     shortcuts::{self, Action},
     theme,
-    viewport::Shape,
 };
 use crate::{
     project::{PassId, Tab},

@@ -27,7 +27,7 @@ struct Place {
     name: Range<usize>,
 }
 
-/// What a frame of the list led to.
+/// The results of a frame of the list.
 #[derive(Default)]
 pub struct Shown {
     pub go_to: Option<(Tab, Range<usize>)>,
@@ -39,7 +39,8 @@ impl Uses {
     pub fn new(session: &Session, places: Vec<(Tab, Range<usize>)>) -> Option<Self> {
         let mut list: Vec<Place> = Vec::new();
         for (tab, range) in places {
-            // Lines are counted on from the place before: from the top each time, many uses in a long text take minutes.
+            // Lines are counted on from the place before: from the top each time, many uses in a long text take
+            // minutes.
             let before = list.last().filter(|p| p.tab == tab && p.range.start <= range.start);
             let known = before.map_or((0, 1), |p| (p.range.start, p.line));
             list.extend(place(session.text(&tab), tab.clone(), range, known));

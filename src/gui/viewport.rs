@@ -1,9 +1,8 @@
 //! The picture, and the mouse over it.
 
 use super::{
-    geometry::{Area, Letterbox},
+    geometry::{Area, Letterbox, Shape},
     outbox::Outbox,
-    surface::Surface,
     theme,
 };
 use crate::{
@@ -11,28 +10,20 @@ use crate::{
     session::{Command, Meanwhile, Outcome, Session},
 };
 use egui::{Align2, Color32, EventFilter, FontId, Id, PointerButton, Pos2, Rect, Sense, TextureId, Ui, pos2, vec2};
+use egui_wgpu::Renderer;
 
 /// Left free round the picture, so that the frame of what has the keyboard covers none of it. Physical pixels.
 const RIM: f32 = 3.0;
 
 pub struct Viewport {
     texture: Option<TextureId>,
-    /// Of the display the texture shows, and whether it is magnified texel by texel.
+    /// The generation of the display that the texture shows, and whether it is magnified texel by texel.
     shows: (u64, bool),
     letterbox: Option<Letterbox>,
     asked_size: (u32, u32),
     mouse_is_down: bool,
     take_focus: bool,
     shape: Shape,
-}
-
-/// The shape of a picture that follows the view.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
-    /// 16:9, which pictures on the site are composed for.
-    Site,
-    /// The view's own.
-    Fill,
 }
 
 impl Viewport {
@@ -70,18 +61,17 @@ impl Viewport {
     }
 
     /// Hands egui the picture as the engine has it now.
-    pub fn prepare(&mut self, session: &Session, surface: &mut Surface) {
+    pub fn prepare(&mut self, session: &Session, renderer: &mut Renderer) {
         let whole = self.letterbox.is_none_or(|l| l.shows_whole_texels());
         let shows = (session.display_generation(), whole);
         if self.texture.is_some() && shows == self.shows {
             return;
         }
         let filter = if whole { wgpu::FilterMode::Nearest } else { wgpu::FilterMode::Linear };
-        let device = surface.gpu().device.clone();
-        let renderer = surface.renderer();
+        let device = &session.gpu().device;
         match self.texture {
-            None => self.texture = Some(renderer.register_native_texture(&device, session.display(), filter)),
-            Some(id) => renderer.update_egui_texture_from_wgpu_texture(&device, session.display(), filter, id),
+            None => self.texture = Some(renderer.register_native_texture(device, session.display(), filter)),
+            Some(id) => renderer.update_egui_texture_from_wgpu_texture(device, session.display(), filter, id),
         }
         self.shows = shows;
     }
@@ -169,16 +159,6 @@ impl Viewport {
     }
 }
 
-impl Shape {
-    /// The largest size of this shape in whole pixels.
-    fn within(self, width: u32, height: u32) -> (u32, u32) {
-        match self {
-            Shape::Fill => (width, height),
-            Shape::Site => (width.min(height * 16 / 9), height.min((width * 9).div_ceil(16))),
-        }
-    }
-}
-
 fn reads_keyboard(session: &Session) -> bool {
     session.project().passes.iter().flat_map(|p| p.channels.iter().flatten()).any(|c| c.input == Input::Keyboard)
 }
@@ -194,7 +174,7 @@ fn pill(ui: &Ui, rect: Rect, corner: Align2, text: &str, color: Color32) {
     ui.painter().galley(place.min + vec2(8.0, 4.0), galley, color);
 }
 
-/// What there is instead of the newest text's picture, and why.
+/// Returns what there is instead of the newest text's picture, and why.
 fn trouble(errors: usize, meanwhile: Meanwhile) -> String {
     let why = match errors {
         // The compiler or the device gave up, which a notice tells of.
@@ -220,14 +200,5 @@ mod tests {
         assert_eq!(trouble(1, Meanwhile::LastGood), "1 error – the last good picture runs on");
         assert_eq!(trouble(2, Meanwhile::Newest), "2 errors – drawn all the same");
         assert_eq!(trouble(0, Meanwhile::Nothing), "Not compiled – nothing to draw yet");
-    }
-
-    #[test]
-    fn the_sites_shape_fits_whatever_there_is() {
-        assert_eq!(Shape::Site.within(640, 999), (640, 360));
-        assert_eq!(Shape::Site.within(9999, 360), (640, 360));
-        assert_eq!(Shape::Site.within(634, 680), (634, 357));
-        assert_eq!(Shape::Site.within(1, 1), (1, 1));
-        assert_eq!(Shape::Fill.within(634, 680), (634, 680));
     }
 }

@@ -1,82 +1,9 @@
 //! One picture, from its file or its generator to texels.
 
-use super::{TexelFormat, Texels, builtin, npy, site};
-use crate::project::{
-    Media,
-    confine::{self, FileError},
-    limits, listed, nearest,
-};
-use image::{ColorType, DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits};
-use std::{
-    io::{self, Cursor},
-    path::{Path, PathBuf},
-};
-
-/// Why a picture is not to be had. Its text is complete but for the pass and the channel.
-#[derive(Debug, thiserror::Error)]
-pub enum MediaError {
-    #[error(transparent)]
-    File(#[from] FileError),
-    #[error("{}: {}", path.display(), reason(source))]
-    Decode { path: PathBuf, source: ImageError },
-    #[error("{}: {reason}", path.display())]
-    Npy { path: PathBuf, reason: String },
-    #[error("{}: the picture has no texels", path.display())]
-    Empty { path: PathBuf },
-    #[error("{}: the picture has {width}x{height} texels, {excess}", path.display())]
-    TooLarge { path: PathBuf, width: u32, height: u32, excess: Excess },
-    #[error("{} is relative, and the project has no folder yet to start from", path.display())]
-    NoFolder { path: PathBuf },
-    #[error("there is no built-in texture {name}{}", near.as_ref().map(|n| format!(" (did you mean {n}?)")).unwrap_or_default())]
-    UnknownBuiltin { name: String, near: Option<String> },
-    #[error("the site's {path} has no stand-in")]
-    NoStandIn { path: String },
-}
-
-/// The limit that a picture exceeds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Excess {
-    #[error("and a side may have {}", limits::PICTURE_SIDE)]
-    Side,
-    #[error("which take {bytes} bytes; a picture may take {}", limits::in_bytes(limits::PICTURE_BYTES))]
-    Bytes { bytes: u64 },
-    #[error(
-        "with which the pictures and models of the project take more than {}, which is all they may",
-        limits::in_bytes(limits::MEDIA_BYTES)
-    )]
-    Project,
-}
-
-fn reason(error: &ImageError) -> String {
-    match error {
-        ImageError::Limits(_) => format!("the picture needs more memory than decoding may take ({error})"),
-        ImageError::Unsupported(_) => format!("not a picture of a known kind ({error}); known are {}", listed(&KNOWN)),
-        ImageError::IoError(e) if e.kind() == io::ErrorKind::UnexpectedEof => "the picture is cut short".into(),
-        _ => format!("the picture is damaged ({error})"),
-    }
-}
-
-const KNOWN: [&str; 8] = ["PNG", "JPEG", "WebP", "BMP", "TGA", "GIF", "HDR", "NPY"];
-
-impl MediaError {
-    /// How to mend it.
-    pub fn hint(&self) -> String {
-        match self {
-            MediaError::File(error) => error.hint(),
-            MediaError::Decode { source: ImageError::Limits(_), .. } => "scale the picture down".into(),
-            MediaError::TooLarge { excess: Excess::Project, .. } => "use fewer or smaller pictures".into(),
-            MediaError::TooLarge { .. } => "scale the picture down".into(),
-            MediaError::Decode { .. } | MediaError::Empty { .. } => "save the picture anew, for instance as PNG".into(),
-            MediaError::Npy { .. } => {
-                "write it with numpy.save: float32, float64 or uint8, shape (height, width) or (height, width, 1 to 4)"
-                    .into()
-            }
-            MediaError::NoFolder { .. } => "save the project first, and put the picture into its folder".into(),
-            MediaError::UnknownBuiltin { .. } => format!("there are {}", listed(&builtin::names())),
-            MediaError::NoStandIn { .. } => "put a file of that name into a folder and name it with --media".into(),
-        }
-    }
-}
+use super::{MediaError, TexelFormat, Texels, builtin, error::Excess, npy, site};
+use crate::project::{Media, confine, limits, nearest};
+use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
+use std::{io::Cursor, path::Path};
 
 /// Loads a 2D picture. `vflip`: its top row comes to lie at v = 1. A file lies in the project's folder `base`, see
 /// [`confine`]. For a stock file of the site, a file of the same name in `media_dir` wins over the built-in stand-in.
@@ -183,7 +110,8 @@ fn decoded(bytes: Vec<u8>, path: &Path, vflip: bool, room: u64) -> Result<Texels
     Ok(if vflip { flipped(texels) } else { texels })
 }
 
-/// Texels in the picture's own order of rows. Values as stored: no colour space is undone and alpha is not multiplied in.
+/// Texels in the picture's own order of rows. Values as stored: no colour space is undone and alpha is not multiplied
+/// in.
 fn texels(image: DynamicImage) -> Texels {
     let (width, height) = (image.width(), image.height());
     match image {
@@ -272,7 +200,8 @@ mod tests {
             (write("huge.png", &with_size(0x7fff_ffff, 0x7fff_ffff)), "huge.png"),
             (
                 write("large.png", &with_size(20000, 20000)),
-                "large.png: the picture has 20000x20000 texels, which take 1600000000 bytes; a picture may take 512 MiB",
+                "large.png: the picture has 20000x20000 texels, which take 1600000000 bytes; a picture may take 512 \
+                MiB",
             ),
             (write("long.png", &with_size(40000, 2)), "40000x2 texels, and a side may have 32768"),
             (dir.path().join("missing.png"), "cannot read"),

@@ -1,9 +1,10 @@
-//! What feeds a channel besides a buffer: pictures, the keyboard, Eddy's own textures.
+//! Media feed a channel besides buffers: pictures, the keyboard, Eddy's own textures.
 //!
-//! Owns decoded texels and where they come from. Touches no GPU. Row 0 is the bottom: `vflip` has been applied to whatever
-//! leaves this module.
+//! Owns decoded texels and where they come from. Touches no GPU. Row 0 is the bottom: `vflip` has been applied to
+//! whatever leaves this module.
 
 pub mod builtin;
+mod error;
 mod gather;
 pub mod keyboard;
 mod load;
@@ -11,9 +12,10 @@ pub mod mesh;
 mod npy;
 mod site;
 
+pub use error::MediaError;
 pub use gather::{files, fills, gather, meshes};
 pub use keyboard::Keyboard;
-pub use load::{MediaError, load};
+pub use load::load;
 pub use npy::{bytes as npy_bytes, header as npy_header};
 
 use crate::{
@@ -57,12 +59,12 @@ pub struct Texels {
     pub bytes: Vec<u8>,
 }
 
-/// What a project needs besides its texts, loaded.
+/// The loaded files that a project needs besides its texts.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MediaSet {
     /// By what the channel names and whether it is flipped.
     pictures: HashMap<MediaKey, Arc<Texels>>,
-    /// Why a file is not among the pictures that a fill names, and how to mend it.
+    /// The reason why the picture that a fill names is not there, and how to mend it.
     missing_fills: HashMap<PathBuf, (String, String)>,
     meshes: HashMap<MeshSource, Result<Arc<Mesh>, MeshError>>,
 }
@@ -144,7 +146,7 @@ impl MediaSet {
     }
 }
 
-/// What tells one loaded picture from another.
+/// The key that tells one loaded picture from another.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct MediaKey {
     pub media: crate::project::Media,

@@ -1,7 +1,7 @@
 //! NumPy's `.npy` as texels: an array of shape (height, width) or (height, width, components), row 0 at the bottom.
 //!
-//! Format: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>, versions 1 to 3, C order. What an array lacks
-//! of four components is 0, alpha 1. Bytes (uint8) count as 0 to 255 of 1, as in a picture.
+//! Format: <https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html>, versions 1 to 3, C order. What an
+//! array lacks of four components is 0, alpha 1. Bytes (uint8) count as 0 to 255 of 1, as in a picture.
 
 use super::{MediaError, TexelFormat, Texels};
 use crate::project::limits;
@@ -14,8 +14,8 @@ pub(super) fn read(bytes: &[u8], path: &Path, room: u64) -> Result<Texels, Media
     decode(bytes, room).map_err(|reason| MediaError::Npy { path: path.to_owned(), reason })
 }
 
-/// What an `.npy` file of version 1.0 begins with, for rows of numbers of the type `descr` in C order. The data that follows
-/// starts at a multiple of 64.
+/// Returns what an `.npy` file of version 1.0 begins with, for rows of numbers of the type `descr` in C order. The data
+/// that follows starts at a multiple of 64.
 pub fn header(descr: &str, shape: &[u32]) -> Vec<u8> {
     let shape: String = shape.iter().map(|n| format!("{n}, ")).collect();
     let shape = shape.trim_end_matches(", ");
@@ -105,7 +105,7 @@ fn decode(bytes: &[u8], room: u64) -> Result<Texels, String> {
     Ok(Texels { width: width as u32, height: height as u32, format: TexelFormat::Rgba32Float, bytes: out })
 }
 
-/// What stands behind a key of the header, which is a Python dictionary.
+/// Returns what stands behind a key of the header, which is a Python dictionary.
 fn entry<'h>(header: &'h str, key: &str) -> Option<&'h str> {
     let at = [format!("'{key}'"), format!("\"{key}\"")].iter().find_map(|k| Some(header.find(k)? + k.len()))?;
     Some(header[at..].trim_start().strip_prefix(':')?.trim_start())

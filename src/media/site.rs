@@ -1,9 +1,9 @@
 //! The site's stock pictures, by id: which of Eddy's own stands in for each.
 //!
-//! Sizes and channels are facts of the site; the pictures themselves are its own and not here. A stand-in has the same size
-//! and channels and something of the same kind to see, so that a shader looks as meant if not as it was.
+//! Sizes and channels are facts of the site; the pictures themselves are its own and not here. A stand-in has the same
+//! size and channels and something of the same kind to see, so that a shader looks as meant if not as it was.
 
-/// What is known of one stock picture.
+/// A stock picture of the site.
 #[derive(Clone, Copy, Debug)]
 pub struct Stock {
     pub id: &'static str,

@@ -1,10 +1,11 @@
 //! Files written whole or not at all.
 //!
 //! A new content goes to a temporary file beside the old one, is flushed to the device and takes its place by renaming.
-//! Several files are all staged before the first takes its place, so that a full disk is found while every old file is there.
+//! Several files are all staged before the first takes its place, so that a full disk is found while every old file is
+//! there.
 //!
-//! A process that is killed leaves its temporary files behind. Each is locked while it is in use, and a lock ends with its
-//! process: what is not locked is removed the next time that Eddy opens or writes the folder (see [`sweep`]).
+//! A process that is killed leaves its temporary files behind. Each is locked while it is in use, and a lock ends with
+//! its process: what is not locked is removed the next time that Eddy opens or writes the folder (see [`sweep`]).
 
 use super::{
     ProjectError,
@@ -44,7 +45,7 @@ pub enum OnDisk {
     Different,
 }
 
-/// What stands at a path now, against what shall.
+/// Returns what stands at a path now, against what shall.
 pub fn compare(path: &Path, content: &Content) -> Result<OnDisk, ProjectError> {
     let content = content.read()?;
     match confine::read_own(path, confine::exactly(content.len())) {
@@ -78,7 +79,7 @@ pub fn write_with(path: &Path, write: impl FnOnce(&mut fs::File) -> io::Result<(
     take_place(stage(&path, write)?, &path)
 }
 
-/// Where a symbolic link leads, so that the link stays one.
+/// Returns where a symbolic link leads, so that the link stays one.
 fn real_path(path: PathBuf) -> PathBuf {
     if path.is_symlink() { path.canonicalize().unwrap_or(path) } else { path }
 }

@@ -1,12 +1,12 @@
 //! The one way from a name that a project says to a file.
 //!
-//! A project may be a stranger's, so it reads only what lies in its own folder: pass files, Common, stages, included files,
-//! pictures, models and the files that models name. A name is relative to the folder, with `/`. It may not be absolute, nor
-//! lead above the folder, also not through links: these are followed first. What it leads to must be a regular file, as a
-//! device never ends and a pipe never begins. Reading is bounded.
+//! A project may be a stranger's, so it reads only what lies in its own folder: pass files, Common, stages, included
+//! files, pictures, models and the files that models name. A name is relative to the folder, with `/`. It may not be
+//! absolute, nor lead above the folder, also not through links: these are followed first. What it leads to must be a
+//! regular file, as a device never ends and a pipe never begins. Reading is bounded.
 //!
-//! [`relative`] decides by the name alone, [`resolve`] by what is on the disk, and [`read`] reads. [`read_own`] is for a path
-//! that the person at the machine says, who may name any regular file.
+//! [`relative`] decides by the name alone, [`resolve`] by what is on the disk, and [`read`] reads. [`read_own`] is for
+//! a path that the person at the machine says, who may name any regular file.
 
 use super::limits::Limit;
 use std::{
@@ -15,7 +15,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// Why a file is not read. The text names the file and the reason; [`FileError::hint`] says the mend.
+/// An error of reading a file. The text names the file and the reason; [`FileError::hint`] says the mend.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}", self.message())]
 pub struct FileError {
@@ -111,8 +111,8 @@ impl FileError {
     }
 }
 
-/// The name, from the project's folder and with `/`, of what the file `from` of the project calls `name`. `from` is itself a
-/// name from the folder; an empty one stands for a file directly in it. Looks at the text alone.
+/// The name, from the project's folder and with `/`, of what the file `from` of the project calls `name`. `from` is
+/// itself a name from the folder; an empty one stands for a file directly in it. Looks at the text alone.
 pub fn relative(from: &str, name: &str) -> Result<String, FileError> {
     let refuse = |reason| Err(FileError::new(name, reason));
     let bytes = name.as_bytes();
@@ -154,7 +154,7 @@ pub fn relative(from: &str, name: &str) -> Result<String, FileError> {
     Ok(parts.join("/"))
 }
 
-/// Whether Windows takes this name, with any extension, for a device.
+/// Returns whether Windows takes this name, with any extension, for a device.
 pub fn is_reserved(name: &str) -> bool {
     let stem = name.split('.').next().unwrap_or_default().trim_end().to_ascii_uppercase();
     match stem.as_str() {
@@ -222,7 +222,7 @@ fn check_kind(called: &Path, real: &Path) -> Result<(), FileError> {
     }
 }
 
-/// What a thing is that is no regular file.
+/// Returns what a thing is that is no regular file.
 fn kind(file: &fs::FileType) -> Option<&'static str> {
     if file.is_file() {
         return None;

@@ -1,8 +1,8 @@
 //! `#iChannelN "…"` lines: what a channel reads, said in the GLSL text itself.
 //!
-//! Owns the reading of these lines, in the form the VS Code extension "Shader Toy" made common, and their removal before a
-//! compiler sees the text. They count only where there is no `eddy.toml`. Not a preprocessor: it knows comments, and no
-//! conditionals.
+//! Owns the reading of these lines, in the form the VS Code extension "Shader Toy" made common, and their removal
+//! before a compiler sees the text. They count only where there is no `eddy.toml`. Not a preprocessor: it knows
+//! comments, and no conditionals.
 //!
 //! ```glsl
 //! #iChannel0 "buffer_a"               // a buffer, by pass or file name; also "file://buffer_a.glsl"
@@ -17,7 +17,7 @@
 //! ```
 
 use super::{
-    Channel, Filter, Input, Media, PassId, Sampler, Wrap, includes, knobs,
+    Channel, Filter, Input, Media, PassId, Sampler, Source, Wrap, file_names, includes, knobs,
     lines::{HashLine, hash_lines},
     nearest,
 };
@@ -28,7 +28,8 @@ fn is_channel(line: &HashLine<'_>) -> bool {
     line.body.strip_prefix("iChannel").is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
 }
 
-/// `text` with `#iChannel`, `#iUniform` and `#include` lines and a byte order mark overwritten with spaces, byte for byte.
+/// `text` with `#iChannel`, `#iUniform` and `#include` lines and a byte order mark overwritten with spaces, byte for
+/// byte.
 pub fn blank(text: &str) -> Cow<'_, str> {
     let mut ranges: Vec<Range<usize>> = hash_lines(text)
         .into_iter()
@@ -53,7 +54,7 @@ pub fn blank(text: &str) -> Cow<'_, str> {
     Cow::Owned(out)
 }
 
-/// What the directives of one pass say.
+/// The directives of one pass.
 #[derive(Debug, Default)]
 pub(super) struct Declared {
     /// `None` where the text has no directive at all.
@@ -142,7 +143,7 @@ fn input(value: &str, id: &PassId, span: Span, diagnostics: &mut Vec<Diagnostic>
         None => (value, false),
     };
     let file = std::path::Path::new(path);
-    let is_glsl = file.extension().is_some_and(super::folder::is_glsl_extension);
+    let is_glsl = file.extension().is_some_and(file_names::is_glsl_extension);
     let word = if is_glsl { file.file_stem().and_then(|s| s.to_str()).unwrap_or_default() } else { path };
     if is_file && !is_glsl {
         return picture(path);
@@ -162,7 +163,7 @@ fn input(value: &str, id: &PassId, span: Span, diagnostics: &mut Vec<Diagnostic>
         "keyboard" => return with(Input::Keyboard, Sampler::KEYBOARD),
         _ => {}
     }
-    match super::folder::pass_of_stem(word) {
+    match file_names::pass_of_stem(word) {
         Some(PassId::Buffer(name)) => return with(Input::Buffer(name), Sampler::BUFFER),
         Some(PassId::Cubemap) => return with(Input::CubemapPass, Sampler::BUFFER),
         Some(other) => {
@@ -183,7 +184,8 @@ fn input(value: &str, id: &PassId, span: Span, diagnostics: &mut Vec<Diagnostic>
         diagnostic = diagnostic.hint(format!("did you mean \"{near}\"?"));
     }
     diagnostics.push(diagnostic.hint(
-        "a channel reads \"buffer_a\", \"self\", \"cube_a\", \"keyboard\", \"file://pic.png\" or \"builtin://noise-rgba-256\"",
+        "a channel reads \"buffer_a\", \"self\", \"cube_a\", \"keyboard\", \"file://pic.png\" or \
+        \"builtin://noise-rgba-256\"",
     ));
     None
 }
@@ -232,6 +234,15 @@ fn set(sampler: &mut Sampler, setting: &str, value: &str, span: Span, diagnostic
             _ => unknown("vertical flip", value, &["true", "false"]),
         },
         _ => unknown("setting", setting, &["MinFilter", "MagFilter", "WrapMode", "VFlip"]),
+    }
+}
+
+impl Source {
+    /// Returns what a compiler gets: the text with every `#iChannel`, `#iUniform` and `#include` line (see the module's
+    /// page) and a byte order mark overwritten with spaces, byte for byte, so that offsets and lines are those of
+    /// `text`.
+    pub fn compile_text(&self) -> Cow<'_, str> {
+        blank(&self.text)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Why a project could not be read or written.
+//! Errors of reading and writing a project.
 
 use super::{FileError, limits};
 use crate::diag::{Diagnostic, SourceMap, render_all};
@@ -17,7 +17,11 @@ pub enum ProjectError {
     #[error("{what} is not a usable project\n{}", render_all(diagnostics, sources))]
     Invalid { what: String, diagnostics: Vec<Diagnostic>, sources: SourceMap },
     /// A name that means nothing here.
-    #[error("{spec}: neither a file, a folder nor a preset{}; presets are {}", did_you_mean(near.as_deref()), presets_listed(presets))]
+    #[error(
+        "{spec}: neither a file, a folder nor a preset{}; presets are {}",
+        did_you_mean(near.as_deref()),
+        presets_listed(presets)
+    )]
     NotFound { spec: String, near: Option<String>, presets: Vec<String> },
     /// A file that is there, of a kind no project comes in.
     #[error(
@@ -58,7 +62,7 @@ impl ProjectError {
         move |source| ProjectError::Io { action, path, source }
     }
 
-    /// What the author has to mend, where it is theirs.
+    /// Returns what the author has to mend, where it is theirs.
     pub fn diagnostics(&self) -> Option<(&[Diagnostic], &SourceMap)> {
         match self {
             ProjectError::Invalid { diagnostics, sources, .. } => Some((diagnostics, sources)),

@@ -14,6 +14,9 @@ use std::{
     path::{Path, PathBuf},
 };
 
+/// Name of the file that describes a folder.
+pub(super) const MANIFEST: &str = "eddy.toml";
+
 /// The text files of a project, by name relative to its folder.
 pub(super) struct Files<'a> {
     place: Place<'a>,
@@ -54,8 +57,8 @@ impl<'a> Files<'a> {
         Self { place, left: Cell::new(limits::ALL_TEXTS.bytes) }
     }
 
-    /// Names of the files directly in the folder, sorted. Links count as files wherever they lead. Fails for a folder of more than
-    /// [`limits::FILES`].
+    /// Names of the files directly in the folder, sorted. Links count as files wherever they lead. Fails for a folder
+    /// of more than [`limits::FILES`].
     pub fn names(&self) -> Result<Vec<String>, ProjectError> {
         let mut names: Vec<String> = match self.place {
             Place::Disk(path) => {
@@ -113,8 +116,8 @@ impl<'a> Files<'a> {
         decode(bytes)
     }
 
-    /// Whether something other than a folder has this name directly in the folder, also where it is of no use: then reading
-    /// says why.
+    /// Returns whether something other than a folder has this name directly in the folder, also where it is of no use:
+    /// then reading says why.
     pub fn exists(&self, name: &str) -> bool {
         match self.place {
             Place::Disk(folder) => folder.join(name).symlink_metadata().is_ok_and(|m| !m.is_dir()),

@@ -1,14 +1,12 @@
 //! Texels of a pass that its own program does not draw: what it holds before frame 0, and its outermost texels.
 
-use super::{Pass, Project};
-use crate::diag::{SourceId, Span};
 use std::{
     ops::Range,
     path::{Path, PathBuf},
     sync::Arc,
 };
 
-/// What texels are filled with, and where `eddy.toml` says so.
+/// A value that texels are filled with, and its place in `eddy.toml`.
 #[derive(Clone, Debug)]
 pub struct Fill {
     pub value: FillValue,
@@ -24,8 +22,9 @@ pub enum FillValue {
     /// A picture or a `.npy` file, by its name in the project's folder. Where its size is the pass's it is taken
     /// texel for texel, else stretched over the pass with linear filtering.
     File(PathBuf),
-    /// The bytes of an `.npy` file that is nowhere yet, and the name it will have. Lives in memory alone: saving writes the file
-    /// into the project's folder and makes a [`FillValue::File`] of it, and nothing that is read from a project is one.
+    /// The bytes of an `.npy` file that is nowhere yet, and the name it will have. Lives in memory alone: saving writes
+    /// the file into the project's folder and makes a [`FillValue::File`] of it, and nothing that is read from a
+    /// project is one.
     Held { name: PathBuf, npy: Arc<[u8]> },
 }
 
@@ -64,9 +63,9 @@ impl Fill {
         Fill { value: FillValue::File(path.into()), written: None }
     }
 
-    /// The text that diagnostics about it point into, and where in it the value stands: the manifest, where that holds the value
-    /// as it is; else the value alone, at the manifest's line.
-    fn text(&self) -> (Arc<str>, Range<usize>) {
+    /// The text that diagnostics about it point into, and where in it the value stands: the manifest, where that holds
+    /// the value as it is; else the value alone, at the manifest's line.
+    pub(super) fn text(&self) -> (Arc<str>, Range<usize>) {
         let value: Arc<str> = match &self.value {
             FillValue::Expression(text) => text.clone(),
             FillValue::File(path) | FillValue::Held { name: path, .. } => path.to_string_lossy().into(),
@@ -119,51 +118,6 @@ impl FillKind {
             FillKind::Initial => "initial",
             FillKind::Boundary => "boundary",
         }
-    }
-}
-
-impl Pass {
-    pub fn fill(&self, kind: FillKind) -> Option<&Fill> {
-        match kind {
-            FillKind::Initial => self.settings.initial.as_ref(),
-            FillKind::Boundary => self.settings.boundary.as_ref().map(|b| &b.value),
-        }
-    }
-
-    pub fn fill_mut(&mut self, kind: FillKind) -> Option<&mut Fill> {
-        match kind {
-            FillKind::Initial => self.settings.initial.as_mut(),
-            FillKind::Boundary => self.settings.boundary.as_mut().map(|b| &mut b.value),
-        }
-    }
-}
-
-/// A text to compile, and which of its bytes are a fill's value.
-pub struct FillText {
-    pub id: SourceId,
-    pub text: Arc<str>,
-    pub range: Range<usize>,
-}
-
-impl Project {
-    /// Every fill with the index of its pass, in the order of [`Project::sources`].
-    pub fn fills(&self) -> impl Iterator<Item = (usize, FillKind, &Fill)> {
-        self.passes.iter().enumerate().flat_map(|(index, pass)| {
-            FillKind::ALL.into_iter().filter_map(move |kind| Some((index, kind, pass.fill(kind)?)))
-        })
-    }
-
-    /// The text a fill of `passes[pass]` is written in, by its id in [`Project::sources`].
-    pub fn fill_text(&self, pass: usize, kind: FillKind) -> Option<FillText> {
-        let (n, (.., fill)) = self.fills().enumerate().find(|(_, (p, k, _))| (*p, *k) == (pass, kind))?;
-        let (text, range) = fill.text();
-        Some(FillText { id: self.fill_id(n), text, range })
-    }
-
-    /// Where a fill is written.
-    pub fn fill_span(&self, pass: usize, kind: FillKind) -> Option<Span> {
-        let FillText { id, range, .. } = self.fill_text(pass, kind)?;
-        Some(Span::new(id, range))
     }
 }
 

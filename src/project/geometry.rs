@@ -1,5 +1,5 @@
-//! What a geometry pass draws instead of a full-screen triangle: meshes, each with its program and state, and the camera that
-//! sees them.
+//! A geometry pass draws meshes instead of a full-screen triangle: the meshes, each with its program and state, and the
+//! camera that sees them.
 
 use super::{PassFormat, Source, confine, limits};
 use serde::{
@@ -28,7 +28,8 @@ pub struct Geometry {
 }
 
 impl Geometry {
-    /// Leaves out the stages that no draw has, as they are once read from a manifest: in the order in which draws name them.
+    /// Leaves out the stages that no draw has, as they are once read from a manifest: in the order in which draws name
+    /// them.
     pub fn drop_unused_stages(&mut self) {
         let all = std::mem::take(&mut self.stages);
         let mut order = Vec::new();
@@ -49,7 +50,7 @@ impl Geometry {
 pub enum Stage {
     /// The pass's own text.
     Own,
-    /// Of [`Geometry::stages`].
+    /// A text of [`Geometry::stages`], by its index.
     File(usize),
 }
 
@@ -71,7 +72,7 @@ pub struct MeshDraw {
     pub position: [f64; 3],
 }
 
-/// Where a mesh comes from.
+/// The source of a mesh.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum MeshSource {
     /// One of Eddy's own, by name: see `media::mesh`.
@@ -125,7 +126,7 @@ impl Cull {
     }
 }
 
-/// What a fragment's depth must be, compared with the depth buffer's, for the fragment to count.
+/// The comparison with the depth buffer that a fragment's depth must pass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum DepthTest {
     #[default]
@@ -171,9 +172,9 @@ pub struct Camera {
     /// Degrees above the horizon, within -89 and 89.
     pub pitch: f64,
     pub distance: f64,
-    /// What it looks at.
+    /// The point that it looks at.
     pub target: [f64; 3],
-    /// Of the picture's height, in degrees.
+    /// The vertical field of view, in degrees.
     pub fov: f64,
     /// Distances of the clip planes.
     pub near: f64,
@@ -198,8 +199,8 @@ impl Default for Camera {
 }
 
 /// Files that a model needs besides itself: the buffers and pictures a `.gltf` names, by their names from the project's
-/// `folder`, as `model` is. None for a file that cannot be read, and no name that leads out of the folder; whoever loads the
-/// model says why.
+/// `folder`, as `model` is. None for a file that cannot be read, and no name that leads out of the folder; whoever
+/// loads the model says why.
 pub fn files_beside(folder: &Path, model: &str) -> Vec<String> {
     if !Path::new(model).extension().is_some_and(|e| e.eq_ignore_ascii_case("gltf")) {
         return Vec::new();
@@ -210,7 +211,7 @@ pub fn files_beside(folder: &Path, model: &str) -> Vec<String> {
     files.filter_map(|file| confine::relative(model, &file).ok()).collect()
 }
 
-/// Of a `.gltf` the addresses alone: the rest may be large.
+/// The addresses in a `.gltf`: the rest may be large.
 #[derive(Default, Deserialize)]
 #[serde(default)]
 struct Named {

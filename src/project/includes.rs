@@ -1,19 +1,20 @@
 //! `#include "file"` lines: texts inside texts.
 //!
-//! A path is relative to the file whose line names it, and stays within the project's folder; an included file may include
-//! others. The lines count wherever they stand outside comments, in conditionals too. A file that is a tab of the project is
-//! taken as the tab has it; Common, which stands before every pass anyway, is not put in again.
+//! A path is relative to the file whose line names it, and stays within the project's folder; an included file may
+//! include others. The lines count wherever they stand outside comments, in conditionals too. A file that is a tab of
+//! the project is taken as the tab has it; Common, which stands before every pass anyway, is not put in again.
 //!
-//! Owns which files are read ([`Project::read_includes`]), what the lines lead to ([`Project::include_lines`]) and the text
-//! that comes of it ([`Project::inlined`]).
+//! Owns which files are read ([`Project::read_includes`]), what the lines lead to ([`Project::include_lines`]) and the
+//! text that comes of it ([`Project::inlined`]).
 
 use super::{
-    Project, Source,
+    Included, Project, Source,
     confine::{self, Reason},
+    embedded,
     files::{Files, Read},
     limits,
     lines::{HashLine, hash_lines},
-    nearest, presets,
+    nearest,
 };
 use crate::diag::{Diagnostic, SourceId, Span};
 use std::{
@@ -22,18 +23,7 @@ use std::{
     path::Path,
 };
 
-/// A file that some text names in an `#include` line.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Included {
-    /// Called by its path from the project's folder, with `/`.
-    pub source: Source,
-    /// Why it has no text, if it has none.
-    pub trouble: Option<String>,
-    /// The trouble is a limit of the whole project: what is named after it was not looked for.
-    pub is_limit: bool,
-}
-
-/// Why a file has no text.
+/// The reason why a file has no text.
 struct Trouble {
     why: String,
     is_limit: bool,
@@ -45,7 +35,7 @@ impl From<String> for Trouble {
     }
 }
 
-/// What the `#include` lines of a project lead to.
+/// The texts that the `#include` lines of a project lead to.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct IncludeLines {
     /// A line, and the text that stands in its place; no text leads to itself.
@@ -64,6 +54,14 @@ fn named<'t>(line: &HashLine<'t>) -> Option<&'t str> {
     let after = after.trim_start();
     (!path.trim().is_empty() && (after.is_empty() || after.starts_with("//") || after.starts_with("/*")))
         .then_some(path)
+}
+
+/// Returns the paths that the `#include` lines of a text name, in their order and as they are written.
+pub fn include_names(text: &str) -> Vec<&str> {
+    if !text.contains("include") {
+        return Vec::new();
+    }
+    hash_lines(text).iter().filter(|l| is_include(l)).filter_map(named).map(str::trim).collect()
 }
 
 /// Reads every file that texts of the project name, and those that these name.
@@ -142,7 +140,7 @@ impl Project {
     pub fn read_includes(&mut self) {
         match &self.origin {
             super::Origin::Preset(name) => {
-                let dir = presets::folder(name);
+                let dir = embedded::folder(name);
                 read(self, dir.map(Files::embedded).as_ref());
             }
             other => {
@@ -152,8 +150,8 @@ impl Project {
         }
     }
 
-    /// What every `#include` line leads to, and what is wrong with those that lead nowhere. Spans and ids are of
-    /// [`Project::sources`].
+    /// Returns what every `#include` line leads to, and what is wrong with those that lead nowhere. Spans and ids are
+    /// of [`Project::sources`].
     pub fn include_lines(&self) -> IncludeLines {
         let mut found = IncludeLines::default();
         let sources = self.texts();
@@ -165,8 +163,8 @@ impl Project {
         for (id, source) in sources.iter() {
             for line in hash_lines(&source.text).iter().filter(|l| is_include(l)) {
                 let span = Span::new(id, line.range.clone());
-                // Any other form is left to the compiler, which skips it where another language's text stands in a group that is not
-                // compiled.
+                // Any other form is left to the compiler, which skips it where another language's text stands in a
+                // group that is not compiled.
                 let Some(path) = named(line) else { continue };
                 let name = match confine::relative(&source.name, path.trim()) {
                     Ok(name) => name,

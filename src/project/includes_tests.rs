@@ -1,8 +1,8 @@
-//! Where `#include` lines lead.
+//! Tests of `#include` lines.
 
 use crate::{
     diag::{SourceId, render_all},
-    project::{Origin, PassId, Project, json, load, save::Overwrite, save::save},
+    project::{Origin, Overwrite, PassId, Project, json, load, save::save},
 };
 use std::{fs, path::Path};
 

@@ -1,7 +1,7 @@
 //! Limits on what a project may ask for, in one place.
 //!
-//! A project may be a stranger's. Each limit lies far beyond what a project needs and well below what the machine has, and is
-//! checked before the memory is taken. `SECURITY.md` lists them all; a test keeps the two alike.
+//! A project may be a stranger's. Each limit lies far beyond what a project needs and well below what the machine has,
+//! and is checked before the memory is taken. `SECURITY.md` lists them all; a test keeps the two alike.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Limit {
     pub bytes: u64,
-    /// What the file is, with its article: "a GLSL text".
+    /// The kind of file with its article: "a GLSL text".
     pub of: &'static str,
 }
 
@@ -38,7 +38,7 @@ pub const GLSL_TEXT: Limit = Limit { bytes: 8 << 20, of: "a GLSL text" };
 pub const ALL_TEXTS: Limit = Limit { bytes: 64 << 20, of: "all GLSL texts of a project together" };
 /// A Shadertoy JSON file.
 pub const JSON: Limit = Limit { bytes: 32 << 20, of: "a Shadertoy JSON file" };
-/// What a Shadertoy JSON file says of a shader besides its passes.
+/// The part of a Shadertoy JSON file that says more of a shader than its passes.
 pub const JSON_INFO: Limit = Limit { bytes: 1 << 20, of: "the \"info\" of a Shadertoy JSON file" };
 /// A picture, a model, or a file that a model names.
 pub const MEDIA_FILE: Limit = Limit { bytes: 512 << 20, of: "a picture or a model" };

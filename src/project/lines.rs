@@ -1,4 +1,5 @@
-//! Lines of a GLSL text that begin with `#`, as Eddy's own directives do. Knows comments, and neither macros nor conditionals.
+//! Lines of a GLSL text that begin with `#`, as Eddy's own directives do. Knows comments, and neither macros nor
+//! conditionals.
 
 use std::ops::Range;
 
@@ -6,9 +7,9 @@ use std::ops::Range;
 pub(super) struct HashLine<'a> {
     /// The whole line without its line break.
     pub range: Range<usize>,
-    /// What follows `#`, without blanks around it.
+    /// The text behind `#`, without blanks around it.
     pub body: &'a str,
-    /// Where `body` begins in the text.
+    /// The offset of `body` in the text.
     pub body_at: usize,
 }
 

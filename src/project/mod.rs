@@ -1,15 +1,19 @@
-//! What the author wrote, as pure data, and its forms on disk.
+//! A project is what the author wrote, as pure data, with its forms on disk.
 //!
-//! Owns [`Project`], `eddy.toml`, folders of GLSL files, Shadertoy JSON in and out, the presets inside the binary. Knows
-//! nothing of wgpu or naga; reads files only where a caller names them.
+//! Owns [`Project`], `eddy.toml`, folders of GLSL files, Shadertoy JSON in and out, the presets inside the binary.
+//! Knows nothing of wgpu or naga; reads files only where a caller names them.
 
 mod atomic;
 pub mod confine;
 pub mod directives;
+mod embedded;
 mod error;
+mod file_names;
 mod files;
+mod fill_texts;
 mod fills;
 mod folder;
+mod format;
 mod geometry;
 mod includes;
 pub mod json;
@@ -17,32 +21,40 @@ mod knobs;
 pub mod limits;
 mod lines;
 mod load;
+mod loaded;
+mod locate;
 mod manifest;
 mod model;
 mod names;
+mod pass_id;
 mod picked;
 pub mod presets;
 mod save;
 mod settings;
+mod source;
 mod source_ids;
 mod writes;
 
 pub use atomic::write_with;
 pub use confine::FileError;
 pub use error::ProjectError;
-pub use fills::{Boundary, Fill, FillKind, FillText, FillValue, Written};
+pub use fill_texts::FillText;
+pub use fills::{Boundary, Fill, FillKind, FillValue, Written};
 pub use folder::declare_channels;
+pub use format::PassFormat;
 pub use geometry::{
     Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Stage, files_beside, unescaped,
 };
-pub use includes::{IncludeLines, Included};
+pub use includes::{IncludeLines, include_names};
 pub use knobs::{Knob, KnobRange, KnobType, KnobValue, KnobValues, Knobs};
-pub use load::{Loaded, load, stem};
+pub use loaded::Loaded;
+pub use locate::{load, stem};
 pub use manifest::write as write_manifest;
-pub use model::{
-    Channel, Filter, Info, Input, Media, Origin, Pass, PassId, Project, Sampler, SamplerRules, Source, Tab, Turn, Wrap,
-};
+pub use model::{Channel, Filter, Info, Input, Media, Origin, Pass, Project, Sampler, SamplerRules, Tab, Wrap};
 pub use names::{listed, nearest};
+pub use pass_id::{PassId, Turn};
 pub use picked::at_home;
-pub use save::{Overwrite, save};
-pub use settings::{Group, PassBody, PassFormat, PassSettings, PassSize, Region};
+pub use save::save;
+pub use settings::{Group, PassBody, PassSettings, PassSize, Region};
+pub use source::{Included, Source};
+pub use writes::Overwrite;

@@ -1,9 +1,9 @@
 //! A project as pure data: passes in their drawing order, what each channel reads, and where the texts came from.
 
-use super::{Group, Included, KnobValues, PassSettings};
-use std::{path::PathBuf, sync::Arc};
+use super::{Group, Included, KnobValues, PassId, PassSettings, Source};
+use std::path::PathBuf;
 
-/// What the author wrote, whole: enough to compile, plan and draw, and to write it back unchanged.
+/// All that the author wrote: enough to compile, plan and draw, and to write it back unchanged.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Project {
     /// Shown in the title bar and the gallery; never empty.
@@ -11,21 +11,22 @@ pub struct Project {
     pub info: Info,
     /// Text put before every pass's own.
     pub common: Option<Source>,
-    /// Buffers in the order they are drawn each frame, then the cubemap pass, then Image. (Sound passes lie here too and are
-    /// not drawn.) Exactly one Image.
+    /// Buffers in the order they are drawn each frame, then the cubemap pass, then Image. (Sound passes lie here too
+    /// and are not drawn.) Exactly one Image.
     pub passes: Vec<Pass>,
     pub sampler_rules: SamplerRules,
     /// Passes drawn several times a frame; those in none are drawn once.
     pub groups: Vec<Group>,
-    /// Values of the author's own uniforms by name: of [`Project::knobs`] those that differ from the default, and those of
-    /// uniforms that a text declares in GLSL's own way.
+    /// Values of the author's own uniforms by name: of [`Project::knobs`] those that differ from the default, and those
+    /// of uniforms that a text declares in GLSL's own way.
     pub knob_values: KnobValues,
     /// Files that the texts have in them, as [`Project::read_includes`] last found them.
     pub includes: Vec<Included>,
     pub origin: Origin,
 }
 
-/// What the site's JSON says of a shader besides its passes. Kept so that an export gives back what an import took.
+/// The part of the site's JSON that says more of a shader than its passes. It is kept so that an export gives back what
+/// an import took.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Info {
     pub id: String,
@@ -36,7 +37,7 @@ pub struct Info {
     pub extra: serde_json::Map<String, serde_json::Value>,
 }
 
-/// Where a project was read from, and so where saving goes.
+/// The place that a project was read from, and that saving writes to.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Origin {
     /// Nowhere yet: new, or a copy of something that is not written in place.
@@ -52,24 +53,6 @@ pub enum Origin {
     Json(PathBuf),
 }
 
-/// A text of the project, and the file it lives in.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Source {
-    /// What diagnostics and tabs call it: the file's name (`buffer_a.glsl`) or the tab's (`Buffer A`).
-    pub name: String,
-    /// The file, where there is one of its own.
-    pub path: Option<PathBuf>,
-    pub text: Arc<str>,
-}
-
-impl Source {
-    /// What a compiler gets: the text with every `#iChannel`, `#iUniform` and `#include` line (see [`crate::project::directives`]) and a byte order mark
-    /// overwritten with spaces, byte for byte, so that offsets and lines are those of `text`.
-    pub fn compile_text(&self) -> std::borrow::Cow<'_, str> {
-        super::directives::blank(&self.text)
-    }
-}
-
 /// One render pass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pass {
@@ -80,90 +63,7 @@ pub struct Pass {
     pub settings: PassSettings,
 }
 
-/// Which pass. Buffers are told apart by name: `A`..`D` as on the site, or any further name a project gives.
-#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum PassId {
-    Buffer(String),
-    Cubemap,
-    Sound,
-    Image,
-}
-
-/// When in a frame passes of a kind are drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Turn {
-    Buffers,
-    Cubemap,
-    Image,
-    /// Makes no picture.
-    Sound,
-}
-
-impl PassId {
-    /// Returns when the pass has its turn. Passes of the same turn are drawn in the project's order.
-    pub fn turn(&self) -> Turn {
-        match self {
-            PassId::Buffer(_) => Turn::Buffers,
-            PassId::Cubemap => Turn::Cubemap,
-            PassId::Image => Turn::Image,
-            PassId::Sound => Turn::Sound,
-        }
-    }
-
-    /// As tabs show it: `Buffer A`, `Cube A`, `Sound`, `Image`.
-    pub fn title(&self) -> String {
-        match self {
-            PassId::Buffer(name) => format!("Buffer {name}"),
-            PassId::Cubemap => "Cube A".into(),
-            PassId::Sound => "Sound".into(),
-            PassId::Image => "Image".into(),
-        }
-    }
-
-    /// As file names, `eddy.toml` and `--pass` spell it: `buffer_a`, `cube_a`, `sound`, `image`.
-    pub fn key(&self) -> String {
-        match self {
-            PassId::Buffer(name) => format!("buffer_{}", name.to_lowercase()),
-            PassId::Cubemap => "cube_a".into(),
-            PassId::Sound => "sound".into(),
-            PassId::Image => "image".into(),
-        }
-    }
-
-    /// What names buffers have, as a message says it.
-    pub const NAMES: &str = "a buffer's name has letters, digits, _, - and blanks, at most 64 of them";
-
-    /// Reads either spelling, without regard to case, spaces or underscores; a bare letter is a buffer. Names become parts of
-    /// files' names, so `None` for one with anything but letters, digits, blanks, `_` and `-`, or longer than
-    /// [`super::limits::NAME`].
-    pub fn parse(text: &str) -> Option<PassId> {
-        if text.chars().nth(super::limits::NAME + "buffer_".len()).is_some() {
-            return None;
-        }
-        let flat: String = text.chars().filter(|c| !matches!(c, ' ' | '_' | '-')).collect::<String>().to_lowercase();
-        Some(match flat.as_str() {
-            "" => return None,
-            "image" => PassId::Image,
-            "sound" => PassId::Sound,
-            "cubea" | "cubemap" | "cubemapa" => PassId::Cubemap,
-            _ => {
-                let name = flat.strip_prefix("buffer").or_else(|| flat.strip_prefix("buf")).unwrap_or(&flat);
-                if !PassId::is_name(name) {
-                    return None;
-                }
-                // A site buffer is one capital letter; further names are kept in lower case, as file names fold case.
-                PassId::Buffer(if name.len() == 1 { name.to_uppercase() } else { name.to_owned() })
-            }
-        })
-    }
-
-    /// Whether a buffer may be called so: letters and digits, not too many.
-    pub fn is_name(name: &str) -> bool {
-        !name.is_empty() && name.chars().count() <= super::limits::NAME && name.chars().all(char::is_alphanumeric)
-    }
-}
-
-/// What one `iChannelN` reads and how.
+/// The input of one `iChannelN`, and how it is sampled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
     pub input: Input,
@@ -194,17 +94,19 @@ pub enum Input {
     Webcam,
 }
 
-/// Where a picture, volume or sound comes from.
+/// The source of a picture, volume or sound.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Media {
     /// One of Eddy's own, by name (`noise-rgba-256`): see `media::builtin`.
     Builtin(String),
     /// A file of the project, relative to its folder: see [`super::confine`].
     File(PathBuf),
-    /// A file that the person at the machine picked, wherever it lies, by its whole path. Lives in memory alone: saving copies
-    /// the file into the project's folder and makes a [`Media::File`] of it, and nothing that is read from a project is one.
+    /// A file that the person at the machine picked, wherever it lies, by its whole path. Lives in memory alone: saving
+    /// copies the file into the project's folder and makes a [`Media::File`] of it, and nothing that is read from a
+    /// project is one.
     Picked(PathBuf),
-    /// One of the site's stock files. Stands for a built-in of the same size and kind, or a file of that name in `--media`.
+    /// One of the site's stock files. Stands for a built-in of the same size and kind, or a file of that name in
+    /// `--media`.
     Site { id: String, path: String },
 }
 
@@ -218,9 +120,9 @@ pub struct Sampler {
 }
 
 impl Sampler {
-    /// What a new channel reading a buffer starts with on the site.
+    /// The sampler of a new channel that reads a buffer on the site.
     pub const BUFFER: Sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true };
-    /// What a new channel reading a picture starts with on the site.
+    /// The sampler of a new channel that reads a picture on the site.
     pub const TEXTURE: Sampler = Sampler { filter: Filter::Mipmap, wrap: Wrap::Repeat, vflip: true };
     /// The keyboard is always read so, whatever is stored.
     pub const KEYBOARD: Sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: true };
@@ -248,13 +150,13 @@ pub enum SamplerRules {
     /// Every channel has its own (`eddy.toml`, and GLSL files without one).
     #[default]
     PerChannel,
-    /// As on the site, for projects read from its JSON: the filter belongs to the buffer while a pass draws (the pass's last
-    /// channel wins), the wrap to the buffer for good (the last channel of the whole project wins).
+    /// As on the site, for projects read from its JSON: the filter belongs to the buffer while a pass draws (the pass's
+    /// last channel wins), the wrap to the buffer for good (the last channel of the whole project wins).
     Site,
 }
 
 impl Input {
-    /// What is read from outside the passes.
+    /// Returns what is read from outside the passes.
     pub fn media(&self) -> Option<&Media> {
         match self {
             Input::Texture(m) | Input::Cubemap(m) | Input::Volume(m) | Input::Video(m) | Input::Music(m) => Some(m),
@@ -297,6 +199,14 @@ impl Origin {
             Origin::Folder { path, .. } => Some(path),
             Origin::File(path) | Origin::Json(path) => path.parent(),
         }
+    }
+}
+
+impl Origin {
+    /// Returns whether `#iChannel` lines of the texts say what channels read. An `eddy.toml`, the site's JSON, a preset
+    /// and the window say it otherwise.
+    pub fn has_channels_in_texts(&self) -> bool {
+        matches!(self, Origin::File(_) | Origin::Folder { has_manifest: false, .. })
     }
 }
 
@@ -361,12 +271,13 @@ impl Project {
         all
     }
 
-    /// Every text of the project, and behind them, once for each fill (see [`Project::fills`]), the text it is written in.
+    /// Every text of the project, and behind them, once for each fill (see [`Project::fills`]), the text it is written
+    /// in.
     pub fn sources(&self) -> crate::diag::SourceMap {
         let mut map = self.texts();
         for (pass, kind, _) in self.fills() {
             if let Some(text) = self.fill_text(pass, kind) {
-                map.add(super::load::MANIFEST, text.text);
+                map.add(super::files::MANIFEST, text.text);
             }
         }
         map

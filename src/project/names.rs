@@ -10,7 +10,7 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
         .into_iter()
         .map(|k| {
             let folded = fold(k);
-            let distance = strsim::damerau_levenshtein(&name, &folded);
+            let distance = strsim::osa_distance(&name, &folded);
             // The start of a longer name ("noise" for "noise-rgba-256") is a fair guess too, but a worse one.
             let is_start = name.chars().count() >= 3 && folded.starts_with(&name);
             (if is_start { distance.min(allowed) } else { distance }, k)

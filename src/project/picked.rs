@@ -1,14 +1,15 @@
 //! Pictures that the person at the machine picked from anywhere: how they become files of the project.
 //!
-//! A picked picture is shown at once from where it lies. Saving copies it into the project's folder and names the copy, so that
-//! the project never names anything outside its folder.
+//! A picked picture is shown at once from where it lies. Saving copies it into the project's folder and names the copy,
+//! so that the project never names anything outside its folder.
 
 use super::{
     Fill, FillKind, FillValue, Input, Media, Project, ProjectError, atomic::Content, confine, limits, writes::Writes,
 };
 use std::path::Path;
 
-/// An input with the whole path of its picked picture, or with the picture's name where it lies in the project's folder already.
+/// An input with the whole path of its picked picture, or with the picture's name where it lies in the project's folder
+/// already.
 pub fn at_home(mut input: Input, folder: Option<&Path>) -> Input {
     if let Some(media) = input.media_mut()
         && let Media::Picked(path) = media
@@ -31,7 +32,7 @@ fn name_within(folder: &Path, path: &Path) -> Option<String> {
     confine::resolve(folder, &name).is_ok().then_some(name)
 }
 
-/// Where the picked pictures of a project lie.
+/// Returns where the picked pictures of a project lie.
 pub(super) fn paths(project: &Project) -> impl Iterator<Item = &Path> {
     let channels = project.passes.iter().flat_map(|p| p.channels.iter().flatten());
     channels.filter_map(|c| match c.input.media() {
@@ -40,8 +41,8 @@ pub(super) fn paths(project: &Project) -> impl Iterator<Item = &Path> {
     })
 }
 
-/// Copies the picked pictures into `target` and names the copies. A file of another content is never replaced: the copy then gets
-/// a number. A picture that cannot be read is named and not there, so that the rest of the project is saved.
+/// Copies the picked pictures into `target` and names the copies. A file of another content is never replaced: the copy
+/// then gets a number. A picture that cannot be read is named and not there, so that the rest of the project is saved.
 pub(super) fn copy_in(project: &mut Project, target: &Path, writes: &mut Writes) -> Result<(), ProjectError> {
     for channel in project.passes.iter_mut().flat_map(|p| p.channels.iter_mut().flatten()) {
         let Some(media @ Media::Picked(_)) = channel.input.media_mut() else { continue };

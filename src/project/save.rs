@@ -5,12 +5,12 @@
 use super::{
     FillValue, Media, MeshSource, Origin, PassId, Project, ProjectError, SamplerRules, Source,
     atomic::Content,
-    confine,
-    files::Files,
+    confine, file_names,
+    files::{Files, MANIFEST},
     files_beside, folder, json, limits,
-    load::{MANIFEST, folder_name},
+    load::folder_name,
     manifest, picked,
-    writes::{self, Writes},
+    writes::{self, Overwrite, Writes},
 };
 use crate::diag::Diagnostic;
 use std::{
@@ -18,18 +18,10 @@ use std::{
     path::Path,
 };
 
-/// What to do about a file in the way that is not this project's.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Overwrite {
-    /// Fail with [`ProjectError::WouldOverwrite`], having written nothing.
-    Refuse,
-    Allow,
-}
-
 /// Writes the project to `target`: one file for a path that ends in `.json` or `.glsl` (which holds a lone Image pass),
-/// else a folder, made if need be. Returns the project as it is now read from there. Files the project came from are its
-/// own and written without asking; a picture in the old folder is copied along into a new one. No file is ever seen half
-/// written, and on failure every old one is still there; files whose content stays the same are not touched.
+/// else a folder, made if need be. Returns the project as it is now read from there. Files the project came from are
+/// its own and written without asking; a picture in the old folder is copied along into a new one. No file is ever seen
+/// half written, and on failure every old one is still there; files whose content stays the same are not touched.
 pub fn save(project: &Project, target: &Path, overwrite: Overwrite) -> Result<Project, ProjectError> {
     let extension = target.extension().unwrap_or_default();
     if target.is_dir() {
@@ -38,7 +30,7 @@ pub fn save(project: &Project, target: &Path, overwrite: Overwrite) -> Result<Pr
         save_folder(project, target.parent().unwrap_or(Path::new("")), overwrite)
     } else if extension.eq_ignore_ascii_case("json") {
         save_json(project, target, overwrite)
-    } else if folder::is_glsl_extension(extension) {
+    } else if file_names::is_glsl_extension(extension) {
         save_glsl(project, target, overwrite)
     } else {
         save_folder(project, target, overwrite)
@@ -169,8 +161,8 @@ fn with_ending(name: String) -> String {
     if writes::is_text(&name) { name } else { format!("{name}.glsl") }
 }
 
-/// Gives a text its file: the one it has in this folder, else the one of its name. Two passes may share a file as long as
-/// they say the same.
+/// Gives a text its file: the one it has in this folder, else the one of its name. Two passes may share a file as long
+/// as they say the same.
 fn place(
     source: &mut Source,
     usual: String,
@@ -194,8 +186,8 @@ fn place(
     Ok(())
 }
 
-/// Copies the pictures and models of the old folder to the same places in the new one. What is not there, or may not be read or
-/// written, is left out: it reads black here and there.
+/// Copies the pictures and models of the old folder to the same places in the new one. What is not there, or may not be
+/// read or written, is left out: it reads black here and there.
 fn copy_media(project: &Project, writes: &mut Writes) -> Result<(), ProjectError> {
     let Some(base) = project.origin.base_dir() else { return Ok(()) };
     let mut names: BTreeSet<String> = BTreeSet::new();
@@ -229,7 +221,7 @@ fn copy_media(project: &Project, writes: &mut Writes) -> Result<(), ProjectError
 fn folder_after(target: &Path, writes: &Writes) -> BTreeMap<String, Vec<u8>> {
     let mut files = BTreeMap::new();
     for name in Files::on_disk(target).names().unwrap_or_default() {
-        if folder::role_of_file(&name).is_some() {
+        if file_names::role_of_file(&name).is_some() {
             files.insert(name.clone(), confine::read(target, &name, limits::GLSL_TEXT).unwrap_or_default());
         }
     }
@@ -237,7 +229,7 @@ fn folder_after(target: &Path, writes: &Writes) -> BTreeMap<String, Vec<u8>> {
     files
 }
 
-/// Whether the GLSL files alone, without `eddy.toml`, give this project.
+/// Returns whether the GLSL files alone, without `eddy.toml`, give this project.
 fn says_the_same(project: &Project, folder_name: &str, files: &BTreeMap<String, Vec<u8>>) -> bool {
     let texts = files
         .iter()
@@ -269,7 +261,7 @@ fn manifest_text(
     target: &Path,
     files: &BTreeMap<String, Vec<u8>>,
 ) -> Result<String, ProjectError> {
-    let has_common_file = files.keys().any(|name| folder::role_of_file(name) == Some(folder::Role::Common));
+    let has_common_file = files.keys().any(|name| file_names::role_of_file(name) == Some(file_names::Role::Common));
     for old in [old, None] {
         let text = manifest::write(project, old, name, has_common_file);
         let read = manifest::project("", name.to_owned(), &text, &Files::in_memory(files), Origin::Unsaved);
@@ -284,7 +276,7 @@ fn manifest_text(
     })
 }
 
-/// Whether two paths name one place, also where one is written in another way.
+/// Returns whether two paths name one place, also where one is written in another way.
 fn is_same(a: &Path, b: &Path) -> bool {
     a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }

@@ -210,7 +210,8 @@ fn every_project_comes_back_from_eddy_toml_as_it_was() {
 #[test]
 fn saving_keeps_the_authors_comments_order_and_spelling() {
     let dir = tempfile::tempdir().unwrap();
-    let toml = "# my shader\nname = 'Ink' # a name\ntags = [ \"a\",\n  \"b\" ]\n\n[passes.image] # last\nchannels = { 0 = { buffer = 'a', \
+    let toml = "# my shader\nname = 'Ink' # a name\ntags = [ \"a\",\n  \"b\" ]\n\n[passes.image] # last\n\
+    channels = { 0 = { buffer = 'a', \
                 filter=\"linear\" } }\n\n# the flow\n[passes.Buffer_A]\nfile = \"flow.glsl\"\nchannels.1 = { keyboard = true } # keys\n";
     fs::write(dir.path().join("eddy.toml"), toml).unwrap();
     fs::write(dir.path().join("flow.glsl"), "f").unwrap();
@@ -233,7 +234,8 @@ fn saving_keeps_the_authors_comments_order_and_spelling() {
 #[test]
 fn buffers_keep_their_new_order_and_their_comments() {
     let dir = tempfile::tempdir().unwrap();
-    let toml = "eddy = 1\nname = \"x\"\n\n# first\n[passes.buffer_a]\nfile = \"image.glsl\"\n\n# second\n[passes.buffer_b]\nfile = \"image.glsl\"\n\n[passes.image]\n";
+    let toml = "eddy = 1\nname = \"x\"\n\n# first\n[passes.buffer_a]\nfile = \"image.glsl\"\n\n\
+    # second\n[passes.buffer_b]\nfile = \"image.glsl\"\n\n[passes.image]\n";
     fs::write(dir.path().join("eddy.toml"), toml).unwrap();
     fs::write(dir.path().join("image.glsl"), "i").unwrap();
     let mut project = reloaded(dir.path());

@@ -1,4 +1,7 @@
-//! What `eddy.toml` may say of how a pass is drawn: its size, what a texel holds, which of them are drawn, how often a frame.
+//! Settings in `eddy.toml` say how a pass is drawn: its size, the format of its texels, which of them are drawn, how
+//! often a frame.
+
+use super::{Boundary, Fill, Geometry, PassFormat, PassId};
 
 /// How a pass is drawn. The default is what the site does.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -7,10 +10,10 @@ pub struct PassSettings {
     pub format: PassFormat,
     /// Only these texels are drawn, as far as the pass has them; the others keep what they held. `None`: all.
     pub region: Option<Region>,
-    /// What the pass's texture of the frame before holds in frame 0. `None`: zeros.
-    pub initial: Option<super::Fill>,
+    /// The content of the pass's texture of the frame before in frame 0. `None`: zeros.
+    pub initial: Option<Fill>,
     /// Texels at the edge that are overwritten after each draw.
-    pub boundary: Option<super::Boundary>,
+    pub boundary: Option<Boundary>,
     pub body: PassBody,
 }
 
@@ -21,7 +24,7 @@ pub enum PassBody {
     #[default]
     Screen,
     /// Meshes into its targets, which are cleared before, with a depth buffer.
-    Meshes(super::Geometry),
+    Meshes(Geometry),
 }
 
 impl PassSettings {
@@ -32,14 +35,14 @@ impl PassSettings {
     }
 
     /// The meshes, where the pass draws meshes.
-    pub fn meshes(&self) -> Option<&super::Geometry> {
+    pub fn meshes(&self) -> Option<&Geometry> {
         match &self.body {
             PassBody::Screen => None,
             PassBody::Meshes(geometry) => Some(geometry),
         }
     }
 
-    pub fn meshes_mut(&mut self) -> Option<&mut super::Geometry> {
+    pub fn meshes_mut(&mut self) -> Option<&mut Geometry> {
         match &mut self.body {
             PassBody::Screen => None,
             PassBody::Meshes(geometry) => Some(geometry),
@@ -71,71 +74,6 @@ impl PassSize {
     }
 }
 
-/// What a texel of a pass holds. Components a format lacks are read as 0, alpha as 1.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub enum PassFormat {
-    R8,
-    Rg8,
-    Rgba8,
-    R16f,
-    Rg16f,
-    Rgba16f,
-    R32f,
-    Rg32f,
-    #[default]
-    Rgba32f,
-}
-
-impl PassFormat {
-    pub const ALL: [PassFormat; 9] = [
-        PassFormat::Rgba32f,
-        PassFormat::Rgba16f,
-        PassFormat::Rgba8,
-        PassFormat::Rg32f,
-        PassFormat::Rg16f,
-        PassFormat::Rg8,
-        PassFormat::R32f,
-        PassFormat::R16f,
-        PassFormat::R8,
-    ];
-
-    /// As `eddy.toml` spells it.
-    pub fn name(self) -> &'static str {
-        match self {
-            PassFormat::R8 => "r8",
-            PassFormat::Rg8 => "rg8",
-            PassFormat::Rgba8 => "rgba8",
-            PassFormat::R16f => "r16f",
-            PassFormat::Rg16f => "rg16f",
-            PassFormat::Rgba16f => "rgba16f",
-            PassFormat::R32f => "r32f",
-            PassFormat::Rg32f => "rg32f",
-            PassFormat::Rgba32f => "rgba32f",
-        }
-    }
-
-    /// Floats of 16 bits.
-    pub fn is_small_float(self) -> bool {
-        matches!(self, PassFormat::R16f | PassFormat::Rg16f | PassFormat::Rgba16f)
-    }
-
-    /// Bytes of a texel.
-    pub fn bytes(self) -> u64 {
-        match self {
-            PassFormat::R8 => 1,
-            PassFormat::Rg8 | PassFormat::R16f => 2,
-            PassFormat::Rgba8 | PassFormat::Rg16f | PassFormat::R32f => 4,
-            PassFormat::Rgba16f | PassFormat::Rg32f => 8,
-            PassFormat::Rgba32f => 16,
-        }
-    }
-
-    /// Holds 32-bit floats, which not every device filters.
-    pub fn is_32_bit(self) -> bool {
-        matches!(self, PassFormat::R32f | PassFormat::Rg32f | PassFormat::Rgba32f)
-    }
-}
-
 /// A rectangle of texels, from the bottom left.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Region {
@@ -154,14 +92,14 @@ impl Region {
     }
 }
 
-/// Passes that follow each other and are drawn several times a frame: all once, in order, then all again. Every time they see
-/// the same uniforms, and of each other what was drawn last.
+/// Passes that follow each other and are drawn several times a frame: all once, in order, then all again. Every time
+/// they see the same uniforms, and of each other what was drawn last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group {
-    /// What the file calls it.
+    /// The name in the file.
     pub name: String,
     /// In the order they are drawn; each of them buffers of the project, without another pass between them.
-    pub passes: Vec<super::PassId>,
+    pub passes: Vec<PassId>,
     /// At least 1.
     pub steps: u32,
 }

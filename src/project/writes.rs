@@ -1,21 +1,29 @@
 //! The one way from a project to files that are written.
 //!
-//! Everything that one save writes is gathered here by its name from the destination, checked, and written together. A name
-//! comes from the project, which may be a stranger's: it may not lead out of the destination, also not through links that lie
-//! there, and a new file is of a kind that projects are made of. Files that are the project's own already keep their names.
+//! Everything that one save writes is gathered here by its name from the destination, checked, and written together. A
+//! name comes from the project, which may be a stranger's: it may not lead out of the destination, also not through
+//! links that lie there, and a new file is of a kind that projects are made of. Files that are the project's own
+//! already keep their names.
 
 use super::{
     ProjectError,
     atomic::{self, Content},
     confine::{self, FileError},
-    folder::is_glsl_extension,
-    load::MANIFEST,
-    save::Overwrite,
+    file_names::is_glsl_extension,
+    files::MANIFEST,
 };
 use std::{
     collections::{BTreeMap, BTreeSet},
     path::{Path, PathBuf},
 };
+
+/// The rule for a file in the way that is not this project's.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overwrite {
+    /// Fail with [`ProjectError::WouldOverwrite`], having written nothing.
+    Refuse,
+    Allow,
+}
 
 /// Endings of texts besides those of passes.
 const TEXTS: [&str; 16] = [
@@ -28,13 +36,13 @@ const MEDIA: [&str; 25] = [
     "bin", "npy", "mp3", "ogg", "wav", "flac", "mp4", "webm", "ogv",
 ];
 
-/// Whether a new file of this name may be a text of a project.
+/// Returns whether a new file of this name may be a text of a project.
 pub(super) fn is_text(name: &str) -> bool {
     let extension = Path::new(name).extension().unwrap_or_default();
     is_glsl_extension(extension) || TEXTS.iter().any(|e| extension.eq_ignore_ascii_case(e))
 }
 
-/// Whether a new file of this name may be a picture or a model of a project, or what a model names.
+/// Returns whether a new file of this name may be a picture or a model of a project, or what a model names.
 pub(super) fn is_media(name: &str) -> bool {
     let extension = Path::new(name).extension().unwrap_or_default();
     MEDIA.iter().any(|e| extension.eq_ignore_ascii_case(e))
@@ -54,8 +62,8 @@ impl Writes {
         Self { folder: folder.to_owned(), files: BTreeMap::new(), own }
     }
 
-    /// The name under which `name` would be written, or why nothing may be written under it. It may not lead out of the folder;
-    /// a new file also needs an ending of a project's file and a name that no system reserves.
+    /// The name under which `name` would be written, or why nothing may be written under it. It may not lead out of the
+    /// folder; a new file also needs an ending of a project's file and a name that no system reserves.
     pub fn checked(&self, name: &str) -> Result<String, ProjectError> {
         let refuse = |why: String| Err(ProjectError::Unwritable { path: self.folder.join(name), why });
         let name = match confine::relative("", name) {
@@ -74,7 +82,8 @@ impl Writes {
         Ok(name)
     }
 
-    /// Whether `content` may have this name: nothing else of this save has it, on a disk that ignores case either.
+    /// Returns whether `content` may have this name: nothing else of this save has it, on a disk that ignores case
+    /// either.
     pub fn is_free(&self, name: &str, content: &[u8]) -> bool {
         match self.files.get(name) {
             Some(Content::Bytes(there)) => there == content,
@@ -129,7 +138,7 @@ fn told(error: &FileError) -> String {
     format!("{error}; {}", error.hint())
 }
 
-/// Whether what lies on the way to a file, and the file itself where it is a link, stays within the folder.
+/// Returns whether what lies on the way to a file, and the file itself where it is a link, stays within the folder.
 fn stays_within(folder: &Path, path: &Path) -> Result<(), ProjectError> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     // A folder that is not there yet holds no links.

@@ -1,4 +1,5 @@
-//! Commands of the front ends that concern the open project, its picture and its input. Those about files are in `files`.
+//! Commands of the front ends that concern the open project, its picture and its input. Those about files are in
+//! `files`.
 
 use super::{
     Session, capture,
@@ -8,13 +9,13 @@ use super::{
 };
 use crate::{
     media::Keyboard,
-    project::{self, Channel, KnobValue, KnobValues, Origin, PassId, Tab},
+    project::{self, Channel, KnobValue, KnobValues, PassId, Tab, include_names},
 };
 
 impl Session {
     /// Does what the user asked. Never fails: trouble becomes a notice.
     pub fn apply(&mut self, command: Command) {
-        self.changed = true;
+        self.changed |= !is_input(&command);
         match command {
             Command::Open(_)
             | Command::OpenProject { .. }
@@ -115,8 +116,12 @@ impl Session {
         }
         // Without `eddy.toml` the text says what its channels read; with one these lines count for nothing.
         let declares = |text: &str| text.contains("#iChannel");
-        let is_asked = !has_manifest(&self.project().origin) && (declares(&source.text) || declares(text));
+        let is_asked = self.project().origin.has_channels_in_texts() && (declares(&source.text) || declares(text));
         let before = is_asked.then(|| self.declared_channels(tab));
+        // The worker reads them when it compiles: a keystroke waits for no file.
+        if include_names(&source.text) != include_names(text) {
+            self.compile.include_edits += 1;
+        }
         if let Some(source) = self.documents.current_mut().source_mut(tab) {
             source.text = text.into();
         }
@@ -128,7 +133,6 @@ impl Session {
                 pass.channels = now;
             }
         }
-        self.refresh_includes();
         self.compile.edited = true;
         self.compile.state.compiling = true;
     }
@@ -151,7 +155,7 @@ impl Session {
         self.run.is_frame_due |= self.engine.set_knobs(&self.documents.current().knob_values);
     }
 
-    /// What the tab's pass reads by its text alone.
+    /// Returns what the tab's pass reads by its text alone.
     fn declared_channels(&self, tab: &Tab) -> Option<[Option<Channel>; 4]> {
         let Tab::Pass(id) = tab else { return None };
         let mut project = self.project().clone();
@@ -198,7 +202,8 @@ impl Session {
         if focused {
             self.run.clock.rebase();
             self.run.fps.restart();
-            // A watch can miss things (a network drive, a folder that was replaced); coming back is a good time to look.
+            // A watch can miss things (a network drive, a folder that was replaced); coming back is a good time to
+            // look.
             self.disk.is_check_wanted = true;
         } else if self.run.keyboard.bytes()[..2 * Keyboard::WIDTH].iter().any(|b| *b != 0) {
             // The key-up of a key held now will go to another window.
@@ -248,6 +253,7 @@ impl Session {
                 project.groups.retain(|g| !g.passes.is_empty());
             }
         }
+        self.compile.include_edits += 1;
         self.text_generation += 1;
         self.show_image_if_gone();
         self.compile_soon();
@@ -261,7 +267,14 @@ impl Session {
     }
 }
 
-/// Whether something other than the texts says what channels read.
-pub(super) fn has_manifest(origin: &Origin) -> bool {
-    !matches!(origin, Origin::File(_) | Origin::Folder { has_manifest: false, .. })
+/// Returns whether only the shader sees it: no panel shows where the mouse is or which keys are down.
+fn is_input(command: &Command) -> bool {
+    matches!(
+        command,
+        Command::MouseDown { .. }
+            | Command::MouseMove { .. }
+            | Command::MouseUp
+            | Command::KeyDown(_)
+            | Command::KeyUp(_)
+    )
 }

@@ -1,6 +1,6 @@
 //! Pictures written to disk, never over anything that is there.
 //!
-//! Where to: a project on disk keeps its pictures in its own folder, beside its sources; one that is not (new, a preset) in
+//! A project on disk keeps its pictures in its own folder, beside its sources; one that is not (new, a preset) in
 //! the user's pictures folder, or where there is none in the home folder. The file is `NAME-0001.png`, with the first
 //! number that is free; NAME is the project's, with `-buffer_a` for a pass other than Image.
 
@@ -15,7 +15,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// What a picture is written as.
+/// The file format of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// 8 bits a channel, as the screen shows it.

@@ -1,4 +1,5 @@
-//! What a front end may ask of a [`Session`](super::Session), and what the session may ask back.
+//! Commands are what a front end asks of a [`Session`](super::Session); questions and requests are what the session
+//! asks back.
 
 use crate::project::{Channel, KnobValue, PassId, Project, Tab};
 use std::{path::PathBuf, sync::Arc};
@@ -9,8 +10,8 @@ use std::{path::PathBuf, sync::Arc};
 pub enum Command {
     /// Opens what the command line calls PROJECT: a folder, a `.glsl` or `.json` file, or a preset's name.
     Open(String),
-    /// A project that was made in memory, with the canvas size it is made for, until another project is opened. Its origin is
-    /// [`Origin::Unsaved`](crate::project::Origin::Unsaved).
+    /// A project that was made in memory, with the canvas size it is made for, until another project is opened. Its
+    /// origin is [`Origin::Unsaved`](crate::project::Origin::Unsaved).
     OpenProject {
         project: Box<Project>,
         size: Option<(u32, u32)>,
@@ -51,7 +52,7 @@ pub enum Command {
     SetScale(f32),
     /// A canvas size that does not follow the viewport; `None` follows it again.
     SetFixedSize(Option<(u32, u32)>),
-    /// What `iChannel{index}` of a pass reads, with its sampler.
+    /// Sets what `iChannel{index}` of a pass reads, with its sampler.
     SetChannel {
         pass: PassId,
         index: usize,
@@ -93,9 +94,10 @@ pub enum Command {
     SaveTexels,
     /// Which pass is shown and captured.
     ShowPass(PassId),
-    /// Whether what each pass costs is looked at: only then is it gathered. See [`Session::pass_costs`](super::Session::pass_costs).
+    /// Says whether somebody looks at what each pass costs: only then is it gathered. See
+    /// [`Session::pass_costs`](super::Session::pass_costs).
     WatchCosts(bool),
-    /// Whether a reload from disk starts time and buffers anew.
+    /// Says whether a reload from disk starts time and buffers anew.
     SetResetOnReload(bool),
     /// The answer to [`Session::question`](super::Session::question). One that does not fit it changes nothing.
     Answer(Answer),
@@ -109,8 +111,8 @@ pub enum Command {
 pub enum Question {
     /// Unsaved changes stand before `then`. Answers: Save, Discard, Cancel.
     Unsaved { then: Then, tabs: Vec<Tab> },
-    /// A text changed on disk while its tab had unsaved edits. Answers: KeepMine, TakeDisk, SaveMineAs, and each keeps the
-    /// other text: the one not taken is written beside the file (`image.glsl.mine-0001`, `image.glsl.disk-0001`).
+    /// A text changed on disk while its tab had unsaved edits. Answers: KeepMine, TakeDisk, SaveMineAs, and each keeps
+    /// the other text: the one not taken is written beside the file (`image.glsl.mine-0001`, `image.glsl.disk-0001`).
     Conflict {
         /// `None` for `eddy.toml`: channels and passes.
         tab: Option<Tab>,
@@ -126,7 +128,7 @@ pub enum Question {
     RemoveTab(Tab),
 }
 
-/// What goes on once nothing unsaved stands in the way.
+/// The action that goes on once nothing unsaved stands in the way.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Then {
     Open(String),

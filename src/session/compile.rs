@@ -1,17 +1,17 @@
-//! What the compile worker does with a project: read its media, build its program.
+//! The compile worker reads a project's media and builds its program.
 
 use super::{
     stamps::{Stamp, Stamps},
     view::TabDiagnostic,
 };
 use crate::{
-    diag::{Diagnostic, SourceMap},
+    diag::{self, Diagnostic},
     engine::{BuildError, BuildOptions, Builder, EngineError, Program},
     gpu::Gpu,
     media::{self, MediaSet},
-    project::{self, Channel, MeshSource, Pass, PassId, Project},
+    project::{self, Channel, Included, MeshSource, Pass, PassId, Project},
 };
-use std::{path::PathBuf, time::Instant};
+use std::{cmp::Reverse, path::PathBuf, time::Instant};
 
 /// One compile, or a look at whether one is due.
 pub(super) struct Job {
@@ -20,16 +20,20 @@ pub(super) struct Job {
     pub shown: PassId,
     /// Counts the times a project was opened or took a new place. A state and not an order, as jobs can be overtaken.
     pub opened: u64,
+    /// The texts name other files in their `#include` lines than those that were read: read them. Counts such edits.
+    pub include_edit: Option<u64>,
     /// Only tells whether the pictures and models on disk are other than those of the last compile.
     pub is_look: bool,
 }
 
-/// What came of it.
+/// The result of a job.
 pub(super) struct Done {
     /// Pictures, models and the files these name, those among them that are not there.
     pub files: Vec<PathBuf>,
-    /// Of a look: pictures and models are other than those of the last compile.
+    /// True for a look that found other pictures or models than those of the last compile.
     pub is_changed: bool,
+    /// The files that the texts include, where the job had to read them, with [`Job::include_edit`].
+    pub includes: Option<(u64, Vec<Included>)>,
     /// `None` for a look.
     pub compiled: Option<Compiled>,
 }
@@ -45,49 +49,46 @@ pub(super) struct Compiled {
 pub(super) fn work(gpu: Gpu, media_dir: Option<PathBuf>) -> impl FnMut(Job) -> Done + Send {
     let mut media = Media { dir: media_dir, ..Media::default() };
     let mut builder = Builder::new(gpu);
-    move |job| {
+    move |mut job| {
+        if job.include_edit.is_some() {
+            job.project.read_includes();
+        }
         let named = media.named(&job);
         let files = named.stamps.iter().map(|(path, _)| path.clone()).collect();
         if job.is_look {
-            return Done { files, is_changed: media.of != Some(named), compiled: None };
+            return Done { files, is_changed: media.of != Some(named), includes: None, compiled: None };
         }
-        let mut diagnostics = media.update(&job, named);
+        let mut found = media.update(&job, named);
         let options = BuildOptions { wanted: wanted(&job), skip: true, ..BuildOptions::default() };
-        let tabs = |d: &[Diagnostic], sources: &SourceMap| -> Vec<TabDiagnostic> {
-            d.iter().map(|d| TabDiagnostic::new(d, sources, |id| job.project.tab_of(id))).collect()
-        };
-        if !super::apply::has_manifest(&job.project.origin) {
-            diagnostics.extend(tabs(&project::declare_channels(&mut job.project.clone()), &job.project.sources()));
+        if job.project.origin.has_channels_in_texts() {
+            diag::append(&mut found, project::declare_channels(&mut job.project.clone()));
         }
         let start = Instant::now();
         let program = match builder.build(&job.project, &media.set, &options) {
             Ok(built) => {
-                diagnostics.extend(tabs(&built.diagnostics, &built.sources));
+                diag::append(&mut found, built.diagnostics);
                 Ok(Some((built.program, start.elapsed().as_secs_f64() * 1e3)))
             }
-            Err(BuildError::Diagnostics { diagnostics: found, sources }) => {
-                diagnostics.extend(tabs(&found, &sources));
+            Err(BuildError::Diagnostics { diagnostics, .. }) => {
+                diag::append(&mut found, diagnostics);
                 Ok(None)
             }
             Err(BuildError::Engine(e)) => Err(e),
         };
-        let mut unique = Vec::with_capacity(diagnostics.len());
-        for d in diagnostics {
-            if !unique.contains(&d) {
-                unique.push(d);
-            }
-        }
-        unique.sort_by_key(|d| std::cmp::Reverse(d.severity));
-        Done { files, is_changed: false, compiled: Some(Compiled { program, diagnostics: unique }) }
+        found.sort_by_key(|d| Reverse(d.severity));
+        let sources = job.project.sources();
+        let diagnostics = found.iter().map(|d| TabDiagnostic::new(d, &sources, &job.project)).collect();
+        let includes = job.include_edit.map(|edit| (edit, job.project.includes));
+        Done { files, is_changed: false, includes, compiled: Some(Compiled { program, diagnostics }) }
     }
 }
 
-/// What decides which pictures and models are read, and how these are on disk. Always taken before they are read: then a
+/// The names of pictures and models, and how these are on disk. They are always taken before they are read: then a
 /// change in between shows as one more reading, and never as none.
 #[derive(PartialEq)]
 struct Named {
     opened: u64,
-    /// Where the names start from.
+    /// The folder that the names start from.
     base: PathBuf,
     channels: Vec<(PassId, [Option<Channel>; 4], Vec<MeshSource>)>,
     stamps: Vec<Stamp>,
@@ -114,15 +115,14 @@ impl Media {
     }
 
     /// Reads what the job's project names, if that is not what is here already. Gives what there is to say of it.
-    fn update(&mut self, job: &Job, named: Named) -> Vec<TabDiagnostic> {
+    fn update(&mut self, job: &Job, named: Named) -> Vec<Diagnostic> {
         if self.of.as_ref() != Some(&named) {
             // The old ones go first, so that the memory of both is never taken at once.
             self.set = MediaSet::new();
             (self.set, self.warnings) = media::gather(&job.project, self.dir.as_deref());
             self.of = Some(named);
         }
-        let sources = SourceMap::default();
-        self.warnings.iter().map(|d| TabDiagnostic::new(d, &sources, |_| None)).collect()
+        self.warnings.clone()
     }
 }
 

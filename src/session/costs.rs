@@ -1,4 +1,4 @@
-//! What each pass costs, while somebody looks.
+//! The costs of each pass are gathered while somebody looks.
 
 use crate::engine::{CostClock, Engine, EngineError, FrameInputs, PassCost, PassTime};
 use std::{collections::VecDeque, time::Instant};
@@ -31,7 +31,7 @@ pub(super) struct Costs {
 }
 
 impl Costs {
-    /// Of the newest frame the device has finished.
+    /// Returns the times of the newest frame that the device has finished.
     pub fn newest(&self) -> &[PassTime] {
         &self.newest
     }

@@ -14,7 +14,7 @@ pub fn now() -> DateTime {
     jiff::Zoned::now().datetime()
 }
 
-/// What `--date` takes: `2024-02-29`, `2024-02-29T13:45` or with seconds.
+/// Returns what `--date` takes: `2024-02-29`, `2024-02-29T13:45` or with seconds.
 pub fn parse(text: &str) -> Result<DateTime, DateError> {
     text.trim().parse().map_err(|e: jiff::Error| DateError { text: text.into(), reason: e.to_string() })
 }

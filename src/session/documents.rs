@@ -1,17 +1,17 @@
 //! The open project in two states: as it is edited, and as it is on disk.
 //!
-//! Owns what is unsaved, and the three-way merge of a change on disk: what was not edited follows the disk, what was edited
-//! and changed on disk too is a conflict for the user to settle. Reads and writes no file.
+//! Owns what is unsaved, and the three-way merge of a change on disk: what was not edited follows the disk, what was
+//! edited and changed on disk too is a conflict for the user to settle. Reads and writes no file.
 
-use super::command::DiffLine;
-use crate::project::{Origin, Pass, Project, Source, Tab};
+use super::{command::DiffLine, structure};
+use crate::project::{Origin, Pass, Project, Tab};
 use std::{collections::BTreeSet, path::PathBuf, sync::Arc};
 
 /// A project being edited.
 #[derive(Clone, Debug)]
 pub(super) struct Documents {
     current: Project,
-    /// What is on disk as far as is known; for a project that is nowhere, what it began as.
+    /// The project on disk as far as is known; for one that is nowhere, its beginning.
     saved: Project,
     /// Tabs whose files are gone from disk: unsaved, whatever their text.
     missing: BTreeSet<Tab>,
@@ -26,7 +26,7 @@ pub(super) struct Conflict {
     pub disk: Arc<str>,
 }
 
-/// What a change on disk came to.
+/// The result of merging a change on disk.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Merge {
     /// Tabs that now show the disk's text.
@@ -80,7 +80,7 @@ impl Documents {
 
     /// Passes, channels or names differ from those on disk.
     pub fn is_structure_dirty(&self) -> bool {
-        structure(&self.current) != structure(&self.saved)
+        !structure::is_same(&self.current, &self.saved)
     }
 
     /// The tab's file is known to be gone from disk.
@@ -100,7 +100,9 @@ impl Documents {
     }
 
     pub fn is_dirty(&self) -> bool {
-        self.is_structure_dirty() || self.current.tabs().iter().any(|t| self.is_tab_dirty(t))
+        self.is_structure_dirty()
+            || !structure::has_same_texts(&self.current, &self.saved)
+            || self.missing.iter().any(|tab| self.current.source(tab).is_some())
     }
 
     /// Takes what is on disk now. Whatever was not edited since follows it; the rest comes back as conflicts, with the
@@ -108,12 +110,11 @@ impl Documents {
     pub fn merge(&mut self, mut disk: Project) -> Merge {
         let mut merge = Merge::default();
         self.keep_gone(&mut disk, &mut merge);
-        let was_edited = structure(&self.current) != structure(&self.saved);
-        if structure(&disk) != structure(&self.saved) {
-            if !was_edited {
+        if !structure::is_same(&disk, &self.saved) {
+            if !self.is_structure_dirty() {
                 self.take_structure(&disk);
                 merge.took_structure = true;
-            } else if structure(&disk) != structure(&self.current) {
+            } else if !structure::is_same(&disk, &self.current) {
                 merge.structure_conflict = true;
             }
         }
@@ -156,8 +157,8 @@ impl Documents {
         }
     }
 
-    /// Puts tabs that the disk has no more back into `disk`, unless `eddy.toml` was rewritten without them and nothing in
-    /// them is unsaved.
+    /// Puts tabs that the disk has no more back into `disk`, unless `eddy.toml` was rewritten without them and nothing
+    /// in them is unsaved.
     fn keep_gone(&mut self, disk: &mut Project, merge: &mut Merge) {
         let is_listed = matches!(disk.origin, Origin::Folder { has_manifest: true, .. });
         for tab in self.saved.tabs() {
@@ -170,7 +171,8 @@ impl Documents {
                 }
             }
         }
-        // Without `eddy.toml` the channels are what the files that are there suggest; a missing one takes its readers along.
+        // Without `eddy.toml` the channels are what the files that are there suggest; a missing one takes its readers
+        // along.
         if !is_listed && !self.missing.is_empty() {
             for pass in &mut disk.passes {
                 if let Some(saved) = self.saved.pass(&pass.id) {
@@ -198,24 +200,6 @@ impl Documents {
     }
 }
 
-/// Everything but the texts and the place on disk.
-fn structure(project: &Project) -> Project {
-    let mut bare = project.clone();
-    bare.origin = Origin::Unsaved;
-    bare.includes.clear();
-    for source in bare.tab_sources_mut() {
-        *source = Source { name: String::new(), path: None, text: "".into() };
-    }
-    for (bare, pass) in bare.passes.iter_mut().zip(&project.passes) {
-        // Which file a draw names is structure.
-        let stages = pass.settings.meshes().into_iter().flat_map(|g| &g.stages);
-        for (bare, stage) in bare.settings.meshes_mut().into_iter().flat_map(|g| &mut g.stages).zip(stages) {
-            bare.name = stage.name.clone();
-        }
-    }
-    bare
-}
-
 /// Copies a tab of `from` into `to`, at its place in the drawing order.
 fn reinsert(to: &mut Project, from: &Project, tab: &Tab) {
     match tab {
@@ -234,8 +218,8 @@ fn reinsert(to: &mut Project, from: &Project, tab: &Tab) {
     }
 }
 
-/// Puts a pass where the drawing order wants it: buffers by name, then the cubemap pass, Image, Sound. Passes that are there
-/// keep their order, which an author may have chosen.
+/// Puts a pass where the drawing order wants it: buffers by name, then the cubemap pass, Image, Sound. Passes that are
+/// there keep their order, which an author may have chosen.
 pub(super) fn insert_pass(project: &mut Project, pass: Pass) {
     let is_before = |other: &Pass| match other.id.turn().cmp(&pass.id.turn()) {
         std::cmp::Ordering::Equal => other.id < pass.id,

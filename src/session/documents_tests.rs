@@ -1,7 +1,7 @@
 //! Tests of merging what was edited with what changed on disk.
 
 use super::*;
-use crate::project::{Channel, Info, Input, PassId, Sampler, SamplerRules};
+use crate::project::{Channel, Info, Input, KnobValue, PassBody, PassId, Sampler, SamplerRules, Source};
 
 fn project(texts: &[(&str, &str)], has_manifest: bool) -> Project {
     let mut project = Project {
@@ -62,6 +62,54 @@ fn edits_make_a_tab_dirty_and_undoing_them_makes_it_clean() {
     assert!(!d.is_dirty());
     rebind(d.current_mut());
     assert!(d.is_dirty() && d.dirty_tabs().is_empty(), "a channel is no tab's text");
+}
+
+#[test]
+fn every_change_but_that_of_a_text_or_a_place_is_one_of_structure() {
+    let scene = crate::project::presets::load("toon-outline").unwrap().project;
+    let geometry = |p: &Project| p.passes.iter().position(|p| p.settings.meshes().is_some()).unwrap();
+    assert!(structure::is_same(&scene, &scene.clone()));
+    type Change = fn(&mut Project, usize);
+    let changes: &[(&str, Change)] = &[
+        ("name", |p, _| p.name.push('x')),
+        ("info", |p, _| p.info.tags.push("x".into())),
+        ("common", |p, _| p.common = p.common.take().xor(Some(p.passes[0].source.clone()))),
+        ("a pass less", |p, _| drop(p.passes.pop())),
+        ("the order", |p, _| p.passes.reverse()),
+        ("a channel", |p, _| {
+            p.passes[0].channels[3] = Some(Channel { input: Input::Webcam, sampler: Sampler::BUFFER })
+        }),
+        ("sampler rules", |p, _| p.sampler_rules = SamplerRules::Site),
+        ("groups", |p, _| p.groups.push(crate::project::Group { name: "g".into(), passes: vec![], steps: 2 })),
+        ("a value", |p, _| drop(p.knob_values.insert("x".into(), KnobValue::Int(1)))),
+        ("size", |p, _| p.passes[0].settings.size = crate::project::PassSize::Scale(0.25)),
+        ("format", |p, _| p.passes[0].settings.format = crate::project::PassFormat::R8),
+        ("region", |p, _| {
+            p.passes[0].settings.region = Some(crate::project::Region { x: 0, y: 0, width: 1, height: 1 })
+        }),
+        ("no meshes", |p, i| p.passes[i].settings.body = PassBody::Screen),
+        ("a draw less", |p, i| drop(p.passes[i].settings.meshes_mut().unwrap().draws.pop())),
+        ("a target more", |p, i| {
+            p.passes[i].settings.meshes_mut().unwrap().more_targets.push(crate::project::PassFormat::R8)
+        }),
+        ("the camera", |p, i| p.passes[i].settings.meshes_mut().unwrap().camera.fov += 1.0),
+        ("a stage's file", |p, i| p.passes[i].settings.meshes_mut().unwrap().stages[0].name.push('x')),
+    ];
+    for (what, change) in changes {
+        let mut other = scene.clone();
+        change(&mut other, geometry(&scene));
+        assert!(!structure::is_same(&scene, &other) && !structure::is_same(&other, &scene), "{what}");
+        let mut documents = Documents::new(scene.clone());
+        *documents.current_mut() = other;
+        assert!(documents.is_dirty(), "{what}");
+    }
+    let mut other = scene.clone();
+    for source in other.tab_sources_mut() {
+        (source.text, source.path) = ("other".into(), Some("/elsewhere".into()));
+    }
+    other.passes[0].source.name = "other.glsl".into();
+    other.origin = Origin::Unsaved;
+    assert!(structure::is_same(&scene, &other) && !structure::has_same_texts(&scene, &other));
 }
 
 #[test]

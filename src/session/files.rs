@@ -90,6 +90,7 @@ impl Session {
         }
         self.engine.set_timing(true);
         self.documents = Documents::new(project);
+        self.compile.includes_read = self.compile.include_edits;
         if std::mem::take(&mut self.canvas.is_fixed_by_project) {
             self.canvas.fixed = None;
         }
@@ -126,6 +127,7 @@ impl Session {
         if !self.may_overwrite() {
             return false;
         }
+        self.settle_includes();
         if !self.is_dirty() {
             self.notice(Level::Info, "nothing to save: the disk holds the same");
             return true;
@@ -152,7 +154,7 @@ impl Session {
         }
     }
 
-    /// Whether the project's own files hold nothing that the user has not seen.
+    /// Returns whether the project's own files hold nothing that the user has not seen.
     fn may_overwrite(&mut self) -> bool {
         let is_asked = self.dialog.questions.iter().any(|q| matches!(q, Question::Conflict { .. }));
         let may = !is_asked && self.disk_is_as_read();
@@ -167,6 +169,7 @@ impl Session {
         if home.is_some_and(|home| folder.canonicalize().is_ok_and(|folder| folder == home)) && !self.may_overwrite() {
             return;
         }
+        self.settle_includes();
         match project::save(self.project(), folder, overwrite) {
             Ok(saved) => {
                 self.saved(saved);
@@ -236,8 +239,8 @@ impl Session {
         }
     }
 
-    /// Settles a conflict, with the other text in a file of its own first. Fails with what to say, or silently for an answer
-    /// that does not fit; then the question stands on.
+    /// Settles a conflict, with the other text in a file of its own first. Fails with what to say, or silently for an
+    /// answer that does not fit; then the question stands on.
     fn settle(
         &mut self,
         tab: Option<&Tab>,

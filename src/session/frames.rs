@@ -16,8 +16,8 @@ use crate::{
 use std::time::Instant;
 
 impl Session {
-    /// Takes finished compiles and changes on disk, and draws a frame if one is due: while playing one a call, while paused
-    /// only when something the picture depends on has changed. Call it once for each frame shown.
+    /// Takes finished compiles and changes on disk, and draws a frame if one is due: while playing one a call, while
+    /// paused only when something the picture depends on has changed. Call it once for each frame shown.
     pub fn tick(&mut self, now: Instant) -> Tick {
         self.now = now;
         self.check_disk();
@@ -58,6 +58,8 @@ impl Session {
             project: self.documents.current().clone(),
             shown: self.run.shown.clone(),
             opened: self.disk.opened,
+            include_edit: (is_compile && self.compile.includes_read != self.compile.include_edits)
+                .then_some(self.compile.include_edits),
             is_look: !is_compile,
         });
     }
@@ -65,9 +67,14 @@ impl Session {
     fn take_compiled(&mut self) {
         let Some(result) = self.compiler.take() else { return };
         let done = match result {
-            Ok(Done { files, is_changed, compiled }) => {
-                if self.disk.media_files != files {
-                    self.disk.media_files = files;
+            Ok(Done { files, is_changed, includes, compiled }) => {
+                let has_new_files = self.disk.media_files != files || includes.is_some();
+                self.disk.media_files = files;
+                if let Some((edit, includes)) = includes {
+                    self.documents.current_mut().includes = includes;
+                    self.compile.includes_read = edit;
+                }
+                if has_new_files {
                     self.watch_what_is_read();
                 }
                 if is_changed {

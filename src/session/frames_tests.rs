@@ -1,15 +1,13 @@
-//! What a session does when what works for it gives up.
+//! Tests of a session whose workers give up.
 
 use super::super::{
     Command, SessionOptions,
     compile::{Done, Job},
+    testing,
     worker::Worker,
 };
 use super::*;
-use crate::{
-    gpu::{Gpu, GpuOptions},
-    project::{PassId, Tab},
-};
+use crate::project::{PassId, Tab};
 use std::{
     sync::Arc,
     time::{Duration, Instant},
@@ -26,7 +24,7 @@ fn tick_until(session: &mut Session, what: &str, is_so: impl Fn(&Session) -> boo
 
 #[test]
 fn a_compiler_that_panics_is_told_of_and_loses_no_text() {
-    let Ok(gpu) = Gpu::new(&GpuOptions::default()) else { return };
+    let Some(gpu) = testing::gpu() else { return };
     let options = SessionOptions { edit_debounce: Duration::ZERO, ..SessionOptions::default() };
     let mut session = Session::with_options(gpu, Arc::new(|| ()), options).unwrap();
     tick_until(&mut session, "the first program", |s| matches!(s.compile_state().last, Some(Outcome::Ok { .. })));
@@ -51,7 +49,7 @@ fn a_compiler_that_panics_is_told_of_and_loses_no_text() {
 
 #[test]
 fn what_the_graphics_layer_refuses_is_told_of_once() {
-    let Ok(gpu) = Gpu::new(&GpuOptions::default()) else { return };
+    let Some(gpu) = testing::gpu() else { return };
     let mut session = Session::new(gpu, Arc::new(|| ())).unwrap();
     for _ in 0..3 {
         session.tell_of(&GpuError::Refused { what: "the window".into(), reason: "planted".into() });

@@ -5,6 +5,7 @@
 //! window. A front end hands it [`Command`]s and calls [`Session::tick`]; everything it shows it reads from
 //! `&Session`. Draws no widget and knows no window.
 
+mod analyse;
 mod analysis;
 mod apply;
 pub mod capture;
@@ -24,7 +25,10 @@ mod reload;
 pub mod script;
 mod stamps;
 mod state;
+mod structure;
 mod template;
+#[cfg(test)]
+pub(crate) mod testing;
 pub mod view;
 mod watch;
 mod worker;
@@ -33,4 +37,4 @@ pub use analysis::TabAnalysis;
 pub use command::{Answer, Command, DiffLine, Question, Request, Then};
 pub use costs::{PassCosts, TimedPass};
 pub use state::{Session, SessionError, SessionOptions};
-pub use view::{CompileState, Level, Meanwhile, Notice, Outcome, TabDiagnostic, Tick, Transport};
+pub use view::{CompileState, Level, Meanwhile, Notice, Outcome, Place, TabDiagnostic, TabLabel, Tick, Transport};

@@ -44,8 +44,8 @@ impl Mouse {
         self.dragged
     }
 
-    /// `iMouse` of the frame that is drawn now, which uses up the press. A press that was released before any frame saw it
-    /// shows in w alone, as on the site.
+    /// `iMouse` of the frame that is drawn now, which uses up the press. A press that was released before any frame saw
+    /// it shows in w alone, as on the site.
     pub fn next_frame(&mut self) -> [f32; 4] {
         let sign = |positive, v: f32| if positive { v.abs() } else { -v.abs() };
         let z = sign(self.is_down, self.pressed_at[0]);

@@ -1,4 +1,4 @@
-//! What happens when the project's files change under it.
+//! A session follows the project's files when they change under it.
 
 use super::{
     Session, capture,
@@ -10,7 +10,7 @@ use super::{
 use crate::project::{self, Origin, Project, Tab, confine, limits};
 use std::{collections::BTreeSet, fs, path::PathBuf};
 
-/// What is on disk, if it can be used.
+/// The project on disk, if it can be used.
 enum OnDisk {
     Project(Box<Project>),
     /// It makes no whole project, perhaps because somebody is writing it just now.
@@ -96,6 +96,7 @@ impl Session {
         }
         let before = self.project().includes.clone();
         self.documents.current_mut().read_includes();
+        self.compile.includes_read = self.compile.include_edits;
         if self.project().includes != before {
             self.compile_soon();
         }
@@ -106,8 +107,17 @@ impl Session {
     /// The project here was changed from outside the editor.
     pub(super) fn after_reload(&mut self) {
         self.text_generation += 1;
+        self.compile.include_edits += 1;
         self.show_image_if_gone();
         self.compile_soon();
+    }
+
+    /// Reads what the texts include where no compile has done it yet: included files are saved with the project.
+    pub(super) fn settle_includes(&mut self) {
+        if self.compile.includes_read != self.compile.include_edits {
+            self.documents.current_mut().read_includes();
+            self.compile.includes_read = self.compile.include_edits;
+        }
     }
 
     fn ask_conflicts(&mut self, merge: &Merge) {
@@ -149,8 +159,8 @@ impl Session {
         );
     }
 
-    /// Whether every file is still as it was read, so that saving overwrites nothing of somebody else's. What has changed is
-    /// merged first, and conflicts are asked.
+    /// Returns whether every file is still as it was read, so that saving overwrites nothing of somebody else's. What
+    /// has changed is merged first, and conflicts are asked.
     pub(super) fn disk_is_as_read(&mut self) -> bool {
         let (saved, current) = (self.documents.saved(), self.documents.current());
         let is_text_known = saved.tabs().iter().all(|tab| {
@@ -178,7 +188,10 @@ impl Session {
             Some(OnDisk::Unusable(why)) => {
                 self.notice(
                     Level::Error,
-                    format!("not saved: the files have changed on disk and cannot be read whole. {why}\nMend them, or save to another folder"),
+                    format!(
+                        "not saved: the files have changed on disk and cannot be read whole. {why}\nMend them, \
+                    or save to another folder"
+                    ),
                 );
                 false
             }
@@ -186,20 +199,10 @@ impl Session {
         }
     }
 
-    /// What lies on disk is what `documents` says: remember it, and watch it.
+    /// Remembers that what lies on disk is what `documents` says, and watches it.
     pub(super) fn disk_is_known(&mut self) {
         self.watch_what_is_read();
         self.disk.manifest = read_manifest(self.documents.saved());
-    }
-
-    /// Reads what the texts include now; the compile to come takes it.
-    pub(super) fn refresh_includes(&mut self) {
-        let project = self.documents.current();
-        let includes = |s: &project::Source| s.text.contains("#include");
-        if !project.includes.is_empty() || project.tab_sources().any(includes) {
-            self.documents.current_mut().read_includes();
-            self.watch_what_is_read();
-        }
     }
 
     /// Watches the folders of all files that the project reads, as far as the last compile has found them.

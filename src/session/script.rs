@@ -6,7 +6,7 @@ use super::{date, mouse::Mouse};
 use crate::{engine::FrameInputs, media::Keyboard};
 use jiff::{SignedDuration, civil::DateTime};
 
-/// What the mouse does.
+/// An action of the mouse.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MouseAction {
     /// Canvas pixels from the bottom left.
@@ -15,7 +15,7 @@ pub enum MouseAction {
     Up,
 }
 
-/// What a key does, by JavaScript `keyCode`.
+/// An action of a key, by JavaScript `keyCode`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum KeyAction {
     Down(u8),
@@ -39,7 +39,8 @@ pub struct ScriptError {
     pub found: String,
 }
 
-/// Reads `0:down 40,40; 4:move 80,45; 10:up`. Events come back in the order of their frames, those of one frame as written.
+/// Reads `0:down 40,40; 4:move 80,45; 10:up`. Events come back in the order of their frames, those of one frame as
+/// written.
 pub fn parse_mouse(text: &str) -> Result<Vec<At<MouseAction>>, ScriptError> {
     parse(
         text,

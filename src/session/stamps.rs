@@ -29,7 +29,7 @@ struct Known {
     hash: u64,
 }
 
-/// What tells cheaply that a file is the same.
+/// The properties that tell cheaply that a file is the same.
 #[derive(PartialEq)]
 struct Looks {
     bytes: u64,
@@ -37,7 +37,7 @@ struct Looks {
 }
 
 impl Stamps {
-    /// Of every picture and model that the project names, and of the files that its models name.
+    /// Returns the stamps of every picture and model that the project names, and of the files that its models name.
     pub fn take(&mut self, project: &Project) -> Vec<Stamp> {
         let base = capture::base_folder(project);
         let files = files(project, base.as_deref());
@@ -82,7 +82,7 @@ fn looks(path: &Path) -> Option<Looks> {
     is_old.then_some(Looks { bytes: metadata.len(), modified })
 }
 
-/// Where they lie, each once, with the names from the folder of those that are the project's own.
+/// Returns where they lie, each once, with the names from the folder of those that are the project's own.
 fn files(project: &Project, base: Option<&Path>) -> BTreeMap<PathBuf, Option<String>> {
     let mut own: Vec<String> = Vec::new();
     let mut files = BTreeMap::new();

@@ -1,5 +1,5 @@
-//! [`Session`] itself: what it is made of, how it starts, and what can be read of it. What it does is in `apply`, `frames`,
-//! `files` and `reload`.
+//! [`Session`] itself: what it is made of, how it starts, and what can be read of it. What it does is in `apply`,
+//! `frames`, `files` and `reload`.
 
 use super::{
     analysis::Analyst,
@@ -37,7 +37,7 @@ pub struct SessionOptions {
     /// How long files that make no whole project are read again before the user hears of it: an editor may be half way
     /// through writing them.
     pub retry_for: Duration,
-    /// Where pictures of a project without a folder of its own go.
+    /// The folder for pictures of a project that has none of its own.
     pub pictures: PathBuf,
     /// The user's own copies of the site's stock files.
     pub media_dir: Option<PathBuf>,
@@ -88,7 +88,7 @@ pub struct Session {
     pub(super) now: Instant,
 }
 
-/// What size the picture shall have.
+/// The size that the picture shall have.
 pub(super) struct Canvas {
     pub viewport: Option<(u32, u32)>,
     pub scale: f32,
@@ -104,6 +104,9 @@ pub(super) struct Compile {
     pub edits: Debounce,
     /// A text was edited since the last tick.
     pub edited: bool,
+    /// Counts the edits after which the texts include other files, and how many of them have been followed by reading.
+    pub include_edits: u64,
+    pub includes_read: u64,
     /// Compile in the next tick, whatever the debounce says.
     pub is_wanted: bool,
     /// See whether a picture or a model has changed on disk, as soon as the worker has time.
@@ -124,7 +127,7 @@ pub(super) struct Disk {
     pub is_check_wanted: bool,
     /// Since when what is on disk makes no whole project.
     pub unsettled_since: Option<Instant>,
-    /// What was said last of such files, so that it is said once.
+    /// The last words about such files, so that they are said once.
     pub told: Option<String>,
     /// `eddy.toml` as it was last read or written.
     pub manifest: Option<Vec<u8>>,
@@ -135,12 +138,12 @@ pub(super) struct Disk {
     pub reset_on_reload: bool,
 }
 
-/// What is asked of the user and of the front end.
+/// Questions to the user and requests to the front end.
 #[derive(Default)]
 pub(super) struct Dialog {
     pub questions: VecDeque<Question>,
     pub requests: VecDeque<Request>,
-    /// What goes on after a Save As that a question led to.
+    /// The action that goes on after a Save As that a question led to.
     pub after_save: Option<Then>,
 }
 
@@ -161,8 +164,8 @@ pub(super) struct Run {
 }
 
 impl Session {
-    /// A session with a new project, playing. `wake` is called from other threads when a tick is worth it (a compile has
-    /// ended, a file has changed).
+    /// A session with a new project, playing. `wake` is called from other threads when a tick is worth it (a compile
+    /// has ended, a file has changed).
     pub fn new(gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>) -> Result<Session, SessionError> {
         Self::with_options(gpu, wake, SessionOptions::default())
     }
@@ -188,6 +191,8 @@ impl Session {
             compile: Compile {
                 edits: Debounce::new(options.edit_debounce),
                 edited: false,
+                include_edits: 0,
+                includes_read: 0,
                 is_wanted: true,
                 is_look_wanted: false,
                 reset_when_built: false,
@@ -231,7 +236,8 @@ impl Session {
         Ok(session)
     }
 
-    /// The newest picture of the shown pass; see [`Engine::display`]. Ask anew after each tick: a resize makes another one.
+    /// The newest picture of the shown pass; see [`Engine::display`]. Ask anew after each tick: a resize makes another
+    /// one.
     pub fn display(&self) -> &wgpu::TextureView {
         self.engine.display()
     }
@@ -259,8 +265,8 @@ impl Session {
         self.project().source(tab).map_or("", |s| &s.text)
     }
 
-    /// Grows whenever a text was changed by something else than [`Command::EditText`] (opened, reloaded, taken from disk):
-    /// then an editor must take it anew.
+    /// Grows whenever a text was changed by something else than [`Command::EditText`] (opened, reloaded, taken from
+    /// disk): then an editor must take it anew.
     pub fn text_generation(&self) -> u64 {
         self.text_generation
     }
@@ -270,7 +276,7 @@ impl Session {
         self.engine.program().map_or(&[], |p| p.knobs())
     }
 
-    /// Where one of them stands.
+    /// Returns where one of them stands.
     pub fn knob_value(&self, knob: &Knob) -> KnobValue {
         knob.value(&self.project().knob_values)
     }
@@ -285,7 +291,7 @@ impl Session {
         self.documents.is_dirty()
     }
 
-    /// Of the newest finished compile, all tabs, errors first.
+    /// Returns the diagnostics of the newest finished compile for all tabs, errors first.
     pub fn diagnostics(&self) -> &[TabDiagnostic] {
         &self.compile.diagnostics
     }
@@ -314,8 +320,8 @@ impl Session {
         self.run.costs.newest()
     }
 
-    /// What each pass of the running program costs, in drawing order, then those that are not drawn. Milliseconds are there once
-    /// [`Command::WatchCosts`] has been given and a frame was drawn since.
+    /// Returns what each pass of the running program costs, in drawing order, then those that are not drawn.
+    /// Milliseconds are there once [`Command::WatchCosts`] has been given and a frame was drawn since.
     pub fn pass_costs(&self) -> PassCosts {
         let passes = self.engine.pass_costs(self.project());
         self.run.costs.of(passes, self.engine.cost_clock())
@@ -334,7 +340,7 @@ impl Session {
         &self.notices
     }
 
-    /// What must be answered before anything else.
+    /// Returns what must be answered before anything else.
     pub fn question(&self) -> Option<&Question> {
         self.dialog.questions.front()
     }

@@ -1,4 +1,4 @@
-//! What new projects and new passes begin as. Eddy's own text.
+//! The texts that new projects and new passes begin with. They are Eddy's own.
 
 use super::documents::insert_pass;
 use crate::project::{Info, Origin, Pass, PassId, Project, SamplerRules, Source, Tab, limits};
@@ -59,7 +59,7 @@ pub(super) fn project() -> Project {
     project
 }
 
-/// What a tab's text begins as.
+/// Returns what a tab's text begins as.
 pub(super) fn text(tab: &Tab) -> &'static str {
     match tab {
         Tab::Common => COMMON,

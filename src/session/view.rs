@@ -1,18 +1,18 @@
-//! What a front end shows of a session: plain values, made for reading.
+//! A front end shows these plain values of a session.
 
 use crate::{
-    diag::{Severity, SourceMap},
-    project::Tab,
+    diag::{Diagnostic, Severity, SourceMap, Span},
+    project::{Project, Tab},
 };
-use std::time::Instant;
+use std::{ops::Range, time::Instant};
 
-/// What a [`tick`](super::Session::tick) did and wants.
+/// The effects of a [`tick`](super::Session::tick), and when the next one is due.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tick {
     /// A frame was drawn: the display texture holds a new picture.
     pub frame_drawn: bool,
-    /// When to tick again though nothing is heard of: at once while playing, at the end of a debounce; `None` when only an
-    /// event or the wake callback can change anything.
+    /// When to tick again though nothing is heard of: at once while playing, at the end of a debounce; `None` when only
+    /// an event or the wake callback can change anything.
     pub wake_at: Option<Instant>,
     /// Something a panel shows has changed (texts, diagnostics, notices, a question, transport).
     pub changed: bool,
@@ -37,61 +37,82 @@ pub struct Notice {
     pub at: Instant,
 }
 
-/// A diagnostic at its place in a tab.
+/// A diagnostic with its places in the tabs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TabDiagnostic {
     pub severity: Severity,
-    /// `None`: in no tab of the project, or in no text at all.
-    pub tab: Option<Tab>,
-    /// What the text is called that it is in, where that is no tab: an included file.
-    pub file: Option<String>,
-    /// First and last line, counted from 1; 0 where there is no place.
-    pub line: usize,
-    pub end_line: usize,
-    /// Column of the start in characters, counted from 1; 0 where there is no place.
-    pub column: usize,
-    /// Bytes of the tab's text as it was compiled.
-    pub range: std::ops::Range<usize>,
+    /// `None`: it is about no text.
+    pub place: Option<Place>,
     pub message: String,
+    /// Further places: the declaration that a call does not fit, the macro that a name comes from.
+    pub labels: Vec<TabLabel>,
     pub hints: Vec<String>,
 }
 
-impl TabDiagnostic {
-    /// An error that has no place in any text.
-    pub(super) fn nowhere(message: &str) -> Self {
-        Self::new(&crate::diag::Diagnostic::error(None, message), &SourceMap::default(), |_| None)
+/// A further place of a diagnostic, and what it has to do with it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TabLabel {
+    pub place: Place,
+    pub message: String,
+}
+
+/// A place in a text of the project.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// `None`: the text is no tab, as an included file is not.
+    pub tab: Option<Tab>,
+    /// The text's name.
+    pub text: String,
+    /// Line and column of the start, counted from 1; columns count characters.
+    pub line: usize,
+    pub column: usize,
+    /// Bytes of the text as it was compiled.
+    pub range: Range<usize>,
+}
+
+impl Place {
+    /// Returns `None` for a span of a text that `sources` does not have.
+    fn new(span: Span, sources: &SourceMap, project: &Project) -> Option<Self> {
+        let at = sources.line_column(span)?;
+        let text = sources.get(span.source)?.name.clone();
+        let tab = project.tab_of(span.source);
+        Some(Self { tab, text, line: at.line, column: at.column, range: span.range() })
     }
 
-    pub(super) fn new(
-        d: &crate::diag::Diagnostic,
-        sources: &SourceMap,
-        tab_of: impl Fn(crate::diag::SourceId) -> Option<Tab>,
-    ) -> Self {
-        let start = d.span.and_then(|s| sources.line_column(s));
-        let end = d.span.and_then(|s| {
-            // The last byte that is marked; the end itself may be the start of the next line.
-            let last = s.end.saturating_sub(1).max(s.start);
-            sources.line_column(crate::diag::Span { start: last, ..s })
-        });
-        let labels = d.labels.iter().filter_map(|l| {
-            let at = sources.line_column(l.span)?;
-            Some(format!("{}:{}: {}", sources.get(l.span.source)?.name, at.line, l.message))
-        });
-        Self {
-            severity: d.severity,
-            tab: d.span.and_then(|s| tab_of(s.source)),
-            file: d.span.filter(|s| tab_of(s.source).is_none()).and_then(|s| Some(sources.get(s.source)?.name.clone())),
-            line: start.map_or(0, |at| at.line),
-            end_line: end.map_or(0, |at| at.line),
-            column: start.map_or(0, |at| at.column),
-            range: d.span.map_or(0..0, |s| s.range()),
-            message: d.message.clone(),
-            hints: labels.chain(d.hints.iter().cloned()).collect(),
-        }
+    /// The tab's title, or the text's own name where it is no tab.
+    pub fn title(&self) -> String {
+        self.tab.as_ref().map_or_else(|| self.text.clone(), Tab::title)
     }
 }
 
-/// Where the newest text stands on its way to the picture.
+impl TabDiagnostic {
+    /// Makes an error that has no place in any text.
+    pub(super) fn nowhere(message: &str) -> Self {
+        Self { severity: Severity::Error, place: None, message: message.to_owned(), labels: vec![], hints: vec![] }
+    }
+
+    /// `sources` are those of `project`.
+    pub(super) fn new(d: &Diagnostic, sources: &SourceMap, project: &Project) -> Self {
+        let labels = d.labels.iter().filter_map(|label| {
+            let place = Place::new(label.span, sources, project)?;
+            Some(TabLabel { place, message: label.message.clone() })
+        });
+        Self {
+            severity: d.severity,
+            place: d.span.and_then(|span| Place::new(span, sources, project)),
+            message: d.message.clone(),
+            labels: labels.collect(),
+            hints: d.hints.clone(),
+        }
+    }
+
+    /// Returns the tab that it is in.
+    pub fn tab(&self) -> Option<&Tab> {
+        self.place.as_ref()?.tab.as_ref()
+    }
+}
+
+/// The state of the newest text on its way to the picture.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CompileState {
     /// A compile is wanted or under way; the picture still shows an older text.
@@ -108,7 +129,7 @@ pub enum Outcome {
     Failed { errors: usize, meanwhile: Meanwhile },
 }
 
-/// What is drawn while a text has errors.
+/// The picture that is drawn while a text has errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Meanwhile {
     /// No text of this project has compiled yet.

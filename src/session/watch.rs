@@ -1,7 +1,7 @@
 //! The watch on a project's folders.
 //!
-//! Says only that something changed; what it was is found by reading, because editors save in place, by rename, in bursts
-//! and in halves. Folders are watched and not files: a file that is replaced by rename would be lost.
+//! Says only that something changed; what it was is found by reading, because editors save in place, by rename, in
+//! bursts and in halves. Folders are watched and not files: a file that is replaced by rename would be lost.
 
 use notify::{EventKind, RecursiveMode, Watcher, event::AccessKind, event::AccessMode};
 use std::{
@@ -21,8 +21,8 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    /// Watches each folder itself, not what lies deeper. `wake` is called from the watcher's thread. Folders that cannot be
-    /// watched come back with the reason.
+    /// Watches each folder itself, not what lies deeper. `wake` is called from the watcher's thread. Folders that
+    /// cannot be watched come back with the reason.
     pub fn new(
         folders: BTreeSet<PathBuf>,
         wake: Arc<dyn Fn() + Send + Sync>,
@@ -48,7 +48,7 @@ impl Watch {
         &self.folders
     }
 
-    /// Whether anything has happened since the last call.
+    /// Returns whether anything has happened since the last call.
     pub fn take_changed(&self) -> bool {
         self.changed.swap(false, Ordering::Acquire)
     }

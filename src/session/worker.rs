@@ -1,7 +1,7 @@
 //! One thread that does the newest job it was given.
 //!
-//! Owns the hand-over: jobs that a newer one has overtaken are not begun, results that a newer job has made stale are not
-//! handed out, and a panic in a job ends the job and not the program. Does not know what a job is.
+//! Owns the hand-over: jobs that a newer one has overtaken are not begun, results that a newer job has made stale are
+//! not handed out, and a panic in a job ends the job and not the program. Does not know what a job is.
 
 use std::{
     any::Any,

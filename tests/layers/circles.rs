@@ -7,7 +7,8 @@ use std::collections::{BTreeMap, BTreeSet};
 pub struct Modules(BTreeMap<Vec<String>, Vec<Named>>);
 
 impl Modules {
-    /// Reads texts by their paths within `src/`, as `engine/bind.rs`. Files of tests are left out: they name what they test.
+    /// Reads texts by their paths within `src/`, as `engine/bind.rs`. Files of tests are left out: they name what they
+    /// test.
     pub fn read<'t>(files: impl IntoIterator<Item = (&'t str, &'t str)>) -> Self {
         let mut modules: BTreeMap<Vec<String>, Vec<Named>> = BTreeMap::new();
         for (path, text) in files {
@@ -51,7 +52,8 @@ impl Modules {
         targets.filter(|target| target[..] != *module && target[0] == module[0]).collect()
     }
 
-    /// Returns the module that a path of `module` leads to: through what modules on the way offer, to where it is defined.
+    /// Returns the module that a path of `module` leads to: through what modules on the way offer, to where it is
+    /// defined.
     fn target(&self, module: &[String], segments: &[String], depth: usize) -> Option<Vec<String>> {
         let first = segments.first()?.as_str();
         let (mut at, mut rest) = match first {

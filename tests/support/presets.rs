@@ -103,7 +103,7 @@ pub fn buffers(project: &Project) -> impl Iterator<Item = &PassId> {
 
 /// An engine in which every pass can be read.
 pub fn whole(gpu: &Gpu, project: &Project, skip: bool, size: (u32, u32)) -> Engine {
-    let options = BuildOptions { wanted: buffers(project).cloned().collect(), skip };
+    let options = BuildOptions { wanted: buffers(project).cloned().collect(), skip, ..BuildOptions::default() };
     engine_with(gpu, project, &MediaSet::new(), &options, size)
 }
 

@@ -1,31 +1,13 @@
 //! A text, its lines, the selection and the way back: what an editor is without its picture.
 //!
-//! Owns every change of a text (all go through [`Buffer::replace`], so every one can be undone) and the index of its lines.
-//! Knows no window, no keys and no GLSL. Positions are bytes on character boundaries; lines count from 0.
+//! Owns every change of a text (all go through [`Buffer::replace`], so every one can be undone) and the index of its
+//! lines. Knows no window, no keys and no GLSL. Positions are bytes on character boundaries; lines count from 0.
 
-use super::history::{Change, History, Kind};
+use super::{
+    history::{Change, History, Kind},
+    selection::Selection,
+};
 use std::ops::Range;
-
-/// Where the caret is (`head`) and where the selection began (`anchor`); equal when nothing is selected.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Selection {
-    pub anchor: usize,
-    pub head: usize,
-}
-
-impl Selection {
-    pub fn caret(at: usize) -> Self {
-        Self { anchor: at, head: at }
-    }
-
-    pub fn range(self) -> Range<usize> {
-        self.anchor.min(self.head)..self.anchor.max(self.head)
-    }
-
-    pub fn is_empty(self) -> bool {
-        self.anchor == self.head
-    }
-}
 
 /// The ends of a text that are as they were, in bytes: what lies between has changed. They do not overlap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,7 +26,7 @@ pub struct Buffer {
     history: History,
     /// Counts changes of the text.
     revision: u64,
-    /// What is as it was at the last [`Buffer::take_unchanged`]; none if all is.
+    /// The ends that are as they were at the last [`Buffer::take_unchanged`]; `None` if nothing has changed.
     unchanged: Option<Unchanged>,
     /// Column the caret wants to keep while it moves up and down, in characters.
     pub(super) wanted_column: Option<usize>,
@@ -131,7 +113,7 @@ impl Buffer {
         self.text[range.clone()].char_indices().nth(column).map_or(range.end, |(i, _)| range.start + i)
     }
 
-    /// What ends a line in this text: of the first line, so that a file keeps its own.
+    /// Returns what ends a line in this text: of the first line, so that a file keeps its own.
     pub fn line_end(&self) -> &'static str {
         match self.starts.get(1) {
             Some(next) if *next >= 2 && self.text.as_bytes()[next - 2] == b'\r' => "\r\n",
@@ -164,8 +146,8 @@ impl Buffer {
         self.history.push(change, kind);
     }
 
-    /// Makes the text equal to `new` by the smallest single change, so that the caret stays where it was when it can. Undo
-    /// leads back. This is how a text that changed elsewhere arrives.
+    /// Makes the text equal to `new` by the smallest single change, so that the caret stays where it was when it can.
+    /// Undo leads back. This is how a text that changed elsewhere arrives.
     pub fn set_text(&mut self, new: &str) {
         if new == self.text {
             return;
@@ -228,7 +210,7 @@ impl Buffer {
         true
     }
 
-    /// What has not changed since the last call; none if nothing has: what is derived from it can be kept.
+    /// Returns what has not changed since the last call; none if nothing has: what is derived from it can be kept.
     pub fn take_unchanged(&mut self) -> Option<Unchanged> {
         self.unchanged.take()
     }

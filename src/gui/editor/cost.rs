@@ -1,8 +1,8 @@
-//! What a frame of the editor costs: figures to read, not a bound to keep.
+//! These tests print what a frame of the editor costs. The figures are for reading and bound nothing.
 //!
 //! `cargo test --lib editor::cost -- --ignored --nocapture`
 
-use super::view::{CodeEditor, Look};
+use super::{look::Look, view::CodeEditor};
 use egui::{Event, Id, RawInput, Rect, pos2, vec2};
 use std::time::Instant;
 
@@ -68,7 +68,8 @@ fn a_frame_idle_and_typing() {
     }
 }
 
-/// Counted in bytes, so that it is the same on every machine: what a letter costs does not grow with the line or the text.
+/// Counted in bytes, so that it is the same on every machine: what a letter costs does not grow with the line or the
+/// text.
 #[test]
 fn a_letter_lays_out_what_is_in_sight_and_looks_at_what_is_around_it() {
     let in_sight = 40 * 2 * 2 * super::pieces::PIECE;

@@ -1,10 +1,6 @@
-//! What the editor's keys do to a text: typing, indenting, comments, whole lines.
+//! Edits are what the editor's keys do to a text: typing, indenting, comments, whole lines.
 
-use super::{
-    buffer::{Buffer, Selection},
-    history::Kind,
-    motion::Motion,
-};
+use super::{buffer::Buffer, history::Kind, motion::Motion, selection::Selection};
 use std::ops::Range;
 
 const INDENT: &str = "    ";
@@ -126,7 +122,7 @@ impl Buffer {
         );
     }
 
-    /// What Ctrl+C takes: the selection, or the caret's whole line.
+    /// Returns what Ctrl+C takes: the selection, or the caret's whole line.
     pub fn copied_range(&self) -> Range<usize> {
         let range = self.selection.range();
         if !range.is_empty() {

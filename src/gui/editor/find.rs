@@ -1,12 +1,9 @@
 //! Finding and replacing in one text.
 
-use super::{
-    buffer::{Buffer, Selection},
-    history::Kind,
-};
+use super::{buffer::Buffer, history::Kind, selection::Selection};
 use std::ops::Range;
 
-/// What is looked for.
+/// A text to find, and how.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Query {
     pub text: String,
@@ -30,8 +27,8 @@ impl Query {
 }
 
 impl Buffer {
-    /// Selects the next match at or after the selection's end (before its start, going back), round the text's ends. The
-    /// match's number and how many there are.
+    /// Selects the next match at or after the selection's end (before its start, going back), round the text's ends.
+    /// The match's number and how many there are.
     pub fn find(&mut self, matches: &[Range<usize>], forward: bool) -> Option<usize> {
         let now = self.selection().range();
         let index = if forward {

@@ -1,5 +1,5 @@
-//! What colouring and layout need to know of lines nobody sees: the state each begins in, its pieces, and the macros defined
-//! anywhere.
+//! A highlight holds what colouring and layout must know of all lines: the state each begins in, its pieces, and the
+//! macros defined anywhere.
 
 use super::{
     buffer::{Buffer, Unchanged},
@@ -20,13 +20,13 @@ pub struct Highlight {
     /// Macros of `shared_text`.
     shared: HashSet<String>,
     shared_text: String,
-    /// Of the widest line, in widths of a digit.
+    /// The width of the widest line, in widths of a digit.
     columns: f32,
 }
 
 #[derive(Clone, Debug, Default)]
 struct Line {
-    /// What it begins in.
+    /// The state at its beginning.
     state: LexState,
     cut: Cut,
     columns: f32,
@@ -35,8 +35,8 @@ struct Line {
 }
 
 impl Highlight {
-    /// Takes in what changed since the last call, and gives how many bytes it looked at. `shared` is a text whose macros count
-    /// here too: Common's. `width` is as [`pieces::cut`] takes it.
+    /// Takes in what changed since the last call, and gives how many bytes it looked at. `shared` is a text whose
+    /// macros count here too: Common's. `width` is as [`pieces::cut`] takes it.
     pub fn update(&mut self, buffer: &mut Buffer, shared: &str, width: &mut dyn FnMut(char) -> f32) -> usize {
         if self.shared_text != shared {
             self.shared_text = shared.to_owned();
@@ -108,7 +108,7 @@ impl Highlight {
         kept
     }
 
-    /// What the line behind this one begins in.
+    /// Returns what the line behind this one begins in.
     fn state_after(&self, buffer: &Buffer, line: usize) -> LexState {
         self.lines[line].cut.end.next_line(buffer.line(line))
     }
@@ -123,7 +123,7 @@ impl Highlight {
         self.lines.get(line).map_or(&[], |l| &l.cut.pieces)
     }
 
-    /// Of the widest line, in widths of a digit.
+    /// The width of the widest line, in widths of a digit.
     pub fn columns(&self) -> f32 {
         self.columns
     }

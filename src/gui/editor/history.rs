@@ -1,6 +1,6 @@
 //! Steps of undo and redo. Knows what was put where, not why.
 
-use super::buffer::Selection;
+use super::selection::Selection;
 
 /// One replacement, with the selection on both sides of it.
 #[derive(Clone, Debug)]
@@ -12,7 +12,7 @@ pub(super) struct Change {
     pub after: Selection,
 }
 
-/// What a change is, as far as joining it to the one before goes.
+/// The kind of a change, which decides whether it joins the one before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A character typed: joins a word being typed.

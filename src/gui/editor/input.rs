@@ -3,7 +3,7 @@
 use super::{buffer::Buffer, motion::Motion};
 use egui::{Event, ImeEvent, Key, Modifiers};
 
-/// What a run of events led to, besides changes of the buffer itself.
+/// The effects of a run of events besides changes of the buffer itself.
 #[derive(Debug, Default)]
 pub(super) struct Handled {
     /// The caret moved or the text changed: it should be in sight.
@@ -12,7 +12,8 @@ pub(super) struct Handled {
     pub copied: Option<String>,
 }
 
-/// Feeds the events of a frame to the buffer. `preedit` is the text an input method is composing; `page` a page's lines.
+/// Feeds the events of a frame to the buffer. `preedit` is the text an input method is composing; `page` a page's
+/// lines.
 pub(super) fn handle(buffer: &mut Buffer, preedit: &mut String, page: usize, events: &[Event]) -> Handled {
     let mut handled = Handled::default();
     for event in events {

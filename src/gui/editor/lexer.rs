@@ -6,7 +6,7 @@
 use super::words::{self, Word};
 use std::ops::Range;
 
-/// What a place of a line is inside of.
+/// The construct that a place of a line lies in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Inside {
     /// Nothing but blanks stands before it in its line: a `#` here begins a directive.
@@ -17,7 +17,7 @@ pub enum Inside {
     BlockComment,
 }
 
-/// What lexing must know of the text before a place.
+/// The facts about the text before a place that lexing needs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct LexState {
     pub inside: Inside,
@@ -74,8 +74,8 @@ pub struct Token {
 /// How far behind a name a `(` is looked for: a lexer of pieces must not read the rest of the line.
 const LOOK_AHEAD: usize = 256;
 
-/// Tokens that together cover `range` of a line (without its end). `state` is that of the range's first byte, and the range
-/// begins and ends between two tokens or inside of a comment.
+/// Tokens that together cover `range` of a line (without its end). `state` is that of the range's first byte, and the
+/// range begins and ends between two tokens or inside of a comment.
 pub fn lex(line: &str, range: Range<usize>, state: LexState, is_macro: &dyn Fn(&str) -> bool) -> Vec<Token> {
     let mut lexer = Lexer { line: &line[..range.end], at: range.start, tokens: Vec::new() };
     let mut state = state;

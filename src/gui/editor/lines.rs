@@ -1,7 +1,7 @@
 //! The lines in sight, laid out: between places of the text and points of the window.
 //!
-//! Only pieces that can be seen are laid out. Where they are is reckoned from a line's and a piece's number in 64 bits: ten
-//! million letters are 80 million points wide, and a 32-bit number of that size has steps of eight.
+//! Only pieces that can be seen are laid out. Where they are is reckoned from a line's and a piece's number in 64 bits:
+//! ten million letters are 80 million points wide, and a 32-bit number of that size has steps of eight.
 
 use super::{buffer::Buffer, highlight::Highlight, pieces, semantic::Semantic};
 use crate::gui::theme;
@@ -17,7 +17,7 @@ pub(super) const MARGIN: f32 = 6.0;
 
 pub(super) struct Lines<'a> {
     pub index: &'a Highlight,
-    /// Where the text begins, which may be far out of the window.
+    /// The top left corner of the text, which may be far out of the window.
     pub origin: Pos2,
     pub row_height: f32,
     /// Width of a digit.
@@ -30,9 +30,9 @@ pub(super) struct Lines<'a> {
 /// A line in sight.
 #[derive(Debug, Default)]
 pub(super) struct Row {
-    /// What is laid out of it, from left to right without a gap.
+    /// The runs of it that are laid out, from left to right without a gap.
     pub runs: Vec<Run>,
-    /// Of the whole line, in points.
+    /// The width of the whole line, in points.
     pub width: f64,
 }
 
@@ -54,8 +54,8 @@ impl Row {
 }
 
 impl Lines<'_> {
-    /// Lays out what is in sight of some lines; egui keeps what it has seen in the last frame, so what stands still costs its
-    /// lexing. `shown` is what can be seen of the window.
+    /// Lays out what is in sight of some lines; egui keeps what it has seen in the last frame, so what stands still
+    /// costs its lexing. `shown` is what can be seen of the window.
     pub fn lay_out(
         &mut self,
         ui: &Ui,
@@ -166,12 +166,12 @@ impl Lines<'_> {
         self.in_window(x + f64::from(rest * self.glyph))
     }
 
-    /// Where a line ends.
+    /// Returns where a line ends.
     pub fn end(&self, row: &Row) -> f32 {
         self.in_window(row.width)
     }
 
-    /// Where a run is painted in its line.
+    /// Returns where a run is painted in its line.
     pub fn run_pos(&self, line: usize, run: &Run) -> Pos2 {
         let y = self.top(line) + (self.row_height - run.galley.size().y) / 2.0;
         pos2(self.in_window(run.x), y)

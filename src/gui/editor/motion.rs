@@ -1,6 +1,6 @@
-//! Where the caret goes: letters, words, lines, pages.
+//! Motions move the caret by letters, words, lines and pages.
 
-use super::buffer::{Buffer, Selection};
+use super::{buffer::Buffer, selection::Selection};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Motion {
@@ -31,7 +31,7 @@ impl Buffer {
         self.select(if selecting { self.selection.anchor } else { head }, head);
     }
 
-    /// Where a motion leads from `at`. `Lines` counts from the caret's wanted column and is not asked here.
+    /// Returns where a motion leads from `at`. `Lines` counts from the caret's wanted column and is not asked here.
     pub(super) fn target(&self, motion: Motion, at: usize) -> usize {
         let text = self.text();
         match motion {

@@ -1,9 +1,9 @@
-//! What the editor looks like: lines of code, the selection, marks, numbers.
+//! Paints the editor: lines of code, the selection, marks, numbers.
 
 use super::{
     buffer::Buffer,
     lines::{Lines, MARGIN, touching},
-    view::{Look, Mark},
+    look::{Look, Mark},
 };
 use crate::{diag::Severity, gui::theme};
 use egui::{
@@ -21,7 +21,7 @@ pub(super) struct Caret<'a> {
     pub uses: &'a [Range<usize>],
 }
 
-/// What painting found out.
+/// The places that painting found.
 #[derive(Debug)]
 pub(super) struct Painted {
     pub caret: Rect,

@@ -1,7 +1,7 @@
 //! Lines cut into pieces short enough to be laid out and coloured each on its own.
 //!
-//! A line of ordinary code is one piece; one of ten million characters is ten thousand, of which a frame looks at those in
-//! sight. After a change only the pieces around it are cut anew.
+//! A line of ordinary code is one piece; one of ten million characters is ten thousand, of which a frame looks at those
+//! in sight. After a change only the pieces around it are cut anew.
 
 use super::lexer::{LexState, Scanner};
 
@@ -13,7 +13,7 @@ pub const PIECE: usize = 1024;
 pub struct Piece {
     /// In bytes.
     pub len: usize,
-    /// What it begins in.
+    /// The state at its beginning.
     pub state: LexState,
     /// How wide it is, in widths of a digit.
     pub columns: f32,
@@ -35,9 +35,9 @@ pub struct Cut {
     pub end: LexState,
 }
 
-/// Cuts a line that begins in `state`. `head` and `tail` are of the line as it was (of two lines, where they were joined):
-/// what they hold for is not looked at again. `tail_end` is the state at the end of the line that `tail` is of; `width` gives
-/// the width of a character that is not printable ASCII. Counts the bytes it looks at in `scanned`.
+/// Cuts a line that begins in `state`. `head` and `tail` are of the line as it was (of two lines, where they were
+/// joined): what they hold for is not looked at again. `tail_end` is the state at the end of the line that `tail` is
+/// of; `width` gives the width of a character that is not printable ASCII. Counts the bytes it looks at in `scanned`.
 pub fn cut(
     line: &str,
     state: LexState,

@@ -1,8 +1,8 @@
 //! Colours by meaning, from an analysis that may be of a slightly older text.
 
 use super::{
-    assist::Help,
     lexer::{Token, TokenKind},
+    look::Help,
 };
 use crate::glsl::services::{Class, ClassSpan};
 use std::ops::Range;
@@ -12,7 +12,7 @@ pub(super) struct Semantic<'a> {
     classes: &'a [ClassSpan],
     /// Length of what is equal at the beginning.
     head: usize,
-    /// Where what is equal at the end begins in the text as it is, and what is to be taken from its positions there.
+    /// The start of the equal end in the text as it is, and the distance of its positions from those in the older text.
     tail: usize,
     shift: isize,
 }

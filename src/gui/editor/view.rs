@@ -1,52 +1,27 @@
 //! The widget: scrolling, pointer, focus, input methods.
 
 use super::{
-    assist::{Ask, Assist, Help},
+    assist::{Ask, Assist},
     buffer::Buffer,
     highlight::Highlight,
     input,
     lines::Lines,
+    look::{Help, Look},
     paint::{self, Painted},
     semantic::Semantic,
 };
-use crate::diag::Severity;
 use egui::{EventFilter, FontId, Id, Rect, ScrollArea, Sense, Ui, emath::GuiRounding as _, pos2, vec2};
 use std::ops::Range;
 
-/// A diagnostic at a line.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Mark {
-    /// From 0.
-    pub line: usize,
-    /// What is underlined, in bytes of the text; may be empty.
-    pub range: Range<usize>,
-    pub severity: Severity,
-    pub message: String,
-    pub hints: Vec<String>,
-}
-
-/// How a text is shown; not a part of it.
-#[derive(Clone, Copy, Debug)]
-pub struct Look<'a> {
-    pub font_size: f32,
-    pub marks: &'a [Mark],
-    /// Places found, tinted.
-    pub matches: &'a [Range<usize>],
-    /// A text whose macros count in this one.
-    pub shared: &'a str,
-    /// What is known of the text, or of what it was a moment ago.
-    pub help: Option<Help<'a>>,
-}
-
-/// What happened in a frame.
+/// The results of a frame.
 #[derive(Clone, Debug)]
 pub struct EditorOutput {
     pub changed: bool,
-    /// Where the text is, without the numbers beside it.
+    /// The area of the text without the numbers beside it.
     pub text_rect: Rect,
     /// Lines with a mark that are in sight, counted from 0, and where they are.
     pub marked: Vec<(usize, Rect)>,
-    /// What the author asked for that concerns other texts.
+    /// The author's requests that concern other texts.
     pub asks: Vec<Ask>,
     /// Popups and tips that are open, and where.
     pub placed: Vec<(String, Rect)>,
@@ -58,19 +33,19 @@ pub struct CodeEditor {
     pub buffer: Buffer,
     highlight: Highlight,
     assist: Assist,
-    /// What an input method is composing.
+    /// The text that an input method is composing.
     preedit: String,
     follow_caret: bool,
     take_focus: bool,
     /// When the caret last moved, in seconds: it blinks from there.
     moved_at: f64,
-    /// Where a drag began, whole words or lines at a time.
+    /// The place where a drag began, whole words or lines at a time.
     drag: Option<(Range<usize>, Granularity)>,
     page: usize,
     pub(super) work: Work,
 }
 
-/// What the newest frame looked at: bytes, not time, so that a test can hold it to a bound.
+/// The bytes that the newest frame looked at: bytes, not time, so that a test can hold it to a bound.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Work {
     /// To keep lines, pieces and comments in step with the text.

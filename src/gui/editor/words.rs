@@ -1,6 +1,6 @@
 //! The words of GLSL ES 3.00 and of Shadertoy that deserve a colour.
 
-/// What a word is.
+/// The kind of a word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Word {
     Keyword,

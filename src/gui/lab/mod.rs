@@ -319,9 +319,12 @@ impl Lab {
             }
             ui.add_space(4.0);
             let points = study.points(self.extent).len();
-            let waits = if self.run.is_some() { "The first points come soon." } else { "Start measures" };
-            let count = format!("{points} points on grids of {:?} texels a side.", study.grids(self.extent));
-            ui.colored_label(theme::WEAK, if self.run.is_some() { waits.into() } else { format!("{waits} {count}") });
+            let grids: Vec<String> = study.grids(self.extent).iter().map(u32::to_string).collect();
+            let words = match self.run {
+                Some(_) => "The first points come soon.".to_owned(),
+                None => format!("Start measures {points} points on grids of {} texels a side.", grids.join(", ")),
+            };
+            ui.colored_label(theme::WEAK, words);
         });
     }
 

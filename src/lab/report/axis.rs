@@ -18,6 +18,52 @@ pub fn tick(value: f64) -> String {
     if (-3.0..=4.0).contains(&power) { format!("{}", 10f64.powf(power)) } else { format!("1e{power}") }
 }
 
+/// Decades of an axis that has no room for labels between the powers of ten, and for all of these.
+const FEW: usize = 3;
+const MANY: usize = 10;
+
+/// The lines of an axis.
+pub struct Marks {
+    /// With a label: powers of ten, on a short axis 2 and 5 times each too, on a very long one not every power.
+    pub labelled: Vec<f64>,
+    pub others: Vec<f64>,
+}
+
+/// Of an axis of whole decades from `low` to `high`.
+pub fn marks((low, high): (f64, f64)) -> Marks {
+    let [first, last] = [low, high].map(|v| v.log10().round() as i32);
+    let count = usize::try_from(last - first).unwrap_or(0);
+    let every = count.div_ceil(MANY).max(1);
+    let mut marks = Marks { labelled: Vec::new(), others: Vec::new() };
+    for (n, power) in (first..=last).enumerate() {
+        let factors = if power < last { 1..=9 } else { 1..=1 };
+        for factor in factors {
+            let value = f64::from(factor) * 10f64.powi(power);
+            let is_labelled = match factor {
+                1 => n % every == 0,
+                2 | 5 => count < FEW,
+                _ => false,
+            };
+            let list = if is_labelled { &mut marks.labelled } else { &mut marks.others };
+            list.push(value);
+        }
+    }
+    marks
+}
+
+/// What stands at a line: 1 to 9 times a power of ten as people write it.
+pub fn label(value: f64) -> String {
+    // Not a little less than a power for one that is rounded.
+    let power = (value.log10() + 1e-9).floor();
+    let leading = (value / 10f64.powf(power)).round();
+    if (-3.0..=4.0).contains(&power) {
+        let digits = (-power).max(0.0) as usize;
+        format!("{:.digits$}", leading * 10f64.powf(power))
+    } else {
+        format!("{leading}e{power}")
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -28,5 +74,19 @@ mod tests {
         assert_eq!(decades([3.0].into_iter()), Some((1.0, 10.0)));
         assert_eq!(decades(std::iter::empty()), None);
         assert_eq!([1e-5, 0.01, 1.0, 100.0, 3.0].map(tick), ["1e-5", "0.01", "1", "100", ""]);
+    }
+
+    #[test]
+    fn an_axis_of_any_length_can_be_read() {
+        let told = |ends| marks(ends).labelled.into_iter().map(label).collect::<Vec<_>>();
+        assert_eq!(told((0.01, 0.1)), ["0.01", "0.02", "0.05", "0.1"]);
+        assert_eq!(told((1.0, 100.0)), ["1", "2", "5", "10", "20", "50", "100"]);
+        assert_eq!(told((1e-5, 1e-4)), ["1e-5", "2e-5", "5e-5", "1e-4"]);
+        assert_eq!(told((1e3, 1e5)), ["1000", "2000", "5000", "10000", "20000", "50000", "1e5"]);
+        assert_eq!(told((1e-2, 10.0)), ["0.01", "0.1", "1", "10"]);
+        assert_eq!(told((1e-30, 1.0)).len(), 11);
+        // Every other line is there, and none twice.
+        let Marks { labelled, others } = marks((0.01, 10.0));
+        assert_eq!((labelled.len(), others.len()), (4, 3 * 8));
     }
 }

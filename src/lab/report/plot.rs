@@ -1,12 +1,12 @@
 //! The plot of a study: cost across, error up, both in logarithms, a line a method along its settings.
 
 use super::{
-    axis::{decades, tick},
+    axis::{Marks, decades, label, marks},
     table::{Look, Row, TARGET, Table, sign},
 };
 use crate::lab::LabError;
 use plotters::{
-    coord::Shift,
+    coord::{Shift, combinators::WithKeyPoints},
     prelude::*,
     style::{FontStyle, register_font, text_anchor},
 };
@@ -73,6 +73,11 @@ fn trouble<E: std::fmt::Display>(error: E) -> LabError {
     LabError::Plot(error.to_string())
 }
 
+fn axis((low, high): (f64, f64)) -> WithKeyPoints<LogCoord<f64>> {
+    let Marks { labelled, others } = marks((low, high));
+    (low..high).log_scale().with_key_points(labelled).with_light_points(others)
+}
+
 fn draw<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<bool, LabError> {
     // The fonts of the machine are not asked for: the same picture everywhere.
     register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
@@ -93,14 +98,14 @@ fn draw<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<bool, LabErr
         .margin(14)
         .x_label_area_size(54)
         .y_label_area_size(76)
-        .build_cartesian_2d((x0..x1).log_scale(), (y0..y1).log_scale())
+        .build_cartesian_2d(axis((x0, x1)), axis((y0, y1)))
         .map_err(trouble)?;
     chart
         .configure_mesh()
         .x_desc(format!("{} ({} x {} texels)", table.about.unit.label(), table.grid, table.grid))
         .y_desc(&table.error_label)
-        .x_label_formatter(&|x| tick(*x))
-        .y_label_formatter(&|y| tick(*y))
+        .x_label_formatter(&|x| label(*x))
+        .y_label_formatter(&|y| label(*y))
         .label_style((FONT, 17, &INK))
         .axis_desc_style((FONT, 19, &INK))
         .bold_line_style(RGBColor(205, 208, 214))

@@ -99,7 +99,7 @@ pub struct Cells {
     seed: u32,
 }
 
-/// What is nearest to a place. Distances are in cells.
+/// The points nearest to a place. Distances are in cells.
 pub struct Nearest {
     pub first: f32,
     pub second: f32,
@@ -188,8 +188,8 @@ pub fn byte(value: f32) -> u8 {
     (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8
 }
 
-/// An opaque picture of a surface, lit from the top left. `surface` gives height and colour of a place; `depth` is how far a
-/// height of 1 reaches, in parts of the picture's width.
+/// An opaque picture of a surface, lit from the top left. `surface` gives height and colour of a place; `depth` is how
+/// far a height of 1 reaches, in parts of the picture's width.
 pub fn lit(size: usize, depth: f32, surface: impl Fn(f32, f32) -> (f32, Colour) + Sync) -> Texels {
     let mut surfaces = vec![(0.0, [0.0; 3]); size * size];
     rows(&mut surfaces, size, |y, row| {
@@ -218,7 +218,8 @@ fn place(x: usize, size: usize) -> f32 {
     (x as f32 + 0.5) / size as f32
 }
 
-/// Fills rows of `width` items on every core there is. Rows do not know of each other, so the result is the same on one.
+/// Fills rows of `width` items on every core there is. Rows do not know of each other, so the result is the same on
+/// one.
 fn rows<T: Send>(items: &mut [T], width: usize, fill: impl Fn(usize, &mut [T]) + Sync) {
     let workers = std::thread::available_parallelism().map_or(1, usize::from);
     let share = (items.len() / width).div_ceil(workers).max(1);

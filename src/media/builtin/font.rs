@@ -1,14 +1,16 @@
-//! A font as a picture: 16x16 cells of 64 texels, the character of code c in column c mod 16 and row c / 16 from the top.
+//! A font as a picture: 16x16 cells of 64 texels, the character of code c in column c mod 16 and row c / 16 from the
+//! top.
 //!
-//! The layout is the site's, so that shaders which print find their letters: red is how much of a texel the letter covers,
-//! green and blue are the gradient of the distance to its outline (128 is none), alpha is that distance in cells, 0.5 on the
-//! outline and less inside. The letters are drawn here, as strokes on a grid.
+//! The layout is the site's, so that shaders which print find their letters: red is how much of a texel the letter
+//! covers, green and blue are the gradient of the distance to its outline (128 is none), alpha is that distance in
+//! cells, 0.5 on the outline and less inside. The letters are drawn here, as strokes on a grid.
 
 use super::field::byte;
 use crate::media::{TexelFormat, Texels};
 
-/// Strokes of the printable ASCII characters, from the space on. A stroke is a row of points, two digits each: x, 1 to 5, and
-/// y, where 2 is the base line, 6 the height of an x, 8 that of a capital and 0 the lowest descender. `~` rounds its corners.
+/// Strokes of the printable ASCII characters, from the space on. A stroke is a row of points, two digits each: x, 1 to
+/// 5, and y, where 2 is the base line, 6 the height of an x, 8 that of a capital and 0 the lowest descender. `~` rounds
+/// its corners.
 const STROKES: [&str; 95] = [
     "",
     "3834 3232",

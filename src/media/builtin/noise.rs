@@ -2,7 +2,8 @@
 
 use crate::media::{TexelFormat, Texels};
 
-/// One round of the PCG hash (O'Neill 2014; as a hash: Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 2020).
+/// One round of the PCG hash (O'Neill 2014; as a hash: Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT
+/// 2020).
 pub fn hash(x: u32) -> u32 {
     let state = x.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
     let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
@@ -67,7 +68,8 @@ fn repeat_tile(size: usize) -> Texels {
 /// 1993), with energies in whole numbers so that every machine breaks ties alike.
 fn void_and_cluster() -> Vec<usize> {
     let mut field = Energy::new();
-    // A tenth of the places at random, then the tightest cluster moved into the largest void until that changes nothing.
+    // A tenth of the places at random, then the tightest cluster moved into the largest void until that changes
+    // nothing.
     let mut seed = 0;
     while field.count < TILE * TILE / 10 {
         let at = hash2(seed, 0, 77) as usize % (TILE * TILE);

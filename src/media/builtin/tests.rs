@@ -69,8 +69,8 @@ fn stand_ins_have_the_sizes_and_channels_of_what_they_stand_for() {
     assert_eq!((size("Xdf3zn"), size("Xsf3Rn")), ((8, 8), (256, 32)));
 }
 
-/// Mean step between neighbouring columns and between neighbouring rows: the largest inside, and the larger of the two where
-/// the picture meets itself.
+/// Mean step between neighbouring columns and between neighbouring rows: the largest inside, and the larger of the two
+/// where the picture meets itself.
 fn steps(texels: &Texels) -> (f64, f64) {
     let (w, h, n) = (texels.width as usize, texels.height as usize, texels.format.bytes());
     let at = |x: usize, y: usize| f64::from(texels.bytes[((y % h) * w + x % w) * n]);

@@ -7,7 +7,7 @@ use super::{
 use glam::{Mat3, Mat4, Vec3};
 use std::{collections::HashMap, f32::consts::TAU};
 
-/// What `builtin:NAME` may name.
+/// The names that `builtin:NAME` may have.
 pub const NAMES: [&str; 7] = ["plane", "cube", "sphere", "icosphere", "torus", "knot", "figure"];
 
 const WHITE: [f32; 3] = [1.0; 3];

@@ -1,8 +1,8 @@
 //! Meshes: glTF 2.0 and OBJ files, and some made by code.
 //!
-//! Owns what a vertex holds and where it comes from. Normals that a file does not have are made smooth, tangents as MikkTSpace
-//! has them where there are texture coordinates. v runs upward, as in the rest of Eddy, so glTF's is turned; a triangle's front
-//! is where its corners turn counter-clockwise.
+//! Owns what a vertex holds and where it comes from. Normals that a file does not have are made smooth, tangents as
+//! MikkTSpace has them where there are texture coordinates. v runs upward, as in the rest of Eddy, so glTF's is turned;
+//! a triangle's front is where its corners turn counter-clockwise.
 
 #[cfg(test)]
 mod bomb_tests;
@@ -25,14 +25,15 @@ use crate::project::{
 use bytemuck::{Pod, Zeroable};
 use std::path::{Path, PathBuf};
 
-/// What a vertex has, as the vertex buffer holds it.
+/// The attributes of a vertex as the vertex buffer holds them.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Vertex {
     pub position: [f32; 3],
-    /// Of length 1.
+    /// The normal, of length 1.
     pub normal: [f32; 3],
-    /// Of length 1, along u; the fourth is the sign of the bitangent `cross(normal, tangent)`. Zeros without uv.
+    /// The tangent, of length 1 and along u; the fourth is the sign of the bitangent `cross(normal, tangent)`. Zeros
+    /// without uv.
     pub tangent: [f32; 4],
     pub uv: [f32; 2],
     /// White where the mesh says nothing.
@@ -59,7 +60,7 @@ impl Mesh {
     }
 }
 
-/// Why there is no mesh.
+/// An error of loading a mesh.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum MeshError {
     #[error("there is no mesh builtin:{0}")]
@@ -79,7 +80,7 @@ pub enum MeshError {
 }
 
 impl MeshError {
-    /// What to do about it.
+    /// Returns what to do about it.
     pub fn hint(&self) -> String {
         match self {
             MeshError::UnknownBuiltin(name) => match nearest(name, NAMES) {
@@ -95,12 +96,12 @@ impl MeshError {
     }
 }
 
-/// What is wrong with a model, before it is said of which.
+/// An error of a model before the model's name is added.
 #[derive(Debug)]
 enum Trouble {
     Broken(String),
     TooLarge(String),
-    /// Of a file that the model names.
+    /// An error of a file that the model names.
     Named(FileError),
 }
 
@@ -124,7 +125,7 @@ impl Trouble {
     }
 }
 
-/// What a file says of its triangles, before what it leaves out is made.
+/// The triangles as a file has them, before what it leaves out is made.
 #[derive(Debug, Default)]
 struct Raw {
     vertices: Vec<Vertex>,
@@ -134,7 +135,7 @@ struct Raw {
     has_uv: bool,
 }
 
-/// What a model comes to, counted before any of it is made.
+/// The sizes of a model, counted before any of it is made.
 #[derive(Clone, Copy, Debug, Default)]
 struct Counts {
     vertices: u64,
@@ -155,7 +156,7 @@ impl Counts {
         at_most(self.parts, limits::MODEL_PARTS, "parts")
     }
 
-    /// Whether there is room for them.
+    /// Returns whether there is room for them.
     fn fit(&self, room: u64) -> Result<(), Trouble> {
         if self.vertices * size_of::<Vertex>() as u64 + self.triangles * 12 <= room {
             return Ok(());

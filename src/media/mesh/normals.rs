@@ -3,7 +3,8 @@
 use super::Raw;
 use glam::{DVec3, Vec3};
 
-/// Normals that are the mean of those of the triangles around a place, by their areas: seams of the texture do not show.
+/// Normals that are the mean of those of the triangles around a place, by their areas: seams of the texture do not
+/// show.
 pub(super) fn smooth(raw: &mut Raw) {
     let group = places(raw);
     let mut sums = vec![DVec3::ZERO; group.iter().max().map_or(0, |last| *last as usize + 1)];
@@ -21,8 +22,8 @@ pub(super) fn smooth(raw: &mut Raw) {
     }
 }
 
-/// A number for each vertex that vertices of one place share, from 0 on. By sorting, as a hash table of millions of places
-/// takes several times the memory.
+/// A number for each vertex that vertices of one place share, from 0 on. By sorting, as a hash table of millions of
+/// places takes several times the memory.
 pub(super) fn places(raw: &Raw) -> Vec<u32> {
     // Both zeros are one place.
     let key = |i: u32| raw.vertices[i as usize].position.map(|x| (x + 0.0).to_bits());

@@ -34,7 +34,8 @@ fn raw(mesh: tobj::Mesh) -> Raw {
     Raw { vertices: vertices.collect(), indices: mesh.indices, has_normals, has_tangents: false, has_uv }
 }
 
-/// Counts what the file comes to, and looks at the numbers in its faces, which the crate multiplies before it compares them.
+/// Counts what the file comes to, and looks at the numbers in its faces, which the crate multiplies before it compares
+/// them.
 fn measure(bytes: &[u8]) -> Result<Counts, Trouble> {
     let mut counts = Counts::default();
     for (n, line) in bytes.split(|b| *b == b'\n').enumerate() {

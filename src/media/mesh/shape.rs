@@ -4,7 +4,8 @@ use super::{Mesh, Raw, Vertex, finished};
 use glam::Vec3;
 use std::f32::consts::TAU;
 
-/// A grid of quads over u and v. `closed`: the last column (row) lies where the first does, with its own texture coordinate.
+/// A grid of quads over u and v. `closed`: the last column (row) lies where the first does, with its own texture
+/// coordinate.
 pub(super) struct Grid {
     pub columns: u32,
     pub rows: u32,

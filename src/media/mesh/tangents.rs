@@ -5,7 +5,8 @@ use crate::project::limits;
 use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
 use std::collections::HashMap;
 
-/// Checks that tangents are made in reasonable time: MikkTSpace compares the corners that meet at a place with each other.
+/// Checks that tangents are made in reasonable time: MikkTSpace compares the corners that meet at a place with each
+/// other.
 pub(super) fn check(raw: &Raw) -> Result<(), Trouble> {
     let group = normals::places(raw);
     let mut corners = vec![0u64; group.iter().max().map_or(0, |last| *last as usize + 1)];

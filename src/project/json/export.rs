@@ -9,8 +9,8 @@ use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
 
 /// The project as the site's own export writes it. A picture that the site does not have (a file, one of Eddy's own) is
-/// written as an address of its own kind, which [`super::import`] reads and the site does not; so is a fifth buffer. The
-/// author's own uniforms become constants of the value they have, and included files stand in place of their lines.
+/// written as an address of its own kind, which [`super::import`] reads and the site does not; so is a fifth buffer.
+/// The author's own uniforms become constants of the value they have, and included files stand in place of their lines.
 pub fn export(project: &Project) -> String {
     let mut info: Map<String, Value> = project.info.extra.clone();
     info.insert("id".into(), json!(project.info.id));

@@ -1,7 +1,7 @@
 //! The shapes of the site's JSON, as far as Eddy reads them.
 //!
-//! A file may be a stranger's. What is not read is passed over without taking memory, every list has a limit, and what a shader
-//! says besides its passes is kept as text until its length is known.
+//! A file may be a stranger's. What is not read is passed over without taking memory, every list has a limit, and what
+//! a shader says besides its passes is kept as text until its length is known.
 
 use crate::project::limits;
 use serde::{
@@ -104,7 +104,7 @@ impl<'de, T: Deserialize<'de>, const MAX: usize> Deserialize<'de> for Few<T, MAX
     }
 }
 
-/// What a file holds, before it is known to be a shader.
+/// The content of a file before it is known to be a shader.
 pub enum Top<'t> {
     Object(Object<'t>),
     /// The first entry, and how many there are.

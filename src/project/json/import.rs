@@ -1,8 +1,8 @@
 //! Shadertoy JSON to [`Project`].
 //!
-//! Three shapes come by: the site's own (`ver`, `info`, `renderpass`), the API's (that, wrapped in `Shader`), and a list of
-//! the first. Spellings of both are read everywhere. A pass is known by its type and its output's id, never by its name,
-//! which is free text.
+//! Three shapes come by: the site's own (`ver`, `info`, `renderpass`), the API's (that, wrapped in `Shader`), and a
+//! list of the first. Spellings of both are read everywhere. A pass is known by its type and its output's id, never by
+//! its name, which is free text.
 
 use super::{
     form::{Object, RenderInput, RenderPass, RenderSampler, Scalar, Shader, Top},
@@ -21,7 +21,7 @@ use std::{
     path::PathBuf,
 };
 
-/// What the site writes as `ver`, and the only version it reads.
+/// The `ver` that the site writes, and the only one that it reads.
 const VERSION: &str = "0.1";
 
 /// A project from `text`, whose file is called `name` in messages. The project's origin is [`Origin::Unsaved`].
@@ -34,8 +34,8 @@ pub fn import(text: &str, name: &str) -> Result<(Project, Vec<Diagnostic>), Proj
     })
 }
 
-const EXPECTED: &str = "expected is a Shadertoy shader: an object with \"ver\", \"info\" and \"renderpass\", the same inside \
-    \"Shader\", or a list of such objects";
+const EXPECTED: &str = "expected is a Shadertoy shader: an object with \"ver\", \"info\" and \"renderpass\", the \
+    same inside \"Shader\", or a list of such objects";
 
 fn read(text: &str, name: &str) -> Result<(Project, Vec<Diagnostic>), Vec<Diagnostic>> {
     let body = text.strip_prefix('\u{feff}').unwrap_or(text);
@@ -218,9 +218,9 @@ fn project(
     })
 }
 
-/// On the site a buffer has one wrap, that of the channel loaded last in the order of the JSON's list. That order is not
-/// kept (Image stands first in the list and is drawn last), so every channel gets the wrap that wins; pictures stay the
-/// same, there and here.
+/// On the site a buffer has one wrap, that of the channel loaded last in the order of the JSON's list. That order is
+/// not kept (Image stands first in the list and is drawn last), so every channel gets the wrap that wins; pictures stay
+/// the same, there and here.
 fn settle_wraps(passes: &mut [Pass], reads: &[(usize, usize)]) {
     let mut wraps: HashMap<String, Wrap> = HashMap::new();
     for &(pass, n) in reads {
@@ -237,17 +237,17 @@ fn settle_wraps(passes: &mut [Pass], reads: &[(usize, usize)]) {
     }
 }
 
-/// What the buffers are called.
+/// The names of the buffers.
 struct BufferNames {
-    /// Of each pass of type "buffer", in the list's order.
+    /// The name of each pass of type "buffer", in the list's order.
     of_passes: VecDeque<String>,
     /// By an output's id that means nothing to the site.
     of_ids: HashMap<String, String>,
 }
 
 impl BufferNames {
-    /// A buffer's name by its output's id. A pass whose id says nothing that is a name, or what another one already has, gets the
-    /// first letter that no pass claims; what reads that id reads this pass.
+    /// A buffer's name by its output's id. A pass whose id says nothing that is a name, or what another one already
+    /// has, gets the first letter that no pass claims; what reads that id reads this pass.
     fn new(passes: &[RenderPass], warnings: &mut Vec<Diagnostic>) -> BufferNames {
         let outputs = |p: &RenderPass| -> Vec<String> {
             p.outputs.iter().flat_map(|o| &o.0).filter_map(|o| o.id.as_ref().map(Scalar::text)).collect()

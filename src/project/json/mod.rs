@@ -1,7 +1,7 @@
 //! The JSON that Shadertoy's API, its export and its plugins speak.
 //!
-//! Owns both directions between that JSON and a [`super::Project`], and the site's fixed ids. What Eddy does not understand
-//! of `info` it keeps and gives back.
+//! Owns both directions between that JSON and a [`super::Project`], and the site's fixed ids. What Eddy does not
+//! understand of `info` it keeps and gives back.
 
 mod export;
 mod form;

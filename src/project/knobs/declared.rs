@@ -1,4 +1,5 @@
-//! Uniforms that texts declare in GLSL's own way, told by their words alone: the compiler knows better, and comes later.
+//! Uniforms that texts declare in GLSL's own way, told by their words alone: the compiler knows better, and comes
+//! later.
 
 use crate::project::{KnobValue, KnobValues};
 use std::{collections::BTreeSet, ops::Range};
@@ -12,8 +13,8 @@ pub(in crate::project) fn words_of_uniforms(text: &str) -> BTreeSet<String> {
         .collect()
 }
 
-/// A text with a constant in place of each uniform that has a value, as for the site, where nobody gives it one. Left alone is
-/// a declaration of several names at once, or of another shape than the value's.
+/// A text with a constant in place of each uniform that has a value, as for the site, where nobody gives it one. Left
+/// alone is a declaration of several names at once, or of another shape than the value's.
 pub(super) fn as_constants(text: &str, values: &KnobValues) -> String {
     let blank = blanked(text);
     let mut out = String::with_capacity(text.len());

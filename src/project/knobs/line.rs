@@ -11,7 +11,7 @@
 //!
 //! Without a default it is the least of the range, else zero.
 
-use super::{Knob, KnobRange, KnobType, KnobValue};
+use super::types::{Knob, KnobRange, KnobType, KnobValue};
 use crate::{
     diag::{Diagnostic, SourceId, Span},
     project::{lines::HashLine, listed, nearest},
@@ -25,7 +25,7 @@ pub(in crate::project) fn is_declaration(line: &HashLine<'_>) -> bool {
     line.body.strip_prefix("iUniform").is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
 }
 
-/// What a line says; what it leaves out is `None`.
+/// The parts of a line; one that it leaves out is `None`.
 pub(super) struct Line {
     pub name: String,
     pub ty: KnobType,
@@ -182,7 +182,7 @@ struct Words<'a> {
     /// Place of the next word, and of the one before it.
     at: usize,
     last: Range<usize>,
-    /// Where `text` begins in its source.
+    /// The offset of `text` in its source.
     base: usize,
     source: SourceId,
 }

@@ -1,4 +1,4 @@
-//! What `#iUniform` lines say, alone and together, and what fits them.
+//! Tests of `#iUniform` lines, alone and together, and of the values that fit them.
 
 use super::*;
 use crate::{
@@ -124,7 +124,8 @@ fn one_name_is_one_knob_and_a_contradiction_is_told_at_its_line() {
 
 #[test]
 fn values_are_set_as_people_write_them() {
-    let lines = "#iUniform float speed = 1.0 in { 0.0, 5.0 }\n#iUniform color3 tint\n#iUniform bool on\n#iUniform int n in { 1, 9 }\n#iUniform vec2 at";
+    let lines = "#iUniform float speed = 1.0 in { 0.0, 5.0 }\n#iUniform color3 tint\n#iUniform bool on\n\
+    #iUniform int n in { 1, 9 }\n#iUniform vec2 at";
     let mut p = project(Some(lines), "");
     for (set, name, value) in [
         ("speed=2", "speed", KnobValue::Float(2.0)),
@@ -182,12 +183,14 @@ fn the_sites_json_has_constants_with_the_values() {
     let (read, _) = json::import(&json::export(&p), "x.json").unwrap();
     assert_eq!(
         &*read.common.unwrap().text,
-        "const float speed = 0.25;\nfloat f() { return speed; }\n// #iUniform float speed = 1.0 in { 0.0, 5.0 } // how fast\n"
+        "const float speed = 0.25;\nfloat f() { return speed; }\n// #iUniform float speed = 1.0 in { 0.0, 5.0 } // \
+        how fast\n"
     );
     let image = &*read.passes[0].source.text;
     assert_eq!(
         image.trim_start_matches('\u{feff}'),
-        "const vec3 tint = vec3(0.0, 0.0, 0.0);\nconst bool on = true;\n// #iUniform color3 tint\n// #iUniform float speed\n\
+        "const vec3 tint = vec3(0.0, 0.0, 0.0);\nconst bool on = true;\n// #iUniform color3 tint\n// #iUniform float \
+        speed\n\
          #ifdef X\n// #iUniform bool on = true\n#endif\nint i;"
     );
 }

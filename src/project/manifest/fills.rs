@@ -1,6 +1,6 @@
 //! The keys of `eddy.toml` that fill texels from outside a pass's own program: `initial` and `boundary`.
 
-use super::{read::Reader, write::set};
+use super::{edit::set, reader::Reader};
 use crate::project::{Boundary, Fill, FillValue, PassId, PassSettings, Written};
 use std::path::PathBuf;
 use toml_edit::{InlineTable, Item, TableLike, Value};
@@ -79,7 +79,7 @@ impl Reader<'_> {
 
 pub(super) fn write_fills(table: &mut dyn TableLike, settings: &PassSettings) {
     let read = |table: &dyn TableLike| {
-        super::read::silent(|reader| {
+        super::reader::silent(|reader| {
             let mut read = PassSettings::default();
             reader.fills(&PassId::Buffer(String::new()), table, &mut read);
             read

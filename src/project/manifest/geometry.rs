@@ -1,8 +1,8 @@
 //! The keys of `eddy.toml` that make a pass draw meshes: `draw`, `targets` and `camera`.
 
 use super::{
-    read::Reader,
-    write::{child, set},
+    edit::{child, set},
+    reader::Reader,
 };
 use crate::project::{
     Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, PassFormat, PassId, PassSettings, Source,
@@ -263,7 +263,7 @@ pub(super) fn write_geometry(pass: &mut dyn TableLike, own: &Source, settings: &
         }
         pass.remove("format");
     }
-    let read = |item: &Item| super::read::silent(|reader| reader.entries(item));
+    let read = |item: &Item| super::reader::silent(|reader| reader.entries(item));
     let entries: Vec<Entry> = geometry.draws.iter().map(|d| entry(d, own, geometry)).collect();
     let full =
         |e: &Entry| Entry { fragment: Some(e.fragment.clone().unwrap_or_else(|| own.name.clone())), ..e.clone() };
@@ -326,7 +326,7 @@ fn inline(entry: &Entry) -> InlineTable {
 }
 
 fn write_camera(pass: &mut dyn TableLike, camera: &Camera) {
-    let said = super::read::silent(|reader| reader.camera(pass));
+    let said = super::reader::silent(|reader| reader.camera(pass));
     if said.as_ref() == Some(camera) {
         return;
     }

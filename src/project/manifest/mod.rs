@@ -23,7 +23,7 @@
 //! channels.0 = { buffer = "A", filter = "nearest", wrap = "repeat" }
 //! size = 0.5                      # a factor of the canvas, or [256, 256]; iResolution there; default: the canvas
 //! format = "rgba16f"              # or rgba8, rg32f, rg16f, rg8, r32f, r16f, r8; default "rgba32f"
-//! initial = "vec4(0.5 + 0.1 * sin(0.1 * fragCoord.x), 0.0, 0.0, 1.0)"     # what it holds before frame 0; default zeros
+//! initial = "vec4(0.5 + 0.1 * sin(0.1 * fragCoord.x), 0.0, 0.0, 1.0)"   # what it holds before frame 0; default zeros
 //! boundary = { width = 1, value = "vec4(0.0)" }  # its outermost texels, overwritten after each draw
 //! region = [0, 0, 64, 1]          # only these texels are drawn (x, y, width, height); the others keep what they held
 //!
@@ -38,12 +38,13 @@
 //! channels.3 = { keyboard = true }                # also cube_a, microphone, webcam
 //! ```
 //!
-//! `initial` and the `value` of `boundary` are GLSL expressions of type vec4, which see Common, `fragCoord` and the site's uniforms,
-//! or `{ file = "state.npy" }`: a picture, or an array of shape (height, width) or (height, width, 1 to 4), row 0 at the bottom. A
-//! file of another size than the pass is stretched over it.
+//! `initial` and the `value` of `boundary` are GLSL expressions of type vec4, which see Common, `fragCoord` and the
+//! site's uniforms, or `{ file = "state.npy" }`: a picture, or an array of shape (height, width) or (height, width, 1
+//! to 4), row 0 at the bottom. A file of another size than the pass is stretched over it.
 //!
-//! A pass of its own size has that as `iResolution`, and its readers as `iChannelResolution`; `iMouse` stays in canvas pixels. What a
-//! format lacks is read as 0, alpha as 1. The steps of a group see the same uniforms, and of each other what was drawn last.
+//! A pass of its own size has that as `iResolution`, and its readers as `iChannelResolution`; `iMouse` stays in canvas
+//! pixels. What a format lacks is read as 0, alpha as 1. The steps of a group see the same uniforms, and of each other
+//! what was drawn last.
 //!
 //! A buffer that draws meshes instead of a full-screen triangle (a geometry pass):
 //!
@@ -57,17 +58,20 @@
 //! ]
 //! ```
 //!
-//! A mesh is `builtin:NAME` or a glTF (`.glb`, `.gltf`) or OBJ file. `fragment` may be left out: then it is the pass's `file`. Further keys
-//! of a draw: `cull` ("back", "front", "none"), `depth` ("less", "less_equal", "equal", "greater_equal", "greater", "not_equal",
-//! "always"), `depth_write`, `color_write`, `scale`, `rotation` (degrees about x, y, z), `position`. A channel reads another target
-//! than the first by `{ buffer = "scene", target = 1 }`.
+//! A mesh is `builtin:NAME` or a glTF (`.glb`, `.gltf`) or OBJ file. `fragment` may be left out: then it is the pass's
+//! `file`. Further keys of a draw: `cull` ("back", "front", "none"), `depth` ("less", "less_equal", "equal",
+//! "greater_equal", "greater", "not_equal", "always"), `depth_write`, `color_write`, `scale`, `rotation` (degrees about
+//! x, y, z), `position`. A channel reads another target than the first by `{ buffer = "scene", target = 1 }`.
 //!
-//! A `file` is a picture unless `kind` says otherwise (`"cubemap"`, `"volume"`, `"video"`, `"music"`); a stock file of the
-//! site is `site = "/media/a/…"` with its `site_id`. `[shadertoy]` keeps what the site's JSON said and Eddy has no use for.
+//! A `file` is a picture unless `kind` says otherwise (`"cubemap"`, `"volume"`, `"video"`, `"music"`); a stock file of
+//! the site is `site = "/media/a/…"` with its `site_id`. `[shadertoy]` keeps what the site's JSON said and Eddy has no
+//! use for.
 
+mod edit;
 mod fills;
 mod geometry;
 mod read;
+mod reader;
 mod settings;
 mod uniforms;
 mod write;
@@ -83,7 +87,7 @@ const VERSION: i64 = 1;
 /// Media kinds by their word in the file.
 const KINDS: [&str; 5] = ["texture", "cubemap", "volume", "video", "music"];
 
-/// What a channel has that the file does not say.
+/// Returns what a channel has that the file does not say.
 fn default_sampler(input: &Input) -> Sampler {
     match input {
         Input::Buffer(_) | Input::Target { .. } | Input::CubemapPass => Sampler::BUFFER,

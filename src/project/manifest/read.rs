@@ -1,19 +1,21 @@
 //! Reading `eddy.toml`. Every complaint is a diagnostic at its place, and all of them come at once.
 
-use super::{KINDS, VERSION, default_sampler, fills, geometry, settings};
+use super::{
+    KINDS, VERSION, default_sampler, fills, geometry,
+    reader::{Reader, silent},
+    settings,
+};
 use crate::{
-    diag::{Diagnostic, SourceId, SourceMap, Span},
+    diag::{Diagnostic, SourceId, SourceMap},
     project::{
-        Channel, FileError, Filter, Info, Input, Loaded, MAX_TARGETS, Media, Origin, Pass, PassBody, PassId, Project,
+        Channel, Filter, Info, Input, Loaded, MAX_TARGETS, Media, Origin, Pass, PassBody, PassId, Project,
         ProjectError, SamplerRules, Source, Wrap,
-        files::{self, Files, Read},
-        folder::{self, Role},
-        includes, limits, listed,
-        load::MANIFEST,
-        nearest,
+        file_names::{self, Role},
+        files::{Files, MANIFEST},
+        folder, includes, limits, listed, nearest,
     },
 };
-use std::{collections::BTreeMap, ops::Range, path::PathBuf, sync::Arc};
+use std::path::PathBuf;
 use toml_edit::{Document, Item, TableLike};
 
 const TOP: [&str; 12] = [
@@ -46,7 +48,8 @@ const INPUTS: [&str; 12] = [
 ];
 const SETTINGS: [&str; 6] = ["filter", "wrap", "vflip", "kind", "site_id", "target"];
 
-/// The project that `text`, an `eddy.toml`, makes of `files`. Errors of the author's come back as [`ProjectError::Invalid`].
+/// The project that `text`, an `eddy.toml`, makes of `files`. Errors of the author's come back as
+/// [`ProjectError::Invalid`].
 pub fn project(
     what: &str,
     folder_name: String,
@@ -76,30 +79,7 @@ pub fn project(
     Ok(Loaded { project, warnings: diagnostics, sources })
 }
 
-pub(super) struct Reader<'a> {
-    files: &'a Files<'a>,
-    sources: SourceMap,
-    id: SourceId,
-    pub(super) diagnostics: Vec<Diagnostic>,
-    /// What the machine refused, if anything.
-    refused: Option<FileError>,
-}
-
 impl Reader<'_> {
-    pub(super) fn span(&self, range: Option<Range<usize>>) -> Option<Span> {
-        range.map(|r| Span::new(self.id, r))
-    }
-
-    /// The whole text that an item stands in, and its place there.
-    pub(super) fn span_text(&self, item: &Item) -> Option<(Arc<str>, Range<usize>)> {
-        Some((self.sources.get(self.id)?.text.clone(), item.span()?))
-    }
-
-    pub(super) fn error(&mut self, range: Option<Range<usize>>, message: impl Into<String>, hint: impl Into<String>) {
-        let span = self.span(range);
-        self.diagnostics.push(Diagnostic::error(span, message).hint(hint));
-    }
-
     fn read(&mut self, folder_name: String, text: &str, origin: Origin) -> Option<Project> {
         let document = match Document::parse(text) {
             Ok(document) => document,
@@ -181,7 +161,7 @@ impl Reader<'_> {
             return plain;
         }
         let names = self.files.names().unwrap_or_default();
-        names.into_iter().find(|n| folder::role_of_file(n).as_ref() == Some(role)).unwrap_or(plain)
+        names.into_iter().find(|n| file_names::role_of_file(n).as_ref() == Some(role)).unwrap_or(plain)
     }
 
     fn passes(&mut self, root: &dyn TableLike) -> Vec<Pass> {
@@ -193,7 +173,7 @@ impl Reader<'_> {
         let Some(table) = self.table("passes", item) else { return passes };
         for (name, item) in table.iter() {
             let at = table.key(name).and_then(toml_edit::Key::span).or_else(|| item.span());
-            let Some(id) = folder::pass_of_stem(name) else {
+            let Some(id) = file_names::pass_of_stem(name) else {
                 let hint =
                     match nearest(name, ["image", "sound", "cube_a", "buffer_a", "buffer_b", "buffer_c", "buffer_d"]) {
                         Some(near) => format!("did you mean {near}?"),
@@ -233,7 +213,7 @@ impl Reader<'_> {
                 passes.push(Pass { id, source, channels, settings });
             }
         }
-        if !table.iter().any(|(name, _)| folder::pass_of_stem(name) == Some(PassId::Image)) {
+        if !table.iter().any(|(name, _)| file_names::pass_of_stem(name) == Some(PassId::Image)) {
             self.error(item.span(), "there is no Image pass", "add a table [passes.image]");
         }
         folder::sort_passes(&mut passes);
@@ -260,7 +240,7 @@ impl Reader<'_> {
                 };
                 let item = table
                     .iter()
-                    .find(|(key, _)| folder::pass_of_stem(key).as_ref() == Some(&pass.id))
+                    .find(|(key, _)| file_names::pass_of_stem(key).as_ref() == Some(&pass.id))
                     .and_then(|(_, item)| item.get("channels")?.get(n.to_string()));
                 found.push((item.and_then(Item::span), pass.id.title(), n, missing));
             }
@@ -290,7 +270,7 @@ impl Reader<'_> {
                 }
                 let item = table
                     .iter()
-                    .find(|(key, _)| folder::pass_of_stem(key).as_ref() == Some(&pass.id))
+                    .find(|(key, _)| file_names::pass_of_stem(key).as_ref() == Some(&pass.id))
                     .and_then(|(_, item)| item.get("channels")?.get(n.to_string())?.get("target"));
                 let has = if count == 1 { "only target 0".into() } else { format!("targets 0 to {}", count - 1) };
                 self.error(
@@ -407,33 +387,6 @@ impl Reader<'_> {
         index
     }
 
-    pub(super) fn source(&mut self, file: &str, title: &str, at: Option<Range<usize>>) -> Option<Source> {
-        match self.files.read(file, limits::GLSL_TEXT) {
-            Read::Text(text) => Some(Source { name: file.to_owned(), path: self.files.path(file), text: text.into() }),
-            Read::Missing => {
-                let names = self.files.names().unwrap_or_default();
-                let hint = match nearest(file, names.iter().map(String::as_str)) {
-                    Some(near) => format!("did you mean {near}?"),
-                    None => format!("create {file}, or remove the entry"),
-                };
-                self.error(at, format!("the file of {title}, {file}, is not there"), hint);
-                None
-            }
-            Read::Refused(error) if error.is_of_machine() => {
-                self.refused = Some(error);
-                None
-            }
-            Read::Refused(error) => {
-                self.error(at, format!("the file of {title}: {error}"), error.hint());
-                None
-            }
-            Read::NotUtf8(offset, lossy) => {
-                self.diagnostics.push(files::not_utf8(&mut self.sources, file, offset, lossy));
-                None
-            }
-        }
-    }
-
     fn tags(&mut self, root: &dyn TableLike) -> Vec<String> {
         let Some(item) = root.get("tags") else { return Vec::new() };
         let tags: Option<Vec<String>> =
@@ -462,89 +415,11 @@ impl Reader<'_> {
             serde_json::Map::default()
         })
     }
-
-    pub(super) fn table<'i>(&mut self, key: &str, item: &'i Item) -> Option<&'i dyn TableLike> {
-        let table = item.as_table_like();
-        if table.is_none() {
-            self.wrong_type(key, item, "a table");
-        }
-        table
-    }
-
-    pub(super) fn string(&mut self, table: &dyn TableLike, key: &str) -> Option<String> {
-        let item = table.get(key)?;
-        let text = item.as_str().map(str::to_owned);
-        if text.is_none() {
-            self.wrong_type(key, item, "a text in quotes");
-        }
-        text
-    }
-
-    pub(super) fn boolean(&mut self, table: &dyn TableLike, key: &str) -> Option<bool> {
-        let item = table.get(key)?;
-        if item.as_bool().is_none() {
-            self.wrong_type(key, item, "true or false");
-        }
-        item.as_bool()
-    }
-
-    pub(super) fn one_of<'k>(&mut self, table: &dyn TableLike, key: &str, known: &[&'k str]) -> Option<&'k str> {
-        let text = self.string(table, key)?;
-        let found = known.iter().copied().find(|k| k.eq_ignore_ascii_case(&text));
-        if found.is_none() {
-            let hint = match nearest(&text, known.iter().copied()) {
-                Some(near) => format!("did you mean \"{near}\"?"),
-                None => format!("known are {}", listed(known)),
-            };
-            self.error(table.get(key).and_then(Item::span), format!("unknown {key} \"{text}\""), hint);
-        }
-        found
-    }
-
-    pub(super) fn wrong_type(&mut self, key: &str, item: &Item, expected: &str) {
-        let message = format!("{key} is {}, not {expected}", article(item.type_name()));
-        self.error(item.span(), message, format!("write {expected}"));
-    }
-
-    pub(super) fn check_keys(&mut self, place: &str, table: &dyn TableLike, known: &[&[&'static str]]) {
-        let known: Vec<&'static str> = known.iter().flat_map(|k| k.iter().copied()).collect();
-        let unknown: Vec<(String, Option<Range<usize>>)> = table
-            .iter()
-            .filter(|(key, _)| !known.contains(key))
-            .map(|(key, item)| (key.to_owned(), table.key(key).and_then(toml_edit::Key::span).or_else(|| item.span())))
-            .collect();
-        for (key, at) in unknown {
-            let hint = match nearest(&key, known.iter().copied()) {
-                Some(near) => format!("did you mean {near}?"),
-                None => format!("known are {}", listed(&known)),
-            };
-            self.error(at, format!("{place} has no key {key}"), hint);
-        }
-    }
 }
 
 /// The channel an entry of `channels` says, if it says one without a mistake.
 pub fn channel(item: &Item) -> Option<Channel> {
     silent(|reader| reader.channel(0, item)).flatten()
-}
-
-/// What `read` makes of a part of a file, if it finds no mistake there.
-pub(super) fn silent<T>(read: impl FnOnce(&mut Reader<'_>) -> T) -> Option<T> {
-    let none = BTreeMap::new();
-    let mut reader = Reader {
-        files: &Files::in_memory(&none),
-        sources: SourceMap::default(),
-        id: SourceId(0),
-        diagnostics: Vec::new(),
-        refused: None,
-    };
-    let made = read(&mut reader);
-    reader.diagnostics.is_empty().then_some(made)
-}
-
-fn article(type_name: &str) -> String {
-    let vowel = type_name.starts_with(['a', 'e', 'i', 'o', 'u']);
-    format!("{} {type_name}", if vowel { "an" } else { "a" })
 }
 
 fn of_kind(kind: &str, media: Media) -> Input {

@@ -1,11 +1,11 @@
 //! The keys of `eddy.toml` that say how passes are drawn: `size`, `format`, `region` of a pass, and `[groups]`.
 
 use super::{
-    read::Reader,
-    write::{child, key_of, set},
+    edit::{child, key_of, set},
+    reader::Reader,
 };
 use crate::project::{
-    Group, Pass, PassFormat, PassId, PassSettings, PassSize, Project, Region, folder, limits, listed, nearest,
+    Group, Pass, PassFormat, PassId, PassSettings, PassSize, Project, Region, file_names, limits, listed, nearest,
 };
 use toml_edit::{Item, Table, TableLike, Value};
 
@@ -104,7 +104,7 @@ impl Reader<'_> {
         groups
     }
 
-    /// What a frame draws is not endless.
+    /// Refuses a project whose frame draws more than the limit.
     fn check_draws(&mut self, passes: &[Pass], groups: &[Group], table: Option<&dyn TableLike>) {
         let draws = |pass: &Pass| {
             let steps = groups.iter().find(|g| g.passes.contains(&pass.id)).map_or(1, |g| u64::from(g.steps));
@@ -131,7 +131,7 @@ impl Reader<'_> {
     ) -> Option<Vec<PassId>> {
         let mut places = Vec::new();
         for name in names {
-            let Some(place) = folder::pass_of_stem(name).and_then(|id| order.iter().position(|o| **o == id)) else {
+            let Some(place) = file_names::pass_of_stem(name).and_then(|id| order.iter().position(|o| **o == id)) else {
                 let known: Vec<String> = order.iter().map(|id| id.key()).collect();
                 let hint = match nearest(name, known.iter().map(String::as_str)) {
                     Some(near) => format!("did you mean {near}?"),
@@ -241,7 +241,7 @@ pub(super) fn write_groups(root: &mut Table, project: &Project) {
         let written: Option<Vec<PassId>> = entry
             .get("passes")
             .and_then(Item::as_array)
-            .map(|a| a.iter().filter_map(|v| folder::pass_of_stem(v.as_str()?)).collect());
+            .map(|a| a.iter().filter_map(|v| file_names::pass_of_stem(v.as_str()?)).collect());
         if written.as_ref() != Some(&group.passes) {
             set(entry, "passes", Some(keys.iter().map(String::as_str).collect()));
         }

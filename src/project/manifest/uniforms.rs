@@ -1,6 +1,6 @@
 //! `[uniforms]` of `eddy.toml`: values of the author's own uniforms.
 
-use super::read::Reader;
+use super::reader::Reader;
 use crate::{
     diag::Diagnostic,
     project::{KnobValue, KnobValues, Project, knobs::words_of_uniforms, limits},
@@ -26,7 +26,8 @@ impl Reader<'_> {
         values
     }
 
-    /// Values that no knob takes. Only warnings: a text may be changed so at any time, and the project must go on opening.
+    /// Values that no knob takes. Only warnings: a text may be changed so at any time, and the project must go on
+    /// opening.
     pub(super) fn check_uniforms(&mut self, root: &dyn TableLike, project: &Project) {
         let Some(table) = root.get("uniforms").and_then(Item::as_table_like) else { return };
         let knobs = project.knobs();

@@ -1,14 +1,18 @@
 //! Writing `eddy.toml`: an old text changed no more than needed, so that the author's comments and order stay.
 
-use super::{VERSION, default_sampler, fills, geometry, read, settings, uniforms};
+use super::{
+    VERSION, default_sampler,
+    edit::{child, key_of, set},
+    fills, geometry, read, settings, uniforms,
+};
 use crate::project::{
-    Channel, Filter, Input, KnobValue, Media, PassId, Project, SamplerRules, Wrap, folder::pass_of_stem,
+    Channel, Filter, Input, KnobValue, Media, PassId, Project, SamplerRules, Wrap, file_names::pass_of_stem,
 };
 use toml_edit::{DocumentMut, InlineTable, Item, Key, Table, TableLike, Value};
 
-/// The text of `eddy.toml` for a project whose sources are called by their file names. `old` is the text it had; where the
-/// project says the same, so does the new one, byte for byte. `folder_name` is the name of a project that gives none;
-/// `has_common_file`: a file lies in the folder that would be read as Common if nothing were said.
+/// The text of `eddy.toml` for a project whose sources are called by their file names. `old` is the text it had; where
+/// the project says the same, so does the new one, byte for byte. `folder_name` is the name of a project that gives
+/// none; `has_common_file`: a file lies in the folder that would be read as Common if nothing were said.
 pub fn write(project: &Project, old: Option<&str>, folder_name: &str, has_common_file: bool) -> String {
     let mut document: DocumentMut = old.and_then(|text| text.parse().ok()).unwrap_or_default();
     let is_new = document.is_empty();
@@ -42,45 +46,6 @@ pub fn write(project: &Project, old: Option<&str>, folder_name: &str, has_common
         }
     }
     document.to_string()
-}
-
-/// Sets, replaces or removes a value. One that says the same stays as it is written; a comment beside it stays in any case.
-pub(super) fn set(table: &mut dyn TableLike, key: &str, value: Option<Value>) {
-    let Some(mut value) = value else {
-        table.remove(key);
-        return;
-    };
-    if let Some(old) = table.get(key).and_then(Item::as_value) {
-        if plain(old) == plain(&value) {
-            return;
-        }
-        *value.decor_mut() = old.decor().clone();
-    }
-    match table.get_mut(key) {
-        Some(item) => *item = Item::Value(value),
-        None => {
-            table.insert(key, Item::Value(value));
-        }
-    }
-}
-
-/// A value without its decoration, for comparing.
-fn plain(value: &Value) -> String {
-    match value {
-        Value::String(text) => format!("\"{}", text.value()),
-        Value::Array(items) => items.iter().map(plain).collect::<Vec<_>>().join("\n"),
-        other => other.clone().decorated("", "").to_string(),
-    }
-}
-
-/// The table at `key`, made where there is none.
-pub(super) fn child<'t>(table: &'t mut dyn TableLike, key: &str, is_implicit: bool) -> Option<&'t mut dyn TableLike> {
-    if table.get(key).is_none_or(|item| !item.is_table_like()) {
-        let mut new = Table::new();
-        new.set_implicit(is_implicit);
-        table.insert(key, Item::Table(new));
-    }
-    table.get_mut(key)?.as_table_like_mut()
 }
 
 fn uniforms(root: &mut Table, project: &Project) {
@@ -156,12 +121,6 @@ fn passes(root: &mut Table, project: &Project) {
         geometry::write_geometry(entry, &pass.source, &pass.settings);
     }
     order(table, project);
-}
-
-/// The key by which a table has a pass already, or the one it shall get.
-pub(super) fn key_of(table: &dyn TableLike, id: &PassId) -> String {
-    let old = table.iter().map(|(key, _)| key).find(|key| pass_of_stem(key).as_ref() == Some(id));
-    old.map_or_else(|| id.key(), str::to_owned)
 }
 
 /// Puts the pass tables into the project's order where they do not stand in it already.

@@ -32,7 +32,7 @@ impl Popup {
         opens.then_some(popup)
     }
 
-    /// Where the word begins that a proposal takes the place of.
+    /// Returns where the word begins that a proposal takes the place of.
     pub fn start(&self) -> usize {
         self.list.replace.start
     }
@@ -71,8 +71,8 @@ impl Popup {
         self.is_meant = true;
     }
 
-    /// Whether Enter is for the list and not for a new line: it must change something, and what it would put there must go on
-    /// from what was typed unless it was picked by hand.
+    /// Returns whether Enter is for the list and not for a new line: it must change something, and what it would put
+    /// there must go on from what was typed unless it was picked by hand.
     pub fn enter_accepts(&self, buffer: &Buffer) -> bool {
         let typed = self.typed(buffer);
         self.item(self.selected).is_some_and(|item| {
@@ -81,13 +81,14 @@ impl Popup {
         })
     }
 
-    /// What is selected, and what it takes the place of.
+    /// Returns what is selected, and what it takes the place of.
     pub fn choice(&self, buffer: &Buffer) -> Option<(Range<usize>, String)> {
         let label = self.item(self.selected)?.label.clone();
         Some((self.start()..buffer.selection().head, label))
     }
 
-    /// Shows the list below `at`, the beginning of the word (above it where there is no room). True if a row was clicked.
+    /// Shows the list below `at`, the beginning of the word (above it where there is no room). True if a row was
+    /// clicked.
     pub fn show(&mut self, ui: &Ui, at: Rect, font: &FontId, placed: &mut Vec<(String, Rect)>) -> bool {
         let window = ui.ctx().content_rect();
         let row = (font.size * 1.55).round();

@@ -1,32 +1,18 @@
-//! Help while writing: proposals at the caret, the signature of the call around it, what the name under the pointer is, where
-//! it is declared and used.
+//! Help while writing: proposals at the caret, the signature of the call around it, what the name under the pointer is,
+//! where it is declared and used.
 //!
-//! Owns what is open and which keys go to it. What is shown is asked of an [`Analysis`], which is of the text as it is only a
-//! moment after each change: until then what is open stays, and nothing new opens.
+//! Owns what is open and which keys go to it. What is shown is asked of an [`Analysis`], which is of the text as it is
+//! only a moment after each change: until then what is open stays, and nothing new opens.
 
 mod completion;
 mod draw;
 mod tips;
 
-use super::{buffer::Buffer, history, lines::Lines};
-use crate::{
-    diag::{SourceId, Span},
-    glsl::services::{Analysis, ClassSpan, SignatureHelp},
-};
+use super::{buffer::Buffer, history, lines::Lines, look::Help};
+use crate::{diag::Span, glsl::services::SignatureHelp};
 use completion::Popup;
 use egui::{Event, Key, Rect, Ui};
 use std::ops::Range;
-
-/// What is known of the text that an editor shows.
-#[derive(Clone, Copy, Debug)]
-pub struct Help<'a> {
-    pub analysis: &'a Analysis,
-    /// The editor's text in `analysis`.
-    pub source: SourceId,
-    pub classes: &'a [ClassSpan],
-    /// The text it was made of; where it is not the editor's, it is older.
-    pub text: &'a str,
-}
 
 /// Something the editor wants of those who know the other tabs.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -48,7 +34,7 @@ pub(super) struct Assist {
     popup: Option<Popup>,
     /// Proposals are to be asked for as soon as the analysis is of this text; `true`: by Ctrl+Space.
     wanted: Option<bool>,
-    /// Where a word begins for which the popup was closed by Escape.
+    /// The start of the word for which Escape closed the popup.
     dismissed: Option<usize>,
     signature: Option<SignatureHelp>,
     signature_is_on: bool,
@@ -56,10 +42,10 @@ pub(super) struct Assist {
     /// Uses of the name at the caret, and for which revision and caret they were found.
     uses: Vec<Range<usize>>,
     uses_of: Option<(u64, usize)>,
-    /// What was asked for about the caret's name; it waits for the analysis.
+    /// The question about the caret's name that waits for the analysis.
     question: Option<Question>,
     pub asks: Vec<Ask>,
-    /// What is open, and where.
+    /// The names and areas of what is open.
     pub placed: Vec<(String, Rect)>,
 }
 
@@ -186,7 +172,7 @@ impl Assist {
         self.close();
     }
 
-    /// Of the name at the caret, as soon as it is known.
+    /// Goes to the definition of the name at the caret as soon as it is known.
     pub fn go_to_definition(&mut self) {
         self.question = Some(Question::Definition);
     }
@@ -251,7 +237,7 @@ impl Assist {
         }
     }
 
-    /// What the name under the pointer is, once the pointer rests. True if the tip hangs below its line.
+    /// Returns what the name under the pointer is, once the pointer rests. True if the tip hangs below its line.
     pub fn show_hover(
         &mut self,
         ui: &Ui,

@@ -1,7 +1,10 @@
 //! Which keys go to what is open, and when it opens.
 
 use super::*;
-use crate::glsl::{ChannelKind, Driver, PassKind, PassSource, Text};
+use crate::{
+    diag::SourceId,
+    glsl::{ChannelKind, Driver, PassKind, PassSource, Text, services::Analysis},
+};
 use egui::Modifiers;
 
 const ID: SourceId = SourceId(0);

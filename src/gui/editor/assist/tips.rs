@@ -1,8 +1,8 @@
 //! Tips over the code: what the name under the pointer is, and the signature of the call around the caret.
 
 use super::{
-    super::{buffer::Buffer, lines::Lines},
-    Help, draw,
+    super::{buffer::Buffer, lines::Lines, look::Help},
+    draw,
 };
 use crate::{
     glsl::services::{Hover, SignatureHelp},
@@ -18,7 +18,7 @@ const WIDTH: f32 = 440.0;
 /// The pointer over the text.
 #[derive(Debug, Default)]
 pub(super) struct Pointer {
-    /// Where it is and since when, in seconds.
+    /// The place of the pointer, and the time in seconds since when it rests there.
     rests: Option<(Pos2, f64)>,
     /// It was looked at what it rests on.
     asked: bool,

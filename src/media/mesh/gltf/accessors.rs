@@ -1,4 +1,5 @@
-//! Accessors, checked before the crate's readers use them: these take what follows for granted, and panic where it is not so.
+//! Accessors, checked before the crate's readers use them: these take what follows for granted, and panic where it is
+//! not so.
 
 use gltf::{
     Accessor,
@@ -9,7 +10,7 @@ use gltf::{
     },
 };
 
-/// What elements there may be (glTF 2.0, section 3.7.2.1).
+/// The elements that an accessor may have (glTF 2.0, section 3.7.2.1).
 #[derive(Clone, Copy)]
 pub(super) struct Elements(&'static [Dimensions], &'static [DataType]);
 

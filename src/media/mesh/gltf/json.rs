@@ -47,8 +47,8 @@ fn measure(text: &[u8]) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// What `Root::validate` itself stumbles over: it looks at the accessor of a primitive's positions whether there is one or
-/// not (gltf-json 1.4), and copies its bounds for each primitive.
+/// Returns what `Root::validate` itself stumbles over: it looks at the accessor of a primitive's positions whether
+/// there is one or not (gltf-json 1.4), and copies its bounds for each primitive.
 fn before_validation(root: &Root) -> Result<(), Trouble> {
     use gltf::json::mesh::Semantic::Positions;
     for (m, mesh) in root.meshes.iter().enumerate() {

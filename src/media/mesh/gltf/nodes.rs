@@ -29,7 +29,7 @@ pub(super) fn placed(document: &Document) -> Result<Vec<(Node<'_>, Mat4)>, Troub
     Ok(placed)
 }
 
-/// Of the default scene, else of the first, else every node that is nobody's child.
+/// Returns the roots of the default scene, else of the first scene, else every node that is nobody's child.
 fn roots(document: &Document) -> Vec<Node<'_>> {
     if let Some(scene) = document.default_scene().or_else(|| document.scenes().next()) {
         return scene.nodes().collect();
@@ -41,7 +41,7 @@ fn roots(document: &Document) -> Vec<Node<'_>> {
     document.nodes().filter(|node| !is_child[node.index()]).collect()
 }
 
-/// What is wrong with a node that is reached a second time.
+/// Returns what is wrong with a node that is reached a second time.
 fn twice(node: usize, earlier: Option<usize>, now: Option<usize>, reached: &[Option<Option<usize>>]) -> String {
     // Parents of nodes that were reached make no circle, so this ends.
     let mut above = now;

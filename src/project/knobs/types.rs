@@ -1,22 +1,9 @@
-//! The author's own uniforms: declared by a line of a text, turned by a person, saved with the project.
-//!
-//! Owns what `#iUniform` lines say ([`Project::knobs`]; the form is in [`line`]) and which values fit them. A knob that Common
-//! declares is there for every pass, one that a pass declares for that pass; one name is one knob wherever it stands. Values
-//! that are not the default lie in [`Project::knob_values`], and in `eddy.toml` under `[uniforms]`. How a value reaches a
-//! shader is the engine's matter.
+//! A knob, and the values it takes.
 
-pub(super) mod constants;
-mod declared;
-mod line;
-
-use super::{Project, lines::hash_lines, nearest};
-use crate::diag::{Diagnostic, SourceId, Span};
-pub(super) use declared::words_of_uniforms;
-use line::Line;
-pub(super) use line::is_declaration;
+use crate::diag::{SourceId, Span};
 use std::collections::BTreeMap;
 
-/// What a knob is. In GLSL a `color3` is a `vec3`.
+/// The type of a knob. In GLSL a `color3` is a `vec3`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum KnobType {
     Bool,
@@ -78,7 +65,8 @@ pub enum KnobValue {
     Float(f64),
     /// Two to four numbers.
     Vector(Vec<f64>),
-    /// What no knob takes but a `uniform` that a text declares: longer lists of numbers, truth values, lists of lists.
+    /// A value that no knob takes but a `uniform` that a text declares: longer lists of numbers, truth values, lists of
+    /// lists.
     List(Vec<KnobValue>),
 }
 
@@ -122,7 +110,8 @@ impl KnobValue {
     }
 }
 
-/// The least and the greatest value, both included, of each component; beyond the type's components the numbers mean nothing.
+/// The least and the greatest value, both included, of each component; beyond the type's components the numbers mean
+/// nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KnobRange {
     pub min: [f64; 4],
@@ -137,7 +126,7 @@ pub struct Knob {
     pub default: KnobValue,
     /// `None`: any number. A `color3` that says nothing has 0 to 1.
     pub range: Option<KnobRange>,
-    /// What a slider moves by, where the author says it.
+    /// The step of a slider, where the author gives one.
     pub step: Option<[f64; 4]>,
     /// The name, where it is first declared.
     pub span: Span,
@@ -160,7 +149,8 @@ impl Knob {
         })
     }
 
-    /// What the knob stands at: its value where one is set that has the right shape, within the range; else the default.
+    /// Returns what the knob stands at: its value where one is set that has the right shape, within the range; else the
+    /// default.
     pub fn value(&self, values: &KnobValues) -> KnobValue {
         let set = values.get(&self.name).and_then(|v| self.shaped(v).ok());
         set.map_or_else(|| self.default.clone(), |v| self.clamped(&v))
@@ -192,7 +182,7 @@ impl Knob {
         })
     }
 
-    fn clamped(&self, value: &KnobValue) -> KnobValue {
+    pub(super) fn clamped(&self, value: &KnobValue) -> KnobValue {
         let Some(range) = self.range else { return value.clone() };
         if self.ty == KnobType::Bool {
             return value.clone();
@@ -204,109 +194,3 @@ impl Knob {
         KnobValue::new(self.ty, &all)
     }
 }
-
-/// What the texts of a project declare.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Knobs {
-    /// In the order they are first declared: Common, then the passes.
-    pub list: Vec<Knob>,
-    /// Lines that cannot be read, and lines that contradict each other.
-    pub diagnostics: Vec<Diagnostic>,
-}
-
-impl Knobs {
-    /// Reads the declarations of texts, which come in the order of their ids.
-    pub(super) fn read<'t>(texts: impl IntoIterator<Item = (SourceId, &'t str)>) -> Knobs {
-        let mut knobs = Knobs::default();
-        // What the lines of each knob say so far, since one may leave to another what it does not say.
-        let mut said: Vec<Line> = Vec::new();
-        for (source, text) in texts {
-            for hash in hash_lines(text).iter().filter(|l| is_declaration(l)) {
-                match line::parse(hash, source) {
-                    Ok(line) => knobs.add(line, source, &mut said),
-                    Err(diagnostic) => knobs.diagnostics.push(diagnostic),
-                }
-            }
-        }
-        for (knob, line) in knobs.list.iter_mut().zip(&said) {
-            line.complete(knob, &mut knobs.diagnostics);
-        }
-        knobs
-    }
-
-    fn add(&mut self, line: Line, source: SourceId, said: &mut Vec<Line>) {
-        let Some(at) = self.list.iter().position(|k| k.name == line.name) else {
-            self.list.push(line.knob(source));
-            said.push(line);
-            return;
-        };
-        let known = &mut self.list[at];
-        let contradiction = if line.ty != known.ty {
-            Some(format!("`{}` is a {} here and a {} elsewhere", line.name, line.ty.name(), known.ty.name()))
-        } else {
-            said[at].join(&line).err().map(|what| format!("`{}` has another {what} elsewhere", line.name))
-        };
-        match contradiction {
-            Some(message) => self.diagnostics.push(
-                Diagnostic::error(line.span, message)
-                    .label(known.span, "declared here too")
-                    .hint("one name is one slider: let both lines say the same, or choose another name"),
-            ),
-            None if known.declared_in.contains(&source) => {}
-            None => known.declared_in.push(source),
-        }
-    }
-
-    pub fn get(&self, name: &str) -> Option<&Knob> {
-        self.list.iter().find(|k| k.name == name)
-    }
-
-    /// Why `name` is no knob of this project, with the one that may be meant.
-    pub(super) fn unknown(&self, name: &str) -> (String, String) {
-        let message = format!("no #iUniform line declares `{name}`");
-        let names: Vec<&str> = self.list.iter().map(|k| k.name.as_str()).collect();
-        let hint = match nearest(name, names.iter().copied()) {
-            Some(near) => format!("did you mean {near}?"),
-            None if names.is_empty() => "the texts declare none".to_owned(),
-            None => format!("there are {}", super::listed(&names)),
-        };
-        (message, hint)
-    }
-}
-
-impl Project {
-    /// What the texts declare in `#iUniform` lines. Spans point into [`Project::sources`].
-    pub fn knobs(&self) -> Knobs {
-        let sources = self.texts();
-        Knobs::read(sources.iter().map(|(id, source)| (id, &*source.text)))
-    }
-
-    /// Sets one knob from what a person writes: `viscosity=0.3`, `tint=1,0.5,0`, `tint=color3(1, .5, 0)`, `on=true`. Err: one
-    /// line that says what is wrong.
-    pub fn set_knob(&mut self, assignment: &str) -> Result<(), String> {
-        let shape = || format!("{assignment}: a uniform is set as in viscosity=0.3 or tint=1,0.5,0");
-        let (name, written) = assignment.split_once('=').ok_or_else(shape)?;
-        let name = name.trim();
-        let knobs = self.knobs();
-        let Some(knob) = knobs.get(name) else {
-            let (message, hint) = knobs.unknown(name);
-            return Err(format!("{message} ({hint})"));
-        };
-        let value = line::value(written).ok_or_else(shape)?;
-        let value = knob.fit(&value).map_err(|why| format!("{name}={}: {name} {why}", written.trim()))?;
-        self.turn_knob(knob, value);
-        Ok(())
-    }
-
-    /// Sets a knob; the default is kept as nothing, so that it follows the text.
-    pub fn turn_knob(&mut self, knob: &Knob, value: KnobValue) {
-        if value == knob.default {
-            self.knob_values.remove(&knob.name);
-        } else {
-            self.knob_values.insert(knob.name.clone(), value);
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests;

@@ -1,7 +1,7 @@
 //! Tests of opening: every kind of project, and what is said of those that are broken.
 
 use super::*;
-use crate::project::{Channel, Filter, Input, Media, PassFormat, PassSize, Region, Sampler, Wrap};
+use crate::project::{Channel, Filter, Input, Media, Origin, PassFormat, PassSize, Region, Sampler, Wrap};
 use std::{fs, path::Path};
 use tempfile::TempDir;
 
@@ -191,7 +191,8 @@ fn the_stem_names_outputs() {
 
 #[test]
 fn eddy_toml_says_how_passes_are_drawn() {
-    let toml = "[passes.buffer_a]\nsize = 0.5\nformat = \"rgba16f\"\n[passes.buffer_b]\nsize = [256, 1]\n[passes.image]\nregion = [1, 2, 3, 4]\n\
+    let toml = "[passes.buffer_a]\nsize = 0.5\nformat = \"rgba16f\"\n[passes.buffer_b]\nsize = [256, 1]\n\
+    [passes.image]\nregion = [1, 2, 3, 4]\n\
                 [groups.solver]\npasses = [\"buffer_a\", \"buffer_b\"]\nsteps = 20\n";
     let dir = folder(&[
         ("eddy.toml", toml),

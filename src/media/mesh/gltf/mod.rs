@@ -1,9 +1,9 @@
-//! glTF 2.0: every triangle of the scene, with the transforms of its nodes applied. Materials, skins and animations are left
-//! aside.
+//! glTF 2.0: every triangle of the scene, with the transforms of its nodes applied. Materials, skins and animations are
+//! left aside.
 //!
-//! The file may be damaged or made to do harm, so all of it is checked before it is used, and what it comes to is counted
-//! before memory is taken: in `json` what its text says, in `nodes` the hierarchy, in `buffers` the bytes, in `accessors`
-//! what is read of them.
+//! The file may be damaged or made to do harm, so all of it is checked before it is used, and what it comes to is
+//! counted before memory is taken: in `json` what its text says, in `nodes` the hierarchy, in `buffers` the bytes, in
+//! `accessors` what is read of them.
 
 mod accessors;
 mod buffers;

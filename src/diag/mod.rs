@@ -1,9 +1,9 @@
-//! What an author reads when something is wrong with their text.
+//! Diagnostics tell an author what is wrong with a text.
 //!
 //! Owns positions ([`Span`], [`SourceId`]), the texts they point into ([`SourceMap`]), the message itself
-//! ([`Diagnostic`]) and its caret form for a terminal ([`render`]). Knows nothing of GLSL: a span may point into a shader,
-//! an `eddy.toml` or a JSON file alike. Trouble that is the machine's or ours is an error type of its layer, never a
-//! `Diagnostic`.
+//! ([`Diagnostic`]) and its caret form for a terminal ([`render`]). Knows nothing of GLSL: a span may point into a
+//! shader, an `eddy.toml` or a JSON file alike. Trouble that is the machine's or ours is an error type of its layer,
+//! never a `Diagnostic`.
 
 mod caret;
 
@@ -82,7 +82,7 @@ pub struct Diagnostic {
     pub severity: Severity,
     /// Where; `None` for something that is not in any text (a pass that is missing).
     pub span: Option<Span>,
-    /// What is wrong, one sentence without a full stop.
+    /// The mistake in one sentence without a full stop.
     pub message: String,
     /// Further places.
     pub labels: Vec<Label>,
@@ -120,10 +120,20 @@ impl Diagnostic {
     }
 }
 
+/// Adds what `all` has not yet. A mistake in a text that several passes share is found in each of them, and told of
+/// once.
+pub fn append(all: &mut Vec<Diagnostic>, found: impl IntoIterator<Item = Diagnostic>) {
+    for diagnostic in found {
+        if !all.contains(&diagnostic) {
+            all.push(diagnostic);
+        }
+    }
+}
+
 /// A named text that spans point into.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SourceText {
-    /// What the author calls it: `buffer_a.glsl`, `Image`, `eddy.toml`.
+    /// The name that the author knows: `buffer_a.glsl`, `Image`, `eddy.toml`.
     pub name: String,
     pub text: Arc<str>,
 }

@@ -1,2 +1,0 @@
-// Grid 2, going up: what grid 3 found.
-#include "add.glsl"

@@ -1,2 +1,0 @@
-// Grid 3, going up: what grid 4 found.
-#include "add.glsl"

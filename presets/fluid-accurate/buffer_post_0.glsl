@@ -1,2 +1,0 @@
-// Grid 0, going up: swept again.
-#include "post.glsl"

@@ -1,2 +1,0 @@
-// Grid 1, going up: swept again.
-#include "post.glsl"

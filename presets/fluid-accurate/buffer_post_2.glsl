@@ -1,2 +1,0 @@
-// Grid 2, going up: swept again.
-#include "post.glsl"

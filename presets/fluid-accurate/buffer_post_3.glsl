@@ -1,2 +1,0 @@
-// Grid 3, going up: swept again.
-#include "post.glsl"

@@ -1,2 +1,0 @@
-// Grid 4, going up: swept again.
-#include "post.glsl"

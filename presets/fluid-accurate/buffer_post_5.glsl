@@ -1,2 +1,0 @@
-// Grid 5, going up: swept again.
-#include "post.glsl"

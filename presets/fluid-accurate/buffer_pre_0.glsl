@@ -1,2 +1,0 @@
-// Grid 0, going down.
-#include "pre.glsl"

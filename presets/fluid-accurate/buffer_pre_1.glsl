@@ -1,2 +1,0 @@
-// Grid 1, going down.
-#include "pre.glsl"

@@ -1,2 +1,0 @@
-// Grid 2, going down.
-#include "pre.glsl"

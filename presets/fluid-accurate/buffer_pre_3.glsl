@@ -1,2 +1,0 @@
-// Grid 3, going down.
-#include "pre.glsl"

@@ -1,2 +1,0 @@
-// Grid 4, going down.
-#include "pre.glsl"

@@ -1,2 +1,0 @@
-// Grid 5, going down.
-#include "pre.glsl"

@@ -1,2 +1,0 @@
-// f of grid 1, from grid 0.
-#include "rhs.glsl"

@@ -1,2 +1,0 @@
-// f of grid 4, from grid 3.
-#include "rhs.glsl"

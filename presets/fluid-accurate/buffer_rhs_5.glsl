@@ -1,2 +1,0 @@
-// f of grid 5, from grid 4.
-#include "rhs.glsl"

@@ -1,2 +1,0 @@
-// f of grid 6, from grid 5.
-#include "rhs.glsl"

@@ -1,0 +1,43 @@
+//! How a text is shown besides what it says: its size, marks, places found, and what is known of it.
+
+use crate::{
+    diag::{Severity, SourceId},
+    glsl::services::{Analysis, ClassSpan},
+};
+use std::ops::Range;
+
+/// A diagnostic at a line.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mark {
+    /// From 0.
+    pub line: usize,
+    /// The underlined bytes of the text; may be empty.
+    pub range: Range<usize>,
+    pub severity: Severity,
+    pub message: String,
+    pub hints: Vec<String>,
+}
+
+/// How a text is shown; not a part of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Look<'a> {
+    pub font_size: f32,
+    pub marks: &'a [Mark],
+    /// Places found, tinted.
+    pub matches: &'a [Range<usize>],
+    /// A text whose macros count in this one.
+    pub shared: &'a str,
+    /// The analysis of the text, or of what it was a moment ago.
+    pub help: Option<Help<'a>>,
+}
+
+/// An analysis of the text that an editor shows.
+#[derive(Clone, Copy, Debug)]
+pub struct Help<'a> {
+    pub analysis: &'a Analysis,
+    /// The editor's text in `analysis`.
+    pub source: SourceId,
+    pub classes: &'a [ClassSpan],
+    /// The text it was made of; where it is not the editor's, it is older.
+    pub text: &'a str,
+}

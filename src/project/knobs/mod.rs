@@ -1,0 +1,126 @@
+//! The author's own uniforms: declared by a line of a text, turned by a person, saved with the project.
+//!
+//! A knob is one uniform that `#iUniform` lines declare. Users read "uniform", and "slider" for what turns it.
+//!
+//! Owns what `#iUniform` lines say ([`Project::knobs`]; the form is in [`line`]) and which values fit them. A knob that
+//! Common declares is there for every pass, one that a pass declares for that pass; one name is one knob wherever it
+//! stands. Values that are not the default lie in [`Project::knob_values`], and in `eddy.toml` under `[uniforms]`. How
+//! a value reaches a shader is the engine's matter.
+
+pub(super) mod constants;
+mod declared;
+mod line;
+mod types;
+
+use super::{Project, lines::hash_lines, nearest};
+use crate::diag::{Diagnostic, SourceId};
+pub(super) use declared::words_of_uniforms;
+use line::Line;
+pub(super) use line::is_declaration;
+pub use types::{Knob, KnobRange, KnobType, KnobValue, KnobValues};
+
+/// The uniforms that the texts of a project declare in `#iUniform` lines.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Knobs {
+    /// In the order they are first declared: Common, then the passes.
+    pub list: Vec<Knob>,
+    /// Lines that cannot be read, and lines that contradict each other.
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+impl Knobs {
+    /// Reads the declarations of texts, which come in the order of their ids.
+    pub(super) fn read<'t>(texts: impl IntoIterator<Item = (SourceId, &'t str)>) -> Knobs {
+        let mut knobs = Knobs::default();
+        // What the lines of each knob say so far, since one may leave to another what it does not say.
+        let mut said: Vec<Line> = Vec::new();
+        for (source, text) in texts {
+            for hash in hash_lines(text).iter().filter(|l| is_declaration(l)) {
+                match line::parse(hash, source) {
+                    Ok(line) => knobs.add(line, source, &mut said),
+                    Err(diagnostic) => knobs.diagnostics.push(diagnostic),
+                }
+            }
+        }
+        for (knob, line) in knobs.list.iter_mut().zip(&said) {
+            line.complete(knob, &mut knobs.diagnostics);
+        }
+        knobs
+    }
+
+    fn add(&mut self, line: Line, source: SourceId, said: &mut Vec<Line>) {
+        let Some(at) = self.list.iter().position(|k| k.name == line.name) else {
+            self.list.push(line.knob(source));
+            said.push(line);
+            return;
+        };
+        let known = &mut self.list[at];
+        let contradiction = if line.ty != known.ty {
+            Some(format!("`{}` is a {} here and a {} elsewhere", line.name, line.ty.name(), known.ty.name()))
+        } else {
+            said[at].join(&line).err().map(|what| format!("`{}` has another {what} elsewhere", line.name))
+        };
+        match contradiction {
+            Some(message) => self.diagnostics.push(
+                Diagnostic::error(line.span, message)
+                    .label(known.span, "declared here too")
+                    .hint("one name is one slider: let both lines say the same, or choose another name"),
+            ),
+            None if known.declared_in.contains(&source) => {}
+            None => known.declared_in.push(source),
+        }
+    }
+
+    pub fn get(&self, name: &str) -> Option<&Knob> {
+        self.list.iter().find(|k| k.name == name)
+    }
+
+    /// Returns why `name` is no knob of this project, with the one that may be meant.
+    pub(super) fn unknown(&self, name: &str) -> (String, String) {
+        let message = format!("no #iUniform line declares `{name}`");
+        let names: Vec<&str> = self.list.iter().map(|k| k.name.as_str()).collect();
+        let hint = match nearest(name, names.iter().copied()) {
+            Some(near) => format!("did you mean {near}?"),
+            None if names.is_empty() => "the texts declare none".to_owned(),
+            None => format!("there are {}", super::listed(&names)),
+        };
+        (message, hint)
+    }
+}
+
+impl Project {
+    /// Returns what the texts declare in `#iUniform` lines. Spans point into [`Project::sources`].
+    pub fn knobs(&self) -> Knobs {
+        let sources = self.texts();
+        Knobs::read(sources.iter().map(|(id, source)| (id, &*source.text)))
+    }
+
+    /// Sets one knob from what a person writes: `viscosity=0.3`, `tint=1,0.5,0`, `tint=color3(1, .5, 0)`, `on=true`.
+    /// Err: one line that says what is wrong.
+    pub fn set_knob(&mut self, assignment: &str) -> Result<(), String> {
+        let shape = || format!("{assignment}: a uniform is set as in viscosity=0.3 or tint=1,0.5,0");
+        let (name, written) = assignment.split_once('=').ok_or_else(shape)?;
+        let name = name.trim();
+        let knobs = self.knobs();
+        let Some(knob) = knobs.get(name) else {
+            let (message, hint) = knobs.unknown(name);
+            return Err(format!("{message} ({hint})"));
+        };
+        let value = line::value(written).ok_or_else(shape)?;
+        let value = knob.fit(&value).map_err(|why| format!("{name}={}: {name} {why}", written.trim()))?;
+        self.turn_knob(knob, value);
+        Ok(())
+    }
+
+    /// Sets a knob; the default is kept as nothing, so that it follows the text.
+    pub fn turn_knob(&mut self, knob: &Knob, value: KnobValue) {
+        if value == knob.default {
+            self.knob_values.remove(&knob.name);
+        } else {
+            self.knob_values.insert(knob.name.clone(), value);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

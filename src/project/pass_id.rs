@@ -1,0 +1,86 @@
+//! The names of passes.
+
+use super::limits;
+
+/// Which pass. Buffers are told apart by name: `A`..`D` as on the site, or any further name a project gives.
+#[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum PassId {
+    Buffer(String),
+    Cubemap,
+    Sound,
+    Image,
+}
+
+/// When in a frame passes of a kind are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Turn {
+    Buffers,
+    Cubemap,
+    Image,
+    /// Makes no picture.
+    Sound,
+}
+
+impl PassId {
+    /// Returns when the pass has its turn. Passes of the same turn are drawn in the project's order.
+    pub fn turn(&self) -> Turn {
+        match self {
+            PassId::Buffer(_) => Turn::Buffers,
+            PassId::Cubemap => Turn::Cubemap,
+            PassId::Image => Turn::Image,
+            PassId::Sound => Turn::Sound,
+        }
+    }
+
+    /// As tabs show it: `Buffer A`, `Cube A`, `Sound`, `Image`.
+    pub fn title(&self) -> String {
+        match self {
+            PassId::Buffer(name) => format!("Buffer {name}"),
+            PassId::Cubemap => "Cube A".into(),
+            PassId::Sound => "Sound".into(),
+            PassId::Image => "Image".into(),
+        }
+    }
+
+    /// As file names, `eddy.toml` and `--pass` spell it: `buffer_a`, `cube_a`, `sound`, `image`.
+    pub fn key(&self) -> String {
+        match self {
+            PassId::Buffer(name) => format!("buffer_{}", name.to_lowercase()),
+            PassId::Cubemap => "cube_a".into(),
+            PassId::Sound => "sound".into(),
+            PassId::Image => "image".into(),
+        }
+    }
+
+    /// The rule for buffers' names, as a message says it.
+    pub const NAMES: &str = "a buffer's name has letters, digits, _, - and blanks, at most 64 of them";
+
+    /// Reads either spelling, without regard to case, spaces or underscores; a bare letter is a buffer. Names become
+    /// parts of files' names, so `None` for one with anything but letters, digits, blanks, `_` and `-`, or longer than
+    /// [`limits::NAME`].
+    pub fn parse(text: &str) -> Option<PassId> {
+        if text.chars().nth(limits::NAME + "buffer_".len()).is_some() {
+            return None;
+        }
+        let flat: String = text.chars().filter(|c| !matches!(c, ' ' | '_' | '-')).collect::<String>().to_lowercase();
+        Some(match flat.as_str() {
+            "" => return None,
+            "image" => PassId::Image,
+            "sound" => PassId::Sound,
+            "cubea" | "cubemap" | "cubemapa" => PassId::Cubemap,
+            _ => {
+                let name = flat.strip_prefix("buffer").or_else(|| flat.strip_prefix("buf")).unwrap_or(&flat);
+                if !PassId::is_name(name) {
+                    return None;
+                }
+                // A site buffer is one capital letter; further names are kept in lower case, as file names fold case.
+                PassId::Buffer(if name.len() == 1 { name.to_uppercase() } else { name.to_owned() })
+            }
+        })
+    }
+
+    /// Returns whether a buffer may be called so: letters and digits, not too many.
+    pub fn is_name(name: &str) -> bool {
+        !name.is_empty() && name.chars().count() <= limits::NAME && name.chars().all(char::is_alphanumeric)
+    }
+}
