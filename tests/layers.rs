@@ -35,6 +35,14 @@ const LAYERS: &[(&str, &[&str])] = &[
     ("main", &["cli", "gui"]),
 ];
 
+/// Rooms of the compiler, and what each may not name: a program goes from one to the next and never back.
+const ROOMS: &[(&str, &[&str])] = &[
+    ("ir", &["hir", "check", "lower", "opt", "emit", "naga"]),
+    ("lower", &["opt", "emit", "naga"]),
+    ("opt", &["hir", "check", "lower", "emit", "naga"]),
+    ("emit", &["hir", "check", "lower", "opt"]),
+];
+
 /// Crates that only some layers may name.
 const CRATES: &[(&[&str], &[&str])] = &[
     (&["egui", "egui_winit", "egui_wgpu", "egui_plot", "winit", "rfd"], &["gui"]),
@@ -163,6 +171,14 @@ fn violations(path: &str, text: &str) -> Vec<String> {
     for (name, line) in named_modules(&named, parts.len()) {
         if name != layer && is_layer(&name) && !allowed.contains(&name.as_str()) {
             report(line, format!("`{layer}` may not name `{name}`"));
+        }
+    }
+    let room = parts.get(1).filter(|_| layer == "glsl" && !is_test);
+    if let Some((room, forbidden)) = room.and_then(|room| ROOMS.iter().find(|(name, _)| name == room)) {
+        for name in &named {
+            for word in name.segments.iter().filter(|word| forbidden.contains(&word.as_str())) {
+                report(name.line, format!("`glsl/{room}` may not name `{word}`"));
+            }
         }
     }
     for (i, (token, line)) in tokens.iter().enumerate() {
@@ -324,6 +340,11 @@ fn planted_violations_are_caught() {
         ("cli/mod.rs", "fn f(w: winit::window::Window) {}", "only gui may name `winit`"),
         ("session/mod.rs", "fn f() -> anyhow::Result<()> { Ok(()) }", "only cli, main may name `anyhow`"),
         ("graph/mod.rs", "use naga::Module;", "only glsl, engine, gpu may name `naga`"),
+        ("glsl/lower/expr.rs", "use naga::Expression;", "`glsl/lower` may not name `naga`"),
+        ("glsl/lower/expr.rs", "use crate::glsl::{hir, opt::PASSES};", "`glsl/lower` may not name `opt`"),
+        ("glsl/opt/cse.rs", "fn f(id: crate::glsl::hir::ExprId) {}", "`glsl/opt` may not name `hir`"),
+        ("glsl/emit/mod.rs", "use super::hir::Module;", "`glsl/emit` may not name `hir`"),
+        ("glsl/ir/mod.rs", "use super::emit;", "`glsl/ir` may not name `emit`"),
         ("cli/bench.rs", "use {std::io, wgpu};", "only gpu, engine, session, gui may name `wgpu`"),
         ("engine/run.rs", "let s = std::fs::read(p);", "may not reach outside through `fs`"),
         ("engine/run.rs", "use std::{env, fs};\nlet x = env::var(\"A\");", "may not reach outside through `env`"),
