@@ -139,9 +139,7 @@ impl Builder<'_, '_> {
             b.close_loop(test.filter(|_| known.is_none()), body);
             if let (None, Some(test)) = (known, test) {
                 let condition = b.loop_test(test, rounds);
-                let mut leave = Block::new();
-                leave.push(Stmt::Break);
-                b.push(Stmt::If { condition, accept: Block::new(), reject: leave });
+                b.push(Stmt::If { condition, accept: Block::new(), reject: vec![Stmt::Break] });
             }
             b.body_of_loop(body);
             if let (Some(step), false) = (repeated, b.ended) {
