@@ -53,26 +53,16 @@ pub(super) struct Rewriter<'m> {
     out: Block,
     /// What stands for each value of the old function.
     map: Vec<Value>,
-    literals: FxHashMap<(u8, u32), Value>,
+    /// Made when a rule asks for one; each is one value already.
+    literals: Option<FxHashMap<(Scalar, u32), Value>>,
     /// Of the operation at hand.
     loc: Loc,
 }
 
 impl<'m> Rewriter<'m> {
     fn new(module: &'m Module, f: Function) -> Self {
-        let mut literals = FxHashMap::default();
-        for (value, op) in f.values() {
-            if let Op::Literal(scalar, bits) = *op {
-                literals.entry((scalar as u8, bits)).or_insert(value);
-            }
-        }
-        let mut map: Vec<Value> = (0..f.len()).map(Value::new).collect();
-        for (value, op) in f.values() {
-            if let Op::Literal(scalar, bits) = *op {
-                map[value.index()] = literals[&(scalar as u8, bits)];
-            }
-        }
-        Self { module, f, out: Block::new(), map, literals, loc: Loc::default() }
+        let map = (0..f.len()).map(Value::new).collect();
+        Self { module, f, out: Block::new(), map, literals: None, loc: Loc::default() }
     }
 
     fn run(mut self, rule: &mut impl Rule) -> Function {
@@ -99,9 +89,14 @@ impl<'m> Rewriter<'m> {
 
     /// A scalar constant, the same value each time.
     pub fn literal(&mut self, scalar: Scalar, bits: u32) -> Value {
+        let literal = |(value, op): (Value, &Op)| match *op {
+            Op::Literal(scalar, bits) => Some(((scalar, bits), value)),
+            _ => None,
+        };
+        let literals = self.literals.get_or_insert_with(|| self.f.values().filter_map(literal).collect());
         let (f, loc) = (&mut self.f, self.loc);
         let new = || f.append(Op::Literal(scalar, bits), TypeId::vector(scalar, 1), loc);
-        *self.literals.entry((scalar as u8, bits)).or_insert_with(new)
+        *literals.entry((scalar, bits)).or_insert_with(new)
     }
 
     pub fn float(&mut self, number: f32) -> Value {
