@@ -286,10 +286,10 @@ fn an_edit_builds_what_it_changes_and_nothing_else() {
     project.passes[3].settings.format = PassFormat::Rg32f;
     assert_eq!(rebuild(&project).0, work(0, 1), "another format is another pipeline of the same stage");
 
-    project.common.as_mut().unwrap().text = "float noise(float x) { return x * 0.25; }\n".into();
+    project.common.as_mut().unwrap().text = "float noise(float x) { return x * 0.3 + 0.1; }\n".into();
     assert_eq!(rebuild(&project).0, work(5, 6), "Common is part of every stage");
 
-    project.common.as_mut().unwrap().text = "float noise(float x) { return x * 0.25; }\nfloat unused;\n".into();
+    project.common.as_mut().unwrap().text = "float noise(float x) { return x * 0.3 + 0.1; }\nfloat unused;\n".into();
     assert_eq!(rebuild(&project).0, work(5, 0), "what no pass of it uses changes no stage");
 }
 

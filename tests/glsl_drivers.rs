@@ -45,17 +45,10 @@ fn a_constant_zero_divides() {
 /// What is not a number is not nothing, and is cut to zero.
 #[test]
 fn comparisons_of_nan() {
-    check(&[
-        case(
-            "float n = uintBitsToFloat(0x7fc00000u + uint(iFrame));\n\
-             r = vec4(abs(n) > 0.0, 0.0 < abs(n), max(min(n, 1.0), 0.0), max(0.0, min(1.0, n)));",
-            [1., 1., 0., 0.],
-        ),
-        case(
-            "float z = Z * 3.0; r = vec4(abs(z) > 0.0, 0.0 < abs(z - 2.0), abs(z) < 0.0, abs(z) > 1.0);",
-            [0., 1., 0., 0.],
-        ),
-    ]);
+    check(&[case(
+        "float z = Z * 3.0; r = vec4(abs(z) > 0.0, 0.0 < abs(z - 2.0), abs(z) < 0.0, abs(z) > 1.0);",
+        [0., 1., 0., 0.],
+    )]);
 }
 
 #[test]
@@ -92,8 +85,6 @@ fn order_of_evaluation() {
         return skipped("this device may fuse or round otherwise");
     }
     check(&[
-        // Balanced: (t t) (t t).
-        case("float t = Z + 0.337; r = vec4(floatBitsToUint(t * t * t * t) - 0x3c5351cbu);", [0.; 4]),
         // What is added to a dot product goes to its last term: x x' + (y y' + 0.6).
         case(
             "vec2 p = Z + vec2(3.69, 6.83); r = vec4(floatBitsToUint(dot(p, vec2(12.98, 96.77)) + 0.6) - 0x44315bdbu);",
@@ -110,18 +101,10 @@ fn order_of_evaluation() {
             "float a = Z; r = vec4(smoothstep(a, 0.0, Z - 1.0), smoothstep(a, 0.0, Z + 1.0), 0, 0);",
             [1., 0., 0., 0.],
         ),
-        // The constants of a product are multiplied first: (0.3 * 0.7) * b * a.
-        case("float a = Z + 2.15, b = Z + 8.59; r = vec4(floatBitsToUint(0.3 * a * b * 0.7) - 0x40783778u);", [0.; 4]),
         // A scalar that is added to a vector stays whole: p + (p.x q.x + p.y q.y).
         case(
             "vec2 p = Z + vec2(8.69, 6.8), q = Z + vec2(5.33, 3.22);\n\
              r = vec4(floatBitsToUint(p + dot(p, q)) - uvec2(0x4299ceb2u, 0x42960704u), 0, 0);",
-            [0.; 4],
-        ),
-        // Matrices are applied one after the other: m * (n * v).
-        case(
-            "mat2 m = mat2(2.18, 7.56, 6.47, 7.3), n = mat2(2.53, 7.42, 2.53, 1.65); m[0] += Z; n[0] += Z;\n\
-             r = vec4(floatBitsToUint(m * n * (Z + vec2(7.84, 7.89))) - uvec2(0x4408d75bu, 0x444d23e8u), 0, 0);",
             [0.; 4],
         ),
         // x (1 - a) + y a where the components share x (1 - a).
@@ -139,12 +122,6 @@ fn order_of_evaluation() {
         with(
             "float fade(float p, float a) { float v = p; v += 1.0; v = mix(v, v * 0.3, a); return v; }",
             "r = vec4(floatBitsToUint(fade(Z + 0.6, Z + 0.91)) - 0x3f14af4fu);",
-            [0.; 4],
-        ),
-        // A literal that products share is taken out of their sum: 0.01 (p x + y a).
-        case(
-            "float p = Z + 2.71, x = Z + 0.33, y = Z + 2.33, a = Z + 0.77;\n\
-             r = vec4(floatBitsToUint(p * x * 0.01 + y * a * 0.01) - 0x3cdc3bd5u);",
             [0.; 4],
         ),
         // What functions say of constants and of what is computed twice is known where they are called: the sum that two calls
@@ -168,18 +145,6 @@ fn order_of_evaluation() {
             "r = vec4(floatBitsToUint(turn(Z + 2.33, Z + 2.11, 0.5)) - 0x4008c37eu);",
             [0.; 4],
         ),
-        // ... so is the part along a constant axis, (p.x + p.y) (k k (1 - cos(0.95))) + p.x cos(0.95) ...
-        with(
-            "vec3 turn(vec3 p, vec3 axis, float angle) { return mix(dot(axis, p) * axis, p, cos(angle)); }",
-            "r = vec4(floatBitsToUint(turn(Z + vec3(6.66, 8.3, 1), normalize(vec3(1, 1, 0)), 0.95).x) - 0x40e018bcu);",
-            [0.; 4],
-        ),
-        // ... and 0.01 (a b + c d).
-        with(
-            "float pull(float a, float b) { float v = a; v *= b; v *= 0.01; return v; }",
-            "r = vec4(floatBitsToUint(pull(Z + 4.71, Z + 6.67) + pull(Z + 6.04, Z + 0.58)) - 0x3eb2c8e6u);",
-            [0.; 4],
-        ),
         // A literal that terms of a matrix product share is taken out of their sum too: 0.19 (a + c) ...
         case(
             "mat2 m = mat2(6.19, 1, 8.21, 1); m[0] += Z; m[1] += Z;\n\
@@ -199,21 +164,14 @@ fn order_of_evaluation() {
              r = vec4(floatBitsToUint(p) - uvec2(0x43c9e0e3u, 0x438d573du), 0, 0);",
             [0.; 4],
         ),
-        // Sums are compared without their literals: a < 2.91 - 0.62, which is 2.29.
-        case(
-            "float a = max(Z + 2.29, Z); r = vec4(a + 0.62 < 2.91, 2.91 > 0.62 + a, a + 0.62 >= 2.91, 2.91 <= a - -0.62);",
-            [0., 0., 1., 1.],
-        ),
         // Those of variables that are used again are not, nor those on the greater side of `<`.
         case(
             "float a = max(Z + 2.29, Z), b = a + 0.62; r = vec4(b < 2.91, b >= 2.91, a + 0.62 > 2.9100001, b - b);",
             [1., 0., 0., 0.],
         ),
-        // The polynomial of OpenGL's compilers.
-        case("r = vec4(floatBitsToUint(asin(Z + 0.308)) - 0x3ea04324u);", [0.; 4]),
         // Constants are what the device computes.
         case(
-            "vec2 v = vec2(0.2, 1); r = vec4(asin(Z + 0.308) == asin(0.308), acos(Z + 0.3) == acos(0.3),\n\
+            "vec2 v = vec2(0.2, 1); r = vec4(cos(Z + 0.3) == cos(0.3), acos(Z + 0.3) == acos(0.3),\n\
              normalize(Z + v) == normalize(v), smoothstep(0.0, 1.0, Z + 0.3) == smoothstep(0.0, 1.0, 0.3));",
             [1.; 4],
         ),
