@@ -9,9 +9,7 @@ impl Function {
         let mut old = std::mem::replace(self, Function::new(self.result));
         self.params = std::mem::take(&mut old.params);
         let mut vars = std::mem::take(&mut old.vars);
-        self.types.reserve(old.ops.len());
-        self.ops.reserve(old.ops.len());
-        self.locs.reserve(old.ops.len());
+        self.reserve(old.ops.len());
         let mut compact = Compact { map: vec![None; old.ops.len()], old, new: self };
         for var in &mut vars {
             var.init = var.init.map(|init| compact.value(init));

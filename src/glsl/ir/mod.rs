@@ -193,6 +193,13 @@ impl Function {
         Self { result, ..Self::default() }
     }
 
+    /// Makes room for so many more values.
+    pub fn reserve(&mut self, values: usize) {
+        self.ops.reserve(values);
+        self.types.reserve(values);
+        self.locs.reserve(values);
+    }
+
     /// Appends an op, for a statement to compute, or a free one.
     pub fn append(&mut self, op: Op, ty: TypeId, loc: Loc) -> Value {
         self.ops.push(op);

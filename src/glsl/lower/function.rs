@@ -103,6 +103,8 @@ pub(super) fn lower(cx: &mut Lowering<'_>, instance: &Instance) -> ir::Function 
     let function = &hir[instance.func];
     let mut builder = Builder::new(cx, function.locals.start as usize, function.locals.len());
     builder.start = Some(Block::new());
+    // About as many as the function has expressions.
+    builder.f.reserve(function.exprs.len());
     builder.result = function.result;
     builder.f.result = function.result;
     builder.func = Some(instance.func);

@@ -122,6 +122,7 @@ impl<'m> Rewriter<'m> {
     }
 
     fn block(&mut self, block: Block, rule: &mut impl Rule) {
+        self.out.reserve(block.len());
         for stmt in block {
             let stmt = match stmt {
                 Stmt::Let(value) => {

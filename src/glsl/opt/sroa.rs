@@ -174,6 +174,7 @@ impl Split<'_> {
     }
 
     fn block(&mut self, block: Block) {
+        self.out.reserve(block.len());
         for stmt in block {
             let stmt = match stmt {
                 Stmt::Let(value) => {
