@@ -251,7 +251,7 @@ fn compile_seen(
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(diagnostics);
     }
-    lower::settle(&mut checked);
+    lower::arrays_to_constants(&mut checked);
     let lower::Lowered { mut program, mut reflection } = lower::lower(&checked, source, interface);
     opt::optimise(&mut program, source.driver.without, seen);
     let emit::Emitted { module, tables, knob_bytes, filled_arrays } = emit::emit(&program, source, &mut reflection);

@@ -254,7 +254,7 @@ impl Builder<'_, '_> {
             return self.math3(Math::SmoothStep, a, b, x);
         }
         let width = self.op(Binary::Subtract, b, a);
-        let width = self.hidden(ty, width);
+        let width = self.opaque(ty, width);
         let distance = self.op(Binary::Subtract, x, a);
         let quotient = self.op(Binary::Divide, distance, width);
         let t = self.math(Math::Saturate, quotient);

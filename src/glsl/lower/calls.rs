@@ -24,7 +24,7 @@ const MOST_WRITES: usize = 1 << 22;
 
 /// What a copy of a function has in place of one of its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(super) enum Given {
+pub(super) enum Specialization {
     /// An argument, after all.
     Argument,
     /// The channel a sampler stands for.
@@ -38,7 +38,7 @@ pub(super) enum Given {
 /// What a call passes for such a parameter.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Passed {
-    Known(Given),
+    Known(Specialization),
     /// What the caller itself has for one of its parameters, counted among those that can be given.
     Param(usize),
 }
@@ -133,17 +133,17 @@ impl Arguments {
             // What a later argument changes is not what was passed.
             let changes = last_effect > Some(place);
             match module[args[place]].kind {
-                ExprKind::Channel(channel) => Passed::Known(Given::Channel(channel)),
-                ExprKind::Const(table) if self.is_table(module, table) => Passed::Known(Given::Table(table)),
+                ExprKind::Channel(channel) => Passed::Known(Specialization::Channel(channel)),
+                ExprKind::Const(table) if self.is_table(module, table) => Passed::Known(Specialization::Table(table)),
                 ExprKind::Global(global) if module[global].storage == GlobalStorage::Private => {
                     let declared = &module[global];
                     let stays = !changes && !self.writes(func, global);
                     Passed::Known(match (declared.flags.contains(VarFlags::WRITTEN), declared.value) {
-                        (false, Some(value)) => Given::Table(value),
+                        (false, Some(value)) => Specialization::Table(value),
                         // Nobody sets it: it is zero.
-                        (false, None) if declared.init.is_none() => Given::Argument,
-                        _ if stays => Given::Global(global),
-                        _ => Given::Argument,
+                        (false, None) if declared.init.is_none() => Specialization::Argument,
+                        _ if stays => Specialization::Global(global),
+                        _ => Specialization::Argument,
                     })
                 }
                 ExprKind::Local(local) => {
@@ -151,10 +151,10 @@ impl Arguments {
                     // They are in order.
                     match givable.binary_search(&local) {
                         Ok(param) => Passed::Param(param),
-                        Err(_) => Passed::Known(Given::Argument),
+                        Err(_) => Passed::Known(Specialization::Argument),
                     }
                 }
-                _ => Passed::Known(Given::Argument),
+                _ => Passed::Known(Specialization::Argument),
             }
         });
         passed.collect()
@@ -203,7 +203,7 @@ impl Builder<'_, '_> {
         let hir = self.cx.hir;
         let params = hir.params(func);
         let mut arguments = Vec::with_capacity(args.len());
-        let given: Box<[Given]> = self
+        let given: Box<[Specialization]> = self
             .cx
             .arguments
             .passed(hir, self.func, func, args)
@@ -216,7 +216,9 @@ impl Builder<'_, '_> {
         let outs = self.out_locals(params, args);
         for (i, (param, &arg)) in params.iter().zip(args).enumerate() {
             let local = LocalId::new(hir[func].locals.start as usize + i);
-            if self.cx.arguments.is_givable(hir, local) && next_given.next().is_some_and(|g| *g != Given::Argument) {
+            if self.cx.arguments.is_givable(hir, local)
+                && next_given.next().is_some_and(|g| *g != Specialization::Argument)
+            {
                 continue;
             }
             let in_place = self.cx.arguments.reads_in_place(hir, local);
@@ -268,7 +270,7 @@ impl Builder<'_, '_> {
         result
     }
 
-    fn resolved(&self, passed: Passed) -> Given {
+    fn resolved(&self, passed: Passed) -> Specialization {
         match passed {
             Passed::Known(given) => given,
             Passed::Param(index) => self.given[index],

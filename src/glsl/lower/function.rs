@@ -9,7 +9,7 @@ pub(super) use self::constants::Part as PartOf;
 
 use std::collections::HashMap;
 
-use super::{Instance, Lowering, Map, calls::Given, inline::Leaving, ranges::Bounds};
+use super::{Instance, Lowering, Map, calls::Specialization, inline::Leaving, ranges::Bounds};
 use crate::glsl::{
     ast::{List, Loc},
     hir::{ExprId, FuncId, LocalId, LocalKind, TypeId},
@@ -58,7 +58,7 @@ pub(super) struct Outer {
     forced: Vec<bool>,
     result: TypeId,
     func: Option<FuncId>,
-    given: Box<[Given]>,
+    given: Box<[Specialization]>,
     leaving: Option<Leaving>,
 }
 
@@ -92,7 +92,7 @@ pub(super) struct Builder<'m, 'a> {
     pub result: TypeId,
     /// The author's function, none of the code around the entry point; and what this copy has in place of parameters.
     pub func: Option<FuncId>,
-    pub given: Box<[Given]>,
+    pub given: Box<[Specialization]>,
     /// Of a function that becomes part of its caller.
     pub leaving: Option<Leaving>,
 }
@@ -164,10 +164,10 @@ impl<'m, 'a> Builder<'m, 'a> {
         let hir = self.cx.hir;
         for (local, given) in self.cx.arguments.givable(func).to_vec().into_iter().zip(self.given.clone()) {
             let slot = match given {
-                Given::Argument => continue,
-                Given::Channel(channel) => Slot::Channel(channel),
-                Given::Table(table) => Slot::Table(super::const_id(table)),
-                Given::Global(global) => {
+                Specialization::Argument => continue,
+                Specialization::Channel(channel) => Slot::Channel(channel),
+                Specialization::Table(table) => Slot::Table(super::const_id(table)),
+                Specialization::Global(global) => {
                     let variable = self.cx.global(global);
                     Slot::Memory(self.global(variable))
                 }
@@ -195,7 +195,7 @@ impl<'m, 'a> Builder<'m, 'a> {
     }
 
     /// Turns to the body of another function, which becomes part of this one: what [`Builder::leave`] is to be given.
-    pub fn enter(&mut self, func: FuncId, given: Box<[Given]>) -> Outer {
+    pub fn enter(&mut self, func: FuncId, given: Box<[Specialization]>) -> Outer {
         let function = &self.cx.hir[func];
         let (first_local, count) = (function.locals.start as usize, function.locals.len());
         for local in first_local..first_local + count {

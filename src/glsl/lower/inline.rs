@@ -5,7 +5,7 @@
 //! bits come out differently (see [`super::regroup`]).
 
 use super::{
-    calls::Given,
+    calls::Specialization,
     function::Builder,
     ranges::Bounds,
     reach::{Reach, known_bool},
@@ -194,7 +194,7 @@ impl Builder<'_, '_> {
     pub fn inline(
         &mut self,
         func: FuncId,
-        given: Box<[Given]>,
+        given: Box<[Specialization]>,
         arguments: Vec<Value>,
         known: Vec<(LocalId, Bounds)>,
     ) -> Option<Value> {

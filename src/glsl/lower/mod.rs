@@ -9,7 +9,7 @@
 //! - A variable that nobody writes is a value, not memory. All others are variables of the function or of the module.
 //! - Small functions, and those called at one place, become part of their callers ([`inline`]). Others have one copy for each
 //!   combination of channels, globals and tables that stand for parameters they only read ([`calls`]).
-//! - A large global array that the program fills with constants before all else is a constant ([`settled`]).
+//! - A large global array that the program fills with constants before all else is a constant ([`constant_arrays`]).
 //! - Every index that is not provably in range is clamped here ([`ranges`] tells what is known), as WebGL does; the modules
 //!   need no bounds checks from naga. Divisors of integers that may be zero are guarded ([`divide`]), as no driver's compiler
 //!   may meet one. Fetches outside a texture are left to the driver's image robustness, which gives the zeros WebGL promises.
@@ -19,6 +19,7 @@ mod access;
 mod bilinear;
 mod builtin;
 mod calls;
+mod constant_arrays;
 mod convert;
 mod cost;
 mod divide;
@@ -27,6 +28,7 @@ mod expr;
 mod flow;
 mod function;
 mod geometry;
+mod induction;
 mod inline;
 mod limits;
 mod matrix;
@@ -35,9 +37,7 @@ mod operators;
 mod ranges;
 mod reach;
 mod resources;
-mod settled;
 mod stage;
-mod steps;
 mod texture;
 mod walk;
 mod writes;
@@ -46,12 +46,12 @@ mod zeros;
 use std::collections::{HashMap, HashSet};
 
 use self::{
-    calls::{Arguments, Given},
+    calls::{Arguments, Specialization},
     reach::Reach,
     resources::Resources,
     zeros::Zeros,
 };
-pub(in crate::glsl) use self::{reach::reached, settled::settle};
+pub(in crate::glsl) use self::{constant_arrays::arrays_to_constants, reach::reached};
 use super::{
     PassSource, Reflection, hir,
     ir::{self, layout::Layouts},
@@ -79,7 +79,7 @@ pub(in crate::glsl) fn lower(module: &hir::Module, source: &PassSource<'_>, inte
         layouts: Layouts::default(),
         resources: Resources::new(module.globals.len()),
         costs: cost::costs(module),
-        counted: steps::counted(module, &writes),
+        counted: induction::counted(module, &writes),
         limits: if source.driver.hidden_limits { limits::limits(module) } else { HashSet::new() },
         writes,
         arguments,
@@ -121,7 +121,7 @@ fn const_id(id: hir::ConstId) -> ir::ConstId {
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 struct Instance {
     func: hir::FuncId,
-    given: Box<[Given]>,
+    given: Box<[Specialization]>,
 }
 
 /// State of lowering one module. What belongs to one function is in [`function::Builder`].
@@ -138,7 +138,7 @@ struct Lowering<'a> {
     /// How many expressions write each local, by [`hir::LocalId::index`].
     writes: Vec<u32>,
     /// Locals that one loop counts.
-    counted: HashMap<usize, steps::Counted>,
+    counted: HashMap<usize, induction::Counted>,
     /// Operands that the driver shall not see through.
     limits: HashSet<hir::ExprId>,
     arguments: Arguments,

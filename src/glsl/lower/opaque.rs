@@ -9,8 +9,8 @@ use crate::glsl::{
 
 impl Builder<'_, '_> {
     /// The same bits, of a scalar or vector type `ty` of numbers, but joined with a zero that the driver cannot know.
-    pub fn hidden(&mut self, ty: TypeId, value: Value) -> Value {
-        let zero = self.unknown_zero();
+    pub fn opaque(&mut self, ty: TypeId, value: Value) -> Value {
+        let zero = self.opaque_zero();
         let ints = TypeId::vector(Scalar::Int, self.extent(ty) as u8);
         let zero = self.splat(zero, ints);
         let bits = self.bitcast(value, Scalar::Int);
@@ -18,13 +18,13 @@ impl Builder<'_, '_> {
         self.bitcast(bits, self.cx.hir.types.scalar(ty).unwrap_or(Scalar::Float))
     }
 
-    fn unknown_zero(&mut self) -> Value {
+    fn opaque_zero(&mut self) -> Value {
         self.add(Op::OpaqueZero)
     }
 
     /// The value of an operand, hidden if it is one of [`limits`](super::limits).
     pub fn limit(&mut self, expr: ExprId, value: Value) -> Value {
-        if self.cx.limits.contains(&expr) { self.hidden(self.cx.hir[expr].ty, value) } else { value }
+        if self.cx.limits.contains(&expr) { self.opaque(self.cx.hir[expr].ty, value) } else { value }
     }
 
     /// Discards what never is, for a driver that asks for it.
@@ -56,7 +56,7 @@ impl Builder<'_, '_> {
 
     /// A jump that never happens, though the driver cannot know it.
     fn seem_to(&mut self, jump: Stmt) {
-        let number = self.unknown_zero();
+        let number = self.opaque_zero();
         let zero = self.literal(Scalar::Int, 0);
         let condition = self.op(Binary::NotEqual, number, zero);
         let (accept, _) = self.nested(|b| b.push(jump));
@@ -70,15 +70,15 @@ impl Builder<'_, '_> {
         if !self.cx.source.driver.opaque_uniforms {
             return self.load(pointer);
         }
-        let Some(path) = self.constant_path(pointer) else { return self.load_hidden(pointer, ty) };
+        let Some(path) = self.constant_path(pointer) else { return self.load_opaque(pointer, ty) };
         if let Some(&value) = self.uniforms.get(&path) {
             return value;
         }
         let at_start = self.at_start(|b| {
             let pointer = path.1.iter().fold(path.0, |base, &index| b.add(Op::Part { base, index }));
-            b.load_hidden(pointer, ty)
+            b.load_opaque(pointer, ty)
         });
-        let Some(value) = at_start else { return self.load_hidden(pointer, ty) };
+        let Some(value) = at_start else { return self.load_opaque(pointer, ty) };
         self.uniforms.insert(path, value);
         value
     }
@@ -94,18 +94,18 @@ impl Builder<'_, '_> {
         matches!(self.f[pointer], Op::Global(_)).then_some((pointer, path))
     }
 
-    fn load_hidden(&mut self, pointer: Value, ty: TypeId) -> Value {
+    fn load_opaque(&mut self, pointer: Value, ty: TypeId) -> Value {
         let part = match self.cx.hir.types.get(ty) {
             Type::Array { element, .. } => element,
             Type::Matrix { rows, .. } => TypeId::vector(Scalar::Float, rows),
             _ => {
                 let value = self.load(pointer);
-                return self.hidden(ty, value);
+                return self.opaque(ty, value);
             }
         };
         let parts = (0..self.extent(ty)).map(|index| {
             let pointer = self.add(Op::Part { base: pointer, index });
-            self.load_hidden(pointer, part)
+            self.load_opaque(pointer, part)
         });
         let parts = parts.collect();
         self.compose(ty, parts)

@@ -7,7 +7,7 @@ use std::collections::HashSet;
 
 use super::{
     Instance,
-    calls::{Arguments, Given, Passed},
+    calls::{Arguments, Passed, Specialization},
     walk::{Node, parts},
     writes,
 };
@@ -66,7 +66,7 @@ impl Reach {
         found.insert(pending[0].clone());
         while let Some(instance) = pending.pop() {
             let facts = &facts[instance.func.index()];
-            let mut call = |func: FuncId, passed: &[Passed], given: &[Given]| {
+            let mut call = |func: FuncId, passed: &[Passed], given: &[Specialization]| {
                 let given = passed.iter().map(|&passed| match passed {
                     Passed::Known(given) => given,
                     Passed::Param(index) => given[index],

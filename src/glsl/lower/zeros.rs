@@ -222,7 +222,7 @@ impl Builder<'_, '_> {
         if !is_float || !self.cx.zeros.contain(expr) || self.is_known_not_zero(ty, value) {
             return value;
         }
-        self.hidden(ty, value)
+        self.opaque(ty, value)
     }
 
     /// Whether every component is a number other than zero, which what [`Zeros`] has to say of all calls of a function together

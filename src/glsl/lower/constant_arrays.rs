@@ -25,7 +25,7 @@ const MOST_CALLS: u32 = 16;
 
 /// Makes constants of the arrays that are filled with constants before all else, and takes out what fills them. Smaller
 /// ones stay memory, as drivers fold what loops that they write out read of it.
-pub(in crate::glsl) fn settle(module: &mut Module) {
+pub(in crate::glsl) fn arrays_to_constants(module: &mut Module) {
     let Some(entry) = module.entry else { return };
     let mut arrays = candidates(module);
     if arrays.is_empty() {
@@ -37,7 +37,7 @@ pub(in crate::glsl) fn settle(module: &mut Module) {
     search.global_initialisers();
     search.statements(module[entry].body.unwrap_or(List::EMPTY), 0);
     for array in arrays {
-        array.settle(module);
+        array.make_constant(module);
     }
 }
 
@@ -286,7 +286,7 @@ fn may_leave(module: &Module, stmt: StmtId) -> bool {
 
 impl Array {
     /// Makes it a constant if nothing else writes it.
-    fn settle(self, module: &mut Module) {
+    fn make_constant(self, module: &mut Module) {
         if self.seen != self.written || self.seen == 0 {
             return;
         }
