@@ -15,7 +15,7 @@ use crate::glsl::{
     PassKind, interface,
     ir::{
         ConstId,
-        layout::{LARGE, LEAST_COPY, NOT_UNROLLED, round_up},
+        layout::{LARGE, NOT_UNROLLED, round_up},
     },
     types::{Scalar, Type, TypeId},
 };
@@ -60,11 +60,9 @@ pub(super) enum TablePlace {
 }
 
 impl Emitter<'_> {
-    /// Whether values of a type are copied by loops where the driver needs it ([`super::long_arrays`]).
+    /// Whether values of a type are copied by loops, which the driver needs ([`super::long_arrays`]).
     pub fn is_long(&mut self, ty: TypeId) -> bool {
-        self.source.driver.array_loops
-            && matches!(self.ir.types.get(ty), Type::Array { .. } | Type::Struct(_))
-            && self.layout(ty).size >= 4 * LEAST_COPY
+        self.source.driver.array_loops && self.layouts.is_long(self.ir, ty)
     }
 
     pub fn table_place(&mut self, id: ConstId) -> TablePlace {

@@ -35,6 +35,12 @@ impl Layout {
 pub struct Layouts(Vec<Option<Layout>>);
 
 impl Layouts {
+    /// Whether a value is an array or structure that is copied by a loop where a driver needs that.
+    pub fn is_long(&mut self, module: &Module, ty: TypeId) -> bool {
+        matches!(module.types.get(ty), Type::Array { .. } | Type::Struct(_))
+            && self.of(module, ty).size >= 4 * LEAST_COPY
+    }
+
     /// The layout of a value's type.
     pub fn of(&mut self, module: &Module, ty: TypeId) -> Layout {
         let index = ty.0 as usize;

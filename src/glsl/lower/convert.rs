@@ -28,9 +28,8 @@ impl Builder<'_, '_> {
             let components = hir.types.components(ty).unwrap_or(1) as usize;
             match hir.types.get(ty) {
                 Type::Scalar(_) => parts.push(value),
-                // Whole vectors stay whole, unless they are constants: naga's SPIR-V writer takes a constant vector within a
-                // constant vector for one component.
-                Type::Vector { .. } if filled + components <= size && !self.is_constant(value) => parts.push(value),
+                // Whole vectors stay whole.
+                Type::Vector { .. } if filled + components <= size => parts.push(value),
                 _ => {
                     let mut all = Vec::new();
                     self.components(value, ty, &mut all);
@@ -43,10 +42,6 @@ impl Builder<'_, '_> {
             [whole] => whole,
             _ => self.compose(ty, parts),
         }
-    }
-
-    fn is_constant(&self, value: Value) -> bool {
-        matches!(self.f[value], Op::Const(_) | Op::Zero(_))
     }
 
     /// `matCxR(..)` of scalars and vectors, column by column.

@@ -2,7 +2,7 @@
 //!
 //! Every driver does that sooner or later. OpenGL's compilers do it before they join constants and look for what is computed
 //! twice, across the borders that the author drew; a SPIR-V driver finds most of that done for each function alone, and last
-//! bits come out differently (see [`super::regroup`]).
+//! bits come out differently (see [`super::geometry`]).
 
 use super::{
     calls::Specialization,

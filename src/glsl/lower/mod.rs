@@ -152,9 +152,7 @@ struct Lowering<'a> {
 impl Lowering<'_> {
     /// Whether values of a type are copied by loops where the driver needs it, and passed by reference for that.
     pub fn is_long(&mut self, ty: hir::TypeId) -> bool {
-        self.source.driver.array_loops
-            && matches!(self.hir.types.get(ty), hir::Type::Array { .. } | hir::Type::Struct(_))
-            && self.layouts.of(&self.out, ty).size >= 4 * ir::layout::LEAST_COPY
+        self.source.driver.array_loops && self.layouts.is_long(&self.out, ty)
     }
 }
 
