@@ -40,7 +40,8 @@ fn loads(module: &Module, function: &Function) -> (usize, Vec<Load>) {
     let seen = |load: Load| {
         let mut bits = function.expressions.iter();
         let bits = bits.find(|(_, e)| matches!(e, Expression::As { expr, convert: None, .. } if *expr == load));
-        !bits.is_some_and(|(bits, _)| is_joined(bits))
+        // Ints are joined as they are.
+        !is_joined(bits.map_or(load, |(bits, _)| bits))
     };
     (all.len(), all.iter().copied().filter(|load| seen(*load)).collect())
 }

@@ -245,7 +245,7 @@ pub fn dump_ir(source: &PassSource<'_>, link: &Link<'_>, pass: Option<&str>) -> 
 fn compile_seen(
     source: &PassSource<'_>,
     link: &Link<'_>,
-    seen: impl FnMut(&str, &ir::Module),
+    mut seen: impl FnMut(&str, &ir::Module),
 ) -> Result<Compiled, Vec<Diagnostic>> {
     let ((mut checked, mut diagnostics), interface) = check_linked(source, link);
     if diagnostics.iter().any(Diagnostic::is_error) {
@@ -253,7 +253,9 @@ fn compile_seen(
     }
     lower::arrays_to_constants(&mut checked);
     let lower::Lowered { mut program, mut reflection } = lower::lower(&checked, source, interface);
-    opt::optimise(&mut program, source.driver.without, seen);
+    opt::optimise(&mut program, source.driver.without, &mut seen);
+    emit::work_arounds::apply(&mut program, source.kind, source.driver);
+    seen("work-arounds", &program);
     let emit::Emitted { module, tables, knob_bytes, filled_arrays } = emit::emit(&program, source, &mut reflection);
     if let Err(reason) = emit::validate(&module) {
         let bug =

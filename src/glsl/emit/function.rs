@@ -71,7 +71,10 @@ impl<'m, 'a> Builder<'m, 'a> {
             vars,
         };
         for (index, var) in function.vars.iter().enumerate() {
-            if let Some(init) = var.init {
+            // Zeros are what naga's variables begin with.
+            if let Some(init) = var.init
+                && !matches!(function[init], Op::Zero(_))
+            {
                 let init = builder.value(init);
                 builder.f.local_variables[builder.vars[index]].init = Some(init);
             }

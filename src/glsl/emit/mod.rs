@@ -14,6 +14,7 @@ mod memory;
 mod resources;
 mod tables;
 mod types;
+pub(crate) mod work_arounds;
 
 use std::collections::HashSet;
 

@@ -22,6 +22,7 @@ pub mod infer;
 pub mod layout;
 mod op;
 pub mod print;
+pub mod rewrite;
 pub mod verify;
 
 pub use op::{Axis, Binary, Input, Level, Math, Op, Unary};
@@ -164,6 +165,46 @@ pub enum Stmt {
     Output(Vec<(Output, Value)>),
 }
 
+impl Stmt {
+    /// Visits the operands of the statement itself, in order; each may be changed. What a `Let` computes is none.
+    pub fn operands_mut(&mut self, mut visit: impl FnMut(&mut Value)) {
+        match self {
+            Stmt::Store { place, value } => {
+                visit(place);
+                visit(value);
+            }
+            Stmt::If { condition: value, .. } | Stmt::Switch { selector: value, .. } => visit(value),
+            Stmt::Loop { break_if: value, .. } | Stmt::Return(value) => value.iter_mut().for_each(visit),
+            Stmt::Output(parts) => parts.iter_mut().for_each(|(_, value)| visit(value)),
+            Stmt::Let(_) | Stmt::Break | Stmt::Continue | Stmt::Discard => {}
+        }
+    }
+
+    /// Visits the blocks within, in order.
+    pub fn blocks<'a>(&'a self, mut visit: impl FnMut(&'a Block)) {
+        match self {
+            Stmt::If { accept: a, reject: b, .. } | Stmt::Loop { body: a, continuing: b, .. } => {
+                visit(a);
+                visit(b);
+            }
+            Stmt::Switch { cases, .. } => cases.iter().for_each(|case| visit(&case.body)),
+            _ => {}
+        }
+    }
+
+    /// Visits the blocks within, in order; each may be changed.
+    pub fn blocks_mut(&mut self, mut visit: impl FnMut(&mut Block)) {
+        match self {
+            Stmt::If { accept: a, reject: b, .. } | Stmt::Loop { body: a, continuing: b, .. } => {
+                visit(a);
+                visit(b);
+            }
+            Stmt::Switch { cases, .. } => cases.iter_mut().for_each(|case| visit(&mut case.body)),
+            _ => {}
+        }
+    }
+}
+
 /// A case of a [`Stmt::Switch`].
 #[derive(Clone, Debug)]
 pub struct Case {
@@ -286,6 +327,36 @@ impl Module {
     pub fn add_global(&mut self, ty: TypeId, kind: GlobalKind) -> GlobalId {
         self.globals.push(Global { ty, kind });
         GlobalId::new(self.globals.len() - 1)
+    }
+
+    /// Drops functions that nothing calls any more.
+    pub fn drop_uncalled(&mut self) {
+        let mut called = vec![false; self.functions.len()];
+        let Some(entry) = called.last_mut() else { return };
+        *entry = true;
+        for (index, function) in self.functions.iter().enumerate().rev() {
+            let ops = if called[index] { &function.ops[..] } else { &[] };
+            for op in ops {
+                if let Op::Call { function, .. } = op {
+                    called[function.index()] = true;
+                }
+            }
+        }
+        let mut kept = 0;
+        let number = |&called: &bool| {
+            kept += usize::from(called);
+            called.then(|| FuncId::new(kept - 1))
+        };
+        let new: Vec<_> = called.iter().map(number).collect();
+        let mut called = called.into_iter();
+        self.functions.retain(|_| called.next() == Some(true));
+        for function in &mut self.functions {
+            for op in &mut function.ops {
+                if let Op::Call { function, .. } = op {
+                    *function = new[function.index()].expect("a called function is kept");
+                }
+            }
+        }
     }
 
     /// How many parts a value of a type has: components, columns, elements, members. None of a scalar.

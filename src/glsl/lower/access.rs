@@ -14,13 +14,11 @@ pub(super) struct Place {
     pub ty: TypeId,
     /// Components of it that are meant; none: all of it.
     pub swizzle: Option<Swizzle>,
-    /// Read from a uniform block: see [`Builder::load_uniform`].
-    pub uniform: bool,
 }
 
 impl Place {
     pub fn of(pointer: Value, ty: TypeId) -> Self {
-        Self { pointer, ty, swizzle: None, uniform: false }
+        Self { pointer, ty, swizzle: None }
     }
 }
 
@@ -39,11 +37,10 @@ impl Builder<'_, '_> {
     pub fn read(&mut self, expr: ExprId) -> Result<Value, Vec<ExprId>> {
         let (root, links) = self.chain(expr);
         let Some(mut place) = self.root(root, &links) else { return Err(links) };
-        let uniform = place.uniform;
         for link in links.into_iter().rev() {
             place = self.part_of_place(place, link);
         }
-        Ok(self.load_place(Place { uniform, ..place }))
+        Ok(self.load_place(place))
     }
 
     /// What members, swizzles and indices stand on, and these from the outermost inwards.
@@ -97,10 +94,7 @@ impl Builder<'_, '_> {
                     self.cx.global(id)
                 }
             }
-            ExprKind::Uniform(uniform) => {
-                let global = self.cx.uniform(uniform);
-                return Some(Place { uniform: true, ..Place::of(self.global(global), ty) });
-            }
+            ExprKind::Uniform(uniform) => self.cx.uniform(uniform),
             ExprKind::BuiltinVar(BuiltinVar::FragCoord) => self.cx.frag_coord(),
             ExprKind::BuiltinVar(BuiltinVar::FragDepth) => self.cx.frag_depth(),
             ExprKind::BuiltinVar(variable)
@@ -120,7 +114,7 @@ impl Builder<'_, '_> {
         let slot = self.cx.source.knobs[usize::from(index)].slot;
         let block = self.cx.knob(slot);
         let pointer = self.global(block);
-        let words = self.load_uniform(pointer, TypeId::vector(Scalar::Uint, 4));
+        let words = self.load(pointer);
         let size = self.cx.hir.types.components(ty).expect("a scalar or a vector") as usize;
         let words = self.swizzle(words, TypeId::vector(Scalar::Uint, 4), Swizzle::new(&[0, 1, 2, 3][..size]));
         match self.cx.hir.types.scalar(ty) {
@@ -207,10 +201,7 @@ impl Builder<'_, '_> {
     }
 
     pub fn load_place(&mut self, place: Place) -> Value {
-        let value = match place.uniform {
-            true => self.load_uniform(place.pointer, place.ty),
-            false => self.load(place.pointer),
-        };
+        let value = self.load(place.pointer);
         match place.swizzle {
             Some(swizzle) => self.swizzle(value, place.ty, swizzle),
             None => value,

@@ -257,12 +257,7 @@ impl Builder<'_, '_> {
             arguments.push(copy);
             copies_out.push((place, copy));
         }
-        let result = if self.cx.inlined[func.index()] {
-            let known = self.bounds_of_arguments(func, args);
-            self.inline(func, given, arguments, known)
-        } else {
-            self.call_apart(Instance { func, given }, arguments)
-        };
+        let result = self.call_instance(Instance { func, given }, arguments);
         for (place, copy) in copies_out {
             let value = self.load(copy);
             self.store_place(place, value);
@@ -277,7 +272,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    fn call_apart(&mut self, instance: Instance, arguments: Vec<Value>) -> Option<Value> {
+    fn call_instance(&mut self, instance: Instance, arguments: Vec<Value>) -> Option<Value> {
         let function = self.cx.functions[&instance];
         let result = self.push_call(function, arguments);
         (self.cx.hir[instance.func].result != TypeId::VOID).then_some(result)

@@ -2,7 +2,7 @@
 
 use super::{cost::CHEAP, function::Builder, reach::known_bool};
 use crate::glsl::{
-    hir::{BinaryOp, ConstId, ExprFlags, ExprId, ExprKind, LogicalOp, Scalar, Type, TypeId},
+    hir::{ConstId, ExprFlags, ExprId, ExprKind, LogicalOp, Scalar, Type, TypeId},
     ir::{Binary, Block, Op, Stmt, Unary, Value},
 };
 
@@ -51,11 +51,7 @@ impl Builder<'_, '_> {
         self.loc = hir[link].loc;
         match hir[link].kind {
             ExprKind::Binary { op, shape, lhs, rhs } => {
-                let mut right = self.value(rhs);
-                if op == BinaryOp::Div {
-                    right = self.divisor(rhs, right);
-                }
-                let (left, right) = (self.limit(lhs, value), self.limit(rhs, right));
+                let (left, right) = (value, self.value(rhs));
                 let operands = self.operands_of(op, lhs, rhs);
                 self.operation(op, shape, (hir[lhs].ty, left), (hir[rhs].ty, right), operands)
             }

@@ -8,7 +8,7 @@ use super::{
 use crate::glsl::{
     ast::List,
     hir::{Case, ExprId, ExprKind, LocalId, StmtId, StmtKind, TypeId},
-    ir::{self, Binary, Block, Op, Stmt, Value},
+    ir::{self, Binary, Block, Stmt, Value},
 };
 
 impl Builder<'_, '_> {
@@ -31,19 +31,9 @@ impl Builder<'_, '_> {
             StmtKind::Expr(expr) => self.effect(expr),
             StmtKind::Declare { local, init } => self.declaration(local, init),
             StmtKind::If { cond, then, otherwise } => self.branch(cond, then, otherwise),
-            StmtKind::For { init, test, step, body } => {
-                self.for_loop(init, test, step, body);
-                self.leave_outer(stmt);
-            }
-            StmtKind::DoWhile { body, test } => {
-                self.do_while(body, test);
-                self.leave_outer(stmt);
-            }
-            StmtKind::Switch { value, cases } => {
-                self.switch(value, &hir[cases]);
-                self.leave_outer(stmt);
-            }
-            StmtKind::Return(value) if let Some(leaving) = self.leaving => self.return_inlined(leaving, value),
+            StmtKind::For { init, test, step, body } => self.for_loop(init, test, step, body),
+            StmtKind::DoWhile { body, test } => self.do_while(body, test),
+            StmtKind::Switch { value, cases } => self.switch(value, &hir[cases]),
             StmtKind::Return(value) => match value {
                 Some(expr) if self.result != TypeId::VOID => {
                     let value = self.value(expr);
@@ -99,14 +89,12 @@ impl Builder<'_, '_> {
             return false;
         }
         let value = match init.map(|init| hir[init].kind) {
-            None => None,
-            Some(ExprKind::Const(id)) if self.is_initialiser(id) => Some(self.constant(id)),
+            None => self.zero(hir[local].ty),
+            Some(ExprKind::Const(id)) if self.is_initialiser(id) => self.constant(id),
             Some(_) => return false,
         };
         let pointer = self.memory(local);
-        if let Op::Var(variable) = self.f[pointer] {
-            self.f.vars[variable.index()].init = value;
-        }
+        self.begin_with(pointer, value);
         true
     }
 
@@ -136,7 +124,6 @@ impl Builder<'_, '_> {
         let repeated = step.filter(|step| self.cx.costs[step.index()] <= CHEAP);
         self.loops.push(Loop { step: repeated, counter: counter.or(float_counter), part: Part::Test });
         let (body, _) = self.nested(|b| {
-            b.close_loop(test.filter(|_| known.is_none()), body);
             if let (None, Some(test)) = (known, test) {
                 let condition = b.loop_test(test, rounds);
                 b.push(Stmt::If { condition, accept: Block::new(), reject: vec![Stmt::Break] });
@@ -155,11 +142,7 @@ impl Builder<'_, '_> {
     }
 
     fn body_of_loop(&mut self, body: List<StmtId>) {
-        self.within(Part::Body, |b| {
-            b.breakable += 1;
-            b.statements(body);
-            b.breakable -= 1;
-        });
+        self.within(Part::Body, |b| b.statements(body));
     }
 
     /// The step of the innermost loop, at the end of its body or before a `continue`.
@@ -179,7 +162,6 @@ impl Builder<'_, '_> {
         let known = known_bool(self.cx.hir, test);
         self.loops.push(Loop { step: None, counter: None, part: Part::Test });
         let (body, _) = self.nested(|b| {
-            b.close_loop(None, body);
             b.body_of_loop(body);
         });
         let mut break_if = None;
@@ -200,11 +182,9 @@ impl Builder<'_, '_> {
         }
         // Each body alone, and whether it runs into the next.
         let mut bodies = Vec::with_capacity(cases.len());
-        self.breakable += 1;
         for case in cases {
             bodies.push(self.nested(|b| b.statements(case.body)));
         }
-        self.breakable -= 1;
         let last = cases.len().saturating_sub(1);
         let falls = bodies.iter().enumerate().any(|(i, (body, ended))| i != last && !*ended && !body.is_empty());
         if falls {

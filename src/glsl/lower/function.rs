@@ -7,9 +7,7 @@ mod variables;
 
 pub(super) use self::constants::Part as PartOf;
 
-use std::collections::HashMap;
-
-use super::{Instance, Lowering, Map, calls::Specialization, inline::Leaving, ranges::Bounds};
+use super::{Instance, Lowering, Map, calls::Specialization, ranges::Bounds};
 use crate::glsl::{
     ast::{List, Loc},
     hir::{ExprId, FuncId, LocalId, LocalKind, TypeId},
@@ -51,27 +49,12 @@ pub(super) enum Part {
     Step,
 }
 
-/// What belongs to the function whose body is lowered, while that is another one's.
-pub(super) struct Outer {
-    first_local: usize,
-    slots: Vec<Slot>,
-    forced: Vec<bool>,
-    result: TypeId,
-    func: Option<FuncId>,
-    given: Box<[Specialization]>,
-    leaving: Option<Leaving>,
-}
-
 pub(super) struct Builder<'m, 'a> {
     pub cx: &'m mut Lowering<'a>,
     pub f: ir::Function,
     block: Block,
     /// The part of the text that the code at hand is lowered from.
     pub loc: Loc,
-    /// What comes before all else; `None` in the code around the entry point, which has an order of its own.
-    start: Option<Block>,
-    /// Uniforms that were read there: pointer to the block, members and indices that lead to what was read.
-    pub uniforms: HashMap<(Value, Vec<u32>), Value>,
     /// Control cannot reach the end of the block: nothing more belongs into it.
     pub ended: bool,
     first_local: usize,
@@ -84,8 +67,6 @@ pub(super) struct Builder<'m, 'a> {
     globals: Map<ir::GlobalId, Value>,
     /// From the outermost to the innermost, with those of the functions that this one is part of.
     pub loops: Vec<Loop>,
-    /// How many loops and switches the code at hand lies in.
-    pub breakable: usize,
     /// Bounds of all values that an int local has from its declaration on, by [`LocalId::index`]. What holds in a part
     /// of a loop only is in [`Loop`].
     pub declared: Map<u32, Bounds>,
@@ -93,8 +74,6 @@ pub(super) struct Builder<'m, 'a> {
     /// The author's function, none of the code around the entry point; and what this copy has in place of parameters.
     pub func: Option<FuncId>,
     pub given: Box<[Specialization]>,
-    /// Of a function that becomes part of its caller.
-    pub leaving: Option<Leaving>,
 }
 
 /// Lowers one copy of a user function.
@@ -102,7 +81,6 @@ pub(super) fn lower(cx: &mut Lowering<'_>, instance: &Instance) -> ir::Function 
     let hir = cx.hir;
     let function = &hir[instance.func];
     let mut builder = Builder::new(cx, function.locals.start as usize, function.locals.len());
-    builder.start = Some(Block::new());
     // About as many as the function has expressions.
     builder.f.reserve(function.exprs.len());
     builder.result = function.result;
@@ -132,8 +110,6 @@ impl<'m, 'a> Builder<'m, 'a> {
             f: ir::Function::new(TypeId::VOID),
             block: Block::new(),
             loc: Loc::default(),
-            start: None,
-            uniforms: HashMap::new(),
             ended: false,
             first_local,
             slots: vec![Slot::Unset; count],
@@ -143,19 +119,15 @@ impl<'m, 'a> Builder<'m, 'a> {
             constants: Map::default(),
             globals: Map::default(),
             loops: Vec::new(),
-            breakable: 0,
             declared: Map::default(),
             result: TypeId::VOID,
             func: None,
             given: Box::default(),
-            leaving: None,
         }
     }
 
     pub fn finish(mut self) -> ir::Function {
-        let mut body = self.start.unwrap_or_default();
-        body.append(&mut self.block);
-        self.f.body = body;
+        self.f.body = self.block;
         self.f
     }
 
@@ -194,37 +166,6 @@ impl<'m, 'a> Builder<'m, 'a> {
         }
     }
 
-    /// Turns to the body of another function, which becomes part of this one: what [`Builder::leave`] is to be given.
-    pub fn enter(&mut self, func: FuncId, given: Box<[Specialization]>) -> Outer {
-        let function = &self.cx.hir[func];
-        let (first_local, count) = (function.locals.start as usize, function.locals.len());
-        for local in first_local..first_local + count {
-            self.declared.remove(&(local as u32));
-        }
-        Outer {
-            first_local: std::mem::replace(&mut self.first_local, first_local),
-            slots: std::mem::replace(&mut self.slots, vec![Slot::Unset; count]),
-            forced: std::mem::replace(&mut self.forced, vec![false; count]),
-            result: std::mem::replace(&mut self.result, function.result),
-            func: self.func.replace(func),
-            given: std::mem::replace(&mut self.given, given),
-            leaving: self.leaving.take(),
-        }
-    }
-
-    /// Back to the caller.
-    pub fn leave(&mut self, outer: Outer) {
-        Outer {
-            first_local: self.first_local,
-            slots: self.slots,
-            forced: self.forced,
-            result: self.result,
-            func: self.func,
-            given: self.given,
-            leaving: self.leaving,
-        } = outer;
-    }
-
     /// An operation to be computed here.
     pub fn add(&mut self, op: Op) -> Value {
         let ty = ir::infer::ty(&self.cx.out, &self.f, &op);
@@ -236,15 +177,6 @@ impl<'m, 'a> Builder<'m, 'a> {
         let value = self.f.append(op, ty, self.loc);
         self.block.push(Stmt::Let(value));
         value
-    }
-
-    /// What `make` computes, before all else that the function does; `None` in the code around the entry point.
-    pub fn at_start(&mut self, make: impl FnOnce(&mut Self) -> Value) -> Option<Value> {
-        let start = self.start.take()?;
-        let block = std::mem::replace(&mut self.block, start);
-        let value = make(self);
-        self.start = Some(std::mem::replace(&mut self.block, block));
-        Some(value)
     }
 
     /// A free operation: one that no statement computes.

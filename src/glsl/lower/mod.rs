@@ -7,8 +7,8 @@
 //! What the generated code looks like, and why:
 //! - Only what the entry point reaches is lowered ([`reach`]). A branch whose condition is a literal is not reached.
 //! - A variable that nobody writes is a value, not memory. All others are variables of the function or of the module.
-//! - Small functions, and those called at one place, become part of their callers ([`inline`]). Others have one copy for each
-//!   combination of channels, globals and tables that stand for parameters they only read ([`calls`]).
+//! - A function has one copy for each combination of channels, globals and tables that stand for parameters it only reads
+//!   ([`calls`]).
 //! - A large global array that the program fills with constants before all else is a constant ([`constant_arrays`]).
 //! - Every index that is not provably in range is clamped here ([`ranges`] tells what is known), as WebGL does; the modules
 //!   need no bounds checks from naga. Divisors of integers that may be zero are guarded ([`divide`]), as no driver's compiler
@@ -29,8 +29,6 @@ mod flow;
 mod function;
 mod geometry;
 mod induction;
-mod inline;
-mod limits;
 mod matrix;
 mod opaque;
 mod operators;
@@ -41,15 +39,13 @@ mod stage;
 mod texture;
 mod walk;
 mod writes;
-mod zeros;
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 use self::{
     calls::{Arguments, Specialization},
     reach::Reach,
     resources::Resources,
-    zeros::Zeros,
 };
 pub(in crate::glsl) use self::{constant_arrays::arrays_to_constants, reach::reached};
 use super::{
@@ -80,16 +76,12 @@ pub(in crate::glsl) fn lower(module: &hir::Module, source: &PassSource<'_>, inte
         resources: Resources::new(module.globals.len()),
         costs: cost::costs(module),
         counted: induction::counted(module, &writes),
-        limits: if source.driver.hidden_limits { limits::limits(module) } else { HashSet::new() },
         writes,
         arguments,
-        inlined: inline::inlined(module, &reach),
-        zeros: Zeros::new(module),
         functions: HashMap::with_capacity(reach.instances.len()),
         reflection: Reflection::default(),
     };
-    let apart: Vec<_> = reach.instances.iter().filter(|i| !cx.inlined[i.func.index()]).collect();
-    for instance in apart {
+    for instance in &reach.instances {
         let function = function::lower(&mut cx, instance);
         cx.out.functions.push(function);
         let id = ir::FuncId::new(cx.out.functions.len() - 1);
@@ -139,12 +131,7 @@ struct Lowering<'a> {
     writes: Vec<u32>,
     /// Locals that one loop counts.
     counted: HashMap<usize, induction::Counted>,
-    /// Operands that the driver shall not see through.
-    limits: HashSet<hir::ExprId>,
     arguments: Arguments,
-    /// Functions that become part of their callers, by [`hir::FuncId::index`].
-    inlined: Vec<bool>,
-    zeros: Zeros,
     functions: HashMap<Instance, ir::FuncId>,
     reflection: Reflection,
 }

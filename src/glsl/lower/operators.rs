@@ -187,11 +187,8 @@ impl Builder<'_, '_> {
         let hir = self.cx.hir;
         let (place_ty, value_ty) = (hir[place].ty, hir[value].ty);
         let at = self.place(place);
-        let mut right = self.value(value);
+        let right = self.value(value);
         let operands = self.operands_of(op, place, value);
-        if op == BinaryOp::Div {
-            right = self.divisor(value, right);
-        }
         let left = self.load_place(at);
         let result = self.operation(op, shape, (place_ty, left), (value_ty, right), operands);
         self.store_place(at, result);

@@ -19,8 +19,7 @@ use super::{
 use crate::glsl::{
     ast::List,
     hir::{
-        BinaryOp, Builtin, ExprId, ExprKind, FuncId, IncDec, LocalId, Module, Scalar, Shape, StmtId, StmtKind, TypeId,
-        Uniform,
+        BinaryOp, Builtin, ExprId, ExprKind, IncDec, LocalId, Module, Scalar, Shape, StmtId, StmtKind, TypeId, Uniform,
     },
 };
 
@@ -140,15 +139,6 @@ impl Builder<'_, '_> {
             }
             _ => None,
         }
-    }
-
-    /// Bounds of the parameters that a function does not write, where it is called here with `args`.
-    pub fn bounds_of_arguments(&self, func: FuncId, args: &[ExprId]) -> Vec<(LocalId, Bounds)> {
-        let hir = self.cx.hir;
-        let first = hir[func].locals.start as usize;
-        let params = (first..).map(LocalId::new).zip(args);
-        let unwritten = params.filter(|(param, _)| self.cx.writes[param.index()] == 0);
-        unwritten.filter_map(|(param, &arg)| Some((param, self.range(arg)?))).collect()
     }
 
     /// For `for (int i = a; i < b; i++)` whose `i` is written by the step alone: `i` and its bounds in the body. Any

@@ -23,13 +23,6 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reach: &Reach) -> ir::Function {
     }
     let mut b = Builder::new(cx, 0, 0);
     let (initialisers, _) = b.nested(|b| b.initialise_globals(reach));
-    let seems_to_discard = !is_vertex && b.cx.source.driver.may_discard;
-    // Also lowered before what it reads is set.
-    let (discard, _) = b.nested(|b| {
-        if seems_to_discard {
-            b.seem_to_discard();
-        }
-    });
     b.splice(initialisers);
     for (id, location) in inputs {
         b.input(id, location, is_vertex);
@@ -39,7 +32,6 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reach: &Reach) -> ir::Function {
     } else {
         b.fragment_inputs();
     }
-    b.splice(discard);
     b.push_call(author, Vec::new());
     let parts = if is_vertex { b.vertex_outputs() } else { b.fragment_outputs() };
     b.push(Stmt::Output(parts));

@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::rewrite::{self, Rewriter, Rule};
+use crate::glsl::ir::rewrite::{self, Rewriter, Rule};
 use crate::glsl::ir::{Module, Op, Value};
 
 pub(super) fn run(module: &mut Module) {

@@ -1,6 +1,6 @@
 //! Constant folding, and parts of what is put together.
 
-use super::rewrite::{self, Rewriter, Rule};
+use crate::glsl::ir::rewrite::{self, Rewriter, Rule};
 use crate::glsl::{
     ir::{Binary, Math, Module, Op, Unary, Value},
     types::{Scalar, Type},

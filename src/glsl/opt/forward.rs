@@ -5,7 +5,7 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::rewrite::{self, Rewriter, Rule};
+use crate::glsl::ir::rewrite::{self, Rewriter, Rule};
 use crate::glsl::{
     ir::{Block, FuncId, Function, GlobalId, Module, Op, Stmt, Value},
     types::{Type, TypeId},

@@ -2,7 +2,7 @@
 //!
 //! The example of `docs/compiler.md`: a pass is a rule and an entry in the list.
 
-use super::rewrite::{self, Rewriter, Rule};
+use crate::glsl::ir::rewrite::{self, Rewriter, Rule};
 use crate::glsl::ir::{Binary, Module, Op, Value};
 
 pub(super) fn run(module: &mut Module) {

@@ -10,7 +10,7 @@ mod dce;
 mod fold;
 mod forward;
 mod identity;
-mod rewrite;
+mod inline;
 mod scalarize;
 mod sroa;
 #[cfg(test)]
@@ -28,6 +28,11 @@ pub struct Pass {
 
 /// All passes, in the order in which they run.
 pub const PASSES: &[Pass] = &[
+    Pass {
+        name: "inline",
+        purpose: "replaces calls of small functions, and of those called once, by what they do",
+        run: inline::run,
+    },
     Pass {
         name: "forward",
         purpose: "replaces loads of what is known to be in memory (store-to-load forwarding)",

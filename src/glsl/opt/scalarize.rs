@@ -4,7 +4,7 @@
 //! is computed twice. OpenGL drivers do both first, Vulkan ones later, so last bits differ; here both is done beforehand.
 //! Devices that compute by component have as much to do either way.
 
-use super::rewrite::{self, Rewriter, Rule};
+use crate::glsl::ir::rewrite::{self, Rewriter, Rule};
 use crate::glsl::{
     ir::{Binary, Math, Module, Op, Unary, Value},
     types::{Scalar, Type, TypeId},

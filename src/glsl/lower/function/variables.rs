@@ -48,9 +48,21 @@ impl Builder<'_, '_> {
         if let Slot::Memory(pointer) = self.slot(local) {
             return pointer;
         }
-        let pointer = self.temporary(self.cx.hir[local].ty);
+        let ty = self.cx.hir[local].ty;
+        let pointer = self.temporary(ty);
+        if self.is_forced(local) {
+            let zero = self.zero(ty);
+            self.begin_with(pointer, zero);
+        }
         self.set_slot(local, Slot::Memory(pointer));
         pointer
+    }
+
+    /// Lets a variable of the function begin with a constant.
+    pub fn begin_with(&mut self, variable: Value, value: Value) {
+        if let Op::Var(id) = self.f[variable] {
+            self.f.vars[id.index()].init = Some(value);
+        }
     }
 
     /// A new variable of this function.

@@ -1,0 +1,85 @@
+//! What loops count down to, hidden from drivers that take its largest value for its least.
+//!
+//! Mesa's `nir_loop_analyze.c` bounds the rounds of a loop whose counter is compared with `min(c, x)` as if that were `c`. This
+//! is right for `i < min(c, x)`, but `for (int i = 4; i > min(6, x); i--)` then has no round at all. The comparison may lie in any
+//! exit of the loop, and the `min` in a variable, so each limit that is no constant is hidden.
+
+use rustc_hash::FxHashMap;
+
+use crate::glsl::ir::{
+    Binary, Block, Function, Module, Op, Stmt, Unary, Value,
+    rewrite::{self, Rewriter, Rule},
+};
+
+pub(super) fn run(program: &mut Module) {
+    for index in 0..program.functions.len() {
+        let mut limits = Limits::default();
+        limits.block(&program.functions[index], &program.functions[index].body, false);
+        if !limits.0.is_empty() {
+            rewrite::function(program, index, &mut limits);
+        }
+    }
+}
+
+/// Comparisons, and whether their left and right sides are limits: what something is compared with where a loop goes on while
+/// that is greater.
+#[derive(Default)]
+struct Limits(FxHashMap<Value, [bool; 2]>);
+
+impl Limits {
+    fn block(&mut self, f: &Function, block: &Block, in_loop: bool) {
+        for stmt in block {
+            if let (true, Stmt::If { condition, accept, reject }) = (in_loop, stmt) {
+                if leaves(accept) {
+                    self.compared(f, *condition, false);
+                }
+                if leaves(reject) {
+                    self.compared(f, *condition, true);
+                }
+            }
+            if let Stmt::Loop { break_if: Some(condition), .. } = stmt {
+                self.compared(f, *condition, false);
+            }
+            let in_loop = in_loop || matches!(stmt, Stmt::Loop { .. });
+            stmt.blocks(|block| self.block(f, block, in_loop));
+        }
+    }
+
+    /// Notes the limits in a condition; `goes_on`: the loop goes on where it holds.
+    fn compared(&mut self, f: &Function, condition: Value, goes_on: bool) {
+        match f[condition] {
+            Op::Unary { op: Unary::LogicalNot, operand } => self.compared(f, operand, !goes_on),
+            Op::Binary { op: Binary::LogicalAnd | Binary::LogicalOr, left, right } => {
+                self.compared(f, left, goes_on);
+                self.compared(f, right, goes_on);
+            }
+            Op::Binary { op, left, right } if op.is_comparison() => {
+                let is_greater = match op {
+                    Binary::Greater | Binary::GreaterEqual => goes_on,
+                    Binary::Less | Binary::LessEqual => !goes_on,
+                    _ => return,
+                };
+                let limit = if is_greater { right } else { left };
+                if !f[limit].is_free() {
+                    self.0.entry(condition).or_default()[usize::from(is_greater)] = true;
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Whether a block ends with leaving the loop, or the function.
+fn leaves(block: &Block) -> bool {
+    matches!(block.last(), Some(Stmt::Break | Stmt::Return(_)))
+}
+
+impl Rule for Limits {
+    fn operation(&mut self, r: &mut Rewriter<'_>, value: Value, op: &Op) -> Option<Value> {
+        let &[hides_left, hides_right] = self.0.get(&value)?;
+        let Op::Binary { op, left, right } = *op else { return None };
+        let left = if hides_left { r.opaque(left) } else { left };
+        let right = if hides_right { r.opaque(right) } else { right };
+        Some(r.add(Op::Binary { op, left, right }))
+    }
+}

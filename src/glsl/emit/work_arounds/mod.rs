@@ -1,0 +1,46 @@
+//! What drivers need done otherwise, as changes of the program before it is emitted. Each file names the driver and the fault.
+//! None changes what a program computes. ([`super::long_arrays`] is the one that works on the emitted module.)
+
+mod limits;
+mod loop_exits;
+mod uniforms;
+mod zero_divisors;
+
+use crate::glsl::{
+    Driver, PassKind,
+    ir::{
+        Module, Op, Stmt, Value,
+        rewrite::{self, Rewriter, Rule},
+    },
+};
+
+/// Applies those that a driver needs.
+pub(in crate::glsl) fn apply(program: &mut Module, kind: PassKind, driver: Driver) {
+    zero_divisors::run(program);
+    if driver.hidden_limits {
+        limits::run(program);
+    }
+    if driver.loop_closing_exits {
+        loop_exits::run(program);
+    }
+    if driver.opaque_uniforms {
+        uniforms::run(program);
+    }
+    if driver.may_discard && kind == PassKind::Fragment {
+        let entry = program.functions.len() - 1;
+        rewrite::function(program, entry, &mut SeemToDiscard);
+    }
+}
+
+/// Discards what never is: see [`Driver::may_discard`].
+struct SeemToDiscard;
+
+impl Rule for SeemToDiscard {
+    fn begin(&mut self, r: &mut Rewriter<'_>) {
+        r.seem_to(Stmt::Discard);
+    }
+
+    fn operation(&mut self, _: &mut Rewriter<'_>, _: Value, _: &Op) -> Option<Value> {
+        None
+    }
+}

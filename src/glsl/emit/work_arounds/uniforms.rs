@@ -1,0 +1,77 @@
+//! Uniforms that the driver takes for values of the pixel: Mesa's lavapipe compiles a program anew for every frame, and keeps
+//! what it made, where a branch depends on uniforms alone (`lvp_inline_uniforms.c`).
+//!
+//! Each is read once, before all else that its function does: an operation more in a loop or branch can be what keeps the driver
+//! from writing it out, or from making it a select.
+
+use rustc_hash::FxHashMap;
+
+use crate::glsl::{
+    ir::{
+        GlobalId, GlobalKind, Module, Op, Value,
+        rewrite::{self, Rewriter, Rule},
+    },
+    types::{Type, TypeId},
+};
+
+pub(super) fn run(program: &mut Module) {
+    rewrite::each_function(program, |_, _| Uniforms::default());
+}
+
+/// Uniforms that were read at the start: members and indices that lead there, and the value.
+#[derive(Default)]
+struct Uniforms(FxHashMap<(GlobalId, Vec<u32>), Value>);
+
+impl Rule for Uniforms {
+    fn operation(&mut self, r: &mut Rewriter<'_>, value: Value, op: &Op) -> Option<Value> {
+        let Op::Load { place } = *op else { return None };
+        let root = r.f.root(place);
+        let Op::Global(global) = r.f[root] else { return None };
+        if !matches!(r.module[global].kind, GlobalKind::Uniform(_) | GlobalKind::Knob(_)) {
+            return None;
+        }
+        let ty = r.f.ty(value);
+        let Some(path) = constant_path(r, place) else { return Some(load(r, place, ty)) };
+        let key = (global, path);
+        if let Some(&made) = self.0.get(&key) {
+            return Some(made);
+        }
+        let made = r.at_start(|r| {
+            let place = key.1.iter().fold(root, |base, &index| r.add(Op::Part { base, index }));
+            load(r, place, ty)
+        });
+        self.0.insert(key, made);
+        Some(made)
+    }
+}
+
+/// Members and constant indices that lead to a place.
+fn constant_path(r: &Rewriter<'_>, mut place: Value) -> Option<Vec<u32>> {
+    let mut path = Vec::new();
+    loop {
+        match r.f[place] {
+            Op::Part { base, index } => {
+                path.push(index);
+                place = base;
+            }
+            Op::Element { .. } => return None,
+            _ => break,
+        }
+    }
+    path.reverse();
+    Some(path)
+}
+
+/// What a place holds, in a way that the driver does not see through.
+fn load(r: &mut Rewriter<'_>, place: Value, ty: TypeId) -> Value {
+    if !matches!(r.module.types.get(ty), Type::Array { .. } | Type::Matrix { .. }) {
+        let value = r.add_typed(Op::Load { place }, ty);
+        return r.opaque(value);
+    }
+    let parts = (0..r.module.extent(ty)).map(|index| {
+        let part = r.add(Op::Part { base: place, index });
+        load(r, part, r.module.part(ty, index))
+    });
+    let parts = parts.collect();
+    r.add_typed(Op::Compose { ty, parts }, ty)
+}

@@ -1,0 +1,206 @@
+//! Divisors that may be a zero which is known before a program runs.
+//!
+//! `x / 0.0` is infinite or NaN on every device, and shaders rely on it: `clamp(0.5 + (b - a) / k, 0.0, 1.0)` with `k = 0.0`
+//! chooses a side. Mesa's llvmpipe takes a quotient for undefined once it sees that the divisor is zero, after it has inlined
+//! functions and spread constants. So what may be such a zero is kept out of its sight.
+
+use crate::glsl::{
+    ir::{
+        Binary, Block, ConstId, Function, Global, GlobalKind, Module, Op, Stmt, Value,
+        rewrite::{self, Rewriter, Rule},
+    },
+    types::Scalar,
+};
+
+/// How often all values are looked at. One time more is needed for each step by which a zero gets from variable to variable
+/// against the order of the program, so that a chain of ten thousand would take as many.
+const MOST_ROUNDS: usize = 64;
+
+pub(super) fn run(program: &mut Module) {
+    let Some(zeros) = Zeros::of(program) else { return };
+    for index in 0..program.functions.len() {
+        let f = &program.functions[index];
+        let hides =
+            |value: Value| is_division(program, f, value) && divisor_may_be_zero(f, value, &zeros.values[index]);
+        let divisions: Vec<bool> = f.values().map(|(value, _)| hides(value)).collect();
+        if divisions.contains(&true) {
+            rewrite::function(program, index, &mut HiddenDivisors(divisions));
+        }
+    }
+}
+
+fn is_division(program: &Module, f: &Function, value: Value) -> bool {
+    matches!(f[value], Op::Binary { op: Binary::Divide, .. })
+        && program.types.scalar(f.ty(value)) == Some(Scalar::Float)
+}
+
+fn divisor_may_be_zero(f: &Function, division: Value, zeros: &[bool]) -> bool {
+    matches!(f[division], Op::Binary { right, .. } if zeros[right.index()])
+}
+
+/// Divisions whose divisor is hidden, by [`Value::index`].
+struct HiddenDivisors(Vec<bool>);
+
+impl Rule for HiddenDivisors {
+    fn operation(&mut self, r: &mut Rewriter<'_>, value: Value, op: &Op) -> Option<Value> {
+        let Op::Binary { op, left, right } = *op else { return None };
+        if !self.0[value.index()] {
+            return None;
+        }
+        let right = r.opaque(right);
+        Some(r.add(Op::Binary { op, left, right }))
+    }
+}
+
+/// Which values are, or hold, a number that may be a zero known without running anything. Neither the order of statements nor the
+/// parts of a variable are told apart: too many found cost an instruction each.
+struct Zeros {
+    /// By function and [`Value::index`].
+    values: Vec<Vec<bool>>,
+    vars: Vec<Vec<bool>>,
+    params: Vec<Vec<bool>>,
+    results: Vec<bool>,
+    globals: Vec<bool>,
+    changed: bool,
+}
+
+impl Zeros {
+    /// `None` if the program divides nothing.
+    fn of(program: &Module) -> Option<Zeros> {
+        let divides = |f: &Function| f.values().any(|(value, _)| is_division(program, f, value));
+        if !program.functions.iter().any(divides) {
+            return None;
+        }
+        let mut stores: Vec<Vec<&Stmt>> = Vec::with_capacity(program.functions.len());
+        for f in &program.functions {
+            let mut found = Vec::new();
+            collect(&f.body, &mut found);
+            stores.push(found);
+        }
+        let none = |count: fn(&Function) -> usize| -> Vec<Vec<bool>> {
+            program.functions.iter().map(|f| vec![false; count(f)]).collect()
+        };
+        let mut zeros = Zeros {
+            values: none(Function::len),
+            vars: none(|f| f.vars.len()),
+            params: none(|f| f.params.len()),
+            results: vec![false; program.functions.len()],
+            globals: program.globals.iter().map(|global| begins_with_zero(program, global)).collect(),
+            changed: true,
+        };
+        for _ in 0..MOST_ROUNDS {
+            if !std::mem::take(&mut zeros.changed) {
+                return Some(zeros);
+            }
+            for (index, f) in program.functions.iter().enumerate() {
+                zeros.function(program, index, f, &stores[index]);
+            }
+        }
+        // Any may be: that costs an instruction a division.
+        zeros.values.iter_mut().for_each(|values| values.fill(true));
+        Some(zeros)
+    }
+
+    fn function(&mut self, program: &Module, index: usize, f: &Function, stores: &[&Stmt]) {
+        let mut values = std::mem::take(&mut self.values[index]);
+        for (value, op) in f.values() {
+            let zero = self.value(program, index, f, op, &values);
+            set(&mut values[value.index()], zero, &mut self.changed);
+        }
+        for (var, zero) in f.vars.iter().zip(&mut self.vars[index]) {
+            set(zero, var.init.is_some_and(|init| values[init.index()]), &mut self.changed);
+        }
+        for stmt in stores {
+            match **stmt {
+                Stmt::Store { place, value } if values[value.index()] => self.write(index, f, place),
+                Stmt::Return(Some(value)) => set(&mut self.results[index], values[value.index()], &mut self.changed),
+                _ => {}
+            }
+        }
+        self.values[index] = values;
+    }
+
+    fn value(&mut self, program: &Module, index: usize, f: &Function, op: &Op, values: &[bool]) -> bool {
+        let is_zero = |value: Value| values[value.index()];
+        match *op {
+            Op::Literal(_, bits) => bits << 1 == 0,
+            Op::Zero(_) => true,
+            Op::Const(id) => program[id].words.iter().any(|word| word << 1 == 0),
+            Op::Param(param) => self.params[index][param as usize],
+            // Of a place: what the variable holds.
+            Op::Var(var) => self.vars[index][var.index()],
+            Op::Global(global) => self.globals[global.index()],
+            Op::Part { base: of, .. }
+            | Op::Element { base: of, .. }
+            | Op::Swizzle { vector: of, .. }
+            | Op::Splat { value: of, .. }
+            | Op::Unary { operand: of, .. }
+            | Op::Convert { value: of, .. }
+            | Op::Bitcast { value: of, .. }
+            | Op::Load { place: of } => is_zero(of),
+            Op::Compose { ref parts, .. } => parts.iter().any(|&part| is_zero(part)),
+            Op::Binary { op: Binary::Add | Binary::Subtract, left, right } => is_zero(left) && is_zero(right),
+            Op::Binary { op: Binary::Multiply, left, right } => is_zero(left) || is_zero(right),
+            Op::Binary { op, left, .. } => !op.is_comparison() && is_zero(left),
+            Op::Math { arg, arg1, arg2, arg3, .. } => {
+                is_zero(arg) || [arg1, arg2, arg3].into_iter().flatten().any(is_zero)
+            }
+            Op::Select { accept, reject, .. } => is_zero(accept) || is_zero(reject),
+            Op::Call { function, ref args } => {
+                for (param, &arg) in args.iter().enumerate() {
+                    let zero = is_zero(arg);
+                    set(&mut self.params[function.index()][param], zero, &mut self.changed);
+                    // By reference: what the callee may have put there.
+                    if f.is_place(arg) && self.params[function.index()][param] {
+                        self.write(index, f, arg);
+                    }
+                }
+                self.results[function.index()]
+            }
+            Op::Input(_)
+            | Op::All(_)
+            | Op::Any(_)
+            | Op::Derivative { .. }
+            | Op::Sample { .. }
+            | Op::Fetch { .. }
+            | Op::TextureSize { .. }
+            | Op::TextureLevels { .. }
+            | Op::OpaqueZero => false,
+        }
+    }
+
+    /// A zero is written to the variable that a place is or lies in.
+    fn write(&mut self, index: usize, f: &Function, place: Value) {
+        let flag = match f[f.root(place)] {
+            Op::Var(var) => &mut self.vars[index][var.index()],
+            Op::Global(global) => &mut self.globals[global.index()],
+            Op::Param(param) => &mut self.params[index][param as usize],
+            _ => return,
+        };
+        set(flag, true, &mut self.changed);
+    }
+}
+
+fn set(flag: &mut bool, zero: bool, changed: &mut bool) {
+    *changed |= zero && !*flag;
+    *flag |= zero;
+}
+
+fn begins_with_zero(program: &Module, global: &Global) -> bool {
+    let has_zero = |id: ConstId| program[id].words.iter().any(|word| word << 1 == 0);
+    match global.kind {
+        GlobalKind::Private { init: Some(init), .. } | GlobalKind::Table(init) => has_zero(init),
+        GlobalKind::Private { init: None, .. } => true,
+        GlobalKind::Uniform(_) | GlobalKind::Knob(_) | GlobalKind::CubeFace => false,
+    }
+}
+
+/// Stores and returns.
+fn collect<'a>(block: &'a Block, out: &mut Vec<&'a Stmt>) {
+    for stmt in block {
+        match stmt {
+            Stmt::Store { .. } | Stmt::Return(Some(_)) => out.push(stmt),
+            _ => stmt.blocks(|block| collect(block, out)),
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! A walk over a function that computes it anew, statement by statement: what most passes have in common.
+//!
+//! Operands are seen as what stands for them by now. A rule says what stands for an operation; what it adds for that comes before.
+
+use rustc_hash::FxHashMap;
+
+use super::{Binary, Block, Function, Module, Op, Stmt, Value, infer};
+use crate::glsl::{
+    ast::Loc,
+    types::{Scalar, Type, TypeId},
+};
+
+/// What a pass does to the operations and statements of a function.
+pub trait Rule {
+    /// Says what stands for a value, whose operation has the operands that stand for its own. `None`: the operation itself.
+    fn operation(&mut self, r: &mut Rewriter<'_>, value: Value, op: &Op) -> Option<Value>;
+
+    /// The function has begun.
+    fn begin(&mut self, _: &mut Rewriter<'_>) {}
+
+    /// A store is about to be made.
+    fn store(&mut self, _: &mut Rewriter<'_>, _place: Value, _value: Value) {}
+
+    /// A block begins: a branch, a case or the body of a loop.
+    fn enter(&mut self) {}
+
+    /// It ends.
+    fn leave(&mut self, _: &Rewriter<'_>) {}
+
+    /// A loop of these blocks is about to begin.
+    fn enter_loop(&mut self, _: &Rewriter<'_>, _body: &Block, _continuing: &Block) {}
+
+    /// The body of a loop has begun: what is added comes before it.
+    fn begin_body(&mut self, _: &mut Rewriter<'_>, _body: &Block) {}
+
+    /// Control meets again, after a branch, a switch or a loop.
+    fn join(&mut self, _: &Rewriter<'_>) {}
+}
+
+/// Applies a rule to each function of a program.
+pub fn each_function<R: Rule>(module: &mut Module, mut rule: impl FnMut(&Module, &Function) -> R) {
+    for index in 0..module.functions.len() {
+        let mut rule = rule(module, &module.functions[index]);
+        function(module, index, &mut rule);
+    }
+}
+
+/// Applies a rule to one function.
+pub fn function(module: &mut Module, index: usize, rule: &mut impl Rule) {
+    let function = std::mem::take(&mut module.functions[index]);
+    let function = Rewriter::new(module, function).run(rule);
+    module.functions[index] = function;
+}
+
+/// A function that is being computed anew.
+pub struct Rewriter<'m> {
+    pub module: &'m Module,
+    pub f: Function,
+    out: Block,
+    /// What comes before all else.
+    start: Block,
+    /// What stands for each value of the old function.
+    map: Vec<Value>,
+    /// Made when a rule asks for one; each is one value already.
+    literals: Option<FxHashMap<(Scalar, u32), Value>>,
+    /// Of the operation at hand.
+    loc: Loc,
+}
+
+impl<'m> Rewriter<'m> {
+    fn new(module: &'m Module, f: Function) -> Self {
+        let map = (0..f.len()).map(Value::new).collect();
+        Self { module, f, out: Block::new(), start: Block::new(), map, literals: None, loc: Loc::default() }
+    }
+
+    fn run(mut self, rule: &mut impl Rule) -> Function {
+        let body = std::mem::take(&mut self.f.body);
+        rule.begin(&mut self);
+        self.block(body, rule);
+        for var in 0..self.f.vars.len() {
+            self.f.vars[var].init = self.f.vars[var].init.map(|init| self.map[init.index()]);
+        }
+        self.f.body = std::mem::take(&mut self.start);
+        self.f.body.append(&mut self.out);
+        self.f
+    }
+
+    /// An operation, computed here.
+    pub fn add(&mut self, op: Op) -> Value {
+        let ty = infer::ty(self.module, &self.f, &op);
+        self.add_typed(op, ty)
+    }
+
+    pub fn add_typed(&mut self, op: Op, ty: TypeId) -> Value {
+        let value = self.f.append(op, ty, self.loc);
+        self.out.push(Stmt::Let(value));
+        value
+    }
+
+    /// Adds a statement here.
+    pub fn push(&mut self, stmt: Stmt) {
+        self.out.push(stmt);
+    }
+
+    /// What `add` adds comes before all else that the function does.
+    pub fn at_start<T>(&mut self, add: impl FnOnce(&mut Self) -> T) -> T {
+        std::mem::swap(&mut self.out, &mut self.start);
+        let added = add(self);
+        std::mem::swap(&mut self.out, &mut self.start);
+        added
+    }
+
+    /// The same bits, of a scalar or vector of numbers, but joined with a zero that no compiler behind this one can know.
+    pub fn opaque(&mut self, value: Value) -> Value {
+        let scalar = self.module.scalar(self.f.ty(value));
+        let bits = if scalar == Scalar::Int { value } else { self.add(Op::Bitcast { value, to: Scalar::Int }) };
+        let mut zero = self.add(Op::OpaqueZero);
+        if let Type::Vector { size, .. } = self.module.types.get(self.f.ty(value)) {
+            zero = self.add(Op::Splat { size, value: zero });
+        }
+        let value = self.add(Op::Binary { op: Binary::InclusiveOr, left: bits, right: zero });
+        if scalar == Scalar::Int { value } else { self.add(Op::Bitcast { value, to: scalar }) }
+    }
+
+    /// Adds a jump that is never taken, though no compiler behind this one can know it.
+    pub fn seem_to(&mut self, jump: Stmt) {
+        let number = self.add(Op::OpaqueZero);
+        let zero = self.literal(Scalar::Int, 0);
+        let condition = self.add(Op::Binary { op: Binary::NotEqual, left: number, right: zero });
+        self.push(Stmt::If { condition, accept: vec![jump], reject: Block::new() });
+    }
+
+    /// A scalar constant, the same value each time.
+    pub fn literal(&mut self, scalar: Scalar, bits: u32) -> Value {
+        let literal = |(value, op): (Value, &Op)| match *op {
+            Op::Literal(scalar, bits) => Some(((scalar, bits), value)),
+            _ => None,
+        };
+        let literals = self.literals.get_or_insert_with(|| self.f.values().filter_map(literal).collect());
+        let (f, loc) = (&mut self.f, self.loc);
+        let new = || f.append(Op::Literal(scalar, bits), TypeId::vector(scalar, 1), loc);
+        *literals.entry((scalar, bits)).or_insert_with(new)
+    }
+
+    pub fn float(&mut self, number: f32) -> Value {
+        self.literal(Scalar::Float, number.to_bits())
+    }
+
+    /// The number that a value is, if it is a literal float.
+    pub fn number(&self, value: Value) -> Option<f32> {
+        number(&self.f, value)
+    }
+
+    fn value(&self, old: Value) -> Value {
+        // What was added has no other stand-in.
+        self.map.get(old.index()).copied().unwrap_or(old)
+    }
+
+    fn nested(&mut self, block: Block, rule: &mut impl Rule) -> Block {
+        let outer = std::mem::take(&mut self.out);
+        rule.enter();
+        self.block(block, rule);
+        rule.leave(self);
+        std::mem::replace(&mut self.out, outer)
+    }
+
+    fn block(&mut self, block: Block, rule: &mut impl Rule) {
+        self.out.reserve(block.len());
+        for mut stmt in block {
+            if let Stmt::Let(value) = stmt {
+                // Taken out, so that the rule sees it while it changes the function.
+                let mut op = self.f.replace(value, Op::OpaqueZero);
+                op.operands_mut(|operand| *operand = self.value(*operand));
+                self.loc = self.f.loc(value);
+                let other = rule.operation(self, value, &op);
+                self.f.replace(value, op);
+                match other {
+                    Some(other) => self.map[value.index()] = other,
+                    None => self.out.push(stmt),
+                }
+                continue;
+            }
+            // What a loop ends with is computed in it.
+            if !matches!(stmt, Stmt::Loop { .. }) {
+                stmt.operands_mut(|operand| *operand = self.value(*operand));
+            }
+            match &mut stmt {
+                Stmt::Store { place, value } => rule.store(self, *place, *value),
+                Stmt::If { .. } | Stmt::Switch { .. } => {
+                    stmt.blocks_mut(|block| *block = self.nested(std::mem::take(block), rule));
+                    rule.join(self);
+                }
+                Stmt::Loop { body, continuing, break_if } => {
+                    rule.enter_loop(self, body, continuing);
+                    let old = std::mem::take(body);
+                    let outer = std::mem::take(&mut self.out);
+                    rule.enter();
+                    rule.begin_body(self, &old);
+                    self.block(old, rule);
+                    rule.leave(self);
+                    *body = std::mem::replace(&mut self.out, outer);
+                    *continuing = self.nested(std::mem::take(continuing), rule);
+                    *break_if = break_if.map(|value| self.value(value));
+                    rule.join(self);
+                }
+                _ => {}
+            }
+            self.out.push(stmt);
+        }
+    }
+}
+
+/// The number that a value is, if it is a literal float.
+pub fn number(f: &Function, value: Value) -> Option<f32> {
+    match f[value] {
+        Op::Literal(Scalar::Float, bits) => Some(f32::from_bits(bits)),
+        _ => None,
+    }
+}

@@ -1,0 +1,377 @@
+//! Inlining: a call is replaced by what the function does.
+//!
+//! Every driver does that sooner or later. OpenGL's compilers do it before they look for what is computed twice; a SPIR-V driver
+//! finds most of that for each function alone, and last bits come out differently.
+//!
+//! Control flow is structured, so that a `Return` in the middle of a function becomes a branch: what follows it moves into the
+//! other branch, or is skipped where a flag says that the function has returned. In a loop a `Return` is a `Break`.
+
+mod choose;
+
+use rustc_hash::FxHashMap;
+
+use crate::glsl::{
+    ast::Loc,
+    ir::{Block, Case, Function, Module, Op, Stmt, Value, Var},
+    types::{Scalar, TypeId},
+};
+
+pub(super) fn run(module: &mut Module) {
+    let inlined = choose::inlined(module);
+    if !inlined.contains(&true) {
+        return;
+    }
+    let needs_flag: Vec<bool> = module.functions.iter().map(|function| needs_flag(&function.body)).collect();
+    // The entry point stays as it is: it runs once.
+    let last = module.functions.len().saturating_sub(1);
+    for index in 0..last {
+        let (callees, rest) = module.functions.split_at_mut(index);
+        let caller = &mut rest[0];
+        let calls = |(_, op): (Value, &Op)| matches!(op, Op::Call { function, .. } if inlined[function.index()]);
+        if caller.values().any(calls) {
+            inline_calls(caller, callees, &inlined, &needs_flag);
+        }
+    }
+    module.drop_uncalled();
+}
+
+/// Replaces calls in one function, whose callees have been through this.
+fn inline_calls(caller: &mut Function, callees: &[Function], inlined: &[bool], needs_flag: &[bool]) {
+    let body = std::mem::take(&mut caller.body);
+    let map = (0..caller.len()).map(Value::new).collect();
+    let mut inliner = Inliner {
+        free: FreeValues::of(caller),
+        f: caller,
+        callees,
+        inlined,
+        needs_flag,
+        map,
+        out: Block::new(),
+        loops: 0,
+    };
+    inliner.block(body);
+    let body = std::mem::take(&mut inliner.out);
+    caller.body = body;
+}
+
+/// Free values that are the same wherever they are used: one for each.
+#[derive(Default)]
+struct FreeValues(FxHashMap<(u8, u32, u32), Value>);
+
+impl FreeValues {
+    fn of(f: &Function) -> Self {
+        Self(f.values().filter_map(|(value, op)| Some((Self::key(op)?, value))).collect())
+    }
+
+    fn key(op: &Op) -> Option<(u8, u32, u32)> {
+        Some(match *op {
+            Op::Literal(scalar, bits) => (scalar as u8, bits, 0),
+            Op::Zero(ty) => (8, ty.0, 0),
+            Op::Const(id) => (9, id.index() as u32, 0),
+            Op::Global(id) => (10, id.index() as u32, 0),
+            _ => return None,
+        })
+    }
+}
+
+struct Inliner<'a> {
+    f: &'a mut Function,
+    callees: &'a [Function],
+    inlined: &'a [bool],
+    needs_flag: &'a [bool],
+    free: FreeValues,
+    /// What stands for each value that the caller had: the results of calls change.
+    map: Vec<Value>,
+    out: Block,
+    /// Loops around the code at hand.
+    loops: usize,
+}
+
+/// A call that is being replaced.
+struct Site<'a> {
+    callee: &'a Function,
+    args: Box<[Value]>,
+    /// What each value of the callee became.
+    map: Vec<Option<Value>>,
+    /// Where the result goes.
+    result: Option<Value>,
+    /// Where it says that the function has returned.
+    flag: Option<Value>,
+    /// Loops and switches of the callee around the code at hand.
+    breakable: usize,
+}
+
+impl Inliner<'_> {
+    fn value(&self, old: Value) -> Value {
+        self.map[old.index()]
+    }
+
+    fn nested(&mut self, fill: impl FnOnce(&mut Self)) -> Block {
+        let outer = std::mem::take(&mut self.out);
+        fill(self);
+        std::mem::replace(&mut self.out, outer)
+    }
+
+    fn free(&mut self, op: &Op, ty: TypeId, loc: Loc) -> Value {
+        let key = FreeValues::key(op).expect("the op of a free value");
+        let f = &mut *self.f;
+        *self.free.0.entry(key).or_insert_with(|| f.append(op.clone(), ty, loc))
+    }
+
+    fn flag_literal(&mut self, is_set: bool) -> Value {
+        self.free(&Op::Literal(Scalar::Bool, is_set.into()), TypeId::BOOL, Loc::default())
+    }
+
+    fn temporary(&mut self, ty: TypeId, loc: Loc) -> Value {
+        let var = self.f.add_var(ty);
+        self.f.append(Op::Var(var), ty, loc)
+    }
+
+    fn add(&mut self, op: Op, ty: TypeId, loc: Loc) -> Value {
+        let value = self.f.append(op, ty, loc);
+        self.out.push(Stmt::Let(value));
+        value
+    }
+
+    /// Statements of the caller.
+    fn block(&mut self, block: Block) {
+        self.out.reserve(block.len());
+        for mut stmt in block {
+            match &mut stmt {
+                Stmt::Let(value) => {
+                    let value = *value;
+                    let mut op = self.f.replace(value, Op::OpaqueZero);
+                    op.operands_mut(|operand| *operand = self.value(*operand));
+                    if let Op::Call { function, args } = op {
+                        if self.inlined[function.index()] {
+                            self.inline(function.index(), args, value);
+                            continue;
+                        }
+                        op = Op::Call { function, args };
+                    }
+                    self.f.replace(value, op);
+                }
+                Stmt::If { condition, accept, reject } => {
+                    *condition = self.value(*condition);
+                    for block in [accept, reject] {
+                        let old = std::mem::take(block);
+                        *block = self.nested(|s| s.block(old));
+                    }
+                }
+                Stmt::Loop { body, continuing, break_if } => {
+                    self.loops += 1;
+                    for block in [body, continuing] {
+                        let old = std::mem::take(block);
+                        *block = self.nested(|s| s.block(old));
+                    }
+                    self.loops -= 1;
+                    *break_if = break_if.map(|value| self.value(value));
+                }
+                Stmt::Switch { selector, cases } => {
+                    *selector = self.value(*selector);
+                    for case in cases {
+                        let old = std::mem::take(&mut case.body);
+                        case.body = self.nested(|s| s.block(old));
+                    }
+                }
+                other => other.operands_mut(|operand| *operand = self.value(*operand)),
+            }
+            self.out.push(stmt);
+        }
+    }
+
+    /// Does what a function does; `call` is the value that the caller had of it.
+    fn inline(&mut self, function: usize, args: Box<[Value]>, call: Value) {
+        let callee = &self.callees[function];
+        let mut site = Site { callee, args, map: vec![None; callee.len()], result: None, flag: None, breakable: 0 };
+        self.variables(&mut site);
+        let (last, before) = match callee.body.split_last() {
+            Some((Stmt::Return(Some(last)), before)) => (Some(*last), before),
+            _ => (None, &callee.body[..]),
+        };
+        let is_straight = !before.iter().any(returns);
+        if let (Some(last), true) = (last, is_straight) {
+            before.iter().for_each(|stmt| self.statement(&mut site, stmt));
+            self.map[call.index()] = self.of_callee(&mut site, last);
+            return;
+        }
+        let loc = self.f.loc(call);
+        site.result = (callee.result != TypeId::VOID).then(|| self.temporary(callee.result, loc));
+        site.flag = self.needs_flag[function].then(|| self.temporary(TypeId::BOOL, loc));
+        if let Some(flag) = site.flag {
+            let value = self.flag_literal(false);
+            self.out.push(Stmt::Store { place: flag, value });
+        }
+        self.body(&mut site, callee.body.iter().collect());
+        if let Some(result) = site.result {
+            self.map[call.index()] = self.add(Op::Load { place: result }, callee.result, loc);
+        }
+    }
+
+    /// The callee's variables become the caller's. In a loop they begin anew in each round.
+    fn variables(&mut self, site: &mut Site<'_>) {
+        for (value, op) in site.callee.values() {
+            let Op::Var(id) = *op else { continue };
+            let Var { ty, init } = site.callee.vars[id.index()];
+            let init = init.map(|init| self.of_callee(site, init));
+            let place = self.temporary(ty, site.callee.loc(value));
+            site.map[value.index()] = Some(place);
+            match init {
+                Some(value) if self.loops > 0 => self.out.push(Stmt::Store { place, value }),
+                init => {
+                    let Op::Var(id) = self.f[place] else { unreachable!("a variable was made") };
+                    self.f.vars[id.index()].init = init;
+                }
+            }
+        }
+    }
+
+    /// What a value of the callee became.
+    fn of_callee(&mut self, site: &mut Site<'_>, old: Value) -> Value {
+        if let Some(new) = site.map[old.index()] {
+            return new;
+        }
+        let new = match site.callee[old] {
+            Op::Param(index) => site.args[index as usize],
+            ref op => self.free(op, site.callee.ty(old), site.callee.loc(old)),
+        };
+        site.map[old.index()] = Some(new);
+        new
+    }
+
+    /// Statements of the callee outside of its loops and switches: what follows one that may return becomes part of a branch.
+    fn body<'a>(&mut self, site: &mut Site<'_>, mut list: Vec<&'a Stmt>) {
+        let Some(at) = list.iter().position(|stmt| returns(stmt)) else {
+            return list.into_iter().for_each(|stmt| self.statement(site, stmt));
+        };
+        let mut rest = list.split_off(at + 1);
+        let stmt = list.pop().expect("it was found");
+        list.into_iter().for_each(|stmt| self.statement(site, stmt));
+        match stmt {
+            Stmt::If { condition, accept, reject } => {
+                let condition = self.of_callee(site, *condition);
+                let with = |block: &'a Block, rest: &mut Vec<&'a Stmt>| -> Vec<&'a Stmt> {
+                    block.iter().chain(rest.drain(..)).collect()
+                };
+                let mut nothing = Vec::new();
+                let (accept, reject) = if always_returns(accept) {
+                    (with(accept, &mut nothing), with(reject, &mut rest))
+                } else if always_returns(reject) {
+                    (with(accept, &mut rest), with(reject, &mut nothing))
+                } else {
+                    (with(accept, &mut nothing), with(reject, &mut nothing))
+                };
+                let accept = self.nested(|s| s.body(site, accept));
+                let reject = self.nested(|s| s.body(site, reject));
+                self.out.push(Stmt::If { condition, accept, reject });
+            }
+            Stmt::Return(_) => return self.statement(site, stmt),
+            _ => self.statement(site, stmt),
+        }
+        if !rest.is_empty() {
+            let flag = site.flag.expect("a function that may return before its end has a flag");
+            let condition = self.add(Op::Load { place: flag }, TypeId::BOOL, Loc::default());
+            let reject = self.nested(|s| s.body(site, rest));
+            self.out.push(Stmt::If { condition, accept: Block::new(), reject });
+        }
+    }
+
+    fn copy(&mut self, site: &mut Site<'_>, block: &Block) -> Block {
+        self.nested(|s| block.iter().for_each(|stmt| s.statement(site, stmt)))
+    }
+
+    /// A statement of the callee. A `Return` in it stands at the end, or in a loop or switch.
+    fn statement(&mut self, site: &mut Site<'_>, stmt: &Stmt) {
+        let copy = match stmt {
+            Stmt::Let(value) => {
+                let mut op = site.callee[*value].clone();
+                op.operands_mut(|operand| *operand = self.of_callee(site, *operand));
+                let new = self.f.append(op, site.callee.ty(*value), site.callee.loc(*value));
+                site.map[value.index()] = Some(new);
+                Stmt::Let(new)
+            }
+            Stmt::If { condition, accept, reject } => {
+                let condition = self.of_callee(site, *condition);
+                Stmt::If { condition, accept: self.copy(site, accept), reject: self.copy(site, reject) }
+            }
+            Stmt::Loop { body, continuing, break_if } => {
+                site.breakable += 1;
+                self.loops += 1;
+                let (body, continuing) = (self.copy(site, body), self.copy(site, continuing));
+                self.loops -= 1;
+                site.breakable -= 1;
+                Stmt::Loop { body, continuing, break_if: break_if.map(|value| self.of_callee(site, value)) }
+            }
+            Stmt::Switch { selector, cases } => {
+                let selector = self.of_callee(site, *selector);
+                site.breakable += 1;
+                let cases = cases.iter().map(|case| Case { body: self.copy(site, &case.body), ..*case }).collect();
+                site.breakable -= 1;
+                Stmt::Switch { selector, cases }
+            }
+            Stmt::Return(value) => return self.leave(site, *value),
+            other => {
+                let mut copy = other.clone();
+                copy.operands_mut(|operand| *operand = self.of_callee(site, *operand));
+                copy
+            }
+        };
+        self.out.push(copy);
+        // A loop or switch within another one: that too is left.
+        if let (Some(flag), true) = (site.flag, site.breakable > 0)
+            && matches!(stmt, Stmt::Loop { .. } | Stmt::Switch { .. })
+            && returns(stmt)
+        {
+            let condition = self.add(Op::Load { place: flag }, TypeId::BOOL, Loc::default());
+            self.out.push(Stmt::If { condition, accept: vec![Stmt::Break], reject: Block::new() });
+        }
+    }
+
+    /// Returns from the callee.
+    fn leave(&mut self, site: &mut Site<'_>, value: Option<Value>) {
+        if let (Some(value), Some(place)) = (value, site.result) {
+            let value = self.of_callee(site, value);
+            self.out.push(Stmt::Store { place, value });
+        }
+        if let Some(place) = site.flag {
+            let value = self.flag_literal(true);
+            self.out.push(Stmt::Store { place, value });
+        }
+        if site.breakable > 0 {
+            self.out.push(Stmt::Break);
+        }
+    }
+}
+
+/// Whether a statement may return from its function.
+fn returns(stmt: &Stmt) -> bool {
+    let any = |block: &Block| block.iter().any(returns);
+    match stmt {
+        Stmt::Return(_) => true,
+        Stmt::If { accept, reject, .. } => any(accept) || any(reject),
+        Stmt::Loop { body, .. } => any(body),
+        Stmt::Switch { cases, .. } => cases.iter().any(|case| any(&case.body)),
+        _ => false,
+    }
+}
+
+/// Whether control cannot reach the end of a block, outside of loops and switches.
+fn always_returns(block: &Block) -> bool {
+    match block.last() {
+        Some(Stmt::Return(_)) => true,
+        Some(Stmt::If { accept, reject, .. }) => always_returns(accept) && always_returns(reject),
+        _ => false,
+    }
+}
+
+/// Whether some `Return` is followed by statements that no branch beside it can hold: what then is left out depends on a
+/// variable.
+fn needs_flag(block: &Block) -> bool {
+    block.iter().filter(|stmt| returns(stmt)).any(|stmt| match stmt {
+        Stmt::If { accept, reject, .. } => {
+            !always_returns(accept) && !always_returns(reject) || needs_flag(accept) || needs_flag(reject)
+        }
+        Stmt::Return(_) => false,
+        _ => true,
+    })
+}
