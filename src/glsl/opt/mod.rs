@@ -8,7 +8,6 @@ mod array_to_global;
 mod cse;
 mod dce;
 mod fold;
-mod forward;
 mod identity;
 mod inline;
 mod scalarize;
@@ -32,11 +31,6 @@ pub const PASSES: &[Pass] = &[
         name: "inline",
         purpose: "replaces calls of small functions, and of those called once, by what they do",
         run: inline::run,
-    },
-    Pass {
-        name: "forward",
-        purpose: "replaces loads of what is known to be in memory (store-to-load forwarding)",
-        run: forward::run,
     },
     Pass { name: "scalarize", purpose: "writes arithmetic on vectors out by component", run: scalarize::run },
     Pass {

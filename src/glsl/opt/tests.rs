@@ -28,19 +28,6 @@ fn around(pass: &str, body: &str) -> String {
 }
 
 #[test]
-fn loads_of_what_was_stored_are_that() {
-    insta::assert_snapshot!(around("forward", "float a = p.x; if (p.y > 1.0) a += 2.0; o = vec4(a); o.x = a * o.y;"));
-}
-
-#[test]
-fn loops_forget_what_they_write() {
-    insta::assert_snapshot!(around(
-        "forward",
-        "float a = p.x, b = p.y; for (int i = 0; i < 9; i++) a += b; o = vec4(a, b, 0, 1);"
-    ));
-}
-
-#[test]
 fn vectors_are_written_out() {
     insta::assert_snapshot!(around("scalarize", "o = vec4(p * 2.0 + iTime, normalize(p));"));
 }
