@@ -7,7 +7,6 @@
 mod array_to_global;
 mod cse;
 mod dce;
-mod fold;
 mod identity;
 mod inline;
 mod scalarize;
@@ -33,11 +32,6 @@ pub const PASSES: &[Pass] = &[
         run: inline::run,
     },
     Pass { name: "scalarize", purpose: "writes arithmetic on vectors out by component", run: scalarize::run },
-    Pass {
-        name: "fold",
-        purpose: "computes what is constant, and takes parts of what is put together",
-        run: fold::run,
-    },
     Pass { name: "identity", purpose: "drops operations that leave an operand as it is", run: identity::run },
     Pass { name: "cse", purpose: "computes common subexpressions once", run: cse::run },
     Pass { name: "dce", purpose: "drops what nothing uses (dead code elimination)", run: dce::run },

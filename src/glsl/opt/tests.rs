@@ -33,11 +33,6 @@ fn vectors_are_written_out() {
 }
 
 #[test]
-fn constants_are_folded() {
-    insta::assert_snapshot!(around("fold", "float a = 2.0; a = sqrt(a * 8.0) * p.x * 1.0 + 0.0; o = vec4(a);"));
-}
-
-#[test]
 fn what_changes_nothing_is_dropped() {
     insta::assert_snapshot!(around("identity", "o = vec4(p.x * 1.0, 0.0 + p.y, p.x / 1.0 - 0.0, 1.0 * 1.0);"));
 }
