@@ -5,7 +5,6 @@
 //! `docs/compiler.md` says what each pass is worth, and how to add one.
 
 mod array_to_global;
-mod cse;
 mod dce;
 mod identity;
 mod inline;
@@ -33,7 +32,6 @@ pub const PASSES: &[Pass] = &[
     },
     Pass { name: "scalarize", purpose: "writes arithmetic on vectors out by component", run: scalarize::run },
     Pass { name: "identity", purpose: "drops operations that leave an operand as it is", run: identity::run },
-    Pass { name: "cse", purpose: "computes common subexpressions once", run: cse::run },
     Pass { name: "dce", purpose: "drops what nothing uses (dead code elimination)", run: dce::run },
     Pass {
         name: "array-to-global",

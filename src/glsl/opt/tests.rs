@@ -38,11 +38,6 @@ fn what_changes_nothing_is_dropped() {
 }
 
 #[test]
-fn the_same_is_computed_once() {
-    insta::assert_snapshot!(around("cse", "o = vec4(sin(p.x) * p.y, sin(p.x) + p.y, 0, 1);"));
-}
-
-#[test]
 fn what_nothing_uses_is_dropped() {
     insta::assert_snapshot!(around("dce", "vec3 v = p.xyx * 3.0; o = vec4(v.x);"));
 }
