@@ -9,7 +9,6 @@ mod dce;
 mod identity;
 mod inline;
 mod scalarize;
-mod sroa;
 #[cfg(test)]
 mod tests;
 
@@ -38,7 +37,6 @@ pub const PASSES: &[Pass] = &[
         purpose: "moves arrays that each call fills anew to the module, so that they are not zeroed at each call",
         run: array_to_global::run,
     },
-    Pass { name: "sroa", purpose: "replaces vectors, matrices and structures in memory by scalars", run: sroa::run },
 ];
 
 /// Some of the passes, by their places in [`PASSES`].

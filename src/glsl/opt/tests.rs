@@ -52,14 +52,6 @@ fn filled_arrays_become_global() {
 }
 
 #[test]
-fn vectors_in_memory_become_scalars() {
-    insta::assert_snapshot!(around(
-        "sroa",
-        "vec3 v = p.xyx; for (int i = 0; i < int(p.y); i++) v = v.zxy * 1.5; o = vec4(v, 1);"
-    ));
-}
-
-#[test]
 fn every_pass_can_be_left_out() {
     let code = "void mainImage(out vec4 o, vec2 p) { vec3 v = p.xyx; for (int i = 0; i < 9; i++) v = v.zxy * 1.5;
         o = vec4(v + 1.0, 1); }";
