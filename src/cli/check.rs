@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     diag::{self, Diagnostic},
-    engine,
+    engine::{self, CompiledPass},
     glsl::Driver,
     media::{self, MediaSet},
     project::{self, FillKind, Filter, Input, Project, SamplerRules, Wrap},
@@ -48,8 +48,10 @@ fn check(report: &mut Report, spec: &str, args: &CheckArgs, dumped: &mut String)
     report.diagnose(&loaded.warnings, &loaded.sources, Some(project));
     let began = Instant::now();
     let driver = Driver { without: args.without_pass.set(), ..Driver::default() };
-    let mut found = compile(project, driver);
+    let (mut found, compiled) = compile(project, driver);
     report.compile_ms = Some(millis_since(began));
+    // What a device would be asked.
+    found.extend(compiled.iter().filter_map(|pass| pass.validate().err()));
     if let Some(pass) = &args.dump_ir {
         *dumped = dump_ir(project, driver, Some(pass.as_str()).filter(|pass| !pass.is_empty()));
     }
@@ -76,19 +78,27 @@ fn dump_ir(project: &Project, driver: Driver, pass: Option<&str>) -> String {
     out
 }
 
-/// Everything the compiler says of Common alone and of every pass, each once.
-fn compile(project: &Project, driver: Driver) -> Vec<Diagnostic> {
+/// Returns everything the compiler says of Common alone and of every pass, each once, and what compiled.
+fn compile(project: &Project, driver: Driver) -> (Vec<Diagnostic>, Vec<CompiledPass>) {
     let mut found: Vec<Diagnostic> = Vec::new();
+    let mut compiled = Vec::new();
     let texts = engine::Sources::new(project);
     found.extend(texts.diagnostics.iter().cloned());
     found.extend(texts.check_common());
     for index in 0..project.passes.len() {
-        let said = texts.compile_pass(index, [false; 4], driver).map_or_else(|errors| errors, |done| done.diagnostics);
+        let pass = texts.compile_pass(index, [false; 4], driver);
         let fills = FillKind::ALL.into_iter().filter_map(|k| texts.compile_fill(index, k, false, driver));
-        let fills = fills.flat_map(|f| f.map_or_else(|errors| errors, |done| done.diagnostics));
-        diag::append(&mut found, said.into_iter().chain(fills));
+        for outcome in [pass].into_iter().chain(fills) {
+            match outcome {
+                Ok(mut pass) => {
+                    diag::append(&mut found, pass.diagnostics.drain(..));
+                    compiled.push(pass);
+                }
+                Err(errors) => diag::append(&mut found, errors),
+            }
+        }
     }
-    found
+    (found, compiled)
 }
 
 /// Returns where channels with samplers of their own read a buffer differently from each other, which the site cannot:

@@ -47,6 +47,14 @@ impl CompiledPass {
         Self { programs: vec![CompiledProgram { vertex: None, fragment }], reflection, diagnostics }
     }
 
+    /// Asks naga whether the modules are valid, as wgpu does where a device gets them: see [`Compiled::validate`].
+    pub fn validate(&self) -> Result<(), Diagnostic> {
+        let stages = |program: &'_ CompiledProgram| {
+            program.vertex.iter().chain([&program.fragment]).cloned().collect::<Vec<_>>()
+        };
+        self.programs.iter().flat_map(stages).try_for_each(|stage| stage.validate())
+    }
+
     /// Adds the program of a mesh.
     pub(super) fn add_mesh(&mut self, vertex: Arc<Compiled>, fragment: Arc<Compiled>) {
         join(&mut self.reflection, &vertex.reflection);

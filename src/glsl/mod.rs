@@ -1,5 +1,5 @@
-//! The compile boundary: GLSL ES 3.00 as Shadertoy's authors write it, in; a validated [`naga::Module`] and what it really
-//! reads, out.
+//! The compile boundary: GLSL ES 3.00 as Shadertoy's authors write it, in; a valid [`naga::Module`] and what it really reads,
+//! out.
 //!
 //! Owns the language: preprocessor, parser, types, built-ins, lowering, [`Reflection`]. Needs no device, no file and no
 //! clock, and is not told which project a pass belongs to. What the generated module looks like from outside (bind groups,
@@ -169,7 +169,7 @@ pub struct Driver {
 /// A pass that compiled.
 #[derive(Clone, Debug)]
 pub struct Compiled {
-    /// Validated; one entry point named [`interface::ENTRY_POINT`], of a fragment shader but for [`PassKind::Vertex`].
+    /// Valid ([`Compiled::validate`]); one entry point named [`interface::ENTRY_POINT`], of a fragment shader but for [`PassKind::Vertex`].
     pub module: naga::Module,
     pub reflection: Reflection,
     /// What the storage buffer at [`interface::TABLE_BINDING`] holds; empty: the module declares none.
@@ -247,7 +247,7 @@ fn compile_seen(
     link: &Link<'_>,
     mut seen: impl FnMut(&str, &ir::Module),
 ) -> Result<Compiled, Vec<Diagnostic>> {
-    let ((mut checked, mut diagnostics), interface) = check_linked(source, link);
+    let ((mut checked, diagnostics), interface) = check_linked(source, link);
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(diagnostics);
     }
@@ -257,14 +257,26 @@ fn compile_seen(
     emit::work_arounds::apply(&mut program, source.kind, source.driver);
     seen("work-arounds", &program);
     let emit::Emitted { module, tables, knob_bytes, filled_arrays } = emit::emit(&program, source, &mut reflection);
-    if let Err(reason) = emit::validate(&module) {
-        let bug =
-            Diagnostic::error(None, format!("this is a bug in Eddy: the generated program is not valid: {reason}"));
-        diagnostics.push(bug.hint("the program itself is right; please report it with this text"));
-        return Err(diagnostics);
-    }
     let emit::TableBytes { uniform: uniform_tables, storage: tables } = tables;
-    Ok(Compiled { module, reflection, tables, uniform_tables, knob_bytes, filled_arrays, diagnostics })
+    let compiled = Compiled { module, reflection, tables, uniform_tables, knob_bytes, filled_arrays, diagnostics };
+    // wgpu validates each module that it is given.
+    if cfg!(debug_assertions)
+        && let Err(bug) = compiled.validate()
+    {
+        return Err(compiled.diagnostics.into_iter().chain([bug]).collect());
+    }
+    Ok(compiled)
+}
+
+impl Compiled {
+    /// Asks naga whether the module is valid, as wgpu does where a device gets it. An error is a bug of this compiler, never the
+    /// author's.
+    pub fn validate(&self) -> Result<(), Diagnostic> {
+        emit::validate(&self.module).map(drop).map_err(|reason| {
+            let bug = format!("this is a bug in Eddy: the generated program is not valid: {reason}");
+            Diagnostic::error(None, bug).hint("the program itself is right; please report it with this text")
+        })
+    }
 }
 
 /// Checks Common the way the site does: alone, with only `iDate` and `iSampleRate` in scope. An empty list means that the
