@@ -344,11 +344,6 @@ fn floats() {
             [2.3561945, -std::f32::consts::FRAC_PI_4, std::f32::consts::SQRT_2, 8.],
         ),
         // Folded: undefined for (0, 0), and drivers have three quarters of a half turn there.
-        with(
-            "vec2 never_written = vec2(0.0); float turned(float x, float y) { return atan(y, x); }",
-            "vec2 v = vec2(0.0); r = vec4(atan(v.x, v.y), atan(never_written.y, v.x), turned(0.0, 1.0), turned(v.x, 0.0));",
-            [0., 0., std::f32::consts::FRAC_PI_2, 0.],
-        ),
         case(
             "float w; float f = modf(Z - 3.25, w); vec2 w2; vec2 f2 = modf(vec2(1.5, -1.5) + Z, w2); r = vec4(f, w, f2.x + f2.y, w2.x * 10.0 + w2.y);",
             [-0.25, -3., 0., 9.],

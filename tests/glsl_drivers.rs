@@ -124,31 +124,10 @@ fn order_of_evaluation() {
             "r = vec4(floatBitsToUint(fade(Z + 0.6, Z + 0.91)) - 0x3f14af4fu);",
             [0.; 4],
         ),
-        // What functions say of constants and of what is computed twice is known where they are called: the sum that two calls
-        // share stays whole, (p.y k.y + p.x k.x) + s ...
-        with(
-            "vec2 p; float s; float next() { return dot(p, vec2(12.98, 78.23)) + s++; }",
-            "p = Z + vec2(5.44, 5.63); s = Z + 1.52; float a = next(), b = next();\n\
-             r = vec4(floatBitsToUint(b) - 0x4400643cu, a > b, 0, 0);",
-            [0.; 4],
-        ),
-        // ... in a branch too ...
-        with(
-            "vec2 p; float s; float next() { return dot(p, vec2(12.98, 78.23)) + s++; }",
-            "p = Z + vec2(5.44, 5.63); s = Z + 1.52; float a = next(), b = 0.0; if (a > Z) b = next();\n\
-             r = vec4(floatBitsToUint(b) - 0x4400643cu, a > b, 0, 0);",
-            [0.; 4],
-        ),
-        // ... the share is a constant: x (1 - cos(0.5)) + y cos(0.5) ...
+        // The share is a constant: x (1 - cos(0.5)) + y cos(0.5).
         with(
             "float turn(float x, float y, float angle) { return mix(x, y, cos(angle)); }",
             "r = vec4(floatBitsToUint(turn(Z + 2.33, Z + 2.11, 0.5)) - 0x4008c37eu);",
-            [0.; 4],
-        ),
-        // A literal that terms of a matrix product share is taken out of their sum too: 0.19 (a + c) ...
-        case(
-            "mat2 m = mat2(6.19, 1, 8.21, 1); m[0] += Z; m[1] += Z;\n\
-             r = vec4(floatBitsToUint((m * vec2(0.19)).x) - 0x402f1a9fu);",
             [0.; 4],
         ),
         // ... but the components of a constant column are several numbers: y 0.27 + x 0.27.

@@ -19,33 +19,6 @@ fn variables(compiled: &Compiled) -> (usize, usize) {
     (scalars.len(), others.len())
 }
 
-/// What a loop carries from round to round is carried as scalars: a driver that keeps vectors together counts it as work.
-#[test]
-fn written_vectors_are_scalars() {
-    const STRUCT: &str = "struct S { vec2 a; mat2 m; float b; };";
-    for (body, expected) in [
-        ("vec3 v = p.xyx; for (int i = 0; i < n; i++) v = v.zxy * 1.5;", (4, 0)),
-        ("vec3 v = p.xyx; for (int i = 0; i < n; i++) { v.xz *= 1.5; v[1] += v.x; }", (4, 0)),
-        ("mat2 v = mat2(p, p); for (int i = 0; i < n; i++) { v[1].x += 1.0; v *= v; }", (5, 0)),
-        ("S v = S(p, mat2(p, p), 1.0); for (int i = 0; i < n; i++) { v.m[1] += v.a; v.b++; }", (8, 0)),
-        // Memory: some index is known at run time only, or another function gets a pointer.
-        ("vec3 v = p.xyx; for (int i = 0; i < n; i++) v[i % 3] *= 1.5;", (1, 1)),
-        ("vec3 v = p.xyx; for (int i = 0; i < n; i++) far(v);", (1, 1)),
-    ] {
-        let code = format!(
-            "{STRUCT} void far(inout vec3 v) {{ if (v.x > 9.0) discard; v *= 2.0; }}\n\
-             vec4 f(vec2 p, int n) {{ {body} return {}; }}\n\
-             void mainImage(out vec4 o, vec2 p) {{ o = f(p, int(p.y)); }}",
-            match body {
-                _ if body.starts_with('S') => "vec4(v.a, v.m[1].x, v.b)",
-                _ if body.starts_with('m') => "vec4(v[0], v[1])",
-                _ => "vec4(v, 1)",
-            }
-        );
-        assert_eq!(variables(&compiled(&code, Driver::default())), expected, "{body}");
-    }
-}
-
 #[test]
 fn variables_hold_what_was_written() {
     const STATE: &str = "struct S { vec2 a; float b; ivec2 c; }; struct T { S s; mat2 m; S t; };\n\
@@ -150,24 +123,4 @@ fn hidden_uniforms_are_read_before_loops() {
     assert_eq!(uniform_loads(&compiled, f, &f.body, false), 0);
     // Time, and the resolution as a whole.
     assert_eq!(uniform_loads(&compiled, f, &f.body, true), 2);
-}
-
-/// Section 4.1 leaves open what a variable begins with, WebGL says zero: constants join with that as with any other.
-#[test]
-fn what_begins_as_zero_is_known() {
-    let sums = |code: &str| {
-        let compiled = compiled(&format!("void mainImage(out vec4 o, vec2 p) {{ {code} }}"), Driver::default());
-        let is_sum = |e: &Expression| matches!(e, Expression::Binary { op: naga::BinaryOperator::Add, .. });
-        compiled
-            .module
-            .functions
-            .iter()
-            .map(|(_, f)| f.expressions.iter().filter(|(_, e)| is_sum(e)).count())
-            .sum::<usize>()
-    };
-    assert_eq!(
-        sums("float z; vec2 v; mat2 m; o = vec4(p.x + z, p.y + v.y, v + p); z += p.x; v.x = 1.0; m[0].x = 1.0;"),
-        0
-    );
-    assert_eq!(sums("float z; z += 0.5; o = vec4(p.x + z);"), 1);
 }

@@ -1,5 +1,7 @@
 //! One function: its statements and operations, each as naga's.
 
+use std::collections::HashSet;
+
 use naga::{
     BinaryOperator, Block, Expression, FunctionArgument, FunctionResult, Handle, ImageQuery, LocalVariable,
     MathFunction, Range, SampleLevel, ScalarKind, Span, Statement, SwitchCase, SwitchValue, SwizzleComponent,
@@ -27,6 +29,8 @@ pub(super) struct Builder<'m, 'a> {
     pub long_result: Option<Handle<Expression>>,
     /// By [`ir::VarId`].
     vars: Vec<Handle<LocalVariable>>,
+    /// Variables that are written before they are read, and so need no zeros.
+    written_first: HashSet<Handle<LocalVariable>>,
 }
 
 /// Emits a function that is called.
@@ -69,8 +73,12 @@ impl<'m, 'a> Builder<'m, 'a> {
             literals: Map::default(),
             long_result: None,
             vars,
+            written_first: HashSet::new(),
         };
         for (index, var) in function.vars.iter().enumerate() {
+            if var.init.is_none() {
+                builder.written_first.insert(builder.vars[index]);
+            }
             // Zeros are what naga's variables begin with.
             if let Some(init) = var.init
                 && !matches!(function[init], Op::Zero(_))
@@ -85,6 +93,7 @@ impl<'m, 'a> Builder<'m, 'a> {
     pub fn finish(mut self) -> naga::Function {
         self.emit();
         self.f.body = self.block;
+        self.cx.written_first.push(self.written_first);
         self.f
     }
 
@@ -284,6 +293,11 @@ impl<'m, 'a> Builder<'m, 'a> {
                 self.values[value.index()] = made;
                 return;
             }
+            Op::Binary { op: Binary::Modulo, left, right } => {
+                let made = self.modulo(value, left, right);
+                self.values[value.index()] = Some(made);
+                return;
+            }
             Op::OpaqueZero => {
                 let made = self.opaque_zero();
                 self.values[value.index()] = Some(made);
@@ -409,6 +423,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             let ty = self.cx.ty(result);
             let place = LocalVariable { name: None, ty, init: None };
             let place = self.f.local_variables.append(place, Span::UNDEFINED);
+            self.written_first.insert(place);
             let pointer = self.given(Expression::LocalVariable(place));
             arguments.push(pointer);
             self.push(Statement::Call { function, arguments, result: None });

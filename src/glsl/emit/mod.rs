@@ -11,6 +11,7 @@ mod entry;
 mod function;
 mod long_arrays;
 mod memory;
+mod remainder;
 mod resources;
 mod tables;
 mod types;
@@ -53,6 +54,7 @@ pub(in crate::glsl) fn emit(program: &ir::Module, source: &PassSource<'_>, refle
         resources: Resources::default(),
         functions: Vec::with_capacity(program.functions.len()),
         overwritten: HashSet::new(),
+        written_first: Vec::new(),
     };
     let (entry, functions) = program.functions.split_last().expect("a program has an entry point");
     for function in functions {
@@ -64,8 +66,9 @@ pub(in crate::glsl) fn emit(program: &ir::Module, source: &PassSource<'_>, refle
     let tables = emitter.finish_tables();
     let slots = u64::from(emitter.knob_slots());
     let knob_bytes = if emitter.reflection.knobs.is_empty() { 0 } else { slots * KNOB_BYTES };
-    let Emitter { mut out, overwritten, .. } = emitter;
-    let filled_arrays = if source.driver.array_loops { long_arrays::write(&mut out, &overwritten) } else { None };
+    let Emitter { mut out, overwritten, written_first, .. } = emitter;
+    let filled_arrays =
+        if source.driver.array_loops { long_arrays::write(&mut out, &overwritten, &written_first) } else { None };
     Emitted { module: out, tables, knob_bytes, filled_arrays }
 }
 
@@ -103,6 +106,8 @@ struct Emitter<'a> {
     functions: Vec<Handle<naga::Function>>,
     /// Private memory that is stored as a whole before anything reads it.
     overwritten: HashSet<Handle<GlobalVariable>>,
+    /// Variables of each function that are written before they are read, in the order of emission: the entry point last.
+    written_first: Vec<HashSet<Handle<naga::LocalVariable>>>,
 }
 
 /// Handles by 32-bit keys, with naga's quick hash.

@@ -121,8 +121,10 @@ pub struct Param {
 #[derive(Clone, Copy, Debug)]
 pub struct Var {
     pub ty: TypeId,
-    /// A constant that it holds whenever the function begins; else zeros.
+    /// A constant that it holds whenever the function begins; else it is written before it is read.
     pub init: Option<Value>,
+    /// It holds the value of one expression, from the branches that compute it to the load that follows them.
+    pub is_temporary: bool,
 }
 
 /// Statements that run one after the other.
@@ -275,8 +277,19 @@ impl Function {
     }
 
     pub fn add_var(&mut self, ty: TypeId) -> VarId {
-        self.vars.push(Var { ty, init: None });
+        self.vars.push(Var { ty, init: None, is_temporary: false });
         VarId::new(self.vars.len() - 1)
+    }
+
+    /// Drops variables that nothing names any more but these values.
+    pub fn drop_vars(&mut self, places: &[Value]) {
+        let mut gone = vec![None; self.vars.len()];
+        for &place in places {
+            if let Op::Var(var) = self[place] {
+                gone[var.index()] = Some(Op::Zero(self.ty(place)));
+            }
+        }
+        self.replace_vars(gone);
     }
 
     /// Puts other places in the place of variables, by [`VarId::index`]; variables without one stay.
@@ -377,19 +390,6 @@ impl Module {
         match self.types.get(ty) {
             Type::Struct(id) => self.structs[id.index()][index as usize],
             _ => self.types.element(ty).expect("only what has parts is taken apart"),
-        }
-    }
-
-    /// How many scalars a value has; stops counting past `most`, as structures may hold each other many times.
-    pub fn scalars_up_to(&self, ty: TypeId, most: usize) -> usize {
-        use super::types::Type;
-        match self.types.get(ty) {
-            Type::Struct(id) => self.structs[id.index()].iter().fold(0, |count, &member| match count > most {
-                true => count,
-                false => count + self.scalars_up_to(member, most - count),
-            }),
-            Type::Array { .. } => 1,
-            _ => self.types.components(ty).unwrap_or(1) as usize,
         }
     }
 

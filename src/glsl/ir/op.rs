@@ -161,7 +161,7 @@ pub enum Binary {
     Subtract,
     Multiply,
     Divide,
-    /// Of uints.
+    /// Of ints and uints: the remainder of the division that rounds down, which has the divisor's sign.
     Modulo,
     Equal,
     NotEqual,

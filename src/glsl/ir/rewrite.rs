@@ -19,22 +19,16 @@ pub trait Rule {
     fn begin(&mut self, _: &mut Rewriter<'_>) {}
 
     /// A store is about to be made.
-    fn store(&mut self, _: &mut Rewriter<'_>, _place: Value, _value: Value) {}
-
-    /// A block begins: a branch, a case or the body of a loop.
-    fn enter(&mut self) {}
-
-    /// It ends.
-    fn leave(&mut self, _: &Rewriter<'_>) {}
-
-    /// A loop of these blocks is about to begin.
-    fn enter_loop(&mut self, _: &Rewriter<'_>, _body: &Block, _continuing: &Block) {}
+    fn store(&mut self, _: &Rewriter<'_>, _place: Value, _value: Value) {}
 
     /// The body of a loop has begun: what is added comes before it.
     fn begin_body(&mut self, _: &mut Rewriter<'_>, _body: &Block) {}
 
-    /// Control meets again, after a branch, a switch or a loop.
-    fn join(&mut self, _: &Rewriter<'_>) {}
+    /// It has ended; what follows it in each round comes next.
+    fn end_body(&mut self) {}
+
+    /// Control meets again after a branch.
+    fn after_if(&mut self, _: &Rewriter<'_>) {}
 }
 
 /// Applies a rule to each function of a program.
@@ -142,25 +136,15 @@ impl<'m> Rewriter<'m> {
         *literals.entry((scalar, bits)).or_insert_with(new)
     }
 
-    pub fn float(&mut self, number: f32) -> Value {
-        self.literal(Scalar::Float, number.to_bits())
-    }
-
-    /// The number that a value is, if it is a literal float.
-    pub fn number(&self, value: Value) -> Option<f32> {
-        number(&self.f, value)
-    }
-
-    fn value(&self, old: Value) -> Value {
+    /// What stands for a value of the old function by now.
+    pub fn value(&self, old: Value) -> Value {
         // What was added has no other stand-in.
         self.map.get(old.index()).copied().unwrap_or(old)
     }
 
     fn nested(&mut self, block: Block, rule: &mut impl Rule) -> Block {
         let outer = std::mem::take(&mut self.out);
-        rule.enter();
         self.block(block, rule);
-        rule.leave(self);
         std::mem::replace(&mut self.out, outer)
     }
 
@@ -186,34 +170,30 @@ impl<'m> Rewriter<'m> {
             }
             match &mut stmt {
                 Stmt::Store { place, value } => rule.store(self, *place, *value),
-                Stmt::If { .. } | Stmt::Switch { .. } => {
-                    stmt.blocks_mut(|block| *block = self.nested(std::mem::take(block), rule));
-                    rule.join(self);
+                Stmt::If { accept, reject, .. } => {
+                    for block in [accept, reject] {
+                        *block = self.nested(std::mem::take(block), rule);
+                    }
+                    rule.after_if(self);
+                }
+                Stmt::Switch { cases, .. } => {
+                    for case in cases {
+                        case.body = self.nested(std::mem::take(&mut case.body), rule);
+                    }
                 }
                 Stmt::Loop { body, continuing, break_if } => {
-                    rule.enter_loop(self, body, continuing);
                     let old = std::mem::take(body);
                     let outer = std::mem::take(&mut self.out);
-                    rule.enter();
                     rule.begin_body(self, &old);
                     self.block(old, rule);
-                    rule.leave(self);
                     *body = std::mem::replace(&mut self.out, outer);
+                    rule.end_body();
                     *continuing = self.nested(std::mem::take(continuing), rule);
                     *break_if = break_if.map(|value| self.value(value));
-                    rule.join(self);
                 }
                 _ => {}
             }
             self.out.push(stmt);
         }
-    }
-}
-
-/// The number that a value is, if it is a literal float.
-pub fn number(f: &Function, value: Value) -> Option<f32> {
-    match f[value] {
-        Op::Literal(Scalar::Float, bits) => Some(f32::from_bits(bits)),
-        _ => None,
     }
 }

@@ -263,29 +263,16 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// An index, clamped to `0..len` unless it is known to be there: WebGL lets no index stray, and clamping is what its
-    /// implementations do.
+    /// An index, clamped to `0..len`: WebGL lets no index stray, and clamping is what its implementations do.
     fn index(&mut self, index: ExprId, len: u32) -> Value {
-        let known = self.range(index);
         let value = self.value(index);
-        let last = i64::from(len) - 1;
-        if known.is_some_and(|(least, greatest)| least >= 0 && greatest <= last) {
-            return value;
-        }
         if self.cx.hir[index].ty == TypeId::UINT {
-            let last = self.literal(Scalar::Uint, last as u32);
+            let last = self.literal(Scalar::Uint, len - 1);
             return self.math2(Math::Min, value, last);
         }
-        let mut value = value;
-        if known.is_none_or(|(least, _)| least < 0) {
-            let zero = self.literal(Scalar::Int, 0);
-            value = self.math2(Math::Max, value, zero);
-        }
-        if known.is_none_or(|(_, greatest)| greatest > last) {
-            let last = self.literal(Scalar::Int, last as u32);
-            value = self.math2(Math::Min, value, last);
-        }
-        value
+        let (zero, last) = (self.literal(Scalar::Int, 0), self.literal(Scalar::Int, len - 1));
+        let value = self.math2(Math::Max, value, zero);
+        self.math2(Math::Min, value, last)
     }
 
     /// Components of a vector, or a scalar alone.

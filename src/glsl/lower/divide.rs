@@ -9,47 +9,21 @@
 //!
 //! naga has guards too, but as functions that are called, and without regard to what is known of the operands.
 
-use super::{function::Builder, operators::Typed, ranges::Bounds};
+use super::{function::Builder, operators::Typed};
 use crate::glsl::{
-    hir::{BinaryOp, ExprId, Scalar, Shape, TypeId},
+    hir::{BinaryOp, Scalar, Shape, TypeId},
     ir::{Binary, Math, Op, Value},
 };
 
 const MINUS_ONE: u32 = -1i32 as u32;
 
-/// What is known of the operands of a division.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Operands {
-    left: Option<Bounds>,
-    right: Option<Bounds>,
-}
-
 impl Builder<'_, '_> {
-    /// What [`Builder::operation`] is to know of these.
-    pub fn operands_of(&self, op: BinaryOp, lhs: ExprId, rhs: ExprId) -> Operands {
-        match op {
-            BinaryOp::Div | BinaryOp::Rem => Operands { left: self.range(lhs), right: self.range(rhs) },
-            _ => Operands::default(),
-        }
-    }
-
-    /// [`Builder::binary`], with what is known of the operands.
-    pub fn operation(&mut self, op: BinaryOp, shape: Shape, left: Typed, right: Typed, known: Operands) -> Value {
-        match op {
-            BinaryOp::Div | BinaryOp::Rem if self.cx.hir.types.scalar(left.0) != Some(Scalar::Float) => {
-                self.int_division(op, shape, left, right, known)
-            }
-            _ => self.binary(op, shape, left, right),
-        }
-    }
-
     /// `/` and `%` of ints and uints.
-    pub fn int_division(&mut self, op: BinaryOp, shape: Shape, left: Typed, right: Typed, known: Operands) -> Value {
+    pub fn int_division(&mut self, op: BinaryOp, shape: Shape, left: Typed, right: Typed) -> Value {
         let ty = if shape == Shape::ScalarLeft { right.0 } else { left.0 };
         let signed = self.cx.hir.types.scalar(ty) == Some(Scalar::Int);
         let dividend = if shape == Shape::ScalarLeft { self.splat(left.1, ty) } else { left.1 };
         let mut numbers = Vec::new();
-        let may_be = |bounds: Option<Bounds>, number: i64| bounds.is_none_or(|(l, g)| l <= number && number <= g);
         // What the divisor may be, the latter where it overflows.
         let (divisor, zero, minus_one) = match self.int_components(right.0, right.1, &mut numbers) {
             // The divisor that is no divisor, without a division.
@@ -61,22 +35,13 @@ impl Builder<'_, '_> {
                 let minus_one = signed && numbers.contains(&MINUS_ONE);
                 (self.without_zeros(right, numbers), false, minus_one)
             }
-            None => {
-                let minus_one = signed && may_be(known.right, -1) && may_be(known.left, i32::MIN.into());
-                (right.1, may_be(known.right, 0), minus_one)
-            }
+            None => (right.1, true, signed),
         };
-        let positive = known.right.is_some_and(|(least, _)| least >= 0);
         let divisor = self.splat_to(divisor, right.0, ty);
         let one = self.int_of(ty, 1);
         let safe = match (zero, minus_one) {
             (false, false) => divisor,
-            (true, false) if !signed || positive => self.math2(Math::Max, divisor, one),
-            (true, false) => {
-                let none = self.zero(ty);
-                let bad = self.op(Binary::Equal, divisor, none);
-                self.select(bad, one, divisor)
-            }
+            (true, false) => self.math2(Math::Max, divisor, one),
             (false, true) => {
                 let bad = self.is_minus_one(ty, divisor);
                 self.select(bad, one, divisor)
@@ -92,7 +57,6 @@ impl Builder<'_, '_> {
             }
         };
         match op {
-            BinaryOp::Rem if signed => self.remainder(ty, dividend, safe),
             BinaryOp::Rem => self.op(Binary::Modulo, dividend, safe),
             _ => {
                 let quotient = self.op(Binary::Divide, dividend, safe);
@@ -146,36 +110,5 @@ impl Builder<'_, '_> {
         }
         // A zero within a vector that is put together may stand for more than one component.
         (out.len() == count).then_some(())
-    }
-
-    /// `%` of ints. Undefined where a side is negative (section 5.9), but shaders lean on what OpenGL drivers and the
-    /// site make of it: a remainder with the divisor's sign.
-    fn remainder(&mut self, ty: TypeId, left: Value, right: Value) -> Value {
-        let mut divisor = right;
-        if let Op::Splat { value, .. } = self.f[divisor] {
-            divisor = value;
-        }
-        let known = self.integer(divisor).filter(|&divisor| divisor as i32 > 0);
-        if let Some(divisor) = known.filter(|divisor| divisor.is_power_of_two()) {
-            let mask = self.int_of(ty, divisor - 1);
-            return self.op(Binary::And, left, mask);
-        }
-        // Not naga's `%`, whose SPIR-V form guards once more against what cannot be here.
-        let quotient = self.op(Binary::Divide, left, right);
-        let multiple = self.op(Binary::Multiply, quotient, right);
-        let rest = self.op(Binary::Subtract, left, multiple);
-        let zero = self.zero(ty);
-        // A rest of 0 has no sign: for a positive divisor it is not below zero, and for a negative one the test is on
-        // the product of signs, which 0 must not enter.
-        let wrong_side = if known.is_some() {
-            self.op(Binary::Less, rest, zero)
-        } else {
-            let signs = self.op(Binary::ExclusiveOr, rest, right);
-            let differ = self.op(Binary::Less, signs, zero);
-            let some = self.op(Binary::NotEqual, rest, zero);
-            self.op(Binary::And, differ, some)
-        };
-        let moved = self.op(Binary::Add, rest, right);
-        self.select(wrong_side, moved, rest)
     }
 }

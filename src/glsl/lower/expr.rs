@@ -1,6 +1,6 @@
 //! Expressions: what they evaluate to, in which order, under which conditions.
 
-use super::{cost::CHEAP, function::Builder, reach::known_bool};
+use super::{function::Builder, reach::known_bool};
 use crate::glsl::{
     hir::{ConstId, ExprFlags, ExprId, ExprKind, LogicalOp, Scalar, Type, TypeId},
     ir::{Binary, Block, Op, Stmt, Unary, Value},
@@ -52,8 +52,7 @@ impl Builder<'_, '_> {
         match hir[link].kind {
             ExprKind::Binary { op, shape, lhs, rhs } => {
                 let (left, right) = (value, self.value(rhs));
-                let operands = self.operands_of(op, lhs, rhs);
-                self.operation(op, shape, (hir[lhs].ty, left), (hir[rhs].ty, right), operands)
+                self.binary(op, shape, (hir[lhs].ty, left), (hir[rhs].ty, right))
             }
             ExprKind::Logical { op, lhs, rhs } => self.logical(op, lhs, value, rhs),
             ExprKind::Convert(_) => self.convert(value, hir[link].ty),
@@ -162,25 +161,13 @@ impl Builder<'_, '_> {
         }
     }
 
-    fn is_cheap(&self, expr: ExprId) -> bool {
-        !self.cx.hir[expr].flags.contains(ExprFlags::EFFECTS) && self.cx.costs[expr.index()] <= CHEAP
-    }
-
     fn logical(&mut self, op: LogicalOp, lhs: ExprId, left: Value, rhs: ExprId) -> Value {
         match (op, known_bool(self.cx.hir, lhs)) {
             (LogicalOp::And, Some(false)) | (LogicalOp::Or, Some(true)) => return left,
             (_, Some(_)) => return self.value(rhs),
             (_, None) => {}
         }
-        if self.is_cheap(rhs) {
-            let right = self.value(rhs);
-            let op = match op {
-                LogicalOp::And => Binary::LogicalAnd,
-                LogicalOp::Or => Binary::LogicalOr,
-            };
-            return self.add(Op::Binary { op, left, right });
-        }
-        let result = self.temporary(TypeId::BOOL);
+        let result = self.result_of_branch(TypeId::BOOL);
         self.store(result, left);
         let (needed, _) = self.nested(|b| {
             let right = b.value(rhs);
@@ -199,12 +186,7 @@ impl Builder<'_, '_> {
             return self.value(if known { then } else { otherwise });
         }
         let condition = self.value(cond);
-        if self.is_vector_or_scalar(ty) && self.is_cheap(then) && self.is_cheap(otherwise) {
-            let accept = self.value(then);
-            let reject = self.value(otherwise);
-            return self.select(condition, accept, reject);
-        }
-        let result = self.temporary(ty);
+        let result = self.result_of_branch(ty);
         let (accept, _) = self.nested(|b| {
             let value = b.value(then);
             b.store(result, value);
@@ -215,6 +197,15 @@ impl Builder<'_, '_> {
         });
         self.push(Stmt::If { condition, accept, reject });
         self.load(result)
+    }
+
+    /// A variable for the value that two branches compute, and a load behind them reads.
+    fn result_of_branch(&mut self, ty: TypeId) -> Value {
+        let place = self.temporary(ty);
+        if let Op::Var(id) = self.f[place] {
+            self.f.vars[id.index()].is_temporary = true;
+        }
+        place
     }
 
     pub fn select(&mut self, condition: Value, accept: Value, reject: Value) -> Value {

@@ -1,13 +1,12 @@
 //! Statements: declarations, branches, loops, switches, jumps.
 
 use super::{
-    cost::CHEAP,
-    function::{Builder, Loop, Part, Slot},
+    function::{Builder, Slot},
     reach::known_bool,
 };
 use crate::glsl::{
     ast::List,
-    hir::{Case, ExprId, ExprKind, LocalId, StmtId, StmtKind, TypeId},
+    hir::{Case, ExprId, ExprKind, LocalId, StmtId, StmtKind, TypeId, VarFlags},
     ir::{self, Binary, Block, Stmt, Value},
 };
 
@@ -45,12 +44,7 @@ impl Builder<'_, '_> {
                 }
             },
             StmtKind::Break => self.push(Stmt::Break),
-            StmtKind::Continue => {
-                if let Some(Loop { step: Some(step), .. }) = self.loops.last().copied() {
-                    self.step_of_loop(step);
-                }
-                self.push(Stmt::Continue);
-            }
+            StmtKind::Continue => self.push(Stmt::Continue),
             // Of a function of Common that the checker let pass.
             StmtKind::Discard if self.cx.source.kind == crate::glsl::PassKind::Vertex => {}
             StmtKind::Discard => {
@@ -62,10 +56,9 @@ impl Builder<'_, '_> {
 
     fn declaration(&mut self, local: LocalId, init: Option<ExprId>) {
         let hir = self.cx.hir;
-        self.note_range(local, init);
         // A table that is only read here needs no copy.
         if let (Some(init), true, false) = (init, self.needs_memory(local), self.cx.arguments.handed_on[local.index()])
-            && let (ExprKind::Const(id), 0) = (hir[init].kind, self.cx.writes[local.index()])
+            && let (ExprKind::Const(id), false) = (hir[init].kind, hir[local].flags.contains(VarFlags::WRITTEN))
             && !self.is_vector_or_scalar(hir[local].ty)
         {
             self.set_slot(local, Slot::Table(super::const_id(id)));
@@ -85,7 +78,7 @@ impl Builder<'_, '_> {
     /// fill memory twice is dear, and not every driver sees that the first time is for nothing.
     fn starts_with_value(&mut self, local: LocalId, init: Option<ExprId>) -> bool {
         let hir = self.cx.hir;
-        if !self.loops.is_empty() || !self.needs_memory(local) || self.is_vector_or_scalar(hir[local].ty) {
+        if self.loops > 0 || !self.needs_memory(local) || self.is_vector_or_scalar(hir[local].ty) {
             return false;
         }
         let value = match init.map(|init| hir[init].kind) {
@@ -116,54 +109,23 @@ impl Builder<'_, '_> {
         if known == Some(false) {
             return;
         }
-        let counter = test.and_then(|test| self.counter(init, test, step));
-        let float_counter = test.and_then(|test| self.float_counter(init, test, step));
-        let rounds = counter.map(|(_, (least, greatest))| greatest - least);
-        // Drivers analyse a loop whose step ends the body more readily than one with a `continuing` part that several places
-        // jump to; a short step is repeated before each `continue` instead, as their own GLSL compilers do.
-        let repeated = step.filter(|step| self.cx.costs[step.index()] <= CHEAP);
-        self.loops.push(Loop { step: repeated, counter: counter.or(float_counter), part: Part::Test });
+        self.loops += 1;
         let (body, _) = self.nested(|b| {
             if let (None, Some(test)) = (known, test) {
-                let condition = b.loop_test(test, rounds);
+                let condition = b.value(test);
                 b.push(Stmt::If { condition, accept: Block::new(), reject: vec![Stmt::Break] });
             }
-            b.body_of_loop(body);
-            if let (Some(step), false) = (repeated, b.ended) {
-                b.step_of_loop(step);
-            }
+            b.statements(body);
         });
-        let continuing = match (step, repeated) {
-            (Some(step), None) => self.nested(|b| b.step_of_loop(step)).0,
-            _ => Block::new(),
-        };
-        self.loops.pop();
+        let (continuing, _) = self.nested(|b| step.into_iter().for_each(|step| b.effect(step)));
+        self.loops -= 1;
         self.push(Stmt::Loop { body, continuing, break_if: None });
-    }
-
-    fn body_of_loop(&mut self, body: List<StmtId>) {
-        self.within(Part::Body, |b| b.statements(body));
-    }
-
-    /// The step of the innermost loop, at the end of its body or before a `continue`.
-    fn step_of_loop(&mut self, step: ExprId) {
-        self.within(Part::Step, |b| b.effect(step));
-    }
-
-    /// Lowers code that lies in this part of the innermost loop.
-    fn within(&mut self, part: Part, lower: impl FnOnce(&mut Self)) {
-        let at = self.loops.len() - 1;
-        let outer = std::mem::replace(&mut self.loops[at].part, part);
-        lower(self);
-        self.loops[at].part = outer;
     }
 
     fn do_while(&mut self, body: List<StmtId>, test: ExprId) {
         let known = known_bool(self.cx.hir, test);
-        self.loops.push(Loop { step: None, counter: None, part: Part::Test });
-        let (body, _) = self.nested(|b| {
-            b.body_of_loop(body);
-        });
+        self.loops += 1;
+        let (body, _) = self.nested(|b| b.statements(body));
         let mut break_if = None;
         let (continuing, _) = self.nested(|b| {
             if known != Some(true) {
@@ -171,7 +133,7 @@ impl Builder<'_, '_> {
                 break_if = Some(b.not(again));
             }
         });
-        self.loops.pop();
+        self.loops -= 1;
         self.push(Stmt::Loop { body, continuing, break_if });
     }
 

@@ -7,10 +7,10 @@ mod variables;
 
 pub(super) use self::constants::Part as PartOf;
 
-use super::{Instance, Lowering, Map, calls::Specialization, ranges::Bounds};
+use super::{Instance, Lowering, Map, calls::Specialization};
 use crate::glsl::{
     ast::{List, Loc},
-    hir::{ExprId, FuncId, LocalId, LocalKind, TypeId},
+    hir::{FuncId, LocalId, LocalKind, TypeId},
     ir::{self, Block, Op, Param, Stmt, Value},
 };
 
@@ -29,26 +29,6 @@ pub(super) enum Slot {
     Channel(u8),
 }
 
-/// A loop that the code at hand lies in.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Loop {
-    /// Evaluated before each `continue`; `None` where the loop's `continuing` block does it.
-    pub step: Option<ExprId>,
-    /// A local and its bounds, which hold in [`Part::Body`] alone: there the test was true and the step is yet to come.
-    pub counter: Option<(LocalId, Bounds)>,
-    /// Where in the loop the code at hand lies.
-    pub part: Part,
-}
-
-/// A part of a loop.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Part {
-    Test,
-    Body,
-    /// The third expression of a `for`, which is lowered once more at each `continue`.
-    Step,
-}
-
 pub(super) struct Builder<'m, 'a> {
     pub cx: &'m mut Lowering<'a>,
     pub f: ir::Function,
@@ -65,11 +45,8 @@ pub(super) struct Builder<'m, 'a> {
     zeros: Map<TypeId, Value>,
     constants: Map<u32, Value>,
     globals: Map<ir::GlobalId, Value>,
-    /// From the outermost to the innermost, with those of the functions that this one is part of.
-    pub loops: Vec<Loop>,
-    /// Bounds of all values that an int local has from its declaration on, by [`LocalId::index`]. What holds in a part
-    /// of a loop only is in [`Loop`].
-    pub declared: Map<u32, Bounds>,
+    /// How many loops the code at hand lies in.
+    pub loops: usize,
     pub result: TypeId,
     /// The author's function, none of the code around the entry point; and what this copy has in place of parameters.
     pub func: Option<FuncId>,
@@ -118,8 +95,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             zeros: Map::default(),
             constants: Map::default(),
             globals: Map::default(),
-            loops: Vec::new(),
-            declared: Map::default(),
+            loops: 0,
             result: TypeId::VOID,
             func: None,
             given: Box::default(),

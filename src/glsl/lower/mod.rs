@@ -10,10 +10,10 @@
 //! - A function has one copy for each combination of channels, globals and tables that stand for parameters it only reads
 //!   ([`calls`]).
 //! - A large global array that the program fills with constants before all else is a constant ([`constant_arrays`]).
-//! - Every index that is not provably in range is clamped here ([`ranges`] tells what is known), as WebGL does; the modules
-//!   need no bounds checks from naga. Divisors of integers that may be zero are guarded ([`divide`]), as no driver's compiler
-//!   may meet one. Fetches outside a texture are left to the driver's image robustness, which gives the zeros WebGL promises.
-//! - `&&`, `||` and `?:` become selects where both sides are cheap and have no effects, branches elsewhere.
+//! - Every index that is no literal is clamped, as WebGL does; the modules need no bounds checks from naga. Divisors of
+//!   integers that are no literals are guarded ([`divide`]), as no driver's compiler may meet a zero. The optimiser drops what
+//!   is superfluous. Fetches outside a texture are left to the driver's image robustness, which gives the zeros WebGL promises.
+//! - `&&`, `||` and `?:` are branches.
 
 mod access;
 mod bilinear;
@@ -21,18 +21,15 @@ mod builtin;
 mod calls;
 mod constant_arrays;
 mod convert;
-mod cost;
 mod divide;
 mod entry;
 mod expr;
 mod flow;
 mod function;
 mod geometry;
-mod induction;
 mod matrix;
 mod opaque;
 mod operators;
-mod ranges;
 mod reach;
 mod resources;
 mod stage;
@@ -66,7 +63,6 @@ pub(crate) struct Lowered {
 /// If `module` breaks the promises of [`hir`], such as having no entry point.
 pub(in crate::glsl) fn lower(module: &hir::Module, source: &PassSource<'_>, interface: Interface) -> Lowered {
     let (reach, arguments) = Reach::new(module);
-    let writes = ranges::write_counts(module);
     let mut cx = Lowering {
         hir: module,
         source,
@@ -74,9 +70,6 @@ pub(in crate::glsl) fn lower(module: &hir::Module, source: &PassSource<'_>, inte
         out: begin(module),
         layouts: Layouts::default(),
         resources: Resources::new(module.globals.len()),
-        costs: cost::costs(module),
-        counted: induction::counted(module, &writes),
-        writes,
         arguments,
         functions: HashMap::with_capacity(reach.instances.len()),
         reflection: Reflection::default(),
@@ -125,12 +118,6 @@ struct Lowering<'a> {
     out: ir::Module,
     layouts: Layouts,
     resources: Resources,
-    /// Cost of each expression, by [`hir::ExprId::index`].
-    costs: Vec<u16>,
-    /// How many expressions write each local, by [`hir::LocalId::index`].
-    writes: Vec<u32>,
-    /// Locals that one loop counts.
-    counted: HashMap<usize, induction::Counted>,
     arguments: Arguments,
     functions: HashMap<Instance, ir::FuncId>,
     reflection: Reflection,

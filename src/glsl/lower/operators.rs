@@ -1,6 +1,6 @@
 //! Operators, assignments, equality.
 
-use super::{divide::Operands, function::Builder};
+use super::function::Builder;
 use crate::glsl::{
     hir::{BinaryOp, ExprId, ExprKind, IncDec, Scalar, Shape, Type, TypeId, UnaryOp},
     ir::{Binary, Op, Unary, Value},
@@ -46,7 +46,7 @@ impl Builder<'_, '_> {
             B::Shl => return self.shift(Binary::ShiftLeft, left, right),
             B::Shr => return self.shift(Binary::ShiftRight, left, right),
             B::Div | B::Rem if types.scalar(left.0) != Some(Scalar::Float) => {
-                return self.int_division(op, shape, left, right, Operands::default());
+                return self.int_division(op, shape, left, right);
             }
             _ => {}
         }
@@ -188,9 +188,8 @@ impl Builder<'_, '_> {
         let (place_ty, value_ty) = (hir[place].ty, hir[value].ty);
         let at = self.place(place);
         let right = self.value(value);
-        let operands = self.operands_of(op, place, value);
         let left = self.load_place(at);
-        let result = self.operation(op, shape, (place_ty, left), (value_ty, right), operands);
+        let result = self.binary(op, shape, (place_ty, left), (value_ty, right));
         self.store_place(at, result);
         result
     }

@@ -6,8 +6,11 @@
 
 mod array_to_global;
 mod dce;
+#[cfg(test)]
 mod identity;
+mod if_convert;
 mod inline;
+mod ranges;
 mod scalarize;
 #[cfg(test)]
 mod tests;
@@ -25,12 +28,21 @@ pub struct Pass {
 /// All passes, in the order in which they run.
 pub const PASSES: &[Pass] = &[
     Pass {
+        name: "if-convert",
+        purpose: "makes selects of cheap branches that compute one value (if-conversion)",
+        run: if_convert::run,
+    },
+    Pass {
         name: "inline",
         purpose: "replaces calls of small functions, and of those called once, by what they do",
         run: inline::run,
     },
+    Pass {
+        name: "ranges",
+        purpose: "drops clamps, guards and tests that value ranges make superfluous",
+        run: ranges::run,
+    },
     Pass { name: "scalarize", purpose: "writes arithmetic on vectors out by component", run: scalarize::run },
-    Pass { name: "identity", purpose: "drops operations that leave an operand as it is", run: identity::run },
     Pass { name: "dce", purpose: "drops what nothing uses (dead code elimination)", run: dce::run },
     Pass {
         name: "array-to-global",

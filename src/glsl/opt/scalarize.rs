@@ -18,6 +18,9 @@ struct Scalarize;
 
 impl Rule for Scalarize {
     fn operation(&mut self, r: &mut Rewriter<'_>, value: Value, op: &Op) -> Option<Value> {
+        if let Op::Part { base, index } = *op {
+            return known_part(r, base, index);
+        }
         let ty = r.f.ty(value);
         let Type::Vector { scalar: Scalar::Float, size } = r.module.types.get(ty) else { return None };
         let by_component = match *op {
@@ -44,8 +47,20 @@ impl Rule for Scalarize {
 /// A component of an operand; a scalar meets each.
 fn component(r: &mut Rewriter<'_>, operand: Value, index: u32) -> Value {
     match r.module.types.get(r.f.ty(operand)) {
-        Type::Vector { .. } => r.add(Op::Part { base: operand, index }),
+        Type::Vector { .. } => match known_part(r, operand, index) {
+            Some(part) => part,
+            None => r.add_typed(Op::Part { base: operand, index }, TypeId::FLOAT),
+        },
         _ => operand,
+    }
+}
+
+/// A part of a value that was put together from as many.
+fn known_part(r: &Rewriter<'_>, value: Value, index: u32) -> Option<Value> {
+    match r.f[value] {
+        Op::Compose { ty, ref parts } if parts.len() == r.module.extent(ty) as usize => Some(parts[index as usize]),
+        Op::Splat { value, .. } => Some(value),
+        _ => None,
     }
 }
 

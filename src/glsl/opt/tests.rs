@@ -1,10 +1,10 @@
 //! What passes make of small programs, as snapshots that a person can read. `cargo insta review`, or `INSTA_UPDATE=always`,
 //! takes a change over.
 
-use super::PASSES;
+use super::{PASSES, identity};
 use crate::{
     diag::SourceId,
-    glsl::{Driver, Link, PassKind, PassSource, Text, dump_ir, opt::PassSet},
+    glsl::{Driver, Link, PassKind, PassSource, Text, compile_seen, dump_ir, ir, opt::PassSet},
 };
 
 fn source(code: &str) -> PassSource<'_> {
@@ -34,7 +34,23 @@ fn vectors_are_written_out() {
 
 #[test]
 fn what_changes_nothing_is_dropped() {
-    insta::assert_snapshot!(around("identity", "o = vec4(p.x * 1.0, 0.0 + p.y, p.x / 1.0 - 0.0, 1.0 * 1.0);"));
+    let code = "void mainImage(out vec4 o, vec2 p) { o = vec4(p.x * 1.0, 0.0 + p.y, p.x / 1.0 - 0.0, p.x * 2.0); }";
+    let mut program = None;
+    compile_seen(&source(code), &Link::default(), |_, seen| program = Some(seen.clone())).expect("no errors");
+    let mut program = program.expect("it was seen");
+    let before = ir::print::print(&program);
+    identity::run(&mut program);
+    ir::verify::verify(&program).expect("the rules are kept");
+    insta::assert_snapshot!(format!("; before identity\n{before}\n; after identity\n{}", ir::print::print(&program)));
+}
+
+#[test]
+fn functions_become_part_of_their_callers() {
+    let code = "float f(float x, out float y) { y = x; for (int i = 0; i < 9; i++) { if (x > 2.0) return x; x += 1.0; } return 3.0; }
+        float twice(float x) { return x + x; }
+        void mainImage(out vec4 o, vec2 p) { float y; o = vec4(f(p.x, y), twice(y), twice(p.y), 1); }";
+    let text = dump_ir(&source(code), &Link::default(), Some("inline")).expect("a program without errors");
+    insta::assert_snapshot!(text);
 }
 
 #[test]

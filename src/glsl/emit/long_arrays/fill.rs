@@ -1,5 +1,7 @@
 //! A walk over one function that gives its long arrays their forms; zeros, written by loops.
 
+use std::collections::HashSet;
+
 use naga::{
     AddressSpace, ArraySize, BinaryOperator, Block, BuiltIn, Expression, Function, GlobalVariable, Handle, Literal,
     LocalVariable, Range, ScalarKind, Span, Statement, Type, TypeInner, UniqueArena,
@@ -37,12 +39,18 @@ impl Writer<'_> {
         block.push(Statement::Store { pointer, value }, Span::UNDEFINED);
     }
 
-    /// Fills these globals and all long locals at the start, behind `block`, and makes loops of the long values that are
-    /// stored.
-    pub fn rewrite(mut self, globals: &[(Handle<GlobalVariable>, Handle<Type>)], mut block: Block) {
+    /// Fills these globals and all long locals but those of `written_first` at the start, behind `block`, and makes loops of the
+    /// long values that are stored.
+    pub fn rewrite(
+        mut self,
+        globals: &[(Handle<GlobalVariable>, Handle<Type>)],
+        written_first: &HashSet<Handle<LocalVariable>>,
+        mut block: Block,
+    ) {
         let locals = self.function.local_variables.iter();
         let is_long = |v: &LocalVariable| v.init.is_none() && self.sizes.longest(v.ty) >= LEAST_ARRAY;
-        let locals: Vec<_> = locals.filter(|(_, v)| is_long(v)).map(|(handle, v)| (handle, v.ty)).collect();
+        let locals = locals.filter(|(handle, v)| is_long(v) && !written_first.contains(handle));
+        let locals: Vec<_> = locals.map(|(handle, v)| (handle, v.ty)).collect();
         let body = std::mem::take(&mut self.function.body);
         for &(global, ty) in globals {
             let pointer = self.expression(Expression::GlobalVariable(global));

@@ -16,8 +16,8 @@ mod sizes;
 use std::collections::HashSet;
 
 use naga::{
-    AddressSpace, Binding, Block, BuiltIn, EntryPoint, Expression, GlobalVariable, Handle, MemoryDecorations, Module,
-    Scalar, Span, Type, TypeInner,
+    AddressSpace, Binding, Block, BuiltIn, EntryPoint, Expression, GlobalVariable, Handle, LocalVariable,
+    MemoryDecorations, Module, Scalar, Span, Type, TypeInner,
 };
 
 use fill::Writer;
@@ -41,11 +41,16 @@ const BLOCK: u32 = 32;
 /// with initialisers, and take up to twice as long with loops.
 const MOST_IN_BLOCKS: u32 = 512;
 
-/// Gives all long arrays these forms. `filled` are globals that are stored as a whole before all else.
+/// Gives all long arrays these forms. `filled` are globals that are stored as a whole before all else, `written_first` variables
+/// of each function, the entry point last, that are written before they are read.
 ///
 /// Returns the length in scalars from which on every array has its zeros, or another value, before anything reads it,
 /// though its variable had no initialiser; `None` if the program has few and was left as it is.
-pub(super) fn write(module: &mut Module, filled: &HashSet<Handle<GlobalVariable>>) -> Option<u32> {
+pub(super) fn write(
+    module: &mut Module,
+    filled: &HashSet<Handle<GlobalVariable>>,
+    written_first: &[HashSet<Handle<LocalVariable>>],
+) -> Option<u32> {
     let sizes = Sizes::new(&module.types);
     drop_zero_initialisers(module);
     let globals: Vec<_> = module
@@ -70,14 +75,16 @@ pub(super) fn write(module: &mut Module, filled: &HashSet<Handle<GlobalVariable>
     let Module { types, global_variables, functions, entry_points, .. } = module;
     let variables: Vec<_> = global_variables.iter().map(|(_, v)| (v.ty, v.space)).collect();
     let in_blocks = scalars <= MOST_IN_BLOCKS;
-    let write = |function, opaque_bit, filled: &[_]| {
+    let mut written_first = written_first.iter();
+    let mut write = |function, opaque_bit, filled: &[_]| {
+        let written_first = written_first.next().expect("a set for each function");
         let (sizes, globals) = (&sizes, &variables[..]);
         let mut writer = Writer { types, sizes, globals, uint, opaque, in_blocks, function };
         let mut start = Block::new();
         if let Some(bit) = opaque_bit {
             writer.set_opaque(bit, &mut start);
         }
-        writer.rewrite(filled, start);
+        writer.rewrite(filled, written_first, start);
     };
     for (_, function) in functions.iter_mut() {
         write(function, None, &[]);

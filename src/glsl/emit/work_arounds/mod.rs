@@ -3,6 +3,7 @@
 
 mod limits;
 mod loop_exits;
+mod loop_steps;
 mod uniforms;
 mod zero_divisors;
 
@@ -16,6 +17,7 @@ use crate::glsl::{
 
 /// Applies those that a driver needs.
 pub(in crate::glsl) fn apply(program: &mut Module, kind: PassKind, driver: Driver) {
+    loop_steps::run(program);
     zero_divisors::run(program);
     if driver.hidden_limits {
         limits::run(program);

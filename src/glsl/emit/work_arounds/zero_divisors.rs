@@ -20,22 +20,20 @@ pub(super) fn run(program: &mut Module) {
     let Some(zeros) = Zeros::of(program) else { return };
     for index in 0..program.functions.len() {
         let f = &program.functions[index];
-        let hides =
-            |value: Value| is_division(program, f, value) && divisor_may_be_zero(f, value, &zeros.values[index]);
-        let divisions: Vec<bool> = f.values().map(|(value, _)| hides(value)).collect();
+        let is_zero = |value: Value| zeros.values[index][value.index()];
+        let hides = |(value, op): (Value, &Op)| match *op {
+            Op::Binary { op: Binary::Divide, right, .. } => is_of_floats(program, f, value) && is_zero(right),
+            _ => false,
+        };
+        let divisions: Vec<bool> = f.values().map(hides).collect();
         if divisions.contains(&true) {
             rewrite::function(program, index, &mut HiddenDivisors(divisions));
         }
     }
 }
 
-fn is_division(program: &Module, f: &Function, value: Value) -> bool {
-    matches!(f[value], Op::Binary { op: Binary::Divide, .. })
-        && program.types.scalar(f.ty(value)) == Some(Scalar::Float)
-}
-
-fn divisor_may_be_zero(f: &Function, division: Value, zeros: &[bool]) -> bool {
-    matches!(f[division], Op::Binary { right, .. } if zeros[right.index()])
+fn is_of_floats(program: &Module, f: &Function, value: Value) -> bool {
+    program.types.scalar(f.ty(value)) == Some(Scalar::Float)
 }
 
 /// Divisions whose divisor is hidden, by [`Value::index`].
@@ -67,7 +65,14 @@ struct Zeros {
 impl Zeros {
     /// `None` if the program divides nothing.
     fn of(program: &Module) -> Option<Zeros> {
-        let divides = |f: &Function| f.values().any(|(value, _)| is_division(program, f, value));
+        let divides = |f: &Function| {
+            f.values().any(|(value, op)| match *op {
+                Op::Binary { op: Binary::Divide, right, .. } => {
+                    is_of_floats(program, f, value) && !matches!(f[right], Op::Literal(_, bits) if bits << 1 != 0)
+                }
+                _ => false,
+            })
+        };
         if !program.functions.iter().any(divides) {
             return None;
         }

@@ -37,6 +37,11 @@ pub(super) fn run(module: &mut Module) {
 
 /// Replaces calls in one function, whose callees have been through this.
 fn inline_calls(caller: &mut Function, callees: &[Function], inlined: &[bool], needs_flag: &[bool]) {
+    let of_call = |op: &Op| match *op {
+        Op::Call { function, .. } if inlined[function.index()] => callees[function.index()].len(),
+        _ => 0,
+    };
+    caller.reserve(caller.values().map(|(_, op)| of_call(op)).sum());
     let body = std::mem::take(&mut caller.body);
     let map = (0..caller.len()).map(Value::new).collect();
     let mut inliner = Inliner {
@@ -212,16 +217,15 @@ impl Inliner<'_> {
     fn variables(&mut self, site: &mut Site<'_>) {
         for (value, op) in site.callee.values() {
             let Op::Var(id) = *op else { continue };
-            let Var { ty, init } = site.callee.vars[id.index()];
+            let Var { ty, init, is_temporary } = site.callee.vars[id.index()];
             let init = init.map(|init| self.of_callee(site, init));
             let place = self.temporary(ty, site.callee.loc(value));
             site.map[value.index()] = Some(place);
+            let Op::Var(id) = self.f[place] else { unreachable!("a variable was made") };
+            self.f.vars[id.index()].is_temporary = is_temporary;
             match init {
                 Some(value) if self.loops > 0 => self.out.push(Stmt::Store { place, value }),
-                init => {
-                    let Op::Var(id) = self.f[place] else { unreachable!("a variable was made") };
-                    self.f.vars[id.index()].init = init;
-                }
+                init => self.f.vars[id.index()].init = init,
             }
         }
     }

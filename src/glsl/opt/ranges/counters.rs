@@ -1,0 +1,264 @@
+//! Which stores write the scalar variables of a function, and which loop counts one up or down.
+
+use rustc_hash::FxHashMap;
+
+use crate::glsl::{
+    ir::{Binary, Block, Function, Op, Stmt, Unary, Value},
+    types::{Scalar, TypeId},
+};
+
+/// How a variable is written.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Written {
+    /// In ways that are not told apart.
+    Unknown,
+    /// By one store, before everything that reads it.
+    Once,
+    /// By such a store, and by one that adds a constant to it, at most once in each round of the loop of this number and behind
+    /// the loop's test.
+    Counted { number: usize, ty: TypeId, by: Step },
+}
+
+/// What a round adds.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Step {
+    Int(i64),
+    Float { start: f32, by: f32 },
+}
+
+pub(super) struct Counters {
+    /// By [`VarId::index`](crate::glsl::ir::VarId::index).
+    pub vars: Vec<Written>,
+    /// Of counters: how the loop's test compares them with which value for another round.
+    tests: FxHashMap<usize, (Binary, Value)>,
+}
+
+impl Counters {
+    pub fn of(f: &Function) -> Counters {
+        let vars = f.vars.iter().map(|var| Var { is_bad: var.init.is_some(), ..Var::default() }).collect();
+        let mut walk = Walk {
+            f,
+            vars,
+            loads: FxHashMap::default(),
+            open: Vec::new(),
+            blocks: 0,
+            loops: Vec::new(),
+            count: 0,
+            tests: Vec::new(),
+        };
+        walk.block(&f.body);
+        let mut tests = FxHashMap::default();
+        let written = (0..f.vars.len()).map(|var| walk.written(var, &mut tests));
+        let vars = written.collect();
+        Counters { vars, tests }
+    }
+
+    pub fn test(&self, var: usize) -> Option<(Binary, Value)> {
+        self.tests.get(&var).copied()
+    }
+}
+
+/// What is seen of a variable.
+#[derive(Default)]
+struct Var {
+    /// It is read where it may not be written yet, or given to a call, or written more than twice.
+    is_bad: bool,
+    /// The block of the first store.
+    first: Option<usize>,
+    /// Values, and the loops around the store.
+    stores: Vec<(Value, Vec<usize>)>,
+}
+
+/// A walk over a body, in the order of execution.
+struct Walk<'a> {
+    f: &'a Function,
+    vars: Vec<Var>,
+    /// The variable that each load reads, and the innermost loop around it.
+    loads: FxHashMap<Value, (usize, usize)>,
+    /// Numbers of the block at hand and of those around it.
+    open: Vec<usize>,
+    blocks: usize,
+    /// Numbers of the loops around.
+    loops: Vec<usize>,
+    count: usize,
+    /// Comparisons that hold for another round of each loop, by its number.
+    tests: Vec<Vec<(Binary, Value, Value)>>,
+}
+
+impl Walk<'_> {
+    fn block(&mut self, block: &Block) {
+        self.blocks += 1;
+        self.open.push(self.blocks);
+        for stmt in block {
+            match stmt {
+                Stmt::Let(value) => self.compute(*value),
+                Stmt::Store { place, value } => self.store(*place, *value),
+                Stmt::Loop { body, continuing, .. } => {
+                    self.loops.push(self.count);
+                    self.count += 1;
+                    self.tests.push(test(self.f, body));
+                    self.block(body);
+                    self.block(continuing);
+                    self.loops.pop();
+                }
+                _ => stmt.blocks(|block| self.block(block)),
+            }
+        }
+        self.open.pop();
+    }
+
+    fn var(&self, place: Value) -> Option<usize> {
+        match self.f[self.f.root(place)] {
+            Op::Var(var) => Some(var.index()),
+            _ => None,
+        }
+    }
+
+    fn compute(&mut self, value: Value) {
+        match self.f[value] {
+            Op::Load { place } => {
+                let Some(var) = self.var(place) else { return };
+                let is_written = self.vars[var].first.is_some_and(|block| self.open.contains(&block));
+                self.vars[var].is_bad |= !is_written;
+                if let Some(&innermost) = self.loops.last() {
+                    self.loads.insert(value, (var, innermost));
+                }
+            }
+            Op::Call { ref args, .. } => {
+                for &arg in args.iter().filter(|&&arg| self.f.is_place(arg)) {
+                    if let Some(var) = self.var(arg) {
+                        self.vars[var].is_bad = true;
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn store(&mut self, place: Value, value: Value) {
+        let Some(var) = self.var(place) else { return };
+        let block = *self.open.last().expect("a statement stands in a block");
+        let var = &mut self.vars[var];
+        let is_first = var.first.is_none();
+        let is_behind = var.first.is_some_and(|block| self.open.contains(&block));
+        var.is_bad |= var.stores.len() == 2 || !(is_first || is_behind) || !matches!(self.f[place], Op::Var(_));
+        if !var.is_bad {
+            var.first = var.first.or(Some(block));
+            var.stores.push((value, self.loops.clone()));
+        }
+    }
+
+    fn written(&self, var: usize, tests: &mut FxHashMap<usize, (Binary, Value)>) -> Written {
+        let seen = &self.vars[var];
+        match &seen.stores[..] {
+            _ if seen.is_bad => Written::Unknown,
+            [_] => Written::Once,
+            [(start, around), (next, loops)] => {
+                let counted = || {
+                    let number = *loops.last().filter(|number| !around.contains(number))?;
+                    let test = self.tests[number].iter().find_map(|test| self.compares(*test, var, number))?;
+                    Some((number, self.step(*start, *next, var, number)?, test))
+                };
+                match counted() {
+                    Some((number, by, test)) => {
+                        tests.insert(var, test);
+                        Written::Counted { number, ty: self.f.ty(*start), by }
+                    }
+                    None => Written::Unknown,
+                }
+            }
+            _ => Written::Unknown,
+        }
+    }
+
+    /// Whether a value was loaded from a variable in this round of a loop.
+    fn is_loaded(&self, value: Value, var: usize, number: usize) -> bool {
+        self.loads.get(&value) == Some(&(var, number))
+    }
+
+    fn compares(
+        &self,
+        (op, left, right): (Binary, Value, Value),
+        var: usize,
+        number: usize,
+    ) -> Option<(Binary, Value)> {
+        if self.is_loaded(left, var, number) {
+            return Some((op, right));
+        }
+        let mirrored = match op {
+            Binary::Less => Binary::Greater,
+            Binary::Greater => Binary::Less,
+            Binary::LessEqual => Binary::GreaterEqual,
+            Binary::GreaterEqual => Binary::LessEqual,
+            _ => return None,
+        };
+        self.is_loaded(right, var, number).then_some((mirrored, left))
+    }
+
+    /// What a store adds to the variable.
+    fn step(&self, start: Value, next: Value, var: usize, number: usize) -> Option<Step> {
+        let Op::Binary { op, left, right } = self.f[next] else { return None };
+        let (by, sign) = match op {
+            Binary::Add if self.is_loaded(left, var, number) => (right, 1),
+            Binary::Add if self.is_loaded(right, var, number) => (left, 1),
+            Binary::Subtract if self.is_loaded(left, var, number) => (right, -1),
+            _ => return None,
+        };
+        match (&self.f[by], &self.f[start]) {
+            (Op::Literal(Scalar::Int, bits), _) => Some(Step::Int(sign * i64::from(*bits as i32))),
+            (Op::Literal(Scalar::Uint, bits), _) => Some(Step::Int(sign * i64::from(*bits))),
+            (Op::Literal(Scalar::Float, by), Op::Literal(Scalar::Float, start)) => {
+                Some(Step::Float { start: f32::from_bits(*start), by: sign as f32 * f32::from_bits(*by) })
+            }
+            _ => None,
+        }
+    }
+}
+
+/// The comparisons that hold where a loop's body goes on behind the test that it begins with.
+fn test(f: &Function, body: &Block) -> Vec<(Binary, Value, Value)> {
+    let first = body.iter().find(|stmt| match stmt {
+        Stmt::Let(value) => matches!(f[*value], Op::Call { .. }),
+        _ => true,
+    });
+    let leaves = |block: &Block| matches!(block[..], [Stmt::Break]);
+    let mut found = Vec::new();
+    match first {
+        Some(Stmt::If { condition, accept, reject }) if accept.is_empty() && leaves(reject) => {
+            holding(f, *condition, true, &mut found);
+        }
+        Some(Stmt::If { condition, accept, reject }) if leaves(accept) && reject.is_empty() => {
+            holding(f, *condition, false, &mut found);
+        }
+        _ => {}
+    }
+    found
+}
+
+/// The comparisons that hold where a condition is `truth`.
+fn holding(f: &Function, condition: Value, truth: bool, out: &mut Vec<(Binary, Value, Value)>) {
+    match f[condition] {
+        Op::Unary { op: Unary::LogicalNot, operand } => holding(f, operand, !truth, out),
+        Op::Binary { op: Binary::LogicalAnd, left, right } if truth => {
+            holding(f, left, truth, out);
+            holding(f, right, truth, out);
+        }
+        Op::Binary { op: Binary::LogicalOr, left, right } if !truth => {
+            holding(f, left, truth, out);
+            holding(f, right, truth, out);
+        }
+        Op::Binary { op, left, right } if truth => out.push((op, left, right)),
+        // Of floats both may be false.
+        Op::Binary { op, left, right } if matches!(f.ty(left), TypeId::INT | TypeId::UINT) => {
+            let opposite = match op {
+                Binary::Less => Binary::GreaterEqual,
+                Binary::Greater => Binary::LessEqual,
+                Binary::LessEqual => Binary::Greater,
+                Binary::GreaterEqual => Binary::Less,
+                _ => return,
+            };
+            out.push((opposite, left, right));
+        }
+        _ => {}
+    }
+}
