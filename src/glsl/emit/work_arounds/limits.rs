@@ -59,13 +59,22 @@ impl Limits {
                     Binary::Less | Binary::LessEqual => !goes_on,
                     _ => return,
                 };
-                let limit = if is_greater { right } else { left };
-                if !f[limit].is_free() {
+                let (counter, limit) = if is_greater { (left, right) } else { (right, left) };
+                if is_counted(f, counter) && !f[limit].is_free() {
                     self.0.entry(condition).or_default()[usize::from(is_greater)] = true;
                 }
             }
             _ => {}
         }
+    }
+}
+
+/// Whether a value is read from a variable, or has just been stepped.
+fn is_counted(f: &Function, value: Value) -> bool {
+    let is_load = |value: Value| matches!(f[value], Op::Load { .. });
+    match f[value] {
+        Op::Binary { op: Binary::Add | Binary::Subtract, left, right } => is_load(left) || is_load(right),
+        _ => is_load(value),
     }
 }
 

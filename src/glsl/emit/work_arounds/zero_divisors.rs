@@ -9,7 +9,7 @@ use crate::glsl::{
         Binary, Block, ConstId, Function, Global, GlobalKind, Module, Op, Stmt, Value,
         rewrite::{self, Rewriter, Rule},
     },
-    types::Scalar,
+    types::{Scalar, Type},
 };
 
 /// How often all values are looked at. One time more is needed for each step by which a zero gets from variable to variable
@@ -135,9 +135,13 @@ impl Zeros {
             // Of a place: what the variable holds.
             Op::Var(var) => self.vars[index][var.index()],
             Op::Global(global) => self.globals[global.index()],
-            Op::Part { base: of, .. }
-            | Op::Element { base: of, .. }
-            | Op::Swizzle { vector: of, .. }
+            Op::Part { base, index } => match f[base] {
+                Op::Const(id) if matches!(program.types.get(program[id].ty), Type::Vector { .. }) => {
+                    program[id].words[index as usize] << 1 == 0
+                }
+                _ => is_zero(base),
+            },
+            Op::Swizzle { vector: of, .. }
             | Op::Splat { value: of, .. }
             | Op::Unary { operand: of, .. }
             | Op::Convert { value: of, .. }
@@ -162,7 +166,9 @@ impl Zeros {
                 }
                 self.results[function.index()]
             }
-            Op::Input(_)
+            // Where it is read is not known.
+            Op::Element { .. }
+            | Op::Input(_)
             | Op::All(_)
             | Op::Any(_)
             | Op::Derivative { .. }
