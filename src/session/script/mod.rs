@@ -260,5 +260,4 @@ fn of_frame<A: Copy>(events: &[At<A>], frame: i32) -> impl Iterator<Item = A> {
 }
 
 #[cfg(test)]
-#[path = "script_tests.rs"]
 mod tests;

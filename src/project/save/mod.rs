@@ -282,5 +282,4 @@ fn is_same(a: &Path, b: &Path) -> bool {
 }
 
 #[cfg(test)]
-#[path = "save_tests.rs"]
 mod tests;

@@ -311,5 +311,4 @@ impl IncludeLines {
 }
 
 #[cfg(test)]
-#[path = "includes_tests.rs"]
 mod tests;

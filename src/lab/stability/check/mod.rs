@@ -263,5 +263,4 @@ fn roughness(area: Area, pixels: &Pixels, component: usize) -> f64 {
 }
 
 #[cfg(test)]
-#[path = "check_tests.rs"]
 mod tests;

@@ -252,5 +252,4 @@ pub(super) fn touching<'r>(list: &'r [Range<usize>], range: &Range<usize>) -> &'
 }
 
 #[cfg(test)]
-#[path = "lines_tests.rs"]
 mod tests;

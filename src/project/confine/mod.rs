@@ -278,5 +278,4 @@ fn open(real: &Path) -> io::Result<File> {
 }
 
 #[cfg(test)]
-#[path = "confine_tests.rs"]
 mod tests;

@@ -155,5 +155,4 @@ pub fn told(progress: &Progress) -> (f32, String) {
 }
 
 #[cfg(test)]
-#[path = "model_tests.rs"]
 mod tests;

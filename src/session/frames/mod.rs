@@ -273,5 +273,4 @@ impl super::state::Canvas {
 }
 
 #[cfg(test)]
-#[path = "frames_tests.rs"]
 mod tests;

@@ -87,5 +87,4 @@ fn holds_project(path: &Path) -> bool {
 }
 
 #[cfg(test)]
-#[path = "locate_tests.rs"]
 mod tests;

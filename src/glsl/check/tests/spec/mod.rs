@@ -5,11 +5,11 @@ use super::checked;
 use crate::glsl::{ChannelKind, PassKind};
 
 const SECTIONS: [(&str, &str); 5] = [
-    ("4", include_str!("spec/section_4.glsl")),
-    ("5", include_str!("spec/section_5.glsl")),
-    ("6", include_str!("spec/section_6.glsl")),
-    ("7", include_str!("spec/section_7.glsl")),
-    ("8", include_str!("spec/section_8.glsl")),
+    ("4", include_str!("section_4.glsl")),
+    ("5", include_str!("section_5.glsl")),
+    ("6", include_str!("section_6.glsl")),
+    ("7", include_str!("section_7.glsl")),
+    ("8", include_str!("section_8.glsl")),
 ];
 
 #[test]

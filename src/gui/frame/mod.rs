@@ -48,5 +48,4 @@ pub fn run(
 }
 
 #[cfg(test)]
-#[path = "frame_tests.rs"]
 mod tests;

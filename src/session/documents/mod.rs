@@ -250,5 +250,4 @@ pub(super) fn diff(disk: &str, mine: &str) -> Vec<DiffLine> {
 }
 
 #[cfg(test)]
-#[path = "documents_tests.rs"]
 mod tests;
