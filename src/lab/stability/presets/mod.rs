@@ -6,29 +6,19 @@
 //! reason; then the case is expected to leave it, and has to stay finite and below
 //! [`HARD_LIMIT`](super::check::HARD_LIMIT).
 
+mod declare;
 mod flows;
 mod others;
 
-use super::check::{Allowed, Area, Check, Quantity, Rule, Situation};
-use crate::project::{PassId, Project, presets};
+pub use declare::Courant;
+
+use super::check::Check;
+use crate::project::{Project, presets};
 
 /// What a preset declares.
 pub struct Declared {
     pub checks: Vec<Check>,
     pub courant: Option<Courant>,
-}
-
-/// How a project is made to move by so many cells a step.
-#[derive(Clone, Copy, Debug)]
-pub struct Courant {
-    /// The slider that sets it.
-    pub slider: &'static str,
-    /// The slider's value for cells a step, at the speed that the project's own forces make, on a canvas of this size.
-    pub value: fn(cells: f64, size: (u32, u32)) -> f64,
-    /// The check whose largest value is the speed, by its place in the list.
-    pub speed: usize,
-    /// Cells a step at that speed.
-    pub cells: fn(speed: f64, situation: &Situation) -> f64,
 }
 
 /// Of a preset with a state; `None` for the others.
@@ -80,29 +70,13 @@ pub fn declared_for_copy(project: &Project) -> Option<Declared> {
     declared.checks.iter().all(|c| project.pass(&c.pass).is_some()).then_some(declared)
 }
 
-fn buffer(name: &str) -> PassId {
-    PassId::parse(&format!("buffer_{name}")).unwrap_or(PassId::Image)
-}
-
-fn always(name: &str, quantity: Quantity, area: Area, range: (f64, f64), reason: &str) -> Check {
-    let allowed = Rule::Always(Allowed::new(range.0, range.1));
-    Check { pass: buffer(name), quantity, area, allowed, reason: reason.into() }
-}
-
-fn by(name: &str, quantity: Quantity, area: Area, rule: fn(&Situation) -> Allowed, reason: &str) -> Check {
-    Check { pass: buffer(name), quantity, area, allowed: Rule::Of(rule), reason: reason.into() }
-}
-
-/// A mouse's memory: canvas pixels, or -1e4 where there is none.
-fn mouse() -> Check {
-    let reason = "pixels of a canvas, at most half of one outside of it; -1e4 where there is no mouse";
-    always("mouse", Quantity::Any, Area::All, (-1e4, 1e5), reason)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{lab::stability::Subject, project::presets as library};
+    use crate::{
+        lab::stability::{Quantity, Subject},
+        project::presets as library,
+    };
 
     #[test]
     fn every_preset_with_a_state_is_declared_and_no_other() {

@@ -1,7 +1,11 @@
 //! Tests of meshes: what the built-in ones promise, what is read of model files, and what is said of broken ones.
 
-use super::*;
+mod bombs;
+
+use super::{Mesh, MeshError, NAMES, Vertex, load};
+use crate::project::MeshSource;
 use glam::Vec3;
+use std::path::Path;
 
 fn corners(mesh: &Mesh) -> impl Iterator<Item = [&Vertex; 3]> {
     mesh.indices.chunks_exact(3).map(|t| [0, 1, 2].map(|n| &mesh.vertices[t[n] as usize]))
