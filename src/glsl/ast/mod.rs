@@ -20,7 +20,7 @@ mod position;
 pub use arena::{List, Pooled};
 pub(in crate::glsl) use arena::{arenas, ids};
 pub use names::{Interner, Symbol};
-pub use position::{Expansion, Ident, Loc, MacroDef, Origin, Origins, TokenId};
+pub use position::{Expansion, ExpansionId, Ident, Loc, MacroDef, MacroId, Origin, Origins, TokenId};
 
 use std::num::NonZeroU32;
 
@@ -40,10 +40,6 @@ ids! {
     StructDefId;
     /// A function header with or without body, of [`Ast::functions`].
     FunctionDeclId;
-    /// A macro of [`Origins::macros`].
-    MacroId;
-    /// One use of a macro, of [`Origins::expansions`].
-    ExpansionId;
 }
 
 // --------------------------------------------------------------------------------------------------------------- tree

@@ -1,12 +1,22 @@
 //! Where things are: tokens, the ranges nodes cover, and the way through macros back to the author's text.
 
-use super::{ExpansionId, Interner, MacroId, Symbol};
+use super::{
+    arena::ids,
+    names::{Interner, Symbol},
+};
 use crate::diag::{Diagnostic, Span};
 use std::{
     fmt,
     hash::{Hash, Hasher},
     ops::{Index, IndexMut},
 };
+
+ids! {
+    /// A macro of [`Origins::macros`].
+    MacroId;
+    /// One use of a macro, of [`Origins::expansions`].
+    ExpansionId;
+}
 
 /// A token of the preprocessed stream the parser read: an index into [`Origins::tokens`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]

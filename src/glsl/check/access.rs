@@ -1,6 +1,6 @@
 //! Parts of values: members, swizzles (section 5.5), indices (5.6, 5.7) and `.length()`.
 
-use super::{Checker, types::MANY_MEMBERS};
+use super::{checker::Checker, types::MANY_MEMBERS};
 use crate::glsl::{
     ast::{self, Loc, Symbol},
     hir::{DeclRef, ExprFlags, ExprId, ExprKind, StructId, Swizzle, Type, TypeId, Uniform, VarFlags},

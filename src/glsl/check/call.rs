@@ -1,6 +1,6 @@
 //! Calls: of users' functions, of built-ins, and of structs' constructors; and what is said when none fits.
 
-use super::{Checker, env, overloads, scope::Binding};
+use super::{checker::Checker, env, overloads, scope::Binding};
 use crate::glsl::{
     ast::{self, BasicType, List, Loc, Symbol},
     hir::{Builtin, DeclRef, ExprFlags, ExprId, ExprKind, FuncId, LocalKind, Scalar, TypeId},
@@ -424,6 +424,11 @@ impl Checker<'_> {
         for (_, line) in lines.into_iter().take(4) {
             self.hint(format!("candidate: `{line}`"));
         }
+    }
+
+    /// Result of a built-in for these argument types, if some overload takes them.
+    fn builtin_result(&self, builtin: Builtin, args: &[TypeId]) -> Option<TypeId> {
+        overloads::of(builtin).iter().find_map(|overload| overload.result_for(args, &self.module.types))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Constructors (section 5.4): scalars, vectors, matrices, structs and arrays.
 
-use super::{Checker, call, fold, types::Size, words::Words};
+use super::{call, checker::Checker, fold, types::Size, words::Words};
 use crate::glsl::{
     ast::{self, List, Loc, TypeSpecId, TypeSpecKind},
     hir::{ExprId, ExprKind, Scalar, StructId, Swizzle, Type, TypeId},

@@ -1,7 +1,7 @@
 //! Where a value must have a certain type: what is said when it has another. GLSL ES converts nothing by itself, so nearly
 //! every such mistake is an int where a float belongs, and the mend can be written out.
 
-use super::Checker;
+use super::checker::Checker;
 use crate::glsl::{
     ast::{self, ExprKind as A},
     hir::{ExprId, Scalar, TypeId},

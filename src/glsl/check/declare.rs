@@ -3,10 +3,11 @@
 use std::collections::HashSet;
 
 use super::{
-    Checker,
+    checker::Checker,
+    facts::MAX_WORDS,
     qualifiers::{LayoutOf, Place, Qualifiers},
     scope::Binding,
-    types::{MAX_WORDS, Size},
+    types::Size,
 };
 use crate::glsl::{
     ast::{self, DeclKind, Declarator, Field, Ident, List, Loc, Precision, QualifierKind as Q, TypeSpecId},

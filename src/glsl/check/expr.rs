@@ -1,6 +1,6 @@
 //! Expressions: the loop over the tree's arena, names, and the kinds that need no rules of their own file.
 
-use super::{Checker, scope::Binding};
+use super::{checker::Checker, scope::Binding};
 use crate::glsl::{
     ast::{self, ExprKind as A, Loc, Symbol, TokenId},
     hir::{self, DeclRef, ExprFlags, ExprId, ExprKind, GlobalStorage, IncDec, LocalKind, Type, TypeId, VarFlags},

@@ -3,7 +3,7 @@
 
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use super::{Checker, words::Words};
+use super::{checker::Checker, words::Words};
 use crate::glsl::{
     ast::Loc,
     hir::{Builtin as X, ExprId, Scalar, Type, TypeId},

@@ -1,7 +1,7 @@
 //! Functions (section 6.1): prototypes, definitions, overloads, parameters.
 
 use super::{
-    Checker, FuncFacts,
+    checker::{Checker, FuncFacts},
     env::{self, Env},
     overloads,
     qualifiers::Place,

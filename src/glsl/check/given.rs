@@ -1,6 +1,6 @@
 //! Values that come from outside for the uniforms a text declares: whether they fit, and what they are as constants.
 
-use super::Checker;
+use super::checker::Checker;
 use crate::glsl::{
     GivenValue,
     ast::Ident,

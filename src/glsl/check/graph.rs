@@ -2,7 +2,7 @@
 //! functions must stand so that each is defined before it is called.
 
 use super::{
-    Checker,
+    checker::Checker,
     env::{self, Env},
     scope::Binding,
 };

@@ -1,7 +1,7 @@
 //! Operators (sections 5.7 to 5.9): which types they take, what they give, and their values on constants.
 
 use super::{
-    Checker,
+    checker::Checker,
     fold::{self, Grid, Trouble},
     words::Words,
 };

@@ -1,6 +1,5 @@
 //! The built-in functions of chapter 8: every overload, as patterns over sizes, and finding the one that takes given types.
 
-use super::Checker;
 use crate::glsl::{
     ast::BasicType,
     hir::{Builtin, SamplerDim, Scalar, Type, TypeId, TypeTable},
@@ -307,12 +306,5 @@ fn instance(pattern: Pattern, bound: Bound, types: &TypeTable) -> TypeId {
             _ => TypeId::ERROR,
         },
         Pattern::Sampler(..) => unreachable!("no built-in returns a sampler"),
-    }
-}
-
-impl Checker<'_> {
-    /// Result of a built-in for these argument types, if some overload takes them.
-    pub(super) fn builtin_result(&self, builtin: Builtin, args: &[TypeId]) -> Option<TypeId> {
-        of(builtin).iter().find_map(|overload| overload.result_for(args, &self.module.types))
     }
 }

@@ -1,6 +1,6 @@
 //! Qualifiers (sections 4.3 to 4.8): which may stand where, in which order, on which types.
 
-use super::{Checker, env::Env};
+use super::{checker::Checker, env::Env};
 use crate::glsl::{
     PassKind,
     ast::{BasicType, LayoutItem, List, Loc, Precision, Qualifier, QualifierKind as Q, TokenId},

@@ -2,20 +2,11 @@
 
 use std::collections::HashMap;
 
-use super::Checker;
+use super::checker::{Checker, Switch};
 use crate::glsl::{
     ast::{self, Condition, DeclKind, ExprKind as A, List, Loc, StmtKind as S},
     hir::{self, Case, ExprFlags, ExprId, ExprKind, StmtId, StmtKind, TypeId},
 };
-
-/// A switch whose body is being checked.
-pub(super) struct Switch {
-    /// Of its value; the error type silences its labels.
-    ty: TypeId,
-    /// Labels so far, and where they stand.
-    values: HashMap<u32, Loc>,
-    default: Option<Loc>,
-}
 
 impl Checker<'_> {
     /// A list of statements in the scope that is open.

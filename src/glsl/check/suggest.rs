@@ -1,6 +1,6 @@
 //! What was probably meant: names of other shading languages and old versions, and names spelled nearly like this one.
 
-use super::{Checker, env::Env, scope::Binding};
+use super::{checker::Checker, env::Env, scope::Binding};
 use crate::glsl::{
     ast::{self, BasicType, List, Loc, Symbol, TokenId},
     near,

@@ -1,6 +1,6 @@
 //! Making nodes of the typed program, and reading and writing folded values in it.
 
-use super::Checker;
+use super::checker::Checker;
 use crate::glsl::{
     ast::Loc,
     hir::{Expr, ExprFlags, ExprId, ExprKind, TypeId},

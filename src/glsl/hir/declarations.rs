@@ -1,7 +1,10 @@
 //! What a program declares: variables, functions, folded values.
 
-use super::{ConstId, ExprId, FuncId, StmtId, TypeId};
-use crate::glsl::ast::{Ident, List, Loc, Precision, TokenId};
+use super::ids::{ConstId, ExprId, FuncId, StmtId};
+use crate::glsl::{
+    ast::{Ident, List, Loc, Precision, TokenId},
+    types::TypeId,
+};
 use std::ops::Range;
 
 /// A file-scope variable.
@@ -69,17 +72,17 @@ pub struct Function {
     /// Names in all its prototypes, and in its definition; for editors.
     pub declared_at: Vec<TokenId>,
     pub result: TypeId,
-    /// The function's slice of [`Module::locals`]: parameters first, in order, then every local of the body. Scopes are
+    /// The function's slice of [`super::Module::locals`]: parameters first, in order, then every local of the body. Scopes are
     /// resolved; two variables of one name are two locals. The checker guarantees that bodies do not interleave.
     pub locals: Range<u32>,
     pub param_count: u32,
-    /// The function's slice of [`Module::exprs`].
+    /// The function's slice of [`super::Module::exprs`].
     pub exprs: Range<u32>,
     /// `None` if only declared (an error where it is called).
     pub body: Option<List<StmtId>>,
     /// Functions it calls, each once.
     pub calls: Vec<FuncId>,
-    /// Reachable from the entry point: member of [`Module::call_order`].
+    /// Reachable from the entry point: member of [`super::Module::call_order`].
     pub used: bool,
     /// Header, and the whole definition or prototype.
     pub header: Loc,

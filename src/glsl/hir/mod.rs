@@ -19,6 +19,7 @@
 //!   at entry, a non-void function that ends without `return` returns zero. No expression stands for it; lowering does it.
 
 mod declarations;
+mod ids;
 
 use super::ast::{self, Ident, List, Loc, Symbol, TokenId};
 pub use super::{
@@ -26,21 +27,7 @@ pub use super::{
     types::{SamplerDim, Scalar, StructId, Swizzle, Type, TypeId, TypeTable},
 };
 pub use declarations::{Const, Function, Global, GlobalStorage, Local, LocalKind, VarFlags};
-
-ast::ids! {
-    /// An expression of [`Module::exprs`].
-    ExprId;
-    /// A statement of [`Module::stmts`].
-    StmtId;
-    /// A folded composite of [`Module::consts`].
-    ConstId;
-    /// A parameter or local variable of [`Module::locals`], unique in the module.
-    LocalId;
-    /// A file-scope variable of [`Module::globals`].
-    GlobalId;
-    /// A user function of [`Module::functions`].
-    FuncId;
-}
+pub use ids::{ConstId, ExprId, FuncId, GlobalId, LocalId, StmtId};
 
 // ------------------------------------------------------------------------------------------------------------- module
 

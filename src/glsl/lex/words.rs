@@ -3,7 +3,7 @@
 //! Names that only desktop GLSL or later versions reserve (`buffer`, `sampler`, `texture2D`, `shared`, `precise`) are plain
 //! names here, as they are in GLSL ES 3.00.
 
-use super::Kind;
+use super::token::Kind;
 use crate::glsl::{
     ast::{BasicType, Interner},
     hir::{Builtin, Uniform},

@@ -1,7 +1,7 @@
 //! Which bracket belongs to which, found before parsing: it decides what `a[..] b` is without trying both, and lets the
 //! parser step over a group that it did not understand.
 
-use super::super::{lex::Kind, preprocess::Tok};
+use crate::glsl::{lex::Kind, preprocess::Tok};
 
 /// The partner of a bracket that has none.
 pub(in crate::glsl) const ALONE: u32 = u32::MAX;

@@ -1,6 +1,10 @@
 //! Saying what is wrong, each mistake once, and finding the place to go on from.
 
-use super::*;
+use super::parser::{Failed, Parser};
+use crate::{
+    diag::{Diagnostic, Span},
+    glsl::lex::Kind,
+};
 
 impl Parser<'_> {
     /// The token as the author wrote it, its beginning if it is long.

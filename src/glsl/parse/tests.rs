@@ -6,7 +6,7 @@ use crate::{
     diag::SourceId,
     glsl::{
         ChannelKind, Driver, PassKind, Text,
-        ast::{Condition, DeclId, DeclKind, List, StmtKind, TypeSpecId, TypeSpecKind},
+        ast::{Condition, DeclId, DeclKind, ExprId, ExprKind, List, Loc, StmtId, StmtKind, TypeSpecId, TypeSpecKind},
     },
 };
 

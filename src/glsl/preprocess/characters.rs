@@ -1,7 +1,8 @@
 //! What to say, and what to go on with, where the text has something that is not GLSL: foreign characters, strings, bad
 //! numbers, `#` in the middle of a line.
 
-use super::*;
+use super::state::Preprocessor;
+use crate::glsl::lex::{Kind, Token, bad_number};
 
 /// What stands for GLSL in typeset text, foreign keyboards and web pages, and what was meant.
 const LOOKALIKES: &[(&str, &str, Kind)] = &[

@@ -1,6 +1,10 @@
 //! Expressions of `#if` and `#elif` (section 3.4): integers, `defined`, and the operators of C without assignment and choice.
 
-use super::*;
+use super::state::Preprocessor;
+use crate::glsl::{
+    ast::Symbol,
+    lex::{Kind, Token},
+};
 
 /// Parentheses and signs within each other.
 const MAX_DEPTH: u32 = 200;

@@ -1,8 +1,14 @@
 //! `#define` and `#undef` (section 3.4): what a macro may be named, its parameters, its replacement list, and when it may be
 //! defined again.
 
-use super::*;
-use crate::glsl::lex::SPACE;
+use super::state::{Given, Macro, Preprocessor};
+use crate::{
+    diag::Diagnostic,
+    glsl::{
+        ast::{MacroDef, MacroId, Symbol},
+        lex::{Kind, SPACE, Token},
+    },
+};
 use std::collections::{HashMap, HashSet};
 
 impl Preprocessor<'_, '_> {

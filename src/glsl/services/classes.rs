@@ -1,7 +1,7 @@
 //! Colours by meaning: what each word, comment and directive of a text is.
 
 use super::{
-    Analysis,
+    analysis::Analysis,
     symbols::Target,
     text::{Directive, Source},
 };

@@ -1,11 +1,10 @@
 //! What could stand at the caret.
 
 use super::{
-    Analysis, docs,
+    analysis::{Analysis, Place},
+    docs,
     infer::Infer,
-    rank,
-    scope::Place,
-    show,
+    rank, show,
     symbols::Target,
     text::{Directive, Source},
 };

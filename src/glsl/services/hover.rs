@@ -1,7 +1,8 @@
 //! What a name is: its declaration, its text, where it comes from.
 
 use super::{
-    Analysis, docs,
+    analysis::Analysis,
+    docs,
     infer::Infer,
     symbols::Target,
     text::{Directive, Source},

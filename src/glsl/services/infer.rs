@@ -4,8 +4,7 @@
 //! checker and reports nothing; what it cannot tell is `None`.
 
 use super::{
-    Analysis,
-    scope::Place,
+    analysis::{Analysis, Place},
     symbols::Target,
     text::{Directive, Source},
 };

@@ -3,7 +3,11 @@
 //! The checker's scopes are gone when it is done, and it sees no half statement. What it did understand (functions, their
 //! locals, globals) is joined here with the brackets of the text as written.
 
-use super::{Analysis, symbols::Target, text::Source};
+use super::{
+    analysis::{Analysis, Place},
+    symbols::Target,
+    text::Source,
+};
 use crate::glsl::{
     PassKind,
     ast::{Symbol, TokenId},
@@ -11,9 +15,6 @@ use crate::glsl::{
     hir::{Builtin, DeclRef, FuncId, GlobalId, LocalId, StructId, Uniform},
     lex::Kind,
 };
-
-/// A place in the texts of a pass: later texts come after earlier ones.
-pub(super) type Place = (usize, u32);
 
 impl Analysis {
     /// Place of a token as the compiler reads: for what a macro brought in, where the macro is used.

@@ -1,6 +1,13 @@
 //! What a call that is being written takes, and which argument the caret is at.
 
-use super::{Analysis, docs, infer::Infer, scope::Place, show, symbols::Target, text::Source};
+use super::{
+    analysis::{Analysis, Place},
+    docs,
+    infer::Infer,
+    show,
+    symbols::Target,
+    text::Source,
+};
 use crate::{
     diag::SourceId,
     glsl::{

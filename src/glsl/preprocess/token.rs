@@ -1,0 +1,11 @@
+//! What the preprocessor makes of its texts.
+
+use crate::glsl::lex::Kind;
+
+/// A token as the parser reads it. Its place is `Origins::tokens` of the same index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::glsl) struct Tok {
+    pub kind: Kind,
+    /// What [`Kind`] says; for brackets the parser's index of the partner.
+    pub value: u32,
+}
