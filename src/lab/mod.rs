@@ -22,6 +22,7 @@ pub mod run;
 pub mod setup;
 mod shard;
 pub mod stability;
+mod stability_record;
 mod stop;
 pub mod studies;
 mod study;

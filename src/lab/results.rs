@@ -1,6 +1,6 @@
 //! What was measured, as JSON lines: each record is written when it is known, so that whoever stops a run loses one point.
 
-use super::{Extent, LabError, Measured, Point, cost::Cost, stability::StabilityRecord};
+use super::{Extent, LabError, Measured, Point, cost::Cost, stability_record::StabilityRecord};
 use serde::{Deserialize, Serialize};
 use std::{
     fs::{self, File, OpenOptions},

@@ -5,12 +5,14 @@ use super::{
     Case, Subject,
     check::{self, Allowed, Area, Check, Found, HARD_LIMIT, Situation},
     inputs::Inputs,
-    record::{Offence, Outcome, Recovery, StabilityRecord},
 };
 use crate::{
     engine::{BuildOptions, Engine, Pixels, Program},
     gpu::Gpu,
-    lab::{LabError, Number},
+    lab::{
+        LabError, Number,
+        stability_record::{Offence, Outcome, Recovery, StabilityRecord},
+    },
     project::PassId,
 };
 use std::collections::BTreeMap;

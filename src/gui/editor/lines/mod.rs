@@ -3,7 +3,7 @@
 //! Only pieces that can be seen are laid out. Where they are is reckoned from a line's and a piece's number in 64 bits:
 //! ten million letters are 80 million points wide, and a 32-bit number of that size has steps of eight.
 
-use super::{buffer::Buffer, highlight::Highlight, pieces, semantic::Semantic};
+use super::{buffer::Buffer, colors::code_color, highlight::Highlight, pieces, semantic::Semantic};
 use crate::gui::theme;
 use egui::{
     FontId, Galley, Pos2, Rect, Stroke, Ui, pos2,
@@ -96,7 +96,7 @@ impl Lines<'_> {
                     let mut from = 0;
                     for token in tokens {
                         let part = &text[at + from..at + from + token.len];
-                        let format = TextFormat::simple(self.font.clone(), theme::code_color(token.kind));
+                        let format = TextFormat::simple(self.font.clone(), code_color(token.kind));
                         match composing.filter(|c| (from..from + token.len).contains(c)) {
                             Some(c) => {
                                 job.append(&part[..c - from], 0.0, format.clone());

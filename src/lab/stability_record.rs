@@ -1,9 +1,52 @@
-//! What a case came to: a line of the file of results.
+//! What a case of stability came to: a line of the file of results.
 
-use super::Kind;
-use crate::lab::Number;
+use super::Number;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+
+/// Why a case is there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// Defaults, nobody near.
+    Untouched,
+    /// So many cells a step.
+    Courant,
+    /// A slider at an end, all others at their defaults.
+    End,
+    Drag,
+    /// Frames that are long, uneven, or take no time.
+    Step,
+    Resize,
+    /// A texel that is no number.
+    Broken,
+    /// Canvases of odd and extreme sizes.
+    Size,
+    /// Several sliders at their ends.
+    Pairs,
+    /// Larger canvases.
+    Large,
+    /// 100,000 frames.
+    Long,
+}
+
+impl Kind {
+    pub fn title(self) -> &'static str {
+        match self {
+            Kind::Untouched => "left alone",
+            Kind::Courant => "cells a step",
+            Kind::End => "a slider at an end",
+            Kind::Drag => "the mouse",
+            Kind::Step => "time steps",
+            Kind::Resize => "resize",
+            Kind::Broken => "a texel that is no number",
+            Kind::Size => "odd sizes",
+            Kind::Pairs => "pairs of sliders at their ends",
+            Kind::Large => "large canvases",
+            Kind::Long => "100,000 frames",
+        }
+    }
+}
 
 /// Outside of a bound.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
