@@ -124,7 +124,8 @@ impl Machine {
     }
 }
 
-/// What a run of the lab begins with: its part of the work, by `--shard`, and the device. Err: one line that says what is wrong.
+/// Returns what a run of the lab begins with: its part of the work, by `--shard`, and the device. Err: one line that
+/// says what is wrong.
 pub fn shard_and_device(shard: &str) -> Result<(Shard, Gpu), String> {
     let shard = Shard::parse(shard, |name| env::var(name).ok()).map_err(|error| error.to_string())?;
     let gpu = Machine::default().gpu().map_err(|error| told(&error))?;

@@ -9,8 +9,8 @@ use super::{
 };
 use crate::diag::Diagnostic;
 
-/// What is wrong with a pass, without making a program of it: what an editor asks after each pause in typing. Holds errors
-/// exactly where [`compile`] would fail.
+/// Returns what is wrong with a pass, without making a program of it: what an editor asks after each pause in typing.
+/// Holds errors exactly where [`compile`] would fail.
 pub fn diagnose(source: &PassSource<'_>) -> Vec<Diagnostic> {
     check_pass(source).1
 }
@@ -43,8 +43,8 @@ pub fn compile_linked(source: &PassSource<'_>, link: &Link<'_>) -> Result<Compil
     compile_seen(source, link, |_, _| {})
 }
 
-/// The text of the intermediate representation of a pass, as lowering made it and after each pass of the optimiser; or before
-/// and after the one of this name alone.
+/// The text of the intermediate representation of a pass, as lowering made it and after each pass of the optimiser; or
+/// before and after the one of this name alone.
 pub fn dump_ir(source: &PassSource<'_>, link: &Link<'_>, pass: Option<&str>) -> Result<String, Vec<Diagnostic>> {
     let mut out = String::new();
     let mut before: Option<(String, String)> = None;
@@ -89,8 +89,9 @@ fn compile_seen(
     Ok(Compiled { module, reflection, tables, uniform_tables, knob_bytes, filled_arrays, diagnostics })
 }
 
-/// Checks Common the way the site does: alone, with only `iDate` and `iSampleRate` in scope. An empty list means that the
-/// site would accept it; what it would refuse comes back as warnings, because Eddy runs such a project all the same. `knobs` are those Common declares.
+/// Checks Common the way the site does: alone, with only `iDate` and `iSampleRate` in scope. An empty list means that
+/// the site would accept it; what it would refuse comes back as warnings, because Eddy runs such a project all the
+/// same. `knobs` are those Common declares.
 pub fn check_common(common: Text<'_>, includes: &[Include<'_>], knobs: &[Knob<'_>]) -> Vec<Diagnostic> {
     let pieces = pieces::of(&[common], includes);
     let parsed = parse::parse_texts(&pieces, preprocess::Unit::CommonAlone);

@@ -1,4 +1,4 @@
-//! What comes of a pass that compiles.
+//! Holds what comes of a pass that compiles.
 
 use super::reflection::Reflection;
 use crate::diag::Diagnostic;
@@ -6,17 +6,20 @@ use crate::diag::Diagnostic;
 /// A pass that compiled.
 #[derive(Clone, Debug)]
 pub struct Compiled {
-    /// Validated; one entry point named [`super::interface::ENTRY_POINT`], of a fragment shader but for [`super::PassKind::Vertex`].
+    /// Validated; one entry point named [`super::interface::ENTRY_POINT`], of a fragment shader but for
+    /// [`super::PassKind::Vertex`].
     pub module: naga::Module,
     pub reflection: Reflection,
-    /// What the storage buffer at [`super::interface::TABLE_BINDING`] holds; empty: the module declares none.
+    /// Says what the storage buffer at [`super::interface::TABLE_BINDING`] holds; empty: the module declares none.
     pub tables: Vec<u8>,
-    /// What the uniform buffer at [`super::interface::UNIFORM_TABLE_BINDING`] holds; empty: the module declares none.
+    /// Says what the uniform buffer at [`super::interface::UNIFORM_TABLE_BINDING`] holds; empty: the module declares
+    /// none.
     pub uniform_tables: Vec<u8>,
     /// Bytes that the module reads at [`super::interface::KNOB_BINDING`]; 0: it declares nothing there.
     pub knob_bytes: u64,
-    /// Of a variable without an initialiser, an array of at least so many scalars is written before anything reads it, so that it
-    /// need not begin with zeros. `None`: that was not asked for ([`super::Driver::array_loops`]), or no array is that long.
+    /// An array of at least so many scalars that has no initialiser is written before anything reads it, so that it
+    /// need not begin with zeros. `None`: that was not asked for ([`super::Driver::array_loops`]), or no array is that
+    /// long.
     pub filled_arrays: Option<u32>,
     /// Warnings and notes; never an error.
     pub diagnostics: Vec<Diagnostic>,

@@ -1,9 +1,10 @@
-//! The compile boundary: GLSL ES 3.00 as Shadertoy's authors write it, in; a validated [`naga::Module`] and what it really
-//! reads, out.
+//! The compile boundary: GLSL ES 3.00 as Shadertoy's authors write it, in; a validated [`naga::Module`] and what it
+//! really reads, out.
 //!
 //! Owns the language: preprocessor, parser, types, built-ins, lowering, [`Reflection`]. Needs no device, no file and no
-//! clock, and is not told which project a pass belongs to. What the generated module looks like from outside (bind groups,
-//! uniform block, entry point) is fixed in [`interface`], so that the GPU side can be written without reading this one.
+//! clock, and is not told which project a pass belongs to. What the generated module looks like from outside (bind
+//! groups, uniform block, entry point) is fixed in [`interface`], so that the GPU side can be written without reading
+//! this one.
 
 pub(crate) mod ast;
 pub(crate) mod builtins;

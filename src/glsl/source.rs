@@ -1,4 +1,4 @@
-//! What the front end is given of a pass: its texts, its channels, the values of its uniforms.
+//! Says what the front end is given of a pass: its texts, its channels, the values of its uniforms.
 
 use super::driver::Driver;
 use crate::diag::{SourceId, Span};
@@ -50,17 +50,18 @@ pub struct Include<'a> {
     pub text: Text<'a>,
 }
 
-/// A uniform that the author declares beside the language, in an `#iUniform` line. It is in scope everywhere in the texts of
-/// the pass, as the site's own uniforms are.
+/// A uniform that the author declares beside the language, in an `#iUniform` line. It is in scope everywhere in the
+/// texts of the pass, as the site's own uniforms are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Knob<'a> {
     pub name: &'a str,
     pub kind: KnobKind,
-    /// Where its value lies in the block at [`super::interface::KNOB_BINDING`], in slots of [`super::interface::KNOB_BYTES`].
+    /// Says where its value lies in the block at [`super::interface::KNOB_BINDING`], in slots of
+    /// [`super::interface::KNOB_BYTES`].
     pub slot: u16,
 }
 
-/// What a [`Knob`] is in GLSL.
+/// Says what a [`Knob`] is in GLSL.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum KnobKind {
     Bool,
@@ -93,12 +94,13 @@ pub struct PassSource<'a> {
     pub kind: PassKind,
     pub common: Option<Text<'a>>,
     pub code: Text<'a>,
-    /// Of all texts of the pass, those in includes among them; no text includes itself.
+    /// The includes of all texts of the pass, those in includes among them; no text includes itself.
     pub includes: &'a [Include<'a>],
     pub channels: [ChannelKind; 4],
-    /// Of all texts of the pass, each name once.
+    /// The knobs of all texts of the pass, each name once.
     pub knobs: &'a [Knob<'a>],
-    /// Of uniforms that a text of the pass may declare, each name once; those it does not declare mean nothing.
+    /// The values of uniforms that a text of the pass may declare, each name once; those it does not declare mean
+    /// nothing.
     pub values: &'a [UniformValue],
     /// Channels whose texture this device cannot filter though the project asks for it: every filtered read of them is
     /// written as four fetches and a mix (section 8.13 of the OpenGL ES 3.0 specification gives the weights).

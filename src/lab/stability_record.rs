@@ -1,4 +1,4 @@
-//! What a case of stability came to: a line of the file of results.
+//! Says what a case of stability came to: a line of the file of results.
 
 use super::Number;
 use serde::{Deserialize, Serialize};
@@ -65,7 +65,7 @@ pub struct Offence {
     pub count: u64,
 }
 
-/// What was measured.
+/// Says what was measured.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
@@ -90,7 +90,7 @@ pub enum Recovery {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct StabilityRecord {
     pub project: String,
-    /// Of the project's texts: see `Subject::fingerprint`.
+    /// The fingerprint of the project's texts: see `Subject::fingerprint`.
     pub texts: String,
     pub kind: Kind,
     pub case: String,
@@ -103,7 +103,7 @@ pub struct StabilityRecord {
     /// `None`: it could not be drawn.
     pub outcome: Option<Outcome>,
     pub trouble: Option<String>,
-    /// Of what was done for a while.
+    /// The recovery from what was done for a while.
     pub recovery: Option<Recovery>,
     /// Least and largest value by quantity.
     pub extremes: BTreeMap<String, (Number, Number)>,

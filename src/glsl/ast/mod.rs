@@ -1,9 +1,10 @@
 //! The syntax tree of one translation unit (Common and the pass's text, after preprocessing).
 //!
-//! Plain data in arenas: every node is a small `Copy` value in a `Vec` of [`Ast`], named by a 4-byte id; child lists are
-//! [`List`]s, ranges of shared pools. Nothing is boxed, so dropping never recurses and parsing allocates a handful of times.
+//! Plain data in arenas: every node is a small `Copy` value in a `Vec` of [`Ast`], named by a 4-byte id; child lists
+//! are [`List`]s, ranges of shared pools. Nothing is boxed, so dropping never recurses and parsing allocates a handful
+//! of times.
 //!
-//! What the parser guarantees, and everyone may rely on:
+//! The parser guarantees this, and everyone may rely on it:
 //! - Ids are in post-order: a child's id is smaller than its parent's, in each arena, and each node has one parent. The
 //!   expressions of one full expression are contiguous, so types can be found in one loop over the arena, without recursion.
 //! - Nesting is limited to [`MAX_NESTING`] along any path from the root, statements and expressions counted together. Not
@@ -44,7 +45,8 @@ ids! {
 
 // --------------------------------------------------------------------------------------------------------------- tree
 
-/// One translation unit. Arenas and pools are `pub` for reading; grow them through [`Ast::expr`], [`Ast::list`] and so on.
+/// One translation unit. Arenas and pools are `pub` for reading; grow them through [`Ast::expr`], [`Ast::list`] and so
+/// on.
 #[derive(Clone, Debug, Default)]
 pub struct Ast {
     /// External declarations in text order: Common's, then the pass's. Prototypes and definitions are separate entries.
@@ -132,12 +134,13 @@ pub struct Expr {
     pub loc: Loc,
 }
 
-/// What an expression is. Parentheses leave no node.
+/// Says what an expression is. Parentheses leave no node.
 #[derive(Clone, Copy, Debug)]
 pub enum ExprKind {
     /// Not understood; reported. Its type is the error type, which silences all further checks.
     Error,
-    /// `12`, `0x1F`, `017`: the 32 bits as ESSL 4.1.3 reads them (`0xFFFFFFFF` is -1). The lexer reports what does not fit.
+    /// `12`, `0x1F`, `017`: the 32 bits as ESSL 4.1.3 reads them (`0xFFFFFFFF` is -1). The lexer reports what does not
+    /// fit.
     Int(i32),
     /// `12u`.
     Uint(u32),
@@ -156,7 +159,8 @@ pub enum ExprKind {
         ty: TypeSpecId,
         args: List<ExprId>,
     },
-    /// `base.name(args)`; only `.length()` is legal, which the checker checks. The name is not `loc.last`, hence `Ident`.
+    /// `base.name(args)`; only `.length()` is legal, which the checker checks. The name is not `loc.last`, hence
+    /// `Ident`.
     Method {
         base: ExprId,
         name: Ident,
@@ -284,7 +288,7 @@ pub struct Stmt {
     pub loc: Loc,
 }
 
-/// What a statement is. Placement (`break` outside a loop, `case` outside a switch) is the checker's to judge.
+/// Says what a statement is. Placement (`break` outside a loop, `case` outside a switch) is the checker's to judge.
 #[derive(Clone, Copy, Debug)]
 pub enum StmtKind {
     /// Not understood; reported, and skipped by the checker.
@@ -301,8 +305,8 @@ pub enum StmtKind {
         then: StmtId,
         otherwise: Option<StmtId>,
     },
-    /// `init` is an `Expr`, `Decl`, `Empty` or `Error` statement. Names of `init` and `cond` share one scope with the body,
-    /// as section 6.3 has it.
+    /// `init` is an `Expr`, `Decl`, `Empty` or `Error` statement. Names of `init` and `cond` share one scope with the
+    /// body, as section 6.3 has it.
     For {
         init: StmtId,
         cond: Option<Condition>,
@@ -332,7 +336,7 @@ pub enum StmtKind {
     Discard,
 }
 
-/// What a `for` or `while` tests.
+/// Says what a `for` or `while` tests.
 #[derive(Clone, Copy, Debug)]
 pub enum Condition {
     Expr(ExprId),
@@ -343,7 +347,8 @@ pub enum Condition {
 
 // ------------------------------------------------------------------------------------------------------- declarations
 
-/// A declaration, outside or inside a function. The parser accepts all kinds in both places; the checker sorts them out.
+/// A declaration, outside or inside a function. The parser accepts all kinds in both places; the checker sorts them
+/// out.
 #[derive(Clone, Copy, Debug)]
 pub struct Decl {
     pub kind: DeclKind,
@@ -360,7 +365,8 @@ pub enum DeclKind {
     Vars { qualifiers: List<Qualifier>, ty: TypeSpecId, declarators: List<Declarator> },
     /// `precision highp float;`
     Precision { precision: Precision, ty: TypeSpecId },
-    /// `invariant a, b;` and other qualifiers applied to declared names, or (names empty) to nothing: `layout(..) uniform;`.
+    /// `invariant a, b;` and other qualifiers applied to declared names, or (names empty) to nothing: `layout(..)
+    /// uniform;`.
     Qualify { qualifiers: List<Qualifier>, names: List<Ident> },
     /// A prototype or a definition.
     Function(FunctionDeclId),
@@ -372,10 +378,11 @@ pub enum DeclKind {
 #[derive(Clone, Copy, Debug)]
 pub struct Declarator {
     pub name: Ident,
-    /// Dimensions behind the name, outermost first. ESSL 3.00 has no arrays of arrays: the checker counts these together with
-    /// those of the type.
+    /// Dimensions behind the name, outermost first. ESSL 3.00 has no arrays of arrays: the checker counts these
+    /// together with those of the type.
     pub dims: List<Dim>,
-    /// `None`: no initialiser (the value is zero). An `Error` expression where one was not understood, brace lists included.
+    /// `None`: no initialiser (the value is zero). An `Error` expression where one was not understood, brace lists
+    /// included.
     pub init: Option<ExprId>,
 }
 
@@ -388,8 +395,8 @@ pub struct Dim {
     pub loc: Loc,
 }
 
-/// A qualifier where it is written. Lists keep text order and repetitions: the checker judges order (section 4.7), doubles
-/// and combinations.
+/// A qualifier where it is written. Lists keep text order and repetitions: the checker judges order (section 4.7),
+/// doubles and combinations.
 #[derive(Clone, Copy, Debug)]
 pub struct Qualifier {
     pub kind: QualifierKind,
@@ -454,7 +461,8 @@ pub struct StructDef {
     pub loc: Loc,
 }
 
-/// One line of a struct or block: `highp float a, b[2];`. Declarators here have no initialiser (the parser reports one).
+/// One line of a struct or block: `highp float a, b[2];`. Declarators here have no initialiser (the parser reports
+/// one).
 #[derive(Clone, Copy, Debug)]
 pub struct Field {
     pub qualifiers: List<Qualifier>,
@@ -493,8 +501,8 @@ pub struct Param {
 /// Declares [`BasicType`] with names; the numbers are the first `hir::TypeId`s.
 macro_rules! basic_types {
     ($($name:ident = $text:literal;)*) => {
-        /// Types that are keywords (section 4.1). `BasicType as usize + 1` is the index of its `hir::TypeId` (0 is the error
-        /// type).
+        /// Types that are keywords (section 4.1). `BasicType as usize + 1` is the index of its `hir::TypeId` (0 is the
+        /// error type).
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         #[repr(u8)]
         pub enum BasicType { $($name,)* }

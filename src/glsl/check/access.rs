@@ -100,7 +100,7 @@ impl Checker<'_> {
         }
     }
 
-    /// What a part of an expression takes over: still a place if the whole is one.
+    /// Returns what a part of an expression takes over: still a place if the whole is one.
     fn part_flags(&self, base: ExprId) -> ExprFlags {
         let flags = self.module[base].flags;
         let place = flags.contains(ExprFlags::PLACE);

@@ -343,8 +343,8 @@ impl Checker<'_> {
         given.iter().filter_map(|&ty| self.vector_shape(ty)).map(|(_, n)| n).max().unwrap_or(1)
     }
 
-    /// The parameter types nearest to the arguments given, where one list is nearest: ints become floats sooner than the other
-    /// way round, and a scalar may become a vector.
+    /// The parameter types nearest to the arguments given, where one list is nearest: ints become floats sooner than
+    /// the other way round, and a scalar may become a vector.
     fn closest(&self, given: &[TypeId], overloads: impl Iterator<Item = Vec<TypeId>>) -> Option<Vec<TypeId>> {
         let mut best: Option<(u32, Vec<TypeId>)> = None;
         let mut tie = false;

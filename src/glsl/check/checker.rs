@@ -20,7 +20,7 @@ use std::collections::HashMap;
 pub(super) struct FuncFacts {
     /// Next overload of the same name.
     pub next: Option<FuncId>,
-    /// Of the first overload: the last one.
+    /// The last overload; only the first one keeps it.
     pub last: FuncId,
     /// First place it is called from, for messages about what cannot be called.
     pub first_call: Option<Loc>,
@@ -30,7 +30,7 @@ pub(super) struct FuncFacts {
 
 /// A switch whose body is being checked.
 pub(super) struct Switch {
-    /// Of its value; the error type silences its labels.
+    /// The type of its value; the error type silences its labels.
     pub ty: TypeId,
     /// Labels so far, and where they stand.
     pub values: HashMap<u32, Loc>,
@@ -55,13 +55,13 @@ pub(super) struct Checker<'a> {
     pub scopes: Scopes,
     /// HIR of each checked expression of the tree.
     pub lowered: Vec<Option<hir::ExprId>>,
-    /// Where the HIR of the full expression at hand, or of the last one, begins.
+    /// Says where the HIR of the full expression at hand, or of the last one, begins.
     pub full_expr: usize,
     pub facts: Vec<TypeFacts>,
-    /// Of structs with many members: position of each, and how many words precede it.
+    /// Position of each member of structs with many, and how many words precede it.
     pub members: HashMap<(hir::StructId, Symbol), (usize, usize)>,
     pub funcs: Vec<FuncFacts>,
-    /// Of names with several: the overload of the first one's name that takes these types.
+    /// The overload that takes these types, by the first one of its name; of names with several alone.
     pub overloads: HashMap<(FuncId, Vec<TypeId>), FuncId>,
     /// Scalars that folded constants hold, and that were compared.
     pub folded_words: usize,
@@ -206,8 +206,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Whether this stands in Common, which a vertex stage has before it though half of it may be for fragments: what nobody
-    /// calls there does no harm.
+    /// Returns whether this stands in Common, which a vertex stage has before it though half of it may be for
+    /// fragments: what nobody calls there does no harm.
     pub fn is_shared(&self, loc: Loc) -> bool {
         self.common == Some(self.origins.span(loc).source)
     }

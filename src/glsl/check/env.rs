@@ -1,5 +1,5 @@
-//! What is in scope before the first line: the built-ins of chapters 7 and 8, the site's uniforms and channels for each kind
-//! of pass, and the entry point the header declares.
+//! Says what is in scope before the first line: the built-ins of chapters 7 and 8, the site's uniforms and channels for
+//! each kind of pass, and the entry point the header declares.
 
 use crate::glsl::{
     hir::{Builtin, BuiltinVar, LocalKind, TypeId, Uniform},
@@ -15,7 +15,7 @@ pub(in crate::glsl) enum Env {
 }
 
 impl Env {
-    /// Whether this text may name a uniform.
+    /// Returns whether this text may name a uniform.
     pub(in crate::glsl) fn has(self, uniform: Uniform) -> bool {
         use Uniform as U;
         match self {
@@ -31,12 +31,12 @@ impl Env {
         }
     }
 
-    /// Whether this text may name a built-in variable.
+    /// Returns whether this text may name a built-in variable.
     pub(in crate::glsl) fn has_variable(self, variable: BuiltinVar) -> bool {
         variable.is_of_vertices() == (self == Env::Pass(PassKind::Vertex))
     }
 
-    /// Whether it is a stage of a program that draws meshes.
+    /// Returns whether it is a stage of a program that draws meshes.
     pub(in crate::glsl) fn is_stage(self) -> bool {
         matches!(self, Env::Pass(kind) if kind.is_stage())
     }

@@ -1,4 +1,4 @@
-//! What the checker knows of a type beyond its kind.
+//! Says what the checker knows of a type beyond its kind.
 
 use crate::glsl::hir::{Type, TypeId, TypeTable};
 
@@ -7,7 +7,7 @@ pub(super) const MAX_WORDS: u32 = 1 << 22;
 
 pub(super) const NOTHING: TypeFacts = TypeFacts { words: 0, opaque: false, arrays: false, nesting: 0 };
 
-/// What the checker knows of a type beyond [`hir::Type`]; found once, when the type is made.
+/// Holds what the checker knows of a type beyond [`Type`]; found once, when the type is made.
 #[derive(Clone, Copy)]
 pub(super) struct TypeFacts {
     /// Scalars in a value of it, up to [`MAX_WORDS`].

@@ -1,5 +1,5 @@
-//! What concerns the whole program: the entry point, calls of functions nobody defined, recursion, and the order in which
-//! functions must stand so that each is defined before it is called.
+//! Checks what concerns the whole program: the entry point, calls of functions nobody defined, recursion, and the order
+//! in which functions must stand so that each is defined before it is called.
 
 use super::{
     checker::Checker,

@@ -74,7 +74,8 @@ impl Checker<'_> {
         }
     }
 
-    /// Called after the environment is there: an author's own uniform hides what only the language gives, as a global would.
+    /// Called after the environment is there: an author's own uniform hides what only the language gives, as a global
+    /// would.
     pub(super) fn declare_knobs(&mut self) {
         for (i, knob) in self.knobs.iter().enumerate() {
             self.give(knob.name, Binding::Knob(i as u16), scope::FILE);

@@ -243,7 +243,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether two folded values of one type are equal: floats as numbers, so -0 equals 0 and NaN nothing.
+    /// Returns whether two folded values of one type are equal: floats as numbers, so -0 equals 0 and NaN nothing.
     fn equal_constants(&self, ty: TypeId, l: ExprId, r: ExprId) -> Option<bool> {
         let (a, b) = (self.words(l)?, self.words(r)?);
         let mut at = 0;

@@ -303,7 +303,7 @@ impl<'a> Checker<'a> {
         self.hint("choose another name, or remove the type to assign to the first one");
     }
 
-    /// Where what a name stands for was declared, if that is in the text.
+    /// Returns where what a name stands for was declared, if that is in the text.
     pub(super) fn declared_at(&self, binding: Binding) -> Option<Loc> {
         match binding {
             Binding::Function(id) => self.function_at(id),

@@ -1,9 +1,9 @@
-//! The checked program: typed, resolved, constants folded. The checker makes it from [`super::ast`], lowering turns it into a
-//! `naga::Module`, editor services read its side tables.
+//! The checked program: typed, resolved, constants folded. The checker makes it from [`super::ast`], lowering turns it
+//! into a `naga::Module`, editor services read its side tables.
 //!
-//! The checker makes a [`Module`] for any tree, so that editors work on text that does not compile. Lowering runs only when no
-//! error was reported; then it may rely on everything said here, and on there being no `Error` expression and no
-//! [`TypeId::ERROR`] in what is reachable from [`Module::entry`].
+//! The checker makes a [`Module`] for any tree, so that editors work on text that does not compile. Lowering runs only
+//! when no error was reported; then it may rely on everything said here, and on there being no `Error` expression and
+//! no [`TypeId::ERROR`] in what is reachable from [`Module::entry`].
 //!
 //! Guarantees of the checker, beyond those on the items:
 //! - Ids are in post-order (child < parent) and every node has at most one parent: a tree, no sharing. Folding leaves nodes
@@ -44,10 +44,11 @@ pub struct Module {
     pub stmts: Vec<Stmt>,
     pub consts: Vec<Const>,
     pub locals: Vec<Local>,
-    /// `mainImage` and its like, with a body and exactly the signature of the pass's kind. Set whenever there is no error.
+    /// `mainImage` and its like, with a body and exactly the signature of the pass's kind. Set whenever there is no
+    /// error.
     pub entry: Option<FuncId>,
-    /// Functions reachable from [`Module::entry`] and from initialisers of used globals, callees before callers (the checker
-    /// forbids recursion). Each has a body.
+    /// Functions reachable from [`Module::entry`] and from initialisers of used globals, callees before callers (the
+    /// checker forbids recursion). Each has a body.
     pub call_order: Vec<FuncId>,
     /// Every name in the text that was resolved, declarations excluded, in no particular order; for editors.
     pub uses: Vec<Use>,
@@ -151,8 +152,8 @@ pub struct Expr {
 pub struct ExprFlags(pub u8);
 
 impl ExprFlags {
-    /// May be assigned to. Set for variables that are no constants, inputs or uniforms, and for `Member`, `Index` and `Swizzle`
-    /// without repetition of such. A place is a value as well: used as one it is read.
+    /// May be assigned to. Set for variables that are no constants, inputs or uniforms, and for `Member`, `Index` and
+    /// `Swizzle` without repetition of such. A place is a value as well: used as one it is read.
     pub const PLACE: ExprFlags = ExprFlags(1);
     /// Evaluating may change something: an assignment, `++`, a user call, a built-in with `out` argument, `st_assert`.
     pub const EFFECTS: ExprFlags = ExprFlags(2);
@@ -168,14 +169,14 @@ impl ExprFlags {
         Self(self.0 | other.0)
     }
 
-    /// What a parent takes over from a child: effects.
+    /// Returns what a parent takes over from a child: effects.
     #[must_use]
     pub fn inherited(self) -> Self {
         Self(self.0 & Self::EFFECTS.0)
     }
 }
 
-/// What an expression is. `ty` below is the expression's own type.
+/// Says what an expression is. `ty` below is the expression's own type.
 #[derive(Clone, Copy, Debug)]
 pub enum ExprKind {
     /// Reported; never reaches lowering.
@@ -184,10 +185,10 @@ pub enum ExprKind {
     // Values.
     /// A scalar constant, bit for bit (bool 0 or 1); `ty` tells bool, int, uint or float.
     Literal(u32),
-    /// A folded vector, matrix, array or struct. All uses of one `const` variable name the same id, so that a table is stored
-    /// once.
+    /// A folded vector, matrix, array or struct. All uses of one `const` variable name the same id, so that a table is
+    /// stored once.
     Const(ConstId),
-    /// A parameter or variable of the function at hand. Of sampler type: the parameter that stands for a channel.
+    /// A parameter or variable of the function at hand. One of sampler type is the parameter that stands for a channel.
     Local(LocalId),
     /// A variable of storage `Private`, `Uniform`, `In` or `Out`.
     Global(GlobalId),
@@ -210,8 +211,8 @@ pub enum ExprKind {
         base: ExprId,
         swizzle: Swizzle,
     },
-    /// Of an array, a matrix (column) or a vector (component). `index` is int or uint; a `Literal` is in range (the checker
-    /// guarantees it), anything else lowering clamps into range.
+    /// An element of an array, a column of a matrix or a component of a vector. `index` is int or uint; a `Literal` is
+    /// in range (the checker guarantees it), anything else lowering clamps into range.
     Index {
         base: ExprId,
         index: ExprId,
@@ -252,16 +253,16 @@ pub enum ExprKind {
         place: ExprId,
         value: ExprId,
     },
-    /// `place op= value`: the place is found once, before `value` is evaluated, and read after. `ty` and `place` have the same
-    /// type; `shape` is that of `place op value`.
+    /// `place op= value`: the place is found once, before `value` is evaluated, and read after. `ty` and `place` have
+    /// the same type; `shape` is that of `place op value`.
     AssignOp {
         op: BinaryOp,
         shape: Shape,
         place: ExprId,
         value: ExprId,
     },
-    /// `++` and `--` on int, uint or float scalars, vectors or matrices; the value is the new one for prefix, the old for
-    /// postfix. Not a place.
+    /// `++` and `--` on int, uint or float scalars, vectors or matrices; the value is the new one for prefix, the old
+    /// for postfix. Not a place.
     IncDec {
         op: IncDec,
         place: ExprId,
@@ -270,19 +271,21 @@ pub enum ExprKind {
     // Constructors (section 5.4). Component types agree wherever not said otherwise: the checker wraps arguments in `Convert`.
     // `float(v)`, `vec2(v3)` and the like have become a `Swizzle` (or `Index`) and a `Convert`; a constructor of the same type
     // leaves no node.
-    /// Component by component between bool, int, uint and float (section 5.4.1), of a scalar or vector of the same size, to a
-    /// different component type. Never of a matrix: `ivec4(m)` is the `Convert` of a float `Vector` of `m`.
+    /// Component by component between bool, int, uint and float (section 5.4.1), of a scalar or vector of the same
+    /// size, to a different component type. Never of a matrix: `ivec4(m)` is the `Convert` of a float `Vector` of `m`.
     Convert(ExprId),
     /// A vector from one scalar.
     Splat(ExprId),
-    /// A vector from scalars, vectors and matrices: their components in order (matrices column by column), of which the first
-    /// `size` count. At least two arguments or a matrix; no argument is wholly unused. Component types are `ty`'s own.
+    /// A vector from scalars, vectors and matrices: their components in order (matrices column by column), of which the
+    /// first `size` count. At least two arguments or a matrix; no argument is wholly unused. Component types are `ty`'s
+    /// own.
     Vector(List<ExprId>),
     /// A matrix with a float scalar on its diagonal and zeros elsewhere.
     MatrixDiagonal(ExprId),
     /// A matrix from one of another shape: common part copied, the rest as in the identity.
     MatrixResize(ExprId),
-    /// A matrix from float scalars and vectors, column by column: exactly as many components as it has, or more in the last.
+    /// A matrix from float scalars and vectors, column by column: exactly as many components as it has, or more in the
+    /// last.
     Matrix(List<ExprId>),
     /// A struct, one argument a member, of exactly the members' types.
     Struct(List<ExprId>),
@@ -290,15 +293,16 @@ pub enum ExprKind {
     Array(List<ExprId>),
 
     // Calls.
-    /// A user function: one argument a parameter ([`Module::params`]), types equal. An argument to `out` or `inout` is a place:
-    /// it is found (indices evaluated) in argument order before the call, copied back in argument order after it. A sampler
-    /// argument is a `Channel` or a `Local`.
+    /// A user function: one argument a parameter ([`Module::params`]), types equal. An argument to `out` or `inout` is
+    /// a place: it is found (indices evaluated) in argument order before the call, copied back in argument order after
+    /// it. A sampler argument is a `Channel` or a `Local`.
     Call {
         func: FuncId,
         args: List<ExprId>,
     },
-    /// A built-in: argument and result types are those of one overload of chapter 8, which they tell apart. `modf`'s second
-    /// argument is a place. Texture calls have the sampler first; constant offsets are `Literal`/`Const` in the legal range.
+    /// A built-in: argument and result types are those of one overload of chapter 8, which they tell apart. `modf`'s
+    /// second argument is a place. Texture calls have the sampler first; constant offsets are `Literal`/`Const` in the
+    /// legal range.
     Builtin {
         builtin: Builtin,
         args: List<ExprId>,
@@ -338,7 +342,8 @@ pub enum BinaryOp {
     Greater,
     LessEqual,
     GreaterEqual,
-    /// Whole values of one type, any but void and samplers (`lhs`'s `ty` says which): bool result, true if all parts are equal.
+    /// Whole values of one type, any but void and samplers (`lhs`'s `ty` says which): bool result, true if all parts
+    /// are equal.
     Equal,
     /// The opposite of `Equal`: true if any part differs.
     NotEqual,
@@ -386,7 +391,7 @@ pub struct Stmt {
     pub loc: Loc,
 }
 
-/// What a statement is. Scopes are resolved, so a `Block` only groups.
+/// Says what a statement is. Scopes are resolved, so a `Block` only groups.
 #[derive(Clone, Copy, Debug)]
 pub enum StmtKind {
     Block(List<StmtId>),
@@ -402,9 +407,9 @@ pub enum StmtKind {
         then: List<StmtId>,
         otherwise: List<StmtId>,
     },
-    /// `for` and (with nothing in `init` and `step`) `while`. `init` runs once; `test` (bool, absent: true) before each round;
-    /// `step` after each, also after `continue`. A condition that declares, `while (bool b = e)`, has become an `Assign` to `b`
-    /// as `test`.
+    /// `for` and (with nothing in `init` and `step`) `while`. `init` runs once; `test` (bool, absent: true) before each
+    /// round; `step` after each, also after `continue`. A condition that declares, `while (bool b = e)`, has become an
+    /// `Assign` to `b` as `test`.
     For {
         init: List<StmtId>,
         test: Option<ExprId>,
@@ -423,16 +428,16 @@ pub enum StmtKind {
     },
     /// `Some` in functions that return a value, of type `Function::result`, unless the call returns void itself.
     Return(Option<ExprId>),
-    /// Of the nearest loop or switch; the checker guarantees there is one.
+    /// Leaves the nearest loop or switch; the checker guarantees there is one.
     Break,
-    /// Of the nearest loop, through any switch.
+    /// Goes on with the nearest loop, through any switch.
     Continue,
     Discard,
 }
 
-/// Labels that stand together and what follows them up to the next label. Control falls through into the next case unless the
-/// body ends by `break` or the like. Locals declared in one case may be used in later ones: where the declaration was skipped
-/// they hold any value, zero for choice.
+/// Labels that stand together and what follows them up to the next label. Control falls through into the next case
+/// unless the body ends by `break` or the like. Locals declared in one case may be used in later ones: where the
+/// declaration was skipped they hold any value, zero for choice.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
     /// Bits of the `case` values; distinct within a switch (the checker guarantees it).

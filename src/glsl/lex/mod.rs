@@ -1,8 +1,9 @@
-//! Characters to tokens: comments, line continuation, numbers, and characters that GLSL does not have (chapter 3.1 to 3.9).
+//! Characters to tokens: comments, line continuation, numbers, and characters that GLSL does not have (chapter 3.1 to
+//! 3.9).
 //!
-//! Owns [`Lexer`] and the [`Token`] that the preprocessor handles; [`words`] says which names are keywords. Knows no macros
-//! and reports nothing: a number or character that is wrong becomes a token that says so, because it only matters where it
-//! reaches the parser (not in a group that `#if` leaves out, nor in a macro that nobody uses).
+//! Owns [`Lexer`] and the [`Token`] that the preprocessor handles; [`words`] says which names are keywords. Knows no
+//! macros and reports nothing: a number or character that is wrong becomes a token that says so, because it only
+//! matters where it reaches the parser (not in a group that `#if` leaves out, nor in a macro that nobody uses).
 //!
 //! Line continuation joins lines before anything else is looked at (section 3.1), so that it works inside names and
 //! comments. A text that has one is copied without it, and [`Splices`] leads back to the author's positions.
@@ -26,7 +27,7 @@ pub(super) struct Lexer<'a> {
     text: Cow<'a, str>,
     source: SourceId,
     pos: usize,
-    /// Where `text` begins in its source.
+    /// Says where `text` begins in its source.
     base: u32,
     splices: Splices,
     line_start: bool,
@@ -88,8 +89,8 @@ impl<'a> Lexer<'a> {
         Span { source: self.source, start: self.base + start, end: self.base + end }
     }
 
-    /// Leaves out the lines of a group that is not compiled: stops after the `#` that begins a directive (true), or at the
-    /// end of the text (false).
+    /// Leaves out the lines of a group that is not compiled: stops after the `#` that begins a directive (true), or at
+    /// the end of the text (false).
     pub fn skip_to_directive(&mut self) -> bool {
         loop {
             let token = self.blank();

@@ -1,8 +1,8 @@
-//! What the lexer reads a text into.
+//! Says what the lexer reads a text into.
 
 use crate::{diag::Span, glsl::ast::ExpansionId};
 
-/// What a token is. Keywords appear only behind the preprocessor, to which they are names like any other.
+/// Says what a token is. Keywords appear only behind the preprocessor, to which they are names like any other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub(in crate::glsl) enum Kind {
@@ -124,7 +124,7 @@ pub(in crate::glsl) struct Token {
     pub kind: Kind,
     pub flags: u8,
     pub value: u32,
-    /// Where its characters are.
+    /// Says where its characters are.
     pub span: Span,
     /// The use whose replacement list it comes from.
     pub expansion: Option<ExpansionId>,

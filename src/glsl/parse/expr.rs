@@ -1,4 +1,5 @@
-//! Expressions (section 5.1): precedence climbing with a loop for the left sides, so that chains of any length take no stack.
+//! Expressions (section 5.1): precedence climbing with a loop for the left sides, so that chains of any length take no
+//! stack.
 
 use super::parser::{Parse, Parser, SAFE_DEPTH};
 use crate::glsl::{

@@ -1,12 +1,12 @@
 //! The parser (chapter 9): tokens to [`Ast`], with recovery.
 //!
-//! Owns [`parse`], every message about form, and reserved words. Whether names exist, types fit or a statement is at its place
-//! is the checker's. No symbol table is needed: two names in a row are a declaration, a name before `[..](` a constructor, and
-//! everything else is decided by the first tokens.
+//! Owns [`parse`], every message about form, and reserved words. Whether names exist, types fit or a statement is at
+//! its place is the checker's. No symbol table is needed: two names in a row are a declaration, a name before `[..](` a
+//! constructor, and everything else is decided by the first tokens.
 //!
-//! Recovery: a mistake gives up the smallest group around it that can be told apart (an initialiser, a parameter, a condition,
-//! a statement, a declaration), leaves an `Error` node there and goes on. A message is not repeated for the same token, and
-//! nothing is said about operands that the preprocessor has reported.
+//! Recovery: a mistake gives up the smallest group around it that can be told apart (an initialiser, a parameter, a
+//! condition, a statement, a declaration), leaves an `Error` node there and goes on. A message is not repeated for the
+//! same token, and nothing is said about operands that the preprocessor has reported.
 
 pub(super) mod brackets;
 mod decl;

@@ -36,7 +36,7 @@ pub(super) struct Parser<'p> {
     pub last_error: Option<usize>,
     /// Reserved words that were reported.
     pub reserved_told: Vec<u32>,
-    /// Whether a struct has the name, by symbol.
+    /// Says whether a struct has the name, by symbol.
     pub structs: Vec<bool>,
     /// The opening brace of the function that is being read, and its name.
     pub body: Option<(usize, Ident)>,

@@ -93,8 +93,8 @@ impl Parser<'_> {
         self.report_at(here, diagnostic);
     }
 
-    /// Passes what is left of a declaration or statement that was not understood: to behind its `;` or block, or to before
-    /// what plainly begins the next one.
+    /// Passes what is left of a declaration or statement that was not understood: to behind its `;` or block, or to
+    /// before what plainly begins the next one.
     pub(super) fn recover(&mut self) {
         let start = self.at;
         loop {

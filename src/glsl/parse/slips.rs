@@ -1,4 +1,4 @@
-//! What is said of a token that does not fit, by what the author most likely meant.
+//! Reports a token that does not fit, by what the author most likely meant.
 
 use super::parser::{Failed, Parser};
 use crate::glsl::lex::Kind;

@@ -195,7 +195,7 @@ fn stmt(p: &Parsed, id: StmtId) -> String {
     }
 }
 
-/// What the tree's documentation promises to everyone.
+/// Checks what the tree's documentation promises to everyone.
 pub(super) fn check_guarantees(p: &Parsed) {
     let tokens = p.origins.tokens.len();
     let loc = |l: Loc| assert!(l.first <= l.last && (l.last.0 as usize) < tokens);

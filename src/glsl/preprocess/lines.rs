@@ -1,8 +1,8 @@
-//! What `__LINE__` and `__FILE__` are. Messages do not follow them: they keep to the tabs.
+//! Says what `__LINE__` and `__FILE__` are. Messages do not follow them: they keep to the tabs.
 //!
 //! A pass is one text to the site's compiler, its header first, then Common, and `__LINE__` counts through it. Programs
-//! tell by it whether Common is being compiled alone (`#if __LINE__ < 17`), or take numbers from it, so the header's length
-//! is part of what they mean.
+//! tell by it whether Common is being compiled alone (`#if __LINE__ < 17`), or take numbers from it, so the header's
+//! length is part of what they mean.
 
 use super::state::Preprocessor;
 use crate::{
@@ -11,7 +11,7 @@ use crate::{
 };
 
 impl Preprocessor<'_, '_> {
-    /// What `__LINE__` is at a place.
+    /// Returns what `__LINE__` is at a place.
     pub(super) fn line_number(&mut self, place: Span) -> i32 {
         // The newest piece there it lies in: an included text may have been read before.
         let holds = |piece: &Piece<'_>| {

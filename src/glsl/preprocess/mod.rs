@@ -1,11 +1,12 @@
 //! The preprocessor (section 3.4): directives and macros, from the texts of a pass to the tokens the parser reads.
 //!
-//! Owns [`preprocess`], [`Origins`] as it fills them, and every message about directives, macros and characters. It sees the
-//! texts one after another as the site does (Common, then the pass's code, and in them what they include): macros and open conditionals carry over.
+//! Owns [`preprocess`], [`Origins`] as it fills them, and every message about directives, macros and characters. It
+//! sees the texts one after another as the site does (Common, then the pass's code, and in them what they include):
+//! macros and open conditionals carry over.
 //!
-//! Follows ANGLE, which compiles for every browser, in what the specification leaves open: an unknown name in an `#if` is an
-//! error unless `&&` or `||` passes it by; there is no pasting with `##`; a macro's name met while the macro is being expanded
-//! is left alone for good.
+//! Follows ANGLE, which compiles for every browser, in what the specification leaves open: an unknown name in an `#if`
+//! is an error unless `&&` or `||` passes it by; there is no pasting with `##`; a macro's name met while the macro is
+//! being expanded is left alone for good.
 
 mod characters;
 mod condition;
@@ -31,7 +32,7 @@ use super::{
 };
 use state::Preprocessor;
 
-/// What the parser goes on with.
+/// Holds what the parser goes on with.
 pub(super) struct Preprocessed {
     /// As many as `origins.tokens`; the last is `Eof`.
     pub tokens: Vec<Tok>,

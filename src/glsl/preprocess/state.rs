@@ -14,8 +14,8 @@ use crate::{
     },
 };
 
-/// Tokens that macros may produce, those that are read again and again counted each time. Ten times what the largest known
-/// shader needs; a bomb reaches it in a fraction of a second.
+/// Tokens that macros may produce, those that are read again and again counted each time. Ten times what the largest
+/// known shader needs; a bomb reaches it in a fraction of a second.
 pub(super) const MAX_MACRO_TOKENS: u32 = 2_000_000;
 /// How deep macro calls may stand in each other's arguments.
 pub(super) const MAX_CALL_DEPTH: u32 = 200;
@@ -34,7 +34,7 @@ pub(super) struct Macro {
     pub first_use: Option<ExpansionId>,
 }
 
-/// Where a macro's value comes from.
+/// Says where a macro's value comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Given {
     ByAuthor,
@@ -242,7 +242,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
         self.pieces.iter().find(|p| p.text.id == span.source).and_then(|p| p.text.text.get(span.range())).unwrap_or("")
     }
 
-    /// Where the author wrote what became this token.
+    /// Returns where the author wrote what became this token.
     pub fn place(&self, token: &Token) -> Span {
         token.expansion.map_or(token.span, |id| self.origins[id].used_at)
     }

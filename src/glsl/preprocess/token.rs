@@ -1,4 +1,4 @@
-//! What the preprocessor makes of its texts.
+//! Says what the preprocessor makes of its texts.
 
 use crate::glsl::lex::Kind;
 
@@ -6,6 +6,6 @@ use crate::glsl::lex::Kind;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::glsl) struct Tok {
     pub kind: Kind,
-    /// What [`Kind`] says; for brackets the parser's index of the partner.
+    /// Holds the value that [`Kind`] describes; for brackets the parser's index of the partner.
     pub value: u32,
 }

@@ -1,8 +1,8 @@
-//! What the site puts in front of a text, for the numbers of lines.
+//! Says what the site puts in front of a text, for the numbers of lines.
 
 use crate::glsl::source::PassKind;
 
-/// What is compiled, for what the site puts in front of it.
+/// Says what is compiled, for what the site puts in front of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::glsl) enum Unit {
     Pass(PassKind),
@@ -25,11 +25,11 @@ impl Unit {
     }
 }
 
-/// Where lines end, in the pieces that were asked for.
+/// Says where lines end, in the pieces that were asked for.
 pub(super) struct LineCount {
     /// How many ends of lines precede each piece, and the offsets of its own in its text.
     pub ends: Vec<(i32, Vec<u32>)>,
-    /// What is to be added: the header's lines, or what `#line` made of them.
+    /// Says what is to be added: the header's lines, or what `#line` made of them.
     pub shift: i32,
     pub file: i32,
 }

@@ -15,12 +15,13 @@ use crate::{
 /// A place in the texts of a pass: later texts come after earlier ones.
 pub(super) type Place = (usize, u32);
 
-/// A pass, understood as far as it goes. Answers about Common and about the pass's own text alike; a source that is neither
-/// has no answers. Cheap to ask, made anew for each text: about a millisecond for a thousand lines.
+/// A pass, understood as far as it goes. Answers about Common and about the pass's own text alike; a source that is
+/// neither has no answers. Cheap to ask, made anew for each text: about a millisecond for a thousand lines.
 pub struct Analysis {
     pub(super) kind: PassKind,
     pub(super) channels: [ChannelKind; 4],
-    /// Common, if there is one, what is included anywhere, then the pass's text: what comes later may name what is before it.
+    /// Common, if there is one, what is included anywhere, then the pass's text: what comes later may name what is
+    /// before it.
     pub(super) sources: Vec<Source>,
     pub(super) origins: Origins,
     pub(super) names: Interner,
@@ -86,12 +87,12 @@ impl Analysis {
         Some((source, self.sources[source].word_at(offset)?))
     }
 
-    /// Where a token's characters are: in a macro's replacement list for what came out of one.
+    /// Returns where a token's characters are: in a macro's replacement list for what came out of one.
     pub(super) fn spelled(&self, token: TokenId) -> Span {
         self.origins.tokens[token.0 as usize].spelled
     }
 
-    /// Whether a name stands in the text where it is said to.
+    /// Returns whether a name stands in the text where it is said to.
     pub(super) fn is_written(&self, name: Option<Ident>) -> bool {
         name.is_some_and(|name| self.word(name.token) == self.names.get(name.symbol))
     }

@@ -1,4 +1,4 @@
-//! What a name is: its declaration, its text, where it comes from.
+//! Says what a name is: its declaration, its text, where it comes from.
 
 use super::{
     analysis::Analysis,
@@ -20,12 +20,12 @@ use crate::{
 /// Names that a misspelled one is compared with at most: more take longer than a tooltip may.
 const MAX_CANDIDATES: usize = 20_000;
 
-/// What is shown for a name. Plain text, no markup.
+/// Holds what is shown for a name. Plain text, no markup.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hover {
     /// The name it is about.
     pub span: Span,
-    /// What kind of thing it is: `local variable`, `built-in function`.
+    /// Says what kind of thing it is: `local variable`, `built-in function`.
     pub kind: &'static str,
     /// Its declaration as GLSL: one line for each overload, or a struct's lines. Empty for keywords.
     pub signature: Vec<String>,
@@ -36,7 +36,7 @@ pub struct Hover {
 }
 
 impl Analysis {
-    /// What stands at `offset`; `None` for what needs no explanation.
+    /// Returns what stands at `offset`; `None` for what needs no explanation.
     pub fn hover(&self, source: SourceId, offset: usize) -> Option<Hover> {
         let (source, token) = self.word_at(source, offset)?;
         let text = &self.sources[source];

@@ -1,10 +1,11 @@
-//! What an editor asks about a text: what a name means, where it is declared and used, what could stand at the caret, which
-//! colour a word deserves.
+//! Says what an editor asks about a text: what a name means, where it is declared and used, what could stand at the
+//! caret, which colour a word deserves.
 //!
-//! Owns [`Analysis`], made of a pass by the compiler's own preprocessor, parser and checker, and the documentation of what
-//! the language and the site give ([`docs`]). Nothing here needs a text that compiles: what the checker understood answers
-//! first, and for the statement that it did not, the words as written ([`text`]) with the scopes around them ([`scope`]) and
-//! the types that can be told from them ([`infer`]). Positions are bytes of a text, as in [`crate::diag::Span`].
+//! Owns [`Analysis`], made of a pass by the compiler's own preprocessor, parser and checker, and the documentation of
+//! what the language and the site give ([`docs`]). Nothing here needs a text that compiles: what the checker understood
+//! answers first, and for the statement that it did not, the words as written ([`text`]) with the scopes around them
+//! ([`scope`]) and the types that can be told from them ([`infer`]). Positions are bytes of a text, as in
+//! [`crate::diag::Span`].
 
 mod analysis;
 mod classes;

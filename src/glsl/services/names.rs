@@ -1,4 +1,4 @@
-//! What a name at a place means, where it is declared and where it is used.
+//! Says what a name at a place means, where it is declared and where it is used.
 
 use super::{
     analysis::{Analysis, Place},
@@ -11,8 +11,9 @@ use crate::{
 };
 
 impl Analysis {
-    /// Where the name at `offset` is declared: its name there, which may stand in Common. `None` for what the language and
-    /// the site give. Of a function the definition; at the definition its first prototype.
+    /// Returns where the name at `offset` is declared: its name there, which may stand in Common. `None` for what the
+    /// language and the site give. A function is declared at its
+    /// definition; at the definition this gives its first prototype.
     pub fn definition(&self, source: SourceId, offset: usize) -> Option<Span> {
         let (source, token) = self.word_at(source, offset)?;
         let target = self.target_of(source, token)?;
@@ -25,8 +26,8 @@ impl Analysis {
         }
     }
 
-    /// Every place where what the name at `offset` stands for is named, its declaration among them, Common's first. Names
-    /// that only look alike (another scope, another overload) are not among them.
+    /// Every place where what the name at `offset` stands for is named, its declaration among them, Common's first.
+    /// Names that only look alike (another scope, another overload) are not among them.
     pub fn uses(&self, source: SourceId, offset: usize) -> Vec<Span> {
         let Some((source, token)) = self.word_at(source, offset) else { return Vec::new() };
         let Some(target) = self.target_of(source, token) else { return Vec::new() };
@@ -52,7 +53,7 @@ impl Analysis {
         found.into_iter().map(span).collect()
     }
 
-    /// What a word stands for: what the checker says or, where it did not get to, what the name means there.
+    /// Returns what a word stands for: what the checker says or, where it did not get to, what the name means there.
     pub(super) fn target_of(&self, source: usize, token: usize) -> Option<Target> {
         let text = &self.sources[source];
         let word = text.tokens[token];

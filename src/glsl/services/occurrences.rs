@@ -73,7 +73,7 @@ impl Analysis {
         }
     }
 
-    /// Where a target is declared, its name alone; `None` for what the language and the site give.
+    /// Returns where a target is declared, its name alone; `None` for what the language and the site give.
     pub(super) fn declaration(&self, target: Target) -> Option<Span> {
         let token = match target {
             Target::Macro(id) => return self.origins[id].name_at,

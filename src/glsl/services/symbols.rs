@@ -1,4 +1,5 @@
-//! What every name in the texts stands for, as far as the checker got: each place, and the way from a place to its symbol.
+//! Says what every name in the texts stands for, as far as the checker got: each place, and the way from a place to its
+//! symbol.
 
 use crate::{
     diag::Span,
@@ -55,7 +56,7 @@ impl Symbols {
         self.locals.sort_by_key(|l| l.0);
     }
 
-    /// What the word that begins at `start` stands for. In a macro's replacement list there can be several.
+    /// Returns what the word that begins at `start` stands for. In a macro's replacement list there can be several.
     pub fn at(&self, source: usize, start: u32) -> &[Occurrence] {
         let key = (source as u32, start);
         let first = self.list.partition_point(|o| (o.source, o.start) < key);

@@ -39,13 +39,14 @@ pub struct Lab {
     pub(super) folder: Folder,
     /// A report that is being written.
     pub(super) saving: Option<(Extent, Receiver<Result<PathBuf, String>>)>,
-    /// What the last thing came to, and whether it went wrong.
+    /// Says what the last thing came to, and whether it went wrong.
     pub(super) told: Option<(String, bool)>,
     /// The point whose project was opened last.
     pub(super) opened: Option<Point>,
-    /// The project that a click opens, by its name, and the tab that is shown when it is there: the pass that is measured.
+    /// The project that a click opens, by its name, and the tab that is shown when it is there: the pass that is
+    /// measured.
     pub(super) code: Option<(String, Tab)>,
-    /// Of the list, under the pointer.
+    /// The method of the list that is under the pointer.
     pub(super) hovered_method: Option<usize>,
 }
 
@@ -57,7 +58,7 @@ pub(super) struct Run {
     pub(super) progress: Progress,
 }
 
-/// Where results are kept.
+/// Says where results are kept.
 pub(super) enum Folder {
     /// Made when it is first needed; gone with the window.
     Temporary(Option<tempfile::TempDir>),
@@ -184,7 +185,8 @@ impl Lab {
         Ok(())
     }
 
-    /// Results are kept in this folder from now on: those it holds are shown, and an empty one gets those that are known.
+    /// Results are kept in this folder from now on: those it holds are shown, and an empty one gets those that are
+    /// known.
     pub fn keep_in(&mut self, folder: PathBuf) {
         match self.try_keep_in(&folder) {
             Ok(()) => {

@@ -1,4 +1,4 @@
-//! What is done to a project: the list of cases, from what it is by itself to what is unlikely.
+//! Lists the cases of what is done to a project, from what it is by itself to what is unlikely.
 
 use super::{
     Subject,
@@ -58,7 +58,7 @@ impl Case {
         self
     }
 
-    /// Whether texels are looked at after this frame.
+    /// Returns whether texels are looked at after this frame.
     pub fn is_checked(&self, frame: u32) -> bool {
         let is_near = self.disturbed.is_some_and(|(from, to)| (from..to + 2).contains(&frame));
         is_near || (frame + 1).is_multiple_of(self.every) || frame + 1 == self.frames
@@ -173,7 +173,8 @@ pub fn list(subject: &Subject, extent: Extent, base: (u32, u32)) -> Vec<Case> {
     cases
 }
 
-/// Of the pairs of ends of a project's sliders those that the drawn cases have among what they turn, and how many there are.
+/// Counts the pairs of ends of a project's sliders: those that the drawn cases have among what they turn, and all there
+/// are.
 pub fn coverage(subject: &Subject, drawn: &[Case]) -> (usize, usize) {
     let sliders = subject.sliders();
     let row = |case: &Case| -> Vec<pairs::End> {

@@ -252,7 +252,7 @@ fn look(check: &Check, pixels: &Pixels, situation: &Situation) -> Looked {
     Looked { found, allowed, offence: found.worst, is_left: found.worst.is_some() && (!is_excused || is_wild) }
 }
 
-/// What the checked frames of a run came to.
+/// Holds what the checked frames of a run came to.
 #[derive(Default)]
 struct Seen {
     extremes: Vec<(f64, f64)>,

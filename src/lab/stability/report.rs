@@ -1,4 +1,4 @@
-//! What came of the cases, for people: a table for the terminal, a CSV, a page.
+//! Writes what came of the cases, for people: a table for the terminal, a CSV, a page.
 
 use super::{Subject, check::Rule};
 use crate::lab::{
@@ -71,7 +71,7 @@ fn told(recovery: Recovery) -> String {
     }
 }
 
-/// What was measured, in words.
+/// Returns what was measured, in words.
 fn what(record: &StabilityRecord) -> String {
     match (&record.trouble, record.offence()) {
         (Some(trouble), _) => trouble.clone(),

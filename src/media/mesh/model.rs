@@ -1,4 +1,4 @@
-//! What a mesh is: its vertices as the vertex buffer holds them, and its triangles.
+//! Says what a mesh is: its vertices as the vertex buffer holds them, and its triangles.
 
 use bytemuck::{Pod, Zeroable};
 

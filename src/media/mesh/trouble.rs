@@ -1,4 +1,4 @@
-//! What can be wrong with a model, and how much of one is loaded.
+//! Says what can be wrong with a model, and how much of one is loaded.
 
 use super::model::Vertex;
 use crate::project::{confine::FileError, limits};

@@ -2,10 +2,11 @@
 //!
 //! A knob is one uniform that `#iUniform` lines declare. Users read "uniform", and "slider" for what turns it.
 //!
-//! Owns what `#iUniform` lines say ([`Project::knobs`](super::Project::knobs); the form is in [`line`]) and which values fit them. A knob that
-//! Common declares is there for every pass, one that a pass declares for that pass; one name is one knob wherever it
-//! stands. Values that are not the default lie in [`Project::knob_values`](super::Project::knob_values), and in `eddy.toml` under `[uniforms]`. How
-//! a value reaches a shader is the engine's matter.
+//! Owns what `#iUniform` lines say ([`Project::knobs`](super::Project::knobs); the form is in [`line`]) and which
+//! values fit them. A knob that Common declares is there for every pass, one that a pass declares for that pass; one
+//! name is one knob wherever it stands. Values that are not the default lie in
+//! [`Project::knob_values`](super::Project::knob_values), and in `eddy.toml` under `[uniforms]`. How a value reaches a
+//! shader is the engine's matter.
 
 pub(super) mod constants;
 mod declared;

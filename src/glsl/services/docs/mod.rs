@@ -1,4 +1,5 @@
-//! Documentation of what the language and the site give, in our own words: what it returns, where it is undefined, its unit.
+//! Documentation of what the language and the site give, in our own words: what it returns, where it is undefined, its
+//! unit.
 //!
 //! Owns the texts and nothing else; signatures come from the checker's tables, so they cannot disagree with it.
 

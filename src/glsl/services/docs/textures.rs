@@ -1,4 +1,4 @@
-//! What the functions of section 8.8 do: reading textures.
+//! Says what the functions of section 8.8 do: reading textures.
 
 use super::built_in::Function;
 use crate::glsl::hir::Builtin;

@@ -1,4 +1,5 @@
-//! What the lab's panel shows, without a widget: the results known so far as points in the plane of cost and error.
+//! Says what the lab's panel shows, without a widget: the results known so far as points in the plane of cost and
+//! error.
 
 use crate::lab::{
     ErrorRecord, Extent, Method, Point, Results, Study,
@@ -22,9 +23,9 @@ pub struct Known {
 pub struct Dot {
     /// log10 of milliseconds and of the error.
     pub at: [f64; 2],
-    /// Of [`Shown::table`].
+    /// The index in [`Shown::table`].
     pub row: usize,
-    /// Of [`Shown::methods`].
+    /// The index in [`Shown::methods`].
     pub method: usize,
     pub look: Look,
     /// The cost is one turn's, by itself: it moves yet.
@@ -70,7 +71,7 @@ impl Known {
         self.results.add(crate::lab::Record::Error(record.clone()));
     }
 
-    /// Whether every point of a study has its error, and those on its main grid their costs.
+    /// Returns whether every point of a study has its error, and those on its main grid their costs.
     pub fn is_whole(&self, study: &dyn Study, extent: Extent) -> bool {
         let main = study.main_grid(extent);
         study.points(extent).iter().all(|point| {
@@ -129,14 +130,15 @@ impl Shown {
     }
 }
 
-/// The place nearest to a pointer, of those within a radius; the later of two that are equally near, which is drawn on top.
+/// The place nearest to a pointer, of those within a radius; the later of two that are equally near, which is drawn on
+/// top.
 pub fn nearest(places: impl IntoIterator<Item = Pos2>, pointer: Pos2, radius: f32) -> Option<usize> {
     let far = places.into_iter().enumerate().map(|(n, place)| (n, place.distance(pointer)));
     let near = far.filter(|(_, distance)| *distance <= radius);
     near.reduce(|best, next| if next.1 <= best.1 { next } else { best }).map(|(n, _)| n)
 }
 
-/// Where a run stands, from 0 to 1, and in words.
+/// Returns where a run stands, from 0 to 1, and in words.
 pub fn told(progress: &Progress) -> (f32, String) {
     match progress {
         Progress::Begins => (0.0, "opening a device".into()),

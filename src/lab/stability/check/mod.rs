@@ -1,8 +1,8 @@
-//! What is looked at in a pass, the range it must keep, and the texel that is furthest outside of it.
+//! Says what is looked at in a pass, the range it must keep, and the texel that is furthest outside of it.
 
 use crate::{engine::Pixels, project::PassId};
 
-/// Of a quantity: the largest size a number may have where nothing better is known, and everywhere where a case is
+/// The largest size that a number of a quantity may have where nothing better is known, and everywhere where a case is
 /// expected to leave its own range.
 pub const HARD_LIMIT: f64 = 1e4;
 
@@ -107,7 +107,7 @@ impl Allowed {
     }
 }
 
-/// What a case is drawn with, as far as a bound depends on it.
+/// Holds what a case is drawn with, as far as a bound depends on it.
 #[derive(Clone, Debug)]
 pub struct Situation {
     /// Canvas.
@@ -133,7 +133,7 @@ pub struct Check {
     pub quantity: Quantity,
     pub area: Area,
     pub allowed: Rule,
-    /// Where the range comes from.
+    /// Says where the range comes from.
     pub reason: String,
 }
 
@@ -157,7 +157,7 @@ impl Check {
     }
 }
 
-/// What a check finds in a picture.
+/// Holds what a check finds in a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Found {
     /// The smallest and the largest value; NaN where one is no number.

@@ -15,13 +15,13 @@ pub use declare::Courant;
 use super::check::Check;
 use crate::project::{Project, presets};
 
-/// What a preset declares.
+/// Holds what a preset declares.
 pub struct Declared {
     pub checks: Vec<Check>,
     pub courant: Option<Courant>,
 }
 
-/// Of a preset with a state; `None` for the others.
+/// Returns the bounds of a preset with a state; `None` for the others.
 pub fn declared(name: &str) -> Option<Declared> {
     let (checks, courant) = match name {
         "fluid" => flows::fluid(),

@@ -1,5 +1,6 @@
-//! What the specification allows and forbids, section by section: `spec/*.glsl` hold small programs, each behind a line
-//! `//ok title` or `//error title | part of the message`. A program that defines no entry point gets an empty one.
+//! Tests what the specification allows and forbids, section by section: `spec/*.glsl` hold small programs, each behind
+//! a line `//ok title` or `//error title | part of the message`. A program that defines no entry point gets an empty
+//! one.
 
 use super::checked;
 use crate::glsl::{ChannelKind, PassKind};
