@@ -1,6 +1,7 @@
 //! Eddy: a desktop shader playground.
 //!
-//! One engine, two front ends. The modules are layers; a test (`tests/layers.rs`) reads the sources and keeps the arrows:
+//! One engine, two front ends. The modules are layers; a test (`tests/layers.rs`) reads the sources and keeps the
+//! arrows:
 //!
 //! ```text
 //!               main
@@ -18,9 +19,10 @@
 //!                diag             spans and diagnostics people read
 //! ```
 //!
-//! Invariants: a plan is data and needs no device; time is an argument; row 0 of every texture is the bottom; skipping what
-//! nobody reads changes no pixel; a `Diagnostic` is the author's to mend, an `...Error` the machine's or ours. Deliberately
-//! absent: process-wide state, a clock anywhere but in `session` (`lab` measures durations, and knows no time of day).
+//! Invariants: a plan is data and needs no device; time is an argument; row 0 of every texture is the bottom; skipping
+//! what nobody reads changes no pixel; a `Diagnostic` is the author's to mend, an `...Error` the machine's or ours.
+//! Deliberately absent: process-wide state, a clock anywhere but in `session` (`lab` measures durations, and knows no
+//! time of day).
 
 pub mod cli;
 pub mod diag;

@@ -2,8 +2,9 @@
 
 use super::{
     args::{LabArgs, LabCommand},
+    failure::trouble,
     machine::shard_and_device,
-    precision, stability, trouble,
+    precision, stability,
 };
 use crate::lab::{
     Extent, LabError, Results, Study,

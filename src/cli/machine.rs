@@ -3,6 +3,7 @@
 
 use super::{
     args::RunArgs,
+    failure::told,
     report::{Report, Status},
 };
 use crate::{
@@ -104,7 +105,7 @@ impl Machine {
                 if let Some(EngineError::Gpu(GpuError::Lost(_) | GpuError::OutOfMemory(_))) = error.downcast_ref() {
                     self.gpu = None;
                 }
-                report.fail(Status::Error, super::told(&error));
+                report.fail(Status::Error, told(&error));
             }
             Err(panic) => {
                 self.gpu = None;
@@ -123,10 +124,11 @@ impl Machine {
     }
 }
 
-/// What a run of the lab begins with: its part of the work, by `--shard`, and the device. Err: one line that says what is wrong.
+/// Returns what a run of the lab begins with: its part of the work, by `--shard`, and the device. Err: one line that
+/// says what is wrong.
 pub fn shard_and_device(shard: &str) -> Result<(Shard, Gpu), String> {
     let shard = Shard::parse(shard, |name| env::var(name).ok()).map_err(|error| error.to_string())?;
-    let gpu = Machine::default().gpu().map_err(|error| super::told(&error))?;
+    let gpu = Machine::default().gpu().map_err(|error| told(&error))?;
     Ok((shard, gpu))
 }
 

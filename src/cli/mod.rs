@@ -6,6 +6,7 @@
 mod args;
 mod bench;
 mod check;
+mod failure;
 mod lab;
 mod library;
 mod machine;
@@ -20,14 +21,13 @@ mod targets;
 pub use args::Window;
 use args::{Cli, Command};
 use clap::Parser;
+use failure::TROUBLE;
+pub use failure::{told, trouble};
 use std::{io, process::ExitCode};
 
 /// Stack of the thread that does the work. Compilers recurse as deep as an expression is nested, and a shader made by a
 /// program nests deeply; pages that are not used cost nothing.
 const STACK_BYTES: usize = 256 << 20;
-
-/// Machine or usage.
-const TROUBLE: u8 = 2;
 
 /// The work that is left to the binary after [`main`].
 pub enum Next {
@@ -51,24 +51,6 @@ pub fn main() -> Next {
         Err(error) => trouble(format_args!("no thread could be started: {error}")),
     };
     Next::Exit(ExitCode::from(code))
-}
-
-/// Says what is wrong with the call as a whole.
-pub fn trouble(what: impl std::fmt::Display) -> u8 {
-    // Nobody is left to tell where standard error is closed.
-    let _ = io::Write::write_fmt(&mut io::stderr(), format_args!("error: {what}\n"));
-    TROUBLE
-}
-
-/// An error with its causes, each said once: many an error's own text already ends in what caused it.
-pub fn told(error: &anyhow::Error) -> String {
-    let mut text = error.to_string();
-    for cause in error.chain().skip(1).map(ToString::to_string) {
-        if !text.contains(&cause) {
-            text.push_str(&format!(": {cause}"));
-        }
-    }
-    text
 }
 
 fn run(command: &Command) -> u8 {

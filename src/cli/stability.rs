@@ -1,6 +1,6 @@
 //! `eddy lab stability`: simulations under hard conditions, and which of them leave their bounds.
 
-use super::{args::StabilityArgs, machine::shard_and_device, trouble};
+use super::{args::StabilityArgs, failure::trouble, machine::shard_and_device};
 use crate::lab::{
     Extent, LabError, Results, Shard,
     stability::{

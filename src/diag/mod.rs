@@ -80,7 +80,7 @@ pub struct Label {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     pub severity: Severity,
-    /// Where; `None` for something that is not in any text (a pass that is missing).
+    /// The place is `None` for something that is not in any text (a pass that is missing).
     pub span: Option<Span>,
     /// The mistake in one sentence without a full stop.
     pub message: String,

@@ -1,4 +1,4 @@
-//! What the language and the site bring along: built-in functions, uniforms, variables.
+//! Says what the language and the site bring along: built-in functions, uniforms, variables.
 
 use super::{
     ast::Symbol,
@@ -22,7 +22,8 @@ macro_rules! named {
                 match self { $($enum::$name => $text,)* }
             }
 
-            /// What a symbol names, by the order of the interner's seed ([`ast::Interner`] says how it must begin).
+            /// Returns what a symbol names, by the order of the interner's seed ([`super::ast::Interner`] says how it
+            /// must begin).
             #[inline]
             pub fn from_symbol(symbol: Symbol) -> Option<Self> {
                 Self::ALL.get((symbol.0 as usize).checked_sub($seed)?).copied()
@@ -38,8 +39,9 @@ macro_rules! named {
 }
 
 named! {
-    /// A function of chapter 8, one variant a name; overloads are told apart by the arguments' types. Ours is `st_assert`.
-    /// ESSL 3.00 lets nobody redefine or overload them (section 6.1), but a variable or struct of the name hides them.
+    /// A function of chapter 8, one variant a name; overloads are told apart by the arguments' types. Ours is
+    /// `st_assert`. ESSL 3.00 lets nobody redefine or overload them (section 6.1), but a variable or struct of the name
+    /// hides them.
     Builtin, 0usize;
     // 8.1 Angle and trigonometry.
     Radians = "radians";
@@ -151,7 +153,8 @@ named! {
 }
 
 named! {
-    /// The site's uniforms, in the order of `interface::UniformBlock`. Which of them a pass may name is the checker's matter.
+    /// The site's uniforms, in the order of `interface::UniformBlock`. Which of them a pass may name is the checker's
+    /// matter.
     Uniform, Builtin::ALL.len();
     Resolution = "iResolution";
     Time = "iTime";
@@ -178,7 +181,7 @@ named! {
 }
 
 impl Builtin {
-    /// Whether it is of section 8.8, texture look-up functions.
+    /// Returns whether it is of section 8.8, texture look-up functions.
     pub fn is_texture(self) -> bool {
         (Builtin::TextureSize..=Builtin::TextureProjGradOffset).contains(&self)
     }

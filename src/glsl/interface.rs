@@ -1,4 +1,4 @@
-//! What a generated module looks like from outside: entry point, bind groups, the uniform block's bytes.
+//! Says what a generated module looks like from outside: entry point, bind groups, the uniform block's bytes.
 //!
 //! - Vertex stage: none, but for programs that draw meshes (below). The caller draws a full-screen triangle with its own; `gl_FragCoord` is `@builtin(position)`, and
 //!   because row 0 of every target is the bottom of the picture, its y needs no flip.
@@ -14,11 +14,11 @@
 //!   the entry point ([`crate::glsl::Reflection::channels`] says which), so the bind group layout follows the reflection.
 //!
 //! Programs that draw meshes have a module a stage. Both read the groups above, and in group 0 at binding 4 the
-//! [`GeometryBlock`]; the vertex stage has its constant tables in a uniform buffer of its own at binding 5, and none in a
-//! storage buffer. Attributes lie at the locations of
-//! [`crate::glsl::Attribute`], a fragment's outputs at those of the targets, as `vec4<f32>` each. Clip space is GL's on the
-//! inside; the vertex stage turns y, as row 0 is the bottom, and moves depth from -w..w to 0..w. A triangle that is
-//! counter-clockwise in GL's terms is so clockwise in WebGPU's.
+//! [`GeometryBlock`]; the vertex stage has its constant tables in a uniform buffer of its own at binding 5, and none in
+//! a storage buffer. Attributes lie at the locations of [`crate::glsl::Attribute`], a fragment's outputs at those of
+//! the targets, as `vec4<f32>` each. Clip space is GL's on the inside; the vertex stage turns y, as row 0 is the
+//! bottom, and moves depth from -w..w to 0..w. A triangle that is counter-clockwise in GL's terms is so clockwise in
+//! WebGPU's.
 
 use bytemuck::{Pod, Zeroable};
 
@@ -55,7 +55,7 @@ pub const fn sampler_binding(channel: usize) -> u32 {
     channel as u32 * 2 + 1
 }
 
-/// What a mesh is drawn with, as bytes; matrices column by column.
+/// Holds what a mesh is drawn with, as bytes; matrices column by column.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 pub struct GeometryBlock {

@@ -1,7 +1,7 @@
 //! "Did you mean": the known word that is nearest to one nobody knows.
 
-/// The candidate that `word` is most likely a slip of: few letters changed, added, left out or swapped. `None` where nothing
-/// is near enough to be worth saying.
+/// The candidate that `word` is most likely a slip of: few letters changed, added, left out or swapped. `None` where
+/// nothing is near enough to be worth saying.
 pub(super) fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     // One slip in a short word, two in a long one.
     let allowed = match word.chars().count() {

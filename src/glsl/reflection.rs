@@ -1,4 +1,4 @@
-//! What a pass really reaches from its entry point. `graph` plans with it: what is not read here need not be made.
+//! Says what a pass really reaches from its entry point. `graph` plans with it: what is not read here need not be made.
 
 /// Uniforms as a set.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -88,8 +88,9 @@ pub struct ChannelUse {
     pub texture: bool,
     /// The sampler is declared in the module.
     pub sampler: bool,
-    /// Some read could reach a mip level other than 0: an implicit-derivative, biased, gradient or explicit-level read, or a
-    /// fetch or size query of a level not known to be 0. False lets the planner leave out the mips though the sampler asks.
+    /// Some read could reach a mip level other than 0: an implicit-derivative, biased, gradient or explicit-level read,
+    /// or a fetch or size query of a level not known to be 0. False lets the planner leave out the mips though the
+    /// sampler asks.
     pub mips: bool,
 }
 
@@ -99,7 +100,8 @@ impl ChannelUse {
     }
 }
 
-/// What a pass reads, as reached from its entry point after preprocessing. Conservative: a read that may happen is listed.
+/// Holds what a pass reads, as reached from its entry point after preprocessing. Conservative: a read that may happen
+/// is listed.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Reflection {
     pub uniforms: UniformSet,
@@ -109,10 +111,10 @@ pub struct Reflection {
     pub discards: bool,
     /// Something of the [`super::interface::GeometryBlock`] is read.
     pub geometry: bool,
-    /// Of a vertex stage: what it reads of a vertex.
+    /// The attributes of a vertex that a vertex stage reads.
     pub attributes: Vec<super::Attribute>,
-    /// Of a vertex stage: what it hands on.
+    /// The values that a vertex stage hands on.
     pub varyings: Vec<super::Varying>,
-    /// Of a fragment stage of a mesh: the targets it has an output for.
+    /// The targets that a fragment stage of a mesh has an output for.
     pub outputs: [bool; super::interface::MAX_TARGETS],
 }

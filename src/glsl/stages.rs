@@ -1,7 +1,7 @@
 //! The two stages of a program that draws meshes, and what passes between them.
 //!
-//! Owns the names of attributes, where each `in` and `out` of a stage lies, and what must agree between the stages (section
-//! 4.3.9 of the GLSL ES 3.00 specification, which calls the rest a link error).
+//! Owns the names of attributes, where each `in` and `out` of a stage lies, and what must agree between the stages
+//! (section 4.3.9 of the GLSL ES 3.00 specification, which calls the rest a link error).
 
 use super::{
     PassKind,
@@ -14,7 +14,7 @@ use crate::diag::Diagnostic;
 /// Slots of four components between the stages that every device has.
 const MAX_SLOTS: u32 = 15;
 
-/// What a vertex has. A stage declares those it reads, by these names and types: `in vec3 aPosition;`.
+/// Names what a vertex has. A stage declares those it reads, by these names and types: `in vec3 aPosition;`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Attribute {
     Position,
@@ -61,20 +61,20 @@ pub struct Varying {
     /// As GLSL spells it.
     pub ty: String,
     pub flat: bool,
-    /// Of the first of its slots.
+    /// The location of the first of its slots.
     pub location: u32,
 }
 
-/// What a stage must know of the rest of the program.
+/// Holds what a stage must know of the rest of the program.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Link<'a> {
-    /// What the vertex stage gives; `None`: not known, as while that stage has errors.
+    /// Says what the vertex stage gives; `None`: not known, as while that stage has errors.
     pub varyings: Option<&'a [Varying]>,
     /// Targets the fragment stage draws into; `None`: not known.
     pub targets: Option<usize>,
 }
 
-/// Where the `in` and `out` variables of a stage lie: of each the location of its first slot.
+/// Says where the `in` and `out` variables of a stage lie: of each the location of its first slot.
 #[derive(Clone, Debug, Default)]
 pub(in crate::glsl) struct Interface {
     pub inputs: Vec<(GlobalId, u32)>,

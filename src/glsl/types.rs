@@ -13,7 +13,8 @@ ast::ids! {
 pub struct TypeId(pub u32);
 
 impl TypeId {
-    /// Of an expression that was not understood. Silences every check it takes part in; never reaches lowering.
+    /// The type of an expression that was not understood. Silences every check it takes part in; never reaches
+    /// lowering.
     pub const ERROR: TypeId = TypeId(0);
     pub const VOID: TypeId = TypeId::basic(BasicType::Void);
     pub const BOOL: TypeId = TypeId::basic(BasicType::Bool);
@@ -71,7 +72,7 @@ pub enum SamplerDim {
     D2Array,
 }
 
-/// What a [`TypeId`] stands for.
+/// Says what a [`TypeId`] stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Type {
     Error,
@@ -82,7 +83,7 @@ pub enum Type {
         scalar: Scalar,
         size: u8,
     },
-    /// Of floats, column-major; `matCxR` has C columns of R rows.
+    /// A matrix of floats, column-major; `matCxR` has C columns of R rows.
     Matrix {
         columns: u8,
         rows: u8,
@@ -93,8 +94,8 @@ pub enum Type {
         len: u32,
     },
     Struct(StructId),
-    /// `scalar` is what a read gives: float, int or uint. Lowering meets only float 2D, 3D and cube without `shadow`: there is
-    /// no other channel, so no call can pass one.
+    /// `scalar` is what a read gives: float, int or uint. Lowering meets only float 2D, 3D and cube without `shadow`:
+    /// there is no other channel, so no call can pass one.
     Sampler {
         dim: SamplerDim,
         scalar: Scalar,
@@ -161,7 +162,7 @@ impl TypeTable {
         }
     }
 
-    /// What `x[i]` gives: an array's element, a matrix's column, a vector's component.
+    /// Returns what `x[i]` gives: an array's element, a matrix's column, a vector's component.
     pub fn element(&self, id: TypeId) -> Option<TypeId> {
         match self.get(id) {
             Type::Array { element, .. } => Some(element),

@@ -113,8 +113,8 @@ impl Gpu {
     }
 
     /// Another device on the adapter that `info` is of, from an instance of its own: neither waits in the other's
-    /// queue. Threads that a driver starts for it are those of the calling thread. Where the adapter is not found
-    /// again, as [`Gpu::new`].
+    /// queue. Threads that a driver starts for it are those of the calling thread. An adapter that is not
+    /// found again is chosen as by [`Gpu::new`].
     pub fn another(info: &wgpu::AdapterInfo, options: &GpuOptions) -> Result<Gpu, GpuError> {
         let is_same = |other: &wgpu::AdapterInfo| {
             (&other.name, other.backend, other.vendor, other.device, &other.device_pci_bus_id)

@@ -8,7 +8,7 @@ use super::{Draw, FramePlan, Source};
 pub struct Changes {
     /// The number of times that each target was drawn.
     drawn: Vec<u64>,
-    /// What each draw read when it was done last. `None`: it must be done.
+    /// Says what each draw read when it was done last. `None`: it must be done.
     read: Vec<Option<WasRead>>,
 }
 

@@ -46,7 +46,7 @@ fn plan(project: &Project) -> FramePlan {
     FramePlan::new(project, &vec![reads_all(); project.passes.len()], &[], true)
 }
 
-/// What `reader`'s channel `c` sees in `plan`: the target's title and the frame.
+/// Returns what `reader`'s channel `c` sees in `plan`: the target's title and the frame.
 fn seen(project: &Project, plan: &FramePlan, reader: &PassId, c: usize) -> Option<(String, When)> {
     let draw = plan.draws.iter().find(|d| project.passes[d.pass].id == *reader)?;
     match &draw.reads[c].as_ref()?.source {

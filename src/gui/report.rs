@@ -39,7 +39,8 @@ impl Report {
         }
     }
 
-    /// Writes an event if its members differ from those of the last one of this name. Whether it did.
+    /// Writes an event if its members differ from those of the last one of this name. Returns whether
+    /// it did.
     pub fn say_if_new(&mut self, name: &'static str, mut members: Value) -> bool {
         if !self.enabled || self.said.get(name) == Some(&members) {
             return false;

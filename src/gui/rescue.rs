@@ -30,7 +30,7 @@ pub fn caught<W, T>(
 }
 
 /// Writes what is not saved into a new folder, beside the project where that can be written, else at home, else among
-/// the temporary files. What to tell the user; nothing if nothing was unsaved.
+/// the temporary files. Returns what to tell the user; nothing if nothing was unsaved.
 pub fn save_unsaved(session: &Session) -> String {
     if !session.is_dirty() {
         return String::new();

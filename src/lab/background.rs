@@ -18,14 +18,15 @@ use std::{
 /// How long a run that is dropped may take to its next frame. One that computes a reference longer is left behind.
 const PATIENCE: Duration = Duration::from_secs(3);
 
-/// Steps that the thread takes back behind others (`nice`), where a thread can: what a processor draws for a window goes first.
+/// Steps that the thread takes back behind others (`nice`), where a thread can: what a processor draws for a window
+/// goes first.
 #[cfg(target_os = "linux")]
 const STEPS_BACK: i32 = 10;
 
-/// What the thread says.
+/// Carries what the thread says.
 #[derive(Clone, Debug)]
 pub enum Event {
-    /// What the folder holds already.
+    /// Says what the folder holds already.
     Known(Results),
     Progress(Progress),
     Measured(ErrorRecord),
@@ -39,7 +40,7 @@ pub enum Event {
     Ended(Result<(), String>),
 }
 
-/// What is done now.
+/// Says what is done now.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Progress {
     /// The device is opened.
@@ -85,7 +86,7 @@ impl Background {
         Ok(Background { events, stop, thread: Some(thread) })
     }
 
-    /// What has been said since the last call. Does not wait.
+    /// Returns what has been said since the last call. Does not wait.
     pub fn events(&self) -> impl Iterator<Item = Event> + '_ {
         self.events.try_iter()
     }
@@ -141,7 +142,8 @@ fn measure(
     run::controlled(&gpu, studies, options, control, passed_on).map(drop).map_err(said)
 }
 
-/// Lets other threads go first. On Linux this is a thread's own, and the threads that a driver starts for it have it from it.
+/// Lets other threads go first. On Linux this is a thread's own, and the threads that a driver starts for it have it
+/// from it.
 fn step_back() {
     #[cfg(target_os = "linux")]
     if let Err(error) = rustix::process::nice(STEPS_BACK) {

@@ -1,10 +1,10 @@
-//! What a frame costs, fairly: methods take turns, so that what else the machine does falls on all of them alike; the median of
-//! at least seven turns counts, with the least and the most; and a pass that only copies, and one that draws a single texel, take
-//! part as the roofline and the floor.
+//! Measures what a frame costs, fairly: methods take turns, so that what else the machine does falls on all of them
+//! alike; the median of at least seven turns counts, with the least and the most; and a pass that only copies, and one
+//! that draws a single texel, take part as the roofline and the floor.
 //!
-//! A device that is no processor gives timestamps, and a frame costs the sum of its passes' times. A processor that draws has
-//! only one clock, the wall's: a turn draws a batch of frames without waiting, then waits for the queue, and a frame costs the
-//! time of that divided by the frames.
+//! A device that is no processor gives timestamps, and a frame costs the sum of its passes' times. A processor that
+//! draws has only one clock, the wall's: a turn draws a batch of frames without waiting, then waits for the queue, and
+//! a frame costs the time of that divided by the frames.
 
 use super::{LabError, Rig, Running, Setup};
 use serde::{Deserialize, Serialize};
@@ -16,7 +16,8 @@ pub const MIN_REPEATS: u32 = 7;
 /// Most frames of a turn.
 const MAX_BATCH: u32 = 512;
 
-/// Passes that a frame of the floor's projects draws, so that what a frame costs beside its passes is not taken for theirs.
+/// Passes that a frame of the floor's projects draws, so that what a frame costs beside its passes is not taken for
+/// theirs.
 const FLOOR_STEPS: u32 = 16;
 
 /// Bytes a texel that the copying pass moves: it reads and writes rgba32f.
@@ -66,11 +67,11 @@ impl Times {
     }
 }
 
-/// What a frame of a method costs.
+/// Holds what a frame of a method costs.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Cost {
     pub frame: Times,
-    /// Of one copying pass and of one that draws a single texel, in the same turns.
+    /// The times of one copying pass and of one that draws a single texel, in the same turns.
     pub copy: Times,
     pub empty: Times,
     /// Fewest bytes a frame moves for a texel of the study's grid, by its plan.
@@ -105,9 +106,9 @@ pub struct Care {
     pub turn_millis: f64,
 }
 
-/// Measures setups against each other. `size` is that of the studied grid, by whose texels costs are told; a setup's canvas may be
-/// larger, as that of a preset which solves on a coarser grid than it paints. `tell` gets the turns that each has had, and how
-/// many there are.
+/// Measures setups against each other. `size` is that of the studied grid, by whose texels costs are told; a setup's
+/// canvas may be larger, as that of a preset which solves on a coarser grid than it paints. `tell` gets the turns that
+/// each has had, and how many there are.
 pub fn interleaved(
     rig: &Rig,
     setups: &[Setup],
@@ -149,7 +150,8 @@ pub fn interleaved(
     Ok(turns.iter_mut().zip(&times).skip(floor.len()).map(cost).collect())
 }
 
-/// Milliseconds a frame of one setup by itself, in a single turn: what it will cost about, long before all have taken turns.
+/// Milliseconds a frame of one setup by itself, in a single turn: what it will cost about, long before all have taken
+/// turns.
 pub fn estimate(rig: &Rig, setup: &Setup, turn_millis: f64) -> Result<f64, LabError> {
     let clock = Clock::of(rig);
     Turn::begin(rig, setup, turn_millis, clock)?.take(clock)

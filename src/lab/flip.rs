@@ -1,7 +1,8 @@
 //! FLIP: how different two pictures look to a person who flips between them.
 //!
-//! P. Andersson, J. Nilsson, T. Akenine-Möller, M. Oskarsson, K. Åström, M. Fairchild, "FLIP: A Difference Evaluator for Alternating
-//! Images", Proceedings of the ACM on Computer Graphics and Interactive Techniques 3(2), 2020. The form for pictures of a screen.
+//! P. Andersson, J. Nilsson, T. Akenine-Möller, M. Oskarsson, K. Åström, M. Fairchild, "FLIP: A Difference Evaluator
+//! for Alternating Images", Proceedings of the ACM on Computer Graphics and Interactive Techniques 3(2), 2020. The form
+//! for pictures of a screen.
 
 use super::picture::{Picture, separable};
 use std::f64::consts::PI;
@@ -76,7 +77,7 @@ fn hyab(a: [f64; 3], b: [f64; 3]) -> f64 {
     (a[0] - b[0]).abs() + (a[1] - b[1]).hypot(a[2] - b[2])
 }
 
-/// What an eye's optics and nerves leave of a channel.
+/// Returns what an eye's optics and nerves leave of a channel.
 fn seen(channel: &[f64], width: usize, [a1, b1, a2, b2]: [f64; 4]) -> Vec<f64> {
     let widest = SENSITIVITY.iter().flat_map(|s| [s[1], s[3]]).fold(0.0, f64::max);
     let reach = (3.0 * (widest / (2.0 * PI * PI)).sqrt() * PIXELS_PER_DEGREE).ceil() as i32;

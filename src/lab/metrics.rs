@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Norms of the difference from a reference, each relative to the same norm of the reference. Infinite where the field holds
-/// something that is no number.
+/// Norms of the difference from a reference, each relative to the same norm of the reference. Infinite where the field
+/// holds something that is no number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Norms {
     #[serde(with = "as_number")]
@@ -66,7 +66,8 @@ pub fn square_drift(before: &[f64], after: &[f64]) -> f64 {
     squares(after) / squares(before) - 1.0
 }
 
-/// How far values go above and below the range of the reference, relative to that range. Infinite for what is no number.
+/// How far values go above and below the range of the reference, relative to that range. Infinite for what is no
+/// number.
 pub fn overshoot(values: &[f64], reference: &[f64]) -> (f64, f64) {
     let range = |v: &[f64]| v.iter().fold((f64::MAX, f64::MIN), |(lo, hi), &x| (lo.min(x), hi.max(x)));
     if values.iter().any(|v| !v.is_finite()) {
@@ -87,8 +88,8 @@ pub fn psnr(values: &[f64], reference: &[f64]) -> f64 {
     -10.0 * (square / values.len() as f64).log10()
 }
 
-/// Effective viscosity over the true one, from how the kinetic energy of a Taylor-Green vortex of wave number `k` falls:
-/// KE(t) = KE(0) exp(-4 nu k^2 t).
+/// Effective viscosity over the true one, from how the kinetic energy of a Taylor-Green vortex of wave number `k`
+/// falls: KE(t) = KE(0) exp(-4 nu k^2 t).
 pub fn viscosity_ratio(energy_before: f64, energy_after: f64, nu: f64, k: f64, time: f64) -> f64 {
     (energy_before / energy_after).ln() / (4.0 * k * k * time) / nu
 }
@@ -99,8 +100,8 @@ pub fn checkerboard(values: &[f64], width: usize) -> f64 {
     values.iter().enumerate().map(|(i, v)| sign(i) * v).sum::<f64>() / values.len() as f64
 }
 
-/// Where a curve of (knob's) points first reaches `target`: x is interpolated in the logarithms of both. `None`: it never
-/// does. Points that are no numbers are left out.
+/// Returns where a curve of (knob's) points first reaches `target`: x is interpolated in the logarithms of both.
+/// `None`: it never does. Points that are no numbers are left out.
 pub fn first_reach(points: &[(f64, f64)], target: f64) -> Option<f64> {
     let mut points: Vec<(f64, f64)> =
         points.iter().copied().filter(|(x, y)| x.is_finite() && y.is_finite() && *x > 0.0 && *y > 0.0).collect();

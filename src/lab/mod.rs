@@ -1,9 +1,10 @@
 //! Speed against error: what a numerical method costs, and how far it is from the truth.
 //!
-//! A [`Study`] names methods (projects that the engine runs, in `assets/lab/`), the settings of each, grids, and a reference that
-//! is exact or an f64 solver, written here and not in GLSL. [`run`] measures every point (a method at a setting on a grid) and
-//! appends it to a file of results at once; [`report`] makes tables and plots of such a file. Owns no window, no argument and
-//! no environment variable: the command line hands them in. Reads the clock only to measure what a frame costs ([`cost`]).
+//! A [`Study`] names methods (projects that the engine runs, in `assets/lab/`), the settings of each, grids, and a
+//! reference that is exact or an f64 solver, written here and not in GLSL. [`run`] measures every point (a method at a
+//! setting on a grid) and appends it to a file of results at once; [`report`] makes tables and plots of such a file.
+//! Owns no window, no argument and no environment variable: the command line hands them in. Reads the clock only to
+//! measure what a frame costs ([`cost`]).
 
 pub mod background;
 pub mod cost;
@@ -22,6 +23,7 @@ pub mod run;
 pub mod setup;
 mod shard;
 pub mod stability;
+mod stability_record;
 mod stop;
 pub mod studies;
 mod study;

@@ -8,9 +8,10 @@ use crate::{
 
 /// A point's project.
 pub struct Opened {
-    /// With the point's settings in it. What the study gives its passes in memory goes with the project, and is written with it.
+    /// With the point's settings in it. What the study gives its passes in memory goes with the project, and is written
+    /// with it.
     pub project: Project,
-    /// Of its canvas.
+    /// The size of its canvas.
     pub size: (u32, u32),
     /// The pass that is measured.
     pub pass: PassId,

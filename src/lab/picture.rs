@@ -57,8 +57,8 @@ pub(super) fn separable(field: &[f64], width: usize, across: &[f64], up: &[f64])
 }
 
 /// Mean structural similarity of luma over all windows of 11 x 11 that lie inside, weighted by a Gaussian of sigma 1.5.
-/// Z. Wang, A. Bovik, H. Sheikh, E. Simoncelli, "Image Quality Assessment: From Error Visibility to Structural Similarity",
-/// IEEE Transactions on Image Processing 13, 2004: K1 = .01, K2 = .03. 1 for equal pictures.
+/// Z. Wang, A. Bovik, H. Sheikh, E. Simoncelli, "Image Quality Assessment: From Error Visibility to Structural
+/// Similarity", IEEE Transactions on Image Processing 13, 2004: K1 = .01, K2 = .03. 1 for equal pictures.
 ///
 /// # Panics
 /// If the sizes differ, or a side is less than 11.

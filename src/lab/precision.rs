@@ -21,11 +21,11 @@ pub const VISIBLE: f64 = 1.0 / 255.0;
 pub struct Row {
     /// As `--pass` calls it.
     pub pass: String,
-    /// Of the target in each run.
+    /// The formats of the target in each run.
     pub formats: [&'static str; 2],
     /// Counted from 0.
     pub frame: u32,
-    /// Of all components, relative to the 32-bit run.
+    /// The norms of all components, relative to the 32-bit run.
     pub norms: Norms,
     /// The sum of all components less that of the 32-bit run, over the sum of the sizes there.
     pub mass_drift: f64,
@@ -51,7 +51,7 @@ impl Comparison {
         self.rows.iter().rfind(|row| row.pass == pass)
     }
 
-    /// What the buffers come to in the last frame: the largest L2, and the mass drift that is largest in size.
+    /// Returns what the buffers come to in the last frame: the largest L2, and the mass drift that is largest in size.
     pub fn worst(&self) -> (f64, f64) {
         let last = self.rows.iter().filter(|r| r.frame + 1 == self.frames && r.formats[0] != r.formats[1]);
         last.fold((0.0, 0.0), |(l2, drift): (f64, f64), row| {
@@ -140,7 +140,7 @@ pub fn halved(
     compare(gpu, [project, &half], media, size, (frames, &moments(frames)), inputs)
 }
 
-/// Whether the device cuts off what a 16-bit store has no room for, instead of rounding to the nearest.
+/// Returns whether the device cuts off what a 16-bit store has no room for, instead of rounding to the nearest.
 pub fn cuts_off(rig: &Rig) -> Result<bool, LabError> {
     let probe =
         Setup::new("floor", (1, 1)).wants(&["empty"]).steps("empty", 1).storage(Storage::Half).built(|project| {

@@ -1,6 +1,7 @@
-//! What was measured, as JSON lines: each record is written when it is known, so that whoever stops a run loses one point.
+//! Keeps what was measured, as JSON lines: each record is written when it is known, so that whoever stops a run loses
+//! one point.
 
-use super::{Extent, LabError, Measured, Point, cost::Cost, stability::StabilityRecord};
+use super::{Extent, LabError, Measured, Point, cost::Cost, stability_record::StabilityRecord};
 use serde::{Deserialize, Serialize};
 use std::{
     fs::{self, File, OpenOptions},
@@ -11,7 +12,7 @@ use std::{
 /// Name of the file in the folder of a run.
 pub const FILE: &str = "results.jsonl";
 
-/// What has to be known to measure the same again.
+/// Holds what has to be known to measure the same again.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Provenance {
     pub device: String,
@@ -164,8 +165,8 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Opens the file of a folder, makes both if need be, and gives what it holds. What another device, version or extent
-    /// measured is not mixed with this run's.
+    /// Opens the file of a folder, makes both if need be, and gives what it holds. What another device, version or
+    /// extent measured is not mixed with this run's.
     pub fn open(folder: &Path, run: &Provenance) -> Result<(Journal, Results), LabError> {
         fs::create_dir_all(folder).map_err(LabError::io("make", folder))?;
         let path = folder.join(FILE);

@@ -9,7 +9,7 @@ use crate::{
 /// Frames that may wait on the device at once.
 const FRAMES_IN_FLIGHT: u32 = 8;
 
-/// What measures: a device.
+/// Holds the device that measures.
 pub struct Rig {
     gpu: Gpu,
     stop: Stop,

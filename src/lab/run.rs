@@ -28,10 +28,10 @@ pub struct Options {
     pub shard: Shard,
 }
 
-/// Where a run stands.
+/// Says where a run stands.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Step<'a> {
-    /// What the folder holds already.
+    /// Says what the folder holds already.
     Known(&'a Results),
     /// This point is measured next; `done` of `all` are, of all studies together.
     Error {
@@ -39,7 +39,7 @@ pub enum Step<'a> {
         done: usize,
         all: usize,
     },
-    /// What came of it.
+    /// Says what came of it.
     Measured(&'a ErrorRecord),
     /// About what a frame of it costs, where [`Control::estimates`] asks for that.
     Estimate {
@@ -82,8 +82,8 @@ pub fn provenance(gpu: &Gpu, options: &Options) -> Provenance {
     }
 }
 
-/// Measures what is not among the results of `options.out` yet, and gives all of them. A method that fails is a record of its own
-/// and stops no other.
+/// Measures what is not among the results of `options.out` yet, and gives all of them. A method that fails is a record
+/// of its own and stops no other.
 pub fn run(
     gpu: &Gpu,
     studies: &[&dyn Study],
@@ -218,8 +218,8 @@ impl<T: FnMut(Step<'_>)> Work<T> {
 /// Most devices at once: a driver that draws on the processor starts threads of its own for each.
 const MOST_RIGS: usize = 4;
 
-/// The devices that measure errors. A processor that draws small grids mostly waits for its own threads, so that it has a device
-/// for each core; costs, and what is measured beside a window, have one alone.
+/// The devices that measure errors. A processor that draws small grids mostly waits for its own threads, so that it has
+/// a device for each core; costs, and what is measured beside a window, have one alone.
 fn rigs(first: &Rig, points: usize, control: &Control) -> Vec<Rig> {
     let gpu = first.gpu();
     let cores = std::thread::available_parallelism().map_or(1, |n| n.get());
@@ -228,7 +228,8 @@ fn rigs(first: &Rig, points: usize, control: &Control) -> Vec<Rig> {
     std::iter::once(gpu.clone()).chain(others).map(|gpu| Rig::stoppable(gpu, control.stop.clone())).collect()
 }
 
-/// The error of a point, and about what a frame of it costs where that is asked for. A method that fails is a record as well.
+/// The error of a point, and about what a frame of it costs where that is asked for. A method that fails is a record as
+/// well.
 fn measure(
     rig: &Rig,
     study: &dyn Study,

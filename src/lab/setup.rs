@@ -49,7 +49,8 @@ pub struct Setup {
 }
 
 impl Setup {
-    /// `folder`: of `assets/lab`, or a preset's name. The pass `field` is what is looked at, unless [`Setup::wants`] says.
+    /// `folder`: of `assets/lab`, or a preset's name. The pass `field` is what is looked at, unless [`Setup::wants`]
+    /// says.
     pub fn new(folder: &'static str, size: (u32, u32)) -> Setup {
         Setup {
             folder,
@@ -80,7 +81,7 @@ impl Setup {
         &self.wanted
     }
 
-    /// Whether a pass rests while nothing that it reads has changed.
+    /// Returns whether a pass rests while nothing that it reads has changed.
     pub fn skips(&self) -> bool {
         self.skip
     }
@@ -92,8 +93,8 @@ impl Setup {
         self
     }
 
-    /// Value of an `#iUniform` that is a float, an int, or a bool (1 for true). A value that the knob cannot take, one beyond its
-    /// range among them, is an error of [`Setup::project`].
+    /// Value of an `#iUniform` that is a float, an int, or a bool (1 for true). A value that the knob cannot take, one
+    /// beyond its range among them, is an error of [`Setup::project`].
     #[must_use]
     pub fn knob(mut self, name: &str, value: f64) -> Self {
         self.knobs.push((name.into(), KnobValue::Float(value)));
@@ -135,8 +136,8 @@ impl Setup {
         self
     }
 
-    /// Puts `new` in place of `old` in a pass's text or in `common`, which must have it. For what a preset gives no knob: its scene,
-    /// or the light before the curve that a screen needs.
+    /// Puts `new` in place of `old` in a pass's text or in `common`, which must have it. For what a preset gives no
+    /// knob: its scene, or the light before the curve that a screen needs.
     #[must_use]
     pub fn edit(mut self, name: &str, old: &str, new: impl Into<String>) -> Self {
         let pass = (name != "common").then(|| pass(name));
@@ -144,14 +145,14 @@ impl Setup {
         self
     }
 
-    /// What a pass holds before frame 0, as a GLSL expression, in place of what the project says.
+    /// Sets what a pass holds before frame 0, as a GLSL expression, in place of what the project says.
     #[must_use]
     pub fn initial(mut self, name: &str, expression: &str) -> Self {
         self.initial.push((pass(name), Fill::expression(expression)));
         self
     }
 
-    /// What a pass of the canvas's size holds before frame 0, texel for texel from the bottom left.
+    /// Sets what a pass of the canvas's size holds before frame 0, texel for texel from the bottom left.
     #[must_use]
     pub fn state(self, name: &str, texels: &[[f32; 4]]) -> Self {
         let size = self.size;
@@ -262,8 +263,8 @@ pub fn pass(name: &str) -> PassId {
 /// Text of a pass whose value a 16-bit float has no room for: 1 and three quarters of its last bit.
 pub(super) const PROBE: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0 + 0.75 / 1024.0); }";
 
-/// Makes every 32-bit float format of a buffer the 16-bit one of as many components. The picture itself is not stored between
-/// frames, and is shown in 8 bits.
+/// Makes every 32-bit float format of a buffer the 16-bit one of as many components. The picture itself is not stored
+/// between frames, and is shown in 8 bits.
 pub(super) fn halve(project: &mut Project) {
     for settings in project.passes.iter_mut().filter(|p| p.id != PassId::Image).map(|p| &mut p.settings) {
         settings.format = half(settings.format);
@@ -281,7 +282,8 @@ fn half(format: PassFormat) -> PassFormat {
     }
 }
 
-/// A count of steps as frames of equally many: (frames, steps a frame), as many a frame as divide it and are at most `most`.
+/// A count of steps as frames of equally many: (frames, steps a frame), as many a frame as divide it and are at most
+/// `most`.
 pub fn frames_of(total: u32, most: u32) -> (u32, u32) {
     let steps = (1..=most.max(1)).rev().find(|n| total.is_multiple_of(*n)).unwrap_or(1);
     (total / steps, steps)

@@ -9,8 +9,8 @@ pub struct Shard {
     pub count: u64,
 }
 
-/// Where a scheduler's array job says which of its tasks this is, and how many there are: the index, the count, and (for
-/// Slurm, whose arrays may begin anywhere) the smallest index.
+/// Says where a scheduler's array job says which of its tasks this is, and how many there are: the index, the count,
+/// and (for Slurm, whose arrays may begin anywhere) the smallest index.
 const SCHEDULERS: [(&str, &str, Option<&str>); 4] = [
     ("SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_COUNT", Some("SLURM_ARRAY_TASK_MIN")),
     ("AWS_BATCH_JOB_ARRAY_INDEX", "AWS_BATCH_JOB_ARRAY_SIZE", None),
@@ -61,7 +61,7 @@ impl Shard {
         Err(LabError::Shard(format!("auto: no scheduler says which task this is; looked for {}", names.join(", "))))
     }
 
-    /// Whether the work's `n`th part is this shard's.
+    /// Returns whether the work's `n`th part is this shard's.
     pub fn owns(&self, n: usize) -> bool {
         n as u64 % self.count == self.index
     }

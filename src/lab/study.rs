@@ -1,10 +1,10 @@
-//! What a study is: a question, methods that answer it, and a way to say how wrong an answer is.
+//! Says what a study is: a question, methods that answer it, and a way to say how wrong an answer is.
 
 use super::{LabError, Number, Rig, Setup, metrics::Norms};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// What a study is about, in words for its report.
+/// Holds what a study is about, in words for its report.
 #[derive(Clone, Copy, Debug)]
 pub struct About {
     /// As the command line spells it.
@@ -12,14 +12,14 @@ pub struct About {
     pub title: &'static str,
     /// The scene and its reference, one or two sentences.
     pub text: &'static str,
-    /// What a method's settings are.
+    /// Says what a method's settings are.
     pub knob: &'static str,
     pub unit: Unit,
-    /// What the error is relative to, for the plot's axis.
+    /// Says what the error is relative to, for the plot's axis.
     pub error: &'static str,
 }
 
-/// What a cost is divided by.
+/// Says what a cost is divided by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
     /// The simulated time of the study's scene, from start to end.
@@ -75,7 +75,7 @@ pub struct Point {
 pub struct HardCase {
     pub name: String,
     pub passed: bool,
-    /// What was measured, and the bound.
+    /// Says what was measured, and the bound.
     pub detail: String,
 }
 
@@ -87,7 +87,7 @@ impl HardCase {
     }
 }
 
-/// What a point came to.
+/// Holds what a point came to.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Measured {
     pub norms: Norms,
@@ -112,12 +112,13 @@ impl Measured {
     }
 }
 
-/// A comparison that the report makes in a sentence: how much sooner a method reaches an error of 1 % than the best of others.
+/// A comparison that the report makes in a sentence: how much sooner a method reaches an error of 1 % than the best of
+/// others.
 #[derive(Clone, Copy, Debug)]
 pub struct Race {
     pub method: &'static str,
     pub peers: &'static [&'static str],
-    /// What the peers' points are called together.
+    /// Says what the peers' points are called together.
     pub peers_are: &'static str,
 }
 
@@ -125,7 +126,7 @@ pub struct Race {
 pub trait Study: Sync {
     fn about(&self) -> About;
 
-    /// What a plot's y axis is called.
+    /// Returns what a plot's y axis is called.
     fn error_label(&self) -> String {
         format!("relative L2 error {}", self.about().error)
     }
@@ -152,13 +153,13 @@ pub trait Study: Sync {
         true
     }
 
-    /// What the report compares by the time to an error of 1 %.
+    /// Returns what the report compares by the time to an error of 1 %.
     fn race(&self) -> Option<Race> {
         None
     }
 
-    /// Everything to measure: every setting on the main grid, and, where an order can be observed, the usual one on the others.
-    /// A quick run has the usual setting and each second one of the others: the second, the fourth and so on.
+    /// Everything to measure: every setting on the main grid, and, where an order can be observed, the usual one on the
+    /// others. A quick run has the usual setting and each second one of the others: the second, the fourth and so on.
     fn points(&self, extent: Extent) -> Vec<Point> {
         let main = self.main_grid(extent);
         let step = if extent == Extent::Quick { 2 } else { 1 };

@@ -17,6 +17,7 @@ mod format;
 mod geometry;
 mod includes;
 pub mod json;
+mod knob_values;
 mod knobs;
 pub mod limits;
 mod lines;

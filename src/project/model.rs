@@ -73,7 +73,7 @@ pub struct Channel {
 /// A source of texels.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Input {
-    /// A buffer by name; one without a pass reads zeros. Of a pass with several targets the first.
+    /// A buffer by name; one without a pass reads zeros. A pass with several targets gives the first.
     Buffer(String),
     /// A further target of a geometry pass, counted from 1.
     Target {

@@ -17,7 +17,7 @@ pub struct PassSettings {
     pub body: PassBody,
 }
 
-/// What a pass draws.
+/// Says what a pass draws.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum PassBody {
     /// Every texel of its one target, as on the site.

@@ -16,11 +16,13 @@ pub struct Named {
     pub line: usize,
     /// The name that a `use` gives it here.
     pub bound: Option<String>,
+    /// Others may use the name that is bound here.
+    pub is_public: bool,
     /// It stands in a module for tests alone.
     pub is_test: bool,
 }
 
-/// Returns every path of at least two segments. Comments and strings name nothing; what macros are given counts.
+/// Returns every path, single names among them. Comments and strings name nothing; what macros are given counts.
 pub fn of_file(file: &File) -> Vec<Named> {
     let mut reader = Reader::default();
     reader.visit_file(file);
@@ -39,14 +41,16 @@ struct Reader {
     within: Vec<String>,
     /// Modules for tests that are open.
     tests: usize,
+    /// The `use` that is read is public.
+    is_public: bool,
     found: Vec<Named>,
 }
 
 impl Reader {
     fn add(&mut self, segments: Vec<String>, line: usize, bound: Option<String>) {
-        if segments.len() > 1 {
-            let (within, is_test) = (self.within.clone(), self.tests > 0);
-            self.found.push(Named { within, segments, line, bound, is_test });
+        if !segments.is_empty() {
+            let (within, is_public, is_test) = (self.within.clone(), self.is_public, self.tests > 0);
+            self.found.push(Named { within, segments, line, bound, is_public, is_test });
         }
     }
 
@@ -119,7 +123,9 @@ impl<'ast> Visit<'ast> for Reader {
     }
 
     fn visit_item_use(&mut self, item: &'ast ItemUse) {
+        self.is_public = !matches!(item.vis, Visibility::Inherited);
         self.tree(&item.tree, &[]);
+        self.is_public = false;
     }
 
     fn visit_path(&mut self, path: &'ast syn::Path) {

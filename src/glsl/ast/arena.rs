@@ -33,7 +33,7 @@ macro_rules! ids {
 }
 pub(in crate::glsl) use ids;
 
-/// Children: a range of the pool of `T` in its owner ([`Ast`] or `hir::Module`). Read with `&owner[list]`.
+/// Children: a range of the pool of `T` in its owner ([`super::Ast`] or `hir::Module`). Read with `&owner[list]`.
 pub struct List<T> {
     start: u32,
     len: u32,

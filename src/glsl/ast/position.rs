@@ -1,6 +1,9 @@
-//! Where things are: tokens, the ranges nodes cover, and the way through macros back to the author's text.
+//! Says where things are: tokens, the ranges nodes cover, and the way through macros back to the author's text.
 
-use super::{ExpansionId, Interner, MacroId, Symbol};
+use super::{
+    arena::ids,
+    names::{Interner, Symbol},
+};
 use crate::diag::{Diagnostic, Span};
 use std::{
     fmt,
@@ -8,13 +11,20 @@ use std::{
     ops::{Index, IndexMut},
 };
 
+ids! {
+    /// A macro of [`Origins::macros`].
+    MacroId;
+    /// One use of a macro, of [`Origins::expansions`].
+    ExpansionId;
+}
+
 /// A token of the preprocessed stream the parser read: an index into [`Origins::tokens`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct TokenId(pub u32);
 
-/// Where a node stands: its first and last token, both included. Turned into text positions by [`Origins`] only when a
-/// diagnostic or an editor asks, so nodes stay small. Parentheses around an expression are outside its `Loc`, but inside its
-/// parent's. A node the checker inserts (a conversion) takes the `Loc` of its operand.
+/// Says where a node stands: its first and last token, both included. Turned into text positions by [`Origins`] only
+/// when a diagnostic or an editor asks, so nodes stay small. Parentheses around an expression are outside its `Loc`,
+/// but inside its parent's. A node the checker inserts (a conversion) takes the `Loc` of its operand.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
 pub struct Loc {
     pub first: TokenId,
@@ -60,14 +70,15 @@ impl Hash for Loc {
     }
 }
 
-/// Where one token comes from (16 bytes).
+/// Says where one token comes from (16 bytes).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Origin {
-    /// Where its characters are: in the text itself, in a macro's replacement list, or in a macro's argument at the use. For
-    /// `__LINE__` and the like, the place of use.
+    /// Says where its characters are: in the text itself, in a macro's replacement list, or in a macro's argument at
+    /// the use. For `__LINE__` and the like, the place of use.
     pub spelled: Span,
-    /// For a token of a replacement list, the (innermost) use that brought it in. `None` for what the author wrote in place,
-    /// and for argument tokens written in place: these point at themselves, which is more exact than the whole use.
+    /// For a token of a replacement list, the (innermost) use that brought it in. `None` for what the author wrote in
+    /// place, and for argument tokens written in place: these point at themselves, which is more exact than the whole
+    /// use.
     pub expansion: Option<ExpansionId>,
 }
 
@@ -99,7 +110,8 @@ pub struct Origins {
     pub tokens: Vec<Origin>,
     pub expansions: Vec<Expansion>,
     pub macros: Vec<MacroDef>,
-    /// Every macro name used in the running text, in a directive, or in a replacement list that was expanded; for editors.
+    /// Every macro name used in the running text, in a directive, or in a replacement list that was expanded; for
+    /// editors.
     pub macro_uses: Vec<(Span, MacroId)>,
     /// Lines that an `#if` leaves out, its directives not among them; for editors.
     pub inactive: Vec<Span>,
@@ -115,7 +127,8 @@ impl Origins {
         }
     }
 
-    /// Place of use in the author's text: for what a macro brought in, the use of the macro. The main span of a diagnostic.
+    /// Place of use in the author's text: for what a macro brought in, the use of the macro. The main span of a
+    /// diagnostic.
     pub fn span(&self, loc: Loc) -> Span {
         let (first, last) = (self.token_span(loc.first), self.token_span(loc.last));
         if first.source != last.source {
@@ -124,7 +137,7 @@ impl Origins {
         Span { source: first.source, start: first.start.min(last.start), end: first.end.max(last.end) }
     }
 
-    /// Where the characters are, if a macro brought them in: the place in its replacement list.
+    /// Returns where the characters are, if a macro brought them in: the place in its replacement list.
     pub fn definition_span(&self, loc: Loc) -> Option<(Span, ExpansionId)> {
         let in_macro = |token: TokenId| {
             let origin = self.tokens[token.0 as usize];

@@ -1,6 +1,6 @@
 //! Parts of values: members, swizzles (section 5.5), indices (5.6, 5.7) and `.length()`.
 
-use super::{Checker, types::MANY_MEMBERS};
+use super::{checker::Checker, types::MANY_MEMBERS};
 use crate::glsl::{
     ast::{self, Loc, Symbol},
     hir::{DeclRef, ExprFlags, ExprId, ExprKind, StructId, Swizzle, Type, TypeId, Uniform, VarFlags},
@@ -100,7 +100,7 @@ impl Checker<'_> {
         }
     }
 
-    /// What a part of an expression takes over: still a place if the whole is one.
+    /// Returns what a part of an expression takes over: still a place if the whole is one.
     fn part_flags(&self, base: ExprId) -> ExprFlags {
         let flags = self.module[base].flags;
         let place = flags.contains(ExprFlags::PLACE);

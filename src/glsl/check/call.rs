@@ -1,6 +1,6 @@
 //! Calls: of users' functions, of built-ins, and of structs' constructors; and what is said when none fits.
 
-use super::{Checker, env, overloads, scope::Binding};
+use super::{checker::Checker, env, overloads, scope::Binding};
 use crate::glsl::{
     ast::{self, BasicType, List, Loc, Symbol},
     hir::{Builtin, DeclRef, ExprFlags, ExprId, ExprKind, FuncId, LocalKind, Scalar, TypeId},
@@ -343,8 +343,8 @@ impl Checker<'_> {
         given.iter().filter_map(|&ty| self.vector_shape(ty)).map(|(_, n)| n).max().unwrap_or(1)
     }
 
-    /// The parameter types nearest to the arguments given, where one list is nearest: ints become floats sooner than the other
-    /// way round, and a scalar may become a vector.
+    /// The parameter types nearest to the arguments given, where one list is nearest: ints become floats sooner than
+    /// the other way round, and a scalar may become a vector.
     fn closest(&self, given: &[TypeId], overloads: impl Iterator<Item = Vec<TypeId>>) -> Option<Vec<TypeId>> {
         let mut best: Option<(u32, Vec<TypeId>)> = None;
         let mut tie = false;
@@ -424,6 +424,11 @@ impl Checker<'_> {
         for (_, line) in lines.into_iter().take(4) {
             self.hint(format!("candidate: `{line}`"));
         }
+    }
+
+    /// Result of a built-in for these argument types, if some overload takes them.
+    fn builtin_result(&self, builtin: Builtin, args: &[TypeId]) -> Option<TypeId> {
+        overloads::of(builtin).iter().find_map(|overload| overload.result_for(args, &self.module.types))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Constructors (section 5.4): scalars, vectors, matrices, structs and arrays.
 
-use super::{Checker, call, fold, types::Size, words::Words};
+use super::{call, checker::Checker, fold, types::Size, words::Words};
 use crate::glsl::{
     ast::{self, List, Loc, TypeSpecId, TypeSpecKind},
     hir::{ExprId, ExprKind, Scalar, StructId, Swizzle, Type, TypeId},
@@ -92,7 +92,7 @@ impl Checker<'_> {
         id
     }
 
-    /// Whether an argument has components to give; reports what has none.
+    /// Returns whether an argument has components to give; reports what has none.
     fn is_component_argument(&mut self, arg: ExprId, target: TypeId) -> bool {
         let ty = self.ty(arg);
         if ty == TypeId::ERROR {
@@ -171,8 +171,8 @@ impl Checker<'_> {
         }
     }
 
-    /// One argument of a vector constructor with components of the target's kind. Matrices stay whole where they are floats;
-    /// otherwise the components that count (all but `surplus`) become a vector first.
+    /// One argument of a vector constructor with components of the target's kind. Matrices stay whole where they are
+    /// floats; otherwise the components that count (all but `surplus`) become a vector first.
     fn components_of(&mut self, id: ExprId, scalar: Scalar, surplus: u32) -> ExprId {
         let (ty, loc) = (self.ty(id), self.loc(id));
         match self.module.types.get(ty) {
@@ -365,7 +365,7 @@ impl Checker<'_> {
         self.composite(args, hir.ty, loc, ExprKind::Struct)
     }
 
-    /// Whether each argument has the type wanted; one message, that of the first, tells of all that have not.
+    /// Returns whether each argument has the type wanted; one message, that of the first, tells of all that have not.
     fn each_argument(
         &mut self,
         args: List<ast::ExprId>,

@@ -1,14 +1,14 @@
-//! Where a value must have a certain type: what is said when it has another. GLSL ES converts nothing by itself, so nearly
-//! every such mistake is an int where a float belongs, and the mend can be written out.
+//! Checks values that must have a certain type, and says what is wrong when they have another. GLSL ES converts nothing
+//! by itself, so nearly every such mistake is an int where a float belongs, and the mend can be written out.
 
-use super::Checker;
+use super::checker::Checker;
 use crate::glsl::{
     ast::{self, ExprKind as A},
     hir::{ExprId, Scalar, TypeId},
 };
 
 impl Checker<'_> {
-    /// Whether `value` has type `want`; otherwise reports `message`, in which `{}` stands for the type found.
+    /// Returns whether `value` has type `want`; otherwise reports `message`, in which `{}` stands for the type found.
     pub(super) fn expect_type(&mut self, value: ExprId, written: ast::ExprId, want: TypeId, message: &str) -> bool {
         let found = self.ty(value);
         if found == want {
@@ -31,8 +31,8 @@ impl Checker<'_> {
         }
     }
 
-    /// One message for several values that have other types than wanted; `message` is about the first, `{}` in it stands for
-    /// the type found.
+    /// One message for several values that have other types than wanted; `message` is about the first, `{}` in it
+    /// stands for the type found.
     pub(super) fn wrong_types(&mut self, wrong: &[(ExprId, ast::ExprId, TypeId)], message: &str) {
         let Some(&(first, written, want)) = wrong.first() else { return };
         let message = message.replace("{}", &format!("`{}`", self.type_name(self.ty(first))));
@@ -182,7 +182,7 @@ impl Checker<'_> {
     }
 }
 
-/// What to write instead of a value.
+/// Holds what to write instead of a value.
 pub(super) struct Mend {
     /// The conversion that GLSL ES does not make by itself, if that is the trouble.
     converts: Option<(Scalar, Scalar)>,

@@ -1,12 +1,14 @@
-//! Declarations of variables (section 4.3) at file scope and in functions, uniform blocks, and what else a declaration can be.
+//! Declarations of variables (section 4.3) at file scope and in functions, uniform blocks, and what else a declaration
+//! can be.
 
 use std::collections::HashSet;
 
 use super::{
-    Checker,
+    checker::Checker,
+    facts::MAX_WORDS,
     qualifiers::{LayoutOf, Place, Qualifiers},
     scope::Binding,
-    types::{MAX_WORDS, Size},
+    types::Size,
 };
 use crate::glsl::{
     ast::{self, DeclKind, Declarator, Field, Ident, List, Loc, Precision, QualifierKind as Q, TypeSpecId},
@@ -106,7 +108,7 @@ impl Checker<'_> {
         (ty, init)
     }
 
-    /// Whether the initialiser fits.
+    /// Returns whether the initialiser fits.
     fn check_init(&mut self, name: Ident, ty: TypeId, init: ExprId, written: ast::ExprId) -> bool {
         if ty == TypeId::ERROR || self.ty(init) == TypeId::ERROR || self.is_void(init) {
             return false;

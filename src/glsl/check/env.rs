@@ -1,13 +1,10 @@
-//! What is in scope before the first line: the built-ins of chapters 7 and 8, the site's uniforms and channels for each kind
-//! of pass, and the entry point the header declares.
+//! Says what is in scope before the first line: the built-ins of chapters 7 and 8, the site's uniforms and channels for
+//! each kind of pass, and the entry point the header declares.
 
-use super::{Checker, function::FunctionSign, scope};
 use crate::glsl::{
-    KnobKind, PassKind,
-    ast::{BasicType, Loc, Precision, TokenId},
-    hir::{Builtin, BuiltinVar, DeclRef, LocalKind, TypeId, Uniform},
+    hir::{Builtin, BuiltinVar, LocalKind, TypeId, Uniform},
+    source::{KnobKind, PassKind},
 };
-use scope::Binding;
 
 /// Which header stands before the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,7 +15,7 @@ pub(in crate::glsl) enum Env {
 }
 
 impl Env {
-    /// Whether this text may name a uniform.
+    /// Returns whether this text may name a uniform.
     pub(in crate::glsl) fn has(self, uniform: Uniform) -> bool {
         use Uniform as U;
         match self {
@@ -34,12 +31,12 @@ impl Env {
         }
     }
 
-    /// Whether this text may name a built-in variable.
+    /// Returns whether this text may name a built-in variable.
     pub(in crate::glsl) fn has_variable(self, variable: BuiltinVar) -> bool {
         variable.is_of_vertices() == (self == Env::Pass(PassKind::Vertex))
     }
 
-    /// Whether it is a stage of a program that draws meshes.
+    /// Returns whether it is a stage of a program that draws meshes.
     pub(in crate::glsl) fn is_stage(self) -> bool {
         matches!(self, Env::Pass(kind) if kind.is_stage())
     }
@@ -134,8 +131,8 @@ pub(crate) fn knob_type(kind: KnobKind) -> TypeId {
     }
 }
 
-/// Who has a name already that an author's own uniform would need at file scope.
-pub(super) fn taken(name: &str) -> Option<&'static str> {
+/// Why nothing can be declared by `name`, if nothing can: it is a keyword, or the language or the site has it already.
+pub fn taken(name: &str) -> Option<&'static str> {
     let entries = [PassKind::Image, PassKind::Cubemap, PassKind::Sound].map(|kind| entry(kind).name);
     if Uniform::ALL.iter().any(|u| u.name() == name) || CHANNELS.contains(&name) || CHANNEL_STRUCTS.contains(&name) {
         Some("Shadertoy's header has a uniform of this name")
@@ -149,121 +146,5 @@ pub(super) fn taken(name: &str) -> Option<&'static str> {
         Some("it is a word of GLSL's own")
     } else {
         None
-    }
-}
-
-impl Checker<'_> {
-    /// Fills the scopes before the first declaration is read.
-    pub(super) fn declare_environment(&mut self) {
-        for &builtin in Builtin::ALL {
-            if builtin != Builtin::StAssert {
-                self.scopes.give(builtin.symbol(), Binding::Builtin(builtin), scope::LANGUAGE);
-            }
-        }
-        // The site defines st_assert in the text of Image passes, so a pass may overload or, elsewhere, define its own.
-        if self.env == Env::Pass(PassKind::Image) {
-            self.scopes.give(Builtin::StAssert.symbol(), Binding::Builtin(Builtin::StAssert), scope::LANGUAGE);
-        }
-        for &uniform in Uniform::ALL {
-            if self.env.has(uniform) {
-                self.scopes.give(uniform.symbol(), Binding::Uniform(uniform), scope::FILE);
-            }
-        }
-        for (name, var) in VARIABLES {
-            if self.env.has_variable(var) {
-                self.give(name, Binding::BuiltinVar(var), scope::LANGUAGE);
-            }
-        }
-        for (name, value) in LIMITS {
-            self.give(name, Binding::BuiltinConst(value), scope::LANGUAGE);
-        }
-        self.give("gl_DepthRange", Binding::DepthRange, scope::LANGUAGE);
-        if self.env.has(Uniform::Time) {
-            self.give("iGlobalTime", Binding::OldTime, scope::LANGUAGE);
-        }
-        for (i, name) in CHANNELS.into_iter().enumerate() {
-            self.give(name, Binding::Channel(i as u8), scope::FILE);
-        }
-        if self.env == Env::Pass(PassKind::Image) {
-            for (i, name) in CHANNEL_STRUCTS.into_iter().enumerate() {
-                self.give(name, Binding::ChannelStruct(i as u8), scope::FILE);
-            }
-        }
-        for (basic, precision) in [
-            (BasicType::Float, Precision::High),
-            (BasicType::Int, Precision::High),
-            (BasicType::Sampler2D, Precision::Low),
-            (BasicType::SamplerCube, Precision::Low),
-            (BasicType::Sampler3D, Precision::Medium),
-        ] {
-            self.precisions[basic as usize] = Some(precision);
-        }
-        if let Env::Pass(kind) = self.env {
-            let entry = entry(kind);
-            self.entry_symbol = self.names.find(entry.name);
-            if let Some(symbol) = self.entry_symbol {
-                // The header's prototype stands nowhere in the text; the end of file stands for it.
-                let nowhere = TokenId(self.origins.tokens.len() as u32 - 1);
-                let params: Vec<_> = entry.params.iter().map(|&(kind, ty)| (None, ty, kind, None)).collect();
-                self.add_function(
-                    FunctionSign { symbol, token: nowhere, result: entry.result, params: &params },
-                    Loc::from(nowhere),
-                    Loc::from(nowhere),
-                );
-            }
-        }
-    }
-
-    /// Called after the environment is there: an author's own uniform hides what only the language gives, as a global would.
-    pub(super) fn declare_knobs(&mut self) {
-        for (i, knob) in self.knobs.iter().enumerate() {
-            self.give(knob.name, Binding::Knob(i as u16), scope::FILE);
-        }
-    }
-
-    fn give(&mut self, name: &str, binding: Binding, depth: u32) {
-        if let Some(symbol) = self.names.find(name) {
-            self.scopes.give(symbol, binding, depth);
-        }
-    }
-
-    /// Type of `iChannelN`.
-    pub(super) fn channel_type(&self, channel: u8) -> TypeId {
-        use crate::glsl::ChannelKind as C;
-        TypeId::basic(match self.channels[usize::from(channel)] {
-            C::Sampler2D => BasicType::Sampler2D,
-            C::Sampler3D => BasicType::Sampler3D,
-            C::SamplerCube => BasicType::SamplerCube,
-        })
-    }
-
-    /// Notes that Common named what only passes have.
-    pub(super) fn note_in_common(&mut self, token: TokenId, target: DeclRef) {
-        let refused = match target {
-            DeclRef::Uniform(uniform) => !matches!(uniform, Uniform::Date | Uniform::SampleRate),
-            DeclRef::Channel(_) | DeclRef::ChannelStruct(_) => true,
-            _ => false,
-        };
-        if self.env != Env::Common || !refused {
-            return;
-        }
-        let name = match target {
-            DeclRef::Uniform(uniform) => uniform.name(),
-            DeclRef::Channel(i) => CHANNELS[usize::from(i)],
-            DeclRef::ChannelStruct(i) => CHANNEL_STRUCTS[usize::from(i)],
-            _ => return,
-        };
-        self.refuse_in_common(token.into(), name);
-    }
-
-    pub(super) fn refuse_in_common(&mut self, loc: Loc, name: &str) {
-        let message =
-            format!("Shadertoy would refuse `{name}` here: it compiles Common alone, with only iDate and iSampleRate");
-        if self.refused_in_common.iter().any(|known| known.message == message) {
-            return;
-        }
-        let hint = format!("pass `{name}` to the function as an argument, or name it in a macro");
-        let diagnostic = self.origins.warning(self.names, loc, message).hint(hint);
-        self.refused_in_common.push(diagnostic);
     }
 }

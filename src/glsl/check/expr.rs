@@ -1,6 +1,6 @@
 //! Expressions: the loop over the tree's arena, names, and the kinds that need no rules of their own file.
 
-use super::{Checker, scope::Binding};
+use super::{checker::Checker, scope::Binding};
 use crate::glsl::{
     ast::{self, ExprKind as A, Loc, Symbol, TokenId},
     hir::{self, DeclRef, ExprFlags, ExprId, ExprKind, GlobalStorage, IncDec, LocalKind, Type, TypeId, VarFlags},
@@ -52,8 +52,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Between the nodes of a tree that had syntax errors may lie others that were given up: only what hangs on the root
-    /// counts.
+    /// Between the nodes of a tree that had syntax errors may lie others that were given up: only what hangs on the
+    /// root counts.
     #[cold]
     fn expr_in_broken_tree(&mut self, first: usize, root: usize) {
         let ast = self.ast;
@@ -354,7 +354,7 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Whether `expr` may be written to; otherwise says why not. `doing` is what is tried: `assigned to`.
+    /// Returns whether `expr` may be written to; otherwise says why not. `doing` is what is tried: `assigned to`.
     pub(super) fn place(&mut self, expr: ExprId, doing: &str) -> bool {
         if self.ty(expr) == TypeId::ERROR {
             return false;
@@ -441,7 +441,8 @@ impl<'a> Checker<'a> {
         }
     }
 
-    /// Whether something in the full expression checked last was reported, so that what it is not need not be said.
+    /// Returns whether something in the full expression checked last was reported, so that what it is not need not be
+    /// said.
     #[cold]
     pub(super) fn is_broken(&self) -> bool {
         self.is_full() || self.module.exprs[self.full_expr..].iter().any(|expr| matches!(expr.kind, ExprKind::Error))

@@ -1,17 +1,17 @@
-//! Values of operators and conversions on constants, bit for bit as a device with 32-bit floats and wrapping ints has them.
-//! What the specification leaves undefined is what ANGLE makes of it.
+//! Values of operators and conversions on constants, bit for bit as a device with 32-bit floats and wrapping ints has
+//! them. What the specification leaves undefined is what ANGLE makes of it.
 
 use crate::glsl::hir::{BinaryOp, Scalar, Shape, UnaryOp};
 
-/// What an author should know about a folded operation.
+/// Says what an author should know about a folded operation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Trouble {
     DivisionByZero,
     ShiftRange,
 }
 
-/// One component from a scalar type to another (section 5.4.1). Out of range a float saturates as an int, and a negative one
-/// wraps as a uint.
+/// One component from a scalar type to another (section 5.4.1). Out of range a float saturates as an int, and a
+/// negative one wraps as a uint.
 pub(super) fn convert(bits: u32, from: Scalar, to: Scalar) -> u32 {
     use Scalar::{Bool, Float, Int, Uint};
     let float = f32::from_bits(bits);

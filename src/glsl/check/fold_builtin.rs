@@ -1,9 +1,9 @@
-//! Values of built-in functions on constants (chapter 8), in 32-bit floats as a device computes them. Where a function is undefined
-//! ANGLE gives zero, and so does this, with a warning.
+//! Values of built-in functions on constants (chapter 8), in 32-bit floats as a device computes them. Where a function
+//! is undefined ANGLE gives zero, and so does this, with a warning.
 
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use super::{Checker, words::Words};
+use super::{checker::Checker, words::Words};
 use crate::glsl::{
     ast::Loc,
     hir::{Builtin as X, ExprId, Scalar, Type, TypeId},
@@ -37,8 +37,8 @@ impl Arg<'_> {
 }
 
 impl Checker<'_> {
-    /// The value of a built-in whose arguments, on the stack above `base`, are all constants. `None` where it has none: it
-    /// reads a texture, or writes an argument.
+    /// The value of a built-in whose arguments, on the stack above `base`, are all constants. `None` where it has none:
+    /// it reads a texture, or writes an argument.
     pub(super) fn fold_builtin(&mut self, builtin: X, result: TypeId, base: usize, loc: Loc) -> Option<ExprId> {
         let nothing = Arg { words: &[], scalar: Scalar::Float, columns: 1 };
         let mut args = [nothing; 3];
@@ -419,7 +419,7 @@ mod tests {
         assert_eq!(call(X::Smoothstep, &[(&[0.], 1), (&[1.], 1), (&[0.5, 2.], 1)], 2), [0.5, 1.]);
     }
 
-    /// What the operations give that OpenGL's compilers write these functions out in.
+    /// The last bits are those of the operations in which OpenGL's compilers write these functions out.
     #[test]
     fn last_bits() {
         assert_eq!(call(X::Normalize, &[(&[0.2, 0., -1.], 1)], 3)[0].to_bits(), 0x3e48_d2ab);

@@ -1,7 +1,7 @@
 //! Functions (section 6.1): prototypes, definitions, overloads, parameters.
 
 use super::{
-    Checker, FuncFacts,
+    checker::{Checker, FuncFacts},
     env::{self, Env},
     overloads,
     qualifiers::Place,
@@ -88,7 +88,7 @@ impl Checker<'_> {
         start
     }
 
-    /// Where a function was declared first, unless the header did it.
+    /// Returns where a function was declared first, unless the header did it.
     pub(super) fn function_at(&self, id: FuncId) -> Option<Loc> {
         self.module[id].declared_at.first().map(|&token| token.into())
     }

@@ -1,6 +1,6 @@
 //! Values that come from outside for the uniforms a text declares: whether they fit, and what they are as constants.
 
-use super::Checker;
+use super::checker::Checker;
 use crate::glsl::{
     GivenValue,
     ast::Ident,
@@ -8,7 +8,8 @@ use crate::glsl::{
 };
 
 impl Checker<'_> {
-    /// The value that is given for a uniform of a type. `None`: none is; `Some(None)`: one that does not fit, which is reported.
+    /// The value that is given for a uniform of a type. `None`: none is; `Some(None)`: one that does not fit, which is
+    /// reported.
     pub(super) fn given(&mut self, name: Ident, ty: TypeId) -> Option<Option<ConstId>> {
         let values = self.values;
         let text = self.name(name.symbol);

@@ -1,8 +1,8 @@
-//! What concerns the whole program: the entry point, calls of functions nobody defined, recursion, and the order in which
-//! functions must stand so that each is defined before it is called.
+//! Checks what concerns the whole program: the entry point, calls of functions nobody defined, recursion, and the order
+//! in which functions must stand so that each is defined before it is called.
 
 use super::{
-    Checker,
+    checker::Checker,
     env::{self, Env},
     scope::Binding,
 };

@@ -1,7 +1,7 @@
 //! Operators (sections 5.7 to 5.9): which types they take, what they give, and their values on constants.
 
 use super::{
-    Checker,
+    checker::Checker,
     fold::{self, Grid, Trouble},
     words::Words,
 };
@@ -243,7 +243,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether two folded values of one type are equal: floats as numbers, so -0 equals 0 and NaN nothing.
+    /// Returns whether two folded values of one type are equal: floats as numbers, so -0 equals 0 and NaN nothing.
     fn equal_constants(&self, ty: TypeId, l: ExprId, r: ExprId) -> Option<bool> {
         let (a, b) = (self.words(l)?, self.words(r)?);
         let mut at = 0;

@@ -1,6 +1,6 @@
-//! The built-in functions of chapter 8: every overload, as patterns over sizes, and finding the one that takes given types.
+//! The built-in functions of chapter 8: every overload, as patterns over sizes, and finding the one that takes given
+//! types.
 
-use super::Checker;
 use crate::glsl::{
     ast::BasicType,
     hir::{Builtin, SamplerDim, Scalar, Type, TypeId, TypeTable},
@@ -186,7 +186,7 @@ pub(super) fn offset_argument(builtin: Builtin) -> Option<usize> {
     }
 }
 
-/// What the patterns of one overload have been bound to by the arguments so far.
+/// Holds what the patterns of one overload have been bound to by the arguments so far.
 #[derive(Clone, Copy)]
 struct Bound {
     size: u8,
@@ -205,14 +205,15 @@ impl Overload {
         fits.then(|| instance(self.result, bound, types))
     }
 
-    /// Whether these can be the first arguments.
+    /// Returns whether these can be the first arguments.
     pub fn begins_with(&self, args: &[TypeId], types: &TypeTable) -> bool {
         let mut bound = Bound { size: 0, matrix: TypeId::ERROR, texel: Scalar::Float };
         args.len() <= self.params.len()
             && self.params.iter().zip(args).all(|(&pattern, &arg)| bind(pattern, arg, &mut bound, types))
     }
 
-    /// The parameters' types where generic ones have `size` components; samplers and matrices as the arguments have them.
+    /// The parameters' types where generic ones have `size` components; samplers and matrices as the arguments have
+    /// them.
     pub fn params_at(&self, size: u8, given: &[TypeId], types: &TypeTable) -> Option<Vec<TypeId>> {
         if given.len() != self.params.len() {
             return None;
@@ -307,12 +308,5 @@ fn instance(pattern: Pattern, bound: Bound, types: &TypeTable) -> TypeId {
             _ => TypeId::ERROR,
         },
         Pattern::Sampler(..) => unreachable!("no built-in returns a sampler"),
-    }
-}
-
-impl Checker<'_> {
-    /// Result of a built-in for these argument types, if some overload takes them.
-    pub(super) fn builtin_result(&self, builtin: Builtin, args: &[TypeId]) -> Option<TypeId> {
-        of(builtin).iter().find_map(|overload| overload.result_for(args, &self.module.types))
     }
 }

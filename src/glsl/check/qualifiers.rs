@@ -1,13 +1,13 @@
 //! Qualifiers (sections 4.3 to 4.8): which may stand where, in which order, on which types.
 
-use super::{Checker, env::Env};
+use super::{checker::Checker, env::Env};
 use crate::glsl::{
     PassKind,
     ast::{BasicType, LayoutItem, List, Loc, Precision, Qualifier, QualifierKind as Q, TokenId},
     hir::{LocalKind, Scalar, Type, TypeId},
 };
 
-/// Where qualifiers stand.
+/// Says where qualifiers stand.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Place {
     Global,
@@ -32,7 +32,7 @@ pub(super) struct Qualifiers {
     pub layout: Option<(TokenId, List<LayoutItem>)>,
 }
 
-/// What a layout is written on.
+/// Says what a layout is written on.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum LayoutOf {
     /// A block, or the default for all blocks.
@@ -278,7 +278,7 @@ impl Checker<'_> {
         }
     }
 
-    /// What a global's storage demands of its qualifiers and type (sections 4.3.4 to 4.3.9).
+    /// Checks what a global's storage demands of its qualifiers and type (sections 4.3.4 to 4.3.9).
     pub(super) fn check_interface(&mut self, quals: &Qualifiers, ty: TypeId, loc: Loc) {
         let (input, output) = (quals.is(Q::In), quals.is(Q::Out));
         if let Some(token) = quals.invariant

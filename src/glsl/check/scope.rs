@@ -1,11 +1,12 @@
-//! What each name means where the checker stands. Owns the scopes of section 4.2; knows no rule about what may be declared.
+//! Says what each name means where the checker stands. Owns the scopes of section 4.2; knows no rule about what may be
+//! declared.
 
 use crate::glsl::{
     ast::{Ident, Symbol},
     hir::{Builtin, BuiltinVar, FuncId, GlobalId, LocalId, StructId, Uniform},
 };
 
-/// What a name stands for.
+/// Says what a name stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Binding {
     /// Nothing: the name is unknown.
@@ -41,7 +42,7 @@ pub(super) const FILE: u32 = 1;
 pub(super) struct Scopes {
     /// By symbol: innermost binding and the depth it was made at.
     table: Vec<(Binding, u32)>,
-    /// What declarations in open scopes replaced, oldest first.
+    /// Says what declarations in open scopes replaced, oldest first.
     hidden: Vec<(Symbol, Binding, u32)>,
     /// Length of `hidden` where each open scope began.
     marks: Vec<usize>,
@@ -57,14 +58,14 @@ impl Scopes {
         self.table[symbol.0 as usize].0
     }
 
-    /// What `symbol` means in the innermost scope itself, if it was declared there.
+    /// Returns what `symbol` means in the innermost scope itself, if it was declared there.
     #[inline]
     pub fn here(&self, symbol: Symbol) -> Option<Binding> {
         let (binding, depth) = self.table[symbol.0 as usize];
         (depth == self.depth() && binding != Binding::None).then_some(binding)
     }
 
-    /// Of the innermost open scope; [`FILE`] outside functions.
+    /// Returns the depth of the innermost open scope; [`FILE`] outside functions.
     #[inline]
     pub fn depth(&self) -> u32 {
         FILE + self.marks.len() as u32

@@ -4,7 +4,7 @@
 //! A driver that is handed such a program takes all memory and minutes before it gives up, and there is no simpler code
 //! for it, so it is an error here.
 
-use super::Checker;
+use super::checker::Checker;
 use crate::glsl::{
     ast::List,
     hir::{ExprId, ExprKind, FuncId, Module},

@@ -2,20 +2,11 @@
 
 use std::collections::HashMap;
 
-use super::Checker;
+use super::checker::{Checker, Switch};
 use crate::glsl::{
     ast::{self, Condition, DeclKind, ExprKind as A, List, Loc, StmtKind as S},
     hir::{self, Case, ExprFlags, ExprId, ExprKind, StmtId, StmtKind, TypeId},
 };
-
-/// A switch whose body is being checked.
-pub(super) struct Switch {
-    /// Of its value; the error type silences its labels.
-    ty: TypeId,
-    /// Labels so far, and where they stand.
-    values: HashMap<u32, Loc>,
-    default: Option<Loc>,
-}
 
 impl Checker<'_> {
     /// A list of statements in the scope that is open.
@@ -28,7 +19,7 @@ impl Checker<'_> {
         self.take_statements(base)
     }
 
-    /// What has gathered on the stack above `base`, as a list.
+    /// Returns what has gathered on the stack above `base`, as a list.
     fn take_statements(&mut self, base: usize) -> List<StmtId> {
         let list = self.module.list(&self.stmt_stack[base..]);
         self.stmt_stack.truncate(base);
@@ -163,8 +154,8 @@ impl Checker<'_> {
         }
     }
 
-    /// ANGLE, and with it the site, refuses `for` and `while` whose test is constant and true and that nothing leaves: such a
-    /// program never draws, and takes the device with it. It does not count `discard`.
+    /// ANGLE, and with it the site, refuses `for` and `while` whose test is constant and true and that nothing leaves:
+    /// such a program never draws, and takes the device with it. It does not count `discard`.
     fn expect_end(&mut self, test: Option<ExprId>, body: List<StmtId>, loc: Loc) {
         let is_endless = test.is_none_or(|test| self.words(test) == Some(&[1]));
         if is_endless && !self.leaves(body, true) {
@@ -173,7 +164,7 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether a statement of the list ends the loop that it is in (`is_own`) or a loop further out.
+    /// Returns whether a statement of the list ends the loop that it is in (`is_own`) or a loop further out.
     fn leaves(&self, list: List<StmtId>, is_own: bool) -> bool {
         self.module[list].iter().any(|id| match self.module[*id].kind {
             StmtKind::Break => is_own,

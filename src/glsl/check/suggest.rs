@@ -1,6 +1,7 @@
-//! What was probably meant: names of other shading languages and old versions, and names spelled nearly like this one.
+//! Guesses what was probably meant: names of other shading languages and old versions, and names spelled nearly like
+//! this one.
 
-use super::{Checker, env::Env, scope::Binding};
+use super::{checker::Checker, env::Env, scope::Binding};
 use crate::glsl::{
     ast::{self, BasicType, List, Loc, Symbol, TokenId},
     near,
@@ -94,7 +95,7 @@ const VARIABLES: &[(&str, &str)] = &[
 ];
 
 impl Checker<'_> {
-    /// Whether nothing was said yet in this function about an unknown name.
+    /// Returns whether nothing was said yet in this function about an unknown name.
     pub(super) fn say_once(&mut self, symbol: Symbol) -> bool {
         if self.unknown_said.is_empty() {
             self.unknown_said = vec![u32::MAX; self.names.len()];
@@ -138,7 +139,7 @@ impl Checker<'_> {
         true
     }
 
-    /// Whether a variable of this name was declared earlier in the text, in a scope that is closed.
+    /// Returns whether a variable of this name was declared earlier in the text, in a scope that is closed.
     fn declared_in_some_scope(&self, symbol: Symbol, before: TokenId) -> bool {
         if self.is_full() {
             return false;

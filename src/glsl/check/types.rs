@@ -2,40 +2,21 @@
 
 use std::collections::HashMap;
 
-use super::{Checker, TypeFacts, scope::Binding};
+use super::{
+    checker::Checker,
+    facts::{MAX_WORDS, NOTHING, TypeFacts},
+    scope::Binding,
+};
 use crate::glsl::{
     ast::{self, Dim, List, Loc, StructDefId, TypeSpecId, TypeSpecKind},
-    hir::{self, DeclRef, Scalar, Struct, StructId, StructMember, Type, TypeId, TypeTable},
+    hir::{self, DeclRef, Scalar, Struct, StructId, StructMember, Type, TypeId},
 };
-
-/// Most scalars a type may hold: 16 MiB, ANGLE's limit for a shader's private variables.
-pub(super) const MAX_WORDS: u32 = 1 << 22;
 
 /// Members from which on those of a struct are found by a table.
 pub(super) const MANY_MEMBERS: usize = 16;
 
 /// Structs inside one another that WebGL's compiler takes.
 const MAX_NESTING: u8 = 4;
-
-const NOTHING: TypeFacts = TypeFacts { words: 0, opaque: false, arrays: false, nesting: 0 };
-
-impl TypeFacts {
-    /// Takes in one more member.
-    fn add(&mut self, member: TypeFacts) {
-        self.words = self.words.saturating_add(member.words);
-        self.opaque |= member.opaque;
-        self.arrays |= member.arrays;
-        self.nesting = self.nesting.max(member.nesting);
-    }
-}
-
-pub(super) fn basic_facts(types: &TypeTable) -> Vec<TypeFacts> {
-    let of = |id| match types.get(id) {
-        Type::Sampler { .. } => TypeFacts { opaque: true, ..NOTHING },
-        _ => TypeFacts { words: types.components(id).unwrap_or(0), ..NOTHING },
-    };
-    (0..types.len() as u32).map(|i| of(TypeId(i))).collect()
-}
 
 /// Size of an array as written.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -322,7 +303,7 @@ impl<'a> Checker<'a> {
         self.hint("choose another name, or remove the type to assign to the first one");
     }
 
-    /// Where what a name stands for was declared, if that is in the text.
+    /// Returns where what a name stands for was declared, if that is in the text.
     pub(super) fn declared_at(&self, binding: Binding) -> Option<Loc> {
         match binding {
             Binding::Function(id) => self.function_at(id),

@@ -1,6 +1,6 @@
 //! Making nodes of the typed program, and reading and writing folded values in it.
 
-use super::Checker;
+use super::checker::Checker;
 use crate::glsl::{
     ast::Loc,
     hir::{Expr, ExprFlags, ExprId, ExprKind, TypeId},
@@ -62,7 +62,7 @@ impl Checker<'_> {
         self.push(kind, ty, ExprFlags::CONSTANT, loc)
     }
 
-    /// Whether so many scalars more can be folded; says so where they cannot.
+    /// Returns whether so many scalars more can be folded; says so where they cannot.
     pub(super) fn has_room(&mut self, words: usize, loc: Loc) -> bool {
         let before = self.folded_words;
         self.folded_words = before.saturating_add(words);
@@ -79,7 +79,8 @@ impl Checker<'_> {
         false
     }
 
-    /// The scalars of a folded value, in memory order. The value given for a uniform is none: it is no constant expression.
+    /// The scalars of a folded value, in memory order. The value given for a uniform is none: it is no constant
+    /// expression.
     #[inline]
     pub(super) fn words(&self, expr: ExprId) -> Option<&[u32]> {
         match &self.module[expr].kind {

@@ -1,7 +1,10 @@
-//! What a program declares: variables, functions, folded values.
+//! Says what a program declares: variables, functions, folded values.
 
-use super::{ConstId, ExprId, FuncId, StmtId, TypeId};
-use crate::glsl::ast::{Ident, List, Loc, Precision, TokenId};
+use super::ids::{ConstId, ExprId, FuncId, StmtId};
+use crate::glsl::{
+    ast::{Ident, List, Loc, Precision, TokenId},
+    types::TypeId,
+};
 use std::ops::Range;
 
 /// A file-scope variable.
@@ -10,7 +13,8 @@ pub struct Global {
     pub name: Ident,
     pub ty: TypeId,
     pub storage: GlobalStorage,
-    /// `None` is zero. May be any expression of type `ty` (ANGLE forgives non-constant ones: a warning). Never set for `Const`.
+    /// `None` is zero. May be any expression of type `ty` (ANGLE forgives non-constant ones: a warning). Never set for
+    /// `Const`.
     pub init: Option<ExprId>,
     /// The folded value: always for `Const`; for others where `init` is constant (then lowering may use either).
     pub value: Option<ConstId>,
@@ -18,9 +22,9 @@ pub struct Global {
     #[expect(dead_code, reason = "every node says where it stands")]
     pub loc: Loc,
     pub flags: VarFlags,
-    /// Of an input or output: not interpolated.
+    /// An input or output that is not interpolated.
     pub flat: bool,
-    /// Of an output: as its `layout` says.
+    /// The location that the `layout` of an output says.
     pub location: Option<u32>,
 }
 
@@ -30,8 +34,8 @@ pub enum GlobalStorage {
     Private,
     /// `const`: uses are folded to `Literal` or `Const` with this `value`'s id, so no expression refers to the global.
     Const,
-    /// A `uniform` the author declared: nobody sets it, so it reads as zero. (A sampler among them reads `iChannel0`, whose
-    /// unit WebGL gives it: its uses are `Channel(0)`.)
+    /// A `uniform` the author declared: nobody sets it, so it reads as zero. (A sampler among them reads `iChannel0`,
+    /// whose unit WebGL gives it: its uses are `Channel(0)`.)
     Uniform,
     /// `in`: in a pass no vertex shader writes it, and it reads as zero; in a stage the entry point sets it.
     In,
@@ -39,15 +43,15 @@ pub enum GlobalStorage {
     Out,
 }
 
-/// What the checker saw done to a variable, anywhere in the text, reached or not.
+/// Holds what the checker saw done to a variable, anywhere in the text, reached or not.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct VarFlags(pub u8);
 
 impl VarFlags {
     /// Read or written by some expression.
     pub const USED: VarFlags = VarFlags(1);
-    /// Assigned, changed or passed as `out` or `inout`, in whole or in part. Without it the variable keeps the value of its
-    /// declaration (or argument), and lowering needs no memory for it.
+    /// Assigned, changed or passed as `out` or `inout`, in whole or in part. Without it the variable keeps the value of
+    /// its declaration (or argument), and lowering needs no memory for it.
     pub const WRITTEN: VarFlags = VarFlags(2);
     /// Some `Index` with an index that is no literal has this variable at its root.
     pub const INDEXED: VarFlags = VarFlags(4);
@@ -69,17 +73,18 @@ pub struct Function {
     /// Names in all its prototypes, and in its definition; for editors.
     pub declared_at: Vec<TokenId>,
     pub result: TypeId,
-    /// The function's slice of [`Module::locals`]: parameters first, in order, then every local of the body. Scopes are
-    /// resolved; two variables of one name are two locals. The checker guarantees that bodies do not interleave.
+    /// The function's slice of [`super::Module::locals`]: parameters first, in order, then every local of the body.
+    /// Scopes are resolved; two variables of one name are two locals. The checker guarantees that bodies do not
+    /// interleave.
     pub locals: Range<u32>,
     pub param_count: u32,
-    /// The function's slice of [`Module::exprs`].
+    /// The function's slice of [`super::Module::exprs`].
     pub exprs: Range<u32>,
     /// `None` if only declared (an error where it is called).
     pub body: Option<List<StmtId>>,
     /// Functions it calls, each once.
     pub calls: Vec<FuncId>,
-    /// Reachable from the entry point: member of [`Module::call_order`].
+    /// Reachable from the entry point: member of [`super::Module::call_order`].
     pub used: bool,
     /// Header, and the whole definition or prototype.
     pub header: Loc,
@@ -102,8 +107,8 @@ pub struct Local {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum LocalKind {
-    /// `in` (copied at the call; the function may write its copy). Samplers are always `In` and never written: lowering makes
-    /// one copy of the function for each combination of channels that is passed.
+    /// `in` (copied at the call; the function may write its copy). Samplers are always `In` and never written: lowering
+    /// makes one copy of the function for each combination of channels that is passed.
     In,
     /// `const in`.
     ConstIn,
@@ -132,7 +137,8 @@ impl LocalKind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Const {
     pub ty: TypeId,
-    /// All scalars in memory order, 32 bits each: floats and ints bit for bit (NaN and infinities may occur), bools 0 or 1;
-    /// matrices column by column, structs member by member, arrays element by element. As many as `ty` has scalars.
+    /// All scalars in memory order, 32 bits each: floats and ints bit for bit (NaN and infinities may occur), bools 0
+    /// or 1; matrices column by column, structs member by member, arrays element by element. As many as `ty` has
+    /// scalars.
     pub words: List<u32>,
 }

@@ -1,6 +1,6 @@
 //! Number literals (sections 4.1.3 and 4.1.4), and what can be wrong with one.
 
-use super::{Kind, is_name};
+use super::token::{Kind, is_name};
 
 /// Why a number is none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

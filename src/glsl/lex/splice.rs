@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-/// Where line continuations were taken out of a text.
+/// Says where line continuations were taken out of a text.
 #[derive(Default)]
 pub(super) struct Splices {
     /// Position in the joined text, and how many bytes are missing from there on.

@@ -1,9 +1,9 @@
 //! Keywords and reserved words (section 3.8), and the interner every compile starts from.
 //!
-//! Names that only desktop GLSL or later versions reserve (`buffer`, `sampler`, `texture2D`, `shared`, `precise`) are plain
-//! names here, as they are in GLSL ES 3.00.
+//! Names that only desktop GLSL or later versions reserve (`buffer`, `sampler`, `texture2D`, `shared`, `precise`) are
+//! plain names here, as they are in GLSL ES 3.00.
 
-use super::Kind;
+use super::token::Kind;
 use crate::glsl::{
     ast::{BasicType, Interner},
     hir::{Builtin, Uniform},
@@ -67,7 +67,7 @@ const RESERVED: &[&str] = &[
     "image2DShadow", "image1DArrayShadow", "image2DArrayShadow", "sizeof", "cast", "namespace", "using",
 ];
 
-/// Whether the language knows the word, as a keyword, a type or by any other meaning.
+/// Returns whether the language knows the word, as a keyword, a type or by any other meaning.
 pub(in crate::glsl) fn is_word(name: &str) -> bool {
     interner().find(name).is_some()
 }

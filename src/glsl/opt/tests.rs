@@ -4,7 +4,7 @@
 use super::{PASSES, identity};
 use crate::{
     diag::SourceId,
-    glsl::{Driver, Link, PassKind, PassSource, Text, compile_seen, dump_ir, ir, opt::PassSet},
+    glsl::{Driver, Link, PassKind, PassSource, Text, compile::compile_seen, dump_ir, ir, opt::PassSet},
 };
 
 fn source(code: &str) -> PassSource<'_> {

@@ -1,14 +1,14 @@
 //! Which bracket belongs to which, found before parsing: it decides what `a[..] b` is without trying both, and lets the
 //! parser step over a group that it did not understand.
 
-use super::super::{lex::Kind, preprocess::Tok};
+use crate::glsl::{lex::Kind, preprocess::Tok};
 
 /// The partner of a bracket that has none.
 pub(in crate::glsl) const ALONE: u32 = u32::MAX;
 
-/// Writes into each bracket's value the index of its partner, or [`ALONE`]. Text with mistakes is paired the way its author
-/// most likely meant it: a closing brace closes what is still open inside it, a semicolon or an opening brace ends
-/// parentheses (but those of `for` hold semicolons).
+/// Writes into each bracket's value the index of its partner, or [`ALONE`]. Text with mistakes is paired the way its
+/// author most likely meant it: a closing brace closes what is still open inside it, a semicolon or an opening brace
+/// ends parentheses (but those of `for` hold semicolons).
 pub(in crate::glsl) fn pair(tokens: &mut [Tok]) {
     let mut open = Open::default();
     for i in 0..tokens.len() {

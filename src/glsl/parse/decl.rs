@@ -1,8 +1,12 @@
 //! Declarations: the file's items, variables, blocks, qualifiers (chapter 4).
 
-use super::*;
-use crate::glsl::ast::{
-    DeclId, DeclKind, Declarator, LayoutItem, List, Precision, Qualifier, QualifierKind, TypeSpecKind,
+use super::{
+    hint,
+    parser::{Failed, Parse, Parser},
+};
+use crate::glsl::{
+    ast::{DeclId, DeclKind, Declarator, ExprId, LayoutItem, List, Precision, Qualifier, QualifierKind, TypeSpecKind},
+    lex::Kind,
 };
 
 impl Parser<'_> {

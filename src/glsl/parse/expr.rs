@@ -1,7 +1,12 @@
-//! Expressions (section 5.1): precedence climbing with a loop for the left sides, so that chains of any length take no stack.
+//! Expressions (section 5.1): precedence climbing with a loop for the left sides, so that chains of any length take no
+//! stack.
 
-use super::*;
-use crate::glsl::ast::{BinaryOp, List, PostfixOp, TypeSpec, TypeSpecKind, UnaryOp};
+use super::parser::{Parse, Parser, SAFE_DEPTH};
+use crate::glsl::{
+    ast::{BinaryOp, ExprId, ExprKind, List, MAX_NESTING, PostfixOp, Symbol, TypeSpec, TypeSpecKind, UnaryOp},
+    lex::{Kind, words},
+    preprocess::Tok,
+};
 
 /// Operator and how tightly it binds; higher is tighter.
 #[inline]

@@ -1,7 +1,10 @@
 //! Functions: parameters, prototypes, bodies (section 6.1).
 
-use super::*;
-use crate::glsl::ast::{DeclId, DeclKind, FunctionDecl, List, Param, Qualifier, StmtKind, TypeSpecId};
+use super::parser::{Failed, Parse, Parser};
+use crate::glsl::{
+    ast::{DeclId, DeclKind, FunctionDecl, List, Param, Qualifier, StmtId, StmtKind, TypeSpecId},
+    lex::Kind,
+};
 
 impl Parser<'_> {
     /// A prototype or definition; qualifiers and result were read.

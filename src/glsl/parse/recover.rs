@@ -1,6 +1,10 @@
 //! Saying what is wrong, each mistake once, and finding the place to go on from.
 
-use super::*;
+use super::parser::{Failed, Parser};
+use crate::{
+    diag::{Diagnostic, Span},
+    glsl::lex::Kind,
+};
 
 impl Parser<'_> {
     /// The token as the author wrote it, its beginning if it is long.
@@ -89,8 +93,8 @@ impl Parser<'_> {
         self.report_at(here, diagnostic);
     }
 
-    /// Passes what is left of a declaration or statement that was not understood: to behind its `;` or block, or to before
-    /// what plainly begins the next one.
+    /// Passes what is left of a declaration or statement that was not understood: to behind its `;` or block, or to
+    /// before what plainly begins the next one.
     pub(super) fn recover(&mut self) {
         let start = self.at;
         loop {

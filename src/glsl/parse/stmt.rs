@@ -1,8 +1,14 @@
 //! Statements (chapter 6).
 
-use super::*;
-use crate::glsl::ast::{Condition, DeclKind, List, StmtKind};
-use crate::glsl::near::nearest;
+use super::parser::{Failed, Parse, Parser};
+use crate::{
+    diag::Diagnostic,
+    glsl::{
+        ast::{Condition, DeclKind, List, StmtId, StmtKind},
+        lex::Kind,
+        near::nearest,
+    },
+};
 
 impl Parser<'_> {
     /// `{ .. }`: its statements, each mistake left behind in its own.

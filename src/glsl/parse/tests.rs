@@ -6,7 +6,7 @@ use crate::{
     diag::SourceId,
     glsl::{
         ChannelKind, Driver, PassKind, Text,
-        ast::{Condition, DeclId, DeclKind, List, StmtKind, TypeSpecId, TypeSpecKind},
+        ast::{Condition, DeclId, DeclKind, ExprId, ExprKind, List, Loc, StmtId, StmtKind, TypeSpecId, TypeSpecKind},
     },
 };
 
@@ -195,7 +195,7 @@ fn stmt(p: &Parsed, id: StmtId) -> String {
     }
 }
 
-/// What the tree's documentation promises to everyone.
+/// Checks what the tree's documentation promises to everyone.
 pub(super) fn check_guarantees(p: &Parsed) {
     let tokens = p.origins.tokens.len();
     let loc = |l: Loc| assert!(l.first <= l.last && (l.last.0 as usize) < tokens);

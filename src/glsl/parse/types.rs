@@ -1,7 +1,13 @@
 //! Types as written: keywords, names, struct definitions, dimensions.
 
-use super::*;
-use crate::glsl::ast::{Declarator, Dim, Field, List, StructDef, TypeSpec, TypeSpecId, TypeSpecKind};
+use super::{
+    hint,
+    parser::{Failed, Parse, Parser},
+};
+use crate::glsl::{
+    ast::{Declarator, Dim, ExprId, Field, List, StructDef, Symbol, TypeSpec, TypeSpecId, TypeSpecKind},
+    lex::{Kind, words},
+};
 
 impl Parser<'_> {
     /// A type with its dimensions, struct definitions included.

@@ -1,9 +1,10 @@
-//! What to say, and what to go on with, where the text has something that is not GLSL: foreign characters, strings, bad
-//! numbers, `#` in the middle of a line.
+//! Reports what is not GLSL in a text, and decides what to go on with: foreign characters, strings, bad numbers, `#` in
+//! the middle of a line.
 
-use super::*;
+use super::state::Preprocessor;
+use crate::glsl::lex::{Kind, Token, bad_number};
 
-/// What stands for GLSL in typeset text, foreign keyboards and web pages, and what was meant.
+/// Says what stands for GLSL in typeset text, foreign keyboards and web pages, and what was meant.
 const LOOKALIKES: &[(&str, &str, Kind)] = &[
     ("\u{2212}\u{2013}\u{2014}\u{2010}\u{2011}\u{ff0d}", "-", Kind::Minus),
     ("\u{d7}\u{2217}\u{22c5}\u{b7}\u{ff0a}", "*", Kind::Star),

@@ -1,12 +1,17 @@
-//! Expressions of `#if` and `#elif` (section 3.4): integers, `defined`, and the operators of C without assignment and choice.
+//! Expressions of `#if` and `#elif` (section 3.4): integers, `defined`, and the operators of C without assignment and
+//! choice.
 
-use super::*;
+use super::state::Preprocessor;
+use crate::glsl::{
+    ast::Symbol,
+    lex::{Kind, Token},
+};
 
 /// Parentheses and signs within each other.
 const MAX_DEPTH: u32 = 200;
 
 impl Preprocessor<'_, '_> {
-    /// Whether the condition holds. A condition that is wrong was reported and does not.
+    /// Returns whether the condition holds. A condition that is wrong was reported and does not.
     pub(super) fn condition(&mut self, directive: &Token, line: &[Token]) -> bool {
         let Some(tokens) = self.without_defined(line) else { return false };
         let mut expanded = Vec::new();
@@ -72,7 +77,7 @@ struct Evaluation<'e, 'p, 'a, 'r> {
     /// Inside the right side of an `&&` or `||` that the left side has decided: nothing there is an error.
     passed_by: u32,
     depth: u32,
-    /// Where an expression that ends too early is reported.
+    /// Says where an expression that ends too early is reported.
     end: Token,
 }
 

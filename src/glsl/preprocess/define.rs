@@ -1,8 +1,14 @@
-//! `#define` and `#undef` (section 3.4): what a macro may be named, its parameters, its replacement list, and when it may be
-//! defined again.
+//! `#define` and `#undef` (section 3.4): what a macro may be named, its parameters, its replacement list, and when it
+//! may be defined again.
 
-use super::*;
-use crate::glsl::lex::SPACE;
+use super::state::{Given, Macro, Preprocessor};
+use crate::{
+    diag::Diagnostic,
+    glsl::{
+        ast::{MacroDef, MacroId, Symbol},
+        lex::{Kind, SPACE, Token},
+    },
+};
 use std::collections::{HashMap, HashSet};
 
 impl Preprocessor<'_, '_> {
@@ -186,7 +192,8 @@ impl Preprocessor<'_, '_> {
         }
     }
 
-    /// A second definition is allowed where it is the same as the first; otherwise that is an error, and the new one holds.
+    /// A second definition is allowed where it is the same as the first; otherwise that is an error, and the new one
+    /// holds.
     fn redefine(&mut self, name: &Token, old: MacroId, function_like: bool, params: (u32, u32), body: (u32, u32)) {
         let def = self.origins[old];
         let before = &self.macros[old.index()];
@@ -250,7 +257,7 @@ impl Numbers {
     }
 }
 
-/// What follows a macro's name without a space and most likely belongs to something else.
+/// Returns whether what follows a macro's name does so without a space and most likely belongs to something else.
 fn is_suspicious(kind: Kind) -> bool {
     !matches!(kind, Kind::LParen | Kind::LBrace | Kind::LBracket | Kind::Semicolon)
 }

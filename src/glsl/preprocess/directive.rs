@@ -1,8 +1,15 @@
 //! Which directive a line is, and what all of them but `#define` do: conditionals, `#error`, `#line`, `#version`,
 //! `#extension`, `#pragma`.
 
-use super::*;
-use crate::glsl::near::nearest;
+use super::state::{Conditional, Preprocessor};
+use crate::{
+    diag::{Diagnostic, Span},
+    glsl::{
+        ast::Symbol,
+        lex::{Kind, Token},
+        near::nearest,
+    },
+};
 
 pub(in crate::glsl) const DIRECTIVES: [&str; 13] = [
     "define",

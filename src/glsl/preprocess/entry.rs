@@ -1,12 +1,18 @@
 //! Entry points that are macros: the site compiles `main` with the pass, so `#define mainImage cctvImage` and even
-//! `#define mainImage(o, u) o = vec4(..)` make a program. What its wrapper would call stands here as a function of the entry
-//! point's own name behind the text, so that nobody after the preprocessor need know.
+//! `#define mainImage(o, u) o = vec4(..)` make a program. What its wrapper would call stands here as a function of the
+//! entry point's own name behind the text, so that nobody after the preprocessor need know.
 
-use super::*;
-use crate::glsl::PassKind;
+use super::state::Preprocessor;
+use crate::{
+    diag::Span,
+    glsl::{
+        PassKind,
+        lex::{Kind, Lexer, Token},
+    },
+};
 
-/// The function a kind's entry point would be, up to its body, and the body: the name in it is expanded. A colour begins
-/// black and opaque, as in the site's wrapper.
+/// The function a kind's entry point would be, up to its body, and the body: the name in it is expanded. A colour
+/// begins black and opaque, as in the site's wrapper.
 struct Wrapper {
     name: &'static str,
     head: &'static str,

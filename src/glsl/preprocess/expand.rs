@@ -1,12 +1,18 @@
-//! Macro expansion: reading through replacement lists, collecting and pre-expanding arguments (section 3.4; the algorithm is
-//! C++'s, which the specification names, in the form that ANGLE and cpplib have it).
+//! Macro expansion: reading through replacement lists, collecting and pre-expanding arguments (section 3.4; the
+//! algorithm is C++'s, which the specification names, in the form that ANGLE and cpplib have it).
 
-use super::*;
-use crate::glsl::lex::PAINTED;
+use super::state::{Context, Given, MAX_CALL_DEPTH, MAX_MACRO_TOKENS, Preprocessor, end_token};
+use crate::{
+    diag::{Diagnostic, Span},
+    glsl::{
+        ast::{Expansion, ExpansionId, MacroId},
+        lex::{Kind, PAINTED, Token},
+    },
+};
 
 impl Preprocessor<'_, '_> {
-    /// The next token, not expanded: from the innermost context, else from the running text. `Eof` at the end of an argument
-    /// or directive line that is being expanded.
+    /// The next token, not expanded: from the innermost context, else from the running text. `Eof` at the end of an
+    /// argument or directive line that is being expanded.
     #[inline]
     pub(super) fn read(&mut self) -> Token {
         loop {
@@ -310,7 +316,7 @@ const END: Token = Token {
 /// A call that cannot be expanded, which was said.
 struct Reported;
 
-/// What became of an argument.
+/// Says what became of an argument.
 #[derive(Clone, Copy)]
 enum Expanded {
     /// No token of the replacement list named it so far.

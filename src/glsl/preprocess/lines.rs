@@ -1,51 +1,17 @@
-//! What `__LINE__` and `__FILE__` are. Messages do not follow them: they keep to the tabs.
+//! Says what `__LINE__` and `__FILE__` are. Messages do not follow them: they keep to the tabs.
 //!
 //! A pass is one text to the site's compiler, its header first, then Common, and `__LINE__` counts through it. Programs
-//! tell by it whether Common is being compiled alone (`#if __LINE__ < 17`), or take numbers from it, so the header's length
-//! is part of what they mean.
+//! tell by it whether Common is being compiled alone (`#if __LINE__ < 17`), or take numbers from it, so the header's
+//! length is part of what they mean.
 
-use super::*;
-
-/// What is compiled, for what the site puts in front of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::glsl) enum Unit {
-    Pass(PassKind),
-    /// Common, as the site checks it.
-    CommonAlone,
-}
-
-impl Unit {
-    /// Lines of the site's header: version and precisions, uniforms, channels, the wrapper.
-    fn header_lines(self) -> i32 {
-        match self {
-            Unit::Pass(PassKind::Image) => 53,
-            Unit::Pass(PassKind::Buffer) => 27,
-            Unit::Pass(PassKind::Cubemap) => 30,
-            Unit::Pass(PassKind::Sound) => 20,
-            // The site has no such stages.
-            Unit::Pass(PassKind::Vertex | PassKind::Fragment) => 0,
-            Unit::CommonAlone => 11,
-        }
-    }
-}
-
-/// Where lines end, in the pieces that were asked for.
-pub(super) struct LineCount {
-    /// How many ends of lines precede each piece, and the offsets of its own in its text.
-    ends: Vec<(i32, Vec<u32>)>,
-    /// What is to be added: the header's lines, or what `#line` made of them.
-    shift: i32,
-    pub file: i32,
-}
-
-impl LineCount {
-    pub fn new(unit: Unit) -> Self {
-        Self { ends: Vec::new(), shift: unit.header_lines(), file: 0 }
-    }
-}
+use super::state::Preprocessor;
+use crate::{
+    diag::Span,
+    glsl::{lex::Token, pieces::Piece},
+};
 
 impl Preprocessor<'_, '_> {
-    /// What `__LINE__` is at a place.
+    /// Returns what `__LINE__` is at a place.
     pub(super) fn line_number(&mut self, place: Span) -> i32 {
         // The newest piece there it lies in: an included text may have been read before.
         let holds = |piece: &Piece<'_>| {

@@ -4,7 +4,11 @@
 use super::*;
 use crate::{
     diag::SourceId,
-    glsl::{Text, pieces},
+    glsl::{
+        Text,
+        lex::{Kind, words},
+        pieces,
+    },
 };
 
 /// The tokens as text with single spaces, and the diagnostics' messages.

@@ -1,7 +1,7 @@
 //! Colours by meaning: what each word, comment and directive of a text is.
 
 use super::{
-    Analysis,
+    analysis::Analysis,
     symbols::Target,
     text::{Directive, Source},
 };
@@ -14,7 +14,7 @@ use crate::{
 };
 use std::ops::Range;
 
-/// What a run of a text is.
+/// Says what a run of a text is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Class {
     Keyword,
@@ -24,7 +24,7 @@ pub enum Class {
     Builtin,
     /// The author's function.
     Function,
-    /// What the site gives, and `gl_` variables.
+    /// Says what the site gives, and `gl_` variables.
     Uniform,
     Macro,
     Parameter,

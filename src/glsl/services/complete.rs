@@ -1,11 +1,10 @@
-//! What could stand at the caret.
+//! Finds what could stand at the caret.
 
 use super::{
-    Analysis, docs,
+    analysis::{Analysis, Place},
+    docs,
     infer::Infer,
-    rank,
-    scope::Place,
-    show,
+    rank, show,
     symbols::Target,
     text::{Directive, Source},
 };
@@ -21,7 +20,7 @@ use crate::{
 };
 use std::{collections::HashSet, ops::Range};
 
-/// What is proposed, for a sign beside it.
+/// Says what is proposed, for a sign beside it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CompletionKind {
     Local,
@@ -42,7 +41,7 @@ pub enum CompletionKind {
 /// One proposal.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Completion {
-    /// What is shown, and put in the place of what was typed.
+    /// Says what is shown, and put in the place of what was typed.
     pub label: String,
     pub kind: CompletionKind,
     /// Its type, or signature; may be empty.
@@ -65,7 +64,7 @@ pub struct Completions {
 }
 
 impl Completions {
-    /// Indices of the items that fit `typed`, best first. Where none does, what it may be a slip of.
+    /// Returns the indices of the items that fit `typed`, best first; where none does, of what it may be a slip of.
     pub fn matching(&self, typed: &str) -> Vec<usize> {
         let fits = self.items.iter().enumerate();
         let mut found: Vec<(u32, u32, &str, usize)> = fits
@@ -83,8 +82,8 @@ impl Completions {
 }
 
 impl Analysis {
-    /// What could stand at `offset` of a text. Nothing in comments, in text that is not compiled, in numbers, and where a new
-    /// name is being given.
+    /// Returns what could stand at `offset` of a text. Nothing in comments, in text that is not compiled, in numbers,
+    /// and where a new name is being given.
     pub fn completions(&self, source: SourceId, offset: usize) -> Completions {
         let none = Completions { replace: offset..offset, ..Completions::default() };
         let Some(source) = self.source_index(source) else { return none };
@@ -140,7 +139,7 @@ impl Analysis {
         Completions { replace, items, is_member: false }
     }
 
-    /// Whether the word behind a token is a name being declared: `float x`, `Ray r`.
+    /// Returns whether the word behind a token is a name being declared: `float x`, `Ray r`.
     fn gives_name(&self, text: &Source, before: usize, at: Place) -> bool {
         match text.kind(before) {
             Token::Type | Token::Struct => true,
@@ -215,7 +214,7 @@ impl Analysis {
         }
     }
 
-    /// What the site and the language give, unless something the author declared hides it.
+    /// Adds what the site and the language give, unless something the author declared hides it.
     fn add_given(&self, seen: &HashSet<Symbol>, items: &mut Vec<Completion>) {
         let hidden = |name: &str| self.names.find(name).is_some_and(|symbol| seen.contains(&symbol));
         let mut add = |name: &str, kind, detail: String, doc: &str, order| {

@@ -1,7 +1,8 @@
-//! What a name is: its declaration, its text, where it comes from.
+//! Says what a name is: its declaration, its text, where it comes from.
 
 use super::{
-    Analysis, docs,
+    analysis::Analysis,
+    docs,
     infer::Infer,
     symbols::Target,
     text::{Directive, Source},
@@ -19,12 +20,12 @@ use crate::{
 /// Names that a misspelled one is compared with at most: more take longer than a tooltip may.
 const MAX_CANDIDATES: usize = 20_000;
 
-/// What is shown for a name. Plain text, no markup.
+/// Holds what is shown for a name. Plain text, no markup.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Hover {
     /// The name it is about.
     pub span: Span,
-    /// What kind of thing it is: `local variable`, `built-in function`.
+    /// Says what kind of thing it is: `local variable`, `built-in function`.
     pub kind: &'static str,
     /// Its declaration as GLSL: one line for each overload, or a struct's lines. Empty for keywords.
     pub signature: Vec<String>,
@@ -35,7 +36,7 @@ pub struct Hover {
 }
 
 impl Analysis {
-    /// What stands at `offset`; `None` for what needs no explanation.
+    /// Returns what stands at `offset`; `None` for what needs no explanation.
     pub fn hover(&self, source: SourceId, offset: usize) -> Option<Hover> {
         let (source, token) = self.word_at(source, offset)?;
         let text = &self.sources[source];

@@ -1,11 +1,10 @@
 //! Types of expressions as written, finished or not: what stands before the caret.
 //!
-//! Reads tokens, not the tree: the statement at the caret is mostly the one that the parser gave up. It knows less than the
-//! checker and reports nothing; what it cannot tell is `None`.
+//! Reads tokens, not the tree: the statement at the caret is mostly the one that the parser gave up. It knows less than
+//! the checker and reports nothing; what it cannot tell is `None`.
 
 use super::{
-    Analysis,
-    scope::Place,
+    analysis::{Analysis, Place},
     symbols::Target,
     text::{Directive, Source},
 };
@@ -23,7 +22,7 @@ const MAX_DEPTH: u32 = 40;
 pub(super) struct Infer<'a> {
     a: &'a Analysis,
     text: &'a Source,
-    /// Where names are looked up.
+    /// Says where names are looked up.
     at: Place,
     depth: u32,
 }

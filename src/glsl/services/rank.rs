@@ -1,7 +1,7 @@
 //! How well a name fits the letters typed so far.
 
-/// Smaller is better; `None`: it does not fit. Letters must come in order and the first one must begin a word of the name,
-/// so that `sms` finds `smoothstep` and `step` does too.
+/// Smaller is better; `None`: it does not fit. Letters must come in order and the first one must begin a word of the
+/// name, so that `sms` finds `smoothstep` and `step` does too.
 pub(super) fn misfit(typed: &str, name: &str) -> Option<u32> {
     if name.starts_with(typed) {
         return Some(0);

@@ -1,9 +1,13 @@
 //! Which names mean something at a place, broken text or not.
 //!
-//! The checker's scopes are gone when it is done, and it sees no half statement. What it did understand (functions, their
-//! locals, globals) is joined here with the brackets of the text as written.
+//! The checker's scopes are gone when it is done, and it sees no half statement. What it did understand (functions,
+//! their locals, globals) is joined here with the brackets of the text as written.
 
-use super::{Analysis, symbols::Target, text::Source};
+use super::{
+    analysis::{Analysis, Place},
+    symbols::Target,
+    text::Source,
+};
 use crate::glsl::{
     PassKind,
     ast::{Symbol, TokenId},
@@ -11,9 +15,6 @@ use crate::glsl::{
     hir::{Builtin, DeclRef, FuncId, GlobalId, LocalId, StructId, Uniform},
     lex::Kind,
 };
-
-/// A place in the texts of a pass: later texts come after earlier ones.
-pub(super) type Place = (usize, u32);
 
 impl Analysis {
     /// Place of a token as the compiler reads: for what a macro brought in, where the macro is used.
@@ -32,14 +33,15 @@ impl Analysis {
         begun.max().map(|(_, i)| FuncId::new(i))
     }
 
-    /// Locals and parameters that can be named at a place, outermost first; of two of a name the later hides the earlier.
+    /// Locals and parameters that can be named at a place, outermost first; of two of a name the later hides the
+    /// earlier.
     pub(super) fn locals_at(&self, at: Place) -> Vec<LocalId> {
         let Some(function) = self.function_at(at) else { return Vec::new() };
         let locals = self.module[function].locals.clone();
         locals.map(|i| LocalId::new(i as usize)).filter(|&id| self.is_visible(id, at)).collect()
     }
 
-    /// Whether a place lies in the scope of a local of the function around it.
+    /// Returns whether a place lies in the scope of a local of the function around it.
     fn is_visible(&self, id: LocalId, at: Place) -> bool {
         let Some(name) = self.module[id].name else { return false };
         let Some((source, start)) = self.place_of(name.token) else { return false };
@@ -55,7 +57,7 @@ impl Analysis {
         scope.0 <= at.1 && at.1 <= scope.1
     }
 
-    /// What a name stands for at a place; `called`: it is followed by arguments.
+    /// Returns what a name stands for at a place; `called`: it is followed by arguments.
     pub(super) fn look_up(&self, symbol: Symbol, at: Place, called: bool) -> Option<Target> {
         if let Some(id) = self.macro_at(symbol, at)
             && (called || !self.origins[id].function_like)
@@ -104,8 +106,8 @@ impl Analysis {
             .map(|(i, _)| FuncId::new(i))
     }
 
-    /// The macro of a name that was defined last before a place. An `#undef` in between is passed over: a name that was a
-    /// macro once is more likely meant than none.
+    /// The macro of a name that was defined last before a place. An `#undef` in between is passed over: a name that was
+    /// a macro once is more likely meant than none.
     pub(super) fn macro_at(&self, symbol: Symbol, at: Place) -> Option<crate::glsl::ast::MacroId> {
         let found = self.origins.macros.iter().rposition(|def| {
             def.name == symbol
@@ -116,7 +118,7 @@ impl Analysis {
         Some(crate::glsl::ast::MacroId::new(found))
     }
 
-    /// What the language and the site give under a name.
+    /// Returns what the language and the site give under a name.
     fn given(&self, symbol: Symbol) -> Option<DeclRef> {
         if let Some(builtin) = Builtin::from_symbol(symbol) {
             return (builtin != Builtin::StAssert || self.kind == PassKind::Image).then_some(DeclRef::Builtin(builtin));

@@ -1,6 +1,6 @@
 //! Declarations as GLSL writes them: what a tooltip shows and a completion is told apart by.
 
-use super::{Analysis, docs, symbols::Target};
+use super::{analysis::Analysis, docs, symbols::Target};
 use crate::glsl::{
     ast::{BasicType, MacroId, Precision, Symbol},
     check::{

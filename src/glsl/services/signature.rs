@@ -1,6 +1,13 @@
-//! What a call that is being written takes, and which argument the caret is at.
+//! Says what a call that is being written takes, and which argument the caret is at.
 
-use super::{Analysis, docs, infer::Infer, scope::Place, show, symbols::Target, text::Source};
+use super::{
+    analysis::{Analysis, Place},
+    docs,
+    infer::Infer,
+    show,
+    symbols::Target,
+    text::Source,
+};
 use crate::{
     diag::SourceId,
     glsl::{
@@ -15,7 +22,7 @@ use std::ops::Range;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Signature {
     pub label: String,
-    /// Where each parameter stands in the label, in bytes.
+    /// Says where each parameter stands in the label, in bytes.
     pub params: Vec<Range<usize>>,
 }
 
@@ -28,9 +35,9 @@ pub struct SignatureHelp {
     pub active: usize,
     /// The argument the caret is in, from 0.
     pub parameter: usize,
-    /// What the function does; may be empty.
+    /// Says what the function does; may be empty.
     pub doc: String,
-    /// Where the name of what is called begins.
+    /// Says where the name of what is called begins.
     pub name_start: usize,
 }
 

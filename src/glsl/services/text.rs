@@ -1,7 +1,7 @@
 //! A text as its author sees it: every token before macros are expanded, comments, directives, brackets.
 //!
-//! The parser's stream knows only what is compiled, and of a statement that it did not understand nothing at all. What is
-//! asked of half a line is answered from here.
+//! The parser's stream knows only what is compiled, and of a statement that it did not understand nothing at all. What
+//! is asked of half a line is answered from here.
 
 use crate::{
     diag::{SourceId, Span},
@@ -26,7 +26,8 @@ pub(super) struct Lexeme {
     pub end: u32,
     /// Index of a bracket's other half; [`brackets::ALONE`] for other tokens and for brackets that have none.
     pub partner: u32,
-    /// Index of the innermost bracket around it that has another half, or that is an open brace; `ALONE` outside of all.
+    /// Index of the innermost bracket around it that has another half, or that is an open brace; `ALONE` outside of
+    /// all.
     pub around: u32,
     /// It stands in a directive: `#` and the word behind it, or the rest of the line.
     pub directive: Directive,
@@ -40,7 +41,7 @@ pub(super) enum Directive {
     No,
     /// `#` or its word.
     Head,
-    /// What follows them.
+    /// The text follows them.
     Rest,
 }
 

@@ -41,7 +41,7 @@ impl Buffer {
         Some(index)
     }
 
-    /// Replaces the selection if it is a match. Whether it was.
+    /// Replaces the selection if it is a match, and returns whether it was.
     pub fn replace_match(&mut self, matches: &[Range<usize>], with: &str) -> bool {
         let range = self.selection().range();
         let hit = matches.contains(&range);

@@ -9,6 +9,7 @@
 
 mod assist;
 mod buffer;
+mod colors;
 #[cfg(test)]
 mod cost;
 mod edits;
@@ -29,6 +30,5 @@ mod words;
 
 pub use assist::Ask;
 pub use find::Query;
-pub use lexer::TokenKind;
 pub use look::{Help, Look, Mark};
 pub use view::CodeEditor;

@@ -43,7 +43,7 @@ fn within(power: f64, span: f64, marks: &mut Vec<GridMark>) {
     }
 }
 
-/// What stands at a mark: powers of ten, and where the axis shows few of them other values too.
+/// Returns what stands at a mark: powers of ten, and where the axis shows few of them other values too.
 pub fn label(mark: GridMark, span: f64) -> String {
     let value = 10f64.powf(mark.value);
     let whole = report::tick(value);

@@ -1,6 +1,9 @@
 //! The row over the plot: what is run, how far it is, and where it goes.
 
-use super::{Folder, Lab, model};
+use super::{
+    model,
+    state::{Folder, Lab, name_of},
+};
 use crate::{
     gui::{
         icons::{self, Icon},
@@ -68,7 +71,7 @@ fn extent(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
         (Extent::Full, "Full", "The grids of the report and every setting: minutes"),
     ] {
         let button = ui.add(Button::new(name).selected(lab.extent == extent)).on_hover_text(tip);
-        if out.clicked(&format!("lab:{}", super::name_of(extent)), &button) {
+        if out.clicked(&format!("lab:{}", name_of(extent)), &button) {
             chosen = extent;
         }
     }

@@ -4,12 +4,15 @@ use super::{model::Shown, plot};
 use crate::{gui::theme, lab::report::Look};
 use egui::{Color32, FontId, RichText, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
 
+/// Width of the list.
+pub const WIDTH: f32 = 290.0;
+
 /// The method under the pointer.
 pub fn show(ui: &mut Ui, shown: &Shown) -> Option<usize> {
     let mut hovered = None;
     ui.spacing_mut().item_spacing.y = 1.0;
     ScrollArea::vertical().id_salt("lab methods").auto_shrink(false).show(ui, |ui| {
-        ui.set_width(super::LEGEND - 12.0);
+        ui.set_width(WIDTH - 12.0);
         for n in 0..shown.methods.len() {
             if method(ui, shown, n) {
                 hovered = Some(n);

@@ -1,5 +1,5 @@
-//! The plot: cost across, error up, both in logarithms, a line a method along its settings; as in the report. Axes, grid and
-//! zoom are `egui_plot`'s; what stands in it is painted here, with the report's own signs.
+//! The plot: cost across, error up, both in logarithms, a line a method along its settings; as in the report. Axes,
+//! grid and zoom are `egui_plot`'s; what stands in it is painted here, with the report's own signs.
 
 use super::{
     axis::{self, short},
@@ -15,8 +15,8 @@ use crate::{
 use egui::{Color32, CursorIcon, Painter, Pos2, Rangef, Rect, RichText, Shape, Stroke, Ui, vec2};
 use egui_plot::{AxisHints, Plot, PlotPoint, PlotTransform};
 
-/// Colours that are told apart by people who see fewer (Okabe and Ito 2008), lightened for a dark ground, and further ones
-/// that differ in brightness. In the order of the report's.
+/// Colours that are told apart by people who see fewer (Okabe and Ito 2008), lightened for a dark ground, and further
+/// ones that differ in brightness. In the order of the report's.
 const COLOURS: [Color32; report::COLOURS] = [
     Color32::from_rgb(70, 160, 235),
     Color32::from_rgb(240, 120, 50),
@@ -37,7 +37,7 @@ const GRID: Color32 = Color32::from_rgb(92, 99, 114);
 /// How near the pointer has to be to a point, in points of the screen.
 const REACH: f32 = 13.0;
 
-/// What the panel knows besides.
+/// Holds what the panel knows besides.
 pub struct View<'a> {
     pub opened: Option<&'a Point>,
     /// A method that is shown up.
@@ -124,7 +124,7 @@ pub fn show(ui: &mut Ui, shown: &Shown, view: &View<'_>, out: &mut Outbox) -> Op
     response.response.clicked().then_some(row)
 }
 
-/// What points are drawn with.
+/// Holds what points are drawn with.
 struct Pen<'a> {
     painter: &'a Painter,
     transform: &'a PlotTransform,
@@ -137,8 +137,8 @@ impl Pen<'_> {
         self.transform.position_from_point(&PlotPoint::new(x, y))
     }
 
-    /// The frontier, wide and dark, and over it the methods. Piece by piece: where a line turns sharply, the corners of one path
-    /// would grow into wedges.
+    /// The frontier, wide and dark, and over it the methods. Piece by piece: where a line turns sharply, the corners of
+    /// one path would grow into wedges.
     fn lines(&self) {
         let pieces = |line: &[[f64; 2]], stroke: Stroke| {
             for ends in line.windows(2) {

@@ -21,12 +21,12 @@ impl Moment {
     }
 }
 
-/// What stands in the ball's way. The ball is a point; whatever it meets is as much larger as the ball is.
+/// Holds what stands in the ball's way. The ball is a point; whatever it meets is as much larger as the ball is.
 #[derive(Clone, Debug)]
 pub struct Billiard {
     pub low: [i64; 2],
     pub high: [i64; 2],
-    /// Centres, and the half size of all. Of two that are met at once the first counts.
+    /// Centres, and the half size of all. The first of two that are met at once counts.
     pub bricks: Vec<[i64; 2]>,
     pub half: [i64; 2],
     pub at: [i64; 2],
@@ -128,7 +128,7 @@ mod tests {
         Billiard { low: [3, 5], high: [100, 77], bricks: Vec::new(), half: [6, 4], at, way }
     }
 
-    /// Where a straight path is in a plane tiled with mirrored fields.
+    /// Returns where a straight path is in a plane tiled with mirrored fields.
     fn folded(along: i64, low: i64, high: i64) -> i64 {
         let length = high - low;
         high - (length - (along - low).rem_euclid(2 * length)).abs()

@@ -1,9 +1,10 @@
 //! The lid-driven cavity of side 1 whose lid has speed 1: what others found.
 //!
-//! Tables of U. Ghia, K. Ghia and C. Shin, J. Comput. Phys. 48 (1982), on 129 x 129 points, which differ from high-order methods by up
-//! to .0063 in u and .0185 in v at Re = 1000: agreement beyond 1 % (u) and 2 % (v) says nothing. So methods are ranked by the extrema of
-//! high-order methods: of O. Botella and R. Peyret, Comput. Fluids 27 (1998), for Re = 1000, and of C. Marchi, R. Suero and L. Araki,
-//! J. Braz. Soc. Mech. Sci. Eng. 31 (2009), for Re = 100.
+//! Tables of U. Ghia, K. Ghia and C. Shin, J. Comput. Phys. 48 (1982), on 129 x 129 points, which differ from
+//! high-order methods by up to .0063 in u and .0185 in v at Re = 1000: agreement beyond 1 % (u) and 2 % (v) says
+//! nothing. So methods are ranked by the extrema of high-order methods: of O. Botella and R. Peyret, Comput. Fluids 27
+//! (1998), for Re = 1000, and of C. Marchi, R. Suero and L. Araki, J. Braz. Soc. Mech. Sci. Eng. 31 (2009), for Re =
+//! 100.
 
 /// Reynolds numbers of the tables, in the order of their columns.
 pub const REYNOLDS: [f64; 3] = [100.0, 400.0, 1000.0];
@@ -46,8 +47,8 @@ pub const V: [(f64, [f64; 3]); 15] = [
     (0.0625, [0.09233, 0.1836, 0.27485]),
 ];
 
-/// (x, Reynolds number) of the entry of [`V`] that is a misprint, -.23827: it lies between -.44993 and -.22847, where independent
-/// solvers find -.38. It is told and not scored.
+/// (x, Reynolds number) of the entry of [`V`] that is a misprint, -.23827: it lies between -.44993 and -.22847, where
+/// independent solvers find -.38. It is told and not scored.
 pub const SUSPECT: (f64, f64) = (0.9063, 400.0);
 
 /// y, and u at x = 1/2, for Re = 1000 by a high-order method.

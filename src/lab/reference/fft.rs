@@ -30,7 +30,7 @@ impl Fft {
         Fft { n, turns: (0..n / 2).map(|k| Complex { re: angle(k).cos(), im: angle(k).sin() }).collect() }
     }
 
-    /// Of real values.
+    /// Transforms real values.
     pub fn forward(&self, values: &[f64]) -> Vec<Complex> {
         let mut all: Vec<Complex> = values.iter().map(|&re| Complex { re, im: 0.0 }).collect();
         self.both(&mut all, false);

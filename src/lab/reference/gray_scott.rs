@@ -14,8 +14,8 @@ pub fn rest() -> [f64; 2] {
     [u, FEED * (1.0 - u) / (FEED + KILL)]
 }
 
-/// Growth of a wave about [`rest`] whose Laplacian is -`laplacian` times itself, and the direction (u, v) that grows so: the
-/// larger eigenvalue of the linear form, where it is real.
+/// Growth of a wave about [`rest`] whose Laplacian is -`laplacian` times itself, and the direction (u, v) that grows
+/// so: the larger eigenvalue of the linear form, where it is real.
 pub fn growth(laplacian: f64) -> (f64, [f64; 2]) {
     let [u, v] = rest();
     let (a, b) = (-v * v - FEED - DIFFUSION[0] * laplacian, -2.0 * u * v);
@@ -43,8 +43,8 @@ pub fn seeded(n: usize) -> [Vec<f64>; 2] {
     [v.iter().map(|v| 1.0 - v).collect(), v.iter().map(|v| 0.5 * v).collect()]
 }
 
-/// The pattern after `time` by `steps` steps of Strang's splitting: half a step of the reaction by the classical Runge-Kutta
-/// method, the diffusion exactly by Fourier transform, half a step of the reaction.
+/// The pattern after `time` by `steps` steps of Strang's splitting: half a step of the reaction by the classical
+/// Runge-Kutta method, the diffusion exactly by Fourier transform, half a step of the reaction.
 pub fn pattern(n: usize, time: f64, steps: u32) -> [Vec<f64>; 2] {
     let fft = Fft::new(n);
     let dt = time / f64::from(steps);

@@ -1,7 +1,7 @@
 //! Linear theory of Guay's fluid at rest: what a small wave does in a step.
 
-/// The largest modulus of the amplification of a wave (kx, ky) by a step of the one-pass fluid on a collocated grid. With
-/// s = sin^2 kx + sin^2 ky and d = 4 nu dt (sin^2 kx/2 + sin^2 ky/2), velocity along the wave and density follow
+/// The largest modulus of the amplification of a wave (kx, ky) by a step of the one-pass fluid on a collocated grid.
+/// With s = sin^2 kx + sin^2 ky and d = 4 nu dt (sin^2 kx/2 + sin^2 ky/2), velocity along the wave and density follow
 /// lambda^2 - (2 - d) lambda + 1 - d + K dt s = 0.
 pub fn one_pass_growth(dt: f64, nu: f64, stiffness: f64, kx: f64, ky: f64) -> f64 {
     let s = kx.sin().powi(2) + ky.sin().powi(2);

@@ -1,4 +1,4 @@
-//! What is true: closed forms and f64 solvers, written independently of any GLSL.
+//! Holds what is true: closed forms and f64 solvers, written independently of any GLSL.
 //!
 //! Fields are n x n values, row 0 first; texel (x, y) is the point (x + 1/2, y + 1/2).
 
@@ -22,8 +22,8 @@ pub fn sampled(n: usize, f: impl Fn(f64, f64) -> f64) -> Vec<f64> {
     (0..n * n).map(|i| f((i % n) as f64 + 0.5, (i / n) as f64 + 0.5)).collect()
 }
 
-/// A Gaussian of peak 1 and standard deviation `start`, in the middle of a torus of n x n, after its variance has become
-/// `variance`: by the heat kernel, the sum over its images of start^2 / variance exp(-r^2 / (2 variance)).
+/// A Gaussian of peak 1 and standard deviation `start`, in the middle of a torus of n x n, after its variance has
+/// become `variance`: by the heat kernel, the sum over its images of start^2 / variance exp(-r^2 / (2 variance)).
 pub fn gaussian_on_torus(n: usize, start: f64, variance: f64) -> Vec<f64> {
     let side = n as f64;
     let line: Vec<f64> = (0..n)
@@ -42,7 +42,8 @@ pub fn gaussian_spot(n: usize, sigma: f64, (x0, y0): (f64, f64)) -> Vec<f64> {
     sampled(n, |x, y| (-0.5 * ((x / side - x0).powi(2) + (y / side - y0).powi(2)) / (sigma * sigma)).exp())
 }
 
-/// Zalesak's disk: radius .15 about (.5, .75), with a slot .05 wide and .25 deep from below (J. Comput. Phys. 31, 1979).
+/// Zalesak's disk: radius .15 about (.5, .75), with a slot .05 wide and .25 deep from below (J. Comput. Phys. 31,
+/// 1979).
 pub fn zalesak_disk(n: usize) -> Vec<f64> {
     let side = n as f64;
     sampled(n, |x, y| {

@@ -1,4 +1,4 @@
-//! Where a particle is: a flight with drag and an orbit, in closed form.
+//! Says where a particle is: a flight with drag and an orbit, in closed form.
 
 /// Place and velocity: x, y, u, v.
 pub type Particle = [f64; 4];

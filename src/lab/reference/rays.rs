@@ -23,8 +23,8 @@ pub fn unit(a: V) -> V {
     a.map(|x| x / dot(a, a).sqrt())
 }
 
-/// The part of the cosine-weighted sky over a surface that is hidden: the mean over `side` x `side` stratified rays of `falloff` at
-/// the distance at which `hit` says that a ray meets something.
+/// The part of the cosine-weighted sky over a surface that is hidden: the mean over `side` x `side` stratified rays of
+/// `falloff` at the distance at which `hit` says that a ray meets something.
 pub fn hidden(from: V, normal: V, side: u32, hit: impl Fn(V, V) -> Option<f64>, falloff: impl Fn(f64) -> f64) -> f64 {
     let along = unit(cross(if normal[1].abs() < 0.9 { [0.0, 1.0, 0.0] } else { [1.0, 0.0, 0.0] }, normal));
     let across = cross(normal, along);
@@ -45,19 +45,19 @@ pub fn hidden(from: V, normal: V, side: u32, hit: impl Fn(V, V) -> Option<f64>, 
     sum / f64::from(side * side)
 }
 
-/// What a wall without ends, of a height and a distance, hides of a floor's cosine-weighted sky: (1 - cos t) / 2, t = atan(height /
-/// distance).
+/// Returns what a wall without ends, of a height and a distance, hides of a floor's cosine-weighted sky: (1 - cos t) /
+/// 2, t = atan(height / distance).
 pub fn behind_wall(height: f64, distance: f64) -> f64 {
     0.5 * (1.0 - (height / distance).atan().cos())
 }
 
-/// What a sphere hides of a floor's cosine-weighted sky, where its middle is `height` above the floor, at least a radius, and
-/// `beside` to the side: R^2 h / (r^2 + h^2)^(3/2).
+/// Returns what a sphere hides of a floor's cosine-weighted sky, where its middle is `height` above the floor, at least
+/// a radius, and `beside` to the side: R^2 h / (r^2 + h^2)^(3/2).
 pub fn under_sphere(radius: f64, height: f64, beside: f64) -> f64 {
     radius * radius * height / (beside * beside + height * height).powf(1.5)
 }
 
-/// Where a ray of length 1 meets a sphere first.
+/// Returns where a ray of length 1 meets a sphere first.
 pub fn meets_sphere(centre: V, radius: f64, from: V, ray: V) -> Option<f64> {
     let q = add(from, centre, -1.0);
     let (b, c) = (dot(q, ray), dot(q, q) - radius * radius);
@@ -75,7 +75,7 @@ pub struct Errors {
 }
 
 impl Errors {
-    /// Of what is measured less what is expected.
+    /// Sums up what is measured less what is expected.
     pub fn of(pairs: impl Iterator<Item = (f64, f64)>) -> Errors {
         let (mut square, mut sum, mut most, mut count) = (0.0, 0.0, 0.0f64, 0);
         for (measured, expected) in pairs {
@@ -106,12 +106,12 @@ pub struct Meshes {
 struct Node {
     low: V,
     high: V,
-    /// Of a leaf its triangles; of a fork the second child, the first being the next node.
+    /// A leaf holds its triangles; a fork holds its second child, the first being the next node.
     content: Result<std::ops::Range<usize>, usize>,
 }
 
 impl Meshes {
-    /// What a geometry pass draws, in the world. The meshes are builtin ones.
+    /// Returns what a geometry pass draws, in the world. The meshes are builtin ones.
     pub fn of(draws: &[MeshDraw]) -> Result<Meshes, MeshError> {
         let mut triangles = Vec::new();
         for draw in draws {

@@ -59,7 +59,7 @@ impl Placed {
         (0..3).fold([0.0; 3], |sum, i| along(sum, self.axes[i], own[i]))
     }
 
-    /// Where the ray from + t d, d of any length, is inside: pairs of t, rising, those before the eye left out.
+    /// Returns where the ray from + t d, d of any length, is inside: pairs of t, rising, those before the eye left out.
     pub fn spans(&self, from: V, d: V) -> Vec<(f64, f64)> {
         let (o, d) = (self.own(along(from, self.centre, -1.0)), self.own(d));
         let mut spans = match self.shape {
@@ -114,7 +114,7 @@ pub fn first_hit(shapes: &[Placed], from: V, d: V) -> Option<(f64, usize)> {
     hits.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// Whether nothing is between the eye and a point of a line.
+/// Returns whether nothing is between the eye and a point of a line.
 pub fn is_seen(shapes: &[Placed], eye: V, point: LinePoint) -> bool {
     // A hair beside the surface, so that the shape's own rim does not count.
     let to = along(along(point.at, point.out, 1e-4), eye, -1.0);

@@ -1,5 +1,6 @@
-//! Incompressible flow on a torus of side 1 by a pseudo-spectral method: vorticity in Fourier space, products at the points, the upper
-//! third of the waves cut (S. Orszag, J. Atmos. Sci. 28, 1971), viscosity exactly, the classical Runge-Kutta method in time.
+//! Incompressible flow on a torus of side 1 by a pseudo-spectral method: vorticity in Fourier space, products at the
+//! points, the upper third of the waves cut (S. Orszag, J. Atmos. Sci. 28, 1971), viscosity exactly, the classical
+//! Runge-Kutta method in time.
 
 use super::fft::{Complex, Fft};
 use std::f64::consts::TAU;
@@ -12,7 +13,8 @@ pub struct Spectral {
 }
 
 impl Spectral {
-    /// From a velocity of x and y, sampled at the middles of n x n cells. What it has of divergence and of mean is left out.
+    /// From a velocity of x and y, sampled at the middles of n x n cells. What it has of divergence and of mean is left
+    /// out.
     ///
     /// # Panics
     /// If `n` is no power of two.
@@ -125,8 +127,8 @@ impl Spectral {
         0.5 * self.vorticity.iter().enumerate().map(of).sum::<f64>() / (self.n as f64).powi(4)
     }
 
-    /// u at one place of each of m x m cells and v at another, as parts of a cell from its lower left corner: all of u, then all
-    /// of v.
+    /// u at one place of each of m x m cells and v at another, as parts of a cell from its lower left corner: all of u,
+    /// then all of v.
     ///
     /// # Panics
     /// If `m` does not divide n.
@@ -146,9 +148,9 @@ impl Spectral {
     }
 }
 
-/// The vortex of Lamb and Oseen in the middle of a torus of side 1, of circulation 1: w = exp(-r^2 / c^2) / (pi c^2) with c^2 = 4 nu t.
-/// Its images leave it round where the side is many times `core`, which is c. Its greatest speed is .63817 / (2 pi c), at
-/// r = 1.12091 c.
+/// The vortex of Lamb and Oseen in the middle of a torus of side 1, of circulation 1: w = exp(-r^2 / c^2) / (pi c^2)
+/// with c^2 = 4 nu t. Its images leave it round where the side is many times `core`, which is c. Its greatest speed is
+/// .63817 / (2 pi c), at r = 1.12091 c.
 pub fn lamb_oseen(n: usize, core: f64) -> Spectral {
     let square = core * core;
     let vortex =
@@ -156,7 +158,8 @@ pub fn lamb_oseen(n: usize, core: f64) -> Spectral {
     Spectral::of_vorticity(n, vortex)
 }
 
-/// Two shear layers that roll up, on a torus of side 1 (D. Brown, M. Minion, J. Comput. Phys. 122, 1995), of thickness 1 / `rho`.
+/// Two shear layers that roll up, on a torus of side 1 (D. Brown, M. Minion, J. Comput. Phys. 122, 1995), of thickness
+/// 1 / `rho`.
 pub fn shear_layers(rho: f64, x: f64, y: f64) -> [f64; 2] {
     let from_layer = if y < 0.5 { y - 0.25 } else { 0.75 - y };
     [(rho * from_layer).tanh(), 0.05 * (TAU * x).sin()]
@@ -171,7 +174,8 @@ mod tests {
         (a.iter().zip(b).map(|(a, b)| square(a - b)).sum::<f64>() / b.iter().copied().map(square).sum::<f64>()).sqrt()
     }
 
-    /// In a wind along neither axis an error of a sign or of a shift would show; the mean is left out, so the wind is a wave.
+    /// In a wind along neither axis an error of a sign or of a shift would show; the mean is left out, so the wind is a
+    /// wave.
     #[test]
     fn eddies_decay_exactly_and_are_read_where_they_are_asked_for() {
         let vortex = |x: f64, y: f64| [(TAU * x).sin() * (TAU * y).cos(), -(TAU * x).cos() * (TAU * y).sin()];

@@ -19,7 +19,7 @@ pub struct Star {
 }
 
 impl Star {
-    /// Where the disc's middle is, in pixels from the canvas's.
+    /// Returns where the disc's middle is, in pixels from the canvas's.
     fn disc(frame: u32) -> [f64; 2] {
         [-60.0 + SPEED * f64::from(frame), -20.0]
     }

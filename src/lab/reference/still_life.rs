@@ -1,10 +1,11 @@
-//! The still life of the presets with a G-buffer, as distances in f64: what rays meet there, and where the camera sees it.
+//! The still life of the presets with a G-buffer, as distances in f64: what rays meet there, and where the camera sees
+//! it.
 //!
 //! Sizes and places are those that the scene's description gives; nothing is read from the G-buffer.
 
 use super::rays::{V, add, cross, dot, unit};
 
-/// What a ray met, as the G-buffer numbers it.
+/// Says what a ray met, as the G-buffer numbers it.
 pub const TABLE: u32 = 1;
 pub const DIE: u32 = 3;
 
@@ -104,7 +105,8 @@ impl View {
         unit(add(add(self.right.map(|v| v * q[0]), self.up, q[1]), self.back, -1.0))
     }
 
-    /// Where a point before the camera is seen, in pixels; `None` beyond the picture's edge or behind the camera.
+    /// Returns where a point before the camera is seen, in pixels; `None` beyond the picture's edge or behind the
+    /// camera.
     pub fn pixel(&self, point: V) -> Option<[f64; 2]> {
         let d = add(point, self.eye, -1.0);
         let depth = -dot(d, self.back);
@@ -115,7 +117,7 @@ impl View {
         (depth > 0.0 && (0..2).all(|i| at[i] >= 0.0 && at[i] < self.size[i])).then_some(at)
     }
 
-    /// Whether nothing is between the camera and a point on a surface.
+    /// Returns whether nothing is between the camera and a point on a surface.
     pub fn sees(&self, point: V) -> bool {
         let d = add(point, self.eye, -1.0);
         let distance = dot(d, d).sqrt();

@@ -29,7 +29,7 @@ pub struct Marks {
     pub others: Vec<f64>,
 }
 
-/// Of an axis of whole decades from `low` to `high`.
+/// Returns the marks of an axis of whole decades from `low` to `high`.
 pub fn marks((low, high): (f64, f64)) -> Marks {
     let [first, last] = [low, high].map(|v| v.log10().round() as i32);
     let count = usize::try_from(last - first).unwrap_or(0);
@@ -51,7 +51,7 @@ pub fn marks((low, high): (f64, f64)) -> Marks {
     marks
 }
 
-/// What stands at a line: 1 to 9 times a power of ten as people write it.
+/// Returns what stands at a line: 1 to 9 times a power of ten as people write it.
 pub fn label(value: f64) -> String {
     // Not a little less than a power for one that is rounded.
     let power = (value.log10() + 1e-9).floor();

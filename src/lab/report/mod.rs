@@ -1,4 +1,4 @@
-//! What was measured, for people: a CSV and a plot a study, and one page of all.
+//! Writes what was measured, for people: a CSV and a plot a study, and one page of all.
 
 mod axis;
 mod csv;
@@ -11,7 +11,8 @@ pub use axis::{decades, tick};
 use std::{fs, path::Path};
 pub use table::{COLOURS, Look, Row, TARGET, Table, sign};
 
-/// Writes `index.html` and, of each study with any result, `NAME.csv`, `NAME.svg` and `NAME.png`. Gives the names of the files.
+/// Writes `index.html` and, of each study with any result, `NAME.csv`, `NAME.svg` and `NAME.png`. Gives the names of
+/// the files.
 pub fn write(out: &Path, studies: &[&dyn Study], results: &Results) -> Result<Vec<String>, LabError> {
     fs::create_dir_all(out).map_err(LabError::io("make", out))?;
     let mut written = Vec::new();

@@ -18,7 +18,8 @@ const HEIGHT: u32 = 720;
 const LEGEND: u32 = 380;
 const FONT: &str = "sans-serif";
 
-/// Colours that are told apart by people who see fewer (Okabe and Ito 2008), and further ones that differ in brightness.
+/// Colours that are told apart by people who see fewer (Okabe and Ito 2008), and further ones that differ in
+/// brightness.
 const COLOURS: [RGBColor; super::COLOURS] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
@@ -176,15 +177,15 @@ fn corners(n: usize) -> Vec<(i32, i32)> {
 }
 
 const LEGEND_TOP: i32 = 62;
-/// Of what the legend says below the methods.
+/// The height of what the legend says below the methods.
 const LEGEND_FOOT: i32 = 205;
 
-/// Of a method in the legend, with its settings below it where there are several.
+/// Returns the height of a method in the legend, with its settings below it where there are several.
 fn entry_height(settings: usize) -> i32 {
     if settings > 1 { 38 } else { 27 }
 }
 
-/// Of the whole plot.
+/// Returns the height of the whole plot.
 fn height(table: &Table) -> u32 {
     let entries: i32 = table.methods().into_iter().map(|m| entry_height(table.of(m).count())).sum();
     HEIGHT.max((LEGEND_TOP + entries + LEGEND_FOOT) as u32)

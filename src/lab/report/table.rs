@@ -88,7 +88,7 @@ pub fn sign(n: usize) -> Vec<[f64; 2]> {
     (0..=count).map(corner).collect()
 }
 
-/// What a method comes to on several grids.
+/// Holds what a method comes to on several grids.
 #[derive(Clone, Debug)]
 pub struct Convergence {
     pub method: &'static Method,
@@ -202,8 +202,8 @@ impl Table {
         self.convergence.iter().find(|c| c.method.name == method.name).map(|c| c.order)
     }
 
-    /// Milliseconds until a method that passes its hard cases has an error of 1 %: between its settings, interpolated in the
-    /// logarithms.
+    /// Milliseconds until a method that passes its hard cases has an error of 1 %: between its settings, interpolated
+    /// in the logarithms.
     pub fn millis_to_target(&self, method: &Method) -> Option<f64> {
         let places: Vec<(f64, f64)> = self.of(method).filter(|r| r.passes()).filter_map(Row::place).collect();
         first_reach(&places, TARGET)
@@ -223,8 +223,8 @@ impl Table {
         first_reach(&self.of(method).filter_map(Row::place).collect::<Vec<_>>(), TARGET)
     }
 
-    /// The study's [`Race`] in a sentence: `None` where it has none, or its costs are not known. Peers are not asked to pass
-    /// their hard cases: it is their best that counts.
+    /// The study's [`Race`] in a sentence: `None` where it has none, or its costs are not known. Peers are not asked to
+    /// pass their hard cases: it is their best that counts.
     pub fn verdict(&self) -> Option<String> {
         let race = self.race?;
         let methods = self.methods();

@@ -1,4 +1,4 @@
-//! What is done to a project: the list of cases, from what it is by itself to what is unlikely.
+//! Lists the cases of what is done to a project, from what it is by itself to what is unlikely.
 
 use super::{
     Subject,
@@ -6,58 +6,13 @@ use super::{
     pairs,
 };
 use crate::{
-    lab::Extent,
+    lab::{Extent, stability_record::Kind},
     project::{Knob, KnobType, KnobValue, KnobValues},
 };
-use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 
 /// Seed of the rows of pairs.
 const SEED: u64 = 20_240_501;
-
-/// Why a case is there.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Kind {
-    /// Defaults, nobody near.
-    Untouched,
-    /// So many cells a step.
-    Courant,
-    /// A slider at an end, all others at their defaults.
-    End,
-    Drag,
-    /// Frames that are long, uneven, or take no time.
-    Step,
-    Resize,
-    /// A texel that is no number.
-    Broken,
-    /// Canvases of odd and extreme sizes.
-    Size,
-    /// Several sliders at their ends.
-    Pairs,
-    /// Larger canvases.
-    Large,
-    /// 100,000 frames.
-    Long,
-}
-
-impl Kind {
-    pub fn title(self) -> &'static str {
-        match self {
-            Kind::Untouched => "left alone",
-            Kind::Courant => "cells a step",
-            Kind::End => "a slider at an end",
-            Kind::Drag => "the mouse",
-            Kind::Step => "time steps",
-            Kind::Resize => "resize",
-            Kind::Broken => "a texel that is no number",
-            Kind::Size => "odd sizes",
-            Kind::Pairs => "pairs of sliders at their ends",
-            Kind::Large => "large canvases",
-            Kind::Long => "100,000 frames",
-        }
-    }
-}
 
 /// One thing that is done.
 #[derive(Clone, Debug)]
@@ -103,7 +58,7 @@ impl Case {
         self
     }
 
-    /// Whether texels are looked at after this frame.
+    /// Returns whether texels are looked at after this frame.
     pub fn is_checked(&self, frame: u32) -> bool {
         let is_near = self.disturbed.is_some_and(|(from, to)| (from..to + 2).contains(&frame));
         is_near || (frame + 1).is_multiple_of(self.every) || frame + 1 == self.frames
@@ -218,7 +173,8 @@ pub fn list(subject: &Subject, extent: Extent, base: (u32, u32)) -> Vec<Case> {
     cases
 }
 
-/// Of the pairs of ends of a project's sliders those that the drawn cases have among what they turn, and how many there are.
+/// Counts the pairs of ends of a project's sliders: those that the drawn cases have among what they turn, and all there
+/// are.
 pub fn coverage(subject: &Subject, drawn: &[Case]) -> (usize, usize) {
     let sliders = subject.sliders();
     let row = |case: &Case| -> Vec<pairs::End> {

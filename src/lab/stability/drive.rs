@@ -5,12 +5,14 @@ use super::{
     Case, Subject,
     check::{self, Allowed, Area, Check, Found, HARD_LIMIT, Situation},
     inputs::Inputs,
-    record::{Offence, Outcome, Recovery, StabilityRecord},
 };
 use crate::{
     engine::{BuildOptions, Engine, Pixels, Program},
     gpu::Gpu,
-    lab::{LabError, Number},
+    lab::{
+        LabError, Number,
+        stability_record::{Offence, Outcome, Recovery, StabilityRecord},
+    },
     project::PassId,
 };
 use std::collections::BTreeMap;
@@ -250,7 +252,7 @@ fn look(check: &Check, pixels: &Pixels, situation: &Situation) -> Looked {
     Looked { found, allowed, offence: found.worst, is_left: found.worst.is_some() && (!is_excused || is_wild) }
 }
 
-/// What the checked frames of a run came to.
+/// Holds what the checked frames of a run came to.
 #[derive(Default)]
 struct Seen {
     extremes: Vec<(f64, f64)>,

@@ -1,11 +1,12 @@
-//! What the hand and the clock do in a case, frame by frame. Nothing here is random: the same case has the same inputs.
+//! Says what the hand and the clock do in a case, frame by frame. Nothing here is random: the same case has the same
+//! inputs.
 
 use crate::engine::FrameInputs;
 
-/// Of the usual step.
+/// The rate of the usual step.
 const FRAMES_A_SECOND: f64 = 60.0;
 
-/// What the mouse does while a disturbance lasts. It is pressed in the first frame of it and released in the first
+/// Says what the mouse does while a disturbance lasts. It is pressed in the first frame of it and released in the first
 /// frame after.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Hand {
@@ -28,8 +29,8 @@ impl Hand {
         (Hand::Across, "drag across the whole picture in a frame"),
     ];
 
-    /// Where the mouse is `t` frames after the press of a drag of so many frames, in whole canvas pixels from the
-    /// bottom left.
+    /// Returns where the mouse is `t` frames after the press of a drag of so many frames, in whole canvas pixels from
+    /// the bottom left.
     fn at(self, t: u32, frames: u32, size: (u32, u32)) -> [f32; 2] {
         let (w, h) = (f64::from(size.0), f64::from(size.1));
         let part = f64::from(t) / f64::from(frames.max(1));
@@ -103,7 +104,7 @@ impl Inputs {
         Inputs { hand, steps, disturbed, frame: 0, seconds: 0.0, mouse: [0.0, 0.0, -0.0, -0.0], drag: [0.0; 2] }
     }
 
-    /// Of the next frame, on a canvas of this size.
+    /// Returns the inputs of the next frame, on a canvas of this size.
     pub fn next(&mut self, size: (u32, u32)) -> FrameInputs {
         let since = self.disturbed.filter(|(from, to)| (*from..*to).contains(&self.frame));
         let t = since.map(|(from, _)| self.frame - from);

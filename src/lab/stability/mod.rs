@@ -14,14 +14,13 @@ mod drive;
 mod inputs;
 pub mod pairs;
 pub mod presets;
-mod record;
 mod report;
 pub mod run;
 mod subject;
 
-pub use cases::{Case, Kind};
+pub use crate::lab::stability_record::{Kind, Offence, Outcome, Recovery, StabilityRecord};
+pub use cases::Case;
 pub use check::{Allowed, Area, Check, Found, Quantity, Situation};
 pub use drive::Driver;
-pub use record::{Offence, Outcome, Recovery, StabilityRecord};
 pub use report::{table, write};
 pub use subject::{ANY_BOUND, BoundArgument, Subject};

@@ -31,7 +31,7 @@ pub fn covered(row: &[End]) -> impl Iterator<Item = Pair> + '_ {
 }
 
 /// Rows that together cover every pair of ends, each of at most `most` sliders (two at least) in rising order. The same
-/// seed gives the same rows. Of one slider its two ends, of none nothing.
+/// seed gives the same rows. One slider gives its two ends, none gives nothing.
 pub fn rows(count: usize, most: usize, seed: u64) -> Vec<Vec<End>> {
     if count == 1 {
         return vec![vec![(0, false)], vec![(0, true)]];

@@ -1,7 +1,10 @@
-//! What came of the cases, for people: a table for the terminal, a CSV, a page.
+//! Writes what came of the cases, for people: a table for the terminal, a CSV, a page.
 
-use super::{Kind, Outcome, Recovery, StabilityRecord, Subject, check::Rule, record::short};
-use crate::lab::{Extent, LabError, Results};
+use super::{Subject, check::Rule};
+use crate::lab::{
+    Extent, LabError, Results,
+    stability_record::{Kind, Outcome, Recovery, StabilityRecord, short},
+};
 use std::{collections::BTreeMap, fmt::Write, fs, path::Path};
 
 /// A line for each project and kind, then every case that left what it should keep.
@@ -68,7 +71,7 @@ fn told(recovery: Recovery) -> String {
     }
 }
 
-/// What was measured, in words.
+/// Returns what was measured, in words.
 fn what(record: &StabilityRecord) -> String {
     match (&record.trouble, record.offence()) {
         (Some(trouble), _) => trouble.clone(),

@@ -11,7 +11,7 @@ use crate::{
 };
 use std::collections::BTreeSet;
 
-/// What a number of a project that declares nothing may come to: what is larger is no colour, and no state that a
+/// Says what a number of a project that declares nothing may come to: what is larger is no colour, and no state that a
 /// picture needs.
 pub const ANY_BOUND: f64 = 1e4;
 

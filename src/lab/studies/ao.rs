@@ -87,8 +87,8 @@ fn texel(field: &Field, x: u32, y: u32) -> [f64; 4] {
     field.texels()[y as usize * field.width() + x as usize].map(f64::from)
 }
 
-/// The still life. Points are found by rays from the camera; only edges are asked of the G-buffer, where a point may be either
-/// side's.
+/// The still life. Points are found by rays from the camera; only edges are asked of the G-buffer, where a point may be
+/// either side's.
 fn on_the_table(rig: &Rig, setup: &Setup) -> Result<Vec<Occluded>, LabError> {
     let size = setup.size();
     let mut running = rig.open(setup)?;
@@ -141,7 +141,7 @@ fn in_the_room(rig: &Rig, setup: &Setup) -> Result<Vec<Occluded>, LabError> {
     Ok(found.into_iter().flatten().collect())
 }
 
-/// What a method finds in its own scene.
+/// Returns what a method finds in its own scene.
 pub fn occlusion(rig: &Rig, method: &str, samples: f64, size: (u32, u32)) -> Result<Vec<Occluded>, LabError> {
     let setup = setup(method, samples, size);
     if method == "horizons" { on_the_table(rig, &setup) } else { in_the_room(rig, &setup) }

@@ -8,7 +8,8 @@ use crate::lab::{
 
 pub struct Bloom;
 
-/// Texels of the canvas that a texel of the widest level stands for: a pyramid of five levels repeats its phases so often.
+/// Texels of the canvas that a texel of the widest level stands for: a pyramid of five levels repeats its phases so
+/// often.
 pub const PERIOD: u32 = 32;
 
 /// Pictures that are compared texel by texel: two of each column of phases.
@@ -24,7 +25,8 @@ const METHODS: &[Method] = &[
     Method { name: "tent-pyramid", title: "13 reads down, tent up", settings: LEVELS, usual: 4.0 },
 ];
 
-/// The picture of the light that is spread, without what stays sharp and before any curve, of a method at a setting and a size.
+/// The picture of the light that is spread, without what stays sharp and before any curve, of a method at a setting and
+/// a size.
 pub fn setup(method: &str, setting: f64, size: (u32, u32)) -> Setup {
     let preset = |name| Setup::new(name, size).wants(&["image"]).knob("strength", 1.0).knob("spread", setting);
     let levels = setting as u32;
@@ -46,7 +48,7 @@ fn ends(setup: &Setup) -> (&'static str, &'static str) {
     if setup.folder() == "blur_pyramid" { ("source", "field") } else { ("a", "image") }
 }
 
-/// What became of a bright texel of 1.
+/// Holds what became of a bright texel of 1.
 #[derive(Clone, Debug)]
 pub struct Spot {
     pub at: [u32; 2],

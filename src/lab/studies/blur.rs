@@ -1,4 +1,5 @@
-//! Blurs against the Gaussian that was asked for: of single texels at many places, which is the whole of a linear filter.
+//! Blurs against the Gaussian that was asked for: of single texels at many places, which is the whole of a linear
+//! filter.
 
 use crate::{
     lab::{
@@ -11,7 +12,7 @@ use std::f64::consts::TAU;
 
 pub struct Blur;
 
-/// What is asked for: the standard deviation of the nine taps.
+/// The blur that is asked for has the standard deviation of the nine taps.
 const SIGMA: f64 = 2.138;
 
 /// Texels between the single bright ones.
@@ -64,7 +65,7 @@ pub(super) fn pyramid(project: &mut Project, levels: u32) {
     project.passes.splice(place..place, passes);
 }
 
-/// Where the single bright texels lie: one in each square of [`SPACING`], at as many phases as there are.
+/// Returns where the single bright texels lie: one in each square of [`SPACING`], at as many phases as there are.
 fn places(n: usize) -> Vec<(usize, usize)> {
     let cells = n / SPACING;
     let middle = SPACING / 2;
@@ -95,7 +96,8 @@ fn exact(n: usize) -> Vec<f64> {
     (0..n * n).map(value).collect()
 }
 
-/// The largest distance from a bright texel to the centroid of what became of it, and the spread of the peaks over their mean.
+/// The largest distance from a bright texel to the centroid of what became of it, and the spread of the peaks over
+/// their mean.
 fn phases(n: usize, field: &[f64]) -> (f64, f64) {
     let (mut worst, mut peaks) = (0.0f64, Vec::new());
     for (px, py) in places(n) {

@@ -60,7 +60,7 @@ fn steps_of(name: &str) -> u32 {
     if name == "overlap" { 1 } else { 16 }
 }
 
-/// Of a step, as the shader has it.
+/// Returns the way of a step, as the shader has it.
 fn peers_way(name: &str, speed: f64) -> [f64; 2] {
     [ANGLE.sin(), ANGLE.cos()].map(|along| f64::from((speed / f64::from(steps_of(name)) * along) as f32))
 }

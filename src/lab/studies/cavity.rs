@@ -46,7 +46,7 @@ pub struct Lines {
 }
 
 impl Lines {
-    /// Of velocities over that of the lid.
+    /// Reads the lines of velocities over that of the lid.
     pub fn of(solver: &Solver, n: usize, velocity: &[f64]) -> Lines {
         let (u, v) = velocity.split_at(n * n);
         let middle = n / 2;

@@ -14,8 +14,9 @@ pub struct Component {
     pub component: char,
 }
 
-/// Adds a V(2,2) cycle that ends in the pass `result` of the project: (p, f). It begins with p of `guess` and f of `source`, which
-/// `result` may be, drawn in the frame before. The passes stand right before `result`. `n` texels a side, a power of two.
+/// Adds a V(2,2) cycle that ends in the pass `result` of the project: (p, f). It begins with p of `guess` and f of
+/// `source`, which `result` may be, drawn in the frame before. The passes stand right before `result`. `n` texels a
+/// side, a power of two.
 ///
 /// # Panics
 /// If the project has no such pass.

@@ -1,4 +1,5 @@
-//! Diffusion of a Gaussian on a torus: how the length of a step, the stencil and the format of a texel show in the error.
+//! Diffusion of a Gaussian on a torus: how the length of a step, the stencil and the format of a texel show in the
+//! error.
 
 use crate::lab::{
     About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,

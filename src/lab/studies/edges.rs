@@ -20,7 +20,8 @@ const METHODS: &[Method] = &[
     Method { name: "laplacian", title: "Laplacian", settings: SENSITIVITIES, usual: 1.0 },
 ];
 
-/// Of the preset's camera: the picture's unit, 0.8 of the width of a square canvas, at distance 1.8 is 1 long.
+/// The preset's camera has this focal length: the picture's unit, 0.8 of the width of a square canvas, at distance 1.8
+/// is 1 long.
 const FOCAL: f64 = 0.8 * 1.8;
 const EYE: V = [0.0; 3];
 /// The floor is seen at 8 to 20 degrees.

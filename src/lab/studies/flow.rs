@@ -1,5 +1,5 @@
-//! Solvers of a flow on a torus or in a box, each a project: set up for a flow in texels and units of time, begun from any velocity,
-//! and read back in the same units.
+//! Solvers of a flow on a torus or in a box, each a project: set up for a flow in texels and units of time, begun from
+//! any velocity, and read back in the same units.
 
 use super::cycle::{self, Component};
 use crate::{
@@ -8,12 +8,12 @@ use crate::{
 };
 use std::f64::consts::TAU;
 
-/// What is to be computed.
+/// Holds what is to be computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Flow {
     /// Texels from edge to edge.
     pub n: u32,
-    /// Of a step.
+    /// The time of a step.
     pub dt: f64,
     /// Texels^2 for a unit of time.
     pub viscosity: f64,
@@ -29,7 +29,7 @@ pub struct Solver {
     kind: Kind,
     /// Texels for a unit of time, of a velocity of 1 of the project.
     scale: f64,
-    /// Of the pressure, where density is what pushes.
+    /// The stiffness of the pressure, where density is what pushes.
     stiffness: f64,
 }
 
@@ -102,7 +102,8 @@ impl Solver {
         self
     }
 
-    /// In a box whose walls hold the fluid and whose upper one moves at `lid` texels for a unit of time. Begins at rest.
+    /// In a box whose walls hold the fluid and whose upper one moves at `lid` texels for a unit of time. Begins at
+    /// rest.
     #[must_use]
     pub fn cavity(self, lid: f64) -> Solver {
         let solver = match self.kind {
@@ -150,13 +151,13 @@ impl Solver {
         (0..2).flat_map(|c| (0..n * n).map(move |i| (c, i))).map(|(c, i)| at(c, i)).collect()
     }
 
-    /// Whether u is on the left faces of texels and v on their lower ones; else both are at the centres.
+    /// Returns whether u is on the left faces of texels and v on their lower ones; else both are at the centres.
     pub fn is_staggered(&self) -> bool {
         self.kind == Kind::Staggered
     }
 
-    /// Begins with a velocity of texel coordinates, and the pressure of unit density that balances it; 0 where it is not known. A
-    /// solver that keeps no pressure takes none.
+    /// Begins with a velocity of texel coordinates, and the pressure of unit density that balances it; 0 where it is
+    /// not known. A solver that keeps no pressure takes none.
     #[must_use]
     pub fn begin(self, velocity: impl Fn(f64, f64) -> [f64; 2], pressure: impl Fn(f64, f64) -> f64) -> Solver {
         let (both, pressures) = (self.sampled(velocity), self.at_centres(pressure));
@@ -168,8 +169,8 @@ impl Solver {
         (0..n * n).map(|i| value((i % n) as f64 + 0.5, (i / n) as f64 + 0.5)).collect()
     }
 
-    /// Begins at rest with something in the field that pushes, whichever that is and in its own units: the density less 1, or the
-    /// pressure that is kept from step to step.
+    /// Begins at rest with something in the field that pushes, whichever that is and in its own units: the density less
+    /// 1, or the pressure that is kept from step to step.
     #[must_use]
     pub fn begin_with_pressure(self, pressure: impl Fn(f64, f64) -> f64) -> Solver {
         let Flow { n, dt, .. } = self.flow;
@@ -207,7 +208,8 @@ impl Solver {
         Ok(Some(field))
     }
 
-    /// As [`Solver::begin`], from values where the solver has them: all of u, then all of v; the pressure at the centres.
+    /// As [`Solver::begin`], from values where the solver has them: all of u, then all of v; the pressure at the
+    /// centres.
     #[must_use]
     pub fn begin_from(mut self, velocity: &[f64], pressure: &[f64]) -> Solver {
         let Flow { n, dt, .. } = self.flow;
@@ -272,8 +274,8 @@ impl Solver {
     }
 }
 
-/// The preset, whose unit of length is the height of the canvas and whose grid has half of the canvas's texels each way. The
-/// seconds of a unit of time are as few as the slider of the viscosity allows.
+/// The preset, whose unit of length is the height of the canvas and whose grid has half of the canvas's texels each
+/// way. The seconds of a unit of time are as few as the slider of the viscosity allows.
 fn accurate(flow: Flow) -> Solver {
     let Flow { n, dt, viscosity } = flow;
     let side = f64::from(n);
@@ -303,8 +305,8 @@ fn mips(flow: Flow) -> Solver {
     Solver { setup, steps: 1, flow, kind: Kind::Mips, scale: side * seconds, stiffness: STIFFNESS }
 }
 
-/// D2Q9 in the order rest, axes, corners, less their weights, of a density less 1 and a velocity in texels a step (Qian,
-/// d'Humieres and Lallemand 1992).
+/// D2Q9 in the order rest, axes, corners, less their weights, of a density less 1 and a velocity in texels a step
+/// (Qian, d'Humieres and Lallemand 1992).
 fn equilibrium(density: f64, u: f64, v: f64) -> [f64; 9] {
     const X: [f64; 9] = [0.0, 1.0, 0.0, -1.0, 0.0, 1.0, -1.0, -1.0, 1.0];
     const Y: [f64; 9] = [0.0, 0.0, 1.0, 0.0, -1.0, 1.0, 1.0, -1.0, -1.0];
@@ -337,8 +339,8 @@ fn lattice_velocity(running: &mut Running, dt: f64) -> Result<Vec<f64>, LabError
     Ok((1..3).flat_map(|c| all.iter().map(move |m| m[c] / m[0] / dt)).collect())
 }
 
-/// Root mean square of the divergence, in units of `speed` over a texel: of faces where those are what there is, else by central
-/// differences.
+/// Root mean square of the divergence, in units of `speed` over a texel: of faces where those are what there is, else
+/// by central differences.
 pub fn divergence(solver: &Solver, velocity: &[f64], speed: f64) -> f64 {
     let n = solver.flow.n as usize;
     let at = |c: usize, x: usize, y: usize| velocity[c * n * n + (y % n) * n + x % n];

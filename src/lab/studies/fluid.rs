@@ -39,10 +39,11 @@ const METHODS: &[Method] = &[
     Method { name: "mip-fluid", title: "the preset mip-fluid", settings: &[0.3, 0.6, 1.2, 2.4, 4.8], usual: 0.6 },
 ];
 
-/// Of a quick run and a full one.
+/// The grids of a quick run and a full one.
 const MAIN_GRIDS: [u32; 2] = [64, 128];
 
-/// Grid of the hard cases; and of those with a step so long that on a smaller one it is beyond the slider of the presets.
+/// Grid of the hard cases; and of those with a step so long that on a smaller one it is beyond the slider of the
+/// presets.
 const HARD_GRID: u32 = 32;
 const HARD_GRID_OF_LONG_STEPS: u32 = 64;
 const LONG_STEP: f64 = 1.2;
@@ -63,7 +64,7 @@ pub struct Begin {
 }
 
 impl Begin {
-    /// Of the study's plot.
+    /// The beginning for the study's plot.
     pub const USUAL: Begin = Begin { speed: SPEED, noise: 0.0, viscosity: NU };
 }
 

@@ -44,8 +44,8 @@ fn method(name: &str, size: (u32, u32), dt: f64) -> Setup {
     }
 }
 
-/// Growth of the wave that grows almost fastest, for a unit of time: measured, of theory in steps of the method, and of the
-/// continuum. Begins with 1e-4 of the growing direction about the state of rest.
+/// Growth of the wave that grows almost fastest, for a unit of time: measured, of theory in steps of the method, and of
+/// the continuum. Begins with 1e-4 of the growing direction about the state of rest.
 pub fn grown(rig: &Rig, name: &str, dt: f64) -> Result<(f64, f64, f64), LabError> {
     let q = TAU * WAVES / f64::from(STRIP);
     let ([u, v], (continuum, [du, dv])) = (rest(), growth(q * q));
@@ -75,7 +75,7 @@ pub fn grown(rig: &Rig, name: &str, dt: f64) -> Result<(f64, f64, f64), LabError
     Ok(((last / first).ln() / span, theory, continuum))
 }
 
-/// Where u comes to rest in a sea without v: 1, unless a texel cannot hold what a step adds.
+/// Returns where u comes to rest in a sea without v: 1, unless a texel cannot hold what a step adds.
 pub fn stalled(rig: &Rig, storage: Storage, feed: f64) -> Result<f64, LabError> {
     let setup = Setup::new("gray_scott_stencil", (8, 8)).define("STENCIL", 5).storage(storage).knob("feed", feed);
     let setup = setup.initial("field", "vec4(0.9, 0.0, 0.0, 1.0)").steps("solver", 50);

@@ -152,7 +152,8 @@ fn setup(name: &str, n: u32, width: f64) -> Setup {
     Setup::new("toon-outline", (n, n)).wants(&["scene"]).built(move |project| staged(project, &method, width))
 }
 
-/// What a method's lines come to: all of them, each thing's, and the sphere's width over the exact one, by areas.
+/// Returns what a method's lines come to: all of them, each thing's, and the sphere's width over the exact one, by
+/// areas.
 pub fn judged(rig: &Rig, name: &str, n: u32, width: f64) -> Result<(Found, [Found; 3], f64), LabError> {
     let field = rig.after(&setup(name, n, width), 1, "scene")?;
     let found: Vec<bool> = field.texels().iter().map(|t| t[0] == 0.0 && t[1] == 1.0 && t[2] == 0.0).collect();

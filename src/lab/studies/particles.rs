@@ -58,7 +58,7 @@ fn peer(name: &str, side: u32, scene: &str, dt: f64) -> Setup {
     setup.knob("dt", dt).knob("gravity", GRAVITY).knob("drag", DRAG).state("field", &begun(side, scene))
 }
 
-/// Where the peers' particles begin.
+/// Returns where the peers' particles begin.
 fn begun(side: u32, scene: &str) -> Vec<[f32; 4]> {
     let start = |n| {
         let [a, b] = scattered(n);
@@ -115,9 +115,8 @@ pub fn flown(rig: &Rig, name: &str, side: u32, dt: f64) -> Result<Norms, LabErro
     Ok(Norms::of(&measured, &exact))
 }
 
-/// What became of the energy in 10,000 steps on orbits, as a part of what there was; the mean of particles that are
-/// evenly spread in
-/// time, so that what an orbit takes and gives back is not counted.
+/// Returns what became of the energy in 10,000 steps on orbits, as a part of what there was; the mean of particles that
+/// are evenly spread in time, so that what an orbit takes and gives back is not counted.
 pub fn energy_drift(rig: &Rig, name: &str, side: u32, dt: f64) -> Result<f64, LabError> {
     let (frames, steps) = frames_of(ORBIT_STEPS, 100);
     let setup = peer(name, side, "ORBIT", dt * 60.0 * TAU / STEPS_A_TURN).steps("solver", steps);

@@ -43,8 +43,8 @@ pub fn solver(method: &str, n: u32, f: &[f64], count: u32) -> (Setup, u32) {
     }
 }
 
-/// p of mean 0 after so many sweeps or cycles. Of the mip sum, whose one weight is arbitrary, the multiple that comes closest
-/// to `exact`.
+/// p of mean 0 after so many sweeps or cycles. The mip sum, whose one weight is arbitrary, is
+/// multiplied so that it comes closest to `exact`.
 pub fn solved(rig: &Rig, method: &str, n: u32, f: &[f64], count: u32, exact: &[f64]) -> Result<Vec<f64>, LabError> {
     let (setup, frames) = solver(method, n, f, count);
     let p = rig.after(&setup, frames, "field")?.component(0);

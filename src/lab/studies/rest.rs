@@ -1,11 +1,13 @@
-//! Single waves in a fluid at rest, whose fate linear theory knows: shear, sound, and the checkerboard that a grid may not see.
+//! Single waves in a fluid at rest, whose fate linear theory knows: shear, sound, and the checkerboard that a grid may
+//! not see.
 
 use super::flow::{Flow, Solver};
 use crate::lab::{LabError, Rig, metrics::checkerboard, reference::linear::one_pass_growth};
 use std::f64::consts::TAU;
 
-/// The amplitude of u = sin(k y), one wave in the box, after `time`, over what its exact decay leaves: 1 - 4 nu dt sin^2(k / 2) a step
-/// of explicit viscosity, its limit for short steps where viscosity is exact on the grid, exp(-nu k^2 t) of a lattice.
+/// The amplitude of u = sin(k y), one wave in the box, after `time`, over what its exact decay leaves: 1 - 4 nu dt
+/// sin^2(k / 2) a step of explicit viscosity, its limit for short steps where viscosity is exact on the grid, exp(-nu
+/// k^2 t) of a lattice.
 pub fn shear_wave(rig: &Rig, name: &str, flow: Flow, time: f64) -> Result<f64, LabError> {
     let Flow { n, dt, viscosity } = flow;
     let k = TAU / f64::from(n);
@@ -25,8 +27,8 @@ pub fn shear_wave(rig: &Rig, name: &str, flow: Flow, time: f64) -> Result<f64, L
     Ok(dot(&velocity, &shape) / dot(&shape, &shape) / exact)
 }
 
-/// What is left of a checkerboard in the pressure or density after so many steps, over what there was. `None` of a method that
-/// keeps neither.
+/// Returns what is left of a checkerboard in the pressure or density after so many steps, over what there was. `None`
+/// of a method that keeps neither.
 pub fn checkerboard_left(rig: &Rig, name: &str, flow: Flow, steps: u32) -> Result<Option<f64>, LabError> {
     let (solver, n) = (Solver::new(name, flow), flow.n as usize);
     let sign = |x: f64, y: f64| if (x.floor() + y.floor()) % 2.0 == 0.0 { 0.01 } else { -0.01 };
@@ -41,8 +43,8 @@ pub fn checkerboard_left(rig: &Rig, name: &str, flow: Flow, steps: u32) -> Resul
     Ok(Some((checkerboard(&after, n) / checkerboard(&before, n)).abs()))
 }
 
-/// The growth of sound of wave number pi / 2 along both axes in the one-pass fluid of a viscosity below K, over that of linear
-/// theory. Logarithms of the factor a step, over so many steps.
+/// The growth of sound of wave number pi / 2 along both axes in the one-pass fluid of a viscosity below K, over that of
+/// linear theory. Logarithms of the factor a step, over so many steps.
 pub fn growth_of_sound(rig: &Rig, flow: Flow, stiffness: f64, steps: u32) -> Result<f64, LabError> {
     let quarter = TAU / 4.0;
     let wave = move |x: f64, y: f64| 1e-4 * (quarter * (x + y)).sin();

@@ -22,16 +22,15 @@ impl Found {
         Norms { l1: 1.0 - self.f1(), l2: 1.0 - self.f1(), linf: worst }
     }
 
-    /// Of regions: which texels are in the one found and in the exact one.
+    /// Compares regions by the texels that are in the one found and in the exact one.
     pub fn of_regions(found: &[bool], exact: &[bool]) -> Found {
         let both = found.iter().zip(exact).filter(|(a, b)| **a && **b).count() as f64;
         let count = |of: &[bool]| of.iter().filter(|x| **x).count() as f64;
         Found { precision: part(both, count(found)), recall: part(both, count(exact)) }
     }
 
-    /// Of lines: texels found, and points of the exact lines in texels; `reach` texels may lie between. What is within
-    /// `border`
-    /// texels of the picture's end is left out.
+    /// Compares lines: texels found, and points of the exact lines in texels; `reach` texels may lie between. What is
+    /// within `border` texels of the picture's end is left out.
     pub fn of_lines(found: &[bool], width: usize, lines: &[[f64; 2]], reach: f64, border: usize) -> Found {
         let height = found.len() / width;
         let is_inside = |x: f64, y: f64| {

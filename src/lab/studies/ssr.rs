@@ -36,10 +36,10 @@ fn setup(method: &str, strides: f64, size: (u32, u32)) -> Setup {
     setup.knob("strides", strides)
 }
 
-/// Where a table's pixel must look, and where it does.
+/// Says where a table's pixel must look, and where it does.
 #[derive(Clone, Copy, Debug)]
 struct Reflection {
-    /// Of the exact ray's end, in pixels; `None` where it meets nothing or what the camera does not see.
+    /// The place of the exact ray's end, in pixels; `None` where it meets nothing or what the camera does not see.
     exact: Option<[f64; 2]>,
     found: Option<[f64; 2]>,
 }
@@ -90,7 +90,7 @@ impl Hits {
     }
 }
 
-/// Where the ray that a table's pixel mirrors ends, if the camera sees that.
+/// Returns where the ray that a table's pixel mirrors ends, if the camera sees that.
 fn mirrored(view: &View, pixel: [f64; 2]) -> Option<Option<[f64; 2]>> {
     let ray = view.ray(pixel);
     let table = add(view.eye, ray, first(view.eye, ray, FAR)?);

@@ -1,5 +1,5 @@
-//! Temporal anti-aliasing against plain supersampling: how much of a resting picture it resolves, what a moving thing leaves
-//! behind, and how much it flickers.
+//! Temporal anti-aliasing against plain supersampling: how much of a resting picture it resolves, what a moving thing
+//! leaves behind, and how much it flickers.
 
 use crate::lab::{
     About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit, flip,
@@ -122,21 +122,21 @@ pub fn rest(rig: &Rig, method: &str, setting: f64) -> Result<Rest, LabError> {
     Ok(Rest { picture: frames.swap_remove(0), flicker: mean(&variances).sqrt() })
 }
 
-/// What a moving disc leaves.
+/// Holds what a moving disc leaves.
 #[derive(Clone, Debug)]
 pub struct Moving {
     /// At frame [`NOW`].
     pub picture: Picture,
-    /// Of the pixels that it left so many frames ago (1, 2 …), what is left of its colour: 1 is all. The mean over a round of the
-    /// jitter, which takes most of the noise.
+    /// The part that is left of its colour in the pixels that it left so many frames ago (1, 2 …): 1 is all. The mean
+    /// over a round of the jitter, which takes most of the noise.
     pub ghost: Vec<f64>,
     /// Mean distance from the truth of what it left within the last six frames.
     pub beside: f64,
 }
 
 impl Moving {
-    /// How long the tail is in pixels: what lies before the first place with less than [`FAINT`] of the disc's colour. At most as
-    /// long as what is looked at.
+    /// How long the tail is in pixels: what lies before the first place with less than [`FAINT`] of the disc's colour.
+    /// At most as long as what is looked at.
     pub fn tail(&self) -> f64 {
         let end = self.ghost.iter().position(|g| g.abs() < FAINT).unwrap_or(self.ghost.len());
         end as f64 * SPEED

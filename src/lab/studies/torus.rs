@@ -42,16 +42,17 @@ const METHODS: &[Method] = &[
     Method { name: "lattice", title: "lattice Boltzmann D2Q9", settings: SHORT_COURANT, usual: 0.05 },
 ];
 
-/// Of the shear layers: one over their thickness, and viscosity.
+/// The parameters of the shear layers: one over their thickness, and viscosity.
 const RHO: f64 = 30.0;
 const VISCOSITY: f64 = 1e-4;
 
-/// Of the vortex: its core at first and at the end as parts of the side, so that the side is 18 times the radius of its greatest
-/// speed at the end; and its circulation, for a greatest speed of 1 at first.
+/// The size of the vortex: its core at first and at the end as parts of the side, so that the side is 18 times the
+/// radius of its greatest speed at the end; and its circulation, for a greatest speed of 1 at first.
 const CORES: [f64; 2] = [0.03, 0.05];
 const CIRCULATION: f64 = TAU * CORES[0] / 0.63817;
 
-/// Waves of the spectral reference, and its steps. With 256 waves and 1,024 steps the energy differs in the seventh digit.
+/// Waves of the spectral reference, and its steps. With 256 waves and 1,024 steps the energy differs in the seventh
+/// digit.
 const WAVES: usize = 128;
 const STEPS: u32 = 192;
 
@@ -126,7 +127,7 @@ impl Torus {
     }
 }
 
-/// Where in a texel a solver has u and v.
+/// Returns where in a texel a solver has u and v.
 fn places(solver: &Solver) -> [(f64, f64); 2] {
     if solver.is_staggered() { [(0.0, 0.5), (0.5, 0.0)] } else { [(0.5, 0.5); 2] }
 }

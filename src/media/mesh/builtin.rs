@@ -1,7 +1,8 @@
 //! Meshes made by code. All stand about the origin and fit into a ball of radius 2, y up; closed ones face outward.
 
 use super::{
-    Mesh, Raw, Vertex, add, finished,
+    finish::finished,
+    model::{Mesh, Raw, Vertex},
     shape::{Grid, lathe, round_profile, tube},
 };
 use glam::{Mat3, Mat4, Vec3};
@@ -47,7 +48,7 @@ fn cube() -> Mesh {
         [Vec3::X, Vec3::NEG_Z, Vec3::Y],
         [Vec3::X, Vec3::Z, Vec3::NEG_Y],
     ] {
-        add(&mut mesh, moved(face.clone(), Mat4::from_mat3(Mat3::from_cols(x, y, z))));
+        mesh.append(moved(face.clone(), Mat4::from_mat3(Mat3::from_cols(x, y, z))));
     }
     mesh
 }
@@ -126,13 +127,13 @@ fn figure() -> Mesh {
     let (coat, skin, dark, brass) = ([0.24, 0.42, 0.72], [0.93, 0.74, 0.58], [0.12, 0.13, 0.16], [0.85, 0.62, 0.22]);
     // Each surface by itself where an edge shall be sharp: normals are smooth within one.
     let mut mesh = lathe(brass, 64, &[[0.0, -1.5], [0.85, -1.5]]);
-    add(&mut mesh, lathe(brass, 64, &[[0.85, -1.5], [0.9, -1.46], [0.9, -1.34], [0.85, -1.3]]));
-    add(&mut mesh, lathe(brass, 64, &[[0.85, -1.3], [0.5, -1.29], [0.0, -1.28]]));
+    mesh.append(lathe(brass, 64, &[[0.85, -1.5], [0.9, -1.46], [0.9, -1.34], [0.85, -1.3]]));
+    mesh.append(lathe(brass, 64, &[[0.85, -1.3], [0.5, -1.29], [0.0, -1.28]]));
     // Radius of the coat at a height from 0, its hem, to 1.
     let coat_at = |t: f32| 0.62 - 0.42 * t - 0.1 * (t * TAU).sin();
     let coat_profile: Vec<[f32; 2]> =
         (0..=24).map(|n| n as f32 / 24.0).map(|t| [coat_at(t), -1.29 + 1.79 * t]).collect();
-    let mut part = |made: Mesh, by: Mat4| add(&mut mesh, moved(made, by));
+    let mut part = |made: Mesh, by: Mat4| mesh.append(moved(made, by));
     part(lathe(coat, 64, &coat_profile), Mat4::IDENTITY);
     part(
         on_ball(lathe(skin, 48, &round_profile(1.0, 0.0, 24))),

@@ -1,6 +1,6 @@
 //! Normals where a model brings none.
 
-use super::Raw;
+use super::model::Raw;
 use glam::{DVec3, Vec3};
 
 /// Normals that are the mean of those of the triangles around a place, by their areas: seams of the texture do not

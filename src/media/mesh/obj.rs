@@ -1,6 +1,9 @@
 //! Wavefront OBJ. Materials are left aside: a draw has its own program and channels.
 
-use super::{Counts, Raw, Trouble, Vertex};
+use super::{
+    model::{Raw, Vertex},
+    trouble::{Counts, Trouble},
+};
 use std::path::Path;
 
 /// Reads the bytes of an `.obj` file, and hands every part of it to `take`.

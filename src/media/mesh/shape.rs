@@ -1,6 +1,9 @@
 //! Surfaces to make meshes of: grids that may close upon themselves.
 
-use super::{Mesh, Raw, Vertex, finished};
+use super::{
+    finish::finished,
+    model::{Mesh, Raw, Vertex},
+};
 use glam::Vec3;
 use std::f32::consts::TAU;
 

@@ -1,6 +1,10 @@
 //! Tangents where a model brings none, as MikkTSpace has them: what normal maps are baked for.
 
-use super::{Mesh, Raw, Trouble, Vertex, normals};
+use super::{
+    model::{Mesh, Raw, Vertex},
+    normals,
+    trouble::Trouble,
+};
 use crate::project::limits;
 use bevy_mikktspace::{Geometry, TangentSpace, generate_tangents};
 use std::collections::HashMap;

@@ -89,7 +89,7 @@ impl Line {
 }
 
 /// A value as a person writes it outside of a line: `0.3`, `true`, `1,0.5,0`, `vec3(1)` (which is one number for all).
-pub(super) fn value(text: &str) -> Option<KnobValue> {
+pub(in crate::project) fn value(text: &str) -> Option<KnobValue> {
     let text = text.trim();
     match text {
         "true" => return Some(KnobValue::Bool(true)),

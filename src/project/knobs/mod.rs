@@ -2,21 +2,22 @@
 //!
 //! A knob is one uniform that `#iUniform` lines declare. Users read "uniform", and "slider" for what turns it.
 //!
-//! Owns what `#iUniform` lines say ([`Project::knobs`]; the form is in [`line`]) and which values fit them. A knob that
-//! Common declares is there for every pass, one that a pass declares for that pass; one name is one knob wherever it
-//! stands. Values that are not the default lie in [`Project::knob_values`], and in `eddy.toml` under `[uniforms]`. How
-//! a value reaches a shader is the engine's matter.
+//! Owns what `#iUniform` lines say ([`Project::knobs`](super::Project::knobs); the form is in [`line`]) and which
+//! values fit them. A knob that Common declares is there for every pass, one that a pass declares for that pass; one
+//! name is one knob wherever it stands. Values that are not the default lie in
+//! [`Project::knob_values`](super::Project::knob_values), and in `eddy.toml` under `[uniforms]`. How a value reaches a
+//! shader is the engine's matter.
 
 pub(super) mod constants;
 mod declared;
 mod line;
 mod types;
 
-use super::{Project, lines::hash_lines, nearest};
+use super::{lines::hash_lines, nearest};
 use crate::diag::{Diagnostic, SourceId};
 pub(super) use declared::words_of_uniforms;
 use line::Line;
-pub(super) use line::is_declaration;
+pub(super) use line::{is_declaration, value};
 pub use types::{Knob, KnobRange, KnobType, KnobValue, KnobValues};
 
 /// The uniforms that the texts of a project declare in `#iUniform` lines.
@@ -85,40 +86,6 @@ impl Knobs {
             None => format!("there are {}", super::listed(&names)),
         };
         (message, hint)
-    }
-}
-
-impl Project {
-    /// Returns what the texts declare in `#iUniform` lines. Spans point into [`Project::sources`].
-    pub fn knobs(&self) -> Knobs {
-        let sources = self.texts();
-        Knobs::read(sources.iter().map(|(id, source)| (id, &*source.text)))
-    }
-
-    /// Sets one knob from what a person writes: `viscosity=0.3`, `tint=1,0.5,0`, `tint=color3(1, .5, 0)`, `on=true`.
-    /// Err: one line that says what is wrong.
-    pub fn set_knob(&mut self, assignment: &str) -> Result<(), String> {
-        let shape = || format!("{assignment}: a uniform is set as in viscosity=0.3 or tint=1,0.5,0");
-        let (name, written) = assignment.split_once('=').ok_or_else(shape)?;
-        let name = name.trim();
-        let knobs = self.knobs();
-        let Some(knob) = knobs.get(name) else {
-            let (message, hint) = knobs.unknown(name);
-            return Err(format!("{message} ({hint})"));
-        };
-        let value = line::value(written).ok_or_else(shape)?;
-        let value = knob.fit(&value).map_err(|why| format!("{name}={}: {name} {why}", written.trim()))?;
-        self.turn_knob(knob, value);
-        Ok(())
-    }
-
-    /// Sets a knob; the default is kept as nothing, so that it follows the text.
-    pub fn turn_knob(&mut self, knob: &Knob, value: KnobValue) {
-        if value == knob.default {
-            self.knob_values.remove(&knob.name);
-        } else {
-            self.knob_values.insert(knob.name.clone(), value);
-        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Tests of `#iUniform` lines, alone and together, and of the values that fit them.
 
 use super::*;
+use crate::project::Project;
 use crate::{
     diag::{SourceMap, render_all},
     project::{Info, Origin, Pass, PassId, SamplerRules, Source, json},

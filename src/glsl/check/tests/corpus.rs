@@ -1,5 +1,5 @@
-//! Real shaders in Shadertoy's JSON, from the folders that `EDDY_GLSL_CORPUS` names (separated by `:`): every pass of every
-//! file must check without an error. Skipped where the variable is not set.
+//! Real shaders in Shadertoy's JSON, from the folders that `EDDY_GLSL_CORPUS` names (separated by `:`): every pass of
+//! every file must check without an error. Skipped where the variable is not set.
 
 use super::checked;
 use crate::glsl::{ChannelKind, PassKind};
@@ -18,7 +18,7 @@ fn text<'j>(pass: &'j serde_json::Value, key: &str) -> &'j str {
     pass.get(key).and_then(|v| v.as_str()).unwrap_or("")
 }
 
-/// What fails in one file: the pass and its messages.
+/// Returns what fails in one file: the pass and its messages.
 fn failures(json: &serde_json::Value, passes_seen: &mut u32) -> Vec<(String, String)> {
     let json = json.get(0).unwrap_or(json);
     let json = json.get("Shader").unwrap_or(json);

@@ -1,4 +1,4 @@
-//! What editors are told: every use of a name and what it refers to.
+//! Tests what editors are told: every use of a name and what it refers to.
 
 use super::checked;
 use crate::glsl::{

@@ -1,5 +1,5 @@
-//! What `hir` promises to lowering, checked on every program that has no error: post-order, one parent a node, no type and
-//! node of an error, types that fit, places that are places, constants folded.
+//! Tests what `hir` promises to lowering, checked on every program that has no error: post-order, one parent a node, no
+//! type and node of an error, types that fit, places that are places, constants folded.
 
 use crate::glsl::{
     ast::List,

@@ -1,6 +1,6 @@
-//! What the functions of chapter 8 of GLSL ES 3.00 do, all but those that read textures.
+//! Says what the functions of chapter 8 of GLSL ES 3.00 do, all but those that read textures.
 
-use super::Function;
+use super::built_in::Function;
 use crate::glsl::hir::Builtin;
 
 /// Names of the parameters and what the function does.

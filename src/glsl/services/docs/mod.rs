@@ -1,30 +1,16 @@
-//! Documentation of what the language and the site give, in our own words: what it returns, where it is undefined, its unit.
+//! Documentation of what the language and the site give, in our own words: what it returns, where it is undefined, its
+//! unit.
 //!
 //! Owns the texts and nothing else; signatures come from the checker's tables, so they cannot disagree with it.
 
+mod built_in;
 mod functions;
 mod textures;
 mod variables;
 
+use built_in::Function;
+
 use crate::glsl::hir::Builtin;
-
-/// A built-in function: names of its parameters, in order, and its text.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Function {
-    params: &'static str,
-    pub text: &'static str,
-}
-
-impl Function {
-    /// Name of parameter `index` of an overload that has `count`.
-    pub fn param(self, index: usize, count: usize) -> &'static str {
-        // `atan` alone calls its one parameter something else than the first of two.
-        if count == 1 && self.params == "y, x" {
-            return "y_over_x";
-        }
-        self.params.split(", ").nth(index).unwrap_or("")
-    }
-}
 
 pub(super) fn function(builtin: Builtin) -> Function {
     functions::of(builtin)

@@ -1,6 +1,6 @@
-//! What the functions of section 8.8 do: reading textures.
+//! Says what the functions of section 8.8 do: reading textures.
 
-use super::Function;
+use super::built_in::Function;
 use crate::glsl::hir::Builtin;
 
 /// Names of the parameters and what the function does.

@@ -1,4 +1,4 @@
-//! What the site's uniforms, the variables of chapter 7 and the entry points are.
+//! Says what the site's uniforms, the variables of chapter 7 and the entry points are.
 
 /// Name and text.
 #[rustfmt::skip]

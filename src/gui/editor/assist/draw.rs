@@ -3,7 +3,10 @@
 use crate::{
     glsl::services::CompletionKind,
     gui::{
-        editor::lexer::{self, LexState, TokenKind},
+        editor::{
+            colors::code_color,
+            lexer::{self, LexState, TokenKind},
+        },
         theme,
     },
 };
@@ -30,7 +33,7 @@ pub(super) fn sign(kind: CompletionKind) -> (&'static str, Color32) {
         K::Uniform => ("u", TokenKind::Uniform),
         K::Keyword => ("k", TokenKind::Keyword),
     };
-    (sign, theme::code_color(token))
+    (sign, code_color(token))
 }
 
 /// Lines of GLSL in colour; `strong` is set off from the rest of them.
@@ -44,7 +47,7 @@ pub(super) fn code(lines: &[String], font: &FontId, strong: Option<Range<usize>>
         for token in lexer::lex(line, 0..line.len(), LexState::default(), &|_| false) {
             let range = at..at + token.len;
             at = range.end;
-            let color = theme::code_color(token.kind);
+            let color = code_color(token.kind);
             let format = |is_strong: bool| {
                 let mut format = TextFormat::simple(font.clone(), if is_strong { theme::STRONG } else { color });
                 if is_strong {

@@ -1,6 +1,6 @@
 //! Fluids, and what is carried by a flow.
 
-use super::{Courant, always, by, mouse};
+use super::declare::{Courant, always, by, mouse};
 use crate::lab::stability::check::{Allowed, Area, Check, Quantity, Situation};
 
 type Bounds = (Vec<Check>, Option<Courant>);

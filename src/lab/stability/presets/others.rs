@@ -1,6 +1,6 @@
 //! Presets whose state is no flow.
 
-use super::{Courant, always, by, mouse};
+use super::declare::{Courant, always, by, mouse};
 use crate::lab::stability::check::{Allowed, Area, Check, Quantity, Situation};
 
 pub fn reaction_diffusion() -> (Vec<Check>, Option<Courant>) {

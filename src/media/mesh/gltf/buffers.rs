@@ -1,7 +1,7 @@
 //! The bytes of a glTF file's buffers, wherever they are.
 
 use crate::{
-    media::mesh::Trouble,
+    media::mesh::trouble::Trouble,
     project::{
         confine::FileError,
         limits::{self, Limit},

@@ -1,6 +1,6 @@
 //! The JSON text of a glTF file, checked as far as the crate takes it for granted.
 
-use crate::{media::mesh::Trouble, project::limits};
+use crate::{media::mesh::trouble::Trouble, project::limits};
 use gltf::{
     Document,
     json::{Path, Root, Value, deserialize, validation::Checked, validation::Validate},

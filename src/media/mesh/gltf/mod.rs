@@ -10,7 +10,10 @@ mod buffers;
 mod json;
 mod nodes;
 
-use super::{Counts, Raw, Trouble, Vertex};
+use super::{
+    model::{Raw, Vertex},
+    trouble::{Counts, Trouble},
+};
 use accessors::{Elements, check};
 use buffers::Named;
 use glam::{Mat3, Mat4, Vec3};

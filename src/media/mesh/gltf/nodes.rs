@@ -1,6 +1,6 @@
 //! The node hierarchy: a set of strict trees (glTF 2.0, section 3.5.2), which a file may not keep to.
 
-use crate::media::mesh::Trouble;
+use crate::media::mesh::trouble::Trouble;
 use glam::Mat4;
 use gltf::{Document, Node};
 

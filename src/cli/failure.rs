@@ -1,0 +1,24 @@
+//! Says on standard error why a call came to nothing.
+
+use std::io;
+
+/// The exit code for trouble with the machine or the usage.
+pub const TROUBLE: u8 = 2;
+
+/// Says what is wrong with the call as a whole.
+pub fn trouble(what: impl std::fmt::Display) -> u8 {
+    // Nobody is left to tell where standard error is closed.
+    let _ = io::Write::write_fmt(&mut io::stderr(), format_args!("error: {what}\n"));
+    TROUBLE
+}
+
+/// An error with its causes, each said once: many an error's own text already ends in what caused it.
+pub fn told(error: &anyhow::Error) -> String {
+    let mut text = error.to_string();
+    for cause in error.chain().skip(1).map(ToString::to_string) {
+        if !text.contains(&cause) {
+            text.push_str(&format!(": {cause}"));
+        }
+    }
+    text
+}

@@ -1,0 +1,234 @@
+//! The checker's state and what every rule of it needs: reports, places, types. The rules are in the files beside.
+
+use super::{
+    env::Env,
+    facts::{TypeFacts, basic_facts},
+    scope::Scopes,
+};
+use crate::{
+    diag::{Diagnostic, SourceId},
+    glsl::{
+        ast::{self, Ast, Interner, Loc, Origins, Precision, Symbol},
+        hir::{self, FuncId, Module, TypeId},
+        report::MAX_ERRORS,
+        source::{ChannelKind, Knob, UniformValue},
+    },
+};
+use std::collections::HashMap;
+
+/// Per function of [`Module::functions`], what only the checker needs.
+pub(super) struct FuncFacts {
+    /// Next overload of the same name.
+    pub next: Option<FuncId>,
+    /// The last overload; only the first one keeps it.
+    pub last: FuncId,
+    /// First place it is called from, for messages about what cannot be called.
+    pub first_call: Option<Loc>,
+    /// Stamp of the last function that was seen calling this one, so that `calls` names it once.
+    pub called_by: u32,
+}
+
+/// A switch whose body is being checked.
+pub(super) struct Switch {
+    /// The type of its value; the error type silences its labels.
+    pub ty: TypeId,
+    /// Labels so far, and where they stand.
+    pub values: HashMap<u32, Loc>,
+    pub default: Option<Loc>,
+}
+
+pub(super) struct Checker<'a> {
+    pub ast: &'a Ast,
+    pub origins: &'a Origins,
+    pub names: &'a Interner,
+    pub env: Env,
+    pub channels: [ChannelKind; 4],
+    pub knobs: &'a [Knob<'a>],
+    pub values: &'a [UniformValue],
+    /// The parser reported something, so nodes may lie between others without belonging to the tree.
+    pub broken_tree: bool,
+    pub module: Module,
+    pub diagnostics: Vec<Diagnostic>,
+    /// How many of them were errors, those that were not kept among them.
+    pub errors: usize,
+    pub refused_in_common: Vec<Diagnostic>,
+    pub scopes: Scopes,
+    /// HIR of each checked expression of the tree.
+    pub lowered: Vec<Option<hir::ExprId>>,
+    /// Says where the HIR of the full expression at hand, or of the last one, begins.
+    pub full_expr: usize,
+    pub facts: Vec<TypeFacts>,
+    /// Position of each member of structs with many, and how many words precede it.
+    pub members: HashMap<(hir::StructId, Symbol), (usize, usize)>,
+    pub funcs: Vec<FuncFacts>,
+    /// The overload that takes these types, by the first one of its name; of names with several alone.
+    pub overloads: HashMap<(FuncId, Vec<TypeId>), FuncId>,
+    /// Scalars that folded constants hold, and that were compared.
+    pub folded_words: usize,
+    /// `precision` statements in force, by [`ast::BasicType`]; changed seldom, so scopes save the whole.
+    pub precisions: [Option<Precision>; ast::BasicType::ALL.len()],
+    pub saved_precisions: Vec<(u32, [Option<Precision>; ast::BasicType::ALL.len()])>,
+    /// The function whose body is being checked.
+    pub func: Option<FuncId>,
+    /// It has a `return` with a value.
+    pub returns: bool,
+    pub loops: u32,
+    /// Type of the value of the enclosing switches, innermost last.
+    pub switches: Vec<Switch>,
+    /// Functions that initialisers of globals call.
+    pub global_calls: Vec<FuncId>,
+    /// Scratch stacks: lists nest, and live above the length at which their owner found them.
+    pub expr_stack: Vec<hir::ExprId>,
+    pub stmt_stack: Vec<hir::StmtId>,
+    pub word_stack: Vec<u32>,
+    /// `iCh0` and its like that wait for their `.member`.
+    pub pending_channels: Vec<(hir::ExprId, u8)>,
+    /// By symbol: 1 + index of the function in which it was reported as unknown, so that it is said once.
+    pub unknown_said: Vec<u32>,
+    /// Struct of `gl_DepthRange` once it was named.
+    pub depth_range: Option<hir::ConstId>,
+    pub entry_symbol: Option<Symbol>,
+    /// The text that other stages have too.
+    pub common: Option<SourceId>,
+}
+
+impl<'a> Checker<'a> {
+    pub fn new(
+        ast: &'a Ast,
+        origins: &'a Origins,
+        names: &'a Interner,
+        env: Env,
+        channels: [ChannelKind; 4],
+        knobs: &'a [Knob<'a>],
+    ) -> Self {
+        let broken_tree = ast.exprs.iter().any(|e| matches!(e.kind, ast::ExprKind::Error))
+            || ast.stmts.iter().any(|s| matches!(s.kind, ast::StmtKind::Error))
+            || ast.decls.iter().any(|d| matches!(d.kind, ast::DeclKind::Error))
+            || ast.types.iter().any(|t| matches!(t.kind, ast::TypeSpecKind::Error));
+        let mut module = Module::default();
+        module.exprs.reserve(ast.exprs.len() + ast.exprs.len() / 4);
+        module.stmts.reserve(ast.stmts.len());
+        module.uses.reserve(ast.exprs.len() / 2);
+        let facts = basic_facts(&module.types);
+        let mut checker = Self {
+            ast,
+            origins,
+            names,
+            env,
+            channels,
+            knobs,
+            values: &[],
+            broken_tree,
+            module,
+            diagnostics: Vec::new(),
+            errors: 0,
+            refused_in_common: Vec::new(),
+            scopes: Scopes::new(names.len()),
+            lowered: vec![None; ast.exprs.len()],
+            full_expr: 0,
+            facts,
+            members: HashMap::new(),
+            funcs: Vec::new(),
+            overloads: HashMap::new(),
+            folded_words: 0,
+            precisions: [None; ast::BasicType::ALL.len()],
+            saved_precisions: Vec::new(),
+            func: None,
+            returns: false,
+            loops: 0,
+            switches: Vec::new(),
+            global_calls: Vec::new(),
+            expr_stack: Vec::new(),
+            stmt_stack: Vec::new(),
+            word_stack: Vec::new(),
+            pending_channels: Vec::new(),
+            unknown_said: Vec::new(),
+            depth_range: None,
+            entry_symbol: None,
+            common: None,
+        };
+        checker.declare_environment();
+        checker.declare_knobs();
+        checker
+    }
+
+    /// The whole translation unit.
+    pub fn unit(&mut self) {
+        for i in 0..self.ast.items.len() {
+            self.global_declaration(self.ast.items[i]);
+        }
+        self.finish_entry();
+        self.finish_calls();
+        if self.errors == 0 && !self.broken_tree && self.module.entry.is_some() {
+            self.finish_size();
+        }
+    }
+
+    /// Reports an error; hints and labels are added to what comes back.
+    #[cold]
+    pub fn error(&mut self, loc: impl Into<Loc>, message: impl Into<String>) -> &mut Diagnostic {
+        let diagnostic = self.origins.error(self.names, loc, message);
+        // The report keeps no more errors than that: one place is enough for all others.
+        if self.is_full() && self.diagnostics.last().is_some_and(Diagnostic::is_error) {
+            self.diagnostics.pop();
+        }
+        self.errors += 1;
+        self.diagnostics.push(diagnostic);
+        self.diagnostics.last_mut().expect("just pushed")
+    }
+
+    /// More errors than are shown: what takes a search through the program to be said is not said any more.
+    pub fn is_full(&self) -> bool {
+        self.errors > MAX_ERRORS
+    }
+
+    #[cold]
+    pub fn warning(&mut self, loc: impl Into<Loc>, message: impl Into<String>) -> &mut Diagnostic {
+        let diagnostic = self.origins.warning(self.names, loc, message);
+        self.diagnostics.push(diagnostic);
+        self.diagnostics.last_mut().expect("just pushed")
+    }
+
+    /// Adds a second place to the diagnostic reported last.
+    #[cold]
+    pub fn also(&mut self, loc: impl Into<Loc>, message: impl Into<String>) {
+        let span = self.origins.span(loc.into());
+        if let Some(last) = self.diagnostics.last_mut() {
+            last.labels.push(crate::diag::Label { span, message: message.into() });
+        }
+    }
+
+    /// Adds a mend to the diagnostic reported last.
+    #[cold]
+    pub fn hint(&mut self, hint: impl Into<String>) {
+        if let Some(last) = self.diagnostics.last_mut() {
+            last.hints.push(hint.into());
+        }
+    }
+
+    /// Returns whether this stands in Common, which a vertex stage has before it though half of it may be for
+    /// fragments: what nobody calls there does no harm.
+    pub fn is_shared(&self, loc: Loc) -> bool {
+        self.common == Some(self.origins.span(loc).source)
+    }
+
+    /// Remembers what a name in the text refers to, for editors.
+    #[inline]
+    pub fn uses(&mut self, token: ast::TokenId, target: hir::DeclRef) {
+        self.module.uses.push(hir::Use { token, target });
+    }
+
+    pub fn name(&self, symbol: Symbol) -> &'a str {
+        self.names.get(symbol)
+    }
+
+    #[inline]
+    pub fn ty(&self, expr: hir::ExprId) -> TypeId {
+        self.module[expr].ty
+    }
+
+    #[inline]
+    pub fn loc(&self, expr: hir::ExprId) -> Loc {
+        self.module[expr].loc
+    }
+}

@@ -1,0 +1,115 @@
+//! A pass from its texts to a module, through every room of the compiler.
+
+use super::{
+    check,
+    compiled::Compiled,
+    emit, hir, ir, lower, opt, parse, pieces, preprocess, report,
+    source::{Include, Knob, PassSource, Text},
+    stages::{self, Interface, Link},
+};
+use crate::diag::Diagnostic;
+
+/// Returns what is wrong with a pass, without making a program of it: what an editor asks after each pause in typing.
+/// Holds errors exactly where [`compile`] would fail.
+pub fn diagnose(source: &PassSource<'_>) -> Vec<Diagnostic> {
+    check_pass(source).1
+}
+
+fn check_pass(source: &PassSource<'_>) -> (hir::Module, Vec<Diagnostic>) {
+    check_linked(source, &Link::default()).0
+}
+
+/// As [`check_pass`], with what the rest of the program says of a stage.
+fn check_linked(source: &PassSource<'_>, link: &Link<'_>) -> ((hir::Module, Vec<Diagnostic>), Interface) {
+    let parsed = parse::parse(source);
+    let mut checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source);
+    let interface =
+        stages::interface(&checked.module, &parsed.names, &parsed.origins, source.kind, link, &mut checked.diagnostics);
+    let mut all = report::Report::default();
+    parsed.diagnostics.into_iter().chain(checked.diagnostics).for_each(|d| all.add(d));
+    // As the author reads the text.
+    all.diagnostics.sort_by_key(|d| d.span.map(|s| (s.source, s.start)));
+    ((checked.module, all.diagnostics), interface)
+}
+
+/// Compiles one pass. On failure the list holds at least one error; warnings may stand among them.
+pub fn compile(source: &PassSource<'_>) -> Result<Compiled, Vec<Diagnostic>> {
+    compile_linked(source, &Link::default())
+}
+
+/// Compiles one stage of a program that draws meshes. The vertex stage comes first: what it gives
+/// ([`super::Reflection::varyings`]) is part of the fragment stage's [`Link`].
+pub fn compile_linked(source: &PassSource<'_>, link: &Link<'_>) -> Result<Compiled, Vec<Diagnostic>> {
+    compile_seen(source, link, |_, _| {})
+}
+
+/// The text of the intermediate representation of a pass, as lowering made it and after each pass of the optimiser; or
+/// before and after the one of this name alone.
+pub fn dump_ir(source: &PassSource<'_>, link: &Link<'_>, pass: Option<&str>) -> Result<String, Vec<Diagnostic>> {
+    let mut out = String::new();
+    let mut before: Option<(String, String)> = None;
+    compile_seen(source, link, |name, program| {
+        let mut write = |name: &str, text: &str| out.push_str(&format!("; after {name}\n{text}\n"));
+        let text = ir::print::print(program);
+        match pass {
+            None => write(name, &text),
+            Some(pass) if pass == name => {
+                if let Some((name, text)) = &before {
+                    write(name, text);
+                }
+                write(name, &text);
+            }
+            Some(_) => before = Some((name.to_owned(), text)),
+        }
+    })?;
+    Ok(out)
+}
+
+/// Compiles; `seen` gets the program under the name of each pass that made it.
+pub(super) fn compile_seen(
+    source: &PassSource<'_>,
+    link: &Link<'_>,
+    mut seen: impl FnMut(&str, &ir::Module),
+) -> Result<Compiled, Vec<Diagnostic>> {
+    let ((mut checked, diagnostics), interface) = check_linked(source, link);
+    if diagnostics.iter().any(Diagnostic::is_error) {
+        return Err(diagnostics);
+    }
+    lower::arrays_to_constants(&mut checked);
+    let lower::Lowered { mut program, mut reflection } = lower::lower(&checked, source, interface);
+    opt::optimise(&mut program, source.driver.without, &mut seen);
+    emit::work_arounds::apply(&mut program, source.kind, source.driver);
+    seen("work-arounds", &program);
+    let emit::Emitted { module, tables, knob_bytes, filled_arrays } = emit::emit(&program, source, &mut reflection);
+    let emit::TableBytes { uniform: uniform_tables, storage: tables } = tables;
+    let compiled = Compiled { module, reflection, tables, uniform_tables, knob_bytes, filled_arrays, diagnostics };
+    // wgpu validates each module that it is given.
+    if cfg!(debug_assertions)
+        && let Err(bug) = compiled.validate()
+    {
+        return Err(compiled.diagnostics.into_iter().chain([bug]).collect());
+    }
+    Ok(compiled)
+}
+
+impl Compiled {
+    /// Asks naga whether the module is valid, as wgpu does where a device gets it. An error is a bug of this compiler,
+    /// never the author's.
+    pub fn validate(&self) -> Result<(), Diagnostic> {
+        emit::validate(&self.module).map(drop).map_err(|reason| {
+            let bug = format!("this is a bug in Eddy: the generated program is not valid: {reason}");
+            Diagnostic::error(None, bug).hint("the program itself is right; please report it with this text")
+        })
+    }
+}
+
+/// Checks Common the way the site does: alone, with only `iDate` and `iSampleRate` in scope. An empty list means that
+/// the site would accept it; what it would refuse comes back as warnings, because Eddy runs such a project all the
+/// same. `knobs` are those Common declares.
+pub fn check_common(common: Text<'_>, includes: &[Include<'_>], knobs: &[Knob<'_>]) -> Vec<Diagnostic> {
+    let pieces = pieces::of(&[common], includes);
+    let parsed = parse::parse_texts(&pieces, preprocess::Unit::CommonAlone);
+    let refused = parsed.diagnostics.iter().any(Diagnostic::is_error);
+    // A Common that cannot be read is reported with each pass; only what is wrong with it alone is said here.
+    if refused { Vec::new() } else { check::check_common(&parsed.ast, &parsed.origins, &parsed.names, knobs) }
+}

@@ -1,0 +1,33 @@
+//! Says what drivers need of the code that they are given.
+
+use super::opt::PassSet;
+
+/// Holds what the driver that will run a pass needs of its code; none of it changes a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Driver {
+    /// The device reads no storage buffers in a fragment shader: large constant tables are then memory of each
+    /// invocation, which costs time to fill.
+    pub tables_in_memory: bool,
+    /// The driver compiles a program anew for every frame, and keeps what it made, where a branch depends on uniforms
+    /// alone: they are read so that it takes them for values of the pixel. Mesa's lavapipe does so
+    /// (`lvp_inline_uniforms.c`).
+    pub opaque_uniforms: bool,
+    /// A fragment stage has to be one that may discard, though it never does: Mesa's llvmpipe goes wrong where others
+    /// fail the depth test of a target of 16-bit floats.
+    pub may_discard: bool,
+    /// The angle of (0, 0) is no number on the device: `atan` asks for another one's.
+    pub nan_angle: bool,
+    /// Long arrays are filled, also with the zeros that they begin with, and copied by loops
+    /// ([`super::Compiled::filled_arrays`]): Mesa's lavapipe takes minutes to compile stores of some hundred scalars
+    /// one by one.
+    pub array_loops: bool,
+    /// Each loop that can change variables before its first exit begins with an exit that is never taken. Mesa's
+    /// gallivm runs a loop until its last pixel leaves, and does not bring it into loop-closed SSA form
+    /// (`nir_to_lcssa.c`): a value that all exits agree on, and which needs no phi for that, is computed anew for
+    /// pixels that have left.
+    pub loop_closing_exits: bool,
+    /// What a loop counts down to is hidden: Mesa takes `min(c, x)` for at least `c` there (`nir_loop_analyze.c`).
+    pub hidden_limits: bool,
+    /// Passes of the optimiser that are left out: for who works on the compiler.
+    pub without: PassSet,
+}

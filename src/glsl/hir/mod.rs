@@ -1,0 +1,482 @@
+//! The checked program: typed, resolved, constants folded. The checker makes it from [`super::ast`], lowering turns it
+//! into a `naga::Module`, editor services read its side tables.
+//!
+//! The checker makes a [`Module`] for any tree, so that editors work on text that does not compile. Lowering runs only
+//! when no error was reported; then it may rely on everything said here, and on there being no `Error` expression and
+//! no [`TypeId::ERROR`] in what is reachable from [`Module::entry`].
+//!
+//! Guarantees of the checker, beyond those on the items:
+//! - Ids are in post-order (child < parent) and every node has at most one parent: a tree, no sharing. Folding leaves nodes
+//!   without parent behind, which cost nothing.
+//! - Depth is bounded by a small multiple of [`super::ast::MAX_NESTING`], apart from the left spines (`Binary.lhs`,
+//!   `Logical.lhs`, `Comma.lhs`, and `base` of `Member`, `Swizzle` and `Index`) with at most one inserted node (`Convert`) per
+//!   link: walk these with a loop.
+//! - No implicit conversion is left: operand types fit exactly as each kind says. ANGLE's leniency, where we share it, shows
+//!   as explicit [`ExprKind::Convert`].
+//! - Operands are evaluated left to right, each once (section 5.9; ANGLE likewise). Lowering keeps that order visible wherever
+//!   [`ExprFlags::EFFECTS`] is set in a sibling.
+//! - Zero is implied: a variable without initialiser is zero each time its declaration is executed, an `out` parameter is zero
+//!   at entry, a non-void function that ends without `return` returns zero. No expression stands for it; lowering does it.
+
+mod declarations;
+mod ids;
+
+use super::ast::{self, Ident, List, Loc, Symbol, TokenId};
+pub use super::{
+    builtins::{Builtin, BuiltinVar, Uniform},
+    types::{SamplerDim, Scalar, StructId, Swizzle, Type, TypeId, TypeTable},
+};
+pub use declarations::{Const, Function, Global, GlobalStorage, Local, LocalKind, VarFlags};
+pub use ids::{ConstId, ExprId, FuncId, GlobalId, LocalId, StmtId};
+
+// ------------------------------------------------------------------------------------------------------------- module
+
+/// A checked translation unit for one pass.
+#[derive(Clone, Debug, Default)]
+pub struct Module {
+    pub types: TypeTable,
+    pub structs: Vec<Struct>,
+    /// In text order; initialisers that are not constant run in this order when the entry point starts.
+    pub globals: Vec<Global>,
+    /// One entry a signature; prototypes and definition share it.
+    pub functions: Vec<Function>,
+    pub exprs: Vec<Expr>,
+    pub stmts: Vec<Stmt>,
+    pub consts: Vec<Const>,
+    pub locals: Vec<Local>,
+    /// `mainImage` and its like, with a body and exactly the signature of the pass's kind. Set whenever there is no
+    /// error.
+    pub entry: Option<FuncId>,
+    /// Functions reachable from [`Module::entry`] and from initialisers of used globals, callees before callers (the
+    /// checker forbids recursion). Each has a body.
+    pub call_order: Vec<FuncId>,
+    /// Every name in the text that was resolved, declarations excluded, in no particular order; for editors.
+    pub uses: Vec<Use>,
+    expr_lists: Vec<ExprId>,
+    stmt_lists: Vec<StmtId>,
+    cases: Vec<Case>,
+    /// Pool of [`Const::words`] and [`Case::values`].
+    words: Vec<u32>,
+    members: Vec<StructMember>,
+    tokens: Vec<TokenId>,
+}
+
+ast::arenas! { Module;
+    ExprId => Expr, exprs;
+    StmtId => Stmt, stmts;
+    ConstId => Const, consts;
+    StructId => Struct, structs;
+    LocalId => Local, locals;
+    GlobalId => Global, globals;
+    FuncId => Function, functions;
+    @pools
+    ExprId, expr_lists;
+    StmtId, stmt_lists;
+    Case, cases;
+    u32, words;
+    StructMember, members;
+    TokenId, tokens;
+}
+
+impl Module {
+    #[inline]
+    pub fn expr(&mut self, expr: Expr) -> ExprId {
+        self.exprs.push(expr);
+        ExprId::new(self.exprs.len() - 1)
+    }
+
+    #[inline]
+    pub fn stmt(&mut self, kind: StmtKind, loc: Loc) -> StmtId {
+        self.stmts.push(Stmt { kind, loc });
+        StmtId::new(self.stmts.len() - 1)
+    }
+
+    /// Stores a folded value; `words` as [`Const::words`] has them.
+    pub fn constant(&mut self, ty: TypeId, words: &[u32]) -> ConstId {
+        let words = self.list(words);
+        self.consts.push(Const { ty, words });
+        ConstId::new(self.consts.len() - 1)
+    }
+
+    /// A type as GLSL writes it.
+    pub fn type_text(&self, names: &ast::Interner, ty: TypeId) -> String {
+        match self.types.get(ty) {
+            Type::Array { element, len } => format!("{}[{len}]", self.type_text(names, element)),
+            Type::Struct(id) => match self[id].name {
+                Some(name) => names.get(name.symbol).to_owned(),
+                None => "struct {..}".to_owned(),
+            },
+            _ => ty.as_basic().map_or("?", ast::BasicType::name).to_owned(),
+        }
+    }
+
+    /// Parameters of a function, in order.
+    #[inline]
+    pub fn params(&self, func: FuncId) -> &[Local] {
+        let function = &self[func];
+        &self.locals[function.locals.start as usize..][..function.param_count as usize]
+    }
+}
+
+/// A struct type. Member types are complete and none is void; names are distinct.
+#[derive(Clone, Copy, Debug)]
+pub struct Struct {
+    /// `None` for `struct { .. } x;`.
+    pub name: Option<Ident>,
+    pub ty: TypeId,
+    pub members: List<StructMember>,
+    #[expect(dead_code, reason = "every node says where it stands")]
+    pub loc: Loc,
+}
+
+#[derive(Clone, Copy, Debug)]
+pub struct StructMember {
+    pub name: Ident,
+    pub ty: TypeId,
+}
+
+// -------------------------------------------------------------------------------------------------------- expressions
+
+/// A typed expression.
+#[derive(Clone, Copy, Debug)]
+pub struct Expr {
+    pub kind: ExprKind,
+    /// Type of the value; `VOID` only for calls (and commas and ternaries of these).
+    pub ty: TypeId,
+    pub flags: ExprFlags,
+    pub loc: Loc,
+}
+
+/// Facts about an expression and what is below it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct ExprFlags(pub u8);
+
+impl ExprFlags {
+    /// May be assigned to. Set for variables that are no constants, inputs or uniforms, and for `Member`, `Index` and
+    /// `Swizzle` without repetition of such. A place is a value as well: used as one it is read.
+    pub const PLACE: ExprFlags = ExprFlags(1);
+    /// Evaluating may change something: an assignment, `++`, a user call, a built-in with `out` argument, `st_assert`.
+    pub const EFFECTS: ExprFlags = ExprFlags(2);
+    /// A constant expression (section 4.3.3): always a `Literal` or `Const`.
+    pub const CONSTANT: ExprFlags = ExprFlags(8);
+
+    pub fn contains(self, other: ExprFlags) -> bool {
+        self.0 & other.0 == other.0
+    }
+
+    #[must_use]
+    pub fn with(self, other: ExprFlags) -> Self {
+        Self(self.0 | other.0)
+    }
+
+    /// Returns what a parent takes over from a child: effects.
+    #[must_use]
+    pub fn inherited(self) -> Self {
+        Self(self.0 & Self::EFFECTS.0)
+    }
+}
+
+/// Says what an expression is. `ty` below is the expression's own type.
+#[derive(Clone, Copy, Debug)]
+pub enum ExprKind {
+    /// Reported; never reaches lowering.
+    Error,
+
+    // Values.
+    /// A scalar constant, bit for bit (bool 0 or 1); `ty` tells bool, int, uint or float.
+    Literal(u32),
+    /// A folded vector, matrix, array or struct. All uses of one `const` variable name the same id, so that a table is
+    /// stored once.
+    Const(ConstId),
+    /// A parameter or variable of the function at hand. One of sampler type is the parameter that stands for a channel.
+    Local(LocalId),
+    /// A variable of storage `Private`, `Uniform`, `In` or `Out`.
+    Global(GlobalId),
+    /// A uniform of the site. `ty` is [`Uniform::ty`]; the arrays are mostly followed by an `Index`.
+    Uniform(Uniform),
+    /// One of the author's own uniforms, by its place among the pass's.
+    Knob(u16),
+    /// `iChannel0` to `iChannel3` (also `iCh0.sampler`); `ty` is the sampler type. Occurs only as an argument.
+    Channel(u8),
+    BuiltinVar(BuiltinVar),
+
+    // Parts.
+    /// Member `index` of a struct.
+    Member {
+        base: ExprId,
+        index: u32,
+    },
+    /// Components of a vector. One component gives a scalar.
+    Swizzle {
+        base: ExprId,
+        swizzle: Swizzle,
+    },
+    /// An element of an array, a column of a matrix or a component of a vector. `index` is int or uint; a `Literal` is
+    /// in range (the checker guarantees it), anything else lowering clamps into range.
+    Index {
+        base: ExprId,
+        index: ExprId,
+    },
+
+    // Operators.
+    /// Operand and result have the same type. Unary plus leaves no node.
+    Unary {
+        op: UnaryOp,
+        operand: ExprId,
+    },
+    /// Eager operators.
+    Binary {
+        op: BinaryOp,
+        shape: Shape,
+        lhs: ExprId,
+        rhs: ExprId,
+    },
+    /// `&&` and `||`: the right side is evaluated only if needed.
+    Logical {
+        op: LogicalOp,
+        lhs: ExprId,
+        rhs: ExprId,
+    },
+    /// `cond` is bool; one branch is evaluated; both have type `ty` (which may be void, an array or a struct).
+    Ternary {
+        cond: ExprId,
+        then: ExprId,
+        otherwise: ExprId,
+    },
+    /// Evaluates both, gives `rhs`. Never a place.
+    Comma {
+        lhs: ExprId,
+        rhs: ExprId,
+    },
+    /// `place = value`, all three types equal (arrays and structs too). The value is what was stored; not a place.
+    Assign {
+        place: ExprId,
+        value: ExprId,
+    },
+    /// `place op= value`: the place is found once, before `value` is evaluated, and read after. `ty` and `place` have
+    /// the same type; `shape` is that of `place op value`.
+    AssignOp {
+        op: BinaryOp,
+        shape: Shape,
+        place: ExprId,
+        value: ExprId,
+    },
+    /// `++` and `--` on int, uint or float scalars, vectors or matrices; the value is the new one for prefix, the old
+    /// for postfix. Not a place.
+    IncDec {
+        op: IncDec,
+        place: ExprId,
+    },
+
+    // Constructors (section 5.4). Component types agree wherever not said otherwise: the checker wraps arguments in `Convert`.
+    // `float(v)`, `vec2(v3)` and the like have become a `Swizzle` (or `Index`) and a `Convert`; a constructor of the same type
+    // leaves no node.
+    /// Component by component between bool, int, uint and float (section 5.4.1), of a scalar or vector of the same
+    /// size, to a different component type. Never of a matrix: `ivec4(m)` is the `Convert` of a float `Vector` of `m`.
+    Convert(ExprId),
+    /// A vector from one scalar.
+    Splat(ExprId),
+    /// A vector from scalars, vectors and matrices: their components in order (matrices column by column), of which the
+    /// first `size` count. At least two arguments or a matrix; no argument is wholly unused. Component types are `ty`'s
+    /// own.
+    Vector(List<ExprId>),
+    /// A matrix with a float scalar on its diagonal and zeros elsewhere.
+    MatrixDiagonal(ExprId),
+    /// A matrix from one of another shape: common part copied, the rest as in the identity.
+    MatrixResize(ExprId),
+    /// A matrix from float scalars and vectors, column by column: exactly as many components as it has, or more in the
+    /// last.
+    Matrix(List<ExprId>),
+    /// A struct, one argument a member, of exactly the members' types.
+    Struct(List<ExprId>),
+    /// An array, one argument an element, of exactly the element type.
+    Array(List<ExprId>),
+
+    // Calls.
+    /// A user function: one argument a parameter ([`Module::params`]), types equal. An argument to `out` or `inout` is
+    /// a place: it is found (indices evaluated) in argument order before the call, copied back in argument order after
+    /// it. A sampler argument is a `Channel` or a `Local`.
+    Call {
+        func: FuncId,
+        args: List<ExprId>,
+    },
+    /// A built-in: argument and result types are those of one overload of chapter 8, which they tell apart. `modf`'s
+    /// second argument is a place. Texture calls have the sampler first; constant offsets are `Literal`/`Const` in the
+    /// legal range.
+    Builtin {
+        builtin: Builtin,
+        args: List<ExprId>,
+    },
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum UnaryOp {
+    /// int, uint, float; scalars, vectors, matrices.
+    Negate,
+    /// bool.
+    Not,
+    /// int, uint; scalars, vectors.
+    BitNot,
+}
+
+/// Operators whose both sides are always evaluated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum BinaryOp {
+    /// Ints wrap.
+    Add,
+    Sub,
+    Mul,
+    /// Int division truncates; by zero it is undefined but must not trap, as is the most negative by -1.
+    Div,
+    /// int and uint only.
+    Rem,
+    BitAnd,
+    BitOr,
+    BitXor,
+    /// The right side may be uint for an int left side and the other way round.
+    Shl,
+    /// Arithmetic for int, logical for uint (by the left side).
+    Shr,
+    /// The four orders: int, uint or float scalars; bool result.
+    Less,
+    Greater,
+    LessEqual,
+    GreaterEqual,
+    /// Whole values of one type, any but void and samplers (`lhs`'s `ty` says which): bool result, true if all parts
+    /// are equal.
+    Equal,
+    /// The opposite of `Equal`: true if any part differs.
+    NotEqual,
+    /// `^^` on bools.
+    LogicalXor,
+}
+
+/// How the operand types of a [`BinaryOp`] meet. Orders, equality and `^^` are always `Same`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Shape {
+    /// Equal types, component by component (for shifts: equal sizes). `Mul` of two matrices is never this.
+    Same,
+    /// Scalar left, vector or matrix right: the scalar meets each component.
+    ScalarLeft,
+    /// Vector or matrix left, scalar right.
+    ScalarRight,
+    /// `Mul`: `matCxR * vecC = vecR`.
+    MatVec,
+    /// `Mul`: `vecR * matCxR = vecC`.
+    VecMat,
+    /// `Mul`: `matKxR * matCxK = matCxR`.
+    MatMat,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum LogicalOp {
+    And,
+    Or,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum IncDec {
+    PreIncrement,
+    PreDecrement,
+    PostIncrement,
+    PostDecrement,
+}
+
+// --------------------------------------------------------------------------------------------------------- statements
+
+/// A statement. Empty statements, `const` declarations and struct definitions leave none.
+#[derive(Clone, Copy, Debug)]
+pub struct Stmt {
+    pub kind: StmtKind,
+    pub loc: Loc,
+}
+
+/// Says what a statement is. Scopes are resolved, so a `Block` only groups.
+#[derive(Clone, Copy, Debug)]
+pub enum StmtKind {
+    Block(List<StmtId>),
+    /// Evaluated for its effects.
+    Expr(ExprId),
+    /// One variable of a declaration. Each execution sets it anew: to `init`, or to zero.
+    Declare {
+        local: LocalId,
+        init: Option<ExprId>,
+    },
+    If {
+        cond: ExprId,
+        then: List<StmtId>,
+        otherwise: List<StmtId>,
+    },
+    /// `for` and (with nothing in `init` and `step`) `while`. `init` runs once; `test` (bool, absent: true) before each
+    /// round; `step` after each, also after `continue`. A condition that declares, `while (bool b = e)`, has become an
+    /// `Assign` to `b` as `test`.
+    For {
+        init: List<StmtId>,
+        test: Option<ExprId>,
+        step: Option<ExprId>,
+        body: List<StmtId>,
+    },
+    /// `continue` goes to the test.
+    DoWhile {
+        body: List<StmtId>,
+        test: ExprId,
+    },
+    /// `value` is int or uint, evaluated once.
+    Switch {
+        value: ExprId,
+        cases: List<Case>,
+    },
+    /// `Some` in functions that return a value, of type `Function::result`, unless the call returns void itself.
+    Return(Option<ExprId>),
+    /// Leaves the nearest loop or switch; the checker guarantees there is one.
+    Break,
+    /// Goes on with the nearest loop, through any switch.
+    Continue,
+    Discard,
+}
+
+/// Labels that stand together and what follows them up to the next label. Control falls through into the next case
+/// unless the body ends by `break` or the like. Locals declared in one case may be used in later ones: where the
+/// declaration was skipped they hold any value, zero for choice.
+#[derive(Clone, Copy, Debug)]
+pub struct Case {
+    /// Bits of the `case` values; distinct within a switch (the checker guarantees it).
+    pub values: List<u32>,
+    /// `default:` is among the labels; at most once a switch, at any place.
+    pub is_default: bool,
+    pub body: List<StmtId>,
+    /// The labels.
+    pub loc: Loc,
+}
+
+// ------------------------------------------------------------------------------------------------------- side tables
+
+/// A name in the text and what it refers to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Use {
+    /// `Origins` tells where it is written, which may be inside a macro's definition.
+    pub token: TokenId,
+    pub target: DeclRef,
+}
+
+/// Whatever a name can refer to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum DeclRef {
+    Local(LocalId),
+    Global(GlobalId),
+    Func(FuncId),
+    Struct(StructId),
+    Member(StructId, u32),
+    Builtin(Builtin),
+    BuiltinVar(BuiltinVar),
+    /// A `gl_Max..` constant.
+    BuiltinConst(Symbol),
+    Uniform(Uniform),
+    Knob(u16),
+    /// `iChannel0` to `iChannel3`.
+    Channel(u8),
+    /// `iCh0` to `iCh3`.
+    ChannelStruct(u8),
+}
+
+const _: () = assert!(size_of::<Expr>() <= 32 && size_of::<Stmt>() <= 36 && size_of::<Type>() <= 12);

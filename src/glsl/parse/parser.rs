@@ -1,0 +1,271 @@
+//! The parser's state, and what every rule of the grammar needs: tokens, places, depth, names.
+
+use super::{brackets, hint};
+use crate::glsl::{
+    ast::{Ast, Declarator, ExprId, ExprKind, Ident, Interner, Loc, MAX_NESTING, Origins, StmtId, Symbol, TokenId},
+    lex::Kind,
+    pieces::Piece,
+    preprocess::Tok,
+    report::Report,
+};
+
+/// Something was not understood, and it was reported.
+pub(super) struct Failed;
+
+pub(super) type Parse<T> = Result<T, Failed>;
+
+pub(super) struct Parser<'p> {
+    pub tokens: Vec<Tok>,
+    /// The next token.
+    pub at: usize,
+    pub ast: Ast,
+    pub origins: Origins,
+    pub names: &'p Interner,
+    pub report: &'p mut Report,
+    pub pieces: &'p [Piece<'p>],
+    /// Statements and expressions around the next token.
+    pub depth: u32,
+    /// The greatest `depth` since it was last looked at.
+    pub deepest: u32,
+    /// Children of lists that are being read, of all that are open.
+    pub expr_stack: Vec<ExprId>,
+    pub stmt_stack: Vec<StmtId>,
+    /// Kept for its memory.
+    pub declarators: Vec<Declarator>,
+    /// Token of the last error.
+    pub last_error: Option<usize>,
+    /// Reserved words that were reported.
+    pub reserved_told: Vec<u32>,
+    /// Says whether a struct has the name, by symbol.
+    pub structs: Vec<bool>,
+    /// The opening brace of the function that is being read, and its name.
+    pub body: Option<(usize, Ident)>,
+    /// A brace too many left the parser outside of functions; said once.
+    pub adrift: bool,
+    pub too_deep_told: bool,
+}
+
+/// Section 3.9 leaves the limit open; WebGL 2 has this one.
+const MAX_NAME: usize = 1024;
+
+/// How deep calls may nest before exact heights of trees are looked at: each call adds at most two levels.
+pub(super) const SAFE_DEPTH: u32 = 100;
+
+impl Parser<'_> {
+    #[inline]
+    pub fn kind(&self) -> Kind {
+        self.tokens[self.at].kind
+    }
+
+    #[inline]
+    pub fn kind_at(&self, i: usize) -> Kind {
+        self.tokens.get(i).map_or(Kind::Eof, |t| t.kind)
+    }
+
+    /// Kind of the token behind the next one.
+    #[inline]
+    pub fn second(&self) -> Kind {
+        self.kind_at(self.at + 1)
+    }
+
+    #[inline]
+    pub fn value(&self) -> u32 {
+        self.tokens[self.at].value
+    }
+
+    #[inline]
+    pub fn bump(&mut self) {
+        // The end stays the next token for good.
+        if self.at + 1 < self.tokens.len() {
+            self.at += 1;
+        }
+    }
+
+    #[inline]
+    pub fn eat(&mut self, kind: Kind) -> bool {
+        let found = self.kind() == kind;
+        if found {
+            self.bump();
+        }
+        found
+    }
+
+    /// The partner of a bracket.
+    #[inline]
+    pub fn partner(&self, i: usize) -> Option<usize> {
+        let value = self.tokens[i].value;
+        (value != brackets::ALONE).then_some(value as usize)
+    }
+
+    #[inline]
+    pub fn token(i: usize) -> TokenId {
+        TokenId(i as u32)
+    }
+
+    /// From a token to the last one read.
+    #[inline]
+    pub fn loc(&self, first: usize) -> Loc {
+        Loc::new(Self::token(first), Self::token(self.at.saturating_sub(1).max(first)))
+    }
+
+    #[inline]
+    pub fn enter(&mut self) -> Parse<()> {
+        self.depth += 1;
+        self.deepest = self.deepest.max(self.depth);
+        if self.depth > MAX_NESTING { Err(self.too_deep(self.at)) } else { Ok(()) }
+    }
+
+    #[inline]
+    pub fn leave(&mut self) {
+        self.depth -= 1;
+    }
+
+    #[cold]
+    pub fn too_deep(&mut self, i: usize) -> Failed {
+        if !std::mem::replace(&mut self.too_deep_told, true) {
+            let message = format!("this nests more than {MAX_NESTING} deep");
+            self.error(i, message, Some("give a part of it a name or a function of its own".into()));
+        }
+        self.last_error = Some(i);
+        Failed
+    }
+
+    /// Runs a part that may fail. Where it does, what it began is taken back, so that no half tree is left.
+    pub fn attempt<T>(&mut self, part: impl FnOnce(&mut Self) -> Parse<T>) -> Parse<T> {
+        let (depth, exprs) = (self.depth, self.ast.exprs.len());
+        let (expr_stack, stmt_stack) = (self.expr_stack.len(), self.stmt_stack.len());
+        let result = part(self);
+        if result.is_err() {
+            self.depth = depth;
+            self.ast.exprs.truncate(exprs);
+            self.expr_stack.truncate(expr_stack);
+            self.stmt_stack.truncate(stmt_stack);
+        }
+        result
+    }
+
+    /// A closing bracket for the opening one at `open`.
+    pub fn close(&mut self, open: usize, wanted: Kind) -> Parse<()> {
+        if self.eat(wanted) {
+            return Ok(());
+        }
+        let closer = match wanted {
+            Kind::RParen => "`)`",
+            Kind::RBracket => "`]`",
+            _ => "`}`",
+        };
+        if self.partner(open).is_none() {
+            // The rest may be in order: go on as if it stood here where something else plainly begins.
+            self.missing(closer, None, Some((open, "opened here")));
+            if matches!(self.kind(), Kind::Semicolon | Kind::LBrace) {
+                return Ok(());
+            }
+            return Err(Failed);
+        }
+        Err(self.unexpected(&format!("an operator or {closer}")))
+    }
+
+    /// `;` behind a statement or declaration. Where a new line follows it is only missing, and all goes on.
+    pub fn semicolon(&mut self) -> Parse<()> {
+        if self.eat(Kind::Semicolon) {
+            return Ok(());
+        }
+        let here = self.at;
+        if here > 0 && self.kind_at(here - 1) == Kind::Wrong {
+            return Ok(());
+        }
+        if self.starts_line(here) && self.begins_anew(here) || matches!(self.kind(), Kind::RBrace | Kind::Eof) {
+            self.missing("`;`", None, None);
+            return Ok(());
+        }
+        Err(self.unexpected("`;`"))
+    }
+
+    /// A token that can begin a statement or declaration.
+    pub fn begins_anew(&self, i: usize) -> bool {
+        !matches!(
+            self.kind_at(i),
+            Kind::RParen
+                | Kind::RBracket
+                | Kind::Dot
+                | Kind::Comma
+                | Kind::Colon
+                | Kind::Question
+                | Kind::Equal
+                | Kind::PlusEqual
+                | Kind::MinusEqual
+                | Kind::StarEqual
+                | Kind::SlashEqual
+                | Kind::PercentEqual
+                | Kind::LessLessEqual
+                | Kind::GreaterGreaterEqual
+                | Kind::AndEqual
+                | Kind::OrEqual
+                | Kind::CaretEqual
+        )
+    }
+
+    /// A name that is being declared.
+    pub fn declared(&mut self, what: &str) -> Parse<Ident> {
+        let i = self.at;
+        let ident = self.ident(what)?;
+        let name = self.names.get(ident.symbol);
+        let kept = if name.starts_with("gl_") {
+            Some("names that begin with `gl_` are kept for the language")
+        } else if name.starts_with("webgl_") || name.starts_with("_webgl_") {
+            Some("names that begin with `webgl_` or `_webgl_` are kept for WebGL")
+        } else if name.contains("__") {
+            Some("names with two underscores in a row are kept for the language")
+        } else if name.len() > MAX_NAME {
+            self.error(i, format!("this name has more than {MAX_NAME} characters"), None);
+            None
+        } else {
+            None
+        };
+        if let Some(rule) = kept {
+            self.error(i, format!("`{name}`: {rule}"), Some("choose another name".into()));
+        }
+        Ok(ident)
+    }
+
+    /// A name. A reserved word is reported once and taken for one.
+    pub fn ident(&mut self, what: &str) -> Parse<Ident> {
+        let i = self.at;
+        match self.kind() {
+            Kind::Ident => {}
+            Kind::Reserved => self.reserved(i),
+            Kind::Wrong => {
+                self.bump();
+                return Err(Failed);
+            }
+            kind if hint::is_keyword(kind) => {
+                let message = format!("expected {what}, found {}, which is a keyword", self.quoted(i));
+                return Err(self.fail(i, message, Some("choose another name".into())));
+            }
+            _ => {
+                let message = format!("expected {what}, found {}", self.shown(i));
+                return Err(self.fail(i, message, None));
+            }
+        }
+        let symbol = Symbol(self.value());
+        self.bump();
+        Ok(Ident { symbol, token: Self::token(i) })
+    }
+
+    /// Reports a reserved word, once.
+    pub fn reserved(&mut self, i: usize) {
+        let symbol = self.tokens[i].value;
+        if self.reserved_told.contains(&symbol) {
+            return;
+        }
+        self.reserved_told.push(symbol);
+        let word = self.text(i).to_owned();
+        let hint = hint::reserved(&word).map_or_else(|| "choose another name".to_owned(), str::to_owned);
+        self.error(i, format!("`{word}` is a reserved word of GLSL ES"), Some(hint));
+    }
+
+    pub fn error_expr(&mut self, first: usize) -> ExprId {
+        let loc = self.loc(first);
+        self.ast.expr(ExprKind::Error, loc)
+    }
+}

@@ -1,0 +1,49 @@
+//! The preprocessor (section 3.4): directives and macros, from the texts of a pass to the tokens the parser reads.
+//!
+//! Owns [`preprocess`], [`Origins`] as it fills them, and every message about directives, macros and characters. It
+//! sees the texts one after another as the site does (Common, then the pass's code, and in them what they include):
+//! macros and open conditionals carry over.
+//!
+//! Follows ANGLE, which compiles for every browser, in what the specification leaves open: an unknown name in an `#if`
+//! is an error unless `&&` or `||` passes it by; there is no pasting with `##`; a macro's name met while the macro is
+//! being expanded is left alone for good.
+
+mod characters;
+mod condition;
+mod define;
+mod directive;
+mod entry;
+mod expand;
+mod lines;
+mod state;
+mod tests;
+mod token;
+mod unit;
+
+#[cfg(test)]
+pub(super) use directive::DIRECTIVES;
+pub(super) use token::Tok;
+pub(super) use unit::Unit;
+
+use super::{
+    ast::{Interner, Origins},
+    pieces::Piece,
+    report::Report,
+};
+use state::Preprocessor;
+
+/// Holds what the parser goes on with.
+pub(super) struct Preprocessed {
+    /// As many as `origins.tokens`; the last is `Eof`.
+    pub tokens: Vec<Tok>,
+    pub origins: Origins,
+    /// The text ends before its end, which was reported: an open comment or conditional hides what may be missing.
+    pub is_cut: bool,
+}
+
+/// Runs the texts through.
+pub(super) fn preprocess(pieces: &[Piece<'_>], unit: Unit, names: &mut Interner, report: &mut Report) -> Preprocessed {
+    let mut all = Preprocessor::new(pieces, unit, names, report);
+    all.run(unit);
+    Preprocessed { tokens: all.tokens, origins: all.origins, is_cut: all.is_cut }
+}

@@ -1,0 +1,279 @@
+//! The preprocessor's state: texts, macros, tokens on their way to the parser.
+
+use super::{
+    token::Tok,
+    unit::{LineCount, Unit},
+};
+use crate::{
+    diag::{Diagnostic, Severity, SourceId, Span},
+    glsl::{
+        ast::{ExpansionId, Interner, MacroDef, MacroId, Origin, Origins},
+        lex::{Kind, LINE_START, Lexer, Token, words},
+        pieces::Piece,
+        report::Report,
+    },
+};
+
+/// Tokens that macros may produce, those that are read again and again counted each time. Ten times what the largest
+/// known shader needs; a bomb reaches it in a fraction of a second.
+pub(super) const MAX_MACRO_TOKENS: u32 = 2_000_000;
+/// How deep macro calls may stand in each other's arguments.
+pub(super) const MAX_CALL_DEPTH: u32 = 200;
+
+pub(super) struct Macro {
+    /// Range of [`Preprocessor::bodies`].
+    pub body: (u32, u32),
+    /// Symbols of the parameters, a range of [`Preprocessor::params`].
+    pub params: (u32, u32),
+    /// Its text is being read; the name is not to be expanded now.
+    pub busy: bool,
+    /// Calls whose arguments are being read.
+    pub calls: u32,
+    pub given: Given,
+    /// Its first use, through which uses inside its body are recorded once.
+    pub first_use: Option<ExpansionId>,
+}
+
+/// Says where a macro's value comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Given {
+    ByAuthor,
+    /// `HW_PERFORMANCE`, defined by the site's header like any macro.
+    BySite(u32),
+    /// Part of the language: nobody may define or undefine it.
+    ByLanguage(u32),
+    LineNumber,
+    FileNumber,
+}
+
+/// An `#if` that is open.
+pub(super) struct Conditional {
+    pub at: Token,
+    /// One of its groups was compiled.
+    pub taken: bool,
+    pub seen_else: Option<Token>,
+}
+
+/// Tokens to be read before the running text goes on.
+pub(super) struct Context {
+    pub start: u32,
+    pub next: u32,
+    pub end: u32,
+    /// The macro they come from; `None` for an argument or a directive's line, where reading ends.
+    pub source: Option<MacroId>,
+}
+
+pub(super) struct Preprocessor<'a, 'r> {
+    pub pieces: &'r [Piece<'a>],
+    pub lexers: Vec<Lexer<'a>>,
+    pub current: usize,
+    pub names: &'r mut Interner,
+    pub report: &'r mut Report,
+    pub origins: Origins,
+    pub tokens: Vec<Tok>,
+    /// By symbol: the number of its macro plus one.
+    pub defined: Vec<u32>,
+    pub macros: Vec<Macro>,
+    pub bodies: Vec<Token>,
+    pub params: Vec<u32>,
+    pub contexts: Vec<Context>,
+    /// Tokens of the contexts, in the same order.
+    pub pool: Vec<Token>,
+    pub peeked: Option<Token>,
+    pub conditionals: Vec<Conditional>,
+    /// Macros that wait until a call's arguments are complete before their names are free again.
+    pub waiting: Vec<MacroId>,
+    pub collecting: u32,
+    pub call_depth: u32,
+    /// Tokens that macros have produced.
+    pub work: u32,
+    /// A limit was passed: nothing more is read.
+    pub stopped: bool,
+    pub is_cut: bool,
+    pub spare: Vec<Vec<Token>>,
+    /// Names with foreign letters that were reported.
+    pub foreign: Vec<u32>,
+    pub line: LineCount,
+}
+
+impl<'a, 'r> Preprocessor<'a, 'r> {
+    pub fn new(pieces: &'r [Piece<'a>], unit: Unit, names: &'r mut Interner, report: &'r mut Report) -> Self {
+        let bytes: usize = pieces.iter().map(|p| p.range.len()).sum();
+        let mut new = Self {
+            pieces,
+            lexers: pieces.iter().map(|p| Lexer::part(p.text.id, p.text.text, p.range.clone())).collect(),
+            current: 0,
+            names,
+            report,
+            origins: Origins::default(),
+            // A token for four bytes is what shaders have, comments included.
+            tokens: Vec::with_capacity(bytes / 4 + 16),
+            defined: Vec::new(),
+            macros: Vec::new(),
+            bodies: Vec::new(),
+            params: Vec::new(),
+            contexts: Vec::new(),
+            pool: Vec::new(),
+            peeked: None,
+            conditionals: Vec::new(),
+            waiting: Vec::new(),
+            collecting: 0,
+            call_depth: 0,
+            work: 0,
+            stopped: false,
+            is_cut: false,
+            spare: Vec::new(),
+            foreign: Vec::new(),
+            line: LineCount::new(unit),
+        };
+        new.origins.tokens.reserve(bytes / 4 + 16);
+        for (name, given) in [
+            ("__LINE__", Given::LineNumber),
+            ("__FILE__", Given::FileNumber),
+            ("__VERSION__", Given::ByLanguage(300)),
+            ("GL_ES", Given::ByLanguage(1)),
+            ("GL_FRAGMENT_PRECISION_HIGH", Given::ByLanguage(1)),
+            ("HW_PERFORMANCE", Given::BySite(1)),
+        ] {
+            let name = new.names.intern(name);
+            let def = MacroDef { name, name_at: None, defined_at: None, function_like: false };
+            new.add_macro(def, (0, 0), (0, 0), given);
+        }
+        new
+    }
+
+    pub fn run(&mut self, unit: Unit) {
+        loop {
+            let token = self.next_expanded();
+            if token.kind == Kind::Eof {
+                break;
+            }
+            self.emit(token);
+        }
+        if let Unit::Pass(kind) = unit
+            && !self.stopped
+        {
+            self.wrap_entry(kind);
+        }
+        for open in std::mem::take(&mut self.conditionals) {
+            self.is_cut = true;
+            if !self.stopped {
+                let name = self.text(open.at.span).to_owned();
+                self.error(&open.at, format!("`#{name}` has no `#endif`"), None);
+            }
+        }
+        if self.stopped {
+            // Half a text would only give messages about its other half.
+            self.tokens.clear();
+            self.origins.tokens.clear();
+        }
+        let last = self.pieces.last().map_or(Span::at(SourceId(0), 0), |p| Span::at(p.text.id, p.text.text.len()));
+        self.tokens.push(Tok { kind: Kind::Eof, value: 0 });
+        self.origins.tokens.push(Origin { spelled: last, expansion: None });
+    }
+
+    /// Hands a token to the parser.
+    #[inline]
+    pub fn emit(&mut self, token: Token) {
+        let (kind, value) = match token.kind {
+            Kind::Ident => (words::kind(token.value), token.value),
+            Kind::BadNumber
+            | Kind::BadChar
+            | Kind::BadName
+            | Kind::Text
+            | Kind::Hash
+            | Kind::HashHash
+            | Kind::Newline
+            | Kind::OpenComment
+            | Kind::Param => match self.mend(&token) {
+                Some(mended) => mended,
+                None => return,
+            },
+            kind => (kind, token.value),
+        };
+        self.tokens.push(Tok { kind, value });
+        self.origins.tokens.push(Origin { spelled: token.span, expansion: token.expansion });
+    }
+
+    /// The next token of the current text, with nothing done to it.
+    #[inline]
+    pub fn raw(&mut self) -> Token {
+        self.lexers[self.current].next(self.names)
+    }
+
+    /// The next token of the running text, directives carried out on the way.
+    #[inline]
+    pub fn running(&mut self) -> Token {
+        if let Some(token) = self.peeked.take() {
+            return token;
+        }
+        loop {
+            let token = self.raw();
+            match token.kind {
+                Kind::Hash if token.has(LINE_START) => self.directive(token),
+                Kind::Eof if self.current + 1 < self.lexers.len() => self.current += 1,
+                Kind::OpenComment => self.open_comment(&token),
+                _ => return token,
+            }
+            if self.stopped {
+                return end_token(token);
+            }
+        }
+    }
+
+    pub fn open_comment(&mut self, token: &Token) {
+        self.is_cut = true;
+        self.error(
+            token,
+            "this comment is not closed: it hides the rest of the text",
+            Some("close it with `*/`".into()),
+        );
+    }
+
+    #[inline]
+    pub fn defined(&self, symbol: u32) -> Option<MacroId> {
+        match self.defined.get(symbol as usize) {
+            Some(&id) if id > 0 => Some(MacroId::new(id as usize - 1)),
+            _ => None,
+        }
+    }
+
+    pub fn text(&self, span: Span) -> &'a str {
+        self.pieces.iter().find(|p| p.text.id == span.source).and_then(|p| p.text.text.get(span.range())).unwrap_or("")
+    }
+
+    /// Returns where the author wrote what became this token.
+    pub fn place(&self, token: &Token) -> Span {
+        token.expansion.map_or(token.span, |id| self.origins[id].used_at)
+    }
+
+    pub fn diagnose(&mut self, severity: Severity, token: &Token, message: String, hint: Option<String>) {
+        let mut diagnostic = Diagnostic::new(severity, self.place(token), message);
+        if let Some(id) = token.expansion {
+            let name = self.names.get(self.origins[self.origins[id].macro_id].name);
+            diagnostic = diagnostic.label(token.span, format!("in the definition of the macro `{name}`"));
+        }
+        diagnostic.hints.extend(hint);
+        self.report.add_in_macro(token.expansion.map(|_| token.span), diagnostic);
+    }
+
+    pub fn error(&mut self, token: &Token, message: impl Into<String>, hint: Option<String>) {
+        self.diagnose(Severity::Error, token, message.into(), hint);
+    }
+
+    pub fn warning(&mut self, token: &Token, message: impl Into<String>, hint: Option<String>) {
+        self.diagnose(Severity::Warning, token, message.into(), hint);
+    }
+
+    /// An error that ends the reading: what follows would make no sense.
+    pub fn stop(&mut self, token: &Token, message: String, hint: Option<String>) {
+        if !self.stopped {
+            self.error(token, message, hint);
+        }
+        self.stopped = true;
+    }
+}
+
+pub(super) fn end_token(like: Token) -> Token {
+    Token { kind: Kind::Eof, ..like }
+}

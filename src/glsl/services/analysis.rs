@@ -1,0 +1,103 @@
+//! A pass as the editor's questions find it: what the compiler understood, and its texts as written.
+
+use super::{symbols::Symbols, text::Source};
+use crate::{
+    diag::{SourceId, Span},
+    glsl::{
+        ast::{Ident, Interner, Origins, TokenId},
+        check::{self, knob_type},
+        hir::{Module, TypeId, Uniform},
+        parse,
+        source::{ChannelKind, PassKind, PassSource},
+    },
+};
+
+/// A place in the texts of a pass: later texts come after earlier ones.
+pub(super) type Place = (usize, u32);
+
+/// A pass, understood as far as it goes. Answers about Common and about the pass's own text alike; a source that is
+/// neither has no answers. Cheap to ask, made anew for each text: about a millisecond for a thousand lines.
+pub struct Analysis {
+    pub(super) kind: PassKind,
+    pub(super) channels: [ChannelKind; 4],
+    /// Common, if there is one, what is included anywhere, then the pass's text: what comes later may name what is
+    /// before it.
+    pub(super) sources: Vec<Source>,
+    pub(super) origins: Origins,
+    pub(super) names: Interner,
+    pub(super) module: Module,
+    pub(super) symbols: Symbols,
+    /// Types of [`Uniform::ALL`].
+    pub(super) uniform_types: Vec<TypeId>,
+    /// Name and type of the author's own uniforms.
+    pub(super) knobs: Vec<(String, TypeId)>,
+}
+
+impl std::fmt::Debug for Analysis {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Analysis").field("kind", &self.kind).finish_non_exhaustive()
+    }
+}
+
+impl Analysis {
+    pub fn new(source: &PassSource<'_>) -> Self {
+        let mut parsed = parse::parse(source);
+        let checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source);
+        let mut module = checked.module;
+        let uniform_types = Uniform::ALL.iter().map(|uniform| uniform.ty(&mut module.types)).collect();
+        let mut texts: Vec<_> = source.common.into_iter().collect();
+        for text in source.includes.iter().map(|i| i.text).chain([source.code]) {
+            if !texts.iter().any(|t| t.id == text.id) {
+                texts.push(text);
+            }
+        }
+        let knobs = source.knobs.iter().map(|k| (k.name.to_owned(), knob_type(k.kind))).collect();
+        let sources = texts.into_iter().map(|text| Source::new(text, &parsed.origins, &mut parsed.names)).collect();
+        let mut analysis = Self {
+            kind: source.kind,
+            channels: source.channels,
+            sources,
+            origins: parsed.origins,
+            names: parsed.names,
+            module,
+            symbols: Symbols::default(),
+            uniform_types,
+            knobs,
+        };
+        analysis.symbols = analysis.occurrences();
+        analysis
+    }
+
+    /// The text this was made of.
+    pub fn text(&self, source: SourceId) -> Option<&str> {
+        Some(&self.sources[self.source_index(source)?].text)
+    }
+
+    pub(super) fn source_index(&self, id: SourceId) -> Option<usize> {
+        self.sources.iter().position(|s| s.id == id)
+    }
+
+    pub(super) fn text_of(&self, span: Span) -> &str {
+        self.source_index(span.source).and_then(|i| self.sources[i].text.get(span.range())).unwrap_or("")
+    }
+
+    /// The word at a place: index of its text, and of the token.
+    pub(super) fn word_at(&self, source: SourceId, offset: usize) -> Option<(usize, usize)> {
+        let source = self.source_index(source)?;
+        Some((source, self.sources[source].word_at(offset)?))
+    }
+
+    /// Returns where a token's characters are: in a macro's replacement list for what came out of one.
+    pub(super) fn spelled(&self, token: TokenId) -> Span {
+        self.origins.tokens[token.0 as usize].spelled
+    }
+
+    /// Returns whether a name stands in the text where it is said to.
+    pub(super) fn is_written(&self, name: Option<Ident>) -> bool {
+        name.is_some_and(|name| self.word(name.token) == self.names.get(name.symbol))
+    }
+
+    pub(super) fn word(&self, token: TokenId) -> &str {
+        self.text_of(self.spelled(token))
+    }
+}

@@ -1,0 +1,109 @@
+//! Says what the front end is given of a pass: its texts, its channels, the values of its uniforms.
+
+use super::driver::Driver;
+use crate::diag::{SourceId, Span};
+
+/// Which entry point a pass defines, and which uniforms it may name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum PassKind {
+    /// `void mainImage(out vec4, in vec2)`; alpha is forced to 1; may call `st_assert`.
+    Image,
+    /// `void mainImage(out vec4, in vec2)`; all four channels are stored as written.
+    Buffer,
+    /// `void mainCubemap(out vec4, in vec2, in vec3, in vec3)`.
+    Cubemap,
+    /// `vec2 mainSound(int, float)`.
+    Sound,
+    /// `void main()` that sets `gl_Position`, once for each vertex of a mesh; see [`super::stages`].
+    Vertex,
+    /// `void main()` that sets `out` variables, once for each fragment of a mesh.
+    Fragment,
+}
+
+impl PassKind {
+    /// A stage of a program that draws meshes.
+    pub fn is_stage(self) -> bool {
+        matches!(self, PassKind::Vertex | PassKind::Fragment)
+    }
+}
+
+/// The type `iChannelN` is declared with. A channel with no input is a `sampler2D`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum ChannelKind {
+    #[default]
+    Sampler2D,
+    Sampler3D,
+    SamplerCube,
+}
+
+/// One text, and the id by which diagnostics shall point into it.
+#[derive(Clone, Copy, Debug)]
+pub struct Text<'a> {
+    pub id: SourceId,
+    pub text: &'a str,
+}
+
+/// A line of a text in whose place another text stands.
+#[derive(Clone, Copy, Debug)]
+pub struct Include<'a> {
+    pub line: Span,
+    pub text: Text<'a>,
+}
+
+/// A uniform that the author declares beside the language, in an `#iUniform` line. It is in scope everywhere in the
+/// texts of the pass, as the site's own uniforms are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Knob<'a> {
+    pub name: &'a str,
+    pub kind: KnobKind,
+    /// Says where its value lies in the block at [`super::interface::KNOB_BINDING`], in slots of
+    /// [`super::interface::KNOB_BYTES`].
+    pub slot: u16,
+}
+
+/// Says what a [`Knob`] is in GLSL.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum KnobKind {
+    Bool,
+    Int,
+    Float,
+    Vec2,
+    Vec3,
+    Vec4,
+}
+
+/// The value of a `uniform` that a text declares.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UniformValue {
+    pub name: String,
+    pub value: GivenValue,
+}
+
+/// A value whose type only the declaration knows: lists are vectors, columns of matrices, matrices and arrays.
+#[derive(Clone, Debug, PartialEq)]
+pub enum GivenValue {
+    Bool(bool),
+    /// Holds every `int`, `uint` and `float`.
+    Number(f64),
+    List(Vec<GivenValue>),
+}
+
+/// Everything the front end needs to know of a pass.
+#[derive(Clone, Copy, Debug)]
+pub struct PassSource<'a> {
+    pub kind: PassKind,
+    pub common: Option<Text<'a>>,
+    pub code: Text<'a>,
+    /// The includes of all texts of the pass, those in includes among them; no text includes itself.
+    pub includes: &'a [Include<'a>],
+    pub channels: [ChannelKind; 4],
+    /// The knobs of all texts of the pass, each name once.
+    pub knobs: &'a [Knob<'a>],
+    /// The values of uniforms that a text of the pass may declare, each name once; those it does not declare mean
+    /// nothing.
+    pub values: &'a [UniformValue],
+    /// Channels whose texture this device cannot filter though the project asks for it: every filtered read of them is
+    /// written as four fetches and a mix (section 8.13 of the OpenGL ES 3.0 specification gives the weights).
+    pub bilinear_by_hand: [bool; 4],
+    pub driver: Driver,
+}

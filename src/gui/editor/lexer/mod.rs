@@ -1,0 +1,233 @@
+//! Enough of GLSL's lexical grammar to colour it, a line or a piece of one at a time.
+//!
+//! A piece of a line can be lexed alone given the [`LexState`] it begins in, so an editor colours only what it shows.
+//! It never refuses a text: what it does not know is [`TokenKind::Plain`]. The compiler's own lexer lives in `glsl`.
+
+use super::words::{self, Word};
+use std::ops::Range;
+
+/// The construct that a place of a line lies in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Inside {
+    /// Nothing but blanks stands before it in its line: a `#` here begins a directive.
+    #[default]
+    Indent,
+    Code,
+    LineComment,
+    BlockComment,
+}
+
+/// The facts about the text before a place that lexing needs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct LexState {
+    pub inside: Inside,
+    /// The line belongs to a directive, its own or one that an earlier line began and continued by a backslash.
+    pub in_directive: bool,
+}
+
+impl LexState {
+    /// The state that the next line begins in, `self` being the state at the end of `line`.
+    pub fn next_line(self, line: &str) -> LexState {
+        let continues = line.ends_with('\\');
+        match self.inside {
+            Inside::LineComment if continues => LexState { inside: Inside::LineComment, in_directive: false },
+            Inside::LineComment => LexState::default(),
+            Inside::BlockComment => self,
+            Inside::Indent | Inside::Code => {
+                LexState { inside: Inside::Indent, in_directive: self.in_directive && continues }
+            }
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum TokenKind {
+    Plain,
+    Keyword,
+    Type,
+    /// A function of the language.
+    Builtin,
+    /// `iTime` and its kin, and the language's own variables.
+    Uniform,
+    /// A name the author gave to a macro.
+    Macro,
+    /// A name that is called or declared as a function.
+    Function,
+    Parameter,
+    Global,
+    Field,
+    /// Left out by an `#if`.
+    Inactive,
+    Number,
+    Comment,
+    Directive,
+    Operator,
+}
+
+/// A run of bytes of one kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Token {
+    pub len: usize,
+    pub kind: TokenKind,
+}
+
+/// How far behind a name a `(` is looked for: a lexer of pieces must not read the rest of the line.
+const LOOK_AHEAD: usize = 256;
+
+/// Tokens that together cover `range` of a line (without its end). `state` is that of the range's first byte, and the
+/// range begins and ends between two tokens or inside of a comment.
+pub fn lex(line: &str, range: Range<usize>, state: LexState, is_macro: &dyn Fn(&str) -> bool) -> Vec<Token> {
+    let mut lexer = Lexer { line: &line[..range.end], at: range.start, tokens: Vec::new() };
+    let mut state = state;
+    if state.inside == Inside::LineComment {
+        lexer.push(range.len(), TokenKind::Comment);
+    }
+    if state.inside == Inside::BlockComment {
+        lexer.block_comment(0);
+        state.inside = Inside::Code;
+    }
+    let mut names_macro = false;
+    while let Some(c) = lexer.line[lexer.at..].chars().next() {
+        let rest = &lexer.line[lexer.at..];
+        let is_indent = state.inside == Inside::Indent;
+        if !c.is_whitespace() {
+            state.inside = Inside::Code;
+        }
+        if rest.starts_with("//") {
+            lexer.push(rest.len(), TokenKind::Comment);
+        } else if rest.starts_with("/*") {
+            lexer.block_comment(2);
+        } else if c == '#' && is_indent {
+            let word = 1 + rest[1..].len() - rest[1..].trim_start().len();
+            let len = word + identifier_len(&rest[word..]);
+            names_macro = matches!(&rest[word..len], "define" | "undef" | "ifdef" | "ifndef");
+            lexer.push(len, TokenKind::Directive);
+        } else if c.is_ascii_digit() || (c == '.' && rest[1..].starts_with(|c: char| c.is_ascii_digit())) {
+            lexer.push(number_len(rest), TokenKind::Number);
+        } else if c.is_alphabetic() || c == '_' {
+            let len = identifier_len(rest);
+            let name = &rest[..len];
+            let mut behind = line[lexer.at + len..].chars().take(LOOK_AHEAD);
+            let kind = if std::mem::take(&mut names_macro) || is_macro(name) {
+                TokenKind::Macro
+            } else {
+                match words::word(name) {
+                    Some(Word::Keyword) => TokenKind::Keyword,
+                    Some(Word::Type) => TokenKind::Type,
+                    Some(Word::Builtin) => TokenKind::Builtin,
+                    Some(Word::Uniform) => TokenKind::Uniform,
+                    None if behind.find(|c| !c.is_whitespace()) == Some('(') => TokenKind::Function,
+                    None => TokenKind::Plain,
+                }
+            };
+            lexer.push(len, kind);
+        } else if c.is_ascii_punctuation() {
+            lexer.push(1, TokenKind::Operator);
+        } else {
+            lexer.push(c.len_utf8(), TokenKind::Plain);
+        }
+    }
+    lexer.tokens
+}
+
+/// Goes through a line byte by byte and keeps the [`LexState`]: much quicker than tokens, for what nobody sees.
+#[derive(Clone, Debug)]
+pub struct Scanner<'a> {
+    line: &'a [u8],
+    pub at: usize,
+    pub state: LexState,
+}
+
+impl<'a> Scanner<'a> {
+    /// `state` is that of the byte `at`.
+    pub fn new(line: &'a str, at: usize, state: LexState) -> Self {
+        Self { line: line.as_bytes(), at, state }
+    }
+
+    pub fn is_at_end(&self) -> bool {
+        self.at >= self.line.len()
+    }
+
+    /// Goes on by one byte, or past the two that begin or end a comment.
+    #[inline]
+    pub fn step(&mut self) {
+        let byte = self.line[self.at];
+        let next = self.line.get(self.at + 1);
+        let mut len = 1;
+        match self.state.inside {
+            Inside::LineComment => {}
+            Inside::BlockComment if byte == b'*' && next == Some(&b'/') => {
+                self.state.inside = Inside::Code;
+                len = 2;
+            }
+            Inside::BlockComment => {}
+            Inside::Indent if byte.is_ascii_whitespace() => {}
+            Inside::Indent | Inside::Code if byte == b'/' && next == Some(&b'/') => {
+                self.state.inside = Inside::LineComment;
+                len = 2;
+            }
+            Inside::Indent | Inside::Code if byte == b'/' && next == Some(&b'*') => {
+                self.state.inside = Inside::BlockComment;
+                len = 2;
+            }
+            Inside::Indent => {
+                self.state.inside = Inside::Code;
+                self.state.in_directive |= byte == b'#';
+            }
+            Inside::Code => {}
+        }
+        self.at += len;
+    }
+}
+
+/// The name a `#define` line gives, if the line is one.
+pub fn defined_name(line: &str) -> Option<&str> {
+    let rest = line.trim_start().strip_prefix('#')?.trim_start().strip_prefix("define")?;
+    let name = rest.trim_start();
+    (name.len() < rest.len()).then(|| &name[..identifier_len(name)]).filter(|n| !n.is_empty())
+}
+
+struct Lexer<'a> {
+    line: &'a str,
+    at: usize,
+    tokens: Vec<Token>,
+}
+
+impl Lexer<'_> {
+    fn push(&mut self, len: usize, kind: TokenKind) {
+        if len == 0 {
+            return;
+        }
+        self.at += len;
+        match self.tokens.last_mut() {
+            Some(last) if last.kind == kind => last.len += len,
+            _ => self.tokens.push(Token { len, kind }),
+        }
+    }
+
+    /// To the comment's end, which is looked for behind the first `skip` bytes.
+    fn block_comment(&mut self, skip: usize) {
+        let rest = &self.line[self.at..];
+        let end = rest[skip..].find("*/").map_or(rest.len(), |i| skip + i + 2);
+        self.push(end, TokenKind::Comment);
+    }
+}
+
+fn identifier_len(text: &str) -> usize {
+    text.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(text.len())
+}
+
+fn number_len(text: &str) -> usize {
+    let hexadecimal = text.starts_with("0x") || text.starts_with("0X");
+    let mut previous = ' ';
+    text.find(|c: char| {
+        let exponent_sign = !hexadecimal && matches!(c, '+' | '-') && matches!(previous, 'e' | 'E');
+        let inside = c.is_ascii_alphanumeric() || c == '.' || exponent_sign;
+        previous = c;
+        !inside
+    })
+    .unwrap_or(text.len())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,51 @@
+//! One frame of the window: input, apply, draw, show again.
+//!
+//! Owns the order. The panels take the input first, the session does what they ask, and only then is the picture drawn,
+//! so that a shader sees the mouse where the hand has it now. Knows no window and no surface: what is to be painted
+//! comes back.
+
+use super::{shell::Shell, steps};
+use crate::session::{Session, Tick};
+use egui::{FullOutput, RawInput};
+use egui_wgpu::Renderer;
+use std::time::Instant;
+
+/// A frame that is ready to be painted.
+pub struct Frame {
+    pub output: FullOutput,
+    pub tick: Tick,
+    /// Panels that were shown after the picture was drawn want something more, which the next frame draws.
+    pub wants_next: bool,
+}
+
+/// Takes the input since the last frame through panels and session to a picture. `renderer` gets the picture's texture.
+pub fn run(
+    ctx: &egui::Context,
+    shell: &mut Shell,
+    session: &mut Session,
+    renderer: &mut Renderer,
+    input: RawInput,
+    now: Instant,
+) -> Frame {
+    let nothing = steps::without_events(&input);
+    let mut output = FullOutput::default();
+    let mut show = |input, session: &mut Session, renderer: &mut Renderer| {
+        shell.prepare(session, renderer);
+        let mut commands = Vec::new();
+        output.append(ctx.run_ui(input, |ui| commands.extend(shell.show(ui, session))));
+        let asked = !commands.is_empty();
+        commands.into_iter().for_each(|command| session.apply(command));
+        asked
+    };
+    for input in steps::split(input) {
+        show(input, session, renderer);
+    }
+    let tick = session.tick(now);
+    // What the panels have shown is older than what they asked for and what the tick has found.
+    let wants_next = tick.changed && show(nothing, session, renderer);
+    shell.prepare(session, renderer);
+    Frame { output, tick, wants_next }
+}
+
+#[cfg(test)]
+mod tests;

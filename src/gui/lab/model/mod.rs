@@ -1,0 +1,160 @@
+//! Says what the lab's panel shows, without a widget: the results known so far as points in the plane of cost and
+//! error.
+
+use crate::lab::{
+    ErrorRecord, Extent, Method, Point, Results, Study,
+    background::{Event, Progress},
+    report::{Look, Row, Table},
+};
+use egui::Pos2;
+
+/// Results of one extent, which those of the other are not mixed with.
+#[derive(Default)]
+pub struct Known {
+    pub results: Results,
+    /// Points whose cost is only estimated: milliseconds a frame.
+    pub estimates: Vec<(Point, f64)>,
+    /// Nothing has come since a report of it was written.
+    pub is_saved: bool,
+}
+
+/// A point in the plane.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dot {
+    /// log10 of milliseconds and of the error.
+    pub at: [f64; 2],
+    /// The index in [`Shown::table`].
+    pub row: usize,
+    /// The index in [`Shown::methods`].
+    pub method: usize,
+    pub look: Look,
+    /// The cost is one turn's, by itself: it moves yet.
+    pub is_estimate: bool,
+}
+
+/// A study's results, ready to be drawn.
+pub struct Shown {
+    pub table: Table,
+    pub methods: Vec<&'static Method>,
+    pub dots: Vec<Dot>,
+    /// The frontier as a staircase, in log10.
+    pub frontier: Vec<[f64; 2]>,
+    /// (left, right), (bottom, top): whole decades, in log10.
+    pub bounds: Option<[(f64, f64); 2]>,
+}
+
+impl Known {
+    /// Takes in what a run says; whether there is something new to draw.
+    pub fn take(&mut self, event: &Event) -> bool {
+        match event {
+            Event::Known(results) => {
+                // A folder that was written by another run has more than this window has seen.
+                self.results = results.clone();
+                self.estimates.retain(|(point, _)| self.results.error(point).is_some());
+            }
+            Event::Measured(record) => self.measured(record),
+            Event::Estimate { point, millis } => {
+                self.estimates.retain(|(p, _)| p != point);
+                self.estimates.push((point.clone(), *millis));
+            }
+            Event::Costed(record) => {
+                self.estimates.retain(|(p, _)| *p != record.point);
+                self.results.add(crate::lab::Record::Cost(record.clone()));
+            }
+            Event::Progress(_) | Event::Ended(_) => return false,
+        }
+        self.is_saved = false;
+        true
+    }
+
+    fn measured(&mut self, record: &ErrorRecord) {
+        self.results.add(crate::lab::Record::Error(record.clone()));
+    }
+
+    /// Returns whether every point of a study has its error, and those on its main grid their costs.
+    pub fn is_whole(&self, study: &dyn Study, extent: Extent) -> bool {
+        let main = study.main_grid(extent);
+        study.points(extent).iter().all(|point| {
+            self.results
+                .error(point)
+                .is_some_and(|e| e.trouble.is_some() || point.grid != main || self.results.cost(point).is_some())
+        })
+    }
+
+    /// `None` where nothing of the study is known.
+    pub fn shown(&self, study: &dyn Study) -> Option<Shown> {
+        let estimate = |point: &Point| self.estimates.iter().find(|(p, _)| p == point).map(|(_, millis)| *millis);
+        Some(Shown::new(Table::with_estimates(study, &self.results, estimate)?))
+    }
+}
+
+impl Shown {
+    fn new(table: Table) -> Shown {
+        let methods = table.methods();
+        let dot = |(row, r): (usize, &Row)| {
+            let (x, y) = r.place()?;
+            Some(Dot {
+                at: [x.log10(), y.log10()],
+                row,
+                method: methods.iter().position(|m| m.name == r.method.name)?,
+                look: r.look(),
+                is_estimate: r.cost.is_none(),
+            })
+        };
+        let dots: Vec<Dot> = table.rows.iter().enumerate().filter_map(dot).collect();
+        let frontier: Vec<[f64; 2]> = table.frontier().iter().map(|(x, y)| [x.log10(), y.log10()]).collect();
+        let mut stairs = Vec::new();
+        for pair in frontier.windows(2) {
+            stairs.extend([pair[0], [pair[1][0], pair[0][1]], pair[1]]);
+        }
+        let around = |axis: usize| {
+            let (a, b) = crate::lab::report::decades(dots.iter().map(|d| 10f64.powf(d.at[axis])))?;
+            Some((a.log10(), b.log10()))
+        };
+        let bounds = around(0).zip(around(1)).map(|(x, y)| [x, y]);
+        Shown { methods, frontier: stairs, bounds, dots, table }
+    }
+
+    pub fn row(&self, dot: &Dot) -> &Row {
+        &self.table.rows[dot.row]
+    }
+
+    /// The line of a method along its settings.
+    pub fn line(&self, method: usize) -> Vec<[f64; 2]> {
+        self.dots.iter().filter(|d| d.method == method).map(|d| d.at).collect()
+    }
+
+    /// Rows of a method that are measured and have no place in the plane: they diverged, failed, or wait for a cost.
+    pub fn without_place(&self, method: &Method) -> impl Iterator<Item = &Row> {
+        self.table.of(method).filter(|r| r.place().is_none())
+    }
+}
+
+/// The place nearest to a pointer, of those within a radius; the later of two that are equally near, which is drawn on
+/// top.
+pub fn nearest(places: impl IntoIterator<Item = Pos2>, pointer: Pos2, radius: f32) -> Option<usize> {
+    let far = places.into_iter().enumerate().map(|(n, place)| (n, place.distance(pointer)));
+    let near = far.filter(|(_, distance)| *distance <= radius);
+    near.reduce(|best, next| if next.1 <= best.1 { next } else { best }).map(|(n, _)| n)
+}
+
+/// Returns where a run stands, from 0 to 1, and in words.
+pub fn told(progress: &Progress) -> (f32, String) {
+    match progress {
+        Progress::Begins => (0.0, "opening a device".into()),
+        Progress::Error { point, done, all } => {
+            let part = *done as f32 / (*all).max(1) as f32;
+            let words = format!("{} of {all}: {} at {} on {}", done + 1, point.method, point.setting, point.grid);
+            // The last part is the costs'.
+            (0.8 * part, words)
+        }
+        Progress::Cost { points } => (0.8, format!("costs of {points} points")),
+        Progress::Turn { done, all } => {
+            let part = *done as f32 / (*all).max(1) as f32;
+            (0.8 + 0.2 * part, format!("costs, turn {} of {all}", done + 1))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

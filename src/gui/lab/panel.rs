@@ -1,0 +1,69 @@
+//! The panel as it is drawn: the row over it, the plot, the list of methods.
+
+use super::{header, legend, plot, state::Lab};
+use crate::gui::{outbox::Outbox, theme};
+use egui::{Align, Layout, RichText, Ui, vec2};
+
+/// How wide the panel has to be to have a list of methods.
+const ROOM_FOR_LEGEND: f32 = 640.0;
+
+impl Lab {
+    pub fn show(&mut self, ui: &mut Ui, out: &mut Outbox) {
+        ui.spacing_mut().item_spacing = vec2(6.0, 4.0);
+        header::show(ui, self, out);
+        if let Some((words, is_bad)) = &self.told {
+            let color = if *is_bad { theme::ERROR } else { theme::GOOD };
+            ui.add(egui::Label::new(RichText::new(words).size(12.0).color(color)).truncate().selectable(true));
+        }
+        let Some(shown) = self.shown.take() else { return self.show_about(ui) };
+        let has_legend = ui.available_width() > ROOM_FOR_LEGEND;
+        let height = ui.available_height();
+        let mut clicked = None;
+        let mut hovered_method = None;
+        ui.horizontal_top(|ui| {
+            let width = ui.available_width() - if has_legend { legend::WIDTH + 12.0 } else { 0.0 };
+            ui.allocate_ui(vec2(width, height), |ui| {
+                let view = plot::View { opened: self.opened.as_ref(), lit: self.hovered_method, extent: self.extent };
+                clicked = plot::show(ui, &shown, &view, out);
+            });
+            if has_legend {
+                let layout = Layout::top_down(Align::Min);
+                ui.allocate_ui_with_layout(vec2(legend::WIDTH, height), layout, |ui| {
+                    hovered_method = legend::show(ui, &shown);
+                });
+            }
+        });
+        self.hovered_method = hovered_method;
+        if let Some(row) = clicked {
+            self.open(shown.table.rows[row].point.clone(), out);
+        }
+        self.shown = Some(shown);
+    }
+
+    /// Before there is anything to plot.
+    fn show_about(&self, ui: &mut Ui) {
+        let (study, about) = (self.study(), self.study().about());
+        egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            ui.add_space(6.0);
+            ui.set_max_width(760.0);
+            ui.label(RichText::new(about.title).size(17.0).color(theme::STRONG));
+            ui.label(about.text);
+            ui.add_space(4.0);
+            for method in study.methods() {
+                let settings: Vec<String> = method.settings.iter().map(f64::to_string).collect();
+                ui.horizontal_wrapped(|ui| {
+                    ui.label(method.title);
+                    ui.colored_label(theme::WEAK, format!("{}: {}", about.knob, settings.join(", ")));
+                });
+            }
+            ui.add_space(4.0);
+            let points = study.points(self.extent).len();
+            let grids: Vec<String> = study.grids(self.extent).iter().map(u32::to_string).collect();
+            let words = match self.run {
+                Some(_) => "The first points come soon.".to_owned(),
+                None => format!("Start measures {points} points on grids of {} texels a side.", grids.join(", ")),
+            };
+            ui.colored_label(theme::WEAK, words);
+        });
+    }
+}

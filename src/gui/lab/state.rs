@@ -1,0 +1,289 @@
+//! The state of the panel: the results that are known, the run under way, the folder they go to.
+
+use super::model::{Known, Shown};
+use crate::{
+    gpu::{Gpu, GpuOptions},
+    gui::outbox::{Outbox, Pick, Wish},
+    lab::{
+        self, Extent, LabError, Point, Results, Shard, Study,
+        background::{Background, Event, Progress},
+        cost,
+        open::Opened,
+        report,
+        run::Options,
+        studies,
+    },
+    project::Tab,
+    session::{Command, Session},
+};
+use serde_json::{Value, json};
+use std::{
+    path::{Path, PathBuf},
+    sync::{
+        Arc,
+        mpsc::{Receiver, channel},
+    },
+};
+
+/// The panel's state.
+pub struct Lab {
+    pub(super) wake: Arc<dyn Fn() + Send + Sync>,
+    pub(super) adapter: wgpu::AdapterInfo,
+    pub(super) studies: Vec<&'static dyn Study>,
+    pub(super) study: usize,
+    pub(super) extent: Extent,
+    /// Quick, then full.
+    pub(super) known: [Known; 2],
+    pub(super) shown: Option<Shown>,
+    pub(super) run: Option<Run>,
+    pub(super) folder: Folder,
+    /// A report that is being written.
+    pub(super) saving: Option<(Extent, Receiver<Result<PathBuf, String>>)>,
+    /// Says what the last thing came to, and whether it went wrong.
+    pub(super) told: Option<(String, bool)>,
+    /// The point whose project was opened last.
+    pub(super) opened: Option<Point>,
+    /// The project that a click opens, by its name, and the tab that is shown when it is there: the pass that is
+    /// measured.
+    pub(super) code: Option<(String, Tab)>,
+    /// The method of the list that is under the pointer.
+    pub(super) hovered_method: Option<usize>,
+}
+
+/// A run under way.
+pub(super) struct Run {
+    pub(super) background: Background,
+    pub(super) study: usize,
+    pub(super) extent: Extent,
+    pub(super) progress: Progress,
+}
+
+/// Says where results are kept.
+pub(super) enum Folder {
+    /// Made when it is first needed; gone with the window.
+    Temporary(Option<tempfile::TempDir>),
+    Chosen(PathBuf),
+}
+
+impl Lab {
+    pub fn new(gpu: &Gpu, wake: Arc<dyn Fn() + Send + Sync>) -> Self {
+        Self {
+            wake,
+            adapter: gpu.info.clone(),
+            studies: studies::all(),
+            study: 0,
+            extent: Extent::Quick,
+            known: Default::default(),
+            shown: None,
+            run: None,
+            folder: Folder::Temporary(None),
+            saving: None,
+            told: None,
+            opened: None,
+            code: None,
+            hovered_method: None,
+        }
+    }
+
+    pub(super) fn known(&self, extent: Extent) -> &Known {
+        &self.known[usize::from(extent == Extent::Full)]
+    }
+
+    fn known_mut(&mut self, extent: Extent) -> &mut Known {
+        &mut self.known[usize::from(extent == Extent::Full)]
+    }
+
+    pub(super) fn study(&self) -> &'static dyn Study {
+        self.studies[self.study]
+    }
+
+    /// Takes in what the run has said since the last frame.
+    pub fn update(&mut self) {
+        if let Some((extent, Ok(saved))) = self.saving.as_ref().map(|(extent, saved)| (*extent, saved.try_recv())) {
+            self.saving = None;
+            self.told = Some(match saved {
+                Ok(path) => {
+                    // What a run has added meanwhile is not in it.
+                    self.known_mut(extent).is_saved = self.run.is_none();
+                    (format!("wrote {}", path.join("index.html").display()), false)
+                }
+                Err(why) => (format!("the report was not written: {why}"), true),
+            });
+        }
+        let Some(run) = &mut self.run else { return };
+        let (extent, events) = (run.extent, run.background.events().collect::<Vec<Event>>());
+        let mut is_new = false;
+        for event in events {
+            is_new |= self.known_mut(extent).take(&event);
+            match event {
+                Event::Progress(progress) => {
+                    if let Some(run) = &mut self.run {
+                        run.progress = progress;
+                    }
+                }
+                Event::Ended(ended) => {
+                    self.run = None;
+                    if let Err(why) = ended {
+                        self.told = Some((why, true));
+                    }
+                }
+                _ => {}
+            }
+        }
+        if is_new && extent == self.extent {
+            self.draw_anew();
+        }
+    }
+
+    fn draw_anew(&mut self) {
+        self.shown = self.known(self.extent).shown(self.study());
+    }
+
+    pub(super) fn choose(&mut self, study: usize, extent: Extent) {
+        if (study, extent) != (self.study, self.extent) {
+            (self.study, self.extent, self.hovered_method) = (study, extent, None);
+            self.draw_anew();
+        }
+    }
+
+    /// The folder of a run, which mixes no extents.
+    fn out(&mut self, extent: Extent) -> Result<PathBuf, String> {
+        match &mut self.folder {
+            Folder::Chosen(path) => Ok(path.clone()),
+            Folder::Temporary(Some(folder)) => Ok(folder.path().join(name_of(extent))),
+            Folder::Temporary(none) => {
+                let made = tempfile::Builder::new().prefix("eddy-lab-").tempdir();
+                let made = made.map_err(|e| format!("no temporary folder: {e}; choose a folder for the results"))?;
+                Ok(none.insert(made).path().join(name_of(extent)))
+            }
+        }
+    }
+
+    /// Measures what is not known of the shown study. All of it anew where all is known, in a temporary folder.
+    pub(super) fn start(&mut self) {
+        self.told = None;
+        if let Err(why) = self.try_start() {
+            self.told = Some((why, true));
+        }
+    }
+
+    fn try_start(&mut self) -> Result<(), String> {
+        let (study, extent) = (self.study(), self.extent);
+        let out = self.out(extent)?;
+        if self.known(extent).is_whole(study, extent) {
+            let known = self.known_mut(extent);
+            known.results.forget(study.about().name);
+            known.results.write(&out).map_err(|e| e.to_string())?;
+            self.draw_anew();
+        }
+        let adapter = self.adapter.clone();
+        let open = move || Gpu::another(&adapter, &GpuOptions::default());
+        let options = Options { out, extent, repeats: cost::MIN_REPEATS, shard: Shard::WHOLE };
+        let background = Background::start(open, vec![study], options, self.wake.clone());
+        let background = background.map_err(|e| format!("no thread for the lab: {e}"))?;
+        self.run = Some(Run { background, study: self.study, extent, progress: Progress::Begins });
+        Ok(())
+    }
+
+    /// Results are kept in this folder from now on: those it holds are shown, and an empty one gets those that are
+    /// known.
+    pub fn keep_in(&mut self, folder: PathBuf) {
+        match self.try_keep_in(&folder) {
+            Ok(()) => {
+                self.told = Some((format!("results are kept in {}", folder.display()), false));
+                self.folder = Folder::Chosen(folder);
+                self.draw_anew();
+            }
+            Err(why) => self.told = Some((why, true)),
+        }
+    }
+
+    fn try_keep_in(&mut self, folder: &Path) -> Result<(), String> {
+        let said = |e: LabError| e.to_string();
+        let there = Results::read(folder).map_err(said)?;
+        let Some(extent) = there.runs.first().map(|r| r.extent) else {
+            let known = &self.known(self.extent).results;
+            return if known.runs.is_empty() { Ok(()) } else { known.write(folder).map_err(said) };
+        };
+        let is_temporary = matches!(self.folder, Folder::Temporary(_));
+        let known = self.known_mut(extent);
+        if is_temporary && !known.is_saved && !known.results.errors.is_empty() {
+            let folder = folder.display();
+            return Err(format!(
+                "{folder} holds results, and those of this window are saved nowhere: save a report first, or choose an empty folder"
+            ));
+        }
+        *known = Known { results: there, estimates: Vec::new(), is_saved: true };
+        self.extent = extent;
+        Ok(())
+    }
+
+    /// Writes what is known as `eddy lab --out` does.
+    pub fn save_report(&mut self, folder: PathBuf) {
+        let results = self.known(self.extent).results.clone();
+        let is_own = matches!(&self.folder, Folder::Chosen(path) if *path == folder);
+        let (sender, saved) = channel();
+        let (studies, wake) = (self.studies.clone(), self.wake.clone());
+        let write = move || {
+            // Nobody waits where the window is gone.
+            let _ = sender.send(write_report(&folder, &studies, &results, is_own).map(|()| folder));
+            wake();
+        };
+        match std::thread::Builder::new().name("lab report".into()).spawn(write) {
+            Ok(_) => {
+                (self.saving, self.told) = (Some((self.extent, saved)), Some(("writing the report…".into(), false)))
+            }
+            Err(e) => self.told = Some((format!("no thread for the report: {e}"), true)),
+        }
+    }
+
+    /// The tab to show of a project that was opened from here, once it is open.
+    pub fn take_tab(&mut self, session: &Session) -> Option<Tab> {
+        let is_there = self.code.as_ref().is_some_and(|(name, _)| *name == session.project().name);
+        if is_there { self.code.take().map(|(_, tab)| tab) } else { None }
+    }
+
+    /// A click on a point: its project takes the place of the open one.
+    pub(super) fn open(&mut self, point: Point, out: &mut Outbox) {
+        match lab::open::project(self.study(), &point) {
+            Ok(Opened { project, size, pass }) => {
+                self.code = Some((project.name.clone(), Tab::Pass(pass)));
+                out.ask(Command::OpenProject { project: Box::new(project), size: Some(size) });
+                self.opened = Some(point);
+            }
+            Err(error) => self.told = Some((error.to_string(), true)),
+        }
+    }
+
+    /// For scripts that drive the window.
+    pub fn report(&self) -> Value {
+        let dots = self.shown.as_ref().map_or(&[][..], |s| &s.dots);
+        json!({
+            "study": self.study().about().name,
+            "extent": name_of(self.extent),
+            "running": self.run.as_ref().map(|r| self.studies[r.study].about().name),
+            "points": dots.len(),
+            "estimates": dots.iter().filter(|d| d.is_estimate).count(),
+            "told": self.told.as_ref().map(|(words, _)| words),
+        })
+    }
+
+    /// Asks for a folder: to keep results in, or for a report.
+    pub(super) fn pick(out: &mut Outbox, pick: Pick) {
+        out.wishes.push(Wish::Pick(pick));
+    }
+}
+
+pub(super) fn name_of(extent: Extent) -> &'static str {
+    if extent == Extent::Quick { "quick" } else { "full" }
+}
+
+fn write_report(folder: &Path, studies: &[&dyn Study], results: &Results, is_own: bool) -> Result<(), String> {
+    let taken = [lab::RESULTS_FILE, "index.html"].into_iter().find(|name| folder.join(name).exists());
+    if let (Some(name), false) = (taken, is_own) {
+        return Err(format!("{} holds {name} already; choose another folder", folder.display()));
+    }
+    let said = |e: LabError| e.to_string();
+    results.write(folder).map_err(said)?;
+    report::write(folder, studies, results).map(drop).map_err(said)
+}

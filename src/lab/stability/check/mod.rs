@@ -1,0 +1,266 @@
+//! Says what is looked at in a pass, the range it must keep, and the texel that is furthest outside of it.
+
+use crate::{engine::Pixels, project::PassId};
+
+/// The largest size that a number of a quantity may have where nothing better is known, and everywhere where a case is
+/// expected to leave its own range.
+pub const HARD_LIMIT: f64 = 1e4;
+
+/// A number that is made of a pass's texels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Every component of each texel.
+    Any,
+    /// The first three components of each texel.
+    Colour,
+    /// A component of each texel.
+    Component(usize),
+    /// The length of the vector of two components, of each texel.
+    Length(usize, usize),
+    /// The mean of a component.
+    Mean(usize),
+    /// Half of the mean square of two components.
+    Energy(usize, usize),
+    /// How much of a component's variance alternates from texel to texel: the mean square of a - 2 b + c over 16, along
+    /// x and along y together, by twice the variance. 1 for a checkerboard, 0.375 for noise, 0.02 for waves 8 texels
+    /// long, below 0.01 for longer ones. 0 where the component hardly varies (see [`FLAT`]).
+    Roughness(usize),
+}
+
+/// A root mean square deviation below which a field counts as flat, by the larger of 1 and its mean's size.
+const FLAT: f64 = 2e-3;
+
+const AXES: [char; 4] = ['x', 'y', 'z', 'w'];
+
+impl Quantity {
+    pub fn name(self) -> String {
+        match self {
+            Quantity::Any => "xyzw".into(),
+            Quantity::Colour => "rgb".into(),
+            Quantity::Component(c) => AXES[c].to_string(),
+            Quantity::Length(a, b) => format!("|{}{}|", AXES[a], AXES[b]),
+            Quantity::Mean(c) => format!("mean {}", AXES[c]),
+            Quantity::Energy(a, b) => format!("energy {}{}", AXES[a], AXES[b]),
+            Quantity::Roughness(c) => format!("roughness {}", AXES[c]),
+        }
+    }
+}
+
+/// Texels of a pass that belong to the quantity. Others hold something else, as a mouse's memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Area {
+    All,
+    /// Rows from this one on.
+    FromRow(u32),
+    /// Without the texel (0, 0).
+    ButFirst,
+    /// Without the last texel of the last row.
+    ButLast,
+    Texel(u32, u32),
+    /// From (x, y), so many texels wide and high.
+    Block(u32, u32, u32, u32),
+}
+
+impl Area {
+    /// A texel in its middle.
+    pub fn middle(self, (width, height): (u32, u32)) -> (u32, u32) {
+        match self {
+            Area::Texel(x, y) => (x, y),
+            Area::Block(x, y, w, h) => (x + w / 2, y + h / 2),
+            _ => (width / 2, height / 2),
+        }
+    }
+
+    fn holds(self, x: u32, y: u32, size: (u32, u32)) -> bool {
+        match self {
+            Area::All => true,
+            Area::FromRow(first) => y >= first,
+            Area::ButFirst => (x, y) != (0, 0),
+            Area::ButLast => (x + 1, y + 1) != size,
+            Area::Texel(a, b) => (x, y) == (a, b),
+            Area::Block(a, b, w, h) => (a..a + w).contains(&x) && (b..b + h).contains(&y),
+        }
+    }
+}
+
+/// A range, both ends included.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Allowed {
+    pub low: f64,
+    pub high: f64,
+    /// Why theory expects the range to be left in this situation. Then all must be finite and within [`HARD_LIMIT`]
+    /// still.
+    pub excuse: Option<&'static str>,
+}
+
+impl Allowed {
+    pub fn new(low: f64, high: f64) -> Allowed {
+        Allowed { low, high, excuse: None }
+    }
+
+    #[must_use]
+    pub fn unless(mut self, excused: bool, excuse: &'static str) -> Self {
+        if excused && self.excuse.is_none() {
+            self.excuse = Some(excuse);
+        }
+        self
+    }
+}
+
+/// Holds what a case is drawn with, as far as a bound depends on it.
+#[derive(Clone, Debug)]
+pub struct Situation {
+    /// Canvas.
+    pub size: (u32, u32),
+    /// The longest `iTimeDelta` of the case, in seconds.
+    pub longest_step: f64,
+    /// Components of each slider's value.
+    pub sliders: std::collections::BTreeMap<String, Vec<f64>>,
+}
+
+impl Situation {
+    /// A slider's value: of several components the largest. 0 for a slider that is not there.
+    pub fn slider(&self, name: &str) -> f64 {
+        let all = self.sliders.get(name).map_or(&[][..], |v| v);
+        all.iter().copied().reduce(f64::max).unwrap_or(0.0)
+    }
+}
+
+/// A range for a quantity of a pass.
+#[derive(Clone, Debug)]
+pub struct Check {
+    pub pass: PassId,
+    pub quantity: Quantity,
+    pub area: Area,
+    pub allowed: Rule,
+    /// Says where the range comes from.
+    pub reason: String,
+}
+
+/// A range that may depend on the sliders and the time step.
+#[derive(Clone, Copy, Debug)]
+pub enum Rule {
+    Always(Allowed),
+    Of(fn(&Situation) -> Allowed),
+}
+
+impl Check {
+    pub fn name(&self) -> String {
+        format!("{} {}", self.pass.key(), self.quantity.name())
+    }
+
+    pub fn allowed(&self, situation: &Situation) -> Allowed {
+        match self.allowed {
+            Rule::Always(allowed) => allowed,
+            Rule::Of(rule) => rule(situation),
+        }
+    }
+}
+
+/// Holds what a check finds in a picture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Found {
+    /// The smallest and the largest value; NaN where one is no number.
+    pub low: f64,
+    pub high: f64,
+    pub rms: f64,
+    /// The value that is furthest outside of the range, a number that is none before all others.
+    pub worst: Option<Worst>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Worst {
+    /// `None`: the quantity belongs to the whole picture.
+    pub texel: Option<(u32, u32)>,
+    pub value: f64,
+    /// Values outside of the range.
+    pub count: u64,
+}
+
+/// Looks for values outside of `low..=high`.
+pub fn find(quantity: Quantity, area: Area, pixels: &Pixels, low: f64, high: f64) -> Found {
+    let mut found = Found { low: f64::INFINITY, high: f64::NEG_INFINITY, rms: 0.0, worst: None };
+    let (mut squares, mut count, mut furthest) = (0.0, 0u64, f64::NEG_INFINITY);
+    let mut take = |value: f64, texel: Option<(u32, u32)>| {
+        count += 1;
+        squares += value * value;
+        let is_number = value.is_finite();
+        if !is_number || found.low.is_nan() {
+            (found.low, found.high) = (f64::NAN, f64::NAN);
+        } else {
+            (found.low, found.high) = (found.low.min(value), found.high.max(value));
+        }
+        let outside = if is_number { (low - value).max(value - high) } else { f64::INFINITY };
+        if outside > 0.0 {
+            let before = found.worst.map_or(0, |w| w.count);
+            let is_worse = outside > furthest;
+            furthest = furthest.max(outside);
+            let kept = if is_worse {
+                Worst { texel, value, count: 0 }
+            } else {
+                found.worst.unwrap_or(Worst { texel, value, count: 0 })
+            };
+            found.worst = Some(Worst { count: before + 1, ..kept });
+        }
+    };
+    match quantity {
+        Quantity::Any | Quantity::Colour | Quantity::Component(_) | Quantity::Length(..) => {
+            for (texel, at) in texels(area, pixels) {
+                let of = |c: usize| f64::from(texel[c]);
+                match quantity {
+                    Quantity::Any => (0..4).for_each(|c| take(of(c), Some(at))),
+                    Quantity::Colour => (0..3).for_each(|c| take(of(c), Some(at))),
+                    Quantity::Component(c) => take(of(c), Some(at)),
+                    Quantity::Length(a, b) => take(of(a).hypot(of(b)), Some(at)),
+                    _ => {}
+                }
+            }
+        }
+        Quantity::Mean(c) => take(mean(area, pixels, |t| f64::from(t[c])).unwrap_or(low), None),
+        Quantity::Energy(a, b) => {
+            let energy = |t: &[f32; 4]| 0.5 * (f64::from(t[a]).powi(2) + f64::from(t[b]).powi(2));
+            take(mean(area, pixels, energy).unwrap_or(low), None);
+        }
+        Quantity::Roughness(c) => take(roughness(area, pixels, c), None),
+    }
+    found.rms = if count > 0 { (squares / count as f64).sqrt() } else { 0.0 };
+    if count == 0 {
+        (found.low, found.high) = (0.0, 0.0);
+    }
+    found
+}
+
+fn texels(area: Area, pixels: &Pixels) -> impl Iterator<Item = (&[f32; 4], (u32, u32))> {
+    let size = (pixels.width, pixels.height);
+    let places = (0..size.1).flat_map(move |y| (0..size.0).map(move |x| (x, y)));
+    pixels.texels.iter().zip(places).filter(move |(_, (x, y))| area.holds(*x, *y, size))
+}
+
+fn mean(area: Area, pixels: &Pixels, of: impl Fn(&[f32; 4]) -> f64) -> Option<f64> {
+    let (sum, count) = texels(area, pixels).fold((0.0, 0u64), |(s, n), (t, _)| (s + of(t), n + 1));
+    (count > 0).then(|| sum / count as f64)
+}
+
+fn roughness(area: Area, pixels: &Pixels, component: usize) -> f64 {
+    let (width, height) = (pixels.width as usize, pixels.height as usize);
+    // Where the memory lies does not matter to a mean over thousands; what is no field at all is left out.
+    let first = if let Area::FromRow(row) = area { row as usize } else { 0 };
+    let at = |x: usize, y: usize| f64::from(pixels.texels[y * width + x][component]);
+    let Some(middle) = mean(area, pixels, |t| f64::from(t[component])) else { return 0.0 };
+    let variance = mean(area, pixels, |t| (f64::from(t[component]) - middle).powi(2)).unwrap_or(0.0);
+    if variance.sqrt() < FLAT * middle.abs().max(1.0) || width < 8 || height < first + 8 {
+        return if variance.is_finite() { 0.0 } else { f64::NAN };
+    }
+    let (mut sum, mut count) = (0.0, 0.0);
+    for y in first + 1..height - 1 {
+        for x in 1..width - 1 {
+            let twice = 2.0 * at(x, y);
+            sum += (at(x - 1, y) + at(x + 1, y) - twice).powi(2) + (at(x, y - 1) + at(x, y + 1) - twice).powi(2);
+            count += 2.0;
+        }
+    }
+    sum / count / 16.0 / variance
+}
+
+#[cfg(test)]
+mod tests;

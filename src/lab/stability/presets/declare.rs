@@ -1,0 +1,38 @@
+//! The words in which the presets' bounds are declared.
+
+use crate::{
+    lab::stability::check::{Allowed, Area, Check, Quantity, Rule, Situation},
+    project::PassId,
+};
+
+/// How a project is made to move by so many cells a step.
+#[derive(Clone, Copy, Debug)]
+pub struct Courant {
+    /// The slider that sets it.
+    pub slider: &'static str,
+    /// The slider's value for cells a step, at the speed that the project's own forces make, on a canvas of this size.
+    pub value: fn(cells: f64, size: (u32, u32)) -> f64,
+    /// The check whose largest value is the speed, by its place in the list.
+    pub speed: usize,
+    /// Cells a step at that speed.
+    pub cells: fn(speed: f64, situation: &Situation) -> f64,
+}
+
+fn buffer(name: &str) -> PassId {
+    PassId::parse(&format!("buffer_{name}")).unwrap_or(PassId::Image)
+}
+
+pub(super) fn always(name: &str, quantity: Quantity, area: Area, range: (f64, f64), reason: &str) -> Check {
+    let allowed = Rule::Always(Allowed::new(range.0, range.1));
+    Check { pass: buffer(name), quantity, area, allowed, reason: reason.into() }
+}
+
+pub(super) fn by(name: &str, quantity: Quantity, area: Area, rule: fn(&Situation) -> Allowed, reason: &str) -> Check {
+    Check { pass: buffer(name), quantity, area, allowed: Rule::Of(rule), reason: reason.into() }
+}
+
+/// A mouse's memory: canvas pixels, or -1e4 where there is none.
+pub(super) fn mouse() -> Check {
+    let reason = "pixels of a canvas, at most half of one outside of it; -1e4 where there is no mouse";
+    always("mouse", Quantity::Any, Area::All, (-1e4, 1e5), reason)
+}

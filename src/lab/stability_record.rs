@@ -1,0 +1,160 @@
+//! Says what a case of stability came to: a line of the file of results.
+
+use super::Number;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Why a case is there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Kind {
+    /// Defaults, nobody near.
+    Untouched,
+    /// So many cells a step.
+    Courant,
+    /// A slider at an end, all others at their defaults.
+    End,
+    Drag,
+    /// Frames that are long, uneven, or take no time.
+    Step,
+    Resize,
+    /// A texel that is no number.
+    Broken,
+    /// Canvases of odd and extreme sizes.
+    Size,
+    /// Several sliders at their ends.
+    Pairs,
+    /// Larger canvases.
+    Large,
+    /// 100,000 frames.
+    Long,
+}
+
+impl Kind {
+    pub fn title(self) -> &'static str {
+        match self {
+            Kind::Untouched => "left alone",
+            Kind::Courant => "cells a step",
+            Kind::End => "a slider at an end",
+            Kind::Drag => "the mouse",
+            Kind::Step => "time steps",
+            Kind::Resize => "resize",
+            Kind::Broken => "a texel that is no number",
+            Kind::Size => "odd sizes",
+            Kind::Pairs => "pairs of sliders at their ends",
+            Kind::Large => "large canvases",
+            Kind::Long => "100,000 frames",
+        }
+    }
+}
+
+/// Outside of a bound.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Offence {
+    /// The first frame after which a value was outside.
+    pub frame: u32,
+    pub pass: String,
+    pub quantity: String,
+    /// The texel that is furthest outside in that frame, from the bottom left; `None`: the quantity is of the whole
+    /// picture.
+    pub texel: Option<(u32, u32)>,
+    pub value: Number,
+    pub low: Number,
+    pub high: Number,
+    /// How many values of that frame are outside.
+    pub count: u64,
+}
+
+/// Says what was measured.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// Everything stayed within its bounds.
+    Held,
+    /// A range was left that theory expects to be left in this case; all stayed finite.
+    LeftAsExpected(Offence),
+    Left(Offence),
+}
+
+/// How long it took, after what was done had ended, until everything was within its bounds and no livelier than it is
+/// without.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Recovery {
+    Frames(u32),
+    /// Not within the frames that were drawn after it.
+    NotWithin(u32),
+}
+
+/// A case of a project.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct StabilityRecord {
+    pub project: String,
+    /// The fingerprint of the project's texts: see `Subject::fingerprint`.
+    pub texts: String,
+    pub kind: Kind,
+    pub case: String,
+    pub size: (u32, u32),
+    pub frames: u32,
+    /// The sliders that were turned.
+    pub settings: String,
+    /// Why a bound may be left; empty: none may.
+    pub excuses: Vec<String>,
+    /// `None`: it could not be drawn.
+    pub outcome: Option<Outcome>,
+    pub trouble: Option<String>,
+    /// The recovery from what was done for a while.
+    pub recovery: Option<Recovery>,
+    /// Least and largest value by quantity.
+    pub extremes: BTreeMap<String, (Number, Number)>,
+    /// Cells a step, at the largest speed there was.
+    pub courant: Option<Number>,
+}
+
+impl StabilityRecord {
+    /// The same case of the same texts.
+    pub fn is_same_case(&self, other: &StabilityRecord) -> bool {
+        (&self.project, &self.case, self.size, self.frames) == (&other.project, &other.case, other.size, other.frames)
+    }
+
+    /// Nothing was left that ought to be kept.
+    pub fn is_right(&self) -> bool {
+        matches!(self.outcome, Some(Outcome::Held | Outcome::LeftAsExpected(_)))
+    }
+
+    pub fn offence(&self) -> Option<&Offence> {
+        match self.outcome.as_ref()? {
+            Outcome::Held => None,
+            Outcome::LeftAsExpected(offence) | Outcome::Left(offence) => Some(offence),
+        }
+    }
+}
+
+impl Offence {
+    /// In words: where, what, and what would have been right.
+    pub fn told(&self) -> String {
+        let place = self.texel.map_or(String::new(), |(x, y)| format!(" texel ({x}, {y})"));
+        let others = if self.count > 1 { format!(", {} values outside", self.count) } else { String::new() };
+        let number = |n: Number| short(n.0);
+        format!(
+            "frame {}, {}{place}: {} is {}, not {} to {}{others}",
+            self.frame,
+            self.pass,
+            self.quantity,
+            number(self.value),
+            number(self.low),
+            number(self.high)
+        )
+    }
+}
+
+/// Four digits that count.
+pub fn short(x: f64) -> String {
+    match x.abs() {
+        _ if !x.is_finite() => x.to_string(),
+        0.0 => "0".into(),
+        size if !(1e-3..1e5).contains(&size) => format!("{x:.2e}"),
+        size if size < 10.0 => format!("{x:.4}").trim_end_matches('0').trim_end_matches('.').into(),
+        _ => format!("{x:.1}").trim_end_matches('0').trim_end_matches('.').into(),
+    }
+}

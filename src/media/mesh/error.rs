@@ -1,0 +1,50 @@
+//! The error of loading a mesh, with what to do about it.
+
+use super::{builtin::NAMES, trouble::Trouble};
+use crate::project::{confine::FileError, listed, nearest};
+use std::path::PathBuf;
+
+/// An error of loading a mesh.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum MeshError {
+    #[error("there is no mesh builtin:{0}")]
+    UnknownBuiltin(String),
+    #[error(transparent)]
+    File(#[from] FileError),
+    #[error("{} is relative, and the project has no folder yet to start from", .0.display())]
+    NoFolder(PathBuf),
+    #[error("{} is no model Eddy knows by its ending", .0.display())]
+    UnknownKind(PathBuf),
+    #[error("{} is broken: {reason}", path.display())]
+    Broken { path: PathBuf, reason: String },
+    #[error("{} is too large: {excess}", path.display())]
+    TooLarge { path: PathBuf, excess: String },
+    #[error("{} names a file: {error}", path.display())]
+    Named { path: PathBuf, error: FileError },
+}
+
+impl MeshError {
+    /// Returns what to do about it.
+    pub fn hint(&self) -> String {
+        match self {
+            MeshError::UnknownBuiltin(name) => match nearest(name, NAMES) {
+                Some(near) => format!("did you mean builtin:{near}?"),
+                None => format!("there are {}", listed(&NAMES)),
+            },
+            MeshError::File(error) | MeshError::Named { error, .. } => error.hint(),
+            MeshError::NoFolder(_) => "save the project first, and put the model into its folder".into(),
+            MeshError::TooLarge { .. } => "simplify the model before it is exported".into(),
+            MeshError::UnknownKind(_) => "name a .glb, .gltf or .obj file".into(),
+            MeshError::Broken { .. } => "export the model anew".into(),
+        }
+    }
+
+    /// Returns the error that a trouble is in the model at `path`.
+    pub(super) fn of(trouble: Trouble, path: PathBuf) -> MeshError {
+        match trouble {
+            Trouble::Broken(reason) => MeshError::Broken { path, reason },
+            Trouble::TooLarge(excess) => MeshError::TooLarge { path, excess },
+            Trouble::Named(error) => MeshError::Named { path, error },
+        }
+    }
+}

@@ -1,0 +1,40 @@
+//! Makes what a file leaves out: normals and tangents.
+
+use super::{
+    model::{Mesh, Raw},
+    normals, tangents,
+    trouble::Trouble,
+};
+
+/// A mesh with everything a vertex has.
+pub(super) fn finished(mut raw: Raw) -> Result<Mesh, Trouble> {
+    if !raw.indices.len().is_multiple_of(3) {
+        return Err(Trouble::broken(format!("{} corners make no whole number of triangles", raw.indices.len())));
+    }
+    let count = raw.vertices.len();
+    if let Some(index) = raw.indices.iter().find(|i| **i as usize >= count) {
+        return Err(Trouble::broken(format!("a triangle names vertex {index}, and there are {count}")));
+    }
+    let broken = |numbers: &[f32]| numbers.iter().any(|x| !x.is_finite());
+    for (at, v) in raw.vertices.iter().enumerate() {
+        let numbers: [(&[f32], &str); 5] = [
+            (&v.position, "position"),
+            (&v.normal, "normal"),
+            (&v.tangent, "tangent"),
+            (&v.uv, "texture coordinate"),
+            (&v.color, "colour"),
+        ];
+        if let Some((_, what)) = numbers.into_iter().find(|(numbers, _)| broken(numbers)) {
+            return Err(Trouble::broken(format!("the {what} of vertex {at} is not a number")));
+        }
+    }
+    if !raw.has_normals {
+        normals::smooth(&mut raw);
+    }
+    let needs_tangents = raw.has_uv && !raw.has_tangents;
+    if needs_tangents {
+        tangents::check(&raw)?;
+    }
+    let mesh = Mesh { vertices: raw.vertices, indices: raw.indices };
+    Ok(if needs_tangents { tangents::with_tangents(mesh) } else { mesh })
+}

@@ -1,0 +1,52 @@
+//! Loads a mesh by what the project says of it.
+
+use super::{
+    builtin,
+    error::MeshError,
+    finish::finished,
+    gltf,
+    model::{Mesh, Raw},
+    obj,
+    trouble::Trouble,
+};
+use crate::project::{MeshSource, confine, limits};
+use std::path::Path;
+
+/// Loads a mesh. A file lies in the project's folder `base`, see [`confine`].
+pub fn load(source: &MeshSource, base: Option<&Path>) -> Result<Mesh, MeshError> {
+    load_within(source, base, limits::MEDIA_BYTES)
+}
+
+/// The same where pictures and models may take `room` bytes more.
+pub(in crate::media) fn load_within(source: &MeshSource, base: Option<&Path>, room: u64) -> Result<Mesh, MeshError> {
+    let name = match source {
+        MeshSource::Builtin(name) => {
+            return builtin::make(name).ok_or_else(|| MeshError::UnknownBuiltin(name.clone()));
+        }
+        MeshSource::File(path) => path,
+    };
+    let is = |ending: &str| name.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
+    let is_gltf = is("glb") || is("gltf");
+    if !is_gltf && !is("obj") {
+        return Err(MeshError::UnknownKind(name.clone()));
+    }
+    let Some(folder) = base else { return Err(MeshError::NoFolder(name.clone())) };
+    let bytes = confine::read(folder, name, limits::MEDIA_FILE)?;
+    let mut mesh = Mesh { vertices: Vec::new(), indices: Vec::new() };
+    let mut take = |raw: Raw| -> Result<(), Trouble> {
+        mesh.append(finished(raw)?);
+        Ok(())
+    };
+    let done = if is_gltf {
+        // What a model names is relative to it.
+        let named = |uri: &str, limit| confine::read(folder, confine::relative(&name.to_string_lossy(), uri)?, limit);
+        gltf::load(bytes, &named, room, &mut take)
+    } else {
+        obj::load(&bytes, room, &mut take)
+    };
+    let empty = |mesh: &Mesh| mesh.indices.is_empty().then(|| Trouble::broken("it holds no triangles"));
+    match done.err().or_else(|| empty(&mesh)) {
+        Some(trouble) => Err(MeshError::of(trouble, folder.join(name))),
+        None => Ok(mesh),
+    }
+}

@@ -1,0 +1,59 @@
+//! Says what a mesh is: its vertices as the vertex buffer holds them, and its triangles.
+
+use bytemuck::{Pod, Zeroable};
+
+/// The attributes of a vertex as the vertex buffer holds them.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Vertex {
+    pub position: [f32; 3],
+    /// The normal, of length 1.
+    pub normal: [f32; 3],
+    /// The tangent, of length 1 and along u; the fourth is the sign of the bitangent `cross(normal, tangent)`. Zeros
+    /// without uv.
+    pub tangent: [f32; 4],
+    pub uv: [f32; 2],
+    /// White where the mesh says nothing.
+    pub color: [f32; 4],
+}
+
+impl Vertex {
+    /// White, and else zeros.
+    pub const PLAIN: Vertex =
+        Vertex { position: [0.0; 3], normal: [0.0; 3], tangent: [0.0; 4], uv: [0.0; 2], color: [1.0; 4] };
+}
+
+/// Triangles: three indices each, at least one triangle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mesh {
+    pub vertices: Vec<Vertex>,
+    pub indices: Vec<u32>,
+}
+
+impl Mesh {
+    /// Memory that it takes.
+    pub fn bytes(&self) -> u64 {
+        (size_of_val(&*self.vertices) + size_of_val(&*self.indices)) as u64
+    }
+
+    /// Puts another mesh behind this one.
+    pub(super) fn append(&mut self, other: Mesh) {
+        if self.vertices.is_empty() && self.indices.is_empty() {
+            *self = other;
+            return;
+        }
+        let first = self.vertices.len() as u32;
+        self.vertices.extend(other.vertices);
+        self.indices.extend(other.indices.into_iter().map(|i| i.wrapping_add(first)));
+    }
+}
+
+/// The triangles as a file has them, before what it leaves out is made.
+#[derive(Debug, Default)]
+pub(super) struct Raw {
+    pub vertices: Vec<Vertex>,
+    pub indices: Vec<u32>,
+    pub has_normals: bool,
+    pub has_tangents: bool,
+    pub has_uv: bool,
+}

@@ -1,0 +1,158 @@
+//! Tests of meshes: what the built-in ones promise, what is read of model files, and what is said of broken ones.
+
+mod bombs;
+
+use super::{Mesh, MeshError, NAMES, Vertex, load};
+use crate::project::MeshSource;
+use glam::Vec3;
+use std::path::Path;
+
+fn corners(mesh: &Mesh) -> impl Iterator<Item = [&Vertex; 3]> {
+    mesh.indices.chunks_exact(3).map(|t| [0, 1, 2].map(|n| &mesh.vertices[t[n] as usize]))
+}
+
+/// Six times the volume inside, by the sign of the corners' turn.
+fn volume(mesh: &Mesh) -> f32 {
+    corners(mesh).map(|t| t.map(|v| Vec3::from(v.position))).map(|[a, b, c]| a.dot(b.cross(c))).sum::<f32>() / 6.0
+}
+
+fn builtin(name: &str) -> Mesh {
+    load(&MeshSource::Builtin(name.into()), None).unwrap()
+}
+
+#[test]
+fn meshes_made_by_code_face_outward_and_have_whole_vertices() {
+    for name in NAMES {
+        let mesh = builtin(name);
+        for t in corners(&mesh) {
+            let [a, b, c] = t.map(|v| Vec3::from(v.position));
+            let face = (b - a).cross(c - a);
+            for v in t {
+                let normal = Vec3::from(v.normal);
+                assert!((normal.length() - 1.0).abs() < 1e-4, "{name}: {v:?}");
+                assert!(normal.dot(face) > 0.0, "{name}: {v:?} faces away from {face}");
+                assert!(Vec3::from(v.position).length() <= 2.0, "{name}: {v:?}");
+            }
+        }
+        if name != "plane" {
+            assert!(volume(&mesh) > 0.0, "{name}");
+        }
+        if name != "icosphere" {
+            let across = |v: &Vertex| Vec3::from_slice(&v.tangent).dot(Vec3::from(v.normal)).abs() < 0.1;
+            assert!(mesh.vertices.iter().all(|v| across(v) && v.tangent[3].abs() == 1.0), "{name}");
+        }
+    }
+    assert!((volume(&builtin("cube")) - 8.0).abs() < 1e-4);
+    assert!((volume(&builtin("icosphere")) - 4.0 / 3.0 * std::f32::consts::PI).abs() < 0.03);
+    assert_eq!(builtin("cube").vertices.len(), 24);
+    // u runs along the tangent, v along the bitangent.
+    for t in corners(&builtin("plane")) {
+        for v in t {
+            assert_eq!((v.normal, v.tangent), ([0.0, 1.0, 0.0], [1.0, 0.0, 0.0, 1.0]));
+            assert_eq!(v.uv, [v.position[0] * 0.5 + 0.5, 0.5 - v.position[2] * 0.5]);
+        }
+    }
+}
+
+#[test]
+fn an_obj_gives_what_it_says_and_the_rest_is_made() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("quad.obj");
+    fs_write(&path, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
+    let mesh = load(&MeshSource::File("quad.obj".into()), Some(dir.path())).unwrap();
+    assert_eq!((mesh.vertices.len(), mesh.indices.len()), (4, 6));
+    for v in &mesh.vertices {
+        assert_eq!((v.normal, v.tangent, v.color), ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0], [1.0; 4]));
+        assert_eq!(v.uv, [v.position[0], v.position[1]]);
+    }
+}
+
+fn fs_write(path: &Path, text: impl AsRef<[u8]>) {
+    std::fs::write(path, text).unwrap();
+}
+
+/// A glTF of one triangle with its buffer inside: the node is scaled by -2 along x, and moved.
+fn triangle(count: usize, indices: [u8; 3], extra: &str) -> String {
+    let mut bytes: Vec<u8> =
+        [[0f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].iter().flatten().flat_map(|x| x.to_le_bytes()).collect();
+    bytes.extend([[0f32, 1.0], [1.0, 1.0], [0.0, 0.0]].iter().flatten().flat_map(|x| x.to_le_bytes()));
+    bytes.extend(indices);
+    let data = base64(&bytes);
+    format!(
+        r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],
+        "nodes":[{{"children":[1],"translation":[0,0,5]}},{{"mesh":0,"scale":[-2,1,1]{extra}}}],
+        "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0,"TEXCOORD_0":1}},"indices":2}}]}}],
+        "accessors":[
+          {{"bufferView":0,"componentType":5126,"count":{count},"type":"VEC3","min":[0,0,0],"max":[1,1,0]}},
+          {{"bufferView":1,"componentType":5126,"count":3,"type":"VEC2"}},
+          {{"bufferView":2,"componentType":5121,"count":3,"type":"SCALAR"}}],
+        "bufferViews":[{{"buffer":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":24}},{{"buffer":0,"byteOffset":60,"byteLength":3}}],
+        "buffers":[{{"byteLength":63,"uri":"data:application/octet-stream;base64,{data}"}}]}}"#
+    )
+}
+
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    assert_eq!(bytes.len() % 3, 0, "no padding here");
+    let four = |b: &[u8]| {
+        let n = u32::from(b[0]) << 16 | u32::from(b[1]) << 8 | u32::from(b[2]);
+        [18, 12, 6, 0].map(|s| LETTERS[(n >> s & 63) as usize] as char)
+    };
+    bytes.chunks_exact(3).flat_map(four).collect()
+}
+
+#[test]
+fn a_gltf_has_its_nodes_transforms_applied() {
+    let dir = tempfile::tempdir().unwrap();
+    fs_write(&dir.path().join("t.gltf"), triangle(3, [0, 1, 2], ""));
+    let mesh = load(&MeshSource::File("t.gltf".into()), Some(dir.path())).unwrap();
+    let [a, b, c] = corners(&mesh).next().unwrap();
+    // Mirrored, so that the corners turn the other way round for the front to stay in front.
+    assert_eq!([a.position, b.position, c.position], [[0.0, 0.0, 5.0], [0.0, 1.0, 5.0], [-2.0, 0.0, 5.0]]);
+    assert_eq!(a.normal, [0.0, 0.0, 1.0]);
+    assert_eq!([a.uv, b.uv, c.uv], [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0]], "v is turned");
+    assert_eq!(a.tangent, [-1.0, 0.0, 0.0, -1.0]);
+}
+
+#[test]
+fn a_broken_file_is_one_clear_error() {
+    let dir = tempfile::tempdir().unwrap();
+    let whole = triangle(3, [0, 1, 2], "");
+    let cases: [(&str, Vec<u8>, &str); 13] = [
+        ("cut.gltf", whole.as_bytes()[..200].to_vec(), "broken"),
+        ("none.glb", b"glTF".to_vec(), "broken"),
+        ("noise.glb", (0..=255).collect(), "broken"),
+        ("far.gltf", triangle(9, [0, 1, 2], "").into(), "accessor 0 reaches beyond its buffer"),
+        ("index.gltf", triangle(3, [0, 1, 7], "").into(), "names vertex 7, and there are 3"),
+        ("loop.gltf", triangle(3, [0, 1, 2], r#","children":[0]"#).into(), "is a child of itself"),
+        ("gone.gltf", whole.replace("data:application/octet-stream;base64,", "x/").into(), "names a file: "),
+        ("empty.gltf", r#"{"asset":{"version":"2.0"}}"#.into(), "no triangles"),
+        ("empty.obj", Vec::new(), "no triangles"),
+        ("word.obj", b"v 0 zero 0\n".to_vec(), "position"),
+        ("face.obj", b"v 0 0 0\nf 1 2 3\n".to_vec(), "broken"),
+        ("nan.obj", b"v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n".to_vec(), "vertex 1 is not a number"),
+        ("a.fbx", Vec::new(), "no model Eddy knows"),
+    ];
+    for (name, bytes, says) in cases {
+        fs_write(&dir.path().join(name), bytes);
+        let error = load(&MeshSource::File(name.into()), Some(dir.path())).expect_err(name);
+        let text = error.to_string();
+        assert!(text.contains(name) && text.contains(says), "{text}");
+        assert!(!error.hint().is_empty());
+    }
+    let error = load(&MeshSource::File("nowhere.glb".into()), Some(dir.path())).unwrap_err();
+    assert!(error.to_string().starts_with("cannot read ") && error.to_string().contains("nowhere.glb"), "{error}");
+    let error = load(&MeshSource::Builtin("spere".into()), None).unwrap_err();
+    assert_eq!(
+        (error.to_string(), error.hint()),
+        ("there is no mesh builtin:spere".into(), "did you mean builtin:sphere?".into())
+    );
+}
+
+#[test]
+fn the_parts_of_a_strip_and_a_fan_all_face_one_way() {
+    // Checked by hand with the figures of section 3.7.2.1 of the glTF specification.
+    let corners = vec![0, 1, 2, 3, 4];
+    assert_eq!(super::gltf::triangles(::gltf::mesh::Mode::TriangleStrip, corners.clone()), [0, 1, 2, 2, 1, 3, 2, 3, 4]);
+    assert_eq!(super::gltf::triangles(::gltf::mesh::Mode::TriangleFan, corners), [0, 1, 2, 0, 2, 3, 0, 3, 4]);
+}

@@ -1,0 +1,281 @@
+//! The one way from a name that a project says to a file.
+//!
+//! A project may be a stranger's, so it reads only what lies in its own folder: pass files, Common, stages, included
+//! files, pictures, models and the files that models name. A name is relative to the folder, with `/`. It may not be
+//! absolute, nor lead above the folder, also not through links: these are followed first. What it leads to must be a
+//! regular file, as a device never ends and a pipe never begins. Reading is bounded.
+//!
+//! [`relative`] decides by the name alone, [`resolve`] by what is on the disk, and [`read`] reads. [`read_own`] is for
+//! a path that the person at the machine says, who may name any regular file.
+
+use super::limits::Limit;
+use std::{
+    fs::{self, File},
+    io::{self, Read},
+    path::{Path, PathBuf},
+};
+
+/// An error of reading a file. The text names the file and the reason; [`FileError::hint`] says the mend.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{}", self.message())]
+pub struct FileError {
+    /// The file as the project names it, or as the machine does where the project's name is good.
+    pub file: String,
+    pub reason: Reason,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Reason {
+    /// No name is given.
+    Empty,
+    /// The name begins at a root or a drive.
+    Absolute,
+    /// `..` leads above the project's folder.
+    Above,
+    /// `\` stands in it.
+    Backslash,
+    /// A character stands in it that no name has, or the whole is not Unicode.
+    Characters,
+    /// A device of Windows has this name.
+    Reserved,
+    /// A link on the way leads out of the folder.
+    Link,
+    /// Nothing is there.
+    Missing,
+    /// Something is there, and no regular file: "a folder", "a pipe".
+    NotAFile(&'static str),
+    TooLarge(Limit),
+    /// With what was read before it is more than the limit.
+    TooMuch(Limit),
+    /// The machine refused.
+    Io(String),
+}
+
+impl FileError {
+    fn new(file: impl Into<String>, reason: Reason) -> Self {
+        FileError { file: file.into(), reason }
+    }
+
+    fn io(path: &Path, error: &io::Error) -> Self {
+        let reason = match error.kind() {
+            io::ErrorKind::NotFound => Reason::Missing,
+            _ => Reason::Io(error.to_string()),
+        };
+        FileError::new(path.display().to_string(), reason)
+    }
+
+    fn message(&self) -> String {
+        let file = self.file.escape_debug().to_string().replace("\\\\", "\\").replace("\\'", "'").replace("\\\"", "\"");
+        match &self.reason {
+            Reason::Empty => "a file without a name".into(),
+            Reason::Absolute => format!("{file} is an absolute path and leads out of the project's folder"),
+            Reason::Above => format!("{file} leads out of the project's folder"),
+            Reason::Backslash => {
+                format!("{file} has a \\ in it, which leads out of the project's folder on some systems")
+            }
+            Reason::Characters => format!("{file} has characters in it that no file's name has"),
+            Reason::Reserved => format!("{file} is the name of a device on Windows"),
+            Reason::Link => format!("{file} is a link that leads out of the project's folder"),
+            Reason::Missing => format!("cannot read {file}: there is no such file"),
+            Reason::NotAFile(kind) => format!("cannot read {file}: it is {kind}, not a regular file"),
+            Reason::TooLarge(limit) => format!("{file} is larger than {limit}"),
+            Reason::TooMuch(limit) => format!("with {file} it is more than {limit}"),
+            Reason::Io(why) => format!("cannot read {file}: {why}"),
+        }
+    }
+
+    /// How to mend it.
+    pub fn hint(&self) -> String {
+        match &self.reason {
+            Reason::Empty => "write the file's name, relative to the project's folder".into(),
+            Reason::Absolute | Reason::Above | Reason::Link => {
+                "copy the file into the project's folder, and name it relative to that folder, with /".into()
+            }
+            Reason::Backslash => "write / between folders and files".into(),
+            Reason::Characters | Reason::Reserved => "rename the file".into(),
+            Reason::Missing => "put the file there, or name another".into(),
+            Reason::NotAFile(_) => "name a regular file".into(),
+            Reason::TooLarge(_) => "make the file smaller".into(),
+            Reason::TooMuch(_) => "split the project in two, or make its files smaller".into(),
+            Reason::Io(_) => "check the file's permissions".into(),
+        }
+    }
+
+    /// The machine refused, for want of permission or by a fault: nothing that the project says is wrong.
+    pub fn is_of_machine(&self) -> bool {
+        matches!(self.reason, Reason::Io(_))
+    }
+
+    pub fn is_missing(&self) -> bool {
+        self.reason == Reason::Missing
+    }
+}
+
+/// The name, from the project's folder and with `/`, of what the file `from` of the project calls `name`. `from` is
+/// itself a name from the folder; an empty one stands for a file directly in it. Looks at the text alone.
+pub fn relative(from: &str, name: &str) -> Result<String, FileError> {
+    let refuse = |reason| Err(FileError::new(name, reason));
+    let bytes = name.as_bytes();
+    if name.trim().is_empty() {
+        return refuse(Reason::Empty);
+    }
+    if name.chars().any(char::is_control) {
+        return refuse(Reason::Characters);
+    }
+    let has_drive = bytes.len() >= 2 && bytes[0].is_ascii_alphabetic() && bytes[1] == b':';
+    if name.starts_with(['/', '\\']) || has_drive {
+        return refuse(Reason::Absolute);
+    }
+    if name.contains('\\') {
+        return refuse(Reason::Backslash);
+    }
+    // A stream of a file.
+    if cfg!(windows) && name.contains(':') {
+        return refuse(Reason::Characters);
+    }
+    let mut parts: Vec<&str> = from.rsplit_once('/').map_or(Vec::new(), |(folder, _)| folder.split('/').collect());
+    for part in name.split('/') {
+        match part {
+            "" | "." => {}
+            ".." => {
+                if parts.pop().is_none() {
+                    return refuse(Reason::Above);
+                }
+            }
+            // Windows drops dots and blanks at the end of a name.
+            part if part.trim_end_matches(['.', ' ']).is_empty() => return refuse(Reason::Characters),
+            part if cfg!(windows) && is_reserved(part) => return refuse(Reason::Reserved),
+            part => parts.push(part),
+        }
+    }
+    if parts.is_empty() {
+        return refuse(Reason::NotAFile("a folder"));
+    }
+    Ok(parts.join("/"))
+}
+
+/// Returns whether Windows takes this name, with any extension, for a device.
+pub fn is_reserved(name: &str) -> bool {
+    let stem = name.split('.').next().unwrap_or_default().trim_end().to_ascii_uppercase();
+    match stem.as_str() {
+        "CON" | "PRN" | "AUX" | "NUL" | "CONIN$" | "CONOUT$" => true,
+        _ => ["COM", "LPT"].iter().any(|device| {
+            let digit = stem.strip_prefix(device).unwrap_or_default();
+            matches!(digit, "0" | "1" | "2" | "3" | "4" | "5" | "6" | "7" | "8" | "9" | "¹" | "²" | "³")
+        }),
+    }
+}
+
+/// The file that a project in `folder` calls `name`: a regular file within the folder, after links. Returns its path as
+/// `folder` begins it. An empty `folder` is the current one.
+pub fn resolve(folder: &Path, name: impl AsRef<Path>) -> Result<PathBuf, FileError> {
+    find(folder, name.as_ref()).map(|found| found.called)
+}
+
+/// Reads the file that a project in `folder` calls `name`, at most `limit` bytes of it.
+pub fn read(folder: &Path, name: impl AsRef<Path>, limit: Limit) -> Result<Vec<u8>, FileError> {
+    let found = find(folder, name.as_ref())?;
+    read_regular(&found.real, &found.called, limit)
+}
+
+/// Reads a file that the person at the machine named: any regular file, at most `limit` bytes of it.
+pub fn read_own(path: &Path, limit: Limit) -> Result<Vec<u8>, FileError> {
+    let real = path.canonicalize().map_err(|e| FileError::io(path, &e))?;
+    check_kind(path, &real)?;
+    read_regular(&real, path, limit)
+}
+
+/// A limit for a file that shall hold as many bytes: a longer one is another.
+pub(super) fn exactly(bytes: usize) -> Limit {
+    Limit { bytes: bytes as u64, of: "a file of the same content" }
+}
+
+struct Found {
+    /// From the folder as it was given.
+    called: PathBuf,
+    /// After links.
+    real: PathBuf,
+}
+
+fn find(folder: &Path, name: &Path) -> Result<Found, FileError> {
+    let Some(text) = name.to_str() else {
+        return Err(FileError::new(name.to_string_lossy(), Reason::Characters));
+    };
+    let name = relative("", text)?;
+    let called = folder.join(&name);
+    let start = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let home = start.canonicalize().map_err(|e| FileError::io(folder, &e))?;
+    let real = home.join(&name).canonicalize().map_err(|e| FileError::io(&called, &e))?;
+    if !real.starts_with(&home) {
+        return Err(FileError::new(name, Reason::Link));
+    }
+    check_kind(&called, &real)?;
+    Ok(Found { called, real })
+}
+
+/// Looks before the file is opened: opening a pipe waits for a writer, and opening a device may do something.
+fn check_kind(called: &Path, real: &Path) -> Result<(), FileError> {
+    let metadata = fs::symlink_metadata(real).map_err(|e| FileError::io(called, &e))?;
+    match kind(&metadata.file_type()) {
+        None => Ok(()),
+        Some(kind) => Err(FileError::new(called.display().to_string(), Reason::NotAFile(kind))),
+    }
+}
+
+/// Returns what a thing is that is no regular file.
+fn kind(file: &fs::FileType) -> Option<&'static str> {
+    if file.is_file() {
+        return None;
+    }
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        if file.is_fifo() {
+            return Some("a pipe");
+        }
+        if file.is_socket() {
+            return Some("a socket");
+        }
+        if file.is_char_device() || file.is_block_device() {
+            return Some("a device");
+        }
+    }
+    Some(if file.is_dir() { "a folder" } else { "something else" })
+}
+
+fn read_regular(real: &Path, called: &Path, limit: Limit) -> Result<Vec<u8>, FileError> {
+    let failed = |e: io::Error| FileError::io(called, &e);
+    let refuse = |reason| Err(FileError::new(called.display().to_string(), reason));
+    let file = open(real).map_err(failed)?;
+    // Once more, of the thing that was really opened.
+    let metadata = file.metadata().map_err(failed)?;
+    if let Some(kind) = kind(&metadata.file_type()) {
+        return refuse(Reason::NotAFile(kind));
+    }
+    if metadata.len() > limit.bytes {
+        return refuse(Reason::TooLarge(limit));
+    }
+    let mut bytes = Vec::with_capacity(metadata.len() as usize);
+    // A file may grow while it is read, and some say a length of 0 whatever they hold.
+    file.take(limit.bytes.saturating_add(1)).read_to_end(&mut bytes).map_err(failed)?;
+    if bytes.len() as u64 > limit.bytes {
+        return refuse(Reason::TooLarge(limit));
+    }
+    Ok(bytes)
+}
+
+/// Opens for reading without waiting, should the path have become a pipe since it was looked at.
+#[cfg(unix)]
+fn open(real: &Path) -> io::Result<File> {
+    use rustix::fs::{Mode, OFlags};
+    let flags = OFlags::RDONLY | OFlags::NONBLOCK | OFlags::NOCTTY | OFlags::NOFOLLOW | OFlags::CLOEXEC;
+    Ok(File::from(rustix::fs::open(real, flags, Mode::empty())?))
+}
+
+#[cfg(not(unix))]
+fn open(real: &Path) -> io::Result<File> {
+    File::open(real)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,314 @@
+//! `#include "file"` lines: texts inside texts.
+//!
+//! A path is relative to the file whose line names it, and stays within the project's folder; an included file may
+//! include others. The lines count wherever they stand outside comments, in conditionals too. A file that is a tab of
+//! the project is taken as the tab has it; Common, which stands before every pass anyway, is not put in again.
+//!
+//! Owns which files are read ([`Project::read_includes`]), what the lines lead to ([`Project::include_lines`]) and the
+//! text that comes of it ([`Project::inlined`]).
+
+use super::{
+    Included, Project, Source,
+    confine::{self, Reason},
+    embedded,
+    files::{Files, Read},
+    limits,
+    lines::{HashLine, hash_lines},
+    nearest,
+};
+use crate::diag::{Diagnostic, SourceId, Span};
+use std::{
+    borrow::Cow,
+    collections::{BTreeMap, BTreeSet, VecDeque},
+    path::Path,
+};
+
+/// The reason why a file has no text.
+struct Trouble {
+    why: String,
+    is_limit: bool,
+}
+
+impl From<String> for Trouble {
+    fn from(why: String) -> Self {
+        Trouble { why, is_limit: false }
+    }
+}
+
+/// The texts that the `#include` lines of a project lead to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct IncludeLines {
+    /// A line, and the text that stands in its place; no text leads to itself.
+    pub lines: Vec<(Span, SourceId)>,
+    pub diagnostics: Vec<Diagnostic>,
+}
+
+pub(super) fn is_include(line: &HashLine<'_>) -> bool {
+    line.body.strip_prefix("include").is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
+}
+
+/// The path a line names.
+fn named<'t>(line: &HashLine<'t>) -> Option<&'t str> {
+    let rest = line.body.strip_prefix("include")?.trim_start().strip_prefix('"')?;
+    let (path, after) = rest.split_once('"')?;
+    let after = after.trim_start();
+    (!path.trim().is_empty() && (after.is_empty() || after.starts_with("//") || after.starts_with("/*")))
+        .then_some(path)
+}
+
+/// Returns the paths that the `#include` lines of a text name, in their order and as they are written.
+pub fn include_names(text: &str) -> Vec<&str> {
+    if !text.contains("include") {
+        return Vec::new();
+    }
+    hash_lines(text).iter().filter(|l| is_include(l)).filter_map(named).map(str::trim).collect()
+}
+
+/// Reads every file that texts of the project name, and those that these name.
+pub(super) fn read(project: &mut Project, files: Option<&Files<'_>>) {
+    let tabs: BTreeSet<String> = tab_sources(project).map(|s| s.name.clone()).collect();
+    let mut queue: VecDeque<(String, std::sync::Arc<str>)> =
+        tab_sources(project).map(|s| (s.name.clone(), s.text.clone())).collect();
+    let mut known = tabs.clone();
+    let mut found: Vec<Included> = Vec::new();
+    'texts: while let Some((from, text)) = queue.pop_front() {
+        for line in hash_lines(&text).iter().filter(|l| is_include(l)) {
+            let Some(name) = named(line).and_then(|path| confine::relative(&from, path.trim()).ok()) else { continue };
+            if !known.insert(name.clone()) {
+                continue;
+            }
+            let content = match known.len() > limits::TEXTS {
+                true => Err(Trouble {
+                    why: format!(
+                        "with {name} the project has more than {} texts, the most that Eddy reads",
+                        limits::TEXTS
+                    ),
+                    is_limit: true,
+                }),
+                false => {
+                    content(files, &name, found.iter().filter(|i| i.trouble.is_some()).take(HINTS).count() < HINTS)
+                }
+            };
+            let (text, trouble) = match content {
+                Ok(text) => (text, None),
+                Err(trouble) => (String::new(), Some(trouble)),
+            };
+            let is_limit = trouble.as_ref().is_some_and(|t| t.is_limit);
+            let path = files.and_then(|f| f.path(&name));
+            let source = Source { name: name.clone(), path, text: text.into() };
+            queue.push_back((name, source.text.clone()));
+            found.push(Included { source, trouble: trouble.map(|t| t.why), is_limit });
+            if is_limit {
+                break 'texts;
+            }
+        }
+    }
+    project.includes = found;
+}
+
+/// Files that are not there for which a like name is looked for: looking for one reads the folder.
+const HINTS: usize = 20;
+
+fn content(files: Option<&Files<'_>>, name: &str, with_hint: bool) -> Result<String, Trouble> {
+    let Some(files) = files else {
+        return Err(format!("{name} is nowhere: this project has no folder yet; save it into one first").into());
+    };
+    match files.read(name, limits::GLSL_TEXT) {
+        Read::Text(text) => Ok(text),
+        Read::NotUtf8(at, _) => {
+            Err(format!("{name} is not UTF-8 text (byte {at}); save it as UTF-8 in your editor").into())
+        }
+        Read::Missing => {
+            let folder = name.rsplit_once('/').map_or("", |(folder, _)| folder);
+            let beside = if folder.is_empty() && with_hint { files.names().unwrap_or_default() } else { Vec::new() };
+            let near = nearest(name, beside.iter().map(String::as_str));
+            let hint = near.map(|n| format!("; did you mean {n}?")).unwrap_or_default();
+            Err(format!("there is no file {name}{hint}").into())
+        }
+        Read::Refused(e) => {
+            Err(Trouble { why: format!("{e}; {}", e.hint()), is_limit: matches!(e.reason, Reason::TooMuch(_)) })
+        }
+    }
+}
+
+fn tab_sources(project: &Project) -> impl Iterator<Item = &Source> {
+    project.tab_sources()
+}
+
+impl Project {
+    /// Reads the files that the texts include, from where the project lies.
+    pub fn read_includes(&mut self) {
+        match &self.origin {
+            super::Origin::Preset(name) => {
+                let dir = embedded::folder(name);
+                read(self, dir.map(Files::embedded).as_ref());
+            }
+            other => {
+                let base = other.base_dir().map(Path::to_owned);
+                read(self, base.as_deref().map(Files::on_disk).as_ref());
+            }
+        }
+    }
+
+    /// Returns what every `#include` line leads to, and what is wrong with those that lead nowhere. Spans and ids are
+    /// of [`Project::sources`].
+    pub fn include_lines(&self) -> IncludeLines {
+        let mut found = IncludeLines::default();
+        let sources = self.texts();
+        // A buffer and another may share a file: the first is as good as the second.
+        let mut ids: BTreeMap<&str, SourceId> = BTreeMap::new();
+        for (id, source) in sources.iter().filter(|(id, _)| *id != Self::COMMON_ID || self.common.is_some()) {
+            ids.entry(&source.name).or_insert(id);
+        }
+        for (id, source) in sources.iter() {
+            for line in hash_lines(&source.text).iter().filter(|l| is_include(l)) {
+                let span = Span::new(id, line.range.clone());
+                // Any other form is left to the compiler, which skips it where another language's text stands in a
+                // group that is not compiled.
+                let Some(path) = named(line) else { continue };
+                let name = match confine::relative(&source.name, path.trim()) {
+                    Ok(name) => name,
+                    Err(e) => {
+                        let message = format!("#include \"{path}\": {e}");
+                        found.diagnostics.push(Diagnostic::error(span, message).hint(e.hint()));
+                        continue;
+                    }
+                };
+                match ids.get(name.as_str()) {
+                    Some(&target) if target == Self::COMMON_ID && id != Self::COMMON_ID => found.diagnostics.push(
+                        Diagnostic::warning(
+                            span,
+                            format!("{name} is Common, which stands before every pass: it is not put in again"),
+                        )
+                        .hint("remove this line"),
+                    ),
+                    Some(&target) => match self.included(target).and_then(|i| i.trouble.as_ref()) {
+                        Some(why) => {
+                            found.diagnostics.push(Diagnostic::error(span, format!("#include \"{path}\": {why}")))
+                        }
+                        None => found.lines.push((span, target)),
+                    },
+                    None if self.includes.last().is_some_and(|i| i.is_limit) => {}
+                    None => found
+                        .diagnostics
+                        .push(Diagnostic::error(span, format!("#include \"{path}\": there is no file {name}"))),
+                }
+            }
+        }
+        if self.includes.last().is_some_and(|i| i.is_limit) {
+            // Not even those that were read are put together: the error is there already.
+            found.lines.clear();
+        }
+        self.cut_cycles(&mut found);
+        found
+    }
+
+    /// Takes out lines that lead back to a text they stand in, each with an error that shows the way.
+    fn cut_cycles(&self, found: &mut IncludeLines) {
+        let sources = self.texts();
+        let count = sources.iter().count();
+        let name = |id: usize| sources.get(SourceId(id as u16)).map_or("", |s| s.name.as_str());
+        let mut lines: Vec<Vec<(Span, usize)>> = vec![Vec::new(); count];
+        for &(span, target) in &found.lines {
+            lines[usize::from(span.source.0)].push((span, usize::from(target.0)));
+        }
+        let mut cut: BTreeSet<(u16, u32)> = BTreeSet::new();
+        // How many texts each has in it, itself counted, and their bytes; 0: not known yet.
+        let mut sizes = vec![0u64; count];
+        let mut bytes: Vec<u64> = sources.iter().map(|(_, s)| s.text.len() as u64).collect();
+        for root in 0..count {
+            // Depth first, without recursion: chains may be long.
+            let mut way: Vec<(usize, usize)> = vec![(root, 0)];
+            while let Some(&(at, next)) = way.last() {
+                if sizes[at] > 0 {
+                    way.pop();
+                } else if let Some(&(span, target)) = lines[at].get(next) {
+                    if let Some(last) = way.last_mut() {
+                        last.1 += 1;
+                    }
+                    match way.iter().position(|(id, _)| *id == target) {
+                        Some(begin) => {
+                            let chain: Vec<&str> =
+                                way[begin..].iter().map(|(id, _)| name(*id)).chain([name(target)]).collect();
+                            let message = format!("this #include goes round in a circle: {}", chain.join(" -> "));
+                            found
+                                .diagnostics
+                                .push(Diagnostic::error(span, message).hint("take one of these lines out"));
+                            cut.insert((span.source.0, span.start));
+                        }
+                        None => way.push((target, 0)),
+                    }
+                } else {
+                    sizes[at] = 1;
+                    for (_, target) in lines[at].iter().filter(|(s, _)| !cut.contains(&(s.source.0, s.start))) {
+                        sizes[at] = sizes[at].saturating_add(sizes[*target]);
+                        bytes[at] = bytes[at].saturating_add(bytes[*target]);
+                    }
+                    way.pop();
+                }
+            }
+        }
+        found.lines.retain(|(s, _)| !cut.contains(&(s.source.0, s.start)));
+        let is_too_much = |at: &usize| sizes[*at] > limits::INCLUDED || bytes[*at] > limits::ALL_TEXTS.bytes;
+        if let Some(at) = (0..count).find(is_too_much) {
+            let most = match sizes[at] > limits::INCLUDED {
+                true => format!("{} files", limits::INCLUDED),
+                false => limits::in_bytes(limits::ALL_TEXTS.bytes),
+            };
+            let message =
+                format!("{} has more than {most} in it, each file counted as often as it is included", name(at));
+            found.diagnostics.push(
+                Diagnostic::error(
+                    found.lines.iter().find(|(s, _)| usize::from(s.source.0) == at).map(|l| l.0),
+                    message,
+                )
+                .hint("include each file once"),
+            );
+            found.lines.clear();
+        }
+    }
+
+    /// A text with every file it includes in the place of its line.
+    pub fn inlined(&self, id: SourceId, lines: &IncludeLines) -> Cow<'_, str> {
+        let text = self.source_text(id);
+        let mut own = lines.lines.iter().filter(|(span, _)| span.source == id).peekable();
+        if own.peek().is_none() {
+            return Cow::Borrowed(text);
+        }
+        let (mut out, mut done) = (String::new(), 0);
+        for (span, target) in own {
+            out.push_str(&text[done..span.range().start]);
+            out.push_str(self.inlined(*target, lines).trim_start_matches('\u{feff}'));
+            done = span.range().end;
+        }
+        out.push_str(&text[done..]);
+        Cow::Owned(out)
+    }
+
+    fn source_text(&self, id: SourceId) -> &str {
+        match (usize::from(id.0), &self.common) {
+            (0, common) => common.as_ref().map_or("", |c| &c.text),
+            (i, _) => match self.passes.get(i - 1) {
+                Some(pass) => &pass.source.text,
+                None => self.included(id).map_or("", |i| &i.source.text),
+            },
+        }
+    }
+}
+
+impl IncludeLines {
+    /// The text `id` and all that it has in it.
+    pub fn reach(&self, id: SourceId) -> BTreeSet<SourceId> {
+        let mut reached = BTreeSet::new();
+        let mut todo = vec![id];
+        while let Some(id) = todo.pop() {
+            if reached.insert(id) {
+                todo.extend(self.lines.iter().filter(|(span, _)| span.source == id).map(|(_, target)| *target));
+            }
+        }
+        reached
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,90 @@
+//! From what a person names on the command line to a [`Project`](super::Project).
+
+use super::{
+    Loaded, PassId, ProjectError,
+    file_names::{self, Role},
+    files::{Files, MANIFEST},
+    load::{folder_name, load_folder, load_glsl, load_json},
+    nearest, presets,
+};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+/// Reads a project by what a person calls it: a folder with `eddy.toml`, a folder of GLSL files (or one of these named
+/// directly: `eddy.toml`), one GLSL file, a Shadertoy JSON file, a preset's name. A path wins over a preset, except
+/// that a bare preset's name is not taken for a folder of that name that holds no project.
+pub fn load(spec: &str) -> Result<Loaded, ProjectError> {
+    match locate(spec)? {
+        Place::Preset(name) => presets::load(name),
+        Place::Folder(path) => load_folder(&path),
+        Place::Glsl(path) => load_glsl(&path),
+        Place::Json(path) => load_json(&path),
+    }
+}
+
+/// Returns what an output of `spec` is named after: the preset's, the folder's or the file's name without its
+/// extension.
+pub fn stem(spec: &str) -> String {
+    let path = match locate(spec) {
+        Ok(Place::Preset(name)) => return name.to_owned(),
+        Ok(Place::Folder(path)) => return folder_name(&path),
+        Ok(Place::Glsl(path) | Place::Json(path)) => path,
+        Err(_) => PathBuf::from(spec),
+    };
+    path.file_stem().map_or_else(|| "project".into(), |s| s.to_string_lossy().into_owned())
+}
+
+enum Place {
+    Preset(&'static str),
+    Folder(PathBuf),
+    Glsl(PathBuf),
+    Json(PathBuf),
+}
+
+fn locate(spec: &str) -> Result<Place, ProjectError> {
+    let path = Path::new(spec);
+    let preset = presets::names().iter().copied().find(|n| *n == spec);
+    let metadata = match fs::metadata(path) {
+        Ok(metadata) => metadata,
+        Err(e) if preset.is_none() && e.kind() != std::io::ErrorKind::NotFound && !spec.is_empty() => {
+            return Err(ProjectError::Io { action: "read", path: path.to_owned(), source: e });
+        }
+        Err(_) => {
+            return preset.map(Place::Preset).ok_or_else(|| ProjectError::NotFound {
+                spec: spec.to_owned(),
+                near: nearest(spec, presets::names().iter().copied()).map(str::to_owned),
+                presets: presets::names().iter().map(|&n| n.to_owned()).collect(),
+            });
+        }
+    };
+    if metadata.is_dir() {
+        return Ok(match preset {
+            Some(name) if !holds_project(path) => Place::Preset(name),
+            _ => Place::Folder(path.to_owned()),
+        });
+    }
+    let extension = path.extension().unwrap_or_default();
+    if path.file_name().is_some_and(|n| n == MANIFEST) {
+        let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        Ok(Place::Folder(folder.to_owned()))
+    } else if extension.eq_ignore_ascii_case("json") {
+        Ok(Place::Json(path.to_owned()))
+    } else if file_names::is_glsl_extension(extension) {
+        Ok(Place::Glsl(path.to_owned()))
+    } else {
+        Err(ProjectError::UnknownKind { path: path.to_owned() })
+    }
+}
+
+fn holds_project(path: &Path) -> bool {
+    let files = Files::on_disk(path);
+    files.exists(MANIFEST)
+        || files
+            .names()
+            .is_ok_and(|names| names.iter().any(|n| file_names::role_of_file(n) == Some(Role::Pass(PassId::Image))))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,285 @@
+//! Writing a project: as a folder, as one GLSL file, or as Shadertoy JSON.
+//!
+//! Owns what goes into which file. The writing itself, which never leaves half a file behind, is in `atomic`.
+
+use super::{
+    FillValue, Media, MeshSource, Origin, PassId, Project, ProjectError, SamplerRules, Source,
+    atomic::Content,
+    confine, file_names,
+    files::{Files, MANIFEST},
+    files_beside, folder, json, limits,
+    load::folder_name,
+    manifest, picked,
+    writes::{self, Overwrite, Writes},
+};
+use crate::diag::Diagnostic;
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    path::Path,
+};
+
+/// Writes the project to `target`: one file for a path that ends in `.json` or `.glsl` (which holds a lone Image pass),
+/// else a folder, made if need be. Returns the project as it is now read from there. Files the project came from are
+/// its own and written without asking; a picture in the old folder is copied along into a new one. No file is ever seen
+/// half written, and on failure every old one is still there; files whose content stays the same are not touched.
+pub fn save(project: &Project, target: &Path, overwrite: Overwrite) -> Result<Project, ProjectError> {
+    let extension = target.extension().unwrap_or_default();
+    if target.is_dir() {
+        save_folder(project, target, overwrite)
+    } else if target.file_name().is_some_and(|n| n == MANIFEST) {
+        save_folder(project, target.parent().unwrap_or(Path::new("")), overwrite)
+    } else if extension.eq_ignore_ascii_case("json") {
+        save_json(project, target, overwrite)
+    } else if file_names::is_glsl_extension(extension) {
+        save_glsl(project, target, overwrite)
+    } else {
+        save_folder(project, target, overwrite)
+    }
+}
+
+fn save_json(project: &Project, target: &Path, overwrite: Overwrite) -> Result<Project, ProjectError> {
+    let own = matches!(&project.origin, Origin::Json(path) if is_same(path, target));
+    if let Some(pass) = project.passes.iter().find(|p| p.settings.meshes().is_some()) {
+        let what = format!("{}, which draws meshes: the site has no such pass", pass.id.title());
+        return Err(ProjectError::CannotHold { path: target.to_owned(), what });
+    }
+    if let Some(path) = picked::paths(project).next() {
+        let what = format!("the picture {}, which lies elsewhere", path.display());
+        return Err(ProjectError::CannotHold { path: target.to_owned(), what });
+    }
+    let text = json::export(project);
+    let (mut saved, _) = json::import(&text, &target.display().to_string())?;
+    write_one(target, text.into_bytes(), own, overwrite)?;
+    saved.origin = Origin::Json(target.to_owned());
+    Ok(saved)
+}
+
+fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite) -> Result<Project, ProjectError> {
+    let cannot = |what: &str| Err(ProjectError::CannotHold { path: target.to_owned(), what: what.into() });
+    let [image] = project.passes.as_slice() else { return cannot("more passes than Image") };
+    if image.id != PassId::Image || project.common.is_some() {
+        return cannot("anything but Image");
+    }
+    if project.info != super::Info::default() {
+        return cannot("a description, an author or tags");
+    }
+    let mut saved = project.clone();
+    folder::declare_channels(&mut saved);
+    if saved.passes[0].channels != image.channels {
+        return cannot("channels that its text does not declare in #iChannel lines");
+    }
+    if image.settings != Default::default() {
+        return cannot("how its pass is drawn");
+    }
+    if !project.knob_values.is_empty() {
+        return cannot("values of sliders that are not their defaults");
+    }
+    let has_moved = project.origin.base_dir() != target.parent();
+    if has_moved && !project.includes.is_empty() {
+        return cannot("the files that its text includes");
+    }
+    let own = matches!(&project.origin, Origin::File(path) if is_same(path, target));
+    write_one(target, image.source.text.as_bytes().to_vec(), own, overwrite)?;
+    saved.name = target.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    saved.sampler_rules = SamplerRules::PerChannel;
+    saved.origin = Origin::File(target.to_owned());
+    let source = &mut saved.passes[0].source;
+    source.name = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    source.path = Some(target.to_owned());
+    Ok(saved)
+}
+
+fn save_folder(project: &Project, target: &Path, overwrite: Overwrite) -> Result<Project, ProjectError> {
+    let target = if target.as_os_str().is_empty() { Path::new(".") } else { target };
+    let (is_home, had_manifest) = match &project.origin {
+        Origin::Folder { path, has_manifest } if is_same(path, target) => (true, *has_manifest),
+        _ => (false, false),
+    };
+    let mut saved = project.clone();
+    let mut own: BTreeSet<String> = BTreeSet::new();
+    if is_home {
+        let texts = saved.tab_sources().filter(|s| s.path.is_some()).map(|s| s.name.clone());
+        own.extend(texts.filter_map(|name| confine::relative("", &name).ok()));
+        own.extend(had_manifest.then(|| MANIFEST.to_owned()));
+    }
+    let mut writes = Writes::into(target, own);
+    if let Some(common) = &mut saved.common {
+        let name = usual(common, "common");
+        place(common, name, is_home, target, &mut writes)?;
+    }
+    for pass in &mut saved.passes {
+        let name = usual(&pass.source, &pass.id.key());
+        place(&mut pass.source, name, is_home, target, &mut writes)?;
+        for stage in pass.settings.meshes_mut().into_iter().flat_map(|g| &mut g.stages) {
+            let name = with_ending(stage.name.clone());
+            place(stage, name, is_home, target, &mut writes)?;
+        }
+    }
+    if !is_home {
+        // Under their own names, which the lines that include them say.
+        for included in project.includes.iter().filter(|i| i.trouble.is_none()) {
+            let text = included.source.text.as_bytes().to_vec();
+            writes.add(&included.source.name, Content::Bytes(text))?;
+        }
+        copy_media(&saved, &mut writes)?;
+    }
+    picked::copy_in(&mut saved, target, &mut writes)?;
+    picked::write_held(&mut saved, target, &mut writes)?;
+    saved.origin = Origin::Folder { path: target.to_owned(), has_manifest: true };
+    let name = folder_name(target);
+    let after = folder_after(target, &writes);
+    if is_home && !had_manifest && says_the_same(&saved, &name, &after) {
+        saved.origin = Origin::Folder { path: target.to_owned(), has_manifest: false };
+    } else {
+        let old = had_manifest.then(|| confine::read(target, MANIFEST, limits::MANIFEST).ok()).flatten();
+        let old = old.and_then(|bytes| String::from_utf8(bytes).ok());
+        let text = manifest_text(&saved, old.as_deref(), &name, target, &after)?;
+        writes.add(MANIFEST, Content::Bytes(text.into_bytes()))?;
+    }
+    writes.write(overwrite)?;
+    saved.read_includes();
+    Ok(saved)
+}
+
+/// Writes the one file that a project is.
+fn write_one(target: &Path, bytes: Vec<u8>, is_own: bool, overwrite: Overwrite) -> Result<(), ProjectError> {
+    let name = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let own = if is_own { BTreeSet::from([name.clone()]) } else { BTreeSet::new() };
+    let mut writes = Writes::into(target.parent().unwrap_or(Path::new("")), own);
+    writes.add_named(name, Content::Bytes(bytes));
+    writes.write(overwrite)
+}
+
+/// The file a text has in a new folder. One that includes others stays where it was among them.
+fn usual(source: &Source, key: &str) -> String {
+    let includes = source.path.is_some() && source.text.contains("#include");
+    if includes { with_ending(source.name.clone()) } else { format!("{key}.glsl") }
+}
+
+/// A text's name with an ending that a text may have.
+fn with_ending(name: String) -> String {
+    if writes::is_text(&name) { name } else { format!("{name}.glsl") }
+}
+
+/// Gives a text its file: the one it has in this folder, else the one of its name. Two passes may share a file as long
+/// as they say the same.
+fn place(
+    source: &mut Source,
+    usual: String,
+    is_home: bool,
+    target: &Path,
+    writes: &mut Writes,
+) -> Result<(), ProjectError> {
+    let bytes = source.text.as_bytes();
+    let is_old = is_home && source.path.is_some();
+    if !(is_old && writes.is_free(&writes.checked(&source.name)?, bytes)) {
+        let mut name = writes.checked(&usual)?;
+        let mut number = 2;
+        while !writes.is_free(&name, bytes) {
+            name = format!("{}_{number}.glsl", usual.trim_end_matches(".glsl"));
+            number += 1;
+        }
+        source.name = name;
+    }
+    writes.add(&source.name, Content::Bytes(bytes.to_vec()))?;
+    source.path = Some(target.join(&source.name));
+    Ok(())
+}
+
+/// Copies the pictures and models of the old folder to the same places in the new one. What is not there, or may not be
+/// read or written, is left out: it reads black here and there.
+fn copy_media(project: &Project, writes: &mut Writes) -> Result<(), ProjectError> {
+    let Some(base) = project.origin.base_dir() else { return Ok(()) };
+    let mut names: BTreeSet<String> = BTreeSet::new();
+    let named = |path: &Path| path.to_str().and_then(|name| confine::relative("", name).ok());
+    for draw in project.passes.iter().filter_map(|p| p.settings.meshes()).flat_map(|g| &g.draws) {
+        let MeshSource::File(path) = &draw.mesh else { continue };
+        if let Some(model) = named(path) {
+            names.extend(files_beside(base, &model));
+            names.insert(model);
+        }
+    }
+    for channel in project.passes.iter().flat_map(|p| p.channels.iter().flatten()) {
+        if let Some(Media::File(path)) = channel.input.media() {
+            names.extend(named(path));
+        }
+    }
+    for (.., fill) in project.fills() {
+        if let FillValue::File(path) = &fill.value {
+            names.extend(named(path));
+        }
+    }
+    for name in names {
+        if writes::is_media(&name) && writes.checked(&name).is_ok() && confine::resolve(base, &name).is_ok() {
+            writes.add(&name, Content::CopyOf(base.to_owned(), name.clone()))?;
+        }
+    }
+    Ok(())
+}
+
+/// The text files of the folder once everything is written.
+fn folder_after(target: &Path, writes: &Writes) -> BTreeMap<String, Vec<u8>> {
+    let mut files = BTreeMap::new();
+    for name in Files::on_disk(target).names().unwrap_or_default() {
+        if file_names::role_of_file(&name).is_some() {
+            files.insert(name.clone(), confine::read(target, &name, limits::GLSL_TEXT).unwrap_or_default());
+        }
+    }
+    files.extend(writes.texts().map(|(name, bytes)| (name.clone(), bytes.clone())));
+    files
+}
+
+/// Returns whether the GLSL files alone, without `eddy.toml`, give this project.
+fn says_the_same(project: &Project, folder_name: &str, files: &BTreeMap<String, Vec<u8>>) -> bool {
+    let texts = files
+        .iter()
+        .filter_map(|(name, bytes)| Some((name, String::from_utf8(bytes.clone()).ok()?)))
+        .map(|(name, text)| Source { name: name.clone(), path: None, text: text.into() })
+        .collect();
+    let (read, diagnostics) = folder::project(folder_name.to_owned(), texts, Origin::Unsaved);
+    !diagnostics.iter().any(Diagnostic::is_error) && is_equal_but_for_places(&read, project)
+}
+
+fn is_equal_but_for_places(a: &Project, b: &Project) -> bool {
+    let bare = |p: &Project| {
+        let mut p = p.clone();
+        p.origin = Origin::Unsaved;
+        p.includes.clear();
+        for source in p.tab_sources_mut() {
+            source.path = None;
+        }
+        p
+    };
+    bare(a) == bare(b)
+}
+
+/// An `eddy.toml` that reads back as this project: the old one changed, or, where that cannot be, a new one.
+fn manifest_text(
+    project: &Project,
+    old: Option<&str>,
+    name: &str,
+    target: &Path,
+    files: &BTreeMap<String, Vec<u8>>,
+) -> Result<String, ProjectError> {
+    let has_common_file = files.keys().any(|name| file_names::role_of_file(name) == Some(file_names::Role::Common));
+    for old in [old, None] {
+        let text = manifest::write(project, old, name, has_common_file);
+        let read = manifest::project("", name.to_owned(), &text, &Files::in_memory(files), Origin::Unsaved);
+        if read.is_ok_and(|l| is_equal_but_for_places(&l.project, project)) {
+            return Ok(text);
+        }
+    }
+    // A path that is not UTF-8 is the one thing known that TOML has no form for.
+    Err(ProjectError::CannotHold {
+        path: target.join(MANIFEST),
+        what: "a name in this project that is not plain text".into(),
+    })
+}
+
+/// Returns whether two paths name one place, also where one is written in another way.
+fn is_same(a: &Path, b: &Path) -> bool {
+    a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
+}
+
+#[cfg(test)]
+mod tests;

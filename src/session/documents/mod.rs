@@ -1,0 +1,253 @@
+//! The open project in two states: as it is edited, and as it is on disk.
+//!
+//! Owns what is unsaved, and the three-way merge of a change on disk: what was not edited follows the disk, what was
+//! edited and changed on disk too is a conflict for the user to settle. Reads and writes no file.
+
+use super::{command::DiffLine, structure};
+use crate::project::{Origin, Pass, Project, Tab};
+use std::{collections::BTreeSet, path::PathBuf, sync::Arc};
+
+/// A project being edited.
+#[derive(Clone, Debug)]
+pub(super) struct Documents {
+    current: Project,
+    /// The project on disk as far as is known; for one that is nowhere, its beginning.
+    saved: Project,
+    /// Tabs whose files are gone from disk: unsaved, whatever their text.
+    missing: BTreeSet<Tab>,
+}
+
+/// One thing that was edited here and changed on disk.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Conflict {
+    pub tab: Tab,
+    pub file: PathBuf,
+    pub mine: Arc<str>,
+    pub disk: Arc<str>,
+}
+
+/// The result of merging a change on disk.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Merge {
+    /// Tabs that now show the disk's text.
+    pub taken: Vec<Tab>,
+    /// Passes, channels or names follow the disk now.
+    pub took_structure: bool,
+    pub conflicts: Vec<Conflict>,
+    /// Passes or channels were changed both here and on disk. Nothing of them was taken.
+    pub structure_conflict: bool,
+    /// Tabs whose files have gone; their texts are kept.
+    pub gone: Vec<Tab>,
+}
+
+impl Merge {
+    /// The picture must be compiled anew.
+    pub fn changes_project(&self) -> bool {
+        !self.taken.is_empty() || self.took_structure
+    }
+}
+
+impl Documents {
+    /// A project as it was read or made: nothing unsaved.
+    pub fn new(project: Project) -> Self {
+        Self { saved: project.clone(), current: project, missing: BTreeSet::new() }
+    }
+
+    pub fn current(&self) -> &Project {
+        &self.current
+    }
+
+    pub fn saved(&self) -> &Project {
+        &self.saved
+    }
+
+    /// For changes of passes, channels and texts alike.
+    pub fn current_mut(&mut self) -> &mut Project {
+        &mut self.current
+    }
+
+    /// The project as it now lies on disk.
+    pub fn set_saved(&mut self, project: Project) {
+        *self = Self::new(project);
+    }
+
+    pub fn is_tab_dirty(&self, tab: &Tab) -> bool {
+        match self.current.source(tab) {
+            None => false,
+            Some(now) => self.missing.contains(tab) || self.saved.source(tab).is_none_or(|s| s.text != now.text),
+        }
+    }
+
+    /// Passes, channels or names differ from those on disk.
+    pub fn is_structure_dirty(&self) -> bool {
+        !structure::is_same(&self.current, &self.saved)
+    }
+
+    /// The tab's file is known to be gone from disk.
+    pub fn is_missing(&self, tab: &Tab) -> bool {
+        self.missing.contains(tab)
+    }
+
+    /// These tabs' files are gone, all others are there. Gives those that were not known to be gone.
+    pub fn set_missing(&mut self, missing: BTreeSet<Tab>) -> Vec<Tab> {
+        let new = missing.difference(&self.missing).cloned().collect();
+        self.missing = missing;
+        new
+    }
+
+    pub fn dirty_tabs(&self) -> Vec<Tab> {
+        self.current.tabs().into_iter().filter(|t| self.is_tab_dirty(t)).collect()
+    }
+
+    pub fn is_dirty(&self) -> bool {
+        self.is_structure_dirty()
+            || !structure::has_same_texts(&self.current, &self.saved)
+            || self.missing.iter().any(|tab| self.current.source(tab).is_some())
+    }
+
+    /// Takes what is on disk now. Whatever was not edited since follows it; the rest comes back as conflicts, with the
+    /// edited text standing.
+    pub fn merge(&mut self, mut disk: Project) -> Merge {
+        let mut merge = Merge::default();
+        self.keep_gone(&mut disk, &mut merge);
+        if !structure::is_same(&disk, &self.saved) {
+            if !self.is_structure_dirty() {
+                self.take_structure(&disk);
+                merge.took_structure = true;
+            } else if !structure::is_same(&disk, &self.current) {
+                merge.structure_conflict = true;
+            }
+        }
+        for tab in disk.tabs() {
+            let (Some(theirs), Some(mine)) = (disk.source(&tab), self.current.source_mut(&tab)) else { continue };
+            let base = self.saved.source(&tab);
+            let changed_on_disk = base.is_none_or(|s| s.text != theirs.text);
+            if !changed_on_disk || mine.text == theirs.text {
+                continue;
+            }
+            if base.is_some_and(|s| s.text == mine.text) {
+                mine.text = theirs.text.clone();
+                merge.taken.push(tab);
+            } else {
+                let file = theirs.path.clone().unwrap_or_else(|| PathBuf::from(&theirs.name));
+                merge.conflicts.push(Conflict { tab, file, mine: mine.text.clone(), disk: theirs.text.clone() });
+            }
+        }
+        // Files may have other names now, and there may be an `eddy.toml` where there was none.
+        self.current.origin = disk.origin.clone();
+        for tab in disk.tabs() {
+            if let (Some(theirs), Some(mine)) = (disk.source(&tab), self.current.source_mut(&tab)) {
+                (mine.name, mine.path) = (theirs.name.clone(), theirs.path.clone());
+            }
+        }
+        self.saved = disk;
+        merge
+    }
+
+    /// Lets the structure follow the disk after all. Edited texts stay.
+    pub fn take_structure_of_saved(&mut self) {
+        let saved = self.saved.clone();
+        self.take_structure(&saved);
+    }
+
+    /// The tab shows what is on disk.
+    pub fn take_text_of_saved(&mut self, tab: &Tab) {
+        if let (Some(saved), Some(mine)) = (self.saved.source(tab), self.current.source_mut(tab)) {
+            mine.text = saved.text.clone();
+        }
+    }
+
+    /// Puts tabs that the disk has no more back into `disk`, unless `eddy.toml` was rewritten without them and nothing
+    /// in them is unsaved.
+    fn keep_gone(&mut self, disk: &mut Project, merge: &mut Merge) {
+        let is_listed = matches!(disk.origin, Origin::Folder { has_manifest: true, .. });
+        for tab in self.saved.tabs() {
+            if disk.source(&tab).is_some() {
+                self.missing.remove(&tab);
+            } else if self.current.source(&tab).is_some() && (!is_listed || self.is_tab_dirty(&tab)) {
+                reinsert(disk, &self.saved, &tab);
+                if self.missing.insert(tab.clone()) {
+                    merge.gone.push(tab);
+                }
+            }
+        }
+        // Without `eddy.toml` the channels are what the files that are there suggest; a missing one takes its readers
+        // along.
+        if !is_listed && !self.missing.is_empty() {
+            for pass in &mut disk.passes {
+                if let Some(saved) = self.saved.pass(&pass.id) {
+                    pass.channels = saved.channels.clone();
+                }
+            }
+        }
+    }
+
+    /// `disk`'s passes and channels, with this side's text wherever there is one that differs from what was saved.
+    fn take_structure(&mut self, disk: &Project) {
+        let mut next = disk.clone();
+        for tab in disk.tabs() {
+            if let (Some(mine), Some(slot)) = (self.current.source(&tab), next.source_mut(&tab)) {
+                slot.text = mine.text.clone();
+            }
+        }
+        // A pass that was added here and is not on disk has text that is nowhere else.
+        for tab in self.current.tabs() {
+            if next.source(&tab).is_none() && self.is_tab_dirty(&tab) {
+                reinsert(&mut next, &self.current, &tab);
+            }
+        }
+        self.current = next;
+    }
+}
+
+/// Copies a tab of `from` into `to`, at its place in the drawing order.
+fn reinsert(to: &mut Project, from: &Project, tab: &Tab) {
+    match tab {
+        Tab::Common => to.common = from.common.clone(),
+        // With the draws that name it, or nothing would be drawn with it.
+        Tab::Stage(id, _) => {
+            if let (Some(from), Some(to)) = (from.pass(id), to.pass_mut(id)) {
+                to.settings = from.settings.clone();
+            }
+        }
+        Tab::Pass(id) => {
+            if let Some(pass) = from.pass(id) {
+                insert_pass(to, pass.clone());
+            }
+        }
+    }
+}
+
+/// Puts a pass where the drawing order wants it: buffers by name, then the cubemap pass, Image, Sound. Passes that are
+/// there keep their order, which an author may have chosen.
+pub(super) fn insert_pass(project: &mut Project, pass: Pass) {
+    let is_before = |other: &Pass| match other.id.turn().cmp(&pass.id.turn()) {
+        std::cmp::Ordering::Equal => other.id < pass.id,
+        order => order.is_lt(),
+    };
+    let mut at = project.passes.iter().rposition(is_before).map_or(0, |i| i + 1);
+    // Not between the passes of a group, which are drawn one after the other.
+    let group_of = |p: Option<&Pass>| project.groups.iter().position(|g| p.is_some_and(|p| g.passes.contains(&p.id)));
+    while at > 0 && group_of(project.passes.get(at)).is_some_and(|g| group_of(project.passes.get(at - 1)) == Some(g)) {
+        at += 1;
+    }
+    project.passes.insert(at, pass);
+}
+
+/// From `disk` to `mine`, every line.
+pub(super) fn diff(disk: &str, mine: &str) -> Vec<DiffLine> {
+    similar::TextDiff::from_lines(disk, mine)
+        .iter_all_changes()
+        .map(|change| {
+            let line = change.value().trim_end_matches(['\n', '\r']).to_owned();
+            match change.tag() {
+                similar::ChangeTag::Equal => DiffLine::Both(line),
+                similar::ChangeTag::Delete => DiffLine::Disk(line),
+                similar::ChangeTag::Insert => DiffLine::Mine(line),
+            }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests;

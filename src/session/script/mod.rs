@@ -1,0 +1,263 @@
+//! Input written down beforehand: `--mouse`, `--keys`, and the [`FrameInputs`] that come of them at a fixed step.
+//!
+//! Events of frame i happen before frame i is drawn, so a script gives the same pictures on every machine.
+
+use super::{date, mouse::Mouse};
+use crate::{engine::FrameInputs, media::Keyboard};
+use jiff::{SignedDuration, civil::DateTime};
+
+/// An action of the mouse.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MouseAction {
+    /// Canvas pixels from the bottom left.
+    Down(f32, f32),
+    Move(f32, f32),
+    Up,
+}
+
+/// An action of a key, by JavaScript `keyCode`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum KeyAction {
+    Down(u8),
+    Up(u8),
+}
+
+/// An action before a frame is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct At<A> {
+    pub frame: i32,
+    pub action: A,
+}
+
+/// A script that cannot be read: where, and what would have been right there.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("at character {position}: expected {expected}, found {found}")]
+pub struct ScriptError {
+    /// Character in the script, counted from 1.
+    pub position: usize,
+    pub expected: String,
+    pub found: String,
+}
+
+/// Reads `0:down 40,40; 4:move 80,45; 10:up`. Events come back in the order of their frames, those of one frame as
+/// written.
+pub fn parse_mouse(text: &str) -> Result<Vec<At<MouseAction>>, ScriptError> {
+    parse(
+        text,
+        |word, r| match word {
+            "down" => r.point().map(|(x, y)| Some(MouseAction::Down(x, y))),
+            "move" => r.point().map(|(x, y)| Some(MouseAction::Move(x, y))),
+            "up" => Ok(Some(MouseAction::Up)),
+            _ => Ok(None),
+        },
+        "`down X,Y`, `move X,Y` or `up`",
+    )
+}
+
+/// Reads `0:down 32; 3:up 32`, in order likewise.
+pub fn parse_keys(text: &str) -> Result<Vec<At<KeyAction>>, ScriptError> {
+    parse(
+        text,
+        |word, r| match word {
+            "down" => r.key().map(|k| Some(KeyAction::Down(k))),
+            "up" => r.key().map(|k| Some(KeyAction::Up(k))),
+            _ => Ok(None),
+        },
+        "`down CODE` or `up CODE`",
+    )
+}
+
+fn parse<A>(
+    text: &str,
+    action: impl Fn(&str, &mut Reader<'_>) -> Result<Option<A>, ScriptError>,
+    actions: &str,
+) -> Result<Vec<At<A>>, ScriptError> {
+    let mut r = Reader { text, at: 0 };
+    let mut events = Vec::new();
+    loop {
+        r.skip_space();
+        if r.rest().is_empty() {
+            break;
+        }
+        if r.take(';') {
+            continue;
+        }
+        let frame = r.number::<u32>("a frame number from 0").and_then(|(start, n)| {
+            i32::try_from(n).map_err(|_| r.error_at(start, "a frame number below 2147483648"))
+        })?;
+        r.want(':')?;
+        r.skip_space();
+        let start = r.at;
+        let word = r.word();
+        let Some(action) = action(word, &mut r)? else { return Err(r.error_at(start, actions)) };
+        events.push(At { frame, action });
+        r.skip_space();
+        if !r.rest().is_empty() && !r.take(';') {
+            return Err(r.error("`;` or the end"));
+        }
+    }
+    events.sort_by_key(|e| e.frame);
+    Ok(events)
+}
+
+struct Reader<'a> {
+    text: &'a str,
+    at: usize,
+}
+
+impl<'a> Reader<'a> {
+    fn rest(&self) -> &'a str {
+        &self.text[self.at..]
+    }
+
+    fn skip_space(&mut self) {
+        self.at = self.text.len() - self.rest().trim_start().len();
+    }
+
+    fn take(&mut self, c: char) -> bool {
+        let found = self.rest().starts_with(c);
+        self.at += if found { c.len_utf8() } else { 0 };
+        found
+    }
+
+    fn want(&mut self, c: char) -> Result<(), ScriptError> {
+        self.skip_space();
+        if self.take(c) { Ok(()) } else { Err(self.error(format!("`{c}`"))) }
+    }
+
+    fn word(&mut self) -> &'a str {
+        let rest = self.rest();
+        let end = rest.find(|c: char| !c.is_ascii_alphanumeric()).unwrap_or(rest.len());
+        self.at += end;
+        &rest[..end]
+    }
+
+    fn number<N: std::str::FromStr>(&mut self, expected: &str) -> Result<(usize, N), ScriptError> {
+        self.skip_space();
+        let (start, rest) = (self.at, self.rest());
+        let end = rest.find(|c: char| !(c.is_ascii_digit() || matches!(c, '-' | '+' | '.'))).unwrap_or(rest.len());
+        let value = rest[..end].parse().map_err(|_| self.error_at(start, expected))?;
+        self.at += end;
+        Ok((start, value))
+    }
+
+    fn point(&mut self) -> Result<(f32, f32), ScriptError> {
+        let (_, x) = self.number("x in canvas pixels")?;
+        self.want(',')?;
+        let (_, y) = self.number("y in canvas pixels, from the bottom")?;
+        Ok((x, y))
+    }
+
+    fn key(&mut self) -> Result<u8, ScriptError> {
+        Ok(self.number("a key code from 0 to 255")?.1)
+    }
+
+    fn error(&self, expected: impl Into<String>) -> ScriptError {
+        self.error_at(self.at, expected)
+    }
+
+    fn error_at(&self, at: usize, expected: impl Into<String>) -> ScriptError {
+        let rest = &self.text[at..];
+        let found: String = rest.split([';', ' ']).next().unwrap_or("").chars().take(20).collect();
+        let found = match rest.chars().next() {
+            None => "the end".to_owned(),
+            Some(c) if found.is_empty() => format!("`{c}`"),
+            Some(_) => format!("`{found}`"),
+        };
+        ScriptError { position: self.text[..at].chars().count() + 1, expected: expected.into(), found }
+    }
+}
+
+/// The inputs of frame 0, 1, 2 … of a run at a fixed step.
+#[derive(Clone, Debug)]
+pub struct ScriptedInputs {
+    fps: f64,
+    mouse_events: Vec<At<MouseAction>>,
+    key_events: Vec<At<KeyAction>>,
+    date: Option<DateTime>,
+    mouse: Mouse,
+    keyboard: Keyboard,
+    frame: i32,
+}
+
+impl ScriptedInputs {
+    /// `fps` is finite and above 0.
+    pub fn new(fps: f64) -> Self {
+        Self {
+            fps,
+            mouse_events: Vec::new(),
+            key_events: Vec::new(),
+            date: None,
+            mouse: Mouse::default(),
+            keyboard: Keyboard::default(),
+            frame: 0,
+        }
+    }
+
+    #[must_use]
+    pub fn with_mouse(mut self, mut events: Vec<At<MouseAction>>) -> Self {
+        events.sort_by_key(|e| e.frame);
+        self.mouse_events = events;
+        self
+    }
+
+    #[must_use]
+    pub fn with_keys(mut self, mut events: Vec<At<KeyAction>>) -> Self {
+        events.sort_by_key(|e| e.frame);
+        self.key_events = events;
+        self
+    }
+
+    /// Local time at frame 0; it goes on with the frames. Without one `iDate` is (0, 0, 0, `iTime`).
+    #[must_use]
+    pub fn with_date(mut self, date: Option<DateTime>) -> Self {
+        self.date = date;
+        self
+    }
+
+    /// Number of the frame that [`ScriptedInputs::next_frame`] gives next.
+    pub fn frame(&self) -> i32 {
+        self.frame
+    }
+
+    /// The inputs of the next frame, which counts as painted.
+    pub fn next_frame(&mut self) -> FrameInputs {
+        let frame = self.frame;
+        self.frame = self.frame.saturating_add(1);
+        for event in of_frame(&self.mouse_events, frame) {
+            match event {
+                MouseAction::Down(x, y) => self.mouse.press(x, y),
+                MouseAction::Move(x, y) => self.mouse.move_to(x, y),
+                MouseAction::Up => self.mouse.release(),
+            }
+        }
+        for event in of_frame(&self.key_events, frame) {
+            match event {
+                KeyAction::Down(code) => self.keyboard.press(code),
+                KeyAction::Up(code) => self.keyboard.release(code),
+            }
+        }
+        let mut inputs = FrameInputs {
+            mouse: self.mouse.next_frame(),
+            drag: self.mouse.dragged(),
+            keyboard: self.keyboard.clone(),
+            ..FrameInputs::at_fixed_step(frame, self.fps)
+        };
+        // A shader that reads only the seconds moves all the same.
+        inputs.date[3] = inputs.time_secs as f32;
+        if let Some(start) = self.date {
+            let millis = (inputs.time_secs * 1000.0).round() as i64;
+            inputs.date = date::i_date(start.saturating_add(SignedDuration::from_millis(millis)));
+        }
+        self.keyboard.frame_painted();
+        inputs
+    }
+}
+
+fn of_frame<A: Copy>(events: &[At<A>], frame: i32) -> impl Iterator<Item = A> {
+    let from = events.partition_point(|e| e.frame < frame);
+    events[from..].iter().take_while(move |e| e.frame == frame).map(|e| e.action)
+}
+
+#[cfg(test)]
+mod tests;
