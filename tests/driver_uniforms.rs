@@ -1,7 +1,8 @@
 //! Uniforms as a driver needs them that compiles a program anew for every frame where a branch depends on them alone.
 //!
-//! By itself, because one test measures the memory of its process: the other only compiles a few lines.
+//! A program of its own, because one test measures the memory of its process: the other only compiles a few lines.
 
+#[path = "it/support/mod.rs"]
 mod support;
 
 use eddy::{

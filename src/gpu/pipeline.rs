@@ -72,10 +72,10 @@ pub(super) fn shader_module(
     // SAFETY: `module` comes from the front end's lowering and nowhere else, and wgpu validates it; what the checks
     // leave out is done there:
     // - No index reaches past what it goes into. `ranges.rs` says what that rests on: bounds hold where they were
-    //   derived, and code that is written out again elsewhere asks anew. `tests/glsl_bounds.rs` has each way in which
-    //   that happens, and `tests/random_programs.rs` holds random programs against ones with every index clamped in
+    //   derived, and code that is written out again elsewhere asks anew. `tests/it/glsl_bounds.rs` has each way in which
+    //   that happens, and `tests/it/random_programs` holds random programs against ones with every index clamped in
     //   their text.
-    // - No division of integers traps: `tests/glsl_division.rs`, and the same random programs.
+    // - No division of integers traps: `tests/it/glsl_division.rs`, and the same random programs.
     // - Loops are not bounded. One that never ends keeps the device busy until the driver's watchdog ends it, with
     //   wgpu's counter up to 2^64 as without.
     unsafe {

@@ -34,7 +34,7 @@ pub(super) fn shader_module(
     //   `filled_arrays` scalars alone, which the front end has filled before anything reads them, at the start of the
     //   variable's function or of the program (`glsl/lower/long_arrays`), or as a whole (`glsl/lower/filled.rs`, and
     //   `set_tables` in `glsl/lower/entry.rs`).
-    //   `tests/long_arrays.rs` reads such arrays where nothing was written.
+    //   `tests/it/long_arrays.rs` reads such arrays where nothing was written.
     let module = unsafe {
         gpu.device.create_shader_module_passthrough(wgpu::ShaderModuleDescriptorPassthrough {
             label: Some(label),

@@ -10,7 +10,7 @@
 //! - The bounds of a counter in the rounds of its loop hold in the loop's body alone. They are part of the entry in
 //!   [`Builder::loops`], which says in which part of the loop the code at hand lies ([`Builder::within`]).
 //!
-//! `tests/glsl_bounds.rs` has each way in which code is written out twice or elsewhere.
+//! `tests/it/glsl_bounds.rs` has each way in which code is written out twice or elsewhere.
 
 use super::{
     function::{Builder, Part},
