@@ -139,6 +139,28 @@ pub struct PassSource<'a> {
     pub driver: Driver,
 }
 
+impl<'a> PassSource<'a> {
+    /// Returns a pass that is one text alone, with four `sampler2D` channels, for a driver that wants nothing special.
+    pub fn new(kind: PassKind, code: Text<'a>) -> Self {
+        PassSource {
+            kind,
+            common: None,
+            code,
+            includes: &[],
+            channels: [ChannelKind::Sampler2D; 4],
+            knobs: &[],
+            values: &[],
+            bilinear_by_hand: [false; 4],
+            driver: Driver::default(),
+        }
+    }
+
+    /// Returns an Image pass that is this text alone. Diagnostics point into `SourceId(0)`.
+    pub fn image(text: &'a str) -> Self {
+        Self::new(PassKind::Image, Text { id: SourceId(0), text })
+    }
+}
+
 /// What the driver that will run a pass needs of its code; none of it changes a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Driver {

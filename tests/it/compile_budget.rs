@@ -1,15 +1,15 @@
 //! What a text costs to compile: at most in proportion to its length, and no more than the limits that are named.
 //! Programs that would take a driver minutes are refused, or written in a form that it takes quickly.
 
-use crate::support::{clock::Clock, first_frame::first_frame, source::source};
+use crate::support::{clock::Clock, first_frame::first_frame};
 use eddy::{
     diag::Diagnostic,
-    glsl::{self, Compiled},
+    glsl::{self, Compiled, PassSource},
 };
 use std::{fmt::Write, time::Duration};
 
 fn compile(text: &str) -> Result<Compiled, Vec<Diagnostic>> {
-    glsl::compile(&source(text))
+    glsl::compile(&PassSource::image(text))
 }
 
 /// `n` pieces, one behind the other.
@@ -234,7 +234,7 @@ fn functions_that_double_are_an_error_at_their_line() {
         assert!(errors[0].message.contains("with all calls written out"), "{}", errors[0].message);
         let span = errors[0].span.expect("a place");
         assert!(text[span.range()].starts_with('s'), "{span:?}");
-        assert_eq!(glsl::diagnose(&source(&text)), errors);
+        assert_eq!(glsl::diagnose(&PassSource::image(&text)), errors);
     }
     // What is not reached does no harm.
     let text = format!("float s0(vec2 p) {{ return p.x; }}\n{plain}");

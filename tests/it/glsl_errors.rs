@@ -5,7 +5,7 @@
 
 use eddy::{
     diag::{SourceMap, render_all},
-    glsl::{self, ChannelKind, Driver, PassKind, PassSource, Text},
+    glsl::{self, PassKind, PassSource, Text},
 };
 use std::{fs, path::Path};
 
@@ -17,18 +17,7 @@ fn messages(name: &str, code: &str) -> String {
     };
     let mut sources = SourceMap::default();
     let id = sources.add(name, code);
-    let channels = [ChannelKind::Sampler2D; 4];
-    let source = PassSource {
-        kind,
-        common: None,
-        code: Text { id, text: code },
-        channels,
-        bilinear_by_hand: [false; 4],
-        driver: Driver::default(),
-        knobs: &[],
-        values: &[],
-        includes: &[],
-    };
+    let source = PassSource::new(kind, Text { id, text: code });
     match glsl::compile(&source) {
         Ok(_) => String::from("it compiles\n"),
         Err(diagnostics) => render_all(&diagnostics, &sources),

@@ -5,7 +5,7 @@
 use crate::support::clock::Clock;
 use eddy::{
     diag::{SourceId, SourceMap, render_all},
-    glsl::{self, ChannelKind, Driver, PassKind, PassSource, Text, services::Analysis},
+    glsl::{self, Driver, PassKind, PassSource, services::Analysis},
 };
 use std::time::{Duration, Instant};
 
@@ -271,10 +271,6 @@ fn any_text_gets_an_answer() {
         let compile = || {
             let result = glsl::compile(&PassSource {
                 kind,
-                common: None,
-                code: Text { id: SourceId(0), text: &text },
-                channels: [ChannelKind::Sampler2D; 4],
-                bilinear_by_hand: [false; 4],
                 driver: Driver {
                     tables_in_memory,
                     opaque_uniforms,
@@ -285,9 +281,7 @@ fn any_text_gets_an_answer() {
                     hidden_limits,
                     ..Driver::default()
                 },
-                knobs: &[],
-                values: &[],
-                includes: &[],
+                ..PassSource::image(&text)
             });
             if let Err(errors) = &result {
                 assert!(errors.iter().any(|d| d.is_error()), "refused without an error");
@@ -346,17 +340,7 @@ fn editors_get_an_answer_at_any_place_of_any_text() {
         cases += 1;
         let places: Vec<usize> = (0..8).map(|_| random.below(text.len() + 2)).collect();
         let result = std::panic::catch_unwind(|| {
-            let analysis = Analysis::new(&PassSource {
-                kind: PassKind::Image,
-                common: None,
-                code: Text { id: SourceId(0), text: &text },
-                channels: [ChannelKind::Sampler2D; 4],
-                bilinear_by_hand: [false; 4],
-                driver: Driver::default(),
-                knobs: &[],
-                values: &[],
-                includes: &[],
-            });
+            let analysis = Analysis::new(&PassSource::image(&text));
             let mut end = 0;
             for span in analysis.classes(SourceId(0)) {
                 assert!(span.range.start >= end && span.range.end <= text.len(), "{span:?}");
@@ -373,17 +357,7 @@ fn editors_get_an_answer_at_any_place_of_any_text() {
 fn huge_texts_get_an_answer() {
     let answer = |text: &str| {
         let begin = Clock::now();
-        let messages = glsl::diagnose(&PassSource {
-            kind: PassKind::Image,
-            common: None,
-            code: Text { id: SourceId(0), text },
-            channels: [ChannelKind::Sampler2D; 4],
-            bilinear_by_hand: [false; 4],
-            driver: Driver::default(),
-            knobs: &[],
-            values: &[],
-            includes: &[],
-        });
+        let messages = glsl::diagnose(&PassSource::image(text));
         // Far above what it takes, far below what a quadratic algorithm would.
         assert!(begin.elapsed() < Duration::from_secs(20), "{:?}: {}", begin.elapsed(), &text[..40]);
         messages

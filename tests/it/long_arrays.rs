@@ -1,6 +1,6 @@
 //! Long arrays: a driver that takes minutes over stores one by one gets loops, which compute the same.
 
-use crate::support::{first_frame::first_frame, source::source};
+use crate::support::first_frame::first_frame;
 use eddy::glsl::{self, Driver, PassSource};
 use std::time::Duration;
 
@@ -246,7 +246,11 @@ fn stores_of_zeros(block: &naga::Block, f: &naga::Function, types: &naga::Unique
 fn zeros_of_long_arrays_are_loops_where_the_driver_asks() {
     for (name, text, _) in LONG_ARRAYS {
         let [plain, looped] = [false, true].map(|array_loops| {
-            glsl::compile(&PassSource { driver: Driver { array_loops, ..Driver::default() }, ..source(text) }).unwrap()
+            glsl::compile(&PassSource {
+                driver: Driver { array_loops, ..Driver::default() },
+                ..PassSource::image(text)
+            })
+            .unwrap()
         });
         assert_eq!(plain.filled_arrays, None, "{name}");
         assert!(looped.filled_arrays.is_some_and(|scalars| scalars <= 90), "{name}");
@@ -258,6 +262,6 @@ fn zeros_of_long_arrays_are_loops_where_the_driver_asks() {
     let text =
         "void mainImage(out vec4 o, in vec2 p) { float a[40], b[40]; a[int(p.x)] = b[int(p.y)]; o = vec4(a[3]); }";
     let driver = Driver { array_loops: true, ..Driver::default() };
-    let compiled = glsl::compile(&PassSource { driver, ..source(text) }).unwrap();
+    let compiled = glsl::compile(&PassSource { driver, ..PassSource::image(text) }).unwrap();
     assert_eq!(compiled.filled_arrays, None);
 }

@@ -2,29 +2,12 @@
 //! takes a change over.
 
 use super::PASSES;
-use crate::{
-    diag::SourceId,
-    glsl::{Driver, Link, PassKind, PassSource, Text, dump_ir, opt::PassSet},
-};
-
-fn source(code: &str) -> PassSource<'_> {
-    PassSource {
-        kind: PassKind::Image,
-        common: None,
-        code: Text { id: SourceId(1), text: code },
-        includes: &[],
-        channels: Default::default(),
-        knobs: &[],
-        values: &[],
-        bilinear_by_hand: [false; 4],
-        driver: Driver::default(),
-    }
-}
+use crate::glsl::{Driver, Link, PassSource, dump_ir, opt::PassSet};
 
 /// The program of `void mainImage(out vec4 o, vec2 p) { body }` before and after a pass, with only the passes before it.
 fn around(pass: &str, body: &str) -> String {
     let code = format!("void mainImage(out vec4 o, vec2 p) {{ {body} }}");
-    dump_ir(&source(&code), &Link::default(), Some(pass)).expect("a program without errors")
+    dump_ir(&PassSource::image(&code), &Link::default(), Some(pass)).expect("a program without errors")
 }
 
 #[test]
@@ -70,7 +53,8 @@ fn filled_arrays_become_global() {
     let code = "float f(int n, float x) { float a[3] = float[](x, x + 1.0, x + 2.0); float s = 0.0;
             for (int i = 0; i < n; i++) { s += a[i % 3]; if (s > 9.0) return s; } return s; }
         void mainImage(out vec4 o, vec2 p) { o = vec4(f(int(p.x), p.x), f(int(p.y), p.y), 0, 1); }";
-    let text = dump_ir(&source(code), &Link::default(), Some("array-to-global")).expect("a program without errors");
+    let text =
+        dump_ir(&PassSource::image(code), &Link::default(), Some("array-to-global")).expect("a program without errors");
     insta::assert_snapshot!(text);
 }
 
@@ -88,7 +72,7 @@ fn every_pass_can_be_left_out() {
         o = vec4(v + 1.0, 1); }";
     for pass in PASSES {
         let without = PassSet::of(pass.name).expect("a pass of the list");
-        let source = PassSource { driver: Driver { without, ..Driver::default() }, ..source(code) };
+        let source = PassSource { driver: Driver { without, ..Driver::default() }, ..PassSource::image(code) };
         let text = dump_ir(&source, &Link::default(), None).expect("a program without errors");
         assert!(!text.contains(&format!("; after {}\n", pass.name)), "{}", pass.name);
         crate::glsl::compile(&source).expect("it compiles all the same");

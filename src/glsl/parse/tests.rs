@@ -2,26 +2,10 @@
 #![cfg(test)]
 
 use super::*;
-use crate::{
-    diag::SourceId,
-    glsl::{
-        ChannelKind, Driver, PassKind, Text,
-        ast::{Condition, DeclId, DeclKind, List, StmtKind, TypeSpecId, TypeSpecKind},
-    },
-};
+use crate::glsl::ast::{Condition, DeclId, DeclKind, List, StmtKind, TypeSpecId, TypeSpecKind};
 
 fn parse_text(text: &str) -> Parsed {
-    parse(&PassSource {
-        kind: PassKind::Image,
-        common: None,
-        code: Text { id: SourceId(0), text },
-        channels: [ChannelKind::Sampler2D; 4],
-        bilinear_by_hand: [false; 4],
-        driver: Driver::default(),
-        knobs: &[],
-        values: &[],
-        includes: &[],
-    })
+    parse(&PassSource::image(text))
 }
 
 fn messages(text: &str) -> Vec<String> {

@@ -8,7 +8,6 @@ pub mod first_frame;
 pub mod preset;
 pub mod presets;
 pub mod program;
-pub mod source;
 pub mod stage;
 pub mod window;
 
