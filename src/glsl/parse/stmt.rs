@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::glsl::ast::{Condition, DeclKind, List, StmtKind};
-use crate::glsl::near::nearest;
+use crate::glsl::near::nearest_identifier;
 
 impl Parser<'_> {
     /// `{ .. }`: its statements, each mistake left behind in its own.
@@ -216,7 +216,8 @@ impl Parser<'_> {
             return Ok(());
         }
         let word = self.text(self.at).to_owned();
-        let Some(meant) = nearest(&word, ["return", "const", "highp", "mediump", "lowp", "struct", "else", "case"])
+        let Some(meant) =
+            nearest_identifier(&word, ["return", "const", "highp", "mediump", "lowp", "struct", "else", "case"])
         else {
             return Ok(());
         };

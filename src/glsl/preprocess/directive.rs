@@ -2,7 +2,7 @@
 //! `#extension`, `#pragma`.
 
 use super::*;
-use crate::glsl::near::nearest;
+use crate::glsl::near::nearest_identifier;
 
 pub(in crate::glsl) const DIRECTIVES: [&str; 13] = [
     "define",
@@ -87,7 +87,7 @@ impl Preprocessor<'_, '_> {
                 let message = format!("there is no directive `#{other}`");
                 let hint = match other {
                     "elseif" | "elsif" | "elsei" => Some("elif"),
-                    _ => nearest(other, DIRECTIVES),
+                    _ => nearest_identifier(other, DIRECTIVES),
                 };
                 self.error(name, message, hint.map(|near| format!("did you mean `#{near}`?")));
             }
