@@ -6,7 +6,7 @@
 // Lines: the mesh is drawn once more, larger, with its front faces culled. What is seen of the back faces is what stands out
 // behind the mesh: a line around every silhouette, and where one part is before another. J. Rossignac, M. van Emmerik,
 // "Hidden Contours on a Frame-Buffer", Eurographics Workshop on Graphics Hardware 1992; R. Raskar, M. Cohen, "Image Precision
-// Silhouette Edges", I3D 1999. The properties of a line that are knobs here are those of the Unity-Chan Toon Shader 2.
+// Silhouette Edges", I3D 1999. The properties of a line that are sliders here are those of the Unity-Chan Toon Shader 2.
 //
 // How wide a line is. A vertex moves by
 //
