@@ -31,7 +31,7 @@ float coverage(float distance, float pixel) {
     return clamp(distance / pixel + 0.5, 0.0, 1.0);
 }
 
-// -------------------------------------------------------------------------------------------------------- data region
+// -------------------------------------------------------------------------------------------------- data region
 
 const float DISC_RADIUS = 0.036;
 const float RING_RADIUS = 0.042;
@@ -64,7 +64,7 @@ vec3 data(vec2 uv, bool works, float pixel) {
     return works ? balls(uv, pixel) : kept_by_discard(uv);
 }
 
-// ------------------------------------------------------------------------------------------------------ soft boundary
+// ------------------------------------------------------------------------------------------------ soft boundary
 
 // Waves coloured by their height, with a highlight where their slope mirrors the light.
 vec3 water(vec2 uv, bool works) {
@@ -83,7 +83,7 @@ vec3 water(vec2 uv, bool works) {
     return body + 0.5 * highlight * vec3(0.8, 0.95, 1.0);
 }
 
-// -------------------------------------------------------------------------------------------------------- progressive
+// -------------------------------------------------------------------------------------------------- progressive
 
 // Clouds, darker where fewer of their eight octaves are done.
 vec3 sky(vec2 uv, bool works) {
@@ -96,7 +96,7 @@ vec3 sky(vec2 uv, bool works) {
     return mix(vec3(0.006), light, done);
 }
 
-// --------------------------------------------------------------------------------------------------------- tiny noise
+// --------------------------------------------------------------------------------------------------- tiny noise
 
 vec3 pattern(vec2 uv, bool works) {
     vec2 texel = 1.0 / vec2(textureSize(iChannel2, 0));
@@ -104,7 +104,7 @@ vec3 pattern(vec2 uv, bool works) {
     return ramp(0.5 + 0.62 * value, vec3(0.17, 0.03, 0.13), vec3(0.50, 0.20, 0.16), vec3(0.98, 0.78, 0.42));
 }
 
-// -------------------------------------------------------------------------------------------------------- the picture
+// -------------------------------------------------------------------------------------------------- the picture
 
 float distance_to_segment(vec2 p, vec2 from, vec2 to) {
     vec2 along = to - from;
