@@ -2,7 +2,7 @@
 //!
 //! To fill or copy memory is what costs: a software driver stores each element once for each pixel and component.
 
-use crate::support::{compiled, compute::*};
+use crate::support::{compiled, compute::*, ir};
 use eddy::glsl::{Compiled, Driver};
 
 /// The module of an Image pass.
@@ -14,11 +14,9 @@ fn list(count: usize, element: &dyn Fn(usize) -> String) -> String {
     (0..count).map(element).collect::<Vec<_>>().join(", ")
 }
 
-/// The user function that returns a value, and how many statements store at its top level.
-fn stores(compiled: &Compiled) -> (&naga::Function, usize) {
-    let (_, function) = compiled.module.functions.iter().find(|(_, f)| f.result.is_some()).expect("a function");
-    let stores = function.body.iter().filter(|s| matches!(s, naga::Statement::Store { .. })).count();
-    (function, stores)
+/// The program of an Image pass after the last pass of the optimiser.
+fn optimised(code: &str) -> String {
+    ir::optimised(code, Driver::default())
 }
 
 #[test]
@@ -55,31 +53,25 @@ fn an_array_begins_with_its_value_where_it_is_declared_once_a_call() {
                  void mainImage(out vec4 o, vec2 p) {{ o = vec4(f(int(p.x))); }}"
         )
     };
-    for (declared, begins_with_value) in [("float a[3] = float[](1., 2., 3.);", true), ("float a[3];", false)] {
-        let compiled = compiled(&code(declared));
-        let (function, stores) = stores(&compiled);
-        let inits = function.local_variables.iter().filter(|(_, v)| v.init.is_some()).count();
-        // The one store is `+=`.
-        assert_eq!((inits > 0, stores), (begins_with_value, 1), "{declared}");
-    }
+    insta::assert_snapshot!("begins_with_its_value", optimised(&code("float a[3] = float[](1., 2., 3.);")));
+    insta::assert_snapshot!("begins_with_zeros", optimised(&code("float a[3];")));
 }
 
 #[test]
 fn an_array_handed_on_through_calls_is_not_copied_on_the_way() {
-    let compiled = compiled(
+    // `last` and `middle` have a pointer; the array is of `mainImage` alone.
+    insta::assert_snapshot!(optimised(
         "float last(float a[4], int i) { if (i > 9) discard; return a[i]; }\n\
          float middle(float a[4], int i) { if (i > 9) discard; return last(a, i) + last(a, i + 1); }\n\
          void mainImage(out vec4 o, vec2 p) { float a[4]; a[1] = p.x; o = vec4(middle(a, int(p.y))); }",
-    );
-    let memory: Vec<usize> = compiled.module.functions.iter().map(|(_, f)| f.local_variables.len()).collect();
-    // `last`, `middle`, `mainImage` with `a` alone.
-    assert_eq!(memory, [0, 0, 1]);
+    ));
 }
 
 /// A global or a table is read where it lies: the function has no parameter for it.
 #[test]
 fn what_all_functions_see_is_not_handed_over() {
-    let compiled = compiled(
+    // `last` of what its argument points to, of either, `middle` of either, and `mainImage` with the four numbers.
+    insta::assert_snapshot!(optimised(
         "float G[4]; const float T[4] = float[](1., 2., 3., 4.);\n\
          float last(float a[4], int i) { if (i > 9) discard; return a[i]; }\n\
          float middle(float a[4], int i) { if (i > 9) discard; return last(a, i) + last(a, i + 1); }\n\
@@ -87,10 +79,7 @@ fn what_all_functions_see_is_not_handed_over() {
              int i = int(p.x); G[i] = p.x;\n\
              o = vec4(middle(G, i), middle(T, i), last(T, 0), last(float[](5., 6., 7., 8.), i));\n\
          }",
-    );
-    let functions = compiled.module.functions.iter().map(|(_, f)| (f.arguments.len(), f.local_variables.len()));
-    // `last` of what its argument points to, of either, `middle` of either, and `mainImage` with the four numbers.
-    assert_eq!(functions.collect::<Vec<_>>(), [(2, 0), (1, 0), (1, 0), (1, 0), (1, 0), (2, 1)]);
+    ));
 }
 
 #[test]
@@ -120,7 +109,8 @@ fn globals_handed_over_keep_the_value_they_had() {
             with(calls, "G[0] = 4.0; r.x = change(G, G, I); r.y = G[I]; r.zw = vec2(0);", [4., 7., 0., 0.]),
             with(
                 calls,
-                "M[I] = vec2(1, 2); s.a[I + 1] = 6.0; r = vec4(column(M, I), member(s, I + 1), whole(H, I + 1), H[I + 1]);",
+                "M[I] = vec2(1, 2); s.a[I + 1] = 6.0; r = vec4(column(M, I), member(s, I + 1), whole(H, I + 1), H[I + \
+                 1]);",
                 [2., 6., 4.5, 2.],
             ),
         ]);
@@ -139,14 +129,12 @@ fn globals_handed_over_keep_the_value_they_had() {
 
 #[test]
 fn an_array_handed_on_to_what_becomes_part_of_its_caller_is_not_copied() {
-    let compiled = compiled(
+    // `mainImage` with `a` alone.
+    insta::assert_snapshot!(optimised(
         "float last(float a[4], int i) { return a[i]; }\n\
          float middle(float a[4], int i) { return last(a, i) + last(a, i + 1); }\n\
          void mainImage(out vec4 o, vec2 p) { float a[4]; a[1] = p.x; o = vec4(middle(a, int(p.y))); }",
-    );
-    let memory: Vec<usize> = compiled.module.functions.iter().map(|(_, f)| f.local_variables.len()).collect();
-    // `mainImage` with `a` alone.
-    assert_eq!(memory, [1]);
+    ));
 }
 
 #[test]
@@ -245,7 +233,8 @@ fn what_a_loop_counts_needs_no_clamp() {
     for (before, test, step, index) in known {
         let code = code(before, test, step, index);
         let clamps = bounds(&compiled(&code));
-        // The last value of a counter lies outside the array: only where the loop's own test keeps it away is that known.
+        // The last value of a counter lies outside the array: only where the loop's own test keeps it away is that
+        // known.
         let may = usize::from(index == "n" || index == "n - 1");
         assert!(clamps.0 <= may && clamps.1 <= may, "{code}: {clamps:?}");
     }
@@ -265,40 +254,38 @@ fn what_a_loop_counts_needs_no_clamp() {
 fn loops_within_counting_loops() {
     let body = "vec2 p1[4] = vec2[](vec2(Z), vec2(1, 2), vec2(3, 5), vec2(4, 1)), p2[4] = p1; int n = 4;\n\
                 while (n >= 1) { for (int i = 0; i < n - 1; i++) p2[i] = mix(p1[i], p1[i + 1], 0.25); n--; p1 = p2; }";
-    let inner = compiled(&format!("void mainImage(out vec4 o, vec2 p) {{ float Z = p.x; {body} o = p1[0].xyxy; }}"));
-    assert_eq!(bounds(&inner), (0, 1));
+    insta::assert_snapshot!(optimised(&format!(
+        "void mainImage(out vec4 o, vec2 p) {{ float Z = p.x; {body} o = p1[0].xyxy; }}"
+    )));
     let bezier =
         |p: [f32; 4]| (0..3).fold(p.to_vec(), |p, _| p.windows(2).map(|w| w[0] + 0.25 * (w[1] - w[0])).collect())[0];
     let expected = [bezier([0., 1., 3., 4.]), bezier([0., 2., 5., 1.]), 0., 0.];
     check(&[case(Box::leak(format!("{body} r = vec4(p1[0], float(n), 0);").into_boxed_str()), expected)]);
 }
 
-/// How often a fragment reads memory.
-fn loads(compiled: &Compiled) -> usize {
-    let of =
-        |f: &naga::Function| f.expressions.iter().filter(|(_, e)| matches!(e, naga::Expression::Load { .. })).count();
-    compiled.module.functions.iter().map(|(_, f)| of(f)).sum()
-}
-
 /// What was written before a loop, and in no round of it, need not be read again there.
 #[test]
 fn loops_keep_what_they_do_not_write() {
-    let rounds = |declared: &str, body: &str| {
-        loads(&compiled(&format!(
-            "struct Lens {{ float focus; float far; }}; float g; float touch() {{ g += 1.0; return g; }}\n\
-             void widen(inout Lens l) {{ l.far *= 2.0; }}\n\
-             void mainImage(out vec4 o, vec2 p) {{ {declared} p.x += l.focus; while (p.x < 9.0) {{ {body} }} o = p.xyxy; }}"
-        )))
+    let rounds = |bodies: &[&str]| {
+        let each = bodies.iter().map(|body| {
+            let code = format!(
+                "struct Lens {{ float focus; float far; }}; float g; float touch() {{ g += 1.0; return g; }}\n\
+                 void widen(inout Lens l) {{ l.far *= 2.0; }}\n\
+                 void mainImage(out vec4 o, vec2 p) {{ Lens l, m; l.focus = 3.0; l.far = 4.0; g = 5.0;\n\
+                 p.x += l.focus; while (p.x < 9.0) {{ {body} }} o = p.xyxy; }}"
+            );
+            format!("; {body}\n{}\n", optimised(&code))
+        });
+        each.collect::<String>()
     };
-    const LENS: &str = "Lens l, m; l.focus = 3.0; l.far = 4.0; g = 5.0;";
-    let bare = rounds(LENS, "p.x += 1.0;");
-    for known in ["p.x += l.focus;", "l.far += 1.0; p.x += l.focus;", "p.x += l.focus * g; widen(m);"] {
-        let (with, without) = (rounds(LENS, known), rounds(LENS, &known.replace("l.focus", "1.0").replace('g', "1.0")));
-        assert!(with <= without && with >= bare, "{known}: {with}, {without} without, {bare}");
-    }
-    for written in ["l.focus += 1.0;", "l = Lens(p.x, p.y);", "g += 1.0;", "p.x += touch();"] {
-        assert!(rounds(LENS, written) > bare, "{written}");
-    }
+    insta::assert_snapshot!(
+        "known_in_loops",
+        rounds(&["p.x += 1.0;", "p.x += l.focus;", "l.far += 1.0; p.x += l.focus;", "p.x += l.focus * g; widen(m);"])
+    );
+    insta::assert_snapshot!(
+        "written_in_loops",
+        rounds(&["l.focus += 1.0;", "l = Lens(p.x, p.y);", "g += 1.0;", "p.x += touch();"])
+    );
 }
 
 /// `for (float x = 0.; x < 4.; x++)` keeps `int(x)` between the literals.
@@ -341,7 +328,8 @@ fn floats_that_a_loop_counts_need_no_clamp() {
     }
     check(&[case(
         "float a[4] = float[](1.0, 2.0, 4.0, 8.0 + Z); r = vec4(0); for (float x = 0.; x < 4.; x++) r.x += a[int(x)];\n\
-         for (float x = 3.; x > -1.; x -= 1.) r.y = r.y * 2.0 + a[int(x)]; for (float x = 0.; x <= 5.; x += 1.) r.z += a[int(x)];",
+         for (float x = 3.; x > -1.; x -= 1.) r.y = r.y * 2.0 + a[int(x)]; for (float x = 0.; x <= 5.; x += 1.) r.z += \
+         a[int(x)];",
         [15., 85., 31., 0.],
     )]);
 }

@@ -1,31 +1,34 @@
-//! Variables that code writes: taken apart into scalars, free of zeros that nobody reads, and what they hold all the same.
+//! Variables that code writes: taken apart into scalars, free of zeros that nobody reads, and what they hold all the
+//! same.
 
-use crate::support::{compiled::compiled, compute::*};
-use eddy::glsl::{Compiled, Driver};
-use naga::{AddressSpace, Block, Expression, Function, Statement, TypeInner};
+use crate::support::{compute::*, ir};
+use eddy::glsl::Driver;
 
-/// How many variables of a module's functions hold a scalar, and how many more than that.
-fn variables(compiled: &Compiled) -> (usize, usize) {
-    let all = compiled.module.functions.iter().flat_map(|(_, f)| f.local_variables.iter());
-    let scalar = |v: &naga::LocalVariable| matches!(compiled.module.types[v.ty].inner, TypeInner::Scalar(_));
-    let (scalars, others): (Vec<_>, Vec<_>) = all.partition(|(_, v)| scalar(v));
-    (scalars.len(), others.len())
+/// The variables and globals of each program, under what is special of it.
+fn declared<'a>(programs: impl IntoIterator<Item = (&'a str, String)>) -> String {
+    let each = programs.into_iter().map(|(name, code)| {
+        let declarations = ir::declarations(&ir::optimised(&code, Driver::default()));
+        format!("; {name}\n{declarations}\n")
+    });
+    each.collect()
 }
 
-/// What a loop carries from round to round is carried as scalars: a driver that keeps vectors together counts it as work.
+/// What a loop carries from round to round is carried as scalars: a driver that keeps vectors together counts it as
+/// work.
 #[test]
 fn written_vectors_are_scalars() {
     const STRUCT: &str = "struct S { vec2 a; mat2 m; float b; };";
-    for (body, expected) in [
-        ("vec3 v = p.xyx; for (int i = 0; i < n; i++) v = v.zxy * 1.5;", (4, 0)),
-        ("vec3 v = p.xyx; for (int i = 0; i < n; i++) { v.xz *= 1.5; v[1] += v.x; }", (4, 0)),
-        ("mat2 v = mat2(p, p); for (int i = 0; i < n; i++) { v[1].x += 1.0; v *= v; }", (5, 0)),
-        ("S v = S(p, mat2(p, p), 1.0); for (int i = 0; i < n; i++) { v.m[1] += v.a; v.b++; }", (8, 0)),
+    let programs = [
+        "vec3 v = p.xyx; for (int i = 0; i < n; i++) v = v.zxy * 1.5;",
+        "vec3 v = p.xyx; for (int i = 0; i < n; i++) { v.xz *= 1.5; v[1] += v.x; }",
+        "mat2 v = mat2(p, p); for (int i = 0; i < n; i++) { v[1].x += 1.0; v *= v; }",
+        "S v = S(p, mat2(p, p), 1.0); for (int i = 0; i < n; i++) { v.m[1] += v.a; v.b++; }",
         // Memory: some index is known at run time only, or another function gets a pointer.
-        ("vec3 v = p.xyx; for (int i = 0; i < n; i++) v[i % 3] *= 1.5;", (1, 1)),
-        ("vec3 v = p.xyx; for (int i = 0; i < n; i++) far(v);", (1, 1)),
-    ] {
-        let code = format!(
+        "vec3 v = p.xyx; for (int i = 0; i < n; i++) v[i % 3] *= 1.5;",
+        "vec3 v = p.xyx; for (int i = 0; i < n; i++) far(v);",
+    ];
+    let code = |body: &str| {
+        format!(
             "{STRUCT} void far(inout vec3 v) {{ if (v.x > 9.0) discard; v *= 2.0; }}\n\
              vec4 f(vec2 p, int n) {{ {body} return {}; }}\n\
              void mainImage(out vec4 o, vec2 p) {{ o = f(p, int(p.y)); }}",
@@ -34,9 +37,9 @@ fn written_vectors_are_scalars() {
                 _ if body.starts_with('m') => "vec4(v[0], v[1])",
                 _ => "vec4(v, 1)",
             }
-        );
-        assert_eq!(variables(&compiled(&code, Driver::default())), expected, "{body}");
-    }
+        )
+    };
+    insta::assert_snapshot!(declared(programs.map(|body| (body, code(body)))));
 }
 
 #[test]
@@ -53,23 +56,27 @@ fn variables_hold_what_was_written() {
             [3., 2., 2., 1.],
         ),
         case(
-            "mat3x2 m; for (int i = 0; i < I + 2; i++) { m[2].yx += vec2(i, 1); m[i] = m[2]; } r = vec4(m[0].x, m[1], m[2].y);",
+            "mat3x2 m; for (int i = 0; i < I + 2; i++) { m[2].yx += vec2(i, 1); m[i] = m[2]; } r = vec4(m[0].x, m[1], \
+             m[2].y);",
             [1., 2., 1., 1.],
         ),
         case(
-            "bvec3 b = bvec3(true); uvec2 u = uvec2(7, 8); for (int i = 0; i < I + 2; i++) { b.y = !b.y; b.z = i > 0 && b.y; u = u.yx + 1u; }\n\
+            "bvec3 b = bvec3(true); uvec2 u = uvec2(7, 8); for (int i = 0; i < I + 2; i++) { b.y = !b.y; b.z = i > 0 \
+             && b.y; u = u.yx + 1u; }\n\
              r = vec4(b, u.y);",
             [1., 1., 1., 10.],
         ),
         with(
             STATE,
-            "T t; t.s.b = 3.0; t.t = t.s; t.t.c.y = I + 4; t.m[1].y = t.t.b; T u = t; for (int i = 0; i < I + 2; i++) u.s.a += u.m[1];\n\
+            "T t; t.s.b = 3.0; t.t = t.s; t.t.c.y = I + 4; t.m[1].y = t.t.b; T u = t; for (int i = 0; i < I + 2; i++) \
+             u.s.a += u.m[1];\n\
              S s = u.t; r = vec4(s.b, s.c, u.s.a.y);",
             [3., 0., 4., 6.],
         ),
         with(
             STATE,
-            "vec3 v = vec3(1, 2, 3); mat2 m = mat2(9); both(v, m); vec3 w = v; both(v, m); r = vec4(v, m[1].x + m[0].x + w[I]);",
+            "vec3 v = vec3(1, 2, 3); mat2 m = mat2(9); both(v, m); vec3 w = v; both(v, m); r = vec4(v, m[1].x + m[0].x \
+             + w[I]);",
             [2., 4., 2., 5.],
         ),
         case("vec3 v = vec3(1, 2, 3); if (I == 0) v[I + 1] = 5.0; v.z += v[I + 1]; r = v.xyzz;", [1., 5., 8., 8.]),
@@ -79,88 +86,55 @@ fn variables_hold_what_was_written() {
 /// Memory that each call fills is there once, and begins with zeros once.
 #[test]
 fn what_is_filled_before_it_is_read_needs_no_zeros() {
-    for (body, expected) in [
-        ("mat2 m = mat2(p, p.yx); x = m[i].y;", 0),
-        ("x = mat2(p, p.yx)[i].y;", 0),
-        ("x = element(float[](p.x, p.y, 3.0), i);", 0),
-        ("for (int k = 0; k < i; k++) { float a[2] = float[](x, p.y); a[k] += 1.0; x += a[k & 1]; }", 0),
+    let programs = [
+        "mat2 m = mat2(p, p.yx); x = m[i].y;",
+        "x = mat2(p, p.yx)[i].y;",
+        "x = element(float[](p.x, p.y, 3.0), i);",
+        "for (int k = 0; k < i; k++) { float a[2] = float[](x, p.y); a[k] += 1.0; x += a[k & 1]; }",
         // Some zero is read, or would be if things went another way.
-        ("float a[2]; a[i] = p.x; x = a[i + 1];", 1),
-        ("float a[2]; if (i > 1) a = float[](p.x, p.y); x = a[i];", 1),
-        ("float a[2]; while (x < 9.0) { x += a[i] + 1.0; a = float[](p.x, p.y); }", 1),
-    ] {
-        let code = format!(
+        "float a[2]; a[i] = p.x; x = a[i + 1];",
+        "float a[2]; if (i > 1) a = float[](p.x, p.y); x = a[i];",
+        "float a[2]; while (x < 9.0) { x += a[i] + 1.0; a = float[](p.x, p.y); }",
+    ];
+    let code = |body: &str| {
+        format!(
             "float element(float a[3], int i) {{ return a[i]; }}\n\
              float f(vec2 p, int i) {{ float x = p.x; {body} if (i > 7) discard; return x; }}\n\
              void mainImage(out vec4 o, vec2 p) {{ o = vec4(f(p, int(p.y)), f(p, 1), 0, 1); }}"
-        );
-        let compiled = compiled(&code, Driver::default());
-        assert_eq!(variables(&compiled).1, expected, "{body}");
-        let private = compiled.module.global_variables.iter().filter(|(_, v)| v.space == AddressSpace::Private);
-        assert_eq!(private.count(), 1 - expected, "{body}");
-    }
+        )
+    };
+    insta::assert_snapshot!(declared(programs.map(|body| (body, code(body)))));
     check(&[with(
         "float f(float x, int i) { if (i > 7) discard; float a[2]; if (i > 0) a = float[](x, 2.0); return a[i & 1]; }\n\
-         float g(float x, int i) { if (i > 7) discard; float a[2] = float[](x, 2.0); a[i] += 1.0; return a[i] + f(a[i], i + 1); }",
+         float g(float x, int i) { if (i > 7) discard; float a[2] = float[](x, 2.0); a[i] += 1.0; return a[i] + \
+         f(a[i], i + 1); }",
         "r = vec4(f(5.0, I + 2), f(5.0, I), g(1.0, I), g(3.0, I + 1));",
         [5., 0., 4., 6.],
     )]);
 }
 
-/// How often a block loads from a uniform block, within loops alone or everywhere.
-fn uniform_loads(compiled: &Compiled, f: &Function, block: &Block, everywhere: bool) -> usize {
-    let is_uniform = |mut pointer| {
-        while let Expression::AccessIndex { base, .. } | Expression::Access { base, .. } = f.expressions[pointer] {
-            pointer = base;
-        }
-        matches!(f.expressions[pointer], Expression::GlobalVariable(v)
-            if compiled.module.global_variables[v].space == AddressSpace::Uniform)
-    };
-    let within = |block: &Block, everywhere| uniform_loads(compiled, f, block, everywhere);
-    let loads = block.iter().map(|statement| match statement {
-        Statement::Emit(range) if everywhere => range
-            .clone()
-            .filter(|&e| matches!(f.expressions[e], Expression::Load { pointer } if is_uniform(pointer)))
-            .count(),
-        Statement::Loop { body, continuing, .. } => within(body, true) + within(continuing, true),
-        Statement::If { accept, reject, .. } => within(accept, everywhere) + within(reject, everywhere),
-        _ => 0,
-    });
-    loads.sum()
-}
-
-/// A driver that compiles anew for uniforms must not see through them. What hides them is work in every round of a loop.
+/// A driver that compiles anew for uniforms must not see through them. What hides them is work in every round of a
+/// loop.
 #[test]
 fn hidden_uniforms_are_read_before_loops() {
     let driver = Driver { opaque_uniforms: true, ..Driver::default() };
-    let compiled = compiled(
+    insta::assert_snapshot!(ir::optimised(
         "void mainImage(out vec4 o, vec2 p) {\n\
-             o = vec4(0); for (int i = 0; i < int(p.x); i++) { o.x += iTime; if (o.x > 9.0) o.yz += iResolution.xy * iTime; }\n\
+             o = vec4(0); for (int i = 0; i < int(p.x); i++) { o.x += iTime; if (o.x > 9.0) o.yz += iResolution.xy * \
+             iTime; }\n\
          }",
         driver,
-    );
-    let (_, f) = compiled.module.functions.iter().next().expect("a function");
-    assert_eq!(uniform_loads(&compiled, f, &f.body, false), 0);
-    // Time, and the resolution as a whole.
-    assert_eq!(uniform_loads(&compiled, f, &f.body, true), 2);
+    ));
 }
 
 /// Section 4.1 leaves open what a variable begins with, WebGL says zero: constants join with that as with any other.
 #[test]
 fn what_begins_as_zero_is_known() {
-    let sums = |code: &str| {
-        let compiled = compiled(&format!("void mainImage(out vec4 o, vec2 p) {{ {code} }}"), Driver::default());
-        let is_sum = |e: &Expression| matches!(e, Expression::Binary { op: naga::BinaryOperator::Add, .. });
-        compiled
-            .module
-            .functions
-            .iter()
-            .map(|(_, f)| f.expressions.iter().filter(|(_, e)| is_sum(e)).count())
-            .sum::<usize>()
-    };
-    assert_eq!(
-        sums("float z; vec2 v; mat2 m; o = vec4(p.x + z, p.y + v.y, v + p); z += p.x; v.x = 1.0; m[0].x = 1.0;"),
-        0
+    let optimised =
+        |body: &str| ir::optimised(&format!("void mainImage(out vec4 o, vec2 p) {{ {body} }}"), Driver::default());
+    insta::assert_snapshot!(
+        "sums_with_zeros",
+        optimised("float z; vec2 v; mat2 m; o = vec4(p.x + z, p.y + v.y, v + p); z += p.x; v.x = 1.0; m[0].x = 1.0;")
     );
-    assert_eq!(sums("float z; z += 0.5; o = vec4(p.x + z);"), 1);
+    insta::assert_snapshot!("sums_of_one_zero", optimised("float z; z += 0.5; o = vec4(p.x + z);"));
 }

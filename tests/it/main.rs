@@ -1,9 +1,9 @@
 //! The tests of Eddy from outside: one program, because each program of tests is linked with all of the library.
-//! `cargo test --test it glsl_loops` runs the tests of one file, `cargo test --test it glsl_loops::pixels` those of it whose
-//! names begin so.
+//! `cargo test --test it glsl_loops` runs the tests of one file, `cargo test --test it glsl_loops::pixels` those of it
+//! whose names begin so.
 //!
-//! They run beside each other, on as many threads as there are processors. A test that cannot bear that is a program of its
-//! own:
+//! They run beside each other, on as many threads as there are processors. A test that cannot bear that is a program of
+//! its own:
 //! - `damage` counts what is allocated, by an allocator of its own, and has a panic hook;
 //! - `driver_uniforms` measures the memory of its process;
 //! - `costs` compares milliseconds of passes, which are drawn while nothing else is;
@@ -46,6 +46,7 @@ mod preset_bloom;
 mod preset_filters;
 mod preset_flows;
 mod preset_gbuffer;
+mod preset_ir;
 mod preset_looks;
 mod preset_meanings;
 mod preset_occlusion;
