@@ -121,8 +121,8 @@ fn resident() -> Option<u64> {
     Some(kilobytes.trim().parse::<u64>().ok()? * 1024)
 }
 
-/// A preset of many scales, whose loops and branches ask the mouse and the knobs: lavapipe used to keep 2 MiB of programs a
-/// frame of it.
+/// A preset of many scales, whose loops and branches ask the mouse and the knobs: lavapipe used to keep 2 MiB of
+/// programs a frame of it.
 #[test]
 fn frames_take_no_memory() {
     let Some(gpu) = gpu() else { return };

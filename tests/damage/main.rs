@@ -1,9 +1,9 @@
 //! Damaged files: projects, pictures and models with bits turned, parts cut out, doubled and mixed, numbers and lengths
-//! changed. Each is opened, checked, and its media read, and some are drawn, as `eddy check` and `eddy render` do: none may
-//! panic, nor take more than 2 s or 1 GiB.
+//! changed. Each is opened, checked, and its media read, and some are drawn, as `eddy check` and `eddy render` do: none
+//! may panic, nor take more than 2 s or 1 GiB.
 //!
-//! Every run has the same cases. `EDDY_DAMAGE_CASES=50000` makes it a long one, `EDDY_DAMAGE_FIRST=1234` begins at a case;
-//! what fails is kept in a folder that the message names.
+//! Every run has the same cases. `EDDY_DAMAGE_CASES=50000` makes it a long one, `EDDY_DAMAGE_FIRST=1234` begins at a
+//! case; what fails is kept in a folder that the message names.
 
 mod memory;
 mod mutate;

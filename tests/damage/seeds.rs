@@ -27,8 +27,10 @@ fn fixed(name: &'static str, text: &str) -> File {
 }
 
 const IMAGE: &str = "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel0, p / iResolution.xy); }\n";
-const VERTEX: &str = "in vec3 aPosition;\nin vec3 aNormal;\nin vec4 aTangent;\nin vec2 aUv;\nin vec4 aColor;\nout vec4 vColor;\n\
-    void main() { vColor = aColor + aTangent + vec4(aNormal, aUv.x); gl_Position = iProjection * iView * iModel * vec4(aPosition, 1.0); }\n";
+const VERTEX: &str = "in vec3 aPosition;\nin vec3 aNormal;\nin vec4 aTangent;\nin vec2 aUv;\nin vec4 aColor;\nout vec4 \
+                      vColor;\n\
+    void main() { vColor = aColor + aTangent + vec4(aNormal, aUv.x); gl_Position = iProjection * iView * iModel * \
+    vec4(aPosition, 1.0); }\n";
 const FRAGMENT: &str = "in vec4 vColor;\nlayout(location = 0) out vec4 color;\nvoid main() { color = vColor; }\n";
 
 pub fn all() -> Vec<Seed> {
@@ -52,7 +54,8 @@ pub fn all() -> Vec<Seed> {
 }
 
 fn manifest() -> Seed {
-    let toml = "eddy = 1\nname = \"seed\"\nauthor = \"nobody\"\ntags = [\"a\", \"b\"]\n\n[groups.g]\npasses = [\"buffer_a\"]\n\
+    let toml = "eddy = 1\nname = \"seed\"\nauthor = \"nobody\"\ntags = [\"a\", \"b\"]\n\n[groups.g]\npasses = \
+                [\"buffer_a\"]\n\
         steps = 2\n\n[passes.buffer_a]\nsize = [16, 8]\nformat = \"rgba16f\"\n\
         channels.0 = { buffer = \"A\", filter = \"nearest\", wrap = \"clamp\" }\n\
         channels.1 = { keyboard = true }\n\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n\
@@ -113,8 +116,8 @@ fn model(name: &'static str, file: &str, mut files: Vec<File>) -> Seed {
     Seed { name, files, entry: "" }
 }
 
-/// Four corners of two triangles: positions, normals, texture coordinates, colours, indices, and the two positions that a
-/// sparse accessor replaces.
+/// Four corners of two triangles: positions, normals, texture coordinates, colours, indices, and the two positions that
+/// a sparse accessor replaces.
 fn binary() -> Vec<u8> {
     let corners = [[0.0f32, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     let mut bytes: Vec<u8> = Vec::new();
@@ -174,5 +177,7 @@ fn base64(bytes: &[u8]) -> String {
     bytes.chunks(3).flat_map(four).collect()
 }
 
-const OBJ: &str = "# two triangles and a quad\nmtllib none.mtl\no first\nv 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 1 1 0 1 0 0\nv 0 1 0 1 0 0\nvt 0 0\nvt 1 0\n\
-    vt 1 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/2/1\ng second\nusemtl none\nv 0 0 1 1 0 0\nv 1 0 1 1 0 0\nf -1 -2 1 2\n";
+const OBJ: &str = "# two triangles and a quad\nmtllib none.mtl\no first\nv 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 1 1 0 1 0 \
+                   0\nv 0 1 0 1 0 0\nvt 0 0\nvt 1 0\n\
+    vt 1 1\nvn 0 0 1\nf 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/2/1\ng second\nusemtl none\nv 0 0 1 1 0 0\nv 1 0 1 1 0 0\nf \
+    -1 -2 1 2\n";

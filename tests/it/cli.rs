@@ -1,5 +1,5 @@
-//! The command line as scripts rely on it, on the built program: arguments, exit codes, words and JSON lines. What needs a
-//! graphics device lies in `cli_render.rs`.
+//! The command line as scripts rely on it, on the built program: arguments, exit codes, words and JSON lines. What
+//! needs a graphics device lies in `cli_render.rs`.
 
 use crate::support::program::{Bench, image, run};
 use std::{fs, process::Stdio};

@@ -264,7 +264,8 @@ fn scene(parts: usize, first: &str) -> String {
         )
     });
     format!(
-        "struct M {{ vec3 colour; vec2 shine; float k; }};\nstruct C {{ vec3 a; vec3 b; float r; M m; }};\nC c[{parts}];\n\
+        "struct M {{ vec3 colour; vec2 shine; float k; }};\nstruct C {{ vec3 a; vec3 b; float r; M m; }};\nC \
+         c[{parts}];\n\
          void fill() {{\n{fill}}}\nvoid mainImage(out vec4 o, in vec2 p) {{ {first} fill(); vec3 s = vec3(0);\n\
          for (int i = 0; i < {parts}; i++) s += c[i].a * c[i].r + c[i].b * c[i].m.k + c[i].m.colour * c[i].m.shine.x;\n\
          int at = int(p.x) % {parts}; o = vec4(s * .001 + c[at].b, 1); }}\n"

@@ -44,7 +44,8 @@ fn discard_shows_what_a_buffer_held_two_frames_ago_and_image_one_frame_ago() {
     let code =
         "void mainImage(out vec4 o, in vec2 p) { if (iFrame == 4) discard; o = vec4(float(iFrame), 7.0, 7.0, 7.0); }";
     let show = image(code, [nearest("A"), None, None, None]);
-    let also = "void mainImage(out vec4 o, in vec2 p) { if (iFrame == 4) discard; o = vec4(float(iFrame) + texelFetch(iChannel0, ivec2(0), 0).y); }";
+    let also = "void mainImage(out vec4 o, in vec2 p) { if (iFrame == 4) discard; o = vec4(float(iFrame) + \
+                texelFetch(iChannel0, ivec2(0), 0).y); }";
     let project = project(vec![pass(buffer("A"), code, Default::default()), image(also, show.channels.clone())]);
     let mut engine = engine(&gpu, &project, (1, 1));
     run(&mut engine, 0, 5);

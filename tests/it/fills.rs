@@ -113,7 +113,8 @@ fn files_fill_texel_for_texel_or_stretched() {
     };
     npy("state.npy", "(2, 2, 2)", &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
     let manifest = "[passes.buffer_a]\nchannels.0 = { buffer = \"A\", filter = \"nearest\" }\n\
-                    initial = { file = \"state.npy\" } # the start\nboundary = { value = { file = \"state.npy\" }, width = 1 }\n\
+                    initial = { file = \"state.npy\" } # the start\nboundary = { value = { file = \"state.npy\" }, \
+                    width = 1 }\n\
                     [passes.image]\nchannels.0 = { buffer = \"A\", filter = \"nearest\" }\n";
     let project = written(dir.path(), manifest);
     let (set, warnings) = media::gather(&project, None);
@@ -198,7 +199,8 @@ fn mistakes_are_told_at_their_line_of_the_manifest() {
 fn saving_keeps_what_fills_and_changes_only_what_is_new() {
     let dir = tempfile::tempdir().unwrap();
     let manifest = "[passes.buffer_a] # one\nchannels.0 = { buffer = \"A\" }\ninitial = 'vec4(\"?\")' # two\n\
-                    [passes.buffer_a.boundary] # three\nvalue = \"vec4(1)\"\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n";
+                    [passes.buffer_a.boundary] # three\nvalue = \"vec4(1)\"\n[passes.image]\nchannels.0 = { buffer = \
+                    \"A\" }\n";
     let mut project = written(dir.path(), manifest);
     save(&project, dir.path(), Overwrite::Refuse).unwrap();
     assert_eq!(fs::read_to_string(dir.path().join("eddy.toml")).unwrap(), manifest);

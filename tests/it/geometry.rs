@@ -83,7 +83,8 @@ fn target(index: usize) -> Option<Channel> {
 }
 
 const SUM: &str = "void mainImage(out vec4 o, in vec2 p) { ivec2 i = ivec2(p);
-    o = texelFetch(iChannel0, i, 0) + texelFetch(iChannel1, i, 0) + texelFetch(iChannel2, i, 0) + texelFetch(iChannel3, i, 0); }";
+    o = texelFetch(iChannel0, i, 0) + texelFetch(iChannel1, i, 0) + texelFetch(iChannel2, i, 0) + \
+    texelFetch(iChannel3, i, 0); }";
 
 fn whole(scene: Pass) -> Project {
     let count = scene.settings.formats().len();
@@ -279,7 +280,8 @@ fn a_stage_reads_channels_uniforms_knobs_and_tables() {
 #[test]
 fn fragments_set_depth_and_are_discarded() {
     let Some(gpu) = gpu() else { return };
-    let deep = "in vec4 vColor; out vec4 o; void main() { if (gl_FragCoord.x > 5.0) discard; gl_FragDepth = 0.0; o = vColor; }";
+    let deep = "in vec4 vColor; out vec4 o; void main() { if (gl_FragCoord.x > 5.0) discard; gl_FragDepth = 0.0; o = \
+                vColor; }";
     let green = one_colour("0.0, 1.0, 0.0");
     let far = MeshDraw { position: [0.0, 0.0, -1.0], ..draw("builtin:cube") };
     let near = MeshDraw { fragment: Stage::File(1), ..draw("builtin:cube") };
@@ -365,12 +367,13 @@ fn what_is_wrong_with_a_scene_is_said_and_nothing_panics() {
     assert_eq!(says(&unknown), ["draw 0 of Buffer scene: there is no mesh builtin:knott (did you mean builtin:knot?)"]);
 }
 
-/// Drivers that draw on the processor choose for a whole thread whether denormal numbers are zeros, and llvmpipe used to forget
-/// to choose again behind fragments that fail the depth test of 16-bit floats.
+/// Drivers that draw on the processor choose for a whole thread whether denormal numbers are zeros, and llvmpipe used
+/// to forget to choose again behind fragments that fail the depth test of 16-bit floats.
 #[test]
 fn meshes_in_small_floats_leave_arithmetic_alone() {
     let Some(gpu) = gpu() else { return };
-    // Half of the least number that is none; the frame's number, because a picture that cannot change is not drawn again.
+    // Half of the least number that is none; the frame's number, because a picture that cannot change is not drawn
+    // again.
     let code = "void mainImage(out vec4 o, in vec2 p) {\n\
                 float t = uintBitsToFloat(0x00800000u + uint(p.x)) * (0.25 + 0.25 * step(p.x, 9.5));\n\
                 o = vec4(floatBitsToUint(t), iFrame, 0, 1); }";

@@ -27,7 +27,8 @@ channels.1 = { buffer = "scene" }
 
 const VERTEX: &str =
     "in vec3 aPosition;\nout vec3 vAt;\nvoid main() { vAt = aPosition; gl_Position = vec4(aPosition, 1.0); }\n";
-const HULL: &str = "in vec3 aPosition;\nout vec3 vAt;\nvoid main() { vAt = aPosition; gl_Position = iProjection * iView * iModel * vec4(aPosition, 1.0); }\n";
+const HULL: &str = "in vec3 aPosition;\nout vec3 vAt;\nvoid main() { vAt = aPosition; gl_Position = iProjection * \
+                    iView * iModel * vec4(aPosition, 1.0); }\n";
 const FRAGMENT: &str = "in vec3 vAt;\nlayout(location = 0) out vec4 a;\nlayout(location = 1) out vec4 b;\n\
     void main() { a = vec4(0.2, 0.0, 0.0, 1.0); b = vec4(vAt, 1.0); }\n";
 const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel1, ivec2(p), 0); }\n";

@@ -10,7 +10,8 @@ const BEFORE: &str = "\
 float digits(int v[4]) { int s = 0; for (int k = 3; k >= 0; k--) s = s * 10 + v[(k + I) & 3]; return float(s); }
 int put(inout int v[4], int at) { v[at] = 7; return at; }
 int add(inout int x, int by) { x += by; return x; }
-int past(int v[4], int at) { if (at > 50) return v[at] + 1; for (int i = 0; i < 4; i += 100, at = i) if (I == 0) continue; return v[at]; }
+int past(int v[4], int at) { if (at > 50) return v[at] + 1; for (int i = 0; i < 4; i += 100, at = i) if (I == 0) \
+continue; return v[at]; }
 struct S { int i; };
 ";
 
@@ -54,11 +55,13 @@ fn steps_at_a_continue() {
             7000.,
         ),
         bounds(
-            "for (int i = 0; i < 4; i += 100, a[i] = 7) { switch (i + I) { case 0: a[i] = 1; case 1: if (I == 0) continue; } a[i] = 2; }",
+            "for (int i = 0; i < 4; i += 100, a[i] = 7) { switch (i + I) { case 0: a[i] = 1; case 1: if (I == 0) \
+             continue; } a[i] = 2; }",
             7001.,
         ),
         bounds(
-            "for (int i = 0; i < 4; i += 100, a[i] = 7) { if (I == 0) { if (i < 9) continue; } else a[i] = 3; a[i] = 1; }",
+            "for (int i = 0; i < 4; i += 100, a[i] = 7) { if (I == 0) { if (i < 9) continue; } else a[i] = 3; a[i] = \
+             1; }",
             7000.,
         ),
         // By a function, by an assignment within an expression, by one side of a choice.
@@ -67,7 +70,8 @@ fn steps_at_a_continue() {
         bounds("for (int i = 0; i < 4; i += 100, I == 0 ? a[i] = 7 : 0) { if (I == 0) continue; }", 7000.),
         bounds("for (int i = 0; i < 4; a[i += 100] = 7) { if (I == 0) continue; }", 7000.),
         bounds(
-            "for (int i = 0; i < 4; i += 100) { a[1] = past(a, i); if (I == 0) continue; a[i] = 5; } a[3] += past(a, 99);",
+            "for (int i = 0; i < 4; i += 100) { a[1] = past(a, i); if (I == 0) continue; a[i] = 5; } a[3] += past(a, \
+             99);",
             1000.,
         ),
     ]);
@@ -81,12 +85,14 @@ fn loops_within_loops() {
             7000.,
         ),
         bounds(
-            "for (int i = 0; i < 4; i += 100, a[i] = 7) { for (int j = 0; j < 4; j += 100, a[i] = 1) { if (I == 0) continue; } if (I == 0) continue; }",
+            "for (int i = 0; i < 4; i += 100, a[i] = 7) { for (int j = 0; j < 4; j += 100, a[i] = 1) { if (I == 0) \
+             continue; } if (I == 0) continue; }",
             7001.,
         ),
         bounds("for (int i = 0; i < 4; i++) { { int i = 100 + I; a[i] = 7; } }", 7000.),
         bounds(
-            "for (int i = 0; i < 4; i += 100) { for (int i = 0; i < 3; i++) { a[i] = 1; if (I == 0) continue; } a[i] += 2; }",
+            "for (int i = 0; i < 4; i += 100) { for (int i = 0; i < 3; i++) { a[i] = 1; if (I == 0) continue; } a[i] \
+             += 2; }",
             113.,
         ),
         bounds("int i; for (i = 0; i < 4; i += 100) { for (i = 0; i < 2; i += 60) {} a[i] = 7; }", 7000.),
@@ -132,7 +138,8 @@ fn counters_that_others_write() {
         bounds("switch (I) { case 0: int k = 2; k += 100; default: a[k] = 7; }", 7000.),
         bounds("switch (I + 1) { case 0: int k = 2; default: k = 100; a[k] = 7; }", 7000.),
         bounds(
-            "for (int i = 0; i < 4; i += 100) { switch (i + I) { case 0: int k = i + 50; a[k] = 7; case 1: a[k - 50] = 1; continue; } }",
+            "for (int i = 0; i < 4; i += 100) { switch (i + I) { case 0: int k = i + 50; a[k] = 7; case 1: a[k - 50] = \
+             1; continue; } }",
             7001.,
         ),
     ]);
@@ -144,8 +151,10 @@ fn functions_that_become_part_of_their_callers() {
     const FUNCTIONS: &str = "\
 float digits(int v[4]) { int s = 0; for (int k = 3; k >= 0; k--) s = s * 10 + v[(k + I) & 3]; return float(s); }
 int G[4];
-int walk(int from, int by) { int n = from; for (int i = from; i < 4; i += by) { if (i > 90) return i; G[i] = 7; n = i; if (I == 1) return 2; } G[n + by] = 6; return n + by; }
-int twice(int at) { int n = at; if (at > 3) { G[n] = 5; return n; } for (int i = 0; i < 4; i += 100, G[i] = 8) { if (i == at) continue; return i; } G[n] = 4; return -n; }
+int walk(int from, int by) { int n = from; for (int i = from; i < 4; i += by) { if (i > 90) return i; G[i] = 7; n = i; \
+if (I == 1) return 2; } G[n + by] = 6; return n + by; }
+int twice(int at) { int n = at; if (at > 3) { G[n] = 5; return n; } for (int i = 0; i < 4; i += 100, G[i] = 8) { if (i \
+== at) continue; return i; } G[n] = 4; return -n; }
 ";
     let given = |body, digits| Case { before: FUNCTIONS, body, expected: [digits, 0.0, 0.0, 1.0] };
     check(&[
@@ -158,7 +167,8 @@ int twice(int at) { int n = at; if (at > 3) { G[n] = 5; return n; } for (int i =
             5000.,
         ),
         given(
-            "for (int i = 0; walk(i, 100) < 0 || i < 4; i += 100) { if (I == 0) continue; } r = vec4(digits(G), 0, 0, 1);",
+            "for (int i = 0; walk(i, 100) < 0 || i < 4; i += 100) { if (I == 0) continue; } r = vec4(digits(G), 0, 0, \
+             1);",
             6007.,
         ),
     ]);
@@ -187,7 +197,8 @@ fn parts_of_other_kinds() {
             [0., 0., 0., 7.],
         ),
         case(
-            "mat4 m = mat4(0); for (int i = 0; i < 4; i += 100, m[i][i - 200] = 7.0) { if (I == 0) continue; } r = m[3];",
+            "mat4 m = mat4(0); for (int i = 0; i < 4; i += 100, m[i][i - 200] = 7.0) { if (I == 0) continue; } r = \
+             m[3];",
             [7., 0., 0., 0.],
         ),
         case(
@@ -195,12 +206,14 @@ fn parts_of_other_kinds() {
             [0., 7., 0., 0.],
         ),
         case(
-            "const float t[4] = float[](1., 2., 3., 4.); r = vec4(0); for (int i = 0; i < 4; i += 100, r.x += t[i]) { r.y += t[i]; if (I == 0) continue; }",
+            "const float t[4] = float[](1., 2., 3., 4.); r = vec4(0); for (int i = 0; i < 4; i += 100, r.x += t[i]) { \
+             r.y += t[i]; if (I == 0) continue; }",
             [4., 1., 0., 0.],
         ),
         with(
             "struct T { int a[3]; int b; }; T t[2];",
-            "for (int i = 0; i < 2; i += 100, t[i].a[i] = 7) { t[i].b = 1; if (I == 0) continue; } r = vec4(t[0].b, t[1].b, t[1].a[2], t[1].a[0]);",
+            "for (int i = 0; i < 2; i += 100, t[i].a[i] = 7) { t[i].b = 1; if (I == 0) continue; } r = vec4(t[0].b, \
+             t[1].b, t[1].a[2], t[1].a[0]);",
             [1., 0., 7., 0.],
         ),
     ]);

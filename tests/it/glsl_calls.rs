@@ -1,4 +1,5 @@
-//! Calls of functions that become part of their callers, being small or called once: nobody can tell them from other calls.
+//! Calls of functions that become part of their callers, being small or called once: nobody can tell them from other
+//! calls.
 //!
 //! `Z` is a zero no compiler can see through, so that nothing here is folded before it runs.
 
@@ -36,7 +37,8 @@ fn what_is_copied_out() {
     check(&[
         with(
             "void split(float x, out float a, inout float b) { b += x; a += b; }",
-            "float a = 5.0, b = Z + 2.0; split(1.0, a, b); vec2 v = vec2(Z + 4.0); split(1.0, v.x, v.y); r = vec4(a, b, v);",
+            "float a = 5.0, b = Z + 2.0; split(1.0, a, b); vec2 v = vec2(Z + 4.0); split(1.0, v.x, v.y); r = vec4(a, \
+             b, v);",
             [3., 3., 5., 5.],
         ),
         with(
@@ -58,7 +60,8 @@ fn what_is_copied_out() {
 fn early_returns() {
     check(&[
         with(
-            "float sort(float x) { if (x < 0.0) return -1.0; if (x > 10.0) { x *= 2.0; return x; } x += 1.0; return x; }",
+            "float sort(float x) { if (x < 0.0) return -1.0; if (x > 10.0) { x *= 2.0; return x; } x += 1.0; return x; \
+             }",
             "r = vec4(sort(Z - 3.0), sort(Z + 11.0), sort(Z + 4.0), sort(sort(Z + 9.5)));",
             [-1., 22., 5., 21.],
         ),
@@ -78,8 +81,10 @@ fn early_returns() {
             [4., -1., 0., 0.],
         ),
         with(
-            "float odd(int n) { float s = 0.0; for (int i = 0; i < n; i++) { if ((i & 1) == 0) continue; if (i > 6) break; s += float(i); } return s; }",
-            "float s = 0.0; for (int i = 0; i < 3; i++) { if (i == I + 1) continue; s += odd(I + 9); } r = vec4(s, 0, 0, 0);",
+            "float odd(int n) { float s = 0.0; for (int i = 0; i < n; i++) { if ((i & 1) == 0) continue; if (i > 6) \
+             break; s += float(i); } return s; }",
+            "float s = 0.0; for (int i = 0; i < 3; i++) { if (i == I + 1) continue; s += odd(I + 9); } r = vec4(s, 0, \
+             0, 0);",
             [18., 0., 0., 0.],
         ),
     ]);
@@ -90,46 +95,54 @@ fn early_returns() {
 fn returns_from_loops() {
     check(&[
         with(
-            "int find(int x) { int n = 0; for (int i = 0; i < 4; i++) { for (int j = 0; j < 4; j++) { if (n++ == x) return i * 10 + j; }\n\
+            "int find(int x) { int n = 0; for (int i = 0; i < 4; i++) { for (int j = 0; j < 4; j++) { if (n++ == x) \
+             return i * 10 + j; }\n\
              if (i == 2) return -n; } return -1; }",
             "r = vec4(find(I), find(I + 6), find(I + 11), find(I + 12));",
             [0., 12., 23., -12.],
         ),
         with(
-            "float g; void fill(inout float a, float x) { do { a += 1.0; g += 1.0; if (a > x) return; } while (a < 6.0); a = -a; g += 10.0; }",
+            "float g; void fill(inout float a, float x) { do { a += 1.0; g += 1.0; if (a > x) return; } while (a < \
+             6.0); a = -a; g += 10.0; }",
             "g = Z; float a = Z, b = Z + 3.0; fill(a, 2.5); fill(b, 8.0); r = vec4(a, b, g, 0);",
             [3., -6., 16., 0.],
         ),
         with(
-            "float f(float x) { { if (x > 0.0) { if (x > 5.0) return 5.0; x += 1.0; } else if (x < -5.0) { x = 0.0; } }\n\
+            "float f(float x) { { if (x > 0.0) { if (x > 5.0) return 5.0; x += 1.0; } else if (x < -5.0) { x = 0.0; } \
+             }\n\
              x *= 2.0; while (true) { if (x > 3.0) return x; x += 4.0; } }",
             "r = vec4(f(Z + 6.0), f(Z + 2.0), f(Z - 6.0), f(Z + 0.1));",
             [5., 6., 4., 6.2],
         ),
         with(
-            "float f(int n) { for (int i = 0; i < 3; i++) { for (int j = i; j < 9; j++) { if (j == n) return float(j); if (j > i + 2) break; }\n\
+            "float f(int n) { for (int i = 0; i < 3; i++) { for (int j = i; j < 9; j++) { if (j == n) return float(j); \
+             if (j > i + 2) break; }\n\
              if (i == n - 9) continue; for (int j = 0; j < n; j++) if (j > 3) return 20.0 + float(i); } return -1.0; }",
             "r = vec4(f(I + 1), f(I + 4), f(I + 9), f(I + 10));",
             [1., 4., 21., 20.],
         ),
         with(
             "float f(float x) { for (int i = 0; i < 3; i++) { if (x > 1.0) return x; x += 0.25; } }",
-            "r = vec4(0); for (int i = 0; i < 3; i++) { r.x = f(Z + float(2 - i)); r.y += f(Z + 0.75); r.z += f(Z + float(i)); }",
+            "r = vec4(0); for (int i = 0; i < 3; i++) { r.x = f(Z + float(2 - i)); r.y += f(Z + 0.75); r.z += f(Z + \
+             float(i)); }",
             [0., 3.75, 3.25, 0.],
         ),
         with(
-            "struct Hit { float t; vec2 n; }; Hit meet(float x) { Hit h; h.t = -1.0; for (int i = 0; i < 5; i++) { h.n += x;\n\
+            "struct Hit { float t; vec2 n; }; Hit meet(float x) { Hit h; h.t = -1.0; for (int i = 0; i < 5; i++) { h.n \
+             += x;\n\
              if (h.n.x > 2.0) { h.t = float(i); return h; } } return h; }",
             "Hit a = meet(Z + 1.0), b = meet(Z); r = vec4(a.t, a.n.y, b.t, b.n.y);",
             [2., 3., -1., 0.],
         ),
         with(
-            "float f(int n) { for (int i = 0; i < 3; i++) switch (i + n) { case 1: return 7.0; case 4: break; default: n++; } return float(n); }",
+            "float f(int n) { for (int i = 0; i < 3; i++) switch (i + n) { case 1: return 7.0; case 4: break; default: \
+             n++; } return float(n); }",
             "r = vec4(f(I + 1), f(I + 2), f(I), f(I + 4));",
             [7., 4., 2., 6.],
         ),
         with(
-            "float f(int n) { float x = 1.0; switch (n) { case 0: x = 5.0; case 1: for (int i = 0; ; i++) { switch (i) { case 2: return x + 10.0; } x += 1.0; }\n\
+            "float f(int n) { float x = 1.0; switch (n) { case 0: x = 5.0; case 1: for (int i = 0; ; i++) { switch (i) \
+             { case 2: return x + 10.0; } x += 1.0; }\n\
              case 2: break; default: if (n > 4) return 40.0; x = 8.0; } x *= 2.0; return x; }",
             "r = vec4(f(I), f(I + 1), f(I + 2) + 100.0 * f(I + 3), f(I + 5));",
             [17., 13., 1602., 40.],
@@ -137,7 +150,8 @@ fn returns_from_loops() {
     ]);
 }
 
-/// What a variable holds is known from when it is written until it is written again: in a branch, in a loop, through a part.
+/// What a variable holds is known from when it is written until it is written again: in a branch, in a loop, through a
+/// part.
 #[test]
 fn variables_after_branches_and_loops() {
     check(&[
@@ -146,7 +160,8 @@ fn variables_after_branches_and_loops() {
             [5., 7., 0., 0.],
         ),
         case(
-            "float a = Z + 1.0, b = 0.0; for (int i = 0; i < 3 + I; i++) { b += a; a += 1.0; } r = vec4(a, b, a + b, 0);",
+            "float a = Z + 1.0, b = 0.0; for (int i = 0; i < 3 + I; i++) { b += a; a += 1.0; } r = vec4(a, b, a + b, \
+             0);",
             [4., 6., 10., 0.],
         ),
         case(
@@ -154,7 +169,8 @@ fn variables_after_branches_and_loops() {
             [5., 1., 9., 7.],
         ),
         case(
-            "float a = Z; switch (I) { case 0: a = 1.0; case 1: a += 2.0; break; default: a = 9.0; } r = vec4(a, a + 1.0, 0, 0);",
+            "float a = Z; switch (I) { case 0: a = 1.0; case 1: a += 2.0; break; default: a = 9.0; } r = vec4(a, a + \
+             1.0, 0, 0);",
             [3., 4., 0., 0.],
         ),
         case("float a = Z + 2.0; float b = (a = 3.0) + a; r = vec4(b, a += a, a, 0);", [6., 6., 6., 0.]),
@@ -199,8 +215,10 @@ fn members_hold_what_was_written_last() {
         ),
         with(
             LENS,
-            "shared_lens.focus = 1.0; for (int i = 0; i < 2; i++) { r.x = shared_lens.focus; shared_lens.focus += 1.0; }\n\
-             if (I == 0) shared_lens.focus = 8.0; else shared_lens.size.x = 1.0; r = vec4(r.x, shared_lens.focus, shared_lens.size);",
+            "shared_lens.focus = 1.0; for (int i = 0; i < 2; i++) { r.x = shared_lens.focus; shared_lens.focus += 1.0; \
+             }\n\
+             if (I == 0) shared_lens.focus = 8.0; else shared_lens.size.x = 1.0; r = vec4(r.x, shared_lens.focus, \
+             shared_lens.size);",
             [2., 8., 0., 0.],
         ),
     ]);
@@ -212,7 +230,8 @@ fn lowered(code: &str) -> (usize, usize) {
     (module.functions.len(), module.functions.iter().map(|(_, f)| f.expressions.len()).sum())
 }
 
-/// What is called at one place becomes part of its caller whatever its size, unless it would nest too deep for the stack.
+/// What is called at one place becomes part of its caller whatever its size, unless it would nest too deep for the
+/// stack.
 #[test]
 fn functions_called_once_are_inlined() {
     let work = "x = sin(x) * y + cos(y) / x; y += x;".repeat(100);
@@ -243,8 +262,8 @@ fn functions_called_once_are_inlined() {
     assert_eq!(apart.0, 2);
 }
 
-/// A short text that calls a function very often does not become so many copies of it, and a body of very many statements is
-/// looked through without recursion.
+/// A short text that calls a function very often does not become so many copies of it, and a body of very many
+/// statements is looked through without recursion.
 #[test]
 fn inlining_is_bounded() {
     let expressions = |code: &str| lowered(code).1;

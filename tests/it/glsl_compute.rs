@@ -118,7 +118,8 @@ fn copies_in_and_out() {
         ),
         with(
             "float f(float a[3], float b) { return a[I + 2] + b; }\nfloat h(float a[3]) { return f(a, a[I]); }",
-            "float x[3] = float[3](1.0, 2.0, 3.0); r.x = h(x); x[I + 2] = 7.0; r.y = h(x); r.z = f(x, x[2] = 4.0); r.w = f(float[3](6.0, 6.0, 6.0), 1.0);",
+            "float x[3] = float[3](1.0, 2.0, 3.0); r.x = h(x); x[I + 2] = 7.0; r.y = h(x); r.z = f(x, x[2] = 4.0); r.w \
+             = f(float[3](6.0, 6.0, 6.0), 1.0);",
             [4., 8., 11., 7.],
         ),
         with(
@@ -193,27 +194,32 @@ fn loops_and_jumps() {
         case("int n = 0; for (;;) { if (++n > 4) break; } r = vec4(n);", [5.; 4]),
         case("int n = 0; for (int i = 0, j = 9; i < j; i++, j--) n += j - i; r = vec4(n);", [25.; 4]),
         case(
-            "int n = 0; for (int i = 0; i < 3; i++) for (int j = 0; j < 3; j++) { if (j == 2) break; if (i == 1) continue; n += 10 * i + j; } r = vec4(n);",
+            "int n = 0; for (int i = 0; i < 3; i++) for (int j = 0; j < 3; j++) { if (j == 2) break; if (i == 1) \
+             continue; n += 10 * i + j; } r = vec4(n);",
             [42.; 4],
         ),
         case("int i = 3, n = 0; while (bool(i--)) n += i; r = vec4(n, i, 0, 0);", [3., -1., 0., 0.]),
         case("int i = 0; while (bool b = i < 3) { i++; if (!b) r.x = 5.0; } r = vec4(i);", [3.; 4]),
         with(
-            "float f(int n) { for (int i = 0; i < 10; i++) { for (;;) { if (i == n) return float(i); break; } } return -1.0; }",
+            "float f(int n) { for (int i = 0; i < 10; i++) { for (;;) { if (i == n) return float(i); break; } } return \
+             -1.0; }",
             "r = vec4(f(4), f(99), f(I), 0);",
             [4., -1., 0., 0.],
         ),
         case(
-            "int n = 0; for (int i = 0; i < 4; ++i) { switch (i) { case 1: continue; case 2: n += 100; break; default: n += 1; } n += 10; } r = vec4(n);",
+            "int n = 0; for (int i = 0; i < 4; ++i) { switch (i) { case 1: continue; case 2: n += 100; break; default: \
+             n += 1; } n += 10; } r = vec4(n);",
             [132.; 4],
         ),
         case(
-            "for (int i = 0; i < 0; i++) r = vec4(9); for (float x = 0.0; x < 1.0; x += 0.25) r.x += 1.0; r.yzw = vec3(0.0);",
+            "for (int i = 0; i < 0; i++) r = vec4(9); for (float x = 0.0; x < 1.0; x += 0.25) r.x += 1.0; r.yzw = \
+             vec3(0.0);",
             [-73., 0., 0., 0.],
         ),
         case("int n = 0; for (uint i = 5u; i > 0u; --i) n += int(i); r = vec4(n);", [15.; 4]),
         case(
-            "int n = 0, k = 0; for (int i = 0; i < 20; k += i > 3 ? (n++, 2) : 1, i++) { if (k > 10) break; if (i % 2 == 0) continue; n += 100; } r = vec4(n, k, 0, 0);",
+            "int n = 0, k = 0; for (int i = 0; i < 20; k += i > 3 ? (n++, 2) : 1, i++) { if (k > 10) break; if (i % 2 \
+             == 0) continue; n += 100; } r = vec4(n, k, 0, 0);",
             [404., 12., 0., 0.],
         ),
     ]);
@@ -221,7 +227,8 @@ fn loops_and_jumps() {
 
 #[test]
 fn switches() {
-    const F: &str = "int f(int i) { int n = 0; switch (i) { case 0: n += 1; case 1: n += 10; break; case 2: case 3: n += 100; default: n += 1000; case 7: n += 10000; } return n; }";
+    const F: &str = "int f(int i) { int n = 0; switch (i) { case 0: n += 1; case 1: n += 10; break; case 2: case 3: n \
+                     += 100; default: n += 1000; case 7: n += 10000; } return n; }";
     check(&[
         with(F, "r = vec4(f(I), f(I + 1), f(I + 2), f(I + 3));", [11., 10., 11100., 11100.]),
         with(F, "r = vec4(f(I + 7), f(I + 8), f(I - 1), 0);", [10000., 11000., 11000., 0.]),
@@ -237,12 +244,14 @@ fn switches() {
             [1., 1., 0., 0.],
         ),
         case(
-            "switch (I) { case 0: switch (I + 1) { case 1: r = vec4(2); break; default: r = vec4(3); } break; case 1: r = vec4(4); }",
+            "switch (I) { case 0: switch (I + 1) { case 1: r = vec4(2); break; default: r = vec4(3); } break; case 1: \
+             r = vec4(4); }",
             [2.; 4],
         ),
         case("r = vec4(1); switch (I + 9) { case 0: case 1: r = vec4(2); }", [1.; 4]),
         case(
-            "int n = 0; for (int i = 0; i < 5; i++) switch (i) { case 1: n += 1; case 2: if (n > 1) break; n += 10; case 3: n += 100; } r = vec4(n);",
+            "int n = 0; for (int i = 0; i < 5; i++) switch (i) { case 1: n += 1; case 2: if (n > 1) break; n += 10; \
+             case 3: n += 100; } r = vec4(n);",
             [211.; 4],
         ),
     ]);
@@ -260,7 +269,8 @@ fn indices() {
         case("mat2 m = mat2(0.0); m[I + 1][I] = 5.0; m[I][1] += 2.0; r = vec4(m[0], m[1]);", [0., 2., 5., 0.]),
         case("vec4 v = vec4(0); for (int i = 0; i < 4; i++) v[i] = float(i * i); r = v;", [0., 1., 4., 9.]),
         case(
-            "float a[8]; for (int i = 0; i < 8; i++) a[i] = float(i); float s = 0.0; for (int i = 7; i >= 0; i -= 2) s += a[i] * a[7 - i]; r = vec4(s, a[I + 3 & 7], a[(I + 13) % 8], a[min(I + 20, 7)]);",
+            "float a[8]; for (int i = 0; i < 8; i++) a[i] = float(i); float s = 0.0; for (int i = 7; i >= 0; i -= 2) s \
+             += a[i] * a[7 - i]; r = vec4(s, a[I + 3 & 7], a[(I + 13) % 8], a[min(I + 20, 7)]);",
             [28., 3., 5., 7.],
         ),
         with(
@@ -274,7 +284,8 @@ fn indices() {
             [1., 1., 3., 3.],
         ),
         with(
-            "struct S { float a; float b[2]; }; const S T[2] = S[2](S(1.0, float[2](2.0, 3.0)), S(4.0, float[2](5.0, 6.0)));",
+            "struct S { float a; float b[2]; }; const S T[2] = S[2](S(1.0, float[2](2.0, 3.0)), S(4.0, float[2](5.0, \
+             6.0)));",
             "r = vec4(T[I + 1].a, T[I + 1].b[I + 1], T[I].b[0], T[1].b[I]);",
             [4., 6., 2., 5.],
         ),
@@ -302,14 +313,16 @@ fn integers() {
         case("r = vec4((I - 7) % 2, (I - 7) % 3, (7 + I) % (I - 3), (I - 7) % (I - 3));", [1., 2., -2., -1.]),
         case("ivec4 a = ivec4(-7, 7, -6, 6) + I; r = vec4(a % ivec4(4, -4, 3, -3));", [1., -1., 0., 0.]),
         case(
-            "r = vec4(float(2147483647 + I + 1 == -2147483647 - 1), float(U - 1u == 4294967295u), 0xffu + U, 1u << (U + 3u));",
+            "r = vec4(float(2147483647 + I + 1 == -2147483647 - 1), float(U - 1u == 4294967295u), 0xffu + U, 1u << (U \
+             + 3u));",
             [1., 1., 255., 8.],
         ),
         case("r = vec4((I + 6) & 3, (I + 6) | 9, (I + 6) ^ 5, ~(I + 6));", [2., 15., 3., -7.]),
         case("ivec2 a = ivec2(7, -7) + I; a /= 2; a <<= 1; a -= ivec2(1); r = vec4(a, a * 3);", [5., -7., 15., -21.]),
         case("uvec3 a = uvec3(1, 2, 3) + U; a = a * 5u % 4u; r = vec4(a, a.x << 1u);", [1., 2., 3., 2.]),
         case(
-            "int d = I; int q = 5 / d; int m = 5 % d; uint u = 5u / U; r = vec4(1); if (q == 12345 && m == 54321 && u == 77u) r = vec4(2);",
+            "int d = I; int q = 5 / d; int m = 5 % d; uint u = 5u / U; r = vec4(1); if (q == 12345 && m == 54321 && u \
+             == 77u) r = vec4(2);",
             [1.; 4],
         ),
         case("int low = -2147483647 - 1 + I; int q = low / (I - 1); r = vec4(1.0); if (q == 3) r = vec4(2);", [1.; 4]),
@@ -319,13 +332,15 @@ fn integers() {
             [-1., 2., 3., -2147483648.],
         ),
         case(
-            "r = vec4(uint(-3.5 + Z) == 0u, uint(4294967040.0 + Z) == 4294967040u, uint(I - 1) == 4294967295u, int(3000000000u + U) < 0);",
+            "r = vec4(uint(-3.5 + Z) == 0u, uint(4294967040.0 + Z) == 4294967040u, uint(I - 1) == 4294967295u, \
+             int(3000000000u + U) < 0);",
             [1., 1., 1., 1.],
         ),
         case("r = vec4(abs(I - 3), sign(float(I) - 3.0), sign(I - 3), min(I + 3, 2));", [3., -1., -1., 2.]),
         case("r = vec4(max(uvec2(3u, 5u) + U, 4u), clamp(ivec2(I - 5, I + 5), 0, 3));", [4., 5., 0., 3.]),
         case(
-            "uint a = 5u; a = -a + U; bool b = a == 4294967291u; int i = 7; i %= 4; i ^= 1; i |= 8; i &= 14; i >>= 1; r = vec4(b, i, 0, 0);",
+            "uint a = 5u; a = -a + U; bool b = a == 4294967291u; int i = 7; i %= 4; i ^= 1; i |= 8; i &= 14; i >>= 1; \
+             r = vec4(b, i, 0, 0);",
             [1., 5., 0., 0.],
         ),
     ]);
@@ -342,11 +357,13 @@ fn floats() {
         // Folded: undefined for (0, 0), and drivers have three quarters of a half turn there.
         with(
             "vec2 never_written = vec2(0.0); float turned(float x, float y) { return atan(y, x); }",
-            "vec2 v = vec2(0.0); r = vec4(atan(v.x, v.y), atan(never_written.y, v.x), turned(0.0, 1.0), turned(v.x, 0.0));",
+            "vec2 v = vec2(0.0); r = vec4(atan(v.x, v.y), atan(never_written.y, v.x), turned(0.0, 1.0), turned(v.x, \
+             0.0));",
             [0., 0., std::f32::consts::FRAC_PI_2, 0.],
         ),
         case(
-            "float w; float f = modf(Z - 3.25, w); vec2 w2; vec2 f2 = modf(vec2(1.5, -1.5) + Z, w2); r = vec4(f, w, f2.x + f2.y, w2.x * 10.0 + w2.y);",
+            "float w; float f = modf(Z - 3.25, w); vec2 w2; vec2 f2 = modf(vec2(1.5, -1.5) + Z, w2); r = vec4(f, w, \
+             f2.x + f2.y, w2.x * 10.0 + w2.y);",
             [-0.25, -3., 0., 9.],
         ),
         case("r = vec4(roundEven(2.5 + Z), roundEven(3.5 + Z), trunc(Z - 2.7), fract(Z - 0.25));", [2., 4., -2., 0.75]),
@@ -359,13 +376,15 @@ fn floats() {
             [4., 2., 6., 1.],
         ),
         case(
-            "r = vec4(smoothstep(0.0, 1.0, Z + 0.5), smoothstep(1.0, 0.0, Z + 0.25), smoothstep(vec2(0), vec2(2), vec2(1.0 + Z)));",
+            "r = vec4(smoothstep(0.0, 1.0, Z + 0.5), smoothstep(1.0, 0.0, Z + 0.25), smoothstep(vec2(0), vec2(2), \
+             vec2(1.0 + Z)));",
             [0.5, 0.84375, 0.5, 0.5],
         ),
         case("r = vec4(step(vec2(1, 3), vec2(2.0 + Z)), smoothstep(0.0, 2.0, vec2(0.0, 1.0) + Z));", [1., 0., 0., 0.5]),
         // Of no width: a step, also where the driver finds that out by itself.
         case(
-            "float e = Z + 0.5; r = vec4(smoothstep(e, e, Z + vec2(0.25, 0.75)), smoothstep(0.5, 0.5, Z + vec2(0.25, 0.75)));",
+            "float e = Z + 0.5; r = vec4(smoothstep(e, e, Z + vec2(0.25, 0.75)), smoothstep(0.5, 0.5, Z + vec2(0.25, \
+             0.75)));",
             [0., 1., 0., 1.],
         ),
         case(
@@ -373,20 +392,24 @@ fn floats() {
             [3., 3., 6., -1.],
         ),
         case(
-            "r = vec4(reflect(Z + 1.0, 1.0), refract(Z + 0.5, 1.0, 1.0), faceforward(Z + 2.0, 1.0, 1.0), faceforward(Z + 2.0, 1.0, -1.0));",
+            "r = vec4(reflect(Z + 1.0, 1.0), refract(Z + 0.5, 1.0, 1.0), faceforward(Z + 2.0, 1.0, 1.0), faceforward(Z \
+             + 2.0, 1.0, -1.0));",
             [-1., -0.5, -2., 2.],
         ),
         case("r = vec4(cross(vec3(1, 0, 0) + Z, vec3(0, 1, 0)), dot(vec3(1, 2, 3), vec3(Z + 1.0)));", [0., 0., 1., 6.]),
         case(
-            "r = vec4(floatBitsToInt(Z + 1.0) == 0x3f800000, floatBitsToUint(Z - 1.0) == 0xbf800000u, intBitsToFloat(0x40000000 + I), uintBitsToFloat(0x40400000u + U));",
+            "r = vec4(floatBitsToInt(Z + 1.0) == 0x3f800000, floatBitsToUint(Z - 1.0) == 0xbf800000u, \
+             intBitsToFloat(0x40000000 + I), uintBitsToFloat(0x40400000u + U));",
             [1., 1., 2., 3.],
         ),
         case(
-            "r = vec4(unpackHalf2x16(packHalf2x16(vec2(1.5, -2.0) + Z)), unpackUnorm2x16(packUnorm2x16(vec2(1.0, 0.0) + Z)));",
+            "r = vec4(unpackHalf2x16(packHalf2x16(vec2(1.5, -2.0) + Z)), unpackUnorm2x16(packUnorm2x16(vec2(1.0, 0.0) \
+             + Z)));",
             [1.5, -2., 1., 0.],
         ),
         case(
-            "r = vec4(unpackSnorm2x16(packSnorm2x16(vec2(1.0, -1.0) + Z)), degrees(Z + 3.14159265), radians(Z + 180.0));",
+            "r = vec4(unpackSnorm2x16(packSnorm2x16(vec2(1.0, -1.0) + Z)), degrees(Z + 3.14159265), radians(Z + \
+             180.0));",
             [1., -1., 180., std::f32::consts::PI],
         ),
         case(
@@ -403,7 +426,8 @@ fn floats() {
             [1.5574077, std::f32::consts::LN_2, 3., 0.5],
         ),
         case(
-            "r = vec4(any(lessThan(vec2(1, 2) + Z, vec2(1, 3))), all(greaterThanEqual(ivec2(1, 2) + I, ivec2(1, 3))), not(bvec2(Z > 0.0, true)));",
+            "r = vec4(any(lessThan(vec2(1, 2) + Z, vec2(1, 3))), all(greaterThanEqual(ivec2(1, 2) + I, ivec2(1, 3))), \
+             not(bvec2(Z > 0.0, true)));",
             [1., 0., 1., 0.],
         ),
     ]);
@@ -441,7 +465,8 @@ fn matrices() {
             [0., 0., 0., 1.],
         ),
         case(
-            "mat4 m = mat4(2, 1, 0, 5, 0, 3, 1, 1, 1, 0, 4, 2, 3, 3, 1, 7) + Z; mat4 e = inverse(m) * m; r = e[0] + e[1] + e[2] + e[3];",
+            "mat4 m = mat4(2, 1, 0, 5, 0, 3, 1, 1, 1, 0, 4, 2, 3, 3, 1, 7) + Z; mat4 e = inverse(m) * m; r = e[0] + \
+             e[1] + e[2] + e[3];",
             [1.; 4],
         ),
         case(
@@ -449,19 +474,22 @@ fn matrices() {
             [0., 0., 1., 0.],
         ),
         case(
-            "r = vec4(determinant(mat2(1, 2, 3, 4) + Z), determinant(mat3(2, 1, 0, 0, 3, 1, 1, 0, 4) + Z), determinant(mat4(2.0 + Z)), 0);",
+            "r = vec4(determinant(mat2(1, 2, 3, 4) + Z), determinant(mat3(2, 1, 0, 0, 3, 1, 1, 0, 4) + Z), \
+             determinant(mat4(2.0 + Z)), 0);",
             [-2., 25., 16., 0.],
         ),
         case("mat3x2 m = outerProduct(vec2(1, 2) + Z, vec3(3, 4, 5)); r = vec4(m[0], m[2]);", [3., 6., 5., 10.]),
         case("mat2 m = matrixCompMult(mat2(1, 2, 3, 4) + Z, mat2(2)); r = vec4(m[0], m[1]);", [2., 0., 0., 8.]),
         case(
-            "mat4 a = mat4(mat2(1, 2, 3, 4) + Z); mat2 b = mat2(a); mat3 c = mat3(mat4x2(1, 2, 3, 4, 5, 6, 7, 8)); r = vec4(a[1].xyz + a[3].www, c[2].z + b[1].y);",
+            "mat4 a = mat4(mat2(1, 2, 3, 4) + Z); mat2 b = mat2(a); mat3 c = mat3(mat4x2(1, 2, 3, 4, 5, 6, 7, 8)); r = \
+             vec4(a[1].xyz + a[3].www, c[2].z + b[1].y);",
             [4., 5., 1., 5.],
         ),
         case("mat3 m = mat3(vec4(1, 2, 3, 4) + Z, vec4(5, 6, 7, 8), 9.0); r = vec4(m[0].z, m[1]);", [3., 4., 5., 6.]),
         case("mat2 m = mat2(1, 2, 3, 4) + Z; m++; --m[1].y; mat2 o = m--; r = vec4(o[0], m[1]);", [2., 3., 3., 3.]),
         case(
-            "mat2 m = mat2(1, 2, 3, 4) + Z; mat2 n = m; n[1][1] += Z; bool e = m == n; n[0][1] = 9.0; r = vec4(e, m == n, m != n, 0);",
+            "mat2 m = mat2(1, 2, 3, 4) + Z; mat2 n = m; n[1][1] += Z; bool e = m == n; n[0][1] = 9.0; r = vec4(e, m == \
+             n, m != n, 0);",
             [1., 0., 1., 0.],
         ),
     ]);
@@ -473,11 +501,13 @@ fn aggregates() {
     check(&[
         with(
             S,
-            "S s = S(P[2](P(vec2(1), true), P(vec2(2), false)), mat2(3), 4u); S t = s; t.p[I + 1].a.y += Z; bool e = s == t; t.p[1].b = true; r = vec4(e, s == t, s != t, t.m[1].y);",
+            "S s = S(P[2](P(vec2(1), true), P(vec2(2), false)), mat2(3), 4u); S t = s; t.p[I + 1].a.y += Z; bool e = s \
+             == t; t.p[1].b = true; r = vec4(e, s == t, s != t, t.m[1].y);",
             [1., 0., 1., 3.],
         ),
         case(
-            "float a[3] = float[3](1.0, 2.0, 3.0), b[3] = a; bool e = a == b; b[I + 2] = 0.0; r = vec4(e, a == b, a != b, b[2]);",
+            "float a[3] = float[3](1.0, 2.0, 3.0), b[3] = a; bool e = a == b; b[I + 2] = 0.0; r = vec4(e, a == b, a != \
+             b, b[2]);",
             [1., 0., 1., 0.],
         ),
         case("bvec3 b = bvec3(I == 0, I > 0, true); r = vec4(b, b == bvec3(true, false, true));", [1., 0., 1., 1.]),
@@ -496,7 +526,8 @@ fn aggregates() {
     ]);
 }
 
-/// In memory, in the uniform buffer (arrays of more than 32 elements), and in the storage buffer (256 scalars and more).
+/// In memory, in the uniform buffer (arrays of more than 32 elements), and in the storage buffer (256 scalars and
+/// more).
 #[test]
 fn constant_tables_of_every_layout() {
     tables(8, 40);

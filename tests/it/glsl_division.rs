@@ -95,35 +95,44 @@ fn divisions_have_the_values_of_wgsl() {
             "int n = LEAST + I, m = I - 1; r = vec4(is(n / m, LEAST), is(n % m, 0), is(n / -1, LEAST), is(n % -1, 0));",
         ),
         ones(
-            "int z = I, q = 7; q /= z; r.x = is(q, 7); q %= z; r.y = is(q, 0); q = LEAST; q /= z - 1; r.z = is(q, LEAST); r.w = is(7 / (z - 1), -7);",
+            "int z = I, q = 7; q /= z; r.x = is(q, 7); q %= z; r.y = is(q, 0); q = LEAST; q /= z - 1; r.z = is(q, \
+             LEAST); r.w = is(7 / (z - 1), -7);",
         ),
         case("r = vec4(5u / U == 5u, 5u % U == 0u, 5u / (U + 2u) == 2u, (U - 1u) / (U - 1u) == 1u);", [1.; 4]),
         ones(
-            "ivec4 q = ivec4(LEAST, 7, 7, LEAST) / (ivec4(-1, 0, -1, 0) + I); r = vec4(is(q.x, LEAST), is(q.y, 7), is(q.z, -7), is(q.w, LEAST));",
+            "ivec4 q = ivec4(LEAST, 7, 7, LEAST) / (ivec4(-1, 0, -1, 0) + I); r = vec4(is(q.x, LEAST), is(q.y, 7), \
+             is(q.z, -7), is(q.w, LEAST));",
         ),
         ones(
-            "ivec4 q = ivec4(LEAST, 7, 7, LEAST) % (ivec4(-1, 0, -1, 3) + I); r = vec4(is(q.x, 0), is(q.y, 0), is(q.z, 0), is(q.w, 1));",
+            "ivec4 q = ivec4(LEAST, 7, 7, LEAST) % (ivec4(-1, 0, -1, 3) + I); r = vec4(is(q.x, 0), is(q.y, 0), is(q.z, \
+             0), is(q.w, 1));",
         ),
         ones(
-            "ivec2 q = (LEAST + I) / ivec2(I - 1, I), s = ivec2(LEAST, 9) / (I - 1); r = vec4(is(q.x, LEAST), is(q.y, LEAST), is(s.x, LEAST), is(s.y, -9));",
+            "ivec2 q = (LEAST + I) / ivec2(I - 1, I), s = ivec2(LEAST, 9) / (I - 1); r = vec4(is(q.x, LEAST), is(q.y, \
+             LEAST), is(s.x, LEAST), is(s.y, -9));",
         ),
         ones(
-            "ivec2 n = ivec2(LEAST, 9) + I; ivec2 q = n / ivec2(-1, 0), s = n % ivec2(0, -1); r = vec4(is(q.x, LEAST), is(q.y, 9), is(s.x, 0), is(s.y, 0));",
+            "ivec2 n = ivec2(LEAST, 9) + I; ivec2 q = n / ivec2(-1, 0), s = n % ivec2(0, -1); r = vec4(is(q.x, LEAST), \
+             is(q.y, 9), is(s.x, 0), is(s.y, 0));",
         ),
         // Guards that need not be there, where what is known of the divisor says so, and those that must.
         ones("int s = 0; for (int i = 1; i < 4; i++) s += 12 / i + (I + 13) % i; r = vec4(is(s, 24), 1, 1, 1);"),
         ones("int s = 0; for (int i = 0; i < 3; i++) s = s * 10 + (I + 7) / i; r = vec4(is(s, 773), 1, 1, 1);"),
         ones(
-            "int s = 0; for (int i = -1; i < 1; i++) s += (LEAST + I) / i == LEAST ? 1 : 0; r = vec4(is(s, 2), 1, 1, 1);",
+            "int s = 0; for (int i = -1; i < 1; i++) s += (LEAST + I) / i == LEAST ? 1 : 0; r = vec4(is(s, 2), 1, 1, \
+             1);",
         ),
         ones(
-            "int s = 0; for (int i = 1; i < 4; i -= 2, s += (I + 7) / i) { if (i < 0) break; continue; } r = vec4(is(s, -7), 1, 1, 1);",
+            "int s = 0; for (int i = 1; i < 4; i -= 2, s += (I + 7) / i) { if (i < 0) break; continue; } r = \
+             vec4(is(s, -7), 1, 1, 1);",
         ),
         ones(
-            "r = vec4(is(quotient(7, 0), 7), is(quotient(LEAST, -1), LEAST), is(remainder(7, 0), 0), is(remainder(-7, 3), 2));",
+            "r = vec4(is(quotient(7, 0), 7), is(quotient(LEAST, -1), LEAST), is(remainder(7, 0), 0), is(remainder(-7, \
+             3), 2));",
         ),
         ones(
-            "int d = clamp(I, 0, 5), e = (I & 3) + 1; r = vec4(is(9 / d, 9), is(9 % d, 0), is(9 / e, 9), is((LEAST + I) / max(I, 1), LEAST));",
+            "int d = clamp(I, 0, 5), e = (I & 3) + 1; r = vec4(is(9 / d, 9), is(9 % d, 0), is(9 / e, 9), is((LEAST + \
+             I) / max(I, 1), LEAST));",
         ),
     ]);
 }

@@ -1,4 +1,5 @@
-//! What the specification leaves open and pictures lean on: as OpenGL drivers and browsers have it, on whatever driver draws.
+//! What the specification leaves open and pictures lean on: as OpenGL drivers and browsers have it, on whatever driver
+//! draws.
 //!
 //! `Z` is a zero no compiler can see through, so that nothing here is folded before it runs.
 
@@ -61,7 +62,8 @@ fn mix_by_a_condition() {
         case("r = vec4(floatBitsToUint(mix(1000.0, Z + 18.721829, step(Z, 1.0))) - 0x4195c64eu);", [0.; 4]),
         case(
             "float x = Z + 18.721829, hit = step(Z, 1.0) * step(Z + 1.0, x);\n\
-             r = vec4(mix(1e9, x, hit) == x, mix(1e9, x, min(hit, float(Z < 1.0))) == x, mix(x, 1e9, 1.0 - hit) == x, 0);",
+             r = vec4(mix(1e9, x, hit) == x, mix(1e9, x, min(hit, float(Z < 1.0))) == x, mix(x, 1e9, 1.0 - hit) == x, \
+             0);",
             [1., 1., 1., 0.],
         ),
         case(
@@ -104,7 +106,8 @@ fn order_of_evaluation() {
         ),
         // x (1 - a) + y a where the components share x (1 - a).
         case(
-            "vec3 y = Z + vec3(4.25, 1.0, 2.0); r = vec4(floatBitsToUint(mix(vec3(0.3), y, Z + 0.27).x) - 0x3faee979u);",
+            "vec3 y = Z + vec3(4.25, 1.0, 2.0); r = vec4(floatBitsToUint(mix(vec3(0.3), y, Z + 0.27).x) - \
+             0x3faee979u);",
             [0.; 4],
         ),
         // What both sides of a mix are products with is taken out: p mix(1, 0.3, a).
@@ -119,8 +122,8 @@ fn order_of_evaluation() {
             "r = vec4(floatBitsToUint(fade(Z + 0.6, Z + 0.91)) - 0x3f14af4fu);",
             [0.; 4],
         ),
-        // What functions say of constants and of what is computed twice is known where they are called: the sum that two calls
-        // share stays whole, (p.y k.y + p.x k.x) + s ...
+        // What functions say of constants and of what is computed twice is known where they are called: the sum that
+        // two calls share stays whole, (p.y k.y + p.x k.x) + s ...
         with(
             "vec2 p; float s; float next() { return dot(p, vec2(12.98, 78.23)) + s++; }",
             "p = Z + vec2(5.44, 5.63); s = Z + 1.52; float a = next(), b = next();\n\
@@ -151,7 +154,8 @@ fn order_of_evaluation() {
             "r = vec4(floatBitsToUint(((Z + vec2(5.59, 1.1)) * mat2(0.27, 0.27, -0.27, 0.27)).x) - 0x3fe734d8u);",
             [0.; 4],
         ),
-        // A choice between two values is a branch, over which the product that a function gave is not taken apart: (m n) v.
+        // A choice between two values is a branch, over which the product that a function gave is not taken apart: (m
+        // n) v.
         with(
             "mat2 m, n; mat2 both() { return m * n; }",
             "m = mat2(3.28, 1.51, 7.11, 5.46); n = mat2(1.22, 1.41, 2.04, 3.86); m[0] += Z; n[0] += Z;\n\

@@ -1,5 +1,5 @@
-//! What authors read when something is wrong: typical mistakes, `glsl_errors/*.glsl`, each with its full text in caret form
-//! beside it, `*.txt`. After a change of wording run with `EDDY_BLESS=1` and read what changed.
+//! What authors read when something is wrong: typical mistakes, `glsl_errors/*.glsl`, each with its full text in caret
+//! form beside it, `*.txt`. After a change of wording run with `EDDY_BLESS=1` and read what changed.
 //!
 //! A file is an Image pass; a first line `// pass: sound` or `// pass: cubemap` makes it another.
 

@@ -1,4 +1,5 @@
-//! What loops compute: those whose rounds are known beforehand, which drivers write out, and those that read what they write.
+//! What loops compute: those whose rounds are known beforehand, which drivers write out, and those that read what they
+//! write.
 
 use crate::support::{compute::*, *};
 
@@ -7,19 +8,23 @@ fn loops_of_known_rounds() {
     check(&[
         // What a round declares begins anew in each; what it declares from the counter follows the counter.
         case(
-            "r = vec4(0); for (int i = 0; i < 4; i++) { float f; f += float(i); r.x += f; int d = i * 2; r.y += float(d); }",
+            "r = vec4(0); for (int i = 0; i < 4; i++) { float f; f += float(i); r.x += f; int d = i * 2; r.y += \
+             float(d); }",
             [6., 12., 0., 0.],
         ),
         case(
-            "float a[4]; r = vec4(0); for (int i = 0; i < 4; i++) { a[i] += float(i + I); int j = 3 - i; r.x += a[j]; }",
+            "float a[4]; r = vec4(0); for (int i = 0; i < 4; i++) { a[i] += float(i + I); int j = 3 - i; r.x += a[j]; \
+             }",
             [1., 0., 0., 0.],
         ),
         case(
-            "r = vec4(0); for (int i = 0; i < 3; i++) { float b[2]; b[I] += 1.0; b[I + 1] = b[I] + float(i); r.x += b[I + 1]; }",
+            "r = vec4(0); for (int i = 0; i < 3; i++) { float b[2]; b[I] += 1.0; b[I + 1] = b[I] + float(i); r.x += \
+             b[I + 1]; }",
             [6., 0., 0., 0.],
         ),
         case(
-            "r = vec4(0); for (int i = 0; i < 3; i++) { const float t[3] = float[](5., 6., 7.); float u[3] = t; r.x += u[i]; r.y = u[I + i]; }",
+            "r = vec4(0); for (int i = 0; i < 3; i++) { const float t[3] = float[](5., 6., 7.); float u[3] = t; r.x += \
+             u[i]; r.y = u[I + i]; }",
             [18., 7., 0., 0.],
         ),
         // The counter keeps its value behind the loop, and within it is what it was at each use.
@@ -28,11 +33,13 @@ fn loops_of_known_rounds() {
             [6., 4.5, 0., 0.],
         ),
         case(
-            "r = vec4(0); for (int i = 0, j = 3; i < 4; i++, j--) { r.x = r.x * 10.0 + float(i); r.y = r.y * 10.0 + float(j); }",
+            "r = vec4(0); for (int i = 0, j = 3; i < 4; i++, j--) { r.x = r.x * 10.0 + float(i); r.y = r.y * 10.0 + \
+             float(j); }",
             [123., 3210., 0., 0.],
         ),
         case(
-            "r = vec4(0); for (uint u = 4294967294u; u != 2u; u++) r.x += 1.0; for (int i = 1; i > 0; i *= 65536) r.y += 1.0;",
+            "r = vec4(0); for (uint u = 4294967294u; u != 2u; u++) r.x += 1.0; for (int i = 1; i > 0; i *= 65536) r.y \
+             += 1.0;",
             [4., 2., 0., 0.],
         ),
         // Jumps.
@@ -47,16 +54,19 @@ fn loops_of_known_rounds() {
             [3., 1., 0., 0.],
         ),
         case(
-            "r = vec4(0); for (int i = 0; i < 4; i++) { switch (i + I) { case 1: r.x += 1.0; break; case 2: r.x += 10.0; default: r.x += 100.0; } }",
+            "r = vec4(0); for (int i = 0; i < 4; i++) { switch (i + I) { case 1: r.x += 1.0; break; case 2: r.x += \
+             10.0; default: r.x += 100.0; } }",
             [311., 0., 0., 0.],
         ),
         case(
-            "r = vec4(0); for (int i = 0; i < 3; i++) { for (int j = 0; j < 9; j++) { if (j > i + I) break; r.x += 1.0; } }",
+            "r = vec4(0); for (int i = 0; i < 3; i++) { for (int j = 0; j < 9; j++) { if (j > i + I) break; r.x += \
+             1.0; } }",
             [6., 0., 0., 0.],
         ),
         // The outer counter bounds an inner loop, and an index.
         case(
-            "float a[3] = float[](1.0, 2.0, 4.0); r = vec4(0); for (int i = 0; i < 3; i++) for (int j = 0; j <= i; j++) r.x += a[j + I];",
+            "float a[3] = float[](1.0, 2.0, 4.0); r = vec4(0); for (int i = 0; i < 3; i++) for (int j = 0; j <= i; \
+             j++) r.x += a[j + I];",
             [11., 0., 0., 0.],
         ),
     ]);
@@ -76,7 +86,8 @@ fn loops_read_what_they_write() {
         ),
         with(
             STATE,
-            "float x = 1.0; r = vec4(x); for (int i = 0; i < I + 3; i++) { r.x = x; add(x, x); } r.yzw = vec3(x, 0, 0);",
+            "float x = 1.0; r = vec4(x); for (int i = 0; i < I + 3; i++) { r.x = x; add(x, x); } r.yzw = vec3(x, 0, \
+             0);",
             [4., 8., 0., 0.],
         ),
         with(
@@ -92,7 +103,8 @@ fn loops_read_what_they_write() {
         ),
         with(
             STATE,
-            "s.a = 1.0; r = vec4(0); for (int i = 0; i < I + 2; i++) { for (int j = 0; j < 2; j++) { r.x += s.a; add(s.a, 1.0); } r.y += s.a; }",
+            "s.a = 1.0; r = vec4(0); for (int i = 0; i < I + 2; i++) { for (int j = 0; j < 2; j++) { r.x += s.a; \
+             add(s.a, 1.0); } r.y += s.a; }",
             [10., 8., 0., 0.],
         ),
         // A `discard` keeps a function apart.
@@ -102,15 +114,18 @@ fn loops_read_what_they_write() {
             [10., 7., 7., 1.],
         ),
         case(
-            "float w = 1.0; r = vec4(w, 0, 0, 0); for (int i = 0; i < I + 2; i++) { r.y += w; r.z += modf(2.5 + float(i), w); } r.w = w;",
+            "float w = 1.0; r = vec4(w, 0, 0, 0); for (int i = 0; i < I + 2; i++) { r.y += w; r.z += modf(2.5 + \
+             float(i), w); } r.w = w;",
             [1., 3., 1., 3.],
         ),
         case(
-            "float a = 1.0, b = a; for (int i = 0; i < I + 3; b = a, i++) { if (i == 1) continue; a *= 2.0; } r = vec4(a, b, 0, 0);",
+            "float a = 1.0, b = a; for (int i = 0; i < I + 3; b = a, i++) { if (i == 1) continue; a *= 2.0; } r = \
+             vec4(a, b, 0, 0);",
             [4., 4., 0., 0.],
         ),
         case(
-            "vec3 v = vec3(1, 2, 3); r.x = v.y; for (int i = 0; i < 3; i++) { r.x += v[(i + I) % 3]; v[(i + I + 1) % 3] = 0.0; } r.yzw = v;",
+            "vec3 v = vec3(1, 2, 3); r.x = v.y; for (int i = 0; i < 3; i++) { r.x += v[(i + I) % 3]; v[(i + I + 1) % \
+             3] = 0.0; } r.yzw = v;",
             [3., 0., 0., 0.],
         ),
     ]);
@@ -119,7 +134,8 @@ fn loops_read_what_they_write() {
 /// A test or a step runs in every round: what it calls begins anew each time.
 #[test]
 fn tests_and_steps_begin_anew() {
-    const SUM: &str = "int G; int sum(int i) { int b[4]; b[i & 3] += 1 + i; int s = 0; for (int k = 0; k < 4; k++) s += b[k]; G += s; return s; }";
+    const SUM: &str = "int G; int sum(int i) { int b[4]; b[i & 3] += 1 + i; int s = 0; for (int k = 0; k < 4; k++) s \
+                       += b[k]; G += s; return s; }";
     check(&[
         with(SUM, "r = vec4(0); for (int i = I; sum(i) < 4; i++) r.x++; r.y = float(G);", [3., 10., 0., 0.]),
         with(
@@ -167,7 +183,8 @@ fn pixels_leave_a_loop_one_by_one() {
     };
     let expected: Vec<_> = (0..8).map(|x| old(x as f32)).collect();
     let start = "float a = float(x) * .25, b = float(x) * .5, old = 0.;";
-    let round = "old = a * 2. + b * float(x); for (int i = 0; i < 1 + min(iFrame, 0); i++) a += min(floor(a) + 1., 2.); b += a * .5;";
+    let round = "old = a * 2. + b * float(x); for (int i = 0; i < 1 + min(iFrame, 0); i++) a += min(floor(a) + 1., \
+                 2.); b += a * .5;";
     for way in [
         "while (true) { ROUND if (a > float(x)) break; }",
         "for (;;) { ROUND if (a > float(x) || b > 1e6) break; }",
@@ -179,7 +196,8 @@ fn pixels_leave_a_loop_one_by_one() {
         assert_eq!(drawn, expected, "{way}");
     }
     let counted = "ivec3 v = ivec3(0, 0, 2); int fuel = 40;\n\
-                   while (true) { int c = v[x]; v[x] = c + 1; if (c < 2) break; if (--fuel < 0) break; } o = vec4(v, 1);";
+                   while (true) { int c = v[x]; v[x] = c + 1; if (c < 2) break; if (--fuel < 0) break; } o = vec4(v, \
+                   1);";
     let Some(drawn) = row("", counted) else { return };
     let first = [[1., 0., 2., 1.], [0., 1., 2., 1.]];
     assert_eq!(drawn, [&first[..], &[[0., 0., 43., 1.]; 6]].concat());
@@ -188,7 +206,8 @@ fn pixels_leave_a_loop_one_by_one() {
 /// A limit that is the lesser of two is no least number of a loop that counts down to it.
 #[test]
 fn loops_count_down_to_a_minimum() {
-    const RETURNS: &str = "int until(int least) { int n = 0; for (int i = 4; i > 0; i--) { if (i <= least) return n; n += i; } return n; }";
+    const RETURNS: &str = "int until(int least) { int n = 0; for (int i = 4; i > 0; i--) { if (i <= least) return n; n \
+                           += i; } return n; }";
     let sum = |x: i32| (x.min(6) + 1..5).sum::<i32>() as f32;
     let expected: Vec<_> = (0..8).map(|x| [sum(x), 0.0, 0.0, 1.0]).collect();
     for way in [

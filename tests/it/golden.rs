@@ -1,10 +1,10 @@
-//! Every preset against a picture somebody has looked at: `tests/golden/PRESET/` has `case.toml`, which says how the picture
-//! is drawn and how far another device's may be from it, and `picture.png`.
+//! Every preset against a picture somebody has looked at: `tests/golden/PRESET/` has `case.toml`, which says how the
+//! picture is drawn and how far another device's may be from it, and `picture.png`.
 //!
-//! After a change that is meant to be seen: `EDDY_BLESS=1 cargo test --test it golden` draws the pictures anew where they are no
-//! longer within their tolerance (or missing); then look at every one that git shows as changed. A preset without a case, and
-//! a case without a preset, are failures. What a failing case drew is left in `target/tmp/golden`, beside the
-//! difference.
+//! After a change that is meant to be seen: `EDDY_BLESS=1 cargo test --test it golden` draws the pictures anew where
+//! they are no longer within their tolerance (or missing); then look at every one that git shows as changed. A preset
+//! without a case, and a case without a preset, are failures. What a failing case drew is left in `target/tmp/golden`,
+//! beside the difference.
 
 use crate::support::*;
 use eddy::{

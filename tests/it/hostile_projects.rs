@@ -1,5 +1,5 @@
-//! Projects that a stranger made to do harm: nothing outside the project's folder is read or carried away, nothing outside the
-//! destination is written, and what asks for too much is refused by a limit that the message names.
+//! Projects that a stranger made to do harm: nothing outside the project's folder is read or carried away, nothing
+//! outside the destination is written, and what asks for too much is refused by a limit that the message names.
 
 use crate::support::{self, program::Bench};
 use eddy::project::{
@@ -149,7 +149,10 @@ fn pictures_are_read_from_the_projects_folder_alone() {
 #[test]
 fn an_import_writes_into_its_folder_whatever_the_ids_are() {
     let b = Bench::new();
-    let pass = |kind: &str, id: &str, inputs: serde_json::Value| json!({ "inputs": inputs, "outputs": [{ "id": id, "channel": 0 }], "code": IMAGE, "name": "n\u{1b}[2J", "type": kind });
+    let pass = |kind: &str, id: &str, inputs: serde_json::Value| {
+        let outputs = json!([{ "id": id, "channel": 0 }]);
+        json!({ "inputs": inputs, "outputs": outputs, "code": IMAGE, "name": "n\u{1b}[2J", "type": kind })
+    };
     let ids = [
         "buffer_a/../../../esc1/pwned",
         "buffer_..\\..\\pwned",

@@ -18,7 +18,11 @@ fn an_error_in_an_included_file_is_shown_there() {
     assert!(b.line("check p").expect(1).err.contains("lib/tone.glsl:1:"));
     b.write("p/lib/tone.glsl", "/* open\nfloat tone() { return 1.0; }\n");
     assert!(b.line("check p").expect(1).err.contains("lib/tone.glsl:1:1"));
-    b.write("p/lib/tone.glsl", "#ifndef TONE\n#define TONE\n#iUniform float level = 0.5 in { 0.0, 1.0 }\nfloat tone() { return level; }\n#endif\n");
+    b.write(
+        "p/lib/tone.glsl",
+        "#ifndef TONE\n#define TONE\n#iUniform float level = 0.5 in { 0.0, 1.0 }\nfloat tone() \
+                                { return level; }\n#endif\n",
+    );
     b.write("p/common.glsl", "#include \"lib/tone.glsl\"\n");
     b.line("check p").expect(0);
     b.line("export p --out p.json --force").expect(0);

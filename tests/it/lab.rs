@@ -60,8 +60,8 @@ fn a_shear_wave_decays_by_its_exact_factor() {
     }
 }
 
-/// Factor a step by which a wave of wave number pi / 2 along both axes grows in a fluid at rest. Velocity and density are
-/// weighted so that the energy of a wave without viscosity grows evenly, though its phase turns.
+/// Factor a step by which a wave of wave number pi / 2 along both axes grows in a fluid at rest. Velocity and density
+/// are weighted so that the energy of a wave without viscosity grows evenly, though its phase turns.
 fn wave_growth(rig: &Rig, setup: &Setup, weight: f64, steps: u32) -> f64 {
     let wave = "vec4(1e-4 * vec2(sin(1.5707963267949 * (fragCoord.x + fragCoord.y))), 1.0, 1.0)";
     let mut running: Running = rig.open(&setup.clone().initial("field", wave)).unwrap();
@@ -180,8 +180,8 @@ fn gray_scott_grows_as_linear_theory_says_and_sixteen_bits_stall() {
         assert!((measured / continuum - 1.0).abs() < 0.05, "{measured} for {continuum}");
     }
     let half = gray_scott::stalled(&rig, Storage::Half, 0.037).unwrap();
-    // Where feed times 1 - u is half of the last bit of a 16-bit float below 1, 2^-12, if a device rounds to the nearest; a whole
-    // one if it cuts off, as lavapipe does.
+    // Where feed times 1 - u is half of the last bit of a 16-bit float below 1, 2^-12, if a device rounds to the
+    // nearest; a whole one if it cuts off, as lavapipe does.
     let ends = [12, 11].map(|bits| 1.0 - 0.5f64.powi(bits) / 0.037);
     assert!(ends.iter().any(|end| (half - end).abs() < 3e-4), "{half}, not one of {ends:?}");
     let full = gray_scott::stalled(&rig, Storage::AsWritten, 0.037).unwrap();

@@ -1,4 +1,5 @@
-//! What fluids promise, as gates: orders, errors and energies on a torus, the lid-driven cavity, single waves in a fluid at rest.
+//! What fluids promise, as gates: orders, errors and energies on a torus, the lid-driven cavity, single waves in a
+//! fluid at rest.
 
 use crate::support::gpu;
 use eddy::lab::{
@@ -24,9 +25,9 @@ fn torus_error(rig: &Rig, scene: Torus, name: &str, n: u32) -> f64 {
     Norms::of(&after, &scene.exact(&solver, n)).l2
 }
 
-/// Second order, and at most .0003 on 128 x 128 texels: what the preset says of itself. Begun in balance the eddies err by 1.6e-4,
-/// 2.1e-5 and 6.6e-6, the last of which is the rounding of floats; begun from the velocity alone, which tests/it/preset_flows.rs does,
-/// by .0026, .00064 and .00016.
+/// Second order, and at most .0003 on 128 x 128 texels: what the preset says of itself. Begun in balance the eddies err
+/// by 1.6e-4, 2.1e-5 and 6.6e-6, the last of which is the rounding of floats; begun from the velocity alone, which
+/// tests/it/preset_flows.rs does, by .0026, .00064 and .00016.
 #[test]
 fn the_accurate_fluid_is_of_second_order() {
     let Some(rig) = rig() else { return };
@@ -56,7 +57,8 @@ fn the_accurate_fluid_rolls_shear_layers_up_as_a_spectral_method_does() {
     assert!(lost > 0.01, "advection by lines loses energy: {lost}");
 }
 
-/// The vortex of Lamb and Oseen keeps the radius and the size of its greatest speed: r^2 / t = 5.026 nu is in the closed form.
+/// The vortex of Lamb and Oseen keeps the radius and the size of its greatest speed: r^2 / t = 5.026 nu is in the
+/// closed form.
 #[test]
 fn a_vortex_spreads_as_lamb_and_oseen_say() {
     let Some(rig) = rig() else { return };
@@ -73,8 +75,8 @@ fn a_vortex_spreads_as_lamb_and_oseen_say() {
     assert!(error > 0.05 && u < 0.95, "{error} {r} {u}");
 }
 
-/// Re 100 and 400 within .01 of the tables, Re 1000 of the lines of a high-order method, from which the table's own v is up to .0185
-/// off; and no noise under the lid.
+/// Re 100 and 400 within .01 of the tables, Re 1000 of the lines of a high-order method, from which the table's own v
+/// is up to .0185 off; and no noise under the lid.
 fn cavity_at(column: usize, time: f64) {
     let Some(rig) = rig() else { return };
     let reynolds = REYNOLDS[column];
@@ -108,7 +110,8 @@ fn the_cavity_of_re_1000_is_that_of_high_order_methods() {
     cavity_at(2, 70.0);
 }
 
-/// Of second order, the error at half of the grid is four times as large: .028 in u and .032 in v at steps of four texels.
+/// Of second order, the error at half of the grid is four times as large: .028 in u and .032 in v at steps of four
+/// texels.
 #[test]
 fn the_cavity_of_re_1000_on_a_coarse_grid_is_four_times_as_far_off() {
     let Some(rig) = rig() else { return };
@@ -177,7 +180,8 @@ fn a_checkerboard_in_the_pressure_goes() {
     }
 }
 
-/// The one-pass fluid's errors that others found, on 64 x 64 texels at dt = .15: .036, .159, .248 at speeds of .1, .5 and 1 in f64.
+/// The one-pass fluid's errors that others found, on 64 x 64 texels at dt = .15: .036, .159, .248 at speeds of .1, .5
+/// and 1 in f64.
 #[test]
 fn the_one_pass_fluid_errs_as_much_as_is_known_and_half_of_that_in_balance() {
     let Some(rig) = rig() else { return };

@@ -1,4 +1,5 @@
-//! What the window does with the lab, without the window: a point of a study opened as a project, and a run in the background.
+//! What the window does with the lab, without the window: a point of a study opened as a project, and a run in the
+//! background.
 
 use crate::support::gpu;
 use eddy::{

@@ -1,5 +1,5 @@
-//! What the lab says of pictures' filters, as gates: bloom, temporal anti-aliasing, ambient occlusion and reflections, measured by
-//! the studies' own means at the presets' own settings.
+//! What the lab says of pictures' filters, as gates: bloom, temporal anti-aliasing, ambient occlusion and reflections,
+//! measured by the studies' own means at the presets' own settings.
 
 use crate::support::gpu;
 use eddy::lab::{
@@ -34,13 +34,15 @@ fn a_bloom_keeps_light_and_place_at_every_phase() {
         println!("bloom at {size:?}: {found:?}");
         assert!(found.gain() < 0.01 && found.shift < 0.25, "{size:?}: {found:?}");
     }
-    // Spread as far as can be, most of a spot is fainter than what 16 bits can hold unscaled. There its edges are far from 187 rows.
+    // Spread as far as can be, most of a spot is fainter than what 16 bits can hold unscaled. There its edges are far
+    // from 187 rows.
     for (spread, size) in [(0.62, (320, 192)), (0.62, (333, 187)), (1.0, (512, 512))] {
         let found = worst(&rig, "bloom-sized", spread, size, PERIOD);
         println!("bloom-sized at {spread}, {size:?}: {found:?}");
         assert!(found.gain() < 0.01 && found.shift < 0.25, "{size:?}: {found:?}");
     }
-    // The gate shuts out what it should: plain mip levels, which look at every second texel of odd sides and move what they keep.
+    // The gate shuts out what it should: plain mip levels, which look at every second texel of odd sides and move what
+    // they keep.
     let naive = worst(&rig, "box-pyramid", 4.0, (333, 187), PERIOD);
     assert!(naive.gain() > 0.5 && naive.shift > 5.0, "{naive:?}");
 }
@@ -66,9 +68,9 @@ fn the_classic_clamp_resolves_what_the_sheet_says() {
         let rest = taa::rest(&rig, method, setting).unwrap();
         (psnr(&rest.picture, &still), ssim(&rest.picture, &still))
     };
-    // Section (d) of the sheet: a star and a hairline at frame 64, alpha .1, mean +- gamma sigma: 35.0 dB at .75, 38.4 at 1, 39.4 at
-    // 1.25, 39.6 without a clamp, 25.9 with one sample. Its star's rays and contrast are not said; with 72 and .28 an f64 model
-    // of the method comes to 35.5, 38.1, 38.9, 39.5 and 25.8.
+    // Section (d) of the sheet: a star and a hairline at frame 64, alpha .1, mean +- gamma sigma: 35.0 dB at .75, 38.4
+    // at 1, 39.4 at 1.25, 39.6 without a clamp, 25.9 with one sample. Its star's rays and contrast are not said; with
+    // 72 and .28 an f64 model of the method comes to 35.5, 38.1, 38.9, 39.5 and 25.8.
     for (method, gamma, sheet) in [
         ("taa-blind", 0.75, 35.0),
         ("taa-blind", 1.0, 38.4),
@@ -98,7 +100,8 @@ fn the_preset_keeps_detail_at_rest_without_more_ghost() {
     // The gate.
     assert!(decibel >= 31.0, "{decibel} dB at rest");
     assert!(wide.beside <= narrow.beside * 1.05 + 1e-3, "ghost {} and {}", wide.beside, narrow.beside);
-    // What has left leaves no tail, however wide the box is: where it was there is no history. It was 71 pixels and more.
+    // What has left leaves no tail, however wide the box is: where it was there is no history. It was 71 pixels and
+    // more.
     for gamma in [1.0, 1.5, 2.5] {
         let moving = taa::moving(&rig, "taa", gamma).unwrap();
         println!("gamma {gamma}: ghost {:.4}, tail {:.1} px", moving.beside, moving.tail());
@@ -131,8 +134,9 @@ fn occlusion_beside_a_wall_and_below_a_sphere_is_the_closed_form() {
     let found = ao::closed(&rig, 64.0, 320).unwrap();
     println!("{found:?}");
     assert!(found.open < 0.01, "{found:?}");
-    // The presets' stated biases: too little beside a wall, whose edge the march finds only nearly, and too much below a sphere, which
-    // is thinner at its rim than things are taken to be. Directions without the cosine would be .1 off beside a wall.
+    // The presets' stated biases: too little beside a wall, whose edge the march finds only nearly, and too much below
+    // a sphere, which is thinner at its rim than things are taken to be. Directions without the cosine would be .1 off
+    // beside a wall.
     assert!(found.wall.abs() < 0.07 && found.sphere.abs() < 0.12, "{found:?}");
 }
 

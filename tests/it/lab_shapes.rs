@@ -192,7 +192,8 @@ fn a_nan_in_the_middle_of_a_simulation_is_gone_within_its_frames() {
 #[test]
 fn without_a_guard_a_nan_takes_everything() {
     let Some(rig) = rig() else { return };
-    let nan = "fragCoord.x < 1.0 && fragCoord.y < 1.0 ? vec4(uintBitsToFloat(0x7fc00000u + uint(iFrame))) : vec4(0.0, 0.0, 1.0, 1.0)";
+    let nan = "fragCoord.x < 1.0 && fragCoord.y < 1.0 ? vec4(uintBitsToFloat(0x7fc00000u + uint(iFrame))) : vec4(0.0, \
+               0.0, 1.0, 1.0)";
     let setup = Setup::new("fluid_guay", (16, 16)).define("METHOD", "ONE_PASS").initial("field", nan);
     let after = rig.after(&setup, 32, "field").unwrap();
     let bad = after.texels().iter().filter(|t| t.iter().any(|v| !v.is_finite())).count();

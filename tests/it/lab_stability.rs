@@ -53,10 +53,12 @@ fn other_simulations_hold_at_every_slider_drag_step_and_size() {
 /// Heat on a grid by explicit steps: stable to a rate of 1/4.
 fn heat() -> Project {
     let code = "#iUniform float rate = 0.2 in { 0.05, 0.3 }\n\
-                float at(ivec2 p) { return texelFetch(iChannel0, clamp(p, ivec2(0), ivec2(iResolution.xy) - 1), 0).x; }\n\
+                float at(ivec2 p) { return texelFetch(iChannel0, clamp(p, ivec2(0), ivec2(iResolution.xy) - 1), 0).x; \
+                }\n\
                 void mainImage(out vec4 o, in vec2 c) {\n\
                 ivec2 p = ivec2(c), x = ivec2(1, 0), y = ivec2(0, 1);\n\
-                o = vec4(at(p) + rate * (at(p - x) + at(p + x) + at(p - y) + at(p + y) - 4.0 * at(p)), 0.0, 0.0, 1.0); }";
+                o = vec4(at(p) + rate * (at(p - x) + at(p + x) + at(p - y) + at(p + y) - 4.0 * at(p)), 0.0, 0.0, 1.0); \
+                }";
     let mut heat = pass(buffer("A"), code, [nearest("A"), None, None, None]);
     heat.settings.initial =
         Some(Fill::expression("vec4(ivec2(fragCoord) == ivec2(40, 30) ? 1.0 : 0.0, 0.0, 0.0, 1.0)"));
@@ -130,7 +132,8 @@ fn changed(name: &str, id: PassId, before: &str, after: &str) -> Subject {
 fn the_lit_fluid_with_its_tension_at_the_texel_diverges_and_is_found() {
     // Not upstream, as it was: what alternates is fed where the flow is fast.
     let here = "mix(mix(a, b, f.x), mix(c, d, f.x), f.y) + smoothed(0.0, heightOf(p - ivec2(1, 0)) - heightOf(p), \
-                heightOf(p + ivec2(1, 0)) - heightOf(p), heightOf(p - ivec2(0, 1)) - heightOf(p), heightOf(p + ivec2(0, 1)) - heightOf(p))";
+                heightOf(p + ivec2(1, 0)) - heightOf(p), heightOf(p - ivec2(0, 1)) - heightOf(p), heightOf(p + \
+                ivec2(0, 1)) - heightOf(p))";
     let upstream = "mix(mix(smoothA, smoothB, f.x), mix(smoothC, smoothD, f.x), f.y)";
     // The paper's form within its limits, where flows are fast.
     let set = |mut subject: Subject| {
@@ -214,7 +217,8 @@ fn the_command_says_what_left_and_ends_with_one() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    let toml = "name = \"Heat\"\n[passes.buffer_a]\nchannels.0 = { buffer = \"A\", filter = \"nearest\", wrap = \"clamp\" }\n\
+    let toml = "name = \"Heat\"\n[passes.buffer_a]\nchannels.0 = { buffer = \"A\", filter = \"nearest\", wrap = \
+                \"clamp\" }\n\
                 [passes.image]\nchannels.0 = { buffer = \"A\", filter = \"nearest\", wrap = \"clamp\" }\n";
     let mut heat = heat();
     let text = heat

@@ -142,7 +142,8 @@ fn only_the_region_is_drawn_and_the_rest_is_what_it_was() {
 
 /// A and B pass a number back and forth: A = B + 1, B = 2 A, in a group of `steps`.
 fn solver(steps: u32) -> Project {
-    let a = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel1, ivec2(p), 0) + vec4(1.0, float(iFrame), 0.0, 0.0); }";
+    let a = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel1, ivec2(p), 0) + vec4(1.0, float(iFrame), \
+             0.0, 0.0); }";
     let b = "void mainImage(out vec4 o, in vec2 p) { o = 2.0 * texelFetch(iChannel0, ivec2(p), 0); }";
     let reads = || [nearest("A"), nearest("B"), None, None];
     let mut p = project(vec![
@@ -180,7 +181,8 @@ fn a_group_is_stepped_in_order_and_sees_its_newest() {
 fn resting() -> Project {
     let c = |n: &str| nearest(n);
     let fixed = "void mainImage(out vec4 o, in vec2 p) { o = vec4(p, 1.0, 1.0); }";
-    let b = "#iUniform float gain = 2.0\nvoid mainImage(out vec4 o, in vec2 p) { o = gain * texelFetch(iChannel0, ivec2(p), 0); }";
+    let b = "#iUniform float gain = 2.0\nvoid mainImage(out vec4 o, in vec2 p) { o = gain * texelFetch(iChannel0, \
+             ivec2(p), 0); }";
     let mouse = "void mainImage(out vec4 o, in vec2 p) { o = iMouse; }";
     let keys = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(32, 0), 0); }";
     let keyboard =
@@ -248,7 +250,8 @@ fn late_readers_self_readers_and_discards_rest_without_a_trace() {
     let holes =
         "void mainImage(out vec4 o, in vec2 p) { if (mod(iMouse.x + p.x, 3.0) < 1.5) discard; o = vec4(iMouse.x); }";
     let show = "void mainImage(out vec4 o, in vec2 p) { ivec2 i = ivec2(p);
-        o = texelFetch(iChannel0, i, 0) + 10.0 * texelFetch(iChannel1, i, 0) + texelFetch(iChannel2, i, 0) + texelFetch(iChannel3, i, 0); }";
+        o = texelFetch(iChannel0, i, 0) + 10.0 * texelFetch(iChannel1, i, 0) + texelFetch(iChannel2, i, 0) + \
+        texelFetch(iChannel3, i, 0); }";
     let project = project(vec![
         pass(buffer("A"), early, [nearest("B"), None, None, None]),
         pass(buffer("B"), fixed, Default::default()),

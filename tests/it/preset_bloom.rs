@@ -45,8 +45,8 @@ fn a_spot_keeps_its_light_and_its_place_at_every_phase_and_size() {
         for &size in sizes {
             let mut engine = bloom_of_a_spot(&gpu, name, size);
             let (mut low, mut high, mut furthest) = (f64::MAX, 0.0f64, 0.0f64);
-            // In the middle, where no light comes to an edge, over all phases of a texel of level 4 along either axis: two steps
-            // with no divisor in common with 16.
+            // In the middle, where no light comes to an edge, over all phases of a texel of level 4 along either axis:
+            // two steps with no divisor in common with 16.
             for i in 0..16u32 {
                 let at = [size.0 / 2 - 8 + 7 * i % 16, size.1 / 2 - 8 + (11 * i + 3) % 16];
                 let (sum, shift) = total_and_shift(&mut engine, at);

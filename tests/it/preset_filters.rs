@@ -293,7 +293,8 @@ fn one_bad_number_in_a_history_heals() {
             let mut project = preset(name, &[]);
             let source = &mut project.pass_mut(&buffer("B")).unwrap().source;
             let bad = format!(
-                "if (iFrame == 5 && p == ivec2(20, 10)) resolved = vec4(uintBitsToFloat({number} + uint(iFrame - 5)));\n}}"
+                "if (iFrame == 5 && p == ivec2(20, 10)) resolved = vec4(uintBitsToFloat({number} + uint(iFrame - \
+                 5)));\n}}"
             );
             let text = source.text.trim_end().strip_suffix('}').unwrap().to_owned();
             source.text = format!("{text}{bad}").into();

@@ -13,7 +13,8 @@ use std::f64::consts::PI;
 #[test]
 fn leaving_the_rings_early_changes_nothing_else() {
     let Some(gpu) = gpu() else { return };
-    // Rings of 2 * 1.25^n pixels on a canvas 36 high: the twelfth has 23 of them, the thirteenth 29, past 0.7 * 36 = 25.
+    // Rings of 2 * 1.25^n pixels on a canvas 36 high: the twelfth has 23 of them, the thirteenth 29, past 0.7 * 36 =
+    // 25.
     let flow = |knobs: &[&str]| {
         let project = preset_with("self-advection", knobs);
         let mut engine = whole(&gpu, &project, true, (64, 36));
@@ -90,8 +91,8 @@ fn energy(u: &Pixels) -> f64 {
     u.texels.iter().map(|t| f64::from(t[0]).powi(2) + f64::from(t[1]).powi(2)).sum()
 }
 
-/// The accurate fluid with nothing that drives it, from a velocity that a GLSL expression in terms of `at`, the middle of a face in
-/// cells, gives in frame 0. Nobody looks at its dye.
+/// The accurate fluid with nothing that drives it, from a velocity that a GLSL expression in terms of `at`, the middle
+/// of a face in cells, gives in frame 0. Nobody looks at its dye.
 fn accurate(knobs: &[&str], initial: &str) -> Project {
     let mut project = preset_with("fluid-accurate", &[&["jets=0"], knobs].concat());
     let code = format!(
@@ -140,7 +141,8 @@ fn off(found: &Pixels, exact: impl Fn(f64, f64) -> [f64; 2]) -> f64 {
 #[test]
 fn a_v_cycle_leaves_no_more_divergence_than_stated() {
     let Some(gpu) = gpu() else { return };
-    // Divergence of every wavelength: noise, and a swelling as long as the canvas, which is what sweeps alone do not see.
+    // Divergence of every wavelength: noise, and a swelling as long as the canvas, which is what sweeps alone do not
+    // see.
     let seed =
         "if (iFrame == 0) o.xy = 0.1 * (fract(sin(vec2(p.x * 12 + p.y * 78, p.x * 39 + p.y * 11)) * 4375.8) - 0.5)
         + sin(3.1416 * vec2(p) / vec2(textureSize(iChannel0, 0))) * vec2(1.0, 0.5);
@@ -164,7 +166,8 @@ fn a_v_cycle_leaves_no_more_divergence_than_stated() {
     }
 }
 
-/// Taylor's and Green's eddies, one wave across, `at` in cells: u = sin kx cos ky, v = -cos kx sin ky. Free-slip walls fit them.
+/// Taylor's and Green's eddies, one wave across, `at` in cells: u = sin kx cos ky, v = -cos kx sin ky. Free-slip walls
+/// fit them.
 fn taylor_green(cells: u32) -> String {
     let k = 2.0 * PI / f64::from(cells);
     format!("vec2(sin({k} * at.x) * cos({k} * at.y), -cos({k} * at.x) * sin({k} * at.y))")
@@ -224,7 +227,8 @@ fn eddies_decay_as_taylor_and_green_say() {
 #[test]
 fn every_viscosity_is_borne_on_a_canvas_of_any_height() {
     let Some(gpu) = gpu() else { return };
-    // A narrow canvas 1080 high has the numbers of a wide one: viscosity in cells squared a step is 4.9 and 490 at the ends.
+    // A narrow canvas 1080 high has the numbers of a wide one: viscosity in cells squared a step is 4.9 and 490 at the
+    // ends.
     for knobs in [["viscosity=0.0001", "speed=1"], ["viscosity=0.0005", "speed=1"], ["viscosity=0.01", "speed=10"]] {
         let project = preset_with("fluid-accurate", &knobs);
         let options = BuildOptions { wanted: vec![buffer("velocity")], ..Default::default() };
@@ -328,7 +332,8 @@ fn without_viscosity_energy_is_kept_and_never_made() {
 
 // --------------------------------------------------------------------------------------------------------- mip-fluid
 
-/// The mip fluid's velocity after `frames` frames from one written in frame 0, in GLSL in terms of `c`, the texel's middle.
+/// The mip fluid's velocity after `frames` frames from one written in frame 0, in GLSL in terms of `c`, the texel's
+/// middle.
 fn mip_velocity(gpu: &eddy::gpu::Gpu, knobs: &[&str], size: (u32, u32), field: &str, frames: i32) -> [Pixels; 2] {
     let mut project = preset_with("mip-fluid", knobs);
     overwrite(&mut project, "moved", &format!("if (iFrame == 0) o = vec4({field}, 0.0, 0.0);"));

@@ -84,7 +84,8 @@ fn corner(project: &mut Project, height: f64) {
     let text = format!(
         "void mainImage(out vec4 o, in vec2 p) {{
             mat3 axes = mat3(vec3(1.0, 0.0, 0.0), vec3({up}), vec3({back}));
-            vec3 eye = vec3({:?}, {:?}, {:?}), d = axes * viewFromPixel(p, 1.0, iResolution.xy), n = vec3(0.0, 1.0, 0.0);
+            vec3 eye = vec3({:?}, {:?}, {:?}), d = axes * viewFromPixel(p, 1.0, iResolution.xy), n = vec3(0.0, 1.0, \
+            0.0);
             float t = d.y < 0.0 ? -eye.y / d.y : FAR, wall = ({WALL_Z:?} - eye.z) / d.z;
             float y = eye.y + wall * d.y;
             o = vec4(packNormal(vec3(0.0, 0.0, 1.0)), FAR, 0.999);
@@ -142,8 +143,8 @@ fn beside_a_wall_the_hidden_part_of_the_sky_is_the_analytic_one() {
     let height = 0.8f64;
     let pixels = occlusion(&gpu, height, &["radius=4", "slices=8", "steps=16"], (320, 180));
     // A wall without ends hides (1 - cos t) / 2 of the cosine-weighted sky, t = atan(height / distance).
-    // Stated bias: up to 0.04 too little. The picture has an end and the wall has none, what is far counts less, and the
-    // march finds the wall's upper edge only nearly.
+    // Stated bias: up to 0.04 too little. The picture has an end and the wall has none, what is far counts less, and
+    // the march finds the wall's upper edge only nearly.
     for distance in [0.3, 0.4, 0.8, 1.2] {
         let expected = 0.5 * (1.0 - (height / distance).atan().cos());
         let (mut sum, mut n) = (0.0, 0);

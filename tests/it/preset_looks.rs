@@ -1,4 +1,5 @@
-//! What the presets that are there to be looked at promise of their pictures, and the bounds that every slider leaves them in.
+//! What the presets that are there to be looked at promise of their pictures, and the bounds that every slider leaves
+//! them in.
 
 use crate::support::{preset::*, presets::overwrite, presets::untouched, *};
 use eddy::project::{KnobRange, KnobType, KnobValue, KnobValues, PassId};
@@ -55,8 +56,8 @@ fn a_blur_in_two_passes_diffuses_exactly_at_any_step() {
     }
 }
 
-/// The part of pixels that are brighter by `step` than the mean of those a pixel away on both sides, along either axis: rims that
-/// are one pixel wide.
+/// The part of pixels that are brighter by `step` than the mean of those a pixel away on both sides, along either axis:
+/// rims that are one pixel wide.
 fn rims(pixels: &eddy::engine::Pixels, step: f32) -> f64 {
     let luma = |x: u32, y: u32| texel(pixels, x, y)[..3].iter().sum::<f32>() / 3.0;
     let is_rim = |x: u32, y: u32| {

@@ -63,7 +63,8 @@ fn still_water_keeps_still_and_keeps_its_mass() {
 #[test]
 fn the_fluid_keeps_its_mass_under_jets() {
     let Some(gpu) = gpu() else { return };
-    // No term that mends the mass: what is kept is kept by the differences. They cancel in pairs, so what is left is rounding.
+    // No term that mends the mass: what is kept is kept by the differences. They cancel in pairs, so what is left is
+    // rounding.
     let mut project = preset("fluid");
     patch_file(&mut project, "solver.glsl", "RECOVERY = 1e-3", "RECOVERY = 0.0");
     let mut engine = whole(&gpu, &project, true, (64, 36));
@@ -78,8 +79,9 @@ fn sound_in_the_fluid_decays_or_grows_as_linear_theory_says() {
     let Some(gpu) = gpu() else { return };
     let (width, mode) = (48u32, 6.0);
     let k = std::f64::consts::PI * mode / f64::from(width);
-    // (form, viscosity, K). As published: its defaults; no viscosity, where every wave grows; viscosity = K, where none does; half
-    // of it. Forward-backward: the defaults, without viscosity as fast as is allowed, and what the sliders ask for held back.
+    // (form, viscosity, K). As published: its defaults; no viscosity, where every wave grows; viscosity = K, where none
+    // does; half of it. Forward-backward: the defaults, without viscosity as fast as is allowed, and what the sliders
+    // ask for held back.
     let cases = [
         (0, 0.5, 0.4, 0.4),
         (0, 0.0, 0.4, 0.4),

@@ -1,5 +1,5 @@
-//! Both presets with ambient occlusion against rays: 1,024 a point, weighted by the cosine, with the same radius and falloff, in
-//! f64 and in geometry that is known without the G-buffer.
+//! Both presets with ambient occlusion against rays: 1,024 a point, weighted by the cosine, with the same radius and
+//! falloff, in f64 and in geometry that is known without the G-buffer.
 
 use crate::support::{preset::*, *};
 use eddy::{

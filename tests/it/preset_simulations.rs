@@ -1,5 +1,6 @@
-//! The hard cases, for every simulation and every state machine among the presets: a violent mouse, long steps, broken numbers,
-//! odd sizes, long runs, sliders at their ends, resizes, pauses. Each must stay finite and within its bound, and come back.
+//! The hard cases, for every simulation and every state machine among the presets: a violent mouse, long steps, broken
+//! numbers, odd sizes, long runs, sliders at their ends, resizes, pauses. Each must stay finite and within its bound,
+//! and come back.
 
 use crate::support::{presets::*, *};
 use eddy::{
@@ -8,8 +9,9 @@ use eddy::{
     project::{KnobType, KnobValue, PassId},
 };
 
-/// A simulation: the buffer that is its state, the largest number that may ever stand in one of its buffers, and how many
-/// frames a broken number may live on for, through buffers that are read a frame late; for a fluid, the greatest speed.
+/// A simulation: the buffer that is its state, the largest number that may ever stand in one of its buffers, and how
+/// many frames a broken number may live on for, through buffers that are read a frame late; for a fluid, the greatest
+/// speed.
 struct Simulation {
     name: &'static str,
     state: &'static str,
@@ -18,8 +20,8 @@ struct Simulation {
     speed: Option<f32>,
 }
 
-// The fluids in one pass are held below 0.4 of the speed of sound, which is 22 where the sliders make it fastest; the accurate one
-// is pushed by jets, lids and hands of at most 3, and eddies that meet add up.
+// The fluids in one pass are held below 0.4 of the speed of sound, which is 22 where the sliders make it fastest; the
+// accurate one is pushed by jets, lids and hands of at most 3, and eddies that meet add up.
 const SIMULATIONS: [Simulation; 10] = [
     Simulation { name: "fluid", state: "A", bound: 4096.0, memory: 2, speed: Some(10.0) },
     Simulation { name: "fluid-dye", state: "A", bound: 4096.0, memory: 2, speed: Some(10.0) },
@@ -75,7 +77,8 @@ fn a_drag_across_the_whole_canvas_in_one_frame_is_survived() {
     }
 }
 
-/// A brush is as wide as the canvas is high by a factor: on a large one it presses along more cells, where sound is no faster.
+/// A brush is as wide as the canvas is high by a factor: on a large one it presses along more cells, where sound is no
+/// faster.
 #[test]
 fn a_violent_hand_on_a_large_canvas_keeps_the_density_in_the_corners() {
     let Some(gpu) = gpu() else { return };
@@ -192,7 +195,8 @@ fn after_a_violent_hand_it_is_calm_again() {
     }
 }
 
-/// Sliders spoil each other: the corners of the box that their ranges are, the two of all least and all most and some between.
+/// Sliders spoil each other: the corners of the box that their ranges are, the two of all least and all most and some
+/// between.
 #[test]
 fn all_sliders_may_go_to_their_ends_at_once_and_come_back() {
     let Some(gpu) = gpu() else { return };
@@ -290,7 +294,8 @@ fn long_runs_neither_burst_nor_fade() {
     }
 }
 
-/// A hundred thousand steps of one simulation, each of which takes minutes: `cargo test --test it preset_simulations -- --ignored`.
+/// A hundred thousand steps of one simulation, each of which takes minutes:
+/// `cargo test --test it preset_simulations -- --ignored`.
 macro_rules! hundred_thousand_steps {
     ($($test:ident: $name:literal,)*) => {
         $(#[test]

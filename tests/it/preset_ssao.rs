@@ -17,7 +17,8 @@ fn camera() -> Camera {
     Camera { yaw: 0.0, pitch: 35.0, distance: 5.0, target: [0.0, 0.1, -1.5], fov: 30.0, ..Camera::default() }
 }
 
-/// In place of the scene a floor that ends at a wall of a height, which faces the camera; the wall and the floor go on to the sides.
+/// In place of the scene a floor that ends at a wall of a height, which faces the camera; the wall and the floor go on
+/// to the sides.
 fn corner(project: &mut Project, height: Option<f64>) {
     for name in ["geometry", "backs", "occlusion", "lighting"] {
         let geometry = project.pass_mut(&buffer(name)).unwrap().settings.meshes_mut().unwrap();
@@ -45,9 +46,9 @@ fn open(gpu: &Gpu, height: Option<f64>, knobs: &[&str]) -> (Pixels, Pixels) {
     (engine.read_target(&buffer("geometry"), 1).unwrap(), read(&mut engine, "blur"))
 }
 
-/// The part of the kernel that a wall of a height at a distance hides. A point at a length s in the direction w is inside of the wall
-/// if s w.x > distance and s w.y < height; a ray is blocked up to there if it meets the wall's front, distance / w.x far, below its
-/// height. w.x and w.z are uniform on the unit disc, s = radius (0.1 + 0.9 u u).
+/// The part of the kernel that a wall of a height at a distance hides. A point at a length s in the direction w is
+/// inside of the wall if s w.x > distance and s w.y < height; a ray is blocked up to there if it meets the wall's
+/// front, distance / w.x far, below its height. w.x and w.z are uniform on the unit disc, s = radius (0.1 + 0.9 u u).
 fn analytic(radius: f64, height: f64, distance: f64, rays: bool) -> f64 {
     const N: usize = 400;
     let middle = |i: usize| (i as f64 + 0.5) / N as f64;
@@ -121,7 +122,8 @@ fn beside_a_wall_the_occlusion_is_the_analytic_one_within_the_stated_bias() {
             (low, high) = (low.min(off), high.max(off));
         }
         println!(
-            "{method}, radius {radius}, wall {height} high: {low:.4} to {high:.4} off, {beside} rows beside, {beyond} beyond"
+            "{method}, radius {radius}, wall {height} high: {low:.4} to {high:.4} off, {beside} rows beside, {beyond} \
+             beyond"
         );
         assert!(beside > 10 && beyond > 10, "{beside} rows beside the wall, {beyond} beyond");
         assert!(low > -too_little && high < too_much, "radius {radius}, height {height}: {low} to {high} off");

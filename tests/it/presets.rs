@@ -263,8 +263,8 @@ fn the_ball_never_tunnels_and_never_changes_speed() {
     }
 }
 
-/// Where the ball is after so many frames without bricks and paddle: on a straight line in a plane tiled with mirrored fields. Its
-/// places, its walls and the way of a frame are whole numbers of 2^-15 units.
+/// Where the ball is after so many frames without bricks and paddle: on a straight line in a plane tiled with mirrored
+/// fields. Its places, its walls and the way of a frame are whole numbers of 2^-15 units.
 fn unfolded(start: [f32; 4], velocity: [f32; 2], frames: i32) -> [f64; 2] {
     let ticks = |units: f64| (units * 32768.0).round_ties_even();
     let (low, high) = (ticks(2.4), [ticks(317.6), ticks(159.6)]);

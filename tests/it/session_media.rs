@@ -7,7 +7,8 @@ use std::time::{Duration, Instant};
 
 const TOML: &str = "eddy = 1\n\n[passes.image]\nchannels.0 = { file = \"pic.png\" }\n";
 const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(0), 0); }\n";
-const MODEL: &str = "eddy = 1\n\n[passes.buffer_a]\ndraw = [{ mesh = \"m.gltf\", vertex = \"a.vert.glsl\" }]\n\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n";
+const MODEL: &str = "eddy = 1\n\n[passes.buffer_a]\ndraw = [{ mesh = \"m.gltf\", vertex = \"a.vert.glsl\" \
+                     }]\n\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n";
 const VERTEX: &str = "in vec3 aPosition;\nvoid main() { gl_Position = vec4(aPosition, 1.0); }\n";
 const FRAGMENT: &str = "layout(location = 0) out vec4 color;\nvoid main() { color = vec4(1.0); }\n";
 

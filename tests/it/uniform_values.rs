@@ -57,7 +57,8 @@ void mainImage(out vec4 o, in vec2 p) {
     int x = int(p.x);
     if (x == 0) o = vec4(kernel[iFrame + 1], weights[iFrame + 5]);
     else if (x == 1) o = vec4(counts[iFrame], counts[1].x, counts[iFrame + 1].y == -2147483647 - 1 ? 1.0 : 0.0);
-    else if (x == 2) o = vec4(bits[iFrame] == 0xffffffffu ? 1.0 : 0.0, bits[1], on[iFrame + 2] ? 1.0 : 0.0, on[1] ? 1.0 : 0.0);
+    else if (x == 2) o = vec4(bits[iFrame] == 0xffffffffu ? 1.0 : 0.0, bits[1], on[iFrame + 2] ? 1.0 : 0.0, on[1] ? \
+    1.0 : 0.0);
     else if (x == 3) o = vec4(turn[iFrame + 1].z, turn[0].y, frames[iFrame + 1][1].x, frames[0][iFrame].y);
     else if (x == 4) o = vec4(one, absent[iFrame + 1].xyz);
     else { float sum = 0.0; for (int i = 0; i < 6; i++) sum += weights[i]; o = vec4(sum, kernel[4]); }
@@ -141,7 +142,8 @@ fn a_value_of_another_shape_is_one_error_with_its_mend() {
 fn a_value_is_no_constant_expression_and_an_unknown_name_is_said() {
     let Some(gpu) = gpu() else { return };
     let toml = "[passes.image]\n[uniforms]\nn = 3\nkernal = [[1, 2, 3]]\n";
-    let image = "uniform int n;\n// uniform vec3 kernal[1];\nvoid mainImage(out vec4 o, in vec2 p) { float a[n]; o = vec4(a[0]); }";
+    let image = "uniform int n;\n// uniform vec3 kernal[1];\nvoid mainImage(out vec4 o, in vec2 p) { float a[n]; o = \
+                 vec4(a[0]); }";
     let loaded = load(folder("unknown", toml, image).to_str().unwrap()).unwrap();
     let warnings: Vec<&str> = loaded.warnings.iter().map(|w| w.message.as_str()).collect();
     assert!(matches!(warnings[..], [one] if one.contains("`kernal`")), "{warnings:?}");

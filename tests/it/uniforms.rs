@@ -178,7 +178,8 @@ fn knobs_follow_the_text_and_the_disk() {
 
 #[test]
 fn an_editor_knows_them_and_what_included_files_declare() {
-    let code = "#include \"lib.glsl\"\n#iUniform color3 tint\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(tint, half_of(1.0)); }";
+    let code = "#include \"lib.glsl\"\n#iUniform color3 tint\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(tint, \
+                half_of(1.0)); }";
     let mut project = project(vec![image(code, Default::default())]);
     let lib = "float half_of(float x) { return 0.5 * x * level; }\n#iUniform float level\n";
     let source = Source { name: "lib.glsl".into(), path: None, text: lib.into() };

@@ -228,7 +228,8 @@ fn dragging_in_brick_breaker_moves_the_paddle() {
 fn a_slider_changes_the_picture_while_it_is_paused_and_resets() {
     let Some(display) = Display::open() else { return };
     let home = tempfile::tempdir().unwrap();
-    let code = "#iUniform float red = 0.0 in { 0.0, 1.0 }\n#iUniform color3 tint\n#iUniform bool on\n#iUniform vec3 at\n\
+    let code = "#iUniform float red = 0.0 in { 0.0, 1.0 }\n#iUniform color3 tint\n#iUniform bool on\n#iUniform vec3 \
+                at\n\
                 void mainImage(out vec4 o, in vec2 p) { o = vec4(red, tint.g, on ? 1.0 : 0.0, 1.0); }";
     let folder = one_pass_project(home.path(), code);
     let folder = folder.to_str().unwrap();
@@ -244,7 +245,8 @@ fn a_slider_changes_the_picture_while_it_is_paused_and_resets() {
     window.release();
     window.click_on("knob:on");
     window.wait_until("the switch", "uniforms", |e| e["values"]["on"][0] == 1.0);
-    // Notices of saved pictures lie over the lower rows for a while: the first picture comes after the last click there.
+    // Notices of saved pictures lie over the lower rows for a while: the first picture comes after the last click
+    // there.
     let [red, green, blue] = colour(&mut window);
     assert!((20..=235).contains(&red), "red is {red} with the slider about half way");
     assert_eq!([green, blue], [255, 255]);

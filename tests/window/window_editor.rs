@@ -5,7 +5,8 @@ use std::{fs, path::Path};
 
 const COMMON: &str =
     "// How bright it is around a point.\nfloat brightness(vec2 p, float radius) { return radius / length(p); }\n";
-const IMAGE: &str = "void mainImage(out vec4 fragColor, in vec2 fragCoord)\n{\n    vec2 uv = fragCoord / iResolution.xy;\n    fragColor = vec4(brightness(uv, 0.1));\n    \n}\n";
+const IMAGE: &str = "void mainImage(out vec4 fragColor, in vec2 fragCoord)\n{\n    vec2 uv = fragCoord / \
+                     iResolution.xy;\n    fragColor = vec4(brightness(uv, 0.1));\n    \n}\n";
 
 fn open<'a>(display: &'a Display, home: &Path) -> Window<'a> {
     let folder = home.join("project");

@@ -85,10 +85,12 @@ fn the_table_of_costs_names_every_pass_and_closes_again() {
     let write = |name: &str, text: &str| fs::write(folder.join(name), text).unwrap();
     write(
         "buffer_a.glsl",
-        "#iChannel0 \"self\"\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(iTime) + texelFetch(iChannel0, ivec2(p), 0); }\n",
+        "#iChannel0 \"self\"\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(iTime) + texelFetch(iChannel0, \
+         ivec2(p), 0); }\n",
     );
     write("buffer_b.glsl", "void mainImage(out vec4 o, in vec2 p) { o = vec4(iTime); }\n");
-    let image = "#iChannel0 \"file://buffer_a.glsl\"\nvoid mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }\n";
+    let image = "#iChannel0 \"file://buffer_a.glsl\"\nvoid mainImage(out vec4 o, in vec2 p) { o = \
+                 texelFetch(iChannel0, ivec2(p), 0); }\n";
     write("image.glsl", image);
     let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
     compiled(&mut window);

@@ -45,7 +45,8 @@ pub fn patch_file(project: &mut Project, file: &str, old: &str, new: &str) {
     included.source.text = included.source.text.replace(old, new).into();
 }
 
-/// Lets `code` have the last word on what a pass writes: it sees `o`, the texel as the preset would have it, and its address `p`.
+/// Lets `code` have the last word on what a pass writes: it sees `o`, the texel as the preset would have it, and its
+/// address `p`.
 pub fn overwrite(project: &mut Project, name: &str, code: &str) {
     let source = &mut project.pass_mut(&buffer(name)).unwrap().source;
     source.text = format!(

@@ -74,7 +74,8 @@ impl Stage {
         tick
     }
 
-    /// Lets the watcher tell of what was written before the session began to watch: until nothing is pending for a while.
+    /// Lets the watcher tell of what was written before the session began to watch: until nothing is pending for a
+    /// while.
     pub fn settle(&mut self) {
         let mut quiet = 0;
         while quiet < 15 {
@@ -135,8 +136,8 @@ impl Stage {
         image::open(&path).unwrap().to_rgba8().get_pixel(0, 0).0[0]
     }
 
-    /// Ticks until the picture's first pixel is so red. A compile can begin and end within one tick, so to wait for one to
-    /// begin can be to wait for ever: what it leads to is what to wait for.
+    /// Ticks until the picture's first pixel is so red. A compile can begin and end within one tick, so to wait for one
+    /// to begin can be to wait for ever: what it leads to is what to wait for.
     pub fn until_red(&mut self, red: u8) {
         let end = Instant::now() + Duration::from_secs(30);
         while self.red() != red {

@@ -10,8 +10,8 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// The software driver paints slowly on a busy machine; a test waits for what it can see, never for a fixed time, and gives
-/// up after this.
+/// The software driver paints slowly on a busy machine; a test waits for what it can see, never for a fixed time, and
+/// gives up after this.
 const PATIENCE: Duration = Duration::from_secs(60);
 /// A window that says nothing for so long has come to rest.
 const SETTLED: Duration = Duration::from_millis(400);
@@ -178,8 +178,8 @@ impl<'a> Window<'a> {
         let name = widget.to_owned();
         let has = |e: &Value| e["rects"][&name].is_array();
         let mut layout = self.wait_until(&format!("the widget {widget}"), "layout", has);
-        // A popup finds its place in its second frame: look again until nothing moves any more. While a picture plays its
-        // frames tell, however far apart; a paused window says nothing when it has come to rest.
+        // A popup finds its place in its second frame: look again until nothing moves any more. While a picture plays
+        // its frames tell, however far apart; a paused window says nothing when it has come to rest.
         let plays = |frame: Option<Value>| frame.is_some_and(|f| f["playing"] == true);
         let patience = if plays(self.newest("frame")) { PATIENCE } else { SETTLED };
         while let Ok(event) = self.lines.recv_timeout(patience) {

@@ -66,7 +66,10 @@ impl Printer<'_> {
         for (id, function) in program.functions.iter().enumerate() {
             self.function(id, function);
         }
-        self.out.push_str("uint r0 = 0u, r1 = 7u;\nvoid mix_in(uint x) { r0 = r0 * 31u + x; r1 = (r1 ^ x) * 2654435769u + (r1 >> 7u); }\n");
+        self.out.push_str(
+            "uint r0 = 0u, r1 = 7u;\nvoid mix_in(uint x) { r0 = r0 * 31u + x; r1 = (r1 ^ x) * \
+                           2654435769u + (r1 >> 7u); }\n",
+        );
         self.out.push_str("void mainImage(out vec4 o, in vec2 p) {\n  px = int(p.x); py = int(p.y);\n");
         self.depth = 1;
         self.statements(&program.body);
