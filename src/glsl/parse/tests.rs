@@ -415,6 +415,7 @@ fn one_mistake_is_one_message() {
     refuses_stmt("double a = 1.0;", &["`double` is a reserved word"]);
     refuses_stmt("static const float a = 1.0;", &["`static` is a reserved word"]);
     refuses_stmt("goto a;", &["`goto` is a reserved word"]);
+    refuses_stmt("float image2DArrayShadow = 1.0;", &["`image2DArrayShadow` is a reserved word"]);
     refuses_stmt("float if = 1.0;", &["which is a keyword"]);
     refuses_stmt("float 2a = 1.0;", &["`2a` is not a number"]);
     refuses_stmt("a.length(1);", &["takes no arguments"]);
