@@ -1,6 +1,6 @@
 //! Eddy: a desktop shader playground.
 //!
-//! One engine, two front ends. The modules are layers; a test (`tests/layers.rs`) reads the sources and keeps the
+//! One engine, two front ends. The modules are layers; a test (`tests/it/layers`) reads the sources and keeps the
 //! arrows:
 //!
 //! ```text

@@ -1,5 +1,8 @@
 //! What each pass costs: bytes by the plan, milliseconds by either clock, and the same from the command line.
+//!
+//! A program of its own, because one test compares milliseconds of passes: other tests would draw meanwhile.
 
+#[path = "it/support/mod.rs"]
 mod support;
 
 use eddy::{

@@ -1,13 +1,11 @@
 //! Uniforms as a driver needs them that compiles a program anew for every frame where a branch depends on them alone.
 //!
-//! By itself, because one test measures the memory of its process: the other only compiles a few lines.
+//! A program of its own, because one test measures the memory of its process: the other only compiles a few lines.
 
+#[path = "it/support/mod.rs"]
 mod support;
 
-use eddy::{
-    diag::SourceId,
-    glsl::{self, ChannelKind, Driver, Knob, KnobKind, PassKind, PassSource, Text},
-};
+use eddy::glsl::{self, Driver, Knob, KnobKind, PassKind, PassSource};
 use naga::{AddressSpace, BinaryOperator, Expression, Function, Handle, Module};
 use support::*;
 
@@ -73,17 +71,7 @@ fn are_values_of_the_pixel_where_the_driver_asks_for_it() {
         (PassKind::Fragment, 2, "in vec3 at; out vec4 o; void main() { o = vec4(iCameraPosition - at, iTime); }"),
     ];
     for (kind, at_least, code) in programs {
-        let source = PassSource {
-            kind,
-            common: None,
-            code: Text { id: SourceId(0), text: code },
-            includes: &[],
-            channels: [ChannelKind::Sampler2D; 4],
-            knobs: &knobs,
-            values: &[],
-            bilinear_by_hand: [false; 4],
-            driver: Driver::default(),
-        };
+        let source = PassSource { kind, knobs: &knobs, ..PassSource::image(code) };
         let plain = glsl::compile(&source).unwrap_or_else(|e| panic!("{kind:?}: {e:?}"));
         let driver = Driver { opaque_uniforms: true, ..Driver::default() };
         let opaque = glsl::compile(&PassSource { driver, ..source }).unwrap_or_else(|e| panic!("{kind:?}: {e:?}"));
@@ -117,17 +105,8 @@ fn kills(block: &naga::Block) -> usize {
 /// Whatever else the driver asks for, and without a word of it in what is known of the pass.
 #[test]
 fn fragments_seem_to_discard_where_the_driver_asks_for_it() {
-    let source = PassSource {
-        kind: PassKind::Fragment,
-        common: None,
-        code: Text { id: SourceId(0), text: "out vec4 o; void main() { o = vec4(1); }" },
-        includes: &[],
-        channels: [ChannelKind::Sampler2D; 4],
-        knobs: &[],
-        values: &[],
-        bilinear_by_hand: [false; 4],
-        driver: Driver::default(),
-    };
+    let code = "out vec4 o; void main() { o = vec4(1); }";
+    let source = PassSource { kind: PassKind::Fragment, ..PassSource::image(code) };
     for (may_discard, opaque_uniforms) in [(false, false), (false, true), (true, false), (true, true)] {
         let driver = Driver { may_discard, opaque_uniforms, ..Driver::default() };
         let compiled = glsl::compile(&PassSource { driver, ..source }).unwrap();
@@ -143,8 +122,8 @@ fn resident() -> Option<u64> {
     Some(kilobytes.trim().parse::<u64>().ok()? * 1024)
 }
 
-/// A preset of many scales, whose loops and branches ask the mouse and the knobs: lavapipe used to keep 2 MiB of programs a
-/// frame of it.
+/// A preset of many scales, whose loops and branches ask the mouse and the knobs: lavapipe used to keep 2 MiB of
+/// programs a frame of it.
 #[test]
 fn frames_take_no_memory() {
     let Some(gpu) = gpu() else { return };

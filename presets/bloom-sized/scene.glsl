@@ -1,5 +1,5 @@
-// Neon tubes before a brick wall, in linear light: a tube is some ten times as bright as paper, and nothing here glows. What
-// glow the picture has is the bloom's.
+// Neon tubes before a brick wall, in linear light: a tube is some ten times as bright as paper, and nothing here glows.
+// What glow the picture has is the bloom's.
 
 #iUniform float neon = 10.0 in { 0.0, 40.0 }       // radiance of a tube
 #iUniform float constant = 0.0 in { 0.0, 4.0 }     // above 0: a wall of just this light, which bloom must leave alone
@@ -19,7 +19,8 @@ float hash(vec2 p) {
 }
 
 const int TUBES = 4;
-const vec3 GAS[TUBES] = vec3[TUBES](vec3(1.00, 0.10, 0.28), vec3(0.08, 0.55, 1.00), vec3(1.00, 0.48, 0.06), vec3(0.30, 1.00, 0.45));
+const vec3 GAS[TUBES] = vec3[TUBES](vec3(1.00, 0.10, 0.28), vec3(0.08, 0.55, 1.00), vec3(1.00, 0.48, 0.06),
+                                    vec3(0.30, 1.00, 0.45));
 
 // How far p is from each tube, and how brightly each burns.
 void tubes(vec2 p, float time, out vec4 far, out vec4 burning) {

@@ -1,4 +1,5 @@
-// Blurs the first levels along their columns, and the others, which are small, along both axes at once. Channel 0 is Buffer C.
+// Blurs the first levels along their columns, and the others, which are small, along both axes at once. Channel 0 is
+// Buffer C.
 
 void mainImage(out vec4 blurred, in vec2 fragCoord) {
     ivec2 p = ivec2(fragCoord), canvas = ivec2(iResolution.xy);

@@ -6,16 +6,19 @@
 // Warfare", SIGGRAPH 2014 courses, has the reasons; the packed pyramid is what four buffers of one size allow.)
 //
 // The pyramid lies in one texture: level 1 at the bottom left, the others in a column beside it (above it, where the
-// canvas is higher than wide). Level k has N = round(W / 2^k) texels across the whole picture, so a texel is W / N pixels
-// wide, nearly 2^k. Beyond the picture lies its mirror image: light that a kernel sends over the edge comes back.
+// canvas is higher than wide). Level k has N = round(W / 2^k) texels across the whole picture, so a texel is W / N
+// pixels wide, nearly 2^k. Beyond the picture lies its mirror image: light that a kernel sends over the edge comes
+// back.
 //
-// What keeps the light where it is. On the way down each texel gives its light to the two nearest texels of the level by
-// linear weights, along each axis. These weights sum to 1 and so do the places they stand for, at every phase and for any
-// ratio of sizes; a box would move a texel by up to half of a coarse one. On the way up each level is drawn by cubic
-// B-splines, which have both properties too and show no corners. Level k spreads a texel over sigma = 1.58 * 2^k pixels.
+// What keeps the light where it is. On the way down each texel gives its light to the two nearest texels of the level
+// by linear weights, along each axis. These weights sum to 1 and so do the places they stand for, at every phase and
+// for any ratio of sizes; a box would move a texel by up to half of a coarse one. On the way up each level is drawn by
+// cubic B-splines, which have both properties too and show no corners. Level k spreads a texel over sigma = 1.58 * 2^k
+// pixels.
 //
-// Measured (tests/preset_bloom.rs, `eddy lab bloom`), strength 1, over the phases, at 640 x 360, 641 x 359, 333 x 187, 187 x 333:
-// a spot's total is 0.993 to 1.001 of its light, also at the edges, and its centroid moves by 0.01 pixels at most.
+// Measured (tests/it/preset_bloom.rs, `eddy lab bloom`), strength 1, over the phases, at 640 x 360, 641 x 359, 333 x
+// 187, 187 x 333: a spot's total is 0.993 to 1.001 of its light, also at the edges, and its centroid moves by 0.01
+// pixels at most.
 
 #iUniform float strength = 0.35 in { 0.0, 1.0 } // the part of the light that is spread
 #iUniform float spread = 1.15 in { 0.5, 2.0 }   // weight of each level against the one before
@@ -75,8 +78,8 @@ ivec2 mirrored(ivec2 p, ivec2 size) {
     return clamp(min(p, 2 * size - 1 - p), ivec2(0), size - 1);
 }
 
-// The mean of a source around texel i of a coarser grid, by the weights with which the source gives its light to the grid.
-// `corner` and `size` say where the source lies in its texture.
+// The mean of a source around texel i of a coarser grid, by the weights with which the source gives its light to the
+// grid. `corner` and `size` say where the source lies in its texture.
 vec4 gathered(sampler2D source, ivec2 corner, ivec2 size, ivec2 i, ivec2 coarse, float most) {
     vec2 ratio = vec2(size) / vec2(coarse), centre = (vec2(i) + 0.5) * ratio - 0.5;
     ivec2 low = ivec2(ceil(centre - ratio)), high = ivec2(floor(centre + ratio));
@@ -93,8 +96,8 @@ vec4 gathered(sampler2D source, ivec2 corner, ivec2 size, ivec2 i, ivec2 coarse,
     return sum / weights;
 }
 
-// The nine weights 1 8 28 56 70 56 28 8 1: a row of Pascal's triangle, the nearest whole numbers have to a Gaussian. Their
-// sum is 256, so the division is exact. Sigma is sqrt(2).
+// The nine weights 1 8 28 56 70 56 28 8 1: a row of Pascal's triangle, the nearest whole numbers have to a Gaussian.
+// Their sum is 256, so the division is exact. Sigma is sqrt(2).
 const int REACH = 4;
 const float WEIGHT[5] = float[5](70.0 / 256.0, 56.0 / 256.0, 28.0 / 256.0, 8.0 / 256.0, 1.0 / 256.0);
 

@@ -1,11 +1,12 @@
 // The game. Channel 0 is this buffer in the last frame, channel 1 the keyboard.
 //
-// Every texel of the state plays the whole frame for itself from the last frame's state, comes to the same result as all
-// the others, and keeps the one value it is the address of. That is wasteful by a factor of 112 and costs a GPU nothing.
+// Every texel of the state plays the whole frame for itself from the last frame's state, comes to the same result as
+// all the others, and keeps the one value it is the address of. That is wasteful by a factor of 112 and costs a GPU
+// nothing.
 //
 // Collisions are swept: time of impact of the ball against every face (slabs: T. Kay, J. Kajiya, "Ray Tracing Complex
-// Scenes", SIGGRAPH 1986, on boxes grown by the ball), then on from the earliest. Nothing is ever tested for overlap, so
-// no speed tunnels. A reflection flips the sign of one velocity component: the speed stays the same to the last bit.
+// Scenes", SIGGRAPH 1986, on boxes grown by the ball), then on from the earliest. Nothing is ever tested for overlap,
+// so no speed tunnels. A reflection flips the sign of one velocity component: the speed stays the same to the last bit.
 // The ball bounces as a square; it is drawn round.
 
 const float SPEED = 180.0;          // units a second in level 1
@@ -20,20 +21,21 @@ const bool SOLID_FLOOR = false;     // true: practice, the ball cannot be lost
 // out, the rest of the frame is dropped: the ball is late, never through.
 const int MAX_IMPACTS = 512;
 
-// During a frame the ball is counted in whole ticks of a unit. A 32-bit float holds each of those up to 2^24, so from frame to
-// frame nothing is lost, and a reflection is exact: what is left of the frame's way turns, and place plus rest is the mirrored
-// end of the straight way, however an impact was rounded. After 100,000 bounces the ball is where the unfolded path has it, to
-// the tick; with floats it was 1 unit off.
+// During a frame the ball is counted in whole ticks of a unit. A 32-bit float holds each of those up to 2^24, so from
+// frame to frame nothing is lost, and a reflection is exact: what is left of the frame's way turns, and place plus rest
+// is the mirrored end of the straight way, however an impact was rounded. After 100,000 bounces the ball is where the
+// unfolded path has it, to the tick; with floats it was 1 unit off.
 const float TICKS = 32768.0;
 const float LONGEST = 2.0e9; // ticks a frame, 61,000 units
 
-// A ball this many ticks past a face that it moves at touches it: impacts are rounded, by up to 3 ticks at 10,000 units a frame.
+// A ball this many ticks past a face that it moves at touches it: impacts are rounded, by up to 3 ticks at 10,000 units
+// a frame.
 const int TOUCH = 8;
 const float NEVER = 1e9;
 
 const int KEY_SPACE = 32, KEY_LEFT = 37, KEY_RIGHT = 39;
 
-// ------------------------------------------------------------------------------------------- the state during a frame
+// ------------------------------------------------------------------------------------- the state during a frame
 
 vec2 ball, velocity;
 float paddle, paddleBefore;
@@ -57,7 +59,7 @@ bool isFinite(vec4 q) {
 bool held(int key) { return texelFetch(iChannel1, ivec2(key, 0), 0).x > 0.5; }
 bool pressed(int key) { return texelFetch(iChannel1, ivec2(key, 1), 0).x > 0.5; }
 
-// ------------------------------------------------------------------------------------------------------------ the rules
+// ------------------------------------------------------------------------------------------------------ the rules
 
 bool brickInLevel(int column, int row, float number) {
     int kind = int(number) % 4;
@@ -112,7 +114,7 @@ bool wallIsDown() {
     return left == 0u;
 }
 
-// ---------------------------------------------------------------------------------------------------------- the sweep
+// ---------------------------------------------------------------------------------------------------- the sweep
 
 int ticks(float units) {
     return int(clamp(roundEven(units * TICKS), -LONGEST, LONGEST));
@@ -128,8 +130,8 @@ float partTo(int face, int from, int way) {
     return way == 0 || far < -TOUCH ? NEVER : float(max(far, 0)) / float(abs(way));
 }
 
-// What part of `rest` there is until the ball enters the box, and through which face: x (true) or y. At a vertex hit dead on
-// it is y.
+// What part of `rest` there is until the ball enters the box, and through which face: x (true) or y. At a vertex hit
+// dead on it is y.
 float partToBox(ivec2 centre, ivec2 halfSize, out bool throughX) {
     vec2 near = vec2(-NEVER), far = vec2(NEVER);
     for (int k = 0; k < 2; k++) {
@@ -173,7 +175,11 @@ void sweep(float seconds) {
         if (rest.y < 0) {
             t = partTo(above, at.y, rest.y);
             float there = mix(paddleBefore, paddle, clamp(gone + (1.0 - gone) * (1.0 - left * (1.0 - t)), 0.0, 1.0));
-            if (t < first && abs((float(at.x) + float(rest.x) * t) / TICKS - there) <= PADDLE_HALF.x + BALL_RADIUS) { first = t; what = 4; }
+            if (t < first
+                && abs((float(at.x) + float(rest.x) * t) / TICKS - there) <= PADDLE_HALF.x + BALL_RADIUS) {
+                first = t;
+                what = 4;
+            }
         }
 
         bool throughX = false;
@@ -187,7 +193,8 @@ void sweep(float seconds) {
             }
         }
 
-        // Along the axis of the hit the ball is at the face; along the other it is rounded, and the rest makes up for it.
+        // Along the axis of the hit the ball is at the face; along the other it is rounded, and the rest makes up for
+        // it.
         ivec2 step_ = what == 0 ? rest : ivec2(roundEven(vec2(rest) * first));
         ivec2 centre = ticks(brickCentre(hitColumn, hitRow));
         bool isAcross = what == 1 || what == 5 && throughX;
@@ -236,7 +243,7 @@ void sweep(float seconds) {
     }
 }
 
-// ------------------------------------------------------------------------------------------------------------ a frame
+// ------------------------------------------------------------------------------------------------------ a frame
 
 void loadGame() {
     vec4 b = load(BALL), pad = load(PADDLE), game = load(GAME), clock = load(CLOCK);
@@ -282,8 +289,8 @@ void movePaddle(float seconds) {
 
 void play() {
     loadGame();
-    // Only when time has moved: while Eddy is paused, a frame drawn for a key or the mouse does not move the ball. The step
-    // itself is iTimeDelta, as the difference of two large iTimes has few digits left.
+    // Only when time has moved: while Eddy is paused, a frame drawn for a key or the mouse does not move the ball. The
+    // step itself is iTimeDelta, as the difference of two large iTimes has few digits left.
     float seconds = iTime > load(CLOCK).x ? clamp(iTimeDelta, 0.0, MAX_STEP) : 0.0;
     phaseTime += seconds;
 
@@ -318,7 +325,8 @@ void mainImage(out vec4 state, in vec2 fragCoord) {
     ivec2 p = ivec2(fragCoord);
     state = vec4(0.0);
     // The rest of the buffer keeps its zeros. On a GPU a discard or a return ends it there; a driver that draws on the
-    // processor, or one that turns a discard into a demotion, runs the code all the same. So its loops get nothing to do.
+    // processor, or one that turns a discard into a demotion, runs the code all the same. So its loops get nothing to
+    // do.
     bool mine = p.x < STATE_SIZE.x && p.y < STATE_SIZE.y;
     rows = mine ? ROWS : 0;
     impacts = mine ? MAX_IMPACTS : 0;

@@ -1,8 +1,8 @@
 // The rules of the house: sizes, where every piece of state lives, and the way from pixels to the field.
 //
 // Everything is measured in field units, never in pixels: the field is FIELD units large on every canvas, so a resize
-// changes the drawing and not the game. State sits in the bottom-left 16 x 7 texels of Buffer A, the corner a resize keeps.
-// Buffers are 32-bit floats: whole numbers are exact up to 2^24, and at 320 units a position is exact to 3e-5.
+// changes the drawing and not the game. State sits in the bottom-left 16 x 7 texels of Buffer A, the corner a resize
+// keeps. Buffers are 32-bit floats: whole numbers are exact up to 2^24, and at 320 units a position is exact to 3e-5.
 
 const vec2 FIELD = vec2(320.0, 180.0);
 const float CEILING = 162.0; // above it the score
@@ -22,7 +22,8 @@ const ivec2 BALL = ivec2(0, 0);    // position, velocity in units a second
 const ivec2 PADDLE = ivec2(1, 0);  // x; the mouse as last seen: x, y in pixels, 1 while held
 const ivec2 GAME = ivec2(2, 0);    // score, lives, level, phase
 const ivec2 CLOCK = ivec2(3, 0);   // iTime of the last step, seconds in this phase, -, 1 once there is a game
-const ivec2 BURST = ivec2(4, 0);   // and five to the right, newest first: place of a hit, its age in seconds, its colour
+// and five to the right, newest first: place of a hit, its age in seconds, its colour
+const ivec2 BURST = ivec2(4, 0);
 const int BURSTS = 6;
 const ivec2 TRAIL = ivec2(10, 0);  // and five to the right, newest first: where the ball was
 const int TRAILS = 6;

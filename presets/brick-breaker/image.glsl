@@ -8,7 +8,7 @@ vec4 load(ivec2 address) {
     return texelFetch(iChannel0, address, 0);
 }
 
-// ------------------------------------------------------------------------------------------------------------- shapes
+// ------------------------------------------------------------------------------------------------------- shapes
 
 // Signed distances, in field units.
 float roundBox(vec2 p, vec2 halfSize, float radius) {
@@ -32,12 +32,13 @@ float hash(float n) {
     return fract(sin(n * 12.9898) * 43758.5453);
 }
 
-// ------------------------------------------------------------------------------------------------------------- letters
+// ------------------------------------------------------------------------------------------------------- letters
 
 // Dot-matrix glyphs, 3 x 5 bits, the top row first: the digits, then the letters that are needed.
 const int GLYPHS = 21;
 const int GLYPH[GLYPHS] = int[GLYPHS](31599, 11415, 29671, 29391, 23497, 31183, 31215, 29266, 31727, 31695,
-                                      11245, 14627, 31143, 14699, 18727, 24557, 11114, 27556, 27565, 14478, 23402); // A C E G L M O P R S V
+                                      // A C E G L M O P R S V
+                                      11245, 14627, 31143, 14699, 18727, 24557, 11114, 27556, 27565, 14478, 23402);
 const int SPACE = -1;
 const int LEVEL_GLYPH = 14;
 
@@ -71,7 +72,7 @@ float line(vec2 p, int text[LETTERS], float size) {
     return glyph(p - vec2(float(place) * 4.0 * size, 0.0), text[place], size);
 }
 
-// ------------------------------------------------------------------------------------------------------------ the scene
+// ------------------------------------------------------------------------------------------------------ the scene
 
 vec3 backdrop(vec2 p) {
     float deep = length((p - vec2(0.5, 0.62) * FIELD) / FIELD);
@@ -168,7 +169,8 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     vec2 toPaddle = p - vec2(paddle, PADDLE_Y);
     float d = roundBox(toPaddle, PADDLE_HALF, PADDLE_HALF.y);
     colour += vec3(0.10, 0.45, 0.55) * 0.35 * exp(-max(d, 0.0) / 4.0);
-    vec3 metal = mix(vec3(0.16, 0.30, 0.42), vec3(0.80, 0.95, 1.00), smoothstep(-PADDLE_HALF.y, PADDLE_HALF.y, toPaddle.y));
+    vec3 metal = mix(vec3(0.16, 0.30, 0.42), vec3(0.80, 0.95, 1.00),
+                     smoothstep(-PADDLE_HALF.y, PADDLE_HALF.y, toPaddle.y));
     metal = mix(metal, vec3(1.0, 0.55, 0.20), smoothstep(0.72, 0.76, abs(toPaddle.x) / PADDLE_HALF.x));
     colour = mix(colour, metal, inside(d));
 
@@ -178,7 +180,8 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     // Score, level, lives.
     vec2 bar = p - vec2(8.0, CEILING + 5.0);
     colour += vec3(1.0, 0.80, 0.35) * number(bar, game.x, 6, 1.7);
-    colour += vec3(0.35, 0.50, 0.75) * (glyph(p - vec2(149.0, CEILING + 5.0), LEVEL_GLYPH, 1.7) + number(p - vec2(157.0, CEILING + 5.0), game.z, 2, 1.7));
+    colour += vec3(0.35, 0.50, 0.75) * (glyph(p - vec2(149.0, CEILING + 5.0), LEVEL_GLYPH, 1.7)
+                                        + number(p - vec2(157.0, CEILING + 5.0), game.z, 2, 1.7));
     for (int i = 0; i < 3; i++) {
         float life = length(p - vec2(FIELD.x - 12.0 - 9.0 * float(i), CEILING + 9.2)) - BALL_RADIUS;
         colour += inside(life) * (float(i) < game.y ? vec3(0.85, 0.92, 1.0) : vec3(0.05, 0.07, 0.12));
@@ -188,7 +191,8 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     float blink = 0.5 + 0.5 * cos(4.0 * phaseTime);
     if (phase == OVER) colour += vec3(1.0, 0.35, 0.30) * line(middle, GAME_OVER, 3.2);
     if (phase == READY || phase == DEMO || (phase == OVER && phaseTime > 1.0)) {
-        colour += vec3(0.45, 0.65, 1.0) * (0.25 + 0.6 * blink) * line(middle + vec2(0.0, phase == OVER ? 22.0 : 0.0), PRESS_SPACE, 1.6);
+        colour += vec3(0.45, 0.65, 1.0) * (0.25 + 0.6 * blink)
+            * line(middle + vec2(0.0, phase == OVER ? 22.0 : 0.0), PRESS_SPACE, 1.6);
     }
     fragColor = vec4(sqrt(max(colour, 0.0)), 1.0);
 }

@@ -1,4 +1,5 @@
-// The trails: x, y and w of the pens that draw by themselves, z of the mouse. Channel 0 is this buffer as the last frame left it.
+// The trails: x, y and w of the pens that draw by themselves, z of the mouse. Channel 0 is this buffer as the last
+// frame left it.
 
 // How far p is from the segment a-b.
 float segmentDistance(vec2 p, vec2 a, vec2 b) {

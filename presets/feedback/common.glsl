@@ -5,15 +5,16 @@ const float INK = 4.0;
 
 // The factor a trail keeps each frame: exp(-33 / height). It is halved after
 //     frames = height * ln(2) / 33 = 0.021 * height
-// (5.7 frames on a canvas 270 pixels high, 23 at 1080). A pen that moves so many pixels a frame leaves a tail that is the
-// same part of the picture at every size.
+// (5.7 frames on a canvas 270 pixels high, 23 at 1080). A pen that moves so many pixels a frame leaves a tail that is
+// the same part of the picture at every size.
 const float FADE = 33.0;
 
 float kept(float canvasHeight) {
     return exp(-FADE / canvasHeight);
 }
 
-// NaN and infinity have all exponent bits set; what min() and max() make of a NaN is undefined (GLSL ES 3.00, section 4.5.1).
+// NaN and infinity have all exponent bits set; what min() and max() make of a NaN is undefined (GLSL ES 3.00, section
+// 4.5.1).
 bool isFinite(vec4 q) {
     return all(lessThan(floatBitsToUint(q) & uvec4(0x7f800000u), uvec4(0x7f800000u)));
 }

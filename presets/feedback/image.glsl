@@ -10,7 +10,8 @@ vec3 ribbon(float trail, vec3 hot, vec3 cold) {
 }
 
 void mainImage(out vec4 fragColor, in vec2 fragCoord) {
-    // Texel (0, 0) holds the mouse: show its neighbour there. (On a canvas of one texel there is none, and it stays dark.)
+    // Texel (0, 0) holds the mouse: show its neighbour there. (On a canvas of one texel there is none, and it stays
+    // dark.)
     ivec2 p = ivec2(fragCoord);
     vec4 trail = texelFetch(iChannel0, p == MOUSE ? ivec2(1, 0) : p, 0);
 

@@ -1,5 +1,5 @@
-// Going up: the finer grid's q, and what the coarser one found for it. Channel 0 is the finer grid's (q, f), channel 1 the
-// coarser grid's q. Gives (q, f).
+// Going up: the finer grid's q, and what the coarser one found for it. Channel 0 is the finer grid's (q, f), channel 1
+// the coarser grid's q. Gives (q, f).
 #include "multigrid.glsl"
 
 void mainImage(out vec4 result, in vec2 fragCoord) {

@@ -1,5 +1,5 @@
-// MacCormack, corrected: half of what there and back has changed is put right. And the forces. Channel 0 is what is carried,
-// channel 1 what came there, channel 2 what came back, channel 3 the mouse.
+// MacCormack, corrected: half of what there and back has changed is put right. And the forces. Channel 0 is what is
+// carried, channel 1 what came there, channel 2 what came back, channel 3 the mouse.
 #include "staggered.glsl"
 
 // What the jets and the hand make of a velocity at a place in cells.

@@ -1,4 +1,5 @@
-// Three dyes, one a jet, in rgb. Channel 0 is the velocity, channel 1 this buffer in the last frame, channel 2 the mouse.
+// Three dyes, one a jet, in rgb. Channel 0 is the velocity, channel 1 this buffer in the last frame, channel 2 the
+// mouse.
 #include "staggered.glsl"
 
 vec3 dyeOf(ivec2 p) {

@@ -1,5 +1,5 @@
-// The other half of the step's viscosity, along x, and of the push of the pressure: the velocity whose divergence is still to go.
-// Channel 0 is Buffer settled, channel 1 the velocity of the last frame, which has the pressure.
+// The other half of the step's viscosity, along x, and of the push of the pressure: the velocity whose divergence is
+// still to go. Channel 0 is Buffer settled, channel 1 the velocity of the last frame, which has the pressure.
 #include "heat.glsl"
 #define PRESSURE iChannel1
 #include "pressure.glsl"

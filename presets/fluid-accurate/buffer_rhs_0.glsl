@@ -1,4 +1,5 @@
-// The divergence that is still to go: what flows out of each cell. Channel 0 is the velocity that the pressure has pushed.
+// The divergence that is still to go: what flows out of each cell. Channel 0 is the velocity that the pressure has
+// pushed.
 #include "staggered.glsl"
 
 void mainImage(out vec4 f, in vec2 fragCoord) {

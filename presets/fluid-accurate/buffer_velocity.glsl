@@ -1,13 +1,15 @@
 // The velocity without its divergence, u - grad q, in xy; the pressure times the step in z, the step in w.
-// Channel 0 is the velocity that the pressure of the last step has pushed, channel 1 the finest grid's q, channel 2 this buffer.
-// q is what the pressure has changed by since.
+// Channel 0 is the velocity that the pressure of the last step has pushed, channel 1 the finest grid's q, channel 2
+// this buffer. q is what the pressure has changed by since.
 
-// How much of q goes into the pressure that the next step begins with. With 2 it is the pressure at the end of the step and rings;
-// with 1 it is that in its middle, and what changes is damped. Carried by a velocity that makes nothing longer, |u|^2 +
+// How much of q goes into the pressure that the next step begins with. With 2 it is the pressure at the end of the step
+// and rings; with 1 it is that in its middle, and what changes is damped. Carried by a velocity that makes nothing
+// longer, |u|^2 +
 // |grad p|^2 / (2 GAIN) never grows for a GAIN up to 2, however long the step is.
 const float PRESSURE_GAIN = 1.5;
 
-// A project that studies the method may define INITIAL_VELOCITY(at) in Common, `at` in cells: a velocity without divergence.
+// A project that studies the method may define INITIAL_VELOCITY(at) in Common, `at` in cells: a velocity without
+// divergence.
 #ifdef INITIAL_VELOCITY
 #include "staggered.glsl"
 #endif

@@ -1,12 +1,12 @@
-// Carries a field along its paths: channels 0 and 1 are the curves of the velocity's components, 2 and 3 those of the field.
-// The text that includes this says for how long: STEPS 1.0 forward, -1.0 back in time.
+// Carries a field along its paths: channels 0 and 1 are the curves of the velocity's components, 2 and 3 those of the
+// field. The text that includes this says for how long: STEPS 1.0 forward, -1.0 back in time.
 #include "staggered.glsl"
 
 #ifdef TRUST
 const float TRUST_LOW = 1.0, TRUST_HIGH = 2.0;
 
-// There and back ends where it began only where paths do not cross, which is up to a deformation of 1 in a step. Beyond, what
-// the way back says is noise, and correcting by it feeds that noise.
+// There and back ends where it began only where paths do not cross, which is up to a deformation of 1 in a step.
+// Beyond, what the way back says is noise, and correcting by it feeds that noise.
 float trust(ivec2 p, float cells) {
     ivec2 last = textureSize(iChannel0, 0) - 1;
     ivec2 l = max(p - ivec2(1, 0), ivec2(0)), r = min(p + ivec2(1, 0), last);

@@ -1,30 +1,34 @@
-// An incompressible fluid, second order in space and time, stable at every slider: staggered grid, MacCormack advection by cubics,
-// exact viscosity, pressure by one multigrid V-cycle a frame.
+// An incompressible fluid, second order in space and time, stable at every slider: staggered grid, MacCormack advection
+// by cubics, exact viscosity, pressure by one multigrid V-cycle a frame.
 //
 // - Grid: F. Harlow, J. Welch, "Numerical Calculation of Time-Dependent Viscous Incompressible Flow of Fluid with Free
-//   Surface", Phys. Fluids 8, 1965. A texel's x is the velocity through its left face, y through its bottom face; the faces
-//   of the right and upper wall need no texel, as nothing flows through them.
-// - A step is symmetric in time: half of the viscosity, half of the push of the pressure, advection, the other halves, and what the
-//   pressure has changed by. That is an incremental pressure correction (J. van Kan, SIAM J. Sci. Stat. Comput. 7, 1986) along
-//   paths. Pushed only after advection the method is of first order: 0.05 instead of 0.00015 in the first case below.
-// - Advection: A. Selle, R. Fedkiw, B. Kim, Y. Liu, J. Rossignac, "An Unconditionally Stable MacCormack Method", J. Sci.
-//   Comput. 35, 2008: there, back, half of what that loses added; cut to the range it came from. Their bilinear interpolation is
-//   bicubic here. Paths by the midpoint rule through the velocity in the middle of the step, which is extrapolated from the last
-//   two; a velocity at the step's beginning makes what the flow carries arrive late, again by first order. Where the flow deforms
-//   by more than 1 in a step, paths cross, the way back means nothing, and only the way there is taken.
+//   Surface", Phys. Fluids 8, 1965. A texel's x is the velocity through its left face, y through its bottom face; the
+//   faces of the right and upper wall need no texel, as nothing flows through them.
+// - A step is symmetric in time: half of the viscosity, half of the push of the pressure, advection, the other halves,
+//   and what the pressure has changed by. That is an incremental pressure correction (J. van Kan, SIAM J. Sci. Stat.
+//   Comput. 7, 1986) along paths. Pushed only after advection the method is of first order: 0.05 instead of 0.00015 in
+//   the first case below.
+// - Advection: A. Selle, R. Fedkiw, B. Kim, Y. Liu, J. Rossignac, "An Unconditionally Stable MacCormack Method", J.
+//   Sci. Comput. 35, 2008: there, back, half of what that loses added; cut to the range it came from. Their bilinear
+//   interpolation is bicubic here. Paths by the midpoint rule through the velocity in the middle of the step, which is
+//   extrapolated from the last two; a velocity at the step's beginning makes what the flow carries arrive late, again
+//   by first order. Where the flow deforms by more than 1 in a step, paths cross, the way back means nothing, and only
+//   the way there is taken.
 // - Viscosity: the heat equation's own weights (heat.glsl), so that no viscosity and no step is too much.
-// - Pressure: div grad q = div u, then u -= grad q, which on this grid leaves exactly the residual of q as divergence. One
-//   V(2,2)-cycle (A. Brandt, "Multi-Level Adaptive Solutions to Boundary-Value Problems", Math. Comp. 31, 1977; weighted
-//   Jacobi 0.8) a frame: seven grids, each half of the one before. It begins where the last frame ended, as q is what the pressure
-//   changes by. What it leaves is at most 0.2 of the divergence (root mean square, canvases from 1024 x 64 to 66 x 250, odd ones
-//   among them), and the next frame's takes up the rest. Twenty Jacobi sweeps leave more than 0.9 of the long waves.
+// - Pressure: div grad q = div u, then u -= grad q, which on this grid leaves exactly the residual of q as divergence.
+//   One V(2,2)-cycle (A. Brandt, "Multi-Level Adaptive Solutions to Boundary-Value Problems", Math. Comp. 31, 1977;
+//   weighted Jacobi 0.8) a frame: seven grids, each half of the one before. It begins where the last frame ended, as q
+//   is what the pressure changes by. What it leaves is at most 0.2 of the divergence (root mean square, canvases from
+//   1024 x 64 to 66 x 250, odd ones among them), and the next frame's takes up the rest. Twenty Jacobi sweeps leave
+//   more than 0.9 of the long waves.
 //
 // Measured on 128 x 128 cells; U is the greatest speed, 1, in a box of 1:
-// - Taylor's and Green's eddies at half a cell a step, t = 1: relative L2 error below 0.0003, in a wind of U / 2 below 0.0006;
-//   a quarter of it for each halving of the cells.
-// - Two shear layers that roll up (Brown, Minion 1995), nu = 1e-4, t = 1: their energy within 0.001 of a spectral method's.
-// - The cavity of Ghia, Ghia, Shin, two cells a step: within 0.004 of the tables at Re = 400 and 0.01 at Re = 100; at Re = 1000
-//   within 0.009 of a high-order method, from which the table itself is 0.0185 off. No noise at the lid.
+// - Taylor's and Green's eddies at half a cell a step, t = 1: relative L2 error below 0.0003, in a wind of U / 2 below
+//   0.0006; a quarter of it for each halving of the cells.
+// - Two shear layers that roll up (Brown, Minion 1995), nu = 1e-4, t = 1: their energy within 0.001 of a spectral
+//   method's.
+// - The cavity of Ghia, Ghia, Shin, two cells a step: within 0.004 of the tables at Re = 400 and 0.01 at Re = 100; at
+//   Re = 1000 within 0.009 of a high-order method, from which the table itself is 0.0185 off. No noise at the lid.
 //
 // Units: canvas heights and seconds. The grid is half the canvas each way; the dye has every pixel.
 
@@ -84,6 +88,7 @@ float segmentDistance(vec2 p, vec2 a, vec2 b) {
 // The brush's weight: `mouse` is in canvas pixels, before and now; `at` in heights from the middle.
 float brush(vec2 at, vec4 mouse, vec2 canvas) {
     if (mouse.z <= 0.0) return 0.0;
-    float d = segmentDistance(at, (mouse.xy - 0.5 * canvas) / canvas.y, (mouse.zw - 0.5 * canvas) / canvas.y) / brush_size;
+    float d = segmentDistance(at, (mouse.xy - 0.5 * canvas) / canvas.y, (mouse.zw - 0.5 * canvas) / canvas.y)
+        / brush_size;
     return exp(-d * d);
 }

@@ -1,5 +1,5 @@
-// One component of a staggered field and its second differences, from which cubicAt() interpolates: itself, along x, along y,
-// and along y of that along x. Channel 0 is the field. The text that includes this says which component: AXIS.
+// One component of a staggered field and its second differences, from which cubicAt() interpolates: itself, along x,
+// along y, and along y of that along x. Channel 0 is the field. The text that includes this says which component: AXIS.
 #include "staggered.glsl"
 
 void mainImage(out vec4 curves, in vec2 fragCoord) {

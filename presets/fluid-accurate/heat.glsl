@@ -1,8 +1,9 @@
-// Viscosity along one direction: u_t = nu u_xx on the grid, solved exactly and not in steps. What is in one face has after a time
-// t gone to the n-th face from it by e^(-2a) I_n(2a), where a = nu t in cells squared and I_n are Bessel functions. All weights are
-// positive and their sum is 1, so that no viscosity is too much. They come from the far end inwards by J. C. P. Miller's
-// recurrence, I_(n-1) = I_(n+1) + (2 n / x) I_n (M. Abramowitz, I. Stegun, "Handbook of Mathematical Functions", 9.12), and their
-// sum as found makes them whole. Both directions one after the other are the heat equation in the plane.
+// Viscosity along one direction: u_t = nu u_xx on the grid, solved exactly and not in steps. What is in one face has
+// after a time t gone to the n-th face from it by e^(-2a) I_n(2a), where a = nu t in cells squared and I_n are Bessel
+// functions. All weights are positive and their sum is 1, so that no viscosity is too much. They come from the far end
+// inwards by J. C. P. Miller's recurrence, I_(n-1) = I_(n+1) + (2 n / x) I_n (M. Abramowitz, I. Stegun, "Handbook of
+// Mathematical Functions", 9.12), and their sum as found makes them whole. Both directions one after the other are the
+// heat equation in the plane.
 #include "staggered.glsl"
 
 vec2 facesOf(sampler2D field, ivec2 p) {

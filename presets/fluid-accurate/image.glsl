@@ -15,11 +15,13 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     vec2 uv = (fragCoord - 0.5 * iResolution.xy) / iResolution.y;
     float scale = iResolution.y / 270.0;
     vec3 dye = max(dyeOf(p), 0.0);
-    vec2 slope = vec2(height(p - ivec2(1, 0)) - height(p + ivec2(1, 0)), height(p - ivec2(0, 1)) - height(p + ivec2(0, 1)));
+    vec2 slope = vec2(height(p - ivec2(1, 0)) - height(p + ivec2(1, 0)),
+                      height(p - ivec2(0, 1)) - height(p + ivec2(0, 1)));
     vec3 n = normalize(vec3(2.4 * scale * slope, 1.0));
     vec3 sun = normalize(vec3(-0.6, 0.6, 0.7)), eye = normalize(vec3(-0.4 * uv, 1.0));
 
-    vec3 ink = mat3(1.00, 0.30, 0.10, /**/ 0.06, 0.52, 0.55, /**/ 0.95, 0.80, 0.55) * (dye / (dye.r + dye.g + dye.b + 0.05));
+    vec3 ink = mat3(1.00, 0.30, 0.10, /**/ 0.06, 0.52, 0.55, /**/ 0.95, 0.80, 0.55)
+        * (dye / (dye.r + dye.g + dye.b + 0.05));
     float thick = height(p);
     vec3 slate = mix(vec3(0.060, 0.068, 0.085), vec3(0.018, 0.020, 0.030), min(length(uv), 1.0));
     vec3 shown = mix(slate, ink, thick);

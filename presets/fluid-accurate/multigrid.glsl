@@ -1,8 +1,8 @@
 // One grid of the V-cycle: the equation lap q = f on cells of size h, with nothing flowing through the walls.
 //
-// A grid has half the cells of the finer one each way, rounded, so a cell is as large as it must be: h is 2.1 or 1.9 where
-// 2 does not go. Coarse cells take the mean of what they cover (nothing is lost, which the equation needs to have a
-// solution), and give back by bilinear interpolation. CELLS is the finest grid's size and SIZE this one's.
+// A grid has half the cells of the finer one each way, rounded, so a cell is as large as it must be: h is 2.1 or 1.9
+// where 2 does not go. Coarse cells take the mean of what they cover (nothing is lost, which the equation needs to have
+// a solution), and give back by bilinear interpolation. CELLS is the finest grid's size and SIZE this one's.
 
 const float DAMPING = 0.8; // weighted Jacobi's best for the short half of the waves, in two dimensions
 

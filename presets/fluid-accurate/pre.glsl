@@ -1,5 +1,5 @@
-// Going down: two Jacobi sweeps from q = 0, in one pass, as the first sweep is only f scaled. Channel 0 is f, channel 1 any
-// texture of the finest grid. Gives (q, f).
+// Going down: two Jacobi sweeps from q = 0, in one pass, as the first sweep is only f scaled. Channel 0 is f, channel 1
+// any texture of the finest grid. Gives (q, f).
 #include "multigrid.glsl"
 
 ivec2 size;

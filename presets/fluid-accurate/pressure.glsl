@@ -1,5 +1,5 @@
-// What the pressure of the last step takes from a velocity in this one: its gradient on the faces. PRESSURE is the texture of the
-// velocity, where z is the pressure times the step and w the step.
+// What the pressure of the last step takes from a velocity in this one: its gradient on the faces. PRESSURE is the
+// texture of the velocity, where z is the pressure times the step and w the step.
 
 vec2 pressurePush(ivec2 p) {
     ivec2 size = textureSize(PRESSURE, 0);

@@ -1,9 +1,9 @@
-// Reading a staggered field, and paths through the velocity. Places are in cells of the grid: cell (i, j) is the square from
-// (i, j) to (i + 1, j + 1). Axis 0 is x and the left faces, axis 1 is y and the bottom faces.
+// Reading a staggered field, and paths through the velocity. Places are in cells of the grid: cell (i, j) is the square
+// from (i, j) to (i + 1, j + 1). Axis 0 is x and the left faces, axis 1 is y and the bottom faces.
 //
-// The walls are in the reading: beyond one lies the mirror image of what lies inside, so that a stencil has no case of its own
-// there. Through a wall nothing flows (odd image). Along it the fluid slips (even image) or sticks (odd image, about the wall's
-// own speed).
+// The walls are in the reading: beyond one lies the mirror image of what lies inside, so that a stencil has no case of
+// its own there. Through a wall nothing flows (odd image). Along it the fluid slips (even image) or sticks (odd image,
+// about the wall's own speed).
 
 // What stands for an index that may lie beyond the walls: a texel, by its index, times `sign`, plus `lid`.
 struct Image {
@@ -12,7 +12,8 @@ struct Image {
     float lid;
 };
 
-// In the direction of the axis: faces 0 to n, of which 0 and n are the walls. Face n has no texel. Images repeat after two boxes.
+// In the direction of the axis: faces 0 to n, of which 0 and n are the walls. Face n has no texel. Images repeat after
+// two boxes.
 Image alongAxis(int i, int n) {
     if (walls == PERIODIC) return Image(i - n * int(floor(float(i) / float(n))), 1.0, 0.0);
     i -= 2 * n * int(floor(float(i) / float(2 * n)));
@@ -68,12 +69,13 @@ float linearAt(sampler2D field, vec2 at, int axis) {
     vec2 lower = vec2(texelFetch(field, ivec2(l.at, d.at), 0)[axis], texelFetch(field, ivec2(r.at, d.at), 0)[axis]);
     vec2 upper = vec2(texelFetch(field, ivec2(l.at, u.at), 0)[axis], texelFetch(field, ivec2(r.at, u.at), 0)[axis]);
     vec2 sides = vec2(left, right);
-    return (left + right) * (down * d.lid + up * u.lid) + down * d.sign * dot(sides, lower) + up * u.sign * dot(sides, upper);
+    return (left + right) * (down * d.lid + up * u.lid) + down * d.sign * dot(sides, lower)
+        + up * u.sign * dot(sides, upper);
 }
 
-// By cubics: J. D. Everett's form of Lagrange's interpolation through four points needs only the two in the middle where their
-// second differences are known, so that sixteen fetches are four. A texel of `curves` (curves.glsl) is one component, its second
-// differences along x and along y, and that along y of that along x.
+// By cubics: J. D. Everett's form of Lagrange's interpolation through four points needs only the two in the middle
+// where their second differences are known, so that sixteen fetches are four. A texel of `curves` (curves.glsl) is one
+// component, its second differences along x and along y, and that along y of that along x.
 float cubicAt(sampler2D curves, vec2 at, int axis) {
     ivec2 size = textureSize(curves, 0);
     vec2 g = fromFaces(at, vec2(size), axis);
@@ -91,8 +93,9 @@ float cubicAt(sampler2D curves, vec2 at, int axis) {
                + dot(texelFetch(curves, ivec2(r.at, u.at), 0), vec4(right * up.x, right * up.y));
 }
 
-// Where what is at `at` was `cells` (a time, in cells per height of velocity) ago; negative: where it will be. By the midpoint
-// rule: `here` is the velocity at `at`. `across` and `upwards` are the curves of the velocity's two components.
+// Where what is at `at` was `cells` (a time, in cells per height of velocity) ago; negative: where it will be. By the
+// midpoint rule: `here` is the velocity at `at`. `across` and `upwards` are the curves of the velocity's two
+// components.
 vec2 path(sampler2D across, sampler2D upwards, vec2 at, vec2 here, float cells) {
     vec2 middle = at - 0.5 * cells * here;
     return at - cells * vec2(cubicAt(across, middle, 0), cubicAt(upwards, middle, 1));

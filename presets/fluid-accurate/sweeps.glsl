@@ -1,5 +1,5 @@
-// Two Jacobi sweeps in one pass: each of five cells is swept once, then the one in the middle again. The text that includes
-// this says where to read: INSIDE(p) is (q, f) of a cell of this grid, FINEST a texture of the finest one.
+// Two Jacobi sweeps in one pass: each of five cells is swept once, then the one in the middle again. The text that
+// includes this says where to read: INSIDE(p) is (q, f) of a cell of this grid, FINEST a texture of the finest one.
 
 ivec2 size;
 vec2 w;

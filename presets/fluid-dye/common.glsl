@@ -4,7 +4,8 @@
 #iUniform float viscosity = 0.25 in { 0.0, 1.25 }
 #iUniform float stiffness = 2.2 in { 0.0, 10.0 }
 #iUniform float dt = 0.2 in { 0.02, 2.0 }
-// 0: the method as it was published, for which stiffness 0.4 and viscosity 0.5 are right; 1: forward-backward (solver.glsl).
+// 0: the method as it was published, for which stiffness 0.4 and viscosity 0.5 are right; 1: forward-backward
+// (solver.glsl).
 #iUniform int form = 1 in { 0, 1 }
 // 0: the picture, 1: Mach's number, 2: the density.
 #iUniform int view = 0 in { 0, 2 }
@@ -24,7 +25,8 @@ const float SUBSTEPS = 3.0; // a frame; the same number as in eddy.toml
 
 #include "solver.glsl"
 
-// Two nozzles at the ends of a beam that turns, each blowing across it. (x, y, cos, sin): position in pixels, direction.
+// Two nozzles at the ends of a beam that turns, each blowing across it. (x, y, cos, sin): position in pixels,
+// direction.
 const int EMITTERS = 2;
 
 vec4 emitter(int i, float time, vec2 resolution) {

@@ -27,7 +27,8 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     vec3 shown = water + 1.0 - exp(-1.4 * light);
     shown = pow(shown, vec3(1.0 / 1.8));
 
-    if (beyondTheMethod() && fragCoord.y < 0.03 * iResolution.y && mod(fragCoord.x + fragCoord.y, 0.06 * iResolution.y) < 0.03 * iResolution.y) {
+    if (beyondTheMethod() && fragCoord.y < 0.03 * iResolution.y
+        && mod(fragCoord.x + fragCoord.y, 0.06 * iResolution.y) < 0.03 * iResolution.y) {
         shown = vec3(0.85, 0.1, 0.1);
     }
     if (view != 0) shown = viewOf(CELL(iChannel1, p, ivec2(iResolution.xy)));

@@ -31,7 +31,8 @@ void mainImage(out vec4 state, in vec2 fragCoord) {
     ivec2 i = ivec2(floor(from));
     vec2 f = from - vec2(i);
     vec2 arriving = mix(mix(CELL(iChannel0, i, size).xy, CELL(iChannel0, i + ivec2(1, 0), size).xy, f.x),
-                        mix(CELL(iChannel0, i + ivec2(0, 1), size).xy, CELL(iChannel0, i + ivec2(1, 1), size).xy, f.x), f.y);
+                        mix(CELL(iChannel0, i + ivec2(0, 1), size).xy, CELL(iChannel0, i + ivec2(1, 1), size).xy, f.x),
+                    f.y);
 
     state = fluidStep(s, arriving, p, size);
     state.xy = emit(state.xy, fragCoord, iTime, idleness(before), iResolution.xy);

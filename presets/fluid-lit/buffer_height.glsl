@@ -2,9 +2,10 @@
 //
 // The flow carries it, eddies dent it (left-handed ones raise it), and it settles to a slow swell, h0:
 //     h' = h0 + ((h + tension / 8 lap h)(upstream) - h0) exp(-dt / settle_seconds) + dent * vorticity * dt
-// The Laplacian is upstream too. What is carried is then a mean of heights with positive weights, so that no height is made by
-// carrying; taken here, it would be of cells that have left, and where the flow is fast it feeds what alternates.
-// y is the height a frame ago, for whoever wants its rate. There is no mouse here, but row 0 is not fluid and stays flat.
+// The Laplacian is upstream too. What is carried is then a mean of heights with positive weights, so that no height is
+// made by carrying; taken here, it would be of cells that have left, and where the flow is fast it feeds what
+// alternates. y is the height a frame ago, for whoever wants its rate. There is no mouse here, but row 0 is not fluid
+// and stays flat.
 
 float heightOf(ivec2 p) {
     vec4 q = texelFetch(iChannel1, nearestCell(p, ivec2(iResolution.xy)), 0);

@@ -1,7 +1,7 @@
-// A lacquered liquid in a studio. Phong's light on the surface (B. T. Phong, "Illumination for Computer Generated Pictures", CACM
-// 18(6), 1975): diffuse by n . l, specular by (r . v)^shininess, for two lamps; and two soft boxes mirrored in it, as much as
-// Schlick's approximation says (C. Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", Eurographics 1994).
-// Channel 0 is the normal and the height, channel 1 the fluid.
+// A lacquered liquid in a studio. Phong's light on the surface (B. T. Phong, "Illumination for Computer Generated
+// Pictures", CACM 18(6), 1975): diffuse by n . l, specular by (r . v)^shininess, for two lamps; and two soft boxes
+// mirrored in it, as much as Schlick's approximation says (C. Schlick, "An Inexpensive BRDF Model for Physically-based
+// Rendering", Eurographics 1994). Channel 0 is the normal and the height, channel 1 the fluid.
 
 vec3 phong(vec3 n, vec3 toEye, vec3 toLamp, vec3 lamp, vec3 body) {
     float facing = max(dot(n, toLamp), 0.0);
@@ -42,7 +42,8 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     shown *= 1.0 - 0.35 * min(dot(uv, uv), 1.0);
     shown = pow(1.0 - exp(-1.5 * shown), vec3(1.0 / 1.9));
 
-    if (beyondTheMethod() && fragCoord.y < 0.03 * iResolution.y && mod(fragCoord.x + fragCoord.y, 0.06 * iResolution.y) < 0.03 * iResolution.y) {
+    if (beyondTheMethod() && fragCoord.y < 0.03 * iResolution.y
+        && mod(fragCoord.x + fragCoord.y, 0.06 * iResolution.y) < 0.03 * iResolution.y) {
         shown = vec3(0.85, 0.1, 0.1);
     }
     if (view != 0) shown = viewOf(CELL(iChannel1, ivec2(fragCoord), ivec2(iResolution.xy)));

@@ -13,13 +13,15 @@
 //
 // The slider `form` chooses between two ways to write this:
 //
-// 0  The paper's, with the density before the step in the last term. At rest it is stable where nu >= K and nu dt <= 1/4 (von
-//    Neumann), so that sound is slow, and what the eye takes for a lively flow runs faster than it: at K = 0.4 and dt = 0.2
-//    c is 1.41. A density that alternates from cell to cell is seen by none of its differences.
-// 1  Forward-backward: the density after the step, rho', in the last term, which every cell works out for its four neighbours
-//    too, and the mass equation as fluxes from the cell upstream (donor cells), so that not a gram is lost. At rest that is stable
-//    without any viscosity; in a flow of 0.4 c up to K dt = 0.15, and 0.45 with viscosity (see soundStep). At the defaults c is
-//    3.3, and a fourth difference takes an alternating density away.
+// 0  The paper's, with the density before the step in the last term. At rest it is stable where nu >= K and nu dt <=
+// 1/4 (von
+//    Neumann), so that sound is slow, and what the eye takes for a lively flow runs faster than it: at K = 0.4 and dt =
+//    0.2 c is 1.41. A density that alternates from cell to cell is seen by none of its differences.
+// 1  Forward-backward: the density after the step, rho', in the last term, which every cell works out for its four
+// neighbours
+//    too, and the mass equation as fluxes from the cell upstream (donor cells), so that not a gram is lost. At rest
+//    that is stable without any viscosity; in a flow of 0.4 c up to K dt = 0.15, and 0.45 with viscosity (see
+//    soundStep). At the defaults c is 3.3, and a fourth difference takes an alternating density away.
 //
 // A flow is as good as incompressible where it is slower than 0.3 c. The slider `view` shows |u| / c, Mach's number.
 //
@@ -27,8 +29,8 @@
 
 const int CLASSIC = 0;
 
-// nu dt and K dt = (c dt)^2 as they act: no more than a step can bear, from the amplification matrix of all waves in a uniform flow
-// of up to MAX_MACH in any direction, with the fluxes and the fourth difference as they are below.
+// nu dt and K dt = (c dt)^2 as they act: no more than a step can bear, from the amplification matrix of all waves in a
+// uniform flow of up to MAX_MACH in any direction, with the fluxes and the fourth difference as they are below.
 float viscosityStep() {
     return form == CLASSIC ? viscosity * dt : min(viscosity * dt, 0.15);
 }
@@ -37,9 +39,9 @@ float soundStep() {
     return form == CLASSIC ? stiffness * dt : min(stiffness * dt, min(0.15 + 10.0 * viscosity * dt, 0.45));
 }
 
-// Confinement is an explicit force that feeds the shortest eddies most: more of it a step than viscosity takes from them, and some
-// that advection takes, ends as noise from cell to cell at the limit of speed (measured: confinement * dt = 0.2 without
-// viscosity, 0.4 with nu dt = 0.06).
+// Confinement is an explicit force that feeds the shortest eddies most: more of it a step than viscosity takes from
+// them, and some that advection takes, ends as noise from cell to cell at the limit of speed (measured: confinement *
+// dt = 0.2 without viscosity, 0.4 with nu dt = 0.06).
 float confinementHere() {
     return form == CLASSIC ? confinement : min(confinement, (0.1 + 2.5 * viscosityStep()) / dt);
 }
@@ -58,7 +60,8 @@ float soundSpeed() {
 // the swirl that bilinear advection rubs out. The softening makes the force quadratic near rest: it cannot wake noise.
 const float CONFINEMENT_SOFTENING = 1e-2;
 
-// Never reached in calm flow: they bring back what a violent drag has done. MAX_SPEED is that of the paper's form, past the sound.
+// Never reached in calm flow: they bring back what a violent drag has done. MAX_SPEED is that of the paper's form, past
+// the sound.
 const float MAX_SPEED = 3.0;
 const float MAX_MACH = 0.4;
 const float MIN_DENSITY = 0.5;
@@ -88,7 +91,7 @@ const float RECOVERY = 1e-3;
 
 const vec4 REST = vec4(0.0, 0.0, 1.0, 0.0);
 
-// ---------------------------------------------------------------------------------------------------- reading cells
+// ---------------------------------------------------------------------------------------------- reading cells
 
 // NaN and infinity have all exponent bits set. Compared as bits: what clamp(), min() and < make of a NaN is undefined
 // in GLSL ES 3.00 (section 4.5.1), so none of them can be trusted to stop one.
@@ -123,7 +126,7 @@ vec2 upstream(ivec2 p, vec2 velocity, float t, ivec2 size) {
     return clamp(vec2(p) - t * velocity, vec2(-0.5, 0.5), max(vec2(size), vec2(1.0, 2.0)) - 0.5);
 }
 
-// --------------------------------------------------------------------------------------------------------- the solver
+// --------------------------------------------------------------------------------------------------- the solver
 
 struct Stencil {
     vec4 centre, left, right, down, up;
@@ -131,7 +134,8 @@ struct Stencil {
     vec4 downLeft, downRight, upLeft, upRight;
 };
 
-// The mass that flows in a unit of time from cell a to cell b, which have velocities u and v along the way between them.
+// The mass that flows in a unit of time from cell a to cell b, which have velocities u and v along the way between
+// them.
 float flux(float a, float u, float b, float v) {
     return 0.5 * (a * u + b * v) - 0.25 * abs(u + v) * (b - a);
 }
@@ -184,11 +188,11 @@ vec4 fluidStep(Stencil s, vec2 arriving, ivec2 p, ivec2 size) {
     return healed(vec4(velocity, clamp(density, MIN_DENSITY, MAX_DENSITY), vorticity));
 }
 
-// ----------------------------------------------------------------------------------------------------------- the hand
+// ----------------------------------------------------------------------------------------------------- the hand
 
-// Texel (0, 0): the mouse as the step before saw it (x, y, 1 while held), and for how many seconds nobody has touched it.
-// The brush moves from there to where the mouse is now. Sub-steps B and C find the mouse where A has already written
-// it, so a drag pushes once a frame although all three steps are the same code.
+// Texel (0, 0): the mouse as the step before saw it (x, y, 1 while held), and for how many seconds nobody has touched
+// it. The brush moves from there to where the mouse is now. Sub-steps B and C find the mouse where A has already
+// written it, so a drag pushes once a frame although all three steps are the same code.
 const ivec2 MOUSE = ivec2(0, 0);
 const float IDLE_AT_START = 60.0;
 
@@ -225,9 +229,9 @@ float brushRadius(vec2 resolution) {
 const float BRUSH_SPEED = 2.2;
 const float BRUSH_MACH = 0.4;
 
-// Against a wall, or against its own push of a frame ago, a hand moves nothing: all its force goes into the density, which comes
-// to differ by force times length over c^2, and the brush is longer on a larger canvas. The hand's grip loosens where the density
-// is off by more than SLIPS, and is gone at SLIDES.
+// Against a wall, or against its own push of a frame ago, a hand moves nothing: all its force goes into the density,
+// which comes to differ by force times length over c^2, and the brush is longer on a larger canvas. The hand's grip
+// loosens where the density is off by more than SLIPS, and is gone at SLIDES.
 const float SLIPS = 0.15;
 const float SLIDES = 0.35;
 
@@ -240,10 +244,10 @@ vec2 drag(vec4 state, vec2 p, vec4 before, vec4 mouse, vec2 resolution) {
     return mix(state.xy, hand, 0.5 * grip * brush(p, before, mouse, brushRadius(resolution)));
 }
 
-// ----------------------------------------------------------------------------------------------------------- the view
+// ----------------------------------------------------------------------------------------------------- the view
 
-// What the slider `view` shows in place of the picture: 1 Mach's number, green to 0.3 and red from there; 2 the density less 1,
-// where blue is too little and red too much, 0.1 at full strength.
+// What the slider `view` shows in place of the picture: 1 Mach's number, green to 0.3 and red from there; 2 the density
+// less 1, where blue is too little and red too much, 0.1 at full strength.
 vec3 viewOf(vec4 cell) {
     float mach = length(cell.xy) / max(soundSpeed(), 1e-6), off = clamp(10.0 * (cell.z - 1.0), -1.0, 1.0);
     vec3 slow = mix(vec3(0.02, 0.03, 0.06), vec3(0.30, 0.85, 0.35), min(mach / 0.3, 1.0));

@@ -20,8 +20,8 @@ vec4 cubic(float f) {
     return 0.5 * vec4(-f + 2.0 * f2 - f3, 2.0 - 5.0 * f2 + 3.0 * f3, f + 4.0 * f2 - 3.0 * f3, f3 - f2);
 }
 
-// Bicubic keeps filaments sharp where bilinear would blur them away in seconds. Its overshoot is cut to the range of the
-// four nearest texels, so no colour appears that was not there.
+// Bicubic keeps filaments sharp where bilinear would blur them away in seconds. Its overshoot is cut to the range of
+// the four nearest texels, so no colour appears that was not there.
 vec4 paintAt(vec2 at) {
     ivec2 i = ivec2(floor(at));
     vec4 wx = cubic(at.x - float(i.x)), wy = cubic(at.y - float(i.y));

@@ -4,7 +4,8 @@
 #iUniform float viscosity = 0.3 in { 0.0, 1.25 }
 #iUniform float stiffness = 2.2 in { 0.0, 10.0 }
 #iUniform float dt = 0.2 in { 0.02, 2.0 }
-// 0: the method as it was published, for which stiffness 0.4 and viscosity 0.5 are right; 1: forward-backward (solver.glsl).
+// 0: the method as it was published, for which stiffness 0.4 and viscosity 0.5 are right; 1: forward-backward
+// (solver.glsl).
 #iUniform int form = 1 in { 0, 1 }
 // 0: the picture, 1: Mach's number, 2: the density.
 #iUniform int view = 0 in { 0, 2 }
@@ -21,7 +22,7 @@ const float SUBSTEPS = 3.0; // a frame: Buffer A, B, C
 
 #include "solver.glsl"
 
-// ------------------------------------------------------------------------------------------------------- the emitters
+// ------------------------------------------------------------------------------------------------- the emitters
 
 const int EMITTERS = 3;
 
@@ -30,7 +31,8 @@ const int EMITTERS = 3;
 vec4 emitter(int i, float time, vec2 resolution) {
     float phase = 2.0944 * float(i);
     float turn = 0.35 * time + phase;
-    vec2 centre = 0.5 * resolution + vec2(0.30 * resolution.x, 0.28 * resolution.y) * vec2(cos(turn), sin(1.3 * turn + phase));
+    vec2 centre = 0.5 * resolution + vec2(0.30 * resolution.x, 0.28 * resolution.y)
+        * vec2(cos(turn), sin(1.3 * turn + phase));
     float facing = turn + 2.2 + 0.9 * sin(0.7 * time + 2.0 * phase);
     return vec4(centre, cos(facing), sin(facing));
 }
@@ -45,7 +47,8 @@ const float JET_SPEED = 1.8, JET_MACH = 0.38;
 vec2 emit(vec2 velocity, vec2 p, float time, float strength, vec2 resolution) {
     for (int i = 0; i < EMITTERS; i++) {
         vec4 nozzle = emitter(i, time, resolution);
-        velocity = mix(velocity, subsonic(JET_SPEED, JET_MACH) * nozzle.zw, 0.08 * nozzles * strength * emitterWeight(p, nozzle, resolution));
+        velocity = mix(velocity, subsonic(JET_SPEED, JET_MACH) * nozzle.zw,
+                       0.08 * nozzles * strength * emitterWeight(p, nozzle, resolution));
     }
     return velocity;
 }

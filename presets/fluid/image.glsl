@@ -19,7 +19,8 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     vec2 uv = (fragCoord - 0.5 * iResolution.xy) / iResolution.y;
     float scale = iResolution.y / 270.0; // as much relief as on a canvas 270 pixels high, whatever the size is
 
-    vec2 slope = vec2(height(p - ivec2(1, 0)) - height(p + ivec2(1, 0)), height(p - ivec2(0, 1)) - height(p + ivec2(0, 1)));
+    vec2 slope = vec2(height(p - ivec2(1, 0)) - height(p + ivec2(1, 0)),
+                      height(p - ivec2(0, 1)) - height(p + ivec2(0, 1)));
     vec3 n = normalize(vec3(relief * scale * slope, 1.0));
     vec3 eye = normalize(vec3(-uv, 2.0));
 
@@ -39,7 +40,8 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
 
     // Hatched while the sliders ask for what the method cannot do.
     if (beyondTheMethod() && fragCoord.y < 0.03 * iResolution.y) {
-        shown = mod(fragCoord.x + fragCoord.y, 0.06 * iResolution.y) < 0.03 * iResolution.y ? vec3(0.85, 0.1, 0.1) : shown;
+        shown = mod(fragCoord.x + fragCoord.y, 0.06 * iResolution.y) < 0.03 * iResolution.y ? vec3(0.85, 0.1, 0.1)
+            : shown;
     }
     if (view != 0) shown = viewOf(CELL(iChannel1, p, ivec2(iResolution.xy)));
     fragColor = vec4(shown, 1.0);

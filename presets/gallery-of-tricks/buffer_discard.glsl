@@ -1,5 +1,6 @@
-// Balls in the first texels of row 0, drawn every frame. Above them, texels that are drawn once and then discarded: those on
-// the left in the first frame only, those on the right in the first two. Channel 0 is this buffer in the last frame.
+// Balls in the first texels of row 0, drawn every frame. Above them, texels that are drawn once and then discarded:
+// those on the left in the first frame only, those on the right in the first two. Channel 0 is this buffer in the last
+// frame.
 
 void mainImage(out vec4 state, in vec2 fragCoord) {
     ivec2 p = ivec2(fragCoord);

@@ -1,5 +1,5 @@
-// Clouds of eight octaves of noise: x their height so far, w how many octaves are in it. Left all at once in frame 0, right
-// one more each frame until all are there. A square that wanders about erases what it meets, as a resize does.
+// Clouds of eight octaves of noise: x their height so far, w how many octaves are in it. Left all at once in frame 0,
+// right one more each frame until all are there. A square that wanders about erases what it meets, as a resize does.
 // Channel 0 is this buffer in the last frame.
 
 const int OCTAVES = 8;

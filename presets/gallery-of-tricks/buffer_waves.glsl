@@ -10,7 +10,8 @@ const float SPEED2 = 0.35;
 int half_;
 
 vec2 cell(ivec2 p, int side) {
-    p.x = clamp(p.x, side * half_, side * half_ + half_ - 1); // the wall mirrors: the cell beyond it is the cell before it
+    // the wall mirrors: the cell beyond it is the cell before it
+    p.x = clamp(p.x, side * half_, side * half_ + half_ - 1);
     p.y = clamp(p.y, 0, int(iResolution.y) - 1);
     vec4 q = texelFetch(iChannel0, p, 0);
     return isFinite(q) ? q.xy : vec2(0.0);
@@ -21,7 +22,8 @@ void mainImage(out vec4 water, in vec2 fragCoord) {
     half_ = int(iResolution.x) / 2;
     int side = p.x < half_ ? 0 : 1, frame = iFrame % restart;
     vec2 q = cell(p, side);
-    float around = cell(p - ivec2(1, 0), side).x + cell(p + ivec2(1, 0), side).x + cell(p - ivec2(0, 1), side).x + cell(p + ivec2(0, 1), side).x;
+    float around = cell(p - ivec2(1, 0), side).x + cell(p + ivec2(1, 0), side).x + cell(p - ivec2(0, 1), side).x
+        + cell(p + ivec2(0, 1), side).x;
     q.y += SPEED2 * (around - 4.0 * q.x);
     q.x += q.y;
 

@@ -1,4 +1,5 @@
-// Along the rows. Channel 0 is Buffer A, channel 1 the weights; both passes of a mip level are one fetch, made in Buffer C.
+// Along the rows. Channel 0 is Buffer A, channel 1 the weights; both passes of a mip level are one fetch, made in
+// Buffer C.
 
 void mainImage(out vec4 blurred, in vec2 fragCoord) {
     ivec2 p = ivec2(fragCoord);
@@ -18,7 +19,8 @@ void mainImage(out vec4 blurred, in vec2 fragCoord) {
         for (int i = 1; i <= most; i += 2) {
             float near = texelFetch(iChannel1, ivec2(i, row), 0).x, far = texelFetch(iChannel1, ivec2(i + 1, row), 0).x;
             float both = near + far, off = float(i) + far / max(both, 1e-30);
-            float left = max(fragCoord.x - off, float(panel.x) + 0.5), right = min(fragCoord.x + off, float(last) + 0.5);
+            float left = max(fragCoord.x - off, float(panel.x) + 0.5),
+                right = min(fragCoord.x + off, float(last) + 0.5);
             blurred += both * (textureLod(iChannel0, vec2(left, fragCoord.y) / iResolution.xy, 0.0)
                              + textureLod(iChannel0, vec2(right, fragCoord.y) / iResolution.xy, 0.0));
         }

@@ -1,5 +1,5 @@
-// The weights, from the middle outwards, 0 beyond the last. Row 0: the Gaussian of the sigma asked for. Row 1: the nine taps that
-// are handed from shader to shader, divided by their sum, which is 0.98.
+// The weights, from the middle outwards, 0 beyond the last. Row 0: the Gaussian of the sigma asked for. Row 1: the nine
+// taps that are handed from shader to shader, divided by their sum, which is 0.98.
 
 const float CLASSIC[5] = float[5](0.16, 0.15, 0.12, 0.09, 0.05);
 
@@ -22,8 +22,8 @@ void mainImage(out vec4 weight, in vec2 fragCoord) {
         return;
     }
     if (i > last) return;
-    // Samples of a bell, cut off, have not the bell's own variance: a wide one lacks its tails, of a narrow one the texels beside
-    // the middle see too little. So the bell is made as wide as it takes.
+    // Samples of a bell, cut off, have not the bell's own variance: a wide one lacks its tails, of a narrow one the
+    // texels beside the middle see too little. So the bell is made as wide as it takes.
     float low = 0.05, high = 2.0 * sigma;
     for (int j = 0; j < 26; j++) {
         float s = 0.5 * (low + high);

@@ -1,5 +1,5 @@
-// The blurred cards, and below each the response to one texel: its texels magnified, its profile along the middle row as a
-// curve, and as dots what a Gaussian of the same sigma has there. Channel 0 is Buffer C.
+// The blurred cards, and below each the response to one texel: its texels magnified, its profile along the middle row
+// as a curve, and as dots what a Gaussian of the same sigma has there. Channel 0 is Buffer C.
 
 vec3 ink(int method) {
     return isTaps(method) ? vec3(1.00, 0.55, 0.20) : method != MIP ? vec3(0.30, 0.80, 0.95) : vec3(0.75, 0.55, 1.00);

@@ -21,7 +21,8 @@ float noise(vec2 p) {
 }
 
 float lineAt(vec2 pixel) {
-    return max(textureLod(iChannel1, pixel / iResolution.xy, 0.0).x, textureLod(iChannel1, pixel / iResolution.xy, 0.0).y);
+    return max(textureLod(iChannel1, pixel / iResolution.xy, 0.0).x,
+               textureLod(iChannel1, pixel / iResolution.xy, 0.0).y);
 }
 
 vec3 pigment(int material) {

@@ -1,5 +1,5 @@
-// A still life on a table, by sphere tracing: J. Hart, "Sphere Tracing", The Visual Computer 12, 1996. The distance functions
-// of its parts are exact; a ray is only marched inside of the box that holds all things.
+// A still life on a table, by sphere tracing: J. Hart, "Sphere Tracing", The Visual Computer 12, 1996. The distance
+// functions of its parts are exact; a ray is only marched inside of the box that holds all things.
 
 #iUniform float turning = 0.3 in { -2.0, 2.0 } // radians a second that the camera goes round
 

@@ -1,21 +1,23 @@
 // Ambient occlusion: the cosine-weighted part of the sky that is hidden. Channel 0 is the G-buffer.
 //
-// Method: J. Jimenez, X. Wu, A. Pesce, A. Jarabo, "Practical Realtime Strategies for Accurate Indirect Occlusion", SIGGRAPH
-// 2016 courses ("GTAO"): the hemisphere is cut into slices through the line of sight, and in each the weighting is integrated in
-// closed form. What hides a slice is kept as 32 sectors of equal weight: O. Therrien, Y. Levesque, G. Gilet, "Screen Space
-// Indirect Lighting with Visibility Bitmask", The Visual Computer 39, 2023. So what is farther hides less just by the sectors
-// that it hides first, and a thing that stands alone hides no more than its thickness.
+// Method: J. Jimenez, X. Wu, A. Pesce, A. Jarabo, "Practical Realtime Strategies for Accurate Indirect Occlusion",
+// SIGGRAPH 2016 courses ("GTAO"): the hemisphere is cut into slices through the line of sight, and in each the
+// weighting is integrated in closed form. What hides a slice is kept as 32 sectors of equal weight: O. Therrien, Y.
+// Levesque, G. Gilet, "Screen Space Indirect Lighting with Visibility Bitmask", The Visual Computer 39, 2023. So what
+// is farther hides less just by the sectors that it hides first, and a thing that stands alone hides no more than its
+// thickness.
 
 #iUniform float radius = 0.8 in { 0.05, 4.0 } // how far away something may be to hide the sky, in units of the scene
 #iUniform int slices = 2 in { 1, 8 }
 #iUniform int steps = 6 in { 2, 16 }          // on either side of a slice
 
-// The sine over a surface's plane below which a point counts as part of it: the rounding of depths to texels would else make a
-// plane hide a little of its own sky.
+// The sine over a surface's plane below which a point counts as part of it: the rounding of depths to texels would else
+// make a plane hide a little of its own sky.
 const float BIAS = 0.02;
 const float HALF_PI = 1.57079633;
 
-// A slice: the angle from the line of sight to the normal in it, and the weight of the angles on its far side, and of all.
+// A slice: the angle from the line of sight to the normal in it, and the weight of the angles on its far side, and of
+// all.
 struct Slice {
     float normal, low, all;
 };
@@ -72,16 +74,18 @@ void mainImage(out vec4 occluded, in vec2 fragCoord) {
             float edge = side > 0 ? 32.0 : 0.0, before = 0.0, last = 0.0;
             vec3 previous = vec3(0.0);
             for (int j = 0; j < steps; j++) {
-                float t = (float(j) + (float(step_) + 0.5) / 4.0) / float(steps), far = max(t * t * pixels, float(j) + 1.0);
+                float t = (float(j) + (float(step_) + 0.5) / 4.0) / float(steps),
+                    far = max(t * t * pixels, float(j) + 1.0);
                 ivec2 q = ivec2(floor(pixel + float(side) * along * far));
                 if (any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, size))) break;
                 vec3 delta = viewFromPixel(vec2(q) + 0.5, texelFetch(iChannel0, q, 0).z, canvas) - at;
-                // A surface that goes on from the last place to this one hides all that is between them, and about half way; what
-                // comes after a gap hides what is before and within it, and there.
+                // A surface that goes on from the last place to this one hides all that is between them, and about half
+                // way; what comes after a gap hides what is before and within it, and there.
                 bool goesOn = length(delta - previous) < 4.0 * (far - last) / perUnit + 0.01;
                 float away = length(delta), here = sectorOf(delta, view, float(side), s);
-                // What comes after a gap and stands nearer to the camera hides with its back, which is nearer than its front. How
-                // much nearer the G-buffer does not know: 0.15 of the thickness, more lets things hide the open table.
+                // What comes after a gap and stands nearer to the camera hides with its back, which is nearer than its
+                // front. How much nearer the G-buffer does not know: 0.15 of the thickness, more lets things hide the
+                // open table.
                 float back = 0.15 * clamp(dot(delta, view), 0.0, thickness);
                 float where = goesOn ? 0.5 * (away + before) : length(delta - back * view), other = edge;
                 previous = delta;

@@ -1,5 +1,5 @@
-// The occlusion at the full size: between the four nearest texels, as far as they are of the same surface. Channel 0 is the
-// occlusion at half the size, channel 1 the G-buffer.
+// The occlusion at the full size: between the four nearest texels, as far as they are of the same surface. Channel 0 is
+// the occlusion at half the size, channel 1 the G-buffer.
 
 void mainImage(out vec4 occluded, in vec2 fragCoord) {
     vec2 halfSize = iChannelResolution[0].xy, from = fragCoord / iResolution.xy * halfSize - 0.5, f = fract(from);
@@ -11,7 +11,8 @@ void mainImage(out vec4 occluded, in vec2 fragCoord) {
         ivec2 off = ivec2(i & 1, i >> 1), q = clamp(base + off, ivec2(0), last);
         ivec2 full = fullTexel(q, halfSize, iResolution.xy);
         vec2 near = mix(1.0 - f, f, vec2(off));
-        // Where all four are of other surfaces, on what is thinner than two pixels, their mean is as good a guess as any.
+        // Where all four are of other surfaces, on what is thinner than two pixels, their mean is as good a guess as
+        // any.
         float kin = kinship(texelFetch(iChannel1, full, 0), vec2(full) + 0.5, at, normal, here, iResolution.xy);
         float weight = near.x * near.y * max(kin, 1e-4);
         sum += weight * texelFetch(iChannel0, q, 0).r;

@@ -1,9 +1,9 @@
 // Reflections: xy where in the picture (0 to 1) the mirrored ray meets something, z how much that is to be believed.
 // Channel 0 is the G-buffer.
 //
-// Method: M. McGuire, M. Mara, "Efficient GPU Screen-Space Ray Tracing", JCGT 3(4), 2014: the ray is followed in the picture,
-// where its inverse depth is a straight line, until it is behind what the G-buffer has there; then halved to the place.
-// Strides are short at first: beside a thing's foot its mirror image begins within a pixel.
+// Method: M. McGuire, M. Mara, "Efficient GPU Screen-Space Ray Tracing", JCGT 3(4), 2014: the ray is followed in the
+// picture, where its inverse depth is a straight line, until it is behind what the G-buffer has there; then halved to
+// the place. Strides are short at first: beside a thing's foot its mirror image begins within a pixel.
 
 #iUniform int strides = 24 in { 4, 128 }
 

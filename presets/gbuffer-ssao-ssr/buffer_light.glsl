@@ -39,7 +39,8 @@ vec3 room(vec3 d) {
     vec3 light = mix(vec3(0.050, 0.036, 0.030), vec3(0.20, 0.23, 0.29), smoothstep(-0.25, 0.9, d.y));
     vec2 q = d.z > -0.8 ? vec2(d.x + 0.55, d.y - 0.52) : vec2(9.0);
     vec2 pane = abs(vec2(dot(q, vec2(0.94, -0.10)), q.y)) - vec2(0.20, 0.28);
-    return light + vec3(2.6, 2.5, 2.3) * smoothstep(0.05, -0.03, max(pane.x, pane.y)) * smoothstep(0.005, 0.03, abs(q.x));
+    return light + vec3(2.6, 2.5, 2.3) * smoothstep(0.05, -0.03, max(pane.x, pane.y))
+        * smoothstep(0.005, 0.03, abs(q.x));
 }
 
 void mainImage(out vec4 light, in vec2 fragCoord) {
@@ -56,13 +57,14 @@ void mainImage(out vec4 light, in vec2 fragCoord) {
     float pixel = g.z / (FOCAL * unit(iResolution.xy)) / max(dot(n, view), 0.1);
     vec3 own = isTable ? walnut(at.xz, pixel) : paint(int(g.w));
 
-    // What is hidden from the sky loses the sky's light; but light goes on between things of a colour (Jimenez et al. 2016,
-    // section 5, have this fit), so what is left of it is not grey.
+    // What is hidden from the sky loses the sky's light; but light goes on between things of a colour (Jimenez et al.
+    // 2016, section 5, have this fit), so what is left of it is not grey.
     float open = 1.0 - clamp(occlusion * texelFetch(iChannel1, ivec2(fragCoord), 0).r, 0.0, 1.0);
     vec3 a = 2.0404 * own - 0.3324, b = -4.7951 * own + 0.6417, c = 2.7552 * own + 0.6903;
     vec3 seen = max(vec3(open), ((open * a + b) * open + c) * open);
 
-    // The G-buffer has one number for all diffuse light: 0.16 + 0.10 n.y of it are the sky's, 0.72 dot(n, SUN) the sun's.
+    // The G-buffer has one number for all diffuse light: 0.16 + 0.10 n.y of it are the sky's, 0.72 dot(n, SUN) the
+    // sun's.
     float sun = clamp((fract(g.w) - 0.16 - 0.10 * n.y) / 0.72, 0.0, 1.0), facing = max(dot(n, SUN), 1e-4);
     float lit = min(sun / facing, 1.0);
     vec3 sky = mix(vec3(0.34, 0.27, 0.22), vec3(0.62, 0.74, 0.98), 0.5 + 0.5 * n.y);

@@ -1,5 +1,5 @@
-// The light and its reflection, as a screen shows them. Channel 0 is the G-buffer, 1 the ambient occlusion, 2 the reflections,
-// 3 the light.
+// The light and its reflection, as a screen shows them. Channel 0 is the G-buffer, 1 the ambient occlusion, 2 the
+// reflections, 3 the light.
 
 #iUniform int show = 0 in { 0, 3 }               // 0 all, 1 occlusion, 2 reflections, 3 the G-buffer
 #iUniform float polish = 0.16 in { 0.0, 1.0 }    // how much the table mirrors from straight above

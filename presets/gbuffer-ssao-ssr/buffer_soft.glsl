@@ -1,5 +1,5 @@
-// The mean over the texels around, in which Buffer B looks in all its directions; what is of another surface does not count.
-// Channel 0 is Buffer B, channel 1 the G-buffer.
+// The mean over the texels around, in which Buffer B looks in all its directions; what is of another surface does not
+// count. Channel 0 is Buffer B, channel 1 the G-buffer.
 
 void mainImage(out vec4 occluded, in vec2 fragCoord) {
     vec2 canvas = iChannelResolution[1].xy;
@@ -7,8 +7,8 @@ void mainImage(out vec4 occluded, in vec2 fragCoord) {
     vec4 here = texelFetch(iChannel1, full, 0);
     vec3 at = viewFromPixel(vec2(full) + 0.5, here.z, canvas), normal = unpackNormal(here.xy);
     float sum = 0.0, weights = 0.0;
-    // Rows and columns count 1 2 3 4 3 2 1: any four in a row have each direction once, so all directions weigh the same
-    // wherever the window is, and also on a slope.
+    // Rows and columns count 1 2 3 4 3 2 1: any four in a row have each direction once, so all directions weigh the
+    // same wherever the window is, and also on a slope.
     for (int y = -3; y <= 3; y++) {
         for (int x = -3; x <= 3; x++) {
             ivec2 q = clamp(p + ivec2(x, y), ivec2(0), last), there = fullTexel(q, iResolution.xy, canvas);

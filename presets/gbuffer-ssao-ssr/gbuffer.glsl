@@ -1,6 +1,7 @@
 // The G-buffer: what a picture needs to know of the nearest surface, four numbers a texel.
 //
-//   x, y   the normal, seen from the camera (z points at it), as a Lambert azimuthal map: the whole sphere but one point,
+//   x, y   the normal, seen from the camera (z points at it), as a Lambert azimuthal map: the whole sphere but one
+//   point,
 //          and nothing is lost at a silhouette, where the z of a plain normal.xy would be the root of almost nothing.
 //          (M. Mittring, "A Bit More Deferred - CryEngine 3", 2009)
 //   z      depth: how far in front of the camera's plane, in units of the scene; FAR where there is nothing

@@ -1,5 +1,5 @@
-// The picture, edges smoothed along their direction: T. Lottes, "FXAA", NVIDIA 2009, in its shortest form. Channel 0 is the
-// picture as a screen shows it.
+// The picture, edges smoothed along their direction: T. Lottes, "FXAA", NVIDIA 2009, in its shortest form. Channel 0 is
+// the picture as a screen shows it.
 
 vec3 shown(vec2 at) {
     return textureLod(iChannel0, at / iResolution.xy, 0.0).rgb;

@@ -1,5 +1,5 @@
-// x: the vorticity, the mean of that of every scale by its weight, in turns of a radian a second. y: divergence, in 1 / seconds. Channel 0 is the velocity
-// just moved, with mips.
+// x: the vorticity, the mean of that of every scale by its weight, in turns of a radian a second. y: divergence, in 1 /
+// seconds. Channel 0 is the velocity just moved, with mips.
 
 vec2 velocityAt(vec2 uv, float level) {
     return textureLod(iChannel0, uv, level).xy;

@@ -1,5 +1,5 @@
-// Marbling: bands of paint that the flow folds and that slowly return, each to its place. Channel 0: the velocity; channel
-// 1: this buffer in the last frame. xyz: three paints; w: how strongly the flow turned here, for Image.
+// Marbling: bands of paint that the flow folds and that slowly return, each to its place. Channel 0: the velocity;
+// channel 1: this buffer in the last frame. xyz: three paints; w: how strongly the flow turned here, for Image.
 
 vec4 paintOf(ivec2 p) {
     vec4 q = texelFetch(iChannel1, ivec2(mod(vec2(p), iResolution.xy)), 0);

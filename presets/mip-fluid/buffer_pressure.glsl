@@ -1,8 +1,8 @@
 // The sum over levels that stands for the solution of lap p = div u. Channel 0: vorticity and divergence, with mips.
 
 // A level by its cubic B-spline: four bilinear looks at places between the texels that stand for sixteen (C. Sigg,
-// M. Hadwiger, "Fast Third-Order Texture Filtering", GPU Gems 2, chapter 20). Bilinear alone has kinks, whose gradient is a
-// jump in the velocity along the edges of the coarse levels' texels.
+// M. Hadwiger, "Fast Third-Order Texture Filtering", GPU Gems 2, chapter 20). Bilinear alone has kinks, whose gradient
+// is a jump in the velocity along the edges of the coarse levels' texels.
 float smoothly(vec2 uv, int level) {
     vec2 size = vec2(textureSize(iChannel0, level)), at = uv * size - 0.5, i = floor(at), f = at - i;
     vec2 f2 = f * f, f3 = f2 * f;

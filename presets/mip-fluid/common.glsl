@@ -1,21 +1,23 @@
-// A fluid on a torus whose far-reaching terms are sums over mip levels: level l of a buffer is the mean over squares 2^l wide.
+// A fluid on a torus whose far-reaching terms are sums over mip levels: level l of a buffer is the mean over squares
+// 2^l wide.
 //
-//     moved     the velocity carried along (semi-Lagrangian: J. Stam, "Stable Fluids", SIGGRAPH 1999), plus turbulence and
+//     moved     the velocity carried along (semi-Lagrangian: J. Stam, "Stable Fluids", SIGGRAPH 1999), plus turbulence
+//     and
 //               confinement on every scale, plus the stirring
 //     measure   vorticity, summed over the levels of `moved`, and divergence
 //     pressure  an estimate of the solution of lap p = div u, by one sum over the levels of `measure`
 //     velocity  moved - grad p
 //
-// Pressure: a wave of length about 4 * 2^l is what levels l and l + 1 differ by, and 1 / k^2 of it is about 4^l. Summed by
-// parts that gives level l the weight 4^l - 4^(l-1) = 3/4 4^l: `pressure_slope` is the 4. One sum is no solver: of
-// waves longer than 32 texels it leaves 0.18 a frame, of those of 8 texels 0.3, of those of 4 a half, and of the shortest
-// everything, whatever one does; enough to look at, not to measure by (see fluid-accurate for that). The first to sum a Poisson problem's scales in one pass over mip maps
-// were pyramid methods: P. Burt, "Fast Filter Transforms for Image Processing", CGIP 16, 1981; R. Fattal, "Convolution
-// Pyramids", SIGGRAPH Asia 2011.
+// Pressure: a wave of length about 4 * 2^l is what levels l and l + 1 differ by, and 1 / k^2 of it is about 4^l. Summed
+// by parts that gives level l the weight 4^l - 4^(l-1) = 3/4 4^l: `pressure_slope` is the 4. One sum is no solver: of
+// waves longer than 32 texels it leaves 0.18 a frame, of those of 8 texels 0.3, of those of 4 a half, and of the
+// shortest everything, whatever one does; enough to look at, not to measure by (see fluid-accurate for that). The first
+// to sum a Poisson problem's scales in one pass over mip maps were pyramid methods: P. Burt, "Fast Filter Transforms
+// for Image Processing", CGIP 16, 1981; R. Fattal, "Convolution Pyramids", SIGGRAPH Asia 2011.
 //
-// No step is too long: advection invents nothing and MAX_SPEED ends what turbulence and confinement feed. But what is carried
-// is bilinear: waves of 64 texels, left to themselves, keep 0.76 of their energy over two seconds, and 0.11 at ten times
-// the step (the slider `speed`).
+// No step is too long: advection invents nothing and MAX_SPEED ends what turbulence and confinement feed. But what is
+// carried is bilinear: waves of 64 texels, left to themselves, keep 0.76 of their energy over two seconds, and 0.11 at
+// ten times the step (the slider `speed`).
 //
 // Units: canvas heights and seconds.
 

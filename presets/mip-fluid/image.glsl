@@ -14,7 +14,8 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     vec2 uv = (fragCoord - 0.5 * iResolution.xy) / iResolution.y;
     float scale = iResolution.y / 270.0;
     vec4 q = paintOf(p);
-    vec2 slope = vec2(height(p - ivec2(1, 0)) - height(p + ivec2(1, 0)), height(p - ivec2(0, 1)) - height(p + ivec2(0, 1)));
+    vec2 slope = vec2(height(p - ivec2(1, 0)) - height(p + ivec2(1, 0)),
+                      height(p - ivec2(0, 1)) - height(p + ivec2(0, 1)));
     vec3 n = normalize(vec3(1.3 * scale * slope, 1.0));
     vec3 sun = normalize(vec3(-0.5, 0.7, 0.8)), eye = normalize(vec3(-0.3 * uv, 1.0));
 

@@ -1,9 +1,12 @@
-// Two ways of remembering where the mouse was. iMouse says where it is; a stroke needs where it was a frame ago as well, and
-// a shader has no memory but its buffers. Buffer A and Buffer B draw the same strokes, and differ in where the memory lies:
+// Two ways of remembering where the mouse was. iMouse says where it is; a stroke needs where it was a frame ago as
+// well, and a shader has no memory but its buffers. Buffer A and Buffer B draw the same strokes, and differ in where
+// the memory lies:
 //
-//   A   texel (0, 0), by its address. The first row is not part of the picture. A resize keeps the bottom left corner, so
+//   A   texel (0, 0), by its address. The first row is not part of the picture. A resize keeps the bottom left corner,
+//   so
 //       the memory survives it.
-//   B   the texel at a fixed place in uv, here the top right corner, by a sampler. Nothing needs to know the size; but a
+//   B   the texel at a fixed place in uv, here the top right corner, by a sampler. Nothing needs to know the size; but
+//   a
 //       linear filter would mix the neighbours into it, and after a resize the place is another texel. So the memory is
 //       signed with the size it was written at, and a signature that does not fit is no memory.
 //
@@ -14,7 +17,7 @@ const vec2 MEMORY_UV = vec2(0.99999); // the last texel of each axis, up to 100,
 
 #iUniform float fade = 5.0 in { 0.2, 20.0 }    // seconds until a stroke has 1/e of its strength
 #iUniform float brush = 0.016 in { 0.002, 0.1 } // of the canvas' height
-#iUniform int copies = 6 in { 1, 12 }          // how many pens draw, turned about the middle; every other one is mirrored
+#iUniform int copies = 6 in { 1, 12 }          // how many pens draw, turned about the middle; every other is mirrored
 
 // A whole number, exact as a float for any canvas up to 4096 x 4096.
 float signature(vec2 resolution) {
@@ -44,8 +47,8 @@ vec3 hue(float turn) {
     return 0.52 + 0.48 * cos(6.2832 * (turn - vec3(0.02, 0.36, 0.62)));
 }
 
-// The ink at a pixel a frame later: what was there fades, and the hand's way since then is drawn over it, coloured by its
-// direction and thin where it was fast.
+// The ink at a pixel a frame later: what was there fades, and the hand's way since then is drawn over it, coloured by
+// its direction and thin where it was fast.
 vec4 draw(vec4 ink, vec2 pixel, vec4 before, vec3 now, vec2 resolution, float seconds) {
     if (!isFinite(ink) || ink.a < 0.0) ink = vec4(0.0); // broken, or a memory of another size
     ink *= exp(-seconds / fade);

@@ -1,5 +1,5 @@
-// Left Buffer A, right Buffer B: where they meet, a stroke goes on as if there were one buffer. A ring marks where each has
-// its memory, and a cross what is remembered there.
+// Left Buffer A, right Buffer B: where they meet, a stroke goes on as if there were one buffer. A ring marks where each
+// has its memory, and a cross what is remembered there.
 
 vec4 ink(ivec2 p) {
     p = clamp(p, ivec2(0), ivec2(iResolution.xy) - 1);

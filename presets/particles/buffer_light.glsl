@@ -1,4 +1,5 @@
-// The exposure. Channel 0 is this buffer in the last frame, channel 1 the tiles, channel 2 the motion, channel 3 the ages.
+// The exposure. Channel 0 is this buffer in the last frame, channel 1 the tiles, channel 2 the motion, channel 3 the
+// ages.
 
 vec3 colourOf(vec4 life) {
     float t = clamp(life.x / life.y, 0.0, 1.0);

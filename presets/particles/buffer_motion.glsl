@@ -70,7 +70,8 @@ void mainImage(out vec4 motion, in vec2 fragCoord) {
         // A spring to the lamp, some turning about it, some drag.
         vec2 to = light - at;
         float turn = n % 16 < 8 ? 1.0 : -1.0;
-        v += seconds * (pull * to / (0.12 + length(to)) + turn * 0.8 * vec2(-to.y, to.x) / (0.1 + length(to)) + 2.0 * windAt(3.0 * at, 2.0 * iTime));
+        v += seconds * (pull * to / (0.12 + length(to)) + turn * 0.8 * vec2(-to.y, to.x) / (0.1 + length(to))
+                        + 2.0 * windAt(3.0 * at, 2.0 * iTime));
         v *= exp(-1.1 * seconds);
     }
     v *= min(1.0, FASTEST / max(length(v), 1e-6));

@@ -1,9 +1,9 @@
 // The particles of each tile. Channel 0 is this frame's motion, channel 1 anything as large as the canvas.
 //
-// A texel goes through all particles, counts those whose streak may shine into its tile, and keeps the numbers (plus one;
-// 0 is none) of those whose turn is its own: the first texel of a tile the first four, and so on. Sixty-four have room;
-// where more crowd, as on canvases of under 90 rows, where a pixel is large, the picture loses the last, and nothing else does:
-// nothing to be seen on 54 rows, 0.2 % of the light on 36, 8 % on 18.
+// A texel goes through all particles, counts those whose streak may shine into its tile, and keeps the numbers (plus
+// one; 0 is none) of those whose turn is its own: the first texel of a tile the first four, and so on. Sixty-four have
+// room; where more crowd, as on canvases of under 90 rows, where a pixel is large, the picture loses the last, and
+// nothing else does: nothing to be seen on 54 rows, 0.2 % of the light on 36, 8 % on 18.
 
 void mainImage(out vec4 numbers, in vec2 fragCoord) {
     ivec2 p = ivec2(fragCoord), tile = p / TILE, slot = p - TILE * tile;

@@ -7,10 +7,10 @@
 //
 // Sparks fly on exact paths but for errors of second order: 6e-6 of their way in .8 s at 60 steps a second, 1e-4 at 15.
 //
-// A fragment shader cannot scatter, so each pixel gathers; the tiles keep it from asking all thousand. (The usual reference
-// for particle state in textures is L. Latta, "Building a Million Particle System", GDC 2004; for light lists by tile,
-// O. Olsson and U. Assarsson, "Tiled Shading", JGT 15(4), 2011.) Particles are never made nor lost: one that dies is born
-// again as its own type, in the step in which its age reaches its lifetime.
+// A fragment shader cannot scatter, so each pixel gathers; the tiles keep it from asking all thousand. (The usual
+// reference for particle state in textures is L. Latta, "Building a Million Particle System", GDC 2004; for light lists
+// by tile, O. Olsson and U. Assarsson, "Tiled Shading", JGT 15(4), 2011.) Particles are never made nor lost: one that
+// dies is born again as its own type, in the step in which its age reaches its lifetime.
 
 #iUniform float speed = 1.0 in { 0.0, 10.0 }
 #iUniform float lifetime = 1.0 in { 0.1, 5.0 }

@@ -66,8 +66,8 @@ void mainImage(out vec4 state, in vec2 fragCoord) {
     } else if (sower > 0.0) {
         near = length(fragCoord - sowerAt(iTime, iResolution.xy)) / (0.012 * iResolution.y + 2.0) / sower;
         if (iFrame == 0) {
-            // A seed in every square of 32 cells, at some place in it and of some size: what grows meets its neighbours within
-            // some 2,000 steps on a canvas of any size.
+            // A seed in every square of 32 cells, at some place in it and of some size: what grows meets its neighbours
+            // within some 2,000 steps on a canvas of any size.
             for (int i = 0; i < 9; i++) {
                 ivec2 square = ivec2(floor(fragCoord / 32.0)) + ivec2(i % 3, i / 3) - 1;
                 vec3 dice = hash(square);

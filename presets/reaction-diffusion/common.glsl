@@ -7,27 +7,28 @@
 // 1984; the map of patterns: J. Pearson, "Complex Patterns in a Simple System", Science 261, 1993. Diffusion rates are
 // Pearson's (2e-5 and 1e-5 on a square of 2.5 with 256 cells) in cells: a spot is some 14 pixels wide on every canvas.
 //
-// A texel is (1 - u, v). The fed state is all zeros: frame 0 and what a resize uncovers need no initialisation, and small
-// departures from it keep all their digits.
+// A texel is (1 - u, v). The fed state is all zeros: frame 0 and what a resize uncovers need no initialisation, and
+// small departures from it keep all their digits.
 
 #iUniform float feed = 0.0335 in { 0.0, 0.1 }
 #iUniform float kill = 0.0595 in { 0.0, 0.075 }
 
-// 1: all patterns at once. Feed runs upwards from 0.010 to 0.075; kill runs across the band that has patterns, on both sides of
-// the fold kill = sqrt(feed) / 2 - feed where the second constant state begins, so that no part of the picture lies empty.
+// 1: all patterns at once. Feed runs upwards from 0.010 to 0.075; kill runs across the band that has patterns, on both
+// sides of the fold kill = sqrt(feed) / 2 - feed where the second constant state begins, so that no part of the picture
+// lies empty.
 #iUniform float map = 0.0 in { 0.0, 1.0 } step 1.0
 // How far feed and kill sway across the picture: patterns that differ from place to place live side by side.
 #iUniform float sway = 0.6 in { 0.0, 2.0 }
 
 // How diffusion is done. 0: five-point Laplacian. 1: nine-point (Mehrstellen), as accurate but round: at wavelengths of
-// 8 cells its rate varies with direction by 0.05 % instead of 2.5 %. 2: a blur, the binomial kernel of the same variance.
-// 3: the same as two passes, rows and then columns, of a Gaussian: as exact as a grid allows and stable at any step, which may
-// so be four times as long; then the reaction, in steps of its own.
+// 8 cells its rate varies with direction by 0.05 % instead of 2.5 %. 2: a blur, the binomial kernel of the same
+// variance. 3: the same as two passes, rows and then columns, of a Gaussian: as exact as a grid allows and stable at
+// any step, which may so be four times as long; then the reaction, in steps of its own.
 #iUniform int diffusion = 1 in { 0, 3 }
 
 // Time of a step. Explicit Euler is stable to dt = 1 / (4 Du) = 1.19 with five points, 3 / (8 Du) = 1.79 with nine, and
-// the blur in one pass to the reaction's own limit; beyond 1.19 the step stays at 1.19 and Image hatches the foot of the
-// picture. With 3 the limit is 5, where the kernel's tails reach the end of its 15 taps.
+// the blur in one pass to the reaction's own limit; beyond 1.19 the step stays at 1.19 and Image hatches the foot of
+// the picture. With 3 the limit is 5, where the kernel's tails reach the end of its 15 taps.
 #iUniform float dt = 1.0 in { 0.0, 10.0 }
 
 #iUniform float brush_size = 0.035 in { 0.005, 0.2 }
@@ -42,9 +43,9 @@ float longestStep() {
     return diffusion == 3 ? LONGEST_BLUR : LONGEST_STEP;
 }
 
-// The discrete Gaussian of variance t, which is to a grid what the Gaussian is to the plane: exp(-t) I_n(t), of the sum 1 and
-// just that variance (T. Lindeberg, "Scale-Space for Discrete Signals", PAMI 12, 1990). For U and V, of variance 2 D h each.
-// I_(n-1) = I_(n+1) + 2 n / t I_n, begun far out with any number and divided by the sum (J. Miller 1952).
+// The discrete Gaussian of variance t, which is to a grid what the Gaussian is to the plane: exp(-t) I_n(t), of the sum
+// 1 and just that variance (T. Lindeberg, "Scale-Space for Discrete Signals", PAMI 12, 1990). For U and V, of variance
+// 2 D h each. I_(n-1) = I_(n+1) + 2 n / t I_n, begun far out with any number and divided by the sum (J. Miller 1952).
 const int TAPS = 7;
 
 void gaussian(float h, out vec2 weight[TAPS + 1]) {
@@ -81,7 +82,8 @@ vec2 sowerAt(float time, vec2 resolution) {
     return resolution * (0.5 + 0.43 * vec2(sin(0.71 * time + 0.6), sin(0.93 * time + 0.2 * sin(0.31 * time))));
 }
 
-// Three numbers in 0..1 for a square: T. Jarzynski and M. Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020 (their pcg3d).
+// Three numbers in 0..1 for a square: T. Jarzynski and M. Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020
+// (their pcg3d).
 vec3 hash(ivec2 square) {
     uvec3 v = uvec3(ivec3(square, 7)) * 1664525u + 1013904223u;
     v.x += v.y * v.z;

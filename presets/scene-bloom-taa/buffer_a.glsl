@@ -1,10 +1,12 @@
-// The scene: spheres on a polished floor, some of them lamps. Every ray meets them in closed form. Alpha is how far along its
-// ray (as rayThrough gives it) the first hit is.
+// The scene: spheres on a polished floor, some of them lamps. Every ray meets them in closed form. Alpha is how far
+// along its ray (as rayThrough gives it) the first hit is.
 
 const int SPHERES = 8;
 const vec4 SPHERE[SPHERES] = vec4[SPHERES]( // centre, radius
-    vec4(0.00, 0.80, 0.00, 0.80), vec4(1.45, 0.40, 0.55, 0.40), vec4(-1.25, 0.55, 0.85, 0.55), vec4(-0.75, 0.30, -1.30, 0.30),
-    vec4(0.75, 0.16, 1.35, 0.16), vec4(1.30, 0.20, -0.95, 0.20), vec4(-2.10, 0.13, -0.30, 0.13), vec4(0.05, 0.11, 1.75, 0.11));
+    vec4(0.00, 0.80, 0.00, 0.80), vec4(1.45, 0.40, 0.55, 0.40), vec4(-1.25, 0.55, 0.85, 0.55),
+        vec4(-0.75, 0.30, -1.30, 0.30),
+    vec4(0.75, 0.16, 1.35, 0.16), vec4(1.30, 0.20, -0.95, 0.20), vec4(-2.10, 0.13, -0.30, 0.13),
+        vec4(0.05, 0.11, 1.75, 0.11));
 const int FIRST_LAMP = 4; // from here on
 const vec3 COLOUR[SPHERES] = vec3[SPHERES](
     vec3(0.90, 0.90, 0.92), vec3(0.85, 0.22, 0.12), vec3(0.10, 0.30, 0.55), vec3(0.85, 0.68, 0.20),

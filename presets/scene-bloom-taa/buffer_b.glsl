@@ -1,12 +1,13 @@
-// The history. Channel 0 is Buffer A, channel 1 this buffer in the last frame, channel 2 Buffer C, which remembers the last frame's
-// distances and time. Alpha is the age: for how many frames nothing has come between this place and its history; 0 where there is
-// none. What it does and why, the preset taa says; here the light has no limit, so the mean is taken of c / (1 + luminance):
-// else one sample on a lamp's rim would outweigh a dozen beside it (B. Karis, SIGGRAPH 2014 courses).
+// The history. Channel 0 is Buffer A, channel 1 this buffer in the last frame, channel 2 Buffer C, which remembers the
+// last frame's distances and time. Alpha is the age: for how many frames nothing has come between this place and its
+// history; 0 where there is none. What it does and why, the preset taa says; here the light has no limit, so the mean
+// is taken of c / (1 + luminance): else one sample on a lamp's rim would outweigh a dozen beside it (B. Karis, SIGGRAPH
+// 2014 courses).
 //
-// Against 64 samples a pixel, PSNR of that, 320 x 180, frame 60: 44.7 dB while the camera rests, 37.1 while it goes round, 35.9
-// at orbit = 1.
+// Against 64 samples a pixel, PSNR of that, 320 x 180, frame 60: 44.7 dB while the camera rests, 37.1 while it goes
+// round, 35.9 at orbit = 1.
 
-#iUniform float gamma = 1.0 in { 0.25, 4.0 }   // half the width of the clamp's box, in sigma, where something has come or gone
+#iUniform float gamma = 1.0 in { 0.25, 4.0 }   // half the clamp's box, in sigma, where something has come or gone
 #iUniform float relaxed = 2.5 in { 0.25, 8.0 } // the same where the history has proved true
 #iUniform float blend = 0.1 in { 0.02, 1.0 }   // weight of the new frame
 
@@ -36,7 +37,8 @@ vec3 historyAt(vec2 at) {
     vec3 sum = vec3(0.0);
     for (int y = 0; y < 3; y++) {
         for (int x = 0; x < 3; x++) {
-            sum += weight[x].x * weight[y].y * textureLod(iChannel1, vec2(place[x].x, place[y].y) / iResolution.xy, 0.0).rgb;
+            sum += weight[x].x * weight[y].y
+                * textureLod(iChannel1, vec2(place[x].x, place[y].y) / iResolution.xy, 0.0).rgb;
         }
     }
     return max(sum, 0.0);

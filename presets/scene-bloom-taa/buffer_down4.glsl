@@ -1,4 +1,5 @@
-// 1/16 of the canvas. Channel 0 is the level before, channel 1 the history, for its size. The last level: without its alpha.
+// 1/16 of the canvas. Channel 0 is the level before, channel 1 the history, for its size. The last level: without its
+// alpha.
 
 #include "pyramid.glsl"
 

@@ -6,8 +6,8 @@
 //   down1..4     the history halved four times; up3..1 put together again: the bloom
 //   Image        chromatic aberration and vignette of a simple lens, exposure, tone curve, grain
 //
-// The order matters. Anti-aliasing before the bloom: a light between two pixels would make the whole glow blink. Both before
-// the tone curve: light adds up, colours of a screen do not. The lens bends what the film then records.
+// The order matters. Anti-aliasing before the bloom: a light between two pixels would make the whole glow blink. Both
+// before the tone curve: light adds up, colours of a screen do not. The lens bends what the film then records.
 
 #iUniform float orbit = 0.25 in { -1.0, 1.0 }   // how fast the camera goes round, radians in 2 seconds
 #iUniform float lamps = 14.0 in { 0.0, 60.0 }   // radiance of the lamps
@@ -52,8 +52,9 @@ bool isFinite(vec4 q) {
 }
 
 // Eight points of the Halton sequence in bases 2 and 3, from -0.5 to 0.5.
-const vec2 HALTON[8] = vec2[8](vec2(0.0, -1.0 / 6.0), vec2(-0.25, 1.0 / 6.0), vec2(0.25, -7.0 / 18.0), vec2(-0.375, -1.0 / 18.0),
-                               vec2(0.125, 5.0 / 18.0), vec2(-0.125, -5.0 / 18.0), vec2(0.375, 1.0 / 18.0), vec2(-0.4375, 7.0 / 18.0));
+const vec2 HALTON[8] = vec2[8](vec2(0.0, -1.0 / 6.0), vec2(-0.25, 1.0 / 6.0), vec2(0.25, -7.0 / 18.0),
+                               vec2(-0.375, -1.0 / 18.0), vec2(0.125, 5.0 / 18.0), vec2(-0.125, -5.0 / 18.0),
+                               vec2(0.375, 1.0 / 18.0), vec2(-0.4375, 7.0 / 18.0));
 
 vec2 jitter(int frame) {
     return HALTON[frame % 8];

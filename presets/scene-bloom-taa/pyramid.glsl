@@ -1,6 +1,7 @@
-// The filters of the bloom's pyramid: up by a 3 x 3 tent (J. Jimenez, "Next Generation Post Processing in Call of Duty: Advanced
-// Warfare", SIGGRAPH 2014 courses), down by its transpose. The weights of each sum to one. The preset bloom-sized has more of it,
-// and says why light is kept times alpha on the way down, and what that does at the far edges.
+// The filters of the bloom's pyramid: up by a 3 x 3 tent (J. Jimenez, "Next Generation Post Processing in Call of Duty:
+// Advanced Warfare", SIGGRAPH 2014 courses), down by its transpose. The weights of each sum to one. The preset
+// bloom-sized has more of it, and says why light is kept times alpha on the way down, and what that does at the far
+// edges.
 
 // Texels of level k that the picture covers; 0 is the picture.
 ivec2 levelSize(int k, vec2 canvas, vec2 buffer_) {
@@ -21,7 +22,8 @@ vec4 fetched(sampler2D source, vec2 at, vec2 size, vec2 extent, bool isPicture) 
 
 // A texel of level k out of the level before: light times alpha, and alpha.
 vec4 down(sampler2D source, vec2 fragCoord, int k, vec2 canvas, vec2 resolution) {
-    const float PLACE[4] = float[4](-2.75, -11.0 / 12.0, 11.0 / 12.0, 2.75), WEIGHT[4] = float[4](0.125, 0.375, 0.375, 0.125);
+    const float PLACE[4] = float[4](-2.75, -11.0 / 12.0, 11.0 / 12.0, 2.75),
+        WEIGHT[4] = float[4](0.125, 0.375, 0.375, 0.125);
     vec2 own = vec2(levelSize(k, canvas, resolution));
     if (any(greaterThan(fragCoord, own))) return vec4(0.0);
     vec2 size = vec2(levelSize(k - 1, canvas, vec2(textureSize(source, 0))));

@@ -1,5 +1,5 @@
-// The paint: xy the vector that stirs, zw what it carries besides. Channel 0 is this buffer in the last frame, repeating;
-// channel 1 the flow, channel 2 the mouse.
+// The paint: xy the vector that stirs, zw what it carries besides. Channel 0 is this buffer in the last frame,
+// repeating; channel 1 the flow, channel 2 the mouse.
 
 vec4 paintOf(ivec2 p) {
     ivec2 size = ivec2(iResolution.xy);
@@ -14,8 +14,8 @@ vec4 cubic(float f) {
     return 0.5 * vec4(-f + 2.0 * f2 - f3, 2.0 - 5.0 * f2 + 3.0 * f3, f + 4.0 * f2 - 3.0 * f3, f3 - f2);
 }
 
-// The part of the paint that is looked up by a linear filter. Without it fronts, where the flow presses paints together, end as
-// steps from texel to texel.
+// The part of the paint that is looked up by a linear filter. Without it fronts, where the flow presses paints
+// together, end as steps from texel to texel.
 #iUniform float blur = 0.2 in { 0.0, 1.0 }
 
 // The 4 x 4 without its corners, the sum of the weights made 1; cut to the range of the four nearest.
@@ -33,8 +33,8 @@ vec4 paintAt(vec2 at) {
     return clamp(sum, min(min(a, b), min(c, d)), max(max(a, b), max(c, d)));
 }
 
-// A vector after a time t, whose length s grows by ds/dt = s (1 - s^2). The equation's own solution and no step of it: however long
-// t is, none passes the length 1.
+// A vector after a time t, whose length s grows by ds/dt = s (1 - s^2). The equation's own solution and no step of it:
+// however long t is, none passes the length 1.
 vec2 grown(vec2 v, float t) {
     float size2 = dot(v, v);
     return v * inversesqrt(max(mix(1.0, size2, 1.0 - exp(-2.0 * t)), 1e-20));
@@ -68,7 +68,8 @@ void mainImage(out vec4 paint, in vec2 fragCoord) {
     vec2 flow = textureLod(iChannel1, fragCoord / iResolution.xy, 0.0).xy;
     paint = paintAt(vec2(p) - strength * iResolution.y / 270.0 * flow);
 
-    // Vectors grow towards length 1; what they carry follows more slowly, so that colours do not all end in the corners.
+    // Vectors grow towards length 1; what they carry follows more slowly, so that colours do not all end in the
+    // corners.
     paint.xy = grown(paint.xy, vigour * iTimeDelta);
     paint.zw = grown(paint.zw, 0.3 * vigour * iTimeDelta);
 
@@ -78,7 +79,8 @@ void mainImage(out vec4 paint, in vec2 fragCoord) {
         vec2 along = mouse.zw - mouse.xy;
         float d = segmentDistance(fragCoord, mouse.xy, mouse.zw) / (brush_size * iResolution.y + 1.0);
         vec2 way = along / max(length(along), 1e-6) * min(length(along), 1.0);
-        paint = mix(paint, vec4(way, 0.9 * sin(iTime), 0.9 * cos(0.7 * iTime)), 0.4 * exp(-d * d) * min(length(along), 1.0));
+        paint = mix(paint, vec4(way, 0.9 * sin(iTime), 0.9 * cos(0.7 * iTime)),
+                    0.4 * exp(-d * d) * min(length(along), 1.0));
     } else {
         // Two wheels at work while nobody combs.
         for (int i = 0; i < 2; i++) {

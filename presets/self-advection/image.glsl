@@ -17,7 +17,8 @@ void mainImage(out vec4 fragColor, in vec2 fragCoord) {
     ivec2 p = ivec2(fragCoord);
     vec2 uv = (fragCoord - 0.5 * iResolution.xy) / iResolution.y, slope = vec2(0.0);
     float scale = iResolution.y / 270.0;
-    // Colours are averaged, and not the vectors: on a front between two opposite ones those would cancel, and leave a pale rim.
+    // Colours are averaged, and not the vectors: on a front between two opposite ones those would cancel, and leave a
+    // pale rim.
     vec3 shown = vec3(0.0);
     for (int y = -1; y <= 1; y++) {
         for (int x = -1; x <= 1; x++) {

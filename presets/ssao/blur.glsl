@@ -1,5 +1,5 @@
-// The mean of the occlusion over 4 x 4 texels, and of it what is open, to a power. Channel 0 is the occlusion, channel 1 has the
-// world's normals, channel 2 positions as the camera sees them. Texels of another surface do not count.
+// The mean of the occlusion over 4 x 4 texels, and of it what is open, to a power. Channel 0 is the occlusion, channel
+// 1 has the world's normals, channel 2 positions as the camera sees them. Texels of another surface do not count.
 
 #iUniform float power = 2.0 in { 0.25, 6.0 } // 1: as measured; more is darker
 
@@ -9,7 +9,8 @@ void mainImage(out vec4 open, in vec2 fragCoord) {
     // As far apart as texels of one surface are in depth, unless it is seen at a very low angle.
     float near = 0.04 * max(-at.z, 1e-3);
     float sum = 0.0, weights = 0.0;
-    // Four texels wide and about this one: the outer columns and rows count half. Any four in a row have each turn once.
+    // Four texels wide and about this one: the outer columns and rows count half. Any four in a row have each turn
+    // once.
     for (int y = -2; y <= 2; y++) {
         for (int x = -2; x <= 2; x++) {
             ivec2 q = clamp(p + ivec2(x, y), ivec2(0), last);

@@ -2,10 +2,11 @@
 //
 // Edges are smoothed along their direction: T. Lottes, "FXAA", NVIDIA 2009, in its shortest form.
 
-#iUniform bool ambientOnly = false // true: what is hidden loses the surroundings' light alone; false: some of the lamp's, too
+#iUniform bool ambientOnly = false // true: what is hidden loses the surroundings' light; false: some of the lamp's too
 
 vec3 backdrop(vec2 uv) {
-    return mix(vec3(0.016, 0.019, 0.026), vec3(0.075, 0.080, 0.095), smoothstep(0.9, 0.1, length(uv - vec2(0.5, 0.55))));
+    return mix(vec3(0.016, 0.019, 0.026), vec3(0.075, 0.080, 0.095),
+               smoothstep(0.9, 0.1, length(uv - vec2(0.5, 0.55))));
 }
 
 // A texel as it is shown.
@@ -15,7 +16,8 @@ vec3 shown(ivec2 p) {
     int mode = int(texelFetch(iChannel2, ivec2(0), 0).x);
     float open = direct.a;
     if (mode == 2) return vec3(open);
-    vec3 light = direct.rgb * (mode == 0 && !ambientOnly ? mix(1.0, open, 0.55) : 1.0) + surrounding.rgb * (mode == 0 ? open : 1.0);
+    vec3 light = direct.rgb * (mode == 0 && !ambientOnly ? mix(1.0, open, 0.55) : 1.0)
+        + surrounding.rgb * (mode == 0 ? open : 1.0);
     if (dot(surrounding.rgb, vec3(1.0)) == 0.0) light = backdrop((vec2(p) + 0.5) / iResolution.xy);
     return pow(1.0 - exp(-1.6 * light), vec3(1.0 / 2.2));
 }

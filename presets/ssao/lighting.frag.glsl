@@ -1,6 +1,6 @@
-// Phong's lighting: B. T. Phong, "Illumination for Computer Generated Pictures", CACM 18, 1975. Channel 0 has albedo, channel 1
-// the world's positions, channel 2 its normals, channel 3 what is open. Target 0 gets the lamp's light, target 1 that of the
-// surroundings, unoccluded; and what is open in the w of both.
+// Phong's lighting: B. T. Phong, "Illumination for Computer Generated Pictures", CACM 18, 1975. Channel 0 has albedo,
+// channel 1 the world's positions, channel 2 its normals, channel 3 what is open. Target 0 gets the lamp's light,
+// target 1 that of the surroundings, unoccluded; and what is open in the w of both.
 
 #iUniform float lampHeight = 2.7 in { 0.5, 6.0 }
 #iUniform float lampSpeed = 0.25 in { -2.0, 2.0 } // radians a second

@@ -1,5 +1,5 @@
-// One texel: 0 with occlusion, 1 without, 2 the occlusion alone. Each press of Space is a step. Channel 0 is this buffer in
-// the last frame, channel 1 the keyboard.
+// One texel: 0 with occlusion, 1 without, 2 the occlusion alone. Each press of Space is a step. Channel 0 is this
+// buffer in the last frame, channel 1 the keyboard.
 
 const int SPACE = 32;
 

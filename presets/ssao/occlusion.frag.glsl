@@ -1,14 +1,14 @@
-// The part of the kernel that is hidden. Channel 0 has the world's normals, channel 1 positions as the camera sees them,
-// channel 2 the kernels, channel 3 how far behind the camera's plane the nearest back of a thing is.
+// The part of the kernel that is hidden. Channel 0 has the world's normals, channel 1 positions as the camera sees
+// them, channel 2 the kernels, channel 3 how far behind the camera's plane the nearest back of a thing is.
 
 #iUniform float radius = 0.6 in { 0.02, 2.0 } // of the hemisphere, in units of the scene
 #iUniform float bias = 0.01 in { 0.0, 0.1 }   // nearer than this to a sample, or to the surface itself, nothing hides
 #iUniform int samples = 64 in { 1, 64 }
 
-// 0: along rays of the hemisphere, four samples each; from the first that is inside of something on the ray is blocked. 1: points
-// of the hemisphere, each for itself: a ray that goes through a thing and out again is open behind it. 2: points of the whole
-// sphere, with a hard radius and no thickness, as in Mittring 2007: half of them lie below an open plane, so only what is hidden
-// beyond that half counts, twice.
+// 0: along rays of the hemisphere, four samples each; from the first that is inside of something on the ray is blocked.
+// 1: points of the hemisphere, each for itself: a ray that goes through a thing and out again is open behind it. 2:
+// points of the whole sphere, with a hard radius and no thickness, as in Mittring 2007: half of them lie below an open
+// plane, so only what is hidden beyond that half counts, twice.
 #iUniform int method = 0 in { 0, 2 }
 
 out float occluded;
@@ -23,8 +23,8 @@ bool isOutside(ivec2 q) {
     return any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, ivec2(iResolution.xy)));
 }
 
-// Whether a point is inside of what the camera sees there: between its front and its back. What is on the surface's own plane
-// does not hide it, at however low an angle that is seen.
+// Whether a point is inside of what the camera sees there: between its front and its back. What is on the surface's own
+// plane does not hide it, at however low an angle that is seen.
 bool isInside(vec3 point, vec3 here, vec3 normal) {
     if (point.z > -1e-3) return false;
     ivec2 q = texelOf(point);
@@ -42,8 +42,9 @@ void main() {
     if (here.w == 0.0) return;
     vec3 normal = normalize(mat3(iView) * texelFetch(iChannel0, p, 0).xyz);
 
-    // A frame about the normal (J. Frisvad 2012, without its pole: T. Duff et al., "Building an Orthonormal Basis, Revisited",
-    // JCGT 6, 2017), turned by one of 16 angles. Neighbours in the square of 4 x 4 texels are far apart in angle.
+    // A frame about the normal (J. Frisvad 2012, without its pole: T. Duff et al., "Building an Orthonormal Basis,
+    // Revisited", JCGT 6, 2017), turned by one of 16 angles. Neighbours in the square of 4 x 4 texels are far apart in
+    // angle.
     float s = normal.z >= 0.0 ? 1.0 : -1.0, a = -1.0 / (s + normal.z), b = normal.x * normal.y * a;
     vec3 t0 = vec3(1.0 + s * normal.x * normal.x * a, s * b, -s * normal.x);
     vec3 b0 = vec3(b, s + normal.y * normal.y * a, -normal.y);

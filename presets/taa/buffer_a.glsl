@@ -1,5 +1,5 @@
-// One sample a pixel, on hard edges and hairlines: as a renderer gives it. Alpha is the number of the object that was hit,
-// from which Buffer B knows the motion.
+// One sample a pixel, on hard edges and hairlines: as a renderer gives it. Alpha is the number of the object that was
+// hit, from which Buffer B knows the motion.
 
 float hash(vec2 p) {
     return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453);
@@ -34,7 +34,8 @@ void mainImage(out vec4 sampled, in vec2 fragCoord) {
     vec2 q = toObject(COG, p, t), w = toObject(WHEEL, p, t);
     if (length(q) < cogRadius(q)) {
         float r = length(q);
-        vec3 colour = r < 0.05 ? vec3(0.13, 0.16, 0.22) : abs(r - 0.13) < 0.006 ? vec3(0.30, 0.16, 0.05) : vec3(0.88, 0.63, 0.24);
+        vec3 colour = r < 0.05 ? vec3(0.13, 0.16, 0.22) : abs(r - 0.13) < 0.006 ? vec3(0.30, 0.16, 0.05)
+            : vec3(0.88, 0.63, 0.24);
         sampled = vec4(colour, float(COG));
     } else if (length(w) < 0.30) {
         sampled = vec4(wheel(w), float(WHEEL));

@@ -1,8 +1,8 @@
-// The history, and this frame in it. Channel 0 is Buffer A, channel 1 this buffer in the last frame, channel 2 Buffer C, which
-// remembers the last frame's objects and time. Alpha is the age: for how many frames nothing has come between this place and its
-// history, this frame counted in; 0 where there is none.
+// The history, and this frame in it. Channel 0 is Buffer A, channel 1 this buffer in the last frame, channel 2 Buffer
+// C, which remembers the last frame's objects and time. Alpha is the age: for how many frames nothing has come between
+// this place and its history, this frame counted in; 0 where there is none.
 
-#iUniform float gamma = 0.75 in { 0.25, 4.0 }   // half the width of the clamp's box, in sigma, where something moves or has moved
+#iUniform float gamma = 0.75 in { 0.25, 4.0 }   // half the clamp's box, in sigma, where something moves or has moved
 #iUniform float relaxed = 2.5 in { 0.25, 8.0 }  // the same where the history has proved true
 #iUniform float blend = 0.1 in { 0.02, 1.0 }    // weight of the new frame
 #iUniform bool motionVectors = true
@@ -37,7 +37,8 @@ vec3 historyAt(vec2 at) {
     vec3 sum = vec3(0.0);
     for (int y = 0; y < 3; y++) {
         for (int x = 0; x < 3; x++) {
-            sum += weight[x].x * weight[y].y * textureLod(iChannel1, vec2(place[x].x, place[y].y) / iResolution.xy, 0.0).rgb;
+            sum += weight[x].x * weight[y].y
+                * textureLod(iChannel1, vec2(place[x].x, place[y].y) / iResolution.xy, 0.0).rgb;
         }
     }
     return clamp(sum, 0.0, 1.0); // the filter overshoots, and a screen has no more than 1
@@ -55,7 +56,8 @@ void mainImage(out vec4 resolved, in vec2 fragCoord) {
     resolved = vec4(now.rgb, 1.0);
 
     vec4 before = texelFetch(iChannel1, p, 0), memory = texelFetch(iChannel2, p, 0);
-    if (iFrame == 0 || !isFinite(before) || before.a < 1.0 || memory.y < 1.0) return; // no history here yet, or a broken one
+    // no history here yet, or a broken one
+    if (iFrame == 0 || !isFinite(before) || before.a < 1.0 || memory.y < 1.0) return;
 
     vec2 ways[OBJECTS] = vec2[OBJECTS](vec2(0.0), vec2(0.0), vec2(0.0));
     for (int id = 0; id < OBJECTS && motionVectors; id++) ways[id] = wayBack(id, fragCoord, memory.y - 1.0);
@@ -77,21 +79,22 @@ void mainImage(out vec4 resolved, in vec2 fragCoord) {
             shear = max(shear, max(length(ways[int(q.a + 0.5)] - own), parts));
         }
     }
-    // Most of what was there has gone elsewhere: this place was hidden, and has no history. The clamp alone would keep of it what
-    // is within its box, for as long as that is wide.
+    // Most of what was there has gone elsewhere: this place was hidden, and has no history. The clamp alone would keep
+    // of it what is within its box, for as long as that is wide.
     if (others > 4) return;
     vec4 history = vec4(historyAt(from), 1.0);
     if (!isFinite(history)) return;
 
-    // Where things part the history may show what is not there any more. The clamp is narrow until it has had the time to take
-    // that away; from then on it may be wide, for what it would take away now is detail.
+    // Where things part the history may show what is not there any more. The clamp is narrow until it has had the time
+    // to take that away; from then on it may be wide, for what it would take away now is detail.
     vec3 sigma = sqrt(max(square - mean * mean, 0.0)), old = toYCoCg(history.rgb);
-    float age = shear > PARTED ? min(before.a, 3.0) : before.a, trust = motionVectors ? smoothstep(YOUNG, OLD, age) : 0.0;
+    float age = shear > PARTED ? min(before.a, 3.0) : before.a,
+        trust = motionVectors ? smoothstep(YOUNG, OLD, age) : 0.0;
     vec3 reach = mix(gamma, max(relaxed, gamma), trust) * sigma, held = clamp(old, mean - reach, mean + reach);
     // A history that is out of even this box was not true: something changed that no motion tells of.
     if (length(old - held) > 0.1) age = 1.0;
-    // A young history is the plain mean of what there is; one that rests may have more samples than one that moves, which is
-    // blurred a little in every frame.
+    // A young history is the plain mean of what there is; one that rests may have more samples than one that moves,
+    // which is blurred a little in every frame.
     float least = length(own) < 0.01 ? pow(blend, 1.0 + 0.4 * trust) : blend;
     resolved.rgb = mix(fromYCoCg(held), now.rgb, max(least, 1.0 / (age + 1.0)));
     resolved.a = min(age + 1.0, 255.0);

@@ -1,25 +1,30 @@
-// Temporal anti-aliasing: one sample a pixel a frame, each frame at another place within the pixel, and a running mean over
-// the frames, carried along with what moves.
+// Temporal anti-aliasing: one sample a pixel a frame, each frame at another place within the pixel, and a running mean
+// over the frames, carried along with what moves.
 //
 //   jitter     16 points of the Halton sequence in bases 2 and 3
-//   reproject  the history is looked up where this piece of the picture was a frame ago, by a Catmull-Rom filter: a linear
+//   reproject  the history is looked up where this piece of the picture was a frame ago, by a Catmull-Rom filter: a
+//   linear
 //              one would blur a little more every frame, up to a sigma of 1.5 pixels
-//   uncover    where most of the 3 x 3 texels of the history were of something that moves otherwise, there is no history
-//   clamp      what cannot be there any more is known by its colour: the history is held within mean +- gamma * sigma of
+//   uncover    where most of the 3 x 3 texels of the history were of something that moves otherwise, there is no
+//   history clamp      what cannot be there any more is known by its colour: the history is held within mean +- gamma *
+//   sigma of
 //              the 3 x 3 samples of this frame, in YCoCg, where the box around them is tight
-//   trust      a narrow box kills ghosts and costs detail: hairlines are thinner than what 9 samples see. So it is narrow
-//              only where things that move differently meet, and for 24 frames after, and wide where the history is older
-//   blend      the plain mean while the history is young; then a tenth of the new, nine tenths of the old (the weight of some
+//   trust      a narrow box kills ghosts and costs detail: hairlines are thinner than what 9 samples see. So it is
+//   narrow
+//              only where things that move differently meet, and for 24 frames after, and wide where the history is
+//              older
+//   blend      the plain mean while the history is young; then a tenth of the new, nine tenths of the old (the weight
+//   of some
 //              19 samples); at rest and trusted a twenty-fifth (49 samples, three rounds of the jitter)
 //
 // B. Karis, "High-Quality Temporal Supersampling", SIGGRAPH 2014 courses; M. Salvi, "An Excursion in Temporal
 // Supersampling", GDC 2016 (the clamp by variance); J. Jimenez, "Filmic SMAA", SIGGRAPH 2016 courses (the filter).
 //
-// Against 64 samples a pixel, PSNR of the colours as the screen shows them, 320 x 180 (tests/preset_filters.rs):
-// at rest 32.0 dB, 19.5 with one sample; gamma = relaxed = 0.75, the narrow box everywhere, has 28.4. In motion 23.1 dB, 15.6 with
-// one sample. Where an object was six frames ago the picture is 0.033 off in the mean; by the clamp alone 0.050. Behind a disc that
-// crosses a star less than 1 % of its colour is left after a frame, at every gamma (`eddy lab taa`); by the clamp alone that took
-// 21 pixels at gamma = 0.75, and more than 71 from 1 on.
+// Against 64 samples a pixel, PSNR of the colours as the screen shows them, 320 x 180 (tests/it/preset_filters.rs):
+// at rest 32.0 dB, 19.5 with one sample; gamma = relaxed = 0.75, the narrow box everywhere, has 28.4. In motion 23.1
+// dB, 15.6 with one sample. Where an object was six frames ago the picture is 0.033 off in the mean; by the clamp alone
+// 0.050. Behind a disc that crosses a star less than 1 % of its colour is left after a frame, at every gamma
+// (`eddy lab taa`); by the clamp alone that took 21 pixels at gamma = 0.75, and more than 71 from 1 on.
 
 #iUniform float speed = 1.0 in { 0.0, 4.0 }   // 0: everything stands still
 #iUniform bool jittered = true
@@ -41,7 +46,7 @@ vec2 jitter(int i) {
     return jittered ? vec2(radicalInverse(phase, 2), radicalInverse(phase, 3)) - 0.5 : vec2(0.0);
 }
 
-// ---------------------------------------------------------------------------------------------------- what moves, and how
+// ---------------------------------------------------------------------------------------------- what moves, and how
 
 // Pixels in a unit: the height, or less on a narrow canvas.
 float unit(vec2 resolution) {

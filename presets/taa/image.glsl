@@ -1,11 +1,12 @@
-// Left of the line the samples of this frame, right of it what TAA makes of them, and a lens over both. Drag to move them.
-// Channel 0 is Buffer A, channel 1 Buffer B.
+// Left of the line the samples of this frame, right of it what TAA makes of them, and a lens over both. Drag to move
+// them. Channel 0 is Buffer A, channel 1 Buffer B.
 
 #iUniform float split = 0.42 in { 0.0, 1.0 } // where the line is, while the mouse has not moved it
 #iUniform float zoom = 5.0 in { 1.0, 12.0 }
 
 void mainImage(out vec4 fragColor, in vec2 fragCoord) {
-    vec2 mouse = iMouse.z > 0.0 || abs(iMouse.x) + abs(iMouse.y) > 0.0 ? iMouse.xy + 0.5 : vec2(split, 0.58) * iResolution.xy;
+    vec2 mouse = iMouse.z > 0.0 || abs(iMouse.x) + abs(iMouse.y) > 0.0 ? iMouse.xy + 0.5
+        : vec2(split, 0.58) * iResolution.xy;
     float radius = 0.17 * unit(iResolution.xy);
     vec2 toLens = fragCoord - mouse;
     bool lens = split > 0.0 && split < 1.0 && zoom > 1.0 && length(toLens) < radius;

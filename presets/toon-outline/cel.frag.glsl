@@ -35,7 +35,8 @@ void main() {
     vec3 normal = normalize(vNormal), view = normalize(iCameraPosition - vWorld), light = toLight();
     vec3 base = textureLod(iChannel0, vPlace, 0.0).rgb * vColor;
     float half_ = 0.5 + 0.5 * dot(normal, light);
-    vec3 lit = mix(base * deepColour, mix(base * shadeColour, base * lightColour, tone(half_, shadeLevel)), tone(half_, deepLevel));
+    vec3 lit = mix(base * deepColour, mix(base * shadeColour, base * lightColour, tone(half_, shadeLevel)),
+                   tone(half_, deepLevel));
     float shine = dot(normal, normalize(light + view));
     lit = mix(lit, vec3(1.0), highlight * smoothstep(0.978, 0.982, shine));
     float facing = dot(normal, view);

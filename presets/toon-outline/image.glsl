@@ -1,5 +1,5 @@
-// The sheet behind the scene: a sun, and dots that grow towards the edge. Channel 0 is the scene, twice as large as this; its
-// colours are multiplied by what it covers.
+// The sheet behind the scene: a sun, and dots that grow towards the edge. Channel 0 is the scene, twice as large as
+// this; its colours are multiplied by what it covers.
 
 #iUniform color3 paper = color3(0.33, 0.66, 0.72)
 #iUniform color3 sun = color3(0.98, 0.80, 0.42)

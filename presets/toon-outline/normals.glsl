@@ -1,5 +1,5 @@
-// Normals baked in the tangent frame, as colours: the mesh's own (0, 0, 1), and for the cube those of a ball, so that its
-// three normals at a corner become one.
+// Normals baked in the tangent frame, as colours: the mesh's own (0, 0, 1), and for the cube those of a ball, so that
+// its three normals at a corner become one.
 
 void mainImage(out vec4 value, in vec2 fragCoord) {
     int page;

@@ -81,7 +81,7 @@ pub(super) fn block(knobs: &[Knob], values: &KnobValues) -> Vec<[u32; 4]> {
             KnobValue::Bool(on) => words[0] = u32::from(on),
             KnobValue::Int(n) => words[0] = n as u32,
             KnobValue::Float(x) => words[0] = (x as f32).to_bits(),
-            KnobValue::List(_) => unreachable!("a knob's value has the knob's type"),
+            KnobValue::List(_) => unreachable!("a uniform's value has the uniform's type"),
             KnobValue::Vector(all) => {
                 for (word, x) in words.iter_mut().zip(all) {
                     *word = (x as f32).to_bits();

@@ -64,15 +64,11 @@ impl<'p> Sources<'p> {
         let mut includes = self.includes(common.map(|c| c.id));
         includes.extend(value);
         work(&PassSource {
-            kind: PassKind::Buffer,
             common,
-            code,
             includes: &includes,
-            channels: Default::default(),
             knobs: &knobs::in_scope(&self.knobs, &self.lines, None),
             values: &self.values,
-            bilinear_by_hand: [false; 4],
-            driver: Driver::default(),
+            ..PassSource::new(PassKind::Buffer, code)
         })
     }
 
@@ -86,15 +82,12 @@ impl<'p> Sources<'p> {
     ) -> T {
         let common = self.common();
         work(&PassSource {
-            kind,
             common,
-            code: self.text(id),
             includes: &self.includes(common.map(|c| c.id).into_iter().chain([id])),
             channels: channel_kinds(&self.project.passes[index]),
             knobs: &knobs::in_scope(&self.knobs, &self.lines, Some(id)),
             values: &self.values,
-            bilinear_by_hand: [false; 4],
-            driver: Driver::default(),
+            ..PassSource::new(kind, self.text(id))
         })
     }
 

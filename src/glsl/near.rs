@@ -1,8 +1,10 @@
 //! "Did you mean": the known word that is nearest to one nobody knows.
 
-/// The candidate that `word` is most likely a slip of: few letters changed, added, left out or swapped. `None` where
-/// nothing is near enough to be worth saying.
-pub(super) fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
+/// Returns the candidate that `word` is most likely a slip of: few letters changed, added, left out or swapped (the optimal
+/// string alignment distance), with case that counts unless nothing else differs. `None` where nothing is near enough to
+/// be worth saying. Names of files and settings are measured by `project::nearest`, for which case and `-`, `_` and
+/// spaces count for nothing.
+pub(super) fn nearest_identifier<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     // One slip in a short word, two in a long one.
     let allowed = match word.chars().count() {
         0..=2 => return None,
@@ -25,16 +27,16 @@ pub(super) fn nearest<'c>(word: &str, candidates: impl IntoIterator<Item = &'c s
 
 #[cfg(test)]
 mod tests {
-    use super::nearest;
+    use super::nearest_identifier;
 
     #[test]
     fn finds_slips_and_leaves_strangers() {
         let words = ["normalize", "smoothstep", "mix", "return"];
-        assert_eq!(nearest("normalise", words), Some("normalize"));
-        assert_eq!(nearest("smoothStep", words), Some("smoothstep"));
-        assert_eq!(nearest("retrun", words), Some("return"));
-        assert_eq!(nearest("mxi", words), Some("mix"));
-        assert_eq!(nearest("banana", words), None);
-        assert_eq!(nearest("x", words), None);
+        assert_eq!(nearest_identifier("normalise", words), Some("normalize"));
+        assert_eq!(nearest_identifier("smoothStep", words), Some("smoothstep"));
+        assert_eq!(nearest_identifier("retrun", words), Some("return"));
+        assert_eq!(nearest_identifier("mxi", words), Some("mix"));
+        assert_eq!(nearest_identifier("banana", words), None);
+        assert_eq!(nearest_identifier("x", words), None);
     }
 }

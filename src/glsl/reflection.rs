@@ -1,60 +1,22 @@
 //! Says what a pass really reaches from its entry point. `graph` plans with it: what is not read here need not be made.
 
-/// Uniforms as a set.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct UniformSet(u16);
-
-macro_rules! uniforms {
-    ($($name:ident = $bit:literal, $text:literal;)*) => {
-        impl UniformSet {
-            $(pub const $name: UniformSet = UniformSet(1 << $bit);)*
-
-            /// Names as GLSL spells them, in the order of the block.
-            pub fn names(self) -> Vec<&'static str> {
-                [$((Self::$name, $text)),*].into_iter().filter(|(u, _)| self.contains(*u)).map(|(_, n)| n).collect()
-            }
-        }
-    };
-}
-
-uniforms! {
-    RESOLUTION = 0, "iResolution";
-    TIME = 1, "iTime";
-    MOUSE = 2, "iMouse";
-    DATE = 3, "iDate";
-    TIME_DELTA = 4, "iTimeDelta";
-    FRAME_RATE = 5, "iFrameRate";
-    SAMPLE_RATE = 6, "iSampleRate";
-    FRAME = 7, "iFrame";
-    CHANNEL_TIME = 8, "iChannelTime";
-    CHANNEL_RESOLUTION = 9, "iChannelResolution";
-    TIME_OFFSET = 10, "iTimeOffset";
-    SAMPLE_OFFSET = 11, "iSampleOffset";
-    CHANNEL_LOADED = 12, "iCh";
-}
-
-impl UniformSet {
-    pub const EMPTY: UniformSet = UniformSet(0);
-
-    pub fn contains(self, other: UniformSet) -> bool {
-        self.0 & other.0 == other.0
-    }
-
-    pub fn intersects(self, other: UniformSet) -> bool {
-        self.0 & other.0 != 0
-    }
-
-    pub fn insert(&mut self, other: UniformSet) {
-        self.0 |= other.0;
-    }
-
-    /// The uniform of a bit, in the order of the block; nothing beyond the last.
-    pub fn from_bit(bit: u32) -> UniformSet {
-        UniformSet(1u16.checked_shl(bit).unwrap_or(0))
-    }
-
-    pub fn is_empty(self) -> bool {
-        self.0 == 0
+bitflags::bitflags! {
+    /// A set of the site's uniforms, in the order of the uniform block.
+    #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+    pub struct UniformSet: u16 {
+        const RESOLUTION = 1 << 0;
+        const TIME = 1 << 1;
+        const MOUSE = 1 << 2;
+        const DATE = 1 << 3;
+        const TIME_DELTA = 1 << 4;
+        const FRAME_RATE = 1 << 5;
+        const SAMPLE_RATE = 1 << 6;
+        const FRAME = 1 << 7;
+        const CHANNEL_TIME = 1 << 8;
+        const CHANNEL_RESOLUTION = 1 << 9;
+        const TIME_OFFSET = 1 << 10;
+        const SAMPLE_OFFSET = 1 << 11;
+        const CHANNEL_LOADED = 1 << 12;
     }
 }
 

@@ -107,3 +107,25 @@ pub struct PassSource<'a> {
     pub bilinear_by_hand: [bool; 4],
     pub driver: Driver,
 }
+
+impl<'a> PassSource<'a> {
+    /// Returns a pass that is one text alone, with four `sampler2D` channels, for a driver that wants nothing special.
+    pub fn new(kind: PassKind, code: Text<'a>) -> Self {
+        PassSource {
+            kind,
+            common: None,
+            code,
+            includes: &[],
+            channels: [ChannelKind::Sampler2D; 4],
+            knobs: &[],
+            values: &[],
+            bilinear_by_hand: [false; 4],
+            driver: Driver::default(),
+        }
+    }
+
+    /// Returns an Image pass that is this text alone. Diagnostics point into `SourceId(0)`.
+    pub fn image(text: &'a str) -> Self {
+        Self::new(PassKind::Image, Text { id: SourceId(0), text })
+    }
+}

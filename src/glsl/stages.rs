@@ -7,7 +7,7 @@ use super::{
     PassKind,
     ast::{Interner, Origins},
     hir::{Global, GlobalId, GlobalStorage, Module, Scalar, Type, TypeId},
-    near::nearest,
+    near::nearest_identifier,
 };
 use crate::diag::Diagnostic;
 
@@ -150,7 +150,7 @@ impl Linker<'_> {
         let name = self.name(&global);
         let Some(attribute) = Attribute::ALL.into_iter().find(|a| a.name() == name) else {
             let known = Attribute::ALL.map(Attribute::name);
-            let hint = match nearest(name, known) {
+            let hint = match nearest_identifier(name, known) {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => {
                     let all = Attribute::ALL.map(|a| format!("vec{} {}", a.components(), a.name()));
@@ -226,7 +226,7 @@ impl Linker<'_> {
                 }
                 None => {
                     let known = varyings.iter().map(|v| v.name.as_str());
-                    let hint = match nearest(&name, known) {
+                    let hint = match nearest_identifier(&name, known) {
                         Some(near) => format!("did you mean `{near}`?"),
                         None => format!("declare `out {ty} {name};` there and set it"),
                     };

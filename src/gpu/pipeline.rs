@@ -65,17 +65,17 @@ pub(super) fn shader_module(
     // Divisors of integers come guarded from the front end (`glsl/lower/divide.rs`): x86 traps on a division by zero,
     // and Mesa on that of the least int by -1 already when it folds constants.
     checks.int_div_checks = gpu.runtime_checks;
-    // Indices come clamped from the front end (`glsl/lower/access.rs`) where they are not known to be in range
-    // (`glsl/lower/ranges.rs`). Fetches outside a texture give zeros by the hardware or the driver's image robustness
+    // Indices come clamped from the front end (`glsl/lower/access.rs`) but where they are known to be in range
+    // (`glsl/opt/ranges`). Fetches outside a texture give zeros by the hardware or the driver's image robustness
     // everywhere but on Metal.
     checks.bounds_checks = gpu.runtime_checks || gpu.info.backend == wgpu::Backend::Metal;
     // SAFETY: `module` comes from the front end's lowering and nowhere else, and wgpu validates it; what the checks
     // leave out is done there:
-    // - No index reaches past what it goes into. `ranges.rs` says what that rests on: bounds hold where they were
-    //   derived, and code that is written out again elsewhere asks anew. `tests/glsl_bounds.rs` has each way in which
-    //   that happens, and `tests/random_programs.rs` holds random programs against ones with every index clamped in
+    // - No index reaches past what it goes into. `opt/ranges` says what that rests on: a bound holds where it is
+    //   used. `tests/it/glsl_bounds.rs` has each way in which
+    //   that happens, and `tests/it/random_programs` holds random programs against ones with every index clamped in
     //   their text.
-    // - No division of integers traps: `tests/glsl_division.rs`, and the same random programs.
+    // - No division of integers traps: `tests/it/glsl_division.rs`, and the same random programs.
     // - Loops are not bounded. One that never ends keeps the device busy until the driver's watchdog ends it, with
     //   wgpu's counter up to 2^64 as without.
     unsafe {

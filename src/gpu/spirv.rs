@@ -32,9 +32,9 @@ pub(super) fn shader_module(
     // - The resources are those of the pipeline's layout: `binding_map` numbers them as wgpu does.
     // - A variable without an initialiser holds anything until it is written. `without_zeros` drops that of arrays of
     //   `filled_arrays` scalars alone, which the front end has filled before anything reads them, at the start of the
-    //   variable's function or of the program (`glsl/lower/long_arrays`), or as a whole (`glsl/lower/filled.rs`, and
-    //   `set_tables` in `glsl/lower/entry.rs`).
-    //   `tests/long_arrays.rs` reads such arrays where nothing was written.
+    //   variable's function or of the program (`glsl/emit/long_arrays`), or by the program itself
+    //   (`glsl::ir::Var::init` and `GlobalKind::Private`).
+    //   `tests/it/long_arrays.rs` reads such arrays where nothing was written.
     let module = unsafe {
         gpu.device.create_shader_module_passthrough(wgpu::ShaderModuleDescriptorPassthrough {
             label: Some(label),

@@ -224,12 +224,13 @@ impl Setup {
         }
         let known = project.knobs();
         for (name, value) in &self.knobs {
-            let knob = known.get(name).ok_or_else(|| lacks(format!("knob {name}")))?;
+            let knob = known.get(name).ok_or_else(|| lacks(format!("uniform {name}")))?;
             let value = match (knob.ty, value) {
                 (KnobType::Bool, KnobValue::Float(number)) => KnobValue::Bool(*number >= 0.5),
                 (_, value) => value.clone(),
             };
-            let fitting = knob.fit(&value).map_err(|why| lacks(format!("{value:?} for knob {name}, which {why}")))?;
+            let fitting =
+                knob.fit(&value).map_err(|why| lacks(format!("{value:?} for the uniform {name}, which {why}")))?;
             project.knob_values.insert(name.clone(), fitting);
         }
         for (name, steps) in &self.steps {
@@ -306,13 +307,13 @@ mod tests {
     #[test]
     fn what_a_project_does_not_have_is_named() {
         let said = |setup: Setup| setup.project().unwrap_err().to_string();
-        assert!(said(Setup::new("floor", (8, 8)).knob("nope", 1.0)).contains("has no knob nope"));
+        assert!(said(Setup::new("floor", (8, 8)).knob("nope", 1.0)).contains("has no uniform nope"));
         let beyond = said(Setup::new("fluid_guay", (8, 8)).knob("dt", 5.0));
-        assert!(beyond.contains("5.0") && beyond.contains("knob dt") && beyond.contains("0.0 to 4.0"), "{beyond}");
+        assert!(beyond.contains("5.0") && beyond.contains("uniform dt") && beyond.contains("0.0 to 4.0"), "{beyond}");
         assert!(said(Setup::new("floor", (8, 8)).steps("nope", 1)).contains("has no group nope"));
         assert!(said(Setup::new("floor", (8, 8)).initial("nope", "vec4(0)")).contains("has no Buffer nope"));
         let far = said(Setup::new("taa", (8, 8)).knob("gamma", 40.0));
-        assert!(far.contains("knob gamma") && far.contains("0.25 to 4"), "{far}");
+        assert!(far.contains("uniform gamma") && far.contains("0.25 to 4"), "{far}");
         assert!(said(Setup::new("floor", (8, 8)).text("nope", "")).contains("has no Buffer nope"));
         assert!(said(Setup::new("floor", (8, 8)).edit("copy", "nope", "")).contains("has no text `nope`"));
         assert!(said(Setup::new("floor", (8, 8)).edit("common", "nope", "")).contains("has no text `nope`"));

@@ -1,4 +1,4 @@
-//! The device that unit tests draw on. Integration tests have the same in `tests/support`.
+//! The device that unit tests draw on. Integration tests have the same in `tests/it/support`.
 
 use crate::gpu::{Gpu, GpuOptions};
 use std::{fs::OpenOptions, io::Write};

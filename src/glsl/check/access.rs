@@ -91,7 +91,7 @@ impl Checker<'_> {
             return;
         }
         let members: Vec<_> = self.module[self.module[id].members].iter().map(|m| self.name(m.name.symbol)).collect();
-        match crate::glsl::near::nearest(text, members.iter().copied()) {
+        match crate::glsl::near::nearest_identifier(text, members.iter().copied()) {
             Some(near) => self.hint(format!("did you mean `{near}`?")),
             None => self.hint(format!("its members are {}", quoted(&members))),
         }

@@ -178,7 +178,7 @@ impl Checker<'_> {
                 self.also(at, format!("`{near}` is declared here"));
             }
         } else if args.len() == 1
-            && let Some(near) = near::nearest(name, BasicType::ALL.iter().map(|b| b.name()))
+            && let Some(near) = near::nearest_identifier(name, BasicType::ALL.iter().map(|b| b.name()))
         {
             self.hint(format!("did you mean `{near}`?"));
         }
@@ -201,7 +201,7 @@ impl Checker<'_> {
             .map(|(symbol, _)| self.name(symbol))
             .collect();
         let all = BasicType::ALL.iter().map(|b| b.name()).chain(structs);
-        if let Some(near) = near::nearest(name, all) {
+        if let Some(near) = near::nearest_identifier(name, all) {
             self.hint(format!("did you mean `{near}`?"));
         } else if let Some(def) = self.ast.structs.iter().find(|s| s.name.is_some_and(|n| n.symbol == symbol)) {
             let at = def.name.expect("just seen");
@@ -217,7 +217,7 @@ impl Checker<'_> {
         }
         let visible = self.scopes.visible().filter(|&(_, binding)| fits(binding));
         let visible = visible.filter(|&(_, binding)| binding != Binding::Poison);
-        let near = near::nearest(name, visible.map(|(symbol, _)| self.name(symbol)))?;
+        let near = near::nearest_identifier(name, visible.map(|(symbol, _)| self.name(symbol)))?;
         let at = self.names.find(near).and_then(|symbol| self.declared_at(self.scopes.get(symbol)));
         Some((near.to_owned(), at))
     }

@@ -51,6 +51,8 @@ const KEYWORDS: [(&str, Kind); 29] = [
     ("false", Kind::False),
 ];
 
+/// Words that browsers refuse as names, by ANGLE's lexer (`glslang.l`, words reserved for GLSL ES 3.00). Some drivers
+/// take a few of them (Mesa: `image1DShadow`), but no program on the site can have them.
 #[rustfmt::skip]
 const RESERVED: &[&str] = &[
     "attribute", "varying", "coherent", "volatile", "restrict", "readonly", "writeonly", "resource", "atomic_uint",

@@ -2,29 +2,12 @@
 //! takes a change over.
 
 use super::{PASSES, identity};
-use crate::{
-    diag::SourceId,
-    glsl::{Driver, Link, PassKind, PassSource, Text, compile::compile_seen, dump_ir, ir, opt::PassSet},
-};
-
-fn source(code: &str) -> PassSource<'_> {
-    PassSource {
-        kind: PassKind::Image,
-        common: None,
-        code: Text { id: SourceId(1), text: code },
-        includes: &[],
-        channels: Default::default(),
-        knobs: &[],
-        values: &[],
-        bilinear_by_hand: [false; 4],
-        driver: Driver::default(),
-    }
-}
+use crate::glsl::{Driver, Link, PassSource, compile::compile_seen, dump_ir, ir, opt::PassSet};
 
 /// The program of `void mainImage(out vec4 o, vec2 p) { body }` before and after a pass, with only the passes before it.
 fn around(pass: &str, body: &str) -> String {
     let code = format!("void mainImage(out vec4 o, vec2 p) {{ {body} }}");
-    dump_ir(&source(&code), &Link::default(), Some(pass)).expect("a program without errors")
+    dump_ir(&PassSource::image(&code), &Link::default(), Some(pass)).expect("a program without errors")
 }
 
 #[test]
@@ -36,7 +19,8 @@ fn vectors_are_written_out() {
 fn what_changes_nothing_is_dropped() {
     let code = "void mainImage(out vec4 o, vec2 p) { o = vec4(p.x * 1.0, 0.0 + p.y, p.x / 1.0 - 0.0, p.x * 2.0); }";
     let mut program = None;
-    compile_seen(&source(code), &Link::default(), |_, seen| program = Some(seen.clone())).expect("no errors");
+    compile_seen(&PassSource::image(code), &Link::default(), |_, seen| program = Some(seen.clone()))
+        .expect("no errors");
     let mut program = program.expect("it was seen");
     let before = ir::print::print(&program);
     identity::run(&mut program);
@@ -49,7 +33,7 @@ fn functions_become_part_of_their_callers() {
     let code = "float f(float x, out float y) { y = x; for (int i = 0; i < 9; i++) { if (x > 2.0) return x; x += 1.0; } return 3.0; }
         float twice(float x) { return x + x; }
         void mainImage(out vec4 o, vec2 p) { float y; o = vec4(f(p.x, y), twice(y), twice(p.y), 1); }";
-    let text = dump_ir(&source(code), &Link::default(), Some("inline")).expect("a program without errors");
+    let text = dump_ir(&PassSource::image(code), &Link::default(), Some("inline")).expect("a program without errors");
     insta::assert_snapshot!(text);
 }
 
@@ -63,7 +47,8 @@ fn filled_arrays_become_global() {
     let code = "float f(int n, float x) { float a[3] = float[](x, x + 1.0, x + 2.0); float s = 0.0;
             for (int i = 0; i < n; i++) { s += a[i % 3]; if (s > 9.0) return s; } return s; }
         void mainImage(out vec4 o, vec2 p) { o = vec4(f(int(p.x), p.x), f(int(p.y), p.y), 0, 1); }";
-    let text = dump_ir(&source(code), &Link::default(), Some("array-to-global")).expect("a program without errors");
+    let text =
+        dump_ir(&PassSource::image(code), &Link::default(), Some("array-to-global")).expect("a program without errors");
     insta::assert_snapshot!(text);
 }
 
@@ -73,7 +58,7 @@ fn every_pass_can_be_left_out() {
         o = vec4(v + 1.0, 1); }";
     for pass in PASSES {
         let without = PassSet::of(pass.name).expect("a pass of the list");
-        let source = PassSource { driver: Driver { without, ..Driver::default() }, ..source(code) };
+        let source = PassSource { driver: Driver { without, ..Driver::default() }, ..PassSource::image(code) };
         let text = dump_ir(&source, &Link::default(), None).expect("a program without errors");
         assert!(!text.contains(&format!("; after {}\n", pass.name)), "{}", pass.name);
         crate::glsl::compile(&source).expect("it compiles all the same");

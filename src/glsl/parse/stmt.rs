@@ -6,7 +6,7 @@ use crate::{
     glsl::{
         ast::{Condition, DeclKind, List, StmtId, StmtKind},
         lex::Kind,
-        near::nearest,
+        near::nearest_identifier,
     },
 };
 
@@ -222,7 +222,8 @@ impl Parser<'_> {
             return Ok(());
         }
         let word = self.text(self.at).to_owned();
-        let Some(meant) = nearest(&word, ["return", "const", "highp", "mediump", "lowp", "struct", "else", "case"])
+        let Some(meant) =
+            nearest_identifier(&word, ["return", "const", "highp", "mediump", "lowp", "struct", "else", "case"])
         else {
             return Ok(());
         };

@@ -2,26 +2,12 @@
 #![cfg(test)]
 
 use super::*;
-use crate::{
-    diag::SourceId,
-    glsl::{
-        ChannelKind, Driver, PassKind, Text,
-        ast::{Condition, DeclId, DeclKind, ExprId, ExprKind, List, Loc, StmtId, StmtKind, TypeSpecId, TypeSpecKind},
-    },
+use crate::glsl::ast::{
+    Condition, DeclId, DeclKind, ExprId, ExprKind, List, Loc, StmtId, StmtKind, TypeSpecId, TypeSpecKind,
 };
 
 fn parse_text(text: &str) -> Parsed {
-    parse(&PassSource {
-        kind: PassKind::Image,
-        common: None,
-        code: Text { id: SourceId(0), text },
-        channels: [ChannelKind::Sampler2D; 4],
-        bilinear_by_hand: [false; 4],
-        driver: Driver::default(),
-        knobs: &[],
-        values: &[],
-        includes: &[],
-    })
+    parse(&PassSource::image(text))
 }
 
 fn messages(text: &str) -> Vec<String> {
@@ -431,6 +417,7 @@ fn one_mistake_is_one_message() {
     refuses_stmt("double a = 1.0;", &["`double` is a reserved word"]);
     refuses_stmt("static const float a = 1.0;", &["`static` is a reserved word"]);
     refuses_stmt("goto a;", &["`goto` is a reserved word"]);
+    refuses_stmt("float image2DArrayShadow = 1.0;", &["`image2DArrayShadow` is a reserved word"]);
     refuses_stmt("float if = 1.0;", &["which is a keyword"]);
     refuses_stmt("float 2a = 1.0;", &["`2a` is not a number"]);
     refuses_stmt("a.length(1);", &["takes no arguments"]);

@@ -7,7 +7,7 @@ use crate::{
     glsl::{
         ast::Symbol,
         lex::{Kind, Token},
-        near::nearest,
+        near::nearest_identifier,
     },
 };
 
@@ -94,7 +94,7 @@ impl Preprocessor<'_, '_> {
                 let message = format!("there is no directive `#{other}`");
                 let hint = match other {
                     "elseif" | "elsif" | "elsei" => Some("elif"),
-                    _ => nearest(other, DIRECTIVES),
+                    _ => nearest_identifier(other, DIRECTIVES),
                 };
                 self.error(name, message, hint.map(|near| format!("did you mean `#{near}`?")));
             }

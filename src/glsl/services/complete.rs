@@ -72,7 +72,7 @@ impl Completions {
             .collect();
         if found.is_empty()
             && typed.len() > 2
-            && let Some(near) = near::nearest(typed, self.items.iter().map(|item| item.label.as_str()))
+            && let Some(near) = near::nearest_identifier(typed, self.items.iter().map(|item| item.label.as_str()))
         {
             return self.items.iter().position(|item| item.label == near).into_iter().collect();
         }

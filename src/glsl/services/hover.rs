@@ -83,7 +83,7 @@ impl Analysis {
         let items = self.everything_at(at);
         let types = BasicType::ALL.iter().map(|ty| ty.name());
         let all = items.iter().map(|item| item.label.as_str()).chain(types).take(MAX_CANDIDATES);
-        near::nearest(text.text_of(token), all).map(str::to_owned)
+        near::nearest_identifier(text.text_of(token), all).map(str::to_owned)
     }
 
     fn hover_of(&self, target: Target, span: Span) -> Hover {

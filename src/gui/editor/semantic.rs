@@ -109,24 +109,14 @@ mod tests {
     use super::*;
     use crate::{
         diag::SourceId,
-        glsl::{ChannelKind, Driver, PassKind, PassSource, Text, services::Analysis},
+        glsl::{PassKind, PassSource, Text, services::Analysis},
     };
 
     const TEXT: &str = "float g;\n/* é */ void f(float par) {\n    par = g;\n}\n#if 0\nout\n#endif";
 
     fn kinds(now: &str, line: usize) -> Option<Vec<TokenKind>> {
         let id = SourceId(0);
-        let analysis = Analysis::new(&PassSource {
-            kind: PassKind::Buffer,
-            common: None,
-            code: Text { id, text: TEXT },
-            channels: [ChannelKind::Sampler2D; 4],
-            bilinear_by_hand: [false; 4],
-            driver: Driver::default(),
-            knobs: &[],
-            values: &[],
-            includes: &[],
-        });
+        let analysis = Analysis::new(&PassSource::new(PassKind::Buffer, Text { id, text: TEXT }));
         let classes = analysis.classes(id);
         let help = Help { analysis: &analysis, source: id, classes: &classes, text: TEXT };
         let start = now.split_inclusive('\n').take(line).map(str::len).sum::<usize>();

@@ -9,7 +9,7 @@ mod spec;
 use super::{Checked, check};
 use crate::{
     diag::{SourceId, SourceMap, render_all},
-    glsl::{ChannelKind, Driver, PassKind, PassSource, Text, parse},
+    glsl::{ChannelKind, PassKind, PassSource, Text, parse},
 };
 
 /// Parses and checks a pass alone; parser's and checker's messages in caret form, and whether one is an error.
@@ -17,17 +17,7 @@ fn checked(kind: PassKind, channels: [ChannelKind; 4], common: Option<&str>, cod
     let mut sources = SourceMap::default();
     let common = common.map(|text| Text { id: sources.add("common.glsl", text), text });
     let id: SourceId = sources.add("image.glsl", code);
-    let source = PassSource {
-        kind,
-        common,
-        code: Text { id, text: code },
-        channels,
-        bilinear_by_hand: [false; 4],
-        driver: Driver::default(),
-        knobs: &[],
-        values: &[],
-        includes: &[],
-    };
+    let source = PassSource { common, channels, ..PassSource::new(kind, Text { id, text: code }) };
     let parsed = parse::parse(&source);
     let checked = check(&parsed.ast, &parsed.origins, &parsed.names, &source);
     let all: Vec<_> = parsed.diagnostics.iter().chain(&checked.diagnostics).cloned().collect();

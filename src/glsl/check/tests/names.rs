@@ -1,10 +1,7 @@
 //! Tests what editors are told: every use of a name and what it refers to.
 
 use super::checked;
-use crate::glsl::{
-    ChannelKind, PassKind,
-    hir::{Builtin, BuiltinVar, DeclRef, Uniform},
-};
+use crate::glsl::hir::{Builtin, BuiltinVar, DeclRef, Uniform};
 
 const CODE: &str = "struct S { float a; vec2 b; };
 const float K = 2.0;
@@ -19,17 +16,7 @@ void mainImage(out vec4 c, in vec2 f) {
 
 #[test]
 fn every_use_names_its_declaration() {
-    let source = crate::glsl::PassSource {
-        kind: PassKind::Image,
-        common: None,
-        code: crate::glsl::Text { id: crate::diag::SourceId(0), text: CODE },
-        channels: [ChannelKind::Sampler2D; 4],
-        bilinear_by_hand: [false; 4],
-        driver: crate::glsl::Driver::default(),
-        knobs: &[],
-        values: &[],
-        includes: &[],
-    };
+    let source = crate::glsl::PassSource::image(CODE);
     let parsed = crate::glsl::parse::parse(&source);
     let (checked, failed, _) = checked(source.kind, source.channels, None, CODE);
     assert!(failed, "`unknown` is not declared; the rest must be known all the same");

@@ -8,7 +8,7 @@ mod signature;
 use super::Analysis;
 use crate::{
     diag::{SourceId, Span},
-    glsl::{ChannelKind, Driver, PassKind, PassSource, Text},
+    glsl::{ChannelKind, PassKind, PassSource, Text},
 };
 
 const COMMON: SourceId = SourceId(0);
@@ -36,20 +36,14 @@ impl Marked {
 
     fn analysis(&self) -> Analysis {
         Analysis::new(&PassSource {
-            kind: PassKind::Image,
             common: Some(Text { id: COMMON, text: &self.common }),
-            code: Text { id: CODE, text: &self.code },
             channels: [
                 ChannelKind::Sampler2D,
                 ChannelKind::SamplerCube,
                 ChannelKind::Sampler3D,
                 ChannelKind::Sampler2D,
             ],
-            bilinear_by_hand: [false; 4],
-            driver: Driver::default(),
-            knobs: &[],
-            values: &[],
-            includes: &[],
+            ..PassSource::new(PassKind::Image, Text { id: CODE, text: &self.code })
         })
     }
 

@@ -3,7 +3,7 @@
 use super::*;
 use crate::{
     diag::SourceId,
-    glsl::{ChannelKind, Driver, PassKind, PassSource, Text, services::Analysis},
+    glsl::{PassKind, PassSource, Text, services::Analysis},
 };
 use egui::Modifiers;
 
@@ -35,17 +35,7 @@ fn type_into(text: &str, input: &str) -> (Assist, String) {
             assist.after(&event, &buffer);
         }
         let now = buffer.text().to_owned();
-        let analysis = Analysis::new(&PassSource {
-            kind: PassKind::Image,
-            common: None,
-            code: Text { id: ID, text: &now },
-            channels: [ChannelKind::Sampler2D; 4],
-            bilinear_by_hand: [false; 4],
-            driver: Driver::default(),
-            knobs: &[],
-            values: &[],
-            includes: &[],
-        });
+        let analysis = Analysis::new(&PassSource::new(PassKind::Image, Text { id: ID, text: &now }));
         assist.update(&buffer, Some(Help { analysis: &analysis, source: ID, classes: &[], text: &now }));
     }
     (assist, buffer.text().to_owned())

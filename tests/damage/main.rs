@@ -1,0 +1,165 @@
+//! Damaged files: projects, pictures and models with bits turned, parts cut out, doubled and mixed, numbers and lengths
+//! changed. Each is opened, checked, and its media read, and some are drawn, as `eddy check` and `eddy render` do: none
+//! may panic, nor take more than 2 s or 1 GiB.
+//!
+//! Every run has the same cases. `EDDY_DAMAGE_CASES=50000` makes it a long one, `EDDY_DAMAGE_FIRST=1234` begins at a
+//! case; what fails is kept in a folder that the message names.
+
+mod memory;
+mod mutate;
+mod seeds;
+#[path = "../it/support/mod.rs"]
+mod support;
+
+use eddy::{
+    engine::{self, BuildOptions, Engine, FrameInputs, Program},
+    glsl::Driver,
+    gpu::Gpu,
+    media::{self, MediaSet},
+    project,
+};
+use mutate::Random;
+use seeds::{File, Seed};
+use std::{
+    any::Any,
+    collections::BTreeMap,
+    fs,
+    panic::{AssertUnwindSafe, catch_unwind},
+    path::Path,
+    time::Duration,
+};
+use support::clock::Clock;
+
+#[global_allocator]
+static MEMORY: memory::Counting = memory::Counting::new();
+
+const MOST_TIME: Duration = Duration::from_secs(2);
+const MOST_BYTES: usize = 1 << 30;
+/// Every so many cases one is drawn: a device takes a hundred times as long as the rest.
+const DRAW_EVERY: u64 = 40;
+
+/// What the cases of one kind of file came to.
+#[derive(Default)]
+struct Tally {
+    cases: u64,
+    /// Projects that were opened, and those of them whose pictures and models were all whole.
+    opened: u64,
+    whole: u64,
+    drawn: u64,
+    longest: Duration,
+    largest: usize,
+}
+
+#[test]
+fn damaged_files_neither_panic_nor_take_long_nor_take_much() {
+    let number = |name: &str| std::env::var(name).ok().map(|n| n.parse::<u64>().expect(name));
+    let (first, cases) = (number("EDDY_DAMAGE_FIRST").unwrap_or(0), number("EDDY_DAMAGE_CASES").unwrap_or(400));
+    let gpu = support::gpu();
+    let seeds = seeds::all();
+    let dir = tempfile::tempdir().unwrap();
+    for seed in &seeds {
+        let home = dir.path().join(seed.name);
+        seed.files.iter().for_each(|file| write(&home, file));
+        let mut tally = Tally::default();
+        open(&home.join(seed.entry), gpu.as_ref(), &mut tally);
+        let all = (tally.opened, tally.whole, tally.drawn);
+        assert_eq!(all, (1, 1, u64::from(gpu.is_some())), "{} is whole before it is damaged", seed.name);
+    }
+    let mut tallies: BTreeMap<&str, Tally> = BTreeMap::new();
+    let mut wrong = Vec::new();
+    let loud = std::panic::take_hook();
+    std::panic::set_hook(Box::new(|_| ()));
+    for case in first..first + cases {
+        let seed = &seeds[(case % seeds.len() as u64) as usize];
+        let home = dir.path().join(case.to_string());
+        damaged(seed, &seeds, case).iter().for_each(|file| write(&home, file));
+        let gpu = gpu.as_ref().filter(|_| (case / seeds.len() as u64).is_multiple_of(DRAW_EVERY));
+        let tally = tallies.entry(seed.name).or_default();
+        let before = MEMORY.start();
+        let began = Clock::now();
+        let result = catch_unwind(AssertUnwindSafe(|| open(&home.join(seed.entry), gpu, tally)));
+        let (time, bytes) = (began.elapsed(), MEMORY.peak().saturating_sub(before));
+        tally.cases += 1;
+        tally.longest = tally.longest.max(time);
+        tally.largest = tally.largest.max(bytes);
+        let trouble = match result {
+            Err(panic) => Some(format!("panicked: {}", said(&*panic))),
+            Ok(()) if time > MOST_TIME => Some(format!("took {time:.1?}")),
+            Ok(()) if bytes > MOST_BYTES => Some(format!("took {} MiB", bytes >> 20)),
+            Ok(()) => None,
+        };
+        if let Some(trouble) = trouble {
+            let kept = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("damage-{case}"));
+            let _ = fs::remove_dir_all(&kept);
+            damaged(seed, &seeds, case).iter().for_each(|file| write(&kept, file));
+            wrong.push(format!("case {case} ({}), kept in {}: {trouble}", seed.name, kept.display()));
+        }
+        fs::remove_dir_all(&home).unwrap();
+    }
+    std::panic::set_hook(loud);
+    println!("  cases  opened   whole   drawn  longest  largest");
+    for (name, t) in &tallies {
+        let (millis, mebibytes) = (t.longest.as_millis(), t.largest >> 20);
+        println!("{:7} {:7} {:7} {:7} {millis:5} ms {mebibytes:4} MiB  {name}", t.cases, t.opened, t.whole, t.drawn);
+    }
+    assert!(wrong.is_empty(), "{} of {cases}:\n{}", wrong.len(), wrong.join("\n"));
+    // A generator that leaves nothing standing tests the first lines of the readers only.
+    let opened: u64 = tallies.values().map(|t| t.opened).sum();
+    let whole: u64 = tallies.values().map(|t| t.whole).sum();
+    assert!(opened * 3 > cases && whole * 20 > cases && whole < opened, "{opened} opened and {whole} whole of {cases}");
+}
+
+/// The seed's files with one of them damaged.
+fn damaged(seed: &Seed, seeds: &[Seed], case: u64) -> Vec<File> {
+    let mut random = Random::new(case);
+    let mut files = seed.files.clone();
+    let targets: Vec<usize> = (0..files.len()).filter(|n| files[*n].is_target).collect();
+    let target = targets[random.below(targets.len())];
+    let others: Vec<&[u8]> =
+        seeds.iter().flat_map(|s| &s.files).filter(|f| f.is_target).map(|f| f.bytes.as_slice()).collect();
+    let other = others[random.below(others.len())];
+    let bytes = &mut files[target].bytes;
+    for _ in 0..1 + random.below(3) {
+        mutate::mutate(bytes, other, &mut random);
+    }
+    // Checksums are made right, else nothing of a PNG but its checksums would ever be reached.
+    if random.below(4) > 0 {
+        mutate::mend_png(bytes);
+    }
+    files
+}
+
+fn write(home: &Path, file: &File) {
+    let path = home.join(file.name);
+    fs::create_dir_all(path.parent().unwrap()).unwrap();
+    fs::write(path, &file.bytes).unwrap();
+}
+
+/// What `eddy check` does, then what `eddy render` does: without a device, as far as that goes.
+fn open(path: &Path, gpu: Option<&Gpu>, tally: &mut Tally) {
+    let Ok(loaded) = project::load(path.to_str().unwrap()) else { return };
+    let project = &loaded.project;
+    let texts = engine::Sources::new(project);
+    let _ = texts.check_common();
+    for index in 0..project.passes.len() {
+        let _ = texts.compile_pass(index, [false; 4], Driver::default());
+    }
+    let mut meshes = MediaSet::new();
+    media::meshes(project, &mut meshes);
+    let errors = meshes.mesh_errors(project);
+    drop(meshes);
+    let (media, warnings) = media::gather(project, None);
+    tally.opened += 1;
+    tally.whole += u64::from(errors.is_empty() && warnings.is_empty());
+    let Some(gpu) = gpu else { return };
+    let Ok(built) = Program::build(gpu, project, &media, &BuildOptions::default()) else { return };
+    let Ok(mut engine) = Engine::new(gpu.clone(), 16, 9) else { return };
+    let drawn = engine.set_program(built.program).and_then(|()| engine.draw(&FrameInputs::at_fixed_step(0, 60.0)));
+    let drawn = drawn.is_ok() && engine.read(&project::PassId::Image).is_ok();
+    tally.drawn += u64::from(drawn);
+}
+
+fn said(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_default()
+}

@@ -1,0 +1,360 @@
+//! The rules of multipass drawing, by pictures.
+
+use crate::support::*;
+use eddy::{
+    engine::{BuildError, BuildOptions, BuildWork, Builder, Engine, FrameInputs, Program},
+    gpu::{GpuError, GpuOptions},
+    media::MediaSet,
+    project::{Filter, PassFormat, PassId, Project, Source, Wrap},
+};
+
+const READS_ALL: &str = "void mainImage(out vec4 o, in vec2 p) {
+    // Texel 0 says which frame wrote it, counted from 1; texel 1 what the four channels' texel 0 says.
+    if (p.x < 1.0) { o = vec4(float(iFrame + 1)); }
+    else { o = vec4(texelFetch(iChannel0, ivec2(0), 0).x, texelFetch(iChannel1, ivec2(0), 0).x,
+                    texelFetch(iChannel2, ivec2(0), 0).x, texelFetch(iChannel3, ivec2(0), 0).x); }
+}";
+
+#[test]
+fn truth_table_of_reads_by_pictures() {
+    let Some(gpu) = gpu() else { return };
+    let letters = ["A", "B", "C", "D"];
+    for order in [[0, 1, 2, 3], [3, 1, 0, 2]] {
+        let all = || letters.map(nearest);
+        let mut passes: Vec<_> = order.iter().map(|&i: &usize| pass(buffer(letters[i]), READS_ALL, all())).collect();
+        passes.push(image(READS_ALL, all()));
+        let mut engine = engine(&gpu, &project(passes), (2, 1));
+        run(&mut engine, 0, 3);
+        for (place, &reader) in order.iter().enumerate() {
+            let seen = texel(&engine.read(&buffer(letters[reader])).unwrap(), 1, 0);
+            for source in 0..4 {
+                let source_place = order.iter().position(|&i| i == source).unwrap();
+                let expected = if source_place < place { 3.0 } else { 2.0 };
+                assert_eq!(seen[source], expected, "{} reads {} in {order:?}", letters[reader], letters[source]);
+            }
+        }
+        // Alpha of Image is forced to 1, so only three of its four reads are kept.
+        assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 1, 0), [3.0, 3.0, 3.0, 1.0]);
+    }
+}
+
+#[test]
+fn discard_shows_what_a_buffer_held_two_frames_ago_and_image_one_frame_ago() {
+    let Some(gpu) = gpu() else { return };
+    let code =
+        "void mainImage(out vec4 o, in vec2 p) { if (iFrame == 4) discard; o = vec4(float(iFrame), 7.0, 7.0, 7.0); }";
+    let show = image(code, [nearest("A"), None, None, None]);
+    let also = "void mainImage(out vec4 o, in vec2 p) { if (iFrame == 4) discard; o = vec4(float(iFrame) + \
+                texelFetch(iChannel0, ivec2(0), 0).y); }";
+    let project = project(vec![pass(buffer("A"), code, Default::default()), image(also, show.channels.clone())]);
+    let mut engine = engine(&gpu, &project, (1, 1));
+    run(&mut engine, 0, 5);
+    assert_eq!(texel(&engine.read(&buffer("A")).unwrap(), 0, 0)[0], 2.0);
+    assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 0, 0)[0], 10.0);
+}
+
+#[test]
+fn frame_0_reads_zeros_and_a_reset_brings_them_back() {
+    let Some(gpu) = gpu() else { return };
+    let count = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0) + 1.0; }";
+    let show = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
+    let project = project(vec![
+        pass(buffer("A"), count, [nearest("A"), None, None, None]),
+        image(show, [nearest("A"), None, None, None]),
+    ]);
+    let mut engine = engine(&gpu, &project, (3, 2));
+    run(&mut engine, 0, 3);
+    assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 2, 1), [3.0, 3.0, 3.0, 1.0]);
+    engine.reset();
+    run(&mut engine, 0, 1);
+    assert_eq!(texel(&engine.read(&buffer("A")).unwrap(), 2, 1), [1.0; 4]);
+}
+
+#[test]
+fn a_resize_keeps_the_overlap_from_the_bottom_left() {
+    let Some(gpu) = gpu() else { return };
+    let keep = "void mainImage(out vec4 o, in vec2 p) {
+        o = iFrame == 0 ? vec4(p, 1.0, 1.0) : texelFetch(iChannel0, ivec2(p), 0); }";
+    let show = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
+    let project = project(vec![
+        pass(buffer("A"), keep, [nearest("A"), None, None, None]),
+        image(show, [nearest("A"), None, None, None]),
+    ]);
+    let mut engine = engine(&gpu, &project, (4, 4));
+    run(&mut engine, 0, 1);
+    engine.resize(6, 3).unwrap();
+    run(&mut engine, 1, 2);
+    let a = engine.read(&buffer("A")).unwrap();
+    assert_eq!((a.width, a.height), (6, 3));
+    assert_eq!(texel(&a, 3, 2), [3.5, 2.5, 1.0, 1.0]);
+    assert_eq!(texel(&a, 4, 0), [0.0; 4]);
+}
+
+#[test]
+fn filter_wrap_and_mips_read_as_they_say() {
+    let Some(gpu) = gpu() else { return };
+    let fill = "void mainImage(out vec4 o, in vec2 p) { o = vec4(floor(p), 0.0, 1.0); }";
+    let show = "void mainImage(out vec4 o, in vec2 p) {
+        // Between texels 0 and 1; half a texel left of the edge; the whole mean.
+        o = vec4(textureLod(iChannel0, vec2(0.25, 0.5), 0.0).x, textureLod(iChannel1, vec2(0.0, 0.5), 0.0).x,
+                 textureLod(iChannel2, vec2(0.5), 2.0).x, 1.0);
+    }";
+    let a = |filter, wrap| reads("A", filter, wrap);
+    let channels =
+        [a(Filter::Linear, Wrap::Clamp), a(Filter::Linear, Wrap::Repeat), a(Filter::Mipmap, Wrap::Clamp), None];
+    let project = project(vec![pass(buffer("A"), fill, Default::default()), image(show, channels)]);
+    let mut engine = engine(&gpu, &project, (4, 4));
+    run(&mut engine, 0, 1);
+    let [between, edge, mean, _] = texel(&engine.read(&PassId::Image).unwrap(), 0, 0);
+    for (got, expected) in [(between, 0.5), (edge, 1.5), (mean, 1.5)] {
+        assert!((got - expected).abs() < 0.01, "{got} is not {expected}");
+    }
+}
+
+#[test]
+fn uniforms_arrive_where_they_belong() {
+    let Some(gpu) = gpu() else { return };
+    let a = "void mainImage(out vec4 o, in vec2 p) {
+        int i = int(p.x);
+        if (i == 0) o = vec4(iResolution, iTime);
+        if (i == 1) o = iMouse;
+        if (i == 2) o = iDate;
+        if (i == 3) o = vec4(iTimeDelta, iFrameRate, iSampleRate, float(iFrame));
+        if (i == 4) o = vec4(iChannelResolution[1], iChannelTime[2]);
+    }";
+    let show = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
+    let project = project(vec![
+        pass(buffer("A"), a, [None, nearest("A"), None, None]),
+        image(show, [nearest("A"), None, None, None]),
+    ]);
+    let mut engine = engine(&gpu, &project, (5, 1));
+    let inputs = FrameInputs {
+        mouse: [1.0, 2.0, -3.0, -0.0],
+        date: [2026.0, 10.0, 21.0, 3600.5],
+        ..FrameInputs::at_fixed_step(30, 60.0)
+    };
+    engine.draw(&inputs).unwrap();
+    let pixels = engine.read(&buffer("A")).unwrap();
+    assert_eq!(texel(&pixels, 0, 0), [5.0, 1.0, 1.0, 0.5]);
+    assert_eq!(texel(&pixels, 1, 0), [1.0, 2.0, -3.0, -0.0]);
+    assert!(texel(&pixels, 1, 0)[3].is_sign_negative());
+    assert_eq!(texel(&pixels, 2, 0), inputs.date);
+    assert_eq!(texel(&pixels, 3, 0), [1.0 / 60.0, 60.0, 44100.0, 30.0]);
+    assert_eq!(texel(&pixels, 4, 0), [5.0, 1.0, 1.0, 0.0]);
+}
+
+#[test]
+fn a_new_program_keeps_the_buffers_it_shares_with_the_old() {
+    let Some(gpu) = gpu() else { return };
+    let count = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0) + 1.0; }";
+    let by_ten = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0) + 10.0; }";
+    let show = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
+    let with = |code: &str| {
+        project(vec![
+            pass(buffer("A"), code, [nearest("A"), None, None, None]),
+            image(show, [nearest("A"), None, None, None]),
+        ])
+    };
+    let mut engine = engine(&gpu, &with(count), (1, 1));
+    run(&mut engine, 0, 3);
+    let built = eddy::engine::Program::build(&gpu, &with(by_ten), &MediaSet::new(), &BuildOptions::default()).unwrap();
+    engine.set_program(built.program).unwrap();
+    run(&mut engine, 3, 4);
+    assert_eq!(texel(&engine.read(&buffer("A")).unwrap(), 0, 0)[0], 13.0);
+}
+
+#[test]
+fn impossible_sizes_are_refused_and_leave_the_engine_as_it_was() {
+    let Some(gpu) = gpu() else { return };
+    let show = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }";
+    let mut engine = engine(&gpu, &project(vec![image(show, Default::default())]), (2, 2));
+    assert!(matches!(
+        engine.resize(0, 4).unwrap_err(),
+        eddy::engine::EngineError::Gpu(GpuError::Empty { width: 0, height: 4, .. })
+    ));
+    let message = engine.resize(1 << 20, 4).unwrap_err().to_string();
+    assert!(message.contains("1048576x4") && message.contains("at most"), "{message}");
+    run(&mut engine, 0, 1);
+    assert_eq!(engine.size(), (2, 2));
+    assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 1, 1), [0.5, 0.5, 0.5, 1.0]);
+}
+
+#[test]
+fn bilinear_reads_by_hand_match_the_samplers() {
+    let (Some(gpu), Some(plain)) =
+        (gpu(), gpu_with(&GpuOptions { use_float32_filtering: false, ..Default::default() }))
+    else {
+        return;
+    };
+    let fill = "void mainImage(out vec4 o, in vec2 p) { o = fract(sin(vec4(p.x, p.y, p.x * p.y, p.x + p.y)) * 43.7); }";
+    let show = "void mainImage(out vec4 o, in vec2 p) {
+        vec2 uv = p / iResolution.xy * 1.7 - 0.3;
+        o = 0.4 * texture(iChannel0, uv) + 0.3 * texture(iChannel1, uv + 0.11) + 0.3 * textureLod(iChannel2, uv, 1.5);
+    }";
+    let a = |filter, wrap| reads("A", filter, wrap);
+    let channels =
+        [a(Filter::Linear, Wrap::Clamp), a(Filter::Linear, Wrap::Repeat), a(Filter::Mipmap, Wrap::Repeat), None];
+    let project = project(vec![pass(buffer("A"), fill, Default::default()), image(show, channels)]);
+    let picture = |gpu| {
+        let mut engine = engine(gpu, &project, (37, 23));
+        run(&mut engine, 0, 1);
+        engine.read(&PassId::Image).unwrap()
+    };
+    assert!(!plain.filters_float32);
+    let (by_sampler, by_hand) = (picture(&gpu), picture(&plain));
+    let worst = by_sampler
+        .texels
+        .iter()
+        .flatten()
+        .zip(by_hand.texels.iter().flatten())
+        .map(|(a, b)| (a - b).abs())
+        .fold(0.0, f32::max);
+    assert!(worst <= 1.0 / 255.0, "differs by {worst}");
+}
+
+/// The k-th of three texts, each of which the buffers of [`many`] use eight times.
+fn step_text(k: usize, n: u32) -> String {
+    format!(
+        "void mainImage(out vec4 o, in vec2 p) {{ o = texelFetch(iChannel0, ivec2(p), 0) + noise({k}.0) + {n}.0; }}\n"
+    )
+}
+
+/// 24 buffers over three texts, each reading the one before, and Image.
+fn many() -> Project {
+    let name = |i: usize| format!("b{i}");
+    let mut passes: Vec<_> = (0..24)
+        .map(|i| pass(buffer(&name(i)), &step_text(i % 3, 0), [nearest(&name((i + 23) % 24)), None, None, None]))
+        .collect();
+    passes.push(image(&show(1), [nearest("b23"), None, None, None]));
+    let common =
+        Source { name: "Common".into(), path: None, text: "float noise(float x) { return x * 0.5; }\n".into() };
+    Project { common: Some(common), ..project(passes) }
+}
+
+fn show(n: u32) -> String {
+    format!("void mainImage(out vec4 o, in vec2 p) {{ o = texelFetch(iChannel0, ivec2(p), 0) * noise({n}.0); }}\n")
+}
+
+fn edit(project: &mut Project, pass: &PassId, code: &str) {
+    project.pass_mut(pass).unwrap().source.text = code.into();
+}
+
+fn work(stages: usize, pipelines: usize) -> BuildWork {
+    BuildWork { stages, pipelines }
+}
+
+/// Builds and takes the program up, and draws three frames.
+fn rebuild(builder: &mut Builder, engine: &mut Engine, project: &Project) -> (BuildWork, Vec<[f32; 4]>) {
+    let built = builder.build(project, &MediaSet::new(), &BuildOptions::default()).unwrap_or_else(|e| panic!("{e:?}"));
+    engine.set_program(built.program).unwrap();
+    engine.reset();
+    run(engine, 0, 3);
+    (built.work, engine.read(&PassId::Image).unwrap().texels)
+}
+
+#[test]
+fn an_edit_builds_what_it_changes_and_nothing_else() {
+    let Some(gpu) = gpu() else { return };
+    let (mut builder, mut engine) = (Builder::new(gpu.clone()), Engine::new(gpu.clone(), 2, 2).unwrap());
+    let mut rebuild = |project: &Project| {
+        let (work, picture) = rebuild(&mut builder, &mut engine, project);
+        let mut fresh = engine_with(&gpu, project, &MediaSet::new(), &BuildOptions::default(), (2, 2));
+        run(&mut fresh, 0, 3);
+        assert_eq!(picture, fresh.read(&PassId::Image).unwrap().texels, "as with nothing from before");
+        (work, picture)
+    };
+    let mut project = many();
+    let (first, before) = rebuild(&project);
+    assert_eq!(first, work(4, 4), "25 passes over four texts");
+    assert_eq!(rebuild(&project).0, work(0, 0), "nothing has changed");
+
+    edit(&mut project, &PassId::Image, &show(2));
+    let (one, after) = rebuild(&project);
+    assert_eq!(one, work(1, 1));
+    assert_ne!(before, after);
+
+    edit(&mut project, &PassId::Image, &show(1));
+    assert_eq!(rebuild(&project), (work(0, 0), before), "back to the text of before");
+
+    edit(&mut project, &buffer("b7"), &step_text(1, 5));
+    assert_eq!(rebuild(&project).0, work(1, 1), "one of the eight passes of a text");
+
+    edit(&mut project, &PassId::Image, &format!("// a word\n{}", show(1)));
+    assert_eq!(rebuild(&project).0, work(1, 0), "what compiles to the same needs no new pipeline");
+
+    project.passes[3].settings.format = PassFormat::Rg32f;
+    assert_eq!(rebuild(&project).0, work(0, 1), "another format is another pipeline of the same stage");
+
+    project.common.as_mut().unwrap().text = "float noise(float x) { return x * 0.3 + 0.1; }\n".into();
+    assert_eq!(rebuild(&project).0, work(5, 6), "Common is part of every stage");
+
+    project.common.as_mut().unwrap().text = "float noise(float x) { return x * 0.3 + 0.1; }\nfloat unused;\n".into();
+    assert_eq!(rebuild(&project).0, work(5, 0), "what no pass of it uses changes no stage");
+}
+
+#[test]
+fn a_broken_edit_costs_nothing_that_was_there() {
+    let Some(gpu) = gpu() else { return };
+    let (mut builder, mut engine) = (Builder::new(gpu.clone()), Engine::new(gpu, 2, 2).unwrap());
+    let project = many();
+    let (_, before) = rebuild(&mut builder, &mut engine, &project);
+    let mut broken = project.clone();
+    for n in 0..5 {
+        edit(&mut broken, &PassId::Image, &format!("{} {n}", show(1)));
+        let built = builder.build(&broken, &MediaSet::new(), &BuildOptions::default());
+        assert!(matches!(built, Err(BuildError::Diagnostics { .. })));
+    }
+    assert_eq!(rebuild(&mut builder, &mut engine, &project), (work(0, 0), before));
+}
+
+/// Passes of one text share what the compiler says of it, each at its own place.
+#[test]
+fn what_is_wrong_with_a_shared_text_is_said_of_each_pass_that_has_it() {
+    let Some(gpu) = gpu() else { return };
+    let mut builder = Builder::new(gpu);
+    let mut project = many();
+    let broken = "void mainImage(out vec4 o, in vec2 p) { o = lenght(p); }\n";
+    let broken_passes = [2, 7, 11];
+    for place in broken_passes {
+        let id = project.passes[place].id.clone();
+        edit(&mut project, &id, broken);
+    }
+    for _ in 0..2 {
+        let built = builder.build(&project, &MediaSet::new(), &BuildOptions::default());
+        let Err(BuildError::Diagnostics { diagnostics, sources }) = built else { panic!("it compiles") };
+        let places: Vec<_> = diagnostics.iter().map(|d| d.span.unwrap()).collect();
+        let at = broken.find("lenght").unwrap();
+        assert!(places.iter().all(|span| span.range() == (at..at + 6)), "{diagnostics:?}");
+        let names: Vec<_> = places.iter().map(|span| sources.get(span.source).unwrap().name.clone()).collect();
+        assert_eq!(names, broken_passes.map(|place| project.passes[place].source.name.clone()));
+    }
+}
+
+/// Targets that are as before are kept, others keep what both sizes or formats have.
+#[test]
+fn buffers_keep_their_texels_through_edits_of_their_shape() {
+    let Some(gpu) = gpu() else { return };
+    let count = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0) + 1.0; }";
+    let show = "void mainImage(out vec4 o, in vec2 p) { o = textureLod(iChannel0, vec2(0.5), 9.0); }";
+    let a = |filter| reads("A", filter, Wrap::Clamp);
+    let mut project = project(vec![
+        pass(buffer("A"), count, [nearest("A"), None, None, None]),
+        image(show, [a(Filter::Nearest), None, None, None]),
+    ]);
+    let mut engine = engine(&gpu, &project, (4, 4));
+    run(&mut engine, 0, 3);
+    // Mips on and off, and a doubled buffer that becomes single.
+    for (drawn, change) in (3..).zip(["mips", "none", "no mips", "single"]) {
+        match change {
+            "mips" => project.passes[1].channels[0] = a(Filter::Mipmap),
+            "no mips" => project.passes[1].channels[0] = a(Filter::Nearest),
+            "single" => edit(&mut project, &buffer("A"), "void mainImage(out vec4 o, in vec2 p) { o = vec4(9.0); }"),
+            _ => {}
+        }
+        let built = Program::build(&gpu, &project, &MediaSet::new(), &BuildOptions::default()).unwrap();
+        engine.set_program(built.program).unwrap();
+        assert_eq!(texel(&engine.read(&buffer("A")).unwrap(), 3, 3)[0], drawn as f32, "{change}");
+        run(&mut engine, drawn, drawn + 1);
+    }
+    assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 0, 0), [9.0, 9.0, 9.0, 1.0]);
+}

@@ -1,0 +1,522 @@
+//! Projects that a stranger made to do harm: nothing outside the project's folder is read or carried away, nothing
+//! outside the destination is written, and what asks for too much is refused by a limit that the message names.
+
+use crate::support::{self, program::Bench};
+use eddy::project::{
+    self, Channel, Geometry, Input, Media, MeshDraw, MeshSource, Overwrite, PassId, Project, Sampler, Source, Stage,
+    limits,
+};
+use serde_json::json;
+use std::{
+    collections::BTreeSet,
+    fs,
+    path::{Path, PathBuf},
+};
+use tempfile::TempDir;
+
+const IMAGE: &str = "void mainImage(out vec4 c, in vec2 p) { c = vec4(1.0); }\n";
+const SECRET: &str = "// the secret\n";
+
+/// A folder with `secret.glsl` in it and the project in `p`.
+fn place(files: &[(&str, &str)]) -> TempDir {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("secret.glsl"), SECRET).unwrap();
+    for (name, text) in files {
+        let path = dir.path().join("p").join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    }
+    dir
+}
+
+fn load(path: &Path) -> Result<Project, String> {
+    project::load(path.to_str().unwrap()).map(|loaded| loaded.project).map_err(|e| e.to_string())
+}
+
+fn refusal(path: &Path) -> String {
+    load(path).expect_err("the project is refused")
+}
+
+/// Every file and folder below, by its path from `folder`.
+fn tree(folder: &Path) -> BTreeSet<PathBuf> {
+    let mut found = BTreeSet::new();
+    let mut todo = vec![folder.to_owned()];
+    while let Some(at) = todo.pop() {
+        for entry in fs::read_dir(at).unwrap() {
+            let path = entry.unwrap().path();
+            found.insert(path.strip_prefix(folder).unwrap().to_owned());
+            if path.is_dir() && !path.is_symlink() {
+                todo.push(path);
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn a_pass_file_is_read_from_the_projects_folder_alone() {
+    for (name, says) in [
+        ("/etc/passwd", "/etc/passwd is an absolute path"),
+        ("../secret.glsl", "../secret.glsl leads out of the project's folder"),
+        ("sub/../../secret.glsl", "leads out of the project's folder"),
+        ("C:/secret.glsl", "absolute path"),
+        ("/dev/zero", "absolute path"),
+        ("sub", "it is a folder"),
+    ] {
+        for (table, line) in [("passes.image", 2), ("passes.sound", 2), ("passes.buffer_a", 2), ("common", 2)] {
+            let image = if table == "passes.image" { "" } else { "[passes.image]\n" };
+            let toml = format!("[{table}]\nfile = \"{name}\"\n{image}");
+            let dir = place(&[("eddy.toml", &toml), ("image.glsl", IMAGE), ("sub/x", "")]);
+            let said = refusal(&dir.path().join("p"));
+            assert!(said.contains(says), "{toml}{said}");
+            assert!(said.contains(&format!("eddy.toml:{line}:")) && said.contains("= help: "), "{said}");
+            assert!(!said.contains("root:") && !said.contains(SECRET), "{said}");
+        }
+    }
+}
+
+#[test]
+fn a_stage_is_read_from_the_projects_folder_alone() {
+    let toml =
+        "[passes.image]\n[passes.buffer_s]\ndraw = [{ mesh = \"builtin:cube\", vertex = \"../payload.vert\" }]\n";
+    let dir = place(&[("eddy.toml", toml), ("image.glsl", IMAGE), ("buffer_s.glsl", "")]);
+    fs::write(dir.path().join("payload.vert"), "void main() {}").unwrap();
+    let said = refusal(&dir.path().join("p"));
+    assert!(
+        said.contains("../payload.vert leads out of the project's folder") && said.contains("eddy.toml:3:"),
+        "{said}"
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn links_that_lead_out_and_pipes_are_refused_in_every_place() {
+    use std::os::unix::fs::symlink;
+    let toml = "[passes.image]\n[passes.sound]\n";
+    for name in ["image.glsl", "common.glsl", "sound.glsl", "eddy.toml"] {
+        for with_manifest in [true, false] {
+            let mut files = vec![("image.glsl", IMAGE), ("sound.glsl", ""), ("common.glsl", "")];
+            files.extend(with_manifest.then_some(("eddy.toml", toml)));
+            let dir = place(&files);
+            let path = dir.path().join("p").join(name);
+            let _ = fs::remove_file(&path);
+            symlink("../secret.glsl", &path).unwrap();
+            let said = refusal(&dir.path().join("p"));
+            assert!(said.contains(&format!("{name} is a link that leads out of the project's folder")), "{said}");
+            assert!(said.contains("copy the file into the project's folder"), "{said}");
+            fs::remove_file(&path).unwrap();
+            assert!(std::process::Command::new("mkfifo").arg(&path).status().unwrap().success());
+            let said = refusal(&dir.path().join("p"));
+            assert!(said.contains("it is a pipe, not a regular file"), "{said}");
+        }
+    }
+    // A single file, and a JSON file.
+    for name in ["x.glsl", "x.json"] {
+        let dir = place(&[("readme", "")]);
+        let path = dir.path().join("p").join(name);
+        symlink("../secret.glsl", &path).unwrap();
+        assert!(refusal(&path).contains("a link that leads out"));
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn pictures_are_read_from_the_projects_folder_alone() {
+    let dir = place(&[("image.glsl", IMAGE)]);
+    let home = dir.path().join("p");
+    image::RgbaImage::new(1, 1).save(dir.path().join("out.png")).unwrap();
+    image::RgbaImage::new(1, 1).save(home.join("in.png")).unwrap();
+    std::os::unix::fs::symlink("../out.png", home.join("link.png")).unwrap();
+    assert!(std::process::Command::new("mkfifo").arg(home.join("pipe.png")).status().unwrap().success());
+    let read = |name: &str| eddy::media::load(&Media::File(name.into()), true, Some(&home), None);
+    assert!(read("in.png").is_ok());
+    let absolute = dir.path().join("out.png");
+    for (name, says) in [
+        (absolute.to_str().unwrap(), "absolute path"),
+        ("../out.png", "leads out"),
+        ("link.png", "a link that leads out"),
+        ("pipe.png", "a pipe"),
+        ("/dev/zero", "absolute path"),
+    ] {
+        let error = read(name).expect_err(name);
+        assert!(error.to_string().contains(says), "{error}");
+        assert!(!error.hint().is_empty());
+    }
+    // What the person picked may lie anywhere.
+    assert!(eddy::media::load(&Media::Picked(absolute), true, Some(&home), None).is_ok());
+}
+
+#[test]
+fn an_import_writes_into_its_folder_whatever_the_ids_are() {
+    let b = Bench::new();
+    let pass = |kind: &str, id: &str, inputs: serde_json::Value| {
+        let outputs = json!([{ "id": id, "channel": 0 }]);
+        json!({ "inputs": inputs, "outputs": outputs, "code": IMAGE, "name": "n\u{1b}[2J", "type": kind })
+    };
+    let ids = [
+        "buffer_a/../../../esc1/pwned",
+        "buffer_..\\..\\pwned",
+        "buffer_x\u{0}y",
+        "buffer_x\ny",
+        "buffer_..",
+        "../../pwned",
+        "/tmp/pwned",
+        "buffer_C:pwned",
+    ];
+    let read = |id: &str| json!([{ "id": id, "type": "buffer", "channel": 0 }]);
+    let mut passes: Vec<_> = ids.iter().map(|id| pass("buffer", id, json!([]))).collect();
+    passes.push(pass("image", "4dfGRr", read(ids[0])));
+    b.write("deep/er/x.json", json!({ "ver": "0.1", "info": {}, "renderpass": passes }).to_string());
+    let run = b.line("import deep/er/x.json --out deep/er/new").expect(0);
+    assert!(!format!("{}{}", run.out, run.err).contains('\u{1b}'), "{}", run.err);
+    let mut expected = vec!["eddy.toml".to_owned(), "image.glsl".to_owned()];
+    expected.extend(('a'..='h').map(|c| format!("buffer_{c}.glsl")));
+    expected.sort();
+    assert_eq!(b.names("deep/er/new"), expected);
+    assert_eq!(b.names("deep/er"), ["new", "x.json"]);
+    assert_eq!(b.names("."), ["deep"]);
+    // What reads such an id reads the pass that has it.
+    let project = load(&b.path("deep/er/new")).unwrap();
+    let channel = project.pass(&PassId::Image).unwrap().channels[0].clone();
+    assert_eq!(channel.unwrap().input, Input::Buffer("A".into()));
+}
+
+#[test]
+fn ids_that_a_disk_takes_for_one_become_two_files() {
+    let pass = |kind: &str, id: &str, code: &str| json!({ "outputs": [{ "id": id }], "code": code, "type": kind });
+    let passes = [pass("buffer", "buffer_Blur", "1"), pass("buffer", "buffer_bLUR", "2"), pass("image", "4dfGRr", "3")];
+    let dir = place(&[("x.json", &json!({ "ver": "0.1", "renderpass": passes }).to_string())]);
+    let to = dir.path().join("new");
+    project::save(&load(&dir.path().join("p/x.json")).unwrap(), &to, Overwrite::Refuse).unwrap();
+    let names: BTreeSet<String> = tree(&to).iter().map(|p| p.to_str().unwrap().to_lowercase()).collect();
+    assert_eq!(names.len(), 4, "{names:?}");
+    assert_eq!(fs::read_to_string(to.join("buffer_blur.glsl")).unwrap(), "1");
+    assert_eq!(fs::read_to_string(to.join("buffer_a.glsl")).unwrap(), "2");
+}
+
+#[test]
+fn names_of_passes_are_no_paths() {
+    for bad in ["a/b", "..", "a\\b", "a.b", "a:b", "a\0", "a\n", "a*", &"x".repeat(limits::NAME + 1)] {
+        assert_eq!(PassId::parse(bad), None, "{bad:?}");
+        assert_eq!(PassId::parse(&format!("buffer_{bad}")), None, "{bad:?}");
+    }
+    for good in ["A", "blur", "Buffer A", "buf_b", "buffer-far-field", "größe", &"x".repeat(limits::NAME)] {
+        assert!(PassId::parse(good).is_some(), "{good}");
+    }
+    let dir = place(&[("eddy.toml", "[passes.image]\n[passes.\"buffer_a/../../x\"]\n"), ("image.glsl", IMAGE)]);
+    let said = refusal(&dir.path().join("p"));
+    assert!(said.contains("eddy.toml:2:") && said.contains("letters, digits"), "{said}");
+    let group = "[passes.image]\n[passes.buffer_a]\n[groups.\"../g\"]\npasses = [\"buffer_a\"]\n";
+    let dir = place(&[("eddy.toml", group), ("image.glsl", IMAGE), ("buffer_a.glsl", "")]);
+    assert!(refusal(&dir.path().join("p")).contains("a group cannot be called \"../g\""));
+    let dir = place(&[("image.glsl", IMAGE), ("buffer_a.old.glsl", IMAGE)]);
+    let loaded = project::load(dir.path().join("p").to_str().unwrap()).unwrap();
+    assert!(loaded.warnings[0].message.contains("buffer_a.old.glsl is no pass"), "{:?}", loaded.warnings);
+}
+
+/// A project in memory with a geometry pass whose stage has this name.
+fn with_stage(name: &str) -> Project {
+    let mut scene = support::pass(PassId::Buffer("scene".into()), "", Default::default());
+    let draw = MeshDraw {
+        mesh: MeshSource::Builtin("cube".into()),
+        vertex: Stage::File(0),
+        fragment: Stage::Own,
+        cull: Default::default(),
+        depth: Default::default(),
+        depth_write: true,
+        color_write: true,
+        scale: 1.0,
+        rotation: [0.0; 3],
+        position: [0.0; 3],
+    };
+    let stage = Source { name: name.into(), path: Some(name.into()), text: "evil".into() };
+    let camera = Default::default();
+    let meshes = Geometry { draws: vec![draw], more_targets: vec![], camera, stages: vec![stage] };
+    scene.settings.body = eddy::project::PassBody::Meshes(meshes);
+    support::project(vec![scene, support::image(IMAGE, Default::default())])
+}
+
+#[test]
+fn save_as_writes_into_its_folder_alone() {
+    for name in [
+        "../payload.vert",
+        "../../payload.desktop",
+        "/tmp/eddy-payload.vert",
+        "a/../../payload.vert",
+        "..\\x.vert",
+        "a\0.vert",
+    ] {
+        let dir = tempfile::tempdir().unwrap();
+        let to = dir.path().join("deep/new");
+        let error = project::save(&with_stage(name), &to, Overwrite::Allow).expect_err(name).to_string();
+        assert!(error.contains("is not written: "), "{error}");
+        assert!(tree(dir.path()).is_empty(), "{name}: {:?}", tree(dir.path()));
+        // A pass's file whose text includes something keeps its name, which must be as good.
+        let mut pass = support::image("// #include \"x\"\n", Default::default());
+        (pass.source.name, pass.source.path) = (name.into(), Some(name.into()));
+        assert!(project::save(&support::project(vec![pass]), &to, Overwrite::Allow).is_err(), "{name}");
+        assert!(tree(dir.path()).is_empty(), "{name}");
+    }
+    // Names that are no paths get an ending that no program is started by.
+    for (name, becomes) in [("payload.sh", "payload.sh.glsl"), (".profile", ".profile.glsl"), ("x.vert", "x.vert")] {
+        let dir = tempfile::tempdir().unwrap();
+        project::save(&with_stage(name), dir.path(), Overwrite::Refuse).unwrap();
+        assert_eq!(fs::read_to_string(dir.path().join(becomes)).unwrap(), "evil");
+        assert_eq!(tree(dir.path()).len(), 4);
+    }
+    for name in ["nul.vert", "COM1.glsl"] {
+        let dir = tempfile::tempdir().unwrap();
+        let error = project::save(&with_stage(name), dir.path(), Overwrite::Refuse).unwrap_err().to_string();
+        assert!(error.contains("device on Windows"), "{error}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn save_as_follows_no_link_out_of_its_folder() {
+    use std::os::unix::fs::symlink;
+    let dir = tempfile::tempdir().unwrap();
+    let (to, outside) = (dir.path().join("to"), dir.path().join("outside"));
+    fs::create_dir(&to).unwrap();
+    fs::create_dir(&outside).unwrap();
+    fs::write(outside.join("x.vert"), "mine").unwrap();
+    symlink("../outside", to.join("sub")).unwrap();
+    for (name, link) in
+        [("sub/new.vert", None), ("x.vert", Some("../outside/x.vert")), ("y.vert", Some("../outside/y"))]
+    {
+        if let Some(link) = link {
+            symlink(link, to.join(name)).unwrap();
+        }
+        let error = project::save(&with_stage(name), &to, Overwrite::Allow).expect_err(name).to_string();
+        assert!(error.contains("link"), "{error}");
+        assert_eq!(tree(&outside).len(), 1);
+        assert_eq!(fs::read_to_string(outside.join("x.vert")).unwrap(), "mine");
+        assert!(!to.join("eddy.toml").exists(), "nothing is written before all is checked");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn save_as_carries_along_what_lies_in_the_old_folder_alone() {
+    let toml = "[passes.image]\nchannels.0 = { file = \"../out.png\" }\nchannels.1 = { file = \"link.png\" }\n\
+                channels.2 = { file = \"run.sh\" }\nchannels.3 = { file = \"in.png\" }\n\
+                [passes.buffer_s]\ndraw = [{ mesh = \"m/a.gltf\", vertex = \"s.vert\" }]\n";
+    let gltf = r#"{"buffers":[{"uri":"../../out.png"},{"uri":"/etc/passwd"},{"uri":"a.bin"}]}"#;
+    let dir = place(&[
+        ("eddy.toml", toml),
+        ("image.glsl", IMAGE),
+        ("in.png", "in"),
+        ("run.sh", "evil"),
+        ("buffer_s.glsl", ""),
+        ("s.vert", ""),
+        ("m/a.gltf", gltf),
+        ("m/a.bin", "bin"),
+    ]);
+    fs::write(dir.path().join("out.png"), "out").unwrap();
+    std::os::unix::fs::symlink("../out.png", dir.path().join("p/link.png")).unwrap();
+    let to = dir.path().join("far/new");
+    project::save(&load(&dir.path().join("p")).unwrap(), &to, Overwrite::Refuse).unwrap();
+    let names: Vec<String> = tree(&to).iter().map(|p| p.to_str().unwrap().to_owned()).collect();
+    let expected = ["buffer_s.glsl", "eddy.toml", "image.glsl", "in.png", "m", "m/a.bin", "m/a.gltf", "s.vert"];
+    assert_eq!(names, expected);
+}
+
+#[test]
+fn an_export_carries_nothing_from_outside() {
+    let b = Bench::new();
+    b.write("secret.glsl", SECRET);
+    b.write("p/image.glsl", IMAGE);
+    for toml in [
+        "[passes.image]\n[passes.sound]\nfile = \"/etc/passwd\"\n",
+        "[passes.image]\n[common]\nfile = \"../secret.glsl\"\n",
+    ] {
+        b.write("p/eddy.toml", toml);
+        for command in ["check p", "export p --out p.json"] {
+            let run = b.line(command);
+            assert_ne!(run.code, Some(0), "{}", run.out);
+            assert!(run.err.contains("copy the file into the project's folder"), "{}", run.err);
+        }
+        assert!(!b.path("p.json").exists());
+    }
+}
+
+fn picked(path: &Path) -> Option<Channel> {
+    Some(Channel { input: Input::Texture(Media::Picked(path.to_owned())), sampler: Sampler::TEXTURE })
+}
+
+#[test]
+fn a_picked_picture_is_copied_in_by_saving_and_over_nothing() {
+    let dir = place(&[("image.glsl", IMAGE), ("cat.png", "another cat")]);
+    let (home, elsewhere) = (dir.path().join("p"), dir.path().join("elsewhere"));
+    fs::create_dir(&elsewhere).unwrap();
+    fs::write(elsewhere.join("cat.png"), "cat").unwrap();
+    fs::write(elsewhere.join("we;ird\u{1}.EXE"), "odd").unwrap();
+    let mut project = load(&home).unwrap();
+    project.passes[0].channels = [
+        picked(&elsewhere.join("cat.png")),
+        picked(&elsewhere.join("we;ird\u{1}.EXE")),
+        picked(&elsewhere.join("gone.png")),
+        picked(&elsewhere.join("cat.png")),
+    ];
+    let saved = project::save(&project, &home, Overwrite::Refuse).unwrap();
+    let names = |p: &Project| -> Vec<PathBuf> {
+        let media = |c: &Option<Channel>| match c.as_ref().unwrap().input.media() {
+            Some(Media::File(path)) => path.clone(),
+            other => panic!("{other:?}"),
+        };
+        p.passes[0].channels.iter().map(media).collect()
+    };
+    let expected = ["cat_2.png", "we_ird_.png", "gone.png", "cat_2.png"].map(PathBuf::from);
+    assert_eq!(names(&saved), expected);
+    assert_eq!(fs::read_to_string(home.join("cat.png")).unwrap(), "another cat");
+    assert_eq!(fs::read_to_string(home.join("cat_2.png")).unwrap(), "cat");
+    assert_eq!(fs::read_to_string(home.join("we_ird_.png")).unwrap(), "odd");
+    assert_eq!(names(&load(&home).unwrap()), expected);
+    // The same again makes no further copy, and one that lies in the folder is named.
+    let mut project = saved;
+    project.passes[0].channels = [picked(&elsewhere.join("cat.png")), picked(&home.join("cat.png")), None, None];
+    let saved = project::save(&project, &home, Overwrite::Refuse).unwrap();
+    let media: Vec<_> = saved.passes[0].channels.iter().flatten().map(|c| c.input.media().unwrap().clone()).collect();
+    assert_eq!(media, [Media::File("cat_2.png".into()), Media::File("cat.png".into())]);
+    assert!(!home.join("cat_3.png").exists());
+    // Where it lies on this machine is in no file.
+    project.passes[0].channels = [picked(&elsewhere.join("cat.png")), None, None, None];
+    assert!(project::save(&project, &dir.path().join("x.json"), Overwrite::Refuse).is_err());
+    assert!(!project::json::export(&project).contains("elsewhere"));
+}
+
+#[test]
+fn limits_are_named_with_the_file_and_the_line() {
+    let said = |files: &[(&str, &str)]| refusal(&place(files).path().join("p"));
+    let steps = "[passes.image]\n[passes.buffer_a]\n[groups.g]\npasses = [\"buffer_a\"]\nsteps = 1000000\n";
+    let text = said(&[("eddy.toml", steps), ("image.glsl", IMAGE), ("buffer_a.glsl", IMAGE)]);
+    assert!(text.contains("eddy.toml:5:") && text.contains(&format!("the most is {}", limits::DRAWS)), "{text}");
+
+    let mut many = "[passes.image]\n".to_owned();
+    (0..60_000).for_each(|n| many.push_str(&format!("[passes.buffer_x{n}]\nfile=\"a\"\n")));
+    let text = said(&[("eddy.toml", &many), ("image.glsl", IMAGE), ("a", "")]);
+    assert!(text.contains(&format!("more than {} passes", limits::PASSES)), "{}", &text[..500.min(text.len())]);
+
+    let dir = place(&[("image.glsl", "")]);
+    let sized =
+        |name: &str, bytes: u64| fs::File::create(dir.path().join("p").join(name)).unwrap().set_len(bytes).unwrap();
+    sized("image.glsl", limits::GLSL_TEXT.bytes + 1);
+    assert!(
+        refusal(&dir.path().join("p"))
+            .contains("image.glsl is larger than 8 MiB, the most that Eddy reads of a GLSL text")
+    );
+    sized("x.json", 84 << 20);
+    assert!(refusal(&dir.path().join("p/x.json")).contains("x.json is larger than 32 MiB"));
+    sized("eddy.toml", limits::MANIFEST.bytes + 1);
+    assert!(refusal(&dir.path().join("p")).contains("eddy.toml is larger than 2 MiB"));
+    fs::remove_file(dir.path().join("p/eddy.toml")).unwrap();
+    sized("image.glsl", 0);
+    for n in 0..9 {
+        sized(&format!("buffer_{n}.glsl"), limits::GLSL_TEXT.bytes);
+    }
+    let text = refusal(&dir.path().join("p"));
+    assert!(text.contains("it is more than 64 MiB, the most that Eddy reads of all GLSL texts"), "{text}");
+}
+
+#[test]
+fn included_texts_are_limited_together_before_they_are_put_together() {
+    // One file of 1 MiB, 100 times: 100 MiB of text from 1 MiB of files.
+    let big = "/".repeat(1 << 20);
+    let often = "#include \"big\"\n".repeat(100);
+    let dir = place(&[("image.glsl", &often), ("big", &big)]);
+    let project = load(&dir.path().join("p")).unwrap();
+    let lines = project.include_lines();
+    let said = eddy::diag::render_all(&lines.diagnostics, &project.sources());
+    assert!(said.contains("image.glsl has more than 64 MiB in it") && said.contains("image.glsl:1:1"), "{said}");
+    assert!(lines.lines.is_empty());
+    // 9,000 files of 1 MiB that hold no memory of the disk.
+    let all: String = (0..9_000).map(|n| format!("#include \"f{n}\"\n")).collect();
+    let dir = place(&[("image.glsl", &all)]);
+    for n in 0..9_000 {
+        fs::File::create(dir.path().join(format!("p/f{n}"))).unwrap().set_len(1 << 20).unwrap();
+    }
+    let project = load(&dir.path().join("p")).unwrap();
+    let read: usize = project.includes.iter().map(|i| i.source.text.len()).sum();
+    assert!(read as u64 <= limits::ALL_TEXTS.bytes, "{read}");
+    let said = eddy::diag::render_all(&project.include_lines().diagnostics, &project.sources());
+    assert!(said.contains("it is more than 64 MiB"), "{}", &said[..500.min(said.len())]);
+}
+
+#[test]
+fn lists_of_a_json_file_have_limits_and_what_is_not_read_takes_no_memory() {
+    let image = json!({ "code": IMAGE, "type": "image" });
+    let read =
+        |value: serde_json::Value| project::json::import(&value.to_string(), "x.json").map_err(|e| e.to_string());
+    let many: Vec<_> = (0..70_000).map(|_| json!({ "code": "", "type": "buffer" })).collect();
+    let said = read(json!({ "ver": "0.1", "renderpass": many })).unwrap_err();
+    assert!(
+        said.contains(&format!("more than {} entries", limits::PASSES + 1)) && said.contains("x.json:1:"),
+        "{said}"
+    );
+    let inputs: Vec<_> = (0..1000).map(|_| json!({ "channel": 0 })).collect();
+    let said =
+        read(json!({ "ver": "0.1", "renderpass": [{ "code": "", "type": "image", "inputs": inputs }] })).unwrap_err();
+    assert!(said.contains("more than 64 entries"), "{said}");
+    let info = json!({ "x": "y".repeat(2 << 20) });
+    let said = read(json!({ "ver": "0.1", "info": info, "renderpass": [image] })).unwrap_err();
+    assert!(said.contains("\"info\" is larger than 1 MiB"), "{said}");
+    let (project, _) = read(json!({ "ver": "0.1", "other": "y".repeat(2 << 20), "renderpass": [image] })).unwrap();
+    assert_eq!(project.passes.len(), 1);
+}
+
+#[test]
+fn what_a_killed_save_left_is_swept_by_opening_and_by_saving() {
+    let dir = place(&[("image.glsl", IMAGE), (".eddy-save-aB3xYz.tmp", "half"), (".eddy-notes", "mine")]);
+    let home = dir.path().join("p");
+    let project = load(&home).unwrap();
+    assert!(!home.join(".eddy-save-aB3xYz.tmp").exists() && home.join(".eddy-notes").exists());
+    let to = dir.path().join("to");
+    fs::create_dir(&to).unwrap();
+    fs::write(to.join(".eddy-save-aB3xYz.tmp"), "half").unwrap();
+    project::save(&project, &to, Overwrite::Refuse).unwrap();
+    assert!(!to.join(".eddy-save-aB3xYz.tmp").exists());
+}
+
+/// The table of `SECURITY.md` has every limit with its value.
+#[test]
+fn the_limits_are_written_down_as_they_are() {
+    let page = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/SECURITY.md")).unwrap();
+    let source = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/src/project/limits.rs")).unwrap();
+    let named: BTreeSet<&str> =
+        source.lines().filter_map(|l| l.strip_prefix("pub const ")?.split(':').next()).collect();
+    let rows: Vec<Vec<&str>> = page
+        .lines()
+        .filter(|l| l.starts_with("| `"))
+        .map(|l| l.trim_matches('|').split('|').map(str::trim).collect())
+        .collect();
+    let written: BTreeSet<&str> = rows.iter().map(|row| row[0].trim_matches('`')).collect();
+    assert_eq!(written, named, "every constant of limits.rs has its row, and no other");
+    for row in rows {
+        let value = value_of(&source, row[0].trim_matches('`'));
+        assert_eq!(row[2], value, "{}", row[0]);
+    }
+}
+
+/// A constant's value as the table writes it: bytes in MiB and the like, other numbers with commas.
+fn value_of(source: &str, name: &str) -> String {
+    let line = source.split(&format!("pub const {name}:")).nth(1).unwrap();
+    let text = line.split_once('=').unwrap().1.split(';').next().unwrap();
+    let is_bytes = text.contains("bytes:") || name.ends_with("_BYTES");
+    let text = text.split("bytes:").last().unwrap().split([',', '}']).next().unwrap().replace('_', "");
+    let number = match text.split_once("<<") {
+        Some((a, b)) => a.trim().parse::<u64>().unwrap() << b.trim().parse::<u32>().unwrap(),
+        None => text.trim().parse().unwrap(),
+    };
+    if is_bytes {
+        return limits::in_bytes(number);
+    }
+    let digits = number.to_string();
+    let groups: Vec<String> = digits
+        .bytes()
+        .rev()
+        .collect::<Vec<_>>()
+        .chunks(3)
+        .map(|c| c.iter().rev().map(|b| *b as char).collect())
+        .collect();
+    groups.into_iter().rev().collect::<Vec<String>>().join(",")
+}

@@ -1,0 +1,201 @@
+//! What the studies of shapes, particles, games and formats promise, as gates, and that a broken number is contained.
+
+use crate::support::{preset::*, presets::break_texel, *};
+use eddy::{
+    engine::Engine,
+    lab::{
+        Rig, Setup,
+        metrics::order,
+        precision,
+        studies::{brick_breaker, edges, outline, particles},
+    },
+    media::MediaSet,
+    project::{PassId, Project},
+    session::script::ScriptedInputs,
+};
+
+fn rig() -> Option<Rig> {
+    gpu().map(Rig::new)
+}
+
+// ----------------------------------------------------------------------------------------------------------- particles
+
+#[test]
+fn integrators_have_their_orders_and_the_preset_its_second() {
+    let Some(rig) = rig() else { return };
+    // Steps so long that rounding does not hide the order.
+    let observed = |name| {
+        let error = |dt| particles::flown(&rig, name, 32, dt).unwrap().l2;
+        order(error(2.0 / 15.0), error(1.0 / 15.0), 2.0)
+    };
+    for (name, expected) in [("euler", 1.0), ("semi-implicit", 1.0), ("verlet", 2.0), ("preset", 2.0)] {
+        let order = observed(name);
+        assert!((order - expected).abs() < 0.1, "{name}: {order}");
+    }
+    // At 60 steps a second; it was .0148 when a spark went with its new velocity alone.
+    let error = particles::flown(&rig, "preset", 32, 1.0 / 60.0).unwrap().l2;
+    assert!(error < 3e-5, "{error}");
+}
+
+#[test]
+fn an_orbit_keeps_its_energy_by_symplectic_steps_alone() {
+    let Some(rig) = rig() else { return };
+    let drift = |name, dt| particles::energy_drift(&rig, name, 8, dt).unwrap().abs();
+    // 10,000 steps, 200 a turn; and 50 a turn, where the fourth order loses what the second keeps.
+    assert!(drift("verlet", 1.0 / 60.0) < 1e-3);
+    assert!(drift("semi-implicit", 1.0 / 60.0) < 0.01);
+    assert!(drift("euler", 1.0 / 60.0) > 0.5, "explicit Euler is told");
+    let (second, fourth) = (drift("verlet", 1.0 / 15.0), drift("runge-kutta", 1.0 / 15.0));
+    assert!(second < 0.01 && fourth > 0.1, "{second} {fourth}");
+}
+
+// ------------------------------------------------------------------------------------------------------- brick-breaker
+
+#[test]
+fn the_ball_breaks_the_bricks_that_the_exact_ball_breaks() {
+    let Some(rig) = rig() else { return };
+    for (speed, frames) in [(30.0, 40), (300.0, 8), (1e4, 1)] {
+        let game = brick_breaker::played(&rig, "preset", 16, speed, frames).unwrap();
+        assert!(game.bricks_hit > 2, "{speed}: {game:?}");
+        // To the tick, not nearly: 2^-15 units.
+        assert_eq!((game.bricks_wrong, game.off, game.came_back), (0, 0.0, 0), "{speed}: {game:?}");
+        assert_eq!((game.outside < 1e-4, game.speed_drift), (true, 0.0), "{speed}: {game:?}");
+    }
+    // The comparison can fail: who only looks what the ball overlaps misses bricks.
+    let peer = brick_breaker::played(&rig, "overlap", 16, 100.0, 12).unwrap();
+    assert!(peer.bricks_wrong > 0 && peer.off > 1.0, "{peer:?}");
+}
+
+/// The sheet's gate is less than .001 px after 1e5 bounces, which `tests/it/presets.rs` has as an equality; this is its
+/// study.
+#[test]
+fn the_ball_is_on_the_unfolded_path_after_a_thousand_bounces() {
+    let Some(rig) = rig() else { return };
+    let (bounces, off) = brick_breaker::unfolded(&rig, 16, 16).unwrap();
+    assert!(bounces > 1000.0 && off == 0.0, "{bounces} {off}");
+}
+
+// -------------------------------------------------------------------------------------------------- edges and outlines
+
+#[test]
+fn the_g_buffers_lines_are_where_geometry_has_them() {
+    let Some(rig) = rig() else { return };
+    let judged = |name, sensitivity| edges::judged(&edges::found(&rig, name, 192, sensitivity).unwrap(), 192);
+    let (preset, floor) = judged("preset", 1.0);
+    assert!(preset.precision > 0.95 && preset.recall > 0.9, "{preset:?}");
+    assert_eq!(floor, 0.0, "a floor at a low angle is no line");
+    // The gate shuts out what it should: Sobel's operator draws the floor, and a blunt threshold misses lines.
+    assert!(judged("sobel", 1.0).1 > 0.01);
+    assert!(judged("roberts", 0.05).0.recall < 0.9);
+}
+
+#[test]
+fn outlines_cover_what_an_exact_hull_covers() {
+    let Some(rig) = rig() else { return };
+    for method in ["scaled", "baked"] {
+        let (all, each, width) = outline::judged(&rig, method, 128, 0.16).unwrap();
+        assert!((width - 1.0).abs() < 0.05, "{method}: {width} of the formula");
+        assert!(all.f1() > 0.93, "{method}: {all:?}");
+        // Scaling is right for what is star-shaped, which a torus is not.
+        let wanted = if method == "scaled" { 2 } else { 3 };
+        assert!(each[..wanted].iter().all(|f| f.f1() > 0.9), "{method}: {each:?}");
+    }
+    // Along split normals the cube's line has gaps at its corners; that is seen.
+    let (_, [_, cube, _], _) = outline::judged(&rig, "normals", 128, 0.16).unwrap();
+    assert!(cube.recall < 0.95, "{cube:?}");
+}
+
+// ----------------------------------------------------------------------------------------------------------- precision
+
+fn halved(gpu: &eddy::gpu::Gpu, project: &Project, frames: u32) -> precision::Comparison {
+    let mut inputs = ScriptedInputs::new(60.0);
+    let (media, _) = eddy::media::gather(project, None);
+    precision::halved(gpu, project, &media, (64, 36), frames, || inputs.next_frame()).unwrap()
+}
+
+#[test]
+fn sixteen_bits_lose_what_they_must_and_the_first_frame_that_shows_it_is_named() {
+    let Some(gpu) = gpu() else { return };
+    // A sum of 2^-13 a frame from 1 on: 32 bits add it up, 16 bits never see it. The picture is the sum's hundredfold
+    // excess.
+    let sum = pass(
+        PassId::Buffer("A".into()),
+        "void mainImage(out vec4 o, in vec2 p) { vec4 b = texelFetch(iChannel0, ivec2(p), 0); \
+         o = iFrame == 0 ? vec4(1.0) : b + vec4(1.0 / 8192.0); }",
+        [nearest("A"), None, None, None],
+    );
+    let text = "void mainImage(out vec4 o, in vec2 p) { o = 8.0 * (texelFetch(iChannel0, ivec2(p), 0) - 1.0); }";
+    let both = halved(&gpu, &project(vec![sum, image(text, [nearest("A"), None, None, None])]), 32);
+    let last = both.last("buffer_a").unwrap();
+    assert_eq!((last.frame, last.formats), (31, ["rgba32f", "rgba16f"]));
+    let lost = 31.0 / 8192.0;
+    assert!((last.mass_drift + lost / (1.0 + lost)).abs() < 1e-6, "{last:?}");
+    assert!((last.norms.linf - lost / (1.0 + lost)).abs() < 1e-6, "{last:?}");
+    // 8 / 8192 a frame: more than 1/255 after five.
+    assert_eq!(both.first_visible, Some(5), "{:?}", both.largest);
+
+    let plain = image("void mainImage(out vec4 o, in vec2 p) { o = vec4(0.3); }", [None, None, None, None]);
+    let mut inputs = ScriptedInputs::new(60.0);
+    let none = precision::halved(&gpu, &project(vec![plain]), &MediaSet::new(), (8, 8), 2, || inputs.next_frame());
+    assert!(none.unwrap_err().to_string().contains("nothing to store in 16 bits"));
+}
+
+#[test]
+fn a_device_either_rounds_or_cuts_off_and_gray_scott_stalls_where_that_says() {
+    let Some(rig) = rig() else { return };
+    let cuts = precision::cuts_off(&rig).unwrap();
+    let stall = eddy::lab::studies::gray_scott::stalled(&rig, eddy::lab::setup::Storage::Half, 0.037).unwrap();
+    // Half of the last bit below 1, or a whole one, over the feed.
+    let expected = 1.0 - 0.5f64.powi(if cuts { 11 } else { 12 }) / 0.037;
+    assert!((stall - expected).abs() < 3e-4, "{stall}, not {expected}: cuts off {cuts}");
+}
+
+// ------------------------------------------------------------------------------------------------- numbers that are
+// none
+
+/// A simulation, its state, and how many frames a broken number may live on for.
+const CONTAINED: [(&str, &str, i32); 8] = [
+    ("fluid", "A", 2),
+    ("fluid-dye", "A", 2),
+    ("fluid-lit", "A", 2),
+    ("fluid-accurate", "velocity", 3),
+    ("mip-fluid", "velocity", 4),
+    ("reaction-diffusion", "A", 2),
+    ("self-advection", "paint", 3),
+    ("particles", "motion", 3),
+];
+
+/// Every buffer of a project that is drawn is finite.
+fn is_whole(engine: &mut Engine, project: &Project) -> bool {
+    project.passes.iter().all(|p| engine.read(&p.id).map_or(true, |pixels| all_finite(&pixels)))
+}
+
+/// Sheet, 6.7 and section 4: left alone, a NaN spreads by a texel a step until nothing else is left.
+#[test]
+fn a_nan_in_the_middle_of_a_simulation_is_gone_within_its_frames() {
+    let Some(gpu) = gpu() else { return };
+    for (name, state, frames) in CONTAINED {
+        let mut broken = preset(name, &[]);
+        let at = if name == "particles" { (9, 14) } else { (20, 10) };
+        break_texel(&mut broken, state, at, 4, "0x7fc00000u");
+        let mut engine = whole(&gpu, &broken, (96, 54));
+        draw(&mut engine, 0..5);
+        assert!(!all_finite(&read(&mut engine, state)), "{name}: the NaN did not arrive");
+        draw(&mut engine, 5..5 + frames);
+        assert!(is_whole(&mut engine, &broken), "{name}: the NaN lives on after {frames} frames");
+        draw(&mut engine, 5 + frames..30);
+        assert!(is_whole(&mut engine, &broken), "{name}: the NaN comes back");
+    }
+}
+
+/// And what it does where nobody keeps it in: the one-pass peer, which has no guard, is all NaN in the end.
+#[test]
+fn without_a_guard_a_nan_takes_everything() {
+    let Some(rig) = rig() else { return };
+    let nan = "fragCoord.x < 1.0 && fragCoord.y < 1.0 ? vec4(uintBitsToFloat(0x7fc00000u + uint(iFrame))) : vec4(0.0, \
+               0.0, 1.0, 1.0)";
+    let setup = Setup::new("fluid_guay", (16, 16)).define("METHOD", "ONE_PASS").initial("field", nan);
+    let after = rig.after(&setup, 32, "field").unwrap();
+    let bad = after.texels().iter().filter(|t| t.iter().any(|v| !v.is_finite())).count();
+    assert!(bad > 200, "{bad} of 256");
+}

@@ -1,0 +1,497 @@
+//! Keeps the arrows between the layers, which the compiler does not: reads every source file and reports who names
+//! whom.
+//!
+//! Works on what the compiler reads, not on lines, so that a comment or a string never counts and a path broken over
+//! lines always does. A rule that finds nothing because it looks wrongly is worse than none, so every rule is first
+//! shown a violation.
+
+mod circles;
+mod paths;
+mod picture;
+
+use circles::Modules;
+use paths::Named;
+use proc_macro2::{Delimiter, Spacing, TokenStream, TokenTree};
+use std::{
+    collections::BTreeSet,
+    fs,
+    path::{Path, PathBuf},
+};
+
+/// Every layer and the layers it may name.
+const LAYERS: &[(&str, &[&str])] = &[
+    ("diag", &[]),
+    ("project", &["diag"]),
+    ("media", &["diag", "project"]),
+    ("glsl", &["diag"]),
+    ("graph", &["diag", "project", "media"]),
+    ("gpu", &["diag"]),
+    ("engine", &["diag", "project", "media", "glsl", "graph", "gpu"]),
+    ("session", &["diag", "project", "media", "glsl", "graph", "gpu", "engine"]),
+    ("lab", &["diag", "project", "media", "graph", "gpu", "engine"]),
+    ("cli", &["diag", "project", "media", "glsl", "graph", "gpu", "engine", "session", "lab"]),
+    ("gui", &["diag", "project", "media", "glsl", "graph", "gpu", "engine", "session", "lab"]),
+    ("main", &["cli", "gui"]),
+];
+
+/// Rooms of the compiler, and what each may not name: a program goes from one to the next and never back.
+const ROOMS: &[(&str, &[&str])] = &[
+    ("ir", &["hir", "check", "lower", "opt", "emit", "naga"]),
+    ("lower", &["opt", "emit", "naga"]),
+    ("opt", &["hir", "check", "lower", "emit", "naga"]),
+    ("emit", &["hir", "check", "lower", "opt"]),
+];
+
+/// Crates that only some layers may name.
+const CRATES: &[(&[&str], &[&str])] = &[
+    (&["egui", "egui_winit", "egui_wgpu", "egui_plot", "winit", "rfd"], &["gui"]),
+    (&["clap"], &["cli"]),
+    (&["anyhow"], &["cli", "main"]),
+    // `gpu` makes pipelines of modules and `engine` hands them over; what is in one is known to `glsl` alone.
+    (&["naga"], &["glsl", "engine", "gpu"]),
+    // The session hands the engine's texture on to the window, unseen.
+    (&["wgpu"], &["gpu", "engine", "session", "gui"]),
+    (&["notify"], &["session"]),
+    (&["plotters"], &["lab"]),
+];
+
+/// Names through which the world outside gets in, and the layers that may not use them. Durations may be measured
+/// (`Instant`) by who reports them: a front end and the lab. The time of day is read in `session` alone, and the lab,
+/// whose results two machines shall share, asks for no environment.
+const OUTSIDE: &[(&[&str], &[&str])] = &[
+    (
+        &["SystemTime", "Zoned"],
+        &["diag", "project", "media", "glsl", "graph", "gpu", "engine", "lab", "cli", "gui", "main"],
+    ),
+    (&["Instant"], &["diag", "project", "media", "glsl", "graph", "gpu", "engine"]),
+    (&["env"], &["diag", "glsl", "graph", "gpu", "engine", "lab"]),
+    (&["fs", "File", "OpenOptions"], &["diag", "glsl", "graph", "gpu", "engine"]),
+];
+
+/// Where a render pass may be begun otherwise than by `Gpu::pass`, which keeps a driver's fault away: there, and where
+/// the window's one pass is drawn by egui.
+const PASSES: &[&str] = &["gpu/pass.rs", "gui/surface.rs"];
+
+const LONGEST_FILE: usize = 600;
+
+/// Modules that are still part of a circle. No other may be, and one that is free leaves this list.
+const IN_CIRCLES: &[&str] = &[
+    "glsl::emit",
+    "glsl::emit::consts",
+    "glsl::emit::entry",
+    "glsl::emit::function",
+    "glsl::emit::long_arrays",
+    "glsl::emit::long_arrays::copy",
+    "glsl::emit::long_arrays::fill",
+    "glsl::emit::resources",
+    "glsl::emit::tables",
+    "glsl::emit::types",
+    "glsl::ir",
+    "glsl::ir::op",
+    "glsl::lower",
+    "glsl::lower::access",
+    "glsl::lower::calls",
+    "glsl::lower::divide",
+    "glsl::lower::entry",
+    "glsl::lower::function",
+    "glsl::lower::function::constants",
+    "glsl::lower::induction",
+    "glsl::lower::inline",
+    "glsl::lower::limits",
+    "glsl::lower::operators",
+    "glsl::lower::ranges",
+    "glsl::lower::reach",
+    "glsl::lower::resources",
+    "glsl::lower::stage",
+    "glsl::lower::zeros",
+];
+
+/// Files that lie beside the folder of their module all the same.
+const FLAT: &[&str] = &["glsl/lower/function.rs"];
+
+/// Lines of tests that may stand in the file of what they test.
+const LONGEST_INNER_TESTS: usize = 100;
+
+#[derive(Debug, PartialEq, Eq, Clone)]
+enum Token {
+    Word(String),
+    Sign(char),
+    /// `::`
+    Path,
+}
+
+impl Token {
+    fn is(&self, word: &str) -> bool {
+        matches!(self, Token::Word(w) if w == word)
+    }
+}
+
+/// Returns words and signs of a Rust text, with the line each stands on; no comments, literals or lifetimes.
+fn tokens(stream: TokenStream, out: &mut Vec<(Token, usize)>) {
+    // A colon or the tick of a lifetime was the last sign, and what comes next touches it.
+    let mut last = ' ';
+    for tree in stream {
+        let line = tree.span().start().line;
+        let before = std::mem::replace(&mut last, ' ');
+        match tree {
+            TokenTree::Ident(_) if before == '\'' => {}
+            TokenTree::Ident(word) => out.push((Token::Word(word.to_string()), line)),
+            TokenTree::Punct(sign) if sign.as_char() == '\'' => last = '\'',
+            TokenTree::Punct(sign) if before == ':' && sign.as_char() == ':' => {
+                out.pop();
+                out.push((Token::Path, line));
+            }
+            TokenTree::Punct(sign) => {
+                if sign.spacing() == Spacing::Joint {
+                    last = sign.as_char();
+                }
+                out.push((Token::Sign(sign.as_char()), line));
+            }
+            TokenTree::Group(group) => {
+                let (open, close) = match group.delimiter() {
+                    Delimiter::Brace => ('{', '}'),
+                    Delimiter::Bracket => ('[', ']'),
+                    Delimiter::Parenthesis => ('(', ')'),
+                    Delimiter::None => (' ', ' '),
+                };
+                out.push((Token::Sign(open), line));
+                tokens(group.stream(), out);
+                out.push((Token::Sign(close), group.span_close().start().line));
+            }
+            TokenTree::Literal(_) => {}
+        }
+    }
+}
+
+/// Every top-level module a text names, with the line: by `crate::x`, `crate::{x, y::z}`, `eddy::x`, or enough
+/// `super::`s. `depth`: how many modules deep the file lies (1 for `src/cli/mod.rs`, 2 for `src/cli/args.rs`).
+fn named_modules(named: &[Named], depth: usize) -> Vec<(String, usize)> {
+    let top = |named: &Named| {
+        let ups = named.segments.iter().take_while(|s| *s == "super").count();
+        let is_top = matches!(named.segments[0].as_str(), "crate" | "eddy") || ups >= depth + named.within.len();
+        is_top.then(|| named.segments.get(ups.max(1)).map(|name| (name.clone(), named.line))).flatten()
+    };
+    named.iter().filter_map(top).collect()
+}
+
+/// What is wrong with one file; `path` is relative to `src/`.
+fn violations(path: &str, text: &str) -> Vec<String> {
+    let stream: TokenStream = text.parse().unwrap_or_else(|error| panic!("src/{path}: {error}"));
+    let named = syn::parse_file(text).map_or_else(|_| paths::of_tokens(stream.clone()), |file| paths::of_file(&file));
+    let tokens = {
+        let mut all = Vec::new();
+        tokens(stream, &mut all);
+        all
+    };
+    let parts: Vec<&str> = path.trim_end_matches(".rs").split('/').filter(|p| *p != "mod").collect();
+    let layer = parts[0];
+    let mut found = Vec::new();
+    let mut report = |line: usize, what: String| found.push(format!("src/{path}:{line}: {what}"));
+
+    let lines = text.lines().count();
+    if lines > LONGEST_FILE {
+        report(lines, format!("{lines} lines; look for the seam, {LONGEST_FILE} is the most"));
+    }
+    let inner = text.lines().position(|line| line == "mod tests {").map_or(0, |first| lines - first);
+    if inner > LONGEST_INNER_TESTS {
+        report(lines - inner + 1, format!("{inner} lines of tests; from {LONGEST_INNER_TESTS} on they are tests.rs"));
+    }
+    // Tests may read what they are tested on.
+    let is_test = path.contains("/tests/") || path.ends_with("tests.rs");
+    if layer == "lib" {
+        return found;
+    }
+    let Some((_, allowed)) = LAYERS.iter().find(|(name, _)| *name == layer) else {
+        report(1, format!("`{layer}` is no layer: give it a place in tests/it/layers and in src/lib.rs"));
+        return found;
+    };
+    let is_layer = |name: &str| LAYERS.iter().any(|(n, _)| *n == name);
+    for (name, line) in named_modules(&named, parts.len()) {
+        if name != layer && is_layer(&name) && !allowed.contains(&name.as_str()) {
+            report(line, format!("`{layer}` may not name `{name}`"));
+        }
+    }
+    let room = parts.get(1).filter(|_| layer == "glsl" && !is_test);
+    if let Some((room, forbidden)) = room.and_then(|room| ROOMS.iter().find(|(name, _)| name == room)) {
+        for name in named.iter().filter(|name| name.segments.len() > 1) {
+            for word in name.segments.iter().filter(|word| forbidden.contains(&word.as_str())) {
+                report(name.line, format!("`glsl/{room}` may not name `{word}`"));
+            }
+        }
+    }
+    for (i, (token, line)) in tokens.iter().enumerate() {
+        let Token::Word(word) = token else { continue };
+        if let Some((_, may)) = CRATES.iter().find(|(names, _)| names.contains(&word.as_str()))
+            && !may.contains(&layer)
+        {
+            report(*line, format!("only {} may name `{word}`", may.join(", ")));
+        }
+        // `env!("…")` is answered at compile time; a variable or a method may have any name.
+        let is_a_path = |n: usize| matches!(tokens.get(n), Some((Token::Path, _)));
+        let is_named = is_a_path(i + 1) || (i > 0 && (is_a_path(i - 1) || tokens[i - 1].0.is("use")));
+        // Words of the standard library that a module of ours may have for a name too.
+        let is_of_std = || {
+            let statement =
+                tokens[..i].iter().rposition(|(t, _)| matches!(t, Token::Sign(';' | '}'))).map_or(0, |n| n + 1);
+            let through = i >= 2 && is_a_path(i - 1) && (tokens[i - 2].0.is("std") || tokens[i - 2].0.is("fs"));
+            let used = tokens.get(statement).is_some_and(|t| t.0.is("use"))
+                && tokens.get(statement + 1).is_some_and(|t| t.0.is("std"));
+            through || used
+        };
+        if let Some((names, never)) = OUTSIDE.iter().find(|(names, _)| names.contains(&word.as_str()))
+            && never.contains(&layer)
+            && !is_test
+            && if names.contains(&"env") || names.contains(&"fs") { is_of_std() } else { is_named }
+        {
+            report(*line, format!("`{layer}` may not reach outside through `{word}`"));
+        }
+        if word == "static" {
+            let item: Vec<&str> = tokens[i + 1..]
+                .iter()
+                .take_while(|(t, _)| !matches!(t, Token::Sign('=' | ';' | '{')))
+                .filter_map(|(t, _)| if let Token::Word(w) = t { Some(w.as_str()) } else { None })
+                .collect();
+            let is_state = |w: &&str| {
+                ["mut", "Mutex", "RwLock", "OnceLock", "Cell", "RefCell", "OnceCell"].contains(w)
+                    || w.starts_with("Atomic")
+            };
+            if item.iter().any(is_state) {
+                report(*line, "process-wide state: hand it down as an argument".into());
+            }
+        }
+        if word == "path" && i >= 2 && tokens[i - 1].0 == Token::Sign('[') && tokens[i - 2].0 == Token::Sign('#') {
+            report(*line, "a module lies where its name says: no `#[path]`".into());
+        }
+        if word == "begin_render_pass" && !PASSES.contains(&path) {
+            report(*line, "a pass is encoded with `Gpu::pass`".into());
+        }
+        if word == "thread_local" {
+            report(*line, "process-wide state: hand it down as an argument".into());
+        }
+        if word == "pub" && tokens.get(i + 1).is_some_and(|(t, _)| t.is("use")) {
+            let end = tokens[i..].iter().take_while(|(t, _)| *t != Token::Sign(';'));
+            if end.into_iter().any(|(t, _)| *t == Token::Sign('*')) {
+                report(*line, "`pub use …::*` hides what a module offers: name it".into());
+            }
+        }
+    }
+    found
+}
+
+fn sources(folder: &Path, into: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap_or_else(|e| panic!("{}: {e}", folder.display())) {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            sources(&path, into);
+        } else if path.extension().is_some_and(|e| e == "rs") {
+            into.push(path);
+        }
+    }
+}
+
+fn sources_of_eddy() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
+}
+
+/// Returns every source file by its path within a folder.
+fn source_texts(root: &Path) -> Vec<(String, String)> {
+    let mut files = Vec::new();
+    sources(root, &mut files);
+    assert!(files.len() > 20, "only {} files found under {}", files.len(), root.display());
+    let path = |file: &PathBuf| file.strip_prefix(root).unwrap().to_string_lossy().replace('\\', "/");
+    files.iter().map(|file| (path(file), fs::read_to_string(file).unwrap())).collect()
+}
+
+#[test]
+fn every_file_keeps_to_its_layer() {
+    let texts = source_texts(&sources_of_eddy());
+    let mut layers = BTreeSet::new();
+    let mut found = Vec::new();
+    for (path, text) in &texts {
+        layers.insert(path.split(['/', '.']).next().unwrap().to_owned());
+        found.extend(violations(path, text));
+    }
+    for (layer, _) in LAYERS {
+        assert!(layers.contains(*layer), "the rules speak of `{layer}`, which has no file");
+    }
+    assert!(found.is_empty(), "{} violations:\n{}", found.len(), found.join("\n"));
+}
+
+/// What is wrong with where modules lie; `paths` are relative to `src/`.
+fn misplaced(paths: &[&str]) -> Vec<String> {
+    let holds = |folder: &str| paths.iter().any(|p| p.strip_prefix(folder).is_some_and(|rest| rest.starts_with('/')));
+    let beside = paths.iter().filter(|p| holds(p.trim_end_matches(".rs")) && !FLAT.contains(p));
+    let beside =
+        beside.map(|p| format!("src/{p} lies beside its folder: make it {}/mod.rs", p.trim_end_matches(".rs")));
+    let is_named = |p: &&&str| p.ends_with("_tests.rs");
+    let named =
+        paths.iter().filter(is_named).map(|p| format!("src/{p}: tests beside a module are tests.rs in its folder"));
+    beside.chain(named).collect()
+}
+
+#[test]
+fn modules_lie_where_they_are_looked_for() {
+    let texts = source_texts(&sources_of_eddy());
+    let paths: Vec<&str> = texts.iter().map(|(path, _)| path.as_str()).collect();
+    let found = misplaced(&paths);
+    assert!(found.is_empty(), "{}", found.join("\n"));
+    let planted = ["glsl/parse.rs", "glsl/parse/expr.rs", "glsl/parser.rs", "gpu/pass_tests.rs", "gpu/pass.rs"];
+    assert_eq!(misplaced(&planted).len(), 2, "{:?}", misplaced(&planted));
+}
+
+#[test]
+fn modules_form_no_circle() {
+    let texts = source_texts(&sources_of_eddy());
+    let modules = Modules::read(texts.iter().map(|(path, text)| (path.as_str(), text.as_str())));
+    let (mut found, mut seen) = (Vec::new(), BTreeSet::new());
+    for (layer, _) in LAYERS {
+        for way in modules.circles(layer).into_iter().chain(modules.folder_circles(layer)) {
+            if way.iter().any(|module| !IN_CIRCLES.contains(&module.as_str())) {
+                found.push(way.join(" -> "));
+            }
+            seen.extend(way);
+        }
+    }
+    assert!(found.is_empty(), "{} circles:\n{}", found.len(), found.join("\n"));
+    let free: Vec<_> = IN_CIRCLES.iter().filter(|module| !seen.contains(**module)).collect();
+    assert!(free.is_empty(), "free of circles, so take them off IN_CIRCLES: {free:?}");
+}
+
+/// `cargo test --test it modules_as_a_graph -- --ignored --nocapture` prints what `scripts/draw-modules` draws, and
+/// on standard error the circles. `SOURCES` may name another folder to read than `src`.
+#[test]
+#[ignore = "prints a graph"]
+fn modules_as_a_graph() {
+    let root = std::env::var_os("SOURCES").map_or_else(sources_of_eddy, PathBuf::from);
+    let texts = source_texts(&root);
+    let modules = Modules::read(texts.iter().map(|(path, text)| (path.as_str(), text.as_str())));
+    let layers: BTreeSet<String> = modules.all().into_keys().map(|module| module[0].clone()).collect();
+    let circles: Vec<Vec<String>> = layers.iter().flat_map(|layer| modules.circles(layer)).collect();
+    let inside: BTreeSet<&String> = circles.iter().flatten().collect();
+    circles.iter().for_each(|way| eprintln!("{}", way.join(" -> ")));
+    eprintln!("{} modules, {} circles through {} of them", modules.all().len(), circles.len(), inside.len());
+    println!("{}", picture::dot(&modules));
+}
+
+#[test]
+fn planted_circles_are_caught() {
+    let root = ("engine/mod.rs", "mod a; mod b; mod c; pub use a::A; pub use b::{B as Bee};");
+    let circles = |a: &str, b: &str, c: &str| -> Vec<String> {
+        let files = [root, ("engine/a.rs", a), ("engine/b.rs", b), ("engine/c.rs", c), ("gpu/mod.rs", "pub struct G;")];
+        Modules::read(files).circles("engine").iter().map(|way| way.join(" -> ")).collect()
+    };
+    let two = ["engine::a -> engine::b"];
+    assert_eq!(
+        circles("use super::b::B; struct A;", "use super::A; struct B;", ""),
+        two,
+        "through what the root offers"
+    );
+    assert_eq!(circles("use super::{b, c};", "fn f() { crate::engine::a::f() }", ""), two, "by a path in a body");
+    assert_eq!(circles("use super::{c::C, Bee};", "fn f() { vec![super::a::f()] }", ""), two, "in a macro's argument");
+    let three = circles("use super::b::B;", "use super::c::C;", "use super::a::A;");
+    assert_eq!(three, ["engine::a -> engine::b -> engine::c"]);
+    let none: [&str; 0] = [];
+    assert_eq!(circles("pub(super) struct A; use crate::gpu::G;", "use super::A;", "use super::{A, b::B};"), none);
+    let with_root = |root: &str, a: &str| -> Vec<String> {
+        let files = [("engine/mod.rs", root), ("engine/a.rs", a), ("engine/b/mod.rs", ""), ("engine/b/d.rs", "")];
+        Modules::read(files).circles("engine").iter().map(|way| way.join(" -> ")).collect()
+    };
+    let up = ["engine -> engine::a"];
+    assert_eq!(with_root("mod a; use a::A; struct R(A);", "use super::R;"), up, "for the parent's own use");
+    assert_eq!(with_root("mod a; pub use a::A; struct R(A);", "use super::R;"), up, "both offered and used");
+    assert_eq!(with_root("mod a; pub use a::A; struct R;", "use super::R;"), none, "offered alone");
+    let glob = [root, ("engine/a.rs", "use super::*; fn f(_: Bee) {}"), ("engine/b.rs", "use super::a::A; struct B;")];
+    assert_eq!(Modules::read(glob).circles("engine").len(), 1, "through a glob");
+    let folders = [
+        ("engine/mod.rs", "mod a; mod b;"),
+        ("engine/a.rs", "use super::b::c::C;"),
+        ("engine/b/mod.rs", "mod c; mod d;"),
+        ("engine/b/c.rs", ""),
+        ("engine/b/d.rs", "use crate::engine::a::A;"),
+    ];
+    let folders = Modules::read(folders);
+    assert_eq!((folders.circles("engine").len(), folders.folder_circles("engine").len()), (0, 1), "of a folder");
+    assert_eq!(circles("#[cfg(test)] mod tests { use super::super::b; }", "use super::A;", ""), none, "tests may");
+    assert_eq!(circles("// super::b::B\nconst A: &str = \"super::b::B\";", "use super::A;", ""), none);
+}
+
+#[test]
+fn planted_violations_are_caught() {
+    let planted = [
+        ("cli/args.rs", "use crate::gui;", "`cli` may not name `gui`"),
+        ("cli/args.rs", "use crate::{diag, gui::run};", "`cli` may not name `gui`"),
+        (
+            "cli/args.rs",
+            "use crate::{\n    diag::{a, b},\n    gui::run,\n};",
+            "src/cli/args.rs:3: `cli` may not name `gui`",
+        ),
+        ("gui/mod.rs", "fn f() { crate::cli::main() }", "`gui` may not name `cli`"),
+        ("graph/mod.rs", "use super::glsl::Reflection;", "`graph` may not name `glsl`"),
+        ("graph/plan/mod.rs", "use super::super::gpu;", "`graph` may not name `gpu`"),
+        ("gpu/mod.rs", "mod tests { use super::super::engine; }", "`gpu` may not name `engine`"),
+        ("project/model.rs", "use crate /* so */ :: /* sly */ media::Texels;", "`project` may not name `media`"),
+        ("engine/run.rs", "impl crate::session::Clock for X {}", "`engine` may not name `session`"),
+        ("main.rs", "fn main() { eddy::engine::run() }", "`main` may not name `engine`"),
+        ("lobby/mod.rs", "", "`lobby` is no layer"),
+        ("session/mod.rs", "use egui::Context;", "only gui may name `egui`"),
+        ("cli/mod.rs", "fn f(w: winit::window::Window) {}", "only gui may name `winit`"),
+        ("session/mod.rs", "fn f() -> anyhow::Result<()> { Ok(()) }", "only cli, main may name `anyhow`"),
+        ("graph/mod.rs", "use naga::Module;", "only glsl, engine, gpu may name `naga`"),
+        ("glsl/lower/expr.rs", "use naga::Expression;", "`glsl/lower` may not name `naga`"),
+        ("glsl/lower/expr.rs", "use crate::glsl::{hir, opt::PASSES};", "`glsl/lower` may not name `opt`"),
+        ("glsl/opt/cse.rs", "fn f(id: crate::glsl::hir::ExprId) {}", "`glsl/opt` may not name `hir`"),
+        ("glsl/emit/mod.rs", "use super::hir::Module;", "`glsl/emit` may not name `hir`"),
+        ("glsl/ir/mod.rs", "use super::emit;", "`glsl/ir` may not name `emit`"),
+        ("cli/bench.rs", "use {std::io, wgpu};", "only gpu, engine, session, gui may name `wgpu`"),
+        ("engine/run.rs", "let s = std::fs::read(p);", "may not reach outside through `fs`"),
+        ("engine/run.rs", "use std::{env, fs};\nlet x = env::var(\"A\");", "may not reach outside through `env`"),
+        ("glsl/mod.rs", "use std::fs;", "may not reach outside through `fs`"),
+        ("engine/run.rs", "let now = std::time::SystemTime::now();", "may not reach outside through `SystemTime`"),
+        ("cli/bench.rs", "let now = jiff::Zoned::now();", "may not reach outside through `Zoned`"),
+        ("engine/run.rs", "let began = std::time::Instant::now();", "may not reach outside through `Instant`"),
+        ("lab/run.rs", "use crate::session::offline;", "`lab` may not name `session`"),
+        ("lab/run.rs", "fn f() { crate::cli::main() }", "`lab` may not name `cli`"),
+        ("lab/run.rs", "let now = SystemTime::now();", "may not reach outside through `SystemTime`"),
+        ("lab/shard.rs", "let x = std::env::var(name);", "may not reach outside through `env`"),
+        ("engine/run.rs", "use crate::lab::Study;", "`engine` may not name `lab`"),
+        ("cli/lab.rs", "use plotters::prelude;", "only lab may name `plotters`"),
+        ("graph/mod.rs", "let now = Instant::now();", "may not reach outside through `Instant`"),
+        ("media/mod.rs", "static CACHE: Mutex<u8> = Mutex::new(0);", "process-wide state"),
+        ("media/mod.rs", "pub(crate) static mut COUNT: u8 = 0;", "process-wide state"),
+        ("media/mod.rs", "thread_local! { static X: u8 = 0; }", "process-wide state"),
+        ("media/mod.rs", "pub use keyboard::*;", "hides what a module offers"),
+        ("engine/run.rs", "let pass = encoder.begin_render_pass(&descriptor);", "encoded with `Gpu::pass`"),
+        ("engine/run.rs", "#[cfg(test)]\n#[path = \"run_tests.rs\"]\nmod tests;", "src/engine/run.rs:2: a module lies"),
+    ];
+    for (path, text, message) in planted {
+        let found = violations(path, text);
+        assert!(found.iter().any(|v| v.contains(message)), "{path}: {text}\nshould say: {message}\nsaid: {found:?}");
+    }
+    let long = "\n".repeat(LONGEST_FILE + 1);
+    assert!(violations("cli/mod.rs", &long).iter().any(|v| v.contains("look for the seam")));
+    let tests = format!("mod tests {{{}}}", "\n".repeat(LONGEST_INNER_TESTS + 1));
+    assert!(violations("cli/mod.rs", &tests).iter().any(|v| v.contains("lines of tests")));
+}
+
+#[test]
+fn what_only_looks_like_a_violation_is_let_through() {
+    let innocent = [
+        ("graph/mod.rs", "// use crate::gpu;\n/* crate::gpu /* nested */ crate::gpu */ fn f() {}"),
+        ("graph/mod.rs", "const A: &str = \"crate::gpu \\\" wgpu::Device\";"),
+        ("graph/mod.rs", "const A: &str = r#\"crate::gpu \" egui\"#; const B: char = '\"'; const C: char = '\\'';"),
+        ("graph/mod.rs", "fn f<'a>(x: &'a str) -> &'static str { x }"),
+        ("gui/panels/mod.rs", "use super::cli_text;"),
+        ("gui/panels/mod.rs", "mod cli; use super::super::engine; use crate::session;"),
+        ("gpu/mod.rs", "mod tests { use super::engine; }"),
+        ("engine/run.rs", "let version = env!(\"CARGO_PKG_VERSION\");"),
+        ("engine/run.rs", "fn f(env: u8) -> u8 { self.fs + env }"),
+        ("lab/cost.rs", "use std::{fs, time::Instant}; use crate::{engine, gpu};"),
+        ("cli/args.rs", "use jiff::civil::DateTime; use std::{fs, time::Instant};"),
+        ("project/presets.rs", "static NAMES: LazyLock<Vec<&'static str>> = LazyLock::new(read);"),
+        ("project/presets.rs", "static PRESETS: Dir<'_> = include_dir!(\"presets\");"),
+        ("lib.rs", "pub mod gui;"),
+    ];
+    for (path, text) in innocent {
+        assert_eq!(violations(path, text), Vec::<String>::new(), "{path}: {text}");
+    }
+}

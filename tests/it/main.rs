@@ -1,0 +1,64 @@
+//! The tests of Eddy from outside: one program, because each program of tests is linked with all of the library.
+//! `cargo test --test it glsl_loops` runs the tests of one file, `cargo test --test it glsl_loops::pixels` those of it
+//! whose names begin so.
+//!
+//! They run beside each other, on as many threads as there are processors. A test that cannot bear that is a program of
+//! its own:
+//! - `damage` counts what is allocated, by an allocator of its own, and has a panic hook;
+//! - `driver_uniforms` measures the memory of its process;
+//! - `costs` compares milliseconds of passes, which are drawn while nothing else is;
+//! - `window` opens windows on displays of their own, with real keys and clicks, and waits for what they show.
+//!
+//! All share `support`. Times that a test here asks of the compiler are those of its thread ([`support::clock`]).
+
+mod support;
+
+mod cli;
+mod cli_render;
+mod compile_budget;
+mod engine;
+mod fills;
+mod geometry;
+mod geometry_files;
+mod glsl_bounds;
+mod glsl_calls;
+mod glsl_compute;
+mod glsl_division;
+mod glsl_drivers;
+mod glsl_errors;
+mod glsl_loops;
+mod glsl_memory;
+mod glsl_mutations;
+mod glsl_variables;
+mod golden;
+mod hostile_projects;
+mod includes;
+mod lab;
+mod lab_fluid;
+mod lab_open;
+mod lab_pictures;
+mod lab_shapes;
+mod lab_stability;
+mod layers;
+mod long_arrays;
+mod passes;
+mod preset_bloom;
+mod preset_filters;
+mod preset_flows;
+mod preset_gbuffer;
+mod preset_ir;
+mod preset_looks;
+mod preset_meanings;
+mod preset_occlusion;
+mod preset_particles;
+mod preset_simulations;
+mod preset_ssao;
+mod preset_state;
+mod preset_toon;
+mod presets;
+mod random_programs;
+mod reload;
+mod session;
+mod session_media;
+mod uniform_values;
+mod uniforms;

@@ -1,0 +1,311 @@
+//! What the presets that filter pictures promise: blurs, bloom, anti-aliasing.
+
+use crate::support::{preset::*, *};
+use eddy::{engine::Pixels, project::Project};
+
+// ---------------------------------------------------------------------------------------------------------------- blur
+
+/// Sum, and mean and variance of the place along x and y about `at`.
+struct Response {
+    sum: f64,
+    centre: [f64; 2],
+    variance: [f64; 2],
+}
+
+fn response(pixels: &Pixels, at: [u32; 2]) -> Response {
+    let mut moments = [[0.0; 3]; 2];
+    for y in 0..pixels.height {
+        for x in 0..pixels.width {
+            let value = f64::from(texel(pixels, x, y)[0]);
+            for (axis, place) in [x, y].into_iter().enumerate() {
+                let d = f64::from(place) - f64::from(at[axis]);
+                (0..3).for_each(|n| moments[axis][n] += value * d.powi(n as i32));
+            }
+        }
+    }
+    let centre = moments.map(|m| m[1] / m[0]);
+    let variance = [0, 1].map(|i| moments[i][2] / moments[i][0] - centre[i] * centre[i]);
+    Response { sum: moments[0][0], centre, variance }
+}
+
+/// One lit texel, where the mouse is.
+const IMPULSE: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(ivec2(p) == ivec2(iMouse.xy) ? 1.0 : 0.0); }";
+
+fn blurred_impulse(gpu: &eddy::gpu::Gpu, variant: u32, sigma: f64, at: [u32; 2]) -> Pixels {
+    let mut project = preset("gaussian-blur", &[&format!("variant={variant}"), &format!("sigma={sigma}")]);
+    replace(&mut project, "A", IMPULSE);
+    let mut engine = whole(gpu, &project, (64, 64));
+    engine.draw(&at_frame(0, Some(at.map(|v| v as f32)))).unwrap();
+    read(&mut engine, "C")
+}
+
+#[test]
+fn a_blur_has_the_sigma_asked_for_and_keeps_light_and_place() {
+    let Some(gpu) = gpu() else { return };
+    for sigma in [0.3, 0.5, 1.0, 1.8, 2.5] {
+        // 4 and 5 are the nine taps 5 9 12 15 16 15 12 9 5, whatever sigma is: of the variance 448 / 98.
+        for (variant, mass, digits, variance) in [
+            (1, 1e-6, 1e-5, sigma * sigma),
+            (2, 1e-5, 3e-3, sigma * sigma),
+            (4, 1e-6, 1e-5, 448.0 / 98.0),
+            (5, 1e-5, 3e-3, 448.0 / 98.0),
+        ] {
+            let r = response(&blurred_impulse(&gpu, variant, sigma, [31, 30]), [31, 30]);
+            assert!((r.sum - 1.0).abs() < mass, "variant {variant}, sigma {sigma}: the sum is {}", r.sum);
+            for axis in 0..2 {
+                assert!(r.centre[axis].abs() < digits, "variant {variant}, sigma {sigma}: {:?}", r.centre);
+                let off = (r.variance[axis] / variance - 1.0).abs();
+                assert!(off < 10.0 * digits, "variant {variant}, sigma {sigma}: {:?}, not {variance}", r.variance);
+            }
+        }
+        for pair in [[1, 2], [4, 5]] {
+            let [taps, fetches] = pair.map(|v| blurred_impulse(&gpu, v, sigma, [31, 30]).texels);
+            let most = taps.iter().zip(&fetches).map(|(a, b)| (a[0] - b[0]).abs()).fold(0.0, f32::max);
+            assert!(most < 1e-3, "sigma {sigma}: half as many fetches are {most} from the taps");
+        }
+    }
+}
+
+#[test]
+fn a_wide_blur_is_the_gaussian() {
+    let Some(gpu) = gpu() else { return };
+    for sigma in [1.0, 1.8, 2.5] {
+        let pixels = blurred_impulse(&gpu, 1, sigma, [31, 30]);
+        let (mut off, mut all) = (0.0, 0.0);
+        for (i, t) in pixels.texels.iter().enumerate() {
+            let (x, y) = ((i % 64) as f64 - 31.0, (i / 64) as f64 - 30.0);
+            let exact = (-0.5 * (x * x + y * y) / (sigma * sigma)).exp() / (std::f64::consts::TAU * sigma * sigma);
+            off += (f64::from(t[0]) - exact).powi(2);
+            all += exact * exact;
+        }
+        let off = (off / all).sqrt();
+        println!("sigma {sigma}: {off:.4} from the Gaussian (L2, relative)");
+        assert!(off < 0.01, "sigma {sigma}: {off} from the Gaussian");
+    }
+}
+
+#[test]
+fn a_mip_level_keeps_light_and_place_in_the_mean_over_its_phases() {
+    let Some(gpu) = gpu() else { return };
+    let sigma = 1.8; // between levels 1 and 2: the kernel repeats every 4 texels
+    let (mut centre, mut variance, mut furthest) = ([0.0; 2], [0.0; 2], 0.0f64);
+    for phase in 0..16 {
+        let at = [28 + phase % 4, 28 + phase / 4];
+        let r = response(&blurred_impulse(&gpu, 3, sigma, at), at);
+        assert!((r.sum - 1.0).abs() < 3e-3, "phase {phase}: the sum is {}", r.sum);
+        for axis in 0..2 {
+            centre[axis] += r.centre[axis] / 16.0;
+            variance[axis] += (r.variance[axis] + r.centre[axis].powi(2)) / 16.0;
+            furthest = furthest.max(r.centre[axis].abs());
+        }
+    }
+    println!("mean centre {centre:?}, variance {variance:?}, furthest {furthest}");
+    for axis in 0..2 {
+        assert!(centre[axis].abs() < 3e-3, "{centre:?}");
+        assert!((variance[axis] / (sigma * sigma) - 1.0).abs() < 0.15, "{variance:?}, wanted {}", sigma * sigma);
+    }
+    assert!(furthest <= 1.5, "a box of 4 texels moves a texel by up to (4 - 1) / 2, not {furthest}");
+    assert!(furthest > 0.1, "and it does move some, or the test sees nothing");
+}
+
+// --------------------------------------------------------------------------------------------------------------- bloom
+
+#[test]
+fn bloom_leaves_a_wall_of_one_colour_alone() {
+    let Some(gpu) = gpu() else { return };
+    for name in ["bloom", "bloom-sized"] {
+        for size in [(96, 54), (97, 41), (33, 200), (5, 3), (1, 1)] {
+            let wall = |strength: &str, constant: &str| {
+                let mut engine = whole(&gpu, &preset(name, &[strength, constant]), size);
+                draw(&mut engine, 0..2);
+                picture(&mut engine).texels
+            };
+            let [off, on] = ["strength=0", "strength=0.9"].map(|s| wall(s, "constant=1.7"));
+            let most = off.iter().zip(&on).flat_map(|(a, b)| (0..3).map(|i| (a[i] - b[i]).abs()));
+            let most = most.fold(0.0, f32::max);
+            assert!(most < 1e-3, "{name} at {size:?}: the wall changes by {most}");
+            assert!(off.iter().all(|t| t == &off[0]) && off[0][0] > 0.3, "{name} at {size:?}: no wall: {:?}", off[0]);
+        }
+        let neon = |strength: &str| {
+            let mut engine = whole(&gpu, &preset(name, &[strength]), (96, 54));
+            draw(&mut engine, 0..2);
+            picture(&mut engine).texels
+        };
+        assert!(psnr(&neon("strength=0"), &neon("strength=0.9")) < 25.0, "{name}: nothing blooms");
+    }
+}
+
+// ----------------------------------------------------------------------------------------------------- anti-aliasing
+
+const GRID_OF_64: &str = "int i) {\n    return (vec2(i % 8, i / 8 % 8) + 0.5) / 8.0 - 0.5;";
+
+/// The mean of 64 samples on a grid in each pixel, of what Buffer A draws at the time of `frame`.
+fn truth(gpu: &eddy::gpu::Gpu, project: &Project, jitter: &str, frame: i32, size: (u32, u32)) -> Vec<[f32; 4]> {
+    let mut project = project.clone();
+    patch_common(&mut project, jitter, GRID_OF_64);
+    let mut engine = whole(gpu, &project, size);
+    let samples: Vec<Pixels> = (0..64)
+        .map(|i| {
+            let inputs = eddy::engine::FrameInputs { frame: i, ..at_frame(frame, None) };
+            engine.draw(&inputs).unwrap();
+            read(&mut engine, "A")
+        })
+        .collect();
+    mean(&samples)
+}
+
+const TAA_JITTER: &str = "int i) {
+    int phase = i % PHASES + 1; // the sequence begins at 1: number 0 is the pixel's corner
+    return jittered ? vec2(radicalInverse(phase, 2), radicalInverse(phase, 3)) - 0.5 : vec2(0.0);";
+
+/// A dark half and a light half, the edge between them at a slant.
+const EDGE: &str = "void mainImage(out vec4 o, in vec2 p) {
+    bool light = dot(p + jitter(iFrame) - 0.5 * iResolution.xy, vec2(0.31, 0.95)) > 0.3;
+    o = vec4(light ? vec3(0.9, 0.8, 0.6) : vec3(0.1, 0.15, 0.3), 0.0);
+}";
+
+fn resolved(gpu: &eddy::gpu::Gpu, project: &Project, frame: i32, size: (u32, u32)) -> Vec<[f32; 4]> {
+    let mut engine = whole(gpu, project, size);
+    draw(&mut engine, 0..frame + 1);
+    read(&mut engine, "B").texels
+}
+
+#[test]
+fn a_resting_edge_comes_within_35_db_of_64_samples() {
+    let Some(gpu) = gpu() else { return };
+    let size = (64, 64);
+    let measure = |knobs: &[&str]| {
+        let mut project = preset("taa", knobs);
+        replace(&mut project, "A", EDGE);
+        psnr(&resolved(&gpu, &project, 64, size), &truth(&gpu, &project, TAA_JITTER, 64, size))
+    };
+    let taa = measure(&["speed=0"]);
+    let [one_sample, no_jitter] = [measure(&["speed=0", "blend=1"]), measure(&["speed=0", "jittered=false"])];
+    println!("edge: TAA {taa:.1} dB, one sample {one_sample:.1}, no jitter {no_jitter:.1}");
+    assert!(taa >= 35.0, "{taa} dB");
+    assert!(one_sample < taa - 6.0 && no_jitter < taa - 6.0, "one sample {one_sample}, no jitter {no_jitter}");
+}
+
+#[test]
+fn a_wider_box_keeps_more_detail_at_rest() {
+    let Some(gpu) = gpu() else { return };
+    let size = (160, 90);
+    let measure = |gamma: &str| {
+        let project = preset("taa", &["speed=0", "relaxed=0.25", gamma]);
+        psnr(&resolved(&gpu, &project, 64, size), &truth(&gpu, &project, TAA_JITTER, 64, size))
+    };
+    let [narrow, wide] = [measure("gamma=0.75"), measure("gamma=1.25")];
+    println!("hairlines and rays at rest: gamma 0.75 {narrow:.1} dB, 1.25 {wide:.1}");
+    assert!(wide > narrow + 1.0, "gamma 1.25 {wide} dB, 0.75 {narrow}");
+}
+
+/// Where the wall alone is seen though an object covered it some frames ago: by Buffer A, whose alpha is the object.
+fn vacated(gpu: &eddy::gpu::Gpu, project: &Project, frames: [i32; 2], size: (u32, u32)) -> Vec<bool> {
+    let [before, now] = frames.map(|frame| {
+        let mut engine = whole(gpu, project, size);
+        engine.draw(&at_frame(frame, None)).unwrap();
+        read(&mut engine, "A")
+    });
+    let around = |pixels: &Pixels, i: usize, is: &dyn Fn(f32) -> bool| {
+        let (x, y) = (i as i32 % size.0 as i32, i as i32 / size.0 as i32);
+        (-1..=1).all(|dy| {
+            (-1..=1).all(|dx| {
+                let [x, y] = [(x + dx, size.0), (y + dy, size.1)].map(|(v, n)| v.clamp(0, n as i32 - 1) as u32);
+                is(texel(pixels, x, y)[3])
+            })
+        })
+    };
+    let is_wall = |id: f32| id == 0.0;
+    (0..now.texels.len()).map(|i| around(&now, i, &is_wall) && around(&before, i, &|id| !is_wall(id))).collect()
+}
+
+#[test]
+fn at_rest_detail_is_kept_and_in_motion_no_ghost() {
+    let Some(gpu) = gpu() else { return };
+    let size = (320, 180);
+    let at_rest = preset("taa", &["speed=0"]);
+    let rest = psnr(&resolved(&gpu, &at_rest, 64, size), &truth(&gpu, &at_rest, TAA_JITTER, 64, size));
+    let moving = preset("taa", &[]);
+    let (shown, true_) = (resolved(&gpu, &moving, 40, size), truth(&gpu, &moving, TAA_JITTER, 40, size));
+    let motion = psnr(&shown, &true_);
+    let off = |(a, b): (&[f32; 4], &[f32; 4])| (0..3).map(|i| f64::from(a[i] - b[i]).abs()).sum::<f64>() / 3.0;
+    let left = vacated(&gpu, &moving, [34, 40], size);
+    let ghosts: Vec<f64> =
+        shown.iter().zip(&true_).zip(&left).filter(|(_, left)| **left).map(|(p, _)| off(p)).collect();
+    let ghost = ghosts.iter().sum::<f64>() / ghosts.len() as f64;
+    println!("at rest {rest:.1} dB, moving {motion:.1} dB, ghost {ghost:.4} over {} pixels", ghosts.len());
+    assert!(rest >= 31.0, "at rest {rest} dB");
+    assert!(motion >= 23.0, "moving {motion} dB");
+    assert!(ghosts.len() > 20 && ghost < 0.04, "{} vacated pixels are {ghost} off", ghosts.len());
+}
+
+#[test]
+fn motion_vectors_and_catmull_rom_are_worth_their_cost() {
+    let Some(gpu) = gpu() else { return };
+    let size = (160, 90);
+    let measure = |knobs: &[&str]| {
+        let project = preset("taa", knobs);
+        psnr(&resolved(&gpu, &project, 40, size), &truth(&gpu, &project, TAA_JITTER, 40, size))
+    };
+    let [all, linear] = [measure(&[]), measure(&["catmullRom=false"])];
+    let [blind, one_sample] = [measure(&["motionVectors=false"]), measure(&["blend=1"])];
+    println!("moving: all {all:.1} dB, linear {linear:.1}, no motion vectors {blind:.1}, one sample {one_sample:.1}");
+    assert!(all > linear + 0.3, "Catmull-Rom {all} dB, linear {linear}");
+    assert!(all > blind + 1.0, "with motion vectors {all} dB, without {blind}");
+    assert!(all > one_sample + 1.0, "{all} dB, one sample {one_sample}");
+}
+
+/// As the chain's Buffer B takes its mean: c / (1 + luminance).
+fn compressed(texels: &[[f32; 4]]) -> Vec<[f32; 4]> {
+    let one = |t: &[f32; 4]| {
+        let by = 1.0 + 0.25 * t[0] + 0.5 * t[1] + 0.25 * t[2];
+        [t[0] / by, t[1] / by, t[2] / by, 1.0]
+    };
+    texels.iter().map(one).collect()
+}
+
+#[test]
+fn the_chains_history_follows_the_camera() {
+    let Some(gpu) = gpu() else { return };
+    let size = (160, 90);
+    let measure = |knobs: &[&str]| {
+        let project = preset("scene-bloom-taa", knobs);
+        let mut samples = project.clone();
+        // Each sample as the history takes its mean, so that the truth is a mean of the same thing.
+        let source = &mut samples.pass_mut(&buffer("A")).unwrap().source;
+        let text = source.text.trim_end().strip_suffix('}').unwrap().to_owned();
+        source.text = format!("{text}light.rgb /= 1.0 + dot(light.rgb, vec3(0.25, 0.5, 0.25));\n}}").into();
+        let truth = truth(&gpu, &samples, "int frame) {\n    return HALTON[frame % 8];", 40, size);
+        psnr(&compressed(&resolved(&gpu, &project, 40, size)), &truth)
+    };
+    let [moving, one_sample, fast] = [measure(&[]), measure(&["blend=1"]), measure(&["orbit=1"])];
+    println!("chain: moving {moving:.1} dB, one sample {one_sample:.1}, moving fast {fast:.1}");
+    // With one box everywhere, and no mean of what is young, it was 30.9 dB.
+    assert!(fast > 33.5, "the camera moving fast: {fast} dB");
+    assert!(moving > one_sample + 3.0, "the camera moving: {moving} dB, one sample {one_sample}");
+}
+
+#[test]
+fn one_bad_number_in_a_history_heals() {
+    let Some(gpu) = gpu() else { return };
+    for name in ["taa", "scene-bloom-taa"] {
+        for number in ["0x7fc00000u", "0x7f800000u"] {
+            let mut project = preset(name, &[]);
+            let source = &mut project.pass_mut(&buffer("B")).unwrap().source;
+            let bad = format!(
+                "if (iFrame == 5 && p == ivec2(20, 10)) resolved = vec4(uintBitsToFloat({number} + uint(iFrame - \
+                 5)));\n}}"
+            );
+            let text = source.text.trim_end().strip_suffix('}').unwrap().to_owned();
+            source.text = format!("{text}{bad}").into();
+            let mut engine = whole(&gpu, &project, (48, 27));
+            draw(&mut engine, 0..6);
+            assert!(!all_finite(&read(&mut engine, "B")), "{name}: {number} did not arrive");
+            draw(&mut engine, 6..8);
+            assert!(
+                all_finite(&read(&mut engine, "B")) && all_finite(&picture(&mut engine)),
+                "{name}: {number} lives on"
+            );
+        }
+    }
+}

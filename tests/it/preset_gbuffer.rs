@@ -1,0 +1,208 @@
+//! What the deferred presets promise, on geometry that a test writes into the G-buffer by formula.
+
+use crate::support::{preset::*, *};
+use eddy::{engine::Pixels, project::Project};
+
+const FOCAL: f64 = 1.8;
+
+type V = [f64; 3];
+
+fn dot(a: V, b: V) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn along(a: V, b: V, by: f64) -> V {
+    [0, 1, 2].map(|i| a[i] + by * b[i])
+}
+
+// --------------------------------------------------------------------------------------------------------------- edges
+
+/// The lines that Buffer B finds in a G-buffer of planes: x by depth, y by normal.
+fn lines(gpu: &eddy::gpu::Gpu, thickness: u32, geometry: &str) -> Pixels {
+    let mut project = preset("gbuffer-edges", &[&format!("thickness={thickness}")]);
+    let text = format!(
+        "// Depth of the plane n . p = -k (p from the camera) in this pixel.
+        float plane(vec3 n, float k, vec2 p) {{ return -k / dot(n, viewFromPixel(p, 1.0, iResolution.xy)); }}
+        void mainImage(out vec4 o, in vec2 p) {{ vec3 n = vec3(0.0, 0.0, 1.0); float depth = 5.0; {geometry}
+            o = vec4(packNormal(n), depth, 1.5); }}"
+    );
+    replace(&mut project, "A", &text);
+    let mut engine = whole(gpu, &project, (64, 36));
+    draw(&mut engine, 0..1);
+    read(&mut engine, "B")
+}
+
+/// In how many columns of each row there is a line; the rows at the border, where the picture ends, left out.
+fn widths(pixels: &Pixels, channel: usize) -> Vec<usize> {
+    let row = |y| (6..58).filter(|&x| texel(pixels, x, y)[channel] > 0.5).count();
+    (6..30).map(row).collect()
+}
+
+#[test]
+fn a_step_and_a_crease_are_lines_as_wide_as_stated() {
+    let Some(gpu) = gpu() else { return };
+    for thickness in 1..=5 {
+        let step = lines(&gpu, thickness, "depth = p.x < 32.0 ? 5.0 : 6.0;");
+        assert_eq!(widths(&step, 0), vec![thickness as usize; 24], "a step in depth");
+        assert_eq!(widths(&step, 1), vec![0; 24], "both sides of it face the same way");
+        // A roof: two planes that meet in column 32, with a turn of 74 degrees.
+        let roof = lines(&gpu, thickness, "n = vec3(p.x < 32.0 ? -0.6 : 0.6, 0.0, 0.8); depth = plane(n, 4.0, p);");
+        assert_eq!(widths(&roof, 1), vec![thickness as usize; 24], "a crease");
+        assert_eq!(widths(&roof, 0), vec![0; 24], "whose depth has no step");
+    }
+}
+
+#[test]
+fn a_plane_has_no_line_at_any_angle() {
+    let Some(gpu) = gpu() else { return };
+    // The last is seen at 4 degrees: its depth doubles within a few texels.
+    for normal in ["vec3(0.0, 0.0, 1.0)", "vec3(0.5, 0.3, 0.6)", "vec3(0.0, 0.95, 0.35)"] {
+        for thickness in [1, 4] {
+            let flat = lines(&gpu, thickness, &format!("n = normalize({normal}); depth = plane(n, 1.0, p);"));
+            let most = flat.texels.iter().flat_map(|t| [t[0], t[1]]).fold(0.0, f32::max);
+            assert!(most < 1e-3, "{normal}: a line of {most}");
+        }
+    }
+}
+
+// --------------------------------------------------------------------------------------- a floor and a wall behind it
+
+const EYE: V = [0.0, 2.0, 2.0];
+const PITCH: f64 = 0.36; // radians the camera looks down
+const WALL_Z: f64 = -3.0;
+
+/// The camera's axes: right, up, back.
+fn axes() -> [V; 3] {
+    let (s, c) = PITCH.sin_cos();
+    [[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]
+}
+
+/// A wall of a height at WALL_Z, facing the camera, on an endless floor; beyond it there is nothing.
+fn corner(project: &mut Project, height: f64) {
+    let [_, up, back] = axes();
+    let (up, back) = (format!("{up:?}").replace(['[', ']'], ""), format!("{back:?}").replace(['[', ']'], ""));
+    let text = format!(
+        "void mainImage(out vec4 o, in vec2 p) {{
+            mat3 axes = mat3(vec3(1.0, 0.0, 0.0), vec3({up}), vec3({back}));
+            vec3 eye = vec3({:?}, {:?}, {:?}), d = axes * viewFromPixel(p, 1.0, iResolution.xy), n = vec3(0.0, 1.0, \
+            0.0);
+            float t = d.y < 0.0 ? -eye.y / d.y : FAR, wall = ({WALL_Z:?} - eye.z) / d.z;
+            float y = eye.y + wall * d.y;
+            o = vec4(packNormal(vec3(0.0, 0.0, 1.0)), FAR, 0.999);
+            if (d.z < 0.0 && wall < t) {{
+                if (y >= {height:?} && {height:?} > 0.0) return;
+                if (y >= 0.0 && {height:?} > 0.0) {{ t = wall; n = vec3(0.0, 0.0, 1.0); }}
+            }} else if (d.z < 0.0 && {height:?} > 0.0 && eye.z + t * d.z < {WALL_Z:?}) return;
+            if (t < FAR) o = vec4(packNormal(n * axes), t, n.y > 0.5 ? 1.5 : 2.5);
+        }}",
+        EYE[0], EYE[1], EYE[2]
+    );
+    replace(project, "A", &text);
+}
+
+/// Where a pixel's ray, of depth 1, goes; and where a point is seen, in pixels.
+fn ray(pixel: [f64; 2], size: [f64; 2]) -> V {
+    let [right, up, back] = axes();
+    let q = [0, 1].map(|i| (pixel[i] - 0.5 * size[i]) / (size[1] * FOCAL));
+    [0, 1, 2].map(|i| q[0] * right[i] + q[1] * up[i] - back[i])
+}
+
+fn pixel_of(p: V, size: [f64; 2]) -> [f64; 2] {
+    let q = along(p, EYE, -1.0);
+    let [x, y, z] = axes().map(|axis| dot(axis, q));
+    [0.5 * size[0] + size[1] * FOCAL * x / -z, 0.5 * size[1] + size[1] * FOCAL * y / -z]
+}
+
+// ---------------------------------------------------------------------------------------------------------- occlusion
+
+fn occlusion(gpu: &eddy::gpu::Gpu, height: f64, knobs: &[&str], size: (u32, u32)) -> Pixels {
+    let mut project = preset("gbuffer-ssao-ssr", knobs);
+    corner(&mut project, height);
+    let mut engine = whole(gpu, &project, size);
+    draw(&mut engine, 0..1);
+    read(&mut engine, "C")
+}
+
+#[test]
+fn an_open_plane_sees_its_whole_sky() {
+    let Some(gpu) = gpu() else { return };
+    for knobs in [&[][..], &["radius=4", "slices=1"], &["radius=4", "slices=8", "steps=16"]] {
+        let open = occlusion(&gpu, 0.0, knobs, (160, 90));
+        // The square of 4 x 4 texels whose mean is taken must be whole.
+        let inside = (3..86).flat_map(|y| (3..156).map(move |x| (x, y)));
+        let most = inside.map(|(x, y)| texel(&open, x, y)[0]).fold(0.0, f32::max);
+        println!("open plane, {knobs:?}: at most {most}");
+        assert!(most < 0.01, "{knobs:?}: a plane hides {most} of its own sky");
+    }
+}
+
+#[test]
+fn beside_a_wall_the_hidden_part_of_the_sky_is_the_analytic_one() {
+    let Some(gpu) = gpu() else { return };
+    let size = [320.0, 180.0];
+    let height = 0.8f64;
+    let pixels = occlusion(&gpu, height, &["radius=4", "slices=8", "steps=16"], (320, 180));
+    // A wall without ends hides (1 - cos t) / 2 of the cosine-weighted sky, t = atan(height / distance).
+    // Stated bias: up to 0.04 too little. The picture has an end and the wall has none, what is far counts less, and
+    // the march finds the wall's upper edge only nearly.
+    for distance in [0.3, 0.4, 0.8, 1.2] {
+        let expected = 0.5 * (1.0 - (height / distance).atan().cos());
+        let (mut sum, mut n) = (0.0, 0);
+        for i in -8..=8 {
+            let [x, y] = pixel_of([0.04 * f64::from(i), 0.0, WALL_Z + distance], size);
+            sum += f64::from(texel(&pixels, x as u32, y as u32)[0]);
+            n += 1;
+        }
+        let measured = sum / f64::from(n);
+        println!("wall {height} high, {distance} away: {measured:.4}, analytic {expected:.4}");
+        assert!(measured < expected + 0.01 && measured > expected - 0.04, "{distance}: {measured}, not {expected}");
+    }
+}
+
+// --------------------------------------------------------------------------------------------------------- reflections
+
+#[test]
+fn a_mirrored_point_is_where_geometry_says() {
+    let Some(gpu) = gpu() else { return };
+    let (size, height) = ([160.0, 90.0], 2.5);
+    let mut project = preset("gbuffer-ssao-ssr", &[]);
+    corner(&mut project, height);
+    let mut engine = whole(&gpu, &project, (160, 90));
+    draw(&mut engine, 0..1);
+    let hits = read(&mut engine, "D");
+    let (mut wanted, mut found, mut furthest) = (0, 0, 0.0f64);
+    for y in 0..90u32 {
+        for x in 0..160u32 {
+            let d = ray([f64::from(x) + 0.5, f64::from(y) + 0.5], size);
+            if d[1] >= 0.0 {
+                continue;
+            }
+            let floor = along(EYE, d, -EYE[1] / d[1]);
+            if floor[2] <= WALL_Z {
+                continue;
+            }
+            // Mirrored in the floor, on to the wall.
+            let mirrored = [d[0], -d[1], d[2]];
+            let at = along(floor, mirrored, (WALL_Z - floor[2]) / mirrored[2]);
+            let seen = pixel_of(at, size);
+            let length = dot(along(at, floor, -1.0), along(at, floor, -1.0)).sqrt();
+            let inside = (0..2).all(|i| seen[i] > 8.0 && seen[i] < size[i] - 8.0);
+            // Next to the wall's foot the way in the picture is shorter than the march's first step.
+            let way = (seen[0] - f64::from(x)).hypot(seen[1] - f64::from(y));
+            if at[1] >= height - 0.05 || !inside || length > 4.5 || way < 3.0 {
+                continue;
+            }
+            wanted += 1;
+            let hit = texel(&hits, x, y);
+            if hit[3] < 0.5 || hit[2] <= 0.0 {
+                continue;
+            }
+            found += 1;
+            let off = (f64::from(hit[0]) * size[0] - seen[0]).hypot(f64::from(hit[1]) * size[1] - seen[1]);
+            furthest = furthest.max(off);
+        }
+    }
+    println!("reflections: {found} of {wanted} found, at most {furthest:.2} px off");
+    assert!(wanted > 500 && found as f64 > 0.97 * wanted as f64, "{found} of {wanted}");
+    assert!(furthest < 1.5, "a mirrored point is {furthest} px off");
+}

@@ -1,0 +1,121 @@
+//! What the presets that are there to be looked at promise of their pictures, and the bounds that every slider leaves
+//! them in.
+
+use crate::support::{preset::*, presets::overwrite, presets::untouched, *};
+use eddy::project::{KnobRange, KnobType, KnobValue, KnobValues, PassId};
+
+/// The part of all squares of 16 x 16 texels in which V is seen.
+fn filled(pixels: &eddy::engine::Pixels) -> f64 {
+    let (columns, rows) = (pixels.width / 16, pixels.height / 16);
+    let is_alive =
+        |column: u32, row: u32| (0..256).any(|i| texel(pixels, 16 * column + i % 16, 16 * row + i / 16)[1] > 0.1);
+    let alive = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
+    alive.filter(|&(column, row)| is_alive(column, row)).count() as f64 / f64::from(columns * rows)
+}
+
+#[test]
+fn the_reaction_fills_the_canvas_however_large_it_is() {
+    let Some(gpu) = gpu() else { return };
+    for (knobs, size, frames, least) in [
+        (&[][..], (320, 180), 90, 0.95),
+        (&["map=1"], (241, 137), 150, 0.85),
+        (&["diffusion=3", "dt=2"], (161, 97), 90, 0.95),
+    ] {
+        let mut engine = whole(&gpu, &preset("reaction-diffusion", knobs), size);
+        draw(&mut engine, 0..frames);
+        let part = filled(&read(&mut engine, "A"));
+        println!("{knobs:?} at {size:?}: {part:.3} of the canvas after {frames} frames");
+        assert!(part > least, "{knobs:?}: only {part} of the canvas has a pattern");
+    }
+}
+
+#[test]
+fn a_blur_in_two_passes_diffuses_exactly_at_any_step() {
+    let Some(gpu) = gpu() else { return };
+    let (width, mode) = (48u32, 5.0);
+    let wave = std::f64::consts::PI * mode / f64::from(width);
+    for dt in [0.5f64, 1.0, 2.5, 5.0] {
+        let knobs = ["sower=0", "sway=0", "feed=0", "kill=0", "diffusion=3", &format!("dt={dt}")];
+        let mut project = preset("reaction-diffusion", &knobs);
+        // U alone: nothing reacts.
+        let seed = format!("if (iFrame == 0) o = vec4(0.4 + 0.1 * cos({wave} * (float(p.x) + 0.5)), 0.0, 0.0, 0.0);");
+        overwrite(&mut project, "A", &seed);
+        let mut engine = whole(&gpu, &project, (width, 5));
+        draw(&mut engine, 0..3);
+        let state = read(&mut engine, "A");
+        let (mut mean, mut found) = (0.0, 0.0);
+        for x in 0..width {
+            let value = f64::from(texel(&state, x, 2)[0]);
+            mean += value / f64::from(width);
+            found += 2.0 / f64::from(width) * value * (wave * (f64::from(x) + 0.5)).cos();
+        }
+        // Sixteen steps; the discrete Gaussian of variance t multiplies a wave by exp(t (cos k - 1)).
+        let expected = 0.1 * (16.0 * 2.0 * 0.209_715_2 * dt * (wave.cos() - 1.0)).exp();
+        assert!((mean - 0.4).abs() < 1e-5, "dt {dt}: the mean went from 0.4 to {mean}");
+        assert!((found - expected).abs() < 2e-4 * 0.1, "dt {dt}: {found}, not {expected}");
+    }
+}
+
+/// The part of pixels that are brighter by `step` than the mean of those a pixel away on both sides, along either axis:
+/// rims that are one pixel wide.
+fn rims(pixels: &eddy::engine::Pixels, step: f32) -> f64 {
+    let luma = |x: u32, y: u32| texel(pixels, x, y)[..3].iter().sum::<f32>() / 3.0;
+    let is_rim = |x: u32, y: u32| {
+        let along = [[(x - 1, y), (x + 1, y)], [(x, y - 1), (x, y + 1)]];
+        along.iter().any(|ends| ends.iter().all(|&(i, j)| luma(x, y) > luma(i, j) + step))
+    };
+    let inner = (1..pixels.height - 1).flat_map(|y| (1..pixels.width - 1).map(move |x| (x, y)));
+    inner.filter(|&(x, y)| is_rim(x, y)).count() as f64 / f64::from(pixels.width * pixels.height)
+}
+
+#[test]
+fn fronts_in_the_stirred_paint_have_no_bright_rims() {
+    let Some(gpu) = gpu() else { return };
+    for size in [(256, 144), (161, 91)] {
+        let mut engine = engine(&gpu, &preset("self-advection", &[]), size);
+        draw(&mut engine, 0..150);
+        let part = rims(&picture(&mut engine), 0.06);
+        println!("{size:?}: {:.2} % rims", 100.0 * part);
+        assert!(part < 0.01, "{size:?}: {part} of the picture are rims");
+    }
+}
+
+const SWITCH: KnobRange = KnobRange { min: [0.0; 4], max: [1.0; 4] };
+
+#[test]
+fn every_slider_at_both_ends_leaves_a_picture_in_range() {
+    let Some(gpu) = gpu() else { return };
+    for name in [
+        "bloom",
+        "bloom-sized",
+        "gaussian-blur",
+        "taa",
+        "gbuffer-ssao-ssr",
+        "ssao",
+        "toon-outline",
+        "reaction-diffusion",
+        "self-advection",
+        "mouse-state",
+    ] {
+        let project = preset(name, &[]);
+        let mut engine = engine(&gpu, &project, (65, 37));
+        let knobs = engine.program().unwrap().knobs().to_vec();
+        assert!(!knobs.is_empty(), "{name} has no slider");
+        let mut frame = 0;
+        for knob in &knobs {
+            let Some(range) = knob.range.or((knob.ty == KnobType::Bool).then_some(SWITCH)) else { continue };
+            for end in [range.min, range.max] {
+                let value = KnobValue::new(knob.ty, &end);
+                let values = KnobValues::from([(knob.name.clone(), value.clone())]);
+                engine.set_knobs(&values);
+                for _ in 0..3 {
+                    engine.draw(&untouched(frame)).unwrap();
+                    frame += 1;
+                }
+                let pixels = engine.read(&PassId::Image).unwrap();
+                let bad = pixels.texels.iter().flatten().find(|v| !(-1e-3..=100.0).contains(*v));
+                assert!(bad.is_none(), "{name}, {} = {value:?}: {bad:?}", knob.name);
+            }
+        }
+    }
+}

@@ -1,0 +1,436 @@
+//! What each simulation among the presets means, measured: the numbers of its method, not the look of its picture.
+
+use crate::support::{presets::*, *};
+use eddy::{
+    engine::{BuildOptions, Engine},
+    media::MediaSet,
+    project::{Group, PassId, Project},
+};
+
+// ------------------------------------------------------------------------------------------------------------- fluid
+
+/// The fluid with its three sub-steps as one pass that reads itself, drawn `steps` times a frame.
+fn fluid_in_one_pass(knobs: &[&str], steps: u32) -> Project {
+    let mut project = preset_with("fluid", knobs);
+    project.passes.retain(|p| p.id == buffer("A") || p.id == PassId::Image);
+    project.pass_mut(&buffer("A")).unwrap().channels[0] = nearest("A");
+    project.groups.push(Group { name: "solver".into(), passes: vec![buffer("A")], steps });
+    project
+}
+
+#[test]
+fn the_fluid_as_a_chain_and_by_steps_is_the_same_bytes() {
+    let Some(gpu) = gpu() else { return };
+    let (chain, steps) = (preset("fluid"), fluid_in_one_pass(&[], 3));
+    let [mut chain, mut steps] = [chain, steps].map(|p| whole(&gpu, &p, true, (48, 27)));
+    for frame in 0..40 {
+        let [c, a] = [(&mut chain, "C"), (&mut steps, "A")].map(|(engine, name)| {
+            engine.draw(&drag(frame)).unwrap();
+            bits(&engine.read(&buffer(name)).unwrap())
+        });
+        assert!(c == a, "frame {frame}");
+    }
+}
+
+/// (kinetic energy, mean density - 1) of the fluid.
+fn energy_and_mass(engine: &mut Engine, name: &str) -> (f64, f64) {
+    let state = engine.read(&buffer(name)).unwrap();
+    let fluid = &state.texels[state.width as usize..];
+    let energy: f64 = fluid.iter().map(|t| f64::from(t[0]).powi(2) + f64::from(t[1]).powi(2)).sum();
+    let mass: f64 = fluid.iter().map(|t| f64::from(t[2])).sum();
+    (energy, mass / fluid.len() as f64 - 1.0)
+}
+
+/// Noise of 1e-3 in the velocity in frame 1: of every wavelength, so that an instability at any of them would grow.
+const NOISE: &str = "if (iFrame == 1 && p.y > 0)
+    o.xy += 1e-3 * (fract(sin(vec2(p.x * 12 + p.y * 78, p.x * 39 + p.y * 11)) * 43758.5) - 0.5);";
+
+#[test]
+fn still_water_keeps_still_and_keeps_its_mass() {
+    let Some(gpu) = gpu() else { return };
+    let mut project = preset_with("fluid", &["nozzles=0"]);
+    overwrite(&mut project, "A", NOISE);
+    let mut engine = whole(&gpu, &project, true, (33, 19));
+    draw(&mut engine, 0..3, untouched);
+    let (begin, _) = energy_and_mass(&mut engine, "C");
+    assert!(begin > 1e-6, "{begin}: the noise did not arrive");
+    draw(&mut engine, 3..400, untouched);
+    let (end, mass) = energy_and_mass(&mut engine, "C");
+    assert!(end < 1e-2 * begin, "energy went from {begin} to {end}");
+    assert!(mass.abs() < 1e-5, "mass is off by {mass} of itself");
+}
+
+#[test]
+fn the_fluid_keeps_its_mass_under_jets() {
+    let Some(gpu) = gpu() else { return };
+    // No term that mends the mass: what is kept is kept by the differences. They cancel in pairs, so what is left is
+    // rounding.
+    let mut project = preset("fluid");
+    patch_file(&mut project, "solver.glsl", "RECOVERY = 1e-3", "RECOVERY = 0.0");
+    let mut engine = whole(&gpu, &project, true, (64, 36));
+    draw(&mut engine, 0..300, untouched);
+    let (energy, mass) = energy_and_mass(&mut engine, "C");
+    assert!(energy > 10.0, "{energy}: the jets did not push");
+    assert!(mass.abs() < 2e-5, "900 steps lost {mass} of the mass");
+}
+
+#[test]
+fn sound_in_the_fluid_decays_or_grows_as_linear_theory_says() {
+    let Some(gpu) = gpu() else { return };
+    let (width, mode) = (48u32, 6.0);
+    let k = std::f64::consts::PI * mode / f64::from(width);
+    // (form, viscosity, K). As published: its defaults; no viscosity, where every wave grows; viscosity = K, where none
+    // does; half of it. Forward-backward: the defaults, without viscosity as fast as is allowed, and what the sliders
+    // ask for held back.
+    let cases = [
+        (0, 0.5, 0.4, 0.4),
+        (0, 0.0, 0.4, 0.4),
+        (0, 0.4, 0.4, 0.4),
+        (0, 0.2, 0.4, 0.4),
+        (1, 0.3, 2.2, 2.2),
+        (1, 0.0, 0.7, 0.7),
+        (1, 0.0, 10.0, 0.75),
+    ];
+    for (form, viscosity, stiffness, acting) in cases {
+        let set = [format!("viscosity={viscosity}"), format!("stiffness={stiffness}"), format!("form={form}")];
+        let knobs = [&*set[0], &*set[1], &*set[2], "nozzles=0", "confinement=0", "edge_drag=0"];
+        let mut project = fluid_in_one_pass(&knobs, 1);
+        // A standing wave that the walls reflect onto itself.
+        let seed =
+            format!("if (iFrame == 0 && p.y > 0) o = vec4(1e-3 * sin({k} * (float(p.x) + 0.5)), 0.0, 1.0, 0.0);");
+        overwrite(&mut project, "A", &seed);
+        let mut engine = whole(&gpu, &project, true, (width, 4));
+        let steps = 150;
+        draw(&mut engine, 0..steps + 1, untouched);
+        let state = engine.read(&buffer("A")).unwrap();
+        // The amplitudes of velocity ~ sin and density ~ cos, by projection.
+        let mut found = [0.0; 2];
+        for x in 0..width {
+            let phase = k * (f64::from(x) + 0.5);
+            let cell = texel(&state, x, 2);
+            found[0] += 2.0 / f64::from(width) * f64::from(cell[0]) * phase.sin();
+            found[1] += 2.0 / f64::from(width) * (f64::from(cell[2]) - 1.0) * phase.cos();
+        }
+        let (dt, mut u, mut r) = (0.2, 1e-3, 0.0);
+        for _ in 0..steps {
+            let next = r - dt * u * k.sin();
+            let seen = if form == 0 { r } else { next };
+            u = u * (1.0 - 2.0 * dt * viscosity * (1.0 - k.cos())) + acting * seen * k.sin();
+            let smoothed = if form == 0 { 0.0 } else { 0.1 * (k / 2.0).sin().powi(4) * r };
+            r = (next - smoothed) * (1.0 - 1e-3);
+        }
+        let (size, off) = (u.hypot(r), (found[0] - u).hypot(found[1] - r));
+        assert!(off < 0.02 * size, "form {form}, viscosity {viscosity}: ({u}, {r}) by theory, {found:?} found");
+        assert_eq!(form == 0 && viscosity < stiffness / 2.0, size > 1.5e-3, "viscosity {viscosity}: {size}");
+    }
+}
+
+/// Whether the foot of the picture is hatched.
+fn hatched(engine: &mut Engine) -> bool {
+    let image = engine.read(&PassId::Image).unwrap();
+    (0..image.width).any(|x| texel(&image, x, 0)[0] > 2.0 * texel(&image, x, 0)[1])
+}
+
+#[test]
+fn the_fluid_comes_back_from_sliders_beyond_its_method() {
+    let Some(gpu) = gpu() else { return };
+    let published = ["nozzles=0", "form=0", "stiffness=0.4", "viscosity=0.5"];
+    for beyond in [&["viscosity=0"][..], &["dt=2"], &["stiffness=1", "viscosity=0.1"], &["viscosity=1.25", "dt=0.5"]] {
+        let mut project = preset_with("fluid", &published);
+        overwrite(&mut project, "A", NOISE);
+        let mut engine = whole(&gpu, &project, true, (32, 20));
+        draw(&mut engine, 0..30, drag);
+        assert!(!hatched(&mut engine), "hatched at the defaults");
+        engine.set_knobs(&values("fluid", &[&published, beyond].concat()));
+        draw(&mut engine, 30..1200, untouched);
+        let (wild, _) = energy_and_mass(&mut engine, "C");
+        assert!(wild.is_finite() && wild > 1e-3, "{beyond:?}: {wild}, so nothing is beyond the method here");
+        assert!(hatched(&mut engine), "{beyond:?} is not marked");
+        engine.set_knobs(&values("fluid", &published));
+        draw(&mut engine, 1200..1800, untouched);
+        let (calm, mass) = energy_and_mass(&mut engine, "C");
+        assert!(calm < 1e-2 * wild && calm < 1e-4, "{beyond:?}: energy {wild}, ten seconds later {calm}");
+        // What the density limits made or took is on its way back.
+        assert!(mass.abs() < 0.2, "{beyond:?}: mass is off by {mass}");
+        assert!(!hatched(&mut engine));
+    }
+}
+
+#[test]
+fn forward_and_backward_no_slider_makes_energy() {
+    let Some(gpu) = gpu() else { return };
+    for (knobs, marked) in [
+        (&["viscosity=0", "stiffness=0.7"][..], false),
+        (&["viscosity=0"], true),
+        (&["viscosity=0", "dt=2", "stiffness=10"], true),
+        (&["viscosity=1.25", "dt=0.5", "stiffness=10"], true),
+        (&["viscosity=1.25", "stiffness=0"], true),
+    ] {
+        let mut project = preset_with("fluid", &[&["nozzles=0"], knobs].concat());
+        overwrite(&mut project, "A", NOISE);
+        let mut engine = whole(&gpu, &project, true, (32, 20));
+        draw(&mut engine, 0..3, untouched);
+        let (begin, _) = energy_and_mass(&mut engine, "C");
+        draw(&mut engine, 3..600, untouched);
+        let (end, mass) = energy_and_mass(&mut engine, "C");
+        assert!(begin > 1e-6 && end < begin && mass.abs() < 1e-4, "{knobs:?}: {begin} became {end}, mass {mass}");
+        assert_eq!(hatched(&mut engine), marked, "{knobs:?}");
+    }
+}
+
+/// (greatest Mach number, part of the cells faster than 0.3, least and greatest density, mean density - 1) of a fluid.
+fn compressibility(engine: &mut Engine, name: &str) -> (f32, f64, [f32; 2], f64) {
+    // The speed of sound at the default sliders, sqrt(K / dt) for K = 2.2 and dt = 0.2.
+    const SOUND: f32 = 3.316_625;
+    let state = engine.read(&buffer(name)).unwrap();
+    let fluid = &state.texels[state.width as usize..];
+    let mach = || fluid.iter().map(|t| t[0].hypot(t[1]) / SOUND);
+    let fast = mach().filter(|m| *m > 0.3).count() as f64 / fluid.len() as f64;
+    let density = fluid.iter().fold([f32::MAX, 0.0], |[low, high], t| [low.min(t[2]), high.max(t[2])]);
+    let mass = fluid.iter().map(|t| f64::from(t[2])).sum::<f64>() / fluid.len() as f64 - 1.0;
+    (mach().fold(0.0, f32::max), fast, density, mass)
+}
+
+#[test]
+fn the_fluids_are_slower_than_their_sound_and_keep_their_mass() {
+    let Some(gpu) = gpu() else { return };
+    for (name, state) in [("fluid", "C"), ("fluid-dye", "A"), ("fluid-lit", "A")] {
+        let options = BuildOptions { wanted: vec![buffer(state)], ..Default::default() };
+        let mut engine = engine_with(&gpu, &preset(name), &MediaSet::new(), &options, (240, 135));
+        draw(&mut engine, 0..120, untouched);
+        let (most, fast, density, mass) = compressibility(&mut engine, state);
+        println!("{name}: Mach {most:.2}, {:.2} % above 0.3, density {density:.2?}, mass {mass:.1e}", 100.0 * fast);
+        assert!(most > 0.1 && most < 0.4001 && fast < 5e-3, "{name}: Mach {most}, {fast} of the cells above 0.3");
+        assert!(density[0] > 0.6 && density[1] < 1.6 && mass.abs() < 1e-4, "{name}: density {density:?}, mass {mass}");
+        // A hand that goes from corner to corner in single frames.
+        let corners = [[1.0, 1.0], [239.0, 134.0], [239.0, 1.0], [1.0, 134.0]];
+        draw(&mut engine, 120..150, |f| held(f, Some(([1.0, 1.0], corners[f as usize % 4]))));
+        let (most, _, density, mass) = compressibility(&mut engine, state);
+        println!("{name} under a violent hand: Mach {most:.2}, density {density:.2?}, mass {mass:.1e}");
+        assert!(
+            most <= 0.4001 && density[0] >= 0.5 && density[1] <= 3.0 && mass.abs() < 5e-3,
+            "{name}: {density:?}, {mass}"
+        );
+    }
+}
+
+#[test]
+fn a_density_that_alternates_from_cell_to_cell_dies() {
+    let Some(gpu) = gpu() else { return };
+    for pattern in ["(p.x + p.y) % 2", "p.x % 2", "p.y % 2"] {
+        let mut project = preset_with("fluid", &["nozzles=0"]);
+        let seed = format!("if (iFrame == 0 && p.y > 0) o = vec4(0.0, 0.0, {pattern} == 0 ? 1.05 : 0.95, 0.0);");
+        overwrite(&mut project, "C", &seed);
+        let mut engine = whole(&gpu, &project, true, (48, 33));
+        draw(&mut engine, 0..30, untouched);
+        let state = engine.read(&buffer("C")).unwrap();
+        let left = state.texels[48..].iter().map(|t| (t[2] - 1.0).abs()).fold(0.0, f32::max);
+        println!("{pattern}: {left:.1e} of 0.05 after 30 frames");
+        assert!(left < 0.0025, "{pattern}: {left} of 0.05 is left after 30 frames");
+    }
+}
+
+#[test]
+fn the_three_fluids_are_one_solver() {
+    // A preset is a folder that can be taken away, so each has the texts; they must not drift apart.
+    for file in ["solver.glsl", "step.glsl"] {
+        let [fluid, dye, lit] = ["fluid", "fluid-dye", "fluid-lit"]
+            .map(|name| preset(name).includes.iter().find(|i| i.source.name == file).unwrap().source.text.clone());
+        assert!(fluid == dye && fluid == lit, "{file}");
+    }
+}
+
+// --------------------------------------------------------------------------------------------------- fluid-dye, -lit
+
+#[test]
+fn dye_in_still_fluid_comes_and_goes_as_stated() {
+    let Some(gpu) = gpu() else { return };
+    let project = preset_with("fluid-dye", &["blows=0"]);
+    let (width, height, frames) = (96u32, 54u32, 60);
+    let mut engine = whole(&gpu, &project, true, (width, height));
+    let total = |engine: &mut Engine| {
+        let dye = engine.read(&buffer("dye")).unwrap();
+        [0, 1, 2].map(|c| mean(&dye, c, |_, y| y > 0) * f64::from(width * (height - 1)))
+    };
+    draw(&mut engine, 0..frames, untouched);
+    let poured = total(&mut engine);
+    let (decay, pours, radius) = ([1.3f64, 2.4, 7.0], [14.0f64, 6.5, 3.4], 0.026 * f64::from(height) + 0.5);
+    let (step, area) = (1.0 / 60.0f64, 2.0 * std::f64::consts::PI * radius * radius);
+    for c in 0..3 {
+        let kept = (-step / decay[c]).exp();
+        let expected = area * pours[c] * step * (1.0 - f64::powi(kept, frames)) / (1.0 - kept);
+        assert!((poured[c] / expected - 1.0).abs() < 1e-3, "component {c}: {} poured, not {expected}", poured[c]);
+    }
+    // The mouse is down where it does not matter, so that the emitters rest: what is there only decays.
+    let pressed = |f| held(f, Some(([2.0, 2.0], [2.0, 2.0])));
+    draw(&mut engine, frames..frames + 1, pressed);
+    let before = total_right(&mut engine, width);
+    draw(&mut engine, frames + 1..frames + 31, pressed);
+    let after = total_right(&mut engine, width);
+    for c in 0..3 {
+        let (found, expected) = (after[c] / before[c], (-30.0 * step / decay[c]).exp());
+        assert!((found / expected - 1.0).abs() < 1e-3, "component {c} kept {found}, not {expected}");
+    }
+}
+
+/// Dye away from the bottom left, where the test holds the mouse.
+fn total_right(engine: &mut Engine, width: u32) -> [f64; 3] {
+    let dye = engine.read(&buffer("dye")).unwrap();
+    [0, 1, 2].map(|c| mean(&dye, c, |x, y| x > width / 6 && y > 12))
+}
+
+#[test]
+fn moving_dye_decays_as_stated_too() {
+    let Some(gpu) = gpu() else { return };
+    // Without decay and without an emitter the flow carries dye about and keeps it to a few percent: semi-Lagrangian
+    // advection is not conservative, and this is by how much here.
+    let mut project = preset_with("fluid-dye", &["decay_seconds=30,1,2", "pours=0,0,0"]);
+    overwrite(&mut project, "dye", "if (iFrame == 60 && p.y > 8 && p.y < 46 && p.x > 8 && p.x < 88) o = vec4(1.0);");
+    let mut engine = whole(&gpu, &project, true, (96, 54));
+    let [before, after] = [(0, 61), (61, 121)].map(|(from, to)| {
+        draw(&mut engine, from..to, untouched);
+        let dye = engine.read(&buffer("dye")).unwrap();
+        [0, 1, 2].map(|c| mean(&dye, c, |_, y| y > 0))
+    });
+    for (c, tau) in [30.0f64, 1.0, 2.0].into_iter().enumerate() {
+        let (found, expected) = (after[c] / before[c], (-1.0 / tau).exp());
+        assert!((found / expected - 1.0).abs() < 0.05, "component {c} kept {found}, not {expected}");
+    }
+}
+
+#[test]
+fn the_surface_stays_within_its_bounds() {
+    let Some(gpu) = gpu() else { return };
+    // Untouched, and with every dent as deep and as lasting as the sliders allow, and with and without surface tension.
+    for (knobs, most) in [(&[][..], 1.3), (&["dent=4", "settle_seconds=20", "tension=0"], 8.0), (&["tension=1"], 1.3)] {
+        let options = BuildOptions { wanted: vec![buffer("height")], ..Default::default() };
+        let mut engine = engine_with(&gpu, &preset_with("fluid-lit", knobs), &MediaSet::new(), &options, (240, 135));
+        draw(&mut engine, 0..150, untouched);
+        let height = engine.read(&buffer("height")).unwrap();
+        let (low, high) = height.texels.iter().fold((0.0f32, 0.0f32), |(l, h), t| (l.min(t[0]), h.max(t[0])));
+        println!("{knobs:?}: heights from {low} to {high}");
+        assert!(all_finite(&height) && high - low > 0.05 && low > -most && high < most, "{knobs:?}: {low} to {high}");
+    }
+}
+
+#[test]
+fn normals_are_those_of_a_known_height_field() {
+    let Some(gpu) = gpu() else { return };
+    let (width, height) = (64u32, 48u32);
+    let (kx, ky, a) = (0.21f64, 0.17f64, 0.4f64);
+    let mut project = preset("fluid-lit");
+    overwrite(&mut project, "height", &format!("o = vec4({a} * sin({kx} * float(p.x)) * cos({ky} * float(p.y)));"));
+    let mut engine = whole(&gpu, &project, true, (width, height));
+    draw(&mut engine, 0..1, untouched);
+    let normals = engine.read(&buffer("normal")).unwrap();
+    let mut worst = [0.0f64; 2];
+    for y in 2..height - 1 {
+        for x in 1..width - 1 {
+            let (fx, fy) = (f64::from(x), f64::from(y));
+            let unit = |gx: f64, gy: f64| {
+                let (gx, gy) = (0.1 * f64::from(height) * gx, 0.1 * f64::from(height) * gy);
+                let length = (gx * gx + gy * gy + 1.0).sqrt();
+                [-gx / length, -gy / length, 1.0 / length]
+            };
+            let (cx, cy) = (a * (kx * fx).cos() * (ky * fy).cos(), -a * (kx * fx).sin() * (ky * fy).sin());
+            let found = texel(&normals, x, y);
+            // First as the differences have it, sin k for k, then as calculus does.
+            for (i, n) in [unit(cx * kx.sin(), cy * ky.sin()), unit(cx * kx, cy * ky)].into_iter().enumerate() {
+                worst[i] = (0..3).map(|c| (f64::from(found[c]) - n[c]).abs()).fold(worst[i], f64::max);
+            }
+        }
+    }
+    assert!(worst[0] < 1e-5 && worst[1] < 5e-3, "off by {worst:?}");
+}
+
+// ------------------------------------------------------------------------------------------------ reaction-diffusion
+
+const STILL: [&str; 2] = ["sower=0", "sway=0"];
+
+#[test]
+fn constant_states_of_gray_scott_stay() {
+    let Some(gpu) = gpu() else { return };
+    for diffusion in ["diffusion=0", "diffusion=1", "diffusion=2"] {
+        let mut project = preset_with("reaction-diffusion", &[&STILL[..], &[diffusion]].concat());
+        let mut engine = whole(&gpu, &project, true, (20, 12));
+        draw(&mut engine, 0..20, untouched);
+        let fed = engine.read(&buffer("A")).unwrap();
+        assert!(fed.texels.iter().all(|t| t[..2] == [0.0; 2]), "the fed state");
+        // The other one: u v = F + k, v = F (1 - u) / (F + k). It is a saddle; rounding has not led away from it yet.
+        let (f, k) = (0.0545f64, 0.062f64);
+        let u = 0.5 * (1.0 - (1.0 - 4.0 * (f + k).powi(2) / f).sqrt());
+        let v = f * (1.0 - u) / (f + k);
+        turn(&mut project, &["feed=0.0545", "kill=0.062"]);
+        overwrite(&mut project, "A", &format!("if (iFrame == 0) o = vec4({}, {v}, 0.0, 0.0);", 1.0 - u));
+        let mut engine = whole(&gpu, &project, true, (20, 12));
+        draw(&mut engine, 0..10, untouched);
+        let state = engine.read(&buffer("A")).unwrap();
+        for t in &state.texels {
+            let off = (f64::from(t[0]) - 1.0 + u).abs().max((f64::from(t[1]) - v).abs());
+            assert!(off < 1e-5, "{diffusion}: ({u}, {v}) became {t:?}");
+        }
+    }
+}
+
+#[test]
+fn diffusion_keeps_the_total_and_reaction_the_sum_of_both() {
+    let Some(gpu) = gpu() else { return };
+    for diffusion in ["diffusion=0", "diffusion=1", "diffusion=2"] {
+        let mut project = preset_with("reaction-diffusion", &[&STILL[..], &[diffusion, "feed=0", "kill=0"]].concat());
+        let rough = "if (iFrame == 0) o = vec4(0.3 + 0.4 * fract(sin(float(p.x * 12 + p.y * 78)) * 437.5), \
+                     0.1 * fract(sin(float(p.x * 39 + p.y * 11)) * 437.5), 0.0, 0.0);";
+        overwrite(&mut project, "A", rough);
+        let mut engine = whole(&gpu, &project, true, (37, 23));
+        let sums = |engine: &mut Engine, last| {
+            draw(engine, last..last + 1, untouched);
+            let state = engine.read(&buffer("A")).unwrap();
+            [0, 1].map(|c| mean(&state, c, |_, _| true))
+        };
+        let begin = sums(&mut engine, 0);
+        draw(&mut engine, 1..4, untouched);
+        let end = sums(&mut engine, 4);
+        // u + v is 1 - (1 - u) + v. What v gained u lost.
+        assert!(((end[1] - end[0]) - (begin[1] - begin[0])).abs() < 2e-6, "{diffusion}: {begin:?} became {end:?}");
+        assert!(end[1] - begin[1] > 1e-3, "{diffusion}: nothing reacted");
+    }
+}
+
+#[test]
+fn a_wave_in_gray_scott_grows_at_the_rate_of_linear_theory() {
+    let Some(gpu) = gpu() else { return };
+    let (f, k, width, mode) = (0.0545f64, 0.062f64, 48u32, 7.0);
+    let wave = std::f64::consts::PI * mode / f64::from(width); // 13.7 cells long, near the fastest
+    let laplacian = 2.0 * wave.cos() - 2.0; // of all three kernels, along an axis
+    let u = 0.5 * (1.0 - (1.0 - 4.0 * (f + k).powi(2) / f).sqrt());
+    let v = f * (1.0 - u) / (f + k);
+    let jacobian =
+        [[-v * v - f + 0.209_715_2 * laplacian, -2.0 * u * v], [v * v, 2.0 * u * v - f - k + 0.104_857_6 * laplacian]];
+    let frames = 12;
+    for diffusion in ["diffusion=0", "diffusion=1", "diffusion=2"] {
+        let mut project =
+            preset_with("reaction-diffusion", &[&STILL[..], &[diffusion, "feed=0.0545", "kill=0.062"]].concat());
+        let seed =
+            format!("if (iFrame == 0) o = vec4({} - 1e-3 * cos({wave} * (float(p.x) + 0.5)), {v}, 0.0, 0.0);", 1.0 - u);
+        overwrite(&mut project, "A", &seed);
+        let mut engine = whole(&gpu, &project, true, (width, 3));
+        // In frame 0 every one of its 8 steps writes the seed.
+        draw(&mut engine, 0..frames + 1, untouched);
+        let state = engine.read(&buffer("A")).unwrap();
+        let mut found = [0.0; 2];
+        for x in 0..width {
+            let phase = 2.0 / f64::from(width) * (wave * (f64::from(x) + 0.5)).cos();
+            let cell = texel(&state, x, 1);
+            found[0] += phase * (1.0 - f64::from(cell[0]) - u);
+            found[1] += phase * (f64::from(cell[1]) - v);
+        }
+        let mut expected = [1e-3, 0.0];
+        for _ in 0..8 * frames {
+            let [a, b] = expected;
+            expected = [0, 1].map(|i| expected[i] + jacobian[i][0] * a + jacobian[i][1] * b);
+        }
+        let size = expected[0].hypot(expected[1]);
+        let off = (found[0] - expected[0]).hypot(found[1] - expected[1]);
+        assert!(off < 0.02 * size, "{diffusion}: {found:?}, not {expected:?}");
+        assert!(size > 1e-3, "{size}: this wave does not grow");
+    }
+}

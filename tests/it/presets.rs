@@ -1,0 +1,323 @@
+//! What the presets promise, measured on the device: not that pixels change, but that the right quantity does.
+
+use crate::support::{presets::*, *};
+use eddy::{
+    engine::{BuildOptions, FrameInputs, Pixels},
+    media::{Keyboard, MediaSet},
+    project::{PassId, presets},
+};
+
+const LEFT_ARROW: u8 = 37;
+const SPACE: u8 = 32;
+
+/// A project is copied as one folder, so what several need lies in each.
+#[test]
+fn what_projects_share_is_the_same_in_each() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let texts = |folder: &str, projects: &[&str], file: &str| -> Vec<String> {
+        let paths = projects.iter().map(|p| root.join(folder).join(p).join(file));
+        paths.map(|p| std::fs::read_to_string(&p).unwrap_or_else(|e| panic!("{}: {e}", p.display()))).collect()
+    };
+    let are_same = |all: &[String]| all.iter().all(|t| *t == all[0]);
+    const LAB: &str = "assets/lab";
+    for (folder, projects, files) in [
+        ("presets", &["fluid", "fluid-lit", "fluid-dye"][..], &["solver.glsl", "step.glsl"][..]),
+        ("presets", &["fluid-lit", "fluid-dye"], &["buffer_a.glsl"]),
+        ("presets", &["bloom", "bloom-sized"], &["scene.glsl", "buffer_a.glsl"]),
+        ("presets", &["gbuffer-edges", "gbuffer-ssao-ssr"], &["scene.glsl", "gbuffer.glsl", "buffer_a.glsl"]),
+        (
+            "presets",
+            &["fluid-accurate", "mip-fluid", "particles", "reaction-diffusion", "self-advection"],
+            &["buffer_mouse.glsl"],
+        ),
+        (LAB, &["poisson_cycle", "poisson_jacobi"], &["common.glsl", "image.glsl"]),
+        (LAB, &["poisson_mips", "poisson_sor", "poisson_jacobi"], &["image.glsl"]),
+        (LAB, &["blur_pyramid", "blur_taps"], &["buffer_source.glsl", "image.glsl"]),
+        (LAB, &["fluid_guay", "fluid_projection"], &["image.glsl"]),
+        (LAB, &["gray_scott_blur", "gray_scott_stencil"], &["image.glsl"]),
+        (LAB, &["diffusion_blur", "diffusion_stencil"], &["image.glsl"]),
+    ] {
+        for file in files {
+            assert!(are_same(&texts(folder, projects, file)), "{file} differs among {projects:?}");
+        }
+    }
+    // The scene and the equation of peers that solve them in different ways.
+    for (projects, begins) in [
+        (&["fluid_guay", "fluid_lattice", "fluid_projection"][..], &["vec2 vortex(", "#iUniform float noise"][..]),
+        (&["diffusion_blur", "diffusion_stencil"], &["float checker(", "float spot(", "#iUniform float noise"]),
+        (
+            &["gray_scott_blur", "gray_scott_stencil"],
+            &["const vec2 DIFFUSION", "vec2 reaction(", "vec4 seeded(", "#iUniform float feed", "#iUniform float kill"],
+        ),
+        (&["poisson_cycle", "poisson_jacobi", "poisson_sor"], &["vec2 at(", "float solved("]),
+    ] {
+        for begin in begins {
+            let all = texts(LAB, projects, "common.glsl");
+            let parts: Vec<String> = all.iter().map(|text| definition(text, begin)).collect();
+            assert!(are_same(&parts), "`{begin}` differs among {projects:?}: {parts:#?}");
+        }
+    }
+}
+
+/// What begins so at the start of a line: to the end of the line, or of the function.
+fn definition(text: &str, begin: &str) -> String {
+    let lines: Vec<&str> = text.lines().skip_while(|line| !line.starts_with(begin)).collect();
+    let first = lines.first().unwrap_or_else(|| panic!("there is no `{begin}`"));
+    let last = if first.ends_with('{') { lines.iter().position(|l| *l == "}").unwrap() } else { 0 };
+    lines[..=last].join("\n")
+}
+
+#[test]
+fn three_chained_sub_steps_are_three_steps_of_one_pass() {
+    let Some(gpu) = gpu() else { return };
+    let chain = preset("fluid");
+    let mut single = chain.clone();
+    single.passes.retain(|p| p.id == buffer("A") || p.id == PassId::Image);
+    single.pass_mut(&buffer("A")).unwrap().channels[0] = nearest("A");
+    let (mut chain, mut single) = (whole(&gpu, &chain, true, (48, 27)), whole(&gpu, &single, true, (48, 27)));
+    for frame in 0..40 {
+        chain.draw(&drag(frame)).unwrap();
+        for _ in 0..3 {
+            single.draw(&drag(frame)).unwrap();
+        }
+        if frame % 8 == 7 {
+            let (c, a) = (chain.read(&buffer("C")).unwrap(), single.read(&buffer("A")).unwrap());
+            assert_eq!(bits(&c), bits(&a), "frame {frame}");
+            assert_ne!(
+                bits(&c),
+                bits(&chain.read(&buffer("B")).unwrap()),
+                "the fluid stands still: the test sees nothing"
+            );
+        }
+    }
+}
+
+#[test]
+fn drawing_what_nobody_needs_changes_no_byte() {
+    let Some(gpu) = gpu() else { return };
+    for name in presets::names() {
+        let project = preset(name);
+        let pictures = [true, false].map(|skip| {
+            let options = BuildOptions { skip, ..Default::default() };
+            let mut engine = engine_with(&gpu, &project, &MediaSet::new(), &options, (48, 27));
+            draw(&mut engine, 0..30, drag);
+            bits(&engine.read(&PassId::Image).unwrap())
+        });
+        assert!(pictures[0] == pictures[1], "{name} is another picture when nothing is skipped");
+    }
+}
+
+#[test]
+fn a_run_repeats_itself_whole_or_in_halves() {
+    let Some(gpu) = gpu() else { return };
+    for name in presets::names() {
+        let project = preset(name);
+        let mut engines = [(); 2].map(|()| whole(&gpu, &project, true, (48, 27)));
+        draw(&mut engines[0], 0..30, drag);
+        draw(&mut engines[1], 0..15, drag);
+        engines[1].read(&PassId::Image).unwrap();
+        draw(&mut engines[1], 15..30, drag);
+        for id in buffers(&project) {
+            let [a, b] = engines.each_mut().map(|e| bits(&e.read(id).unwrap()));
+            assert!(a == b, "{name}, {}", id.title());
+        }
+        let after = bits(&engines[0].read(&PassId::Image).unwrap());
+        draw(&mut engines[0], 30..31, drag);
+        assert!(after != bits(&engines[0].read(&PassId::Image).unwrap()), "{name} stands still: the test sees nothing");
+    }
+}
+
+/// Mean of a channel over columns 12..30 of rows 6..=12: where the drag goes.
+fn mean_on_the_way(pixels: &Pixels, channel: usize) -> f32 {
+    let texels: Vec<f32> =
+        (6..=12).flat_map(|y| (12..30).map(move |x| (x, y))).map(|(x, y)| texel(pixels, x, y)[channel]).collect();
+    texels.iter().sum::<f32>() / texels.len() as f32
+}
+
+/// Where the dye lies along x, weighted by its thickness.
+fn dye_centre(pixels: &Pixels) -> f32 {
+    let (mut sum, mut weight) = (0.0, 0.0);
+    for y in 1..pixels.height {
+        for x in 0..pixels.width {
+            let thickness = texel(pixels, x, y)[3];
+            sum += x as f32 * thickness;
+            weight += thickness;
+        }
+    }
+    sum / weight
+}
+
+#[test]
+fn a_drag_pushes_the_fluid_along_and_carries_the_dye() {
+    let Some(gpu) = gpu() else { return };
+    // Still water, so that what moves was moved by the mouse.
+    let project = preset_with("fluid", &["nozzles=0"]);
+    let mut engine = whole(&gpu, &project, true, (64, 36));
+    draw(&mut engine, 0..10, drag);
+    assert_eq!(mean_on_the_way(&engine.read(&buffer("C")).unwrap(), 0), 0.0);
+    draw(&mut engine, 10..25, drag);
+    let [along, across] = [0, 1].map(|channel| mean_on_the_way(&engine.read(&buffer("C")).unwrap(), channel));
+    assert!(along > 0.1 && across.abs() < 0.2 * along, "along {along}, across {across}");
+    let before = dye_centre(&engine.read(&buffer("D")).unwrap());
+    // The mouse is up: only the fluid moves the dye now.
+    draw(&mut engine, 25..55, |f| held(f, None));
+    let after = dye_centre(&engine.read(&buffer("D")).unwrap());
+    assert!(after > before + 0.5, "the dye's centre went from {before} to {after}");
+}
+
+#[test]
+fn every_preset_survives_every_size() {
+    let Some(gpu) = gpu() else { return };
+    for name in presets::names() {
+        let project = preset(name);
+        for size in [(1, 1), (1, 2), (2, 1), (3, 3), (17, 31), (4096, 1), (1, 4096)] {
+            let mut engine = whole(&gpu, &project, true, size);
+            draw(&mut engine, 0..20, drag);
+            for id in buffers(&project) {
+                let pixels = engine.read(id).unwrap();
+                assert!(pixels.texels.iter().flatten().all(|v| v.is_finite()), "{name} {size:?} {}", id.title());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_trail_fades_by_exp_of_minus_33_over_the_height() {
+    let Some(gpu) = gpu() else { return };
+    let project = preset("feedback");
+    for size in [(48, 27), (40, 90)] {
+        let mut engine = whole(&gpu, &project, true, size);
+        draw(&mut engine, 0..20, |f| held(f, None));
+        // The mouse is held from now on: the pens that draw by themselves rest, and their trails only fade.
+        let mouse = |f| held(f, Some(([5.0, 5.0], [5.0, 5.0])));
+        draw(&mut engine, 20..21, mouse);
+        let before = engine.read(&buffer("A")).unwrap();
+        let frames = 7;
+        draw(&mut engine, 21..21 + frames, mouse);
+        let after = engine.read(&buffer("A")).unwrap();
+        let factor = (-33.0 * f64::from(frames) / f64::from(size.1)).exp();
+        let mut seen = 0;
+        for (b, a) in before.texels.iter().zip(&after.texels).skip(1) {
+            for channel in [0, 1, 3] {
+                let expected = f64::from(b[channel]) * factor;
+                if expected > 1e-20 {
+                    assert!(
+                        (f64::from(a[channel]) / expected - 1.0).abs() < 1e-5,
+                        "{b:?} became {a:?}, not {factor} of it"
+                    );
+                    seen += 1;
+                }
+            }
+        }
+        assert!(seen > 100, "only {seen} texels had a trail");
+    }
+}
+
+#[test]
+fn the_paddle_follows_the_mouse_and_the_keys() {
+    let Some(gpu) = gpu() else { return };
+    let mut engine = whole(&gpu, &preset("brick-breaker"), true, (64, 36));
+    draw(&mut engine, 0..5, |f| held(f, None));
+    // Five pixels are a field unit's worth: 320 units across 64 pixels, the middle of the pixel counts.
+    for (frame, x) in [(5, 20.0), (6, 40.0), (7, 33.0)] {
+        draw(&mut engine, frame..frame + 1, |f| held(f, Some(([20.0, 9.0], [x, 9.0]))));
+        let paddle = texel(&engine.read(&buffer("A")).unwrap(), 1, 0)[0];
+        assert!((paddle - (x + 0.5) * 5.0).abs() < 1e-3, "mouse at {x}, paddle at {paddle}");
+    }
+    let keys = |f| {
+        let mut inputs = FrameInputs { mouse: [33.0, 9.0, -20.0, -9.0], ..held(f, None) };
+        inputs.keyboard = Keyboard::default();
+        inputs.keyboard.press(if f == 12 { SPACE } else { LEFT_ARROW });
+        inputs
+    };
+    let before = texel(&engine.read(&buffer("A")).unwrap(), 1, 0)[0];
+    draw(&mut engine, 8..12, keys);
+    let state = engine.read(&buffer("A")).unwrap();
+    assert!(texel(&state, 1, 0)[0] < before - 10.0, "the left arrow moves the paddle");
+    assert_eq!(texel(&state, 0, 0)[2..], [0.0, 0.0], "the ball waits on the paddle");
+    draw(&mut engine, 12..13, keys);
+    assert!(texel(&engine.read(&buffer("A")).unwrap(), 0, 0)[3] > 0.0, "Space launches it upwards");
+}
+
+#[test]
+fn the_ball_never_tunnels_and_never_changes_speed() {
+    let Some(gpu) = gpu() else { return };
+    for speed in [1.0f32, 10.0, 100.0, 1e3, 1e4] {
+        let velocity = [0.6 * speed * 60.0, 0.8 * speed * 60.0];
+        let mut project = preset("brick-breaker");
+        let a = buffer("A");
+        patch(&mut project, &a, "SOLID_FLOOR = false", "SOLID_FLOOR = true");
+        patch(&mut project, &a, "if (brickInLevel(c, r, level))", "if (c < 0)");
+        patch(&mut project, &a, "<= PADDLE_HALF.x + BALL_RADIUS", "< -1.0");
+        patch(&mut project, &a, "launch(0.42);", &format!("velocity = vec2({:?}, {:?});", velocity[0], velocity[1]));
+        let mut engine = whole(&gpu, &project, true, (16, 9));
+        draw(&mut engine, 0..1, |f| held(f, None));
+        let start = texel(&engine.read(&a).unwrap(), 0, 0);
+        assert_eq!(start[2..], velocity);
+        for frame in 1..60 {
+            draw(&mut engine, frame..frame + 1, |f| held(f, None));
+            let ball = texel(&engine.read(&a).unwrap(), 0, 0);
+            assert_eq!([ball[2].abs(), ball[3].abs()], velocity, "reflections only turn signs");
+            assert_eq!([0, 1].map(|k| f64::from(ball[k])), unfolded(start, velocity, frame), "{speed}, frame {frame}");
+        }
+    }
+}
+
+/// Where the ball is after so many frames without bricks and paddle: on a straight line in a plane tiled with mirrored
+/// fields. Its places, its walls and the way of a frame are whole numbers of 2^-15 units.
+fn unfolded(start: [f32; 4], velocity: [f32; 2], frames: i32) -> [f64; 2] {
+    let ticks = |units: f64| (units * 32768.0).round_ties_even();
+    let (low, high) = (ticks(2.4), [ticks(317.6), ticks(159.6)]);
+    [0, 1].map(|k| {
+        let along = ticks(f64::from(start[k])) + f64::from(frames) * ticks(f64::from(velocity[k] * (1.0f32 / 60.0)));
+        let length = high[k] - low;
+        (high[k] - (length - (along - low).rem_euclid(2.0 * length)).abs()) / 32768.0
+    })
+}
+
+#[test]
+fn the_ball_follows_the_unfolded_path_for_a_hundred_thousand_bounces() {
+    let Some(gpu) = gpu() else { return };
+    // 10,000 units a frame meet some 70 walls in each.
+    let velocity = [0.6f32 * 6e5, 0.8 * 6e5];
+    let mut project = preset("brick-breaker");
+    let a = buffer("A");
+    patch(&mut project, &a, "SOLID_FLOOR = false", "SOLID_FLOOR = true");
+    patch(&mut project, &a, "if (brickInLevel(c, r, level))", "if (c < 0)");
+    patch(&mut project, &a, "<= PADDLE_HALF.x + BALL_RADIUS", "< -1.0");
+    patch(&mut project, &a, "launch(0.42);", &format!("velocity = vec2({:?}, {:?});", velocity[0], velocity[1]));
+    let mut engine = whole(&gpu, &project, true, (16, 9));
+    draw(&mut engine, 0..1, untouched);
+    let start = texel(&engine.read(&a).unwrap(), 0, 0);
+    let (mut bounces, mut frame) = (0.0, 1);
+    while bounces < 1e5 {
+        draw(&mut engine, frame..frame + 25, untouched);
+        frame += 25;
+        let ball = texel(&engine.read(&a).unwrap(), 0, 0);
+        assert_eq!([ball[2].abs(), ball[3].abs()], velocity, "reflections only turn signs");
+        let way = |k: usize, length: f64| f64::from(velocity[k]) / 60.0 * f64::from(frame - 1) / length;
+        bounces = way(0, 315.2) + way(1, 157.2);
+        let expected = unfolded(start, velocity, frame - 1);
+        assert_eq!([0, 1].map(|k| f64::from(ball[k])), expected, "after {bounces:.0} bounces");
+    }
+}
+
+#[test]
+fn the_game_survives_a_resize() {
+    let Some(gpu) = gpu() else { return };
+    let mut engine = whole(&gpu, &preset("brick-breaker"), true, (64, 36));
+    draw(&mut engine, 0..90, |f| held(f, None));
+    let rows = |pixels: &Pixels| {
+        (0..7).flat_map(|y| (0..16).map(move |x| (x, y))).map(|(x, y)| texel(pixels, x, y)).collect::<Vec<_>>()
+    };
+    let before = engine.read(&buffer("A")).unwrap();
+    let bricks = |pixels: &Pixels| rows(pixels)[16..].iter().filter(|t| t[0] > 0.5).count();
+    assert!(bricks(&before) < 96, "nothing was broken in 90 frames");
+    engine.resize(21, 11).unwrap();
+    // As in a pause: time stands, so the game must too.
+    engine.draw(&FrameInputs { time_secs: 89.0 / 60.0, ..held(90, None) }).unwrap();
+    let after = engine.read(&buffer("A")).unwrap();
+    assert_eq!(rows(&before)[0], rows(&after)[0], "the ball");
+    assert_eq!(rows(&before)[2], rows(&after)[2], "score, lives, level, phase");
+    assert_eq!(bricks(&before), bricks(&after));
+}

@@ -1,0 +1,379 @@
+//! A session without a window: when it draws, what it captures, what it asks before anything is lost.
+
+use crate::support::{self, stage::*};
+use eddy::{
+    engine::BuildOptions,
+    media,
+    project::{self, Channel, Input, PassId, Sampler, Tab},
+    session::{
+        Answer, Command, Level, Meanwhile, Outcome, Question, Request, Session, TabDiagnostic, Then, capture,
+        offline::Offline,
+        script::{ScriptedInputs, parse_keys, parse_mouse},
+    },
+};
+use std::{
+    fs,
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+/// Sums what it saw of time and input, so that any frame that differs shows.
+const HISTORY: &str = "void mainImage(out vec4 o, in vec2 p) {
+    vec4 before = texelFetch(iChannel0, ivec2(p), 0);
+    o = fract(before + vec4(iTime * 0.37 + float(iFrame) * 0.11, iTimeDelta, iFrameRate * 0.003, 0.0)
+        + abs(iMouse) * 0.013 + vec4(0.0, 0.0, 0.0, p.x * 0.01));
+}";
+const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
+
+fn line(d: &TabDiagnostic) -> Option<usize> {
+    d.place.as_ref().map(|place| place.line)
+}
+
+#[test]
+fn a_screenshot_is_what_an_offline_run_draws() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = Stage::open(gpu.clone(), &[("buffer_a.glsl", HISTORY), ("image.glsl", SHOW)]);
+    assert_eq!(stage.frames(), 1, "paused: the new program's one frame");
+    stage.session.apply(Command::MouseDown { x: 3.5, y: 2.5 });
+    for _ in 0..5 {
+        stage.session.apply(Command::Step);
+    }
+    stage.tick();
+    let transport = stage.session.transport();
+    assert_eq!((transport.frame, transport.time_secs, transport.playing), (5, 5.0 / 60.0, false));
+    let path = stage.screenshot();
+    assert_eq!(path, stage.path("project-0001.png"), "a project on disk keeps its pictures");
+
+    let loaded = project::load(stage.folder().to_str().unwrap()).unwrap().project;
+    let (media, _) = media::gather(&loaded, None);
+    let drawn = |pass: PassId| {
+        let inputs = ScriptedInputs::new(60.0).with_mouse(parse_mouse("1:down 3,2").unwrap());
+        let mut offline = Offline::new(&gpu, (8, 4), inputs).unwrap();
+        let options = BuildOptions { wanted: vec![pass.clone()], skip: true, ..BuildOptions::default() };
+        offline.build(&loaded, &media, &options).unwrap();
+        let frames: Vec<i32> = (0..6).map(|_| offline.draw().unwrap().number).collect();
+        assert_eq!(frames, [0, 1, 2, 3, 4, 5]);
+        offline.read(&pass, 0).unwrap()
+    };
+    let pixels = drawn(PassId::Image);
+    assert_eq!(image::open(&path).unwrap().to_rgba8().into_raw(), pixels.to_rgba8());
+
+    stage.session.apply(Command::ShowPass(PassId::Buffer("A".into())));
+    stage.session.apply(Command::SaveTexels);
+    let npy = fs::read(stage.path("project-buffer_a-0001.npy")).unwrap();
+    let mut want = Vec::new();
+    capture::encode(&mut want, &drawn(PassId::Buffer("A".into())), capture::Format::Npy).unwrap();
+    assert_eq!(npy, want);
+}
+
+#[test]
+fn a_run_is_the_same_in_one_piece_or_in_two() {
+    let Some(gpu) = support::gpu() else { return };
+    let a = support::pass(support::buffer("A"), HISTORY, [support::nearest("A"), None, None, None]);
+    let project = support::project(vec![a, support::image(SHOW, [support::nearest("A"), None, None, None])]);
+    let start = || {
+        let inputs = ScriptedInputs::new(30.0)
+            .with_mouse(parse_mouse("2:down 1,1; 5:move 6,3; 7:up").unwrap())
+            .with_keys(parse_keys("3:down 32").unwrap());
+        let mut offline = Offline::new(&gpu, (8, 4), inputs).unwrap();
+        offline.build(&project, &Default::default(), &BuildOptions::default()).unwrap();
+        offline
+    };
+    let draw = |offline: &mut Offline, frames: u32, seen: &mut Vec<_>| {
+        for _ in 0..frames {
+            let frame = offline.draw().unwrap().number;
+            if frame == 4 || frame == 9 {
+                seen.push((frame, offline.read(&PassId::Image, 0).unwrap()));
+            }
+        }
+    };
+    let (mut seen, mut halves) = (Vec::new(), Vec::new());
+    draw(&mut start(), 10, &mut seen);
+    let mut half = start();
+    draw(&mut half, 5, &mut halves);
+    draw(&mut half, 5, &mut halves);
+    assert_eq!(seen, halves);
+    assert_eq!(seen.iter().map(|(f, _)| *f).collect::<Vec<_>>(), [4, 9]);
+    assert_ne!(seen[0].1, seen[1].1);
+}
+
+#[test]
+fn paused_it_draws_one_frame_for_each_change_and_none_without() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.5))]);
+    let mut drawn = stage.frames();
+    let mut expect = |stage: &mut Stage, what: &str, commands: Vec<Command>, frames: u32| {
+        let time = stage.session.transport().time_secs;
+        commands.into_iter().for_each(|c| stage.session.apply(c));
+        stage.tick();
+        stage.tick();
+        assert_eq!(stage.frames() - drawn, frames, "{what}");
+        assert_eq!(stage.session.transport().time_secs, time, "time is frozen: {what}");
+        drawn = stage.frames();
+        assert_eq!(stage.session.transport().frame as u32, drawn - 1, "iFrame goes on: {what}");
+    };
+    expect(&mut stage, "nothing", vec![], 0);
+    expect(&mut stage, "a pointer passing by", vec![Command::MouseMove { x: 1.0, y: 1.0 }], 0);
+    expect(&mut stage, "a press", vec![Command::MouseDown { x: 1.0, y: 1.0 }], 1);
+    expect(&mut stage, "a drag", vec![Command::MouseMove { x: 2.0, y: 1.0 }, Command::MouseMove { x: 3.0, y: 1.0 }], 1);
+    expect(&mut stage, "a release", vec![Command::MouseUp], 1);
+    expect(&mut stage, "a key", vec![Command::KeyDown(32)], 1);
+    expect(&mut stage, "its repeat", vec![Command::KeyDown(32)], 0);
+    expect(&mut stage, "a size", vec![Command::SetFixedSize(Some((16, 4)))], 1);
+    expect(&mut stage, "the same size", vec![Command::SetFixedSize(Some((16, 4)))], 0);
+    let channel = Some(Channel { input: Input::Keyboard, sampler: Sampler::KEYBOARD });
+    stage.session.apply(Command::SetChannel { pass: PassId::Image, index: 1, channel });
+    stage.until_compiled();
+    expect(&mut stage, "a channel, once it is compiled", vec![], 1);
+    assert!(stage.tick().wake_at.is_none(), "nothing to wait for");
+}
+
+#[test]
+fn playing_draws_a_frame_a_tick_at_the_times_it_is_given() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.5))]);
+    stage.session.apply(Command::Reset);
+    stage.session.apply(Command::Play);
+    let start = Instant::now();
+    for i in 0..4u64 {
+        let now = start + Duration::from_millis(20 * i);
+        let tick = stage.session.tick(now);
+        assert!(tick.frame_drawn && tick.wake_at == Some(now));
+        let transport = stage.session.transport();
+        assert_eq!(transport.frame, i as i32);
+        assert!((transport.time_secs - 0.02 * i as f64).abs() < 1e-9);
+    }
+    stage.session.apply(Command::Focus(true));
+    stage.session.tick(start + Duration::from_secs(60));
+    assert!((stage.session.transport().time_secs - 0.06).abs() < 1e-9, "focus does not jump");
+}
+
+#[test]
+fn an_edit_compiles_after_quiet_and_an_error_keeps_the_picture() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = Stage::open(gpu, &[("common.glsl", "float two() { return 2.0; }\n"), ("image.glsl", &plain(0.2))]);
+    assert_eq!(stage.red(), 51);
+    stage.settle();
+    let start = Instant::now() + Duration::from_secs(100);
+    stage.edit(&plain(0.4));
+    assert_eq!(stage.session.tick(start).wake_at, Some(start + Duration::from_millis(200)));
+    stage.edit(&plain(0.6));
+    let later = start + Duration::from_millis(150);
+    assert_eq!(
+        stage.session.tick(later).wake_at,
+        Some(later + Duration::from_millis(200)),
+        "the last keystroke counts"
+    );
+    assert!(stage.session.compile_state().compiling && stage.session.is_tab_dirty(&IMAGE));
+    stage.session.tick(later + Duration::from_millis(200));
+    stage.until_compiled();
+    assert_eq!(stage.red(), 153);
+
+    stage.edit("void mainImage(out vec4 o, in vec2 p) {\n    o = vec4(1.0);\n    o.x = nowhere;\n}\n");
+    stage.session.apply(Command::CompileNow);
+    stage.until_compiled();
+    let failed = |meanwhile| Some(Outcome::Failed { errors: 1, meanwhile });
+    assert_eq!(stage.session.compile_state().last, failed(Meanwhile::LastGood));
+    let error = &stage.session.diagnostics()[0];
+    assert_eq!((error.tab(), line(error)), (Some(&IMAGE), Some(3)), "{error:?}");
+    assert_eq!(stage.red(), 153, "the last good picture");
+    stage.session.apply(Command::Step);
+    stage.tick();
+    assert_eq!(stage.red(), 153, "and it still draws");
+
+    stage.edit(&plain(0.2));
+    stage.session.apply(Command::CompileNow);
+    stage.until_compiled();
+    assert!(stage.is_ok() && stage.session.diagnostics().is_empty());
+    assert_eq!(stage.red(), 51);
+    assert!(!stage.session.is_dirty(), "back to what is on disk");
+}
+
+#[test]
+fn what_is_drawn_while_there_are_errors_is_told() {
+    let Some(gpu) = support::gpu() else { return };
+    let broken = "void mainImage(out vec4 o, in vec2 p) {\n    o = nowhere;\n}\n";
+    let failed = |meanwhile| Some(Outcome::Failed { errors: 1, meanwhile });
+    let mut stage = Stage::open(gpu, &[("image.glsl", broken)]);
+    assert_eq!(stage.session.compile_state().last, failed(Meanwhile::Nothing), "there never was a picture");
+    stage.session.apply(Command::Screenshot);
+    assert_eq!(stage.notices(Level::Warning), ["there is no picture to save yet"]);
+
+    stage.edit(&plain(0.2));
+    stage.session.apply(Command::CompileNow);
+    stage.until_compiled();
+    assert!(stage.is_ok());
+    stage.edit(broken);
+    stage.session.apply(Command::CompileNow);
+    stage.until_compiled();
+    assert_eq!(stage.session.compile_state().last, failed(Meanwhile::LastGood));
+
+    // Another project that has none: the one before is gone, and its picture with it.
+    stage.edit(&plain(0.2));
+    stage.session.apply(Command::Save);
+    let other = stage.dir.path().join("other");
+    fs::create_dir(&other).unwrap();
+    fs::write(other.join("image.glsl"), broken).unwrap();
+    stage.session.apply(Command::Open(other.to_str().unwrap().into()));
+    stage.until_compiled();
+    assert_eq!(stage.session.compile_state().last, failed(Meanwhile::Nothing));
+
+    // A channel that names nothing: an error, and the picture is the newest text's all the same.
+    stage.edit(&format!("#iChannel0 \"nothing of this name\"\n{}", plain(0.4)));
+    stage.session.apply(Command::CompileNow);
+    stage.until_compiled();
+    assert_eq!(stage.session.compile_state().last, failed(Meanwhile::Newest));
+    assert_eq!(stage.red(), 102);
+}
+
+#[test]
+fn nothing_unsaved_is_left_without_a_question() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.2))]);
+    stage.session.apply(Command::Close);
+    assert_eq!(stage.session.take_request(), Some(Request::Exit), "nothing to lose");
+
+    stage.edit(&plain(0.4));
+    for (command, then) in [
+        (Command::Close, Then::Close),
+        (Command::New, Then::New),
+        (Command::Open("no such thing".into()), Then::Open("no such thing".into())),
+    ] {
+        stage.session.apply(command);
+        assert_eq!(stage.session.question(), Some(&Question::Unsaved { then, tabs: vec![IMAGE] }));
+        stage.session.apply(Command::Answer(Answer::TakeDisk));
+        assert!(stage.session.question().is_some(), "an answer that does not fit changes nothing");
+        stage.session.apply(Command::Answer(Answer::Cancel));
+        assert!(stage.session.question().is_none() && stage.session.take_request().is_none());
+        assert_eq!(stage.session.text(&IMAGE), plain(0.4));
+    }
+    stage.session.apply(Command::Close);
+    stage.session.apply(Command::Answer(Answer::Save));
+    assert_eq!(stage.session.take_request(), Some(Request::Exit));
+    assert_eq!(stage.read("image.glsl"), plain(0.4));
+    assert!(!stage.session.is_dirty());
+}
+
+#[test]
+fn what_has_no_place_of_its_own_is_saved_where_the_user_says() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = Stage::bare(gpu);
+    stage.edit(&plain(0.4));
+    stage.session.apply(Command::AddTab(Tab::Common));
+    let channel = Some(Channel { input: Input::Keyboard, sampler: Sampler::KEYBOARD });
+    stage.session.apply(Command::SetChannel { pass: PassId::Image, index: 2, channel: channel.clone() });
+    stage.session.apply(Command::Close);
+    stage.session.apply(Command::Answer(Answer::Save));
+    assert_eq!(stage.session.take_request(), Some(Request::SaveAs { suggested_name: "Untitled".into() }));
+    assert!(stage.session.is_dirty(), "not saved yet");
+    // The folder holds a foreign file in the way: a question, and it stays until the answer.
+    stage.write("image.glsl", "somebody else's");
+    stage.session.apply(Command::SaveAs(stage.folder()));
+    assert!(matches!(stage.session.question(), Some(Question::Overwrite { .. })), "{:?}", stage.session.question());
+    assert_eq!(stage.read("image.glsl"), "somebody else's");
+    stage.session.apply(Command::Answer(Answer::Cancel));
+    assert!(stage.session.is_dirty() && stage.session.take_request().is_none());
+
+    let folder = stage.dir.path().join("elsewhere");
+    stage.session.apply(Command::Close);
+    stage.session.apply(Command::Answer(Answer::Save));
+    stage.session.take_request();
+    stage.session.apply(Command::SaveAs(folder.clone()));
+    assert_eq!(stage.session.take_request(), Some(Request::Exit), "{:?}", stage.session.notices());
+    let back = project::load(folder.to_str().unwrap()).unwrap().project;
+    assert_eq!(&*back.source(&IMAGE).unwrap().text, plain(0.4));
+    assert_eq!(back.pass(&PassId::Image).unwrap().channels[2], channel);
+    assert!(back.common.is_some());
+}
+
+#[test]
+fn a_failing_save_and_a_failing_open_lose_nothing() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.2))]);
+    stage.session.apply(Command::Open(stage.dir.path().join("gone").to_str().unwrap().into()));
+    assert_eq!(stage.notices(Level::Error).len(), 1);
+    assert_eq!(stage.session.text(&IMAGE), plain(0.2));
+    stage.edit(&plain(0.4));
+    fs::remove_dir_all(stage.folder()).unwrap();
+    fs::write(stage.folder(), "a file where the folder was").unwrap();
+    stage.session.apply(Command::Save);
+    assert_eq!(stage.notices(Level::Error).len(), 2, "{:?}", stage.session.notices());
+    assert!(stage.session.is_dirty());
+    assert_eq!(stage.session.text(&IMAGE), plain(0.4));
+}
+
+#[test]
+fn a_size_the_device_cannot_draw_is_told_once_and_the_old_one_stays() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = Stage::open(gpu, &[("image.glsl", &plain(0.2))]);
+    stage.session.apply(Command::SetFixedSize(Some((1 << 20, 4))));
+    stage.tick();
+    stage.tick();
+    assert_eq!(stage.notices(Level::Error).len(), 1);
+    assert_eq!(stage.session.transport().resolution, (8, 4));
+    stage.session.apply(Command::SetFixedSize(Some((0, 0))));
+    stage.tick();
+    assert_eq!(stage.notices(Level::Error).len(), 2);
+    stage.session.apply(Command::SetFixedSize(None));
+    stage.session.apply(Command::SetViewport { width: 31, height: 17 });
+    stage.session.apply(Command::SetScale(0.5));
+    stage.tick();
+    assert_eq!(stage.session.transport().resolution, (15, 8));
+    stage.session.apply(Command::SetViewport { width: 0, height: 17 });
+    stage.session.apply(Command::SetScale(0.001));
+    stage.tick();
+    assert_eq!(stage.session.transport().resolution, (1, 1), "at least one pixel");
+}
+
+#[test]
+fn removing_a_tab_with_a_text_asks_first() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = Stage::open(gpu, &[("buffer_a.glsl", HISTORY), ("image.glsl", SHOW)]);
+    let tab = Tab::Pass(PassId::Buffer("A".into()));
+    stage.session.apply(Command::RemoveTab(tab.clone()));
+    assert_eq!(stage.session.question(), Some(&Question::RemoveTab(tab.clone())));
+    stage.session.apply(Command::Answer(Answer::Cancel));
+    assert!(stage.session.tabs().contains(&tab));
+    stage.session.apply(Command::RemoveTab(tab.clone()));
+    stage.session.apply(Command::Answer(Answer::Remove));
+    assert!(!stage.session.tabs().contains(&tab) && stage.session.is_dirty());
+    stage.session.apply(Command::RemoveTab(IMAGE));
+    assert!(stage.session.tabs().contains(&IMAGE), "Image stays");
+    let other = Tab::Pass(PassId::Buffer("B".into()));
+    stage.session.apply(Command::AddTab(other.clone()));
+    stage.session.apply(Command::RemoveTab(other));
+    assert!(stage.session.question().is_none(), "nobody's text is lost with an untouched one");
+}
+
+#[test]
+fn a_session_ends_while_it_compiles() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut session = Session::new(gpu, Arc::new(|| ())).unwrap();
+    session.tick(Instant::now());
+    drop(session);
+}
+
+#[test]
+fn channel_lines_in_a_lone_file_count_as_they_are_typed() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = Stage::bare(gpu);
+    stage.write("lone.glsl", plain(0.2));
+    stage.session.apply(Command::Open(stage.path("lone.glsl").to_str().unwrap().into()));
+    stage.session.apply(Command::Pause);
+    let channels = |stage: &Stage| stage.session.project().pass(&PassId::Image).unwrap().channels.clone();
+    stage.edit(&format!("#iChannel1 \"keyboard\"\n{}", plain(0.4)));
+    assert!(matches!(&channels(&stage)[1], Some(c) if c.input == Input::Keyboard));
+    stage.session.apply(Command::CompileNow);
+    stage.until_compiled();
+    assert!(stage.is_ok(), "{:?}", stage.session.diagnostics());
+    stage.session.apply(Command::Save);
+    assert!(!stage.session.is_dirty(), "{:?}", stage.session.notices());
+    assert!(stage.read("lone.glsl").starts_with("#iChannel1"));
+    stage.edit(&format!("#iChannel1 \"keybord\"\n{}", plain(0.4)));
+    stage.session.apply(Command::CompileNow);
+    stage.until_compiled();
+    let d = &stage.session.diagnostics()[0];
+    assert_eq!((d.tab(), line(d)), (Some(&IMAGE), Some(1)), "{d:?}");
+    stage.edit(&plain(0.4));
+    assert!(channels(&stage)[1].is_none());
+}

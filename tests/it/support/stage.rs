@@ -1,0 +1,162 @@
+//! A session without a window, ticked by hand, and a project's folder to go with it.
+
+use eddy::{
+    gpu::Gpu,
+    project::{PassId, Tab},
+    session::{Command, Level, Outcome, Session, SessionOptions, Tick},
+};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+pub const IMAGE: Tab = Tab::Pass(PassId::Image);
+
+/// An Image pass of one colour.
+pub fn plain(red: f32) -> String {
+    format!("void mainImage(out vec4 o, in vec2 p) {{\n    o = vec4({red:?}, 0.0, 0.0, 1.0);\n}}\n")
+}
+
+pub struct Stage {
+    pub session: Session,
+    pub dir: tempfile::TempDir,
+    frames: u32,
+}
+
+impl Stage {
+    /// A paused session of 8x4 pixels with the given files open as a folder, its first frame drawn.
+    pub fn open(gpu: Gpu, files: &[(&str, &str)]) -> Stage {
+        let mut stage = Self::bare(gpu);
+        for (name, text) in files {
+            stage.write(name, text);
+        }
+        let folder = stage.folder();
+        stage.session.apply(Command::Open(folder.to_str().unwrap().into()));
+        stage.session.apply(Command::Pause);
+        stage.until_compiled();
+        stage
+    }
+
+    pub fn bare(gpu: Gpu) -> Stage {
+        let dir = tempfile::tempdir().unwrap();
+        fs::create_dir(dir.path().join("project")).unwrap();
+        let options = SessionOptions {
+            pictures: dir.path().join("pictures"),
+            retry_for: Duration::from_millis(400),
+            ..SessionOptions::default()
+        };
+        let mut session = Session::with_options(gpu, Arc::new(|| ()), options).unwrap();
+        session.apply(Command::SetFixedSize(Some((8, 4))));
+        Stage { session, dir, frames: 0 }
+    }
+
+    pub fn folder(&self) -> PathBuf {
+        self.dir.path().join("project")
+    }
+
+    pub fn path(&self, name: &str) -> PathBuf {
+        self.folder().join(name)
+    }
+
+    pub fn write(&self, name: &str, text: impl AsRef<[u8]>) {
+        fs::write(self.path(name), text).unwrap();
+    }
+
+    pub fn read(&self, name: &str) -> String {
+        fs::read_to_string(self.path(name)).unwrap()
+    }
+
+    pub fn tick(&mut self) -> Tick {
+        let tick = self.session.tick(Instant::now());
+        self.frames += u32::from(tick.frame_drawn);
+        tick
+    }
+
+    /// Lets the watcher tell of what was written before the session began to watch: until nothing is pending for a
+    /// while.
+    pub fn settle(&mut self) {
+        let mut quiet = 0;
+        while quiet < 15 {
+            std::thread::sleep(Duration::from_millis(20));
+            quiet = if self.tick().wake_at.is_none() { quiet + 1 } else { 0 };
+        }
+    }
+
+    /// Frames drawn so far.
+    pub fn frames(&self) -> u32 {
+        self.frames
+    }
+
+    /// Ticks until something is so.
+    pub fn until(&mut self, what: &str, condition: impl Fn(&Session) -> bool) {
+        let end = Instant::now() + Duration::from_secs(30);
+        while !condition(&self.session) {
+            assert!(Instant::now() < end, "never: {what}; notices: {:#?}", self.session.notices());
+            self.tick();
+            std::thread::sleep(Duration::from_millis(2));
+        }
+    }
+
+    /// Ticks for a while: for what must not happen.
+    pub fn for_a_while(&mut self) {
+        let end = Instant::now() + Duration::from_millis(700);
+        while Instant::now() < end {
+            self.tick();
+            std::thread::sleep(Duration::from_millis(5));
+        }
+    }
+
+    pub fn until_compiled(&mut self) {
+        self.until("a finished compile", |s| !s.compile_state().compiling && s.compile_state().last.is_some());
+        self.tick();
+    }
+
+    pub fn is_ok(&self) -> bool {
+        matches!(self.session.compile_state().last, Some(Outcome::Ok { .. }))
+    }
+
+    pub fn edit(&mut self, text: &str) {
+        self.session.apply(Command::EditText { tab: IMAGE, text: text.into() });
+    }
+
+    pub fn notices(&self, level: Level) -> Vec<&str> {
+        self.session.notices().iter().filter(|n| n.level == level).map(|n| n.text.as_str()).collect()
+    }
+
+    /// How many notices of any level begin so.
+    pub fn count(&self, start: &str) -> usize {
+        self.session.notices().iter().filter(|n| n.text.starts_with(start)).count()
+    }
+
+    /// Red of the picture's first pixel, by the way of a screenshot.
+    pub fn red(&mut self) -> u8 {
+        let path = self.screenshot();
+        image::open(&path).unwrap().to_rgba8().get_pixel(0, 0).0[0]
+    }
+
+    /// Ticks until the picture's first pixel is so red. A compile can begin and end within one tick, so to wait for one
+    /// to begin can be to wait for ever: what it leads to is what to wait for.
+    pub fn until_red(&mut self, red: u8) {
+        let end = Instant::now() + Duration::from_secs(30);
+        while self.red() != red {
+            assert!(Instant::now() < end, "never {red}; notices: {:#?}", self.session.notices());
+            self.for_a_while();
+        }
+    }
+
+    pub fn screenshot(&mut self) -> PathBuf {
+        self.session.apply(Command::Screenshot);
+        let notice = self.session.notices().last().unwrap();
+        let path = notice.text.strip_prefix("saved ").unwrap_or_else(|| panic!("{}", notice.text));
+        PathBuf::from(path)
+    }
+}
+
+/// As many editors save: a new file, renamed over the old one.
+pub fn replace(path: &Path, text: &str) {
+    let new = path.with_extension("tmp~");
+    fs::write(&new, text).unwrap();
+    fs::rename(new, path).unwrap();
+}

@@ -1,0 +1,8 @@
+//! End to end: the real window on a display of its own, moved by real mouse and key events.
+
+#[path = "../it/support/mod.rs"]
+mod support;
+
+mod window;
+mod window_editor;
+mod window_lab;

@@ -1,0 +1,158 @@
+//! End to end: help while writing, in the real window, by real key events, judged by the files it saves.
+
+use crate::support::window::{Display, Window};
+use std::{fs, path::Path};
+
+const COMMON: &str =
+    "// How bright it is around a point.\nfloat brightness(vec2 p, float radius) { return radius / length(p); }\n";
+const IMAGE: &str = "void mainImage(out vec4 fragColor, in vec2 fragCoord)\n{\n    vec2 uv = fragCoord / \
+                     iResolution.xy;\n    fragColor = vec4(brightness(uv, 0.1));\n    \n}\n";
+
+fn open<'a>(display: &'a Display, home: &Path) -> Window<'a> {
+    let folder = home.join("project");
+    fs::create_dir_all(&folder).unwrap();
+    fs::write(folder.join("common.glsl"), COMMON).unwrap();
+    fs::write(folder.join("image.glsl"), IMAGE).unwrap();
+    let mut window = Window::open(display, home, &[folder.to_str().unwrap()]);
+    window.wait_until("the first compile", "compiled", |e| e["compiling"] == false);
+    window.click_on("editor");
+    window
+}
+
+/// Puts the caret at a line and column, both from 1.
+fn go_to(window: &mut Window, line: usize, column: usize) {
+    window.keys(&["ctrl+Home"]);
+    window.keys(&vec!["Down"; line - 1]);
+    window.keys(&vec!["Right"; column - 1]);
+}
+
+/// Saves, and gives a file's text.
+fn saved(window: &mut Window, home: &Path, file: &str) -> String {
+    window.wait_until("the text to be unsaved", "dirty", |e| e["dirty"] == true);
+    window.keys(&["ctrl+s"]);
+    window.wait_until("the project to be saved", "dirty", |e| e["dirty"] == false);
+    fs::read_to_string(home.join("project").join(file)).unwrap()
+}
+
+fn shows(window: &mut Window, what: &str) {
+    window.wait_until(&format!("{what} to be shown"), "layout", |e| e["rects"][what].is_array());
+}
+
+fn hides(window: &mut Window, what: &str) {
+    window.wait_until(&format!("{what} to be hidden"), "layout", |e| e["rects"][what].is_null());
+}
+
+/// Where `EDDY_SHOTS` says: pictures for a person to look at.
+fn photograph(display: &Display, name: &str) {
+    if let Some(folder) = std::env::var_os("EDDY_SHOTS") {
+        // Popups fade in.
+        std::thread::sleep(std::time::Duration::from_millis(600));
+        display.photograph(&Path::new(&folder).join(name));
+    }
+}
+
+#[test]
+fn a_proposal_is_taken_by_enter_and_a_call_shows_what_it_takes() {
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let mut window = open(&display, home.path());
+    go_to(&mut window, 5, 5);
+    window.type_text("vec3 n = norm");
+    shows(&mut window, "completion:normalize");
+    photograph(&display, "completion.png");
+    window.keys(&["Return"]);
+    hides(&mut window, "completions");
+    window.type_text("(");
+    shows(&mut window, "signature");
+    photograph(&display, "signature.png");
+    // What the author declared comes first, also from Common, and members follow from the type.
+    window.type_text("vec3(bri");
+    shows(&mut window, "completion:brightness");
+    window.keys(&["Tab"]);
+    hides(&mut window, "completions");
+    window.type_text("(fragCoord.");
+    shows(&mut window, "completion:xy");
+    photograph(&display, "members.png");
+    window.type_text("x");
+    // A word that is whole already leaves Enter to the text.
+    window.type_text("y, 1.0)));");
+    hides(&mut window, "completions");
+    window.keys(&["Return"]);
+    window.type_text("float speed = uv.x");
+    window.keys(&["Return"]);
+    window.type_text("+ spee");
+    window.keys(&["Escape"]);
+    hides(&mut window, "completions");
+    window.type_text("x;");
+    let text = saved(&mut window, home.path(), "image.glsl");
+    let wanted = "    vec3 n = normalize(vec3(brightness(fragCoord.xy, 1.0)));\n    float speed = uv.x\n    + speex;\n";
+    assert!(text.contains(wanted), "{text}");
+}
+
+#[test]
+fn the_way_leads_from_a_name_to_its_declaration_and_to_its_uses() {
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let mut window = open(&display, home.path());
+    go_to(&mut window, 4, 25);
+    // The list has the declaration in Common and the use here.
+    window.keys(&["shift+F12"]);
+    shows(&mut window, "use:1");
+    window.wait_until("two uses and no more", "layout", |e| e["rects"]["use:2"].is_null());
+    photograph(&display, "uses.png");
+    window.keys(&["Escape"]);
+    hides(&mut window, "use:0");
+    window.keys(&["F12"]);
+    // Common has no channels.
+    hides(&mut window, "channel:0");
+    // The name in Common is selected now: typing replaces it there.
+    window.type_text("glow");
+    let text = saved(&mut window, home.path(), "common.glsl");
+    assert_eq!(text, COMMON.replace("brightness", "glow"));
+}
+
+#[test]
+fn a_pointer_at_rest_is_told_what_it_is_on() {
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let mut window = open(&display, home.path());
+    let layout = window.newest("layout").unwrap();
+    let left = layout["rects"]["editor"][0].as_f64().unwrap();
+    let top = layout["rects"]["editor"][1].as_f64().unwrap();
+    // `mainImage` begins the text, behind `void `.
+    window.move_to((left as i64 + 70, top as i64 + 10));
+    shows(&mut window, "hover");
+    photograph(&display, "hover.png");
+    window.move_to((left as i64 + 70, top as i64 + 260));
+    hides(&mut window, "hover");
+}
+
+/// The strip under the editor offers each target of a pass that draws meshes.
+#[test]
+fn a_channel_is_given_a_further_target_by_the_mouse() {
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("project");
+    fs::create_dir_all(&folder).unwrap();
+    let toml = "[passes.buffer_scene]\ntargets = [\"rgba8\", \"rgba16f\"]\n\
+                draw = [{ mesh = \"builtin:cube\", vertex = \"cube.vert.glsl\" }]\n\n\
+                [passes.image]\nchannels.0 = { buffer = \"scene\" }\n";
+    fs::write(folder.join("eddy.toml"), toml).unwrap();
+    let vertex =
+        "in vec3 aPosition; void main() { gl_Position = iProjection * iView * iModel * vec4(aPosition, 1.0); }\n";
+    fs::write(folder.join("cube.vert.glsl"), vertex).unwrap();
+    let fragment = "layout(location = 0) out vec4 a; layout(location = 1) out vec4 b;\n\
+                    void main() { a = vec4(1, 0, 0, 1); b = vec4(0, 1, 0, 1); }\n";
+    fs::write(folder.join("buffer_scene.glsl"), fragment).unwrap();
+    let image = "void mainImage(out vec4 o, vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }\n";
+    fs::write(folder.join("image.glsl"), image).unwrap();
+    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
+    window.wait_until("the first compile", "compiled", |e| e["compiling"] == false);
+    window.click_on("channel:0");
+    shows(&mut window, "choose:buffer:scene:1");
+    photograph(&display, "targets.png");
+    window.click_on("choose:buffer:scene:1");
+    saved(&mut window, home.path(), "image.glsl");
+    let toml = fs::read_to_string(folder.join("eddy.toml")).unwrap();
+    assert!(toml.contains("target = 1"), "{toml}");
+}

@@ -1,0 +1,115 @@
+//! End to end: the lab's panel and the table of costs in the real window, by real mouse and key events.
+
+use crate::support::window::{Display, Window};
+use serde_json::Value;
+use std::{fs, path::Path};
+
+/// Where `EDDY_SHOTS` says: pictures for a person to look at.
+fn photograph(display: &Display, name: &str) {
+    if let Some(folder) = std::env::var_os("EDDY_SHOTS") {
+        std::thread::sleep(std::time::Duration::from_millis(600));
+        display.photograph(&Path::new(&folder).join(name));
+    }
+}
+
+fn compiled(window: &mut Window) {
+    window.wait_until("a compile", "compiled", |e| e["compiling"] == false && e["ok"] == true);
+}
+
+/// The points that lie in the plot, as `METHOD:SETTING`.
+fn points(layout: &Value) -> Vec<String> {
+    let names = layout["rects"].as_object().into_iter().flat_map(|rects| rects.keys());
+    names.filter_map(|name| Some(name.strip_prefix("lab:point:")?.to_owned())).collect()
+}
+
+#[test]
+fn a_study_runs_behind_the_window_and_a_click_on_a_point_opens_its_project() {
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("project");
+    fs::create_dir_all(&folder).unwrap();
+    fs::write(folder.join("image.glsl"), "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }\n").unwrap();
+    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
+    compiled(&mut window);
+    window.resize(1000, 700);
+    window.wait_until("the new size", "layout", |e| e["window"] == serde_json::json!([1000, 700]));
+    // One processor draws both.
+    window.keys(&["alt+Up"]);
+    window.wait_until("the pause", "frame", |e| e["playing"] == false);
+
+    window.keys(&["ctrl+shift+l"]);
+    window.click_on("lab:study");
+    window.click_on("lab:study:blur");
+    window.wait_until("the study", "lab", |e| e["study"] == "blur" && e["points"] == 0);
+    window.click_on("lab:start");
+    window.wait_until("the run", "lab", |e| e["running"] == "blur");
+
+    // The window answers while points come.
+    window.click_on("editor");
+    window.type_text("// ");
+    window.wait_until("what was typed", "dirty", |e| e["dirty"] == true);
+    for wanted in 1..=3 {
+        window.wait_until("a point", "lab", |e| e["points"].as_u64() >= Some(wanted));
+    }
+    assert_eq!(window.newest("lab").unwrap()["running"], "blur", "plotted while it runs");
+    photograph(&display, "lab-running.png");
+    window.click_on("lab:stop");
+    window.wait_until("the end of the run", "lab", |e| e["running"].is_null() && e["told"].is_null());
+
+    let layout = window.wait_until("points in the plot", "layout", |e| points(e).len() >= 2);
+    let point = points(&layout).pop().unwrap();
+    window.click_on(&format!("lab:point:{point}"));
+    // The open project has an unsaved change, which is asked about as ever.
+    window.wait_until("the question", "question", |e| e["kind"] == "unsaved");
+    window.click_on("answer:discard");
+    let name = format!("blur {}", point.replace(':', " "));
+    let opened = window.wait_until("the point's project", "opened", |e| e["name"] == name.as_str());
+    assert!(opened["origin"].is_null(), "{opened}");
+    compiled(&mut window);
+    // On the study's own canvas.
+    window.wait_until("the canvas", "layout", |e| e["canvas"] == serde_json::json!([256, 256]));
+    photograph(&display, "lab-opened.png");
+
+    // Another project has the view's size again.
+    window.keys(&["ctrl+n"]);
+    window.wait_until("the view's size", "layout", |e| e["canvas"][0] != e["canvas"][1]);
+    assert_eq!(window.complaints(), "");
+}
+
+#[test]
+fn the_table_of_costs_names_every_pass_and_closes_again() {
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("project");
+    fs::create_dir_all(&folder).unwrap();
+    let write = |name: &str, text: &str| fs::write(folder.join(name), text).unwrap();
+    write(
+        "buffer_a.glsl",
+        "#iChannel0 \"self\"\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(iTime) + texelFetch(iChannel0, \
+         ivec2(p), 0); }\n",
+    );
+    write("buffer_b.glsl", "void mainImage(out vec4 o, in vec2 p) { o = vec4(iTime); }\n");
+    let image = "#iChannel0 \"file://buffer_a.glsl\"\nvoid mainImage(out vec4 o, in vec2 p) { o = \
+                 texelFetch(iChannel0, ivec2(p), 0); }\n";
+    write("image.glsl", image);
+    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
+    compiled(&mut window);
+    assert!(window.newest("costs").is_none(), "nothing is gathered while the table is closed");
+
+    window.click_on("button:costs");
+    let timed =
+        |e: &Value| e["passes"].as_array().is_some_and(|p| p.iter().filter(|p| p["timed"] == true).count() == 2);
+    let costs = window.wait_until("times of both passes", "costs", timed);
+    let layout = window.newest("layout").unwrap();
+    let texels = layout["canvas"][0].as_u64().unwrap() * layout["canvas"][1].as_u64().unwrap();
+    let seen: Vec<_> =
+        costs["passes"].as_array().unwrap().iter().map(|p| (p["pass"].clone(), p["drawn"].clone())).collect();
+    let said = |name: &str, drawn: bool| (Value::from(name), Value::from(drawn));
+    assert_eq!(seen, [said("Buffer A", true), said("Image", true), said("Buffer B", false)]);
+    assert!(costs["passes"][1]["moved_bytes"].as_u64() <= Some(32 * texels), "{costs} for {texels} texels");
+    window.wait_until("its sum", "layout", |e| e["rects"]["costs:sum"].is_array());
+    photograph(&display, "costs.png");
+
+    window.keys(&["ctrl+shift+m"]);
+    window.wait_until("the table to be closed", "layout", |e| e["rects"]["costs:sum"].is_null());
+}
