@@ -9,8 +9,8 @@ impl Function {
         let mut old = std::mem::replace(self, Function::new(self.result));
         self.params = std::mem::take(&mut old.params);
         let mut vars = std::mem::take(&mut old.vars);
-        self.reserve(old.ops.len());
-        let mut compact = Compact { map: vec![None; old.ops.len()], old, new: self };
+        self.reserve(old.nodes.len());
+        let mut compact = Compact { map: vec![None; old.nodes.len()], old, new: self };
         for var in &mut vars {
             var.init = var.init.map(|init| compact.value(init));
         }
@@ -39,7 +39,7 @@ impl Compact<'_> {
 
     /// Each is moved once.
     fn take(&mut self, old: Value) -> Op {
-        std::mem::replace(&mut self.old.ops[old.index()], Op::OpaqueZero)
+        std::mem::replace(&mut self.old.nodes[old.index()].op, Op::OpaqueZero)
     }
 
     fn append(&mut self, old: Value, op: Op) -> Value {

@@ -104,9 +104,16 @@ pub struct Function {
     pub result: TypeId,
     pub vars: Vec<Var>,
     pub body: Block,
-    ops: Vec<Op>,
-    types: Vec<TypeId>,
-    locs: Vec<Loc>,
+    /// By [`Value::index`].
+    nodes: Vec<Node>,
+}
+
+/// What computes a value, its type, and the part of the text that it is computed for.
+#[derive(Clone, Debug)]
+struct Node {
+    op: Op,
+    ty: TypeId,
+    loc: Loc,
 }
 
 /// A parameter.
@@ -238,42 +245,38 @@ impl Function {
 
     /// Makes room for so many more values.
     pub fn reserve(&mut self, values: usize) {
-        self.ops.reserve(values);
-        self.types.reserve(values);
-        self.locs.reserve(values);
+        self.nodes.reserve(values);
     }
 
     /// Appends an op, for a statement to compute, or a free one.
     pub fn append(&mut self, op: Op, ty: TypeId, loc: Loc) -> Value {
-        self.ops.push(op);
-        self.types.push(ty);
-        self.locs.push(loc);
-        Value::new(self.ops.len() - 1)
+        self.nodes.push(Node { op, ty, loc });
+        Value::new(self.nodes.len() - 1)
     }
 
     /// Puts another op in the place of the one that computes a value, which it returns. Its type stays.
     pub fn replace(&mut self, value: Value, op: Op) -> Op {
-        std::mem::replace(&mut self.ops[value.index()], op)
+        std::mem::replace(&mut self.nodes[value.index()].op, op)
     }
 
     /// The type of a value, or of what a place holds.
     pub fn ty(&self, value: Value) -> TypeId {
-        self.types[value.index()]
+        self.nodes[value.index()].ty
     }
 
     /// The part of the text that a value is computed for.
     pub fn loc(&self, value: Value) -> Loc {
-        self.locs[value.index()]
+        self.nodes[value.index()].loc
     }
 
     /// How many values there are.
     pub fn len(&self) -> usize {
-        self.ops.len()
+        self.nodes.len()
     }
 
     /// All values, computed or not.
     pub fn values(&self) -> impl Iterator<Item = (Value, &Op)> {
-        self.ops.iter().enumerate().map(|(i, op)| (Value::new(i), op))
+        self.nodes.iter().enumerate().map(|(i, node)| (Value::new(i), &node.op))
     }
 
     pub fn add_var(&mut self, ty: TypeId) -> VarId {
@@ -303,7 +306,7 @@ impl Function {
         });
         let ops: Vec<Op> = ops.collect();
         self.vars = kept;
-        for op in &mut self.ops {
+        for Node { op, .. } in &mut self.nodes {
             if let Op::Var(var) = *op {
                 *op = ops[var.index()].clone();
             }
@@ -332,7 +335,7 @@ impl std::ops::Index<Value> for Function {
     type Output = Op;
 
     fn index(&self, value: Value) -> &Op {
-        &self.ops[value.index()]
+        &self.nodes[value.index()].op
     }
 }
 
@@ -348,8 +351,8 @@ impl Module {
         let Some(entry) = called.last_mut() else { return };
         *entry = true;
         for (index, function) in self.functions.iter().enumerate().rev() {
-            let ops = if called[index] { &function.ops[..] } else { &[] };
-            for op in ops {
+            let nodes = if called[index] { &function.nodes[..] } else { &[] };
+            for Node { op, .. } in nodes {
                 if let Op::Call { function, .. } = op {
                     called[function.index()] = true;
                 }
@@ -364,7 +367,7 @@ impl Module {
         let mut called = called.into_iter();
         self.functions.retain(|_| called.next() == Some(true));
         for function in &mut self.functions {
-            for op in &mut function.ops {
+            for Node { op, .. } in &mut function.nodes {
                 if let Op::Call { function, .. } = op {
                     *function = new[function.index()].expect("a called function is kept");
                 }

@@ -109,8 +109,7 @@ impl Zeros {
     fn function(&mut self, program: &Module, index: usize, f: &Function, stores: &[&Stmt]) {
         let mut values = std::mem::take(&mut self.values[index]);
         for (value, op) in f.values() {
-            let zero = self.value(program, index, f, op, &values);
-            set(&mut values[value.index()], zero, &mut self.changed);
+            values[value.index()] = self.value(program, index, f, (value, op), &values);
         }
         for (var, zero) in f.vars.iter().zip(&mut self.vars[index]) {
             set(zero, var.init.is_some_and(|init| values[init.index()]), &mut self.changed);
@@ -125,8 +124,9 @@ impl Zeros {
         self.values[index] = values;
     }
 
-    fn value(&mut self, program: &Module, index: usize, f: &Function, op: &Op, values: &[bool]) -> bool {
-        let is_zero = |value: Value| values[value.index()];
+    fn value(&mut self, program: &Module, index: usize, f: &Function, (of, op): (Value, &Op), values: &[bool]) -> bool {
+        // What is computed later by its number, though not by its statement, may be anything.
+        let is_zero = |value: Value| values[value.index()] || value > of;
         match *op {
             Op::Literal(_, bits) => bits << 1 == 0,
             Op::Zero(_) => true,

@@ -8,11 +8,9 @@
 
 mod choose;
 
-use rustc_hash::FxHashMap;
-
 use crate::glsl::{
     ast::Loc,
-    ir::{Block, Case, Function, Module, Op, Stmt, Value, Var},
+    ir::{Block, Case, Function, Module, Op, Stmt, Value, Var, VarId},
     types::{Scalar, TypeId},
 };
 
@@ -44,39 +42,10 @@ fn inline_calls(caller: &mut Function, callees: &[Function], inlined: &[bool], n
     caller.reserve(caller.values().map(|(_, op)| of_call(op)).sum());
     let body = std::mem::take(&mut caller.body);
     let map = (0..caller.len()).map(Value::new).collect();
-    let mut inliner = Inliner {
-        free: FreeValues::of(caller),
-        f: caller,
-        callees,
-        inlined,
-        needs_flag,
-        map,
-        out: Block::new(),
-        loops: 0,
-    };
+    let mut inliner = Inliner { f: caller, callees, inlined, needs_flag, map, out: Block::new(), loops: 0 };
     inliner.block(body);
     let body = std::mem::take(&mut inliner.out);
     caller.body = body;
-}
-
-/// Free values that are the same wherever they are used: one for each.
-#[derive(Default)]
-struct FreeValues(FxHashMap<(u8, u32, u32), Value>);
-
-impl FreeValues {
-    fn of(f: &Function) -> Self {
-        Self(f.values().filter_map(|(value, op)| Some((Self::key(op)?, value))).collect())
-    }
-
-    fn key(op: &Op) -> Option<(u8, u32, u32)> {
-        Some(match *op {
-            Op::Literal(scalar, bits) => (scalar as u8, bits, 0),
-            Op::Zero(ty) => (8, ty.0, 0),
-            Op::Const(id) => (9, id.index() as u32, 0),
-            Op::Global(id) => (10, id.index() as u32, 0),
-            _ => return None,
-        })
-    }
 }
 
 struct Inliner<'a> {
@@ -84,7 +53,6 @@ struct Inliner<'a> {
     callees: &'a [Function],
     inlined: &'a [bool],
     needs_flag: &'a [bool],
-    free: FreeValues,
     /// What stands for each value that the caller had: the results of calls change.
     map: Vec<Value>,
     out: Block,
@@ -96,14 +64,25 @@ struct Inliner<'a> {
 struct Site<'a> {
     callee: &'a Function,
     args: Box<[Value]>,
-    /// What each value of the callee became.
-    map: Vec<Option<Value>>,
+    /// The caller has the callee's values from this number on, and its variables from that.
+    first_value: usize,
+    first_var: usize,
     /// Where the result goes.
     result: Option<Value>,
     /// Where it says that the function has returned.
     flag: Option<Value>,
     /// Loops and switches of the callee around the code at hand.
     breakable: usize,
+}
+
+impl Site<'_> {
+    /// What a value of the callee became.
+    fn value(&self, old: Value) -> Value {
+        match self.callee[old] {
+            Op::Param(index) => self.args[index as usize],
+            _ => Value::new(self.first_value + old.index()),
+        }
+    }
 }
 
 impl Inliner<'_> {
@@ -117,14 +96,8 @@ impl Inliner<'_> {
         std::mem::replace(&mut self.out, outer)
     }
 
-    fn free(&mut self, op: &Op, ty: TypeId, loc: Loc) -> Value {
-        let key = FreeValues::key(op).expect("the op of a free value");
-        let f = &mut *self.f;
-        *self.free.0.entry(key).or_insert_with(|| f.append(op.clone(), ty, loc))
-    }
-
     fn flag_literal(&mut self, is_set: bool) -> Value {
-        self.free(&Op::Literal(Scalar::Bool, is_set.into()), TypeId::BOOL, Loc::default())
+        self.f.append(Op::Literal(Scalar::Bool, is_set.into()), TypeId::BOOL, Loc::default())
     }
 
     fn temporary(&mut self, ty: TypeId, loc: Loc) -> Value {
@@ -188,8 +161,10 @@ impl Inliner<'_> {
     /// Does what a function does; `call` is the value that the caller had of it.
     fn inline(&mut self, function: usize, args: Box<[Value]>, call: Value) {
         let callee = &self.callees[function];
-        let mut site = Site { callee, args, map: vec![None; callee.len()], result: None, flag: None, breakable: 0 };
-        self.variables(&mut site);
+        let (first_value, first_var) = (self.f.len(), self.f.vars.len());
+        let mut site = Site { callee, args, first_value, first_var, result: None, flag: None, breakable: 0 };
+        self.values(&site);
+        self.variables(&site);
         let (last, before) = match callee.body.split_last() {
             Some((Stmt::Return(Some(last)), before)) => (Some(*last), before),
             _ => (None, &callee.body[..]),
@@ -197,7 +172,7 @@ impl Inliner<'_> {
         let is_straight = !before.iter().any(returns);
         if let (Some(last), true) = (last, is_straight) {
             before.iter().for_each(|stmt| self.statement(&mut site, stmt));
-            self.map[call.index()] = self.of_callee(&mut site, last);
+            self.map[call.index()] = site.value(last);
             return;
         }
         let loc = self.f.loc(call);
@@ -213,34 +188,40 @@ impl Inliner<'_> {
         }
     }
 
-    /// The callee's variables become the caller's. In a loop they begin anew in each round.
-    fn variables(&mut self, site: &mut Site<'_>) {
+    /// The callee's values become the caller's, in their order.
+    fn values(&mut self, site: &Site<'_>) {
         for (value, op) in site.callee.values() {
-            let Op::Var(id) = *op else { continue };
-            let Var { ty, init, is_temporary } = site.callee.vars[id.index()];
-            let init = init.map(|init| self.of_callee(site, init));
-            let place = self.temporary(ty, site.callee.loc(value));
-            site.map[value.index()] = Some(place);
-            let Op::Var(id) = self.f[place] else { unreachable!("a variable was made") };
-            self.f.vars[id.index()].is_temporary = is_temporary;
-            match init {
-                Some(value) if self.loops > 0 => self.out.push(Stmt::Store { place, value }),
-                init => self.f.vars[id.index()].init = init,
-            }
+            let op = match *op {
+                // An argument stands for it.
+                Op::Param(_) => Op::OpaqueZero,
+                Op::Var(id) => Op::Var(VarId::new(site.first_var + id.index())),
+                ref op => {
+                    let mut op = op.clone();
+                    op.operands_mut(|operand| *operand = site.value(*operand));
+                    op
+                }
+            };
+            self.f.append(op, site.callee.ty(value), site.callee.loc(value));
         }
     }
 
-    /// What a value of the callee became.
-    fn of_callee(&mut self, site: &mut Site<'_>, old: Value) -> Value {
-        if let Some(new) = site.map[old.index()] {
-            return new;
+    /// So do its variables. In a loop they begin anew in each round.
+    fn variables(&mut self, site: &Site<'_>) {
+        let first = self.f.vars.len();
+        let is_repeated = self.loops > 0;
+        self.f.vars.extend(site.callee.vars.iter().map(|var| {
+            let init = var.init.filter(|_| !is_repeated).map(|init| site.value(init));
+            Var { init, ..*var }
+        }));
+        if is_repeated {
+            for (index, var) in site.callee.vars.iter().enumerate() {
+                if let Some(init) = var.init {
+                    let id = VarId::new(first + index);
+                    let place = self.f.append(Op::Var(id), var.ty, Loc::default());
+                    self.out.push(Stmt::Store { place, value: site.value(init) });
+                }
+            }
         }
-        let new = match site.callee[old] {
-            Op::Param(index) => site.args[index as usize],
-            ref op => self.free(op, site.callee.ty(old), site.callee.loc(old)),
-        };
-        site.map[old.index()] = Some(new);
-        new
     }
 
     /// Statements of the callee outside of its loops and switches: what follows one that may return becomes part of a branch.
@@ -253,7 +234,7 @@ impl Inliner<'_> {
         list.into_iter().for_each(|stmt| self.statement(site, stmt));
         match stmt {
             Stmt::If { condition, accept, reject } => {
-                let condition = self.of_callee(site, *condition);
+                let condition = site.value(*condition);
                 let with = |block: &'a Block, rest: &mut Vec<&'a Stmt>| -> Vec<&'a Stmt> {
                     block.iter().chain(rest.drain(..)).collect()
                 };
@@ -287,15 +268,9 @@ impl Inliner<'_> {
     /// A statement of the callee. A `Return` in it stands at the end, or in a loop or switch.
     fn statement(&mut self, site: &mut Site<'_>, stmt: &Stmt) {
         let copy = match stmt {
-            Stmt::Let(value) => {
-                let mut op = site.callee[*value].clone();
-                op.operands_mut(|operand| *operand = self.of_callee(site, *operand));
-                let new = self.f.append(op, site.callee.ty(*value), site.callee.loc(*value));
-                site.map[value.index()] = Some(new);
-                Stmt::Let(new)
-            }
+            Stmt::Let(value) => Stmt::Let(site.value(*value)),
             Stmt::If { condition, accept, reject } => {
-                let condition = self.of_callee(site, *condition);
+                let condition = site.value(*condition);
                 Stmt::If { condition, accept: self.copy(site, accept), reject: self.copy(site, reject) }
             }
             Stmt::Loop { body, continuing, break_if } => {
@@ -304,10 +279,10 @@ impl Inliner<'_> {
                 let (body, continuing) = (self.copy(site, body), self.copy(site, continuing));
                 self.loops -= 1;
                 site.breakable -= 1;
-                Stmt::Loop { body, continuing, break_if: break_if.map(|value| self.of_callee(site, value)) }
+                Stmt::Loop { body, continuing, break_if: break_if.map(|value| site.value(value)) }
             }
             Stmt::Switch { selector, cases } => {
-                let selector = self.of_callee(site, *selector);
+                let selector = site.value(*selector);
                 site.breakable += 1;
                 let cases = cases.iter().map(|case| Case { body: self.copy(site, &case.body), ..*case }).collect();
                 site.breakable -= 1;
@@ -316,7 +291,7 @@ impl Inliner<'_> {
             Stmt::Return(value) => return self.leave(site, *value),
             other => {
                 let mut copy = other.clone();
-                copy.operands_mut(|operand| *operand = self.of_callee(site, *operand));
+                copy.operands_mut(|operand| *operand = site.value(*operand));
                 copy
             }
         };
@@ -334,7 +309,7 @@ impl Inliner<'_> {
     /// Returns from the callee.
     fn leave(&mut self, site: &mut Site<'_>, value: Option<Value>) {
         if let (Some(value), Some(place)) = (value, site.result) {
-            let value = self.of_callee(site, value);
+            let value = site.value(value);
             self.out.push(Stmt::Store { place, value });
         }
         if let Some(place) = site.flag {
