@@ -96,6 +96,8 @@ void mainImage(out vec4 resolved, in vec2 fragCoord) {
     // A young history is the plain mean of what there is; one that rests may have more samples than one that moves,
     // which is blurred a little in every frame.
     float least = length(own) < 0.01 ? pow(blend, 1.0 + 0.4 * trust) : blend;
-    resolved.rgb = mix(fromYCoCg(held), now.rgb, max(least, 1.0 / (age + 1.0)));
+    // Corners of the box, which is one of Y, Co and Cg, are no colours of a screen.
+    vec3 kept = clamp(fromYCoCg(held), 0.0, 1.0);
+    resolved.rgb = mix(kept, now.rgb, max(least, 1.0 / (age + 1.0)));
     resolved.a = min(age + 1.0, 255.0);
 }

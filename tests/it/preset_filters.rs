@@ -239,6 +239,17 @@ fn at_rest_detail_is_kept_and_in_motion_no_ghost() {
     assert!(ghosts.len() > 20 && ghost < 0.04, "{} vacated pixels are {ghost} off", ghosts.len());
 }
 
+/// The clamp's box is one of Y, Co and Cg, and has corners that are no colours of a screen.
+#[test]
+fn a_history_holds_colours_of_a_screen() {
+    let Some(gpu) = gpu() else { return };
+    // The fourth frame held 1.00014 in a texel.
+    let texels = resolved(&gpu, &preset("taa", &[]), 4, (640, 360));
+    let most = texels.iter().flat_map(|t| &t[..3]).copied().fold(0.0, f32::max);
+    let least = texels.iter().flat_map(|t| &t[..3]).copied().fold(1.0, f32::min);
+    assert!(least >= 0.0 && most <= 1.0, "{least} to {most}");
+}
+
 #[test]
 fn motion_vectors_and_catmull_rom_are_worth_their_cost() {
     let Some(gpu) = gpu() else { return };
