@@ -6,32 +6,11 @@
 
 use naga::{Expression, GlobalVariable, Handle, Literal, Span};
 
-use super::{Emitter, Map};
+use super::context::Emitter;
 use crate::glsl::{
     ir::ConstId,
     types::{Scalar, Type, TypeId},
 };
-
-/// Constants made so far.
-pub(super) struct Constants {
-    /// By [`ConstId::index`]; `Some(None)`: holds something that is no literal.
-    inits: Vec<Option<Option<Handle<Expression>>>>,
-    constants: Vec<Option<Handle<naga::Constant>>>,
-    literals: Map<(u8, u32), Handle<Expression>>,
-    /// Globals whose constant value is no constant expression of naga's.
-    pub set_at_start: Vec<(Handle<GlobalVariable>, ConstId)>,
-}
-
-impl Constants {
-    pub fn new(count: usize) -> Self {
-        Self {
-            inits: vec![None; count],
-            constants: vec![None; count],
-            literals: Map::default(),
-            set_at_start: Vec::new(),
-        }
-    }
-}
 
 /// A scalar as naga's literal; `None` for infinities and NaN.
 pub(super) fn literal(scalar: Scalar, bits: u32) -> Option<Literal> {

@@ -5,7 +5,7 @@ use naga::{
     Sampling, ScalarKind, ShaderStage, Statement, StructMember, TypeInner,
 };
 
-use super::{Emitter, function::Builder};
+use super::{context::Emitter, function::Builder};
 use crate::glsl::{
     PassKind,
     interface::ENTRY_POINT,

@@ -8,7 +8,11 @@ use naga::{
     UnaryOperator,
 };
 
-use super::{Emitter, Map, consts, types};
+use super::{
+    consts,
+    context::{Emitter, Map},
+    types,
+};
 use crate::glsl::{
     ir::{self, Binary, Level, Math, Op, Stmt, Unary, Value},
     types::{Scalar, Swizzle, Type, TypeId},

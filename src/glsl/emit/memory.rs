@@ -6,9 +6,9 @@
 use naga::{Expression, GlobalVariable, Handle, SwizzleComponent};
 
 use super::{
+    context::TablePlace,
     function::Builder,
     resources::{self, CUBE_FACE, ZERO},
-    tables::TablePlace,
 };
 use crate::glsl::{
     builtins::Uniform,

@@ -7,6 +7,7 @@
 //! ([`super::ir`]), so that modules need none.
 
 mod consts;
+mod context;
 mod entry;
 mod function;
 mod long_arrays;
@@ -19,10 +20,8 @@ pub(crate) mod work_arounds;
 
 use std::collections::HashSet;
 
-use naga::{FastHashMap, GlobalVariable, Handle};
-
+use self::context::{Constants, Emitter, Resources, Tables};
 pub(crate) use self::tables::TableBytes;
-use self::{consts::Constants, resources::Resources, tables::Tables};
 use super::{
     PassSource, Reflection,
     interface::KNOB_BYTES,
@@ -89,26 +88,3 @@ pub(crate) fn validate(module: &naga::Module) -> Result<naga::valid::ModuleInfo,
         text
     })
 }
-
-/// State of emitting one module. What belongs to one function is in [`function::Builder`].
-struct Emitter<'a> {
-    ir: &'a ir::Module,
-    source: &'a PassSource<'a>,
-    reflection: &'a mut Reflection,
-    out: naga::Module,
-    /// By [`TypeId`](super::types::TypeId).
-    types: Vec<Option<Handle<naga::Type>>>,
-    layouts: Layouts,
-    consts: Constants,
-    tables: Tables,
-    resources: Resources,
-    /// By [`ir::FuncId`].
-    functions: Vec<Handle<naga::Function>>,
-    /// Private memory that is stored as a whole before anything reads it.
-    overwritten: HashSet<Handle<GlobalVariable>>,
-    /// Variables of each function that are written before they are read, in the order of emission: the entry point last.
-    written_first: Vec<HashSet<Handle<naga::LocalVariable>>>,
-}
-
-/// Handles by 32-bit keys, with naga's quick hash.
-type Map<K, V> = FastHashMap<K, V>;

@@ -9,7 +9,7 @@ use naga::{
     StructMember, TypeInner, VectorSize,
 };
 
-use super::Emitter;
+use super::context::Emitter;
 use crate::glsl::{
     ChannelKind, UniformSet,
     builtins::Uniform,
@@ -17,20 +17,6 @@ use crate::glsl::{
     ir::{GlobalId, GlobalKind},
     types::{Scalar, TypeId},
 };
-
-/// Variables declared so far.
-#[derive(Default)]
-pub(super) struct Resources {
-    block: Option<Handle<GlobalVariable>>,
-    knob_block: Option<Handle<GlobalVariable>>,
-    textures: [Option<Handle<GlobalVariable>>; 4],
-    samplers: [Option<Handle<GlobalVariable>>; 4],
-    /// Private memory, by [`GlobalId::index`].
-    private: Vec<Option<Handle<GlobalVariable>>>,
-    geometry: Option<Handle<GlobalVariable>>,
-    /// Holds the zero that the driver cannot know.
-    pub opaque_zero: Option<Handle<GlobalVariable>>,
-}
 
 /// Member of the block: name, offset, and what the reflection calls it.
 macro_rules! members {

@@ -10,7 +10,7 @@ use std::num::NonZeroU32;
 
 use naga::{AddressSpace, ArraySize, GlobalVariable, Handle, ResourceBinding, StorageAccess, StructMember, TypeInner};
 
-use super::{Emitter, Map};
+use super::context::{Buffer, Emitter, TablePlace};
 use crate::glsl::{
     PassKind, interface,
     ir::{
@@ -23,40 +23,10 @@ use crate::glsl::{
 /// Bytes of a slot there: what a uniform buffer's array elements lie apart at least.
 const SLOT: u32 = 16;
 
-/// Tables found so far.
-#[derive(Default)]
-pub(super) struct Tables {
-    places: Map<u32, TablePlace>,
-    /// Members of the storage buffer, by [`ConstId::index`].
-    stored: Map<u32, u32>,
-    uniform: Buffer,
-    storage: Buffer,
-}
-
-/// A buffer under construction: a structure with a member for each table.
-#[derive(Default)]
-struct Buffer {
-    variable: Option<Handle<GlobalVariable>>,
-    members: Vec<StructMember>,
-    bytes: Vec<u8>,
-    /// The largest alignment of a member, in bytes.
-    align: u32,
-}
-
 /// What the buffers with constant tables hold; empty: the module has none of that kind.
 pub(crate) struct TableBytes {
     pub uniform: Vec<u8>,
     pub storage: Vec<u8>,
-}
-
-/// Where a table lies.
-#[derive(Clone, Copy)]
-pub(super) enum TablePlace {
-    Private(Handle<GlobalVariable>),
-    /// A member of the uniform buffer.
-    Uniform(u32),
-    /// A member of the storage buffer.
-    Storage(u32),
 }
 
 impl Emitter<'_> {

@@ -4,7 +4,7 @@ use std::num::NonZeroU32;
 
 use naga::{AddressSpace, ArraySize, Handle, StructMember, TypeInner, VectorSize};
 
-use super::Emitter;
+use super::context::Emitter;
 use crate::glsl::{
     ir::layout::{Layout, round_up},
     types::{Scalar, Type, TypeId},

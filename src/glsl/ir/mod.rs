@@ -18,6 +18,7 @@
 //! sees to that, and each pass keeps it. So a program can be run, by a device or step by step on the processor.
 
 mod compact;
+mod ids;
 pub mod infer;
 pub mod layout;
 mod op;
@@ -25,26 +26,14 @@ pub mod print;
 pub mod rewrite;
 pub mod verify;
 
+pub use ids::{ConstId, FuncId, GlobalId, Value, VarId};
 pub use op::{Axis, Binary, Input, Level, Math, Op, Unary};
 
 use super::{
-    ast::{self, Loc},
+    ast::Loc,
     builtins::Uniform,
     types::{Scalar, TypeId, TypeTable},
 };
-
-ast::ids! {
-    /// A value, or an address, of one function: an index into [`Function::ops`].
-    Value;
-    /// A variable of one function.
-    VarId;
-    /// A variable of the module.
-    GlobalId;
-    /// A function of the module.
-    FuncId;
-    /// A constant that is no scalar.
-    ConstId;
-}
 
 /// A program: functions, and the memory that they share.
 #[derive(Clone, Debug, Default)]

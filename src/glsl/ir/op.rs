@@ -1,6 +1,6 @@
 //! Operations: what computes a value.
 
-use super::{ConstId, FuncId, GlobalId, Value, VarId};
+use super::ids::{ConstId, FuncId, GlobalId, Value, VarId};
 use crate::glsl::types::{Scalar, Swizzle, TypeId};
 
 /// What computes a value. Operands have the types that each op says; `verify` checks them.

@@ -1,6 +1,9 @@
 //! Parts of variables and values: members, components, elements; places that are assigned to; clamped indices.
 
-use super::function::{Builder, Slot};
+use super::{
+    context::const_id,
+    function::{Builder, Slot},
+};
 use crate::glsl::{
     hir::{BuiltinVar, ExprId, ExprKind, GlobalStorage, LocalId, Scalar, Swizzle, Type, TypeId, VarFlags},
     ir::{Binary, Math, Op, Value},
@@ -89,7 +92,7 @@ impl Builder<'_, '_> {
                     return None;
                 }
                 if let (false, Some(value)) = (varies, global.value) {
-                    self.cx.table(super::const_id(value))
+                    self.cx.table(const_id(value))
                 } else {
                     self.cx.global(id)
                 }
@@ -103,7 +106,7 @@ impl Builder<'_, '_> {
             {
                 self.cx.stage_variable(variable)
             }
-            ExprKind::Const(id) if self.indexes_aggregate(links) => self.cx.table(super::const_id(id)),
+            ExprKind::Const(id) if self.indexes_aggregate(links) => self.cx.table(const_id(id)),
             _ => return None,
         };
         Some(Place::of(self.global(global), ty))

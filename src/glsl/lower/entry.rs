@@ -1,6 +1,6 @@
 //! The fragment entry point: what the site's `main` does around the author's function, for each kind of pass.
 
-use super::{Lowering, function::Builder, reach::Reach};
+use super::{context::Lowering, function::Builder, reach::Reach};
 use crate::glsl::{
     PassKind,
     hir::{GlobalId, GlobalStorage, Scalar, Swizzle, TypeId, Uniform},

@@ -1,6 +1,7 @@
 //! Statements: declarations, branches, loops, switches, jumps.
 
 use super::{
+    context::const_id,
     function::{Builder, Slot},
     reach::known_bool,
 };
@@ -61,7 +62,7 @@ impl Builder<'_, '_> {
             && let (ExprKind::Const(id), false) = (hir[init].kind, hir[local].flags.contains(VarFlags::WRITTEN))
             && !self.is_vector_or_scalar(hir[local].ty)
         {
-            self.set_slot(local, Slot::Table(super::const_id(id)));
+            self.set_slot(local, Slot::Table(const_id(id)));
             return;
         }
         if self.starts_with_value(local, init) {

@@ -8,7 +8,7 @@
 //! - Only what the entry point reaches is lowered ([`reach`]). A branch whose condition is a literal is not reached.
 //! - A variable that nobody writes is a value, not memory. All others are variables of the function or of the module.
 //! - A function has one copy for each combination of channels, globals and tables that stand for parameters it only reads
-//!   ([`calls`]).
+//!   ([`arguments`]).
 //! - A large global array that the program fills with constants before all else is a constant ([`constant_arrays`]).
 //! - Every index that is no literal is clamped, as WebGL does; the modules need no bounds checks from naga. Divisors of
 //!   integers that are no literals are guarded ([`divide`]), as no driver's compiler may meet a zero. The optimiser drops what
@@ -16,10 +16,12 @@
 //! - `&&`, `||` and `?:` are branches.
 
 mod access;
+mod arguments;
 mod bilinear;
 mod builtin;
 mod calls;
 mod constant_arrays;
+mod context;
 mod convert;
 mod divide;
 mod entry;
@@ -39,12 +41,11 @@ mod writes;
 
 use std::collections::HashMap;
 
-use self::{
-    calls::{Arguments, Specialization},
-    reach::Reach,
-    resources::Resources,
-};
 pub(in crate::glsl) use self::{constant_arrays::arrays_to_constants, reach::reached};
+use self::{
+    context::{Lowering, Resources},
+    reach::Reach,
+};
 use super::{
     PassSource, Reflection, hir,
     ir::{self, layout::Layouts},
@@ -96,39 +97,3 @@ fn begin(module: &hir::Module) -> ir::Module {
         ..ir::Module::default()
     }
 }
-
-/// The constant of the program that a folded value is.
-fn const_id(id: hir::ConstId) -> ir::ConstId {
-    ir::ConstId::new(id.index())
-}
-
-/// A user function with what it has in place of samplers and of arrays that it only reads, in order.
-#[derive(Clone, Debug, PartialEq, Eq, Hash)]
-struct Instance {
-    func: hir::FuncId,
-    given: Box<[Specialization]>,
-}
-
-/// State of lowering one module. What belongs to one function is in [`function::Builder`].
-struct Lowering<'a> {
-    hir: &'a hir::Module,
-    source: &'a PassSource<'a>,
-    /// Of a stage: where its inputs and outputs lie.
-    interface: Interface,
-    out: ir::Module,
-    layouts: Layouts,
-    resources: Resources,
-    arguments: Arguments,
-    functions: HashMap<Instance, ir::FuncId>,
-    reflection: Reflection,
-}
-
-impl Lowering<'_> {
-    /// Whether values of a type are copied by loops where the driver needs it, and passed by reference for that.
-    pub fn is_long(&mut self, ty: hir::TypeId) -> bool {
-        self.source.driver.array_loops && self.layouts.is_long(&self.out, ty)
-    }
-}
-
-/// By 32-bit keys, with a quick hash.
-type Map<K, V> = rustc_hash::FxHashMap<K, V>;

@@ -6,8 +6,7 @@
 use std::collections::HashSet;
 
 use super::{
-    Instance,
-    calls::{Arguments, Passed, Specialization},
+    arguments::{Arguments, Instance, Passed, Specialization},
     walk::{Node, parts},
     writes,
 };

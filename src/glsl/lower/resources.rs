@@ -2,40 +2,11 @@
 //!
 //! Each is declared when it is first reached.
 
-use std::collections::HashMap;
-
-use super::Lowering;
+use super::context::{Lowering, const_id};
 use crate::glsl::{
     hir::{BuiltinVar, GlobalId, Scalar, TypeId, Uniform},
     ir::{self, GlobalKind},
 };
-
-/// Variables declared so far.
-pub(super) struct Resources {
-    read_only: HashMap<GlobalKind, ir::GlobalId>,
-    /// By [`GlobalId::index`].
-    globals: Vec<Option<ir::GlobalId>>,
-    /// `gl_FragCoord`, where something other than the entry point reads it.
-    pub frag_coord: Option<ir::GlobalId>,
-    pub frag_depth: Option<ir::GlobalId>,
-    /// Built-in variables of stages, besides those two.
-    pub stage: HashMap<BuiltinVar, ir::GlobalId>,
-    /// Bit i: an `st_assert(.., i)` failed.
-    pub failed_asserts: Option<ir::GlobalId>,
-}
-
-impl Resources {
-    pub fn new(globals: usize) -> Self {
-        Self {
-            read_only: HashMap::new(),
-            globals: vec![None; globals],
-            frag_coord: None,
-            frag_depth: None,
-            stage: HashMap::new(),
-            failed_asserts: None,
-        }
-    }
-}
 
 impl Lowering<'_> {
     /// Memory of one invocation, zero at its start.
@@ -90,7 +61,7 @@ impl Lowering<'_> {
             return made;
         }
         let global = self.hir[id];
-        let init = global.value.map(super::const_id);
+        let init = global.value.map(const_id);
         let made = self.out.add_global(global.ty, GlobalKind::Private { init, overwritten: false });
         self.resources.globals[id.index()] = Some(made);
         made

@@ -1,7 +1,7 @@
 //! The entry points of stages: what lies between the author's `main` and the pipeline. Inputs are put into the variables the
 //! author reads, and what the author left in others is handed on.
 
-use super::{Lowering, function::Builder, reach::Reach};
+use super::{context::Lowering, function::Builder, reach::Reach};
 use crate::glsl::{
     Attribute, PassKind,
     hir::{BuiltinVar, GlobalId, Scalar, Swizzle, Type, TypeId},

@@ -74,41 +74,6 @@ const PASSES: &[&str] = &["gpu/pass.rs", "gui/surface.rs"];
 
 const LONGEST_FILE: usize = 600;
 
-/// Modules that are still part of a circle. No other may be, and one that is free leaves this list.
-const IN_CIRCLES: &[&str] = &[
-    "glsl::emit",
-    "glsl::emit::consts",
-    "glsl::emit::entry",
-    "glsl::emit::function",
-    "glsl::emit::long_arrays",
-    "glsl::emit::long_arrays::copy",
-    "glsl::emit::long_arrays::fill",
-    "glsl::emit::resources",
-    "glsl::emit::tables",
-    "glsl::emit::types",
-    "glsl::ir",
-    "glsl::ir::op",
-    "glsl::lower",
-    "glsl::lower::access",
-    "glsl::lower::calls",
-    "glsl::lower::divide",
-    "glsl::lower::entry",
-    "glsl::lower::function",
-    "glsl::lower::function::constants",
-    "glsl::lower::induction",
-    "glsl::lower::inline",
-    "glsl::lower::limits",
-    "glsl::lower::operators",
-    "glsl::lower::ranges",
-    "glsl::lower::reach",
-    "glsl::lower::resources",
-    "glsl::lower::stage",
-    "glsl::lower::zeros",
-];
-
-/// Files that lie beside the folder of their module all the same.
-const FLAT: &[&str] = &["glsl/lower/function.rs"];
-
 /// Lines of tests that may stand in the file of what they test.
 const LONGEST_INNER_TESTS: usize = 100;
 
@@ -320,7 +285,7 @@ fn every_file_keeps_to_its_layer() {
 /// What is wrong with where modules lie; `paths` are relative to `src/`.
 fn misplaced(paths: &[&str]) -> Vec<String> {
     let holds = |folder: &str| paths.iter().any(|p| p.strip_prefix(folder).is_some_and(|rest| rest.starts_with('/')));
-    let beside = paths.iter().filter(|p| holds(p.trim_end_matches(".rs")) && !FLAT.contains(p));
+    let beside = paths.iter().filter(|p| holds(p.trim_end_matches(".rs")));
     let beside =
         beside.map(|p| format!("src/{p} lies beside its folder: make it {}/mod.rs", p.trim_end_matches(".rs")));
     let is_named = |p: &&&str| p.ends_with("_tests.rs");
@@ -343,18 +308,9 @@ fn modules_lie_where_they_are_looked_for() {
 fn modules_form_no_circle() {
     let texts = source_texts(&sources_of_eddy());
     let modules = Modules::read(texts.iter().map(|(path, text)| (path.as_str(), text.as_str())));
-    let (mut found, mut seen) = (Vec::new(), BTreeSet::new());
-    for (layer, _) in LAYERS {
-        for way in modules.circles(layer).into_iter().chain(modules.folder_circles(layer)) {
-            if way.iter().any(|module| !IN_CIRCLES.contains(&module.as_str())) {
-                found.push(way.join(" -> "));
-            }
-            seen.extend(way);
-        }
-    }
+    let circles = |(layer, _): &(&str, _)| [modules.circles(layer), modules.folder_circles(layer)].concat();
+    let found: Vec<String> = LAYERS.iter().flat_map(circles).map(|way| way.join(" -> ")).collect();
     assert!(found.is_empty(), "{} circles:\n{}", found.len(), found.join("\n"));
-    let free: Vec<_> = IN_CIRCLES.iter().filter(|module| !seen.contains(**module)).collect();
-    assert!(free.is_empty(), "free of circles, so take them off IN_CIRCLES: {free:?}");
 }
 
 /// `cargo test --test it modules_as_a_graph -- --ignored --nocapture` prints what `scripts/draw-modules` draws, and

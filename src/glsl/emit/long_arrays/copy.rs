@@ -8,8 +8,7 @@ use naga::{
     TypeInner,
 };
 
-use super::Value;
-use super::{LEAST_ARRAY, fill::Writer};
+use super::writer::{LEAST_ARRAY, Value, Writer};
 use crate::glsl::ir::layout::LEAST_COPY;
 
 /// Loads since which nothing has written what they read, each with its pointer's root.

@@ -3,26 +3,17 @@
 use std::collections::HashSet;
 
 use naga::{
-    AddressSpace, ArraySize, BinaryOperator, Block, BuiltIn, Expression, Function, GlobalVariable, Handle, Literal,
-    LocalVariable, Range, ScalarKind, Span, Statement, Type, TypeInner, UniqueArena,
+    ArraySize, BinaryOperator, Block, BuiltIn, Expression, GlobalVariable, Handle, Literal, LocalVariable, ScalarKind,
+    Span, Statement, Type, TypeInner,
 };
 
-use super::Value;
-use super::{BLOCK, LEAST_ARRAY, copy::Loads, sizes::Sizes};
+use super::{
+    copy::Loads,
+    writer::{LEAST_ARRAY, Value, Writer},
+};
 
-/// Writes loops into one function.
-pub(super) struct Writer<'a> {
-    pub types: &'a UniqueArena<Type>,
-    pub sizes: &'a Sizes,
-    /// Types and places of the module's variables, by [`Handle::index`].
-    pub globals: &'a [(Handle<Type>, AddressSpace)],
-    pub uint: Handle<Type>,
-    /// Holds a zero that no driver knows.
-    pub opaque: Option<Handle<GlobalVariable>>,
-    /// Zeros are written by blocks of a few known elements.
-    pub in_blocks: bool,
-    pub function: &'a mut Function,
-}
+/// Scalars that one block of zeros writes.
+const BLOCK: u32 = 32;
 
 impl Writer<'_> {
     /// Stores the zero that no driver knows: the first bit of this argument.
@@ -158,39 +149,5 @@ impl Writer<'_> {
             body.push(Statement::If { condition, accept: leave, reject: Block::new() }, Span::UNDEFINED);
             block.push(Statement::Loop { body, continuing: Block::new(), break_if: None }, Span::UNDEFINED);
         }
-    }
-
-    /// `for (uint i = 0; i < len; i++) { turn(i) }`
-    pub fn count(&mut self, len: Value, block: &mut Block, turn: impl FnOnce(&mut Self, Value, &mut Block)) {
-        let counter = LocalVariable { name: None, ty: self.uint, init: None };
-        let counter = self.function.local_variables.append(counter, Span::UNDEFINED);
-        let counter = self.expression(Expression::LocalVariable(counter));
-        let [zero, one] = [0, 1].map(|n| self.uint(n));
-        block.push(Statement::Store { pointer: counter, value: zero }, Span::UNDEFINED);
-        let mut body = Block::new();
-        let index = self.emit(Expression::Load { pointer: counter }, &mut body);
-        let binary = |op, right| Expression::Binary { op, left: index, right };
-        let condition = self.emit(binary(BinaryOperator::Less, len), &mut body);
-        let leave = Block::from_vec(vec![Statement::Break]);
-        body.push(Statement::If { condition, accept: Block::new(), reject: leave }, Span::UNDEFINED);
-        turn(self, index, &mut body);
-        let next = self.emit(binary(BinaryOperator::Add, one), &mut body);
-        body.push(Statement::Store { pointer: counter, value: next }, Span::UNDEFINED);
-        block.push(Statement::Loop { body, continuing: Block::new(), break_if: None }, Span::UNDEFINED);
-    }
-
-    pub fn uint(&mut self, number: u32) -> Value {
-        self.expression(Expression::Literal(Literal::U32(number)))
-    }
-
-    pub fn expression(&mut self, expression: Expression) -> Value {
-        self.function.expressions.append(expression, Span::UNDEFINED)
-    }
-
-    /// An expression that is computed here.
-    pub fn emit(&mut self, expression: Expression, block: &mut Block) -> Value {
-        let value = self.expression(expression);
-        block.push(Statement::Emit(Range::new_from_bounds(value, value)), Span::UNDEFINED);
-        value
     }
 }

@@ -7,11 +7,12 @@
 //! - writes the zeros that arrays begin with by loops ([`fill`]), and says so, so that the initialisers can be left out
 //!   ([`crate::glsl::Compiled::filled_arrays`]);
 //! - copies long arrays by loops, and tables into those that begin with constants ([`copy`]; the tables are made where
-//!   constants are emitted, and calls pass and return long values by pointer, [`super::Emitter::is_long`]).
+//!   constants are emitted, and calls pass and return long values by pointer, [`super::context::Emitter::is_long`]).
 
 mod copy;
 mod fill;
 mod sizes;
+mod writer;
 
 use std::collections::HashSet;
 
@@ -20,21 +21,12 @@ use naga::{
     MemoryDecorations, Module, Scalar, Span, Type, TypeInner,
 };
 
-use fill::Writer;
 use sizes::Sizes;
-
-/// An expression of a function.
-type Value = Handle<Expression>;
+use writer::{LEAST_ARRAY, Writer};
 
 /// Scalars of all arrays without a value of a program, from which on it is changed at all. 100 zeros take lavapipe 0.4 s,
 /// 160 take 1.5 s, 256 take 6 s.
 const FEWEST_SCALARS: u32 = 128;
-
-/// Scalars from which on an array of such a program gets its zeros by a loop. A loop also costs a driver time.
-const LEAST_ARRAY: u32 = 16;
-
-/// Scalars that one block of zeros writes.
-const BLOCK: u32 = 32;
 
 /// Scalars up to which a program's arrays get their zeros by blocks of a few known elements, each of them a loop of one round
 /// that no driver can see to be one. 500 take lavapipe 3 s, 800 take 7 s, and a second by loops; frames are then as quick as

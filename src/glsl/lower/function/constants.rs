@@ -4,7 +4,7 @@ use super::Builder;
 use crate::glsl::{
     hir::{ConstId, Scalar, Type, TypeId},
     ir::{self, Op, Value},
-    lower::const_id,
+    lower::context::const_id,
 };
 
 /// One component of a value, as far as it can be told.

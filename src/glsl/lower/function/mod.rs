@@ -5,9 +5,12 @@ mod blocks;
 mod constants;
 mod variables;
 
-pub(super) use self::constants::Part as PartOf;
+pub(super) use constants::Part as PartOf;
 
-use super::{Instance, Lowering, Map, calls::Specialization};
+use super::{
+    arguments::{Instance, Specialization},
+    context::{Lowering, Map, const_id},
+};
 use crate::glsl::{
     ast::{List, Loc},
     hir::{FuncId, LocalId, LocalKind, TypeId},
@@ -114,7 +117,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             let slot = match given {
                 Specialization::Argument => continue,
                 Specialization::Channel(channel) => Slot::Channel(channel),
-                Specialization::Table(table) => Slot::Table(super::const_id(table)),
+                Specialization::Table(table) => Slot::Table(const_id(table)),
                 Specialization::Global(global) => {
                     let variable = self.cx.global(global);
                     Slot::Memory(self.global(variable))

@@ -1,0 +1,98 @@
+//! State of emitting one module.
+
+use std::collections::HashSet;
+
+use naga::{Expression, FastHashMap, GlobalVariable, Handle, StructMember};
+
+use crate::glsl::{
+    PassSource, Reflection,
+    ir::{self, ConstId, layout::Layouts},
+};
+
+/// State of emitting one module. What belongs to one function is in [`super::function::Builder`].
+pub(super) struct Emitter<'a> {
+    pub ir: &'a ir::Module,
+    pub source: &'a PassSource<'a>,
+    pub reflection: &'a mut Reflection,
+    pub out: naga::Module,
+    /// By [`TypeId`](crate::glsl::types::TypeId).
+    pub types: Vec<Option<Handle<naga::Type>>>,
+    pub layouts: Layouts,
+    pub consts: Constants,
+    pub tables: Tables,
+    pub resources: Resources,
+    /// By [`ir::FuncId`].
+    pub functions: Vec<Handle<naga::Function>>,
+    /// Private memory that is stored as a whole before anything reads it.
+    pub overwritten: HashSet<Handle<GlobalVariable>>,
+    /// Variables of each function that are written before they are read, in the order of emission: the entry point last.
+    pub written_first: Vec<HashSet<Handle<naga::LocalVariable>>>,
+}
+
+/// Constants made so far.
+pub(super) struct Constants {
+    /// By [`ConstId::index`]; `Some(None)`: holds something that is no literal.
+    pub inits: Vec<Option<Option<Handle<Expression>>>>,
+    pub constants: Vec<Option<Handle<naga::Constant>>>,
+    pub literals: Map<(u8, u32), Handle<Expression>>,
+    /// Globals whose constant value is no constant expression of naga's.
+    pub set_at_start: Vec<(Handle<GlobalVariable>, ConstId)>,
+}
+
+impl Constants {
+    pub fn new(count: usize) -> Self {
+        Self {
+            inits: vec![None; count],
+            constants: vec![None; count],
+            literals: Map::default(),
+            set_at_start: Vec::new(),
+        }
+    }
+}
+
+/// Tables found so far.
+#[derive(Default)]
+pub(super) struct Tables {
+    pub places: Map<u32, TablePlace>,
+    /// Members of the storage buffer, by [`ConstId::index`].
+    pub stored: Map<u32, u32>,
+    pub uniform: Buffer,
+    pub storage: Buffer,
+}
+
+/// A buffer under construction: a structure with a member for each table.
+#[derive(Default)]
+pub(super) struct Buffer {
+    pub variable: Option<Handle<GlobalVariable>>,
+    pub members: Vec<StructMember>,
+    pub bytes: Vec<u8>,
+    /// The largest alignment of a member, in bytes.
+    pub align: u32,
+}
+
+/// Where a table lies.
+#[derive(Clone, Copy)]
+pub(super) enum TablePlace {
+    Private(Handle<GlobalVariable>),
+    /// A member of the uniform buffer.
+    Uniform(u32),
+    /// A member of the storage buffer.
+    Storage(u32),
+}
+
+/// Variables declared so far.
+#[derive(Default)]
+pub(super) struct Resources {
+    pub block: Option<Handle<GlobalVariable>>,
+    pub knob_block: Option<Handle<GlobalVariable>>,
+    pub textures: [Option<Handle<GlobalVariable>>; 4],
+    pub samplers: [Option<Handle<GlobalVariable>>; 4],
+    /// Private memory, by [`ir::GlobalId::index`].
+    pub private: Vec<Option<Handle<GlobalVariable>>>,
+    pub geometry: Option<Handle<GlobalVariable>>,
+    /// Holds the zero that the driver cannot know.
+    pub opaque_zero: Option<Handle<GlobalVariable>>,
+}
+
+/// Handles by 32-bit keys, with naga's quick hash.
+pub(super) type Map<K, V> = FastHashMap<K, V>;

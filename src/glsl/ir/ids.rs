@@ -1,0 +1,16 @@
+//! Names of what a program and its functions hold.
+
+use crate::glsl::ast;
+
+ast::ids! {
+    /// A value, or an address, of one function: an index into [`super::Function`].
+    Value;
+    /// A variable of one function.
+    VarId;
+    /// A variable of the module.
+    GlobalId;
+    /// A function of the module.
+    FuncId;
+    /// A constant that is no scalar.
+    ConstId;
+}

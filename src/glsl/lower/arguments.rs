@@ -1,0 +1,192 @@
+//! How arguments are handed over: what a copy of a function has in place of parameters, and which it reads where they are.
+
+use std::collections::HashSet;
+
+use crate::glsl::{
+    ast::List,
+    hir::{ConstId, ExprFlags, ExprId, ExprKind, FuncId, GlobalId, GlobalStorage, LocalId, Module, Type, VarFlags},
+    ir::layout,
+};
+
+/// Globals that are looked at to find out which each function writes. A chain of ten thousand functions that write one
+/// each would take all memory.
+const MOST_WRITES: usize = 1 << 22;
+
+/// A user function with what it has in place of samplers and of arrays that it only reads, in order.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub(super) struct Instance {
+    pub func: FuncId,
+    pub given: Box<[Specialization]>,
+}
+
+/// What a copy of a function has in place of one of its parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub(super) enum Specialization {
+    /// An argument, after all.
+    Argument,
+    /// The channel a sampler stands for.
+    Channel(u8),
+    /// A global that neither the function nor what it calls writes: the parameter is that global.
+    Global(GlobalId),
+    /// A table.
+    Table(ConstId),
+}
+
+/// What a call passes for such a parameter.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Passed {
+    Known(Specialization),
+    /// What the caller itself has for one of its parameters, counted among those that can be given.
+    Param(usize),
+}
+
+/// How arguments are handed over in a module.
+pub(super) struct Arguments {
+    /// Which locals some call takes as a whole for a parameter that is indexed, there or in what it calls in turn; by
+    /// [`LocalId::index`]. They are memory, as if they were indexed themselves: the call then reads them where they are.
+    pub handed_on: Vec<bool>,
+    /// Which globals a function or what it calls writes, by [`FuncId::index`]; `None`: too many to tell, so any of
+    /// them.
+    written: Vec<Option<HashSet<GlobalId>>>,
+    /// Parameters of each function that a copy of it can have something in place of, in order.
+    givable: Vec<Vec<LocalId>>,
+    /// How many expressions name each constant, by [`ConstId::index`].
+    named: Vec<u32>,
+}
+
+impl Arguments {
+    /// `writes` has the globals that each function itself writes, by [`FuncId::index`].
+    pub fn new(module: &Module, writes: Vec<HashSet<GlobalId>>) -> Self {
+        let mut written: Vec<_> = writes.into_iter().map(Some).collect();
+        let mut work = 0;
+        for &func in &module.call_order {
+            let mut all = written[func.index()].take();
+            for callee in &module[func].calls {
+                let of_callee = written[callee.index()].as_ref();
+                work += of_callee.map_or(0, HashSet::len);
+                match (&mut all, of_callee.filter(|_| work <= MOST_WRITES)) {
+                    (Some(all), Some(of_callee)) => all.extend(of_callee),
+                    _ => all = None,
+                }
+            }
+            written[func.index()] = all;
+        }
+        let mut named = vec![0; module.consts.len()];
+        for expr in &module.exprs {
+            if let ExprKind::Const(id) = expr.kind {
+                named[id.index()] += 1;
+            }
+        }
+        let givable = vec![Vec::new(); module.functions.len()];
+        let mut made = Self { handed_on: handed_on(module), written, givable, named };
+        for &func in &module.call_order {
+            let first = module[func].locals.start as usize;
+            let params = (first..first + module.params(func).len()).map(LocalId::new);
+            made.givable[func.index()] = params.filter(|&param| made.is_givable(module, param)).collect();
+        }
+        made
+    }
+
+    /// Whether a constant is a table rather than a few numbers written into one call: those are cheaper put into memory where
+    /// they are needed than at the start of every invocation.
+    fn is_table(&self, module: &Module, id: ConstId) -> bool {
+        self.named[id.index()] > 1 || module[module[id].words].len() >= layout::NOT_UNROLLED as usize
+    }
+
+    pub fn givable(&self, func: FuncId) -> &[LocalId] {
+        &self.givable[func.index()]
+    }
+
+    pub fn is_givable(&self, module: &Module, param: LocalId) -> bool {
+        matches!(module.types.get(module[param].ty), Type::Sampler { .. }) || self.reads_in_place(module, param)
+    }
+
+    /// Whether a function or what it calls writes a global.
+    pub fn writes(&self, func: FuncId, global: GlobalId) -> bool {
+        self.written[func.index()].as_ref().is_none_or(|written| written.contains(&global))
+    }
+
+    /// Whether a local is indexed, in its function or in one it is handed to as a whole.
+    pub fn is_indexed(&self, module: &Module, local: LocalId) -> bool {
+        module[local].flags.contains(VarFlags::INDEXED) || self.handed_on[local.index()]
+    }
+
+    /// Whether a parameter is only read, but indexed in a way values cannot be: then it is a pointer to what the caller has, or
+    /// that itself, and not a copy that each call fills anew, element by element.
+    pub fn reads_in_place(&self, module: &Module, param: LocalId) -> bool {
+        let declared = &module[param];
+        !declared.kind.copies_out()
+            && self.is_indexed(module, param)
+            && !declared.flags.contains(VarFlags::WRITTEN)
+            && !matches!(module.types.get(declared.ty), Type::Scalar(_) | Type::Vector { .. } | Type::Sampler { .. })
+    }
+
+    /// What a call in `caller` (none: an initialiser) passes for those.
+    pub fn passed(&self, module: &Module, caller: Option<FuncId>, func: FuncId, args: &[ExprId]) -> Vec<Passed> {
+        let first = module[func].locals.start as usize;
+        let last_effect = last_effect(module, args);
+        let passed = self.givable(func).iter().map(|param| {
+            let place = param.index() - first;
+            // What a later argument changes is not what was passed.
+            let changes = last_effect > Some(place);
+            match module[args[place]].kind {
+                ExprKind::Channel(channel) => Passed::Known(Specialization::Channel(channel)),
+                ExprKind::Const(table) if self.is_table(module, table) => Passed::Known(Specialization::Table(table)),
+                ExprKind::Global(global) if module[global].storage == GlobalStorage::Private => {
+                    let declared = &module[global];
+                    let stays = !changes && !self.writes(func, global);
+                    Passed::Known(match (declared.flags.contains(VarFlags::WRITTEN), declared.value) {
+                        (false, Some(value)) => Specialization::Table(value),
+                        // Nobody sets it: it is zero.
+                        (false, None) if declared.init.is_none() => Specialization::Argument,
+                        _ if stays => Specialization::Global(global),
+                        _ => Specialization::Argument,
+                    })
+                }
+                ExprKind::Local(local) => {
+                    let givable = caller.map_or(&[][..], |caller| self.givable(caller));
+                    // They are in order.
+                    match givable.binary_search(&local) {
+                        Ok(param) => Passed::Param(param),
+                        Err(_) => Passed::Known(Specialization::Argument),
+                    }
+                }
+                _ => Passed::Known(Specialization::Argument),
+            }
+        });
+        passed.collect()
+    }
+}
+
+/// The last argument whose evaluation changes something.
+pub(super) fn last_effect(module: &Module, args: &[ExprId]) -> Option<usize> {
+    args.iter().rposition(|&arg| module[arg].flags.contains(ExprFlags::EFFECTS))
+}
+
+/// See [`Arguments::handed_on`].
+fn handed_on(module: &Module) -> Vec<bool> {
+    let mut found = vec![false; module.locals.len()];
+    let mut order = vec![usize::MAX; module.functions.len()];
+    for (i, func) in module.call_order.iter().enumerate() {
+        order[func.index()] = i;
+    }
+    let mut calls: Vec<(FuncId, List<ExprId>)> = Vec::new();
+    for expr in &module.exprs {
+        if let ExprKind::Call { func, args } = expr.kind {
+            calls.push((func, args));
+        }
+    }
+    // All that a function calls comes before all calls of it: what it hands on is known by then.
+    calls.sort_by_key(|(func, _)| order[func.index()]);
+    for (func, args) in calls {
+        let first = module[func].locals.start as usize;
+        for (i, &arg) in module[args].iter().enumerate() {
+            let param = LocalId::new(first + i);
+            let indexed = module[param].flags.contains(VarFlags::INDEXED) || found[param.index()];
+            if let (true, ExprKind::Local(local)) = (indexed, module[arg].kind) {
+                found[local.index()] = true;
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,67 @@
+//! State of lowering one module.
+
+use std::collections::HashMap;
+
+use super::arguments::{Arguments, Instance};
+use crate::glsl::{
+    PassSource, Reflection,
+    hir::{self, BuiltinVar},
+    ir::{self, GlobalKind, layout::Layouts},
+    stages::Interface,
+};
+
+/// State of lowering one module. What belongs to one function is in [`super::function::Builder`].
+pub(super) struct Lowering<'a> {
+    pub hir: &'a hir::Module,
+    pub source: &'a PassSource<'a>,
+    /// Of a stage: where its inputs and outputs lie.
+    pub interface: Interface,
+    pub out: ir::Module,
+    pub layouts: Layouts,
+    pub resources: Resources,
+    pub arguments: Arguments,
+    pub functions: HashMap<Instance, ir::FuncId>,
+    pub reflection: Reflection,
+}
+
+impl Lowering<'_> {
+    /// Whether values of a type are copied by loops where the driver needs it, and passed by reference for that.
+    pub fn is_long(&mut self, ty: hir::TypeId) -> bool {
+        self.source.driver.array_loops && self.layouts.is_long(&self.out, ty)
+    }
+}
+
+/// Variables declared so far.
+pub(super) struct Resources {
+    pub read_only: HashMap<GlobalKind, ir::GlobalId>,
+    /// By [`hir::GlobalId::index`].
+    pub globals: Vec<Option<ir::GlobalId>>,
+    /// `gl_FragCoord`, where something other than the entry point reads it.
+    pub frag_coord: Option<ir::GlobalId>,
+    pub frag_depth: Option<ir::GlobalId>,
+    /// Built-in variables of stages, besides those two.
+    pub stage: HashMap<BuiltinVar, ir::GlobalId>,
+    /// Bit i: an `st_assert(.., i)` failed.
+    pub failed_asserts: Option<ir::GlobalId>,
+}
+
+impl Resources {
+    pub fn new(globals: usize) -> Self {
+        Self {
+            read_only: HashMap::new(),
+            globals: vec![None; globals],
+            frag_coord: None,
+            frag_depth: None,
+            stage: HashMap::new(),
+            failed_asserts: None,
+        }
+    }
+}
+
+/// The constant of the program that a folded value is.
+pub(super) fn const_id(id: hir::ConstId) -> ir::ConstId {
+    ir::ConstId::new(id.index())
+}
+
+/// By 32-bit keys, with a quick hash.
+pub(super) type Map<K, V> = rustc_hash::FxHashMap<K, V>;
