@@ -3,7 +3,7 @@
 //!
 //! `Z` is a zero no compiler can see through, so that nothing here is folded before it runs.
 
-use crate::support::{compiled::compiled, compute::*};
+use crate::support::compute::*;
 
 /// Section 6.1.1: a parameter is a variable of its own, set anew for each call; so are locals.
 #[test]
@@ -222,62 +222,4 @@ fn members_hold_what_was_written_last() {
             [2., 8., 0., 0.],
         ),
     ]);
-}
-
-/// The user functions of a fragment that were not inlined, and all their expressions.
-fn lowered(code: &str) -> (usize, usize) {
-    let module = compiled(code, Default::default()).module;
-    (module.functions.len(), module.functions.iter().map(|(_, f)| f.expressions.len()).sum())
-}
-
-/// What is called at one place becomes part of its caller whatever its size, unless it would nest too deep for the
-/// stack.
-#[test]
-fn functions_called_once_are_inlined() {
-    let work = "x = sin(x) * y + cos(y) / x; y += x;".repeat(100);
-    let calls = |calls: &str| {
-        lowered(&format!(
-            "float f(float x, float y) {{ {work} for (;;) {{ if (x < y) return x; x -= 1.0; }} }}\n\
-             float twice(float x) {{ return f(x, x) * 2.0; }}\n\
-             void mainImage(out vec4 o, vec2 p) {{ o = vec4({calls}); }}"
-        ))
-        .0
-    };
-    assert_eq!([calls("f(p.x, p.y)"), calls("twice(p.x)"), calls("f(p.x, 1.0) + f(p.y, 2.0)")], [1, 1, 2]);
-    assert_eq!([calls("twice(p.x) + twice(p.y)"), calls("f(p.x, 1.0) + twice(p.y)")], [2, 2]);
-
-    let many = 3000;
-    let links: String = (1..many)
-        .map(|i| format!("float f{i}(float x) {{ if (x > {i}.0) return x; return f{}(x + 1.0); }}", i - 1))
-        .collect();
-    let (functions, _) = lowered(&format!(
-        "float f0(float x) {{ return x; }} {links} void mainImage(out vec4 o, vec2 p) {{ o = vec4(f{}(p.x)); }}",
-        many - 1
-    ));
-    assert!(functions > 10, "{functions}");
-    let returns: String = (0..many).map(|i| format!("if (x > {i}.0) return {i}.5;")).collect();
-    let apart = lowered(&format!(
-        "float f(float x) {{ {returns} return x; }} void mainImage(out vec4 o, vec2 p) {{ o = vec4(f(p.x)); }}"
-    ));
-    assert_eq!(apart.0, 2);
-}
-
-/// A short text that calls a function very often does not become so many copies of it, and a body of very many
-/// statements is looked through without recursion.
-#[test]
-fn inlining_is_bounded() {
-    let expressions = |code: &str| lowered(code).1;
-    let work = "x = sin(x) * y + cos(y) / x; y += x;".repeat(10);
-    let often = |calls: usize| {
-        expressions(&format!(
-            "float f(float x, float y) {{ {work} return x; }}\n\
-             void mainImage(out vec4 o, vec2 p) {{ {} o = p.xyxy; }}",
-            "p.x += f(p.x, p.y);".repeat(calls)
-        ))
-    };
-    // Inlined, and not.
-    assert!(often(20) > 20 * 50, "{}", often(20));
-    assert!(often(4000) < 4000 * 40, "{}", often(4000));
-    let long = format!("float f(float x) {{ {} return x; }}", "x += 0.5;".repeat(50_000));
-    assert!(expressions(&format!("{long} void mainImage(out vec4 o, vec2 p) {{ o = vec4(f(p.x)); }}")) > 50_000);
 }

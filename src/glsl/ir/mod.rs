@@ -334,36 +334,6 @@ impl Module {
         GlobalId::new(self.globals.len() - 1)
     }
 
-    /// Drops functions that nothing calls any more.
-    pub fn drop_uncalled(&mut self) {
-        let mut called = vec![false; self.functions.len()];
-        let Some(entry) = called.last_mut() else { return };
-        *entry = true;
-        for (index, function) in self.functions.iter().enumerate().rev() {
-            let nodes = if called[index] { &function.nodes[..] } else { &[] };
-            for Node { op, .. } in nodes {
-                if let Op::Call { function, .. } = op {
-                    called[function.index()] = true;
-                }
-            }
-        }
-        let mut kept = 0;
-        let number = |&called: &bool| {
-            kept += usize::from(called);
-            called.then(|| FuncId::new(kept - 1))
-        };
-        let new: Vec<_> = called.iter().map(number).collect();
-        let mut called = called.into_iter();
-        self.functions.retain(|_| called.next() == Some(true));
-        for function in &mut self.functions {
-            for Node { op, .. } in &mut function.nodes {
-                if let Op::Call { function, .. } = op {
-                    *function = new[function.index()].expect("a called function is kept");
-                }
-            }
-        }
-    }
-
     /// How many parts a value of a type has: components, columns, elements, members. None of a scalar.
     pub fn extent(&self, ty: TypeId) -> u32 {
         use super::types::Type;

@@ -9,7 +9,6 @@ mod dce;
 #[cfg(test)]
 mod identity;
 mod if_convert;
-mod inline;
 mod ranges;
 mod scalarize;
 #[cfg(test)]
@@ -31,11 +30,6 @@ pub const PASSES: &[Pass] = &[
         name: "if-convert",
         purpose: "makes selects of cheap branches that compute one value (if-conversion)",
         run: if_convert::run,
-    },
-    Pass {
-        name: "inline",
-        purpose: "replaces calls of small functions, and of those called once, by what they do",
-        run: inline::run,
     },
     Pass {
         name: "ranges",

@@ -29,15 +29,6 @@ fn what_changes_nothing_is_dropped() {
 }
 
 #[test]
-fn functions_become_part_of_their_callers() {
-    let code = "float f(float x, out float y) { y = x; for (int i = 0; i < 9; i++) { if (x > 2.0) return x; x += 1.0; } return 3.0; }
-        float twice(float x) { return x + x; }
-        void mainImage(out vec4 o, vec2 p) { float y; o = vec4(f(p.x, y), twice(y), twice(p.y), 1); }";
-    let text = dump_ir(&PassSource::image(code), &Link::default(), Some("inline")).expect("a program without errors");
-    insta::assert_snapshot!(text);
-}
-
-#[test]
 fn what_nothing_uses_is_dropped() {
     insta::assert_snapshot!(around("dce", "vec3 v = p.xyx * 3.0; o = vec4(v.x);"));
 }

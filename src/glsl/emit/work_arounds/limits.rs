@@ -60,7 +60,7 @@ impl Limits {
                     _ => return,
                 };
                 let (counter, limit) = if is_greater { (left, right) } else { (right, left) };
-                if is_counted(f, counter) && !f[limit].is_free() {
+                if is_counted(f, counter) && !matches!(f[limit], Op::Literal(..) | Op::Zero(_)) {
                     self.0.entry(condition).or_default()[usize::from(is_greater)] = true;
                 }
             }
