@@ -31,11 +31,10 @@ pub trait Rule {
     fn after_if(&mut self, _: &Rewriter<'_>) {}
 }
 
-/// Applies a rule to each function of a program.
-pub fn each_function<R: Rule>(module: &mut Module, mut rule: impl FnMut(&Module, &Function) -> R) {
+/// Applies a rule, made anew for each, to the functions of a program.
+pub fn each_function<R: Rule>(module: &mut Module, rule: impl Fn() -> R) {
     for index in 0..module.functions.len() {
-        let mut rule = rule(module, &module.functions[index]);
-        function(module, index, &mut rule);
+        function(module, index, &mut rule());
     }
 }
 

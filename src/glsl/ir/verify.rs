@@ -8,11 +8,19 @@ use crate::glsl::types::{Scalar, Type, TypeId};
 /// - Each value is computed once, and where it is used its statement dominates.
 /// - Places are operands of loads, stores, parts and calls alone; stores write no read-only memory.
 /// - Types agree.
+/// - A variable without a first value is not read before something writes to it, in the order of the text.
 /// - A `Break` or `Continue` stands in a loop or switch, and is the last statement of its block.
 pub fn verify(module: &Module) -> Result<(), String> {
     for (index, function) in module.functions.iter().enumerate() {
-        let mut check =
-            Check { module, function, index, available: vec![false; function.len()], breakable: 0, loops: 0 };
+        let mut check = Check {
+            module,
+            function,
+            index,
+            available: vec![false; function.len()],
+            written: function.vars.iter().map(|var| var.init.is_some()).collect(),
+            breakable: 0,
+            loops: 0,
+        };
         for (value, op) in function.values() {
             if op.is_free() {
                 check.available[value.index()] = true;
@@ -30,6 +38,8 @@ struct Check<'a> {
     index: usize,
     /// Whether the value is computed wherever control passes here, by [`Value::index`].
     available: Vec<bool>,
+    /// Whether a variable begins with a value, or something was written to it, by [`VarId::index`](super::VarId::index).
+    written: Vec<bool>,
     /// Loops and switches around, and loops.
     breakable: usize,
     loops: usize,
@@ -59,8 +69,10 @@ impl Check<'_> {
                     return Err(format!("{value:?} is computed twice"));
                 }
                 defined.push(*value);
+                self.memory(*value)?;
             }
             Stmt::Store { place, value } => {
+                self.writes(*place);
                 self.place(*place)?;
                 self.value(*value)?;
                 self.expect(*value, self.function.ty(*place))?;
@@ -113,6 +125,28 @@ impl Check<'_> {
             Stmt::Break | Stmt::Continue | Stmt::Discard => {}
         }
         Ok(())
+    }
+
+    /// Notes what a call may write, and refuses loads of what nothing has written.
+    fn memory(&mut self, value: Value) -> Result<(), String> {
+        let function = self.function;
+        match function[value] {
+            Op::Load { place } => match function[function.root(place)] {
+                Op::Var(var) if !self.written[var.index()] => Err(format!("{value:?} reads what nothing has written")),
+                _ => Ok(()),
+            },
+            Op::Call { ref args, .. } => {
+                args.iter().filter(|&&arg| function.is_place(arg)).for_each(|&arg| self.writes(arg));
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    fn writes(&mut self, place: Value) {
+        if let Op::Var(var) = self.function[self.function.root(place)] {
+            self.written[var.index()] = true;
+        }
     }
 
     /// What `break_if` names may be computed in the block.
@@ -259,5 +293,28 @@ impl Check<'_> {
                     && (0..).zip(parts).all(|(i, &part)| f.ty(part) == self.module.part(ty, i))
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::glsl::ast::Loc;
+
+    #[test]
+    fn memory_that_nothing_has_written_is_not_read() {
+        let mut f = Function::new(TypeId::VOID);
+        let var = f.add_var(TypeId::FLOAT);
+        let place = f.append(Op::Var(var), TypeId::FLOAT, Loc::default());
+        let zero = f.append(Op::Literal(Scalar::Float, 0), TypeId::FLOAT, Loc::default());
+        let load = f.append(Op::Load { place }, TypeId::FLOAT, Loc::default());
+        let mut module = Module { functions: vec![f], ..Module::default() };
+        module.functions[0].body = vec![Stmt::Let(load)];
+        assert!(verify(&module).is_err());
+        module.functions[0].body = vec![Stmt::Store { place, value: zero }, Stmt::Let(load)];
+        assert_eq!(verify(&module), Ok(()));
+        module.functions[0].body = vec![Stmt::Let(load)];
+        module.functions[0].vars[0].init = Some(zero);
+        assert_eq!(verify(&module), Ok(()));
     }
 }

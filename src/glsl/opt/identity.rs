@@ -9,7 +9,7 @@ use crate::glsl::{
 };
 
 pub(super) fn run(module: &mut Module) {
-    rewrite::each_function(module, |_, _| Identity);
+    rewrite::each_function(module, || Identity);
 }
 
 struct Identity;

@@ -9,7 +9,7 @@ use crate::glsl::ir::{
 };
 
 pub(super) fn run(program: &mut Module) {
-    rewrite::each_function(program, |_, _| LoopExits);
+    rewrite::each_function(program, || LoopExits);
 }
 
 struct LoopExits;

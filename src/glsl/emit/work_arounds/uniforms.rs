@@ -15,7 +15,7 @@ use crate::glsl::{
 };
 
 pub(super) fn run(program: &mut Module) {
-    rewrite::each_function(program, |_, _| Uniforms::default());
+    rewrite::each_function(program, Uniforms::default);
 }
 
 /// Uniforms that were read at the start: members and indices that lead there, and the value.

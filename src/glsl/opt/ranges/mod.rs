@@ -5,7 +5,7 @@
 //! the only stores to it ([`counters`]): what holds of all of them is known from then on, and what a loop's test says of its
 //! counter is known in the loop's body, behind the test and before the step.
 //!
-//! `tests/glsl_bounds.rs` has each way in which a bound could be used where it does not hold.
+//! `tests/it/glsl_bounds.rs` has each way in which a bound could be used where it does not hold.
 
 mod counters;
 
