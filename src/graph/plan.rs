@@ -141,6 +141,11 @@ pub struct FramePlan {
 }
 
 impl FramePlan {
+    /// Returns whether a pass draws the target. One that none draws stands for a pass that the project does not have.
+    pub fn is_drawn(&self, target: usize) -> bool {
+        self.draws.iter().any(|draw| draw.targets.contains(&target))
+    }
+
     /// Plans a frame of `project`. `facts[i]` belongs to `project.passes[i]`. `wanted` are the passes whose pictures
     /// somebody will look at; empty means Image. Without `skip` everything is drawn, doubled and mipped as the site
     /// would.

@@ -142,7 +142,7 @@ mod tests {
             common: None,
             passes: vec![Pass { id: PassId::Image, source, channels, settings: Default::default() }],
             sampler_rules: SamplerRules::PerChannel,
-            knob_values: Default::default(),
+            custom_uniform_values: Default::default(),
             groups: Vec::new(),
             includes: Vec::new(),
             origin: Origin::Unsaved,

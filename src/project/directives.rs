@@ -17,7 +17,7 @@
 //! ```
 
 use super::{
-    Channel, Filter, Input, Media, PassId, Sampler, Source, Wrap, file_names, includes, knobs,
+    Channel, Filter, Input, Media, PassId, Sampler, Source, Wrap, custom_uniforms, file_names, includes,
     lines::{HashLine, hash_lines},
     nearest,
 };
@@ -33,7 +33,7 @@ fn is_channel(line: &HashLine<'_>) -> bool {
 pub fn blank(text: &str) -> Cow<'_, str> {
     let mut ranges: Vec<Range<usize>> = hash_lines(text)
         .into_iter()
-        .filter(|l| is_channel(l) || knobs::is_declaration(l) || includes::is_include(l))
+        .filter(|l| is_channel(l) || custom_uniforms::is_declaration(l) || includes::is_include(l))
         .map(|l| l.range)
         .collect();
     if text.starts_with('\u{feff}') {

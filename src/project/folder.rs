@@ -90,7 +90,7 @@ pub(super) fn project(name: String, files: Vec<Source>, origin: Origin) -> (Proj
         common,
         passes,
         sampler_rules: SamplerRules::PerChannel,
-        knob_values: Default::default(),
+        custom_uniform_values: Default::default(),
         groups: Vec::new(),
         includes: Vec::new(),
         origin,

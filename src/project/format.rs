@@ -43,6 +43,15 @@ impl PassFormat {
         }
     }
 
+    /// Components of a texel; what is missing reads as 0, alpha as 1.
+    pub fn components(self) -> usize {
+        match self {
+            PassFormat::R8 | PassFormat::R16f | PassFormat::R32f => 1,
+            PassFormat::Rg8 | PassFormat::Rg16f | PassFormat::Rg32f => 2,
+            PassFormat::Rgba8 | PassFormat::Rgba16f | PassFormat::Rgba32f => 4,
+        }
+    }
+
     /// Floats of 16 bits.
     pub fn is_small_float(self) -> bool {
         matches!(self, PassFormat::R16f | PassFormat::Rg16f | PassFormat::Rgba16f)

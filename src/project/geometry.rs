@@ -79,6 +79,9 @@ pub enum MeshSource {
     Builtin(String),
     /// A glTF or OBJ file of the project, relative to its folder: see [`super::confine`].
     File(PathBuf),
+    /// A file that the person at the machine picked, wherever it lies, by its whole path. Lives in memory alone, as
+    /// [`super::Media::Picked`] does.
+    Picked(PathBuf),
 }
 
 impl MeshSource {
@@ -100,6 +103,8 @@ impl MeshSource {
                 let path = path.to_string_lossy();
                 if cfg!(windows) { path.replace('\\', "/") } else { path.into_owned() }
             }
+            // As saving calls the copy, unless that name is taken.
+            MeshSource::Picked(path) => path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
         }
     }
 }

@@ -18,12 +18,19 @@ pub(super) fn hash_lines(text: &str) -> Vec<HashLine<'_>> {
     let mut lines = Vec::new();
     let mut in_comment = false;
     let mut start = 0;
-    for line in text.split_inclusive('\n') {
-        // Most lines; texts may be long.
-        if !in_comment && !line.contains('#') && !line.contains("/*") {
-            start += line.len();
-            continue;
-        }
+    let mut hash = Mark::new(text, "#");
+    let mut comment_begin = Mark::new(text, "/*");
+    let mut comment_end = Mark::new(text, "*/");
+    loop {
+        // Texts may be long, and few lines matter: those with a `#`, and up to the last of them those where a comment
+        // begins or ends.
+        let next = match in_comment {
+            true => comment_end.from(start),
+            false => hash.from(start).map(|hash| comment_begin.from(start).map_or(hash, |begin| begin.min(hash))),
+        };
+        let Some(next) = next else { break };
+        start += text[start..next].rfind('\n').map_or(0, |i| i + 1);
+        let line = text[start..].split_inclusive('\n').next().unwrap_or_default();
         let content = line.trim_end_matches(['\n', '\r']);
         let mut first = None;
         let mut rest = 0;
@@ -55,4 +62,55 @@ pub(super) fn hash_lines(text: &str) -> Vec<HashLine<'_>> {
         start += line.len();
     }
     lines
+}
+
+/// The next place of a word in a text that is read from its begin to its end.
+struct Mark<'t> {
+    places: memchr::memmem::FindIter<'t, 'static>,
+    /// The newest found.
+    at: Option<usize>,
+}
+
+impl<'t> Mark<'t> {
+    fn new(text: &'t str, word: &'static str) -> Self {
+        let mut places = memchr::memmem::find_iter(text.as_bytes(), word);
+        let at = places.next();
+        Self { places, at }
+    }
+
+    /// Returns the first place that is not before `start`, which only grows from call to call.
+    fn from(&mut self, start: usize) -> Option<usize> {
+        while self.at.is_some_and(|at| at < start) {
+            self.at = self.places.next();
+        }
+        self.at
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bodies(text: &str) -> Vec<&str> {
+        hash_lines(text).iter().map(|line| line.body).collect()
+    }
+
+    #[test]
+    fn lines_begin_with_a_hash_where_comments_are_left_out() {
+        assert_eq!(bodies(""), [""; 0]);
+        assert_eq!(bodies("a # b\n x"), [""; 0]);
+        assert_eq!(bodies("#a\n  # b  \r\nx\n/* c */ # d\n#e"), ["a", "b", "d", "e"]);
+        assert_eq!(bodies("/*\n#a\n*/\n#b\n// #c\n/* */ /*\n#d */ #e\n#f"), ["b", "e", "f"]);
+        assert_eq!(bodies("#a /* b\n#c\n*/ #d\n#e \"/*\"\n#f"), ["a /* b", "d", "e \"/*\"", "f"]);
+        assert_eq!(bodies("x /* a\n\n\n b */ x\n\n#c\n/*"), ["c"]);
+    }
+
+    #[test]
+    fn places_are_those_of_the_text() {
+        let text = "float x;\n/*\n*/  #  a b \r\n#";
+        let lines = hash_lines(text);
+        assert_eq!(&text[lines[0].range.clone()], "*/  #  a b ");
+        assert_eq!(&text[lines[0].body_at..][..3], "a b");
+        assert_eq!((&text[lines[1].range.clone()], lines[1].body_at), ("#", text.len()));
+    }
 }

@@ -94,7 +94,7 @@ pub(super) fn load_glsl(path: &Path) -> Result<Loaded, ProjectError> {
             settings: Default::default(),
         }],
         sampler_rules: SamplerRules::PerChannel,
-        knob_values: Default::default(),
+        custom_uniform_values: Default::default(),
         groups: Vec::new(),
         includes: Vec::new(),
         origin: Origin::File(path.to_owned()),

@@ -3,9 +3,14 @@
 //! Owns [`Project`], `eddy.toml`, folders of GLSL files, Shadertoy JSON in and out, the presets inside the binary.
 //! Knows nothing of wgpu or naga; reads files only where a caller names them.
 
+mod advice;
+mod arrivals;
 mod atomic;
 pub mod confine;
+mod custom_uniform_values;
+mod custom_uniforms;
 pub mod directives;
+mod draws;
 mod embedded;
 mod error;
 mod file_names;
@@ -17,8 +22,6 @@ mod format;
 mod geometry;
 mod includes;
 pub mod json;
-mod knob_values;
-mod knobs;
 pub mod limits;
 mod lines;
 mod load;
@@ -27,17 +30,26 @@ mod locate;
 mod manifest;
 mod model;
 mod names;
+mod pass_edits;
 mod pass_id;
 mod picked;
 pub mod presets;
 mod save;
 mod settings;
+mod snapshot;
 mod source;
 mod source_ids;
 mod writes;
 
+pub use advice::{advice, missing_pass};
+pub use arrivals::{
+    ArrivalError, FileKind, Fit, MODELS, PICTURES, TextArrival, arrival_of_text, folder_of_parts, kind_of_file, new_for,
+};
 pub use atomic::write_with;
 pub use confine::FileError;
+pub use custom_uniforms::{
+    CustomUniform, CustomUniformRange, CustomUniformType, CustomUniformValue, CustomUniformValues, CustomUniforms,
+};
 pub use error::ProjectError;
 pub use fill_texts::FillText;
 pub use fills::{Boundary, Fill, FillKind, FillValue, Written};
@@ -47,15 +59,16 @@ pub use geometry::{
     Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Stage, files_beside, unescaped,
 };
 pub use includes::{IncludeLines, include_names};
-pub use knobs::{Knob, KnobRange, KnobType, KnobValue, KnobValues, Knobs};
 pub use loaded::Loaded;
 pub use locate::{load, stem};
 pub use manifest::write as write_manifest;
 pub use model::{Channel, Filter, Info, Input, Media, Origin, Pass, Project, Sampler, SamplerRules, Tab, Wrap};
 pub use names::{listed, nearest};
+pub use pass_edits::{PassEdit, PassEditError, PassEdited};
 pub use pass_id::{PassId, Turn};
-pub use picked::at_home;
-pub use save::save;
+pub use picked::{at_home, bring_home};
+pub use save::{name_at, remove_renamed, save};
 pub use settings::{Group, PassBody, PassSettings, PassSize, Region};
+pub use snapshot::{SnapshotError, read_snapshot, write_snapshot};
 pub use source::{Included, Source};
 pub use writes::Overwrite;

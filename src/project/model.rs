@@ -1,6 +1,6 @@
 //! A project as pure data: passes in their drawing order, what each channel reads, and where the texts came from.
 
-use super::{Group, Included, KnobValues, PassId, PassSettings, Source};
+use super::{CustomUniformValues, Group, Included, PassId, PassSettings, Source};
 use std::path::PathBuf;
 
 /// All that the author wrote: enough to compile, plan and draw, and to write it back unchanged.
@@ -17,9 +17,9 @@ pub struct Project {
     pub sampler_rules: SamplerRules,
     /// Passes drawn several times a frame; those in none are drawn once.
     pub groups: Vec<Group>,
-    /// Values of the author's own uniforms by name: of [`Project::knobs`] those that differ from the default, and those
-    /// of uniforms that a text declares in GLSL's own way.
-    pub knob_values: KnobValues,
+    /// Values of the author's own uniforms by name: of [`Project::custom_uniforms`] those that differ from the default,
+    /// and those of uniforms that a text declares in GLSL's own way.
+    pub custom_uniform_values: CustomUniformValues,
     /// Files that the texts have in them, as [`Project::read_includes`] last found them.
     pub includes: Vec<Included>,
     pub origin: Origin,
@@ -181,6 +181,14 @@ impl Input {
         }
     }
 
+    /// The name of the buffer that is read.
+    pub fn buffer_mut(&mut self) -> Option<&mut String> {
+        match self {
+            Input::Buffer(name) | Input::Target { buffer: name, .. } => Some(name),
+            _ => None,
+        }
+    }
+
     /// The buffer that is read, and which of its targets.
     pub fn buffer(&self) -> Option<(&str, usize)> {
         match self {
@@ -235,6 +243,15 @@ impl Tab {
             Tab::Common => "Common".into(),
             Tab::Pass(id) => id.title(),
             Tab::Stage(_, file) => file.clone(),
+        }
+    }
+
+    /// The same tab of another pass.
+    pub fn of_pass(&self, pass: PassId) -> Tab {
+        match self {
+            Tab::Common => Tab::Common,
+            Tab::Pass(_) => Tab::Pass(pass),
+            Tab::Stage(_, file) => Tab::Stage(pass, file.clone()),
         }
     }
 

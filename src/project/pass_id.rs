@@ -79,8 +79,36 @@ impl PassId {
         })
     }
 
+    /// The buffer that a person calls so: `glow`, `Buffer glow`, `Velocity field`. Names are kept without blanks, `_`
+    /// and `-`, and in lower case unless they are one letter.
+    pub fn buffer_named(text: &str) -> Option<PassId> {
+        let text = text.trim();
+        let rest = text.split_once([' ', '_', '-']).filter(|(first, _)| first.eq_ignore_ascii_case("buffer"));
+        let name = rest.map_or(text, |(_, rest)| rest);
+        PassId::parse(&format!("buffer_{name}")).filter(|id| matches!(id, PassId::Buffer(_)))
+    }
+
     /// Returns whether a buffer may be called so: letters and digits, not too many.
     pub fn is_name(name: &str) -> bool {
         !name.is_empty() && name.chars().count() <= limits::NAME && name.chars().all(char::is_alphanumeric)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_buffer_may_be_called_what_another_pass_is() {
+        let named = |text: &str| PassId::buffer_named(text).map(|id| id.title());
+        let cases = [("glow", "glow"), ("Buffer glow", "glow"), ("b", "B"), ("Velocity Field", "velocityfield")];
+        for (text, name) in cases.into_iter().chain([("image", "image"), ("bufx", "bufx"), ("buffer", "buffer")]) {
+            assert_eq!(named(text), Some(format!("Buffer {name}")), "{text}");
+            let id = PassId::buffer_named(text).unwrap();
+            assert_eq!(PassId::parse(&id.key()), Some(id), "{text}");
+        }
+        for text in ["", " ", "a/b", "a.b", "a\"b", "buffer -"] {
+            assert_eq!(named(text), None, "{text}");
+        }
     }
 }

@@ -4,7 +4,8 @@
 //! so that the project never names anything outside its folder.
 
 use super::{
-    Fill, FillKind, FillValue, Input, Media, Project, ProjectError, atomic::Content, confine, limits, writes::Writes,
+    Fill, FillKind, FillValue, Input, Media, MeshSource, Project, ProjectError, atomic::Content, confine, files_beside,
+    limits, writes::Writes,
 };
 use std::path::Path;
 
@@ -21,6 +22,23 @@ pub fn at_home(mut input: Input, folder: Option<&Path>) -> Input {
         }
     }
     input
+}
+
+/// Everything that was picked for a project, as [`at_home`] has it.
+pub fn bring_home(project: &mut Project, folder: Option<&Path>) {
+    for pass in &mut project.passes {
+        for channel in pass.channels.iter_mut().flatten() {
+            let input = std::mem::replace(&mut channel.input, Input::Keyboard);
+            channel.input = at_home(input, folder);
+        }
+        for draw in pass.settings.meshes_mut().into_iter().flat_map(|g| &mut g.draws) {
+            let MeshSource::Picked(path) = &mut draw.mesh else { continue };
+            *path = std::path::absolute(&*path).unwrap_or_else(|_| path.clone());
+            if let Some(name) = folder.and_then(|folder| name_within(folder, path)) {
+                draw.mesh = MeshSource::File(name.into());
+            }
+        }
+    }
 }
 
 /// The name, from the folder, of a file that lies in it.
@@ -54,6 +72,54 @@ pub(super) fn copy_in(project: &mut Project, target: &Path, writes: &mut Writes)
         *media = Media::File(name.into());
     }
     Ok(())
+}
+
+/// Copies the picked models into `target` with the files that they name, and names the copies. These are named from the
+/// model, so that where one of the names is taken, all of them go into a folder of their own. A model that cannot be
+/// read is named and not there.
+pub(super) fn copy_models_in(project: &mut Project, target: &Path, writes: &mut Writes) -> Result<(), ProjectError> {
+    for pass in &mut project.passes {
+        for draw in pass.settings.meshes_mut().into_iter().flat_map(|g| &mut g.draws) {
+            let MeshSource::Picked(path) = &draw.mesh else { continue };
+            let name = match name_within(target, path) {
+                Some(name) => name,
+                None => copy_model(path, target, writes)?,
+            };
+            draw.mesh = MeshSource::File(name.into());
+        }
+    }
+    Ok(())
+}
+
+fn copy_model(path: &Path, target: &Path, writes: &mut Writes) -> Result<String, ProjectError> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let own = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let mut files: Vec<(String, Vec<u8>)> = Vec::new();
+    for name in std::iter::once(own.clone()).chain(files_beside(folder, &own)) {
+        // What is not there is left out, and told of when the model is drawn.
+        if let Ok(bytes) = confine::read(folder, &name, limits::MEDIA_FILE)
+            && super::writes::is_media(&name)
+        {
+            files.push((name, bytes));
+        }
+    }
+    let stem = parts(path).0;
+    let numbered = (1..).map(|n| if n == 1 { format!("{stem}/") } else { format!("{stem}_{n}/") });
+    for place in std::iter::once(String::new()).chain(numbered) {
+        let is_free = |(name, bytes): &(String, Vec<u8>)| {
+            let name = format!("{place}{name}");
+            let is_free = target.join(&name).symlink_metadata().is_err()
+                || confine::read(target, &name, limits::MEDIA_FILE).is_ok_and(|there| there == *bytes);
+            is_free && writes.is_free(&name, bytes)
+        };
+        if files.iter().all(is_free) {
+            for (name, bytes) in files {
+                writes.add(&format!("{place}{name}"), Content::Bytes(bytes))?;
+            }
+            return Ok(format!("{place}{own}"));
+        }
+    }
+    Ok(own)
 }
 
 /// Writes what a project holds in memory of the files that fill its passes, and names these files, as [`copy_in`] does.

@@ -1,6 +1,6 @@
 //! The presets inside the binary: each a folder of `presets/`, read as any folder with `eddy.toml`.
 
-pub use super::embedded::names;
+pub use super::embedded::{Category, categories, names, thumbnail};
 use super::{Loaded, Origin, ProjectError, embedded::folder, files::Files, load::load_files, nearest};
 use include_dir::Dir;
 
@@ -30,6 +30,14 @@ mod tests {
             assert_eq!(loaded.warnings, [], "{name}");
             assert_eq!(loaded.project.origin, Origin::Preset((*name).to_owned()));
         }
+    }
+
+    #[test]
+    fn every_preset_is_in_one_category() {
+        let listed: Vec<&str> = categories().iter().flat_map(|c| c.names.iter().copied()).collect();
+        assert_eq!(listed, names());
+        let titles: Vec<&str> = categories().iter().map(|c| c.title.as_str()).collect();
+        assert_eq!(titles, ["Fluids", "Light", "Meshes", "Filters", "Games", "Tricks"], "others means a forgotten one");
     }
 
     #[test]

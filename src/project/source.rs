@@ -12,6 +12,17 @@ pub struct Source {
     pub text: Arc<str>,
 }
 
+impl Source {
+    /// The name of the file that it is in, where its pass was renamed and it shall have another: from the project's
+    /// folder, as [`Source::name`] is.
+    pub(super) fn renamed_from(&self) -> Option<String> {
+        let there = self.path.as_ref()?.file_name()?.to_str()?;
+        let (folder, wanted) = self.name.rsplit_once('/').map_or(("", &*self.name), |(folder, name)| (folder, name));
+        let slash = if folder.is_empty() { "" } else { "/" };
+        (there != wanted).then(|| format!("{folder}{slash}{there}"))
+    }
+}
+
 /// A file that some text names in an `#include` line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Included {

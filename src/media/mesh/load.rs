@@ -19,18 +19,20 @@ pub fn load(source: &MeshSource, base: Option<&Path>) -> Result<Mesh, MeshError>
 
 /// The same where pictures and models may take `room` bytes more.
 pub(in crate::media) fn load_within(source: &MeshSource, base: Option<&Path>, room: u64) -> Result<Mesh, MeshError> {
-    let name = match source {
+    let (name, base) = match source {
         MeshSource::Builtin(name) => {
             return builtin::make(name).ok_or_else(|| MeshError::UnknownBuiltin(name.clone()));
         }
-        MeshSource::File(path) => path,
+        MeshSource::File(path) => (path.as_path(), base),
+        // What it names lies beside it.
+        MeshSource::Picked(path) => (Path::new(path.file_name().unwrap_or_default()), path.parent()),
     };
     let is = |ending: &str| name.extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
     let is_gltf = is("glb") || is("gltf");
     if !is_gltf && !is("obj") {
-        return Err(MeshError::UnknownKind(name.clone()));
+        return Err(MeshError::UnknownKind(name.to_owned()));
     }
-    let Some(folder) = base else { return Err(MeshError::NoFolder(name.clone())) };
+    let Some(folder) = base else { return Err(MeshError::NoFolder(name.to_owned())) };
     let bytes = confine::read(folder, name, limits::MEDIA_FILE)?;
     let mut mesh = Mesh { vertices: Vec::new(), indices: Vec::new() };
     let mut take = |raw: Raw| -> Result<(), Trouble> {

@@ -3,7 +3,7 @@
 use super::ids;
 use crate::{
     diag::SourceId,
-    project::{Channel, Filter, Input, Knob, Media, Pass, PassId, Project, Wrap, knobs::constants},
+    project::{Channel, CustomUniform, Filter, Input, Media, Pass, PassId, Project, Wrap, custom_uniforms::constants},
 };
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
@@ -18,13 +18,17 @@ pub fn export(project: &Project) -> String {
     info.insert("username".into(), json!(project.info.author));
     info.insert("description".into(), json!(project.info.description));
     info.insert("tags".into(), json!(project.info.tags));
-    let (knobs, includes) = (project.knobs(), project.include_lines());
+    let (custom_uniforms, includes) = (project.custom_uniforms(), project.include_lines());
     let text = |id: SourceId| {
         let (common, own) = (includes.reach(Project::COMMON_ID), includes.reach(id));
-        let declared = |knob: &Knob, within: &BTreeSet<SourceId>| knob.declared_in.iter().any(|id| within.contains(id));
-        let here =
-            knobs.list.iter().filter(|k| declared(k, &own) && (id == Project::COMMON_ID || !declared(k, &common)));
-        constants::text(&project.inlined(id, &includes), here, &project.knob_values)
+        let declared = |custom_uniform: &CustomUniform, within: &BTreeSet<SourceId>| {
+            custom_uniform.declared_in.iter().any(|id| within.contains(id))
+        };
+        let here = custom_uniforms
+            .list
+            .iter()
+            .filter(|k| declared(k, &own) && (id == Project::COMMON_ID || !declared(k, &common)));
+        constants::text(&project.inlined(id, &includes), here, &project.custom_uniform_values)
     };
     let pass = |(index, pass): (usize, &Pass)| self::pass(pass, text(Project::pass_id(index)));
     // Image first, as the site writes it.

@@ -211,7 +211,7 @@ fn project(
         common,
         passes,
         sampler_rules: SamplerRules::Site,
-        knob_values: Default::default(),
+        custom_uniform_values: Default::default(),
         groups: Vec::new(),
         includes: Vec::new(),
         origin: Origin::Unsaved,

@@ -201,7 +201,7 @@ fn an_export_reads_back_as_the_same_project() {
             pass(PassId::Sound, Default::default()),
         ],
         sampler_rules: SamplerRules::Site,
-        knob_values: Default::default(),
+        custom_uniform_values: Default::default(),
         groups: Vec::new(),
         includes: Vec::new(),
         origin: Origin::Unsaved,

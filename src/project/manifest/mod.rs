@@ -72,11 +72,13 @@ mod fills;
 mod geometry;
 mod read;
 mod reader;
+mod renamed;
 mod settings;
 mod uniforms;
 mod write;
 
 pub(super) use read::project;
+pub(super) use renamed::follow_renames;
 pub use write::write;
 
 use super::{Input, Sampler};

@@ -127,9 +127,18 @@ impl Reader<'_> {
         let common = self.common(root);
         let passes = self.passes(root);
         let groups = self.groups(root, &passes);
-        let knob_values = self.uniforms(root);
-        let mut project =
-            Project { name, info, common, passes, sampler_rules, groups, knob_values, includes: Vec::new(), origin };
+        let custom_uniform_values = self.uniforms(root);
+        let mut project = Project {
+            name,
+            info,
+            common,
+            passes,
+            sampler_rules,
+            groups,
+            custom_uniform_values,
+            includes: Vec::new(),
+            origin,
+        };
         includes::read(&mut project, Some(self.files));
         self.check_uniforms(root, &project);
         Some(project)

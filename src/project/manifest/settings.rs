@@ -5,7 +5,8 @@ use super::{
     reader::Reader,
 };
 use crate::project::{
-    Group, Pass, PassFormat, PassId, PassSettings, PassSize, Project, Region, file_names, limits, listed, nearest,
+    Group, Pass, PassFormat, PassId, PassSettings, PassSize, Project, Region, draws::draws, file_names, limits, listed,
+    nearest,
 };
 use toml_edit::{Item, Table, TableLike, Value};
 
@@ -106,12 +107,7 @@ impl Reader<'_> {
 
     /// Refuses a project whose frame draws more than the limit.
     fn check_draws(&mut self, passes: &[Pass], groups: &[Group], table: Option<&dyn TableLike>) {
-        let draws = |pass: &Pass| {
-            let steps = groups.iter().find(|g| g.passes.contains(&pass.id)).map_or(1, |g| u64::from(g.steps));
-            let meshes = pass.settings.meshes().map_or(1, |g| g.draws.len().max(1) as u64);
-            meshes.saturating_mul(steps)
-        };
-        let all = passes.iter().map(draws).fold(0, u64::saturating_add);
+        let all = draws(passes, groups);
         if all > limits::DRAWS {
             let most = groups.iter().max_by_key(|g| g.steps);
             let at = most.and_then(|g| table?.get(&g.name)?.as_table_like()?.get("steps")?.span());

@@ -6,7 +6,7 @@ use super::{
     fills, geometry, read, settings, uniforms,
 };
 use crate::project::{
-    Channel, Filter, Input, KnobValue, Media, PassId, Project, SamplerRules, Wrap, file_names::pass_of_stem,
+    Channel, CustomUniformValue, Filter, Input, Media, PassId, Project, SamplerRules, Wrap, file_names::pass_of_stem,
 };
 use toml_edit::{DocumentMut, InlineTable, Item, Key, Table, TableLike, Value};
 
@@ -49,7 +49,7 @@ pub fn write(project: &Project, old: Option<&str>, folder_name: &str, has_common
 }
 
 fn uniforms(root: &mut Table, project: &Project) {
-    let values = &project.knob_values;
+    let values = &project.custom_uniform_values;
     if values.is_empty() {
         root.remove("uniforms");
         return;
@@ -60,20 +60,20 @@ fn uniforms(root: &mut Table, project: &Project) {
         table.remove(&key);
     }
     for (name, value) in values {
-        if table.get(name).and_then(uniforms::knob_value).as_ref() == Some(value) {
+        if table.get(name).and_then(uniforms::custom_uniform_value).as_ref() == Some(value) {
             continue;
         }
         set(table, name, Some(written(value)));
     }
 }
 
-fn written(value: &KnobValue) -> Value {
+fn written(value: &CustomUniformValue) -> Value {
     match value {
-        KnobValue::Bool(on) => Value::from(*on),
-        KnobValue::Int(n) => Value::from(i64::from(*n)),
-        KnobValue::Float(x) => Value::from(*x),
-        KnobValue::Vector(all) => Value::Array(all.iter().copied().collect()),
-        KnobValue::List(all) => Value::Array(all.iter().map(written).collect()),
+        CustomUniformValue::Bool(on) => Value::from(*on),
+        CustomUniformValue::Int(n) => Value::from(i64::from(*n)),
+        CustomUniformValue::Float(x) => Value::from(*x),
+        CustomUniformValue::Vector(all) => Value::Array(all.iter().copied().collect()),
+        CustomUniformValue::List(all) => Value::Array(all.iter().map(written).collect()),
     }
 }
 
@@ -179,7 +179,11 @@ fn channels(pass: &mut dyn TableLike, channels: &[Option<Channel>; 4]) {
                 if let Some(decor) = decor {
                     *value.decor_mut() = decor;
                 }
-                table.insert(&key, Item::Value(value));
+                // In place, as the author's comments before it belong to the key.
+                match table.get_mut(&key) {
+                    Some(item) => *item = Item::Value(value),
+                    None => drop(table.insert(&key, Item::Value(value))),
+                }
             }
         }
     }

@@ -15,7 +15,7 @@ use super::{
 use crate::diag::Diagnostic;
 use std::{
     collections::{BTreeMap, BTreeSet},
-    path::Path,
+    path::{Path, PathBuf},
 };
 
 /// Writes the project to `target`: one file for a path that ends in `.json` or `.glsl` (which holds a lone Image pass),
@@ -34,6 +34,19 @@ pub fn save(project: &Project, target: &Path, overwrite: Overwrite) -> Result<Pr
         save_glsl(project, target, overwrite)
     } else {
         save_folder(project, target, overwrite)
+    }
+}
+
+/// Returns what a project is called that [`save`] writes to `target`.
+pub fn name_at(target: &Path) -> String {
+    let extension = target.extension().unwrap_or_default();
+    let is_file = extension.eq_ignore_ascii_case("json") || file_names::is_glsl_extension(extension);
+    if target.file_name().is_some_and(|n| n == MANIFEST) && !target.is_dir() {
+        folder_name(target.parent().unwrap_or(Path::new("")))
+    } else if is_file && !target.is_dir() {
+        target.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+    } else {
+        folder_name(target)
     }
 }
 
@@ -71,7 +84,7 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite) -> Result<P
     if image.settings != Default::default() {
         return cannot("how its pass is drawn");
     }
-    if !project.knob_values.is_empty() {
+    if !project.custom_uniform_values.is_empty() {
         return cannot("values of sliders that are not their defaults");
     }
     let has_moved = project.origin.base_dir() != target.parent();
@@ -98,7 +111,8 @@ fn save_folder(project: &Project, target: &Path, overwrite: Overwrite) -> Result
     let mut saved = project.clone();
     let mut own: BTreeSet<String> = BTreeSet::new();
     if is_home {
-        let texts = saved.tab_sources().filter(|s| s.path.is_some()).map(|s| s.name.clone());
+        let texts = saved.tab_sources().filter(|s| s.path.is_some());
+        let texts = texts.map(|s| s.renamed_from().unwrap_or_else(|| s.name.clone()));
         own.extend(texts.filter_map(|name| confine::relative("", &name).ok()));
         own.extend(had_manifest.then(|| MANIFEST.to_owned()));
     }
@@ -108,7 +122,8 @@ fn save_folder(project: &Project, target: &Path, overwrite: Overwrite) -> Result
         place(common, name, is_home, target, &mut writes)?;
     }
     for pass in &mut saved.passes {
-        let name = usual(&pass.source, &pass.id.key());
+        let is_renamed = is_home && pass.source.renamed_from().is_some();
+        let name = if is_renamed { pass.source.name.clone() } else { usual(&pass.source, &pass.id.key()) };
         place(&mut pass.source, name, is_home, target, &mut writes)?;
         for stage in pass.settings.meshes_mut().into_iter().flat_map(|g| &mut g.stages) {
             let name = with_ending(stage.name.clone());
@@ -124,6 +139,7 @@ fn save_folder(project: &Project, target: &Path, overwrite: Overwrite) -> Result
         copy_media(&saved, &mut writes)?;
     }
     picked::copy_in(&mut saved, target, &mut writes)?;
+    picked::copy_models_in(&mut saved, target, &mut writes)?;
     picked::write_held(&mut saved, target, &mut writes)?;
     saved.origin = Origin::Folder { path: target.to_owned(), has_manifest: true };
     let name = folder_name(target);
@@ -132,13 +148,36 @@ fn save_folder(project: &Project, target: &Path, overwrite: Overwrite) -> Result
         saved.origin = Origin::Folder { path: target.to_owned(), has_manifest: false };
     } else {
         let old = had_manifest.then(|| confine::read(target, MANIFEST, limits::MANIFEST).ok()).flatten();
-        let old = old.and_then(|bytes| String::from_utf8(bytes).ok());
+        let old =
+            old.and_then(|bytes| String::from_utf8(bytes).ok()).map(|text| manifest::follow_renames(&text, project));
         let text = manifest_text(&saved, old.as_deref(), &name, target, &after)?;
         writes.add(MANIFEST, Content::Bytes(text.into_bytes()))?;
     }
     writes.write(overwrite)?;
     saved.read_includes();
     Ok(saved)
+}
+
+/// Removes the files that passes were in before they were renamed: `before` is the project as it was on disk, `renamed`
+/// the one that was saved, `after` what came of it. A file stays that anything else of the project is in, or that does
+/// not hold what `before` says. Returns those that are gone.
+pub fn remove_renamed(before: &Project, renamed: &Project, after: &Project) -> Vec<PathBuf> {
+    let is_home = |(a, b): (&Path, &Path)| is_same(a, b);
+    if !before.origin.base_dir().zip(after.origin.base_dir()).is_some_and(is_home) {
+        return Vec::new();
+    }
+    let used = |path: &Path| {
+        let included = after.includes.iter().map(|i| &i.source);
+        after.tab_sources().chain(included).any(|s| s.path.as_deref().is_some_and(|p| is_same(p, path)))
+    };
+    let is_as_read = |path: &Path| {
+        let text = before.tab_sources().find(|s| s.path.as_deref() == Some(path)).map(|s| s.text.as_bytes());
+        text.is_some() && confine::read_own(path, limits::GLSL_TEXT).ok().as_deref() == text
+    };
+    let moved = renamed.tab_sources().filter(|s| s.renamed_from().is_some()).filter_map(|s| s.path.clone());
+    let gone = moved.filter(|path| !used(path) && is_as_read(path));
+    gone.filter(|path| std::fs::remove_file(path).inspect_err(|e| log::warn!("{}: {e}", path.display())).is_ok())
+        .collect()
 }
 
 /// Writes the one file that a project is.
@@ -171,7 +210,7 @@ fn place(
     writes: &mut Writes,
 ) -> Result<(), ProjectError> {
     let bytes = source.text.as_bytes();
-    let is_old = is_home && source.path.is_some();
+    let is_old = is_home && source.path.is_some() && source.renamed_from().is_none();
     if !(is_old && writes.is_free(&writes.checked(&source.name)?, bytes)) {
         let mut name = writes.checked(&usual)?;
         let mut number = 2;

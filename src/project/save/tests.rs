@@ -113,7 +113,7 @@ fn any_project(seed: u64) -> Project {
         common: (r.below(2) == 0).then(|| source(r, "Common".into())),
         passes,
         sampler_rules: if r.below(2) == 0 { SamplerRules::Site } else { SamplerRules::PerChannel },
-        knob_values: Default::default(),
+        custom_uniform_values: Default::default(),
         groups: Vec::new(),
         includes: Vec::new(),
         origin: Origin::Unsaved,

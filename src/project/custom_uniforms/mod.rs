@@ -1,12 +1,13 @@
 //! The author's own uniforms: declared by a line of a text, turned by a person, saved with the project.
 //!
-//! A knob is one uniform that `#iUniform` lines declare. Users read "uniform", and "slider" for what turns it.
+//! A custom uniform is one uniform that `#iUniform` lines declare. Users read "uniform", and "slider" for what turns
+//! it.
 //!
-//! Owns what `#iUniform` lines say ([`Project::knobs`](super::Project::knobs); the form is in [`line`]) and which
-//! values fit them. A knob that Common declares is there for every pass, one that a pass declares for that pass; one
-//! name is one knob wherever it stands. Values that are not the default lie in
-//! [`Project::knob_values`](super::Project::knob_values), and in `eddy.toml` under `[uniforms]`. How a value reaches a
-//! shader is the engine's matter.
+//! Owns what `#iUniform` lines say ([`Project::custom_uniforms`](super::Project::custom_uniforms); the form is in
+//! [`line`]) and which values fit them. A custom uniform that Common declares is there for every pass, one that a pass
+//! declares for that pass; one name is one custom uniform wherever it stands. Values that are not the default lie in
+//! [`Project::custom_uniform_values`](super::Project::custom_uniform_values), and in `eddy.toml` under `[uniforms]`.
+//! How a value reaches a shader is the engine's matter.
 
 pub(super) mod constants;
 mod declared;
@@ -18,40 +19,40 @@ use crate::diag::{Diagnostic, SourceId};
 pub(super) use declared::words_of_uniforms;
 use line::Line;
 pub(super) use line::{is_declaration, value};
-pub use types::{Knob, KnobRange, KnobType, KnobValue, KnobValues};
+pub use types::{CustomUniform, CustomUniformRange, CustomUniformType, CustomUniformValue, CustomUniformValues};
 
 /// The uniforms that the texts of a project declare in `#iUniform` lines.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Knobs {
+pub struct CustomUniforms {
     /// In the order they are first declared: Common, then the passes.
-    pub list: Vec<Knob>,
+    pub list: Vec<CustomUniform>,
     /// Lines that cannot be read, and lines that contradict each other.
     pub diagnostics: Vec<Diagnostic>,
 }
 
-impl Knobs {
+impl CustomUniforms {
     /// Reads the declarations of texts, which come in the order of their ids.
-    pub(super) fn read<'t>(texts: impl IntoIterator<Item = (SourceId, &'t str)>) -> Knobs {
-        let mut knobs = Knobs::default();
-        // What the lines of each knob say so far, since one may leave to another what it does not say.
+    pub(super) fn read<'t>(texts: impl IntoIterator<Item = (SourceId, &'t str)>) -> CustomUniforms {
+        let mut custom_uniforms = CustomUniforms::default();
+        // What the lines of each custom uniform say so far, since one may leave to another what it does not say.
         let mut said: Vec<Line> = Vec::new();
         for (source, text) in texts {
             for hash in hash_lines(text).iter().filter(|l| is_declaration(l)) {
                 match line::parse(hash, source) {
-                    Ok(line) => knobs.add(line, source, &mut said),
-                    Err(diagnostic) => knobs.diagnostics.push(diagnostic),
+                    Ok(line) => custom_uniforms.add(line, source, &mut said),
+                    Err(diagnostic) => custom_uniforms.diagnostics.push(diagnostic),
                 }
             }
         }
-        for (knob, line) in knobs.list.iter_mut().zip(&said) {
-            line.complete(knob, &mut knobs.diagnostics);
+        for (custom_uniform, line) in custom_uniforms.list.iter_mut().zip(&said) {
+            line.complete(custom_uniform, &mut custom_uniforms.diagnostics);
         }
-        knobs
+        custom_uniforms
     }
 
     fn add(&mut self, line: Line, source: SourceId, said: &mut Vec<Line>) {
         let Some(at) = self.list.iter().position(|k| k.name == line.name) else {
-            self.list.push(line.knob(source));
+            self.list.push(line.custom_uniform(source));
             said.push(line);
             return;
         };
@@ -72,11 +73,11 @@ impl Knobs {
         }
     }
 
-    pub fn get(&self, name: &str) -> Option<&Knob> {
+    pub fn get(&self, name: &str) -> Option<&CustomUniform> {
         self.list.iter().find(|k| k.name == name)
     }
 
-    /// Returns why `name` is no knob of this project, with the one that may be meant.
+    /// Returns why `name` is no custom uniform of this project, with the one that may be meant.
     pub(super) fn unknown(&self, name: &str) -> (String, String) {
         let message = format!("no #iUniform line declares `{name}`");
         let names: Vec<&str> = self.list.iter().map(|k| k.name.as_str()).collect();

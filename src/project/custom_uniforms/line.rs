@@ -11,7 +11,7 @@
 //!
 //! Without a default it is the least of the range, else zero.
 
-use super::types::{Knob, KnobRange, KnobType, KnobValue};
+use super::types::{CustomUniform, CustomUniformRange, CustomUniformType, CustomUniformValue};
 use crate::{
     diag::{Diagnostic, SourceId, Span},
     project::{lines::HashLine, listed, nearest},
@@ -28,20 +28,20 @@ pub(in crate::project) fn is_declaration(line: &HashLine<'_>) -> bool {
 /// The parts of a line; one that it leaves out is `None`.
 pub(super) struct Line {
     pub name: String,
-    pub ty: KnobType,
+    pub ty: CustomUniformType,
     pub default: Option<[f64; 4]>,
-    pub range: Option<KnobRange>,
+    pub range: Option<CustomUniformRange>,
     pub step: Option<[f64; 4]>,
     /// The name.
     pub span: Span,
 }
 
 impl Line {
-    pub fn knob(&self, source: SourceId) -> Knob {
-        Knob {
+    pub fn custom_uniform(&self, source: SourceId) -> CustomUniform {
+        CustomUniform {
             name: self.name.clone(),
             ty: self.ty,
-            default: KnobValue::new(self.ty, &[0.0; 4]),
+            default: CustomUniformValue::new(self.ty, &[0.0; 4]),
             range: None,
             step: None,
             span: self.span,
@@ -70,16 +70,16 @@ impl Line {
         one(&mut self.step, other.step, "step")
     }
 
-    /// Gives a knob everything, now that all lines are read.
-    pub fn complete(&self, knob: &mut Knob, diagnostics: &mut Vec<Diagnostic>) {
-        knob.step = self.step;
-        let unit = KnobRange { min: [0.0; 4], max: [1.0; 4] };
-        knob.range = self.range.or((self.ty == KnobType::Color3).then_some(unit));
+    /// Gives a custom uniform everything, now that all lines are read.
+    pub fn complete(&self, custom_uniform: &mut CustomUniform, diagnostics: &mut Vec<Diagnostic>) {
+        custom_uniform.step = self.step;
+        let unit = CustomUniformRange { min: [0.0; 4], max: [1.0; 4] };
+        custom_uniform.range = self.range.or((self.ty == CustomUniformType::Color3).then_some(unit));
         let default = self.default.or(self.range.map(|r| r.min)).unwrap_or_default();
-        let wanted = KnobValue::new(self.ty, &default);
-        knob.default = knob.clamped(&wanted);
-        if knob.default != wanted {
-            let shown = knob.default.glsl(self.ty);
+        let wanted = CustomUniformValue::new(self.ty, &default);
+        custom_uniform.default = custom_uniform.clamped(&wanted);
+        if custom_uniform.default != wanted {
+            let shown = custom_uniform.default.glsl(self.ty);
             diagnostics.push(
                 Diagnostic::warning(self.span, format!("the default of `{}` lies outside of its range", self.name))
                     .hint(format!("it starts at {shown}; change the default or the range")),
@@ -89,20 +89,20 @@ impl Line {
 }
 
 /// A value as a person writes it outside of a line: `0.3`, `true`, `1,0.5,0`, `vec3(1)` (which is one number for all).
-pub(in crate::project) fn value(text: &str) -> Option<KnobValue> {
+pub(in crate::project) fn value(text: &str) -> Option<CustomUniformValue> {
     let text = text.trim();
     match text {
-        "true" => return Some(KnobValue::Bool(true)),
-        "false" => return Some(KnobValue::Bool(false)),
+        "true" => return Some(CustomUniformValue::Bool(true)),
+        "false" => return Some(CustomUniformValue::Bool(false)),
         _ => {}
     }
     if let Ok(n) = text.parse::<i32>() {
-        return Some(KnobValue::Int(n));
+        return Some(CustomUniformValue::Int(n));
     }
     let mut words = Words::new(text, 0, SourceId(0));
     let (mut all, size) = match words.peek() {
         Word::Name(name) => {
-            let ty = KnobType::ALL.into_iter().find(|t| t.name() == name)?;
+            let ty = CustomUniformType::ALL.into_iter().find(|t| t.name() == name)?;
             words.next();
             (words.arguments().ok()?, ty.components())
         }
@@ -123,8 +123,8 @@ pub(in crate::project) fn value(text: &str) -> Option<KnobValue> {
         all = vec![all[0]; size];
     }
     match (all.len(), size) {
-        (1, 1) => Some(KnobValue::Float(all[0])),
-        (n, size) if n == size && n <= 4 => Some(KnobValue::Vector(all)),
+        (1, 1) => Some(CustomUniformValue::Float(all[0])),
+        (n, size) if n == size && n <= 4 => Some(CustomUniformValue::Vector(all)),
         _ => None,
     }
 }
@@ -247,12 +247,12 @@ impl<'a> Words<'a> {
         if self.next() == Word::Sign(sign) { Ok(()) } else { Err(self.error(format!("expected `{sign}` {what}"))) }
     }
 
-    fn ty(&mut self) -> Result<KnobType, Diagnostic> {
-        let names = KnobType::ALL.map(KnobType::name);
+    fn ty(&mut self) -> Result<CustomUniformType, Diagnostic> {
+        let names = CustomUniformType::ALL.map(CustomUniformType::name);
         let Word::Name(word) = self.next() else {
             return Err(self.error(format!("expected a type: {}", listed(&names))));
         };
-        KnobType::ALL.into_iter().find(|t| t.name() == word).ok_or_else(|| {
+        CustomUniformType::ALL.into_iter().find(|t| t.name() == word).ok_or_else(|| {
             let known = match nearest(word, names) {
                 Some(near) => format!("did you mean {near}?"),
                 None => format!("there are {}", listed(&names)),
@@ -288,7 +288,7 @@ impl<'a> Words<'a> {
         let mut all = Vec::new();
         loop {
             match self.peek() {
-                Word::Name(name) if KnobType::ALL.iter().any(|t| t.name() == name) => {
+                Word::Name(name) if CustomUniformType::ALL.iter().any(|t| t.name() == name) => {
                     self.next();
                     self.expect('(', "behind the type")?;
                     depth += 1;
@@ -308,12 +308,12 @@ impl<'a> Words<'a> {
     }
 
     /// A value of a type; one number stands for all components.
-    fn value(&mut self, ty: KnobType) -> Result<[f64; 4], Diagnostic> {
+    fn value(&mut self, ty: CustomUniformType) -> Result<[f64; 4], Diagnostic> {
         let begin = self.look().1.start;
         let mut all = match self.peek() {
             Word::Name(name) if name != "true" && name != "false" => {
                 self.next();
-                if !KnobType::ALL.iter().any(|t| t.name() == name) {
+                if !CustomUniformType::ALL.iter().any(|t| t.name() == name) {
                     return Err(self.error("expected a number, or a constructor of numbers"));
                 }
                 self.arguments()?
@@ -330,10 +330,10 @@ impl<'a> Words<'a> {
             let wants = if n == 1 { "one number".into() } else { format!("{n} numbers, or one for all") };
             return Err(self.error(format!("a {} takes {wants}, not {}", ty.name(), all.len())));
         }
-        if ty == KnobType::Int && all[0].fract() != 0.0 {
+        if ty == CustomUniformType::Int && all[0].fract() != 0.0 {
             return Err(self.error("an int takes whole numbers"));
         }
-        if ty == KnobType::Bool && all[0] != 0.0 && all[0] != 1.0 {
+        if ty == CustomUniformType::Bool && all[0] != 0.0 && all[0] != 1.0 {
             return Err(self.error("a bool is true or false"));
         }
         let mut out = [0.0; 4];
@@ -341,8 +341,8 @@ impl<'a> Words<'a> {
         Ok(out)
     }
 
-    fn range(&mut self, ty: KnobType) -> Result<KnobRange, Diagnostic> {
-        if ty == KnobType::Bool {
+    fn range(&mut self, ty: CustomUniformType) -> Result<CustomUniformRange, Diagnostic> {
+        if ty == CustomUniformType::Bool {
             return Err(self.error("a bool has no range"));
         }
         self.expect('{', "before the least value")?;
@@ -355,7 +355,7 @@ impl<'a> Words<'a> {
             self.last.start = begin;
             return Err(self.error("the range ends below its beginning"));
         }
-        Ok(KnobRange { min, max })
+        Ok(CustomUniformRange { min, max })
     }
 }
 

@@ -7,20 +7,20 @@ use crate::{
     project::{Info, Origin, Pass, PassId, SamplerRules, Source, json},
 };
 
-fn read(texts: &[&str]) -> Knobs {
-    Knobs::read(texts.iter().enumerate().map(|(i, t)| (SourceId(i as u16), *t)))
+fn read(texts: &[&str]) -> CustomUniforms {
+    CustomUniforms::read(texts.iter().enumerate().map(|(i, t)| (SourceId(i as u16), *t)))
 }
 
 #[track_caller]
-fn one(line: &str) -> Knob {
-    let knobs = read(&[line]);
-    assert_eq!(knobs.diagnostics, [], "{line}");
-    assert_eq!(knobs.list.len(), 1, "{line}");
-    knobs.list.into_iter().next().unwrap()
+fn one(line: &str) -> CustomUniform {
+    let custom_uniforms = read(&[line]);
+    assert_eq!(custom_uniforms.diagnostics, [], "{line}");
+    assert_eq!(custom_uniforms.list.len(), 1, "{line}");
+    custom_uniforms.list.into_iter().next().unwrap()
 }
 
-fn range(min: [f64; 4], max: [f64; 4]) -> Option<KnobRange> {
-    Some(KnobRange { min, max })
+fn range(min: [f64; 4], max: [f64; 4]) -> Option<CustomUniformRange> {
+    Some(CustomUniformRange { min, max })
 }
 
 fn project(common: Option<&str>, image: &str) -> Project {
@@ -36,7 +36,7 @@ fn project(common: Option<&str>, image: &str) -> Project {
             settings: Default::default(),
         }],
         sampler_rules: SamplerRules::PerChannel,
-        knob_values: Default::default(),
+        custom_uniform_values: Default::default(),
         groups: Vec::new(),
         includes: Vec::new(),
         origin: Origin::Unsaved,
@@ -46,20 +46,27 @@ fn project(common: Option<&str>, image: &str) -> Project {
 #[test]
 fn lines_as_the_extension_has_them() {
     let k = one("  #iUniform float speed = 1.5 in { 0.0, 5.0 } step 0.25 // note");
-    assert_eq!((k.name.as_str(), k.ty, k.default), ("speed", KnobType::Float, KnobValue::Float(1.5)));
+    assert_eq!((k.name.as_str(), k.ty, k.default), ("speed", CustomUniformType::Float, CustomUniformValue::Float(1.5)));
     assert_eq!((k.range, k.step), (range([0.0; 4], [5.0, 0.0, 0.0, 0.0]), Some([0.25, 0.0, 0.0, 0.0])));
     assert_eq!((k.span.start, k.span.end), (18, 23));
     let k = one("#iUniform float a=0.in{0.,6.5}");
-    assert_eq!((k.default, k.range), (KnobValue::Float(0.0), range([0.0; 4], [6.5, 0.0, 0.0, 0.0])));
+    assert_eq!((k.default, k.range), (CustomUniformValue::Float(0.0), range([0.0; 4], [6.5, 0.0, 0.0, 0.0])));
     let k = one("# iUniform vec4 c = vec4(1.0) in { 0.0, 1.0 }");
-    assert_eq!((k.default, k.range), (KnobValue::Vector(vec![1.0; 4]), range([0.0; 4], [1.0; 4])));
+    assert_eq!((k.default, k.range), (CustomUniformValue::Vector(vec![1.0; 4]), range([0.0; 4], [1.0; 4])));
     let k = one("#iUniform color3 tint = color3(1, .5, 0)");
-    assert_eq!((k.default, k.range), (KnobValue::Vector(vec![1.0, 0.5, 0.0]), range([0.0; 4], [1.0; 4])));
+    assert_eq!((k.default, k.range), (CustomUniformValue::Vector(vec![1.0, 0.5, 0.0]), range([0.0; 4], [1.0; 4])));
     let k = one("#iUniform vec2 at in { vec2(-1, -2), vec2(1, 2) }");
-    assert_eq!(k.default, KnobValue::Vector(vec![-1.0, -2.0]), "the least of the range where there is no default");
-    assert_eq!(one("#iUniform int n").default, KnobValue::Int(0));
-    assert_eq!(one("#iUniform bool on = true").default, KnobValue::Bool(true));
-    assert_eq!(one("#iUniform vec3 v = vec3(vec2(1, 2), -3e1);").default, KnobValue::Vector(vec![1.0, 2.0, -30.0]));
+    assert_eq!(
+        k.default,
+        CustomUniformValue::Vector(vec![-1.0, -2.0]),
+        "the least of the range where there is no default"
+    );
+    assert_eq!(one("#iUniform int n").default, CustomUniformValue::Int(0));
+    assert_eq!(one("#iUniform bool on = true").default, CustomUniformValue::Bool(true));
+    assert_eq!(
+        one("#iUniform vec3 v = vec3(vec2(1, 2), -3e1);").default,
+        CustomUniformValue::Vector(vec![1.0, 2.0, -30.0])
+    );
     assert_eq!(read(&["/*\n#iUniform float a\n*/ // #iUniform float b\n#iUniforms float c"]).list, []);
 }
 
@@ -91,7 +98,7 @@ fn a_wrong_line_says_where_and_how_to_mend_it() {
         assert!(!found[0].hints.is_empty(), "{line}");
     }
     let odd = read(&["#iUniform float a = 9 in { 0, 1 }"]);
-    assert_eq!(odd.list[0].default, KnobValue::Float(1.0));
+    assert_eq!(odd.list[0].default, CustomUniformValue::Float(1.0));
     assert!(!odd.diagnostics[0].is_error() && odd.diagnostics[0].message.contains("outside"));
     for end in 0.."#iUniform vec3 é = vec3(1, 2.5e-3, é) in { 0, 1 } step 0.1 /* é".len() {
         let text = "#iUniform vec3 é = vec3(1, 2.5e-3, é) in { 0, 1 } step 0.1 /* é";
@@ -104,14 +111,17 @@ fn a_wrong_line_says_where_and_how_to_mend_it() {
 }
 
 #[test]
-fn one_name_is_one_knob_and_a_contradiction_is_told_at_its_line() {
+fn one_name_is_one_custom_uniform_and_a_contradiction_is_told_at_its_line() {
     let a = "#iUniform float a = 1.0";
-    let knobs = read(&[a, "#iUniform float b\n#iUniform float a in { 0, 2 }", a]);
-    assert_eq!(knobs.diagnostics, []);
-    let names: Vec<&str> = knobs.list.iter().map(|k| k.name.as_str()).collect();
+    let custom_uniforms = read(&[a, "#iUniform float b\n#iUniform float a in { 0, 2 }", a]);
+    assert_eq!(custom_uniforms.diagnostics, []);
+    let names: Vec<&str> = custom_uniforms.list.iter().map(|k| k.name.as_str()).collect();
     assert_eq!(names, ["a", "b"]);
-    assert_eq!(knobs.list[0].declared_in, [SourceId(0), SourceId(1), SourceId(2)]);
-    assert_eq!((&knobs.list[0].default, knobs.list[0].range.is_some()), (&KnobValue::Float(1.0), true));
+    assert_eq!(custom_uniforms.list[0].declared_in, [SourceId(0), SourceId(1), SourceId(2)]);
+    assert_eq!(
+        (&custom_uniforms.list[0].default, custom_uniforms.list[0].range.is_some()),
+        (&CustomUniformValue::Float(1.0), true)
+    );
     for (other, message) in [
         ("#iUniform int a", "`a` is a int here and a float elsewhere"),
         ("#iUniform float a = 2", "`a` has another default elsewhere"),
@@ -129,18 +139,18 @@ fn values_are_set_as_people_write_them() {
     #iUniform int n in { 1, 9 }\n#iUniform vec2 at";
     let mut p = project(Some(lines), "");
     for (set, name, value) in [
-        ("speed=2", "speed", KnobValue::Float(2.0)),
-        (" speed = .5 ", "speed", KnobValue::Float(0.5)),
-        ("tint=1,0.5, 0", "tint", KnobValue::Vector(vec![1.0, 0.5, 0.0])),
-        ("tint=color3(1, .5, .25)", "tint", KnobValue::Vector(vec![1.0, 0.5, 0.25])),
-        ("at=vec2(3)", "at", KnobValue::Vector(vec![3.0; 2])),
-        ("on=true", "on", KnobValue::Bool(true)),
-        ("n=3", "n", KnobValue::Int(3)),
+        ("speed=2", "speed", CustomUniformValue::Float(2.0)),
+        (" speed = .5 ", "speed", CustomUniformValue::Float(0.5)),
+        ("tint=1,0.5, 0", "tint", CustomUniformValue::Vector(vec![1.0, 0.5, 0.0])),
+        ("tint=color3(1, .5, .25)", "tint", CustomUniformValue::Vector(vec![1.0, 0.5, 0.25])),
+        ("at=vec2(3)", "at", CustomUniformValue::Vector(vec![3.0; 2])),
+        ("on=true", "on", CustomUniformValue::Bool(true)),
+        ("n=3", "n", CustomUniformValue::Int(3)),
     ] {
-        p.set_knob(set).unwrap_or_else(|e| panic!("{set}: {e}"));
-        assert_eq!(p.knob_values[name], value, "{set}");
+        p.set_custom_uniform(set).unwrap_or_else(|e| panic!("{set}: {e}"));
+        assert_eq!(p.custom_uniform_values[name], value, "{set}");
     }
-    let before = p.knob_values.clone();
+    let before = p.custom_uniform_values.clone();
     for (set, message) in [
         ("sped=1", "did you mean speed?"),
         ("colour=1", "there are speed, tint, on, n and at"),
@@ -156,22 +166,22 @@ fn values_are_set_as_people_write_them() {
         ("n=0", "outside of its range"),
         ("on=1", "true or false"),
     ] {
-        let said = p.set_knob(set).expect_err(set);
+        let said = p.set_custom_uniform(set).expect_err(set);
         assert!(said.contains(message), "{set}: {said}");
     }
-    assert_eq!(p.knob_values, before);
-    p.set_knob("speed=1").unwrap();
-    assert!(!p.knob_values.contains_key("speed"), "the default follows the text");
+    assert_eq!(p.custom_uniform_values, before);
+    p.set_custom_uniform("speed=1").unwrap();
+    assert!(!p.custom_uniform_values.contains_key("speed"), "the default follows the text");
 }
 
 #[test]
 fn a_value_the_text_no_longer_allows_is_kept_and_stands_within_the_range() {
     let mut p = project(None, "#iUniform float a = 1 in { 0, 9 }");
-    p.set_knob("a=7").unwrap();
+    p.set_custom_uniform("a=7").unwrap();
     let narrower = read(&["#iUniform float a = 1 in { 0, 3 }"]);
-    assert_eq!(narrower.list[0].value(&p.knob_values), KnobValue::Float(3.0));
+    assert_eq!(narrower.list[0].value(&p.custom_uniform_values), CustomUniformValue::Float(3.0));
     let other = read(&["#iUniform vec2 a = vec2(1, 2)"]);
-    assert_eq!(other.list[0].value(&p.knob_values), other.list[0].default);
+    assert_eq!(other.list[0].value(&p.custom_uniform_values), other.list[0].default);
 }
 
 #[test]
@@ -180,7 +190,7 @@ fn the_sites_json_has_constants_with_the_values() {
         Some("float f() { return speed; }\n#iUniform float speed = 1.0 in { 0.0, 5.0 } // how fast\n"),
         "\u{feff}#iUniform color3 tint\n#iUniform float speed\n#ifdef X\n#iUniform bool on = true\n#endif\nint i;",
     );
-    p.set_knob("speed=0.25").unwrap();
+    p.set_custom_uniform("speed=0.25").unwrap();
     let (read, _) = json::import(&json::export(&p), "x.json").unwrap();
     assert_eq!(
         &*read.common.unwrap().text,

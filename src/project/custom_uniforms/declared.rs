@@ -1,7 +1,7 @@
 //! Uniforms that texts declare in GLSL's own way, told by their words alone: the compiler knows better, and comes
 //! later.
 
-use crate::project::{KnobValue, KnobValues};
+use crate::project::{CustomUniformValue, CustomUniformValues};
 use std::{collections::BTreeSet, ops::Range};
 
 /// Every word of the declarations `uniform .. name ..;` of a text, names of uniforms among them.
@@ -15,7 +15,7 @@ pub(in crate::project) fn words_of_uniforms(text: &str) -> BTreeSet<String> {
 
 /// A text with a constant in place of each uniform that has a value, as for the site, where nobody gives it one. Left
 /// alone is a declaration of several names at once, or of another shape than the value's.
-pub(super) fn as_constants(text: &str, values: &KnobValues) -> String {
+pub(super) fn as_constants(text: &str, values: &CustomUniformValues) -> String {
     let blank = blanked(text);
     let mut out = String::with_capacity(text.len());
     let mut done = 0;
@@ -29,7 +29,7 @@ pub(super) fn as_constants(text: &str, values: &KnobValues) -> String {
 }
 
 /// The value for `uniform vec3 kernel[64]`.
-fn constant(declaration: &str, values: &KnobValues) -> Option<String> {
+fn constant(declaration: &str, values: &CustomUniformValues) -> Option<String> {
     if declaration.contains(',') {
         return None;
     }
@@ -42,15 +42,16 @@ fn constant(declaration: &str, values: &KnobValues) -> Option<String> {
         return of_type(ty, value);
     }
     let all: Option<Vec<String>> = match value {
-        KnobValue::Vector(all) => all.iter().map(|x| of_type(ty, &KnobValue::Float(*x))).collect(),
-        KnobValue::List(all) => all.iter().map(|one| of_type(ty, one)).collect(),
+        CustomUniformValue::Vector(all) => all.iter().map(|x| of_type(ty, &CustomUniformValue::Float(*x))).collect(),
+        CustomUniformValue::List(all) => all.iter().map(|one| of_type(ty, one)).collect(),
         _ => None,
     };
     Some(format!("{ty}[]({})", all?.join(", ")))
 }
 
-fn of_type(ty: &str, value: &KnobValue) -> Option<String> {
-    let is_one = |value: &KnobValue| !matches!(value, KnobValue::Vector(_) | KnobValue::List(_));
+fn of_type(ty: &str, value: &CustomUniformValue) -> Option<String> {
+    let is_one =
+        |value: &CustomUniformValue| !matches!(value, CustomUniformValue::Vector(_) | CustomUniformValue::List(_));
     let float = |x: f64| format!("{:?}", x as f32);
     let first = value.components().first().copied();
     Some(match (ty, is_one(value)) {
@@ -134,14 +135,16 @@ mod tests {
 
     #[test]
     fn a_uniform_with_a_value_becomes_a_constant() {
-        let list = |all: &[&[f64]]| KnobValue::List(all.iter().map(|v| KnobValue::Vector(v.to_vec())).collect());
-        let values = KnobValues::from([
+        let list = |all: &[&[f64]]| {
+            CustomUniformValue::List(all.iter().map(|v| CustomUniformValue::Vector(v.to_vec())).collect())
+        };
+        let values = CustomUniformValues::from([
             ("kernel".to_owned(), list(&[&[1.0, 2.0, 3.0], &[4.0, 5.0, 6.5]])),
             ("m".to_owned(), list(&[&[1.0, 2.0], &[3.0, 4.0]])),
-            ("w".to_owned(), KnobValue::Vector(vec![1.0, 2.0, 3.0])),
-            ("n".to_owned(), KnobValue::Int(-3)),
-            ("u".to_owned(), KnobValue::Int(3)),
-            ("on".to_owned(), KnobValue::Bool(true)),
+            ("w".to_owned(), CustomUniformValue::Vector(vec![1.0, 2.0, 3.0])),
+            ("n".to_owned(), CustomUniformValue::Int(-3)),
+            ("u".to_owned(), CustomUniformValue::Int(3)),
+            ("on".to_owned(), CustomUniformValue::Bool(true)),
         ]);
         for (text, expected) in [
             (

@@ -1,0 +1,97 @@
+//! What is legal in a project and more often a slip: channels that read no pass, and channels that the site cannot
+//! have.
+
+use super::{Filter, Input, PassId, Project, SamplerRules, Wrap, nearest};
+use crate::diag::Diagnostic;
+use std::{collections::BTreeMap, fmt::Debug};
+
+/// Returns a warning for each. They are about no text.
+pub fn advice(project: &Project) -> Vec<Diagnostic> {
+    let mut warnings = unread(project);
+    warnings.extend(shared_samplers(project));
+    warnings
+}
+
+/// The pass that an input reads and that the project does not have.
+pub fn missing_pass(project: &Project, input: &Input) -> Option<PassId> {
+    let id = match input {
+        Input::CubemapPass => PassId::Cubemap,
+        other => PassId::Buffer(other.buffer()?.0.to_owned()),
+    };
+    project.pass(&id).is_none().then_some(id)
+}
+
+fn unread(project: &Project) -> Vec<Diagnostic> {
+    let mut warnings = Vec::new();
+    for pass in &project.passes {
+        for (n, channel) in pass.channels.iter().enumerate() {
+            let Some(missing) = channel.as_ref().and_then(|c| missing_pass(project, &c.input)) else { continue };
+            let near = near_buffer(project, &missing);
+            let near = near.map(|near| format!("; did you mean Buffer {near}?")).unwrap_or_default();
+            let reads = format!("iChannel{n} of {} reads {}, which has no pass", pass.id.title(), missing.title());
+            warnings.push(
+                Diagnostic::warning(None, reads)
+                    .hint(format!("it reads zeros; add {} or let the channel read another{near}", missing.title())),
+            );
+        }
+    }
+    warnings
+}
+
+/// Returns the buffer that was perhaps meant.
+fn near_buffer<'p>(project: &'p Project, missing: &PassId) -> Option<&'p str> {
+    let buffers = project.passes.iter().filter_map(|p| match &p.id {
+        PassId::Buffer(name) => Some(name.as_str()),
+        _ => None,
+    });
+    match missing {
+        // A letter is as near to another as any.
+        PassId::Buffer(name) if name.chars().count() > 1 => nearest(name, buffers),
+        _ => None,
+    }
+}
+
+/// Where channels with samplers of their own read a buffer differently from each other, which the site cannot: there a
+/// buffer has one wrap, and one filter while a pass draws (`shadertoy.md`, section 7).
+fn shared_samplers(project: &Project) -> Vec<Diagnostic> {
+    if project.sampler_rules == SamplerRules::Site {
+        return Vec::new();
+    }
+    let mut warnings = Vec::new();
+    let mut wraps: BTreeMap<&str, Vec<(String, Wrap)>> = BTreeMap::new();
+    for pass in &project.passes {
+        let mut filters: BTreeMap<&str, Vec<(String, Filter)>> = BTreeMap::new();
+        for (index, channel) in pass.channels.iter().enumerate() {
+            let Some(channel) = channel else { continue };
+            let Input::Buffer(buffer) = &channel.input else { continue };
+            let place = format!("iChannel{index} of {}", pass.id.title());
+            filters.entry(buffer).or_default().push((place.clone(), channel.sampler.filter));
+            wraps.entry(buffer).or_default().push((place, channel.sampler.wrap));
+        }
+        warnings
+            .extend(filters.iter().filter_map(|(buffer, reads)| differ(buffer, reads, "filter", "while a pass draws")));
+    }
+    warnings.extend(wraps.iter().filter_map(|(buffer, reads)| differ(buffer, reads, "wrap", "for all passes")));
+    warnings
+}
+
+fn differ<T: PartialEq + Debug>(buffer: &str, reads: &[(String, T)], what: &str, when: &str) -> Option<Diagnostic> {
+    let (last, wins) = reads.last()?;
+    let (other, loses) = reads.iter().find(|(_, setting)| setting != wins)?;
+    let name = |setting: &T| format!("{setting:?}").to_lowercase();
+    Some(
+        Diagnostic::warning(
+            None,
+            format!(
+                "{other} reads Buffer {buffer} with {what} {}, {last} with {}: on the site a buffer has one {what} \
+                 {when}, the last one named, and the picture differs",
+                name(loses),
+                name(wins)
+            ),
+        )
+        .hint(format!(
+            "give both the same {what}, or set sampler_rules = \"site\" in eddy.toml to see what the site \
+        shows"
+        )),
+    )
+}

@@ -1,0 +1,128 @@
+use super::*;
+use crate::project::{Input, Origin, PassId};
+
+const SHADER: &str = r#"{"ver":"0.1","info":{"name":"Rings"},"renderpass":[
+    {"type":"buffer","name":"Buffer A","inputs":[],"outputs":[{"id":"4dXGR8","channel":0}],
+     "code":"void mainImage(out vec4 o, vec2 p) { o = vec4(1); }"},
+    {"type":"image","name":"Image","outputs":[],"code":"void mainImage(out vec4 o, vec2 p) { o = vec4(1); }",
+     "inputs":[{"id":"4dXGR8","channel":2,"type":"buffer","filepath":"/media/previz/buffer00.png",
+                "sampler":{"filter":"nearest","wrap":"clamp","vflip":"true"}}]}]}"#;
+
+fn project(text: &str) -> crate::project::Project {
+    match arrival_of_text(text) {
+        Ok(TextArrival::Project(loaded)) => loaded.project,
+        other => panic!("{other:?}"),
+    }
+}
+
+fn refused(text: &str) -> String {
+    arrival_of_text(text).expect_err(text).to_string()
+}
+
+#[test]
+fn json_of_the_site_is_a_project_with_its_channels() {
+    for text in [SHADER.to_owned(), format!("\u{feff}\n  {SHADER}\n"), format!("[{SHADER}]")] {
+        let project = project(&text);
+        assert_eq!((&*project.name, &project.origin), ("Rings", &Origin::Unsaved));
+        let image = project.pass(&PassId::Image).unwrap();
+        assert_eq!(image.channels[2].as_ref().unwrap().input, Input::Buffer("A".into()));
+    }
+    assert!(refused("{\"a\": 1}").contains("no \"renderpass\""));
+    assert!(refused("{").contains("not JSON"));
+}
+
+#[test]
+fn glsl_is_an_image_pass_and_its_lines_say_what_it_reads() {
+    let text = "#iChannel1 \"keyboard\"\r\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }\r\n";
+    let project = project(text);
+    let image = project.pass(&PassId::Image).unwrap();
+    assert_eq!(image.channels[1].as_ref().unwrap().input, Input::Keyboard);
+    assert!(!image.source.text.contains('\r'));
+    // In one line, too.
+    self::project("void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }");
+    self::project("// a shader\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }");
+}
+
+#[test]
+fn places_are_opened_and_addresses_are_told_the_way() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("a b.glsl");
+    std::fs::write(&file, "").unwrap();
+    let place = |text: &str| match arrival_of_text(text) {
+        Ok(TextArrival::Place(place)) => place,
+        other => panic!("{text}: {other:?}"),
+    };
+    let path = file.to_str().unwrap();
+    assert_eq!(place(path), path);
+    assert_eq!(place(&format!("\"{path}\"\n")), path);
+    assert_eq!(place(&format!("file://{}", path.replace(' ', "%20"))), path);
+    assert_eq!(place("fluid"), "fluid");
+    for address in ["https://www.shadertoy.com/view/XslGRr", "shadertoy.com/view/XslGRr", "http://Shadertoy.com/"] {
+        assert!(refused(address).contains("bookmarklet"), "{address}");
+    }
+    assert!(refused("https://example.org/a.glsl").contains("save the file"));
+    assert!(refused("file:///no/such/file.glsl").contains("no file /no/such/file.glsl"));
+    assert!(refused("/no/such/file.glsl").contains("no file"));
+    assert!(refused("  \n").contains("no text"));
+    assert!(refused("Dear diary").contains("Dear diary"));
+    assert!(refused("Dear diary,\ntoday").contains("mainImage"));
+}
+
+#[test]
+fn files_are_known_by_their_names() {
+    let dir = tempfile::tempdir().unwrap();
+    let kind = |name: &str| kind_of_file(&dir.path().join(name));
+    assert_eq!(kind_of_file(dir.path()), FileKind::Project);
+    for (name, expected) in [
+        ("image.GLSL", FileKind::Project),
+        ("a.frag", FileKind::Project),
+        ("a.json", FileKind::Project),
+        ("eddy.toml", FileKind::Project),
+        ("a.PNG", FileKind::Picture),
+        ("a.hdr", FileKind::Picture),
+        ("fox.glb", FileKind::Model),
+        ("a.obj", FileKind::Model),
+        ("a.mp3", FileKind::SoundOrVideo),
+        ("a.docx", FileKind::Unknown),
+        ("a", FileKind::Unknown),
+    ] {
+        assert_eq!(kind(name), expected, "{name}");
+    }
+}
+
+#[test]
+fn files_that_are_dropped_together_may_be_one_project() {
+    let parts = |names: &[&'static str]| {
+        let paths: Vec<&'static Path> = names.iter().map(|name| Path::new(*name)).collect();
+        folder_of_parts(&paths)
+    };
+    assert_eq!(parts(&["/p/buffer_a.glsl", "/p/image.glsl"]), Some(Path::new("/p")));
+    assert_eq!(parts(&["/p/eddy.toml", "/p/x.glsl"]), Some(Path::new("/p")));
+    assert_eq!(parts(&["/p/image.glsl"]), None, "one file is that file");
+    assert_eq!(parts(&["/p/buffer_a.glsl", "/p/other.glsl"]), None);
+    assert_eq!(parts(&["/p/image.glsl", "/q/buffer_a.glsl"]), None);
+}
+
+#[test]
+fn a_picture_goes_where_it_is_read_and_never_over_what_is_there() {
+    let mut project = new_for(Path::new("/there/photo.png"), false);
+    assert_eq!(project.name, "photo");
+    assert_eq!(project.free_channel(&PassId::Image), Some(0));
+    project.read_picture(&PassId::Image, 0, Path::new("/there/photo.png"));
+    assert_eq!(project.free_channel(&PassId::Image), Some(1));
+    project.pass_mut(&PassId::Image).unwrap().source.text = "texture(iChannel3, p)".into();
+    assert_eq!(project.free_channel(&PassId::Image), Some(3));
+    for channel in 1..4 {
+        project.read_picture(&PassId::Image, channel, Path::new("/there/photo.png"));
+    }
+    assert_eq!(project.free_channel(&PassId::Image), None);
+}
+
+#[test]
+fn a_model_is_put_before_the_camera() {
+    let fit = wire::Fit::of_corners([-10.0, 0.0, 90.0], [10.0, 40.0, 110.0]);
+    assert!((fit.scale * 600f64.sqrt() - 1.4).abs() < 0.01, "{fit:?}");
+    assert!((fit.position[2] + 100.0 * fit.scale).abs() < 1e-3 && fit.position[0] == 0.0, "{fit:?}");
+    let point = wire::Fit::of_corners([1.0; 3], [1.0; 3]);
+    assert_eq!((point.scale, point.position), (1.0, [-1.0; 3]));
+}

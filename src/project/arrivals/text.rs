@@ -1,0 +1,140 @@
+//! What a pasted text is: Shadertoy JSON, GLSL, the name of a file, or an address.
+
+use crate::{
+    diag::Diagnostic,
+    project::{
+        Info, Loaded, Origin, Pass, PassId, Project, ProjectError, SamplerRules, Source, folder, json, limits, presets,
+        unescaped,
+    },
+};
+use std::path::Path;
+
+/// A text that is something.
+#[derive(Debug)]
+pub enum TextArrival {
+    /// The text is a project; it lies nowhere else.
+    Project(Box<Loaded>),
+    /// The text names one, as [`crate::project::load`] takes it, or a file of another kind.
+    Place(String),
+}
+
+/// A text that nothing can be made of.
+#[derive(Debug, thiserror::Error)]
+pub enum ArrivalError {
+    #[error("there is no text to open; copy a shader's JSON, GLSL code or the path of a file first")]
+    Empty,
+    /// An address of the site, with the shader's id where it has one.
+    #[error(
+        "{address} is an address, and Eddy fetches nothing from there. Open the page in a browser, save the shader with \
+         the bookmarklet of docs/bookmarklet.html, and drop or paste the JSON here"
+    )]
+    Site { address: String },
+    #[error("{address} is an address, and Eddy fetches nothing; save the file, and drop it here")]
+    Address { address: String },
+    #[error("there is no file {0}")]
+    NoFile(String),
+    #[error(
+        "the text is neither Shadertoy JSON (which begins with {{ or [), nor GLSL with a mainImage function, nor the \
+         path of a file: it begins with \"{0}\""
+    )]
+    Unknown(String),
+    #[error("{error}")]
+    Project {
+        #[from]
+        error: Box<ProjectError>,
+    },
+}
+
+/// Says what a pasted text is.
+pub fn arrival_of_text(text: &str) -> Result<TextArrival, ArrivalError> {
+    let trimmed = text.trim_start_matches('\u{feff}').trim();
+    if trimmed.is_empty() {
+        return Err(ArrivalError::Empty);
+    }
+    if trimmed.starts_with(['{', '[']) {
+        return of_json(trimmed).map_err(|e| Box::new(e).into());
+    }
+    let is_line = !trimmed.contains(['\n', '\r']);
+    if is_line && let Some(found) = of_line(trimmed.trim_matches(['"', '\''])) {
+        return found;
+    }
+    if has_main(trimmed) {
+        return of_glsl(text).map_err(|e| Box::new(e).into());
+    }
+    let beginning: String = trimmed.chars().take(40).collect();
+    Err(ArrivalError::Unknown(beginning.escape_debug().to_string()))
+}
+
+fn of_json(text: &str) -> Result<TextArrival, ProjectError> {
+    let (mut project, warnings) = json::import(text, "pasted.json")?;
+    if matches!(project.name.trim(), "" | "pasted") {
+        project.name = "Pasted shader".into();
+    }
+    project.read_includes();
+    Ok(TextArrival::Project(Box::new(Loaded { sources: project.sources(), project, warnings })))
+}
+
+/// One line: an address, or the name of a file or a preset. `None`: neither.
+fn of_line(line: &str) -> Option<Result<TextArrival, ArrivalError>> {
+    let lower = line.to_lowercase();
+    if let Some(rest) = lower.starts_with("file://").then(|| &line["file://".len()..]) {
+        let path = unescaped(rest.strip_prefix("localhost").unwrap_or(rest));
+        let is_there = Path::new(&path).exists();
+        return Some(if is_there { Ok(TextArrival::Place(path)) } else { Err(ArrivalError::NoFile(path)) });
+    }
+    let bare = lower.trim_start_matches("https://").trim_start_matches("http://").trim_start_matches("www.");
+    let is_address = lower.starts_with("http://") || lower.starts_with("https://");
+    if bare.starts_with("shadertoy.com") {
+        return Some(Err(ArrivalError::Site { address: shown(line) }));
+    }
+    if is_address {
+        return Some(Err(ArrivalError::Address { address: shown(line) }));
+    }
+    let is_place = presets::names().contains(&line) || (line.len() < 4096 && Path::new(line).exists());
+    if is_place {
+        return Some(Ok(TextArrival::Place(line.to_owned())));
+    }
+    let looks_like_path = line.starts_with(['/', '~']) && !line.starts_with("//") && !line.starts_with("/*");
+    (looks_like_path && !has_main(line)).then(|| Err(ArrivalError::NoFile(shown(line))))
+}
+
+fn shown(line: &str) -> String {
+    line.chars().take(120).collect()
+}
+
+/// Returns whether a text has a function that a pass begins with.
+fn has_main(text: &str) -> bool {
+    ["mainImage", "mainCubemap", "mainSound", "void main"].iter().any(|main| text.contains(main))
+}
+
+/// A project whose Image pass is the text; its `#iChannel` lines say what it reads.
+fn of_glsl(text: &str) -> Result<TextArrival, ProjectError> {
+    let too_large = |diagnostics: Vec<Diagnostic>, sources| {
+        Err(ProjectError::Invalid { what: "the pasted text".into(), diagnostics, sources })
+    };
+    if text.len() as u64 > limits::GLSL_TEXT.bytes {
+        let message = format!("the text is larger than {}", limits::GLSL_TEXT);
+        return too_large(vec![Diagnostic::error(None, message).hint("make it smaller")], Default::default());
+    }
+    let text = text.replace("\r\n", "\n");
+    let mut project = Project {
+        name: "Pasted shader".into(),
+        info: Info::default(),
+        common: None,
+        passes: vec![Pass {
+            id: PassId::Image,
+            source: Source { name: PassId::Image.title(), path: None, text: text.into() },
+            channels: Default::default(),
+            settings: Default::default(),
+        }],
+        sampler_rules: SamplerRules::PerChannel,
+        custom_uniform_values: Default::default(),
+        groups: Vec::new(),
+        includes: Vec::new(),
+        origin: Origin::Unsaved,
+    };
+    // What is wrong in such a line shows when it is compiled.
+    let warnings = folder::declare_channels(&mut project).into_iter().filter(|d| !d.is_error()).collect();
+    project.read_includes();
+    Ok(TextArrival::Project(Box::new(Loaded { sources: project.sources(), project, warnings })))
+}

@@ -1,0 +1,171 @@
+//! Pictures and models on their way into a project: which channel reads a picture, which pass draws a model.
+
+use crate::project::{
+    Camera, Channel, Cull, DepthTest, Geometry, Info, Input, Media, MeshDraw, MeshSource, Origin, Pass, PassBody,
+    PassId, PassSettings, Project, Sampler, SamplerRules, Source, Stage, limits,
+};
+use std::path::Path;
+
+const PICTURE: &str = "\
+// iChannel0 as large as fits.
+void mainImage(out vec4 fragColor, in vec2 fragCoord)
+{
+    vec2 size = max(iChannelResolution[0].xy, vec2(1.0));
+    float zoom = min(iResolution.x / size.x, iResolution.y / size.y);
+    vec2 uv = (fragCoord - 0.5 * iResolution.xy) / (zoom * size) + 0.5;
+    vec2 inside = step(0.0, uv) * step(uv, vec2(1.0));
+    fragColor = texture(iChannel0, uv) * inside.x * inside.y;
+}
+";
+
+const COPY: &str = "\
+// What the pass in iChannel0 has drawn.
+void mainImage(out vec4 fragColor, in vec2 fragCoord)
+{
+    fragColor = texture(iChannel0, fragCoord / iResolution.xy);
+}
+";
+
+const VERTEX: &str = "\
+// aPosition, aNormal, aTangent, aUv and aColor are the model's. Dragging turns the camera.
+in vec3 aPosition;
+in vec3 aNormal;
+in vec2 aUv;
+in vec4 aColor;
+out vec3 vNormal;
+out vec2 vUv;
+out vec4 vColor;
+
+void main()
+{
+    vNormal = iNormalMatrix * aNormal;
+    vUv = aUv;
+    vColor = aColor;
+    gl_Position = iProjection * iView * iModel * vec4(aPosition, 1.0);
+}
+";
+
+const FRAGMENT: &str = "\
+// One light, and a little from everywhere. A picture of the model's can be read by vUv from a channel.
+in vec3 vNormal;
+in vec2 vUv;
+in vec4 vColor;
+out vec4 fragColor;
+
+void main()
+{
+    float light = 0.35 + 0.65 * max(dot(normalize(vNormal), normalize(vec3(0.4, 0.8, 0.6))), 0.0);
+    fragColor = vec4(vColor.rgb * light, 1.0);
+}
+";
+
+/// The place of a model in the world.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fit {
+    pub scale: f64,
+    pub position: [f64; 3],
+}
+
+impl Fit {
+    /// Puts what lies between two corners into the middle, as large as the default camera sees it well.
+    pub fn of_corners(least: [f32; 3], most: [f32; 3]) -> Fit {
+        let middle = [0, 1, 2].map(|i| f64::from(least[i] + most[i]) / 2.0);
+        let half = [0, 1, 2].map(|i| f64::from(most[i] - least[i]) / 2.0);
+        let radius = half.iter().map(|h| h * h).sum::<f64>().sqrt();
+        let scale = if radius.is_finite() && radius > 0.0 { 1.4 / radius } else { 1.0 };
+        // As many digits as anybody wants to read in eddy.toml.
+        let scale = format!("{scale:.3e}").parse().unwrap_or(1.0);
+        Fit { scale, position: middle.map(|m| if m.is_finite() { (-m * scale * 1e4).round() / 1e4 } else { 0.0 }) }
+    }
+}
+
+/// A project for what is brought while none is open: its Image pass shows iChannel0.
+pub fn new_for(path: &Path, is_model: bool) -> Project {
+    let text = if is_model { COPY } else { PICTURE };
+    let name = path.file_stem().map(|s| s.to_string_lossy().trim().to_owned()).filter(|s| !s.is_empty());
+    Project {
+        name: name.unwrap_or_else(|| "Untitled".into()),
+        info: Info::default(),
+        common: None,
+        passes: vec![Pass {
+            id: PassId::Image,
+            source: Source { name: PassId::Image.title(), path: None, text: text.into() },
+            channels: Default::default(),
+            settings: Default::default(),
+        }],
+        sampler_rules: SamplerRules::PerChannel,
+        custom_uniform_values: Default::default(),
+        groups: Vec::new(),
+        includes: Vec::new(),
+        origin: Origin::Unsaved,
+    }
+}
+
+impl Project {
+    /// The channel of a pass that something new goes to: an empty one that its text reads already, else the first empty
+    /// one.
+    pub fn free_channel(&self, id: &PassId) -> Option<usize> {
+        let pass = self.pass(id)?;
+        let is_empty = |n: &usize| pass.channels[*n].is_none();
+        let reads = |n: &usize| pass.source.text.contains(&format!("iChannel{n}"));
+        (0..4).filter(is_empty).find(reads).or_else(|| (0..4).find(is_empty))
+    }
+
+    /// Lets a channel read a picture.
+    pub fn read_picture(&mut self, id: &PassId, channel: usize, picture: &Path) {
+        let input = Input::Texture(Media::Picked(picture.to_owned()));
+        if let Some(slot) = self.pass_mut(id).and_then(|pass| pass.channels.get_mut(channel)) {
+            *slot = Some(Channel { input, sampler: Sampler::TEXTURE });
+        }
+    }
+
+    /// Adds a buffer that draws a model, with texts to begin with. `None` where there are too many passes.
+    pub fn add_model(&mut self, model: &Path, fit: Fit) -> Option<PassId> {
+        if self.passes.len() >= limits::PASSES {
+            return None;
+        }
+        let numbered = (2..).map(|n| format!("model{n}"));
+        let is_free = |name: &String| self.pass(&PassId::Buffer(name.clone())).is_none();
+        let name = std::iter::once("model".to_owned()).chain(numbered).find(is_free)?;
+        let id = PassId::Buffer(name.clone());
+        let draw = MeshDraw {
+            mesh: MeshSource::Picked(model.to_owned()),
+            vertex: Stage::File(0),
+            fragment: Stage::Own,
+            // Models of unknown make are often seen from inside, too.
+            cull: Cull::None,
+            depth: DepthTest::Less,
+            depth_write: true,
+            color_write: true,
+            scale: fit.scale,
+            rotation: [0.0; 3],
+            position: fit.position,
+        };
+        let vertex = Source { name: format!("{name}.vert.glsl"), path: None, text: VERTEX.into() };
+        let geometry =
+            Geometry { draws: vec![draw], more_targets: Vec::new(), camera: Camera::default(), stages: vec![vertex] };
+        let pass = Pass {
+            id: id.clone(),
+            source: Source { name: id.title(), path: None, text: FRAGMENT.into() },
+            channels: Default::default(),
+            settings: PassSettings { body: PassBody::Meshes(geometry), ..PassSettings::default() },
+        };
+        append_buffer(self, pass);
+        Some(id)
+    }
+
+    /// Lets a channel read what a buffer has drawn.
+    pub fn read_buffer(&mut self, id: &PassId, channel: usize, buffer: &PassId) {
+        let PassId::Buffer(name) = buffer else { return };
+        let input = Input::Buffer(name.clone());
+        if let Some(slot) = self.pass_mut(id).and_then(|pass| pass.channels.get_mut(channel)) {
+            *slot = Some(Channel { input, sampler: Sampler::BUFFER });
+        }
+    }
+}
+
+/// Puts a buffer behind the other buffers.
+fn append_buffer(project: &mut Project, pass: Pass) {
+    let at = project.passes.iter().position(|p| !matches!(p.id, PassId::Buffer(_))).unwrap_or(project.passes.len());
+    project.passes.insert(at, pass);
+}

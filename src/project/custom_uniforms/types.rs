@@ -1,0 +1,198 @@
+//! A custom uniform, and the values it takes.
+
+use crate::diag::{SourceId, Span};
+use std::collections::BTreeMap;
+
+/// The type of a custom uniform. In GLSL a `color3` is a `vec3`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum CustomUniformType {
+    Bool,
+    Int,
+    Float,
+    Vec2,
+    Vec3,
+    Vec4,
+    Color3,
+}
+
+impl CustomUniformType {
+    pub const ALL: [CustomUniformType; 7] = [
+        CustomUniformType::Bool,
+        CustomUniformType::Int,
+        CustomUniformType::Float,
+        CustomUniformType::Vec2,
+        CustomUniformType::Vec3,
+        CustomUniformType::Vec4,
+        CustomUniformType::Color3,
+    ];
+
+    /// As an `#iUniform` line spells it.
+    pub fn name(self) -> &'static str {
+        match self {
+            CustomUniformType::Color3 => "color3",
+            other => other.glsl_name(),
+        }
+    }
+
+    /// As GLSL spells it.
+    pub fn glsl_name(self) -> &'static str {
+        match self {
+            CustomUniformType::Bool => "bool",
+            CustomUniformType::Int => "int",
+            CustomUniformType::Float => "float",
+            CustomUniformType::Vec2 => "vec2",
+            CustomUniformType::Vec3 | CustomUniformType::Color3 => "vec3",
+            CustomUniformType::Vec4 => "vec4",
+        }
+    }
+
+    /// Numbers in a value of it.
+    pub fn components(self) -> usize {
+        match self {
+            CustomUniformType::Bool | CustomUniformType::Int | CustomUniformType::Float => 1,
+            CustomUniformType::Vec2 => 2,
+            CustomUniformType::Vec3 | CustomUniformType::Color3 => 3,
+            CustomUniformType::Vec4 => 4,
+        }
+    }
+}
+
+/// A value, in the form it is saved in.
+#[derive(Clone, Debug, PartialEq)]
+pub enum CustomUniformValue {
+    Bool(bool),
+    Int(i32),
+    Float(f64),
+    /// Two to four numbers.
+    Vector(Vec<f64>),
+    /// A value that no custom uniform takes but a `uniform` that a text declares: longer lists of numbers, truth
+    /// values, lists of lists.
+    List(Vec<CustomUniformValue>),
+}
+
+/// Values by the name of their custom uniform.
+pub type CustomUniformValues = BTreeMap<String, CustomUniformValue>;
+
+impl CustomUniformValue {
+    /// A value of a type from its components, as many as the type has; a bool is true from 0.5 on.
+    pub fn new(ty: CustomUniformType, components: &[f64]) -> CustomUniformValue {
+        match ty {
+            CustomUniformType::Bool => CustomUniformValue::Bool(components[0] >= 0.5),
+            CustomUniformType::Int => CustomUniformValue::Int(components[0].round() as i32),
+            CustomUniformType::Float => CustomUniformValue::Float(components[0]),
+            _ => CustomUniformValue::Vector(components[..ty.components()].to_vec()),
+        }
+    }
+
+    /// Its numbers; a bool is 0 or 1.
+    pub fn components(&self) -> Vec<f64> {
+        match self {
+            CustomUniformValue::Bool(on) => vec![f64::from(u8::from(*on))],
+            CustomUniformValue::Int(n) => vec![f64::from(*n)],
+            CustomUniformValue::Float(x) => vec![*x],
+            CustomUniformValue::Vector(all) => all.clone(),
+            CustomUniformValue::List(all) => all.iter().flat_map(CustomUniformValue::components).collect(),
+        }
+    }
+
+    /// As GLSL writes a constant of type `ty`, which the value must be of.
+    pub fn glsl(&self, ty: CustomUniformType) -> String {
+        let float = |x: &f64| format!("{:?}", *x as f32);
+        match self {
+            CustomUniformValue::Bool(on) => on.to_string(),
+            CustomUniformValue::Int(n) => n.to_string(),
+            CustomUniformValue::Float(x) => float(x),
+            CustomUniformValue::Vector(_) | CustomUniformValue::List(_) => {
+                let all: Vec<String> = self.components().iter().map(float).collect();
+                format!("{}({})", ty.glsl_name(), all.join(", "))
+            }
+        }
+    }
+}
+
+/// The least and the greatest value, both included, of each component; beyond the type's components the numbers mean
+/// nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CustomUniformRange {
+    pub min: [f64; 4],
+    pub max: [f64; 4],
+}
+
+/// A uniform that a text declares.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CustomUniform {
+    pub name: String,
+    pub ty: CustomUniformType,
+    pub default: CustomUniformValue,
+    /// `None`: any number. A `color3` that says nothing has 0 to 1.
+    pub range: Option<CustomUniformRange>,
+    /// The step of a slider, where the author gives one.
+    pub step: Option<[f64; 4]>,
+    /// The name, where it is first declared.
+    pub span: Span,
+    /// The texts that declare it.
+    pub declared_in: Vec<SourceId>,
+}
+
+impl CustomUniform {
+    /// The value in the form this custom uniform's type has. Err: why it does not fit, a sentence that follows the
+    /// name.
+    pub fn fit(&self, value: &CustomUniformValue) -> Result<CustomUniformValue, String> {
+        let value = self.shaped(value)?;
+        if self.clamped(&value) == value {
+            return Ok(value);
+        }
+        let range = self.range.map_or(String::new(), |r| format!("{:?} to {:?}", r.min[0], r.max[0]));
+        let same = |all: &[f64; 4]| all[..self.ty.components()].iter().all(|x| *x == all[0]);
+        Err(match self.range {
+            Some(r) if same(&r.min) && same(&r.max) => format!("lies outside of its range, {range}"),
+            _ => "lies outside of its range".to_owned(),
+        })
+    }
+
+    /// Returns what the custom uniform stands at: its value where one is set that has the right shape, within the
+    /// range; else the default.
+    pub fn value(&self, values: &CustomUniformValues) -> CustomUniformValue {
+        let set = values.get(&self.name).and_then(|v| self.shaped(v).ok());
+        set.map_or_else(|| self.default.clone(), |v| self.clamped(&v))
+    }
+
+    fn shaped(&self, value: &CustomUniformValue) -> Result<CustomUniformValue, String> {
+        let n = self.ty.components();
+        let finite = |x: f64| (x as f32).is_finite();
+        let shaped = match (self.ty, value) {
+            (CustomUniformType::Bool, CustomUniformValue::Bool(_))
+            | (CustomUniformType::Int, CustomUniformValue::Int(_)) => Some(value.clone()),
+            (CustomUniformType::Int, CustomUniformValue::Float(x)) if x.fract() == 0.0 && x.abs() < 2f64.powi(31) => {
+                Some(CustomUniformValue::Int(*x as i32))
+            }
+            (CustomUniformType::Float, CustomUniformValue::Int(n)) => Some(CustomUniformValue::Float(f64::from(*n))),
+            (CustomUniformType::Float, CustomUniformValue::Float(x)) => finite(*x).then(|| value.clone()),
+            (_, CustomUniformValue::Vector(all)) if n > 1 && all.len() == n => {
+                all.iter().all(|x| finite(*x)).then(|| value.clone())
+            }
+            _ => None,
+        };
+        shaped.ok_or_else(|| {
+            let wants = match self.ty {
+                CustomUniformType::Bool => "true or false".to_owned(),
+                CustomUniformType::Int => "a whole number".to_owned(),
+                CustomUniformType::Float => "a number".to_owned(),
+                _ => format!("{n} numbers"),
+            };
+            format!("is a {} and takes {wants}", self.ty.name())
+        })
+    }
+
+    pub(super) fn clamped(&self, value: &CustomUniformValue) -> CustomUniformValue {
+        let Some(range) = self.range else { return value.clone() };
+        if self.ty == CustomUniformType::Bool {
+            return value.clone();
+        }
+        let mut all = value.components();
+        for (i, x) in all.iter_mut().enumerate() {
+            *x = x.clamp(range.min[i], range.max[i]);
+        }
+        CustomUniformValue::new(self.ty, &all)
+    }
+}

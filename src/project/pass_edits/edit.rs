@@ -1,0 +1,229 @@
+//! The edits, and what each does.
+
+use super::{error::PassEditError, groups};
+use crate::project::{
+    Filter, Pass, PassFormat, PassId, PassSize, Project, Region, Sampler, Source, Tab, Wrap,
+    draws::draws,
+    file_names::{self, Role},
+    limits,
+};
+use std::path::Path;
+
+/// A change of a project's passes.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PassEdit {
+    /// Gives a buffer another name, as a person writes it: see [`PassId::buffer_named`]. What reads it reads it under
+    /// the new one.
+    Rename {
+        pass: PassId,
+        name: String,
+    },
+    /// Puts a buffer at a place among the buffers, which are counted from 0 in drawing order.
+    Move {
+        pass: PassId,
+        to: usize,
+    },
+    Size(PassId, PassSize),
+    Format(PassId, PassFormat),
+    Region(PassId, Option<Region>),
+    /// How often a frame a buffer is drawn, with the others of its group.
+    Steps(PassId, u32),
+    /// Draws a buffer in one group with the buffer before it, or begins another group with it.
+    WithPrevious(PassId, bool),
+    /// The filter of every channel that reads a buffer.
+    Filter(PassId, Filter),
+    /// The wrap of every channel that reads a buffer.
+    Wrap(PassId, Wrap),
+    /// Takes away Common or a pass. Channels that read it stay, and read zeros.
+    Remove(Tab),
+}
+
+/// What an edit did besides.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PassEdited {
+    /// The project is another one now.
+    pub is_changed: bool,
+    /// A pass has another name: the old one, the new one.
+    pub renamed: Option<(PassId, PassId)>,
+}
+
+impl PassEdit {
+    /// What it is about, as a menu says it behind "Undo".
+    pub fn title(&self) -> String {
+        let of = |what: &str, pass: &PassId| format!("{what} of {}", pass.title());
+        match self {
+            PassEdit::Rename { pass, name } => format!("rename {} to {name}", pass.title()),
+            PassEdit::Move { pass, .. } => format!("move {}", pass.title()),
+            PassEdit::Size(pass, _) => of("size", pass),
+            PassEdit::Format(pass, _) => of("format", pass),
+            PassEdit::Region(pass, _) => of("region", pass),
+            PassEdit::Steps(pass, _) => of("steps", pass),
+            PassEdit::WithPrevious(pass, _) => of("group", pass),
+            PassEdit::Filter(pass, _) => of("filter", pass),
+            PassEdit::Wrap(pass, _) => of("wrap", pass),
+            PassEdit::Remove(tab) => format!("remove {}", tab.title()),
+        }
+    }
+
+    /// Returns whether `next` goes on with what this one began, as the values of a number that is being dragged do.
+    pub fn is_same_kind(&self, next: &PassEdit) -> bool {
+        match (self, next) {
+            (PassEdit::Size(a, a_size), PassEdit::Size(b, b_size)) => {
+                a == b && std::mem::discriminant(a_size) == std::mem::discriminant(b_size)
+            }
+            (PassEdit::Region(a, Some(_)), PassEdit::Region(b, Some(_))) => a == b,
+            (PassEdit::Steps(a, _), PassEdit::Steps(b, _)) => a == b,
+            _ => false,
+        }
+    }
+}
+
+impl Project {
+    /// Edits the passes. On an error nothing has changed.
+    pub fn edit_passes(&mut self, edit: &PassEdit) -> Result<PassEdited, PassEditError> {
+        let mut next = self.clone();
+        let renamed = next.edit(edit)?;
+        let all = draws(&next.passes, &next.groups);
+        if all > limits::DRAWS && all > draws(&self.passes, &self.groups) {
+            return Err(PassEditError::TooManyDraws(all));
+        }
+        let is_changed = next != *self;
+        *self = next;
+        Ok(PassEdited { is_changed, renamed })
+    }
+
+    fn edit(&mut self, edit: &PassEdit) -> Result<Option<(PassId, PassId)>, PassEditError> {
+        match edit {
+            PassEdit::Rename { pass, name } => return self.rename(pass, name),
+            PassEdit::Move { pass, to } => self.move_buffer(pass, *to)?,
+            PassEdit::Size(pass, size) => {
+                let is_size = match *size {
+                    PassSize::Canvas => true,
+                    PassSize::Scale(by) => by.is_finite() && by > 0.0,
+                    PassSize::Fixed(width, height) => width > 0 && height > 0,
+                };
+                if !is_size {
+                    return Err(PassEditError::BadSize);
+                }
+                self.buffer(pass, "size")?.settings.size = *size;
+            }
+            PassEdit::Format(pass, format) => self.buffer(pass, "format")?.settings.format = *format,
+            PassEdit::Region(pass, region) => {
+                if region.is_some_and(|r| r.width == 0 || r.height == 0) {
+                    return Err(PassEditError::BadRegion);
+                }
+                let is_image = *pass == PassId::Image;
+                let found = if is_image { self.found(pass)? } else { self.buffer(pass, "region")? };
+                found.settings.region = *region;
+            }
+            PassEdit::Steps(pass, steps) => {
+                self.buffer(pass, "steps")?;
+                groups::set_steps(self, pass, *steps)?;
+            }
+            PassEdit::WithPrevious(pass, is_joined) => {
+                self.buffer(pass, "group")?;
+                groups::join(self, pass, *is_joined)?;
+            }
+            PassEdit::Filter(pass, filter) => self.readers(pass)?.for_each(|sampler| sampler.filter = *filter),
+            PassEdit::Wrap(pass, wrap) => self.readers(pass)?.for_each(|sampler| sampler.wrap = *wrap),
+            PassEdit::Remove(tab) => self.remove(tab)?,
+        }
+        Ok(None)
+    }
+
+    fn found(&mut self, id: &PassId) -> Result<&mut Pass, PassEditError> {
+        self.pass_mut(id).ok_or_else(|| PassEditError::NoSuchPass(id.title()))
+    }
+
+    fn buffer(&mut self, id: &PassId, what: &'static str) -> Result<&mut Pass, PassEditError> {
+        let is_buffer = matches!(id, PassId::Buffer(_));
+        let found = self.found(id)?;
+        if is_buffer { Ok(found) } else { Err(PassEditError::NotHere { pass: id.title(), what }) }
+    }
+
+    /// The samplers of all channels that read a buffer.
+    fn readers(&mut self, id: &PassId) -> Result<impl Iterator<Item = &mut Sampler>, PassEditError> {
+        let PassId::Buffer(name) = id.clone() else {
+            return Err(PassEditError::NotHere { pass: id.title(), what: "filter and wrap" });
+        };
+        self.found(id)?;
+        let channels = self.passes.iter_mut().flat_map(|p| p.channels.iter_mut().flatten());
+        Ok(channels.filter(move |c| c.input.buffer().is_some_and(|(b, _)| b == name)).map(|c| &mut c.sampler))
+    }
+
+    fn rename(&mut self, from: &PassId, name: &str) -> Result<Option<(PassId, PassId)>, PassEditError> {
+        self.found(from)?;
+        let PassId::Buffer(old) = from else { return Err(PassEditError::NotABuffer(from.title())) };
+        let to = PassId::buffer_named(name).ok_or_else(|| PassEditError::BadName(name.trim().to_owned()))?;
+        if to == *from {
+            return Ok(None);
+        }
+        if self.pass(&to).is_some() {
+            return Err(PassEditError::Taken(to.title()));
+        }
+        let PassId::Buffer(new) = &to else { return Err(PassEditError::BadName(name.trim().to_owned())) };
+        let pass = self.found(from)?;
+        pass.id = to.clone();
+        pass.source.follow_rename(from, &to);
+        for channel in self.passes.iter_mut().flat_map(|p| p.channels.iter_mut().flatten()) {
+            if let Some(buffer) = channel.input.buffer_mut().filter(|buffer| *buffer == old) {
+                buffer.clone_from(new);
+            }
+        }
+        for id in self.groups.iter_mut().flat_map(|g| &mut g.passes).filter(|id| *id == from) {
+            *id = to.clone();
+        }
+        Ok(Some((from.clone(), to)))
+    }
+
+    fn move_buffer(&mut self, id: &PassId, to: usize) -> Result<(), PassEditError> {
+        self.found(id)?;
+        if !matches!(id, PassId::Buffer(_)) {
+            return Err(PassEditError::NotABuffer(id.title()));
+        }
+        let count = self.passes.iter().filter(|p| matches!(p.id, PassId::Buffer(_))).count();
+        // Buffers come first.
+        let Some(from) = self.passes.iter().position(|p| p.id == *id) else { return Ok(()) };
+        let pass = self.passes.remove(from);
+        self.passes.insert(to.min(count - 1), pass);
+        groups::settle_moved(self, id);
+        Ok(())
+    }
+
+    fn remove(&mut self, tab: &Tab) -> Result<(), PassEditError> {
+        match tab {
+            Tab::Pass(PassId::Image) => return Err(PassEditError::Image),
+            Tab::Stage(_, file) => return Err(PassEditError::Stage(file.clone())),
+            Tab::Common if self.common.is_none() => return Err(PassEditError::NoSuchPass(tab.title())),
+            Tab::Common => self.common = None,
+            Tab::Pass(id) => {
+                self.found(id)?;
+                self.passes.retain(|p| p.id != *id);
+                groups::forget(self, id);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Source {
+    /// Calls a text as its pass is called now. A file that is named after the pass gets the new name when it is saved:
+    /// until then its path is the file that is there, and its name the one that it shall have. A file of any other name
+    /// keeps it.
+    pub fn follow_rename(&mut self, from: &PassId, to: &PassId) {
+        if self.path.is_none() {
+            if self.name == from.title() {
+                self.name = to.title();
+            }
+            return;
+        }
+        let file = Path::new(&self.name);
+        let Some(own) = file.file_name().and_then(|name| name.to_str()) else { return };
+        if file_names::role_of_file(own) != Some(Role::Pass(from.clone())) {
+            return;
+        }
+        let extension = file.extension().and_then(|e| e.to_str()).unwrap_or("glsl");
+        let folder = &self.name[..self.name.len() - own.len()];
+        self.name = format!("{folder}{}.{extension}", to.key());
+    }
+}

@@ -1,0 +1,241 @@
+use super::*;
+use crate::project::{
+    self, Channel, Filter, Group, Input, Overwrite, PassFormat, PassId, PassSize, Project, Region, Sampler, Tab, Wrap,
+};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+const MANIFEST: &str = "\
+# The author's words.
+name = \"Waves\"
+
+# What moves.
+[passes.buffer_a]
+# Slow is fine here.
+channels.0 = { buffer = \"A\", filter = \"nearest\" }  # itself
+
+[passes.buffer_b]
+channels.0 = { buffer = \"A\" }
+
+[passes.buffer_c]
+channels.0 = { buffer = \"B\" }
+
+[groups.solver]  # twenty of them
+passes = [\"buffer_a\", \"buffer_b\"]
+steps = 20
+
+[passes.image]
+channels.0 = { buffer = \"A\", wrap = \"repeat\" }
+channels.1 = { buffer = \"C\" }
+";
+
+fn buffer(name: &str) -> PassId {
+    PassId::Buffer(name.into())
+}
+
+/// A project of three buffers on disk.
+fn on_disk() -> (tempfile::TempDir, Project) {
+    let dir = tempfile::tempdir().unwrap();
+    for (name, text) in [("eddy.toml", MANIFEST), ("image.glsl", "// image\n")] {
+        fs::write(dir.path().join(name), text).unwrap();
+    }
+    for name in ["a", "b", "c"] {
+        fs::write(dir.path().join(format!("buffer_{name}.glsl")), format!("// text of {name}\n")).unwrap();
+    }
+    let project = project::load(dir.path().to_str().unwrap()).unwrap().project;
+    (dir, project)
+}
+
+fn order(project: &Project) -> Vec<String> {
+    project.passes.iter().map(|p| p.id.key()).collect()
+}
+
+/// Saves, opens again, and asks for the same.
+fn saved(project: &Project, folder: &Path) -> Project {
+    let saved = project::save(project, folder, Overwrite::Refuse).unwrap();
+    let read = project::load(folder.to_str().unwrap()).unwrap();
+    assert_eq!(read.warnings, []);
+    assert_eq!(read.project, saved);
+    saved
+}
+
+#[test]
+fn a_new_name_goes_to_what_reads_the_pass_and_to_its_file() {
+    let (dir, mut project) = on_disk();
+    let before = project.clone();
+    let done = project.edit_passes(&PassEdit::Rename { pass: buffer("A"), name: " Velocity Field ".into() }).unwrap();
+    let to = buffer("velocityfield");
+    assert_eq!(done, PassEdited { is_changed: true, renamed: Some((buffer("A"), to.clone())) });
+    let reads = |id: &PassId, n: usize| project.pass(id).unwrap().channels[n].clone().unwrap().input;
+    assert_eq!(reads(&to, 0), Input::Buffer("velocityfield".into()));
+    assert_eq!(reads(&buffer("B"), 0), Input::Buffer("velocityfield".into()));
+    assert_eq!(reads(&PassId::Image, 0), Input::Buffer("velocityfield".into()));
+    assert_eq!(reads(&PassId::Image, 1), Input::Buffer("C".into()));
+    assert_eq!(project.groups[0].passes, [to.clone(), buffer("B")]);
+
+    let after = saved(&project, dir.path());
+    assert_eq!(after.pass(&to).unwrap().source.name, "buffer_velocityfield.glsl");
+    assert_eq!(&*after.pass(&to).unwrap().source.text, "// text of a\n");
+    let text = fs::read_to_string(dir.path().join("eddy.toml")).unwrap();
+    for comment in ["# The author's words.", "# What moves.", "# Slow is fine here.", "# itself", "# twenty of them"] {
+        assert!(text.contains(comment), "{comment} is lost:\n{text}");
+    }
+    assert!(text.find("velocityfield").unwrap() < text.find("buffer_b]").unwrap(), "it kept its place:\n{text}");
+
+    // The old file goes when the new one is there, and only if nobody has written into it meanwhile.
+    let old = dir.path().join("buffer_a.glsl");
+    fs::write(&old, "// somebody else's\n").unwrap();
+    assert_eq!(project::remove_renamed(&before, &project, &after), Vec::<PathBuf>::new());
+    assert!(old.exists());
+    fs::write(&old, "// text of a\n").unwrap();
+    assert_eq!(project::remove_renamed(&before, &project, &after), std::slice::from_ref(&old));
+    assert!(!old.exists());
+    assert_eq!(project::load(dir.path().to_str().unwrap()).unwrap().project, after);
+}
+
+#[test]
+fn a_file_that_is_not_named_after_its_pass_keeps_its_name_and_its_comments() {
+    let (dir, _) = on_disk();
+    fs::rename(dir.path().join("buffer_a.glsl"), dir.path().join("waves.glsl")).unwrap();
+    let manifest = MANIFEST.replace("# Slow is fine here.", "file = \"waves.glsl\" # Slow is fine here.");
+    fs::write(dir.path().join("eddy.toml"), manifest).unwrap();
+    let mut project = project::load(dir.path().to_str().unwrap()).unwrap().project;
+    let before = project.clone();
+    project.edit_passes(&PassEdit::Rename { pass: buffer("A"), name: "glow".into() }).unwrap();
+    let after = saved(&project, dir.path());
+    assert_eq!(after.pass(&buffer("glow")).unwrap().source.name, "waves.glsl");
+    assert!(fs::read_to_string(dir.path().join("eddy.toml")).unwrap().contains("# Slow is fine here."));
+    assert!(project::remove_renamed(&before, &project, &after).is_empty());
+    assert!(dir.path().join("waves.glsl").exists());
+}
+
+#[test]
+fn a_new_name_never_takes_somebody_elses_file() {
+    let (dir, mut project) = on_disk();
+    fs::write(dir.path().join("buffer_glow.glsl"), "// not a pass of this project\n").unwrap();
+    project.edit_passes(&PassEdit::Rename { pass: buffer("A"), name: "glow".into() }).unwrap();
+    let refused = project::save(&project, dir.path(), Overwrite::Refuse);
+    assert!(matches!(refused, Err(project::ProjectError::WouldOverwrite { .. })), "{refused:?}");
+    assert_eq!(fs::read_to_string(dir.path().join("buffer_glow.glsl")).unwrap(), "// not a pass of this project\n");
+    assert_eq!(fs::read_to_string(dir.path().join("eddy.toml")).unwrap(), MANIFEST);
+}
+
+#[test]
+fn names_that_cannot_be_are_refused_with_the_reason() {
+    let (_dir, mut project) = on_disk();
+    let before = project.clone();
+    let mut rename = |pass: PassId, name: &str| {
+        project.edit_passes(&PassEdit::Rename { pass, name: name.into() }).unwrap_err().to_string()
+    };
+    assert!(rename(buffer("A"), "b").contains("there is a Buffer B already"));
+    assert!(rename(buffer("A"), "a/b").contains("letters, digits"));
+    assert!(rename(buffer("A"), "  ").contains("letters, digits"));
+    assert!(rename(PassId::Image, "x").contains("only buffers"));
+    assert!(rename(buffer("nowhere"), "x").contains("there is no Buffer nowhere"));
+    assert_eq!(project, before);
+    let same = project.edit_passes(&PassEdit::Rename { pass: buffer("A"), name: "Buffer A".into() }).unwrap();
+    assert_eq!(same, PassEdited::default());
+}
+
+#[test]
+fn buffers_move_and_groups_stay_in_one_piece() {
+    let (dir, mut project) = on_disk();
+    let mut go = |pass: &str, to: usize| project.edit_passes(&PassEdit::Move { pass: buffer(pass), to }).unwrap();
+    // C goes between A and B, which are one group: it is drawn with them.
+    go("C", 1);
+    assert_eq!(order(&project), ["buffer_a", "buffer_c", "buffer_b", "image"]);
+    assert_eq!(project.groups[0].passes, [buffer("A"), buffer("C"), buffer("B")]);
+    saved(&project, dir.path());
+    // B leaves for the front and stays, as it still follows its group; A leaves for good.
+    let mut go = |pass: &str, to: usize| project.edit_passes(&PassEdit::Move { pass: buffer(pass), to }).unwrap();
+    go("B", 0);
+    assert_eq!(order(&project), ["buffer_b", "buffer_a", "buffer_c", "image"]);
+    assert_eq!(project.groups[0].passes, [buffer("B"), buffer("A"), buffer("C")]);
+    let again = saved(&project, dir.path());
+    assert_eq!(order(&again), ["buffer_b", "buffer_a", "buffer_c", "image"]);
+    assert!(project.edit_passes(&PassEdit::Move { pass: PassId::Image, to: 0 }).is_err());
+    let far = project.edit_passes(&PassEdit::Move { pass: buffer("B"), to: 99 }).unwrap();
+    assert!(far.is_changed);
+    assert_eq!(order(&project), ["buffer_a", "buffer_c", "buffer_b", "image"]);
+}
+
+#[test]
+fn steps_and_groups_are_made_joined_parted_and_forgotten() {
+    let (dir, mut project) = on_disk();
+    let group = |name: &str, passes: &[&str], steps: u32| Group {
+        name: name.into(),
+        passes: passes.iter().map(|p| buffer(p)).collect(),
+        steps,
+    };
+    let mut edit = |edit: PassEdit| project.edit_passes(&edit).unwrap();
+    edit(PassEdit::Steps(buffer("C"), 3));
+    edit(PassEdit::Steps(buffer("A"), 5));
+    assert_eq!(project.groups, [group("solver", &["A", "B"], 5), group("c", &["C"], 3)]);
+    saved(&project, dir.path());
+    let mut edit = |edit: PassEdit| project.edit_passes(&edit).unwrap();
+    edit(PassEdit::WithPrevious(buffer("C"), true));
+    assert_eq!(project.groups, [group("solver", &["A", "B", "C"], 5)]);
+    let mut edit = |edit: PassEdit| project.edit_passes(&edit).unwrap();
+    edit(PassEdit::WithPrevious(buffer("B"), false));
+    assert_eq!(project.groups, [group("solver", &["A"], 5), group("b", &["B", "C"], 5)]);
+    saved(&project, dir.path());
+    let mut edit = |edit: PassEdit| project.edit_passes(&edit).unwrap();
+    edit(PassEdit::Steps(buffer("A"), 1));
+    edit(PassEdit::Remove(Tab::Pass(buffer("B"))));
+    // What read it would be warned of.
+    edit(PassEdit::Remove(Tab::Pass(buffer("A"))));
+    project.pass_mut(&buffer("C")).unwrap().channels = Default::default();
+    project.pass_mut(&PassId::Image).unwrap().channels[0] = None;
+    assert_eq!(project.groups, [group("b", &["C"], 5)]);
+    saved(&project, dir.path());
+    assert_eq!(project.edit_passes(&PassEdit::Steps(buffer("C"), 0)), Err(PassEditError::NoSteps));
+    let many = project.edit_passes(&PassEdit::Steps(buffer("C"), 1_000_000)).unwrap_err();
+    assert!(matches!(many, PassEditError::TooManyDraws(_)), "{many}");
+    let first = project.edit_passes(&PassEdit::WithPrevious(buffer("C"), true));
+    assert_eq!(first, Err(PassEditError::First("Buffer C".into())));
+}
+
+#[test]
+fn how_a_pass_is_drawn_and_read_is_saved() {
+    let (dir, mut project) = on_disk();
+    let region = Region { x: 0, y: 1, width: 64, height: 2 };
+    for edit in [
+        PassEdit::Size(buffer("A"), PassSize::Scale(0.5)),
+        PassEdit::Size(buffer("B"), PassSize::Fixed(64, 32)),
+        PassEdit::Format(buffer("A"), PassFormat::Rg16f),
+        PassEdit::Region(buffer("A"), Some(region)),
+        PassEdit::Region(PassId::Image, Some(region)),
+        PassEdit::Filter(buffer("A"), Filter::Mipmap),
+        PassEdit::Wrap(buffer("A"), Wrap::Repeat),
+    ] {
+        assert!(project.edit_passes(&edit).unwrap().is_changed, "{edit:?}");
+    }
+    let after = saved(&project, dir.path());
+    let a = after.pass(&buffer("A")).unwrap();
+    assert_eq!((a.settings.size, a.settings.format), (PassSize::Scale(0.5), PassFormat::Rg16f));
+    let read = Some(Channel {
+        input: Input::Buffer("A".into()),
+        sampler: Sampler { filter: Filter::Mipmap, wrap: Wrap::Repeat, vflip: true },
+    });
+    assert_eq!(a.channels[0], read);
+    assert_eq!(after.pass(&PassId::Image).unwrap().channels[0], read);
+    let of_c = after.pass(&PassId::Image).unwrap().channels[1].as_ref().unwrap().sampler;
+    assert_eq!(of_c, Sampler::BUFFER, "another buffer's channels stay");
+    let refused = [
+        PassEdit::Size(buffer("A"), PassSize::Scale(f64::NAN)),
+        PassEdit::Size(buffer("A"), PassSize::Fixed(0, 3)),
+        PassEdit::Size(PassId::Image, PassSize::Scale(0.5)),
+        PassEdit::Format(PassId::Image, PassFormat::R8),
+        PassEdit::Region(buffer("A"), Some(Region { width: 0, ..region })),
+        PassEdit::Filter(PassId::Image, Filter::Linear),
+        PassEdit::Remove(Tab::Pass(PassId::Image)),
+        PassEdit::Remove(Tab::Common),
+    ];
+    for edit in refused {
+        let before = project.clone();
+        assert!(project.edit_passes(&edit).is_err(), "{edit:?}");
+        assert_eq!(project, before);
+    }
+}

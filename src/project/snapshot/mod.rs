@@ -1,0 +1,230 @@
+//! A snapshot is a whole project in one text, with everything that is not on disk yet.
+//!
+//! Owns the text's form, both ways: JSON with the project's place, an `eddy.toml` for all that is not text, and each
+//! tab's text under the tab's own name, so that two passes of one file may differ while they are edited. What the texts
+//! include is not in it, as it cannot be edited here; of a fill that is in memory alone (see
+//! [`super::FillValue::Held`]) only the name is.
+
+use super::{
+    Channel, Input, Media, MeshSource, Origin, PassId, Project, ProjectError, Source, Tab, file_names::pass_of_stem,
+    files::Files, manifest,
+};
+use serde::{Deserialize, Serialize};
+use std::{collections::BTreeMap, path::PathBuf};
+
+/// Version of the form that this build writes, and the only one it reads.
+const VERSION: u32 = 1;
+
+/// A text that is no snapshot.
+#[derive(Debug, thiserror::Error)]
+pub enum SnapshotError {
+    #[error("not a snapshot of a project: {0}")]
+    Json(#[from] serde_json::Error),
+    #[error("a snapshot of version {0}, which another version of Eddy wrote; this one reads version {VERSION}")]
+    Version(u32),
+    #[error(transparent)]
+    Project(#[from] ProjectError),
+}
+
+#[derive(Serialize, Deserialize)]
+struct Form {
+    eddy_snapshot: u32,
+    name: String,
+    origin: Place,
+    /// As `eddy.toml` says the project.
+    manifest: String,
+    texts: Vec<Text>,
+    /// Channels that read a picture from anywhere on this machine, which no `eddy.toml` names.
+    picked: Vec<Picked>,
+    /// Draws of a model from anywhere on this machine, likewise.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    picked_models: Vec<PickedModel>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Place {
+    Unsaved,
+    Preset(String),
+    Folder { path: PathBuf, has_manifest: bool },
+    File(PathBuf),
+    Json(PathBuf),
+}
+
+#[derive(Serialize, Deserialize)]
+struct Text {
+    /// `None`: Common.
+    pass: Option<String>,
+    stage: Option<String>,
+    name: String,
+    path: Option<PathBuf>,
+    text: String,
+}
+
+#[derive(Serialize, Deserialize)]
+struct Picked {
+    pass: String,
+    channel: usize,
+    path: PathBuf,
+}
+
+#[derive(Serialize, Deserialize)]
+struct PickedModel {
+    pass: String,
+    draw: usize,
+    path: PathBuf,
+}
+
+/// Returns the snapshot of a project. Relative paths become whole ones: who reads it may have been started elsewhere.
+pub fn write_snapshot(project: &Project) -> Result<String, SnapshotError> {
+    let named = named(project);
+    let text = |(tab, source): (Tab, &Source)| Text {
+        pass: tab.pass().map(PassId::key),
+        stage: if let Tab::Stage(_, file) = tab { Some(file) } else { None },
+        name: source.name.clone(),
+        path: source.path.clone().map(absolute),
+        text: source.text.to_string(),
+    };
+    let form = Form {
+        eddy_snapshot: VERSION,
+        name: project.name.clone(),
+        origin: Place::of(&project.origin),
+        manifest: manifest::write(&named, None, &project.name, false),
+        texts: project
+            .tabs()
+            .into_iter()
+            .filter_map(|tab| Some((tab.clone(), project.source(&tab)?)))
+            .map(text)
+            .collect(),
+        picked: picked(project),
+        picked_models: picked_models(project),
+    };
+    Ok(serde_json::to_string(&form)?)
+}
+
+/// Returns the project that [`write_snapshot`] was given. Its includes are not read yet.
+pub fn read_snapshot(text: &str) -> Result<Project, SnapshotError> {
+    #[derive(Deserialize)]
+    struct Version {
+        eddy_snapshot: u32,
+    }
+    let Version { eddy_snapshot } = serde_json::from_str(text)?;
+    if eddy_snapshot != VERSION {
+        return Err(SnapshotError::Version(eddy_snapshot));
+    }
+    let form: Form = serde_json::from_str(text)?;
+    // Names as `named` made them.
+    let file = |text: &Text| match (&text.pass, &text.stage, &text.path) {
+        (_, Some(stage), _) => stage.clone(),
+        (None, ..) => "common.glsl".to_owned(),
+        (Some(_), None, Some(_)) => text.name.clone(),
+        (Some(pass), None, None) => format!("{pass}.glsl"),
+    };
+    let files: BTreeMap<String, Vec<u8>> =
+        form.texts.iter().map(|text| (file(text), text.text.clone().into_bytes())).collect();
+    let origin = form.origin.into_origin();
+    let files = Files::in_memory(&files);
+    let mut project = manifest::project("the snapshot", form.name.clone(), &form.manifest, &files, origin)?.project;
+    project.name = form.name;
+    for text in form.texts {
+        let tab = match (text.pass, text.stage) {
+            (None, _) => Some(Tab::Common),
+            (Some(pass), None) => pass_of_stem(&pass).map(Tab::Pass),
+            (Some(pass), Some(stage)) => pass_of_stem(&pass).map(|id| Tab::Stage(id, stage)),
+        };
+        if let Some(source) = tab.and_then(|tab| project.source_mut(&tab)) {
+            *source = Source { name: text.name, path: text.path, text: text.text.into() };
+        }
+    }
+    for Picked { pass, channel, path } in form.picked {
+        let slot = pass_of_stem(&pass).and_then(|id| project.pass_mut(&id)?.channels.get_mut(channel)?.as_mut());
+        if let Some(media) = slot.and_then(|channel| channel.input.media_mut()) {
+            *media = Media::Picked(path);
+        }
+    }
+    for PickedModel { pass, draw, path } in form.picked_models {
+        let pass = pass_of_stem(&pass).and_then(|id| project.pass_mut(&id));
+        if let Some(draw) = pass.and_then(|p| p.settings.meshes_mut()?.draws.get_mut(draw)) {
+            draw.mesh = MeshSource::Picked(path);
+        }
+    }
+    project.includes.clear();
+    Ok(project)
+}
+
+/// The project with names of files for its texts.
+fn named(project: &Project) -> Project {
+    let mut named = project.clone();
+    if let Some(common) = &mut named.common {
+        common.name = "common.glsl".into();
+    }
+    for pass in named.passes.iter_mut().filter(|p| p.source.path.is_none()) {
+        pass.source.name = format!("{}.glsl", pass.id.key());
+    }
+    for channel in named.passes.iter_mut().flat_map(|p| p.channels.iter_mut().flatten()) {
+        if let Some(media @ Media::Picked(_)) = channel.input.media_mut() {
+            // Its own name may be one that no project may have.
+            *media = Media::File("picked.png".into());
+        }
+    }
+    let meshes = named.passes.iter_mut().filter_map(|p| p.settings.meshes_mut());
+    for draw in meshes.flat_map(|g| &mut g.draws) {
+        if let mesh @ MeshSource::Picked(_) = &mut draw.mesh {
+            *mesh = MeshSource::File("picked.glb".into());
+        }
+    }
+    named
+}
+
+fn picked_models(project: &Project) -> Vec<PickedModel> {
+    let mut list = Vec::new();
+    for pass in &project.passes {
+        for (n, draw) in pass.settings.meshes().into_iter().flat_map(|g| g.draws.iter().enumerate()) {
+            if let MeshSource::Picked(path) = &draw.mesh {
+                list.push(PickedModel { pass: pass.id.key(), draw: n, path: absolute(path.clone()) });
+            }
+        }
+    }
+    list
+}
+
+fn picked(project: &Project) -> Vec<Picked> {
+    let mut list = Vec::new();
+    for pass in &project.passes {
+        for (channel, slot) in pass.channels.iter().enumerate() {
+            if let Some(Media::Picked(path)) = slot.as_ref().map(|c: &Channel| &c.input).and_then(Input::media) {
+                list.push(Picked { pass: pass.id.key(), channel, path: absolute(path.clone()) });
+            }
+        }
+    }
+    list
+}
+
+fn absolute(path: PathBuf) -> PathBuf {
+    std::path::absolute(&path).unwrap_or(path)
+}
+
+impl Place {
+    fn of(origin: &Origin) -> Place {
+        match origin.clone() {
+            Origin::Unsaved => Place::Unsaved,
+            Origin::Preset(name) => Place::Preset(name),
+            Origin::Folder { path, has_manifest } => Place::Folder { path: absolute(path), has_manifest },
+            Origin::File(path) => Place::File(absolute(path)),
+            Origin::Json(path) => Place::Json(absolute(path)),
+        }
+    }
+
+    fn into_origin(self) -> Origin {
+        match self {
+            Place::Unsaved => Origin::Unsaved,
+            Place::Preset(name) => Origin::Preset(name),
+            Place::Folder { path, has_manifest } => Origin::Folder { path, has_manifest },
+            Place::File(path) => Origin::File(path),
+            Place::Json(path) => Origin::Json(path),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;
