@@ -1,17 +1,21 @@
 //! Says what a generated module looks like from outside: entry point, bind groups, the uniform block's bytes.
 //!
-//! - Vertex stage: none, but for programs that draw meshes (below). The caller draws a full-screen triangle with its own; `gl_FragCoord` is `@builtin(position)`, and
-//!   because row 0 of every target is the bottom of the picture, its y needs no flip.
+//! - Vertex stage: none, but for programs that draw meshes (below). The caller draws a full-screen triangle with its
+//!   own; `gl_FragCoord` is `@builtin(position)`, and because row 0 of every target is the bottom of the picture, its y
+//!   needs no flip.
 //! - Fragment entry point [`ENTRY_POINT`], one `@location(0) vec4<f32>` result.
-//! - Group 0, binding 0: the uniform block [`UniformBlock`], 16-byte aligned, std140. Absent when nothing of it is read.
-//! - Group 0, binding 1: a read-only storage buffer with the author's large constant tables, whose bytes come with the module
-//!   ([`crate::glsl::Compiled::tables`]). Absent when there are none.
+//! - Group 0, binding 0: the uniform block [`UniformBlock`], 16-byte aligned, std140. Absent when nothing of it is
+//!   read.
+//! - Group 0, binding 1: a read-only storage buffer with the author's large constant tables, whose bytes come with
+//!   the module ([`crate::glsl::Compiled::tables`]). Absent when there are none.
 //! - Group 0, binding 3: a uniform buffer with those constant tables that fit into [`UNIFORM_TABLE_BYTES`] together
 //!   ([`crate::glsl::Compiled::uniform_tables`]). Absent when there are none.
-//! - Group 0, binding 2: the author's own uniforms ([`crate::glsl::Knob`]), an array of `vec4<u32>`: each has a slot of 16 bytes
-//!   whose first words hold its components bit for bit (a bool as 0 or 1). Absent when none is read.
-//! - Group 1, binding 2i: the texture of `iChannel`i, binding 2i+1: its sampler. Each is declared only where it is reached from
-//!   the entry point ([`crate::glsl::Reflection::channels`] says which), so the bind group layout follows the reflection.
+//! - Group 0, binding 2: the author's own uniforms ([`crate::glsl::CustomUniform`]), an array of `vec4<u32>`: each
+//!   has a slot of 16 bytes whose first words hold its components bit for bit (a bool as 0 or 1). Absent when none is
+//!   read.
+//! - Group 1, binding 2i: the texture of `iChannel`i, binding 2i+1: its sampler. Each is declared only where it is
+//!   reached from the entry point ([`crate::glsl::Reflection::channels`] says which), so the bind group layout follows
+//!   the reflection.
 //!
 //! Programs that draw meshes have a module a stage. Both read the groups above, and in group 0 at binding 4 the
 //! [`GeometryBlock`]; the vertex stage has its constant tables in a uniform buffer of its own at binding 5, and none in
@@ -33,9 +37,9 @@ pub const UNIFORM_TABLE_BINDING: u32 = 3;
 /// Most bytes there: what every device has (OpenGL ES 3.0, table 6.31, `MAX_UNIFORM_BLOCK_SIZE`).
 pub const UNIFORM_TABLE_BYTES: usize = 16384;
 /// Binding of the author's own uniforms in [`UNIFORM_GROUP`].
-pub const KNOB_BINDING: u32 = 2;
+pub const CUSTOM_UNIFORM_BINDING: u32 = 2;
 /// Bytes of a slot there.
-pub const KNOB_BYTES: u64 = 16;
+pub const CUSTOM_UNIFORM_BYTES: u64 = 16;
 /// Binding of the [`GeometryBlock`] in [`UNIFORM_GROUP`].
 pub const GEOMETRY_BINDING: u32 = 4;
 /// Binding of the uniform buffer with constant tables of a vertex stage in [`UNIFORM_GROUP`].

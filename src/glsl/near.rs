@@ -1,9 +1,9 @@
 //! "Did you mean": the known word that is nearest to one nobody knows.
 
-/// Returns the candidate that `word` is most likely a slip of: few letters changed, added, left out or swapped (the optimal
-/// string alignment distance), with case that counts unless nothing else differs. `None` where nothing is near enough to
-/// be worth saying. Names of files and settings are measured by `project::nearest`, for which case and `-`, `_` and
-/// spaces count for nothing.
+/// Returns the candidate that `word` is most likely a slip of: few letters changed, added, left out or swapped (the
+/// optimal string alignment distance), with case that counts unless nothing else differs. `None` where nothing is near
+/// enough to be worth saying. Names of files and settings are measured by `project::nearest`, for which case and `-`,
+/// `_` and spaces count for nothing.
 pub(super) fn nearest_identifier<'c>(word: &str, candidates: impl IntoIterator<Item = &'c str>) -> Option<&'c str> {
     // One slip in a short word, two in a long one.
     let allowed = match word.chars().count() {

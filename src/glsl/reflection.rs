@@ -22,9 +22,9 @@ bitflags::bitflags! {
 
 /// The author's own uniforms as a set of their slots.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
-pub struct KnobSet(std::collections::BTreeSet<u16>);
+pub struct CustomUniformSet(std::collections::BTreeSet<u16>);
 
-impl KnobSet {
+impl CustomUniformSet {
     pub fn insert(&mut self, slot: u16) {
         self.0.insert(slot);
     }
@@ -67,7 +67,7 @@ impl ChannelUse {
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Reflection {
     pub uniforms: UniformSet,
-    pub knobs: KnobSet,
+    pub custom_uniforms: CustomUniformSet,
     pub channels: [ChannelUse; 4],
     /// `discard` can be reached: the target keeps what it held, so the planner must not pretend it is overwritten.
     pub discards: bool,

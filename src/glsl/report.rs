@@ -5,7 +5,7 @@ use crate::diag::{Diagnostic, Span};
 /// Errors shown for one text; the rest is most likely a consequence.
 pub(super) const MAX_ERRORS: usize = 100;
 
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(super) struct Report {
     pub diagnostics: Vec<Diagnostic>,
     errors: usize,
@@ -37,6 +37,10 @@ impl Report {
             self.in_macros.push(span);
         }
         self.add(diagnostic);
+    }
+
+    pub fn has_errors(&self) -> bool {
+        self.errors > 0
     }
 
     /// More errors than are kept: nobody need look for further ones.

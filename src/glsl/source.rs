@@ -1,6 +1,6 @@
 //! Says what the front end is given of a pass: its texts, its channels, the values of its uniforms.
 
-use super::driver::Driver;
+use super::{driver::Driver, probe::Probe};
 use crate::diag::{SourceId, Span};
 
 /// Which entry point a pass defines, and which uniforms it may name.
@@ -53,17 +53,17 @@ pub struct Include<'a> {
 /// A uniform that the author declares beside the language, in an `#iUniform` line. It is in scope everywhere in the
 /// texts of the pass, as the site's own uniforms are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Knob<'a> {
+pub struct CustomUniform<'a> {
     pub name: &'a str,
-    pub kind: KnobKind,
-    /// Says where its value lies in the block at [`super::interface::KNOB_BINDING`], in slots of
-    /// [`super::interface::KNOB_BYTES`].
+    pub kind: CustomUniformKind,
+    /// Says where its value lies in the block at [`super::interface::CUSTOM_UNIFORM_BINDING`], in slots of
+    /// [`super::interface::CUSTOM_UNIFORM_BYTES`].
     pub slot: u16,
 }
 
-/// Says what a [`Knob`] is in GLSL.
+/// Says what a [`CustomUniform`] is in GLSL.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum KnobKind {
+pub enum CustomUniformKind {
     Bool,
     Int,
     Float,
@@ -97,8 +97,8 @@ pub struct PassSource<'a> {
     /// The includes of all texts of the pass, those in includes among them; no text includes itself.
     pub includes: &'a [Include<'a>],
     pub channels: [ChannelKind; 4],
-    /// The knobs of all texts of the pass, each name once.
-    pub knobs: &'a [Knob<'a>],
+    /// The custom uniforms of all texts of the pass, each name once.
+    pub custom_uniforms: &'a [CustomUniform<'a>],
     /// The values of uniforms that a text of the pass may declare, each name once; those it does not declare mean
     /// nothing.
     pub values: &'a [UniformValue],
@@ -106,6 +106,8 @@ pub struct PassSource<'a> {
     /// written as four fetches and a mix (section 8.13 of the OpenGL ES 3.0 specification gives the weights).
     pub bilinear_by_hand: [bool; 4],
     pub driver: Driver,
+    /// A value that is drawn instead of the picture; only in passes that draw one.
+    pub probe: Option<Probe>,
 }
 
 impl<'a> PassSource<'a> {
@@ -117,10 +119,11 @@ impl<'a> PassSource<'a> {
             code,
             includes: &[],
             channels: [ChannelKind::Sampler2D; 4],
-            knobs: &[],
+            custom_uniforms: &[],
             values: &[],
             bilinear_by_hand: [false; 4],
             driver: Driver::default(),
+            probe: None,
         }
     }
 

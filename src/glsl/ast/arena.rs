@@ -13,7 +13,8 @@ macro_rules! ids {
             /// The id of element `index` of its arena.
             #[inline]
             pub fn new(index: usize) -> Self {
-                // Arenas stay far below 2^32 elements: sources are bounded by 2^32 bytes, expansion by the preprocessor.
+                // Arenas stay far below 2^32 elements: sources are bounded by 2^32 bytes, expansion by the
+                // preprocessor.
                 Self(::std::num::NonZeroU32::new(index as u32 + 1).expect("fewer than 2^32 - 1 nodes"))
             }
 

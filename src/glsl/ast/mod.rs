@@ -5,13 +5,14 @@
 //! of times.
 //!
 //! The parser guarantees this, and everyone may rely on it:
-//! - Ids are in post-order: a child's id is smaller than its parent's, in each arena, and each node has one parent. The
-//!   expressions of one full expression are contiguous, so types can be found in one loop over the arena, without recursion.
-//! - Nesting is limited to [`MAX_NESTING`] along any path from the root, statements and expressions counted together. Not
-//!   counted are the left spines `Binary.lhs`, `Comma.lhs`, `Index.base`, `Member.base`, `Method.base` and
+//! - Ids are in post-order: a child's id is smaller than its parent's, in each arena, and each node has one parent.
+//!   The expressions of one full expression are contiguous, so types can be found in one loop over the arena, without
+//!   recursion.
+//! - Nesting is limited to [`MAX_NESTING`] along any path from the root, statements and expressions counted together.
+//!   Not counted are the left spines `Binary.lhs`, `Comma.lhs`, `Index.base`, `Member.base`, `Method.base` and
 //!   `Postfix.operand`: chains of 10,000 terms are legal, so a walker descends these with a loop, never with a call.
-//! - A tree exists for any input. Where text was not understood stands an `Error` node, whose diagnostic has been reported:
-//!   whatever an `Error` touches is not reported again.
+//! - A tree exists for any input. Where text was not understood stands an `Error` node, whose diagnostic has been
+//!   reported: whatever an `Error` touches is not reported again.
 //! - Every [`Loc`] names tokens that exist in [`Origins`]; even an empty text has its end-of-file token.
 
 mod arena;

@@ -16,17 +16,27 @@ pub struct Interner {
     text: String,
     /// End of symbol i's text; it starts where i - 1 ends.
     ends: Vec<u32>,
-    /// Open addressing, power of two in size: 0 is free, otherwise symbol + 1.
-    table: Vec<u32>,
+    /// Open addressing, power of two in size.
+    table: Vec<Slot>,
     /// Another one in every process: names that all fall into one place of the table cannot be made up beforehand.
     /// Symbols do not depend on it.
     seed: u64,
 }
 
+/// A place of the table.
+#[derive(Clone, Copy, Default)]
+struct Slot {
+    /// The first bytes of the text, zeros behind a shorter one. Most names are no longer, and told by this alone.
+    head: u64,
+    length: u32,
+    /// 0 is free, otherwise symbol + 1.
+    entry: u32,
+}
+
 impl Default for Interner {
     fn default() -> Self {
         let seed = RandomState::new().build_hasher().finish();
-        Self { text: String::new(), ends: Vec::new(), table: vec![0; 1024], seed }
+        Self { text: String::new(), ends: Vec::new(), table: vec![Slot::default(); 1024], seed }
     }
 }
 
@@ -56,20 +66,20 @@ impl Interner {
 
     /// The symbol of a text if it has one already.
     pub fn find(&self, text: &str) -> Option<Symbol> {
-        let entry = self.table[self.slot(text)];
-        entry.checked_sub(1).map(Symbol)
+        self.table[self.slot(text, head(text))].entry.checked_sub(1).map(Symbol)
     }
 
     #[inline]
     pub fn intern(&mut self, text: &str) -> Symbol {
-        let slot = self.slot(text);
-        if let Some(symbol) = self.table[slot].checked_sub(1) {
+        let head = head(text);
+        let slot = self.slot(text, head);
+        if let Some(symbol) = self.table[slot].entry.checked_sub(1) {
             return Symbol(symbol);
         }
         let symbol = Symbol(self.ends.len() as u32);
         self.text.push_str(text);
         self.ends.push(self.text.len() as u32);
-        self.table[slot] = symbol.0 + 1;
+        self.table[slot] = Slot { head, length: text.len() as u32, entry: symbol.0 + 1 };
         if self.ends.len() * 2 > self.table.len() {
             self.grow();
         }
@@ -77,42 +87,57 @@ impl Interner {
     }
 
     #[inline]
-    fn slot(&self, text: &str) -> usize {
+    fn slot(&self, text: &str, head: u64) -> usize {
         let mask = self.table.len() - 1;
-        let mut slot = hash(self.seed, text) as usize & mask;
+        let mut at = hash(self.seed, text, head) as usize & mask;
         loop {
-            match self.table[slot] {
-                0 => return slot,
-                entry if self.get(Symbol(entry - 1)) == text => return slot,
-                _ => slot = (slot + 1) & mask,
+            let slot = self.table[at];
+            let is_same = slot.head == head
+                && slot.length as usize == text.len()
+                && (text.len() <= HEAD || self.get(Symbol(slot.entry - 1)) == text);
+            if slot.entry == 0 || is_same {
+                return at;
             }
+            at = (at + 1) & mask;
         }
     }
 
     #[cold]
     fn grow(&mut self) {
-        self.table = vec![0; self.table.len() * 4];
+        let old = std::mem::take(&mut self.table);
+        self.table = vec![Slot::default(); old.len() * 4];
         let mask = self.table.len() - 1;
-        for i in 0..self.ends.len() as u32 {
-            let mut slot = hash(self.seed, self.get(Symbol(i))) as usize & mask;
-            while self.table[slot] != 0 {
-                slot = (slot + 1) & mask;
+        for slot in old.into_iter().filter(|slot| slot.entry != 0) {
+            let mut at = hash(self.seed, self.get(Symbol(slot.entry - 1)), slot.head) as usize & mask;
+            while self.table[at].entry != 0 {
+                at = (at + 1) & mask;
             }
-            self.table[slot] = i + 1;
+            self.table[at] = slot;
         }
     }
 }
 
+/// Bytes in [`Slot::head`].
+const HEAD: usize = 8;
+
+/// The first bytes of a text; the last ones of it are the highest.
 #[inline]
-fn hash(seed: u64, text: &str) -> u64 {
-    const K: u64 = 0x9E37_79B9_7F4A_7C15;
-    let mut h = seed ^ text.len() as u64;
-    let mut chunks = text.as_bytes().chunks_exact(8);
-    for chunk in &mut chunks {
-        h = (h.rotate_left(5) ^ u64::from_le_bytes(chunk.try_into().unwrap())).wrapping_mul(K);
+fn head(text: &str) -> u64 {
+    let bytes = text.as_bytes();
+    match bytes.first_chunk::<HEAD>() {
+        Some(&head) => u64::from_le_bytes(head),
+        None => bytes.iter().rev().fold(0, |all, &byte| all << 8 | u64::from(byte)),
     }
-    for &byte in chunks.remainder() {
-        h = (h.rotate_left(5) ^ u64::from(byte)).wrapping_mul(K);
+}
+
+/// `head` is that of the text.
+#[inline]
+fn hash(seed: u64, text: &str, head: u64) -> u64 {
+    const K: u64 = 0x9E37_79B9_7F4A_7C15;
+    let mix = |h: u64, word: u64| (h.rotate_left(5) ^ word).wrapping_mul(K);
+    let mut h = mix(seed ^ text.len() as u64, head);
+    for chunk in text.as_bytes().get(HEAD..).unwrap_or_default().chunks(HEAD) {
+        h = mix(h, chunk.iter().rev().fold(0, |all, &byte| all << 8 | u64::from(byte)));
     }
     h ^ (h >> 32)
 }

@@ -1,32 +1,21 @@
 //! The checker's state and what every rule of it needs: reports, places, types. The rules are in the files beside.
 
 use super::{
+    begun::{Begun, Precisions},
     env::Env,
-    facts::{TypeFacts, basic_facts},
+    facts::{FuncFacts, TypeFacts},
     scope::Scopes,
 };
 use crate::{
     diag::{Diagnostic, SourceId},
     glsl::{
-        ast::{self, Ast, Interner, Loc, Origins, Precision, Symbol},
+        ast::{self, Ast, Interner, Loc, Origins, Symbol},
         hir::{self, FuncId, Module, TypeId},
         report::MAX_ERRORS,
-        source::{ChannelKind, Knob, UniformValue},
+        source::{ChannelKind, CustomUniform, UniformValue},
     },
 };
 use std::collections::HashMap;
-
-/// Per function of [`Module::functions`], what only the checker needs.
-pub(super) struct FuncFacts {
-    /// Next overload of the same name.
-    pub next: Option<FuncId>,
-    /// The last overload; only the first one keeps it.
-    pub last: FuncId,
-    /// First place it is called from, for messages about what cannot be called.
-    pub first_call: Option<Loc>,
-    /// Stamp of the last function that was seen calling this one, so that `calls` names it once.
-    pub called_by: u32,
-}
 
 /// A switch whose body is being checked.
 pub(super) struct Switch {
@@ -37,14 +26,22 @@ pub(super) struct Switch {
     pub default: Option<Loc>,
 }
 
+/// What the project says beside its texts.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Settings<'a> {
+    pub channels: [ChannelKind; 4],
+    pub custom_uniforms: &'a [CustomUniform<'a>],
+    pub values: &'a [UniformValue],
+    /// The text that other stages have too.
+    pub common: Option<SourceId>,
+}
+
 pub(super) struct Checker<'a> {
     pub ast: &'a Ast,
     pub origins: &'a Origins,
     pub names: &'a Interner,
     pub env: Env,
-    pub channels: [ChannelKind; 4],
-    pub knobs: &'a [Knob<'a>],
-    pub values: &'a [UniformValue],
+    pub settings: Settings<'a>,
     /// The parser reported something, so nodes may lie between others without belonging to the tree.
     pub broken_tree: bool,
     pub module: Module,
@@ -66,8 +63,8 @@ pub(super) struct Checker<'a> {
     /// Scalars that folded constants hold, and that were compared.
     pub folded_words: usize,
     /// `precision` statements in force, by [`ast::BasicType`]; changed seldom, so scopes save the whole.
-    pub precisions: [Option<Precision>; ast::BasicType::ALL.len()],
-    pub saved_precisions: Vec<(u32, [Option<Precision>; ast::BasicType::ALL.len()])>,
+    pub precisions: Precisions,
+    pub saved_precisions: Vec<(u32, Precisions)>,
     /// The function whose body is being checked.
     pub func: Option<FuncId>,
     /// It has a `return` with a value.
@@ -88,75 +85,83 @@ pub(super) struct Checker<'a> {
     /// Struct of `gl_DepthRange` once it was named.
     pub depth_range: Option<hir::ConstId>,
     pub entry_symbol: Option<Symbol>,
-    /// The text that other stages have too.
-    pub common: Option<SourceId>,
+    /// The entry point as the site's header declares it.
+    pub header_entry: Option<FuncId>,
+    /// How many of [`Ast::items`] were checked.
+    pub items: usize,
 }
 
 impl<'a> Checker<'a> {
+    /// Stands behind what is `begun`, or before all text where nothing is.
     pub fn new(
         ast: &'a Ast,
         origins: &'a Origins,
         names: &'a Interner,
         env: Env,
-        channels: [ChannelKind; 4],
-        knobs: &'a [Knob<'a>],
+        settings: Settings<'a>,
+        begun: Option<&Begun>,
     ) -> Self {
         let broken_tree = ast.exprs.iter().any(|e| matches!(e.kind, ast::ExprKind::Error))
             || ast.stmts.iter().any(|s| matches!(s.kind, ast::StmtKind::Error))
             || ast.decls.iter().any(|d| matches!(d.kind, ast::DeclKind::Error))
             || ast.types.iter().any(|t| matches!(t.kind, ast::TypeSpecKind::Error));
-        let mut module = Module::default();
-        module.exprs.reserve(ast.exprs.len() + ast.exprs.len() / 4);
-        module.stmts.reserve(ast.stmts.len());
-        module.uses.reserve(ast.exprs.len() / 2);
-        let facts = basic_facts(&module.types);
+        let mut begun = begun.map_or_else(Begun::nothing, Begun::clone);
+        let known = Symbol(begun.scopes.symbols() as u32);
+        begun.scopes.reserve_symbols(names.len());
+        begun.module.reserve(ast, begun.lowered.len());
+        begun.lowered.resize(ast.exprs.len(), None);
         let mut checker = Self {
             ast,
             origins,
             names,
             env,
-            channels,
-            knobs,
-            values: &[],
+            settings,
             broken_tree,
-            module,
-            diagnostics: Vec::new(),
+            module: begun.module,
+            diagnostics: begun.diagnostics,
             errors: 0,
             refused_in_common: Vec::new(),
-            scopes: Scopes::new(names.len()),
-            lowered: vec![None; ast.exprs.len()],
+            scopes: begun.scopes,
+            lowered: begun.lowered,
             full_expr: 0,
-            facts,
-            members: HashMap::new(),
-            funcs: Vec::new(),
-            overloads: HashMap::new(),
-            folded_words: 0,
-            precisions: [None; ast::BasicType::ALL.len()],
+            facts: begun.facts,
+            members: begun.members,
+            funcs: begun.funcs,
+            overloads: begun.overloads,
+            folded_words: begun.folded_words,
+            precisions: begun.precisions,
             saved_precisions: Vec::new(),
             func: None,
             returns: false,
             loops: 0,
             switches: Vec::new(),
-            global_calls: Vec::new(),
+            global_calls: begun.global_calls,
             expr_stack: Vec::new(),
             stmt_stack: Vec::new(),
             word_stack: Vec::new(),
             pending_channels: Vec::new(),
             unknown_said: Vec::new(),
-            depth_range: None,
+            depth_range: begun.depth_range,
             entry_symbol: None,
-            common: None,
+            header_entry: None,
+            items: begun.items,
         };
-        checker.declare_environment();
-        checker.declare_knobs();
+        checker.declare_language(known);
         checker
+    }
+
+    /// Checks the declarations that were not checked yet.
+    pub fn declarations(&mut self) {
+        while let Some(&item) = self.ast.items.get(self.items) {
+            self.global_declaration(item);
+            self.items += 1;
+        }
     }
 
     /// The whole translation unit.
     pub fn unit(&mut self) {
-        for i in 0..self.ast.items.len() {
-            self.global_declaration(self.ast.items[i]);
-        }
+        self.declare_pass();
+        self.declarations();
         self.finish_entry();
         self.finish_calls();
         if self.errors == 0 && !self.broken_tree && self.module.entry.is_some() {
@@ -209,7 +214,7 @@ impl<'a> Checker<'a> {
     /// Returns whether this stands in Common, which a vertex stage has before it though half of it may be for
     /// fragments: what nobody calls there does no harm.
     pub fn is_shared(&self, loc: Loc) -> bool {
-        self.common == Some(self.origins.span(loc).source)
+        self.settings.common == Some(self.origins.span(loc).source)
     }
 
     /// Remembers what a name in the text refers to, for editors.
@@ -230,5 +235,26 @@ impl<'a> Checker<'a> {
     #[inline]
     pub fn loc(&self, expr: hir::ExprId) -> Loc {
         self.module[expr].loc
+    }
+}
+
+impl Checker<'_> {
+    /// Ends behind the declarations that were checked; `None` where one of them has an error.
+    pub(super) fn into_begun(self) -> Option<Begun> {
+        (self.errors == 0 && !self.broken_tree).then_some(Begun {
+            items: self.items,
+            module: self.module,
+            diagnostics: self.diagnostics,
+            scopes: self.scopes,
+            lowered: self.lowered,
+            facts: self.facts,
+            members: self.members,
+            funcs: self.funcs,
+            overloads: self.overloads,
+            folded_words: self.folded_words,
+            precisions: self.precisions,
+            global_calls: self.global_calls,
+            depth_range: self.depth_range,
+        })
     }
 }

@@ -9,13 +9,20 @@ use crate::glsl::{
 
 impl Checker<'_> {
     /// Returns whether `value` has type `want`; otherwise reports `message`, in which `{}` stands for the type found.
-    pub(super) fn expect_type(&mut self, value: ExprId, written: ast::ExprId, want: TypeId, message: &str) -> bool {
+    pub(super) fn expect_type(
+        &mut self,
+        value: ExprId,
+        written: ast::ExprId,
+        want: TypeId,
+        message: impl FnOnce(&Self) -> String,
+    ) -> bool {
         let found = self.ty(value);
         if found == want {
             return true;
         }
         if found != TypeId::ERROR && want != TypeId::ERROR {
-            self.wrong_type(value, written, want, message);
+            let message = message(self);
+            self.wrong_type(value, written, want, &message);
         }
         false
     }

@@ -113,8 +113,10 @@ impl Checker<'_> {
         if ty == TypeId::ERROR || self.ty(init) == TypeId::ERROR || self.is_void(init) {
             return false;
         }
-        let message = format!("cannot initialise the `{}` `{}` with {{}}", self.type_name(ty), self.name(name.symbol));
-        self.expect_type(init, written, ty, &message)
+        self.expect_type(init, written, ty, |checker| {
+            let (ty, name) = (checker.type_name(ty), checker.name(name.symbol));
+            format!("cannot initialise the `{ty}` `{name}` with {{}}")
+        })
     }
 
     /// The value of a `const` variable, or what is wrong with its initialiser.
@@ -237,7 +239,10 @@ impl Checker<'_> {
         if matches!(storage, GlobalStorage::Uniform | GlobalStorage::In) && !is_set {
             let what = if storage == GlobalStorage::Uniform { "uniform" } else { "input" };
             self.warning(name, format!("nobody sets the {what} `{text}`: it is zero"));
-            self.hint("the site's own inputs are iTime, iResolution, iMouse and so on; use a `const` or a #define for the rest");
+            self.hint(
+                "the site's own inputs are iTime, iResolution, iMouse and so on; \
+                 use a `const` or a #define for the rest",
+            );
             if storage == GlobalStorage::Uniform && !self.facts(ty).opaque {
                 self.hint(format!("or give it a value in eddy.toml: [uniforms], {text} = .."));
             }

@@ -3,7 +3,7 @@
 
 use crate::glsl::{
     hir::{Builtin, BuiltinVar, LocalKind, TypeId, Uniform},
-    source::{KnobKind, PassKind},
+    source::{CustomUniformKind, PassKind},
 };
 
 /// Which header stands before the text.
@@ -72,6 +72,19 @@ pub(in crate::glsl) const VARIABLES: [(&str, BuiltinVar); 8] = [
     ("gl_FragDepth", BuiltinVar::FragDepth),
 ];
 
+/// Uniforms that every text may name, Common among them.
+pub(super) const EVERYWHERE: [Uniform; 2] = [Uniform::Date, Uniform::SampleRate];
+
+/// The names that do not mean the same in every pass that is no stage, or not in every place of one: what the site's
+/// header gives to some, and the entry points.
+pub(super) fn differ() -> impl Iterator<Item = &'static str> {
+    let uniforms = Uniform::ALL.iter().filter(|u| !EVERYWHERE.contains(u)).map(|u| u.name());
+    let kinds = [PassKind::Image, PassKind::Cubemap, PassKind::Sound, PassKind::Fragment];
+    let entries = kinds.map(|kind| entry(kind).name);
+    let others = [Builtin::StAssert.name(), "iGlobalTime"];
+    uniforms.chain(CHANNELS).chain(CHANNEL_STRUCTS).chain(entries).chain(others)
+}
+
 pub(in crate::glsl) const CHANNELS: [&str; 4] = ["iChannel0", "iChannel1", "iChannel2", "iChannel3"];
 pub(in crate::glsl) const CHANNEL_STRUCTS: [&str; 4] = ["iCh0", "iCh1", "iCh2", "iCh3"];
 
@@ -120,14 +133,14 @@ pub(in crate::glsl) fn entry(kind: PassKind) -> Entry {
     }
 }
 
-pub(crate) fn knob_type(kind: KnobKind) -> TypeId {
+pub(crate) fn custom_uniform_type(kind: CustomUniformKind) -> TypeId {
     match kind {
-        KnobKind::Bool => TypeId::BOOL,
-        KnobKind::Int => TypeId::INT,
-        KnobKind::Float => TypeId::FLOAT,
-        KnobKind::Vec2 => TypeId::VEC2,
-        KnobKind::Vec3 => TypeId::VEC3,
-        KnobKind::Vec4 => TypeId::VEC4,
+        CustomUniformKind::Bool => TypeId::BOOL,
+        CustomUniformKind::Int => TypeId::INT,
+        CustomUniformKind::Float => TypeId::FLOAT,
+        CustomUniformKind::Vec2 => TypeId::VEC2,
+        CustomUniformKind::Vec3 => TypeId::VEC3,
+        CustomUniformKind::Vec4 => TypeId::VEC4,
     }
 }
 

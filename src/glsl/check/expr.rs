@@ -170,10 +170,10 @@ impl<'a> Checker<'a> {
                 }
             }
             Binding::Uniform(uniform) => self.uniform(uniform, token, loc),
-            Binding::Knob(i) => {
-                self.uses(token, DeclRef::Knob(i));
-                let ty = super::env::knob_type(self.knobs[usize::from(i)].kind);
-                self.push(ExprKind::Knob(i), ty, ExprFlags::default(), loc)
+            Binding::CustomUniform(i) => {
+                self.uses(token, DeclRef::CustomUniform(i));
+                let ty = super::env::custom_uniform_type(self.settings.custom_uniforms[usize::from(i)].kind);
+                self.push(ExprKind::CustomUniform(i), ty, ExprFlags::default(), loc)
             }
             Binding::OldTime => {
                 if self.say_once(symbol) {
@@ -390,7 +390,7 @@ impl<'a> Checker<'a> {
             let what = match self.module[at].kind {
                 ExprKind::Literal(_) | ExprKind::Const(_) => "a constant",
                 ExprKind::Call { .. } | ExprKind::Builtin { .. } => "the result of a call",
-                ExprKind::Local(_) | ExprKind::Global(_) | ExprKind::Uniform(_) | ExprKind::Knob(_) => {
+                ExprKind::Local(_) | ExprKind::Global(_) | ExprKind::Uniform(_) | ExprKind::CustomUniform(_) => {
                     "a copy made by a constructor"
                 }
                 _ => "the result of an expression",
@@ -404,7 +404,7 @@ impl<'a> Checker<'a> {
         let text = self.name(name);
         let binding = self.scopes.get(name);
         let what = match binding {
-            Binding::Uniform(_) | Binding::Knob(_) | Binding::OldTime | Binding::DepthRange => "a uniform",
+            Binding::Uniform(_) | Binding::CustomUniform(_) | Binding::OldTime | Binding::DepthRange => "a uniform",
             Binding::Channel(_) => "a sampler",
             Binding::BuiltinVar(_) => "an input",
             Binding::Local(id) if self.is_sampler(self.module[id].ty) => "a sampler",

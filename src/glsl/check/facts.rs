@@ -1,11 +1,27 @@
-//! Says what the checker knows of a type beyond its kind.
+//! Says what the checker knows of a type beyond its kind, and of a function.
 
-use crate::glsl::hir::{Type, TypeId, TypeTable};
+use crate::glsl::{
+    ast::Loc,
+    hir::{FuncId, Type, TypeId, TypeTable},
+};
 
 /// Most scalars a type may hold: 16 MiB, ANGLE's limit for a shader's private variables.
 pub(super) const MAX_WORDS: u32 = 1 << 22;
 
 pub(super) const NOTHING: TypeFacts = TypeFacts { words: 0, opaque: false, arrays: false, nesting: 0 };
+
+/// Per function of [`Module::functions`](crate::glsl::hir::Module::functions), what only the checker needs.
+#[derive(Clone)]
+pub(super) struct FuncFacts {
+    /// Next overload of the same name.
+    pub next: Option<FuncId>,
+    /// The last overload; only the first one keeps it.
+    pub last: FuncId,
+    /// First place it is called from, for messages about what cannot be called.
+    pub first_call: Option<Loc>,
+    /// Stamp of the last function that was seen calling this one, so that `calls` names it once.
+    pub called_by: u32,
+}
 
 /// Holds what the checker knows of a type beyond [`Type`]; found once, when the type is made.
 #[derive(Clone, Copy)]

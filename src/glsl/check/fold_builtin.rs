@@ -73,8 +73,8 @@ fn fold(builtin: X, args: &[Arg<'_>], count: usize, undefined: &mut bool) -> Opt
     // The commonest shapes: floats in, floats out, component by component.
     let each =
         |f: &dyn Fn(f32) -> f32| -> Option<Words> { Some((0..count).map(|i| f(a.float(i)).to_bits()).collect()) };
-    // In single precision, and what devices lack in the operations that OpenGL's compilers write out for it: so a constant is the
-    // number that the device would compute.
+    // In single precision, and what devices lack in the operations that OpenGL's compilers write out for it: so a
+    // constant is the number that the device would compute.
     let wide = |f: fn(f64) -> f64| each(&|x| f(f64::from(x)) as f32);
     let each2 = |f: &dyn Fn(f32, f32) -> f32| -> Option<Words> {
         Some((0..count).map(|i| f(a.float(i), b.float(i)).to_bits()).collect())

@@ -1,8 +1,9 @@
 //! Functions (section 6.1): prototypes, definitions, overloads, parameters.
 
 use super::{
-    checker::{Checker, FuncFacts},
+    checker::Checker,
     env::{self, Env},
+    facts::FuncFacts,
     overloads,
     qualifiers::Place,
     scope::{self, Binding},
@@ -246,9 +247,9 @@ impl Checker<'_> {
         known
     }
 
-    /// The entry point the site's header declares is the first function there is.
+    /// Returns whether it is the entry point that the site's header declares.
     pub(super) fn is_header_entry(&self, id: FuncId) -> bool {
-        self.entry_symbol.is_some() && id.index() == 0
+        self.header_entry == Some(id)
     }
 
     fn define(&mut self, func: FuncId, decl: &ast::FunctionDecl, params: &[ParamSign], body: ast::StmtId, loc: Loc) {

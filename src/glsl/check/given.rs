@@ -11,7 +11,7 @@ impl Checker<'_> {
     /// The value that is given for a uniform of a type. `None`: none is; `Some(None)`: one that does not fit, which is
     /// reported.
     pub(super) fn given(&mut self, name: Ident, ty: TypeId) -> Option<Option<ConstId>> {
-        let values = self.values;
+        let values = self.settings.values;
         let text = self.name(name.symbol);
         let given = values.iter().find(|v| v.name == text)?;
         if ty == TypeId::ERROR {

@@ -23,13 +23,14 @@ impl Checker<'_> {
     pub(super) fn finish_entry(&mut self) {
         let Env::Pass(kind) = self.env else { return };
         let wanted = env::entry(kind);
-        if self.entry_symbol.is_some() && self.module.functions.first().is_some_and(|f| f.body.is_some()) {
-            self.module.entry = Some(FuncId::new(0));
+        let defined = self.header_entry.filter(|&id| self.module[id].body.is_some());
+        if defined.is_some() {
+            self.module.entry = defined;
             return;
         }
         // A syntax error may have swallowed it, or what was said about its header is the reason.
         let symbol = self.entry_symbol;
-        let attempts: Vec<FuncId> = (1..self.module.functions.len())
+        let attempts: Vec<FuncId> = (0..self.module.functions.len())
             .map(FuncId::new)
             .filter(|&id| Some(self.module[id].name.symbol) == symbol && self.module[id].body.is_some())
             .collect();

@@ -2,24 +2,39 @@
 
 use super::{
     checker::Checker,
-    env::{CHANNEL_STRUCTS, CHANNELS, Env, LIMITS, VARIABLES, entry},
+    env::{self, CHANNEL_STRUCTS, CHANNELS, Env, LIMITS, VARIABLES, entry},
     function::FunctionSign,
     scope::{self, Binding},
 };
 use crate::glsl::{
-    ast::{BasicType, Loc, Precision, TokenId},
+    ast::{BasicType, Loc, Symbol, TokenId},
     hir::{Builtin, DeclRef, TypeId, Uniform},
     source::PassKind,
 };
 
 impl Checker<'_> {
-    /// Fills the scopes before the first declaration is read.
-    pub(super) fn declare_environment(&mut self) {
-        for &builtin in Builtin::ALL {
-            if builtin != Builtin::StAssert {
-                self.scopes.give(builtin.symbol(), Binding::Builtin(builtin), scope::LANGUAGE);
-            }
+    /// Fills the scopes with what is there before the first line of every text, whichever pass it belongs to: names
+    /// from this symbol on, as those before it have come up in texts that were checked.
+    pub(super) fn declare_language(&mut self, from: Symbol) {
+        let builtins = Builtin::ALL.iter().filter(|&&builtin| builtin != Builtin::StAssert);
+        let builtins = builtins.map(|&builtin| (builtin.symbol(), Binding::Builtin(builtin)));
+        let variables = VARIABLES.into_iter().filter(|&(_, var)| self.env.has_variable(var));
+        let named = variables
+            .map(|(name, var)| (name, Binding::BuiltinVar(var)))
+            .chain(LIMITS.into_iter().map(|(name, value)| (name, Binding::BuiltinConst(value))))
+            .chain([("gl_DepthRange", Binding::DepthRange)])
+            .filter_map(|(name, binding)| Some((self.names.find(name)?, binding)));
+        for (symbol, binding) in builtins.chain(named).filter(|(symbol, _)| *symbol >= from) {
+            self.scopes.give(symbol, binding, scope::LANGUAGE);
         }
+        for uniform in env::EVERYWHERE.into_iter().filter(|uniform| uniform.symbol() >= from) {
+            self.scopes.give(uniform.symbol(), Binding::Uniform(uniform), scope::FILE);
+        }
+    }
+
+    /// Fills the scopes with what there is besides in this pass: the names of [`env::differ`], and the author's own
+    /// uniforms.
+    pub(super) fn declare_pass(&mut self) {
         // The site defines st_assert in the text of Image passes, so a pass may overload or, elsewhere, define its own.
         if self.env == Env::Pass(PassKind::Image) {
             self.scopes.give(Builtin::StAssert.symbol(), Binding::Builtin(Builtin::StAssert), scope::LANGUAGE);
@@ -29,15 +44,6 @@ impl Checker<'_> {
                 self.scopes.give(uniform.symbol(), Binding::Uniform(uniform), scope::FILE);
             }
         }
-        for (name, var) in VARIABLES {
-            if self.env.has_variable(var) {
-                self.give(name, Binding::BuiltinVar(var), scope::LANGUAGE);
-            }
-        }
-        for (name, value) in LIMITS {
-            self.give(name, Binding::BuiltinConst(value), scope::LANGUAGE);
-        }
-        self.give("gl_DepthRange", Binding::DepthRange, scope::LANGUAGE);
         if self.env.has(Uniform::Time) {
             self.give("iGlobalTime", Binding::OldTime, scope::LANGUAGE);
         }
@@ -49,15 +55,6 @@ impl Checker<'_> {
                 self.give(name, Binding::ChannelStruct(i as u8), scope::FILE);
             }
         }
-        for (basic, precision) in [
-            (BasicType::Float, Precision::High),
-            (BasicType::Int, Precision::High),
-            (BasicType::Sampler2D, Precision::Low),
-            (BasicType::SamplerCube, Precision::Low),
-            (BasicType::Sampler3D, Precision::Medium),
-        ] {
-            self.precisions[basic as usize] = Some(precision);
-        }
         if let Env::Pass(kind) = self.env {
             let entry = entry(kind);
             self.entry_symbol = self.names.find(entry.name);
@@ -65,20 +62,16 @@ impl Checker<'_> {
                 // The header's prototype stands nowhere in the text; the end of file stands for it.
                 let nowhere = TokenId(self.origins.tokens.len() as u32 - 1);
                 let params: Vec<_> = entry.params.iter().map(|&(kind, ty)| (None, ty, kind, None)).collect();
-                self.add_function(
+                self.header_entry = Some(self.add_function(
                     FunctionSign { symbol, token: nowhere, result: entry.result, params: &params },
                     Loc::from(nowhere),
                     Loc::from(nowhere),
-                );
+                ));
             }
         }
-    }
-
-    /// Called after the environment is there: an author's own uniform hides what only the language gives, as a global
-    /// would.
-    pub(super) fn declare_knobs(&mut self) {
-        for (i, knob) in self.knobs.iter().enumerate() {
-            self.give(knob.name, Binding::Knob(i as u16), scope::FILE);
+        // An author's own uniform hides what only the language gives, as a global would.
+        for (i, custom_uniform) in self.settings.custom_uniforms.iter().enumerate() {
+            self.give(custom_uniform.name, Binding::CustomUniform(i as u16), scope::FILE);
         }
     }
 
@@ -91,7 +84,7 @@ impl Checker<'_> {
     /// Type of `iChannelN`.
     pub(super) fn channel_type(&self, channel: u8) -> TypeId {
         use crate::glsl::ChannelKind as C;
-        TypeId::basic(match self.channels[usize::from(channel)] {
+        TypeId::basic(match self.settings.channels[usize::from(channel)] {
             C::Sampler2D => BasicType::Sampler2D,
             C::Sampler3D => BasicType::Sampler3D,
             C::SamplerCube => BasicType::SamplerCube,

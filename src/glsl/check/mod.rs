@@ -11,6 +11,7 @@
 //! scope is an undo stack over one table indexed by symbol, so looking a name up is one load.
 
 mod access;
+mod begun;
 mod call;
 mod checker;
 mod construct;
@@ -38,16 +39,17 @@ mod words;
 #[cfg(test)]
 mod tests;
 
-pub(crate) use env::knob_type;
+pub(crate) use begun::Begun;
+pub(crate) use env::custom_uniform_type;
 pub use env::taken;
 
 use super::{
     ast::{Ast, Interner, Origins},
     hir::Module,
-    source::{ChannelKind, Knob, PassSource},
+    source::{CustomUniform, PassSource, UniformValue},
 };
 use crate::diag::Diagnostic;
-use checker::Checker;
+use checker::{Checker, Settings};
 use env::Env;
 
 /// A program, right or wrong: the module exists for any tree, lowering wants one without errors.
@@ -58,11 +60,17 @@ pub(crate) struct Checked {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-/// Checks one pass, whose texts `ast` is of.
-pub(crate) fn check(ast: &Ast, origins: &Origins, names: &Interner, source: &PassSource<'_>) -> Checked {
-    let mut checker = Checker::new(ast, origins, names, Env::Pass(source.kind), source.channels, source.knobs);
-    checker.values = source.values;
-    checker.common = source.common.map(|text| text.id);
+/// Checks one pass, whose texts `ast` is of; the first of them may have `begun` it.
+pub(crate) fn check(
+    ast: &Ast,
+    origins: &Origins,
+    names: &Interner,
+    source: &PassSource<'_>,
+    begun: Option<&Begun>,
+) -> Checked {
+    let &PassSource { channels, custom_uniforms, values, common, .. } = source;
+    let settings = Settings { channels, custom_uniforms, values, common: common.map(|text| text.id) };
+    let mut checker = Checker::new(ast, origins, names, Env::Pass(source.kind), settings, begun);
     checker.unit();
     Checked { module: checker.module, diagnostics: checker.diagnostics }
 }
@@ -70,8 +78,32 @@ pub(crate) fn check(ast: &Ast, origins: &Origins, names: &Interner, source: &Pas
 /// Returns what the site would refuse in Common because it compiles it alone, where only `iDate` and `iSampleRate`
 /// exist: one warning for each name that only passes have. What is wrong in any case is left to the passes, which
 /// report it.
-pub(crate) fn check_common(ast: &Ast, origins: &Origins, names: &Interner, knobs: &[Knob<'_>]) -> Vec<Diagnostic> {
-    let mut checker = Checker::new(ast, origins, names, Env::Common, [ChannelKind::Sampler2D; 4], knobs);
+pub(crate) fn check_common(
+    ast: &Ast,
+    origins: &Origins,
+    names: &Interner,
+    custom_uniforms: &[CustomUniform<'_>],
+) -> Vec<Diagnostic> {
+    let settings = Settings { custom_uniforms, ..Settings::default() };
+    let mut checker = Checker::new(ast, origins, names, Env::Common, settings, None);
     checker.unit();
     checker.refused_in_common
+}
+
+/// Checks Common for every pass that is no stage at once. `mentions` tells whether a name stands in it: it must name
+/// nothing that [`env::differ`] has, nor any of the author's own uniforms. `None`: each pass has to check it.
+pub(crate) fn begin(
+    ast: &Ast,
+    origins: &Origins,
+    names: &Interner,
+    values: &[UniformValue],
+    mut mentions: impl FnMut(&str) -> bool,
+) -> Option<Begun> {
+    if env::differ().any(&mut mentions) {
+        return None;
+    }
+    let settings = Settings { values, ..Settings::default() };
+    let mut checker = Checker::new(ast, origins, names, Env::Common, settings, None);
+    checker.declarations();
+    checker.into_begun()
 }

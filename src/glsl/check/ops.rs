@@ -280,8 +280,8 @@ impl Checker<'_> {
             if self.is_void(v) {
                 return self.error_expr_of(pt, loc);
             }
-            let message = format!("cannot assign {{}} to a `{}`", self.type_name(pt));
-            if !self.expect_type(v, value, pt, &message) {
+            let message = |checker: &Self| format!("cannot assign {{}} to a `{}`", checker.type_name(pt));
+            if !self.expect_type(v, value, pt, message) {
                 return self.error_expr_of(pt, loc);
             }
             if self.facts(pt).opaque {

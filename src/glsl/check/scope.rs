@@ -20,7 +20,7 @@ pub(super) enum Binding {
     DepthRange,
     Uniform(Uniform),
     /// One of the author's own uniforms, by its place among the pass's.
-    Knob(u16),
+    CustomUniform(u16),
     /// `iGlobalTime`, which became `iTime`.
     OldTime,
     Channel(u8),
@@ -39,6 +39,7 @@ pub(super) const LANGUAGE: u32 = 0;
 /// Depth of file scope, which the site's header shares.
 pub(super) const FILE: u32 = 1;
 
+#[derive(Clone, Default)]
 pub(super) struct Scopes {
     /// By symbol: innermost binding and the depth it was made at.
     table: Vec<(Binding, u32)>,
@@ -49,8 +50,14 @@ pub(super) struct Scopes {
 }
 
 impl Scopes {
-    pub fn new(symbols: usize) -> Self {
-        Self { table: vec![(Binding::None, LANGUAGE); symbols], hidden: Vec::new(), marks: Vec::new() }
+    /// How many symbols there is room for.
+    pub fn symbols(&self) -> usize {
+        self.table.len()
+    }
+
+    /// Makes room for this many symbols, the new ones unknown.
+    pub fn reserve_symbols(&mut self, symbols: usize) {
+        self.table.resize(symbols, (Binding::None, LANGUAGE));
     }
 
     #[inline]

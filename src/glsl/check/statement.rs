@@ -218,8 +218,9 @@ impl Checker<'_> {
                 self.error(ast[ty].loc, format!("{what} must be a `bool`, not `{shown}`"));
             }
         } else {
-            let message = format!("cannot initialise the `bool` `{}` with {{}}", self.name(name.symbol));
-            self.expect_type(value, init, TypeId::BOOL, &message);
+            self.expect_type(value, init, TypeId::BOOL, |checker| {
+                format!("cannot initialise the `bool` `{}` with {{}}", checker.name(name.symbol))
+            });
         }
         let local = self.add_local(name, TypeId::BOOL, hir::LocalKind::Var, None, None);
         let flags = self.inherited(&[value]).with(ExprFlags::EFFECTS);
@@ -261,8 +262,9 @@ impl Checker<'_> {
                 if self.is_void(value) {
                     return;
                 }
-                let message = format!("`{name}` returns `{}`, not {{}}", self.type_name(want));
-                self.expect_type(value, written, want, &message);
+                self.expect_type(value, written, want, |checker| {
+                    format!("`{name}` returns `{}`, not {{}}", checker.type_name(want))
+                });
                 self.add_stmt(StmtKind::Return(Some(value)), loc);
             }
         }
@@ -361,8 +363,9 @@ impl Checker<'_> {
             return None;
         }
         if want != TypeId::ERROR && found != want {
-            let message = format!("this switch is over `{}`, but the label is {{}}", self.type_name(want));
-            self.expect_type(value, label, want, &message);
+            self.expect_type(value, label, want, |checker| {
+                format!("this switch is over `{}`, but the label is {{}}", checker.type_name(want))
+            });
             return None;
         }
         let Some(&[bits]) = self.words(value) else {

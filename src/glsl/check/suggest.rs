@@ -64,11 +64,13 @@ const FUNCTIONS: &[(&str, &str)] = &[
     ("noise", "there is no built-in noise: hash the coordinates, or sample a noise texture"),
     (
         "random",
-        "there is no built-in random: hash the coordinates, for instance `fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453)`",
+        "there is no built-in random: hash the coordinates, for instance `fract(sin(dot(p, vec2(12.9898, 78.233))) * \
+         43758.5453)`",
     ),
     (
         "rand",
-        "there is no built-in rand: hash the coordinates, for instance `fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453)`",
+        "there is no built-in rand: hash the coordinates, for instance `fract(sin(dot(p, vec2(12.9898, 78.233))) * \
+         43758.5453)`",
     ),
     ("printf", "a shader cannot print: write the value to the colour"),
 ];

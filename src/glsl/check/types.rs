@@ -198,7 +198,13 @@ impl<'a> Checker<'a> {
                 }
                 if self.facts(ty).nesting == MAX_NESTING {
                     let shown = self.type_name(ty);
-                    self.error(declarator.name, format!("a `{shown}` inside this struct exceeds the nesting of {MAX_NESTING} structs that WebGL allows"));
+                    self.error(
+                        declarator.name,
+                        format!(
+                            "a `{shown}` inside this struct exceeds the nesting of {MAX_NESTING} \
+                             structs that WebGL allows"
+                        ),
+                    );
                     ty = TypeId::ERROR;
                 }
                 facts.add(self.facts(ty));
@@ -278,7 +284,7 @@ impl<'a> Checker<'a> {
             previous,
             Binding::Uniform(_) | Binding::Channel(_) | Binding::ChannelStruct(_) | Binding::BuiltinVar(_)
         );
-        if matches!(previous, Binding::Knob(_)) {
+        if matches!(previous, Binding::CustomUniform(_)) {
             self.error(name, format!("`{text}` is already declared: an #iUniform line has it"));
             self.hint("remove this declaration, or choose another name");
             return;
@@ -325,7 +331,7 @@ impl<'a> Checker<'a> {
             Binding::Local(id) if self.module[id].kind.is_param() => "a parameter",
             Binding::Channel(_) => "a channel's sampler",
             Binding::Uniform(_)
-            | Binding::Knob(_)
+            | Binding::CustomUniform(_)
             | Binding::OldTime
             | Binding::ChannelStruct(_)
             | Binding::DepthRange => "a uniform",

@@ -6,17 +6,18 @@
 //! no [`TypeId::ERROR`] in what is reachable from [`Module::entry`].
 //!
 //! Guarantees of the checker, beyond those on the items:
-//! - Ids are in post-order (child < parent) and every node has at most one parent: a tree, no sharing. Folding leaves nodes
-//!   without parent behind, which cost nothing.
+//! - Ids are in post-order (child < parent) and every node has at most one parent: a tree, no sharing. Folding leaves
+//!   nodes without parent behind, which cost nothing.
 //! - Depth is bounded by a small multiple of [`super::ast::MAX_NESTING`], apart from the left spines (`Binary.lhs`,
-//!   `Logical.lhs`, `Comma.lhs`, and `base` of `Member`, `Swizzle` and `Index`) with at most one inserted node (`Convert`) per
-//!   link: walk these with a loop.
-//! - No implicit conversion is left: operand types fit exactly as each kind says. ANGLE's leniency, where we share it, shows
-//!   as explicit [`ExprKind::Convert`].
-//! - Operands are evaluated left to right, each once (section 5.9; ANGLE likewise). Lowering keeps that order visible wherever
-//!   [`ExprFlags::EFFECTS`] is set in a sibling.
-//! - Zero is implied: a variable without initialiser is zero each time its declaration is executed, an `out` parameter is zero
-//!   at entry, a non-void function that ends without `return` returns zero. No expression stands for it; lowering does it.
+//!   `Logical.lhs`, `Comma.lhs`, and `base` of `Member`, `Swizzle` and `Index`) with at most one inserted node
+//!   (`Convert`) per link: walk these with a loop.
+//! - No implicit conversion is left: operand types fit exactly as each kind says. ANGLE's leniency, where we share
+//!   it, shows as explicit [`ExprKind::Convert`].
+//! - Operands are evaluated left to right, each once (section 5.9; ANGLE likewise). Lowering keeps that order visible
+//!   wherever [`ExprFlags::EFFECTS`] is set in a sibling.
+//! - Zero is implied: a variable without initialiser is zero each time its declaration is executed, an `out`
+//!   parameter is zero at entry, a non-void function that ends without `return` returns zero. No expression stands for
+//!   it; lowering does it.
 
 mod declarations;
 mod ids;
@@ -79,6 +80,14 @@ ast::arenas! { Module;
 }
 
 impl Module {
+    /// Makes room for what the nodes of a tree become, but for its first so many expressions.
+    pub fn reserve(&mut self, ast: &ast::Ast, done: usize) {
+        let exprs = ast.exprs.len() - done;
+        self.exprs.reserve(exprs + exprs / 4);
+        self.stmts.reserve(ast.stmts.len() - self.stmts.len().min(ast.stmts.len()));
+        self.uses.reserve(exprs / 2);
+    }
+
     #[inline]
     pub fn expr(&mut self, expr: Expr) -> ExprId {
         self.exprs.push(expr);
@@ -195,7 +204,7 @@ pub enum ExprKind {
     /// A uniform of the site. `ty` is [`Uniform::ty`]; the arrays are mostly followed by an `Index`.
     Uniform(Uniform),
     /// One of the author's own uniforms, by its place among the pass's.
-    Knob(u16),
+    CustomUniform(u16),
     /// `iChannel0` to `iChannel3` (also `iCh0.sampler`); `ty` is the sampler type. Occurs only as an argument.
     Channel(u8),
     BuiltinVar(BuiltinVar),
@@ -268,9 +277,9 @@ pub enum ExprKind {
         place: ExprId,
     },
 
-    // Constructors (section 5.4). Component types agree wherever not said otherwise: the checker wraps arguments in `Convert`.
-    // `float(v)`, `vec2(v3)` and the like have become a `Swizzle` (or `Index`) and a `Convert`; a constructor of the same type
-    // leaves no node.
+    // Constructors (section 5.4). Component types agree wherever not said otherwise: the checker wraps arguments in
+    // `Convert`. `float(v)`, `vec2(v3)` and the like have become a `Swizzle` (or `Index`) and a `Convert`; a
+    // constructor of the same type leaves no node.
     /// Component by component between bool, int, uint and float (section 5.4.1), of a scalar or vector of the same
     /// size, to a different component type. Never of a matrix: `ivec4(m)` is the `Convert` of a float `Vector` of `m`.
     Convert(ExprId),
@@ -472,7 +481,7 @@ pub enum DeclRef {
     /// A `gl_Max..` constant.
     BuiltinConst(Symbol),
     Uniform(Uniform),
-    Knob(u16),
+    CustomUniform(u16),
     /// `iChannel0` to `iChannel3`.
     Channel(u8),
     /// `iCh0` to `iCh3`.

@@ -6,12 +6,12 @@ use crate::glsl::{lex::Kind, preprocess::Tok};
 /// The partner of a bracket that has none.
 pub(in crate::glsl) const ALONE: u32 = u32::MAX;
 
-/// Writes into each bracket's value the index of its partner, or [`ALONE`]. Text with mistakes is paired the way its
-/// author most likely meant it: a closing brace closes what is still open inside it, a semicolon or an opening brace
-/// ends parentheses (but those of `for` hold semicolons).
-pub(in crate::glsl) fn pair(tokens: &mut [Tok]) {
+/// Writes into the value of each bracket from `begin` on the index of its partner, or [`ALONE`]. Text with mistakes is
+/// paired the way its author most likely meant it: a closing brace closes what is still open inside it, a semicolon or
+/// an opening brace ends parentheses (but those of `for` hold semicolons).
+pub(in crate::glsl) fn pair(tokens: &mut [Tok], begin: usize) {
     let mut open = Open::default();
-    for i in 0..tokens.len() {
+    for i in begin..tokens.len() {
         match tokens[i].kind {
             Kind::LParen | Kind::LBracket => open.push(tokens, i),
             Kind::LBrace => {

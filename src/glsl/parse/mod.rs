@@ -24,44 +24,94 @@ pub(super) use hint::foreign_type;
 
 use super::{
     ast::{Ast, Interner, Origins},
-    lex::words,
+    lex::{Kind, words},
     pieces::{self, Piece},
-    preprocess::{Unit, preprocess},
+    preprocess::{MacroTable, Preprocessed, Tok, Unit, preprocess},
     report::Report,
     source::PassSource,
 };
-use crate::diag::Diagnostic;
 use parser::Parser;
 
-/// A pass as the checker takes it.
+/// Texts as the checker takes them, and what the reader goes on with where further texts follow.
 #[derive(Clone)]
 pub(crate) struct Parsed {
     pub ast: Ast,
     pub origins: Origins,
     pub names: Interner,
     /// Errors and warnings of preprocessor and parser, in the order they were found.
-    pub diagnostics: Vec<Diagnostic>,
+    pub(super) report: Report,
+    reader: Reader,
 }
 
-/// Preprocesses and parses a pass behind its Common. Any text gives a tree.
-pub(crate) fn parse(source: &PassSource<'_>) -> Parsed {
+/// What texts leave to those that follow them.
+#[derive(Clone, Default)]
+struct Reader {
+    /// As many as `origins.tokens`.
+    tokens: Vec<Tok>,
+    macros: MacroTable,
+    /// How many pieces were read.
+    pieces: usize,
+    has_line_numbers: bool,
+    /// Says whether a struct has the name, by symbol.
+    structs: Vec<bool>,
+}
+
+impl Parsed {
+    /// Nothing, as it is before the first text.
+    fn nothing() -> Self {
+        Self {
+            ast: Ast::default(),
+            origins: Origins::default(),
+            names: words::interner(),
+            report: Report::default(),
+            reader: Reader::default(),
+        }
+    }
+
+    /// Returns whether these texts mean the same whatever follows them and whichever unit they are part of: they end
+    /// between two declarations, with all conditionals and comments closed, and hold no number of a line.
+    pub fn stands_alone(&self) -> bool {
+        !self.report.has_errors() && !self.reader.has_line_numbers
+    }
+
+    /// By symbol: whether some token is this name.
+    pub fn mentioned(&self) -> Vec<bool> {
+        let mut mentioned = vec![false; self.names.len()];
+        for token in self.reader.tokens.iter().filter(|token| token.kind == Kind::Ident) {
+            mentioned[token.value as usize] = true;
+        }
+        mentioned
+    }
+}
+
+/// Preprocesses and parses a pass behind its Common, which may be read `already`. Any text gives a tree.
+pub(crate) fn parse(source: &PassSource<'_>, already: Option<&Parsed>) -> Parsed {
     let texts: Vec<_> = source.common.into_iter().chain([source.code]).collect();
-    parse_texts(&pieces::of(&texts, source.includes), Unit::Pass(source.kind))
+    let pieces = pieces::of(&texts, source.includes);
+    read(&pieces, Unit::Pass(source.kind), already.map_or_else(Parsed::nothing, Parsed::clone))
 }
 
-/// Preprocesses and parses texts that follow each other.
-pub(super) fn parse_texts(pieces: &[Piece<'_>], unit: Unit) -> Parsed {
-    let mut names = words::interner();
-    let mut report = Report::default();
-    let pre = preprocess(pieces, unit, &mut names, &mut report);
-    let mut tokens = pre.tokens;
-    brackets::pair(&mut tokens);
-    let count = tokens.len();
+/// Preprocesses and parses Common alone.
+pub(super) fn parse_common(pieces: &[Piece<'_>]) -> Parsed {
+    read(pieces, Unit::CommonAlone, Parsed::nothing())
+}
+
+/// Preprocesses and parses the pieces behind what is `done`.
+fn read(pieces: &[Piece<'_>], unit: Unit, done: Parsed) -> Parsed {
+    let Parsed { ast, origins, mut names, mut report, reader } = done;
+    let Reader { tokens, macros, pieces: count, has_line_numbers, mut structs } = reader;
+    let begin = tokens.len().saturating_sub(1);
+    let done = Preprocessed { tokens, origins, macros, pieces: count, is_cut: false, has_line_numbers };
+    let Preprocessed { mut tokens, origins, macros, pieces: count, is_cut, has_line_numbers } =
+        preprocess(pieces, unit, done, &mut names, &mut report);
+    brackets::pair(&mut tokens, begin);
+    let end = tokens.len() - 1;
+    structs.resize(names.len(), false);
     let mut parser = Parser {
         tokens,
-        at: 0,
-        ast: Ast::default(),
-        origins: pre.origins,
+        at: begin,
+        ast,
+        origins,
         names: &names,
         report: &mut report,
         pieces,
@@ -70,15 +120,16 @@ pub(super) fn parse_texts(pieces: &[Piece<'_>], unit: Unit) -> Parsed {
         expr_stack: Vec::new(),
         stmt_stack: Vec::new(),
         declarators: Vec::new(),
-        last_error: pre.is_cut.then_some(count - 1),
+        last_error: is_cut.then_some(end),
         reserved_told: Vec::new(),
-        structs: vec![false; names.len()],
+        structs,
         body: None,
         adrift: false,
         too_deep_told: false,
     };
-    parser.ast.exprs.reserve(count / 2);
+    parser.ast.exprs.reserve((end - begin) / 2);
     parser.file();
-    let Parser { ast, origins, .. } = parser;
-    Parsed { ast, origins, names, diagnostics: report.diagnostics }
+    let Parser { ast, origins, tokens, structs, .. } = parser;
+    let reader = Reader { tokens, macros, pieces: count, has_line_numbers, structs };
+    Parsed { ast, origins, names, report, reader }
 }

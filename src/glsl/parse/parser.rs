@@ -214,7 +214,7 @@ impl Parser<'_> {
             Some("names that begin with `gl_` are kept for the language")
         } else if name.starts_with("webgl_") || name.starts_with("_webgl_") {
             Some("names that begin with `webgl_` or `_webgl_` are kept for WebGL")
-        } else if name.contains("__") {
+        } else if name.as_bytes().windows(2).any(|two| two == b"__") {
             Some("names with two underscores in a row are kept for the language")
         } else if name.len() > MAX_NAME {
             self.error(i, format!("this name has more than {MAX_NAME} characters"), None);

@@ -7,20 +7,20 @@ use crate::glsl::ast::{
 };
 
 fn parse_text(text: &str) -> Parsed {
-    parse(&PassSource::image(text))
+    parse(&PassSource::image(text), None)
 }
 
 fn messages(text: &str) -> Vec<String> {
     let parsed = parse_text(text);
     check_guarantees(&parsed);
-    parsed.diagnostics.iter().map(|d| d.message.clone()).collect()
+    parsed.report.diagnostics.iter().map(|d| d.message.clone()).collect()
 }
 
 /// The tree as nested parentheses; the text must be without mistakes.
 #[track_caller]
 fn tree(text: &str) -> String {
     let parsed = parse_text(text);
-    assert_eq!(parsed.diagnostics.iter().map(|d| &d.message).collect::<Vec<_>>(), [""; 0], "{text}");
+    assert_eq!(parsed.report.diagnostics.iter().map(|d| &d.message).collect::<Vec<_>>(), [""; 0], "{text}");
     check_guarantees(&parsed);
     parsed.ast.items.iter().map(|&d| decl(&parsed, d)).collect::<Vec<_>>().join(" ")
 }

@@ -1,7 +1,10 @@
 //! `#define` and `#undef` (section 3.4): what a macro may be named, its parameters, its replacement list, and when it
 //! may be defined again.
 
-use super::state::{Given, Macro, Preprocessor};
+use super::{
+    macros::{Given, Macro},
+    state::Preprocessor,
+};
 use crate::{
     diag::Diagnostic,
     glsl::{
@@ -15,13 +18,13 @@ impl Preprocessor<'_, '_> {
     /// Enters a macro under its name.
     pub(super) fn add_macro(&mut self, def: MacroDef, params: (u32, u32), body: (u32, u32), given: Given) -> MacroId {
         self.origins.macros.push(def);
-        self.macros.push(Macro { body, params, busy: false, calls: 0, given, first_use: None });
+        self.table.macros.push(Macro { body, params, busy: false, calls: 0, given, first_use: None });
         let symbol = def.name.0 as usize;
-        if self.defined.len() <= symbol {
-            self.defined.resize(self.names.len().max(symbol + 1), 0);
+        if self.table.defined.len() <= symbol {
+            self.table.defined.resize(self.names.len().max(symbol + 1), 0);
         }
-        self.defined[symbol] = self.macros.len() as u32;
-        MacroId::new(self.macros.len() - 1)
+        self.table.defined[symbol] = self.table.macros.len() as u32;
+        MacroId::new(self.table.macros.len() - 1)
     }
 
     /// The macro's name in a `#define` or `#undef`, if it may be one.
@@ -48,7 +51,7 @@ impl Preprocessor<'_, '_> {
             return None;
         }
         if let Some(id) = self.defined(name.value) {
-            let given = self.macros[id.index()].given;
+            let given = self.table.macros[id.index()].given;
             if !matches!(given, Given::ByAuthor | Given::BySite(_)) {
                 let what = if verb == "undef" { "undefined" } else { "defined again" };
                 self.error(&name, format!("`{text}` is part of the language and cannot be {what}"), None);
@@ -73,13 +76,13 @@ impl Preprocessor<'_, '_> {
     pub(super) fn undef(&mut self, directive: &Token, line: &[Token]) {
         let Some(name) = self.macro_name(directive, line) else { return };
         if let Some(id) = self.defined(name.value) {
-            if self.macros[id.index()].calls > 0 {
+            if self.table.macros[id.index()].calls > 0 {
                 let text = self.text(name.span).to_owned();
                 self.error(&name, format!("`{text}` cannot be undefined in the arguments of its own call"), None);
                 return;
             }
             self.origins.macro_uses.push((name.span, id));
-            self.defined[name.value as usize] = 0;
+            self.table.defined[name.value as usize] = 0;
         }
         self.nothing_more(&line[1..], "undef");
     }
@@ -88,12 +91,12 @@ impl Preprocessor<'_, '_> {
         let Some(name) = self.macro_name(directive, line) else { return };
         let mut at = 1;
         let function_like = line.get(1).is_some_and(|t| t.kind == Kind::LParen && !t.has(SPACE));
-        let first_param = self.params.len() as u32;
+        let first_param = self.table.params.len() as u32;
         if function_like {
             let Some(behind) = self.parameters(&name, line) else { return };
             at = behind;
         }
-        let params = (first_param, self.params.len() as u32);
+        let params = (first_param, self.table.params.len() as u32);
         let list = &line[at..];
         if let Some(first) = list.first()
             && !function_like
@@ -104,23 +107,23 @@ impl Preprocessor<'_, '_> {
             let hint = format!("write a space behind `{text}`");
             self.warning(first, "there is no space between the macro's name and its text", Some(hint));
         }
-        let body_start = self.bodies.len() as u32;
-        let numbers = Numbers::new(&self.params[params.0 as usize..params.1 as usize]);
+        let body_start = self.table.bodies.len() as u32;
+        let numbers = Numbers::new(&self.table.params[params.0 as usize..params.1 as usize]);
         for (i, &token) in list.iter().enumerate() {
             let mut token = token;
             if i == 0 {
                 token.flags &= !SPACE;
             }
             if token.kind == Kind::Ident {
-                let names = &self.params[params.0 as usize..params.1 as usize];
+                let names = &self.table.params[params.0 as usize..params.1 as usize];
                 if let Some(i) = numbers.of(names, token.value) {
                     token.kind = Kind::Param;
                     token.value = i;
                 }
             }
-            self.bodies.push(token);
+            self.table.bodies.push(token);
         }
-        let body = (body_start, self.bodies.len() as u32);
+        let body = (body_start, self.table.bodies.len() as u32);
         if let Some(old) = self.defined(name.value) {
             self.redefine(&name, old, function_like, params, body);
         }
@@ -136,7 +139,7 @@ impl Preprocessor<'_, '_> {
 
     /// Reads `(a, b)` behind a macro's name; gives the position behind it.
     fn parameters(&mut self, name: &Token, line: &[Token]) -> Option<usize> {
-        let first = self.params.len();
+        let first = self.table.params.len();
         let mut seen = HashSet::new();
         let mut at = 2;
         if line.get(at).is_some_and(|t| t.kind == Kind::RParen) {
@@ -146,7 +149,7 @@ impl Preprocessor<'_, '_> {
             match line.get(at) {
                 Some(param) if param.kind == Kind::Ident => {
                     let text = self.names.get(Symbol(param.value)).to_owned();
-                    let before = &self.params[first..];
+                    let before = &self.table.params[first..];
                     if before.len() == Numbers::MANY {
                         seen.extend(before);
                     }
@@ -158,9 +161,9 @@ impl Preprocessor<'_, '_> {
                         self.error(param, format!("the parameter `{text}` is there twice"), None);
                         return None;
                     }
-                    self.params.push(param.value);
+                    self.table.params.push(param.value);
                 }
-                Some(token) if token.kind == Kind::RParen && self.params.len() > first => {
+                Some(token) if token.kind == Kind::RParen && self.table.params.len() > first => {
                     // ANGLE lets it pass, and shaders have it.
                     self.warning(token, "there is a comma too many in these parameters", None);
                     return Some(at + 1);
@@ -196,9 +199,9 @@ impl Preprocessor<'_, '_> {
     /// holds.
     fn redefine(&mut self, name: &Token, old: MacroId, function_like: bool, params: (u32, u32), body: (u32, u32)) {
         let def = self.origins[old];
-        let before = &self.macros[old.index()];
-        let list = |range: (u32, u32)| &self.bodies[range.0 as usize..range.1 as usize];
-        let names = |range: (u32, u32)| &self.params[range.0 as usize..range.1 as usize];
+        let before = &self.table.macros[old.index()];
+        let list = |range: (u32, u32)| &self.table.bodies[range.0 as usize..range.1 as usize];
+        let names = |range: (u32, u32)| &self.table.params[range.0 as usize..range.1 as usize];
         let same = match before.given {
             Given::BySite(value) => {
                 matches!(list(body), [t] if t.kind == Kind::Int && t.value == value) && !function_like

@@ -30,7 +30,7 @@ pub(in crate::glsl) const DIRECTIVES: [&str; 13] = [
 impl Preprocessor<'_, '_> {
     /// Carries out the directive that begins with `hash`, to the end of its line.
     pub(super) fn directive(&mut self, hash: Token) {
-        self.lexers[self.current].begin_directive();
+        self.lexer.begin_directive();
         let name = self.raw();
         match name.kind {
             // `#` alone does nothing.
@@ -39,13 +39,13 @@ impl Preprocessor<'_, '_> {
             _ => {
                 let text = self.text(name.span).to_owned();
                 self.error(&hash, format!("expected the name of a directive behind `#`, found `{text}`"), None);
-                self.lexers[self.current].rest_of_line();
+                self.lexer.rest_of_line();
                 self.line_tokens();
                 return;
             }
         }
         if self.names.get(Symbol(name.value)) == "error" {
-            let (text, span) = self.lexers[self.current].rest_of_line();
+            let (text, span) = self.lexer.rest_of_line();
             self.line_tokens();
             self.report.add(Diagnostic::error(name.span.to(span), format!("#error: {text}")));
             return;
@@ -154,20 +154,19 @@ impl Preprocessor<'_, '_> {
     /// Leaves out lines up to the group of the innermost conditional that is to be compiled, or its end.
     fn skip(&mut self) {
         let mut depth = 0;
-        let mut from = self.lexers[self.current].here();
+        let mut from = self.lexer.here();
         loop {
-            let found = self.lexers[self.current].skip_to_directive();
-            let here = self.lexers[self.current].here();
+            let found = self.lexer.skip_to_directive();
+            let here = self.lexer.here();
             if !found {
                 self.leave_out(from.to(here));
-                if self.current + 1 < self.lexers.len() {
-                    self.current += 1;
-                    from = self.lexers[self.current].here();
+                if self.next_piece() {
+                    from = self.lexer.here();
                     continue;
                 }
                 return;
             }
-            self.lexers[self.current].begin_directive();
+            self.lexer.begin_directive();
             let name = self.raw();
             let word = if name.kind == Kind::Ident { self.names.get(Symbol(name.value)) } else { "" };
             match word {
@@ -182,11 +181,11 @@ impl Preprocessor<'_, '_> {
                     if compiled {
                         return;
                     }
-                    from = self.lexers[self.current].here();
+                    from = self.lexer.here();
                 }
                 _ => {}
             }
-            self.lexers[self.current].end_directive();
+            self.lexer.end_directive();
         }
     }
 

@@ -28,7 +28,8 @@ fn wrapper(kind: PassKind) -> Option<Wrapper> {
         },
         PassKind::Cubemap => Wrapper {
             name: "mainCubemap",
-            head: "void mainCubemap(out vec4 entry_colour, in vec2 entry_coord, in vec3 entry_origin, in vec3 entry_ray) {",
+            head: "void mainCubemap(out vec4 entry_colour, in vec2 entry_coord, in vec3 entry_origin, \
+                   in vec3 entry_ray) {",
             body: "entry_colour = vec4(0.0, 0.0, 0.0, 1.0); \
                    mainCubemap(entry_colour, entry_coord, entry_origin, entry_ray); }",
         },

@@ -1,7 +1,10 @@
 //! Macro expansion: reading through replacement lists, collecting and pre-expanding arguments (section 3.4; the
 //! algorithm is C++'s, which the specification names, in the form that ANGLE and cpplib have it).
 
-use super::state::{Context, Given, MAX_CALL_DEPTH, MAX_MACRO_TOKENS, Preprocessor, end_token};
+use super::{
+    macros::Given,
+    state::{Context, MAX_CALL_DEPTH, MAX_MACRO_TOKENS, Preprocessor, end_token},
+};
 use crate::{
     diag::{Diagnostic, Span},
     glsl::{
@@ -45,7 +48,7 @@ impl Preprocessor<'_, '_> {
             if self.collecting > 0 {
                 self.waiting.push(id);
             } else {
-                self.macros[id.index()].busy = false;
+                self.table.macros[id.index()].busy = false;
             }
         }
     }
@@ -62,7 +65,7 @@ impl Preprocessor<'_, '_> {
             if token.has(PAINTED) {
                 return token;
             }
-            if self.macros[id.index()].busy {
+            if self.table.macros[id.index()].busy {
                 token.flags |= PAINTED;
                 return token;
             }
@@ -78,7 +81,7 @@ impl Preprocessor<'_, '_> {
     /// Opens the replacement of a use of a macro, or gives the token that is to stand.
     fn expand(&mut self, token: Token, id: MacroId) -> Option<Token> {
         let def = self.origins[id];
-        match self.macros[id.index()].given {
+        match self.table.macros[id.index()].given {
             Given::ByAuthor => {}
             given => {
                 self.record_use(&token, id);
@@ -121,7 +124,7 @@ impl Preprocessor<'_, '_> {
         let first = match token.expansion {
             None => true,
             // Once for a replacement list, however often it is read.
-            Some(e) => self.macros[self.origins[e].macro_id.index()].first_use == Some(e),
+            Some(e) => self.table.macros[self.origins[e].macro_id.index()].first_use == Some(e),
         };
         if first {
             self.origins.macro_uses.push((token.span, id));
@@ -132,21 +135,21 @@ impl Preprocessor<'_, '_> {
         let used_at = self.place(name).to(end);
         self.origins.expansions.push(Expansion { used_at, macro_id, parent: name.expansion });
         let id = ExpansionId::new(self.origins.expansions.len() - 1);
-        self.macros[macro_id.index()].first_use.get_or_insert(id);
+        self.table.macros[macro_id.index()].first_use.get_or_insert(id);
         self.count(name, 1);
         id
     }
 
     /// Makes the replacement list the next thing to be read.
     fn open(&mut self, id: MacroId, name: &Token, expansion: ExpansionId, args: Option<&Arguments>) {
-        let (from, to) = self.macros[id.index()].body;
+        let (from, to) = self.table.macros[id.index()].body;
         // Expanding arguments uses the pool, so it comes first.
         let mut expanded = self.spare.pop().unwrap_or_default();
         let mut ranges: Vec<Expanded> = Vec::new();
         if let Some(args) = args {
             ranges.resize(args.bounds.len(), Expanded::Unused);
             for i in from..to {
-                let token = self.bodies[i as usize];
+                let token = self.table.bodies[i as usize];
                 let arg = token.value as usize;
                 if token.kind == Kind::Param && matches!(ranges[arg], Expanded::Unused) {
                     ranges[arg] = if self.has_macro(args.get(arg)) {
@@ -161,7 +164,7 @@ impl Preprocessor<'_, '_> {
         }
         let start = self.pool.len();
         for i in from..to {
-            let token = self.bodies[i as usize];
+            let token = self.table.bodies[i as usize];
             match (token.kind, args) {
                 (Kind::Param, Some(args)) => {
                     let arg = token.value as usize;
@@ -182,7 +185,7 @@ impl Preprocessor<'_, '_> {
         self.spare.push(expanded);
         let end = self.pool.len();
         self.count(name, (end - start) as u32);
-        self.macros[id.index()].busy = true;
+        self.table.macros[id.index()].busy = true;
         self.contexts.push(Context { start: start as u32, next: start as u32, end: end as u32, source: Some(id) });
     }
 
@@ -225,7 +228,7 @@ impl Preprocessor<'_, '_> {
     /// Reads a call's arguments up to its closing parenthesis, whose place it gives.
     fn collect(&mut self, name: &Token, id: MacroId, args: &mut Arguments) -> Result<Span, Reported> {
         self.collecting += 1;
-        self.macros[id.index()].calls += 1;
+        self.table.macros[id.index()].calls += 1;
         let free_from = self.waiting.len();
         let mut depth = 0;
         let mut start = 0;
@@ -244,7 +247,7 @@ impl Preprocessor<'_, '_> {
                 Kind::Ident => {
                     let mut token = token;
                     // A busy macro's name stays as it is even where it is free later.
-                    if self.defined(token.value).is_some_and(|id| self.macros[id.index()].busy) {
+                    if self.defined(token.value).is_some_and(|id| self.table.macros[id.index()].busy) {
                         token.flags |= PAINTED;
                     }
                     args.tokens.push(token);
@@ -256,9 +259,9 @@ impl Preprocessor<'_, '_> {
         };
         args.bounds.push((start, args.tokens.len() as u32));
         self.collecting -= 1;
-        self.macros[id.index()].calls -= 1;
+        self.table.macros[id.index()].calls -= 1;
         for id in self.waiting.drain(free_from..) {
-            self.macros[id.index()].busy = false;
+            self.table.macros[id.index()].busy = false;
         }
         self.count(name, args.tokens.len() as u32);
         let label = self.text(name.span).to_owned();
@@ -272,7 +275,7 @@ impl Preprocessor<'_, '_> {
             }
             return Err(Reported);
         };
-        let (from, to) = self.macros[id.index()].params;
+        let (from, to) = self.table.macros[id.index()].params;
         let wanted = (to - from) as usize;
         if wanted == 0 && args.bounds.len() == 1 && args.tokens.is_empty() {
             args.bounds.clear();
@@ -293,8 +296,8 @@ impl Preprocessor<'_, '_> {
 
     /// Counts tokens that macros produced.
     fn count(&mut self, at: &Token, tokens: u32) {
-        self.work = self.work.saturating_add(tokens);
-        if self.work > MAX_MACRO_TOKENS {
+        self.table.work = self.table.work.saturating_add(tokens);
+        if self.table.work > MAX_MACRO_TOKENS {
             let message = format!("the macros expand to more than {MAX_MACRO_TOKENS} tokens");
             self.stop(at, message, Some("macros that use each other double with every step: write a function".into()));
         }

@@ -20,6 +20,7 @@ impl Preprocessor<'_, '_> {
         let read = &self.pieces[..=self.current];
         let Some(piece) = read.iter().rposition(holds) else { return 1 };
         let offset = place.start as usize;
+        self.line.was_asked = true;
         while self.line.ends.len() <= piece {
             self.count_piece();
         }

@@ -15,6 +15,8 @@ mod directive;
 mod entry;
 mod expand;
 mod lines;
+mod macros;
+mod preprocessed;
 mod state;
 mod tests;
 mod token;
@@ -22,28 +24,34 @@ mod unit;
 
 #[cfg(test)]
 pub(super) use directive::DIRECTIVES;
+pub(super) use macros::MacroTable;
+pub(super) use preprocessed::Preprocessed;
 pub(super) use token::Tok;
 pub(super) use unit::Unit;
 
-use super::{
-    ast::{Interner, Origins},
-    pieces::Piece,
-    report::Report,
-};
+use super::{ast::Interner, pieces::Piece, report::Report};
 use state::Preprocessor;
 
-/// Holds what the parser goes on with.
-pub(super) struct Preprocessed {
-    /// As many as `origins.tokens`; the last is `Eof`.
-    pub tokens: Vec<Tok>,
-    pub origins: Origins,
-    /// The text ends before its end, which was reported: an open comment or conditional hides what may be missing.
-    pub is_cut: bool,
-}
-
-/// Runs the texts through.
-pub(super) fn preprocess(pieces: &[Piece<'_>], unit: Unit, names: &mut Interner, report: &mut Report) -> Preprocessed {
-    let mut all = Preprocessor::new(pieces, unit, names, report);
+/// Runs the texts through, those behind what is `done`.
+///
+/// # Panics
+/// If that is all of them.
+pub(super) fn preprocess(
+    pieces: &[Piece<'_>],
+    unit: Unit,
+    mut done: Preprocessed,
+    names: &mut Interner,
+    report: &mut Report,
+) -> Preprocessed {
+    done.reopen();
+    let mut all = Preprocessor::new(pieces, unit, done, names, report);
     all.run(unit);
-    Preprocessed { tokens: all.tokens, origins: all.origins, is_cut: all.is_cut }
+    Preprocessed {
+        tokens: all.tokens,
+        origins: all.origins,
+        macros: all.table,
+        pieces: pieces.len(),
+        is_cut: all.is_cut,
+        has_line_numbers: all.line.was_asked,
+    }
 }

@@ -1,13 +1,15 @@
 //! The preprocessor's state: texts, macros, tokens on their way to the parser.
 
 use super::{
+    macros::{Given, MacroTable},
+    preprocessed::Preprocessed,
     token::Tok,
     unit::{LineCount, Unit},
 };
 use crate::{
     diag::{Diagnostic, Severity, SourceId, Span},
     glsl::{
-        ast::{ExpansionId, Interner, MacroDef, MacroId, Origin, Origins},
+        ast::{Interner, MacroDef, MacroId, Origin, Origins},
         lex::{Kind, LINE_START, Lexer, Token, words},
         pieces::Piece,
         report::Report,
@@ -19,32 +21,6 @@ use crate::{
 pub(super) const MAX_MACRO_TOKENS: u32 = 2_000_000;
 /// How deep macro calls may stand in each other's arguments.
 pub(super) const MAX_CALL_DEPTH: u32 = 200;
-
-pub(super) struct Macro {
-    /// Range of [`Preprocessor::bodies`].
-    pub body: (u32, u32),
-    /// Symbols of the parameters, a range of [`Preprocessor::params`].
-    pub params: (u32, u32),
-    /// Its text is being read; the name is not to be expanded now.
-    pub busy: bool,
-    /// Calls whose arguments are being read.
-    pub calls: u32,
-    pub given: Given,
-    /// Its first use, through which uses inside its body are recorded once.
-    pub first_use: Option<ExpansionId>,
-}
-
-/// Says where a macro's value comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Given {
-    ByAuthor,
-    /// `HW_PERFORMANCE`, defined by the site's header like any macro.
-    BySite(u32),
-    /// Part of the language: nobody may define or undefine it.
-    ByLanguage(u32),
-    LineNumber,
-    FileNumber,
-}
 
 /// An `#if` that is open.
 pub(super) struct Conditional {
@@ -65,17 +41,15 @@ pub(super) struct Context {
 
 pub(super) struct Preprocessor<'a, 'r> {
     pub pieces: &'r [Piece<'a>],
-    pub lexers: Vec<Lexer<'a>>,
+    /// Reads the current piece.
+    pub lexer: Lexer<'a>,
+    /// Which of the pieces is being read.
     pub current: usize,
     pub names: &'r mut Interner,
     pub report: &'r mut Report,
     pub origins: Origins,
     pub tokens: Vec<Tok>,
-    /// By symbol: the number of its macro plus one.
-    pub defined: Vec<u32>,
-    pub macros: Vec<Macro>,
-    pub bodies: Vec<Token>,
-    pub params: Vec<u32>,
+    pub table: MacroTable,
     pub contexts: Vec<Context>,
     /// Tokens of the contexts, in the same order.
     pub pool: Vec<Token>,
@@ -85,8 +59,6 @@ pub(super) struct Preprocessor<'a, 'r> {
     pub waiting: Vec<MacroId>,
     pub collecting: u32,
     pub call_depth: u32,
-    /// Tokens that macros have produced.
-    pub work: u32,
     /// A limit was passed: nothing more is read.
     pub stopped: bool,
     pub is_cut: bool,
@@ -97,21 +69,29 @@ pub(super) struct Preprocessor<'a, 'r> {
 }
 
 impl<'a, 'r> Preprocessor<'a, 'r> {
-    pub fn new(pieces: &'r [Piece<'a>], unit: Unit, names: &'r mut Interner, report: &'r mut Report) -> Self {
-        let bytes: usize = pieces.iter().map(|p| p.range.len()).sum();
+    /// Stands before the first of the pieces that are not done.
+    ///
+    /// # Panics
+    /// If there is none.
+    pub fn new(
+        pieces: &'r [Piece<'a>],
+        unit: Unit,
+        done: Preprocessed,
+        names: &'r mut Interner,
+        report: &'r mut Report,
+    ) -> Self {
+        let Preprocessed { pieces: current, tokens, origins, macros: table, .. } = done;
+        let bytes: usize = pieces[current..].iter().map(|p| p.range.len()).sum();
+        let is_new = table.macros.is_empty();
         let mut new = Self {
             pieces,
-            lexers: pieces.iter().map(|p| Lexer::part(p.text.id, p.text.text, p.range.clone())).collect(),
-            current: 0,
+            lexer: lexer(&pieces[current]),
+            current,
             names,
             report,
-            origins: Origins::default(),
-            // A token for four bytes is what shaders have, comments included.
-            tokens: Vec::with_capacity(bytes / 4 + 16),
-            defined: Vec::new(),
-            macros: Vec::new(),
-            bodies: Vec::new(),
-            params: Vec::new(),
+            origins,
+            tokens,
+            table,
             contexts: Vec::new(),
             pool: Vec::new(),
             peeked: None,
@@ -119,25 +99,21 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
             waiting: Vec::new(),
             collecting: 0,
             call_depth: 0,
-            work: 0,
             stopped: false,
             is_cut: false,
             spare: Vec::new(),
             foreign: Vec::new(),
             line: LineCount::new(unit),
         };
+        // A token for four bytes is what shaders have, comments included.
+        new.tokens.reserve(bytes / 4 + 16);
         new.origins.tokens.reserve(bytes / 4 + 16);
-        for (name, given) in [
-            ("__LINE__", Given::LineNumber),
-            ("__FILE__", Given::FileNumber),
-            ("__VERSION__", Given::ByLanguage(300)),
-            ("GL_ES", Given::ByLanguage(1)),
-            ("GL_FRAGMENT_PRECISION_HIGH", Given::ByLanguage(1)),
-            ("HW_PERFORMANCE", Given::BySite(1)),
-        ] {
-            let name = new.names.intern(name);
-            let def = MacroDef { name, name_at: None, defined_at: None, function_like: false };
-            new.add_macro(def, (0, 0), (0, 0), given);
+        if is_new {
+            for (name, given) in Given::ALL {
+                let name = new.names.intern(name);
+                let def = MacroDef { name, name_at: None, defined_at: None, function_like: false };
+                new.add_macro(def, (0, 0), (0, 0), given);
+            }
         }
         new
     }
@@ -198,7 +174,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
     /// The next token of the current text, with nothing done to it.
     #[inline]
     pub fn raw(&mut self) -> Token {
-        self.lexers[self.current].next(self.names)
+        self.lexer.next(self.names)
     }
 
     /// The next token of the running text, directives carried out on the way.
@@ -211,7 +187,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
             let token = self.raw();
             match token.kind {
                 Kind::Hash if token.has(LINE_START) => self.directive(token),
-                Kind::Eof if self.current + 1 < self.lexers.len() => self.current += 1,
+                Kind::Eof if self.next_piece() => {}
                 Kind::OpenComment => self.open_comment(&token),
                 _ => return token,
             }
@@ -219,6 +195,14 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
                 return end_token(token);
             }
         }
+    }
+
+    /// Goes on with the next piece, if there is one.
+    pub fn next_piece(&mut self) -> bool {
+        let Some(next) = self.pieces.get(self.current + 1) else { return false };
+        self.current += 1;
+        self.lexer = lexer(next);
+        true
     }
 
     pub fn open_comment(&mut self, token: &Token) {
@@ -232,7 +216,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
 
     #[inline]
     pub fn defined(&self, symbol: u32) -> Option<MacroId> {
-        match self.defined.get(symbol as usize) {
+        match self.table.defined.get(symbol as usize) {
             Some(&id) if id > 0 => Some(MacroId::new(id as usize - 1)),
             _ => None,
         }
@@ -272,6 +256,10 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
         }
         self.stopped = true;
     }
+}
+
+fn lexer<'a>(piece: &Piece<'a>) -> Lexer<'a> {
+    Lexer::part(piece.text.id, piece.text.text, piece.range.clone())
 }
 
 pub(super) fn end_token(like: Token) -> Token {

@@ -32,10 +32,12 @@ pub(super) struct LineCount {
     /// Says what is to be added: the header's lines, or what `#line` made of them.
     pub shift: i32,
     pub file: i32,
+    /// Some number depends on what the site puts in front of the text.
+    pub was_asked: bool,
 }
 
 impl LineCount {
     pub fn new(unit: Unit) -> Self {
-        Self { ends: Vec::new(), shift: unit.header_lines(), file: 0 }
+        Self { ends: Vec::new(), shift: unit.header_lines(), file: 0, was_asked: false }
     }
 }

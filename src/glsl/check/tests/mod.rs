@@ -18,9 +18,9 @@ fn checked(kind: PassKind, channels: [ChannelKind; 4], common: Option<&str>, cod
     let common = common.map(|text| Text { id: sources.add("common.glsl", text), text });
     let id: SourceId = sources.add("image.glsl", code);
     let source = PassSource { common, channels, ..PassSource::new(kind, Text { id, text: code }) };
-    let parsed = parse::parse(&source);
-    let checked = check(&parsed.ast, &parsed.origins, &parsed.names, &source);
-    let all: Vec<_> = parsed.diagnostics.iter().chain(&checked.diagnostics).cloned().collect();
+    let parsed = parse::parse(&source, None);
+    let checked = check(&parsed.ast, &parsed.origins, &parsed.names, &source, None);
+    let all: Vec<_> = parsed.report.diagnostics.iter().chain(&checked.diagnostics).cloned().collect();
     let failed = all.iter().any(|d| d.is_error());
     if !failed {
         promises::assert_kept(&checked.module);

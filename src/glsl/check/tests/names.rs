@@ -17,7 +17,7 @@ void mainImage(out vec4 c, in vec2 f) {
 #[test]
 fn every_use_names_its_declaration() {
     let source = crate::glsl::PassSource::image(CODE);
-    let parsed = crate::glsl::parse::parse(&source);
+    let parsed = crate::glsl::parse::parse(&source, None);
     let (checked, failed, _) = checked(source.kind, source.channels, None, CODE);
     assert!(failed, "`unknown` is not declared; the rest must be known all the same");
     let module = &checked.module;

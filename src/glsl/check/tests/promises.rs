@@ -158,7 +158,9 @@ impl Walk<'_> {
                 assert_eq!(module[global].ty, expr.ty);
                 vec![]
             }
-            ExprKind::Uniform(_) | ExprKind::Knob(_) | ExprKind::Channel(_) | ExprKind::BuiltinVar(_) => vec![],
+            ExprKind::Uniform(_) | ExprKind::CustomUniform(_) | ExprKind::Channel(_) | ExprKind::BuiltinVar(_) => {
+                vec![]
+            }
             ExprKind::Member { base, index } => {
                 let Type::Struct(of) = types.get(ty(base)) else { panic!("a member of no struct") };
                 assert_eq!(module[module[of].members][index as usize].ty, expr.ty);

@@ -1,0 +1,72 @@
+//! What the checker knows between two declarations of a file, so that others can go on from there.
+//!
+//! Only what is not the same everywhere at file scope is kept: no function is being read there, and no message was an
+//! error.
+
+use super::{
+    facts::{FuncFacts, TypeFacts, basic_facts},
+    scope::Scopes,
+};
+use crate::{
+    diag::Diagnostic,
+    glsl::{
+        ast::{BasicType, Precision, Symbol},
+        hir::{self, ConstId, FuncId, Module, StructId, TypeId},
+    },
+};
+use std::collections::HashMap;
+
+/// The precisions in force, by [`BasicType`].
+pub(super) type Precisions = [Option<Precision>; BasicType::ALL.len()];
+
+#[derive(Clone)]
+pub(crate) struct Begun {
+    /// How many of [`super::Ast::items`] were checked.
+    pub(super) items: usize,
+    pub(super) module: Module,
+    pub(super) diagnostics: Vec<Diagnostic>,
+    pub(super) scopes: Scopes,
+    pub(super) lowered: Vec<Option<hir::ExprId>>,
+    pub(super) facts: Vec<TypeFacts>,
+    pub(super) members: HashMap<(StructId, Symbol), (usize, usize)>,
+    pub(super) funcs: Vec<FuncFacts>,
+    pub(super) overloads: HashMap<(FuncId, Vec<TypeId>), FuncId>,
+    pub(super) folded_words: usize,
+    pub(super) precisions: Precisions,
+    pub(super) global_calls: Vec<FuncId>,
+    pub(super) depth_range: Option<ConstId>,
+}
+
+impl Begun {
+    /// Nothing is checked, and nothing in scope.
+    pub(super) fn nothing() -> Self {
+        let module = Module::default();
+        // Section 4.5.4, and what the site's header says of 3D samplers.
+        let mut precisions = [None; BasicType::ALL.len()];
+        for (basic, precision) in [
+            (BasicType::Float, Precision::High),
+            (BasicType::Int, Precision::High),
+            (BasicType::Sampler2D, Precision::Low),
+            (BasicType::SamplerCube, Precision::Low),
+            (BasicType::Sampler3D, Precision::Medium),
+        ] {
+            precisions[basic as usize] = Some(precision);
+        }
+        let facts = basic_facts(&module.types);
+        Self {
+            items: 0,
+            module,
+            diagnostics: Vec::new(),
+            scopes: Scopes::default(),
+            lowered: Vec::new(),
+            facts,
+            members: HashMap::default(),
+            funcs: Vec::new(),
+            overloads: HashMap::default(),
+            folded_words: 0,
+            precisions,
+            global_calls: Vec::new(),
+            depth_range: None,
+        }
+    }
+}

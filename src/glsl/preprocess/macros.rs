@@ -1,0 +1,56 @@
+//! The macros that are defined: what a text leaves to those that follow it.
+
+use crate::glsl::{ast::ExpansionId, lex::Token};
+
+/// Every macro so far. Names and places of definition are in `Origins::macros`, by the same number.
+#[derive(Clone, Debug, Default)]
+pub(in crate::glsl) struct MacroTable {
+    /// By symbol: the number of its macro plus one.
+    pub(super) defined: Vec<u32>,
+    pub(super) macros: Vec<Macro>,
+    /// Replacement lists of all.
+    pub(super) bodies: Vec<Token>,
+    /// Parameters of all.
+    pub(super) params: Vec<u32>,
+    /// Tokens that macros have produced.
+    pub(super) work: u32,
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Macro {
+    /// Range of [`MacroTable::bodies`].
+    pub body: (u32, u32),
+    /// Symbols of the parameters, a range of [`MacroTable::params`].
+    pub params: (u32, u32),
+    /// Its text is being read; the name is not to be expanded now.
+    pub busy: bool,
+    /// Calls whose arguments are being read.
+    pub calls: u32,
+    pub given: Given,
+    /// Its first use, through which uses inside its body are recorded once.
+    pub first_use: Option<ExpansionId>,
+}
+
+/// Says where a macro's value comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Given {
+    ByAuthor,
+    /// `HW_PERFORMANCE`, defined by the site's header like any macro.
+    BySite(u32),
+    /// Part of the language: nobody may define or undefine it.
+    ByLanguage(u32),
+    LineNumber,
+    FileNumber,
+}
+
+impl Given {
+    /// The macros that are there before the first line.
+    pub const ALL: [(&str, Given); 6] = [
+        ("__LINE__", Given::LineNumber),
+        ("__FILE__", Given::FileNumber),
+        ("__VERSION__", Given::ByLanguage(300)),
+        ("GL_ES", Given::ByLanguage(1)),
+        ("GL_FRAGMENT_PRECISION_HIGH", Given::ByLanguage(1)),
+        ("HW_PERFORMANCE", Given::BySite(1)),
+    ];
+}

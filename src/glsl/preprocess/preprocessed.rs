@@ -1,0 +1,27 @@
+//! The outcome of preprocessing.
+
+use super::{macros::MacroTable, token::Tok};
+use crate::glsl::ast::Origins;
+
+/// What the parser goes on with, and what the preprocessor goes on with where further texts follow.
+#[derive(Clone, Debug, Default)]
+pub(in crate::glsl) struct Preprocessed {
+    /// As many as `origins.tokens`; the last is `Eof`.
+    pub tokens: Vec<Tok>,
+    pub origins: Origins,
+    pub macros: MacroTable,
+    /// How many pieces were read.
+    pub pieces: usize,
+    /// The text ends before its end, which was reported: an open comment or conditional hides what may be missing.
+    pub is_cut: bool,
+    /// Numbers of lines were asked for, which depend on the unit.
+    pub has_line_numbers: bool,
+}
+
+impl Preprocessed {
+    /// Takes the end off: more follows.
+    pub(super) fn reopen(&mut self) {
+        self.tokens.pop();
+        self.origins.tokens.pop();
+    }
+}
