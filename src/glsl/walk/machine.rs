@@ -1,0 +1,423 @@
+//! The machine: four neighbouring pixels go through a program in lockstep.
+
+use super::{
+    layout::{self, Slot},
+    number::{Cell, Real},
+    observer::{Observer, View},
+    state::{Frame, LANES, State},
+    world::{World, uniform_words},
+};
+use crate::glsl::ir::{Block, Case, FuncId, GlobalKind, Input, Module, Op, Output, Stmt, Value};
+
+/// A set of lanes.
+type Lanes = u8;
+const ALL: Lanes = 0b1111;
+
+fn of(lanes: Lanes) -> impl Iterator<Item = usize> {
+    (0..LANES).filter(move |lane| lanes & (1 << lane) != 0)
+}
+
+/// Why a walk ended before the program did.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Stop {
+    #[error("the program did not end within {0} steps")]
+    Steps(u64),
+}
+
+/// Lanes that have left a block for where a loop or switch says.
+#[derive(Default)]
+struct Jumps {
+    broke: Lanes,
+    continued: Lanes,
+}
+
+/// Goes through a program.
+pub struct Machine<'a, R> {
+    state: State<'a, R>,
+    /// First cell of each variable of the module.
+    globals: Vec<usize>,
+    /// Where each lane's pixel lies.
+    positions: [[f64; 4]; LANES],
+    /// Lanes that have drawn, or never will.
+    ended: Lanes,
+    outputs: Vec<(Output, [Vec<Cell<R>>; LANES])>,
+    steps: u64,
+    limit: u64,
+    scratch: Vec<Cell<R>>,
+}
+
+/// What the lanes of a quad drew.
+#[derive(Clone, Debug)]
+pub struct Drawn<R> {
+    /// Of each output, the cells of each lane; empty for lanes that drew nothing.
+    pub outputs: Vec<(Output, [Vec<Cell<R>>; LANES])>,
+    pub steps: u64,
+}
+
+impl<'a, R: Real> Machine<'a, R> {
+    /// A machine for the 2x2 block that a pixel lies in. It stops after `limit` statements.
+    pub fn new(module: &'a Module, world: &'a dyn World, (x, y): (u32, u32), limit: u64) -> Self {
+        let (x, y) = (x & !1, y & !1);
+        let mut machine = Self {
+            state: State::new(module, world),
+            globals: Vec::new(),
+            positions: std::array::from_fn(|lane| {
+                let (dx, dy) = (lane as u32 & 1, lane as u32 >> 1);
+                [f64::from(x + dx) + 0.5, f64::from(y + dy) + 0.5, 0.0, 1.0]
+            }),
+            ended: 0,
+            outputs: Vec::new(),
+            steps: 0,
+            limit,
+            scratch: Vec::new(),
+        };
+        machine.fill_globals();
+        machine
+    }
+
+    /// The lane of a pixel of the block.
+    pub fn lane_of((x, y): (u32, u32)) -> usize {
+        ((x & 1) | (y & 1) << 1) as usize
+    }
+
+    /// Runs the entry point. `observer` sees what the lane of one pixel does.
+    pub fn run(mut self, lane: usize, observer: &mut dyn Observer<R>) -> Result<Drawn<R>, Stop> {
+        let entry = FuncId::new(self.state.module.functions.len() - 1);
+        let mut frame = self.frame(entry);
+        for (value, op) in self.state.module[entry].values() {
+            if let Op::Input(input) = *op {
+                self.input(&mut frame, value, input);
+            }
+        }
+        self.body(&mut frame, ALL, lane, observer)?;
+        Ok(Drawn { outputs: self.outputs, steps: self.steps })
+    }
+
+    fn fill_globals(&mut self) {
+        for global in &self.state.module.globals {
+            let start = self.state.memory[0].len();
+            self.globals.push(start);
+            let mut cells = Vec::new();
+            let mut fill = |mut words: &mut dyn Iterator<Item = u32>| {
+                layout::constant(self.state.module, global.ty, &mut words, &mut cells);
+            };
+            match global.kind {
+                GlobalKind::Private(None) => fill(&mut std::iter::repeat(0)),
+                GlobalKind::Private(Some(id)) | GlobalKind::Table(id) => {
+                    fill(&mut self.state.module[id].words.iter().copied());
+                }
+                GlobalKind::Uniform(uniform) => {
+                    fill(&mut uniform_words(self.state.world.uniforms(), uniform).into_iter())
+                }
+                GlobalKind::CustomUniform(slot) => fill(&mut self.state.world.custom_uniform(slot).into_iter()),
+                GlobalKind::CubeFace => fill(&mut [self.state.world.cube_face()].into_iter()),
+            }
+            self.state.memory.iter_mut().for_each(|memory| memory.extend_from_slice(&cells));
+        }
+    }
+
+    fn frame(&self, function: FuncId) -> Frame<R> {
+        let layout = &self.state.layouts[function.index()];
+        let result = layout::cells(self.state.module, self.state.module[function].result);
+        Frame {
+            function,
+            registers: vec![Cell::Bits(0); layout.registers * LANES],
+            places: vec![[0; LANES]; layout.places],
+            result: vec![Cell::Bits(0); result * LANES],
+        }
+    }
+
+    fn input(&self, frame: &mut Frame<R>, value: Value, input: Input) {
+        for lane in 0..LANES {
+            let out = self.state.register_mut(frame, value, lane);
+            match input {
+                Input::Position => {
+                    for (cell, number) in out.iter_mut().zip(self.positions[lane]) {
+                        *cell = Cell::Float(R::from_f64(number));
+                    }
+                }
+                // Of meshes, which are not walked through.
+                _ => out.fill(Cell::Bits(0)),
+            }
+        }
+    }
+
+    /// Runs a function whose arguments are in its frame.
+    fn body(
+        &mut self,
+        frame: &mut Frame<R>,
+        lanes: Lanes,
+        lane: usize,
+        observer: &mut dyn Observer<R>,
+    ) -> Result<(), Stop> {
+        let module = self.state.module;
+        let function = &module[frame.function];
+        let base = self.state.memory[0].len();
+        let layout = &self.state.layouts[frame.function.index()];
+        let size = base + layout.memory;
+        self.state.memory.iter_mut().for_each(|memory| memory.resize(size, Cell::Bits(0)));
+        for (value, op) in function.values() {
+            let Slot::Place(place) = layout.slots[value.index()] else { continue };
+            let start = match *op {
+                Op::Var(var) => base + layout.vars[var.index()],
+                Op::Global(global) => self.globals[global.index()],
+                _ => continue,
+            };
+            frame.places[place as usize] = [start as u32; LANES];
+        }
+        for (var, start) in function.vars.iter().zip(&layout.vars) {
+            let Some(init) = var.init else { continue };
+            let Slot::Constant { start: from, size } = layout.slots[init.index()] else { continue };
+            let init = &layout.constants[from as usize..(from + size) as usize];
+            for memory in &mut self.state.memory {
+                memory[base + start..base + start + init.len()].copy_from_slice(init);
+            }
+        }
+        let has_lane = lanes & (1 << lane) != 0;
+        if has_lane {
+            observer.enter(&View::new(&self.state, frame, lane));
+        }
+        self.block(frame, &function.body, lanes, &mut Jumps::default(), lane, observer)?;
+        if has_lane {
+            observer.leave(&View::new(&self.state, frame, lane));
+        }
+        self.state.memory.iter_mut().for_each(|memory| memory.truncate(base));
+        Ok(())
+    }
+
+    /// Runs a block. Returns the lanes that reach its end.
+    fn block(
+        &mut self,
+        frame: &mut Frame<R>,
+        block: &'a Block,
+        mut active: Lanes,
+        jumps: &mut Jumps,
+        lane: usize,
+        observer: &mut dyn Observer<R>,
+    ) -> Result<Lanes, Stop> {
+        for stmt in block {
+            if active == 0 {
+                break;
+            }
+            self.steps += 1;
+            if self.steps > self.limit {
+                return Err(Stop::Steps(self.limit));
+            }
+            let is_seen = active & (1 << lane) != 0;
+            match stmt {
+                Stmt::Let(value) => {
+                    self.compute(frame, *value, active, lane, observer)?;
+                    active &= !self.ended;
+                    if is_seen {
+                        observer.value(&View::new(&self.state, frame, lane), *value);
+                    }
+                }
+                Stmt::Store { place, value } => {
+                    for lane in of(active) {
+                        let start = self.state.place(frame, *place)[lane] as usize;
+                        let mut scratch = std::mem::take(&mut self.scratch);
+                        scratch.clear();
+                        scratch.extend_from_slice(self.state.value(frame, *value, lane));
+                        self.state.memory[lane][start..start + scratch.len()].copy_from_slice(&scratch);
+                        self.scratch = scratch;
+                    }
+                    if is_seen {
+                        observer.store(&View::new(&self.state, frame, lane), *place, *value);
+                    }
+                }
+                Stmt::If { condition, accept, reject } => {
+                    let accepted = self.lanes_where(frame, *condition, active);
+                    let left = self.block(frame, accept, active & accepted, jumps, lane, observer)?;
+                    let right = self.block(frame, reject, active & !accepted, jumps, lane, observer)?;
+                    active = left | right;
+                }
+                Stmt::Loop { body, continuing, break_if } => {
+                    active = self.turns(frame, (body, continuing, *break_if), active, lane, observer)?;
+                }
+                Stmt::Switch { selector, cases } => {
+                    let mut inner = Jumps::default();
+                    let end = self.cases(frame, *selector, cases, active, &mut inner, lane, observer)?;
+                    jumps.continued |= inner.continued;
+                    active = end | inner.broke;
+                }
+                Stmt::Break => {
+                    jumps.broke |= active;
+                    active = 0;
+                }
+                Stmt::Continue => {
+                    jumps.continued |= active;
+                    active = 0;
+                }
+                Stmt::Return(value) => {
+                    if let Some(value) = *value {
+                        let size = frame.result.len() / LANES;
+                        for lane in of(active) {
+                            let mut scratch = std::mem::take(&mut self.scratch);
+                            scratch.clear();
+                            scratch.extend_from_slice(self.state.value(frame, value, lane));
+                            frame.result[lane * size..][..size].copy_from_slice(&scratch);
+                            self.scratch = scratch;
+                        }
+                    }
+                    active = 0;
+                }
+                Stmt::Discard => {
+                    self.ended |= active;
+                    active = 0;
+                }
+                Stmt::Output(parts) => {
+                    for &(output, value) in parts {
+                        let mut cells: [Vec<Cell<R>>; LANES] = Default::default();
+                        for lane in of(active) {
+                            cells[lane] = self.state.value(frame, value, lane).to_vec();
+                        }
+                        match self.outputs.iter_mut().find(|(there, _)| *there == output) {
+                            Some((_, there)) => {
+                                of(active).for_each(|lane| there[lane] = std::mem::take(&mut cells[lane]))
+                            }
+                            None => self.outputs.push((output, cells)),
+                        }
+                    }
+                    self.ended |= active;
+                    active = 0;
+                }
+            }
+        }
+        Ok(active)
+    }
+
+    fn lanes_where(&self, frame: &Frame<R>, condition: Value, active: Lanes) -> Lanes {
+        of(active).filter(|&lane| self.state.value(frame, condition, lane)[0].is_true()).map(|lane| 1 << lane).sum()
+    }
+
+    fn turns(
+        &mut self,
+        frame: &mut Frame<R>,
+        (body, continuing, break_if): (&'a Block, &'a Block, Option<Value>),
+        mut active: Lanes,
+        lane: usize,
+        observer: &mut dyn Observer<R>,
+    ) -> Result<Lanes, Stop> {
+        let mut left = 0;
+        while active != 0 {
+            self.steps += 1;
+            if self.steps > self.limit {
+                return Err(Stop::Steps(self.limit));
+            }
+            if active & (1 << lane) != 0 {
+                observer.turn(&View::new(&self.state, frame, lane));
+            }
+            let mut jumps = Jumps::default();
+            let end = self.block(frame, body, active, &mut jumps, lane, observer)?;
+            left |= jumps.broke;
+            let mut jumps_behind = Jumps::default();
+            active = self.block(frame, continuing, end | jumps.continued, &mut jumps_behind, lane, observer)?;
+            left |= jumps_behind.broke;
+            if let Some(condition) = break_if {
+                let done = self.lanes_where(frame, condition, active);
+                left |= done;
+                active &= !done;
+            }
+        }
+        Ok(left)
+    }
+
+    #[allow(clippy::too_many_arguments)]
+    fn cases(
+        &mut self,
+        frame: &mut Frame<R>,
+        selector: Value,
+        cases: &'a [Case],
+        active: Lanes,
+        jumps: &mut Jumps,
+        lane: usize,
+        observer: &mut dyn Observer<R>,
+    ) -> Result<Lanes, Stop> {
+        let default = cases.iter().position(|case| case.label.is_none());
+        let chosen: [Option<usize>; LANES] = std::array::from_fn(|lane| {
+            let bits = self.state.value(frame, selector, lane)[0].bits();
+            cases.iter().position(|case| case.label == Some(bits)).or(default)
+        });
+        let mut end: Lanes = of(active).filter(|&lane| chosen[lane].is_none()).map(|lane| 1 << lane).sum();
+        let mut falling = 0;
+        for (index, case) in cases.iter().enumerate() {
+            let begins: Lanes = of(active).filter(|&l| chosen[l] == Some(index)).map(|l| 1 << l).sum();
+            let reached = self.block(frame, &case.body, begins | falling, jumps, lane, observer)?;
+            falling = if case.falls_through { reached } else { 0 };
+            end |= if case.falls_through { 0 } else { reached };
+        }
+        Ok(end | falling)
+    }
+
+    /// Computes a value in the lanes that are active.
+    fn compute(
+        &mut self,
+        frame: &mut Frame<R>,
+        value: Value,
+        active: Lanes,
+        lane: usize,
+        observer: &mut dyn Observer<R>,
+    ) -> Result<(), Stop> {
+        let module = self.state.module;
+        let function = &module[frame.function];
+        let op = &function[value];
+        if let Op::Call { function, args } = op {
+            return self.call(frame, value, (*function, args), active, lane, observer);
+        }
+        if let Slot::Place(index) = self.state.layouts[frame.function.index()].slots[value.index()] {
+            let place = self.state.part_of_place(frame, op);
+            for lane in of(active) {
+                frame.places[index as usize][lane] = place[lane];
+            }
+            return Ok(());
+        }
+        let mut scratch = std::mem::take(&mut self.scratch);
+        for lane in of(active) {
+            scratch.clear();
+            match *op {
+                Op::Derivative { axis, value } => self.state.derivative(frame, axis, value, lane, &mut scratch),
+                Op::Sample { channel, coordinate, level, offset } => {
+                    self.state.sample(frame, (channel, coordinate, level, offset), lane, &mut scratch);
+                }
+                _ => self.state.pure(frame, value, op, lane, &mut scratch),
+            }
+            self.state.register_mut(frame, value, lane).copy_from_slice(&scratch);
+        }
+        self.scratch = scratch;
+        Ok(())
+    }
+
+    fn call(
+        &mut self,
+        frame: &mut Frame<R>,
+        value: Value,
+        (callee, args): (FuncId, &[Value]),
+        active: Lanes,
+        lane: usize,
+        observer: &mut dyn Observer<R>,
+    ) -> Result<(), Stop> {
+        let module = self.state.module;
+        let mut inner = self.frame(callee);
+        for (param, op) in module[callee].values() {
+            let Op::Param(index) = *op else { continue };
+            let arg = args[index as usize];
+            match self.state.layouts[callee.index()].slots[param.index()] {
+                Slot::Place(place) => inner.places[place as usize] = self.state.place(frame, arg),
+                _ => {
+                    for lane in 0..LANES {
+                        let cells = self.state.value(frame, arg, lane).to_vec();
+                        self.state.register_mut(&mut inner, param, lane).copy_from_slice(&cells);
+                    }
+                }
+            }
+        }
+        self.body(&mut inner, active, lane, observer)?;
+        let size = inner.result.len() / LANES;
+        if size > 0 {
+            for lane in of(active) {
+                self.state.register_mut(frame, value, lane).copy_from_slice(&inner.result[lane * size..][..size]);
+            }
+        }
+        Ok(())
+    }
+}

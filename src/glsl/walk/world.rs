@@ -1,0 +1,60 @@
+//! What a program reads beside its own memory.
+
+use crate::glsl::{builtins::Uniform, interface::UniformBlock};
+
+/// A mip level, as a sample asks for it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Lod {
+    Exact(f64),
+    /// By how much the coordinate changes from pixel to pixel, along x and along y, and what is added to the level
+    /// (section 3.8.11 of the OpenGL ES 3.0 specification).
+    Derivatives {
+        x: [f64; 3],
+        y: [f64; 3],
+        bias: f64,
+    },
+}
+
+/// Uniforms, textures and inputs of a frame.
+pub trait World {
+    /// The site's uniforms.
+    fn uniforms(&self) -> &UniformBlock;
+    /// The words of the author's own uniform in a slot.
+    fn custom_uniform(&self, slot: u16) -> [u32; 4];
+    /// Face of the cube map that is drawn, 0 to 5.
+    fn cube_face(&self) -> u32;
+    /// Width, height and depth of a level of a channel's texture; zeros for one that has none.
+    fn size(&self, channel: u8, level: i32) -> [i32; 3];
+    fn levels(&self, channel: u8) -> u32;
+    /// A texel of a level; zeros outside of the texture.
+    fn fetch(&self, channel: u8, at: [i32; 3], level: i32) -> [f32; 4];
+    /// A filtered read. `offset` is in texels.
+    fn sample(&self, channel: u8, at: [f64; 3], lod: Lod, offset: [i32; 3]) -> [f64; 4];
+}
+
+/// The words of one of the site's uniforms, in memory order.
+pub fn uniform_words(block: &UniformBlock, uniform: Uniform) -> Vec<u32> {
+    let floats = |numbers: &[f32]| numbers.iter().map(|number| number.to_bits()).collect();
+    let first = |slots: &[[f32; 4]; 4], count: usize| -> Vec<u32> {
+        slots.iter().flat_map(|slot| slot[..count].iter().map(|number| number.to_bits())).collect()
+    };
+    match uniform {
+        Uniform::Resolution => floats(&block.resolution),
+        Uniform::Time => floats(&[block.time]),
+        Uniform::Mouse => floats(&block.mouse),
+        Uniform::Date => floats(&block.date),
+        Uniform::TimeDelta => floats(&[block.time_delta]),
+        Uniform::FrameRate => floats(&[block.frame_rate]),
+        Uniform::SampleRate => floats(&[block.sample_rate]),
+        Uniform::Frame => vec![block.frame as u32],
+        Uniform::ChannelTime => first(&block.channel_time, 1),
+        Uniform::ChannelResolution => first(&block.channel_resolution, 3),
+        Uniform::TimeOffset => floats(&[block.time_offset]),
+        Uniform::SampleOffset => vec![block.sample_offset as u32],
+        Uniform::ChannelLoaded => block.channel_loaded.map(|loaded| loaded as u32).to_vec(),
+        // Of meshes, which are not walked through.
+        Uniform::Model | Uniform::View | Uniform::Projection | Uniform::NormalMatrix | Uniform::CameraPosition => {
+            vec![0; 16]
+        }
+    }
+}
