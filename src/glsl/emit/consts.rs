@@ -1,8 +1,8 @@
 //! Constants as naga's.
 //!
-//! naga refuses infinities and NaN as literals. A composite that holds one is built from bit patterns where it is used; a table
-//! with one is filled when the entry point starts. So is a long global that the program writes, where the driver needs it
-//! ([`super::long_arrays`]); what is only read the driver takes for a constant of its own.
+//! naga refuses infinities and NaN as literals. A composite that holds one is built from bit patterns where it is used;
+//! a table with one is filled when the entry point starts. So is a long global that the program writes, where the
+//! driver needs it ([`super::long_arrays`]); what is only read the driver takes for a constant of its own.
 
 use naga::{Expression, GlobalVariable, Handle, Literal, Span};
 

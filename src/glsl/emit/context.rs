@@ -25,7 +25,8 @@ pub(super) struct Emitter<'a> {
     pub functions: Vec<Handle<naga::Function>>,
     /// Private memory that is stored as a whole before anything reads it.
     pub overwritten: HashSet<Handle<GlobalVariable>>,
-    /// Variables of each function that are written before they are read, in the order of emission: the entry point last.
+    /// Variables of each function that are written before they are read, in the order of emission: the entry point
+    /// last.
     pub written_first: Vec<HashSet<Handle<naga::LocalVariable>>>,
 }
 
@@ -84,7 +85,7 @@ pub(super) enum TablePlace {
 #[derive(Default)]
 pub(super) struct Resources {
     pub block: Option<Handle<GlobalVariable>>,
-    pub knob_block: Option<Handle<GlobalVariable>>,
+    pub custom_uniform_block: Option<Handle<GlobalVariable>>,
     pub textures: [Option<Handle<GlobalVariable>>; 4],
     pub samplers: [Option<Handle<GlobalVariable>>; 4],
     /// Private memory, by [`ir::GlobalId::index`].

@@ -84,8 +84,8 @@ impl Builder<'_, '_> {
         self.given(Expression::FunctionArgument(index))
     }
 
-    /// Makes the zero that the driver cannot know, if some code reads it, of the sign of a number whose bits, read as an
-    /// `int`, are never negative: of where a pixel lies, or of a vertex's number.
+    /// Makes the zero that the driver cannot know, if some code reads it, of the sign of a number whose bits, read as
+    /// an `int`, are never negative: of where a pixel lies, or of a vertex's number.
     fn set_opaque_zero(&mut self, is_vertex: bool) {
         let Some(variable) = self.cx.resources.opaque_zero else { return };
         let number = if is_vertex {

@@ -1,21 +1,19 @@
-//! One function: its statements and operations, each as naga's.
+//! One function: its variables, its statements, and the values they compute.
 
 use std::collections::HashSet;
 
 use naga::{
-    BinaryOperator, Block, Expression, FunctionArgument, FunctionResult, Handle, ImageQuery, LocalVariable,
-    MathFunction, Range, SampleLevel, ScalarKind, Span, Statement, SwitchCase, SwitchValue, SwizzleComponent,
-    UnaryOperator,
+    Block, Expression, FunctionArgument, FunctionResult, Handle, LocalVariable, Range, ScalarKind, Span, Statement,
+    SwitchCase, SwitchValue,
 };
 
 use super::{
     consts,
     context::{Emitter, Map},
-    types,
 };
 use crate::glsl::{
-    ir::{self, Binary, Level, Math, Op, Stmt, Unary, Value},
-    types::{Scalar, Swizzle, Type, TypeId},
+    ir::{self, Binary, Op, Stmt, Value},
+    types::{Scalar, Type, TypeId},
 };
 
 /// A naga function under construction.
@@ -312,113 +310,6 @@ impl<'m, 'a> Builder<'m, 'a> {
         self.values[value.index()] = Some(self.add(expression));
     }
 
-    fn expression(&mut self, value: Value, op: &Op) -> Expression {
-        if let Op::Compose { ty, ref parts } = *op {
-            return self.compose_op(ty, parts);
-        }
-        let mut of = |value: Value| self.value(value);
-        match *op {
-            Op::Part { base, index } => Expression::AccessIndex { base: of(base), index },
-            Op::Element { base, index } => Expression::Access { base: of(base), index: of(index) },
-            Op::Swizzle { vector, swizzle } => Expression::Swizzle {
-                size: types::vector_size(swizzle.len()),
-                vector: of(vector),
-                pattern: pattern(swizzle),
-            },
-            Op::Splat { size, value } => Expression::Splat { size: types::vector_size(size.into()), value: of(value) },
-            Op::Unary { op, operand } => Expression::Unary { op: unary(op), expr: of(operand) },
-            Op::Binary { op, left, right } => Expression::Binary { op: binary(op), left: of(left), right: of(right) },
-            Op::Math { fun, arg, arg1, arg2, arg3 } => {
-                let (arg, arg1, arg2, arg3) = (of(arg), arg1.map(&mut of), arg2.map(&mut of), arg3.map(&mut of));
-                Expression::Math { fun: math(fun), arg, arg1, arg2, arg3 }
-            }
-            Op::Select { condition, accept, reject } => {
-                Expression::Select { condition: of(condition), accept: of(accept), reject: of(reject) }
-            }
-            Op::Convert { value, to } => {
-                let width = types::naga_scalar(to).width;
-                Expression::As { expr: of(value), kind: types::naga_scalar(to).kind, convert: Some(width) }
-            }
-            Op::Bitcast { value, to } => {
-                Expression::As { expr: of(value), kind: types::naga_scalar(to).kind, convert: None }
-            }
-            Op::All(argument) => Expression::Relational { fun: naga::RelationalFunction::All, argument: of(argument) },
-            Op::Any(argument) => Expression::Relational { fun: naga::RelationalFunction::Any, argument: of(argument) },
-            Op::Derivative { axis, value } => Expression::Derivative {
-                axis: match axis {
-                    ir::Axis::X => naga::DerivativeAxis::X,
-                    ir::Axis::Y => naga::DerivativeAxis::Y,
-                    ir::Axis::Width => naga::DerivativeAxis::Width,
-                },
-                ctrl: naga::DerivativeControl::None,
-                expr: of(value),
-            },
-            Op::Sample { channel, coordinate, level, offset } => {
-                let (coordinate, offset) = (of(coordinate), offset.map(&mut of));
-                let level = match level {
-                    Level::Auto => SampleLevel::Auto,
-                    Level::Exact(level) => SampleLevel::Exact(of(level)),
-                    Level::Bias(bias) => SampleLevel::Bias(of(bias)),
-                    Level::Gradient { x, y } => SampleLevel::Gradient { x: of(x), y: of(y) },
-                };
-                let (image, sampler) = (self.cx.texture(channel), self.cx.sampler(channel));
-                let (image, sampler) = (self.variable(image), self.variable(sampler));
-                Expression::ImageSample {
-                    image,
-                    sampler,
-                    gather: None,
-                    coordinate,
-                    array_index: None,
-                    offset,
-                    level,
-                    depth_ref: None,
-                    clamp_to_edge: false,
-                }
-            }
-            Op::Fetch { channel, coordinate, level } => {
-                let (coordinate, level) = (of(coordinate), of(level));
-                let image = self.cx.texture(channel);
-                let image = self.variable(image);
-                Expression::ImageLoad { image, coordinate, array_index: None, sample: None, level: Some(level) }
-            }
-            Op::TextureSize { channel, level } => {
-                let level = level.map(&mut of);
-                let image = self.cx.texture(channel);
-                let image = self.variable(image);
-                let size = self.add(Expression::ImageQuery { image, query: ImageQuery::Size { level } });
-                Expression::As { expr: size, kind: ScalarKind::Sint, convert: None }
-            }
-            Op::TextureLevels { channel } => {
-                let image = self.cx.texture(channel);
-                let image = self.variable(image);
-                Expression::ImageQuery { image, query: ImageQuery::NumLevels }
-            }
-            ref other => unreachable!("{value:?} = {other:?} is no expression"),
-        }
-    }
-
-    fn compose_op(&mut self, ty: TypeId, parts: &[Value]) -> Expression {
-        let mut components = Vec::with_capacity(parts.len());
-        let is_vector = matches!(self.cx.ir.types.get(ty), Type::Vector { .. });
-        for &part in parts {
-            match self.ir[part] {
-                // naga's SPIR-V writer takes a constant vector within a constant vector for one component.
-                Op::Const(id) if is_vector => {
-                    let ir = self.cx.ir;
-                    let scalar = ir.scalar(ir[id].ty);
-                    components.extend(ir[id].words.iter().map(|&bits| self.literal(scalar, bits)));
-                }
-                Op::Zero(zero) if is_vector => {
-                    let scalar = self.cx.ir.scalar(zero);
-                    let size = self.cx.ir.extent(zero).max(1);
-                    components.extend((0..size).map(|_| self.literal(scalar, 0)));
-                }
-                _ => components.push(self.value(part)),
-            }
-        }
-        Expression::Compose { ty: self.cx.ty(ty), components }
-    }
-
     fn call(&mut self, callee: ir::FuncId, args: &[Value]) -> Option<Handle<Expression>> {
         let mut arguments: Vec<_> = args.iter().map(|&arg| self.value(arg)).collect();
         let function = self.cx.functions[callee.index()];
@@ -436,100 +327,5 @@ impl<'m, 'a> Builder<'m, 'a> {
         let result = (result != TypeId::VOID).then(|| self.given(Expression::CallResult(function)));
         self.push(Statement::Call { function, arguments, result });
         result
-    }
-}
-
-fn pattern(swizzle: Swizzle) -> [SwizzleComponent; 4] {
-    const XYZW: [SwizzleComponent; 4] =
-        [SwizzleComponent::X, SwizzleComponent::Y, SwizzleComponent::Z, SwizzleComponent::W];
-    let mut pattern = [SwizzleComponent::X; 4];
-    for (i, component) in swizzle.iter().enumerate() {
-        pattern[i] = XYZW[component];
-    }
-    pattern
-}
-
-fn unary(op: Unary) -> UnaryOperator {
-    match op {
-        Unary::Negate => UnaryOperator::Negate,
-        Unary::LogicalNot => UnaryOperator::LogicalNot,
-        Unary::BitwiseNot => UnaryOperator::BitwiseNot,
-    }
-}
-
-fn binary(op: Binary) -> BinaryOperator {
-    use BinaryOperator as To;
-    match op {
-        Binary::Add => To::Add,
-        Binary::Subtract => To::Subtract,
-        Binary::Multiply => To::Multiply,
-        Binary::Divide => To::Divide,
-        Binary::Modulo => To::Modulo,
-        Binary::Equal => To::Equal,
-        Binary::NotEqual => To::NotEqual,
-        Binary::Less => To::Less,
-        Binary::LessEqual => To::LessEqual,
-        Binary::Greater => To::Greater,
-        Binary::GreaterEqual => To::GreaterEqual,
-        Binary::And => To::And,
-        Binary::ExclusiveOr => To::ExclusiveOr,
-        Binary::InclusiveOr => To::InclusiveOr,
-        Binary::LogicalAnd => To::LogicalAnd,
-        Binary::LogicalOr => To::LogicalOr,
-        Binary::ShiftLeft => To::ShiftLeft,
-        Binary::ShiftRight => To::ShiftRight,
-    }
-}
-
-fn math(fun: Math) -> MathFunction {
-    use MathFunction as To;
-    match fun {
-        Math::Abs => To::Abs,
-        Math::Sign => To::Sign,
-        Math::Floor => To::Floor,
-        Math::Ceil => To::Ceil,
-        Math::Trunc => To::Trunc,
-        Math::Round => To::Round,
-        Math::Fract => To::Fract,
-        Math::Min => To::Min,
-        Math::Max => To::Max,
-        Math::Clamp => To::Clamp,
-        Math::Saturate => To::Saturate,
-        Math::Mix => To::Mix,
-        Math::SmoothStep => To::SmoothStep,
-        Math::Sqrt => To::Sqrt,
-        Math::InverseSqrt => To::InverseSqrt,
-        Math::Pow => To::Pow,
-        Math::Exp => To::Exp,
-        Math::Exp2 => To::Exp2,
-        Math::Log => To::Log,
-        Math::Log2 => To::Log2,
-        Math::Radians => To::Radians,
-        Math::Degrees => To::Degrees,
-        Math::Sin => To::Sin,
-        Math::Cos => To::Cos,
-        Math::Tan => To::Tan,
-        Math::Asin => To::Asin,
-        Math::Acos => To::Acos,
-        Math::Atan => To::Atan,
-        Math::Atan2 => To::Atan2,
-        Math::Sinh => To::Sinh,
-        Math::Cosh => To::Cosh,
-        Math::Tanh => To::Tanh,
-        Math::Asinh => To::Asinh,
-        Math::Acosh => To::Acosh,
-        Math::Atanh => To::Atanh,
-        Math::Cross => To::Cross,
-        Math::Length => To::Length,
-        Math::Normalize => To::Normalize,
-        Math::FaceForward => To::FaceForward,
-        Math::Determinant => To::Determinant,
-        Math::Transpose => To::Transpose,
-        Math::Pack2x16snorm => To::Pack2x16snorm,
-        Math::Pack2x16unorm => To::Pack2x16unorm,
-        Math::Pack2x16float => To::Pack2x16float,
-        Math::Unpack2x16snorm => To::Unpack2x16snorm,
-        Math::Unpack2x16unorm => To::Unpack2x16unorm,
-        Math::Unpack2x16float => To::Unpack2x16float,
     }
 }

@@ -1,7 +1,7 @@
 //! Places: the memory that a program names, in the blocks and buffers where it lies.
 //!
-//! In a uniform buffer the elements of an array of scalars and vectors lie in slots of 16 bytes: `iChannelTime` and constant
-//! tables are read as such.
+//! In a uniform buffer the elements of an array of scalars and vectors lie in slots of 16 bytes: `iChannelTime` and
+//! constant tables are read as such.
 
 use naga::{Expression, GlobalVariable, Handle, SwizzleComponent};
 
@@ -39,7 +39,7 @@ impl Builder<'_, '_> {
                 TablePlace::Private(variable) => Some(variable),
                 TablePlace::Uniform(_) | TablePlace::Storage(_) => None,
             },
-            GlobalKind::Uniform(_) | GlobalKind::Knob(_) | GlobalKind::CubeFace => None,
+            GlobalKind::Uniform(_) | GlobalKind::CustomUniform(_) | GlobalKind::CubeFace => None,
         }
     }
 
@@ -54,9 +54,9 @@ impl Builder<'_, '_> {
                     (self.cx.block(), member)
                 }
             },
-            GlobalKind::Knob(slot) => {
-                self.cx.reflection.knobs.insert(slot);
-                (self.cx.knob_block(), slot.into())
+            GlobalKind::CustomUniform(slot) => {
+                self.cx.reflection.custom_uniforms.insert(slot);
+                (self.cx.custom_uniform_block(), slot.into())
             }
             GlobalKind::CubeFace => (self.cx.block(), CUBE_FACE),
             GlobalKind::Table(table) => match self.cx.table_place(table) {
@@ -174,8 +174,8 @@ impl Builder<'_, '_> {
         self.add(Expression::Load { pointer })
     }
 
-    /// The int that is always zero, though the driver cannot know it: a uniform or, where the driver compiles anew for each
-    /// value of those, what the entry point made.
+    /// The int that is always zero, though the driver cannot know it: a uniform or, where the driver compiles anew for
+    /// each value of those, what the entry point made.
     pub fn opaque_zero(&mut self) -> Handle<Expression> {
         let pointer = if self.cx.source.driver.opaque_uniforms {
             let variable = self.cx.opaque_zero();

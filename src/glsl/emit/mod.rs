@@ -1,7 +1,8 @@
 //! Emission: the intermediate representation as a [`naga::Module`].
 //!
-//! Owns types, constants, tables, resources and entry points of the module, the order of its expressions, and what drivers need
-//! done otherwise ([`long_arrays`]; each names the driver and the fault). Says in the reflection what the module declares.
+//! Owns types, constants, tables, resources and entry points of the module, the order of its expressions, and what
+//! drivers need done otherwise ([`long_arrays`]; each names the driver and the fault). Says in the reflection what the
+//! module declares.
 //!
 //! naga knows no bounds of indices and guards divisions by functions of its own: both are taken care of before
 //! ([`super::ir`]), so that modules need none.
@@ -9,9 +10,11 @@
 mod consts;
 mod context;
 mod entry;
+mod expression;
 mod function;
 mod long_arrays;
 mod memory;
+mod operators;
 mod remainder;
 mod resources;
 mod tables;
@@ -24,7 +27,7 @@ use self::context::{Constants, Emitter, Resources, Tables};
 pub(crate) use self::tables::TableBytes;
 use super::{
     PassSource, Reflection,
-    interface::KNOB_BYTES,
+    interface::CUSTOM_UNIFORM_BYTES,
     ir::{self, layout::Layouts},
 };
 
@@ -33,7 +36,7 @@ pub(crate) struct Emitted {
     pub module: naga::Module,
     pub tables: TableBytes,
     /// Size of the array of the author's own uniforms; 0 if the module has none.
-    pub knob_bytes: u64,
+    pub custom_uniform_bytes: u64,
     /// See [`super::Compiled::filled_arrays`].
     pub filled_arrays: Option<u32>,
 }
@@ -63,12 +66,13 @@ pub(in crate::glsl) fn emit(program: &ir::Module, source: &PassSource<'_>, refle
     }
     entry::emit(&mut emitter, entry);
     let tables = emitter.finish_tables();
-    let slots = u64::from(emitter.knob_slots());
-    let knob_bytes = if emitter.reflection.knobs.is_empty() { 0 } else { slots * KNOB_BYTES };
+    let slots = u64::from(emitter.custom_uniform_slots());
+    let custom_uniform_bytes =
+        if emitter.reflection.custom_uniforms.is_empty() { 0 } else { slots * CUSTOM_UNIFORM_BYTES };
     let Emitter { mut out, overwritten, written_first, .. } = emitter;
     let filled_arrays =
         if source.driver.array_loops { long_arrays::write(&mut out, &overwritten, &written_first) } else { None };
-    Emitted { module: out, tables, knob_bytes, filled_arrays }
+    Emitted { module: out, tables, custom_uniform_bytes, filled_arrays }
 }
 
 /// Checks an emitted module. An error is a bug of this compiler, never the author's.

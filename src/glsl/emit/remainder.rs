@@ -1,8 +1,8 @@
-//! Remainders of ints, written out: naga's `%` has the dividend's sign, and its SPIR-V form guards once more against divisors
-//! that cannot be here.
+//! Remainders of ints, written out: naga's `%` has the dividend's sign, and its SPIR-V form guards once more against
+//! divisors that cannot be here.
 //!
-//! GLSL leaves `%` open where a side is negative (section 5.9), but shaders lean on what OpenGL drivers and the site make of it: a
-//! remainder with the divisor's sign.
+//! GLSL leaves `%` open where a side is negative (section 5.9), but shaders lean on what OpenGL drivers and the site
+//! make of it: a remainder with the divisor's sign.
 
 use naga::{BinaryOperator, Expression, Handle};
 

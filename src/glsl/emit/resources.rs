@@ -164,21 +164,21 @@ impl Emitter<'_> {
     }
 
     /// Slots up to the last that the pass may name.
-    pub fn knob_slots(&self) -> u32 {
-        self.source.knobs.iter().map(|k| u32::from(k.slot) + 1).max().unwrap_or(0)
+    pub fn custom_uniform_slots(&self) -> u32 {
+        self.source.custom_uniforms.iter().map(|k| u32::from(k.slot) + 1).max().unwrap_or(0)
     }
 
     /// The author's own uniforms: an array of slots, because every backend lays that out alike.
-    pub fn knob_block(&mut self) -> Handle<GlobalVariable> {
-        if let Some(block) = self.resources.knob_block {
+    pub fn custom_uniform_block(&mut self) -> Handle<GlobalVariable> {
+        if let Some(block) = self.resources.custom_uniform_block {
             return block;
         }
         let base = self.ty(TypeId::vector(Scalar::Uint, 4));
-        let size = ArraySize::Constant(NonZeroU32::new(self.knob_slots()).expect("at least one"));
-        let ty = self.insert_type(TypeInner::Array { base, size, stride: interface::KNOB_BYTES as u32 });
-        let binding = ResourceBinding { group: interface::UNIFORM_GROUP, binding: interface::KNOB_BINDING };
+        let size = ArraySize::Constant(NonZeroU32::new(self.custom_uniform_slots()).expect("at least one"));
+        let ty = self.insert_type(TypeInner::Array { base, size, stride: interface::CUSTOM_UNIFORM_BYTES as u32 });
+        let binding = ResourceBinding { group: interface::UNIFORM_GROUP, binding: interface::CUSTOM_UNIFORM_BINDING };
         let block = self.variable(AddressSpace::Uniform, ty, Some(binding), None);
-        self.resources.knob_block = Some(block);
+        self.resources.custom_uniform_block = Some(block);
         block
     }
 
@@ -222,16 +222,13 @@ impl Emitter<'_> {
             return made;
         }
         let global = self.ir[id];
-        let GlobalKind::Private { init, overwritten } = global.kind else { unreachable!("not private: {global:?}") };
+        let GlobalKind::Private(init) = global.kind else { unreachable!("not private: {global:?}") };
         let ty = self.ty(global.ty);
         let is_copied = self.is_long(global.ty);
         let value = init.filter(|_| !is_copied).and_then(|init| self.constant_init(init));
         let made = self.private(ty, value);
         if let (Some(init), None) = (init, value) {
             self.consts.set_at_start.push((made, init));
-            self.overwritten.insert(made);
-        }
-        if overwritten {
             self.overwritten.insert(made);
         }
         if self.resources.private.len() <= id.index() {

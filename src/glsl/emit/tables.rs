@@ -1,10 +1,10 @@
 //! Constant tables that are indexed at run time, in read-only buffers.
 //!
-//! As memory of each invocation a table must be filled before the first read, element by element, and a driver's compiler takes
-//! minutes over a table of some thousand entries. In a buffer it costs a load. GLSL drivers do the same: Mesa's turns constant
-//! arrays into uniforms. Arrays of numbers and vectors lie in a uniform buffer until it is full; what a uniform buffer cannot hold
-//! lies in a storage buffer if it is large. All else stays in memory: small tables, which a driver turns into selects, and those
-//! that hold booleans, which no buffer may.
+//! As memory of each invocation a table must be filled before the first read, element by element, and a driver's
+//! compiler takes minutes over a table of some thousand entries. In a buffer it costs a load. GLSL drivers do the same:
+//! Mesa's turns constant arrays into uniforms. Arrays of numbers and vectors lie in a uniform buffer until it is full;
+//! what a uniform buffer cannot hold lies in a storage buffer if it is large. All else stays in memory: small tables,
+//! which a driver turns into selects, and those that hold booleans, which no buffer may.
 
 use std::num::NonZeroU32;
 
@@ -55,8 +55,8 @@ impl Emitter<'_> {
         place
     }
 
-    /// An array as a uniform buffer has it, and its bytes: its scalars and vectors lie in slots of 16 bytes, in the first
-    /// components of vectors of three or four. `None` for what is no array of these, or too short to be worth it.
+    /// An array as a uniform buffer has it, and its bytes: its scalars and vectors lie in slots of 16 bytes, in the
+    /// first components of vectors of three or four. `None` for what is no array of these, or too short to be worth it.
     fn in_slots(&mut self, ty: TypeId) -> Option<(Handle<naga::Type>, u32)> {
         let Type::Array { element, len: len @ NOT_UNROLLED.. } = self.ir.types.get(ty) else { return None };
         let base = match self.ir.types.get(element) {

@@ -1,21 +1,23 @@
-//! The intermediate representation: a program between the checked tree ([`super::hir`]) and the module of a graphics API.
+//! The intermediate representation: a program between the checked tree ([`super::hir`]) and the module of a graphics
+//! API.
 //!
-//! Owns its data ([`Module`], [`Function`], [`Op`]), the types of values ([`infer`]), the text form ([`print`]) and the rules that
-//! every program keeps ([`verify`]). Knows neither where programs come from nor what they become.
+//! Owns its data ([`Module`], [`Function`], [`Op`]), the types of values ([`infer`]), the text form ([`print`]) and the
+//! rules that every program keeps ([`verify`]). Knows neither where programs come from nor what they become.
 //!
 //! The form is structured SSA over memory:
-//! - A [`Value`] is computed once, by the [`Op`] that it names, where a [`Stmt::Let`] stands. It may be used wherever that
-//!   statement dominates: later in the same block, and in blocks within.
-//! - Constants, inputs and addresses of variables are *free* ([`Op::is_free`]): no statement computes them, and they may be used
-//!   everywhere in their function.
-//! - A variable is memory. [`Op::Load`] reads it, [`Stmt::Store`] writes it. There are no phis: what differs between two ways to
-//!   one place lies in a variable.
-//! - A *place* is an address: a variable, or a part of one. [`Op::Part`] and [`Op::Element`] of a place are places. Places are
-//!   operands of loads, stores, calls and of these two only.
+//! - A [`Value`] is computed once, by the [`Op`] that it names, where a [`Stmt::Let`] stands. It may be used wherever
+//!   that statement dominates: later in the same block, and in blocks within.
+//! - Constants, inputs and addresses of variables are *free* ([`Op::is_free`]): no statement computes them, and they
+//!   may be used everywhere in their function.
+//! - A variable is memory. [`Op::Load`] reads it, [`Stmt::Store`] writes it. There are no phis: what differs between
+//!   two ways to one place lies in a variable.
+//! - A *place* is an address: a variable, or a part of one. [`Op::Part`] and [`Op::Element`] of a place are places.
+//!   Places are operands of loads, stores, calls and of these two only.
 //! - Control flow is structured: [`Stmt::If`], [`Stmt::Loop`], [`Stmt::Switch`] hold blocks.
 //!
-//! All integers wrap; a divisor is never zero, nor -1 where the quotient would overflow; an index is always in range. Lowering
-//! sees to that, and each pass keeps it. So a program can be run, by a device or step by step on the processor.
+//! All integers wrap; a divisor is never zero, nor -1 where the quotient would overflow; an index is always in range.
+//! Lowering sees to that, and each pass keeps it. So a program can be run, by a device or step by step on the
+//! processor.
 
 mod compact;
 mod ids;
@@ -66,13 +68,12 @@ pub struct Global {
 /// Where a variable of the module lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum GlobalKind {
-    /// Memory of one invocation. It begins with `init`, or with zeros; with anything if it is `overwritten`, that is, stored as
-    /// a whole before anything reads it.
-    Private { init: Option<ConstId>, overwritten: bool },
+    /// Memory of one invocation, which begins with this constant, or with zeros.
+    Private(Option<ConstId>),
     /// One of the site's uniforms: read only.
     Uniform(Uniform),
     /// The words, a `uvec4`, of the author's own uniform in this slot: read only.
-    Knob(u16),
+    CustomUniform(u16),
     /// Face of the cube map that is drawn, 0 to 5: read only.
     CubeFace,
     /// A constant that is indexed at run time: read only.

@@ -152,8 +152,8 @@ pub enum Unary {
     BitwiseNot,
 }
 
-/// Operators on scalars and vectors of one type. `Multiply` also takes a float scalar and a vector or matrix, in either order,
-/// and sums and differences take two matrices.
+/// Operators on scalars and vectors of one type. `Multiply` also takes a float scalar and a vector or matrix, in either
+/// order, and sums and differences take two matrices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub enum Binary {
@@ -263,6 +263,60 @@ pub enum Level {
     },
 }
 
+/// Calls `$visit` with a reference to each operand of the operation that `$op` refers to; `$iter` is `iter` or
+/// `iter_mut`.
+macro_rules! each_operand {
+    ($op:expr, $visit:ident, $iter:ident) => {{
+        use Op::*;
+        match $op {
+            Literal(..)
+            | Zero(_)
+            | Const(_)
+            | Param(_)
+            | Var(_)
+            | Global(_)
+            | Input(_)
+            | TextureLevels { .. }
+            | OpaqueZero => {}
+            Compose { parts: all, .. } | Call { args: all, .. } => all.$iter().for_each($visit),
+            Element { base: a, index: b }
+            | Binary { left: a, right: b, .. }
+            | Fetch { coordinate: a, level: b, .. } => {
+                $visit(a);
+                $visit(b);
+            }
+            Part { base: a, .. }
+            | Swizzle { vector: a, .. }
+            | Splat { value: a, .. }
+            | Unary { operand: a, .. }
+            | Convert { value: a, .. }
+            | Bitcast { value: a, .. }
+            | All(a)
+            | Any(a)
+            | Derivative { value: a, .. }
+            | Load { place: a } => $visit(a),
+            Select { condition, accept, reject } => [condition, accept, reject].into_iter().for_each($visit),
+            Math { arg, arg1, arg2, arg3, .. } => {
+                $visit(arg);
+                [arg1, arg2, arg3].into_iter().flatten().for_each($visit);
+            }
+            Sample { coordinate, level, offset, .. } => {
+                $visit(coordinate);
+                match level {
+                    Level::Auto => {}
+                    Level::Exact(level) | Level::Bias(level) => $visit(level),
+                    Level::Gradient { x, y } => {
+                        $visit(x);
+                        $visit(y);
+                    }
+                }
+                offset.$iter().for_each($visit);
+            }
+            TextureSize { level, .. } => level.$iter().for_each($visit),
+        }
+    }};
+}
+
 impl Op {
     /// Whether the value is there from the start of its function, without a statement.
     pub fn is_free(&self) -> bool {
@@ -272,93 +326,13 @@ impl Op {
 
     /// Visits the operands, in order.
     pub fn operands(&self, mut visit: impl FnMut(Value)) {
-        use Op::*;
-        match *self {
-            Literal(..)
-            | Zero(_)
-            | Const(_)
-            | Param(_)
-            | Var(_)
-            | Global(_)
-            | Input(_)
-            | TextureLevels { .. }
-            | OpaqueZero => {}
-            Compose { parts: ref all, .. } | Call { args: ref all, .. } => all.iter().for_each(|&part| visit(part)),
-            Element { base: a, index: b }
-            | Binary { left: a, right: b, .. }
-            | Fetch { coordinate: a, level: b, .. } => {
-                [a, b].into_iter().for_each(visit);
-            }
-            Part { base: a, .. }
-            | Swizzle { vector: a, .. }
-            | Splat { value: a, .. }
-            | Unary { operand: a, .. }
-            | Convert { value: a, .. }
-            | Bitcast { value: a, .. }
-            | All(a)
-            | Any(a)
-            | Derivative { value: a, .. }
-            | Load { place: a } => visit(a),
-            Select { condition, accept, reject } => [condition, accept, reject].into_iter().for_each(visit),
-            Math { arg, arg1, arg2, arg3, .. } => [Some(arg), arg1, arg2, arg3].into_iter().flatten().for_each(visit),
-            Sample { coordinate, level, offset, .. } => {
-                visit(coordinate);
-                match level {
-                    Level::Auto => {}
-                    Level::Exact(level) | Level::Bias(level) => visit(level),
-                    Level::Gradient { x, y } => [x, y].into_iter().for_each(&mut visit),
-                }
-                offset.into_iter().for_each(visit);
-            }
-            TextureSize { level, .. } => level.into_iter().for_each(visit),
-        }
+        let mut visit = |value: &Value| visit(*value);
+        each_operand!(self, visit, iter);
     }
 
     /// Visits the operands, in order, each of which may be changed.
     pub fn operands_mut(&mut self, mut visit: impl FnMut(&mut Value)) {
-        use Op::*;
-        match self {
-            Literal(..)
-            | Zero(_)
-            | Const(_)
-            | Param(_)
-            | Var(_)
-            | Global(_)
-            | Input(_)
-            | TextureLevels { .. }
-            | OpaqueZero => {}
-            Compose { parts: all, .. } | Call { args: all, .. } => all.iter_mut().for_each(visit),
-            Element { base: a, index: b }
-            | Binary { left: a, right: b, .. }
-            | Fetch { coordinate: a, level: b, .. } => {
-                [a, b].into_iter().for_each(visit);
-            }
-            Part { base: a, .. }
-            | Swizzle { vector: a, .. }
-            | Splat { value: a, .. }
-            | Unary { operand: a, .. }
-            | Convert { value: a, .. }
-            | Bitcast { value: a, .. }
-            | All(a)
-            | Any(a)
-            | Derivative { value: a, .. }
-            | Load { place: a } => visit(a),
-            Select { condition, accept, reject } => [condition, accept, reject].into_iter().for_each(visit),
-            Math { arg, arg1, arg2, arg3, .. } => {
-                visit(arg);
-                [arg1, arg2, arg3].into_iter().flatten().for_each(visit);
-            }
-            Sample { coordinate, level, offset, .. } => {
-                visit(coordinate);
-                match level {
-                    Level::Auto => {}
-                    Level::Exact(level) | Level::Bias(level) => visit(level),
-                    Level::Gradient { x, y } => [x, y].into_iter().for_each(&mut visit),
-                }
-                offset.iter_mut().for_each(visit);
-            }
-            TextureSize { level, .. } => level.iter_mut().for_each(visit),
-        }
+        each_operand!(self, visit, iter_mut);
     }
 }
 

@@ -1,7 +1,7 @@
 //! The text form of a program, for people and for snapshots.
 //!
-//! A value is `%n`, numbered in the order of its statement, a variable of the function `$n`, one of the module `@n`, a function
-//! `fn n`. Places stand as paths: `$1.2`, `@0[%4]`. Literals stand where they are used.
+//! A value is `%n`, numbered in the order of its statement, a variable of the function `$n`, one of the module `@n`, a
+//! function `fn n`. Places stand as paths: `$1.2`, `@0[%4]`. Literals stand where they are used.
 
 use std::fmt::Write;
 
@@ -14,10 +14,10 @@ pub fn print(module: &Module) -> String {
     for (index, global) in module.globals.iter().enumerate() {
         let ty = type_text(module, global.ty);
         let kind = match global.kind {
-            GlobalKind::Private { init: None, .. } => "private".into(),
-            GlobalKind::Private { init: Some(init), .. } => format!("private = {}", constant(module, init.index())),
+            GlobalKind::Private(None) => "private".into(),
+            GlobalKind::Private(Some(init)) => format!("private = {}", constant(module, init.index())),
             GlobalKind::Uniform(uniform) => format!("uniform {}", uniform.name()),
-            GlobalKind::Knob(slot) => format!("uniform slot {slot}"),
+            GlobalKind::CustomUniform(slot) => format!("uniform slot {slot}"),
             GlobalKind::CubeFace => "uniform cube face".into(),
             GlobalKind::Table(table) => format!("table {}", constant(module, table.index())),
         };

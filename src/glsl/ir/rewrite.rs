@@ -1,6 +1,7 @@
 //! A walk over a function that computes it anew, statement by statement: what most passes have in common.
 //!
-//! Operands are seen as what stands for them by now. A rule says what stands for an operation; what it adds for that comes before.
+//! Operands are seen as what stands for them by now. A rule says what stands for an operation; what it adds for that
+//! comes before.
 
 use rustc_hash::FxHashMap;
 
@@ -12,7 +13,8 @@ use crate::glsl::{
 
 /// What a pass does to the operations and statements of a function.
 pub trait Rule {
-    /// Says what stands for a value, whose operation has the operands that stand for its own. `None`: the operation itself.
+    /// Says what stands for a value, whose operation has the operands that stand for its own. `None`: the operation
+    /// itself.
     fn operation(&mut self, r: &mut Rewriter<'_>, value: Value, op: &Op) -> Option<Value>;
 
     /// The function has begun.
@@ -103,7 +105,8 @@ impl<'m> Rewriter<'m> {
         added
     }
 
-    /// The same bits, of a scalar or vector of numbers, but joined with a zero that no compiler behind this one can know.
+    /// The same bits, of a scalar or vector of numbers, but joined with a zero that no compiler behind this one can
+    /// know.
     pub fn opaque(&mut self, value: Value) -> Value {
         let scalar = self.module.scalar(self.f.ty(value));
         let bits = if scalar == Scalar::Int { value } else { self.add(Op::Bitcast { value, to: Scalar::Int }) };

@@ -38,7 +38,8 @@ struct Check<'a> {
     index: usize,
     /// Whether the value is computed wherever control passes here, by [`Value::index`].
     available: Vec<bool>,
-    /// Whether a variable begins with a value, or something was written to it, by [`VarId::index`](super::VarId::index).
+    /// Whether a variable begins with a value, or something was written to it, by
+    /// [`VarId::index`](super::VarId::index).
     written: Vec<bool>,
     /// Loops and switches around, and loops.
     breakable: usize,

@@ -113,9 +113,9 @@ impl Builder<'_, '_> {
     }
 
     /// The value of one of the author's own uniforms: words of its slot, read as what it is.
-    fn knob(&mut self, index: u16, ty: TypeId) -> Value {
-        let slot = self.cx.source.knobs[usize::from(index)].slot;
-        let block = self.cx.knob(slot);
+    fn custom_uniform(&mut self, index: u16, ty: TypeId) -> Value {
+        let slot = self.cx.source.custom_uniforms[usize::from(index)].slot;
+        let block = self.cx.custom_uniform(slot);
         let pointer = self.global(block);
         let words = self.load(pointer);
         let size = self.cx.hir.types.components(ty).expect("a scalar or a vector") as usize;
@@ -145,7 +145,7 @@ impl Builder<'_, '_> {
                 Some(value) if hir[id].storage == GlobalStorage::Private => self.folded(value),
                 _ => self.zero(ty),
             },
-            ExprKind::Knob(index) => self.knob(index, ty),
+            ExprKind::CustomUniform(index) => self.custom_uniform(index, ty),
             ExprKind::BuiltinVar(BuiltinVar::FrontFacing) => self.literal(Scalar::Bool, 1),
             _ => self.zero(ty),
         }

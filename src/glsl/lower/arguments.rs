@@ -1,4 +1,5 @@
-//! How arguments are handed over: what a copy of a function has in place of parameters, and which it reads where they are.
+//! How arguments are handed over: what a copy of a function has in place of parameters, and which it reads where they
+//! are.
 
 use std::collections::HashSet;
 
@@ -43,7 +44,8 @@ pub(super) enum Passed {
 /// How arguments are handed over in a module.
 pub(super) struct Arguments {
     /// Which locals some call takes as a whole for a parameter that is indexed, there or in what it calls in turn; by
-    /// [`LocalId::index`]. They are memory, as if they were indexed themselves: the call then reads them where they are.
+    /// [`LocalId::index`]. They are memory, as if they were indexed themselves: the call then reads them where they
+    /// are.
     pub handed_on: Vec<bool>,
     /// Which globals a function or what it calls writes, by [`FuncId::index`]; `None`: too many to tell, so any of
     /// them.
@@ -87,8 +89,8 @@ impl Arguments {
         made
     }
 
-    /// Whether a constant is a table rather than a few numbers written into one call: those are cheaper put into memory where
-    /// they are needed than at the start of every invocation.
+    /// Whether a constant is a table rather than a few numbers written into one call: those are cheaper put into memory
+    /// where they are needed than at the start of every invocation.
     fn is_table(&self, module: &Module, id: ConstId) -> bool {
         self.named[id.index()] > 1 || module[module[id].words].len() >= layout::NOT_UNROLLED as usize
     }
@@ -111,8 +113,8 @@ impl Arguments {
         module[local].flags.contains(VarFlags::INDEXED) || self.handed_on[local.index()]
     }
 
-    /// Whether a parameter is only read, but indexed in a way values cannot be: then it is a pointer to what the caller has, or
-    /// that itself, and not a copy that each call fills anew, element by element.
+    /// Whether a parameter is only read, but indexed in a way values cannot be: then it is a pointer to what the caller
+    /// has, or that itself, and not a copy that each call fills anew, element by element.
     pub fn reads_in_place(&self, module: &Module, param: LocalId) -> bool {
         let declared = &module[param];
         !declared.kind.copies_out()

@@ -131,8 +131,9 @@ impl Builder<'_, '_> {
                 self.add(Op::Convert { value: reached, to: Scalar::Float })
             }
             B::Mod => {
-                // x - y * floor(x / y): naga's remainder truncates. Where y is a constant zero drivers drop the product, and x is
-                // left: shaders repeat space along some axes alone by it, so that divisor must stay in sight.
+                // x - y * floor(x / y): naga's remainder truncates. Where y is a constant zero drivers drop the
+                // product, and x is left: shaders repeat space along some axes alone by it, so that divisor must stay
+                // in sight.
                 let b = fit(self, b, b_ty);
                 let quotient = self.op(Binary::Divide, a, b);
                 let whole = self.math(Math::Floor, quotient);
@@ -225,8 +226,8 @@ impl Builder<'_, '_> {
         self.add(Op::Derivative { axis, value: expr })
     }
 
-    /// `atan(y, x)`. The angle of (0, 0), which section 8.1 leaves undefined, is the device's, unless that is no number: then 0,
-    /// which constants fold to.
+    /// `atan(y, x)`. The angle of (0, 0), which section 8.1 leaves undefined, is the device's, unless that is no
+    /// number: then 0, which constants fold to.
     fn angle(&mut self, ty: TypeId, y: Value, x: Value) -> Value {
         let is_number =
             |this: &Self, value| this.floats(value).is_some_and(|numbers| numbers.iter().all(|&number| number != 0.0));
@@ -243,8 +244,8 @@ impl Builder<'_, '_> {
 
     /// Section 8.3: `t = clamp((x - a) / (b - a), 0, 1)`, then `t t (3 - 2 t)`.
     ///
-    /// Undefined for `a == b`, but shaders use it as a step: infinities clamp to 0 and 1. So no driver must see that the divisor
-    /// is zero ([`super::zeros`]).
+    /// Undefined for `a == b`, but shaders use it as a step: infinities clamp to 0 and 1. So no driver must see that
+    /// the divisor is zero (`emit/work_arounds/zero_divisors.rs`).
     fn smoothstep(&mut self, ty: TypeId, a: Value, b: Value, x: Value) -> Value {
         let differ = |index| match (self.part(a, index), self.part(b, index)) {
             (PartOf::Known(a), PartOf::Known(b)) => a != b,

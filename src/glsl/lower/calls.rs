@@ -1,4 +1,8 @@
 //! Calls of user functions, and how arguments are handed over: without a copy wherever nobody can see the difference.
+//!
+//! That is decided here and not by a pass over the IR: whether somebody can see it follows from the order in which
+//! arguments are evaluated and from which of them are `out`, and both are gone once the copies are written as loads and
+//! stores. What a parameter may stand for ([`super::arguments`]) also says how its function is lowered.
 
 use super::{
     access::Place,
@@ -14,8 +18,9 @@ use crate::glsl::{
 impl Builder<'_, '_> {
     /// Calls a function; `None` if it is void.
     ///
-    /// Section 6.1.1: arguments are evaluated in order, each once; `inout` ones are copied in; after the call `out` and `inout`
-    /// ones are copied back, in order. Where nobody can see the difference, the function works on the caller's variable itself.
+    /// Section 6.1.1: arguments are evaluated in order, each once; `inout` ones are copied in; after the call `out` and
+    /// `inout` ones are copied back, in order. Where nobody can see the difference, the function works on the caller's
+    /// variable itself.
     pub fn call(&mut self, func: FuncId, args: &[ExprId]) -> Option<Value> {
         let hir = self.cx.hir;
         let params = hir.params(func);

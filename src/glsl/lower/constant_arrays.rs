@@ -5,7 +5,11 @@
 //! ..` in a function that `mainImage` calls first. As memory such an array is thousands of stores in one block, once
 //! for its zeros and once for its values, and the time that LLVM takes for a block grows with more than the square of
 //! them: 550 triangles keep lavapipe busy for minutes where Mesa's OpenGL, which sees the constants and needs no zeros,
-//! takes a second. As a table ([`super::tables`]) they are a buffer.
+//! takes a second. As a table (`emit/tables.rs`) they are a buffer.
+//!
+//! That is found in the checked program and not by a pass over the IR, because lowering asks for it: an array that is a
+//! table can stand for a parameter, and then its function has a copy for it ([`super::arguments`]). Behind lowering
+//! each call would copy the array.
 
 use super::writes;
 use crate::glsl::{

@@ -2,7 +2,10 @@
 
 use std::collections::HashMap;
 
-use super::arguments::{Arguments, Instance};
+use super::{
+    arguments::{Arguments, Instance},
+    names::Names,
+};
 use crate::glsl::{
     PassSource, Reflection,
     hir::{self, BuiltinVar},
@@ -22,6 +25,9 @@ pub(super) struct Lowering<'a> {
     pub arguments: Arguments,
     pub functions: HashMap<Instance, ir::FuncId>,
     pub reflection: Reflection,
+    pub names: Names,
+    /// The value that is drawn instead of the picture.
+    pub probed: Option<Probed>,
 }
 
 impl Lowering<'_> {
@@ -65,3 +71,22 @@ pub(super) fn const_id(id: hir::ConstId) -> ir::ConstId {
 
 /// By 32-bit keys, with a quick hash.
 pub(super) type Map<K, V> = rustc_hash::FxHashMap<K, V>;
+
+/// The expression that is probed, and where its value is kept.
+#[derive(Clone, Copy)]
+pub(super) struct Probed {
+    pub expr: hir::ExprId,
+    pub visit: u32,
+    /// A `vec4`; not known before the probe has been at the value.
+    pub value: ir::GlobalId,
+    /// How often the expression has been evaluated: an `int`.
+    pub visits: ir::GlobalId,
+}
+
+impl Probed {
+    pub fn new(out: &mut ir::Module, expr: hir::ExprId, visit: u32) -> Self {
+        let value = out.add_global(hir::TypeId::VEC4, GlobalKind::Private(None));
+        let visits = out.add_global(hir::TypeId::INT, GlobalKind::Private(None));
+        Self { expr, visit, value, visits }
+    }
+}

@@ -22,7 +22,11 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reach: &Reach) -> ir::Function {
         PassKind::Image | PassKind::Buffer => {
             let at = b.swizzle(position, TypeId::VEC4, Swizzle::new(&[0, 1]));
             let colour = b.call_with_colour(author, vec![at]);
-            if kind == PassKind::Image { b.finish_image(colour) } else { colour }
+            match b.probed_value() {
+                Some(value) => value,
+                None if kind == PassKind::Image => b.finish_image(colour),
+                None => colour,
+            }
         }
         PassKind::Cubemap => {
             let at = b.swizzle(position, TypeId::VEC4, Swizzle::new(&[0, 1]));
@@ -92,8 +96,8 @@ impl Builder<'_, '_> {
         self.compose(TypeId::VEC4, vec![rgb, one])
     }
 
-    /// The direction from the centre to a texel of the face the uniform block names: corners as OpenGL ES 3.0, table 3.21, has
-    /// them, in its order of faces.
+    /// The direction from the centre to a texel of the face the uniform block names: corners as OpenGL ES 3.0, table
+    /// 3.21, has them, in its order of faces.
     fn cube_direction(&mut self, at: Value) -> Value {
         let resolution = self.cx.uniform(Uniform::Resolution);
         let resolution = self.global(resolution);
@@ -134,7 +138,8 @@ impl Builder<'_, '_> {
         self.math(Math::Normalize, direction)
     }
 
-    /// One sample a pixel, row by row of 512: left in red and green, right in blue and alpha, 16 bits each, low byte first.
+    /// One sample a pixel, row by row of 512: left in red and green, right in blue and alpha, 16 bits each, low byte
+    /// first.
     fn sound(&mut self, function: ir::FuncId, position: Value) -> Value {
         let at = self.swizzle(position, TypeId::VEC4, Swizzle::new(&[0, 1]));
         let at = self.add(Op::Convert { value: at, to: Scalar::Int });

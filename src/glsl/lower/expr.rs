@@ -16,7 +16,10 @@ impl Builder<'_, '_> {
         let mut value = loop {
             match hir[at].kind {
                 ExprKind::Member { .. } | ExprKind::Swizzle { .. } | ExprKind::Index { .. } => match self.read(at) {
-                    Ok(value) => break value,
+                    Ok(value) => {
+                        self.probe(at, value);
+                        break value;
+                    }
                     Err(links) => {
                         let innermost = *links.last().expect("a part has a link");
                         spine.extend(links);
@@ -36,11 +39,16 @@ impl Builder<'_, '_> {
                     spine.push(at);
                     at = inner;
                 }
-                _ => break self.leaf(at),
+                _ => {
+                    let value = self.leaf(at);
+                    self.probe(at, value);
+                    break value;
+                }
             }
         };
         while let Some(link) = spine.pop() {
             value = self.link(link, value);
+            self.probe(link, value);
         }
         value
     }
@@ -70,7 +78,7 @@ impl Builder<'_, '_> {
             ExprKind::Local(_)
             | ExprKind::Global(_)
             | ExprKind::Uniform(_)
-            | ExprKind::Knob(_)
+            | ExprKind::CustomUniform(_)
             | ExprKind::BuiltinVar(_) => self.read(expr).unwrap_or_else(|_| self.root_value(expr)),
             ExprKind::Unary { op, operand } => {
                 let value = self.value(operand);

@@ -75,8 +75,8 @@ impl Builder<'_, '_> {
         self.declare(local, value);
     }
 
-    /// Lets an array, matrix or structure that is declared once a call begin with its value, and not with zeros before that: to
-    /// fill memory twice is dear, and not every driver sees that the first time is for nothing.
+    /// Lets an array, matrix or structure that is declared once a call begin with its value, and not with zeros before
+    /// that: to fill memory twice is dear, and not every driver sees that the first time is for nothing.
     fn starts_with_value(&mut self, local: LocalId, init: Option<ExprId>) -> bool {
         let hir = self.cx.hir;
         if self.loops > 0 || !self.needs_memory(local) || self.is_vector_or_scalar(hir[local].ty) {
@@ -181,8 +181,9 @@ impl Builder<'_, '_> {
         self.push(Stmt::Switch { selector, cases });
     }
 
-    /// Where a body runs into the next one, naga's writers disagree on what they accept. So a first switch finds the number of
-    /// the body to begin with, and a second, with one case, holds all bodies, each under a test that it is reached; a `break` leaves it.
+    /// Where a body runs into the next one, naga's writers disagree on what they accept. So a first switch finds the
+    /// number of the body to begin with, and a second, with one case, holds all bodies, each under a test that it is
+    /// reached; a `break` leaves it.
     fn switch_with_fall_through(&mut self, selector: Value, cases: &[Case], bodies: Vec<(Block, bool)>) {
         use crate::glsl::hir::Scalar;
         let first = self.temporary(TypeId::INT);

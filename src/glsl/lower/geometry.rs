@@ -1,8 +1,8 @@
 //! Geometry, written out in the order in which OpenGL's compilers evaluate it.
 //!
-//! SPIR-V leaves the order of additions within a dot product or matrix product to the driver, which takes another one than its
-//! OpenGL sibling. Real shaders blow up last bits (`fract(sin(dot(p, k)) * 43758.5453)`), so the pictures differ. The
-//! instructions are as many either way, and drivers may still fuse them.
+//! SPIR-V leaves the order of additions within a dot product or matrix product to the driver, which takes another one
+//! than its OpenGL sibling. Real shaders blow up last bits (`fract(sin(dot(p, k)) * 43758.5453)`), so the pictures
+//! differ. The instructions are as many either way, and drivers may still fuse them.
 
 use super::function::{Builder, PartOf};
 use crate::glsl::{
@@ -11,8 +11,8 @@ use crate::glsl::{
 };
 
 impl Builder<'_, '_> {
-    /// `((w w' + z z') + y y') + x x'`: the side the sum is on matters to what drivers join it with. What is multiplied by a
-    /// literal zero is left out.
+    /// `((w w' + z z') + y y') + x x'`: the side the sum is on matters to what drivers join it with. What is multiplied
+    /// by a literal zero is left out.
     pub fn dot(&mut self, ty: TypeId, a: Value, b: Value) -> Value {
         let size = self.extent(ty);
         if size == 1 {

@@ -1,5 +1,5 @@
-//! Matrix functions (section 8.6). `inverse` is written out because naga's Metal and HLSL writers have none, and like `determinant`
-//! in the order of OpenGL's compilers (see [`super::geometry`]).
+//! Matrix functions (section 8.6). `inverse` is written out because naga's Metal and HLSL writers have none, and like
+//! `determinant` in the order of OpenGL's compilers (see [`super::geometry`]).
 
 use super::function::Builder;
 use crate::glsl::{

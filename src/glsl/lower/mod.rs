@@ -1,23 +1,23 @@
 //! Lowering: the checked program of [`super::hir`] to the intermediate representation ([`super::ir`]), and the
 //! [`Reflection`] of what it reaches.
 //!
-//! Owns the meaning of running code: evaluation order, copies of `out` and `inout` arguments, the zero that WebGL gives to
-//! everything undefined, clamped indices. Judges nothing: it runs only on programs without errors, and reports none.
+//! Owns the meaning of running code: evaluation order, copies of `out` and `inout` arguments, the zero that WebGL gives
+//! to everything undefined, clamped indices. Judges nothing: it runs only on programs without errors, and reports none.
 //!
 //! What the generated code looks like, and why:
 //! - Only what the entry point reaches is lowered ([`reach`]). A branch whose condition is a literal is not reached.
 //! - A variable that nobody writes is a value, not memory. All others are variables of the function or of the module.
-//! - A function has one copy for each combination of channels, globals and tables that stand for parameters it only reads
-//!   ([`arguments`]).
+//! - A function has one copy for each combination of channels, globals and tables that stand for parameters it only
+//!   reads ([`arguments`]).
 //! - A large global array that the program fills with constants before all else is a constant ([`constant_arrays`]).
-//! - Every index that is no literal is clamped, as WebGL does; the modules need no bounds checks from naga. Divisors of
-//!   integers that are no literals are guarded ([`divide`]), as no driver's compiler may meet a zero. The optimiser drops what
-//!   is superfluous. Fetches outside a texture are left to the driver's image robustness, which gives the zeros WebGL promises.
+//! - Every index that is no literal is clamped, as WebGL does; the modules need no bounds checks from naga. Divisors
+//!   of integers that are no literals are guarded ([`divide`]), as no driver's compiler may meet a zero. The optimiser
+//!   drops what is superfluous. Fetches outside a texture are left to the driver's image robustness, which gives the
+//!   zeros WebGL promises.
 //! - `&&`, `||` and `?:` are branches.
 
 mod access;
 mod arguments;
-mod bilinear;
 mod builtin;
 mod calls;
 mod constant_arrays;
@@ -30,8 +30,10 @@ mod flow;
 mod function;
 mod geometry;
 mod matrix;
+mod names;
 mod opaque;
 mod operators;
+mod probe;
 mod reach;
 mod resources;
 mod stage;
@@ -41,9 +43,13 @@ mod writes;
 
 use std::collections::HashMap;
 
-pub(in crate::glsl) use self::{constant_arrays::arrays_to_constants, reach::reached};
+pub(in crate::glsl) use self::{
+    constant_arrays::arrays_to_constants,
+    names::{FunctionNames, Names},
+    reach::reached,
+};
 use self::{
-    context::{Lowering, Resources},
+    context::{Lowering, Probed, Resources},
     reach::Reach,
 };
 use super::{
@@ -56,34 +62,54 @@ use super::{
 pub(crate) struct Lowered {
     pub program: ir::Module,
     pub reflection: Reflection,
+    pub(in crate::glsl) names: Names,
 }
 
-/// Lowers a program without errors. The result keeps the rules of [`ir::verify`]; what does not is a bug of this module.
+/// Lowers a program without errors. The result keeps the rules of [`ir::verify`]; what does not is a bug of this
+/// module.
 ///
 /// # Panics
 /// If `module` breaks the promises of [`hir`], such as having no entry point.
 pub(in crate::glsl) fn lower(module: &hir::Module, source: &PassSource<'_>, interface: Interface) -> Lowered {
+    lower_probed(module, source, interface, None)
+}
+
+/// Does the same as [`lower`] for a pass that draws the value of an expression, when it is evaluated for the time after
+/// so many.
+pub(in crate::glsl) fn lower_probed(
+    module: &hir::Module,
+    source: &PassSource<'_>,
+    interface: Interface,
+    probe: Option<(hir::ExprId, u32)>,
+) -> Lowered {
     let (reach, arguments) = Reach::new(module);
+    let mut out = begin(module);
+    let probed = probe.map(|(expr, visit)| Probed::new(&mut out, expr, visit));
     let mut cx = Lowering {
         hir: module,
         source,
         interface,
-        out: begin(module),
+        out,
         layouts: Layouts::default(),
         resources: Resources::new(module.globals.len()),
         arguments,
         functions: HashMap::with_capacity(reach.instances.len()),
         reflection: Reflection::default(),
+        names: Names::default(),
+        probed,
     };
     for instance in &reach.instances {
-        let function = function::lower(&mut cx, instance);
+        let (function, names) = function::lower(&mut cx, instance);
+        cx.names.functions.push(names);
         cx.out.functions.push(function);
         let id = ir::FuncId::new(cx.out.functions.len() - 1);
         cx.functions.insert(instance.clone(), id);
     }
     let entry = if source.kind.is_stage() { stage::lower(&mut cx, &reach) } else { entry::lower(&mut cx, &reach) };
     cx.out.functions.push(entry);
-    Lowered { program: cx.out, reflection: cx.reflection }
+    cx.names.functions.push(FunctionNames::default());
+    (cx.names.globals, cx.names.members) = (cx.named_globals(), cx.member_names());
+    Lowered { program: cx.out, reflection: cx.reflection, names: cx.names }
 }
 
 /// A program without functions: types and constants.

@@ -1,7 +1,8 @@
-//! What the entry point reaches: functions, once for each combination of channels and tables passed to them, and globals.
+//! What the entry point reaches: functions, once for each combination of channels and tables passed to them, and
+//! globals.
 //!
-//! A branch whose condition is a literal counts as not there; [`super::flow`] and [`super::expr`] leave out the same ones. Reads of
-//! uniforms and textures are noted while lowering, which visits exactly what is found here.
+//! A branch whose condition is a literal counts as not there; [`super::flow`] and [`super::expr`] leave out the same
+//! ones. Reads of uniforms and textures are noted while lowering, which visits exactly what is found here.
 
 use std::collections::HashSet;
 

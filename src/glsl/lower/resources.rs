@@ -4,14 +4,15 @@
 
 use super::context::{Lowering, const_id};
 use crate::glsl::{
-    hir::{BuiltinVar, GlobalId, Scalar, TypeId, Uniform},
+    ast::Symbol,
+    hir::{self, BuiltinVar, GlobalId, Scalar, TypeId, Uniform},
     ir::{self, GlobalKind},
 };
 
 impl Lowering<'_> {
     /// Memory of one invocation, zero at its start.
     fn private(&mut self, ty: TypeId) -> ir::GlobalId {
-        self.out.add_global(ty, GlobalKind::Private { init: None, overwritten: false })
+        self.out.add_global(ty, GlobalKind::Private(None))
     }
 
     fn read_only(&mut self, ty: TypeId, kind: GlobalKind) -> ir::GlobalId {
@@ -30,8 +31,8 @@ impl Lowering<'_> {
     }
 
     /// The words of one of the author's own uniforms.
-    pub fn knob(&mut self, slot: u16) -> ir::GlobalId {
-        self.read_only(TypeId::vector(Scalar::Uint, 4), GlobalKind::Knob(slot))
+    pub fn custom_uniform(&mut self, slot: u16) -> ir::GlobalId {
+        self.read_only(TypeId::vector(Scalar::Uint, 4), GlobalKind::CustomUniform(slot))
     }
 
     pub fn cube_face(&mut self) -> ir::GlobalId {
@@ -54,15 +55,15 @@ impl Lowering<'_> {
         made
     }
 
-    /// The memory of one of the author's globals (storage `Private` or `Out`, in a stage `In` too), set to its constant value
-    /// where it has one. What is not constant the entry point computes.
+    /// The memory of one of the author's globals (storage `Private` or `Out`, in a stage `In` too), set to its constant
+    /// value where it has one. What is not constant the entry point computes.
     pub fn global(&mut self, id: GlobalId) -> ir::GlobalId {
         if let Some(made) = self.resources.globals[id.index()] {
             return made;
         }
         let global = self.hir[id];
         let init = global.value.map(const_id);
-        let made = self.out.add_global(global.ty, GlobalKind::Private { init, overwritten: false });
+        let made = self.out.add_global(global.ty, GlobalKind::Private(init));
         self.resources.globals[id.index()] = Some(made);
         made
     }
@@ -86,5 +87,17 @@ impl Lowering<'_> {
             self.resources.failed_asserts = Some(self.private(TypeId::UINT));
         }
         self.resources.failed_asserts.expect("just set")
+    }
+
+    /// The names of the members of each structure.
+    pub(super) fn member_names(&self) -> Vec<Vec<Symbol>> {
+        let names = |structure: &hir::Struct| self.hir[structure.members].iter().map(|m| m.name.symbol).collect();
+        self.hir.structs.iter().map(names).collect()
+    }
+
+    /// The author's variables of the module that are reached.
+    pub(super) fn named_globals(&self) -> Vec<(Symbol, ir::GlobalId)> {
+        let made = self.hir.globals.iter().zip(&self.resources.globals);
+        made.filter_map(|(global, made)| Some((global.name.symbol, (*made)?))).collect()
     }
 }

@@ -1,5 +1,5 @@
-//! The entry points of stages: what lies between the author's `main` and the pipeline. Inputs are put into the variables the
-//! author reads, and what the author left in others is handed on.
+//! The entry points of stages: what lies between the author's `main` and the pipeline. Inputs are put into the
+//! variables the author reads, and what the author left in others is handed on.
 
 use super::{context::Lowering, function::Builder, reach::Reach};
 use crate::glsl::{

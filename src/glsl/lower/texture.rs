@@ -73,11 +73,6 @@ impl Builder<'_, '_> {
             }
         };
         debug_assert_eq!(self.cx.hir.types.scalar(ty), Some(Scalar::Int));
-        self.texture_extent(channel, level)
-    }
-
-    /// Texels along each axis, as ints.
-    pub fn texture_extent(&mut self, channel: u8, level: Option<Value>) -> Value {
         let size = match self.kind(channel) {
             ChannelKind::Sampler2D | ChannelKind::SamplerCube => 2,
             ChannelKind::Sampler3D => 3,
@@ -134,15 +129,7 @@ impl Builder<'_, '_> {
         if form.proj {
             coordinate = self.divide_by_last(coordinate, hir[args[1]].ty, self.dimensions(channel));
         }
-        if self.cx.source.bilinear_by_hand[usize::from(channel)] && self.kind(channel) == ChannelKind::Sampler2D {
-            let offset = offset.map(|offset| self.value(offset));
-            return self.sample_by_hand(channel, coordinate, level, offset);
-        }
         let offset = offset.map(|offset| self.constant_offset(offset));
-        self.image_sample(channel, coordinate, level, offset)
-    }
-
-    pub fn image_sample(&mut self, channel: u8, coordinate: Value, level: Level, offset: Option<Value>) -> Value {
         self.add(Op::Sample { channel, coordinate, level, offset })
     }
 

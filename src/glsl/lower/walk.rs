@@ -60,7 +60,7 @@ pub(super) fn parts(module: &Module, expr: ExprId, out: &mut Vec<ExprId>) {
         | ExprKind::Local(_)
         | ExprKind::Global(_)
         | ExprKind::Uniform(_)
-        | ExprKind::Knob(_)
+        | ExprKind::CustomUniform(_)
         | ExprKind::Channel(_)
         | ExprKind::BuiltinVar(_) => {}
         ExprKind::Member { base: of, .. }

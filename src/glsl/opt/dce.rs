@@ -36,7 +36,8 @@ fn block(f: &Function, body: &mut Block, live: &mut [bool]) {
                 cases.iter_mut().for_each(|case| block(f, &mut case.body, live));
             }
             Stmt::Loop { body, continuing, break_if } => {
-                // Values are used where they dominate: what a round computes, no earlier statement of the next one uses.
+                // Values are used where they dominate: what a round computes, no earlier statement of the next one
+                // uses.
                 break_if.iter().for_each(|value| live[value.index()] = true);
                 block(f, continuing, live);
                 block(f, body, live);

@@ -1,7 +1,7 @@
 //! If-conversion: `?:`, `&&` and `||` whose sides are cheap and have no effects become selects.
 //!
-//! A branch costs about as much as a few dozen operations on every device, drivers turn short branches into selects anyway, and
-//! chains of `?:` must not become branches nested a dozen deep. Lowering writes each as
+//! A branch costs about as much as a few dozen operations on every device, drivers turn short branches into selects
+//! anyway, and chains of `?:` must not become branches nested a dozen deep. Lowering writes each as
 //!
 //! ```text
 //! $r <- %left          (only && and ||)

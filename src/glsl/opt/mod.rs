@@ -1,10 +1,9 @@
 //! The optimiser: passes over the intermediate representation, in one list.
 //!
-//! Owns what makes programs smaller, quicker, or alike to what other compilers make of them; their meaning it leaves alone. Each
-//! pass is a function over a whole program that keeps the rules of [`ir::verify`]: in debug builds they are checked after each.
-//! `docs/compiler.md` says what each pass is worth, and how to add one.
+//! Owns what makes programs smaller, quicker, or alike to what other compilers make of them; their meaning it leaves
+//! alone. Each pass is a function over a whole program that keeps the rules of [`ir::verify`]: in debug builds they are
+//! checked after each. `docs/compiler.md` says what each pass is worth, and how to add one.
 
-mod array_to_global;
 mod dce;
 #[cfg(test)]
 mod identity;
@@ -38,11 +37,6 @@ pub const PASSES: &[Pass] = &[
     },
     Pass { name: "scalarize", purpose: "writes arithmetic on vectors out by component", run: scalarize::run },
     Pass { name: "dce", purpose: "drops what nothing uses (dead code elimination)", run: dce::run },
-    Pass {
-        name: "array-to-global",
-        purpose: "moves arrays that each call fills anew to the module, so that they are not zeroed at each call",
-        run: array_to_global::run,
-    },
 ];
 
 /// Some of the passes, by their places in [`PASSES`].
@@ -74,8 +68,8 @@ impl PassSet {
     }
 }
 
-/// Runs all passes but those that are left out. `seen` gets the program as lowering made it, under the name `lower`, and after
-/// each pass under its name.
+/// Runs all passes but those that are left out. `seen` gets the program as lowering made it, under the name `lower`,
+/// and after each pass under its name.
 pub(super) fn optimise(program: &mut Module, without: PassSet, mut seen: impl FnMut(&str, &Module)) {
     verify(program, "lower");
     seen("lower", program);

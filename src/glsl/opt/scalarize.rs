@@ -1,8 +1,8 @@
 //! Vector arithmetic, written out by component.
 //!
-//! Which terms of sums and products a driver joins depends on whether it looks before or after it splits vectors. OpenGL
-//! drivers split first, Vulkan ones later, so last bits differ; here it is done beforehand. Devices that compute by
-//! component have as much to do either way.
+//! Which terms of sums and products a driver joins depends on whether it looks before or after it splits vectors.
+//! OpenGL drivers split first, Vulkan ones later, so last bits differ; here it is done beforehand. Devices that compute
+//! by component have as much to do either way.
 
 use crate::glsl::ir::rewrite::{self, Rewriter, Rule};
 use crate::glsl::{

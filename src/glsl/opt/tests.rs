@@ -1,13 +1,14 @@
-//! What passes make of small programs, as snapshots that a person can read. `cargo insta review`, or `INSTA_UPDATE=always`,
-//! takes a change over.
+//! What passes make of small programs, as snapshots that a person can read. `cargo insta review`, or
+//! `INSTA_UPDATE=always`, takes a change over.
 
 use super::{PASSES, identity};
 use crate::glsl::{Driver, Link, PassSource, compile::compile_seen, dump_ir, ir, opt::PassSet};
 
-/// The program of `void mainImage(out vec4 o, vec2 p) { body }` before and after a pass, with only the passes before it.
+/// The program of `void mainImage(out vec4 o, vec2 p) { body }` before and after a pass, with only the passes before
+/// it.
 fn around(pass: &str, body: &str) -> String {
     let code = format!("void mainImage(out vec4 o, vec2 p) {{ {body} }}");
-    dump_ir(&PassSource::image(&code), &Link::default(), Some(pass)).expect("a program without errors")
+    dump_ir(&PassSource::image(&code), &Link::default(), None, Some(pass)).expect("a program without errors")
 }
 
 #[test]
@@ -19,7 +20,7 @@ fn vectors_are_written_out() {
 fn what_changes_nothing_is_dropped() {
     let code = "void mainImage(out vec4 o, vec2 p) { o = vec4(p.x * 1.0, 0.0 + p.y, p.x / 1.0 - 0.0, p.x * 2.0); }";
     let mut program = None;
-    compile_seen(&PassSource::image(code), &Link::default(), |_, seen| program = Some(seen.clone()))
+    compile_seen(&PassSource::image(code), &Link::default(), None, |_, seen| program = Some(seen.clone()))
         .expect("no errors");
     let mut program = program.expect("it was seen");
     let before = ir::print::print(&program);
@@ -34,23 +35,13 @@ fn what_nothing_uses_is_dropped() {
 }
 
 #[test]
-fn filled_arrays_become_global() {
-    let code = "float f(int n, float x) { float a[3] = float[](x, x + 1.0, x + 2.0); float s = 0.0;
-            for (int i = 0; i < n; i++) { s += a[i % 3]; if (s > 9.0) return s; } return s; }
-        void mainImage(out vec4 o, vec2 p) { o = vec4(f(int(p.x), p.x), f(int(p.y), p.y), 0, 1); }";
-    let text =
-        dump_ir(&PassSource::image(code), &Link::default(), Some("array-to-global")).expect("a program without errors");
-    insta::assert_snapshot!(text);
-}
-
-#[test]
 fn every_pass_can_be_left_out() {
     let code = "void mainImage(out vec4 o, vec2 p) { vec3 v = p.xyx; for (int i = 0; i < 9; i++) v = v.zxy * 1.5;
         o = vec4(v + 1.0, 1); }";
     for pass in PASSES {
         let without = PassSet::of(pass.name).expect("a pass of the list");
         let source = PassSource { driver: Driver { without, ..Driver::default() }, ..PassSource::image(code) };
-        let text = dump_ir(&source, &Link::default(), None).expect("a program without errors");
+        let text = dump_ir(&source, &Link::default(), None, None).expect("a program without errors");
         assert!(!text.contains(&format!("; after {}\n", pass.name)), "{}", pass.name);
         crate::glsl::compile(&source).expect("it compiles all the same");
     }

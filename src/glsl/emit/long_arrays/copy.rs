@@ -1,7 +1,7 @@
 //! Long values that are stored as a whole: copies, by loops, and constructors that hold such.
 //!
-//! What a constructor computes element by element stays a store for each: to put them into short arrays that loops copy was
-//! tried, which made arrays of numbers faster to compile, and arrays of structures slower.
+//! What a constructor computes element by element stays a store for each: to put them into short arrays that loops copy
+//! was tried, which made arrays of numbers faster to compile, and arrays of structures slower.
 
 use naga::{
     AddressSpace, ArraySize, BinaryOperator, Block, Expression, Function, Handle, Range, Span, Statement, Type,

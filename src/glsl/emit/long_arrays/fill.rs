@@ -30,8 +30,8 @@ impl Writer<'_> {
         block.push(Statement::Store { pointer, value }, Span::UNDEFINED);
     }
 
-    /// Fills these globals and all long locals but those of `written_first` at the start, behind `block`, and makes loops of the
-    /// long values that are stored.
+    /// Fills these globals and all long locals but those of `written_first` at the start, behind `block`, and makes
+    /// loops of the long values that are stored.
     pub fn rewrite(
         mut self,
         globals: &[(Handle<GlobalVariable>, Handle<Type>)],

@@ -1,9 +1,9 @@
 //! Long arrays in the forms that Mesa's lavapipe compiles soon.
 //!
 //! Mesa writes a store or a copy of a whole array, and the initialiser of zeros that naga's SPIR-V writer gives every
-//! variable, as one access of memory a scalar, all of them of one variable. LLVM's time for these grows faster than their
-//! square (`InstCombinePass` looks at all accesses of a variable whenever it has changed one): a local `float a[500]` takes
-//! half a minute to the first frame. A program with long arrays therefore
+//! variable, as one access of memory a scalar, all of them of one variable. LLVM's time for these grows faster than
+//! their square (`InstCombinePass` looks at all accesses of a variable whenever it has changed one): a local `float
+//! a[500]` takes half a minute to the first frame. A program with long arrays therefore
 //! - writes the zeros that arrays begin with by loops ([`fill`]), and says so, so that the initialisers can be left out
 //!   ([`crate::glsl::Compiled::filled_arrays`]);
 //! - copies long arrays by loops, and tables into those that begin with constants ([`copy`]; the tables are made where
@@ -24,17 +24,17 @@ use naga::{
 use sizes::Sizes;
 use writer::{LEAST_ARRAY, Writer};
 
-/// Scalars of all arrays without a value of a program, from which on it is changed at all. 100 zeros take lavapipe 0.4 s,
-/// 160 take 1.5 s, 256 take 6 s.
+/// Scalars of all arrays without a value of a program, from which on it is changed at all. 100 zeros take lavapipe 0.4
+/// s, 160 take 1.5 s, 256 take 6 s.
 const FEWEST_SCALARS: u32 = 128;
 
-/// Scalars up to which a program's arrays get their zeros by blocks of a few known elements, each of them a loop of one round
-/// that no driver can see to be one. 500 take lavapipe 3 s, 800 take 7 s, and a second by loops; frames are then as quick as
-/// with initialisers, and take up to twice as long with loops.
+/// Scalars up to which a program's arrays get their zeros by blocks of a few known elements, each of them a loop of one
+/// round that no driver can see to be one. 500 take lavapipe 3 s, 800 take 7 s, and a second by loops; frames are then
+/// as quick as with initialisers, and take up to twice as long with loops.
 const MOST_IN_BLOCKS: u32 = 512;
 
-/// Gives all long arrays these forms. `filled` are globals that are stored as a whole before all else, `written_first` variables
-/// of each function, the entry point last, that are written before they are read.
+/// Gives all long arrays these forms. `filled` are globals that are stored as a whole before all else, `written_first`
+/// variables of each function, the entry point last, that are written before they are read.
 ///
 /// Returns the length in scalars from which on every array has its zeros, or another value, before anything reads it,
 /// though its variable had no initialiser; `None` if the program has few and was left as it is.
@@ -114,7 +114,8 @@ fn drop_zero_initialisers(module: &mut Module) {
     }
 }
 
-/// An argument whose first bit is never set, though no driver knows that: where a pixel lies, or the number of a vertex.
+/// An argument whose first bit is never set, though no driver knows that: where a pixel lies, or the number of a
+/// vertex.
 fn never_negative(entry: &EntryPoint) -> Option<(u32, BuiltIn)> {
     (0..).zip(&entry.function.arguments).find_map(|(index, argument)| match argument.binding {
         Some(Binding::BuiltIn(built_in @ (BuiltIn::Position { .. } | BuiltIn::VertexIndex))) => Some((index, built_in)),

@@ -10,7 +10,8 @@ use super::sizes::Sizes;
 /// An expression of a function.
 pub(super) type Value = Handle<Expression>;
 
-/// Scalars from which on an array of a program with long arrays gets its zeros by a loop. A loop also costs a driver time.
+/// Scalars from which on an array of a program with long arrays gets its zeros by a loop. A loop also costs a driver
+/// time.
 pub(super) const LEAST_ARRAY: u32 = 16;
 
 /// Writes loops into one function.

@@ -1,8 +1,9 @@
 //! What loops count down to, hidden from drivers that take its largest value for its least.
 //!
-//! Mesa's `nir_loop_analyze.c` bounds the rounds of a loop whose counter is compared with `min(c, x)` as if that were `c`. This
-//! is right for `i < min(c, x)`, but `for (int i = 4; i > min(6, x); i--)` then has no round at all. The comparison may lie in any
-//! exit of the loop, and the `min` in a variable, so each limit that is no constant is hidden.
+//! Mesa's `nir_loop_analyze.c` bounds the rounds of a loop whose counter is compared with `min(c, x)` as if that were
+//! `c`. This is right for `i < min(c, x)`, but `for (int i = 4; i > min(6, x); i--)` then has no round at all. The
+//! comparison may lie in any exit of the loop, and the `min` in a variable, so each limit that is no constant is
+//! hidden.
 
 use rustc_hash::FxHashMap;
 
@@ -21,8 +22,8 @@ pub(super) fn run(program: &mut Module) {
     }
 }
 
-/// Comparisons, and whether their left and right sides are limits: what something is compared with where a loop goes on while
-/// that is greater.
+/// Comparisons, and whether their left and right sides are limits: what something is compared with where a loop goes on
+/// while that is greater.
 #[derive(Default)]
 struct Limits(FxHashMap<Value, [bool; 2]>);
 

@@ -1,7 +1,7 @@
-//! Loops that begin with an exit: Mesa's gallivm runs a loop until its last pixel leaves, and does not bring it into loop-closed
-//! SSA form (`nir_to_lcssa.c`). A value that all exits agree on, and which needs no phi for that, is computed anew for pixels that
-//! have left. With an exit before anything changes, each variable that the loop changes has two values at its exits, the one with
-//! which a round began and a new one, and needs a phi after the loop.
+//! Loops that begin with an exit: Mesa's gallivm runs a loop until its last pixel leaves, and does not bring it into
+//! loop-closed SSA form (`nir_to_lcssa.c`). A value that all exits agree on, and which needs no phi for that, is
+//! computed anew for pixels that have left. With an exit before anything changes, each variable that the loop changes
+//! has two values at its exits, the one with which a round began and a new one, and needs a phi after the loop.
 
 use crate::glsl::ir::{
     Block, Function, Module, Op, Stmt, Value,

@@ -1,6 +1,6 @@
-//! Loops whose step ends the body: Mesa's loop analysis (`nir_loop_analyze.c`) knows the rounds of such a loop, and so unrolls
-//! it, and of fewer loops with a `continuing` part that several places jump to. Its own GLSL compiler repeats the step of a `for`
-//! before each `continue`; here a short one is repeated as well.
+//! Loops whose step ends the body: Mesa's loop analysis (`nir_loop_analyze.c`) knows the rounds of such a loop, and so
+//! unrolls it, and of fewer loops with a `continuing` part that several places jump to. Its own GLSL compiler repeats
+//! the step of a `for` before each `continue`; here a short one is repeated as well.
 
 use rustc_hash::FxHashMap;
 

@@ -1,6 +1,7 @@
-//! What drivers need done otherwise, as changes of the program before it is emitted. Each file names the driver and the fault.
-//! None changes what a program computes. ([`super::long_arrays`] is the one that works on the emitted module.)
+//! What drivers need done otherwise, as changes of the program before it is emitted. Each file names the driver and the
+//! fault. None changes what a program computes. ([`super::long_arrays`] is the one that works on the emitted module.)
 
+mod filtering;
 mod limits;
 mod loop_exits;
 mod loop_steps;
@@ -8,17 +9,21 @@ mod uniforms;
 mod zero_divisors;
 
 use crate::glsl::{
-    Driver, PassKind,
+    PassKind, PassSource,
     ir::{
         Module, Op, Stmt, Value,
         rewrite::{self, Rewriter, Rule},
     },
 };
 
-/// Applies those that a driver needs.
-pub(in crate::glsl) fn apply(program: &mut Module, kind: PassKind, driver: Driver) {
+/// Applies those that a device and its driver need.
+pub(in crate::glsl) fn apply(program: &mut Module, source: &PassSource<'_>) {
+    let &PassSource { kind, driver, bilinear_by_hand, .. } = source;
     loop_steps::run(program);
     zero_divisors::run(program);
+    if bilinear_by_hand.contains(&true) {
+        filtering::run(program, bilinear_by_hand);
+    }
     if driver.hidden_limits {
         limits::run(program);
     }
@@ -34,7 +39,7 @@ pub(in crate::glsl) fn apply(program: &mut Module, kind: PassKind, driver: Drive
     }
 }
 
-/// Discards what never is: see [`Driver::may_discard`].
+/// Discards what never is: see [`Driver::may_discard`](crate::glsl::Driver::may_discard).
 struct SeemToDiscard;
 
 impl Rule for SeemToDiscard {

@@ -1,8 +1,8 @@
-//! Uniforms that the driver takes for values of the pixel: Mesa's lavapipe compiles a program anew for every frame, and keeps
-//! what it made, where a branch depends on uniforms alone (`lvp_inline_uniforms.c`).
+//! Uniforms that the driver takes for values of the pixel: Mesa's lavapipe compiles a program anew for every frame, and
+//! keeps what it made, where a branch depends on uniforms alone (`lvp_inline_uniforms.c`).
 //!
-//! Each is read once, before all else that its function does: an operation more in a loop or branch can be what keeps the driver
-//! from writing it out, or from making it a select.
+//! Each is read once, before all else that its function does: an operation more in a loop or branch can be what keeps
+//! the driver from writing it out, or from making it a select.
 
 use rustc_hash::FxHashMap;
 
@@ -27,7 +27,7 @@ impl Rule for Uniforms {
         let Op::Load { place } = *op else { return None };
         let root = r.f.root(place);
         let Op::Global(global) = r.f[root] else { return None };
-        if !matches!(r.module[global].kind, GlobalKind::Uniform(_) | GlobalKind::Knob(_)) {
+        if !matches!(r.module[global].kind, GlobalKind::Uniform(_) | GlobalKind::CustomUniform(_)) {
             return None;
         }
         let ty = r.f.ty(value);

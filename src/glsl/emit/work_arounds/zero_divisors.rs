@@ -1,8 +1,8 @@
 //! Divisors that may be a zero which is known before a program runs.
 //!
-//! `x / 0.0` is infinite or NaN on every device, and shaders rely on it: `clamp(0.5 + (b - a) / k, 0.0, 1.0)` with `k = 0.0`
-//! chooses a side. Mesa's llvmpipe takes a quotient for undefined once it sees that the divisor is zero, after it has inlined
-//! functions and spread constants. So what may be such a zero is kept out of its sight.
+//! `x / 0.0` is infinite or NaN on every device, and shaders rely on it: `clamp(0.5 + (b - a) / k, 0.0, 1.0)` with `k =
+//! 0.0` chooses a side. Mesa's llvmpipe takes a quotient for undefined once it sees that the divisor is zero, after it
+//! has inlined functions and spread constants. So what may be such a zero is kept out of its sight.
 
 use crate::glsl::{
     ir::{
@@ -12,8 +12,8 @@ use crate::glsl::{
     types::{Scalar, Type},
 };
 
-/// How often all values are looked at. One time more is needed for each step by which a zero gets from variable to variable
-/// against the order of the program, so that a chain of ten thousand would take as many.
+/// How often all values are looked at. One time more is needed for each step by which a zero gets from variable to
+/// variable against the order of the program, so that a chain of ten thousand would take as many.
 const MOST_ROUNDS: usize = 64;
 
 pub(super) fn run(program: &mut Module) {
@@ -50,8 +50,8 @@ impl Rule for HiddenDivisors {
     }
 }
 
-/// Which values are, or hold, a number that may be a zero known without running anything. Neither the order of statements nor the
-/// parts of a variable are told apart: too many found cost an instruction each.
+/// Which values are, or hold, a number that may be a zero known without running anything. Neither the order of
+/// statements nor the parts of a variable are told apart: too many found cost an instruction each.
 struct Zeros {
     /// By function and [`Value::index`].
     values: Vec<Vec<bool>>,
@@ -59,7 +59,8 @@ struct Zeros {
     params: Vec<Vec<bool>>,
     results: Vec<bool>,
     globals: Vec<bool>,
-    changed: bool,
+    /// By function: something that its values follow from has changed since they were found.
+    stale: Vec<bool>,
 }
 
 impl Zeros {
@@ -91,19 +92,40 @@ impl Zeros {
             params: none(|f| f.params.len()),
             results: vec![false; program.functions.len()],
             globals: program.globals.iter().map(|global| begins_with_zero(program, global)).collect(),
-            changed: true,
+            stale: vec![true; program.functions.len()],
         };
+        for (index, f) in program.functions.iter().enumerate() {
+            zeros.begin(index, f, &stores[index]);
+        }
         for _ in 0..MOST_ROUNDS {
-            if !std::mem::take(&mut zeros.changed) {
+            if !zeros.stale.contains(&true) {
                 return Some(zeros);
             }
             for (index, f) in program.functions.iter().enumerate() {
-                zeros.function(program, index, f, &stores[index]);
+                if std::mem::take(&mut zeros.stale[index]) {
+                    zeros.function(program, index, f, &stores[index]);
+                }
             }
         }
         // Any may be: that costs an instruction a division.
         zeros.values.iter_mut().for_each(|values| values.fill(true));
         Some(zeros)
+    }
+
+    /// Finds the variables that hold a zero which is written as such. Most do, so that most functions are looked at
+    /// once.
+    fn begin(&mut self, index: usize, f: &Function, stores: &[&Stmt]) {
+        let is_zero = |value: Value| matches!(f[value], Op::Literal(_, bits) if bits << 1 == 0);
+        for (var, zero) in f.vars.iter().zip(&mut self.vars[index]) {
+            *zero = var.init.is_some_and(is_zero);
+        }
+        for stmt in stores {
+            if let Stmt::Store { place, value } = **stmt
+                && is_zero(value)
+            {
+                self.write(index, f, place);
+            }
+        }
     }
 
     fn function(&mut self, program: &Module, index: usize, f: &Function, stores: &[&Stmt]) {
@@ -112,12 +134,14 @@ impl Zeros {
             values[value.index()] = self.value(program, index, f, (value, op), &values);
         }
         for (var, zero) in f.vars.iter().zip(&mut self.vars[index]) {
-            set(zero, var.init.is_some_and(|init| values[init.index()]), &mut self.changed);
+            set(zero, var.init.is_some_and(|init| values[init.index()]), &mut self.stale[index]);
         }
         for stmt in stores {
             match **stmt {
                 Stmt::Store { place, value } if values[value.index()] => self.write(index, f, place),
-                Stmt::Return(Some(value)) => set(&mut self.results[index], values[value.index()], &mut self.changed),
+                Stmt::Return(Some(value)) if values[value.index()] => {
+                    set_of_all(&mut self.results[index], &mut self.stale)
+                }
                 _ => {}
             }
         }
@@ -157,10 +181,14 @@ impl Zeros {
             Op::Select { accept, reject, .. } => is_zero(accept) || is_zero(reject),
             Op::Call { function, ref args } => {
                 for (param, &arg) in args.iter().enumerate() {
-                    let zero = is_zero(arg);
-                    set(&mut self.params[function.index()][param], zero, &mut self.changed);
-                    // By reference: what the callee may have put there.
-                    if f.is_place(arg) && self.params[function.index()][param] {
+                    let is_reference = f.is_place(arg);
+                    let flag = &mut self.params[function.index()][param];
+                    match (is_zero(arg), is_reference) {
+                        (true, true) => set_of_all(flag, &mut self.stale),
+                        (zero, _) => set(flag, zero, &mut self.stale[function.index()]),
+                    }
+                    // What the callee may have put there.
+                    if is_reference && self.params[function.index()][param] {
                         self.write(index, f, arg);
                     }
                 }
@@ -182,27 +210,34 @@ impl Zeros {
 
     /// A zero is written to the variable that a place is or lies in.
     fn write(&mut self, index: usize, f: &Function, place: Value) {
-        let flag = match f[f.root(place)] {
-            Op::Var(var) => &mut self.vars[index][var.index()],
-            Op::Global(global) => &mut self.globals[global.index()],
-            Op::Param(param) => &mut self.params[index][param as usize],
-            _ => return,
-        };
-        set(flag, true, &mut self.changed);
+        match f[f.root(place)] {
+            Op::Var(var) => set(&mut self.vars[index][var.index()], true, &mut self.stale[index]),
+            Op::Param(param) => set_of_all(&mut self.params[index][param as usize], &mut self.stale),
+            Op::Global(global) => set_of_all(&mut self.globals[global.index()], &mut self.stale),
+            _ => {}
+        }
     }
 }
 
-fn set(flag: &mut bool, zero: bool, changed: &mut bool) {
-    *changed |= zero && !*flag;
+fn set(flag: &mut bool, zero: bool, stale: &mut bool) {
+    *stale |= zero && !*flag;
     *flag |= zero;
+}
+
+/// Sets what values of other functions follow from as well.
+fn set_of_all(flag: &mut bool, stale: &mut [bool]) {
+    if !*flag {
+        stale.fill(true);
+    }
+    *flag = true;
 }
 
 fn begins_with_zero(program: &Module, global: &Global) -> bool {
     let has_zero = |id: ConstId| program[id].words.iter().any(|word| word << 1 == 0);
     match global.kind {
-        GlobalKind::Private { init: Some(init), .. } | GlobalKind::Table(init) => has_zero(init),
-        GlobalKind::Private { init: None, .. } => true,
-        GlobalKind::Uniform(_) | GlobalKind::Knob(_) | GlobalKind::CubeFace => false,
+        GlobalKind::Private(Some(init)) | GlobalKind::Table(init) => has_zero(init),
+        GlobalKind::Private(None) => true,
+        GlobalKind::Uniform(_) | GlobalKind::CustomUniform(_) | GlobalKind::CubeFace => false,
     }
 }
 

@@ -1,5 +1,5 @@
-//! The body of one function under construction, from its parameters to its last expression; statements, constants and locals have
-//! files of their own.
+//! The body of one function under construction, from its parameters to its last expression; statements, constants and
+//! locals have files of their own.
 
 mod blocks;
 mod constants;
@@ -10,6 +10,7 @@ pub(super) use constants::Part as PartOf;
 use super::{
     arguments::{Instance, Specialization},
     context::{Lowering, Map, const_id},
+    names::FunctionNames,
 };
 use crate::glsl::{
     ast::{List, Loc},
@@ -57,7 +58,7 @@ pub(super) struct Builder<'m, 'a> {
 }
 
 /// Lowers one copy of a user function.
-pub(super) fn lower(cx: &mut Lowering<'_>, instance: &Instance) -> ir::Function {
+pub(super) fn lower(cx: &mut Lowering<'_>, instance: &Instance) -> (ir::Function, FunctionNames) {
     let hir = cx.hir;
     let function = &hir[instance.func];
     let mut builder = Builder::new(cx, function.locals.start as usize, function.locals.len());
@@ -79,7 +80,8 @@ pub(super) fn lower(cx: &mut Lowering<'_>, instance: &Instance) -> ir::Function 
         let value = builder.zero(function.result);
         builder.push(Stmt::Return(Some(value)));
     }
-    builder.finish()
+    let names = builder.names(instance.func);
+    (builder.finish(), names)
 }
 
 impl<'m, 'a> Builder<'m, 'a> {

@@ -2,8 +2,9 @@
 
 use super::{Builder, Slot};
 use crate::glsl::{
-    hir::{LocalId, Type, TypeId, VarFlags},
+    hir::{FuncId, LocalId, Type, TypeId, VarFlags},
     ir::{Op, Value},
+    lower::names::FunctionNames,
 };
 
 impl Builder<'_, '_> {
@@ -73,5 +74,19 @@ impl Builder<'_, '_> {
 
     pub fn is_vector_or_scalar(&self, ty: TypeId) -> bool {
         matches!(self.cx.hir.types.get(ty), Type::Scalar(_) | Type::Vector { .. })
+    }
+
+    /// What the author's names stand for in a function whose body is done.
+    pub(in crate::glsl::lower) fn names(&self, func: FuncId) -> FunctionNames {
+        let function = &self.cx.hir[func];
+        let local = |index: u32| {
+            let id = LocalId::new(index as usize);
+            let name = self.cx.hir[id].name?;
+            match self.slot(id) {
+                Slot::Value(value) | Slot::Memory(value) => Some((name.symbol, value)),
+                Slot::Unset | Slot::Table(_) | Slot::Channel(_) => None,
+            }
+        };
+        FunctionNames { name: Some(function.name.symbol), locals: function.locals.clone().filter_map(local).collect() }
     }
 }

@@ -14,8 +14,8 @@ pub(super) enum Written {
     Unknown,
     /// By one store, before everything that reads it.
     Once,
-    /// By such a store, and by one that adds a constant to it, at most once in each round of the loop of this number and behind
-    /// the loop's test.
+    /// By such a store, and by one that adds a constant to it, at most once in each round of the loop of this number
+    /// and behind the loop's test.
     Counted { number: usize, ty: TypeId, by: Step },
 }
 

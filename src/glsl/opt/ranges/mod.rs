@@ -1,9 +1,9 @@
 //! Value ranges: what is known of ints makes clamps of indices, guards of divisors, and tests of either superfluous.
 //!
-//! Nothing else keeps a generated program from memory that is not its own, nor from a trapping division: so a bound must hold
-//! wherever it is used. A value's range follows from its op and the ranges of its operands. What a variable holds follows from
-//! the only stores to it ([`counters`]): what holds of all of them is known from then on, and what a loop's test says of its
-//! counter is known in the loop's body, behind the test and before the step.
+//! Nothing else keeps a generated program from memory that is not its own, nor from a trapping division: so a bound
+//! must hold wherever it is used. A value's range follows from its op and the ranges of its operands. What a variable
+//! holds follows from the only stores to it ([`counters`]): what holds of all of them is known from then on, and what a
+//! loop's test says of its counter is known in the loop's body, behind the test and before the step.
 //!
 //! `tests/it/glsl_bounds.rs` has each way in which a bound could be used where it does not hold.
 
@@ -266,8 +266,8 @@ impl Rule for Ranges {
 }
 
 impl Ranges {
-    /// What a counter holds behind its loop's test and before its step, and what it holds from the test on, in the loop and
-    /// behind it.
+    /// What a counter holds behind its loop's test and before its step, and what it holds from the test on, in the loop
+    /// and behind it.
     fn counted(&self, r: &Rewriter<'_>, var: usize, ty: TypeId, by: Step) -> Option<(Bounds, Bounds)> {
         let (test, bound) = self.counters.test(var)?;
         let (body, all) = match by {
@@ -299,8 +299,8 @@ impl Ranges {
     }
 }
 
-/// Bounds of `int(x)` in the rounds of a loop that counts a float. `int` cuts off towards zero. Sums are rounded, but never to
-/// the other side of where they began.
+/// Bounds of `int(x)` in the rounds of a loop that counts a float. `int` cuts off towards zero. Sums are rounded, but
+/// never to the other side of where they began.
 fn counted_in_floats(test: Binary, start: f32, by: f32, bound: f32) -> Option<Bounds> {
     let (first, last) = (start as i64, bound as i64);
     let before = i64::from(bound.fract() == 0.0);
