@@ -3,8 +3,10 @@
 use super::{
     check,
     compiled::Compiled,
-    emit, hir, ir, lower, opt, parse, pieces, preprocess, report,
-    source::{Include, Knob, PassSource, Text},
+    emit, hir, ir, lower, opt, parse, pieces,
+    preamble::Preamble,
+    probe, report,
+    source::{CustomUniform, Include, PassSource, Text},
     stages::{self, Interface, Link},
 };
 use crate::diag::Diagnostic;
@@ -12,43 +14,61 @@ use crate::diag::Diagnostic;
 /// Returns what is wrong with a pass, without making a program of it: what an editor asks after each pause in typing.
 /// Holds errors exactly where [`compile`] would fail.
 pub fn diagnose(source: &PassSource<'_>) -> Vec<Diagnostic> {
-    check_pass(source).1
+    check_pass(source, &Link::default(), None).0.1
 }
 
-fn check_pass(source: &PassSource<'_>) -> (hir::Module, Vec<Diagnostic>) {
-    check_linked(source, &Link::default()).0
-}
-
-/// As [`check_pass`], with what the rest of the program says of a stage.
-fn check_linked(source: &PassSource<'_>, link: &Link<'_>) -> ((hir::Module, Vec<Diagnostic>), Interface) {
-    let parsed = parse::parse(source);
-    let mut checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source);
+fn check_pass(
+    source: &PassSource<'_>,
+    link: &Link<'_>,
+    preamble: Option<&Preamble>,
+) -> ((hir::Module, Vec<Diagnostic>), Interface, Probed) {
+    let parsed = parse::parse(source, preamble.map(Preamble::parsed));
+    let begun = preamble.and_then(|preamble| preamble.checked(source));
+    let mut checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source, begun);
     let interface =
         stages::interface(&checked.module, &parsed.names, &parsed.origins, source.kind, link, &mut checked.diagnostics);
+    let probed = source.probe.map(|wanted| (probe::find(&checked.module, &parsed.origins, &wanted), wanted.visit));
     let mut all = report::Report::default();
-    parsed.diagnostics.into_iter().chain(checked.diagnostics).for_each(|d| all.add(d));
+    parsed.report.diagnostics.into_iter().chain(checked.diagnostics).for_each(|d| all.add(d));
     // As the author reads the text.
     all.diagnostics.sort_by_key(|d| d.span.map(|s| (s.source, s.start)));
-    ((checked.module, all.diagnostics), interface)
+    if let Some((None, _)) = probed {
+        all.diagnostics
+            .push(Diagnostic::error(None, "there is no value at the probe's place: put it on an expression"));
+    }
+    ((checked.module, all.diagnostics), interface, probed.and_then(|(found, visit)| Some((found?.0, visit))))
 }
+
+/// The expression that is probed, and the visit.
+type Probed = Option<(hir::ExprId, u32)>;
 
 /// Compiles one pass. On failure the list holds at least one error; warnings may stand among them.
 pub fn compile(source: &PassSource<'_>) -> Result<Compiled, Vec<Diagnostic>> {
-    compile_linked(source, &Link::default())
+    compile_linked(source, &Link::default(), None)
 }
 
-/// Compiles one stage of a program that draws meshes. The vertex stage comes first: what it gives
-/// ([`super::Reflection::varyings`]) is part of the fragment stage's [`Link`].
-pub fn compile_linked(source: &PassSource<'_>, link: &Link<'_>) -> Result<Compiled, Vec<Diagnostic>> {
-    compile_seen(source, link, |_, _| {})
+/// Compiles a pass, or one stage of a program that draws meshes. There the vertex stage comes first: what it gives
+/// ([`super::Reflection::varyings`]) is part of the fragment stage's [`Link`]. The `preamble` is of the pass's own
+/// Common; it saves time and changes nothing.
+pub fn compile_linked(
+    source: &PassSource<'_>,
+    link: &Link<'_>,
+    preamble: Option<&Preamble>,
+) -> Result<Compiled, Vec<Diagnostic>> {
+    compile_seen(source, link, preamble, |_, _| {})
 }
 
 /// The text of the intermediate representation of a pass, as lowering made it and after each pass of the optimiser; or
 /// before and after the one of this name alone.
-pub fn dump_ir(source: &PassSource<'_>, link: &Link<'_>, pass: Option<&str>) -> Result<String, Vec<Diagnostic>> {
+pub fn dump_ir(
+    source: &PassSource<'_>,
+    link: &Link<'_>,
+    preamble: Option<&Preamble>,
+    pass: Option<&str>,
+) -> Result<String, Vec<Diagnostic>> {
     let mut out = String::new();
     let mut before: Option<(String, String)> = None;
-    compile_seen(source, link, |name, program| {
+    compile_seen(source, link, preamble, |name, program| {
         let mut write = |name: &str, text: &str| out.push_str(&format!("; after {name}\n{text}\n"));
         let text = ir::print::print(program);
         match pass {
@@ -69,20 +89,23 @@ pub fn dump_ir(source: &PassSource<'_>, link: &Link<'_>, pass: Option<&str>) -> 
 pub(super) fn compile_seen(
     source: &PassSource<'_>,
     link: &Link<'_>,
+    preamble: Option<&Preamble>,
     mut seen: impl FnMut(&str, &ir::Module),
 ) -> Result<Compiled, Vec<Diagnostic>> {
-    let ((mut checked, diagnostics), interface) = check_linked(source, link);
+    let ((mut checked, diagnostics), interface, probed) = check_pass(source, link, preamble);
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(diagnostics);
     }
     lower::arrays_to_constants(&mut checked);
-    let lower::Lowered { mut program, mut reflection } = lower::lower(&checked, source, interface);
+    let lower::Lowered { mut program, mut reflection, .. } = lower::lower_probed(&checked, source, interface, probed);
     opt::optimise(&mut program, source.driver.without, &mut seen);
-    emit::work_arounds::apply(&mut program, source.kind, source.driver);
+    emit::work_arounds::apply(&mut program, source);
     seen("work-arounds", &program);
-    let emit::Emitted { module, tables, knob_bytes, filled_arrays } = emit::emit(&program, source, &mut reflection);
+    let emit::Emitted { module, tables, custom_uniform_bytes, filled_arrays } =
+        emit::emit(&program, source, &mut reflection);
     let emit::TableBytes { uniform: uniform_tables, storage: tables } = tables;
-    let compiled = Compiled { module, reflection, tables, uniform_tables, knob_bytes, filled_arrays, diagnostics };
+    let compiled =
+        Compiled { module, reflection, tables, uniform_tables, custom_uniform_bytes, filled_arrays, diagnostics };
     // wgpu validates each module that it is given.
     if cfg!(debug_assertions)
         && let Err(bug) = compiled.validate()
@@ -105,11 +128,16 @@ impl Compiled {
 
 /// Checks Common the way the site does: alone, with only `iDate` and `iSampleRate` in scope. An empty list means that
 /// the site would accept it; what it would refuse comes back as warnings, because Eddy runs such a project all the
-/// same. `knobs` are those Common declares.
-pub fn check_common(common: Text<'_>, includes: &[Include<'_>], knobs: &[Knob<'_>]) -> Vec<Diagnostic> {
-    let pieces = pieces::of(&[common], includes);
-    let parsed = parse::parse_texts(&pieces, preprocess::Unit::CommonAlone);
-    let refused = parsed.diagnostics.iter().any(Diagnostic::is_error);
+/// same. `custom_uniforms` are those Common declares.
+pub fn check_common(
+    common: Text<'_>,
+    includes: &[Include<'_>],
+    custom_uniforms: &[CustomUniform<'_>],
+) -> Vec<Diagnostic> {
+    let parsed = parse::parse_common(&pieces::of(&[common], includes));
     // A Common that cannot be read is reported with each pass; only what is wrong with it alone is said here.
-    if refused { Vec::new() } else { check::check_common(&parsed.ast, &parsed.origins, &parsed.names, knobs) }
+    if parsed.report.has_errors() {
+        return Vec::new();
+    }
+    check::check_common(&parsed.ast, &parsed.origins, &parsed.names, custom_uniforms)
 }

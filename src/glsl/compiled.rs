@@ -6,8 +6,8 @@ use crate::diag::Diagnostic;
 /// A pass that compiled.
 #[derive(Clone, Debug)]
 pub struct Compiled {
-    /// Valid ([`Compiled::validate`]); one entry point named [`super::interface::ENTRY_POINT`], of a fragment shader but for
-    /// [`super::PassKind::Vertex`].
+    /// Valid ([`Compiled::validate`]); one entry point named [`super::interface::ENTRY_POINT`], of a fragment shader
+    /// but for [`super::PassKind::Vertex`].
     pub module: naga::Module,
     pub reflection: Reflection,
     /// Says what the storage buffer at [`super::interface::TABLE_BINDING`] holds; empty: the module declares none.
@@ -15,8 +15,8 @@ pub struct Compiled {
     /// Says what the uniform buffer at [`super::interface::UNIFORM_TABLE_BINDING`] holds; empty: the module declares
     /// none.
     pub uniform_tables: Vec<u8>,
-    /// Bytes that the module reads at [`super::interface::KNOB_BINDING`]; 0: it declares nothing there.
-    pub knob_bytes: u64,
+    /// Bytes that the module reads at [`super::interface::CUSTOM_UNIFORM_BINDING`]; 0: it declares nothing there.
+    pub custom_uniform_bytes: u64,
     /// An array of at least so many scalars that has no initialiser is written before anything reads it, so that it
     /// need not begin with zeros. `None`: that was not asked for ([`super::Driver::array_loops`]), or no array is that
     /// long.

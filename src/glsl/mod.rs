@@ -22,18 +22,26 @@ mod near;
 pub mod opt;
 pub(crate) mod parse;
 mod pieces;
+mod preamble;
 mod preprocess;
+mod probe;
 pub mod reflection;
 mod report;
 pub mod services;
 mod source;
 pub mod stages;
 pub(crate) mod types;
+pub(crate) mod walk;
+pub(crate) mod walkable;
 
 pub use check::taken;
 pub use compile::{check_common, compile, compile_linked, diagnose, dump_ir};
 pub use compiled::Compiled;
 pub use driver::Driver;
-pub use reflection::{ChannelUse, KnobSet, Reflection, UniformSet};
-pub use source::{ChannelKind, GivenValue, Include, Knob, KnobKind, PassKind, PassSource, Text, UniformValue};
+pub use preamble::Preamble;
+pub use probe::Probe;
+pub use reflection::{ChannelUse, CustomUniformSet, Reflection, UniformSet};
+pub use source::{
+    ChannelKind, CustomUniform, CustomUniformKind, GivenValue, Include, PassKind, PassSource, Text, UniformValue,
+};
 pub use stages::{Attribute, Link, Varying};

@@ -5,9 +5,10 @@ use crate::{
     diag::{SourceId, Span},
     glsl::{
         ast::{Ident, Interner, Origins, TokenId},
-        check::{self, knob_type},
+        check::{self, custom_uniform_type},
         hir::{Module, TypeId, Uniform},
         parse,
+        preamble::Preamble,
         source::{ChannelKind, PassKind, PassSource},
     },
 };
@@ -30,7 +31,7 @@ pub struct Analysis {
     /// Types of [`Uniform::ALL`].
     pub(super) uniform_types: Vec<TypeId>,
     /// Name and type of the author's own uniforms.
-    pub(super) knobs: Vec<(String, TypeId)>,
+    pub(super) custom_uniforms: Vec<(String, TypeId)>,
 }
 
 impl std::fmt::Debug for Analysis {
@@ -41,8 +42,14 @@ impl std::fmt::Debug for Analysis {
 
 impl Analysis {
     pub fn new(source: &PassSource<'_>) -> Self {
-        let mut parsed = parse::parse(source);
-        let checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source);
+        Self::behind(source, None)
+    }
+
+    /// Does the same with Common read already: the `preamble` is of the pass's own.
+    pub fn behind(source: &PassSource<'_>, preamble: Option<&Preamble>) -> Self {
+        let mut parsed = parse::parse(source, preamble.map(Preamble::parsed));
+        let begun = preamble.and_then(|preamble| preamble.checked(source));
+        let checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source, begun);
         let mut module = checked.module;
         let uniform_types = Uniform::ALL.iter().map(|uniform| uniform.ty(&mut module.types)).collect();
         let mut texts: Vec<_> = source.common.into_iter().collect();
@@ -51,7 +58,8 @@ impl Analysis {
                 texts.push(text);
             }
         }
-        let knobs = source.knobs.iter().map(|k| (k.name.to_owned(), knob_type(k.kind))).collect();
+        let custom_uniforms =
+            source.custom_uniforms.iter().map(|k| (k.name.to_owned(), custom_uniform_type(k.kind))).collect();
         let sources = texts.into_iter().map(|text| Source::new(text, &parsed.origins, &mut parsed.names)).collect();
         let mut analysis = Self {
             kind: source.kind,
@@ -62,7 +70,7 @@ impl Analysis {
             module,
             symbols: Symbols::default(),
             uniform_types,
-            knobs,
+            custom_uniforms,
         };
         analysis.symbols = analysis.occurrences();
         analysis

@@ -135,7 +135,7 @@ impl Analysis {
             DeclRef::BuiltinVar(_)
             | DeclRef::BuiltinConst(_)
             | DeclRef::Uniform(_)
-            | DeclRef::Knob(_)
+            | DeclRef::CustomUniform(_)
             | DeclRef::Channel(_)
             | DeclRef::ChannelStruct(_) => Class::Uniform,
         }

@@ -228,9 +228,9 @@ impl Analysis {
             let doc = docs::variable(uniform.name()).unwrap_or_default();
             add(uniform.name(), CompletionKind::Uniform, line(DeclRef::Uniform(uniform)), doc, 1_500);
         }
-        for (i, (name, _)) in self.knobs.iter().enumerate() {
+        for (i, (name, _)) in self.custom_uniforms.iter().enumerate() {
             let doc = "Declared by an `#iUniform` line.";
-            add(name, CompletionKind::Uniform, line(DeclRef::Knob(i as u16)), doc, 1_100);
+            add(name, CompletionKind::Uniform, line(DeclRef::CustomUniform(i as u16)), doc, 1_100);
         }
         for (i, name) in env::CHANNELS.into_iter().enumerate() {
             let doc = docs::variable(name).unwrap_or_default();

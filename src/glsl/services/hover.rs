@@ -124,7 +124,7 @@ impl Analysis {
             DeclRef::Builtin(_) => "built-in function",
             DeclRef::BuiltinVar(_) => "built-in variable",
             DeclRef::BuiltinConst(_) => "built-in constant",
-            DeclRef::Uniform(_) | DeclRef::Knob(_) | DeclRef::ChannelStruct(_) => "uniform",
+            DeclRef::Uniform(_) | DeclRef::CustomUniform(_) | DeclRef::ChannelStruct(_) => "uniform",
             DeclRef::Channel(_) => "channel",
         }
     }

@@ -294,7 +294,7 @@ impl Analysis {
             DeclRef::Global(id) => self.module[id].ty,
             DeclRef::Member(id, index) => self.module[self.module[id].members].get(index as usize)?.ty,
             DeclRef::Uniform(uniform) => self.uniform_types[uniform as usize],
-            DeclRef::Knob(i) => self.knobs.get(usize::from(i))?.1,
+            DeclRef::CustomUniform(i) => self.custom_uniforms.get(usize::from(i))?.1,
             DeclRef::Channel(i) => self.channel_type(i),
             DeclRef::BuiltinVar(var) => var.ty(),
             DeclRef::BuiltinConst(_) => TypeId::INT,

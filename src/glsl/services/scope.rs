@@ -127,8 +127,8 @@ impl Analysis {
             return Env::Pass(self.kind).has(uniform).then_some(DeclRef::Uniform(uniform));
         }
         let name = self.names.get(symbol);
-        if let Some(i) = self.knobs.iter().position(|k| k.0 == name) {
-            return Some(DeclRef::Knob(i as u16));
+        if let Some(i) = self.custom_uniforms.iter().position(|k| k.0 == name) {
+            return Some(DeclRef::CustomUniform(i as u16));
         }
         if let Some(i) = env::CHANNELS.iter().position(|c| *c == name) {
             return Some(DeclRef::Channel(i as u8));

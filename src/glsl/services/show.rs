@@ -74,8 +74,8 @@ impl Analysis {
                         _ => format!("uniform {} {name}", self.type_name(self.uniform_types[uniform as usize])),
                     })
                 }
-                DeclRef::Knob(i) => {
-                    let of = self.knobs.get(usize::from(i));
+                DeclRef::CustomUniform(i) => {
+                    let of = self.custom_uniforms.get(usize::from(i));
                     of.map_or(Vec::new(), |(name, ty)| one(format!("uniform {} {name}", self.type_name(*ty))))
                 }
                 DeclRef::Channel(i) => one(format!("uniform {} iChannel{i}", self.type_name(self.channel_type(i)))),

@@ -244,7 +244,7 @@ impl Source {
         }
         let mut tokens: Vec<Tok> =
             part.iter().map(|&i| Tok { kind: self.tokens[i as usize].kind, value: brackets::ALONE }).collect();
-        brackets::pair(&mut tokens);
+        brackets::pair(&mut tokens, 0);
         let mut open: Vec<u32> = Vec::new();
         for (at, &i) in part.iter().enumerate() {
             let Tok { kind, value } = tokens[at];
