@@ -3,6 +3,11 @@
 use eddy::cli::{self, Next, Window};
 use std::process::ExitCode;
 
+/// A shader is compiled in a few hundred microseconds, of which the system's allocator took up to a tenth: the arenas
+/// of a long text are given back to the system and fetched again, page by page, for each pass.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
 fn main() -> ExitCode {
     // What goes wrong inside is worth a line; what other libraries tell of themselves is not.
     env_logger::Builder::from_env(env_logger::Env::default().default_filter_or("error,naga=off,eddy=warn")).init();
@@ -17,8 +22,8 @@ fn main() -> ExitCode {
 
 #[cfg(feature = "gui")]
 fn open(window: Window) -> anyhow::Result<()> {
-    let Window { project, size, set, json } = window;
-    Ok(eddy::gui::run(eddy::gui::Options { project, size, set, json })?)
+    let Window { project, size, set, paused, frame_timeout: frame_limit, json } = window;
+    Ok(eddy::gui::run(eddy::gui::Options { project, size, set, paused, frame_limit, json })?)
 }
 
 #[cfg(not(feature = "gui"))]

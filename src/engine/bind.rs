@@ -106,8 +106,11 @@ fn uniform_group(
     for (binding, table) in &program.tables {
         entries.push(wgpu::BindGroupEntry { binding: *binding, resource: table.as_entire_binding() });
     }
-    if !compiled.knobs.is_empty() {
-        entries.push(wgpu::BindGroupEntry { binding: interface::KNOB_BINDING, resource: uniforms.knob_binding() });
+    if !compiled.custom_uniforms.is_empty() {
+        entries.push(wgpu::BindGroupEntry {
+            binding: interface::CUSTOM_UNIFORM_BINDING,
+            resource: uniforms.custom_uniform_binding(),
+        });
     }
     if compiled.reads_geometry {
         let first = compiled.body.meshes().map_or(0, |meshes| meshes.first);

@@ -7,17 +7,18 @@ use super::{
     compiled::CompiledPass,
     draft::{CompiledParts, DrawDraft},
     pipelines::PipelineCache,
+    preamble::KeptPreamble,
     program::{Mixing, Program},
     stage_cache::StageCache,
     uploads::Uploads,
 };
 use crate::{
     diag::{self, Diagnostic, SourceMap},
-    glsl::{Driver, opt::PassSet},
+    glsl::{Driver, Probe, opt::PassSet},
     gpu::Gpu,
     graph::{ChannelFacts, FramePlan, PassFacts},
     media::MediaSet,
-    project::{FillKind, Input, Media, Pass, PassFormat, PassId, Project},
+    project::{FillKind, Input, Media, Pass, PassFormat, PassId, PassSettings, Project},
 };
 
 /// The pictures that are wanted, and whether the others may be left out.
@@ -29,11 +30,21 @@ pub struct BuildOptions {
     pub skip: bool,
     /// Passes of the shader compiler's optimiser that are left out: for who works on it.
     pub without: PassSet,
+    /// A value of a pass that is drawn beside it, into [`BuildOptions::probed`].
+    pub probe: Option<(PassId, Probe)>,
+}
+
+impl BuildOptions {
+    /// The pass that the probed value is drawn into: 32-bit floats, NaN where the probe never was. It is drawn before
+    /// the pass that is probed, and reads what that reads.
+    pub fn probed() -> PassId {
+        PassId::Buffer("probe of a value".into())
+    }
 }
 
 impl Default for BuildOptions {
     fn default() -> Self {
-        Self { wanted: Vec::new(), skip: true, without: PassSet::default() }
+        Self { wanted: Vec::new(), skip: true, without: PassSet::default(), probe: None }
     }
 }
 
@@ -61,6 +72,7 @@ pub struct BuildWork {
 pub struct Builder {
     gpu: Gpu,
     stages: StageCache,
+    preamble: KeptPreamble,
     pipelines: PipelineCache,
     uploads: Uploads,
 }
@@ -75,7 +87,13 @@ impl Program {
 impl Builder {
     pub fn new(gpu: Gpu) -> Self {
         let uploads = Uploads::new(&gpu);
-        Self { gpu, stages: StageCache::default(), pipelines: PipelineCache::default(), uploads }
+        Self {
+            gpu,
+            stages: StageCache::of_pipelines(),
+            preamble: KeptPreamble::default(),
+            pipelines: PipelineCache::default(),
+            uploads,
+        }
     }
 
     /// Compiles every pass, plans the frame and makes the pipelines of the passes it needs. `media` holds the pictures
@@ -96,8 +114,10 @@ impl Builder {
     ) -> Result<Built, BuildError> {
         let sources = project.sources();
         let texts = Sources::new(project);
-        let Compilation { drawable, passes, diagnostics } = match self.compile(project, &texts, media, options.without)
-        {
+        self.preamble.lend(&texts);
+        let compiled = self.compile(project, &texts, media, options);
+        self.preamble.keep(&texts);
+        let Compilation { drawable, passes, diagnostics } = match compiled {
             Ok(done) => done,
             Err(diagnostics) => return Err(BuildError::Diagnostics { diagnostics, sources }),
         };
@@ -119,9 +139,20 @@ impl Builder {
         let mut made = self.pipelines.make(&self.gpu, orders)?.into_iter();
         let mut meshes = 0;
         let draws = drafts.into_iter().map(|draft| draft.finish(&mut made, &mut meshes)).collect();
-        let program =
-            Program { plan, draws, knobs: texts.knobs().list.clone(), knob_values: project.knob_values.clone() };
+        let program = Program {
+            plan,
+            draws,
+            custom_uniforms: texts.custom_uniforms().list.clone(),
+            custom_uniform_values: project.custom_uniform_values.clone(),
+        };
         Ok(Built { program, diagnostics, sources, work: BuildWork::default() })
+    }
+
+    /// What the compiler is told of `project.passes[index]` besides its texts.
+    fn options(&self, project: &Project, media: &MediaSet, index: usize, without: PassSet) -> PassOptions {
+        let mixing = mixing(&self.gpu, project, media, index);
+        let driver = Driver { without, ..driver(&self.gpu, &project.passes[index]) };
+        PassOptions { bilinear_by_hand: mixing.map(|m| m == Mixing::ByHand), driver, probe: None }
     }
 
     /// Compiles every pass that can be drawn, and its fills.
@@ -130,7 +161,7 @@ impl Builder {
         project: &Project,
         texts: &Sources<'_>,
         media: &MediaSet,
-        without: PassSet,
+        build: &BuildOptions,
     ) -> Result<Compilation, Vec<Diagnostic>> {
         let mut drawable = project.clone();
         drawable.passes.clear();
@@ -138,8 +169,12 @@ impl Builder {
         let mut diagnostics: Vec<Diagnostic> = texts.diagnostics.clone();
         diagnostics.extend(media.mesh_errors(project));
         diagnostics.extend(media.fill_errors(project));
+        let drawn = project.passes.iter().enumerate().filter(|(_, pass)| is_drawn(pass));
+        let options: Vec<_> =
+            drawn.map(|(index, _)| (index, self.options(project, media, index, build.without))).collect();
+        texts.compile_ahead(&mut self.stages, options);
         for (index, pass) in project.passes.iter().enumerate() {
-            if matches!(pass.id, PassId::Cubemap | PassId::Sound) {
+            if !is_drawn(pass) {
                 let what = pass.id.title();
                 diagnostics.push(Diagnostic::warning(
                     None,
@@ -147,12 +182,12 @@ impl Builder {
                 ));
                 continue;
             }
-            let driver = Driver { without, ..driver(&self.gpu, pass) };
+            let options = self.options(project, media, index, build.without);
             let mut said = Vec::new();
             let fills = FillKind::ALL.map(|kind| {
                 let texels = pass.fill(kind).and_then(|fill| media.fill(fill.value.path()?));
                 let by_hand = texels.is_some_and(|t| mixing_of_fill(&self.gpu, t) == Mixing::ByHand);
-                let options = PassOptions { bilinear_by_hand: [by_hand, false, false, false], driver };
+                let options = PassOptions { bilinear_by_hand: [by_hand, false, false, false], ..options };
                 match texts.compile_fill_with(&mut self.stages, index, kind, options)? {
                     Ok(mut fill) => {
                         said.append(&mut fill.diagnostics);
@@ -164,12 +199,21 @@ impl Builder {
                     }
                 }
             });
-            let mixing = mixing(&self.gpu, project, media, index);
-            let options = PassOptions { bilinear_by_hand: mixing.map(|m| m == Mixing::ByHand), driver };
+            if let Some((_, probe)) = build.probe.as_ref().filter(|(id, _)| *id == pass.id) {
+                match texts.compile_pass_with(&mut self.stages, index, PassOptions { probe: Some(*probe), ..options }) {
+                    Ok(compiled) => {
+                        drawable.passes.push(without_cubemap_passes(probed(pass)));
+                        let mixing = mixing(&self.gpu, project, media, index);
+                        passes.push(CompiledParts { compiled, fills: [None, None], mixing });
+                    }
+                    Err(errors) => said.extend(errors),
+                }
+            }
             match texts.compile_pass_with(&mut self.stages, index, options) {
                 Ok(mut compiled) => {
                     said.append(&mut compiled.diagnostics);
                     drawable.passes.push(without_cubemap_passes(pass.clone()));
+                    let mixing = mixing(&self.gpu, project, media, index);
                     passes.push(CompiledParts { compiled, fills, mixing });
                 }
                 Err(errors) => said.extend(errors),
@@ -191,6 +235,11 @@ struct Compilation {
     diagnostics: Vec<Diagnostic>,
 }
 
+/// Returns whether the engine draws a pass of this kind.
+fn is_drawn(pass: &Pass) -> bool {
+    !matches!(pass.id, PassId::Cubemap | PassId::Sound)
+}
+
 /// Returns what the device's driver needs of the code of a pass.
 fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
     let has_small_floats = pass.settings.formats().into_iter().any(PassFormat::is_small_float);
@@ -204,6 +253,13 @@ fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
         hidden_limits: gpu.misjudges_limits,
         without: PassSet::default(),
     }
+}
+
+/// The pass that a value of a pass is drawn into.
+fn probed(pass: &Pass) -> Pass {
+    let PassSettings { size, region, .. } = pass.settings.clone();
+    let settings = PassSettings { size, region, format: PassFormat::Rgba32f, ..PassSettings::default() };
+    Pass { id: BuildOptions::probed(), settings, ..pass.clone() }
 }
 
 /// A cubemap pass is not drawn, so a channel that reads it is as one whose file is missing.

@@ -1,9 +1,14 @@
 //! From a project's texts to compiled passes.
 
-use super::{Sources, compiled::CompiledPass, fill_text, sources, stage_cache::StageCache};
+use super::{
+    Sources,
+    compiled::CompiledPass,
+    fill_text, sources,
+    stage_cache::{self, StageCache},
+};
 use crate::{
     diag::Diagnostic,
-    glsl::{Compiled, Driver, Link, PassKind, PassSource, Reflection},
+    glsl::{Compiled, Driver, Link, PassKind, PassSource, Probe, Reflection},
     project::{FillKind, Geometry, PassBody, PassId, Stage},
 };
 use std::sync::Arc;
@@ -15,6 +20,8 @@ type Result<T> = std::result::Result<T, Vec<Diagnostic>>;
 pub(super) struct PassOptions {
     pub bilinear_by_hand: [bool; 4],
     pub driver: Driver,
+    /// A value that the pass draws instead of its picture.
+    pub probe: Option<Probe>,
 }
 
 impl Sources<'_> {
@@ -24,7 +31,7 @@ impl Sources<'_> {
     /// # Panics
     /// If there is no such pass.
     pub fn compile_pass(&self, index: usize, bilinear_by_hand: [bool; 4], driver: Driver) -> Result<CompiledPass> {
-        self.compile_pass_with(&mut StageCache::default(), index, PassOptions { bilinear_by_hand, driver })
+        self.compile_pass_with(&mut StageCache::default(), index, PassOptions { bilinear_by_hand, driver, probe: None })
     }
 
     /// Compiles what fills texels of `project.passes[index]`, if something does. It sees Common, and of the author's
@@ -36,8 +43,24 @@ impl Sources<'_> {
         bilinear_by_hand: bool,
         driver: Driver,
     ) -> Option<Result<CompiledPass>> {
-        let options = PassOptions { bilinear_by_hand: [bilinear_by_hand, false, false, false], driver };
+        let options = PassOptions { bilinear_by_hand: [bilinear_by_hand, false, false, false], driver, probe: None };
         self.compile_fill_with(&mut StageCache::default(), index, kind, options)
+    }
+
+    /// Compiles every pass, and behind each its fills, as [`Self::compile_pass`] and [`Self::compile_fill`] do; all
+    /// passes are drawn by the same driver.
+    pub fn compile_all(&self, driver: Driver) -> Vec<Result<CompiledPass>> {
+        let mut cache = StageCache::default();
+        let options = PassOptions { bilinear_by_hand: [false; 4], driver, probe: None };
+        let passes = 0..self.project.passes.len();
+        self.compile_ahead(&mut cache, passes.clone().map(|index| (index, options)));
+        let mut outcomes = Vec::new();
+        for index in passes {
+            outcomes.push(self.compile_pass_with(&mut cache, index, options));
+            let fills = FillKind::ALL.into_iter();
+            outcomes.extend(fills.filter_map(|kind| self.compile_fill_with(&mut cache, index, kind, options)));
+        }
+        outcomes
     }
 
     /// Does the same as [`Self::compile_pass`], with the stages of earlier builds.
@@ -131,7 +154,11 @@ impl Sources<'_> {
         link: &Link<'_>,
         options: PassOptions,
     ) -> (Option<Arc<Compiled>>, Vec<Diagnostic>) {
-        let PassOptions { bilinear_by_hand, driver } = options;
-        cache.compile(&PassSource { bilinear_by_hand, driver, ..*source }, link, |text| self.shared(text))
+        let PassOptions { bilinear_by_hand, driver, probe } = options;
+        let source = PassSource { bilinear_by_hand, driver, probe, ..*source };
+        match cache.find(&source, link, |text| self.shared(text)) {
+            Ok(found) => found,
+            Err(missing) => cache.add(missing, stage_cache::compile(&source, link, self.preamble())),
+        }
     }
 }

@@ -35,8 +35,8 @@ impl CompiledProgram {
     }
 
     /// Returns the number of bytes of the author's own uniforms that it reads.
-    pub fn knob_bytes(&self) -> u64 {
-        self.vertex.as_ref().map_or(0, |v| v.knob_bytes).max(self.fragment.knob_bytes)
+    pub fn custom_uniform_bytes(&self) -> u64 {
+        self.vertex.as_ref().map_or(0, |v| v.custom_uniform_bytes).max(self.fragment.custom_uniform_bytes)
     }
 }
 
@@ -66,7 +66,7 @@ impl CompiledPass {
 /// Adds what a stage reads to what others of the pass read.
 fn join(all: &mut Reflection, one: &Reflection) {
     all.uniforms.insert(one.uniforms);
-    one.knobs.iter().for_each(|slot| all.knobs.insert(slot));
+    one.custom_uniforms.iter().for_each(|slot| all.custom_uniforms.insert(slot));
     for (all, one) in all.channels.iter_mut().zip(one.channels) {
         all.texture |= one.texture;
         all.sampler |= one.sampler;

@@ -29,6 +29,11 @@ impl Display {
         &self.texture.level_0
     }
 
+    /// The texture of the picture.
+    pub fn texture(&self) -> &Texture {
+        &self.texture
+    }
+
     /// Takes another texture for its own.
     pub fn set_texture(&mut self, texture: Texture) {
         self.texture = texture;

@@ -147,7 +147,7 @@ impl ProgramDraft {
             initial: None,
             boundary: None,
             uniforms: reflection.uniforms,
-            knobs: reflection.knobs,
+            custom_uniforms: reflection.custom_uniforms,
         }
     }
 }
@@ -160,8 +160,8 @@ fn uniform_bindings(program: &CompiledProgram, reflection: &Reflection) -> Vec<(
         let is_storage = number == interface::TABLE_BINDING;
         bindings.push((number, if is_storage { Binding::Storage } else { uniform }));
     }
-    if !reflection.knobs.is_empty() {
-        bindings.push((interface::KNOB_BINDING, Binding::Uniform { bytes: program.knob_bytes() }));
+    if !reflection.custom_uniforms.is_empty() {
+        bindings.push((interface::CUSTOM_UNIFORM_BINDING, Binding::Uniform { bytes: program.custom_uniform_bytes() }));
     }
     if reflection.geometry {
         let bytes = size_of::<interface::GeometryBlock>() as u64;

@@ -1,7 +1,10 @@
 //! A frame: the loop that executes a plan. The only place where passes are encoded.
 
 use super::{EngineError, FrameInputs, FrameStats, display::Display, running::Running};
-use super::{bind::draw_fill, pipelines::StagePipeline, program::DrawBody, shared::Shared, uniforms, watch::Watch};
+use super::{
+    bind::draw_fill, inspect::Capture, pipelines::StagePipeline, program::DrawBody, shared::Shared, uniforms,
+    watch::Watch,
+};
 use crate::{
     glsl::interface::{CHANNEL_GROUP, UNIFORM_GROUP},
     gpu::Gpu,
@@ -18,13 +21,14 @@ fn flush(gpu: &Gpu, encoder: &mut wgpu::CommandEncoder) -> Result<(), EngineErro
 }
 
 impl Running {
-    /// Draws one frame, and the picture that the display shows.
+    /// Draws one frame, and the picture that a display shows.
     pub fn draw(
         &mut self,
         shared: &mut Shared,
-        display: &Display,
+        display: Option<&Display>,
         inputs: &FrameInputs,
         mut watch: Option<&mut Watch<'_>>,
+        mut capture: Option<&mut Capture<'_>>,
     ) -> Result<FrameStats, EngineError> {
         shared.keyboard.show(&shared.gpu, &inputs.keyboard);
         let shared = &*shared;
@@ -50,6 +54,10 @@ impl Running {
         for run in 0..self.program.plan.runs.len() {
             for _ in 0..self.program.plan.runs[run].steps {
                 for index in self.program.plan.runs[run].draws.clone() {
+                    if let Some(capture) = capture.as_mut().filter(|c| c.wants(&self.program.draws[index])) {
+                        flush(gpu, &mut encoder)?;
+                        capture.take(self, shared, index)?;
+                    }
                     let began = watch.as_mut().map(|watch| watch.now());
                     let is_drawn = self.step(shared, &mut encoder, index, &reads[index], &mut stats);
                     self.steps_drawn[index] += u32::from(is_drawn);
@@ -63,7 +71,9 @@ impl Running {
         if let Some(timer) = &mut self.timer {
             timer.resolve(&mut encoder);
         }
-        display.present(gpu, &mut encoder, &self.targets);
+        if let Some(display) = display {
+            display.present(gpu, &mut encoder, &self.targets);
+        }
         gpu.queue.submit([encoder.finish()]);
         if let Some(timer) = &mut self.timer {
             timer.submitted();

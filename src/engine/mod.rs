@@ -4,6 +4,7 @@
 //! the only code that encodes a frame. Reads no clock, no file and no environment variable: same project, same inputs,
 //! same bytes. Knows no window.
 
+mod ahead;
 mod bind;
 mod build;
 mod cache;
@@ -11,6 +12,7 @@ mod channels;
 mod compile;
 mod compiled;
 mod costs;
+mod custom_uniforms;
 mod display;
 mod draft;
 mod error;
@@ -18,9 +20,10 @@ mod fill_text;
 mod formats;
 mod frame;
 mod inputs;
-mod knobs;
+mod inspect;
 mod pipelines;
 mod placed;
+mod preamble;
 mod program;
 mod results;
 mod run;
@@ -38,7 +41,9 @@ pub use compiled::CompiledPass;
 pub use costs::{CostClock, PassCost, PassRole};
 pub use error::{BuildError, EngineError};
 pub use inputs::FrameInputs;
+pub use inspect::{Level, PassInputs, TextureCopy};
+pub use preamble::KeptPreamble;
 pub use program::Program;
-pub use results::{FrameStats, PassTime, Pixels};
+pub use results::{FrameStats, Miniature, PassTime, Picture, Pixels};
 pub use run::Engine;
 pub use sources::{Sources, channel_kinds, pass_kind, stage_kind};

@@ -2,10 +2,10 @@
 
 use super::{pipelines::StagePipeline, placed::PlacedMesh};
 use crate::{
-    glsl::{ChannelKind, KnobSet, UniformSet},
+    glsl::{ChannelKind, CustomUniformSet, UniformSet},
     gpu::Texture,
     graph::{Draw, FramePlan},
-    project::{Camera, Knob, KnobValues, PassId, PassSize},
+    project::{Camera, CustomUniform, CustomUniformValues, PassId, PassSize},
 };
 use std::sync::Arc;
 
@@ -16,9 +16,9 @@ pub struct Program {
     /// One for each of the plan's draws.
     pub(super) draws: Vec<CompiledDraw>,
     /// The author's own uniforms, in the order of their slots.
-    pub(super) knobs: Vec<Knob>,
+    pub(super) custom_uniforms: Vec<CustomUniform>,
     /// The values that the program starts with.
-    pub(super) knob_values: KnobValues,
+    pub(super) custom_uniform_values: CustomUniformValues,
 }
 
 /// The pipelines of one draw and what its channels are bound to.
@@ -34,7 +34,7 @@ pub(super) struct CompiledDraw {
     pub boundary: Option<Box<FillProgram>>,
     /// The uniforms that are read: the site's, and the author's own by their slots.
     pub uniforms: UniformSet,
-    pub knobs: KnobSet,
+    pub custom_uniforms: CustomUniformSet,
 }
 
 /// The triangle or the meshes of a draw.
@@ -105,8 +105,8 @@ pub(super) struct BoundChannel {
 
 impl Program {
     /// The author's own uniforms, in the order they are declared.
-    pub fn knobs(&self) -> &[Knob] {
-        &self.knobs
+    pub fn custom_uniforms(&self) -> &[CustomUniform] {
+        &self.custom_uniforms
     }
 
     /// Every draw with its plan.

@@ -40,3 +40,20 @@ impl Pixels {
         bytes
     }
 }
+
+/// A picture as a screen shows it: red, green, blue and alpha of 8 bits each, the top row first, no padding.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Picture {
+    pub width: u32,
+    pub height: u32,
+    pub bytes: Vec<u8>,
+}
+
+/// A small picture of a target.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Miniature {
+    /// Of one size, whatever the target's shape.
+    pub picture: Picture,
+    /// Texels of the target, across and up.
+    pub of: (u32, u32),
+}

@@ -1,10 +1,18 @@
 //! The engine: the program that is running, and what can be asked of it.
 
-use super::{EngineError, FrameInputs, FrameStats, PassTime, Pixels, Program, display::Display, running::Running};
-use super::{shared::Shared, targets::Target, watch::Watch};
+use super::{
+    EngineError, FrameInputs, FrameStats, Miniature, PassTime, Picture, Pixels, Program, display::Display,
+    running::Running,
+};
+use super::{
+    inspect::{Capture, PassInputs},
+    shared::Shared,
+    targets::Target,
+    watch::Watch,
+};
 use crate::{
-    gpu::{FloatConverter, Gpu, Presenter, read_rgba32float},
-    project::{KnobValues, PassId},
+    gpu::{FloatConverter, Gpu, MINIATURE_SIZE, Miniatures, Presenter, Readback},
+    project::{CustomUniformValues, PassId},
 };
 
 /// A device, and the program that runs on it.
@@ -16,6 +24,9 @@ pub struct Engine {
     is_timing: bool,
     /// For reading back what is no rgba32float; made when first needed.
     converter: Option<FloatConverter>,
+    readback: Readback,
+    /// For panels that show passes small; made when first asked for.
+    miniatures: Option<(Miniatures, Readback)>,
 }
 
 impl Engine {
@@ -28,6 +39,8 @@ impl Engine {
             display: Display::new(&gpu, (width, height))?,
             is_timing: false,
             converter: None,
+            readback: Readback::default(),
+            miniatures: None,
             shared: Shared::new(gpu)?,
         })
     }
@@ -42,10 +55,24 @@ impl Engine {
         Ok(())
     }
 
+    /// Draws one frame of a program that has never been drawn, on a canvas of its own, waits for it, and gives the
+    /// program back as it was. Passes of a size of their own have it here too. What is running stays as it is.
+    pub fn try_out(
+        &mut self,
+        program: Program,
+        canvas: (u32, u32),
+        inputs: &FrameInputs,
+    ) -> Result<Program, EngineError> {
+        let mut running = Running::start(&mut self.shared, program, canvas, &mut None)?;
+        running.draw(&mut self.shared, None, inputs, None, None)?;
+        self.shared.gpu.wait()?;
+        Ok(running.program)
+    }
+
     /// Sets the values of the author's own uniforms from the next frame on; what `values` does not name stands at its
     /// default. Compiles nothing. Says whether anything is different now.
-    pub fn set_knobs(&mut self, values: &KnobValues) -> bool {
-        self.running.as_mut().is_some_and(|running| running.set_knobs(&self.shared, values))
+    pub fn set_custom_uniforms(&mut self, values: &CustomUniformValues) -> bool {
+        self.running.as_mut().is_some_and(|running| running.set_custom_uniforms(&self.shared, values))
     }
 
     /// New canvas size. Every buffer keeps the overlap, texel for texel from the bottom left; the rest is as before
@@ -75,7 +102,7 @@ impl Engine {
     /// Draws one frame. Does not wait for the device.
     pub fn draw(&mut self, inputs: &FrameInputs) -> Result<FrameStats, EngineError> {
         let Some(running) = &mut self.running else { return Ok(FrameStats::default()) };
-        let stats = running.draw(&mut self.shared, &self.display, inputs, None)?;
+        let stats = running.draw(&mut self.shared, Some(&self.display), inputs, None, None)?;
         self.shared.gpu.take_trouble("a frame")?;
         Ok(stats)
     }
@@ -90,9 +117,25 @@ impl Engine {
     ) -> Result<(FrameStats, Vec<PassTime>), EngineError> {
         let Some(running) = &mut self.running else { return Ok(Default::default()) };
         let mut watch = Watch::new(now, &running.program);
-        let stats = running.draw(&mut self.shared, &self.display, inputs, Some(&mut watch))?;
+        let stats = running.draw(&mut self.shared, Some(&self.display), inputs, Some(&mut watch), None)?;
         self.shared.gpu.take_trouble("a frame")?;
         Ok((stats, watch.times(&running.program)))
+    }
+
+    /// Does the same as [`Engine::draw`], and takes what a pass reads when it is drawn; of a pass of several steps, what
+    /// its last one reads. Waits for the device.
+    pub fn draw_inspected(
+        &mut self,
+        inputs: &FrameInputs,
+        pass: &PassId,
+    ) -> Result<(FrameStats, PassInputs), EngineError> {
+        let none = || EngineError::NoSuchPass(pass.title());
+        let running = self.running.as_mut().ok_or_else(none)?;
+        let converter = self.converter.get_or_insert_with(|| FloatConverter::new(&self.shared.gpu));
+        let mut capture = Capture::new(pass, converter);
+        let stats = running.draw(&mut self.shared, Some(&self.display), inputs, None, Some(&mut capture))?;
+        self.shared.gpu.take_trouble("a frame")?;
+        Ok((stats, capture.taken.ok_or_else(none)?))
     }
 
     /// Returns the texels of a pass, across and up.
@@ -180,6 +223,29 @@ impl Engine {
         self.display.rebind(&self.shared.gpu, self.canvas, targets);
     }
 
+    /// Reads back the picture that [`Engine::display`] shows; waits for the device.
+    pub fn picture(&mut self) -> Result<Picture, EngineError> {
+        let texture = self.display.texture();
+        let bytes = self.readback.rgba8(&self.shared.gpu, texture)?;
+        Ok(Picture { width: texture.width(), height: texture.height(), bytes })
+    }
+
+    /// Reads a small picture of one of a pass's targets back, of [`MINIATURE_SIZE`] whatever its shape; waits for the
+    /// device.
+    pub fn miniature(&mut self, pass: &PassId, index: usize) -> Result<Miniature, EngineError> {
+        let gpu = &self.shared.gpu;
+        let running = self.running.as_ref().ok_or_else(|| EngineError::NoSuchPass(pass.title()))?;
+        let newest = running.target(pass, index)?.newest();
+        let (miniatures, readback) = match &mut self.miniatures {
+            Some(made) => made,
+            none => none.insert((Miniatures::new(gpu)?, Readback::default())),
+        };
+        let bytes = readback.rgba8(gpu, miniatures.draw(gpu, newest))?;
+        let (width, height) = MINIATURE_SIZE;
+        let of = (newest.width(), newest.height());
+        Ok(Miniature { picture: Picture { width, height, bytes }, of })
+    }
+
     /// Reads a pass's newest texels back; waits for the device.
     pub fn read(&mut self, pass: &PassId) -> Result<Pixels, EngineError> {
         self.read_target(pass, 0)
@@ -192,10 +258,10 @@ impl Engine {
         let newest = running.target(pass, index)?.newest();
         let (width, height) = (newest.width(), newest.height());
         let texels = if newest.raw.format() == wgpu::TextureFormat::Rgba32Float {
-            read_rgba32float(gpu, newest)?
+            Readback::default().rgba32float(gpu, newest)?
         } else {
             let converter = self.converter.get_or_insert_with(|| FloatConverter::new(gpu));
-            read_rgba32float(gpu, &converter.convert(gpu, newest)?)?
+            Readback::default().rgba32float(gpu, &converter.convert(gpu, newest)?)?
         };
         Ok(Pixels { width, height, texels })
     }

@@ -4,7 +4,7 @@
 use super::{
     EngineError, FrameInputs,
     bind::{Bindings, draw_fill},
-    knobs,
+    custom_uniforms,
     program::{Meshes, Program},
     shared::Shared,
     targets::{NewTargets, Target},
@@ -13,7 +13,7 @@ use super::{
 use crate::{
     gpu::{PassTimer, depth_buffer},
     graph::Changes,
-    project::{KnobValues, PassId},
+    project::{CustomUniformValues, PassId},
 };
 
 /// A program with its textures, on a canvas of one size.
@@ -81,7 +81,10 @@ impl Running {
             steps_drawn: Vec::new(),
             program,
         };
-        running.uniforms.set_knobs(&shared.gpu, knobs::block(&running.program.knobs, &running.program.knob_values));
+        running.uniforms.set_custom_uniforms(
+            &shared.gpu,
+            custom_uniforms::block(&running.program.custom_uniforms, &running.program.custom_uniform_values),
+        );
         running.take(shared, new);
         Ok(running)
     }
@@ -102,7 +105,9 @@ impl Running {
         let (old, is_new) = new.targets.replace(&self.program.plan, &mut self.targets);
         self.bindings = Bindings::new(&shared.gpu, &self.program, &self.uniforms);
         self.fill_initial(shared, |target| is_new[target]);
-        for (target, _) in self.targets.iter_mut().zip(is_new).filter(|(_, is_new)| *is_new) {
+        let plan = &self.program.plan;
+        let is_taken_over = |(index, _): &(usize, &mut Target)| is_new[*index] && plan.is_drawn(*index);
+        for (_, target) in self.targets.iter_mut().enumerate().filter(is_taken_over) {
             if let Some(before) = old.iter().find(|t| t.id == target.id && t.index == target.index) {
                 target.take_over(&shared.gpu, &shared.mips, before);
             }
@@ -110,8 +115,8 @@ impl Running {
     }
 
     /// Sets values of the author's own uniforms. Says whether anything is different now.
-    pub fn set_knobs(&mut self, shared: &Shared, values: &KnobValues) -> bool {
-        self.uniforms.set_knobs(&shared.gpu, knobs::block(&self.program.knobs, values))
+    pub fn set_custom_uniforms(&mut self, shared: &Shared, values: &CustomUniformValues) -> bool {
+        self.uniforms.set_custom_uniforms(&shared.gpu, custom_uniforms::block(&self.program.custom_uniforms, values))
     }
 
     /// Sets every target to its state before frame 0.

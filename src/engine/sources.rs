@@ -1,15 +1,22 @@
 //! A project's texts as the compiler and the editor take them.
 
-use super::knobs;
+use super::custom_uniforms;
 use crate::{
     diag::{Diagnostic, SourceId},
-    glsl::{self, ChannelKind, Driver, Include, Link, PassKind, PassSource, Text, UniformValue, services::Analysis},
+    glsl::{
+        self, ChannelKind, Driver, Include, Link, PassKind, PassSource, Preamble, Text, UniformValue,
+        services::Analysis, walkable::Walkable,
+    },
     project::{
-        Channel, FillKind, FillText, Geometry, IncludeLines, Input, Knobs, Pass, PassBody, PassId, Project, Source,
-        Stage,
+        Channel, CustomUniforms, FillKind, FillText, Geometry, IncludeLines, Input, Pass, PassBody, PassId, Project,
+        Source, Stage,
     },
 };
-use std::{borrow::Cow, collections::BTreeSet, sync::Arc};
+use std::{
+    borrow::Cow,
+    collections::BTreeSet,
+    sync::{Arc, OnceLock},
+};
 
 /// The texts of a project as the compiler takes them, what they include and what they declare.
 pub struct Sources<'p> {
@@ -17,9 +24,11 @@ pub struct Sources<'p> {
     /// The texts by [`SourceId`], each as long as the author's own.
     texts: Vec<Arc<str>>,
     lines: IncludeLines,
-    knobs: Knobs,
-    /// The values of uniforms that are no knobs.
-    values: Vec<UniformValue>,
+    custom_uniforms: CustomUniforms,
+    /// The values of uniforms that are no custom uniforms.
+    pub(super) values: Vec<UniformValue>,
+    /// See [`Sources::preamble`].
+    pub(super) preamble: OnceLock<Option<Arc<Preamble>>>,
     /// The texts of fills, each with its pass.
     fills: Vec<(usize, FillKind, FillText)>,
     /// Errors and warnings that are found before any text is compiled.
@@ -36,15 +45,15 @@ impl<'p> Sources<'p> {
         let stages = project.stages().map(|(_, s)| stage_text(s));
         let included = project.includes.iter().map(|i| compile_text(&i.source));
         let texts = [common].into_iter().chain(passes).chain(stages).chain(included).collect();
-        let (lines, knobs) = (project.include_lines(), knobs::knobs(project));
+        let (lines, custom_uniforms) = (project.include_lines(), custom_uniforms::custom_uniforms(project));
         let fills = project.fills().filter_map(|(p, kind, _)| Some((p, kind, project.fill_text(p, kind)?))).collect();
-        let diagnostics = lines.diagnostics.iter().chain(&knobs.diagnostics).cloned().collect();
-        let values = knobs::given(&knobs, &project.knob_values);
-        Self { project, texts, lines, knobs, values, fills, diagnostics }
+        let diagnostics = lines.diagnostics.iter().chain(&custom_uniforms.diagnostics).cloned().collect();
+        let values = custom_uniforms::given(&custom_uniforms, &project.custom_uniform_values);
+        Self { project, texts, lines, custom_uniforms, values, preamble: OnceLock::new(), fills, diagnostics }
     }
 
-    pub fn knobs(&self) -> &Knobs {
-        &self.knobs
+    pub fn custom_uniforms(&self) -> &CustomUniforms {
+        &self.custom_uniforms
     }
 
     /// The text of what fills texels of `project.passes[index]`.
@@ -66,7 +75,7 @@ impl<'p> Sources<'p> {
         work(&PassSource {
             common,
             includes: &includes,
-            knobs: &knobs::in_scope(&self.knobs, &self.lines, None),
+            custom_uniforms: &custom_uniforms::in_scope(&self.custom_uniforms, &self.lines, None),
             values: &self.values,
             ..PassSource::new(PassKind::Buffer, code)
         })
@@ -85,7 +94,7 @@ impl<'p> Sources<'p> {
             common,
             includes: &self.includes(common.map(|c| c.id).into_iter().chain([id])),
             channels: channel_kinds(&self.project.passes[index]),
-            knobs: &knobs::in_scope(&self.knobs, &self.lines, Some(id)),
+            custom_uniforms: &custom_uniforms::in_scope(&self.custom_uniforms, &self.lines, Some(id)),
             values: &self.values,
             ..PassSource::new(kind, self.text(id))
         })
@@ -104,12 +113,26 @@ impl<'p> Sources<'p> {
         let own = &self.project.passes[index];
         let dump = |stage, kind| {
             self.with_source(index, self.stage_id(index, stage), kind, |source| {
-                glsl::dump_ir(&PassSource { driver, ..*source }, &Link::default(), pass)
+                glsl::dump_ir(&PassSource { driver, ..*source }, &Link::default(), self.preamble(), pass)
             })
         };
         let Some(meshes) = own.settings.meshes() else { return dump(Stage::Own, pass_kind(&own.id)) };
         let stages = meshes.draws.iter().flat_map(|draw| [draw.vertex, draw.fragment]);
         stages.map(|stage| dump(stage, stage_kind(meshes, stage))).collect()
+    }
+
+    /// Lowers `project.passes[index]` for the walker. `None` for a pass that draws meshes, which is not walked through.
+    ///
+    /// # Panics
+    /// If there is no such pass.
+    pub(crate) fn walkable(&self, index: usize) -> Option<Result<Walkable, Vec<Diagnostic>>> {
+        let own = &self.project.passes[index];
+        let is_walked = own.settings.meshes().is_none();
+        is_walked.then(|| {
+            self.with_source(index, self.stage_id(index, Stage::Own), pass_kind(&own.id), |source| {
+                Walkable::new(source)
+            })
+        })
     }
 
     /// Analyses `project.passes[index]` as an editor understands it, whether it compiles or not.
@@ -127,16 +150,20 @@ impl<'p> Sources<'p> {
     pub fn analyse_stage(&self, index: usize, stage: Stage) -> Analysis {
         let pass = &self.project.passes[index];
         let kind = pass.settings.meshes().map_or_else(|| pass_kind(&pass.id), |g| stage_kind(g, stage));
-        self.with_source(index, self.stage_id(index, stage), kind, Analysis::new)
+        self.with_source(index, self.stage_id(index, stage), kind, |source| Analysis::behind(source, self.preamble()))
     }
 
     /// Returns what the site would refuse in Common; see [`glsl::check_common`].
     pub fn check_common(&self) -> Vec<Diagnostic> {
-        let knobs = knobs::in_scope(&self.knobs, &self.lines, None);
-        self.common().map_or(Vec::new(), |common| glsl::check_common(common, &self.includes([common.id]), &knobs))
+        let custom_uniforms = custom_uniforms::in_scope(&self.custom_uniforms, &self.lines, None);
+        match (self.preamble(), self.common()) {
+            (Some(preamble), _) => preamble.check_common(&custom_uniforms),
+            (None, Some(common)) => glsl::check_common(common, &self.includes([common.id]), &custom_uniforms),
+            (None, None) => Vec::new(),
+        }
     }
 
-    fn common(&self) -> Option<Text<'_>> {
+    pub(super) fn common(&self) -> Option<Text<'_>> {
         self.project.common.is_some().then(|| self.text(Project::COMMON_ID))
     }
 
@@ -151,7 +178,7 @@ impl<'p> Sources<'p> {
     }
 
     /// Returns the lines that include other texts in these texts and in what they include.
-    fn includes(&self, of: impl IntoIterator<Item = SourceId>) -> Vec<Include<'_>> {
+    pub(super) fn includes(&self, of: impl IntoIterator<Item = SourceId>) -> Vec<Include<'_>> {
         let reached: BTreeSet<SourceId> = of.into_iter().flat_map(|id| self.lines.reach(id)).collect();
         let lines = self.lines.lines.iter().filter(|(line, _)| reached.contains(&line.source));
         lines.map(|&(line, of)| Include { line, text: self.text(of) }).collect()

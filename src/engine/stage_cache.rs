@@ -3,7 +3,10 @@
 use super::cache::Cache;
 use crate::{
     diag::{Diagnostic, SourceId, Span},
-    glsl::{self, ChannelKind, Compiled, Driver, GivenValue, KnobKind, Link, PassKind, PassSource, Text, Varying},
+    glsl::{
+        self, ChannelKind, Compiled, CustomUniformKind, Driver, GivenValue, Link, PassKind, PassSource, Preamble,
+        Probe, Text, Varying,
+    },
 };
 use std::{
     cell::OnceCell,
@@ -11,17 +14,38 @@ use std::{
     sync::Arc,
 };
 
-/// Stages by their texts and settings. Passes of equal texts and settings share a stage, and so do those of texts that
-/// compile to the same.
+/// Stages by their texts and settings. Passes of equal texts and settings share a stage.
 #[derive(Default)]
 pub(super) struct StageCache {
-    stages: Cache<StageKey, Outcome>,
+    stages: Cache<StageKey, Kept>,
+    /// Passes of texts that compile to the same share a stage, too.
+    joins: bool,
     /// Number of stages that the current build has compiled.
     compiled: usize,
 }
 
+/// A stage that is not in the cache.
+#[derive(PartialEq)]
+pub(super) struct Missing {
+    key: StageKey,
+    /// Its texts, rising.
+    ids: Vec<SourceId>,
+}
+
+/// What compiling a stage gives.
+pub(super) type Outcome = Result<Compiled, Vec<Diagnostic>>;
+
+/// What the cache has of a stage: itself, or `None` where the diagnostics hold an error. These point into the texts
+/// that were asked about.
+pub(super) type Found = (Option<Arc<Compiled>>, Vec<Diagnostic>);
+
+/// Compiles a stage behind a Common that may be read already.
+pub(super) fn compile(source: &PassSource<'_>, link: &Link<'_>, preamble: Option<&Preamble>) -> Outcome {
+    glsl::compile_linked(source, link, preamble.filter(|_| source.common.is_some()))
+}
+
 /// The result of compiling a stage. Spans name the texts that it was compiled with.
-struct Outcome {
+struct Kept {
     /// `None`: there are errors.
     stage: Option<Arc<Compiled>>,
     /// All of the stage as text; made when first needed.
@@ -30,11 +54,11 @@ struct Outcome {
     ids: Vec<SourceId>,
 }
 
-impl Outcome {
+impl Kept {
     /// Returns true if both compiled to the same. Types of naga cannot be compared, but their texts for debugging say
     /// all.
-    fn is_same(&self, other: &Outcome) -> bool {
-        let content = |outcome: &Outcome| format!("{:?}", outcome.stage);
+    fn is_same(&self, other: &Kept) -> bool {
+        let content = |outcome: &Kept| format!("{:?}", outcome.stage);
         self.outline().is_some_and(|outline| other.outline() == Some(outline))
             && self.content.get_or_init(|| content(self)) == other.content.get_or_init(|| content(other))
     }
@@ -66,10 +90,11 @@ struct StageKey {
     code: (usize, Arc<str>),
     includes: Vec<IncludeKey>,
     channels: [ChannelKind; 4],
-    knobs: Vec<(String, KnobKind, u16)>,
+    custom_uniforms: Vec<(String, CustomUniformKind, u16)>,
     values: Vec<(String, Vec<u64>)>,
     bilinear_by_hand: [bool; 4],
     driver: Driver,
+    probe: Option<Probe>,
     varyings: Option<Vec<Varying>>,
     targets: Option<usize>,
 }
@@ -92,7 +117,18 @@ impl StageKey {
     /// The key of a stage whose texts have the given ids, rising. `shared` returns a text as the key keeps it.
     fn new(source: &PassSource<'_>, link: &Link<'_>, ids: &[SourceId], shared: impl Fn(Text<'_>) -> Arc<str>) -> Self {
         // Every setting that the compiler knows stands here: a new one does not compile until it does.
-        let PassSource { kind, common, code, includes, channels, knobs, values, bilinear_by_hand, driver } = *source;
+        let PassSource {
+            kind,
+            common,
+            code,
+            includes,
+            channels,
+            custom_uniforms,
+            values,
+            bilinear_by_hand,
+            driver,
+            probe,
+        } = *source;
         let Link { varyings, targets } = *link;
         let text = |text: Text<'_>| (place(ids, text.id), shared(text));
         Self {
@@ -104,10 +140,11 @@ impl StageKey {
                 .map(|i| IncludeKey { line: (place(ids, i.line.source), i.line.start, i.line.end), text: text(i.text) })
                 .collect(),
             channels,
-            knobs: knobs.iter().map(|k| (k.name.to_owned(), k.kind, k.slot)).collect(),
+            custom_uniforms: custom_uniforms.iter().map(|k| (k.name.to_owned(), k.kind, k.slot)).collect(),
             values: values.iter().map(|v| (v.name.clone(), words(&v.value))).collect(),
             bilinear_by_hand,
             driver,
+            probe,
             varyings: varyings.map(<[Varying]>::to_vec),
             targets,
         }
@@ -137,35 +174,47 @@ fn words(value: &GivenValue) -> Vec<u64> {
 }
 
 impl StageCache {
-    /// Compiles a stage unless an equal one is there. Returns it, or `None` where the diagnostics hold an error; they
-    /// point into the texts of `source`. `shared` returns a text of `source` as the cache keeps it.
-    pub fn compile(
+    /// A cache for stages that pipelines are made of: comparing stages takes less than a pipeline more.
+    pub fn of_pipelines() -> Self {
+        Self { joins: true, ..Self::default() }
+    }
+
+    /// Returns a stage if an equal one is there. `shared` returns a text of `source` as the cache keeps it.
+    pub fn find(
         &mut self,
         source: &PassSource<'_>,
         link: &Link<'_>,
         shared: impl Fn(Text<'_>) -> Arc<str>,
-    ) -> (Option<Arc<Compiled>>, Vec<Diagnostic>) {
+    ) -> Result<Found, Box<Missing>> {
         let ids = ids_of(source);
         let key = StageKey::new(source, link, &ids, shared);
-        if let Some(outcome) = self.stages.get(&key) {
-            return (outcome.stage.clone(), moved(&outcome.diagnostics, &outcome.ids, &ids));
+        match self.stages.get(&key) {
+            Some(kept) => Ok((kept.stage.clone(), moved(&kept.diagnostics, &kept.ids, &ids))),
+            None => Err(Box::new(Missing { key, ids })),
         }
+    }
+
+    /// Adds a stage that was compiled.
+    pub fn add(&mut self, missing: Box<Missing>, outcome: Outcome) -> Found {
         self.compiled += 1;
-        let (stage, diagnostics) = match glsl::compile_linked(source, link) {
+        let (stage, diagnostics) = match outcome {
             Ok(mut stage) => {
                 let diagnostics = std::mem::take(&mut stage.diagnostics);
                 (Some(Arc::new(stage)), diagnostics)
             }
             Err(errors) => (None, errors),
         };
-        let mut outcome = Outcome { stage, content: OnceCell::new(), diagnostics, ids };
+        let Missing { key, ids } = *missing;
+        let mut kept = Kept { stage, content: OnceCell::new(), diagnostics, ids };
         // A comment, or a function of Common that the pass does not call, makes another text and the same stage.
-        if let Some(same) = self.stages.values().find(|other| other.is_same(&outcome)) {
-            outcome.stage = same.stage.clone();
+        if self.joins
+            && let Some(same) = self.stages.values().find(|other| other.is_same(&kept))
+        {
+            kept.stage = same.stage.clone();
         }
-        let result = (outcome.stage.clone(), outcome.diagnostics.clone());
-        self.stages.insert(key, outcome);
-        result
+        let found = (kept.stage.clone(), kept.diagnostics.clone());
+        self.stages.insert(key, kept);
+        found
     }
 
     /// Ends a build; see [`Cache::end_build`]. Returns the number of stages that it compiled.

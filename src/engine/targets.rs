@@ -117,11 +117,13 @@ impl NewTargets {
         canvas: (u32, u32),
         present: &[Target],
     ) -> Result<Self, GpuError> {
-        let make = |planned: &graph::Target| {
-            let is_kept = present.iter().any(|t| t.is(planned) && t.shape() == Shape::of(planned, canvas));
+        let make = |(index, planned): (usize, &graph::Target)| {
+            // What no pass draws holds zeros, also where a pass that has gone drew it before.
+            let is_kept = plan.is_drawn(index)
+                && present.iter().any(|t| t.is(planned) && t.shape() == Shape::of(planned, canvas));
             if is_kept { Ok(None) } else { Target::new(gpu, mips, planned, canvas).map(Some) }
         };
-        plan.targets.iter().map(make).collect::<Result<_, _>>().map(Self)
+        plan.targets.iter().enumerate().map(make).collect::<Result<_, _>>().map(Self)
     }
 
     /// Puts the targets of the plan in place of the present ones, of which it keeps those that are as the plan asks.

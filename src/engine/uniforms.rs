@@ -7,7 +7,7 @@ use super::{
 use crate::{
     glsl::{
         UniformSet,
-        interface::{GeometryBlock, KNOB_BYTES, UniformBlock},
+        interface::{CUSTOM_UNIFORM_BYTES, GeometryBlock, UniformBlock},
     },
     gpu::Gpu,
 };
@@ -25,8 +25,8 @@ pub(super) struct Uniforms {
     /// The matrices of meshes, a block for each program of each pass.
     meshes: Blocks,
     /// The author's own, one block for all passes, written when one changes.
-    knobs: wgpu::Buffer,
-    knob_slots: Vec<[u32; 4]>,
+    custom_uniforms: wgpu::Buffer,
+    custom_uniform_slots: Vec<[u32; 4]>,
 }
 
 /// Blocks of one size, [`STRIDE`] apart.
@@ -70,12 +70,12 @@ fn uniform_buffer(gpu: &Gpu, label: &str, size: u64) -> wgpu::Buffer {
 
 impl Uniforms {
     pub fn new(gpu: &Gpu, program: &Program) -> Self {
-        let knobs = program.knobs.len();
+        let custom_uniforms = program.custom_uniforms.len();
         Self {
             blocks: Blocks::new(gpu, "uniforms", program.draws.len()),
             meshes: Blocks::new(gpu, "geometry", program.meshes()),
-            knobs: uniform_buffer(gpu, "own uniforms", knobs.max(1) as u64 * KNOB_BYTES),
-            knob_slots: vec![[0; 4]; knobs],
+            custom_uniforms: uniform_buffer(gpu, "own uniforms", custom_uniforms.max(1) as u64 * CUSTOM_UNIFORM_BYTES),
+            custom_uniform_slots: vec![[0; 4]; custom_uniforms],
         }
     }
 
@@ -96,12 +96,12 @@ impl Uniforms {
     }
 
     /// Values of the author's own uniforms. Says whether any is different now.
-    pub fn set_knobs(&mut self, gpu: &Gpu, slots: Vec<[u32; 4]>) -> bool {
-        if slots == self.knob_slots {
+    pub fn set_custom_uniforms(&mut self, gpu: &Gpu, slots: Vec<[u32; 4]>) -> bool {
+        if slots == self.custom_uniform_slots {
             return false;
         }
-        gpu.queue.write_buffer(&self.knobs, 0, bytemuck::cast_slice(&slots));
-        self.knob_slots = slots;
+        gpu.queue.write_buffer(&self.custom_uniforms, 0, bytemuck::cast_slice(&slots));
+        self.custom_uniform_slots = slots;
         true
     }
 
@@ -113,8 +113,18 @@ impl Uniforms {
         self.meshes.binding(mesh, size_of::<GeometryBlock>())
     }
 
-    pub fn knob_binding(&self) -> wgpu::BindingResource<'_> {
-        self.knobs.as_entire_binding()
+    pub fn custom_uniform_binding(&self) -> wgpu::BindingResource<'_> {
+        self.custom_uniforms.as_entire_binding()
+    }
+
+    /// The site's uniforms as draw `index` reads them.
+    pub fn uniform_block(&self, index: usize) -> UniformBlock {
+        bytemuck::pod_read_unaligned(&self.blocks.block(index)[..size_of::<UniformBlock>()])
+    }
+
+    /// The words of the author's own, by their slots.
+    pub fn custom_uniforms(&self) -> &[[u32; 4]] {
+        &self.custom_uniform_slots
     }
 
     /// Adds what draw `index` reads of all this, and nothing else: equal bytes, equal values.
@@ -123,8 +133,8 @@ impl Uniforms {
         for range in places(draw.uniforms) {
             read.extend_from_slice(&block[range]);
         }
-        for slot in draw.knobs.iter() {
-            read.extend_from_slice(bytemuck::cast_slice(&self.knob_slots[usize::from(slot)]));
+        for slot in draw.custom_uniforms.iter() {
+            read.extend_from_slice(bytemuck::cast_slice(&self.custom_uniform_slots[usize::from(slot)]));
         }
         if let Some(boundary) = &draw.boundary {
             self.add_read_by(index, &boundary.compiled, read);

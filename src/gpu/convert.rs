@@ -27,11 +27,23 @@ impl FloatConverter {
     /// Level 0 of a texture as a new rgba32float texture: what a shader reads of it, missing components as 0, alpha as
     /// 1.
     pub fn convert(&self, gpu: &Gpu, picture: &Texture) -> Result<Texture, GpuError> {
-        let (width, height) = (picture.width(), picture.height());
+        self.convert_level(gpu, picture, 0)
+    }
+
+    /// As [`FloatConverter::convert`], for any level of a texture.
+    pub fn convert_level(&self, gpu: &Gpu, picture: &Texture, level: u32) -> Result<Texture, GpuError> {
+        let side = |texels: u32| (texels >> level).max(1);
+        let (width, height) = (side(picture.width()), side(picture.height()));
         let descriptor =
             TextureDescriptor { label: "as floats", width, height, format: FORMAT, levels: 1, is_target: true };
         let floats = Texture::new(gpu, &descriptor)?;
-        let read = self.shader.bind(gpu, &picture.level_0);
+        let view = picture.raw.create_view(&wgpu::TextureViewDescriptor {
+            label: Some("as floats"),
+            base_mip_level: level,
+            mip_level_count: Some(1),
+            ..Default::default()
+        });
+        let read = self.shader.bind(gpu, &view);
         let mut encoder =
             gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("as floats") });
         let target = floats.attachment(wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT));

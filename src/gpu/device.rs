@@ -28,7 +28,8 @@ impl Default for GpuOptions {
 #[derive(Debug, thiserror::Error)]
 pub enum GpuError {
     #[error(
-        "no graphics device was found ({0}). On Debian or Ubuntu `apt-get install mesa-vulkan-drivers` brings one that runs on the processor"
+        "no graphics device was found ({0}). On Debian or Ubuntu `apt-get install mesa-vulkan-drivers` brings one that \
+         runs on the processor"
     )]
     NoAdapter(String),
     #[error("{adapter} did not give a device: {reason}")]
@@ -38,7 +39,8 @@ pub enum GpuError {
     #[error("{what} of {width}x{height} pixels: a size of 0 holds no pixel")]
     Empty { what: String, width: u32, height: u32 },
     #[error(
-        "the targets of {what} take {bytes} bytes a texel; this device draws into at most {limit} at once: give them smaller formats"
+        "the targets of {what} take {bytes} bytes a texel; this device draws into at most {limit} at once: give them \
+         smaller formats"
     )]
     TargetsTooLarge { what: String, bytes: u32, limit: u32 },
     #[error("{what} has {count} targets; this device draws into at most {limit} at once")]
@@ -243,6 +245,12 @@ impl Gpu {
             Some(error) => Err(error),
             None => Ok(made),
         }
+    }
+
+    /// Makes the device one that was lost.
+    #[cfg(test)]
+    pub fn lose(&self) {
+        self.state.lost.store(true, Ordering::Relaxed);
     }
 
     /// Waits until the device has done everything it was given.

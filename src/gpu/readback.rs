@@ -2,40 +2,76 @@
 
 use super::{Gpu, GpuError, Texture};
 
-/// Reads level 0 of an rgba32float texture, rows in texture order without padding. Waits for the device.
-pub fn read_rgba32float(gpu: &Gpu, texture: &Texture) -> Result<Vec<[f32; 4]>, GpuError> {
-    let (width, height) = (texture.width(), texture.height());
-    let row = width as usize * 16;
-    let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT as usize);
-    let size = (padded * height as usize) as u64;
-    let limit = gpu.device.limits().max_buffer_size;
-    if size > limit {
-        return Err(GpuError::OutOfMemory(format!("reading back {width}x{height} texels ({size} bytes of {limit})")));
+/// Reads textures back. The buffer that the texels go through is kept for the next texture of that size.
+#[derive(Default)]
+pub struct Readback {
+    buffer: Option<wgpu::Buffer>,
+}
+
+impl Readback {
+    /// Reads level 0 of an rgba32float texture, rows in texture order without padding. Waits for the device.
+    pub fn rgba32float(&mut self, gpu: &Gpu, texture: &Texture) -> Result<Vec<[f32; 4]>, GpuError> {
+        let mut texels = Vec::with_capacity(texture.width() as usize * texture.height() as usize);
+        self.rows(gpu, texture, 16, |row| {
+            texels.extend(row.chunks_exact(16).map(bytemuck::pod_read_unaligned::<[f32; 4]>));
+        })?;
+        Ok(texels)
     }
-    let buffer = gpu.guarded("readback", || {
-        gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("readback"),
-            size,
-            usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
-            mapped_at_creation: false,
-        })
-    })?;
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("readback") });
-    encoder.copy_texture_to_buffer(
-        texture.raw.as_image_copy(),
-        wgpu::TexelCopyBufferInfo {
-            buffer: &buffer,
-            layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded as u32), rows_per_image: None },
-        },
-        wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-    );
-    gpu.queue.submit([encoder.finish()]);
-    buffer.slice(..).map_async(wgpu::MapMode::Read, |_| {});
-    gpu.wait()?;
-    let mapped = buffer.slice(..).get_mapped_range().map_err(|e| GpuError::Lost(e.to_string()))?;
-    let mut texels = Vec::with_capacity(width as usize * height as usize);
-    for line in mapped.chunks_exact(padded) {
-        texels.extend(line[..row].chunks_exact(16).map(bytemuck::pod_read_unaligned::<[f32; 4]>));
+
+    /// Reads level 0 of an rgba8unorm texture likewise.
+    pub fn rgba8(&mut self, gpu: &Gpu, texture: &Texture) -> Result<Vec<u8>, GpuError> {
+        let mut bytes = Vec::with_capacity(texture.width() as usize * texture.height() as usize * 4);
+        self.rows(gpu, texture, 4, |row| bytes.extend_from_slice(row))?;
+        Ok(bytes)
     }
-    Ok(texels)
+
+    /// Gives each row of a texture whose texels have so many bytes.
+    fn rows(
+        &mut self,
+        gpu: &Gpu,
+        texture: &Texture,
+        texel: usize,
+        mut take: impl FnMut(&[u8]),
+    ) -> Result<(), GpuError> {
+        let (width, height) = (texture.width(), texture.height());
+        let row = width as usize * texel;
+        let padded = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT as usize);
+        let size = (padded * height as usize) as u64;
+        let limit = gpu.device.limits().max_buffer_size;
+        if size > limit {
+            let what = format!("reading back {width}x{height} texels ({size} bytes of {limit})");
+            return Err(GpuError::OutOfMemory(what));
+        }
+        // It comes back when all has gone well: one whose mapping failed is not used again.
+        let buffer = match self.buffer.take().filter(|buffer| buffer.size() == size) {
+            Some(buffer) => buffer,
+            None => gpu.guarded("readback", || {
+                gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                    label: Some("readback"),
+                    size,
+                    usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+                    mapped_at_creation: false,
+                })
+            })?,
+        };
+        let descriptor = wgpu::CommandEncoderDescriptor { label: Some("readback") };
+        let mut encoder = gpu.device.create_command_encoder(&descriptor);
+        let layout =
+            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded as u32), rows_per_image: None };
+        encoder.copy_texture_to_buffer(
+            texture.raw.as_image_copy(),
+            wgpu::TexelCopyBufferInfo { buffer: &buffer, layout },
+            wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        );
+        gpu.queue.submit([encoder.finish()]);
+        buffer.slice(..).map_async(wgpu::MapMode::Read, |_| {});
+        gpu.wait()?;
+        {
+            let mapped = buffer.slice(..).get_mapped_range().map_err(|e| GpuError::Lost(e.to_string()))?;
+            mapped.chunks_exact(padded).for_each(|line| take(&line[..row]));
+        }
+        buffer.unmap();
+        self.buffer = Some(buffer);
+        Ok(())
+    }
 }

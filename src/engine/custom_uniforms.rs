@@ -1,0 +1,110 @@
+//! The author's own uniforms on their way into shaders: which a pass may name, and the block their values lie in.
+
+use crate::{
+    diag::{Diagnostic, SourceId},
+    glsl::{self, CustomUniformKind, GivenValue, UniformValue, interface::CUSTOM_UNIFORM_BYTES},
+    project::{
+        CustomUniform, CustomUniformType, CustomUniformValue, CustomUniformValues, CustomUniforms, IncludeLines,
+        Project,
+    },
+};
+
+/// Slots in the 64 KiB that a uniform buffer has on every device.
+const MAX_CUSTOM_UNIFORMS: usize = (64 << 10) / CUSTOM_UNIFORM_BYTES as usize;
+
+/// Returns the uniforms that the texts of a project declare, with errors for names that the language has taken.
+pub(super) fn custom_uniforms(project: &Project) -> CustomUniforms {
+    let mut custom_uniforms = project.custom_uniforms();
+    for custom_uniform in &custom_uniforms.list {
+        if let Some(why) = glsl::taken(&custom_uniform.name) {
+            custom_uniforms.diagnostics.push(
+                Diagnostic::error(
+                    custom_uniform.span,
+                    format!("no uniform can be called `{}`: {why}", custom_uniform.name),
+                )
+                .hint("choose another name"),
+            );
+        }
+    }
+    if let Some(custom_uniform) = custom_uniforms.list.get(MAX_CUSTOM_UNIFORMS) {
+        custom_uniforms.diagnostics.push(
+            Diagnostic::error(
+                custom_uniform.span,
+                format!("a project has at most {MAX_CUSTOM_UNIFORMS} uniforms of its own"),
+            )
+            .hint("that is what a uniform buffer holds on every device; put some of them into a picture or a buffer"),
+        );
+    }
+    custom_uniforms
+}
+
+/// Returns those that the texts of a pass may name: its own, Common's, and those of what they include. `None`: Common
+/// alone.
+pub(super) fn in_scope<'k>(
+    custom_uniforms: &'k CustomUniforms,
+    lines: &IncludeLines,
+    pass: Option<SourceId>,
+) -> Vec<glsl::CustomUniform<'k>> {
+    let mut texts = lines.reach(Project::COMMON_ID);
+    texts.extend(pass.map(|id| lines.reach(id)).unwrap_or_default());
+    let is_there = |custom_uniform: &CustomUniform| custom_uniform.declared_in.iter().any(|id| texts.contains(id));
+    custom_uniforms
+        .list
+        .iter()
+        .enumerate()
+        .take(MAX_CUSTOM_UNIFORMS)
+        .filter(|(_, custom_uniform)| is_there(custom_uniform) && glsl::taken(&custom_uniform.name).is_none())
+        .map(|(slot, custom_uniform)| glsl::CustomUniform {
+            name: &custom_uniform.name,
+            kind: kind(custom_uniform.ty),
+            slot: slot as u16,
+        })
+        .collect()
+}
+
+/// Returns the values for uniforms that the texts declare in GLSL's own way: those that are no custom uniform's.
+pub(super) fn given(custom_uniforms: &CustomUniforms, values: &CustomUniformValues) -> Vec<UniformValue> {
+    let others = values.iter().filter(|(name, _)| custom_uniforms.get(name).is_none());
+    others.map(|(name, value)| UniformValue { name: name.clone(), value: as_given(value) }).collect()
+}
+
+fn as_given(value: &CustomUniformValue) -> GivenValue {
+    match value {
+        CustomUniformValue::Bool(on) => GivenValue::Bool(*on),
+        CustomUniformValue::Int(n) => GivenValue::Number(f64::from(*n)),
+        CustomUniformValue::Float(x) => GivenValue::Number(*x),
+        CustomUniformValue::Vector(all) => GivenValue::List(all.iter().copied().map(GivenValue::Number).collect()),
+        CustomUniformValue::List(all) => GivenValue::List(all.iter().map(as_given).collect()),
+    }
+}
+
+fn kind(ty: CustomUniformType) -> CustomUniformKind {
+    match ty {
+        CustomUniformType::Bool => CustomUniformKind::Bool,
+        CustomUniformType::Int => CustomUniformKind::Int,
+        CustomUniformType::Float => CustomUniformKind::Float,
+        CustomUniformType::Vec2 => CustomUniformKind::Vec2,
+        CustomUniformType::Vec3 | CustomUniformType::Color3 => CustomUniformKind::Vec3,
+        CustomUniformType::Vec4 => CustomUniformKind::Vec4,
+    }
+}
+
+/// Returns the block's slots for custom uniforms at these values.
+pub(super) fn block(custom_uniforms: &[CustomUniform], values: &CustomUniformValues) -> Vec<[u32; 4]> {
+    let slot = |custom_uniform: &CustomUniform| {
+        let mut words = [0; 4];
+        match custom_uniform.value(values) {
+            CustomUniformValue::Bool(on) => words[0] = u32::from(on),
+            CustomUniformValue::Int(n) => words[0] = n as u32,
+            CustomUniformValue::Float(x) => words[0] = (x as f32).to_bits(),
+            CustomUniformValue::List(_) => unreachable!("a uniform's value has the uniform's type"),
+            CustomUniformValue::Vector(all) => {
+                for (word, x) in words.iter_mut().zip(all) {
+                    *word = (x as f32).to_bits();
+                }
+            }
+        }
+        words
+    };
+    custom_uniforms.iter().map(slot).collect()
+}

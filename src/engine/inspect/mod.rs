@@ -1,0 +1,11 @@
+//! What a draw reads, in memory: the world of [`crate::glsl::walk`].
+//!
+//! Owns the copies of a draw's uniforms and textures as they were when it began, and the reference of a sampler.
+
+mod capture;
+mod texture;
+mod world;
+
+pub(super) use capture::Capture;
+pub use texture::{Level, TextureCopy};
+pub use world::PassInputs;

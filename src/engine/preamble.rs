@@ -1,0 +1,110 @@
+//! Common as it was read last: an edit that leaves it alone need not read it again.
+
+use super::Sources;
+use crate::{
+    diag::{SourceId, Span},
+    glsl::{Preamble, UniformValue},
+};
+use std::sync::Arc;
+
+/// What [`Sources`] have read of Common, for later ones with the same.
+#[derive(Default)]
+pub struct KeptPreamble {
+    last: Option<(Key, Option<Arc<Preamble>>)>,
+}
+
+/// Everything that reading Common reads.
+#[derive(PartialEq)]
+pub(super) struct Key {
+    common: Arc<str>,
+    includes: Vec<(Span, SourceId, Arc<str>)>,
+    values: Vec<UniformValue>,
+}
+
+impl KeptPreamble {
+    /// Gives these texts what was read of the same Common before.
+    pub fn lend(&self, texts: &Sources<'_>) {
+        if let Some((key, preamble)) = &self.last
+            && texts.preamble_key().as_ref() == Some(key)
+        {
+            // What the texts have read themselves is as good.
+            let _ = texts.preamble.set(preamble.clone());
+        }
+    }
+
+    /// Keeps what these texts have of Common, if any of them needed it.
+    pub fn keep(&mut self, texts: &Sources<'_>) {
+        if let (Some(key), Some(preamble)) = (texts.preamble_key(), texts.preamble.get()) {
+            self.last = Some((key, preamble.clone()));
+        }
+    }
+}
+
+impl Sources<'_> {
+    fn preamble_key(&self) -> Option<Key> {
+        let common = self.common()?;
+        let includes = self.includes([common.id]);
+        Some(Key {
+            common: self.shared(common),
+            includes: includes.iter().map(|i| (i.line, i.text.id, self.shared(i.text))).collect(),
+            values: self.values.clone(),
+        })
+    }
+
+    /// Common, read when it is first needed. `None`: there is none, or it has to be read with each pass.
+    pub(super) fn preamble(&self) -> Option<&Preamble> {
+        let read = || {
+            let common = self.common()?;
+            Preamble::new(common, &self.includes([common.id]), &self.values).map(Arc::new)
+        };
+        self.preamble.get_or_init(read).as_deref()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{diag, glsl::Driver, project};
+
+    /// Compiles a preset whose texts were edited before, and returns whether Common was read anew.
+    fn reads(kept: &mut KeptPreamble, edit: impl FnOnce(&mut project::Project)) -> bool {
+        let mut project = project::presets::load("fluid").expect("a preset").project;
+        edit(&mut project);
+        let texts = Sources::new(&project);
+        kept.lend(&texts);
+        let is_lent = texts.preamble.get().is_some();
+        texts.compile_pass(0, [false; 4], Driver::default()).map(drop).expect("a program without errors");
+        kept.keep(&texts);
+        !is_lent
+    }
+
+    fn add_line(source: &mut project::Source) {
+        source.text = format!("{}\n// A further line.\n", source.text).into();
+    }
+
+    #[test]
+    fn an_edit_of_a_pass_leaves_common_unread() {
+        let mut kept = KeptPreamble::default();
+        assert!(reads(&mut kept, |_| {}), "nothing was read yet");
+        assert!(!reads(&mut kept, |_| {}));
+        assert!(!reads(&mut kept, |project| add_line(&mut project.passes[0].source)));
+        assert!(reads(&mut kept, |project| add_line(project.common.as_mut().expect("it has one"))));
+        assert!(reads(&mut kept, |_| {}), "the newest is kept");
+    }
+
+    #[test]
+    fn what_is_wrong_in_common_is_told_once() {
+        for wrong in ["float wrong(float x) { return y; }", "float wrong(float x) { return x }"] {
+            let mut project = project::presets::load("fluid").expect("a preset").project;
+            let common = project.common.as_mut().expect("it has one");
+            common.text = format!("{}\n{wrong}\n", common.text).into();
+            let outcomes = Sources::new(&project).compile_all(Driver::default());
+            let errors: Vec<_> = outcomes.into_iter().filter_map(Result::err).collect();
+            assert!(errors.len() >= project.passes.len(), "each pass has the mistake");
+            let mut told = Vec::new();
+            errors.into_iter().for_each(|errors| diag::append(&mut told, errors));
+            let places: Vec<_> = told.iter().map(|d| d.span.map(|span| span.source)).collect();
+            assert_eq!(places, [Some(project::Project::COMMON_ID)], "{told:?}");
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! Small pictures of float textures, for panels that show many of them.
+
+use super::{Gpu, GpuError, Texture, TextureDescriptor, full_screen::PictureShader};
+
+/// Texels of each, whatever the shape of what it shows.
+pub const SIZE: (u32, u32) = (160, 90);
+
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// Four texels of each place, so that a row of thin lines is not all light or all dark.
+fn shader() -> String {
+    let (width, height) = SIZE;
+    format!(
+        "
+@group(0) @binding(0) var picture: texture_2d<f32>;
+
+@fragment fn fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {{
+    let size = vec2<f32>(textureDimensions(picture));
+    let cell = size / vec2({width}.0, {height}.0);
+    let corner = vec2(position.x - 0.5, {height}.0 - 0.5 - position.y) * cell;
+    var sum = vec3(0.0);
+    for (var i = 0; i < 4; i++) {{
+        let part = vec2(f32(i & 1), f32(i >> 1)) * 0.5 + 0.25;
+        let texel = vec2<i32>(clamp(corner + part * cell, vec2(0.0), size - 1.0));
+        let colour = textureLoad(picture, texel, 0).rgb;
+        // NaN shows as 0, as in every picture; a comparison with it is false.
+        let bits = bitcast<vec3<u32>>(colour) & vec3(0x7fffffffu);
+        sum += select(clamp(colour, vec3(0.0), vec3(1.0)), vec3(0.0), bits > vec3(0x7f800000u));
+    }}
+    return vec4(sum / 4.0, 1.0);
+}}
+"
+    )
+}
+
+/// Draws them.
+pub struct Miniatures {
+    shader: PictureShader,
+    pipeline: wgpu::RenderPipeline,
+    texture: Texture,
+}
+
+impl Miniatures {
+    pub fn new(gpu: &Gpu) -> Result<Self, GpuError> {
+        let shader = PictureShader::new(gpu, "miniature", &shader());
+        let (width, height) = SIZE;
+        let descriptor =
+            TextureDescriptor { label: "miniature", width, height, format: FORMAT, levels: 1, is_target: true };
+        Ok(Self { pipeline: shader.pipeline(gpu, FORMAT), texture: Texture::new(gpu, &descriptor)?, shader })
+    }
+
+    /// Draws one, its first row the top. The next takes its place.
+    pub fn draw(&self, gpu: &Gpu, picture: &Texture) -> &Texture {
+        let bound = self.shader.bind(gpu, &picture.level_0);
+        let mut encoder =
+            gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("miniature") });
+        let target = self.texture.attachment(gpu.load_what_is_overwritten());
+        self.shader.draw(gpu, &mut encoder, &self.pipeline, &bound, target);
+        gpu.queue.submit([encoder.finish()]);
+        &self.texture
+    }
+}
