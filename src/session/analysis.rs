@@ -4,7 +4,7 @@
 use super::worker::Worker;
 use crate::{
     diag::SourceId,
-    engine,
+    engine::{self, KeptPreamble, Sources},
     glsl::services::{Analysis, ClassSpan},
     project::{Pass, PassId, Project, Stage, Tab},
 };
@@ -61,8 +61,13 @@ impl Texts {
             && engine::channel_kinds(self.pass()) == engine::channel_kinds(other.pass())
     }
 
-    fn analyse(&self) -> Analysis {
-        engine::Sources::new(&self.project).analyse_stage(self.index, self.stage)
+    /// Analyses them, with Common as it was read last where it is the same.
+    fn analyse(&self, preamble: &mut KeptPreamble) -> Analysis {
+        let sources = Sources::new(&self.project);
+        preamble.lend(&sources);
+        let analysis = sources.analyse_stage(self.index, self.stage);
+        preamble.keep(&sources);
+        analysis
     }
 }
 
@@ -110,8 +115,9 @@ pub(super) struct Analyst {
 
 impl Analyst {
     pub fn new(wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
-        let work = |(texts, front): (Texts, Tab)| {
-            let analysis = texts.analyse();
+        let mut preamble = KeptPreamble::default();
+        let work = move |(texts, front): (Texts, Tab)| {
+            let analysis = texts.analyse(&mut preamble);
             let classes = analysis.classes(if front == Tab::Common { COMMON } else { texts.code() });
             TabAnalysis { analysis, front, classes, texts }
         };

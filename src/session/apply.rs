@@ -1,24 +1,27 @@
 //! Commands of the front ends that concern the open project, its picture and its input. Those about files are in
 //! `files`.
 
-use super::{
-    Session, capture,
-    command::{Command, Question},
-    template,
-    view::Level,
-};
+use super::{Session, capture, command::Command, view::Level};
 use crate::{
     media::Keyboard,
-    project::{self, Channel, KnobValue, KnobValues, PassId, Tab, include_names},
+    project::{self, Channel, CustomUniformValue, CustomUniformValues, PassId, Tab, include_names},
 };
 
 impl Session {
     /// Does what the user asked. Never fails: trouble becomes a notice.
     pub fn apply(&mut self, command: Command) {
         self.changed |= !is_input(&command);
+        self.obey(command);
+        // Not in a tick, which a slow frame may put off.
+        self.keep_unsaved();
+    }
+
+    fn obey(&mut self, command: Command) {
         match command {
             Command::Open(_)
             | Command::OpenProject { .. }
+            | Command::Paste(_)
+            | Command::Bring { .. }
             | Command::New
             | Command::Save
             | Command::SaveAs(_)
@@ -35,10 +38,21 @@ impl Session {
             }
             Command::CompileNow => self.compile_soon(),
             Command::Play => self.play(),
-            Command::Pause => self.run.clock.pause(),
-            Command::TogglePlay if self.run.clock.is_playing() => self.run.clock.pause(),
+            Command::Pause => self.pause(),
+            Command::TogglePlay if self.run.clock.is_playing() => self.pause(),
             Command::TogglePlay => self.play(),
+            Command::Cover(is_covered) => {
+                if std::mem::replace(&mut self.run.is_covered, is_covered) && !is_covered {
+                    self.run.clock.rebase();
+                    self.run.fps.restart();
+                }
+            }
+            Command::Hold => self.hold(),
+            Command::GoOn => self.go_on_drawing(),
+            Command::DrawSmaller => self.draw_smaller(),
+            Command::DrawLastGood => self.draw_last_good(),
             Command::Step => {
+                self.override_halt();
                 self.run.clock.pause();
                 self.run.steps = self.run.steps.saturating_add(1);
             }
@@ -57,35 +71,26 @@ impl Session {
                 self.canvas.refused = None;
             }
             Command::SetChannel { pass, index, channel } => {
-                let folder = capture::base_folder(self.project());
-                let channel = channel.map(|c| Channel { input: project::at_home(c.input, folder.as_deref()), ..c });
-                let slot = self.documents.current_mut().pass_mut(&pass).and_then(|p| p.channels.get_mut(index));
-                if let Some(slot) = slot
-                    && *slot != channel
-                {
-                    *slot = channel;
-                    self.compile_soon();
+                self.set_channel(&pass, index, channel);
+            }
+            Command::SetCustomUniform { name, value } => self.set_custom_uniform(&name, value),
+            Command::AssignCustomUniform(assignment) => {
+                match self.documents.current_mut().set_custom_uniform(&assignment) {
+                    Ok(()) => self.custom_uniforms_turned(),
+                    Err(why) => self.notice(Level::Error, format!("not set: {why}")),
                 }
             }
-            Command::SetKnob { name, value } => self.set_knob(&name, value),
-            Command::AssignKnob(assignment) => match self.documents.current_mut().set_knob(&assignment) {
-                Ok(()) => self.knobs_turned(),
-                Err(why) => self.notice(Level::Error, format!("not set: {why}")),
-            },
-            Command::ResetKnobs => {
+            Command::ResetCustomUniforms => {
                 let project = self.documents.current_mut();
-                for knob in project.knobs().list {
-                    project.knob_values.remove(&knob.name);
+                for custom_uniform in project.custom_uniforms().list {
+                    project.custom_uniform_values.remove(&custom_uniform.name);
                 }
-                self.knobs_turned();
+                self.custom_uniforms_turned();
             }
-            Command::AddTab(tab) => {
-                if template::add(self.documents.current_mut(), &tab) {
-                    self.text_generation += 1;
-                    self.compile_soon();
-                }
-            }
-            Command::RemoveTab(tab) => self.ask_to_remove(tab),
+            Command::AddTab(tab) => self.add_tab(&tab),
+            Command::EditPasses(edit) => self.edit_passes(edit),
+            Command::UndoPassEdit => self.undo_pass_edit(),
+            Command::RedoPassEdit => self.redo_pass_edit(),
             Command::MouseDown { x, y } => self.input(|run| run.mouse.press(x, y)),
             Command::MouseMove { x, y } if self.run.mouse.is_down() => self.input(|run| run.mouse.move_to(x, y)),
             Command::MouseMove { .. } => {}
@@ -97,14 +102,43 @@ impl Session {
             Command::Screenshot => self.capture(super::capture::Format::Png),
             Command::SaveTexels => self.capture(super::capture::Format::Npy),
             Command::ShowPass(pass) => self.show_pass(pass),
-            Command::WatchCosts(on) => self.run.costs.watch(on),
+            Command::WatchCosts(on) => {
+                self.run.costs.watch(on);
+                self.drawing.wanted.costs = on;
+            }
+            Command::WatchTargets(targets) => self.run.miniatures.watch(targets),
+            Command::SetFrameLimit(limit) => self.halting.limit = limit,
             Command::SetResetOnReload(on) => self.disk.reset_on_reload = on,
             Command::DismissNotice(id) => self.notices.retain(|n| n.id != id),
+            Command::Notify { level, text, path } => {
+                self.notice(level, text);
+                if let Some(notice) = self.notices.last_mut() {
+                    notice.path = path;
+                }
+            }
         }
+    }
+
+    /// True if the channel reads something else now.
+    pub(super) fn set_channel(&mut self, pass: &PassId, index: usize, channel: Option<Channel>) -> bool {
+        let folder = capture::base_folder(self.project());
+        let channel = channel.map(|c| Channel { input: project::at_home(c.input, folder.as_deref()), ..c });
+        let now = self.project().pass(pass).and_then(|p| p.channels.get(index));
+        if now.is_none_or(|now| *now == channel) {
+            return false;
+        }
+        let before = self.project().clone();
+        if let Some(slot) = self.documents.current_mut().pass_mut(pass).and_then(|p| p.channels.get_mut(index)) {
+            *slot = channel;
+        }
+        self.note_pass_edit(format!("iChannel{index} of {}", pass.title()), before);
+        self.compile_soon();
+        true
     }
 
     /// Compiles in the next tick.
     pub(super) fn compile_soon(&mut self) {
+        self.compile.fallback = None;
         self.compile.is_wanted = true;
         self.compile.state.compiling = true;
     }
@@ -137,22 +171,22 @@ impl Session {
         self.compile.state.compiling = true;
     }
 
-    fn set_knob(&mut self, name: &str, value: Option<KnobValue>) {
-        let Some(knob) = self.knobs().iter().find(|k| k.name == name).cloned() else { return };
+    fn set_custom_uniform(&mut self, name: &str, value: Option<CustomUniformValue>) {
+        let Some(custom_uniform) = self.custom_uniforms().iter().find(|k| k.name == name).cloned() else { return };
         let project = self.documents.current_mut();
         match value {
-            None => drop(project.knob_values.remove(name)),
+            None => drop(project.custom_uniform_values.remove(name)),
             Some(value) => {
-                let within = knob.value(&KnobValues::from([(name.to_owned(), value)]));
-                project.turn_knob(&knob, within);
+                let within = custom_uniform.value(&CustomUniformValues::from([(name.to_owned(), value)]));
+                project.turn_custom_uniform(&custom_uniform, within);
             }
         }
-        self.knobs_turned();
+        self.custom_uniforms_turned();
     }
 
     /// The values go to the running program; while paused, one frame shows them.
-    pub(super) fn knobs_turned(&mut self) {
-        self.run.is_frame_due |= self.engine.set_knobs(&self.documents.current().knob_values);
+    pub(super) fn custom_uniforms_turned(&mut self) {
+        self.drawing.wanted.custom_uniforms = Some(self.documents.current().custom_uniform_values.clone());
     }
 
     /// Returns what the tab's pass reads by its text alone.
@@ -163,13 +197,19 @@ impl Session {
         project.pass(id).map(|p| p.channels.clone())
     }
 
-    fn play(&mut self) {
+    pub(super) fn play(&mut self) {
+        self.override_halt();
         self.run.clock.play();
         self.run.fps.restart();
     }
 
+    fn pause(&mut self) {
+        self.halting.resumes = false;
+        self.run.clock.pause();
+    }
+
     pub(super) fn reset(&mut self) {
-        self.engine.reset();
+        self.drawing.wanted.reset = true;
         self.run.clock.reset();
         self.run.fps.restart();
         self.run.steps = 0;
@@ -215,54 +255,12 @@ impl Session {
         if self.run.shown == pass || self.project().pass(&pass).is_none() {
             return;
         }
-        let is_drawn = self.engine.program().is_some_and(|p| p.plan().targets.iter().any(|t| t.id == pass));
-        self.engine.show(pass.clone());
-        self.display_generation += 1;
+        let is_drawn = self.drawing.draws(&pass);
+        self.drawing.wanted.shown = Some(pass.clone());
         self.run.shown = pass;
         if !is_drawn {
             // A pass that nothing reads is in the program only while it is shown.
             self.compile_soon();
-        }
-    }
-
-    fn ask_to_remove(&mut self, tab: Tab) {
-        match self.project().source(&tab) {
-            _ if tab == Tab::Pass(PassId::Image) => {
-                self.notice(Level::Warning, "Image is what a project shows; it cannot be removed");
-            }
-            None => {}
-            Some(source) if matches!(tab, Tab::Stage(..)) => {
-                let why = format!("{} is drawn with; take it out of eddy.toml instead", source.name);
-                self.notice(Level::Warning, why);
-            }
-            Some(source) if source.text.trim().is_empty() || *source.text == *template::text(&tab) => {
-                self.remove_tab(&tab);
-            }
-            Some(_) => self.ask(Question::RemoveTab(tab)),
-        }
-    }
-
-    pub(super) fn remove_tab(&mut self, tab: &Tab) {
-        let project = self.documents.current_mut();
-        match tab {
-            Tab::Common => project.common = None,
-            Tab::Stage(..) => return,
-            Tab::Pass(id) => {
-                project.passes.retain(|p| p.id != *id);
-                project.groups.iter_mut().for_each(|g| g.passes.retain(|p| p != id));
-                project.groups.retain(|g| !g.passes.is_empty());
-            }
-        }
-        self.compile.include_edits += 1;
-        self.text_generation += 1;
-        self.show_image_if_gone();
-        self.compile_soon();
-    }
-
-    /// Shows Image where the shown pass is no more.
-    pub(super) fn show_image_if_gone(&mut self) {
-        if self.project().pass(&self.run.shown).is_none() {
-            self.run.shown = PassId::Image;
         }
     }
 }

@@ -42,6 +42,12 @@ impl Default for Clock {
 }
 
 impl Clock {
+    /// A clock at frame 0 whose first frame is at a time.
+    pub fn at(time_secs: f64, is_playing: bool) -> Self {
+        let time_secs = if time_secs.is_finite() { time_secs.max(0.0) } else { 0.0 };
+        Self { is_playing, time_secs, ..Self::default() }
+    }
+
     pub fn is_playing(&self) -> bool {
         self.is_playing
     }

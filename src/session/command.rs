@@ -1,8 +1,9 @@
 //! Commands are what a front end asks of a [`Session`](super::Session); questions and requests are what the session
 //! asks back.
 
-use crate::project::{Channel, KnobValue, PassId, Project, Tab};
-use std::{path::PathBuf, sync::Arc};
+use super::view::Level;
+use crate::project::{Channel, CustomUniformValue, Origin, PassEdit, PassId, Project, Tab};
+use std::{path::PathBuf, sync::Arc, time::Duration};
 
 /// Something the user did. Takes effect in [`Session::apply`](super::Session::apply); what needs time (compiling,
 /// reloading, drawing) happens in later ticks.
@@ -16,6 +17,14 @@ pub enum Command {
         project: Box<Project>,
         size: Option<(u32, u32)>,
     },
+    /// Opens what a text is or names: Shadertoy JSON, GLSL, a path.
+    Paste(String),
+    /// Takes files that a person brings: projects are opened; pictures and models go into the open one, to a pass and a
+    /// channel of it if these are named, or begin a new one where none is shown.
+    Bring {
+        paths: Vec<PathBuf>,
+        to: Option<(PassId, Option<usize>)>,
+    },
     /// A new project of one Image pass.
     New,
     /// Writes the project where it came from. What has no such place (new, preset, JSON) leads to
@@ -26,7 +35,7 @@ pub enum Command {
     SaveAs(PathBuf),
     /// The folder picker of [`Request::SaveAs`] was closed without a choice.
     SaveAsCancelled,
-    /// The whole new text of a tab. Compiles a while after the last one.
+    /// The whole new text of a tab. Compiles a while after the last one, or at once where that is fast.
     EditText {
         tab: Tab,
         text: String,
@@ -39,6 +48,17 @@ pub enum Command {
     Play,
     Pause,
     TogglePlay,
+    /// Something covers the picture: while it does, time stands still though nobody has paused it.
+    Cover(bool),
+    /// Draws nothing more of the open project before [`Command::Play`], [`Command::Step`] or [`Command::GoOn`]: right
+    /// after [`Command::Open`], nothing at all.
+    Hold,
+    /// Ends a [`Halt`](super::Halt): what is drawn now may take its time.
+    GoOn,
+    /// Ends it with fewer pixels.
+    DrawSmaller,
+    /// Ends it with the newest code that was fast enough. The texts stay as they are.
+    DrawLastGood,
     /// Draws one frame and pauses: 1/60 s later than the one before.
     Step,
     /// Time, frame and every buffer to zero. Keyboard toggles and the mouse stay.
@@ -59,18 +79,23 @@ pub enum Command {
         channel: Option<Channel>,
     },
     /// Turns one of the author's own uniforms, within its range; `None` is the default. Compiles nothing.
-    SetKnob {
+    SetCustomUniform {
         name: String,
-        value: Option<KnobValue>,
+        value: Option<CustomUniformValue>,
     },
     /// The same as a person writes it: `viscosity=0.3`. What cannot be set so is told in a notice.
-    AssignKnob(String),
+    AssignCustomUniform(String),
     /// All of them to their defaults.
-    ResetKnobs,
+    ResetCustomUniforms,
     /// Adds Common or a pass with a starting text. One that exists already stays as it is.
     AddTab(Tab),
-    /// Removes Common or a pass; one with a text of its own leads to [`Question::RemoveTab`]. Image stays.
-    RemoveTab(Tab),
+    /// Edits the passes: their names and order, how they are drawn and read, which of them there are. What cannot be is
+    /// told in a notice.
+    EditPasses(PassEdit),
+    /// Takes back the newest edit of passes or channels; what was typed since stays.
+    UndoPassEdit,
+    /// Does it again.
+    RedoPassEdit,
     /// The pointer in canvas pixels from the bottom left: `y = height - py` for a `py` from the top. Whole pixels are
     /// made of them as the site does.
     MouseDown {
@@ -97,11 +122,22 @@ pub enum Command {
     /// Says whether somebody looks at what each pass costs: only then is it gathered. See
     /// [`Session::pass_costs`](super::Session::pass_costs).
     WatchCosts(bool),
+    /// Which targets of passes somebody sees small: only those are read back. See
+    /// [`Session::miniature`](super::Session::miniature).
+    WatchTargets(Vec<(PassId, usize)>),
+    /// A frame that takes longer pauses the picture.
+    SetFrameLimit(Duration),
     /// Says whether a reload from disk starts time and buffers anew.
     SetResetOnReload(bool),
     /// The answer to [`Session::question`](super::Session::question). One that does not fit it changes nothing.
     Answer(Answer),
     DismissNotice(u64),
+    /// Says something of the front end's own in a notice.
+    Notify {
+        level: Level,
+        text: String,
+        path: Option<PathBuf>,
+    },
     /// The user wants to leave. Leads to [`Request::Exit`], after a question if something is unsaved.
     Close,
 }
@@ -124,16 +160,49 @@ pub enum Question {
     },
     /// The folder of a Save As already holds these files, which would be replaced. Answers: Overwrite, Cancel.
     Overwrite { folder: PathBuf, files: Vec<PathBuf> },
-    /// Answers: Remove, Cancel.
-    RemoveTab(Tab),
+    /// An Eddy that ended early left unsaved work behind. Answers: Recover, Discard, Cancel, which leaves it for later.
+    Recover(Box<Recovered>),
+}
+
+/// Unsaved work that was left behind, as a question shows it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Recovered {
+    /// The recovery file.
+    pub file: PathBuf,
+    /// The project's name.
+    pub name: String,
+    /// The place that saving will write to.
+    pub origin: Origin,
+    /// Day and time of the last change, as people write it.
+    pub written: String,
+    pub tabs: Vec<RecoveredTab>,
+    /// Passes, channels or sliders differ from the disk's.
+    pub is_structure_changed: bool,
+    /// The reason why the project cannot be read from its place any more. Its work is new and without a place then.
+    pub trouble: Option<String>,
+}
+
+/// A tab whose text is not the disk's.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecoveredTab {
+    pub tab: Tab,
+    /// From the disk's text to the unsaved one, line by line, everything.
+    pub diff: Vec<DiffLine>,
 }
 
 /// The action that goes on once nothing unsaved stands in the way.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Then {
     Open(String),
-    OpenProject { project: Box<Project>, size: Option<(u32, u32)> },
+    OpenProject {
+        project: Box<Project>,
+        size: Option<(u32, u32)>,
+    },
     New,
+    /// A project that lies nowhere else: it counts as unsaved.
+    Keep(Box<Project>),
+    /// Takes up the unsaved work in a recovery file.
+    Recover(PathBuf),
     Close,
 }
 
@@ -148,7 +217,7 @@ pub enum Answer {
     /// Writes my text to a new file of this path (never over an existing one), then takes the one on disk.
     SaveMineAs(PathBuf),
     Overwrite,
-    Remove,
+    Recover,
 }
 
 /// One line of a diff.

@@ -1,17 +1,22 @@
 //! The compile worker reads a project's media and builds its program.
 
 use super::{
+    drawing::Device,
     stamps::{Stamp, Stamps},
     view::TabDiagnostic,
 };
 use crate::{
     diag::{self, Diagnostic},
-    engine::{BuildError, BuildOptions, Builder, EngineError, Program},
-    gpu::Gpu,
+    engine::{BuildError, BuildOptions, Builder, EngineError, Program, Sources},
+    glsl::Driver,
     media::{self, MediaSet},
     project::{self, Channel, Included, MeshSource, Pass, PassId, Project},
 };
-use std::{cmp::Reverse, path::PathBuf, time::Instant};
+use std::{
+    cmp::Reverse,
+    path::PathBuf,
+    time::{Duration, Instant},
+};
 
 /// One compile, or a look at whether one is due.
 pub(super) struct Job {
@@ -22,6 +27,8 @@ pub(super) struct Job {
     pub opened: u64,
     /// The texts name other files in their `#include` lines than those that were read: read them. Counts such edits.
     pub include_edit: Option<u64>,
+    /// The project is not the newest: one to fall back to.
+    pub is_fallback: bool,
     /// Only tells whether the pictures and models on disk are other than those of the last compile.
     pub is_look: bool,
 }
@@ -39,16 +46,37 @@ pub(super) struct Done {
 }
 
 pub(super) struct Compiled {
+    /// What was compiled.
+    pub project: Project,
+    pub is_fallback: bool,
     /// The program and its compile time, or none if the author has to mend something first.
     pub program: Result<Option<(Program, f64)>, EngineError>,
     /// Errors first.
     pub diagnostics: Vec<TabDiagnostic>,
+    /// From the texts to a program, or to what is wrong in them.
+    pub took: Duration,
 }
 
-/// The worker's work, with the pictures it has read so far.
-pub(super) fn work(gpu: Gpu, media_dir: Option<PathBuf>) -> impl FnMut(Job) -> Done + Send {
+/// A compile that takes no longer than this is not felt, whatever is typed meanwhile.
+const UNFELT: Duration = Duration::from_millis(5);
+
+/// Returns how long to wait for the end of typing after a compile that took so long: not at all where compiling is not
+/// felt, else as long as it takes, so that it takes half of the time at most.
+pub(super) fn quiet_after(took: Duration, longest: Duration) -> Duration {
+    if took < UNFELT { Duration::ZERO } else { took.min(longest) }
+}
+
+/// The worker's work, with the pictures it has read so far. The first job waits for the device.
+pub(super) fn work(device: Device, media_dir: Option<PathBuf>) -> impl FnMut(Job) -> Done + Send {
     let mut media = Media { dir: media_dir, ..Media::default() };
-    let mut builder = Builder::new(gpu);
+    let mut builder: Option<Builder> = None;
+    let mut build = move |project: &Project, media: &MediaSet, options: &BuildOptions| {
+        let builder = match &mut builder {
+            Some(builder) => builder,
+            None => builder.insert(Builder::new(device.wait().map_err(EngineError::from)?)),
+        };
+        builder.build(project, media, options)
+    };
     move |mut job| {
         if job.include_edit.is_some() {
             job.project.read_includes();
@@ -64,7 +92,7 @@ pub(super) fn work(gpu: Gpu, media_dir: Option<PathBuf>) -> impl FnMut(Job) -> D
             diag::append(&mut found, project::declare_channels(&mut job.project.clone()));
         }
         let start = Instant::now();
-        let program = match builder.build(&job.project, &media.set, &options) {
+        let program = match build(&job.project, &media.set, &options) {
             Ok(built) => {
                 diag::append(&mut found, built.diagnostics);
                 Ok(Some((built.program, start.elapsed().as_secs_f64() * 1e3)))
@@ -75,12 +103,31 @@ pub(super) fn work(gpu: Gpu, media_dir: Option<PathBuf>) -> impl FnMut(Job) -> D
             }
             Err(BuildError::Engine(e)) => Err(e),
         };
+        diag::append(&mut found, not_built(&job.project));
+        let took = start.elapsed();
+        diag::append(&mut found, project::advice(&job.project));
         found.sort_by_key(|d| Reverse(d.severity));
         let sources = job.project.sources();
         let diagnostics = found.iter().map(|d| TabDiagnostic::new(d, &sources, &job.project)).collect();
-        let includes = job.include_edit.map(|edit| (edit, job.project.includes));
-        Done { files, is_changed: false, includes, compiled: Some(Compiled { program, diagnostics }) }
+        let includes = job.include_edit.map(|edit| (edit, job.project.includes.clone()));
+        let Job { project, is_fallback, .. } = job;
+        let compiled = Compiled { project, is_fallback, program, diagnostics, took };
+        Done { files, is_changed: false, includes, compiled: Some(compiled) }
     }
+}
+
+/// Returns what the compiler says of texts that no program is built of: what the site would refuse in Common, and
+/// passes that are not drawn.
+fn not_built(project: &Project) -> Vec<Diagnostic> {
+    let texts = Sources::new(project);
+    let mut found = texts.check_common();
+    for (index, pass) in project.passes.iter().enumerate() {
+        if matches!(pass.id, PassId::Cubemap | PassId::Sound) {
+            let compiled = texts.compile_pass(index, [false; 4], Driver::default());
+            diag::append(&mut found, compiled.map_or_else(|errors| errors, |pass| pass.diagnostics));
+        }
+    }
+    found
 }
 
 /// The names of pictures and models, and how these are on disk. They are always taken before they are read: then a
@@ -132,4 +179,18 @@ fn wanted(job: &Job) -> Vec<PassId> {
         wanted.push(job.shown.clone());
     }
     wanted
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_wait_for_the_end_of_typing_is_as_long_as_a_compile_that_is_felt() {
+        let longest = Duration::from_millis(200);
+        let quiet = |micros| quiet_after(Duration::from_micros(micros), longest).as_micros();
+        assert_eq!([0, 400, 4_999].map(quiet), [0; 3]);
+        assert_eq!([5_000, 60_000, 900_000].map(quiet), [5_000, 60_000, 200_000]);
+        assert_eq!(quiet_after(Duration::from_secs(1), Duration::ZERO), Duration::ZERO);
+    }
 }

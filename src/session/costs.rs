@@ -1,7 +1,7 @@
 //! The costs of each pass are gathered while somebody looks.
 
-use crate::engine::{CostClock, Engine, EngineError, FrameInputs, PassCost, PassTime};
-use std::{collections::VecDeque, time::Instant};
+use crate::engine::{CostClock, PassCost, PassTime};
+use std::collections::VecDeque;
 
 /// Frames whose median counts: half a second at 60 a second.
 const FRAMES: usize = 30;
@@ -51,24 +51,19 @@ impl Costs {
         }
     }
 
-    /// Draws a frame. On a device without timestamps each pass is waited for while somebody looks.
-    pub fn draw(&mut self, engine: &mut Engine, inputs: &FrameInputs) -> Result<(), EngineError> {
-        let times = if self.is_watched && engine.cost_clock() == CostClock::Waited {
-            let began = Instant::now();
-            let (_, times) = engine.draw_waited(inputs, &mut || began.elapsed().as_secs_f64() * 1e3)?;
-            Some(times)
-        } else {
-            engine.draw(inputs)?;
-            engine.pass_times()
-        };
-        let Some(times) = times else { return Ok(()) };
+    /// Somebody looks at them.
+    pub fn is_watched(&self) -> bool {
+        self.is_watched
+    }
+
+    /// Adds the times of a frame, by a clock.
+    pub fn add(&mut self, times: Vec<PassTime>, clock: CostClock) {
         if self.is_watched {
             self.frames.truncate(FRAMES - 1);
             self.frames.push_front(times.clone());
         }
         // Waited for, the passes are no measure of a frame.
-        self.newest = if engine.cost_clock() == CostClock::Timestamps { times } else { Vec::new() };
-        Ok(())
+        self.newest = if clock == CostClock::Timestamps { times } else { Vec::new() };
     }
 
     /// Each pass with its median.

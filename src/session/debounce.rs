@@ -22,6 +22,11 @@ impl Debounce {
         Self { limit: Some(limit), ..Self::new(quiet) }
     }
 
+    /// Waits for longer or shorter quiet from now on.
+    pub fn set_quiet(&mut self, quiet: Duration) {
+        self.quiet = quiet;
+    }
+
     pub fn touch(&mut self, now: Instant) {
         self.touched = Some((self.touched.map_or(now, |t| t.0), now));
     }
@@ -71,6 +76,18 @@ mod tests {
         d.touch(at(6000));
         d.cancel();
         assert!(!d.take_due(at(9000)));
+    }
+
+    #[test]
+    fn another_quiet_holds_from_the_next_look_on() {
+        let start = Instant::now();
+        let at = |ms| start + Duration::from_millis(ms);
+        let mut d = Debounce::new(Duration::from_millis(200));
+        d.touch(at(0));
+        d.set_quiet(Duration::from_millis(50));
+        assert_eq!(d.deadline(), Some(at(50)));
+        d.set_quiet(Duration::ZERO);
+        assert!(d.take_due(at(0)), "no quiet is none");
     }
 
     #[test]

@@ -2,14 +2,15 @@
 
 use super::{
     Session, capture,
+    clock::Clock,
     command::{Answer, Command, Question, Request, Then},
     documents::Documents,
+    recent::RecentProject,
     template,
-    view::Level,
+    view::{Level, TabDiagnostic},
 };
 use crate::{
     diag::{Diagnostic, SourceMap},
-    engine::Engine,
     media::Keyboard,
     project::{self, Origin, Overwrite, PassId, Project, ProjectError, Tab},
 };
@@ -29,6 +30,8 @@ impl Session {
             }
             Command::Open(spec) => self.unless_unsaved(Then::Open(spec)),
             Command::OpenProject { project, size } => self.unless_unsaved(Then::OpenProject { project, size }),
+            Command::Paste(text) => self.paste(&text),
+            Command::Bring { paths, to } => self.bring(paths, to),
             Command::New => self.unless_unsaved(Then::New),
             Command::Close => self.unless_unsaved(Then::Close),
             Command::Save => {
@@ -44,7 +47,7 @@ impl Session {
         self.changed = true;
     }
 
-    fn unless_unsaved(&mut self, then: Then) {
+    pub(super) fn unless_unsaved(&mut self, then: Then) {
         if self.is_dirty() {
             let tabs = self.documents.dirty_tabs();
             self.ask(Question::Unsaved { then, tabs });
@@ -57,46 +60,51 @@ impl Session {
         match then {
             Then::Open(spec) => self.open(&spec),
             Then::OpenProject { project, size } => {
-                self.replace(*project);
+                self.replace(Documents::new(*project));
                 self.canvas.refused = None;
                 if size.is_some() {
                     (self.canvas.fixed, self.canvas.is_fixed_by_project) = (size, true);
                 }
             }
-            Then::New => self.replace(template::project()),
-            Then::Close => self.dialog.requests.push_back(Request::Exit),
+            Then::New => {
+                self.replace(Documents::new(template::project()));
+                self.begun += 1;
+            }
+            Then::Keep(project) => self.replace(Documents::restored(*project, template::project())),
+            Then::Recover(file) => self.recover(&file),
+            Then::Close => {
+                self.keep_time();
+                self.forget_unsaved();
+                self.dialog.requests.push_back(Request::Exit);
+            }
         }
     }
 
     fn open(&mut self, spec: &str) {
         match project::load(spec) {
             Ok(loaded) => {
-                self.replace(loaded.project);
-                self.tell_diagnostics(&loaded.warnings, &loaded.sources);
+                self.replace(Documents::new(loaded.project));
+                self.note_reading(&loaded.warnings, &loaded.sources);
             }
             Err(e) => self.notice(Level::Error, format!("{spec} was not opened: {e}")),
         }
     }
 
-    /// Another project takes the place of this one, from time 0.
-    fn replace(&mut self, project: Project) {
-        let (width, height) = self.engine.size();
-        match Engine::new(self.engine.gpu().clone(), width, height) {
-            Ok(engine) => self.engine = engine,
-            Err(e) => {
-                self.notice(Level::Error, format!("{} was not opened: {e}", project.name));
-                return;
-            }
-        }
-        self.engine.set_timing(true);
-        self.documents = Documents::new(project);
+    /// Another project takes the place of this one, from where its time stood when it was open last.
+    pub(super) fn replace(&mut self, documents: Documents) {
+        self.keep_time();
+        self.drawing.restart();
+        self.documents = documents;
+        self.safekeeping.kept = None;
         self.compile.includes_read = self.compile.include_edits;
         if std::mem::take(&mut self.canvas.is_fixed_by_project) {
             self.canvas.fixed = None;
         }
         // Conflicts of the project that goes.
-        self.dialog.questions.clear();
-        self.compile.has_program = false;
+        self.dialog.questions.retain(|q| matches!(q, Question::Recover(_)));
+        self.passes.clear();
+        self.compile.read.clear();
+        self.compile.fallback = None;
         self.compile.diagnostics.clear();
         self.compile.state = super::view::CompileState::default();
         self.disk.opened += 1;
@@ -106,13 +114,36 @@ impl Session {
         self.run.shown = PassId::Image;
         self.run.mouse = super::mouse::Mouse::default();
         self.run.keyboard = Keyboard::default();
-        self.run.clock = super::clock::Clock::default();
+        self.run.clock = self.place_known().map_or_else(Clock::default, |p| Clock::at(p.time_secs, !p.paused));
         self.run.fps.restart();
         self.run.costs.forget();
+        self.run.miniatures.forget();
         self.text_generation += 1;
-        self.display_generation += 1;
+        self.halt_for_new_project();
         self.disk_is_known();
         self.compile_soon();
+    }
+
+    /// Notes where the open project lies, if it lies anywhere, and returns what is known of it.
+    fn place_known(&mut self) -> Option<RecentProject> {
+        match self.recent.opened(&self.documents.current().origin) {
+            Ok(known) => known,
+            Err(why) => {
+                self.notice(Level::Warning, why);
+                None
+            }
+        }
+    }
+
+    /// Keeps where the open project's time stands.
+    fn keep_time(&mut self) {
+        let clock = &self.run.clock;
+        // A picture that a halt has paused runs again once it is drawn fast.
+        let is_paused = !clock.is_playing() && !self.halting.resumes;
+        let kept = self.recent.left(&self.documents.current().origin, clock.time_secs(), is_paused);
+        if let Err(why) = kept {
+            log::warn!("{why}");
+        }
     }
 
     /// Writes the project where it came from. True if nothing unsaved is left.
@@ -165,12 +196,19 @@ impl Session {
     }
 
     fn save_as(&mut self, folder: &Path, overwrite: Overwrite) {
+        // Typed by hand, it may be relative to where Eddy was started.
+        let folder = &std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
         let home = capture::base_folder(self.project()).and_then(|home| home.canonicalize().ok());
-        if home.is_some_and(|home| folder.canonicalize().is_ok_and(|folder| folder == home)) && !self.may_overwrite() {
+        let is_home = home.is_some_and(|home| folder.canonicalize().is_ok_and(|folder| folder == home));
+        if is_home && !self.may_overwrite() {
             return;
         }
         self.settle_includes();
-        match project::save(self.project(), folder, overwrite) {
+        let mut project = self.project().clone();
+        if !is_same_place(&project.origin, folder) {
+            project.name = project::name_at(folder);
+        }
+        match project::save(&project, folder, overwrite) {
             Ok(saved) => {
                 self.saved(saved);
                 // Pictures are read from the new place, and the compile's texts have new names.
@@ -196,11 +234,13 @@ impl Session {
     }
 
     fn saved(&mut self, project: Project) {
+        project::remove_renamed(self.documents.saved(), self.documents.current(), &project);
         let place = match &project.origin {
             Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => path.display().to_string(),
             Origin::Unsaved | Origin::Preset(_) => project.name.clone(),
         };
         self.documents.set_saved(project);
+        self.place_known();
         self.disk_is_known();
         self.notice(Level::Info, format!("saved {place}"));
     }
@@ -223,8 +263,6 @@ impl Session {
             (Question::Unsaved { then, .. }, Answer::Discard) => self.go_on(then),
             (Question::Overwrite { folder, .. }, Answer::Overwrite) => self.save_as(&folder, Overwrite::Allow),
             (Question::Unsaved { .. } | Question::Overwrite { .. }, Answer::Cancel) => self.dialog.after_save = None,
-            (Question::RemoveTab(tab), Answer::Remove) => self.remove_tab(&tab),
-            (Question::RemoveTab(_), Answer::Cancel) => {}
             (Question::Conflict { tab, file, mine, disk, diff }, answer) => {
                 // The text may have been edited since the question was put.
                 let mine_now = tab.as_ref().map_or_else(|| mine.to_string(), |t| self.text(t).to_owned());
@@ -233,6 +271,11 @@ impl Session {
                         self.notice(Level::Error, why);
                     }
                     self.dialog.questions.push_front(Question::Conflict { tab, file, mine, disk, diff });
+                }
+            }
+            (Question::Recover(recovered), answer) => {
+                if !self.answer_recover(&recovered, &answer) {
+                    self.dialog.questions.push_front(Question::Recover(recovered));
                 }
             }
             (question, _) => self.dialog.questions.push_front(question),
@@ -262,7 +305,10 @@ impl Session {
         if answer != Answer::KeepMine {
             match tab {
                 Some(tab) => self.documents.take_text_of_saved(tab),
-                None => self.documents.take_structure_of_saved(),
+                None => {
+                    self.documents.take_structure_of_saved();
+                    self.passes.clear();
+                }
             }
             self.after_reload();
         }
@@ -270,11 +316,29 @@ impl Session {
         Ok(())
     }
 
+    /// Keeps what reading the open project had to say, for the list of problems. What each compile says again is left
+    /// out.
+    pub(super) fn note_reading(&mut self, warnings: &[Diagnostic], sources: &SourceMap) {
+        let mut project = self.documents.saved().clone();
+        let mut again = project::advice(&project);
+        again.extend(project::declare_channels(&mut project));
+        let is_new = |d: &&Diagnostic| again.iter().all(|other| other.message != d.message);
+        let kept = warnings.iter().filter(is_new).map(|d| TabDiagnostic::new(d, sources, &project)).collect();
+        self.compile.read = kept;
+    }
+
     pub(super) fn tell_diagnostics(&mut self, diagnostics: &[Diagnostic], sources: &SourceMap) {
         for d in diagnostics {
             self.notice(Level::Warning, crate::diag::render(d, sources).trim_end());
         }
     }
+}
+
+/// Returns whether a project that is saved to `target` stays where it is.
+fn is_same_place(origin: &Origin, target: &Path) -> bool {
+    let (Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path)) = origin else { return false };
+    let target = if target.ends_with("eddy.toml") { target.parent().unwrap_or(target) } else { target };
+    matches!((path.canonicalize(), target.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
 /// Writes a text to a new numbered file beside `file`; its ending keeps it from being taken for a pass.

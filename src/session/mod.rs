@@ -8,6 +8,7 @@
 mod analyse;
 mod analysis;
 mod apply;
+mod arrivals;
 pub mod capture;
 pub mod clock;
 pub mod command;
@@ -16,11 +17,22 @@ mod costs;
 pub mod date;
 mod debounce;
 mod documents;
+mod draw;
+mod drawing;
 mod files;
 mod frames;
+mod halt;
+mod halting;
+mod marker;
+mod miniatures;
 pub mod mouse;
 pub mod npy;
 pub mod offline;
+mod pass_history;
+mod passes;
+mod recent;
+mod recover;
+mod recovery;
 mod reload;
 pub mod script;
 mod stamps;
@@ -29,12 +41,18 @@ mod structure;
 mod template;
 #[cfg(test)]
 pub(crate) mod testing;
+pub mod trace;
 pub mod view;
 mod watch;
 mod worker;
 
 pub use analysis::TabAnalysis;
-pub use command::{Answer, Command, DiffLine, Question, Request, Then};
+pub use command::{Answer, Command, DiffLine, Question, Recovered, RecoveredTab, Request, Then};
 pub use costs::{PassCosts, TimedPass};
+pub use pass_history::PassStep;
+pub use recent::RecentProject;
+pub use recovery::folder as recovery_folder;
 pub use state::{Session, SessionError, SessionOptions};
-pub use view::{CompileState, Level, Meanwhile, Notice, Outcome, Place, TabDiagnostic, TabLabel, Tick, Transport};
+pub use view::{
+    CompileState, Halt, Level, Meanwhile, Notice, Outcome, Place, TabDiagnostic, TabLabel, Tick, Transport,
+};

@@ -6,16 +6,25 @@
 use super::script::ScriptedInputs;
 use crate::{
     diag::{Diagnostic, SourceMap},
-    engine::{BuildError, BuildOptions, Engine, EngineError, FrameStats, PassTime, Pixels, Program},
-    gpu::Gpu,
+    engine::{BuildError, BuildOptions, Engine, EngineError, FrameStats, PassInputs, PassTime, Pixels, Program},
+    gpu::{Gpu, GpuError},
     media::MediaSet,
     project::{PassId, Project},
 };
-use std::time::Instant;
+use std::{
+    sync::mpsc::{RecvTimeoutError, channel},
+    time::{Duration, Instant},
+};
+
+/// Drivers compile on the thread that draws, and recurse as deep as an expression is nested. Pages that are not used
+/// cost nothing.
+const STACK_BYTES: usize = 256 << 20;
 
 /// A project being drawn frame after frame.
 pub struct Offline {
-    engine: Engine,
+    /// `None` once a frame has not come back in time.
+    engine: Option<Engine>,
+    frame_limit: Option<Duration>,
     inputs: ScriptedInputs,
     build_millis: Option<f64>,
     /// The device takes the passes' times; not known before they are asked for.
@@ -36,8 +45,14 @@ pub struct DrawnFrame {
 impl Offline {
     /// Makes the engine for a canvas of so many pixels. Fails for a size that the device cannot draw.
     pub fn new(gpu: &Gpu, (width, height): (u32, u32), inputs: ScriptedInputs) -> Result<Offline, EngineError> {
-        let engine = Engine::new(gpu.clone(), width, height)?;
-        Ok(Offline { engine, inputs, build_millis: None, has_stamps: None })
+        let engine = Some(Engine::new(gpu.clone(), width, height)?);
+        Ok(Offline { engine, frame_limit: None, inputs, build_millis: None, has_stamps: None })
+    }
+
+    /// Gives a frame up that takes longer, and the engine with it: no other can be drawn. The device stays as busy as
+    /// it is.
+    pub fn set_frame_limit(&mut self, limit: Option<Duration>) {
+        self.frame_limit = limit;
     }
 
     /// Compiles a project and takes it for the frames to come. Gives warnings and notes with the texts that they point
@@ -49,10 +64,11 @@ impl Offline {
         options: &BuildOptions,
     ) -> Result<(Vec<Diagnostic>, SourceMap), BuildError> {
         let began = Instant::now();
-        let built = Program::build(self.engine.gpu(), project, media, options);
+        let engine = self.engine.as_mut().ok_or_else(gone)?;
+        let built = Program::build(engine.gpu(), project, media, options);
         self.build_millis = Some(millis_since(began));
         let built = built?;
-        self.engine.set_program(built.program)?;
+        engine.set_program(built.program)?;
         Ok((built.diagnostics, built.sources))
     }
 
@@ -62,39 +78,94 @@ impl Offline {
     }
 
     /// Draws the next frame and waits until the device has finished it.
-    pub fn draw(&mut self) -> Result<DrawnFrame, EngineError> {
+    pub fn draw(&mut self) -> Result<DrawnFrame, OfflineError> {
         let inputs = self.inputs.next_frame();
-        let began = Instant::now();
-        let stats = self.engine.draw(&inputs)?;
-        let cpu_millis = millis_since(began);
-        self.engine.gpu().wait()?;
-        Ok(DrawnFrame { number: inputs.frame, stats, cpu_millis, millis: millis_since(began) })
+        let number = inputs.frame;
+        self.within(number, move |engine| {
+            let began = Instant::now();
+            let stats = engine.draw(&inputs)?;
+            let cpu_millis = millis_since(began);
+            engine.gpu().wait()?;
+            Ok(DrawnFrame { number, stats, cpu_millis, millis: millis_since(began) })
+        })
+    }
+
+    /// Draws the next frame, and takes what a pass reads when it is drawn.
+    pub fn draw_inspected(&mut self, pass: &PassId) -> Result<PassInputs, OfflineError> {
+        let (inputs, pass) = (self.inputs.next_frame(), pass.clone());
+        self.within(inputs.frame, move |engine| Ok(engine.draw_inspected(&inputs, &pass)?.1))
     }
 
     /// Draws the next frame and gives the time of each pass: by the device's timestamps, or, where it has none, each
     /// pass handed in and waited for by itself.
-    pub fn draw_timed(&mut self) -> Result<Vec<PassTime>, EngineError> {
+    pub fn draw_timed(&mut self) -> Result<Vec<PassTime>, OfflineError> {
         if self.has_stamps.is_none() {
-            self.has_stamps = Some(self.engine.set_timing(true));
+            self.has_stamps = Some(self.engine.as_mut().ok_or_else(gone)?.set_timing(true));
         }
         if self.has_stamps == Some(true) {
             self.draw()?;
-            return Ok(self.engine.pass_times().unwrap_or_default());
+            return Ok(self.engine.as_mut().and_then(Engine::pass_times).unwrap_or_default());
         }
         let inputs = self.inputs.next_frame();
-        let began = Instant::now();
-        Ok(self.engine.draw_waited(&inputs, &mut || millis_since(began))?.1)
+        self.within(inputs.frame, move |engine| {
+            let began = Instant::now();
+            Ok(engine.draw_waited(&inputs, &mut || millis_since(began))?.1)
+        })
     }
 
     /// Reads the texels of a pass's target as the newest frame left them; 0 is the first target.
     pub fn read(&mut self, pass: &PassId, target: usize) -> Result<Pixels, EngineError> {
-        self.engine.read_target(pass, target)
+        self.engine.as_mut().ok_or_else(gone)?.read_target(pass, target)
     }
 
-    /// Returns the engine, for what the passes cost and what the plan leaves out.
-    pub fn engine(&self) -> &Engine {
-        &self.engine
+    /// Returns the engine, for what the passes cost and what the plan leaves out. Fails once a frame was given up.
+    pub fn engine(&self) -> Result<&Engine, EngineError> {
+        self.engine.as_ref().ok_or_else(gone)
     }
+
+    /// Does a frame's work, on a thread that can be left behind where there is a limit.
+    fn within<T: Send + 'static>(
+        &mut self,
+        frame: i32,
+        work: impl FnOnce(&mut Engine) -> Result<T, EngineError> + Send + 'static,
+    ) -> Result<T, OfflineError> {
+        let Some(limit) = self.frame_limit else { return Ok(work(self.engine.as_mut().ok_or_else(gone)?)?) };
+        let mut engine = self.engine.take().ok_or_else(gone)?;
+        let (sender, receiver) = channel();
+        let work = move || {
+            let done = work(&mut engine);
+            let _ = sender.send((engine, done));
+        };
+        let thread = std::thread::Builder::new().name("frame".into()).stack_size(STACK_BYTES).spawn(work);
+        let thread = thread.map_err(OfflineError::Thread)?;
+        match receiver.recv_timeout(limit) {
+            Ok((engine, done)) => {
+                self.engine = Some(engine);
+                Ok(done?)
+            }
+            Err(RecvTimeoutError::Timeout) => Err(OfflineError::TimedOut { frame, limit }),
+            Err(RecvTimeoutError::Disconnected) => match thread.join() {
+                Err(panic) => std::panic::resume_unwind(panic),
+                Ok(()) => Err(gone().into()),
+            },
+        }
+    }
+}
+
+/// A frame could not be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum OfflineError {
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    #[error("frame {frame} was not drawn within {} s and was given up: draw fewer pixels, make the code do less, or \
+             give it more time by --frame-timeout", limit.as_secs_f64())]
+    TimedOut { frame: i32, limit: Duration },
+    #[error("no thread for drawing: {0}")]
+    Thread(std::io::Error),
+}
+
+fn gone() -> EngineError {
+    GpuError::Lost("a frame was given up before".into()).into()
 }
 
 fn millis_since(began: Instant) -> f64 {

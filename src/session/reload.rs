@@ -7,12 +7,12 @@ use super::{
     view::Level,
     watch::Watch,
 };
-use crate::project::{self, Origin, Project, Tab, confine, limits};
+use crate::project::{self, Loaded, Origin, Project, Tab, confine, limits};
 use std::{collections::BTreeSet, fs, path::PathBuf};
 
 /// The project on disk, if it can be used.
 enum OnDisk {
-    Project(Box<Project>),
+    Project(Box<Loaded>),
     /// It makes no whole project, perhaps because somebody is writing it just now.
     Unusable(String),
 }
@@ -54,10 +54,11 @@ impl Session {
             Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => path,
             Origin::Unsaved | Origin::Preset(_) => return None,
         };
-        let mut loaded = match project::load(&path.to_string_lossy()) {
-            Ok(loaded) => loaded.project,
+        let mut read = match project::load(&path.to_string_lossy()) {
+            Ok(read) => read,
             Err(e) => return Some(OnDisk::Unusable(e.to_string())),
         };
+        let loaded = &mut read.project;
         for tab in self.documents.saved().tabs() {
             let Some(known) = self.documents.saved().source(&tab) else { continue };
             match loaded.source_mut(&tab) {
@@ -79,11 +80,12 @@ impl Session {
                 None => {}
             }
         }
-        Some(OnDisk::Project(Box::new(loaded)))
+        Some(OnDisk::Project(Box::new(read)))
     }
 
-    fn merge(&mut self, disk: Project) {
-        let merge = self.documents.merge(disk);
+    fn merge(&mut self, disk: Loaded) {
+        let merge = self.documents.merge(disk.project);
+        self.note_reading(&disk.warnings, &disk.sources);
         merge.gone.iter().for_each(|tab| self.tell_one_gone(tab));
         self.tell_gone();
         self.ask_conflicts(&merge);
@@ -92,6 +94,9 @@ impl Session {
             let what = if names.is_empty() { "passes and channels".to_owned() } else { project::listed(&names) };
             self.notice(Level::Info, format!("reloaded {what}"));
             self.compile.reset_when_built |= self.disk.reset_on_reload;
+            if merge.took_structure {
+                self.passes.clear();
+            }
             self.after_reload();
         }
         let before = self.project().includes.clone();
@@ -121,12 +126,14 @@ impl Session {
     }
 
     fn ask_conflicts(&mut self, merge: &Merge) {
-        let base = capture::base_folder(self.project()).unwrap_or_default();
         let texts =
-            merge.conflicts.iter().map(|c| (Some(c.tab.clone()), base.join(&c.file), c.mine.clone(), c.disk.clone()));
+            merge.conflicts.iter().map(|c| (Some(c.tab.clone()), c.file.clone(), c.mine.clone(), c.disk.clone()));
         let mut all: Vec<_> = texts.collect();
         if merge.structure_conflict {
-            let file = manifest_path(self.documents.saved()).unwrap_or_else(|| base.join("eddy.toml"));
+            let file = manifest_path(self.documents.saved()).unwrap_or_else(|| {
+                let base = capture::base_folder(self.project()).unwrap_or_default();
+                base.join("eddy.toml")
+            });
             let (mine, disk) = (manifest_text(self.documents.current()), manifest_text(self.documents.saved()));
             all.push((None, file, mine.into(), disk.into()));
         }

@@ -99,6 +99,13 @@ fn files(project: &Project, base: Option<&Path>) -> BTreeMap<PathBuf, Option<Str
             own.extend(relative(path));
         }
     }
+    for draw in project.passes.iter().filter_map(|p| p.settings.meshes()).flat_map(|g| &g.draws) {
+        let MeshSource::Picked(path) = &draw.mesh else { continue };
+        let (Some(folder), Some(model)) = (path.parent(), path.file_name().and_then(|n| n.to_str())) else { continue };
+        let beside = project::files_beside(folder, model);
+        files.extend(beside.into_iter().map(|name| (folder.join(name), None)));
+        files.insert(path.clone(), None);
+    }
     let Some(base) = base else { return files };
     for draw in project.passes.iter().filter_map(|p| p.settings.meshes()).flat_map(|g| &g.draws) {
         let MeshSource::File(path) = &draw.mesh else { continue };

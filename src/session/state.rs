@@ -9,16 +9,22 @@ use super::{
     costs::{Costs, PassCosts},
     debounce::Debounce,
     documents::Documents,
+    drawing::{self, Drawing},
+    halting::Halting,
+    miniatures::Miniatures,
     mouse::Mouse,
-    view::{CompileState, Level, Notice, TabDiagnostic, Transport},
+    pass_history::PassHistory,
+    recent::{Recent, RecentProject},
+    recovery::Safekeeping,
+    view::{CompileState, Halt, Level, Notice, TabDiagnostic, Transport},
     watch::Watch,
     worker::Worker,
 };
 use crate::{
-    engine::{Engine, EngineError, PassTime},
-    gpu::Gpu,
+    engine::{EngineError, Miniature, PassTime},
+    gpu::{Gpu, GpuError, GpuOptions},
     media::Keyboard,
-    project::{Knob, KnobValue, PassId, Project, Tab},
+    project::{CustomUniform, CustomUniformValue, PassId, Project, Tab},
 };
 use std::{
     collections::VecDeque,
@@ -27,10 +33,11 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// How a session is set up. The defaults are what the window uses.
+/// How a session is set up. The defaults are what the window uses, but for recovery files.
 #[derive(Clone, Debug)]
 pub struct SessionOptions {
-    /// Quiet time after the last keystroke before a compile.
+    /// The longest quiet time after the last keystroke before a compile. It is shorter where compiling is fast, down to
+    /// none.
     pub edit_debounce: Duration,
     /// Quiet time after the last change on disk before a reload.
     pub watch_debounce: Duration,
@@ -41,6 +48,16 @@ pub struct SessionOptions {
     pub pictures: PathBuf,
     /// The user's own copies of the site's stock files.
     pub media_dir: Option<PathBuf>,
+    /// The folder for recovery files; `None`: unsaved work ends with the process. The window's is
+    /// [`recovery_folder`](super::recovery_folder).
+    pub recovery: Option<PathBuf>,
+    /// Draw on a thread and a device of their own, so that no tick waits for a frame. Off, each frame is drawn in the
+    /// tick that it is due in.
+    pub draws_apart: bool,
+    /// A frame that is drawn apart and takes longer pauses the picture.
+    pub frame_limit: Duration,
+    /// The folder for what is remembered between two starts; without, nothing is.
+    pub state_dir: Option<PathBuf>,
 }
 
 impl Default for SessionOptions {
@@ -51,6 +68,10 @@ impl Default for SessionOptions {
             retry_for: Duration::from_secs(2),
             pictures: dirs::picture_dir().or_else(dirs::home_dir).unwrap_or_else(|| PathBuf::from(".")),
             media_dir: None,
+            recovery: None,
+            draws_apart: false,
+            frame_limit: Duration::from_secs(2),
+            state_dir: None,
         }
     }
 }
@@ -62,26 +83,46 @@ pub enum SessionError {
     Engine(#[from] EngineError),
     #[error("no thread for compiling: {0}")]
     Thread(std::io::Error),
+    #[error("no thread for drawing: {0}")]
+    DrawingThread(std::io::Error),
+}
+
+impl From<drawing::Error> for SessionError {
+    fn from(error: drawing::Error) -> Self {
+        match error {
+            drawing::Error::Engine(error) => Self::Engine(error),
+            drawing::Error::Thread(error) => Self::DrawingThread(error),
+        }
+    }
 }
 
 /// An open project over time.
 pub struct Session {
     pub(super) options: SessionOptions,
     pub(super) wake: Arc<dyn Fn() + Send + Sync>,
-    // Before the engine: its thread uses the device until it has ended.
+    // Before the drawing: its thread uses the device until it has ended.
     pub(super) compiler: Worker<compile::Job, compile::Done>,
     pub(super) analyst: Analyst,
-    pub(super) engine: Engine,
+    pub(super) drawing: Drawing,
+    pub(super) halting: Halting,
     pub(super) documents: Documents,
     pub(super) canvas: Canvas,
     pub(super) compile: Compile,
     pub(super) disk: Disk,
     pub(super) dialog: Dialog,
+    pub(super) safekeeping: Safekeeping,
+    pub(super) recent: Recent,
     pub(super) run: Run,
     pub(super) notices: Vec<Notice>,
     pub(super) next_notice: u64,
     pub(super) text_generation: u64,
     pub(super) display_generation: u64,
+    /// Counts the shaders begun by [`Command::New`](super::Command::New).
+    pub(super) begun: u64,
+    /// Edits of passes and channels.
+    pub(super) passes: PassHistory,
+    /// Passes that got another name, oldest first.
+    pub(super) renamed: Vec<(PassId, PassId)>,
     /// Something a panel shows has changed since the last tick.
     pub(super) changed: bool,
     /// When the newest tick was: the only time there is between ticks.
@@ -115,8 +156,13 @@ pub(super) struct Compile {
     pub reset_when_built: bool,
     pub state: CompileState,
     pub diagnostics: Vec<TabDiagnostic>,
-    /// A program draws.
-    pub has_program: bool,
+    /// What reading the project had to say that no compile says.
+    pub read: Vec<TabDiagnostic>,
+    /// What is to be compiled instead of the newest text.
+    pub fallback: Option<Project>,
+    /// The worker compiles the newest text.
+    pub is_newest_under_way: bool,
+    pub edited_at: Option<Instant>,
 }
 
 /// The project's files.
@@ -156,11 +202,14 @@ pub(super) struct Run {
     /// A frame must be drawn though time stands still.
     pub is_frame_due: bool,
     pub steps: u32,
+    /// Nobody sees the picture.
+    pub is_covered: bool,
     /// The device is gone for good.
     pub is_device_lost: bool,
     pub fps: FpsMeter,
     pub cpu_micros: f64,
     pub costs: Costs,
+    pub miniatures: Miniatures,
 }
 
 impl Session {
@@ -175,17 +224,23 @@ impl Session {
         wake: Arc<dyn Fn() + Send + Sync>,
         options: SessionOptions,
     ) -> Result<Session, SessionError> {
-        let compiler = Worker::new("compile", wake.clone(), compile::work(gpu.clone(), options.media_dir.clone()))
-            .map_err(SessionError::Thread)?;
-        let analyst = Analyst::new(wake.clone()).map_err(SessionError::Thread)?;
         // Any size does until the first tick, which knows the viewport.
-        let mut engine = Engine::new(gpu, 640, 360)?;
-        engine.set_timing(true);
+        let size = (640, 360);
+        let drawing = if options.draws_apart {
+            Drawing::apart(gpu.clone(), size, Arc::new(move || another(&gpu)), wake.clone())?
+        } else {
+            Drawing::here(gpu, size)?
+        };
+        let work = compile::work(drawing.device(), options.media_dir.clone());
+        let compiler = Worker::new("compile", wake.clone(), work).map_err(SessionError::Thread)?;
+        let analyst = Analyst::new(wake.clone()).map_err(SessionError::Thread)?;
+        let (recent, forgotten) = Recent::open(options.state_dir.as_deref());
         let mut session = Session {
             wake,
             compiler,
             analyst,
-            engine,
+            drawing,
+            halting: Halting::new(options.frame_limit, options.state_dir.clone()),
             documents: Documents::new(super::template::project()),
             canvas: Canvas { viewport: None, scale: 1.0, fixed: None, is_fixed_by_project: false, refused: None },
             compile: Compile {
@@ -198,7 +253,10 @@ impl Session {
                 reset_when_built: false,
                 state: CompileState::default(),
                 diagnostics: Vec::new(),
-                has_program: false,
+                read: Vec::new(),
+                fallback: None,
+                is_newest_under_way: false,
+                edited_at: None,
             },
             disk: Disk {
                 watch: None,
@@ -212,6 +270,8 @@ impl Session {
                 reset_on_reload: false,
             },
             dialog: Dialog::default(),
+            safekeeping: Safekeeping::default(),
+            recent,
             run: Run {
                 clock: Clock::default(),
                 mouse: Mouse::default(),
@@ -219,27 +279,39 @@ impl Session {
                 shown: PassId::Image,
                 is_frame_due: false,
                 steps: 0,
+                is_covered: false,
                 is_device_lost: false,
                 fps: FpsMeter::default(),
                 cpu_micros: 0.0,
                 costs: Costs::default(),
+                miniatures: Miniatures::default(),
             },
             notices: Vec::new(),
             next_notice: 0,
             text_generation: 0,
             display_generation: 0,
+            begun: 0,
+            passes: PassHistory::default(),
+            renamed: Vec::new(),
             changed: true,
             now: Instant::now(),
             options,
         };
+        match Safekeeping::new(session.options.recovery.clone(), &session.wake) {
+            Ok(safekeeping) => session.safekeeping = safekeeping,
+            Err(e) => session.notice(Level::Warning, format!("unsaved work is not safe from a crash: {e}")),
+        }
+        if let Some(why) = forgotten {
+            session.notice(Level::Warning, why);
+        }
         session.compile.state.compiling = true;
         Ok(session)
     }
 
-    /// The newest picture of the shown pass; see [`Engine::display`]. Ask anew after each tick: a resize makes another
-    /// one.
+    /// The newest picture of the shown pass: rgba8unorm, its first row the top, values as display values. Ask anew
+    /// after each tick: a resize makes another one.
     pub fn display(&self) -> &wgpu::TextureView {
-        self.engine.display()
+        self.drawing.display()
     }
 
     /// Grows whenever [`Session::display`] may have become another texture.
@@ -247,8 +319,9 @@ impl Session {
         self.display_generation
     }
 
+    /// The device that shows the picture.
     pub fn gpu(&self) -> &Gpu {
-        self.engine.gpu()
+        self.drawing.gpu()
     }
 
     pub fn project(&self) -> &Project {
@@ -271,14 +344,29 @@ impl Session {
         self.text_generation
     }
 
+    /// The projects that were open before, the newest first; those that are gone meanwhile too.
+    pub fn recent(&self) -> &[RecentProject] {
+        self.recent.list()
+    }
+
+    /// Counts the shaders that were begun by [`Command::New`](super::Command::New).
+    pub fn begun(&self) -> u64 {
+        self.begun
+    }
+
+    /// Counts the times that a project was opened or took a new place.
+    pub fn opened(&self) -> u64 {
+        self.disk.opened
+    }
+
     /// The author's own uniforms, as the running program declares them.
-    pub fn knobs(&self) -> &[Knob] {
-        self.engine.program().map_or(&[], |p| p.knobs())
+    pub fn custom_uniforms(&self) -> &[CustomUniform] {
+        self.drawing.custom_uniforms()
     }
 
     /// Returns where one of them stands.
-    pub fn knob_value(&self, knob: &Knob) -> KnobValue {
-        knob.value(&self.project().knob_values)
+    pub fn custom_uniform_value(&self, custom_uniform: &CustomUniform) -> CustomUniformValue {
+        custom_uniform.value(&self.project().custom_uniform_values)
     }
 
     /// The tab's text differs from the one on disk.
@@ -302,14 +390,15 @@ impl Session {
 
     pub fn transport(&self) -> Transport {
         let times = self.pass_times();
+        let playing = self.run.clock.is_playing();
         Transport {
-            playing: self.run.clock.is_playing(),
+            playing,
             time_secs: self.run.clock.time_secs(),
             frame: (self.run.clock.next_frame_number() - 1).max(0),
-            fps: self.run.fps.fps,
-            gpu_millis: (!times.is_empty()).then(|| times.iter().map(|t| t.gpu_millis).sum()),
-            cpu_micros: self.run.cpu_micros,
-            resolution: self.engine.size(),
+            fps: Some(self.run.fps.fps).filter(|fps| playing && *fps > 0.0),
+            gpu_millis: (playing && !times.is_empty()).then(|| times.iter().map(|t| t.gpu_millis).sum()),
+            cpu_micros: playing.then_some(self.run.cpu_micros),
+            resolution: self.drawing.size(),
             scale: self.canvas.scale,
             fixed_size: self.canvas.fixed,
         }
@@ -320,11 +409,16 @@ impl Session {
         self.run.costs.newest()
     }
 
-    /// Returns what each pass of the running program costs, in drawing order, then those that are not drawn.
-    /// Milliseconds are there once [`Command::WatchCosts`] has been given and a frame was drawn since.
+    /// Returns what each pass of the running program costs, in drawing order, then those that are not drawn. They are
+    /// gathered once [`Command::WatchCosts`] has been given; milliseconds are there when a frame was drawn since.
     pub fn pass_costs(&self) -> PassCosts {
-        let passes = self.engine.pass_costs(self.project());
-        self.run.costs.of(passes, self.engine.cost_clock())
+        self.run.costs.of(self.drawing.costs().to_vec(), self.drawing.clock())
+    }
+
+    /// Returns a small picture of one of a pass's targets, while it is watched
+    /// ([`Command::WatchTargets`](super::Command::WatchTargets)), and a number that grows with each new one.
+    pub fn miniature(&self, pass: &PassId, index: usize) -> Option<(&Miniature, u64)> {
+        self.run.miniatures.get(pass, index)
     }
 
     pub fn shown_pass(&self) -> &PassId {
@@ -338,6 +432,16 @@ impl Session {
     /// Oldest first; stay until dismissed.
     pub fn notices(&self) -> &[Notice] {
         &self.notices
+    }
+
+    /// Returns why the picture stands still though nobody has paused it.
+    pub fn halt(&self) -> Option<&Halt> {
+        self.halting.halt.as_ref()
+    }
+
+    /// Returns whether there is code to go back to.
+    pub fn has_last_good(&self) -> bool {
+        self.halting.good.is_some()
     }
 
     /// Returns what must be answered before anything else.
@@ -359,10 +463,19 @@ impl Session {
             },
             "{text}"
         );
-        self.notices.push(Notice { id: self.next_notice, level, text, path: None, at: self.now });
+        self.notices.push(Notice { id: self.next_notice, level, text, path: None, undoes: None, at: self.now });
         self.next_notice += 1;
         self.changed = true;
     }
+}
+
+/// Returns a device beside the window's, or the window's own where there is no other: then a slow frame holds the
+/// window's painting.
+fn another(window: &Gpu) -> Result<Gpu, GpuError> {
+    Gpu::another(&window.info, &GpuOptions::default()).or_else(|e| {
+        log::warn!("frames are drawn on the window's own device, as there is no second one: {e}");
+        Ok(window.clone())
+    })
 }
 
 /// Frames a second as people read it: over half a second, as the site shows it.
@@ -386,8 +499,8 @@ impl FpsMeter {
         full
     }
 
-    /// Frames after a pause are not measured against those before it.
+    /// Frames after a pause are not measured against those before it, and what was measured is of another time.
     pub fn restart(&mut self) {
-        self.window = None;
+        (self.fps, self.window) = (0.0, None);
     }
 }

@@ -6,14 +6,15 @@ use crate::project::{Geometry, Pass, PassBody, PassSettings, Project};
 /// Returns whether two projects are the same but for their texts and their places on disk.
 pub(super) fn is_same(a: &Project, b: &Project) -> bool {
     // Taken apart whole, here and below: a member that is added finds its place here or does not compile.
-    let Project { name, info, common, passes, sampler_rules, groups, knob_values, includes: _, origin: _ } = a;
+    let Project { name, info, common, passes, sampler_rules, groups, custom_uniform_values, includes: _, origin: _ } =
+        a;
     *name == b.name
         && *info == b.info
         && common.is_some() == b.common.is_some()
         && is_each(passes, &b.passes, is_same_pass)
         && *sampler_rules == b.sampler_rules
         && *groups == b.groups
-        && *knob_values == b.knob_values
+        && *custom_uniform_values == b.custom_uniform_values
 }
 
 /// Returns whether two projects of one structure have the same texts.

@@ -50,7 +50,7 @@ pub(super) fn project() -> Project {
         common: None,
         passes: Vec::new(),
         sampler_rules: SamplerRules::PerChannel,
-        knob_values: Default::default(),
+        custom_uniform_values: Default::default(),
         groups: Vec::new(),
         includes: Vec::new(),
         origin: Origin::Unsaved,

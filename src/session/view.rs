@@ -4,7 +4,10 @@ use crate::{
     diag::{Diagnostic, Severity, SourceMap, Span},
     project::{Project, Tab},
 };
-use std::{ops::Range, time::Instant};
+use std::{
+    ops::Range,
+    time::{Duration, Instant},
+};
 
 /// The effects of a [`tick`](super::Session::tick), and when the next one is due.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -34,6 +37,9 @@ pub struct Notice {
     pub text: String,
     /// The file it is about, where there is one to open or copy.
     pub path: Option<std::path::PathBuf>,
+    /// The edit of passes that it tells of, by [`PassStep::serial`](super::PassStep::serial): as long as that is the
+    /// newest one, a front end offers to take it back.
+    pub undoes: Option<u64>,
     pub at: Instant,
 }
 
@@ -140,6 +146,23 @@ pub enum Meanwhile {
     Newest,
 }
 
+/// Why the picture stands still though nobody has paused it. [`Command::GoOn`](super::Command::GoOn),
+/// [`DrawSmaller`](super::Command::DrawSmaller) and [`DrawLastGood`](super::Command::DrawLastGood) end it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Halt {
+    /// A frame takes longer than the limit, and the device is still at it.
+    Drawing { limit: Duration, since: Instant },
+    /// A frame took longer.
+    Drawn { limit: Duration, took: Duration },
+    /// A frame of the new code would take longer, by what a small tile of it takes. None was drawn.
+    Forecast { limit: Duration, would_take: Duration },
+    /// The project was opened paused; nothing of it has been drawn yet.
+    Opened {
+        /// It froze the picture or ended Eddy when it was open last.
+        after_trouble: bool,
+    },
+}
+
 /// Time and size of the running picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transport {
@@ -148,12 +171,12 @@ pub struct Transport {
     pub time_secs: f64,
     /// `iFrame` of the newest frame.
     pub frame: i32,
-    /// Frames a second over the last half second of playing; 0 before that.
-    pub fps: f64,
+    /// Frames a second over the last half second. While paused, as the two below, none: there is nothing to measure.
+    pub fps: Option<f64>,
     /// Milliseconds of the device for the newest frame it has finished, where it can tell.
     pub gpu_millis: Option<f64>,
     /// Microseconds of the processor for the newest frame.
-    pub cpu_micros: f64,
+    pub cpu_micros: Option<f64>,
     /// Canvas size in pixels.
     pub resolution: (u32, u32),
     pub scale: f32,

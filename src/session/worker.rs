@@ -18,7 +18,7 @@ use std::{
 pub(super) struct Panicked(pub String);
 
 pub(super) struct Worker<Job, Done> {
-    /// `None` only while dropping.
+    /// `None` when no more will come.
     jobs: Option<Sender<(u64, Job)>>,
     results: Receiver<(u64, Result<Done, Panicked>)>,
     thread: Option<JoinHandle<()>>,
@@ -54,6 +54,12 @@ impl<Job: Send + 'static, Done: Send + 'static> Worker<Job, Done> {
         if let Some(jobs) = &self.jobs {
             self.is_busy = jobs.send((self.newest, job)).is_ok();
         }
+    }
+
+    /// Lets go of the thread: it ends when it has ended its job, and nobody waits for that.
+    pub fn leave(&mut self) {
+        self.jobs = None;
+        self.thread = None;
     }
 
     /// The newest job has not ended yet.

@@ -4,8 +4,12 @@
 //! edited and changed on disk too is a conflict for the user to settle. Reads and writes no file.
 
 use super::{command::DiffLine, structure};
-use crate::project::{Origin, Pass, Project, Tab};
-use std::{collections::BTreeSet, path::PathBuf, sync::Arc};
+use crate::project::{Origin, Pass, Project, Source, Tab};
+use std::{
+    collections::BTreeSet,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 /// A project being edited.
 #[derive(Clone, Debug)]
@@ -15,6 +19,7 @@ pub(super) struct Documents {
     saved: Project,
     /// Tabs whose files are gone from disk: unsaved, whatever their text.
     missing: BTreeSet<Tab>,
+    revision: u64,
 }
 
 /// One thing that was edited here and changed on disk.
@@ -50,7 +55,26 @@ impl Merge {
 impl Documents {
     /// A project as it was read or made: nothing unsaved.
     pub fn new(project: Project) -> Self {
-        Self { saved: project.clone(), current: project, missing: BTreeSet::new() }
+        Self { saved: project.clone(), current: project, missing: BTreeSet::new(), revision: 0 }
+    }
+
+    /// A project with unsaved work, and what of it is on disk now.
+    pub fn restored(mut current: Project, saved: Project) -> Self {
+        current.origin = saved.origin.clone();
+        current.includes = saved.includes.clone();
+        for tab in current.tabs() {
+            let Some(mine) = current.source_mut(&tab) else { continue };
+            mine.path = None;
+            if let Some(theirs) = saved.source(&tab) {
+                (mine.name, mine.path) = (theirs.name.clone(), theirs.path.clone());
+            }
+        }
+        Self { current, saved, missing: BTreeSet::new(), revision: 0 }
+    }
+
+    /// Grows with every change, of texts and of what is known of the disk.
+    pub fn revision(&self) -> u64 {
+        self.revision
     }
 
     pub fn current(&self) -> &Project {
@@ -63,18 +87,19 @@ impl Documents {
 
     /// For changes of passes, channels and texts alike.
     pub fn current_mut(&mut self) -> &mut Project {
+        self.revision += 1;
         &mut self.current
     }
 
     /// The project as it now lies on disk.
     pub fn set_saved(&mut self, project: Project) {
-        *self = Self::new(project);
+        *self = Self { revision: self.revision + 1, ..Self::new(project) };
     }
 
     pub fn is_tab_dirty(&self, tab: &Tab) -> bool {
         match self.current.source(tab) {
             None => false,
-            Some(now) => self.missing.contains(tab) || self.saved.source(tab).is_none_or(|s| s.text != now.text),
+            Some(now) => self.missing.contains(tab) || self.saved_source(tab).is_none_or(|s| s.text != now.text),
         }
     }
 
@@ -90,6 +115,7 @@ impl Documents {
 
     /// These tabs' files are gone, all others are there. Gives those that were not known to be gone.
     pub fn set_missing(&mut self, missing: BTreeSet<Tab>) -> Vec<Tab> {
+        self.revision += u64::from(missing != self.missing);
         let new = missing.difference(&self.missing).cloned().collect();
         self.missing = missing;
         new
@@ -108,6 +134,7 @@ impl Documents {
     /// Takes what is on disk now. Whatever was not edited since follows it; the rest comes back as conflicts, with the
     /// edited text standing.
     pub fn merge(&mut self, mut disk: Project) -> Merge {
+        self.revision += 1;
         let mut merge = Merge::default();
         self.keep_gone(&mut disk, &mut merge);
         if !structure::is_same(&disk, &self.saved) {
@@ -119,7 +146,8 @@ impl Documents {
             }
         }
         for tab in disk.tabs() {
-            let (Some(theirs), Some(mine)) = (disk.source(&tab), self.current.source_mut(&tab)) else { continue };
+            let here = self.tab_of_file(&disk, &tab);
+            let (Some(theirs), Some(mine)) = (disk.source(&tab), self.current.source_mut(&here)) else { continue };
             let base = self.saved.source(&tab);
             let changed_on_disk = base.is_none_or(|s| s.text != theirs.text);
             if !changed_on_disk || mine.text == theirs.text {
@@ -127,10 +155,11 @@ impl Documents {
             }
             if base.is_some_and(|s| s.text == mine.text) {
                 mine.text = theirs.text.clone();
-                merge.taken.push(tab);
+                merge.taken.push(here);
             } else {
-                let file = theirs.path.clone().unwrap_or_else(|| PathBuf::from(&theirs.name));
-                merge.conflicts.push(Conflict { tab, file, mine: mine.text.clone(), disk: theirs.text.clone() });
+                let beside = disk.origin.base_dir().unwrap_or(Path::new(""));
+                let file = theirs.path.clone().unwrap_or_else(|| beside.join(&theirs.name));
+                merge.conflicts.push(Conflict { tab: here, file, mine: mine.text.clone(), disk: theirs.text.clone() });
             }
         }
         // Files may have other names now, and there may be an `eddy.toml` where there was none.
@@ -146,15 +175,34 @@ impl Documents {
 
     /// Lets the structure follow the disk after all. Edited texts stay.
     pub fn take_structure_of_saved(&mut self) {
+        self.revision += 1;
         let saved = self.saved.clone();
         self.take_structure(&saved);
     }
 
     /// The tab shows what is on disk.
     pub fn take_text_of_saved(&mut self, tab: &Tab) {
-        if let (Some(saved), Some(mine)) = (self.saved.source(tab), self.current.source_mut(tab)) {
-            mine.text = saved.text.clone();
+        self.revision += 1;
+        let text = self.saved_source(tab).map(|saved| saved.text.clone());
+        if let (Some(text), Some(mine)) = (text, self.current.source_mut(tab)) {
+            mine.text = text;
         }
+    }
+
+    /// A tab's text on disk, also where its pass has another name there.
+    fn saved_source(&self, tab: &Tab) -> Option<&Source> {
+        let path = self.current.source(tab).and_then(|mine| mine.path.as_ref());
+        let of_file = || self.saved.tab_sources().find(|s| path.is_some() && s.path.as_ref() == path);
+        self.saved.source(tab).or_else(of_file)
+    }
+
+    /// The tab here of what `tab` is on disk: a pass that was renamed here is known by its file.
+    fn tab_of_file(&self, disk: &Project, tab: &Tab) -> Tab {
+        let path = disk.source(tab).and_then(|theirs| theirs.path.as_ref());
+        let is_renamed = self.current.source(tab).is_none() && path.is_some();
+        let of_file = |t: &Tab| self.current.source(t).is_some_and(|mine| mine.path.as_ref() == path);
+        let found = if is_renamed { self.current.tabs().into_iter().find(of_file) } else { None };
+        found.unwrap_or_else(|| tab.clone())
     }
 
     /// Puts tabs that the disk has no more back into `disk`, unless `eddy.toml` was rewritten without them and nothing

@@ -1,7 +1,7 @@
 //! Tests of merging what was edited with what changed on disk.
 
 use super::*;
-use crate::project::{Channel, Info, Input, KnobValue, PassBody, PassId, Sampler, SamplerRules, Source};
+use crate::project::{Channel, CustomUniformValue, Info, Input, PassBody, PassId, Sampler, SamplerRules, Source};
 
 fn project(texts: &[(&str, &str)], has_manifest: bool) -> Project {
     let mut project = Project {
@@ -10,7 +10,7 @@ fn project(texts: &[(&str, &str)], has_manifest: bool) -> Project {
         common: None,
         passes: Vec::new(),
         sampler_rules: SamplerRules::PerChannel,
-        knob_values: Default::default(),
+        custom_uniform_values: Default::default(),
         groups: Vec::new(),
         includes: Vec::new(),
         origin: Origin::Folder { path: "/p".into(), has_manifest },
@@ -81,7 +81,7 @@ fn every_change_but_that_of_a_text_or_a_place_is_one_of_structure() {
         }),
         ("sampler rules", |p, _| p.sampler_rules = SamplerRules::Site),
         ("groups", |p, _| p.groups.push(crate::project::Group { name: "g".into(), passes: vec![], steps: 2 })),
-        ("a value", |p, _| drop(p.knob_values.insert("x".into(), KnobValue::Int(1)))),
+        ("a value", |p, _| drop(p.custom_uniform_values.insert("x".into(), CustomUniformValue::Int(1)))),
         ("size", |p, _| p.passes[0].settings.size = crate::project::PassSize::Scale(0.25)),
         ("format", |p, _| p.passes[0].settings.format = crate::project::PassFormat::R8),
         ("region", |p, _| {

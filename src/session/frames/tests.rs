@@ -3,13 +3,20 @@
 use super::super::{
     Command, SessionOptions,
     compile::{Done, Job},
+    drawing::Drawing,
     testing,
     worker::Worker,
 };
 use super::*;
-use crate::project::{PassId, Tab};
+use crate::{
+    gpu::Gpu,
+    project::{PassId, Tab},
+};
 use std::{
-    sync::Arc,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
     time::{Duration, Instant},
 };
 
@@ -48,6 +55,34 @@ fn a_compiler_that_panics_is_told_of_and_loses_no_text() {
 }
 
 #[test]
+fn a_text_that_compiled_fast_is_compiled_at_each_key() {
+    let Some(gpu) = testing::gpu() else { return };
+    let options = SessionOptions { edit_debounce: Duration::from_secs(3600), ..SessionOptions::default() };
+    let mut session = Session::with_options(gpu, Arc::new(|| ()), options).unwrap();
+    tick_until(&mut session, "the first program", |s| matches!(s.compile_state().last, Some(Outcome::Ok { .. })));
+    let tab = Tab::Pass(PassId::Image);
+    let edit = |session: &mut Session, text: &str| {
+        session.apply(Command::EditText { tab: tab.clone(), text: text.into() });
+        session.tick(Instant::now());
+    };
+    // What ends at a mistake takes no device; at once, whatever the first compile took.
+    edit(&mut session, "mistake");
+    session.apply(Command::CompileNow);
+    tick_until(&mut session, "the mistake", |s| matches!(s.compile_state().last, Some(Outcome::Failed { .. })));
+    let before = session.diagnostics().to_vec();
+    session.compile.edits.set_quiet(compile::quiet_after(Duration::from_millis(1), session.options.edit_debounce));
+    edit(&mut session, "void mainImage(out vec4 o, in vec2 p) { o = vec4(missing); }");
+    // The compile may have come back within the tick.
+    let is_compiled = session.compile.is_newest_under_way || session.diagnostics() != before;
+    assert!(!session.compile.edits.is_waiting() && is_compiled, "the tick of the key compiles");
+    tick_until(&mut session, "the second mistake", |s| s.diagnostics() != before && !s.compile_state().compiling);
+    // A slow one is waited for.
+    session.compile.edits.set_quiet(compile::quiet_after(Duration::from_secs(7200), session.options.edit_debounce));
+    edit(&mut session, "third");
+    assert!(session.compile.edits.is_waiting() && !session.compile.is_newest_under_way);
+}
+
+#[test]
 fn what_the_graphics_layer_refuses_is_told_of_once() {
     let Some(gpu) = testing::gpu() else { return };
     let mut session = Session::new(gpu, Arc::new(|| ())).unwrap();
@@ -55,4 +90,52 @@ fn what_the_graphics_layer_refuses_is_told_of_once() {
         session.tell_of(&GpuError::Refused { what: "the window".into(), reason: "planted".into() });
     }
     assert_eq!(session.notices().iter().filter(|n| n.text.contains("planted")).count(), 1);
+}
+
+/// A session that draws apart, and its picture is there.
+fn open_apart(gpu: Gpu) -> Session {
+    let options = SessionOptions {
+        edit_debounce: Duration::ZERO,
+        draws_apart: true,
+        frame_limit: Duration::from_secs(60),
+        ..SessionOptions::default()
+    };
+    let mut session = Session::with_options(gpu, Arc::new(|| ()), options).unwrap();
+    session.apply(Command::SetFixedSize(Some((64, 36))));
+    tick_until(&mut session, "frames", |s| s.transport().frame > 2);
+    session
+}
+
+#[test]
+fn a_lost_device_is_replaced_and_another_lost_right_after_it_is_not() {
+    let Some(gpu) = testing::gpu() else { return };
+    let mut session = open_apart(gpu);
+    let first = session.drawing.device().wait().unwrap();
+    first.lose();
+    tick_until(&mut session, "the loss to be told of", |s| s.notices().iter().any(|n| n.text.contains("lost")));
+    tick_until(&mut session, "frames of the fresh device", |s| s.drawing.has_program() && s.transport().frame > 2);
+    assert!(session.drawing.device().wait().unwrap().take_trouble("it").is_ok());
+    assert!(session.transport().playing && matches!(session.compile_state().last, Some(Outcome::Ok { .. })));
+
+    session.drawing.device().wait().unwrap().lose();
+    tick_until(&mut session, "the end of drawing", |s| s.run.is_device_lost);
+    let told = session.notices().len();
+    for _ in 0..20 {
+        session.tick(Instant::now());
+    }
+    assert_eq!((session.notices().len(), session.transport().playing), (told, false), "{:?}", session.notices());
+}
+
+#[test]
+fn a_device_that_does_not_open_at_first_is_opened_again() {
+    let Some(gpu) = testing::gpu() else { return };
+    let mut session = open_apart(gpu.clone());
+    let (is_second, other) = (AtomicBool::new(false), gpu.clone());
+    let open = move || match is_second.swap(true, Ordering::Relaxed) {
+        true => Ok(other.clone()),
+        false => Err(GpuError::NoAdapter("planted".into())),
+    };
+    session.drawing = Drawing::apart(gpu, (64, 36), Arc::new(open), Arc::new(|| ())).unwrap();
+    tick_until(&mut session, "the failure to be told of", |s| s.notices().iter().any(|n| n.text.contains("planted")));
+    tick_until(&mut session, "frames", |s| s.drawing.has_program() && s.transport().frame > 2);
 }

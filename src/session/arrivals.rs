@@ -1,0 +1,172 @@
+//! What a person brings: files that are dropped or picked, texts that are pasted.
+//!
+//! What each of them is, is the project's; here it is opened, or put into the open project as one edit that can be
+//! taken back.
+
+use super::{
+    Session,
+    command::{Command, Then},
+    view::Level,
+};
+use crate::{
+    media::mesh,
+    project::{self, FileKind, Fit, MeshSource, PassId, Project, TextArrival, listed},
+};
+use std::path::{Path, PathBuf};
+
+/// A model of more bytes is not measured before it is drawn: the window would wait for it.
+const MEASURED: u64 = 48 << 20;
+
+impl Session {
+    /// Takes a text that was pasted.
+    pub(super) fn paste(&mut self, text: &str) {
+        match project::arrival_of_text(text) {
+            Ok(TextArrival::Project(loaded)) => {
+                self.tell_diagnostics(&loaded.warnings, &loaded.sources);
+                self.unless_unsaved(Then::Keep(Box::new(loaded.project)));
+            }
+            Ok(TextArrival::Place(place)) => {
+                let path = Path::new(&place);
+                if path.exists() && project::kind_of_file(path) != FileKind::Project {
+                    self.bring(vec![path.to_owned()], None);
+                } else {
+                    self.apply_to_files(Command::Open(place));
+                }
+            }
+            Err(e) => self.notice(Level::Warning, format!("nothing was pasted: {e}")),
+        }
+    }
+
+    /// Takes files. `to`: the pass in front and the channel they were dropped on, or none where no project is shown:
+    /// then a picture or a model makes a new one.
+    pub(super) fn bring(&mut self, paths: Vec<PathBuf>, to: Option<(PassId, Option<usize>)>) {
+        let of = |kind: FileKind| paths.iter().filter(move |p| project::kind_of_file(p) == kind);
+        self.tell_unfit(&paths);
+        let projects: Vec<&Path> = of(FileKind::Project).map(PathBuf::as_path).collect();
+        if let Some(first) = projects.first() {
+            let parts = project::folder_of_parts(&projects);
+            if projects.len() > 1 && parts.is_none() {
+                let text = format!("{} was opened; the other projects were not, as one is open at a time", name(first));
+                self.notice(Level::Info, text);
+            }
+            let place = parts.unwrap_or(first).display().to_string();
+            return self.apply_to_files(Command::Open(place));
+        }
+        let pictures: Vec<&Path> = of(FileKind::Picture).map(PathBuf::as_path).collect();
+        let models: Vec<&Path> = of(FileKind::Model).map(PathBuf::as_path).collect();
+        let Some(first) = pictures.first().or(models.first()) else { return };
+        match to {
+            None => {
+                let mut project = project::new_for(first, pictures.is_empty());
+                let done = self.put_in(&mut project, &PassId::Image, None, &pictures, &models);
+                self.unless_unsaved(Then::Keep(Box::new(project)));
+                self.notice(Level::Info, format!("a new shader: {done}"));
+            }
+            Some((pass, channel)) => {
+                let pass = match &pass {
+                    PassId::Sound => PassId::Image,
+                    other => other.clone(),
+                };
+                let before = self.project().clone();
+                let mut project = before.clone();
+                let done = self.put_in(&mut project, &pass, channel, &pictures, &models);
+                if project == before {
+                    return self.notice(Level::Warning, done);
+                }
+                *self.documents.current_mut() = project;
+                let names: Vec<String> = pictures.iter().chain(&models).map(|p| name(p)).collect();
+                self.note_pass_edit(format!("use {}", listed(&names)), before);
+                self.passes_changed();
+                self.notice_with_undo(done);
+            }
+        }
+    }
+
+    /// Puts pictures and models into a project. Says what reads them.
+    fn put_in(
+        &self,
+        project: &mut Project,
+        pass: &PassId,
+        channel: Option<usize>,
+        pictures: &[&Path],
+        models: &[&Path],
+    ) -> String {
+        let folder = super::capture::base_folder(project);
+        let mut said = Vec::new();
+        let mut wanted = channel;
+        for picture in pictures {
+            let Some(n) = wanted.take().or_else(|| project.free_channel(pass)) else {
+                said.push(format!(
+                    "all four channels of {} read something; drop {} on the one that it shall replace",
+                    pass.title(),
+                    name(picture)
+                ));
+                continue;
+            };
+            project.read_picture(pass, n, picture);
+            said.push(reads(project, pass, n, &name(picture)));
+        }
+        for model in models {
+            let Some(id) = project.add_model(model, measured(model)) else {
+                said.push(format!("{} was left out: a project has no more passes", name(model)));
+                continue;
+            };
+            said.push(format!("{} draws {}", id.title(), name(model)));
+            match project.free_channel(&PassId::Image) {
+                Some(n) => {
+                    project.read_buffer(&PassId::Image, n, &id);
+                    said.push(reads(project, &PassId::Image, n, &id.title()));
+                }
+                None => said.push("all four channels of Image read something else".into()),
+            }
+        }
+        project::bring_home(project, folder.as_deref());
+        said.join("; ")
+    }
+
+    fn tell_unfit(&mut self, paths: &[PathBuf]) {
+        for path in paths {
+            let name = name(path);
+            match project::kind_of_file(path) {
+                FileKind::SoundOrVideo => {
+                    self.notice(Level::Warning, format!("{name}: Eddy's channels read no sound and no video yet"));
+                }
+                FileKind::Unknown => {
+                    let known = "a project is a folder, a .glsl file or a Shadertoy .json file; a channel reads a picture \
+                                 (png, jpg, webp, bmp, tga, gif, hdr), a pass draws a model (glb, gltf, obj)";
+                    self.notice(Level::Warning, format!("{name} is nothing that Eddy opens: {known}"));
+                }
+                FileKind::Project | FileKind::Picture | FileKind::Model => {}
+            }
+        }
+    }
+}
+
+/// Says what a channel reads now, and how its text gets at it.
+fn reads(project: &Project, pass: &PassId, channel: usize, what: &str) -> String {
+    let text = project.pass(pass).map_or("", |p| &p.source.text);
+    let hint = if text.contains(&format!("iChannel{channel}")) {
+        String::new()
+    } else {
+        format!(": write texture(iChannel{channel}, uv) to see it")
+    };
+    format!("iChannel{channel} of {} reads {what}{hint}", pass.title())
+}
+
+fn name(path: &Path) -> String {
+    path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned())
+}
+
+/// Where a model is put, so that the camera sees all of it.
+fn measured(model: &Path) -> Fit {
+    let plain = Fit { scale: 1.0, position: [0.0; 3] };
+    if std::fs::metadata(model).map_or(u64::MAX, |m| m.len()) > MEASURED {
+        return plain;
+    }
+    // What is wrong with it is told when it is drawn.
+    let Ok(mesh) = mesh::load(&MeshSource::Picked(model.to_owned()), None) else { return plain };
+    let bound = |pick: fn(f32, f32) -> f32, from: f32| {
+        mesh.vertices.iter().fold([from; 3], |b, v| [0, 1, 2].map(|i| pick(b[i], v.position[i])))
+    };
+    Fit::of_corners(bound(f32::min, f32::INFINITY), bound(f32::max, f32::NEG_INFINITY))
+}

@@ -1,0 +1,248 @@
+//! A session hands the engine its jobs, and takes what comes back.
+
+use super::{
+    Session, capture,
+    clock::FrameTime,
+    date,
+    drawing::{Capture, Done, DrawnFrame, Job, TileLimit},
+    view::Level,
+};
+use crate::{
+    engine::{EngineError, FrameInputs, Pixels},
+    gpu::GpuError,
+    project::PassId,
+};
+use std::time::Duration;
+
+impl Session {
+    /// Takes what the engine has done since. Says whether a frame was drawn.
+    pub(super) fn take_drawn(&mut self, is_just_handed_in: bool) -> bool {
+        let Some(done) = self.drawing.take(is_just_handed_in) else { return false };
+        self.drew(done)
+    }
+
+    /// Hands in what is wanted and what is due, one job after the other, while the engine takes them: while playing one
+    /// frame a call. Says whether a frame was drawn.
+    pub(super) fn draw_due_frames(&mut self) -> bool {
+        let (mut is_drawn, mut has_run) = (false, false);
+        while !self.drawing.is_busy() && !self.halting.is_held() && !self.run.is_device_lost {
+            let frame = self.next_frame(&mut has_run);
+            let is_frame = frame.is_some();
+            // A picture that is asked for is one of the newest program, after the frame that is due. Another project's
+            // engine says that it has none.
+            let is_there = self.drawing.has_program() && !self.drawing.is_program_coming();
+            let is_current = is_frame || is_there || self.drawing.wanted.restart;
+            let captures = if is_current { std::mem::take(&mut self.drawing.captures) } else { Vec::new() };
+            let is_running = self.run.clock.is_playing() && !self.run.is_covered;
+            let miniatures = if is_current { self.run.miniatures.take_due(self.now, is_running) } else { Vec::new() };
+            if !is_frame && captures.is_empty() && miniatures.is_empty() && self.drawing.wanted.is_empty() {
+                break;
+            }
+            self.hand_in(frame, captures, miniatures);
+            is_drawn |= self.take_drawn(true);
+        }
+        is_drawn
+    }
+
+    /// Returns the frame that is due now. A new program, or a new project's engine, is handed in before its first one.
+    fn next_frame(&mut self, has_run: &mut bool) -> Option<FrameInputs> {
+        let wanted = &self.drawing.wanted;
+        let is_other_coming = wanted.restart || wanted.program.is_some();
+        if is_other_coming || !self.drawing.has_program() || self.halting.halt.is_some() {
+            return None;
+        }
+        let time = if self.run.steps > 0 {
+            self.run.steps -= 1;
+            self.run.clock.step_frame()
+        } else if self.run.clock.is_playing() && !self.run.is_covered {
+            if std::mem::replace(has_run, true) {
+                return None;
+            }
+            self.run.clock.running_frame(self.now)
+        } else if self.run.is_frame_due {
+            self.run.clock.forced_frame()
+        } else {
+            return None;
+        };
+        self.run.is_frame_due = false;
+        Some(self.inputs(time))
+    }
+
+    fn inputs(&mut self, time: FrameTime) -> FrameInputs {
+        let inputs = FrameInputs {
+            frame: time.frame,
+            time_secs: time.time_secs,
+            time_delta_secs: time.time_delta_secs,
+            frame_rate: time.frame_rate,
+            mouse: self.run.mouse.next_frame(),
+            drag: self.run.mouse.dragged(),
+            date: date::i_date(date::now()),
+            keyboard: self.run.keyboard.clone(),
+        };
+        self.run.keyboard.frame_painted();
+        inputs
+    }
+
+    fn hand_in(&mut self, frame: Option<FrameInputs>, captures: Vec<Capture>, miniatures: Vec<(PassId, usize)>) {
+        let costs_of = self.run.costs.is_watched().then(|| self.documents.current().clone());
+        let tile_limit = self.tile_limit();
+        if self.drawing.wanted.program.is_some() {
+            self.mark_new_code();
+        }
+        self.drawing.submit(self.now, |job: &mut Job| {
+            job.frame = frame;
+            job.captures = captures;
+            job.miniatures = miniatures;
+            job.costs_of = costs_of;
+            job.tile_limit = tile_limit;
+        });
+    }
+
+    fn tile_limit(&self) -> Option<TileLimit> {
+        self.drawing.is_apart().then(|| TileLimit { frame: self.halting.limit() })
+    }
+
+    fn drew(&mut self, done: Done) -> bool {
+        for (capture, pixels) in done.captured {
+            self.write_capture(&capture, pixels);
+        }
+        if let Some(why) = done.gave_up {
+            self.engine_is_gone(&why);
+            return false;
+        }
+        self.display_generation += u64::from(done.is_display_new && !self.drawing.is_apart());
+        if let Some(Err(e)) = done.restarted {
+            self.stop_drawing(&e);
+            return false;
+        }
+        let has_frame = done.frame.is_some();
+        self.changed |= !done.miniatures.is_empty();
+        self.run.miniatures.drew(has_frame, done.miniatures);
+        match done.resized {
+            Some((_, Ok(()))) => {
+                self.run.is_frame_due |= !has_frame;
+                self.changed = true;
+            }
+            Some((size, Err(e))) => self.size_refused(size, &e),
+            None => {}
+        }
+        match done.program {
+            Some(Ok(())) => self.program_is_there(done.forecast),
+            Some(Err(e)) => {
+                self.refused(&e);
+                return false;
+            }
+            None => {}
+        }
+        self.run.is_frame_due |= done.custom_uniforms_changed && !has_frame;
+        self.changed |= self.run.costs.is_watched();
+        match done.frame.transpose().and_then(|frame| Ok((frame, done.picture.transpose()?))) {
+            Ok((frame, picture)) => {
+                if let Some(picture) = picture {
+                    match self.drawing.show(&picture) {
+                        Ok(is_new) => self.display_generation += u64::from(is_new),
+                        Err(e) => self.tell_of(&e),
+                    }
+                }
+                let is_drawn = frame.is_some();
+                if let Some(frame) = frame {
+                    self.frame_is_drawn(frame);
+                }
+                is_drawn
+            }
+            Err(e) => {
+                self.stop_drawing(&e);
+                false
+            }
+        }
+    }
+
+    fn frame_is_drawn(&mut self, frame: DrawnFrame) {
+        let DrawnFrame { cpu_micros, times, took } = frame;
+        self.run.cpu_micros = cpu_micros;
+        if let Some(times) = times {
+            self.run.costs.add(times, self.drawing.clock());
+        }
+        if self.run.clock.is_playing() {
+            self.changed |= self.run.fps.frame(self.now);
+        } else {
+            self.changed = true;
+        }
+        self.frame_took(took);
+    }
+
+    /// The newest program draws from now on.
+    fn program_is_there(&mut self, forecast: Option<Duration>) {
+        self.run.is_frame_due = true;
+        self.changed = true;
+        self.compile.state.compiling = self.is_compile_under_way();
+        if let Some(millis) = self.drawing.new_program_millis() {
+            self.compile.state.last = Some(self.compiled(millis));
+            if std::mem::take(&mut self.compile.reset_when_built) {
+                self.reset();
+            }
+        } else {
+            // What is drawn is older than what the errors are about.
+            self.compile.state.last = Some(self.failed());
+        }
+        self.halt_for_new_program(forecast);
+    }
+
+    /// A frame could not be drawn: the picture stands, everything else goes on.
+    pub(super) fn stop_drawing(&mut self, error: &EngineError) {
+        let is_lost = matches!(error, EngineError::Gpu(GpuError::Lost(_)));
+        if is_lost && self.drawing.is_apart() {
+            self.engine_is_gone(&error.to_string());
+            return;
+        }
+        self.run.clock.pause();
+        self.run.is_frame_due = false;
+        if !is_lost {
+            self.notice(Level::Error, format!("{error}; the picture is paused"));
+        } else if !std::mem::replace(&mut self.run.is_device_lost, true) {
+            self.notice(
+                Level::Error,
+                format!("{error}. Your texts are all here: save them, then start Eddy again to go on drawing"),
+            );
+        }
+    }
+
+    /// Writes the shown pass to a new file, as soon as the engine has time.
+    pub(super) fn capture(&mut self, format: capture::Format) {
+        if !self.drawing.has_program() {
+            self.notice(Level::Warning, "there is no picture to save yet");
+            return;
+        }
+        let project = self.documents.current();
+        self.drawing.captures.push(Capture {
+            pass: self.run.shown.clone(),
+            format,
+            folder: capture::folder_for(project, &self.options.pictures),
+            stem: capture::stem_for(project, &self.run.shown),
+        });
+        if !self.drawing.is_apart() {
+            let captures = std::mem::take(&mut self.drawing.captures);
+            self.hand_in(None, captures, Vec::new());
+            self.take_drawn(false);
+        }
+    }
+
+    fn write_capture(&mut self, capture: &Capture, pixels: Result<Pixels, EngineError>) {
+        let pixels = match pixels {
+            Ok(pixels) => pixels,
+            Err(e) => {
+                self.notice(Level::Error, format!("no picture was saved: {e}"));
+                return;
+            }
+        };
+        match capture::save_new(&capture.folder, &capture.stem, &pixels, capture.format) {
+            Ok(path) => {
+                self.notice(Level::Info, format!("saved {}", path.display()));
+                if let Some(notice) = self.notices.last_mut() {
+                    notice.path = Some(path);
+                }
+            }
+            Err(e) => self.notice(Level::Error, e.to_string()),
+        }
+    }
+}

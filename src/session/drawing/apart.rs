@@ -1,0 +1,135 @@
+//! An engine on a thread of its own, with a device of its own, so that nothing waits for a frame but the next one.
+
+use super::{
+    device::Device,
+    job::{Done, Job},
+    studio::Studio,
+};
+use crate::gpu::{self, Gpu, GpuError};
+use std::{
+    any::Any,
+    panic::{AssertUnwindSafe, catch_unwind},
+    sync::{
+        Arc,
+        mpsc::{Receiver, RecvTimeoutError, Sender, TryRecvError, channel},
+    },
+    thread::JoinHandle,
+    time::{Duration, Instant},
+};
+
+/// Steps that the thread takes back behind others where a processor draws: what is typed goes first.
+const STEPS_BACK: i32 = 5;
+/// Drivers compile on the thread that draws, and recurse as deep as an expression is nested. Pages that are not used
+/// cost nothing.
+const STACK_BYTES: usize = 256 << 20;
+
+/// Opens a device. Called on the thread that draws.
+pub type Open = Arc<dyn Fn() -> Result<Gpu, GpuError> + Send + Sync>;
+
+/// The thread. Dropped, it ends after the job under way, which nobody waits for.
+pub struct Apart {
+    /// `None` when no more will come.
+    jobs: Option<Sender<Job>>,
+    results: Receiver<Done>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Apart {
+    /// Starts the thread. Its first answer says whether there is an engine; `wake` is called after each.
+    pub fn start(
+        open: Open,
+        device: Device,
+        size: (u32, u32),
+        is_cpu: bool,
+        wake: Arc<dyn Fn() + Send + Sync>,
+    ) -> std::io::Result<Apart> {
+        let (jobs, inbox) = channel::<Job>();
+        let (outbox, results) = channel();
+        let tell = move |done: Done| {
+            let is_heard = outbox.send(done).is_ok();
+            wake();
+            is_heard
+        };
+        let work = move || {
+            if is_cpu {
+                gpu::step_back(STEPS_BACK);
+            }
+            let opened = caught(|| open().map_err(|e| e.to_string())).and_then(|opened| opened);
+            device.set(opened.clone());
+            let studio = opened.and_then(|gpu| {
+                caught(|| Studio::new(gpu, size, true).map_err(|e| e.to_string())).and_then(|studio| studio)
+            });
+            let mut studio = match studio {
+                Ok(studio) => studio,
+                Err(why) => {
+                    tell(Done { gave_up: Some(why), ..Done::default() });
+                    return;
+                }
+            };
+            if !tell(Done { restarted: Some(Ok(())), ..Done::default() }) {
+                return;
+            }
+            while let Ok(job) = inbox.recv() {
+                let began = Instant::now();
+                let done = caught(|| studio.work(job)).map(|done| Done { took: began.elapsed(), ..done });
+                let is_over = done.is_err();
+                let done = done.unwrap_or_else(|why| Done {
+                    gave_up: Some(format!("this is a bug in Eddy: {why}")),
+                    ..Done::default()
+                });
+                if !tell(done) || is_over {
+                    return;
+                }
+            }
+        };
+        let thread = std::thread::Builder::new().name("drawing".into()).stack_size(STACK_BYTES).spawn(work)?;
+        Ok(Apart { jobs: Some(jobs), results, thread: Some(thread) })
+    }
+
+    /// Hands in a job.
+    pub fn submit(&self, job: Job) {
+        if let Some(jobs) = &self.jobs {
+            // A thread that has ended said why, or its silence does.
+            let _ = jobs.send(job);
+        }
+    }
+
+    /// Returns the answer to the job that was handed in, if it comes within a time.
+    pub fn take(&self, within: Duration) -> Option<Done> {
+        let ended = || Some(Done { gave_up: Some("the thread that draws has ended".into()), ..Done::default() });
+        if within.is_zero() {
+            return match self.results.try_recv() {
+                Ok(done) => Some(done),
+                Err(TryRecvError::Empty) => None,
+                Err(TryRecvError::Disconnected) => ended(),
+            };
+        }
+        match self.results.recv_timeout(within) {
+            Ok(done) => Some(done),
+            Err(RecvTimeoutError::Timeout) => None,
+            Err(RecvTimeoutError::Disconnected) => ended(),
+        }
+    }
+
+    /// Lets go of the thread, which ends as soon as it can.
+    pub fn leave(mut self) -> Option<JoinHandle<()>> {
+        self.thread.take()
+    }
+
+    /// Waits until the thread has ended, with its device.
+    pub fn end(&mut self) {
+        self.jobs = None;
+        if let Some(thread) = self.thread.take() {
+            // A panic in it was told of.
+            let _ = thread.join();
+        }
+    }
+}
+
+/// Returns what a panic said instead of going on with it.
+fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(work)).map_err(|payload: Box<dyn Any + Send>| {
+        let said = payload.downcast_ref::<&str>().map(|s| (*s).to_owned());
+        said.or_else(|| payload.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no reason given".into())
+    })
+}

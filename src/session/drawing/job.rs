@@ -1,0 +1,122 @@
+//! What the engine is asked to do at once, and what it answers.
+
+use crate::{
+    engine::{CostClock, EngineError, FrameInputs, Miniature, PassCost, PassTime, Picture, Pixels, Program},
+    project::{CustomUniform, CustomUniformValues, PassId, Project},
+    session::capture::Format,
+};
+use std::{path::PathBuf, time::Duration};
+
+/// Changes that wait for the engine, each the newest of its kind.
+#[derive(Default)]
+pub struct Changes {
+    /// Begin with an engine that has drawn nothing.
+    pub restart: bool,
+    pub size: Option<(u32, u32)>,
+    pub program: Option<Coming>,
+    pub custom_uniforms: Option<CustomUniformValues>,
+    pub shown: Option<PassId>,
+    /// Every buffer as before frame 0.
+    pub reset: bool,
+    /// The table of costs is to be made anew.
+    pub costs: bool,
+}
+
+impl Changes {
+    pub fn is_empty(&self) -> bool {
+        let Self { restart, size, program, custom_uniforms, shown, reset, costs } = self;
+        let is_asked = *restart || *reset || *costs;
+        !is_asked && size.is_none() && program.is_none() && custom_uniforms.is_none() && shown.is_none()
+    }
+}
+
+/// A program on its way to the engine.
+pub struct Coming {
+    pub program: Program,
+    /// Stays with the session when the program goes.
+    pub origin: Option<ProgramOrigin>,
+}
+
+/// What the session keeps of a program.
+pub struct ProgramOrigin {
+    /// The project that it was built of.
+    pub project: Project,
+    /// Milliseconds of the compile, if the program is of the newest text and not one to fall back to.
+    pub millis: Option<f64>,
+    /// The author's own uniforms.
+    pub custom_uniforms: Vec<CustomUniform>,
+    /// The passes that are drawn.
+    pub drawn: Vec<PassId>,
+}
+
+impl Coming {
+    pub fn new(program: Program, project: Project, millis: Option<f64>) -> Self {
+        let drawn = program.plan().targets.iter().map(|t| t.id.clone()).collect();
+        let origin = ProgramOrigin { project, millis, custom_uniforms: program.custom_uniforms().to_vec(), drawn };
+        Self { origin: Some(origin), program }
+    }
+}
+
+/// A picture that is to be written to a file.
+#[derive(Clone, Debug)]
+pub struct Capture {
+    pub pass: PassId,
+    pub format: Format,
+    pub folder: PathBuf,
+    pub stem: String,
+}
+
+/// One turn of the engine: first the changes in the order of their fields, then the frame, then what is read.
+pub struct Job {
+    pub changes: Changes,
+    pub frame: Option<FrameInputs>,
+    pub captures: Vec<Capture>,
+    /// Targets of passes that panels show small.
+    pub miniatures: Vec<(PassId, usize)>,
+    /// The project whose passes' costs are asked for: somebody looks at them.
+    pub costs_of: Option<Project>,
+    /// Tiles of a new program are tried before it; without, none.
+    pub tile_limit: Option<TileLimit>,
+}
+
+/// When a program is too slow to be drawn whole unasked.
+#[derive(Clone, Copy, Debug)]
+pub struct TileLimit {
+    /// The time that a whole frame may take.
+    pub frame: Duration,
+}
+
+/// The answer to a job. `None` where it was not asked.
+#[derive(Default)]
+pub struct Done {
+    pub restarted: Option<Result<(), EngineError>>,
+    pub resized: Option<((u32, u32), Result<(), EngineError>)>,
+    pub program: Option<Result<(), EngineError>>,
+    /// The time that a frame of the new program would take, if that is too long: it was not drawn.
+    pub forecast: Option<Duration>,
+    /// The values of the author's own uniforms are others than before.
+    pub custom_uniforms_changed: bool,
+    /// The display may be another texture.
+    pub is_display_new: bool,
+    pub frame: Option<Result<DrawnFrame, EngineError>>,
+    pub captured: Vec<(Capture, Result<Pixels, EngineError>)>,
+    /// One for each that was asked for and is drawn.
+    pub miniatures: Vec<((PassId, usize), Miniature)>,
+    /// The display's picture, if it may have changed and is handed out.
+    pub picture: Option<Result<Picture, EngineError>>,
+    pub costs: Option<Vec<PassCost>>,
+    pub clock: Option<CostClock>,
+    /// The time of the job, where it was done on another thread.
+    pub took: Duration,
+    /// The reason why the engine's thread has ended.
+    pub gave_up: Option<String>,
+}
+
+/// A frame that was handed in; on a thread of its own, drawn.
+pub struct DrawnFrame {
+    pub cpu_micros: f64,
+    /// Milliseconds of each pass, of the newest frame for which they are known.
+    pub times: Option<Vec<PassTime>>,
+    /// The frame until the device had drawn it.
+    pub took: Duration,
+}

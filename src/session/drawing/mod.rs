@@ -1,0 +1,360 @@
+//! The way from the session to the engine: what it is to draw goes out, pictures and figures come back.
+//!
+//! Owns the engine, which draws here at once, or on a thread and a device of its own. It gets one job at a time, and
+//! what is wanted meanwhile waits here, each the newest of its kind: nothing piles up, and nobody waits for a frame.
+//! Knows nothing of texts, of time or of what a person is told.
+
+mod apart;
+mod device;
+mod job;
+mod studio;
+
+pub(super) use apart::Open;
+pub(super) use device::Device;
+pub(super) use job::{Capture, Changes, Coming, Done, DrawnFrame, Job, ProgramOrigin, TileLimit};
+
+use crate::{
+    engine::{CostClock, EngineError, PassCost, Picture},
+    gpu::{Gpu, GpuError, Presenter, Texture},
+    project::{CustomUniform, PassId, Project},
+};
+use apart::Apart;
+use std::{
+    sync::Arc,
+    thread::JoinHandle,
+    time::{Duration, Instant},
+};
+use studio::Studio;
+
+/// A job is waited for so long if the one before came back sooner: a picture that is drawn fast is seen in the frame
+/// that asks for it.
+const PATIENCE: Duration = Duration::from_millis(4);
+
+/// The engine, wherever it draws.
+pub(super) struct Drawing {
+    place: Place,
+    /// Goes with the next job.
+    pub wanted: Changes,
+    /// Pictures to be written, oldest first.
+    pub captures: Vec<Capture>,
+    facts: Facts,
+    in_flight: Option<InFlight>,
+    /// Threads that were given up and may still be at work.
+    left: Vec<JoinHandle<()>>,
+}
+
+/// What is known of the engine since its last answer.
+struct Facts {
+    size: (u32, u32),
+    program: Option<ProgramOrigin>,
+    costs: Vec<PassCost>,
+    clock: CostClock,
+}
+
+struct InFlight {
+    since: Instant,
+    size: Option<(u32, u32)>,
+    /// Of the program that it sets.
+    program: Option<ProgramOrigin>,
+    /// The pictures that it is to read.
+    captures: Vec<Capture>,
+    /// The thread opens its device; nothing of the author's is drawn yet.
+    is_opening: bool,
+    /// Another project has been opened since: what comes back is of one that is gone.
+    is_stale: bool,
+}
+
+enum Place {
+    Here { studio: Box<Studio>, device: Device, done: Option<Box<Done>> },
+    Apart(Box<Remote>),
+}
+
+/// An engine on another thread, and its newest picture on the window's device.
+struct Remote {
+    thread: Apart,
+    device: Device,
+    open: Open,
+    wake: Arc<dyn Fn() + Send + Sync>,
+    window: Gpu,
+    display: Texture,
+    /// The time that the newest job took on its thread.
+    took: Duration,
+}
+
+impl Drawing {
+    /// An engine that does each job at once.
+    pub fn here(gpu: Gpu, size: (u32, u32)) -> Result<Self, EngineError> {
+        let clock = clock(&gpu);
+        let (studio, device) = (Box::new(Studio::new(gpu.clone(), size, false)?), Device::open(gpu));
+        Ok(Self::new(Place::Here { studio, device, done: None }, size, clock))
+    }
+
+    /// An engine on a thread of its own, with another device of the adapter that the window's is on.
+    pub fn apart(window: Gpu, size: (u32, u32), open: Open, wake: Arc<dyn Fn() + Send + Sync>) -> Result<Self, Error> {
+        let clock = clock(&window);
+        let device = Device::default();
+        let thread = Apart::start(open.clone(), device.clone(), size, window.is_cpu(), wake.clone())?;
+        let display = Presenter::texture(&window, size.0, size.1).map_err(EngineError::from)?;
+        let remote = Remote { thread, device, open, wake, window, display, took: Duration::MAX };
+        let mut drawing = Self::new(Place::Apart(Box::new(remote)), size, clock);
+        drawing.in_flight = Some(InFlight::opening(Instant::now()));
+        Ok(drawing)
+    }
+
+    fn new(place: Place, size: (u32, u32), clock: CostClock) -> Self {
+        Self {
+            place,
+            wanted: Changes::default(),
+            captures: Vec::new(),
+            facts: Facts { size, program: None, costs: Vec::new(), clock },
+            in_flight: None,
+            left: Vec::new(),
+        }
+    }
+
+    pub fn is_apart(&self) -> bool {
+        matches!(self.place, Place::Apart(_))
+    }
+
+    /// The device that shows the picture.
+    pub fn gpu(&self) -> &Gpu {
+        match &self.place {
+            Place::Here { studio, .. } => studio.engine().gpu(),
+            Place::Apart(remote) => &remote.window,
+        }
+    }
+
+    /// The device that draws, once it is open.
+    pub fn device(&self) -> Device {
+        match &self.place {
+            Place::Here { device, .. } => device.clone(),
+            Place::Apart(remote) => remote.device.clone(),
+        }
+    }
+
+    /// The newest picture, its first row the top.
+    pub fn display(&self) -> &wgpu::TextureView {
+        match &self.place {
+            Place::Here { studio, .. } => studio.engine().display(),
+            Place::Apart(remote) => &remote.display.level_0,
+        }
+    }
+
+    /// The canvas of the newest picture.
+    pub fn size(&self) -> (u32, u32) {
+        self.facts.size
+    }
+
+    /// The canvas of the engine once it has done its job.
+    pub fn coming_size(&self) -> (u32, u32) {
+        self.in_flight.as_ref().and_then(|job| job.size).unwrap_or(self.facts.size)
+    }
+
+    /// A program is there to draw.
+    pub fn has_program(&self) -> bool {
+        self.facts.program.is_some()
+    }
+
+    /// A program waits to be taken up.
+    pub fn is_program_coming(&self) -> bool {
+        self.wanted.program.is_some() || self.in_flight.as_ref().is_some_and(|job| job.program.is_some())
+    }
+
+    /// The project of the program that draws.
+    pub fn project(&self) -> Option<&Project> {
+        self.facts.program.as_ref().map(|program| &program.project)
+    }
+
+    /// The program that draws is of the newest text that compiled, and not one to fall back to.
+    pub fn is_newest_program(&self) -> bool {
+        self.new_program_millis().is_some()
+    }
+
+    /// Milliseconds of the compile of such a program.
+    pub fn new_program_millis(&self) -> Option<f64> {
+        self.facts.program.as_ref().and_then(|program| program.millis)
+    }
+
+    /// The author's own uniforms, as the program that draws declares them.
+    pub fn custom_uniforms(&self) -> &[CustomUniform] {
+        self.facts.program.as_ref().map_or(&[], |program| &program.custom_uniforms)
+    }
+
+    /// The program draws a pass.
+    pub fn draws(&self, pass: &PassId) -> bool {
+        self.facts.program.as_ref().is_some_and(|program| program.drawn.contains(pass))
+    }
+
+    /// The passes' costs as they were when somebody looked last.
+    pub fn costs(&self) -> &[PassCost] {
+        &self.facts.costs
+    }
+
+    pub fn clock(&self) -> CostClock {
+        self.facts.clock
+    }
+
+    /// The engine has a job: no other can be handed in.
+    pub fn is_busy(&self) -> bool {
+        self.in_flight.is_some()
+    }
+
+    /// Since when the engine draws, if it does.
+    pub fn draws_since(&self) -> Option<Instant> {
+        self.in_flight.as_ref().filter(|job| !job.is_opening).map(|job| job.since)
+    }
+
+    /// Begins anew, for another project. What was wanted of the one before is not wanted any more.
+    pub fn restart(&mut self) {
+        // One that is being made is new.
+        let restart = self.in_flight.as_ref().is_none_or(|job| !job.is_opening);
+        self.wanted = Changes { restart, ..Changes::default() };
+        self.facts.program = None;
+        self.facts.costs.clear();
+        if let Some(job) = self.in_flight.as_mut().filter(|job| !job.is_opening) {
+            (job.is_stale, job.program) = (true, None);
+        }
+    }
+
+    /// Hands in a job with everything that is wanted, and what else `fill` puts in. The engine has none.
+    pub fn submit(&mut self, now: Instant, fill: impl FnOnce(&mut Job)) {
+        let changes = std::mem::take(&mut self.wanted);
+        let mut job = Job {
+            changes,
+            frame: None,
+            captures: Vec::new(),
+            miniatures: Vec::new(),
+            costs_of: None,
+            tile_limit: None,
+        };
+        fill(&mut job);
+        // The program goes on, what the session keeps of it stays.
+        let program = job.changes.program.as_mut().and_then(|coming| coming.origin.take());
+        let (size, captures) = (job.changes.size, job.captures.clone());
+        self.in_flight = Some(InFlight { since: now, size, program, captures, is_opening: false, is_stale: false });
+        match &mut self.place {
+            Place::Here { studio, done, .. } => *done = Some(Box::new(studio.work(job))),
+            Place::Apart(remote) => remote.thread.submit(job),
+        }
+    }
+
+    /// Returns the answer to the job, once. Waits for a moment where the last one took no longer.
+    pub fn take(&mut self, is_just_handed_in: bool) -> Option<Done> {
+        self.in_flight.as_ref()?;
+        let mut done = match &mut self.place {
+            Place::Here { done, .. } => done.take().map(|done| *done),
+            Place::Apart(remote) => {
+                let waits = is_just_handed_in && remote.took < PATIENCE;
+                remote.thread.take(if waits { PATIENCE } else { Duration::ZERO })
+            }
+        }?;
+        let job = self.in_flight.take()?;
+        if let Place::Apart(remote) = &mut self.place {
+            remote.took = done.took;
+        }
+        if job.is_stale {
+            if let Some((size, Ok(()))) = &done.resized {
+                self.facts.size = *size;
+            }
+            // Pictures that somebody asked for are still wanted.
+            let (captured, gave_up) = (std::mem::take(&mut done.captured), done.gave_up.take());
+            return Some(Done { captured, gave_up, ..Done::default() });
+        }
+        self.learn(job, &mut done);
+        Some(done)
+    }
+
+    fn learn(&mut self, job: InFlight, done: &mut Done) {
+        if let Some((size, Ok(()))) = &done.resized {
+            self.facts.size = *size;
+        }
+        if let Some(Ok(())) = &done.program {
+            self.facts.program = job.program;
+        }
+        self.facts.clock = done.clock.unwrap_or(self.facts.clock);
+        if let Some(costs) = done.costs.take() {
+            self.facts.costs = costs;
+        }
+    }
+
+    /// Shows a picture that came from the other device. Says whether the display is another texture now.
+    pub fn show(&mut self, picture: &Picture) -> Result<bool, GpuError> {
+        let Place::Apart(remote) = &mut self.place else { return Ok(false) };
+        let size = (picture.width, picture.height);
+        let is_new = size != (remote.display.width(), remote.display.height());
+        if is_new {
+            remote.display = Presenter::texture(&remote.window, size.0, size.1)?;
+        }
+        remote.display.write(&remote.window, &picture.bytes);
+        Ok(is_new)
+    }
+
+    /// Draws nothing more of the program that is there. The picture stays until there is another.
+    pub fn drop_program(&mut self) {
+        self.facts.program = None;
+        if let Some(job) = &mut self.in_flight {
+            job.program = None;
+        }
+    }
+
+    /// Gives up the thread and its device, and begins with others. The picture stays until there is another, and the
+    /// pictures that were to be read are read of that one.
+    pub fn start_anew(&mut self, now: Instant) -> std::io::Result<()> {
+        let Place::Apart(remote) = &mut self.place else { return Ok(()) };
+        let device = Device::default();
+        let Remote { open, wake, window, .. } = &**remote;
+        let thread = Apart::start(open.clone(), device.clone(), self.facts.size, window.is_cpu(), wake.clone())?;
+        (remote.device, remote.took) = (device, Duration::MAX);
+        self.left.extend(std::mem::replace(&mut remote.thread, thread).leave());
+        self.facts.program = None;
+        self.wanted = Changes::default();
+        if let Some(job) = self.in_flight.replace(InFlight::opening(now)) {
+            self.captures.splice(..0, job.captures);
+        }
+        Ok(())
+    }
+
+    /// The number of threads that were given up and have not come back.
+    pub fn lost_threads(&mut self) -> usize {
+        self.left.retain(|thread| !thread.is_finished());
+        self.left.len()
+    }
+
+    /// Waits until the engine has ended its job, but not for long. False if it goes on.
+    pub fn rest(&mut self, patience: Duration) -> bool {
+        let end = Instant::now() + patience;
+        while self.is_busy() && self.take(false).is_none() {
+            if Instant::now() >= end {
+                return false;
+            }
+            std::thread::sleep(Duration::from_millis(2));
+        }
+        true
+    }
+
+    /// Ends an engine that rests.
+    pub fn close(&mut self) {
+        if let Place::Apart(remote) = &mut self.place {
+            remote.thread.end();
+        }
+    }
+}
+
+impl InFlight {
+    fn opening(since: Instant) -> Self {
+        Self { since, size: None, program: None, captures: Vec::new(), is_opening: true, is_stale: false }
+    }
+}
+
+fn clock(gpu: &Gpu) -> CostClock {
+    if gpu.has_timestamps { CostClock::Timestamps } else { CostClock::Waited }
+}
+
+/// There is no engine.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum Error {
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    #[error("no thread for drawing: {0}")]
+    Thread(#[from] std::io::Error),
+}

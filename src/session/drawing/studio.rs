@@ -1,0 +1,177 @@
+//! An engine at work: does one job after the other.
+
+use super::job::{Capture, Changes, Done, DrawnFrame, Job, TileLimit};
+use crate::{
+    engine::{CostClock, Engine, EngineError, FrameInputs, PassTime, Pixels, Program},
+    gpu::Gpu,
+    project::PassId,
+};
+use std::time::{Duration, Instant};
+
+/// A tile's time tells something where it is at least such a part of a frame's limit; less is lost in what else the
+/// machine does.
+const TELLING: u32 = 20;
+/// How many tiles a graphics device draws at once is not known. A frame takes at least so often the time of one.
+const AT_LEAST: f64 = 4.0;
+
+pub struct Studio {
+    engine: Engine,
+    /// The display's picture leaves the device.
+    hands_out: bool,
+}
+
+impl Studio {
+    /// `hands_out`: give each new picture of the display with the answers.
+    pub fn new(gpu: Gpu, (width, height): (u32, u32), hands_out: bool) -> Result<Self, EngineError> {
+        let mut engine = Engine::new(gpu, width, height)?;
+        engine.set_timing(true);
+        Ok(Self { engine, hands_out })
+    }
+
+    pub fn engine(&self) -> &Engine {
+        &self.engine
+    }
+
+    pub fn work(&mut self, job: Job) -> Done {
+        let Job { changes, frame, captures, miniatures, costs_of, tile_limit } = job;
+        let mut done = Done::default();
+        let first_inputs = frame.clone().unwrap_or_else(|| FrameInputs::at_fixed_step(0, 60.0));
+        self.change(changes, tile_limit, &first_inputs, &mut done);
+        if let Some(inputs) = frame {
+            done.frame = Some(self.draw(&inputs, costs_of.is_some()));
+        }
+        if self.hands_out && (done.is_display_new || done.frame.is_some()) {
+            done.picture = Some(self.engine.picture());
+        }
+        done.captured = captures.into_iter().map(|capture| self.read(capture)).collect();
+        // A pass that nobody reads is not drawn, and has none.
+        let picture = |target: (PassId, usize)| Some((self.engine.miniature(&target.0, target.1).ok()?, target));
+        done.miniatures =
+            miniatures.into_iter().filter_map(picture).map(|(picture, target)| (target, picture)).collect();
+        done.costs = costs_of.map(|project| self.engine.pass_costs(&project));
+        done.clock = Some(self.engine.cost_clock());
+        done
+    }
+
+    fn change(&mut self, changes: Changes, tile_limit: Option<TileLimit>, inputs: &FrameInputs, done: &mut Done) {
+        let Changes { restart, size, program, custom_uniforms, shown, reset, costs: _ } = changes;
+        if restart {
+            let made = Studio::new(self.engine.gpu().clone(), self.engine.size(), self.hands_out);
+            done.restarted = Some(made.map(|studio| *self = studio));
+            done.is_display_new = true;
+        }
+        if let Some((width, height)) = size.filter(|size| *size != self.engine.size()) {
+            done.resized = Some(((width, height), self.engine.resize(width, height)));
+            done.is_display_new = true;
+        }
+        if let Some(coming) = program {
+            let tried = match tile_limit {
+                Some(limit) => self.try_tiles(coming.program, limit, inputs, done),
+                None => Ok(coming.program),
+            };
+            done.program = Some(tried.and_then(|program| self.engine.set_program(program)));
+            done.is_display_new = true;
+        }
+        if let Some(values) = custom_uniforms {
+            done.custom_uniforms_changed = self.engine.set_custom_uniforms(&values);
+        }
+        if let Some(pass) = shown {
+            self.engine.show(pass);
+            done.is_display_new = true;
+        }
+        if reset {
+            self.engine.reset();
+        }
+    }
+
+    /// Draws a new program on a canvas of a few pixels, then on larger ones until the time tells something, and says
+    /// how long a whole frame takes if that is too long.
+    fn try_tiles(
+        &mut self,
+        mut program: Program,
+        limit: TileLimit,
+        inputs: &FrameInputs,
+        done: &mut Done,
+    ) -> Result<Program, EngineError> {
+        let canvas = self.engine.size();
+        let telling = limit.frame / TELLING;
+        for tile in tiles(canvas) {
+            let mut took = Duration::MAX;
+            // The first time is the driver's, which compiles for the machine, or chance.
+            for _ in 0..2 {
+                let began = Instant::now();
+                program = self.engine.try_out(program, tile, inputs)?;
+                took = took.min(began.elapsed());
+                if took < telling {
+                    break;
+                }
+            }
+            if took >= telling {
+                let whole = took.mul_f64(frames_a_tile(tile, canvas, self.engine.gpu().is_cpu()));
+                done.forecast = (whole > limit.frame).then_some(whole);
+                break;
+            }
+        }
+        Ok(program)
+    }
+
+    /// Draws a frame. On a device without timestamps each pass is waited for while somebody looks at the costs.
+    fn draw(&mut self, inputs: &FrameInputs, is_watched: bool) -> Result<DrawnFrame, EngineError> {
+        let began = Instant::now();
+        let micros = || began.elapsed().as_secs_f64() * 1e6;
+        let (cpu_micros, times): (f64, Option<Vec<PassTime>>);
+        if is_watched && self.engine.cost_clock() == CostClock::Waited {
+            let (_, waited) = self.engine.draw_waited(inputs, &mut || micros() / 1e3)?;
+            (cpu_micros, times) = (micros(), Some(waited));
+        } else {
+            self.engine.draw(inputs)?;
+            cpu_micros = micros();
+            if self.hands_out {
+                self.engine.gpu().wait()?;
+            }
+            times = self.engine.pass_times();
+        }
+        Ok(DrawnFrame { cpu_micros, times, took: began.elapsed() })
+    }
+
+    fn read(&mut self, capture: Capture) -> (Capture, Result<Pixels, EngineError>) {
+        let pixels = self.engine.read(&capture.pass);
+        (capture, pixels)
+    }
+}
+
+/// Returns the canvases that a new program is tried on, smallest first. A side is a power of two where that of the
+/// whole canvas is: drivers compile anew for the other kind.
+fn tiles(canvas: (u32, u32)) -> impl Iterator<Item = (u32, u32)> {
+    let side = |n: u32, other: u32| if n.is_power_of_two() { 16 } else { other };
+    let first = (side(canvas.0, 24), side(canvas.1, 12));
+    let sizes = (0..).map(move |n| (first.0 << (2 * n), first.1 << (2 * n)));
+    sizes.take_while(move |tile| 2 * tile.0 <= canvas.0 && 2 * tile.1 <= canvas.1).take(6)
+}
+
+/// Returns how often a frame takes the time of a tile.
+fn frames_a_tile(tile: (u32, u32), canvas: (u32, u32), is_cpu: bool) -> f64 {
+    if !is_cpu {
+        return AT_LEAST;
+    }
+    let pixels = |(width, height): (u32, u32)| f64::from(width) * f64::from(height);
+    // A processor's driver gives each core a square of so many pixels a side.
+    let squares = |(width, height): (u32, u32)| f64::from(width.div_ceil(64)) * f64::from(height.div_ceil(64));
+    let cores = std::thread::available_parallelism().map_or(1.0, |n| n.get() as f64);
+    let at_once = |size| cores.min(squares(size));
+    ((pixels(canvas) / at_once(canvas)) / (pixels(tile) / at_once(tile))).max(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tiles_are_far_smaller_than_the_canvas_and_of_its_kind() {
+        let of = |canvas| tiles(canvas).collect::<Vec<_>>();
+        assert_eq!(of((640, 360)), [(24, 12), (96, 48)]);
+        assert_eq!(of((1024, 1024)), [(16, 16), (64, 64), (256, 256)]);
+        assert_eq!(of((8, 4)), []);
+        assert!(of((u32::MAX, u32::MAX)).len() <= 6);
+    }
+}

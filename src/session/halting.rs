@@ -1,0 +1,48 @@
+//! What is known of a halt of the picture: why it stands, and what it goes on with. What is done about it is in `halt`.
+
+use super::{marker::Marker, view::Halt};
+use crate::project::Project;
+use std::{
+    path::PathBuf,
+    time::{Duration, Instant},
+};
+
+pub(super) struct Halting {
+    pub halt: Option<Halt>,
+    /// The picture ran when it was halted, and goes on after.
+    pub resumes: bool,
+    /// The newest code that drew a frame within the limit.
+    pub good: Option<Project>,
+    pub limit: Duration,
+    /// What the user has let a frame take.
+    pub allowed: Option<Duration>,
+    /// No frame of the newest program that was handed in has been drawn yet.
+    pub is_new: bool,
+    pub marker: Marker,
+    pub lost_at: Option<Instant>,
+}
+
+impl Halting {
+    pub fn new(limit: Duration, state_dir: Option<PathBuf>) -> Self {
+        Self {
+            halt: None,
+            resumes: false,
+            good: None,
+            limit,
+            allowed: None,
+            is_new: false,
+            marker: Marker::new(state_dir.as_deref()),
+            lost_at: None,
+        }
+    }
+
+    /// The time that a frame may take.
+    pub fn limit(&self) -> Duration {
+        self.allowed.unwrap_or(self.limit)
+    }
+
+    /// Nothing of the author's may reach the device yet.
+    pub fn is_held(&self) -> bool {
+        matches!(self.halt, Some(Halt::Opened { .. }))
+    }
+}

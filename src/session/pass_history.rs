@@ -1,0 +1,70 @@
+//! Steps back from edits of passes and channels, and forth again.
+
+use crate::project::{PassEdit, PassId, Project};
+use std::time::{Duration, Instant};
+
+/// Steps that are kept; each is a project whose texts are shared with the next.
+const STEPS: usize = 200;
+/// A number that is being dragged makes one step, however many values it has on its way.
+const PAUSE: Duration = Duration::from_millis(800);
+
+/// Steps back and forth.
+#[derive(Debug, Default)]
+pub(super) struct PassHistory {
+    pub undo: Vec<Step>,
+    pub redo: Vec<Step>,
+    /// Counts the steps.
+    serial: u64,
+}
+
+#[derive(Clone, Debug)]
+pub(super) struct Step {
+    pub serial: u64,
+    /// As a menu says it behind "Undo".
+    pub title: String,
+    /// The project on the other side of the step.
+    pub project: Project,
+    /// A pass has another name here than on the other side: there, here.
+    pub renamed: Option<(PassId, PassId)>,
+    pub edit: Option<PassEdit>,
+    pub at: Instant,
+}
+
+/// A step that can be taken, as a front end shows it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PassStep<'a> {
+    /// Tells it from any other.
+    pub serial: u64,
+    /// As a menu says it behind "Undo" or "Redo".
+    pub title: &'a str,
+}
+
+impl PassHistory {
+    pub fn clear(&mut self) {
+        self.undo.clear();
+        self.redo.clear();
+    }
+
+    pub fn push(&mut self, title: String, before: Project, renamed: Option<(PassId, PassId)>, edit: Option<PassEdit>) {
+        let at = Instant::now();
+        self.redo.clear();
+        if let (Some(last), Some(edit)) = (self.undo.last_mut(), &edit)
+            && last.edit.as_ref().is_some_and(|before| before.is_same_kind(edit))
+            && at.saturating_duration_since(last.at) < PAUSE
+        {
+            last.at = at;
+            return;
+        }
+        self.serial += 1;
+        self.undo.push(Step { serial: self.serial, title, project: before, renamed, edit, at });
+        if self.undo.len() > STEPS {
+            self.undo.remove(0);
+        }
+    }
+}
+
+impl Step {
+    pub fn shown(&self) -> PassStep<'_> {
+        PassStep { serial: self.serial, title: &self.title }
+    }
+}

@@ -1,0 +1,171 @@
+//! Edits of passes and channels, and the way back from them.
+//!
+//! A step back brings the passes, channels and groups of before it; what was typed since
+//! stays, also in a pass that has had another name since. The history ends where another project is opened or the
+//! disk's passes are taken.
+
+use super::{
+    Session,
+    documents::Documents,
+    pass_history::{PassStep, Step},
+    template,
+    view::Level,
+};
+use crate::project::{PassEdit, PassId, Project, Tab};
+use std::time::Instant;
+
+impl Session {
+    /// The edit of passes or channels that [`Command::UndoPassEdit`](super::Command::UndoPassEdit) takes back.
+    pub fn pass_undo(&self) -> Option<PassStep<'_>> {
+        self.passes.undo.last().map(Step::shown)
+    }
+
+    /// The edit that [`Command::RedoPassEdit`](super::Command::RedoPassEdit) does again.
+    pub fn pass_redo(&self) -> Option<PassStep<'_>> {
+        self.passes.redo.last().map(Step::shown)
+    }
+
+    /// Every pass that got another name since the session began: the old one, the new one. Grows only.
+    pub fn renamed_passes(&self) -> &[(PassId, PassId)] {
+        &self.renamed
+    }
+
+    pub(super) fn edit_passes(&mut self, edit: PassEdit) {
+        let before = self.project().clone();
+        let is_untouched = match &edit {
+            PassEdit::Remove(tab) => before.source(tab).is_none_or(|s| is_untouched(&s.text, tab)),
+            _ => true,
+        };
+        let done = match self.documents.current_mut().edit_passes(&edit) {
+            Ok(done) => done,
+            Err(e) => return self.notice(Level::Warning, e.to_string()),
+        };
+        if !done.is_changed {
+            return;
+        }
+        if let Some((from, to)) = &done.renamed {
+            self.follow_rename(from, to);
+        }
+        let said = match &edit {
+            PassEdit::Remove(tab) if !is_untouched => Some(format!("{} was removed", tab.title())),
+            _ => None,
+        };
+        self.passes.push(edit.title(), before, done.renamed, Some(edit));
+        if let Some(said) = said {
+            self.notice_with_undo(said);
+        }
+        self.passes_changed();
+    }
+
+    /// Adds Common or a pass with a starting text, if there is none.
+    pub(super) fn add_tab(&mut self, tab: &Tab) {
+        let before = self.project().clone();
+        if template::add(self.documents.current_mut(), tab) {
+            self.passes.push(format!("add {}", tab.title()), before, None, None);
+            self.passes_changed();
+        }
+    }
+
+    /// Notes an edit that `before` is to be brought back of.
+    pub(super) fn note_pass_edit(&mut self, title: String, before: Project) {
+        self.passes.push(title, before, None, None);
+    }
+
+    /// Says that something was done which the newest step takes back.
+    pub(super) fn notice_with_undo(&mut self, text: String) {
+        let serial = self.pass_undo().map(|step| step.serial);
+        self.notice(Level::Info, text);
+        if let Some(notice) = self.notices.last_mut() {
+            notice.undoes = serial;
+        }
+    }
+
+    pub(super) fn undo_pass_edit(&mut self) {
+        if let Some(step) = self.passes.undo.pop() {
+            let back = self.take_step(step);
+            self.passes.redo.push(back);
+        }
+    }
+
+    pub(super) fn redo_pass_edit(&mut self) {
+        if let Some(step) = self.passes.redo.pop() {
+            let back = self.take_step(step);
+            self.passes.undo.push(back);
+        }
+    }
+
+    /// Goes to the other side of a step. Returns the way back.
+    fn take_step(&mut self, step: Step) -> Step {
+        let here = self.project().clone();
+        let there = step.renamed.as_ref().map(|(there, here)| (there.clone(), here.clone()));
+        let next = returned(&self.documents, step.project, there.as_ref());
+        *self.documents.current_mut() = next;
+        if let Some((there, here)) = &there {
+            self.follow_rename(here, there);
+        }
+        self.passes_changed();
+        let renamed = there.map(|(there, here)| (here, there));
+        Step { project: here, renamed, edit: None, at: Instant::now(), ..step }
+    }
+
+    /// What is known of a pass by its name goes on under its new one.
+    fn follow_rename(&mut self, from: &PassId, to: &PassId) {
+        self.renamed.push((from.clone(), to.clone()));
+        if self.run.shown == *from {
+            self.run.shown = to.clone();
+        }
+    }
+
+    pub(super) fn passes_changed(&mut self) {
+        self.compile.include_edits += 1;
+        self.text_generation += 1;
+        self.show_image_if_gone();
+        self.compile_soon();
+        self.changed = true;
+    }
+
+    /// Shows Image where the shown pass is no more.
+    pub(super) fn show_image_if_gone(&mut self) {
+        if self.project().pass(&self.run.shown).is_none() {
+            self.run.shown = PassId::Image;
+        }
+    }
+}
+
+/// Returns whether a text is nobody's work.
+fn is_untouched(text: &str, tab: &Tab) -> bool {
+    text.trim().is_empty() || text == template::text(tab)
+}
+
+/// The passes of `there` with what was typed since. `renamed`: a pass's name there, and here.
+fn returned(documents: &Documents, mut there: Project, renamed: Option<&(PassId, PassId)>) -> Project {
+    let (here, saved) = (documents.current(), documents.saved());
+    for tab in there.tabs() {
+        let tab_here = match renamed {
+            Some((there, here)) if tab.pass() == Some(there) => tab.of_pass(here.clone()),
+            _ => tab.clone(),
+        };
+        let Some(source) = there.source_mut(&tab) else { continue };
+        if let Some(now) = here.source(&tab_here) {
+            // Where it lies is known here: it may have been saved since.
+            source.clone_from(now);
+            if let (Some(there), Some(here)) = (tab.pass(), tab_here.pass())
+                && there != here
+            {
+                source.follow_rename(here, there);
+            }
+        } else if let Some(on_disk) = saved.source(&tab) {
+            (source.name, source.path) = (on_disk.name.clone(), on_disk.path.clone());
+        } else {
+            source.path = None;
+        }
+    }
+    Project {
+        name: here.name.clone(),
+        info: here.info.clone(),
+        custom_uniform_values: here.custom_uniform_values.clone(),
+        includes: here.includes.clone(),
+        origin: here.origin.clone(),
+        ..there
+    }
+}

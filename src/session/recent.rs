@@ -1,0 +1,174 @@
+//! The projects that were open before, the newest first, and where their time stood.
+//!
+//! Owns the file that keeps them from one start to the next, which people can read and several windows write.
+
+use crate::project::Origin;
+use serde::{Deserialize, Serialize};
+use std::{
+    fs,
+    io::{self, Write},
+    path::{Path, PathBuf},
+};
+
+/// In the folder for what is remembered between two starts.
+const NAME: &str = "projects.toml";
+/// As many as anybody looks through; the file is read and written whole.
+const MOST: usize = 500;
+const HEADER: &str = "# The projects that were open in Eddy, the newest first, and where their time stood.\n\n";
+
+/// A project that was open before.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct RecentProject {
+    /// A folder, a `.glsl` or a `.json` file, as [`Command::Open`](super::Command::Open) takes it. It may be gone.
+    pub path: PathBuf,
+    /// `iTime` when it was closed.
+    #[serde(default, rename = "time")]
+    pub time_secs: f64,
+    #[serde(default)]
+    pub paused: bool,
+}
+
+#[derive(Default, Serialize, Deserialize)]
+struct File {
+    #[serde(default, rename = "project")]
+    projects: Vec<RecentProject>,
+}
+
+/// The list, and the file it is in.
+#[derive(Debug, Default)]
+pub(super) struct Recent {
+    /// `None`: nothing is kept.
+    path: Option<PathBuf>,
+    list: Vec<RecentProject>,
+}
+
+impl Recent {
+    /// `state_dir`: what is remembered between two starts lies there. The second value says what is wrong with it.
+    pub fn open(state_dir: Option<&Path>) -> (Self, Option<String>) {
+        let mut recent = Self { path: state_dir.map(|dir| dir.join(NAME)), list: Vec::new() };
+        let trouble = recent.read().err();
+        (recent, trouble)
+    }
+
+    pub fn list(&self) -> &[RecentProject] {
+        &self.list
+    }
+
+    /// Puts a project first, and returns what is known of it. One that lies in no file is not remembered.
+    pub fn opened(&mut self, origin: &Origin) -> Result<Option<RecentProject>, String> {
+        let Some(path) = place(origin) else { return Ok(None) };
+        let mut known = None;
+        self.change(|list| {
+            let at = list.iter().position(|project| project.path == path);
+            known = at.map(|at| list.remove(at));
+            let fresh = || RecentProject { path: path.clone(), time_secs: 0.0, paused: false };
+            list.insert(0, known.clone().unwrap_or_else(fresh));
+        })?;
+        Ok(known)
+    }
+
+    /// Keeps where the time of a project stands.
+    pub fn left(&mut self, origin: &Origin, time_secs: f64, paused: bool) -> Result<(), String> {
+        let Some(path) = place(origin) else { return Ok(()) };
+        self.change(|list| {
+            if let Some(project) = list.iter_mut().find(|project| project.path == path) {
+                (project.time_secs, project.paused) = (time_secs, paused);
+            }
+        })
+    }
+
+    /// Changes the list that is in the file now: another window may have written it meanwhile.
+    fn change(&mut self, change: impl FnOnce(&mut Vec<RecentProject>)) -> Result<(), String> {
+        let read = self.read();
+        let before = self.list.clone();
+        change(&mut self.list);
+        self.list.truncate(MOST);
+        read?;
+        if self.list == before { Ok(()) } else { self.write() }
+    }
+
+    fn read(&mut self) -> Result<(), String> {
+        let Some(path) = &self.path else { return Ok(()) };
+        let text = match fs::read_to_string(path) {
+            Ok(text) => text,
+            Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(()),
+            Err(e) => return Err(format!("{}: {e}", path.display())),
+        };
+        let file: File = toml::from_str(&text).map_err(|e| {
+            let line = 1 + text[..e.span().map_or(0, |s| s.start)].matches('\n').count();
+            let what = e.message();
+            format!("{}:{line}: {what}. Mend or delete it: no project is remembered until then", path.display())
+        })?;
+        self.list = file.projects;
+        Ok(())
+    }
+
+    fn write(&self) -> Result<(), String> {
+        let Some(path) = &self.path else { return Ok(()) };
+        let failed = |e: &dyn std::fmt::Display| format!("{}: {e}", path.display());
+        let text = toml::to_string(&File { projects: self.list.clone() }).map_err(|e| failed(&e))?;
+        let folder = path.parent().unwrap_or(Path::new("."));
+        let write = || {
+            fs::create_dir_all(folder)?;
+            let mut new = tempfile::NamedTempFile::new_in(folder)?;
+            new.write_all(HEADER.as_bytes())?;
+            new.write_all(text.as_bytes())?;
+            new.persist(path)?;
+            io::Result::Ok(())
+        };
+        write().map_err(|e| failed(&e))
+    }
+}
+
+/// Returns where a project lies: the same path however it was named. A path that is no text cannot be written down.
+fn place(origin: &Origin) -> Option<PathBuf> {
+    let (Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path)) = origin else { return None };
+    let path = path.canonicalize().or_else(|_| std::path::absolute(path)).ok()?;
+    path.to_str().is_some().then_some(path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn paths(recent: &Recent) -> Vec<&Path> {
+        recent.list().iter().map(|project| project.path.as_path()).collect()
+    }
+
+    #[test]
+    fn projects_are_remembered_newest_first_with_their_time_by_several_windows() {
+        let dir = tempfile::tempdir().unwrap();
+        let state = dir.path().join("state");
+        let [a, b] = ["a.glsl", "b.glsl"].map(|name| {
+            std::fs::write(dir.path().join(name), "").unwrap();
+            Origin::File(dir.path().join(name).canonicalize().unwrap())
+        });
+        let path = |origin: &Origin| place(origin).unwrap();
+        let (mut first, trouble) = Recent::open(Some(&state));
+        assert_eq!((trouble, first.list()), (None, &[][..]));
+        assert_eq!(first.opened(&a), Ok(None));
+        let (mut second, _) = Recent::open(Some(&state));
+        assert_eq!(second.opened(&b), Ok(None));
+        first.left(&a, 12.5, true).unwrap();
+        assert_eq!(paths(&first), [path(&b), path(&a)]);
+        let known = second.opened(&a).unwrap().unwrap();
+        assert_eq!((known.time_secs, known.paused), (12.5, true));
+        assert_eq!(paths(&Recent::open(Some(&state)).0), [path(&a), path(&b)]);
+        assert_eq!(second.opened(&Origin::Preset("fluid".into())), Ok(None));
+        assert_eq!(second.list().len(), 2);
+    }
+
+    #[test]
+    fn a_file_that_cannot_be_read_is_told_of_and_left_alone() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join(NAME);
+        let text = "# mine\n[[project]]\npath = 3\n";
+        std::fs::write(&path, text).unwrap();
+        let (mut recent, trouble) = Recent::open(Some(dir.path()));
+        assert!(trouble.unwrap().starts_with(&format!("{}:3: ", path.display())));
+        assert!(recent.opened(&Origin::File(dir.path().join("a.glsl"))).is_err());
+        assert_eq!(std::fs::read_to_string(&path).unwrap(), text);
+        let (mut none, trouble) = Recent::open(None);
+        assert_eq!((trouble, none.opened(&Origin::File("a.glsl".into()))), (None, Ok(None)));
+    }
+}

@@ -1,0 +1,118 @@
+//! A session hands its unsaved work to the recovery file, and takes up what an earlier one left behind.
+
+use super::{
+    Session,
+    command::{Answer, Question, Recovered, Then},
+    documents::Documents,
+    recovery::{Left, News, Recovery},
+    view::Level,
+};
+use crate::project::Origin;
+use std::path::{Path, PathBuf};
+
+impl Session {
+    /// Hands what is unsaved to the thread that writes it, if it has changed since. Never waits.
+    pub(super) fn keep_unsaved(&mut self) {
+        let Some(recovery) = &self.safekeeping.recovery else { return };
+        let revision = Some(self.documents.revision());
+        if self.safekeeping.kept == revision {
+            return;
+        }
+        self.safekeeping.kept = revision;
+        if self.documents.is_dirty() {
+            recovery.keep(self.documents.current());
+        } else {
+            recovery.forget();
+        }
+    }
+
+    /// Removes the recovery file: what is unsaved is meant to be lost, or is safe in another place.
+    pub fn forget_unsaved(&self) {
+        self.safekeeping.recovery.iter().for_each(Recovery::forget);
+    }
+
+    /// Asks about work that was left behind.
+    pub(super) fn take_found_work(&mut self) {
+        while let Some(news) = self.safekeeping.recovery.as_ref().and_then(Recovery::take_news) {
+            match news {
+                News::Trouble(text) => self.notice(Level::Warning, text),
+                News::Found(found) => {
+                    let here = place(&self.project().origin);
+                    let is_here = |left: &Left| here.is_some() && place(&left.shown.origin) == here;
+                    let (first, rest): (Vec<Left>, Vec<Left>) = found.into_iter().partition(is_here);
+                    for left in first.into_iter().chain(rest) {
+                        self.ask(Question::Recover(Box::new(left.shown.clone())));
+                        self.safekeeping.found.push(left);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Does what was answered about work that was left behind; false for an answer that does not fit.
+    pub(super) fn answer_recover(&mut self, recovered: &Recovered, answer: &Answer) -> bool {
+        match answer {
+            Answer::Recover if self.is_dirty() => {
+                let (then, tabs) = (Then::Recover(recovered.file.clone()), self.documents.dirty_tabs());
+                self.dialog.questions.push_front(Question::Unsaved { then, tabs });
+            }
+            Answer::Recover => self.recover(&recovered.file),
+            Answer::Discard => {
+                self.safekeeping.found.retain(|left| left.shown.file != recovered.file);
+                if let Some(recovery) = &self.safekeeping.recovery {
+                    recovery.discard(recovered.file.clone());
+                }
+            }
+            Answer::Cancel => self.put_off(&recovered.file),
+            _ => return false,
+        }
+        true
+    }
+
+    /// The work in a recovery file takes the place of the open project.
+    pub(super) fn recover(&mut self, file: &Path) {
+        let Some(at) = self.safekeeping.found.iter().position(|left| left.shown.file == *file) else { return };
+        let Left { shown, project, saved, .. } = self.safekeeping.found.remove(at);
+        self.replace(Documents::restored(project, saved));
+        // What made an end of the last process may do it again: the person looks first.
+        self.run.clock.pause();
+        if let Some(recovery) = &self.safekeeping.recovery {
+            recovery.adopt(shown.file);
+        }
+        self.compile.include_edits += 1;
+        let placeless = shown.trouble.map(|why| format!(" It has no place any more: {why}")).unwrap_or_default();
+        self.notice(Level::Info, format!("recovered {}, paused and not saved yet.{placeless}", shown.name));
+        self.put_off_all();
+    }
+
+    /// Other work would have to take the place of what was just recovered.
+    fn put_off_all(&mut self) {
+        let others: Vec<PathBuf> = self.safekeeping.found.iter().map(|left| left.shown.file.clone()).collect();
+        let some = match others.len() {
+            0 => return,
+            1 => "another project's unsaved work was left behind, too".to_owned(),
+            n => format!("the unsaved work of {n} other projects was left behind, too"),
+        };
+        self.notice(Level::Info, format!("{some}; the next start asks about it again"));
+        others.iter().for_each(|file| self.put_off(file));
+        self.dialog.questions.retain(|q| !matches!(q, Question::Recover(_)));
+    }
+
+    fn put_off(&mut self, file: &Path) {
+        self.safekeeping.found.retain(|left| left.shown.file != *file);
+        if let Some(recovery) = &self.safekeeping.recovery {
+            recovery.put_off(file.to_owned());
+        }
+    }
+}
+
+/// Returns where a project lies, written in one way; `None` for one that lies nowhere.
+fn place(origin: &Origin) -> Option<PathBuf> {
+    match origin {
+        Origin::Unsaved => None,
+        Origin::Preset(name) => Some(PathBuf::from(name)),
+        Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => {
+            Some(path.canonicalize().unwrap_or_else(|_| path.clone()))
+        }
+    }
+}

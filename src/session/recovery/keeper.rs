@@ -1,0 +1,232 @@
+//! The thread that writes recovery files, and the session's end of it.
+
+use super::{
+    left::{self, Left, Read},
+    slot::Slot,
+};
+use crate::project::{self, Project, write_snapshot};
+use std::{
+    collections::HashMap,
+    io::{self, Write},
+    path::PathBuf,
+    sync::{
+        Arc,
+        mpsc::{self, Receiver, RecvTimeoutError, Sender},
+    },
+    thread::JoinHandle,
+    time::{Duration, Instant},
+};
+
+/// How long a change waits for others before all are written. Writing takes its own time, and both together stay well
+/// below a second.
+const GATHER: Duration = Duration::from_millis(300);
+
+enum Job {
+    Keep(Box<Project>),
+    Forget,
+    Scan,
+    Adopt(PathBuf),
+    Discard(PathBuf),
+    PutOff(PathBuf),
+}
+
+/// Something the session should hear.
+pub(in crate::session) enum News {
+    /// All work that was left behind; the newest first.
+    Found(Vec<Left>),
+    Trouble(String),
+}
+
+/// The session's end of the thread. Every call returns at once.
+pub(in crate::session) struct Recovery {
+    /// `None` only while dropping.
+    jobs: Option<Sender<Job>>,
+    news: Receiver<News>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Recovery {
+    /// `wake` is called on the thread when there are news.
+    pub fn new(folder: PathBuf, wake: Arc<dyn Fn() + Send + Sync>) -> io::Result<Recovery> {
+        let (jobs, inbox) = mpsc::channel();
+        let (outbox, news) = mpsc::channel();
+        let keeper = Keeper { folder, outbox, wake, own: None, offered: HashMap::new(), is_trouble_told: false };
+        let thread = std::thread::Builder::new().name("recovery".into()).spawn(move || keeper.run(&inbox))?;
+        Ok(Recovery { jobs: Some(jobs), news, thread: Some(thread) })
+    }
+
+    /// Keeps a project that differs from the disk.
+    pub fn keep(&self, project: &Project) {
+        self.send(Job::Keep(Box::new(project.clone())));
+    }
+
+    /// Nothing is unsaved any more.
+    pub fn forget(&self) {
+        self.send(Job::Forget);
+    }
+
+    /// Looks for work that was left behind; [`News::Found`] says what there is.
+    pub fn scan(&self) {
+        self.send(Job::Scan);
+    }
+
+    /// Work that was found is the open project's from now on: its file is kept up to date, and goes once all is saved.
+    pub fn adopt(&self, file: PathBuf) {
+        self.send(Job::Adopt(file));
+    }
+
+    /// Removes work that was found.
+    pub fn discard(&self, file: PathBuf) {
+        self.send(Job::Discard(file));
+    }
+
+    /// Leaves work that was found for another time.
+    pub fn put_off(&self, file: PathBuf) {
+        self.send(Job::PutOff(file));
+    }
+
+    pub fn take_news(&self) -> Option<News> {
+        self.news.try_recv().ok()
+    }
+
+    fn send(&self, job: Job) {
+        if let Some(jobs) = &self.jobs {
+            // A thread that is gone has said so in its panic.
+            let _ = jobs.send(job);
+        }
+    }
+}
+
+impl Drop for Recovery {
+    /// Writes what is still waiting.
+    fn drop(&mut self) {
+        self.jobs = None;
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+struct Keeper {
+    folder: PathBuf,
+    outbox: Sender<News>,
+    wake: Arc<dyn Fn() + Send + Sync>,
+    /// The open project's slot, while it has something unsaved.
+    own: Option<Slot>,
+    /// Slots whose work was found and not yet decided on.
+    offered: HashMap<PathBuf, Slot>,
+    is_trouble_told: bool,
+}
+
+impl Keeper {
+    fn run(mut self, inbox: &Receiver<Job>) {
+        let mut waiting: Option<(Instant, Box<Project>)> = None;
+        loop {
+            let job = match &waiting {
+                None => inbox.recv().map_err(|_| RecvTimeoutError::Disconnected),
+                Some((since, _)) => match GATHER.checked_sub(since.elapsed()) {
+                    Some(left) => inbox.recv_timeout(left),
+                    None => Err(RecvTimeoutError::Timeout),
+                },
+            };
+            match job {
+                Ok(Job::Keep(project)) => {
+                    let since = waiting.map_or_else(Instant::now, |(since, _)| since);
+                    waiting = Some((since, project));
+                }
+                Ok(Job::Forget) => {
+                    waiting = None;
+                    let ended = self.own.take().map_or(Ok(()), |slot| slot.end(&self.folder));
+                    self.told("removed", ended);
+                }
+                Ok(job) => self.settle(job),
+                Err(end) => {
+                    if let Some((_, project)) = waiting.take() {
+                        let written = self.write(&project);
+                        self.is_trouble_told &= written.is_err();
+                        self.told("written", written);
+                    }
+                    if end == RecvTimeoutError::Disconnected {
+                        return;
+                    }
+                }
+            }
+        }
+    }
+
+    fn settle(&mut self, job: Job) {
+        match job {
+            Job::Scan => self.scan(),
+            Job::Adopt(file) => {
+                let own = std::mem::replace(&mut self.own, self.offered.remove(&file));
+                let ended = own.map_or(Ok(()), |slot| slot.end(&self.folder));
+                self.told("removed", ended);
+            }
+            Job::Discard(file) => {
+                let ended = self.offered.remove(&file).map_or(Ok(()), |slot| slot.end(&self.folder));
+                self.told("removed", ended);
+            }
+            // The lock ends with the slot, and the file stays.
+            Job::PutOff(file) => drop(self.offered.remove(&file)),
+            Job::Keep(_) | Job::Forget => {}
+        }
+    }
+
+    fn write(&mut self, project: &Project) -> io::Result<()> {
+        let text = write_snapshot(project).map_err(io::Error::other)?;
+        let slot = match self.own.take() {
+            Some(slot) => slot,
+            None => Slot::take(&self.folder, project)?,
+        };
+        let data = &self.own.insert(slot).data;
+        project::write_with(data, |file| file.write_all(text.as_bytes()))
+    }
+
+    fn scan(&mut self) {
+        let slots = match Slot::left_behind(&self.folder) {
+            Ok(slots) => slots,
+            Err(e) => return self.told("looked for", Err(e)),
+        };
+        let mut found = Vec::new();
+        for slot in slots {
+            match left::read(&slot.data) {
+                Read::Work(left) => {
+                    found.push(*left);
+                    self.offered.insert(slot.data.clone(), slot);
+                }
+                Read::Nothing => {
+                    let ended = slot.end(&self.folder);
+                    self.told("removed", ended);
+                }
+                Read::Unreadable(why) => {
+                    let file = slot.data.display();
+                    self.say(News::Trouble(format!(
+                        "unsaved work of an Eddy that ended early is in {file}, and cannot be read: {why}\nIts texts \
+                         are in that file; move it away to hear no more of it"
+                    )));
+                }
+            }
+        }
+        found.sort_by_key(|left| std::cmp::Reverse(left.written));
+        self.say(News::Found(found));
+    }
+
+    /// Tells of trouble once, until a file is written again.
+    fn told(&mut self, what: &str, result: io::Result<()>) {
+        let Err(e) = result else { return };
+        if !std::mem::replace(&mut self.is_trouble_told, true) {
+            let folder = self.folder.display();
+            self.say(News::Trouble(format!(
+                "unsaved work is not safe from a crash: a recovery file could not be {what} in {folder}: {e}\nSave \
+                 often, or make room there"
+            )));
+        }
+    }
+
+    fn say(&self, news: News) {
+        // A session that is gone wants no news.
+        if self.outbox.send(news).is_ok() {
+            (self.wake)();
+        }
+    }
+}

@@ -1,0 +1,85 @@
+//! Unsaved work that a process left behind, beside what the disk has of the same project now.
+
+use super::super::{documents, template};
+use crate::{
+    project::{self, Origin, Project, Tab, read_snapshot},
+    session::command::{Recovered, RecoveredTab},
+};
+use jiff::{Timestamp, tz::TimeZone};
+use std::{fs, path::Path};
+
+/// Work that was left behind.
+pub(in crate::session) struct Left {
+    pub shown: Recovered,
+    /// The project as it was being edited.
+    pub project: Project,
+    /// The project that its edits are told against.
+    pub saved: Project,
+    pub written: Timestamp,
+}
+
+/// What a recovery file turned out to be.
+pub(super) enum Read {
+    Work(Box<Left>),
+    /// The disk holds the same by now.
+    Nothing,
+    /// With the reason.
+    Unreadable(String),
+}
+
+pub(super) fn read(file: &Path) -> Read {
+    let text = match fs::read_to_string(file) {
+        Ok(text) => text,
+        Err(e) => return Read::Unreadable(e.to_string()),
+    };
+    let mut project = match read_snapshot(&text) {
+        Ok(project) => project,
+        Err(e) => return Read::Unreadable(e.to_string()),
+    };
+    let written = fs::metadata(file).and_then(|m| m.modified()).ok();
+    let written = written.and_then(|at| Timestamp::try_from(at).ok()).unwrap_or_else(Timestamp::now);
+    let (saved, trouble) = saved(&project);
+    if trouble.is_some() {
+        // Nothing on disk that it could be saved over.
+        project.origin = Origin::Unsaved;
+        project.tab_sources_mut().into_iter().for_each(|source| source.path = None);
+    }
+    let documents = documents::Documents::restored(project, saved);
+    if !documents.is_dirty() {
+        return Read::Nothing;
+    }
+    let (project, saved) = (documents.current().clone(), documents.saved().clone());
+    let tabs = documents.dirty_tabs().into_iter().map(|tab| changed(&tab, &project, &saved)).collect();
+    let shown = Recovered {
+        file: file.to_owned(),
+        name: project.name.clone(),
+        origin: project.origin.clone(),
+        written: written.to_zoned(TimeZone::system()).strftime("%A %-d %B, %H:%M").to_string(),
+        tabs,
+        is_structure_changed: documents.is_structure_dirty(),
+        trouble,
+    };
+    Read::Work(Box::new(Left { shown, project, saved, written }))
+}
+
+/// The project as the disk has it now, or why that cannot be had and a new one stands for it.
+fn saved(project: &Project) -> (Project, Option<String>) {
+    let spec = match &project.origin {
+        Origin::Unsaved => return (template::project(), None),
+        Origin::Preset(name) => name.clone(),
+        Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => path.to_string_lossy().into_owned(),
+    };
+    let loaded = match &project.origin {
+        Origin::Preset(name) => project::presets::load(name),
+        _ => project::load(&spec),
+    };
+    match loaded {
+        Ok(loaded) => (loaded.project, None),
+        Err(e) => (template::project(), Some(e.to_string())),
+    }
+}
+
+fn changed(tab: &Tab, project: &Project, saved: &Project) -> RecoveredTab {
+    let text = |project: &Project| project.source(tab).map(|s| s.text.clone()).unwrap_or_default();
+    RecoveredTab { tab: tab.clone(), diff: documents::diff(&text(saved), &text(project)) }
+}

@@ -1,0 +1,128 @@
+//! A slot is a recovery file and the lock that says whose it is.
+//!
+//! Slots are taken, found and given back in turns, under a lock of the whole folder that is held for moments: so no two
+//! processes take one slot, and none removes a lock that another is about to hold.
+
+use super::super::capture::file_stem;
+use crate::project::{Origin, Project};
+use std::{
+    fs::{self, DirBuilder, File, TryLockError},
+    hash::{DefaultHasher, Hash, Hasher},
+    io,
+    path::{Path, PathBuf},
+};
+
+const DATA: &str = "json";
+const LOCK: &str = "lock";
+/// The lock of the folder.
+const TURN: &str = ".turn";
+
+/// A recovery file that is this process's as long as the value lives.
+#[derive(Debug)]
+pub(super) struct Slot {
+    pub data: PathBuf,
+    /// `None` on a file system that has no locks.
+    _lock: Option<File>,
+}
+
+impl Slot {
+    /// Takes a new slot for a project.
+    pub fn take(folder: &Path, project: &Project) -> io::Result<Slot> {
+        let _turn = turn(folder)?;
+        let key = key(project);
+        for n in 1.. {
+            let data = folder.join(format!("{key}-{n}.{DATA}"));
+            // Another window's, or left behind.
+            if data.exists() {
+                continue;
+            }
+            if let Held::Mine(lock) = hold(&data)? {
+                return Ok(Slot { data, _lock: lock });
+            }
+        }
+        unreachable!("numbers do not end")
+    }
+
+    /// Returns every slot whose process is gone; they are this process's from now on.
+    pub fn left_behind(folder: &Path) -> io::Result<Vec<Slot>> {
+        let entries = match fs::read_dir(folder) {
+            Ok(entries) => entries,
+            Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
+            Err(e) => return Err(e),
+        };
+        let _turn = turn(folder)?;
+        let mut slots = Vec::new();
+        for path in entries.flatten().map(|entry| entry.path()) {
+            let extension = path.extension().unwrap_or_default();
+            if extension == DATA && path.is_file() {
+                if let Held::Mine(lock) = hold(&path)? {
+                    slots.push(Slot { data: path, _lock: lock });
+                }
+            } else if extension == LOCK && !path.with_extension(DATA).exists() {
+                // Its process ended before it wrote anything.
+                if let Held::Mine(_lock) = hold(&path.with_extension(DATA))? {
+                    remove(&path)?;
+                }
+            }
+        }
+        Ok(slots)
+    }
+
+    /// Removes the file and ends the slot.
+    pub fn end(self, folder: &Path) -> io::Result<()> {
+        let _turn = turn(folder)?;
+        remove(&self.data)?;
+        remove(&self.data.with_extension(LOCK))
+    }
+}
+
+enum Held {
+    Mine(Option<File>),
+    Others,
+}
+
+/// Takes the lock of a slot if no other process has it.
+fn hold(data: &Path) -> io::Result<Held> {
+    let file = File::options().create(true).truncate(false).write(true).open(data.with_extension(LOCK))?;
+    match file.try_lock() {
+        Ok(()) => Ok(Held::Mine(Some(file))),
+        Err(TryLockError::WouldBlock) => Ok(Held::Others),
+        // A file system without locks: better unguarded than not kept.
+        Err(TryLockError::Error(_)) => Ok(Held::Mine(None)),
+    }
+}
+
+/// Waits for the turn in the folder, which is made if it is not there: for its owner alone, as texts are private.
+fn turn(folder: &Path) -> io::Result<File> {
+    let mut builder = DirBuilder::new();
+    builder.recursive(true);
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    builder.create(folder)?;
+    let file = File::options().create(true).truncate(false).write(true).open(folder.join(TURN))?;
+    if let Err(e) = file.lock() {
+        log::debug!("no lock in {}: {e}", folder.display());
+    }
+    Ok(file)
+}
+
+fn remove(path: &Path) -> io::Result<()> {
+    match fs::remove_file(path) {
+        Err(e) if e.kind() != io::ErrorKind::NotFound => Err(e),
+        Ok(()) | Err(_) => Ok(()),
+    }
+}
+
+/// A name that a person recognises, and that two projects of one name do not share.
+fn key(project: &Project) -> String {
+    let place = match &project.origin {
+        Origin::Unsaved => String::new(),
+        Origin::Preset(name) => name.clone(),
+        Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => {
+            path.canonicalize().unwrap_or_else(|_| path.clone()).display().to_string()
+        }
+    };
+    let mut hasher = DefaultHasher::new();
+    place.hash(&mut hasher);
+    format!("{}-{:08x}", file_stem(&project.name), hasher.finish() as u32)
+}

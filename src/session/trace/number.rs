@@ -1,0 +1,49 @@
+//! A scalar of a trace.
+
+use serde::{Serialize, Serializer};
+use std::fmt;
+
+/// A scalar of the language, as it is shown.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Number {
+    Bool(bool),
+    Int(i32),
+    Uint(u32),
+    Float(f32),
+    /// A float in double precision.
+    Double(f64),
+}
+
+impl fmt::Display for Number {
+    /// A float has as many digits as tell it from its neighbours.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Number::Bool(value) => value.fmt(f),
+            Number::Int(value) => value.fmt(f),
+            Number::Uint(value) => write!(f, "{value}u"),
+            Number::Float(value)
+                if value.is_finite() && (value.abs() >= 1e7 || value.abs() < 1e-4) && *value != 0.0 =>
+            {
+                write!(f, "{value:e}")
+            }
+            Number::Float(value) if value.is_finite() => write!(f, "{value:?}"),
+            Number::Float(value) => write!(f, "{value}"),
+            Number::Double(value) => write!(f, "{value:?}"),
+        }
+    }
+}
+
+impl Serialize for Number {
+    /// JSON has no NaN and no infinities: these are texts, `NaN`, `inf` and `-inf`.
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match *self {
+            Number::Bool(value) => serializer.serialize_bool(value),
+            Number::Int(value) => serializer.serialize_i32(value),
+            Number::Uint(value) => serializer.serialize_u32(value),
+            Number::Float(value) if value.is_finite() => serializer.serialize_f32(value),
+            Number::Float(value) => serializer.collect_str(&value),
+            Number::Double(value) if value.is_finite() => serializer.serialize_f64(value),
+            Number::Double(value) => serializer.collect_str(&value),
+        }
+    }
+}
