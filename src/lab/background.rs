@@ -4,7 +4,7 @@ use super::{
     CostRecord, ErrorRecord, LabError, Point, Results, Stop, Study,
     run::{self, Control, Options, Step},
 };
-use crate::gpu::{Gpu, GpuError};
+use crate::gpu::{self, Gpu, GpuError};
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
     sync::{
@@ -20,7 +20,6 @@ const PATIENCE: Duration = Duration::from_secs(3);
 
 /// Steps that the thread takes back behind others (`nice`), where a thread can: what a processor draws for a window
 /// goes first.
-#[cfg(target_os = "linux")]
 const STEPS_BACK: i32 = 10;
 
 /// Carries what the thread says.
@@ -72,7 +71,7 @@ impl Background {
         let stop = Stop::default();
         let control = Control { stop: stop.clone(), estimates: true, beside_window: true };
         let work = move || {
-            step_back();
+            gpu::step_back(STEPS_BACK);
             let tell = |event: Event| {
                 // Whoever hung up has given the stop, too.
                 let _ = sender.send(event);
@@ -140,13 +139,4 @@ fn measure(
         });
     };
     run::controlled(&gpu, studies, options, control, passed_on).map(drop).map_err(said)
-}
-
-/// Lets other threads go first. On Linux this is a thread's own, and the threads that a driver starts for it have it
-/// from it.
-fn step_back() {
-    #[cfg(target_os = "linux")]
-    if let Err(error) = rustix::process::nice(STEPS_BACK) {
-        log::debug!("the lab keeps its priority: {error}");
-    }
 }

@@ -25,7 +25,8 @@ pub enum LabError {
     #[error("{}:{line}: not a record of the lab ({reason}); remove the line, or choose another --out", path.display())]
     Record { path: PathBuf, line: usize, reason: String },
     #[error(
-        "{} holds results of another run ({what}: {theirs} there, {ours} here); choose another --out, or join them with eddy lab merge",
+        "{} holds results of another run ({what}: {theirs} there, {ours} here); choose another --out, or join them \
+         with eddy lab merge",
         path.display()
     )]
     OtherRun { path: PathBuf, what: &'static str, theirs: String, ours: String },
@@ -34,7 +35,8 @@ pub enum LabError {
     #[error("--shard {0}")]
     Shard(String),
     #[error(
-        "{project}: {case}: a bound was left in one run and not in the next of the same inputs; the device does not repeat itself"
+        "{project}: {case}: a bound was left in one run and not in the next of the same inputs; the device does not \
+         repeat itself"
     )]
     NotRepeated { project: String, case: String },
     #[error("the run was stopped")]

@@ -100,7 +100,8 @@ pub fn checkerboard(values: &[f64], width: usize) -> f64 {
     values.iter().enumerate().map(|(i, v)| sign(i) * v).sum::<f64>() / values.len() as f64
 }
 
-/// Returns where a curve of (knob's) points first reaches `target`: x is interpolated in the logarithms of both.
+/// Returns where a curve of points, a setting and an error each, first reaches `target`: x is interpolated in the
+/// logarithms of both.
 /// `None`: it never does. Points that are no numbers are left out.
 pub fn first_reach(points: &[(f64, f64)], target: f64) -> Option<f64> {
     let mut points: Vec<(f64, f64)> =

@@ -30,10 +30,10 @@ pub fn project(study: &dyn Study, point: &Point) -> Result<Opened, LabError> {
         }
     }
     // As a person's hand leaves them, which is how they are read again.
-    for knob in project.knobs().list {
-        if project.knob_values.contains_key(&knob.name) {
-            let value = knob.value(&project.knob_values);
-            project.turn_knob(&knob, value);
+    for custom_uniform in project.custom_uniforms().list {
+        if project.custom_uniform_values.contains_key(&custom_uniform.name) {
+            let value = custom_uniform.value(&project.custom_uniform_values);
+            project.turn_custom_uniform(&custom_uniform, value);
         }
     }
     let about = study.about();
@@ -42,7 +42,7 @@ pub fn project(study: &dyn Study, point: &Point) -> Result<Opened, LabError> {
     project.name = format!("{} {} {}", about.name, point.method, point.setting);
     project.info.description = format!(
         "{}: {title}, {} = {}, on {} x {} texels.",
-        about.title, about.knob, point.setting, point.grid, point.grid
+        about.title, about.parameter, point.setting, point.grid, point.grid
     );
     let pass = setup.wanted().first().cloned().unwrap_or(PassId::Image);
     Ok(Opened { project, size: setup.size(), pass })

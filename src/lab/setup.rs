@@ -3,7 +3,7 @@
 use super::LabError;
 use crate::{
     media::{MediaSet, TexelFormat, Texels},
-    project::{self, Fill, KnobType, KnobValue, Origin, PassFormat, PassId, Project},
+    project::{self, CustomUniformType, CustomUniformValue, Fill, Origin, PassFormat, PassId, Project},
 };
 use include_dir::{Dir, include_dir};
 use std::{path::PathBuf, sync::Arc};
@@ -35,7 +35,7 @@ type Build = Arc<dyn Fn(&mut Project) + Send + Sync>;
 pub struct Setup {
     folder: &'static str,
     size: (u32, u32),
-    knobs: Vec<(String, KnobValue)>,
+    custom_uniforms: Vec<(String, CustomUniformValue)>,
     defines: Vec<(&'static str, String)>,
     steps: Vec<(&'static str, u32)>,
     initial: Vec<(PassId, Fill)>,
@@ -55,7 +55,7 @@ impl Setup {
         Setup {
             folder,
             size,
-            knobs: Vec::new(),
+            custom_uniforms: Vec::new(),
             defines: Vec::new(),
             steps: Vec::new(),
             initial: Vec::new(),
@@ -93,25 +93,25 @@ impl Setup {
         self
     }
 
-    /// Value of an `#iUniform` that is a float, an int, or a bool (1 for true). A value that the knob cannot take, one
-    /// beyond its range among them, is an error of [`Setup::project`].
+    /// Value of an `#iUniform` that is a float, an int, or a bool (1 for true). A value that the custom uniform cannot
+    /// take, one beyond its range among them, is an error of [`Setup::project`].
     #[must_use]
-    pub fn knob(mut self, name: &str, value: f64) -> Self {
-        self.knobs.push((name.into(), KnobValue::Float(value)));
+    pub fn uniform(mut self, name: &str, value: f64) -> Self {
+        self.custom_uniforms.push((name.into(), CustomUniformValue::Float(value)));
         self
     }
 
     /// A switch: the value of an `#iUniform bool`.
     #[must_use]
     pub fn flag(mut self, name: &str, value: bool) -> Self {
-        self.knobs.push((name.into(), KnobValue::Bool(value)));
+        self.custom_uniforms.push((name.into(), CustomUniformValue::Bool(value)));
         self
     }
 
     /// Values of an `#iUniform` of several components.
     #[must_use]
-    pub fn knobs(mut self, name: &str, values: &[f64]) -> Self {
-        self.knobs.push((name.into(), KnobValue::Vector(values.to_vec())));
+    pub fn uniforms(mut self, name: &str, values: &[f64]) -> Self {
+        self.custom_uniforms.push((name.into(), CustomUniformValue::Vector(values.to_vec())));
         self
     }
 
@@ -137,7 +137,7 @@ impl Setup {
     }
 
     /// Puts `new` in place of `old` in a pass's text or in `common`, which must have it. For what a preset gives no
-    /// knob: its scene, or the light before the curve that a screen needs.
+    /// custom uniform: its scene, or the light before the curve that a screen needs.
     #[must_use]
     pub fn edit(mut self, name: &str, old: &str, new: impl Into<String>) -> Self {
         let pass = (name != "common").then(|| pass(name));
@@ -222,16 +222,19 @@ impl Setup {
             let lines: String = self.defines.iter().map(|(name, value)| format!("#define {name} {value}\n")).collect();
             common.text = (lines + &common.text).into();
         }
-        let known = project.knobs();
-        for (name, value) in &self.knobs {
-            let knob = known.get(name).ok_or_else(|| lacks(format!("uniform {name}")))?;
-            let value = match (knob.ty, value) {
-                (KnobType::Bool, KnobValue::Float(number)) => KnobValue::Bool(*number >= 0.5),
+        let known = project.custom_uniforms();
+        for (name, value) in &self.custom_uniforms {
+            let custom_uniform = known.get(name).ok_or_else(|| lacks(format!("uniform {name}")))?;
+            let value = match (custom_uniform.ty, value) {
+                (CustomUniformType::Bool, CustomUniformValue::Float(number)) => {
+                    CustomUniformValue::Bool(*number >= 0.5)
+                }
                 (_, value) => value.clone(),
             };
-            let fitting =
-                knob.fit(&value).map_err(|why| lacks(format!("{value:?} for the uniform {name}, which {why}")))?;
-            project.knob_values.insert(name.clone(), fitting);
+            let fitting = custom_uniform
+                .fit(&value)
+                .map_err(|why| lacks(format!("{value:?} for the uniform {name}, which {why}")))?;
+            project.custom_uniform_values.insert(name.clone(), fitting);
         }
         for (name, steps) in &self.steps {
             let group = project.groups.iter_mut().find(|g| g.name == *name);
@@ -307,12 +310,12 @@ mod tests {
     #[test]
     fn what_a_project_does_not_have_is_named() {
         let said = |setup: Setup| setup.project().unwrap_err().to_string();
-        assert!(said(Setup::new("floor", (8, 8)).knob("nope", 1.0)).contains("has no uniform nope"));
-        let beyond = said(Setup::new("fluid_guay", (8, 8)).knob("dt", 5.0));
+        assert!(said(Setup::new("floor", (8, 8)).uniform("nope", 1.0)).contains("has no uniform nope"));
+        let beyond = said(Setup::new("fluid_guay", (8, 8)).uniform("dt", 5.0));
         assert!(beyond.contains("5.0") && beyond.contains("uniform dt") && beyond.contains("0.0 to 4.0"), "{beyond}");
         assert!(said(Setup::new("floor", (8, 8)).steps("nope", 1)).contains("has no group nope"));
         assert!(said(Setup::new("floor", (8, 8)).initial("nope", "vec4(0)")).contains("has no Buffer nope"));
-        let far = said(Setup::new("taa", (8, 8)).knob("gamma", 40.0));
+        let far = said(Setup::new("taa", (8, 8)).uniform("gamma", 40.0));
         assert!(far.contains("uniform gamma") && far.contains("0.25 to 4"), "{far}");
         assert!(said(Setup::new("floor", (8, 8)).text("nope", "")).contains("has no Buffer nope"));
         assert!(said(Setup::new("floor", (8, 8)).edit("copy", "nope", "")).contains("has no text `nope`"));

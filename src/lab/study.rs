@@ -13,7 +13,7 @@ pub struct About {
     /// The scene and its reference, one or two sentences.
     pub text: &'static str,
     /// Says what a method's settings are.
-    pub knob: &'static str,
+    pub parameter: &'static str,
     pub unit: Unit,
     /// Says what the error is relative to, for the plot's axis.
     pub error: &'static str,

@@ -37,7 +37,8 @@ fn provenance(out: &mut String, sections: &[(Table, Option<String>)], results: &
         let extent = if run.extent == Extent::Quick { "a quick run" } else { "a full run" };
         let _ = writeln!(
             out,
-            "<p class=\"quiet\">{} &middot; Eddy {} &middot; {extent} &middot; {} turns of each method &middot; seed {}{}</p>",
+            "<p class=\"quiet\">{} &middot; Eddy {} &middot; {extent} &middot; {} turns of each method &middot; seed \
+             {}{}</p>",
             escaped(&run.driver),
             escaped(&run.version),
             run.repeats,
@@ -49,15 +50,16 @@ fn provenance(out: &mut String, sections: &[(Table, Option<String>)], results: &
     let how = match clock {
         Some(Clock::Timestamps) => "the device's timestamps: the sum of its passes' times",
         Some(Clock::Wall) => {
-            "the wall's clock: a batch of frames is drawn without waiting, then the queue is waited for; the time by the frames"
+            "the wall's clock: a batch of frames is drawn without waiting, then the queue is waited for; the time by \
+             the frames"
         }
         None => return,
     };
     let _ = writeln!(
         out,
-        "<p class=\"quiet\">A frame's cost is by {how}. Methods of a study took turns; ms is the median turn. The roofline is a pass \
-         that copies rgba32f in the same turns; bytes a texel are the least that the plan of a frame moves for a texel of the \
-         study's grid.</p>"
+        "<p class=\"quiet\">A frame's cost is by {how}. Methods of a study took turns; ms is the median turn. The \
+         roofline is a pass that copies rgba32f in the same turns; bytes a texel are the least that the plan of a \
+         frame moves for a texel of the study's grid.</p>"
     );
 }
 
@@ -152,7 +154,8 @@ fn section(out: &mut String, table: &Table, svg: Option<&str>) {
     if let Some(cost) = table.rows.iter().find_map(|r| r.cost) {
         let _ = writeln!(
             out,
-            "<p class=\"quiet\">In the same turns a pass that copies rgba32f took {} ms ({:.2} GB/s), a pass of one texel {} ms.</p>",
+            "<p class=\"quiet\">In the same turns a pass that copies rgba32f took {} ms ({:.2} GB/s), a pass of one \
+             texel {} ms.</p>",
             number(cost.copy.median),
             32.0 * cost.canvas_texels / cost.copy.median / 1e6,
             number(cost.empty.median)

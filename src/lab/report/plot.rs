@@ -215,7 +215,7 @@ fn legend<B: DrawingBackend>(
         }
         y += entry_height(settings.len());
     }
-    area.draw(&Text::new(format!("settings: {}", table.about.knob), (left, y + 4), text(15, &INK)))?;
+    area.draw(&Text::new(format!("settings: {}", table.about.parameter), (left, y + 4), text(15, &INK)))?;
     y += 36;
     for (fill, words) in
         [(INK, "best at its cost"), (GREY, "another is cheaper and closer"), (WHITE, "fails a hard case")]

@@ -248,11 +248,11 @@ impl Table {
         let closest = peers().flat_map(|m| places(*m)).min_by(|a, b| a.1.1.total_cmp(&b.1.1));
         let (row, (millis, error)) = closest?;
         Some(format!(
-            "{head}; of the {} none reaches it: the closest, {} at {} = {}, still has an error of {:.1} % after {millis:.3} ms, \
-             {:.1} times as long.",
+            "{head}; of the {} none reaches it: the closest, {} at {} = {}, still has an error of {:.1} % after \
+             {millis:.3} ms, {:.1} times as long.",
             race.peers_are,
             row.method.title,
-            self.about.knob,
+            self.about.parameter,
             row.point.setting,
             100.0 * error,
             millis / own
@@ -314,7 +314,7 @@ mod tests {
     }
 
     fn table(rows: Vec<Row>, peers: &'static [&'static str]) -> Table {
-        let about = About { name: "s", title: "S", text: "", knob: "dt", unit: Unit::Frame, error: "of it" };
+        let about = About { name: "s", title: "S", text: "", parameter: "dt", unit: Unit::Frame, error: "of it" };
         let race = Some(Race { method: "own", peers, peers_are: "one-pass settings" });
         Table { about, error_label: about.error.into(), grid: 1, rows, convergence: Vec::new(), race }
     }

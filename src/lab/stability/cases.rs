@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     lab::{Extent, stability_record::Kind},
-    project::{Knob, KnobType, KnobValue, KnobValues},
+    project::{CustomUniform, CustomUniformType, CustomUniformValue, CustomUniformValues},
 };
 use std::collections::BTreeSet;
 
@@ -25,7 +25,7 @@ pub struct Case {
     /// Texels are looked at after every so many frames, and after each frame of a disturbance.
     pub every: u32,
     /// Sliders that are not at their defaults.
-    pub values: KnobValues,
+    pub values: CustomUniformValues,
     pub hand: Hand,
     pub steps: Steps,
     /// New sizes, each before a frame.
@@ -44,7 +44,7 @@ impl Case {
             size,
             frames,
             every,
-            values: KnobValues::new(),
+            values: CustomUniformValues::new(),
             hand: Hand::Away,
             steps: Steps::Usual,
             resizes: Vec::new(),
@@ -71,10 +71,10 @@ impl Case {
     }
 }
 
-fn written(value: &KnobValue) -> String {
+fn written(value: &CustomUniformValue) -> String {
     let short = |x: &f64| format!("{}", (x * 1e6).round() / 1e6);
     match value {
-        KnobValue::Bool(on) => on.to_string(),
+        CustomUniformValue::Bool(on) => on.to_string(),
         other => other.components().iter().map(short).collect::<Vec<_>>().join(","),
     }
 }
@@ -147,7 +147,7 @@ pub fn list(subject: &Subject, extent: Extent, base: (u32, u32)) -> Vec<Case> {
     courant(subject, &sliders, m, &mut cases);
     for slider in &sliders {
         for is_high in [false, true] {
-            let values = KnobValues::from([(slider.name.clone(), end(slider, is_high))]);
+            let values = CustomUniformValues::from([(slider.name.clone(), end(slider, is_high))]);
             let case = Case { values, ..Case::new(Kind::End, "", m.base, m.end, m.every) };
             cases.push(Case { name: case.settings(), ..case });
         }
@@ -185,13 +185,13 @@ pub fn coverage(subject: &Subject, drawn: &[Case]) -> (usize, usize) {
     (seen.len(), pairs::all(sliders.len()).len())
 }
 
-fn courant(subject: &Subject, sliders: &[Knob], m: &Measure, cases: &mut Vec<Case>) {
+fn courant(subject: &Subject, sliders: &[CustomUniform], m: &Measure, cases: &mut Vec<Case>) {
     let Some(courant) = subject.courant else { return };
     let Some(slider) = sliders.iter().find(|k| k.name == courant.slider) else { return };
     for &cells in m.courant {
         let range = slider.range.map_or((f64::MIN, f64::MAX), |r| (r.min[0], r.max[0]));
         let value = (courant.value)(cells, m.base).clamp(range.0, range.1);
-        let values = KnobValues::from([(slider.name.clone(), KnobValue::Float(value))]);
+        let values = CustomUniformValues::from([(slider.name.clone(), CustomUniformValue::Float(value))]);
         cases
             .push(Case { values, ..Case::new(Kind::Courant, format!("{cells} cells a step"), m.base, m.end, m.every) });
     }
@@ -221,10 +221,10 @@ fn disturbances(m: &Measure, cases: &mut Vec<Case>) {
     cases.push(Case { poison: Some(m.calm), ..case(Kind::Broken, "NaN in a texel of every state", 1) });
 }
 
-fn end(slider: &Knob, is_high: bool) -> KnobValue {
+fn end(slider: &CustomUniform, is_high: bool) -> CustomUniformValue {
     match (slider.range, slider.ty) {
-        (None, _) | (_, KnobType::Bool) => KnobValue::Bool(is_high),
-        (Some(range), ty) => KnobValue::new(ty, if is_high { &range.max } else { &range.min }),
+        (None, _) | (_, CustomUniformType::Bool) => CustomUniformValue::Bool(is_high),
+        (Some(range), ty) => CustomUniformValue::new(ty, if is_high { &range.max } else { &range.min }),
     }
 }
 

@@ -186,9 +186,9 @@ impl<'s> Driver<'s> {
 
     fn begin<'d, 'c>(&'d mut self, case: &'c Case) -> Result<Run<'d, 's, 'c>, LabError> {
         self.engine.resize(case.size.0, case.size.1)?;
-        let mut values = self.subject.project.knob_values.clone();
+        let mut values = self.subject.project.custom_uniform_values.clone();
         values.extend(case.values.clone());
-        self.engine.set_knobs(&values);
+        self.engine.set_custom_uniforms(&values);
         self.engine.reset();
         Ok(Run { driver: self, case, inputs: Inputs::new(case.hand, case.steps, case.disturbed), frame: 0 })
     }

@@ -7,7 +7,7 @@ use super::{
 use crate::{
     lab::LabError,
     media::{self, MediaSet},
-    project::{self, Input, Knob, KnobValues, Origin, PassId, Project},
+    project::{self, CustomUniform, CustomUniformValues, Input, Origin, PassId, Project},
 };
 use std::collections::BTreeSet;
 
@@ -114,15 +114,20 @@ impl Subject {
     }
 
     /// Sliders that have two ends.
-    pub fn sliders(&self) -> Vec<Knob> {
-        self.project.knobs().list.into_iter().filter(|k| k.range.is_some() || k.ty == project::KnobType::Bool).collect()
+    pub fn sliders(&self) -> Vec<CustomUniform> {
+        self.project
+            .custom_uniforms()
+            .list
+            .into_iter()
+            .filter(|k| k.range.is_some() || k.ty == project::CustomUniformType::Bool)
+            .collect()
     }
 
-    pub fn situation(&self, values: &KnobValues, size: (u32, u32), longest_step: f64) -> Situation {
-        let knobs = self.project.knobs();
-        let mut all = self.project.knob_values.clone();
+    pub fn situation(&self, values: &CustomUniformValues, size: (u32, u32), longest_step: f64) -> Situation {
+        let custom_uniforms = self.project.custom_uniforms();
+        let mut all = self.project.custom_uniform_values.clone();
         all.extend(values.clone());
-        let sliders = knobs.list.iter().map(|k| (k.name.clone(), k.value(&all).components())).collect();
+        let sliders = custom_uniforms.list.iter().map(|k| (k.name.clone(), k.value(&all).components())).collect();
         Situation { size, longest_step, sliders }
     }
 
@@ -138,11 +143,11 @@ impl Subject {
         for (_, source) in self.project.sources().iter() {
             eat(source.text.as_bytes());
         }
-        eat(format!("{:?} {:?}", self.project.groups, self.project.knob_values).as_bytes());
+        eat(format!("{:?} {:?}", self.project.groups, self.project.custom_uniform_values).as_bytes());
         for pass in &self.project.passes {
             eat(format!("{:?} {:?}", pass.channels, pass.settings).as_bytes());
         }
-        let usual = self.situation(&KnobValues::new(), (640, 360), 1.0 / 60.0);
+        let usual = self.situation(&CustomUniformValues::new(), (640, 360), 1.0 / 60.0);
         for check in &self.checks {
             eat(format!("{} {:?}", check.name(), check.allowed(&usual)).as_bytes());
         }

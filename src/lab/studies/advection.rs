@@ -31,10 +31,11 @@ impl Study for Advection {
         About {
             name: "advection",
             title: "Advection",
-            text: "A Gaussian of standard deviation .05 and Zalesak's slotted disk are carried once round the centre. The \
-                   exact solution is what there was at first. The error of the plot is the Gaussian's; the disk's, whose edge \
-                   is a jump, stands in the table. The hard case is that the disk goes at most half its range beyond the values there were.",
-            knob: "Courant number at the rim",
+            text: "A Gaussian of standard deviation .05 and Zalesak's slotted disk are carried once round the centre. \
+                   The exact solution is what there was at first. The error of the plot is the Gaussian's; the disk's, \
+                   whose edge is a jump, stands in the table. The hard case is that the disk goes at most half its \
+                   range beyond the values there were.",
+            parameter: "Courant number at the rim",
             unit: Unit::Scene,
             error: "of the Gaussian",
         }
@@ -62,7 +63,7 @@ impl Study for Advection {
         let total = steps(point);
         Setup::new("advection", (point.grid, point.grid))
             .define("METHOD", method)
-            .knob("turn", TAU / f64::from(total))
+            .uniform("turn", TAU / f64::from(total))
             .steps("solver", frames_of(total, 16).1)
     }
 

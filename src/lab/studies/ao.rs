@@ -49,13 +49,13 @@ fn slices(samples: f64) -> (f64, f64) {
 fn setup(method: &str, samples: f64, size: (u32, u32)) -> Setup {
     let ssao = |method| {
         let setup = Setup::new("ssao", size).wants(&["geometry", "blur"]).restless();
-        setup.knob("power", 1.0).knob("method", method).knob("samples", samples)
+        setup.uniform("power", 1.0).uniform("method", method).uniform("samples", samples)
     };
     match method {
         "horizons" => {
             let (slices, steps) = slices(samples);
             let setup = Setup::new("gbuffer-ssao-ssr", size).wants(&["a", "c"]).restless();
-            setup.knob("turning", 0.0).knob("slices", slices).knob("steps", steps)
+            setup.uniform("turning", 0.0).uniform("slices", slices).uniform("steps", steps)
         }
         "rays" => ssao(0.0),
         "points" => ssao(1.0),
@@ -194,7 +194,7 @@ pub struct Closed {
 pub fn closed(rig: &Rig, samples: f64, side: u32) -> Result<Closed, LabError> {
     let field = |shape: u32| {
         let setup = setup("horizons", samples, (side, side)).text("a", SHAPES).define("SHAPE", shape);
-        rig.after(&setup.knob("radius", 4.0).knob("thickness", 1.0), 1, "c")
+        rig.after(&setup.uniform("radius", 4.0).uniform("thickness", 1.0), 1, "c")
     };
     let (open, wall, sphere) = (field(0)?, field(1)?, field(2)?);
     let worst = |pairs: Vec<(f64, f64)>| {
@@ -226,14 +226,15 @@ impl Study for Ao {
         About {
             name: "ao",
             title: "Ambient occlusion",
-            text: "Some 900 points of each preset's scene, the still life on its table and the meshes in their room, against \
-                   1,024 stratified rays a point, weighted by the cosine, of the preset's radius and falloff, in f64. \
-                   The error is the root mean square of the hidden part of the sky, of which 1 is all. The table gives the mean \
-                   of the error, the points that are hidden by .1 too much (a halo), and the most where nothing hides; and \
-                   of the slices, with a radius of 4, the largest errors beside a wall ((1 - cos t) / 2) and below a sphere \
-                   (R² h / (r² + h²)^(3/2)). Hard cases: at most .05 from the rays; an open plane less than .01; a halo on \
-                   at most 1 % of the points. Costs are those of the whole preset, every pass drawn.",
-            knob: "samples",
+            text: "Some 900 points of each preset's scene, the still life on its table and the meshes in their room, \
+                   against 1,024 stratified rays a point, weighted by the cosine, of the preset's radius and falloff, \
+                   in f64. The error is the root mean square of the hidden part of the sky, of which 1 is all. The \
+                   table gives the mean of the error, the points that are hidden by .1 too much (a halo), and the most \
+                   where nothing hides; and of the slices, with a radius of 4, the largest errors beside a wall ((1 - \
+                   cos t) / 2) and below a sphere (R² h / (r² + h²)^(3/2)). Hard cases: at most .05 from the rays; an \
+                   open plane less than .01; a halo on at most 1 % of the points. Costs are those of the whole preset, \
+                   every pass drawn.",
+            parameter: "samples",
             unit: Unit::Frame,
             error: "of the hidden part of the sky, of which 1 is all",
         }

@@ -28,7 +28,7 @@ const METHODS: &[Method] = &[
 /// The picture of the light that is spread, without what stays sharp and before any curve, of a method at a setting and
 /// a size.
 pub fn setup(method: &str, setting: f64, size: (u32, u32)) -> Setup {
-    let preset = |name| Setup::new(name, size).wants(&["image"]).knob("strength", 1.0).knob("spread", setting);
+    let preset = |name| Setup::new(name, size).wants(&["image"]).uniform("strength", 1.0).uniform("spread", setting);
     let levels = setting as u32;
     let peer = |form| Setup::new("blur_pyramid", size).define("METHOD", form).built(move |p| pyramid(p, levels));
     match method {
@@ -196,14 +196,14 @@ impl Study for Bloom {
         About {
             name: "bloom",
             title: "Bloom",
-            text: "A bright texel on black, at phases of the pyramid (all 1,024 for the usual setting of a full run, else 64), \
-                   on the canvas of the plot and on one of odd sides. Whatever the shape of a glow, it must not depend on \
-                   where it is: the error is that of the pictures, moved to the middle, from their mean. Hard cases: a \
-                   spot's total stays within 1 % and its centroid within .25 pixel at every phase; its total stays \
-                   within 1 % at the edges of the odd canvas, where what leaves comes back; a texel of a million in a wall \
-                   makes the mean no brighter than by .005. The \
-                   peers are the plain pyramids of the study of blurs.",
-            knob: "weight of the wider levels, or levels",
+            text: "A bright texel on black, at phases of the pyramid (all 1,024 for the usual setting of a full run, \
+                   else 64), on the canvas of the plot and on one of odd sides. Whatever the shape of a glow, it must \
+                   not depend on where it is: the error is that of the pictures, moved to the middle, from their mean. \
+                   Hard cases: a spot's total stays within 1 % and its centroid within .25 pixel at every phase; its \
+                   total stays within 1 % at the edges of the odd canvas, where what leaves comes back; a texel of a \
+                   million in a wall makes the mean no brighter than by .005. The peers are the plain pyramids of the \
+                   study of blurs.",
+            parameter: "weight of the wider levels, or levels",
             unit: Unit::Frame,
             error: "of a spot's glow from its mean over the phases",
         }

@@ -121,10 +121,11 @@ impl Study for Blur {
         About {
             name: "blur",
             title: "Blur",
-            text: "Single bright texels at many places, against a Gaussian of standard deviation 2.138, which is that of the \
-                   well-known nine taps. The table gives what became of the sum, how far a centroid moved, and by how much \
-                   peaks differ from place to place. The hard case is that an even picture stays what it was, within 1e-5.",
-            knob: "cut-off in standard deviations, or levels",
+            text: "Single bright texels at many places, against a Gaussian of standard deviation 2.138, which is that \
+                   of the well-known nine taps. The table gives what became of the sum, how far a centroid moved, and \
+                   by how much peaks differ from place to place. The hard case is that an even picture stays what it \
+                   was, within 1e-5.",
+            parameter: "cut-off in standard deviations, or levels",
             unit: Unit::Frame,
             error: "of the blurred texels",
         }
@@ -149,7 +150,7 @@ impl Study for Blur {
     fn setup(&self, point: &Point) -> Setup {
         let size = (point.grid, point.grid);
         let texels: Vec<[f32; 4]> = spots(point.grid as usize).iter().map(|&v| [v as f32; 4]).collect();
-        let taps = |method| Setup::new("blur_taps", size).define("METHOD", method).knob("sigma", SIGMA);
+        let taps = |method| Setup::new("blur_taps", size).define("METHOD", method).uniform("sigma", SIGMA);
         let levels = point.setting as u32;
         let pyramid =
             |method| Setup::new("blur_pyramid", size).define("METHOD", method).built(move |p| self::pyramid(p, levels));
@@ -157,8 +158,8 @@ impl Study for Blur {
             "nine" => taps("NINE"),
             "nine-normalised" => taps("NORMALISED"),
             "five-filtered" => taps("FIVE"),
-            "gaussian" => taps("GAUSSIAN").knob("reach", point.setting),
-            "gaussian-paired" => taps("PAIRED").knob("reach", point.setting),
+            "gaussian" => taps("GAUSSIAN").uniform("reach", point.setting),
+            "gaussian-paired" => taps("PAIRED").uniform("reach", point.setting),
             "box-pyramid" => pyramid("BOX"),
             "dual-pyramid" => pyramid("DUAL"),
             _ => pyramid("TENT"),

@@ -53,7 +53,7 @@ fn playing(name: &str, side: u32, speed: f64) -> Setup {
     if is_preset(name) {
         return practice(side, speed);
     }
-    Setup::new("brick_overlap", (side, side)).knobs("way", &peers_way(name, speed)).steps("solver", steps_of(name))
+    Setup::new("brick_overlap", (side, side)).uniforms("way", &peers_way(name, speed)).steps("solver", steps_of(name))
 }
 
 fn steps_of(name: &str) -> u32 {
@@ -190,7 +190,7 @@ impl Study for BrickBreaker {
                    brick comes back, the ball stays within the walls, its velocity changes sign and nothing else; and \
                    for the preset, at its usual setting, that at 10,000 units a frame it is within .001 units of the \
                    unfolded path after 10,000 bounces.",
-            knob: "units a frame",
+            parameter: "units a frame",
             unit: Unit::Scene,
             error: "of the ball's place",
         }

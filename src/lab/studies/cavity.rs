@@ -141,17 +141,18 @@ impl Study for Cavity {
         About {
             name: "cavity",
             title: "Lid-driven cavity",
-            text: "A box of side 1 whose lid has speed 1, from rest until the flow stands still. The error is that of three \
-                   extrema at Re = 100 (least u on the vertical middle line, largest and least v on the horizontal one) against \
-                   those of high-order methods; ghia_u and ghia_v are the largest differences from the tables of Ghia, Ghia and \
-                   Shin 1982. fluid-accurate is asked for Re = 400 and 1000 too, on 128 x 128 texels at two texels a step, with \
-                   high_ for the lines and extrema of high-order methods at Re = 1000, from which the table's v is up to .0185 \
-                   off, and v where the table of Re = 400 has a misprint (-.238; it is not scored). noise is the largest fourth \
-                   difference of u along x under the lid. Hard cases, on 128 x 128: u and v within .01 of the tables of Re = 100 \
-                   and 400 and of the high-order lines of Re = 1000, noise at most .0005. Guay's program has no walls of its own; \
-                   with walls it is reported with K = nu (at most 1), the stiffest that is stable at rest, and is compressible: \
-                   mach is the lid's.",
-            knob: "Courant number of the lid",
+            text: "A box of side 1 whose lid has speed 1, from rest until the flow stands still. The error is that of \
+                   three extrema at Re = 100 (least u on the vertical middle line, largest and least v on the \
+                   horizontal one) against those of high-order methods; ghia_u and ghia_v are the largest differences \
+                   from the tables of Ghia, Ghia and Shin 1982. fluid-accurate is asked for Re = 400 and 1000 too, on \
+                   128 x 128 texels at two texels a step, with high_ for the lines and extrema of high-order methods \
+                   at Re = 1000, from which the table's v is up to .0185 off, and v where the table of Re = 400 has a \
+                   misprint (-.238; it is not scored). noise is the largest fourth difference of u along x under the \
+                   lid. Hard cases, on 128 x 128: u and v within .01 of the tables of Re = 100 and 400 and of the \
+                   high-order lines of Re = 1000, noise at most .0005. Guay's program has no walls of its own; with \
+                   walls it is reported with K = nu (at most 1), the stiffest that is stable at rest, and is \
+                   compressible: mach is the lid's.",
+            parameter: "Courant number of the lid",
             unit: Unit::Scene,
             error: "of the extrema at Re = 100",
         }

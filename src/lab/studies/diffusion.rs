@@ -40,10 +40,10 @@ impl Study for Diffusion {
         About {
             name: "diffusion",
             title: "Diffusion",
-            text: "A Gaussian of standard deviation N/32 on a torus of N x N texels spreads until its variance is 13.5 times \
-                   that at first. The exact solution is a Gaussian again, with its images. The hard case adds a \
+            text: "A Gaussian of standard deviation N/32 on a torus of N x N texels spreads until its variance is 13.5 \
+                   times that at first. The exact solution is a Gaussian again, with its images. The hard case adds a \
                    checkerboard of amplitude 0.01, which no scheme may amplify.",
-            knob: "D dt / h²",
+            parameter: "D dt / h²",
             unit: Unit::Scene,
             error: "of the concentration",
         }
@@ -62,7 +62,7 @@ impl Study for Diffusion {
 
     fn setup(&self, point: &Point) -> Setup {
         let folder = if point.method == "blur" { "diffusion_blur" } else { "diffusion_stencil" };
-        let setup = Setup::new(folder, (point.grid, point.grid)).knob("rate", point.setting);
+        let setup = Setup::new(folder, (point.grid, point.grid)).uniform("rate", point.setting);
         let setup = setup.steps("solver", frames_of(steps(point).0, 25).1);
         match point.method.as_str() {
             "five-point" => setup.define("STENCIL", 5),
@@ -82,7 +82,7 @@ impl Study for Diffusion {
         let n = point.grid as usize;
         let start = START * n as f64;
         let exact = gaussian_on_torus(n, start, start * start + 2.0 * time);
-        let noisy = rig.after(&self.setup(point).knob("noise", 0.01), frames, "field")?.component(0);
+        let noisy = rig.after(&self.setup(point).uniform("noise", 0.01), frames, "field")?.component(0);
         // What is left of a wave that explicit Euler keeps stable is at most what there was.
         let left = checkerboard(&noisy, n).abs();
         Ok(Measured { norms: Norms::of(&after, &exact), frames_per_unit: f64::from(frames), ..Measured::default() }

@@ -114,8 +114,8 @@ fn setup(name: &str, n: u32, sensitivity: f64) -> Setup {
             return Setup::new("gbuffer-edges", (n, n))
                 .wants(&["b"])
                 .built(move |project| keep_state(project, keep))
-                .knob("depthSensitivity", sensitivity)
-                .knob("normalSensitivity", sensitivity)
+                .uniform("depthSensitivity", sensitivity)
+                .uniform("normalSensitivity", sensitivity)
                 .state("a", &texels);
         }
         "roberts" => "ROBERTS",
@@ -123,7 +123,7 @@ fn setup(name: &str, n: u32, sensitivity: f64) -> Setup {
         _ => "LAPLACIAN",
     };
     let texels = state(&|([x, y, z], depth)| [*x, *y, *z, *depth]);
-    Setup::new("edges", (n, n)).define("METHOD", method).knob("sensitivity", sensitivity).state("source", &texels)
+    Setup::new("edges", (n, n)).define("METHOD", method).uniform("sensitivity", sensitivity).state("source", &texels)
 }
 
 /// Which texels a method calls a line.
@@ -160,16 +160,16 @@ impl Study for Edges {
         About {
             name: "edges",
             title: "Edges",
-            text: "A sphere, a cube and a torus hover before a wall, over a floor seen at 8 to 20 degrees. Normals \
-                   and depths of each texel are computed in f64 and handed to all methods. The lines there are follow \
-                   from geometry: the circle in which a cone touches the sphere, the cube's edges, the torus's \
-                   contour in closed form, each where nothing hides it, and the corner of the room. Precision is the \
-                   part of the texels found that lie within 1.5 texels of such a line, recall the part of the lines that \
-                   has a texel found within 1.5. The error, as L2, is 1 - F1, F1 the harmonic mean of both; Linf is the \
-                   worse of 1 - precision and 1 - recall, each with half of a point of the lines added, as less is \
-                   not resolved. The hard case is that the open floor is no line, on .1 % of its texels at most. At \
+            text: "A sphere, a cube and a torus hover before a wall, over a floor seen at 8 to 20 degrees. Normals and \
+                   depths of each texel are computed in f64 and handed to all methods. The lines there are follow from \
+                   geometry: the circle in which a cone touches the sphere, the cube's edges, the torus's contour in \
+                   closed form, each where nothing hides it, and the corner of the room. Precision is the part of the \
+                   texels found that lie within 1.5 texels of such a line, recall the part of the lines that has a \
+                   texel found within 1.5. The error, as L2, is 1 - F1, F1 the harmonic mean of both; Linf is the \
+                   worse of 1 - precision and 1 - recall, each with half of a point of the lines added, as less is not \
+                   resolved. The hard case is that the open floor is no line, on .1 % of its texels at most. At \
                    sensitivity 1 a step of 2 % of the depth and a turn of 32 degrees are lines.",
-            knob: "sensitivity",
+            parameter: "sensitivity",
             unit: Unit::Frame,
             error: "1 - F1 of the lines found",
         }

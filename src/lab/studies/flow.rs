@@ -57,7 +57,7 @@ impl Solver {
         let Flow { n, dt, viscosity } = flow;
         let storage = if name.ends_with("16f") { Storage::Half } else { Storage::AsWritten };
         let plain = |setup: Setup, steps, kind| {
-            let setup = setup.storage(storage).knob("dt", dt).knob("viscosity", viscosity);
+            let setup = setup.storage(storage).uniform("dt", dt).uniform("viscosity", viscosity);
             Solver { setup, steps, flow, kind, scale: 1.0, stiffness: STIFFNESS }
         };
         let size = (n, n);
@@ -97,8 +97,8 @@ impl Solver {
 
     /// Value of an `#iUniform` of the project.
     #[must_use]
-    pub fn knob(mut self, name: &str, value: f64) -> Solver {
-        self.setup = self.setup.knob(name, value);
+    pub fn uniform(mut self, name: &str, value: f64) -> Solver {
+        self.setup = self.setup.uniform(name, value);
         self
     }
 
@@ -109,9 +109,9 @@ impl Solver {
         let solver = match self.kind {
             Kind::Staggered => {
                 let speed = lid / self.scale;
-                self.knob("walls", 1.0).knob("lid_speed", speed)
+                self.uniform("walls", 1.0).uniform("lid_speed", speed)
             }
-            _ => Solver { setup: self.setup.define("CAVITY", 1), ..self }.knob("lid", lid),
+            _ => Solver { setup: self.setup.define("CAVITY", 1), ..self }.uniform("lid", lid),
         };
         solver.begin(|_, _| [0.0; 2], |_, _| 0.0)
     }
@@ -119,7 +119,7 @@ impl Solver {
     /// Guay's stiffness of the pressure.
     #[must_use]
     pub fn stiffness(mut self, stiffness: f64) -> Solver {
-        self.setup = self.setup.knob("stiffness", stiffness);
+        self.setup = self.setup.uniform("stiffness", stiffness);
         self.stiffness = stiffness;
         self
     }
@@ -282,10 +282,10 @@ fn accurate(flow: Flow) -> Solver {
     let seconds = (viscosity / (MOST_VISCOSITY * side * side)).max(1.0 / side);
     let setup = Setup::new("fluid-accurate", (2 * n, 2 * n))
         .wants(&["velocity"])
-        .knob("jets", 0.0)
-        .knob("walls", 2.0)
-        .knob("viscosity", viscosity / (side * side * seconds))
-        .knob("speed", 60.0 * seconds * dt);
+        .uniform("jets", 0.0)
+        .uniform("walls", 2.0)
+        .uniform("viscosity", viscosity / (side * side * seconds))
+        .uniform("speed", 60.0 * seconds * dt);
     Solver { setup, steps: 1, flow, kind: Kind::Staggered, scale: side * seconds, stiffness: STIFFNESS }
 }
 
@@ -297,11 +297,11 @@ fn mips(flow: Flow) -> Solver {
     let decay = 2.0 * viscosity * (TAU / side).powi(2);
     let setup = Setup::new("mip-fluid", (2 * n, 2 * n))
         .wants(&["velocity"])
-        .knob("stirring", 0.0)
-        .knob("turbulence", 0.0)
-        .knob("confinement", 0.0)
-        .knob("drag_seconds", (seconds / decay).min(60.0))
-        .knob("speed", 60.0 * seconds * dt);
+        .uniform("stirring", 0.0)
+        .uniform("turbulence", 0.0)
+        .uniform("confinement", 0.0)
+        .uniform("drag_seconds", (seconds / decay).min(60.0))
+        .uniform("speed", 60.0 * seconds * dt);
     Solver { setup, steps: 1, flow, kind: Kind::Mips, scale: side * seconds, stiffness: STIFFNESS }
 }
 

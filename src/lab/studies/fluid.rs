@@ -83,7 +83,7 @@ pub fn solver(name: &str, n: u32, dt: f64, begin: Begin) -> Solver {
     let flow = Flow { n, dt, viscosity: begin.viscosity };
     let (base, stiffness) = base(name);
     let solver = match Solver::new(base, flow) {
-        solver if base != name => solver.knob("balance", 1.0).stiffness(stiffness),
+        solver if base != name => solver.uniform("balance", 1.0).stiffness(stiffness),
         solver => solver,
     };
     if is_preset(name) {
@@ -98,7 +98,7 @@ pub fn solver(name: &str, n: u32, dt: f64, begin: Begin) -> Solver {
         };
         return solver.begin(vortex, |_, _| 0.0);
     }
-    solver.knob("speed", begin.speed).knob("noise", begin.noise)
+    solver.uniform("speed", begin.speed).uniform("noise", begin.noise)
 }
 
 fn is_preset(name: &str) -> bool {
@@ -146,18 +146,18 @@ impl Study for Fluid {
         About {
             name: "fluid",
             title: "Fluid: the Taylor-Green vortex",
-            text: "One vortex pair in a box of N x N texels, viscosity .55 texels² and speed .5 texels for a unit of time, \
-                   until the exact velocity has halved. The observed order is at that speed in texels, so that a finer grid \
-                   is a larger Reynolds number. Guay's density begins even, as its programs do: the sound that this makes is \
-                   about half of its error. In balance it begins with the vortex's own pressure; K is the stiffness, and .55 \
-                   the stiffest that is stable at rest. The presets run as they ship, without their jets; of mip-fluid, which \
-                   has no viscosity, drag takes what viscosity takes of this one wave. Mach is the speed over that of sound; \
-                   growth/theory compares the growth of sound in the one-pass fluid without viscosity with linear theory; \
-                   shear_wave-1 is what the exact decay of a shear wave is missed by. \
-                   Hard cases: a fluid at rest without viscosity keeps noise of .001 within .01 for 90 units of time; at four \
-                   times the speed the velocity never exceeds 1.5 times that at first; of a \
-                   checkerboard in the pressure or density at most .1 is left after 100 steps.",
-            knob: "dt",
+            text: "One vortex pair in a box of N x N texels, viscosity .55 texels² and speed .5 texels for a unit of \
+                   time, until the exact velocity has halved. The observed order is at that speed in texels, so that a \
+                   finer grid is a larger Reynolds number. Guay's density begins even, as its programs do: the sound \
+                   that this makes is about half of its error. In balance it begins with the vortex's own pressure; K \
+                   is the stiffness, and .55 the stiffest that is stable at rest. The presets run as they ship, \
+                   without their jets; of mip-fluid, which has no viscosity, drag takes what viscosity takes of this \
+                   one wave. Mach is the speed over that of sound; growth/theory compares the growth of sound in the \
+                   one-pass fluid without viscosity with linear theory; shear_wave-1 is what the exact decay of a \
+                   shear wave is missed by. Hard cases: a fluid at rest without viscosity keeps noise of .001 within \
+                   .01 for 90 units of time; at four times the speed the velocity never exceeds 1.5 times that at \
+                   first; of a checkerboard in the pressure or density at most .1 is left after 100 steps.",
+            parameter: "dt",
             unit: Unit::Scene,
             error: "of the velocity",
         }

@@ -35,7 +35,7 @@ fn time(extent_grid: u32) -> f64 {
 /// A method's project at a step of `dt`, on any size.
 fn method(name: &str, size: (u32, u32), dt: f64) -> Setup {
     let folder = if name == "strang-blur" { "gray_scott_blur" } else { "gray_scott_stencil" };
-    let setup = Setup::new(folder, size).knob("dt", dt);
+    let setup = Setup::new(folder, size).uniform("dt", dt);
     match name {
         "five-point" => setup.define("STENCIL", 5),
         "mehrstellen" => setup.define("STENCIL", 9),
@@ -77,7 +77,7 @@ pub fn grown(rig: &Rig, name: &str, dt: f64) -> Result<(f64, f64, f64), LabError
 
 /// Returns where u comes to rest in a sea without v: 1, unless a texel cannot hold what a step adds.
 pub fn stalled(rig: &Rig, storage: Storage, feed: f64) -> Result<f64, LabError> {
-    let setup = Setup::new("gray_scott_stencil", (8, 8)).define("STENCIL", 5).storage(storage).knob("feed", feed);
+    let setup = Setup::new("gray_scott_stencil", (8, 8)).define("STENCIL", 5).storage(storage).uniform("feed", feed);
     let setup = setup.initial("field", "vec4(0.9, 0.0, 0.0, 1.0)").steps("solver", 50);
     Ok(rig.after(&setup, 20, "field")?.component(0)[0])
 }
@@ -87,11 +87,11 @@ impl Study for GrayScott {
         About {
             name: "gray-scott",
             title: "Gray-Scott",
-            text: "The coral pattern (F = .0545, k = .062, Du = .16, Dv = .08 texels² for a unit of time) from three smooth \
-                   spots, against a spectral f64 solver with Strang's splitting. The table gives the growth of the wave of 12 \
-                   texels over that of linear theory, .0100 in the continuum. The hard case is that u returns to 1 where there \
-                   is no v, within .001.",
-            knob: "dt",
+            text: "The coral pattern (F = .0545, k = .062, Du = .16, Dv = .08 texels² for a unit of time) from three \
+                   smooth spots, against a spectral f64 solver with Strang's splitting. The table gives the growth of \
+                   the wave of 12 texels over that of linear theory, .0100 in the continuum. The hard case is that u \
+                   returns to 1 where there is no v, within .001.",
+            parameter: "dt",
             unit: Unit::Scene,
             error: "of v",
         }

@@ -105,7 +105,7 @@ fn exact(n: usize, method: &str, width: f64) -> [Vec<bool>; 3] {
 
 fn staged(project: &mut Project, method: &str, width: f64) {
     let (mode, baked) = if method == "scaled" { (1, false) } else { (0, method == "baked") };
-    for knob in [
+    for custom_uniform in [
         "spin=0".to_owned(),
         "widthMask=0".into(),
         "blendBase=0".into(),
@@ -119,7 +119,7 @@ fn staged(project: &mut Project, method: &str, width: f64) {
         format!("farthest={}", FADE[1]),
     ] {
         // The preset has them; a test of the studies opens each setup.
-        project.set_knob(&knob).unwrap_or_else(|why| panic!("{knob}: {why}"));
+        project.set_custom_uniform(&custom_uniform).unwrap_or_else(|why| panic!("{custom_uniform}: {why}"));
     }
     let scene = project.pass_mut(&super::super::setup::pass("scene")).and_then(|p| p.settings.meshes_mut());
     let geometry = scene.expect("the preset draws meshes");
@@ -194,7 +194,7 @@ impl Study for Outline {
                    both, and Linf is the worse of 1 - precision and 1 - recall. The hard cases: the sphere's line is \
                    as wide as the formula within 3 %, or a quarter of a texel where that is more, and each shape's F1 \
                    is at least .9: along split normals a cube's line comes apart.",
-            knob: "width of the line",
+            parameter: "width of the line",
             unit: Unit::Frame,
             error: "1 - F1 of the lines",
         }

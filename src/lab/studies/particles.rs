@@ -55,7 +55,7 @@ fn peer(name: &str, side: u32, scene: &str, dt: f64) -> Setup {
         _ => "RUNGE_KUTTA",
     };
     let setup = Setup::new("particle_steps", (side, side)).define("METHOD", method).define("SCENE", scene);
-    setup.knob("dt", dt).knob("gravity", GRAVITY).knob("drag", DRAG).state("field", &begun(side, scene))
+    setup.uniform("dt", dt).uniform("gravity", GRAVITY).uniform("drag", DRAG).state("field", &begun(side, scene))
 }
 
 /// Returns where the peers' particles begin.
@@ -73,7 +73,7 @@ fn begun(side: u32, scene: &str) -> Vec<[f32; 4]> {
 
 fn flying(name: &str, side: u32, dt: f64) -> Setup {
     if name == "preset" {
-        return Setup::new("particles", (side, side)).wants(&["motion", "life"]).knob("speed", 60.0 * dt);
+        return Setup::new("particles", (side, side)).wants(&["motion", "life"]).uniform("speed", 60.0 * dt);
     }
     peer(name, side, "FLIGHT", dt)
 }
@@ -150,7 +150,7 @@ impl Study for Particles {
                    of the peers is 10,000 steps on orbits of eccentricity .5, 200 steps a turn at 60 a second: the \
                    mean energy may drift by 1 % at most. The preset has no orbit; its hard cases are that in 600 \
                    frames nothing is below the floor and nothing is faster than its limit of 3 heights a second.",
-            knob: "steps a second",
+            parameter: "steps a second",
             unit: Unit::Scene,
             error: "of the way gone",
         }

@@ -30,7 +30,7 @@ pub fn solver(method: &str, n: u32, f: &[f64], count: u32) -> (Setup, u32) {
             let slowest = (PI / f64::from(n)).cos().powi(2);
             let relaxation = 2.0 / (1.0 + (1.0 - slowest * slowest).sqrt());
             let setup = Setup::new("poisson_sor", size).state("field", &both).steps("solver", steps);
-            (setup.knob("relaxation", relaxation), frames)
+            (setup.uniform("relaxation", relaxation), frames)
         }
         "mip-sum" => {
             let f: Vec<[f32; 4]> = f.iter().map(|&f| [f as f32, 0.0, 0.0, 1.0]).collect();
@@ -60,10 +60,11 @@ impl Study for Poisson {
         About {
             name: "poisson",
             title: "Poisson's equation",
-            text: "lap p = f on a torus, beginning with p = 0, where f is noise whose waves fall off as 1/k: the mix that a \
-                   projection meets. Against the exact solution of the same 5-point equation by Fourier transform. The sum over \
-                   mip levels is given the best gain. The hard case is a checkerboard for f, to be solved within 20 %.",
-            knob: "sweeps or cycles",
+            text: "lap p = f on a torus, beginning with p = 0, where f is noise whose waves fall off as 1/k: the mix \
+                   that a projection meets. Against the exact solution of the same 5-point equation by Fourier \
+                   transform. The sum over mip levels is given the best gain. The hard case is a checkerboard for f, \
+                   to be solved within 20 %.",
+            parameter: "sweeps or cycles",
             unit: Unit::Solve,
             error: "of p",
         }

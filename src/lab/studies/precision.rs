@@ -69,7 +69,7 @@ impl Study for Precision {
                    errors of the second kind add up on one side: Gray-Scott's u, fed at .037, stalls at .9937 where \
                    stores are rounded, as on GPUs, and at .98682 where they are cut off, as in Mesa's lavapipe. The \
                    hard case at 32 bits is that two runs are equal, at 16 that the picture is finite.",
-            knob: "bits a component",
+            parameter: "bits a component",
             unit: Unit::Frame,
             error: "of the picture",
         }

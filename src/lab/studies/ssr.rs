@@ -28,12 +28,12 @@ const METHODS: &[Method] = &[
 const MARCH: &str = include_str!("../../../assets/lab/reflection_march.glsl");
 
 fn setup(method: &str, strides: f64, size: (u32, u32)) -> Setup {
-    let setup = Setup::new("gbuffer-ssao-ssr", size).wants(&["d"]).restless().knob("turning", 0.0);
+    let setup = Setup::new("gbuffer-ssao-ssr", size).wants(&["d"]).restless().uniform("turning", 0.0);
     let setup = match method {
         "gbuffer-ssao-ssr" => setup,
         _ => setup.text("d", MARCH).define("HALVED", u32::from(method == "march-halved")),
     };
-    setup.knob("strides", strides)
+    setup.uniform("strides", strides)
 }
 
 /// Says where a table's pixel must look, and where it does.
@@ -125,13 +125,14 @@ impl Study for Ssr {
         About {
             name: "ssr",
             title: "Screen-space reflections",
-            text: "The still life of the preset on its mirroring table. A ray in f64 is mirrored in the table and followed to \
-                   the first thing; where the camera sees that place, the method's hit is held against it, in pixels. The \
-                   error is the root mean square of that, over the picture's height. Hits that a method believes in by less \
-                   than a half count as none. The table gives the median and what 95 % are within, how many reflections were found, \
-                   and how many pixels show one that cannot have any, since the ray meets nothing or what the camera \
-                   does not see. Hard cases: a median of at most a pixel; 3 of 4 found; at most 5 % wrong.",
-            knob: "steps of a ray",
+            text: "The still life of the preset on its mirroring table. A ray in f64 is mirrored in the table and \
+                   followed to the first thing; where the camera sees that place, the method's hit is held against it, \
+                   in pixels. The error is the root mean square of that, over the picture's height. Hits that a method \
+                   believes in by less than a half count as none. The table gives the median and what 95 % are within, \
+                   how many reflections were found, and how many pixels show one that cannot have any, since the ray \
+                   meets nothing or what the camera does not see. Hard cases: a median of at most a pixel; 3 of 4 \
+                   found; at most 5 % wrong.",
+            parameter: "steps of a ray",
             unit: Unit::Frame,
             error: "of the place, over the picture's height",
         }

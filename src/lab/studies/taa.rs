@@ -82,12 +82,12 @@ fn scene(method: &str, setting: f64, side: u32, moves: bool) -> Setup {
         .edit("common", "return p + vec2(0.06 * t, 0.0);", "return p;")
         .edit("common", "return q - vec2(0.06 * t, 0.0);", "return q;");
     match method {
-        "taa" => setup.knob("gamma", setting),
+        "taa" => setup.uniform("gamma", setting),
         // No wider than gamma, whatever the history.
-        "taa-narrow" => setup.knob("gamma", setting).knob("relaxed", 0.25),
-        "taa-linear" => setup.knob("gamma", setting).flag("catmullRom", false),
-        "taa-blind" => setup.knob("gamma", setting).flag("motionVectors", false),
-        _ => setup.knob("blend", 1.0),
+        "taa-narrow" => setup.uniform("gamma", setting).uniform("relaxed", 0.25),
+        "taa-linear" => setup.uniform("gamma", setting).flag("catmullRom", false),
+        "taa-blind" => setup.uniform("gamma", setting).flag("motionVectors", false),
+        _ => setup.uniform("blend", 1.0),
     }
 }
 
@@ -176,13 +176,14 @@ impl Study for Taa {
         About {
             name: "taa",
             title: "Temporal anti-aliasing",
-            text: "A Siemens star of 72 rays and a hairline, .36 and .64 bright, 192 x 192, at frame 64, and a light disc that \
-                   crosses them by 2.37 pixels a frame, at frame 40; the truth is the mean of 8 x 8 samples a pixel in \
-                   f64. Errors are those of colours as a screen shows them, of the resting picture. Of the moving one the \
-                   table gives PSNR and FLIP, and how much of the disc's colour is left where it was six frames ago at \
-                   most, and how many pixels behind it 1 % of it is left. Flicker is the deviation in time over a round of \
-                   the jitter. Hard cases: 31 dB at rest; no more than .02 flicker; a tail of at most 24 pixels.",
-            knob: "gamma, or samples",
+            text: "A Siemens star of 72 rays and a hairline, .36 and .64 bright, 192 x 192, at frame 64, and a light \
+                   disc that crosses them by 2.37 pixels a frame, at frame 40; the truth is the mean of 8 x 8 samples \
+                   a pixel in f64. Errors are those of colours as a screen shows them, of the resting picture. Of the \
+                   moving one the table gives PSNR and FLIP, and how much of the disc's colour is left where it was \
+                   six frames ago at most, and how many pixels behind it 1 % of it is left. Flicker is the deviation \
+                   in time over a round of the jitter. Hard cases: 31 dB at rest; no more than .02 flicker; a tail of \
+                   at most 24 pixels.",
+            parameter: "gamma, or samples",
             unit: Unit::Frame,
             error: "of the resting picture",
         }

@@ -160,29 +160,29 @@ impl Study for Torus {
             Torus::TaylorGreen => (
                 "taylor-green",
                 "Taylor-Green without viscosity",
-                "One vortex pair of speed 1 in a box of side 1, for one unit of time. The exact solution stands still. A finer \
-                 grid at the same Courant number is the same problem, so that the observed order is the method's, as far as \
-                 32-bit floats let it be seen. Methods that keep a pressure or a density begin in balance. The hard case is \
-                 that the energy never exceeds that at first by .001 of it.",
+                "One vortex pair of speed 1 in a box of side 1, for one unit of time. The exact solution stands still. \
+                 A finer grid at the same Courant number is the same problem, so that the observed order is the \
+                 method's, as far as 32-bit floats let it be seen. Methods that keep a pressure or a density begin in \
+                 balance. The hard case is that the energy never exceeds that at first by .001 of it.",
             ),
             Torus::ShearLayer => (
                 "shear-layer",
                 "Doubly periodic shear layer",
-                "Two layers tanh(30 (y - 1/4)) and tanh(30 (3/4 - y)) with v = .05 sin(2 pi x), nu = 1e-4, which roll up within \
-                 t = 1 (Brown and Minion 1995), against a pseudo-spectral solution with 128 x 128 waves in f64, which keeps \
-                 .98279 of the energy. energy is what a method keeps, energy_error the difference of the two. The hard case is \
-                 that the energy never exceeds that at first by .001 of it.",
+                "Two layers tanh(30 (y - 1/4)) and tanh(30 (3/4 - y)) with v = .05 sin(2 pi x), nu = 1e-4, which roll \
+                 up within t = 1 (Brown and Minion 1995), against a pseudo-spectral solution with 128 x 128 waves in \
+                 f64, which keeps .98279 of the energy. energy is what a method keeps, energy_error the difference of \
+                 the two. The hard case is that the energy never exceeds that at first by .001 of it.",
             ),
             Torus::LambOseen => (
                 "lamb-oseen",
                 "Lamb-Oseen vortex",
-                "A vortex of greatest speed 1 whose core grows from .03 to .05 of the side of the box in one unit of time, \
-                 nearly five turns, against its closed form with its images. r_peak and u_peak are the radius and the size of \
-                 the greatest speed over those of the closed form read in the same way. The hard case is that the energy never \
-                 exceeds that at first by .001 of it.",
+                "A vortex of greatest speed 1 whose core grows from .03 to .05 of the side of the box in one unit of \
+                 time, nearly five turns, against its closed form with its images. r_peak and u_peak are the radius \
+                 and the size of the greatest speed over those of the closed form read in the same way. The hard case \
+                 is that the energy never exceeds that at first by .001 of it.",
             ),
         };
-        About { name, title, text, knob: "Courant number", unit: Unit::Scene, error: "of the velocity" }
+        About { name, title, text, parameter: "Courant number", unit: Unit::Scene, error: "of the velocity" }
     }
 
     fn methods(&self) -> &'static [Method] {

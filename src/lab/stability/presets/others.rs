@@ -77,9 +77,13 @@ pub fn brick_breaker() -> Vec<Check> {
 
 pub fn particles() -> Vec<Check> {
     let lifetime = |s: &Situation| Allowed::new(0.0, 14.0 * 1.4 * s.slider("lifetime") + 10.0 * s.longest_step);
-    // Flung up at 0.75 heights a second, for the longest life of a spark.
-    let reach =
-        |s: &Situation| Allowed::new(-0.75 * 3.7 * s.slider("lifetime") - 3.0, 0.75 * 3.7 * s.slider("lifetime") + 3.0);
+    // Flung up at 0.75 heights a second, for the longest life of a spark, from within the canvas (or the wider one that
+    // it was before).
+    let reach = |s: &Situation| {
+        let half_width = 0.5 * f64::from(s.size.0) / f64::from(s.size.1);
+        let far = 0.75 * 3.7 * s.slider("lifetime") + half_width.max(3.0);
+        Allowed::new(-far, far)
+    };
     // A tile has room for 64; a streak gives 12 times its colour a second, which fades.
     let light = |s: &Situation| {
         let kept = (12.0 * (s.slider("exposure_seconds") + 2.0 * s.longest_step)).max(1.0);
