@@ -1,62 +1,78 @@
-// Neon tubes before a brick wall, in linear light: a tube is some ten times as bright as paper, and nothing here glows.
-// What glow the picture has is the bloom's.
+// Paper lanterns on a string over dark water, in linear light: their paper is some times as bright as a white page, their
+// flames far more, and nothing here glows. What glow the picture has is the bloom's.
 
-#iUniform float neon = 10.0 in { 0.0, 40.0 }       // radiance of a tube
+#iUniform float flame = 6.0 in { 0.0, 40.0 }       // radiance of the paper before a flame
 #iUniform float constant = 0.0 in { 0.0, 4.0 }     // above 0: a wall of just this light, which bloom must leave alone
 
-float segmentDistance(vec2 p, vec2 a, vec2 b) {
-    vec2 along = b - a;
-    return length(p - a - along * clamp(dot(p - a, along) / dot(along, along), 0.0, 1.0));
-}
-
-float triangleDistance(vec2 p, float r) {
-    vec2 a = r * vec2(0.0, 1.0), b = r * vec2(-0.866, -0.5), c = r * vec2(0.866, -0.5);
-    return min(segmentDistance(p, a, b), min(segmentDistance(p, b, c), segmentDistance(p, c, a)));
-}
+const int LANTERNS = 6;
+const float WATER = -0.16; // height of its surface
 
 float hash(vec2 p) {
     return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453);
 }
 
-const int TUBES = 4;
-const vec3 GAS[TUBES] = vec3[TUBES](vec3(1.00, 0.10, 0.28), vec3(0.08, 0.55, 1.00), vec3(1.00, 0.48, 0.06),
-                                    vec3(0.30, 1.00, 0.45));
+// Where the string hangs.
+float stringHeight(float x) {
+    return 0.30 + 0.16 * x * x;
+}
 
-// How far p is from each tube, and how brightly each burns.
-void tubes(vec2 p, float time, out vec4 far, out vec4 burning) {
-    vec2 q = p + vec2(0.42, 0.0);
-    far.x = abs(length(q) - 0.27);
-    far.y = triangleDistance(q + vec2(0.0, 0.02), 0.17);
-    vec2 w = p - vec2(0.42, 0.14);
-    float y = 0.05 * sin(18.0 * w.x - 3.0 * time), slope = 0.9 * cos(18.0 * w.x - 3.0 * time);
-    far.z = length(vec2(max(abs(w.x) - 0.30, 0.0), (w.y - y) / sqrt(1.0 + slope * slope)));
-    vec2 lamp = vec2(0.42 + 0.30 * sin(1.1 * time), -0.20 + 0.045 * cos(2.2 * time));
-    far.w = length(p - lamp) - 0.006;
-    float old = fract(0.23 * time); // the triangle's transformer is not what it was
-    burning = vec4(1.0, old > 0.90 ? step(0.4, hash(vec2(floor(24.0 * time), 1.0))) : 1.0, 1.0, 1.5);
+// A lantern's middle (xy) and half width (z). Each swings a little, in its own time.
+vec3 lantern(int i, float time) {
+    float f = float(i);
+    float x = -0.75 + 0.30 * f + 0.03 * hash(vec2(f, 3.0));
+    float size = 0.050 + 0.018 * hash(vec2(f, 5.0));
+    float swing = 0.12 * sin(1.3 * time + 2.4 * f);
+    return vec3(x + 0.10 * swing, stringHeight(x) - 0.07 - 1.3 * size, size);
+}
+
+vec3 paper(int i) {
+    return i % 3 == 0 ? vec3(1.00, 0.16, 0.06) : i % 3 == 1 ? vec3(1.00, 0.52, 0.14) : vec3(1.00, 0.30, 0.36);
+}
+
+// What stands over the water, seen along a straight line.
+vec3 overWater(vec2 p, float pixel, float time) {
+    vec3 light = mix(vec3(0.012, 0.016, 0.040), vec3(0.004, 0.005, 0.016), smoothstep(WATER, 0.5, p.y));
+    // Hills, and the houses' windows in them.
+    float hill = WATER + 0.06 + 0.035 * sin(3.1 * p.x + 1.0) + 0.020 * sin(7.3 * p.x);
+    float inHill = clamp((hill - p.y) / pixel + 0.5, 0.0, 1.0);
+    light = mix(light, vec3(0.003, 0.004, 0.008), inHill);
+    vec2 house = floor(p * vec2(34.0, 60.0));
+    vec2 inHouse = abs(fract(p * vec2(34.0, 60.0)) - 0.5);
+    float lit = step(0.93, hash(house)) * step(max(inHouse.x, inHouse.y), 0.22) * step(house.y / 60.0 + 0.02, hill);
+    light += lit * inHill * vec3(1.0, 0.62, 0.25) * 1.2;
+    // The string.
+    float string = clamp((0.0012 - abs(p.y - stringHeight(p.x))) / pixel + 0.5, 0.0, 1.0);
+    light = mix(light, vec3(0.02), string);
+    for (int i = 0; i < LANTERNS; i++) {
+        vec3 at = lantern(i, time);
+        vec2 q = (p - at.xy) / at.z;
+        // A barrel: narrower above and below, with ribs around it.
+        float width = 1.0 - 0.32 * q.y * q.y * 0.6;
+        float far = max(abs(q.x) - width, abs(q.y) - 1.25) * at.z;
+        float inside = clamp(-far / pixel + 0.5, 0.0, 1.0);
+        float flicker = 1.0 + 0.10 * sin(11.0 * time + 5.0 * float(i)) * sin(7.3 * time + float(i));
+        float near = exp(-1.6 * dot(q - vec2(0.0, -0.35), q - vec2(0.0, -0.35)));
+        float rib = 0.80 + 0.20 * cos(25.0 * q.y);
+        vec3 glow = paper(i) * flame * flicker * rib * (0.25 + near) + vec3(1.0, 0.75, 0.40) * flame * 0.9 * near * near;
+        light = mix(light, glow, inside);
+        // Its caps and the thread it hangs from.
+        float cap = max(abs(q.x) - 0.55, abs(abs(q.y) - 1.30) - 0.10) * at.z;
+        light = mix(light, vec3(0.010, 0.006, 0.004), clamp(-cap / pixel + 0.5, 0.0, 1.0));
+        float thread = max(abs(p.x - at.x) - 0.0008, max(at.y + 1.3 * at.z - p.y, p.y - stringHeight(p.x)));
+        light = mix(light, vec3(0.02), clamp(-thread / pixel + 0.5, 0.0, 1.0));
+    }
+    return light;
 }
 
 // Radiance at p; y runs from -0.5 to 0.5, `pixel` is the size of one.
 vec3 scene(vec2 p, float pixel, float time) {
     if (constant > 0.0) return vec3(1.0, 0.6, 0.25) * constant;
-    vec4 far, burning;
-    tubes(p, time, far, burning);
-
-    vec2 course = p * vec2(9.0, 20.0);
-    course.x += 0.5 * mod(floor(course.y), 2.0);
-    vec2 inBrick = abs(fract(course) - 0.5) / vec2(9.0, 20.0);
-    vec2 edge = vec2(0.5) / vec2(9.0, 20.0) - inBrick;
-    float mortar = 1.0 - smoothstep(0.0015, 0.0025 + pixel, min(edge.x, edge.y));
-    vec3 wall = mix(vec3(0.24, 0.10, 0.07) * (0.6 + 0.6 * hash(floor(course))), vec3(0.20, 0.19, 0.18), mortar);
-    wall *= 0.85 + 0.3 * hash(floor(course * vec2(18.0, 8.0)));
-
-    // The tubes light the wall: each is near a line, whose light falls with the distance; they stand 0.05 before it.
-    vec3 light = vec3(0.020, 0.024, 0.040);
-    vec3 tube = vec3(0.0);
-    for (int i = 0; i < TUBES; i++) {
-        vec3 gas = GAS[i] * burning[i];
-        light += gas * neon * 0.0075 / (0.05 + 4.0 * far[i] * far[i] + 0.35 * far[i]);
-        tube += (gas + 0.12 * burning[i]) * neon * clamp((0.0075 - far[i]) / max(pixel, 1e-5) + 0.5, 0.0, 1.0);
-    }
-    return wall * light + tube;
+    if (p.y >= WATER) return overWater(p, pixel, time);
+    // Ripples turn the reflected line up and down, the more the nearer the water is.
+    float depth = WATER - p.y;
+    float near = 0.15 + depth;
+    float ripple = sin(8.0 * p.x + 26.0 / near + 1.7 * time) + 0.6 * sin(-13.0 * p.x + 41.0 / near + 2.3 * time);
+    vec2 mirrored = vec2(p.x + 0.010 * ripple * near, WATER + depth + 0.045 * ripple * near);
+    float part = mix(0.55, 0.18, smoothstep(0.0, 0.34, depth));
+    return overWater(mirrored, pixel + 0.02 * near, time) * part + vec3(0.002, 0.003, 0.007);
 }
