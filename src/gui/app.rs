@@ -4,43 +4,62 @@
 //! an event, the session or egui asks for one.
 
 use super::{
-    GuiError, Options,
+    GuiError, Options, fonts,
     frame::{self, Frame},
     keys::{HeldKeys, KeyChange},
     report::Report,
     rescue,
+    settings::{Place, Remembered, SettingsFile, WindowFile},
     shell::Shell,
-    shortcuts,
     surface::{Presented, Surface},
-    theme,
+    system_theme, theme,
 };
 use crate::{
     gpu::GpuError,
-    session::{Command, Request, Session},
+    session::{self, Command, Level, Request, Session, SessionOptions},
 };
+use egui_winit::accesskit_winit;
 use serde_json::json;
 use std::{
-    sync::Arc,
+    sync::{Arc, mpsc::Receiver},
     time::{Duration, Instant},
 };
 use winit::{
     application::ApplicationHandler,
-    dpi::{LogicalSize, PhysicalSize},
+    dpi::{LogicalSize, PhysicalPosition, PhysicalSize},
     event::{StartCause, WindowEvent},
     event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy},
-    window::{Fullscreen, Window, WindowId},
+    window::{Fullscreen, Window, WindowAttributes, WindowId},
 };
 
 /// Sent to the event loop from other threads.
-#[derive(Clone, Copy, Debug)]
-pub struct Wake;
+#[derive(Debug)]
+pub enum Outside {
+    /// There is something to show.
+    Wake,
+    /// A screen reader, or another program of the kind.
+    Assistive(accesskit_winit::Event),
+}
+
+impl From<accesskit_winit::Event> for Outside {
+    fn from(event: accesskit_winit::Event) -> Self {
+        Self::Assistive(event)
+    }
+}
 
 /// Opens the window and returns when it is closed.
 pub fn run(options: Options) -> Result<(), GuiError> {
-    let event_loop = EventLoop::<Wake>::with_user_event().build().map_err(no_display)?;
+    let event_loop = EventLoop::<Outside>::with_user_event().build().map_err(no_display)?;
     let mut app = App { proxy: event_loop.create_proxy(), options, running: None, failed: None };
     event_loop.run_app(&mut app).map_err(no_display)?;
-    app.failed.map_or(Ok(()), Err)
+    let has_lost_threads = app.running.as_mut().is_some_and(|running| running.session.end());
+    // Its own end would wait for what the driver's threads are at.
+    app.running = None;
+    match app.failed {
+        None if has_lost_threads => std::process::exit(0),
+        None => Ok(()),
+        Some(error) => Err(error),
+    }
 }
 
 /// The window system's reason without the place in its own code that it begins with.
@@ -54,7 +73,7 @@ fn no_display(error: impl std::fmt::Display) -> GuiError {
 }
 
 struct App {
-    proxy: EventLoopProxy<Wake>,
+    proxy: EventLoopProxy<Outside>,
     options: Options,
     running: Option<Running>,
     failed: Option<GuiError>,
@@ -75,9 +94,14 @@ struct Running {
     painted_at: Instant,
     hidden: bool,
     title: String,
+    /// What the system prefers, where the window system does not say.
+    system_theme: Receiver<egui::Theme>,
+    window_file: WindowFile,
+    /// The window's size is the person's, and not the command line's.
+    keeps_size: bool,
 }
 
-impl ApplicationHandler<Wake> for App {
+impl ApplicationHandler<Outside> for App {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
         if self.running.is_some() {
             return;
@@ -91,9 +115,12 @@ impl ApplicationHandler<Wake> for App {
         }
     }
 
-    fn user_event(&mut self, _: &ActiveEventLoop, _: Wake) {
-        if let Some(running) = &mut self.running {
-            running.paint_at = Some(Instant::now());
+    fn user_event(&mut self, _: &ActiveEventLoop, event: Outside) {
+        let Some(running) = &mut self.running else { return };
+        match event {
+            // The picture is there, or something else is: at the screen's own rhythm.
+            Outside::Wake => running.paint_by(running.paced(Instant::now())),
+            Outside::Assistive(event) => running.assist(event.window_event),
         }
     }
 
@@ -138,27 +165,30 @@ enum Next {
 }
 
 impl Running {
-    fn new(event_loop: &ActiveEventLoop, proxy: &EventLoopProxy<Wake>, options: &Options) -> Result<Running, GuiError> {
-        let mut attributes = Window::default_attributes().with_title("Eddy").with_visible(false);
-        attributes = match options.size {
-            Some((width, height)) => attributes.with_inner_size(PhysicalSize::new(width, height)),
-            None => attributes.with_inner_size(LogicalSize::new(1280.0, 760.0)),
-        }
-        .with_min_inner_size(LogicalSize::new(360.0, 240.0));
+    fn new(
+        event_loop: &ActiveEventLoop,
+        proxy: &EventLoopProxy<Outside>,
+        options: &Options,
+    ) -> Result<Running, GuiError> {
+        let state_dir = dirs::state_dir().or_else(dirs::data_local_dir).map(|dir| dir.join("eddy"));
+        let mut window_file = WindowFile::new(state_dir.clone());
+        let (remembered, mut mistakes) = window_file.read();
+        let attributes = attributes(event_loop, options, &remembered.place);
         let window = Arc::new(event_loop.create_window(attributes).map_err(no_display)?);
         let surface = Surface::new(&window, event_loop.owned_display_handle())?;
         let wake = {
             let proxy = proxy.clone();
             // The loop is gone when the window is: nobody is left to wake.
             Arc::new(move || {
-                let _ = proxy.send_event(Wake);
+                let _ = proxy.send_event(Outside::Wake);
             })
         };
         let ctx = egui::Context::default();
         theme::apply(&ctx);
         // Ctrl with plus and minus is the code's size, not the window's.
         ctx.options_mut(|o| o.zoom_with_keyboard = false);
-        let input = egui_winit::State::new(
+        fonts::install_system(&ctx);
+        let mut input = egui_winit::State::new(
             ctx.clone(),
             egui::ViewportId::ROOT,
             &window,
@@ -166,15 +196,36 @@ impl Running {
             window.theme(),
             Some(surface.gpu().device.limits().max_texture_dimension_2d as usize),
         );
-        let mut session = Session::new(surface.gpu().clone(), wake.clone())?;
-        let shell = Shell::new(surface.gpu().clone(), wake, options.project.is_none());
+        // Before the window can be seen.
+        input.init_accesskit(event_loop, &window, proxy.clone());
+        let defaults = SessionOptions::default();
+        let session_options = SessionOptions {
+            draws_apart: true,
+            frame_limit: options.frame_limit.unwrap_or(defaults.frame_limit),
+            state_dir,
+            recovery: session::recovery_folder(),
+            ..defaults
+        };
+        let mut session = Session::with_options(surface.gpu().clone(), wake.clone(), session_options)?;
+        let system_theme = system_theme::watch(wake.clone());
+        let mut shell = Shell::new(surface.gpu().clone(), wake, options.project.is_none());
+        let mut settings = SettingsFile::new();
+        mistakes.extend(settings.refresh());
+        shell.restore(settings, &remembered, options.frame_limit.is_some());
+        shell.follow_settings(&ctx).into_iter().for_each(|command| session.apply(command));
+        for text in mistakes {
+            session.apply(Command::Notify { level: Level::Error, text, path: None });
+        }
         let report = Report::new(options.json);
         if let Some(project) = &options.project {
             session.apply(Command::Open(project.clone()));
-            options.set.iter().for_each(|s| session.apply(Command::AssignKnob(s.clone())));
+            if options.paused {
+                session.apply(Command::Hold);
+            }
+            options.set.iter().for_each(|s| session.apply(Command::AssignCustomUniform(s.clone())));
         } else {
             // The gallery covers the picture.
-            session.apply(Command::Pause);
+            session.apply(Command::Cover(true));
         }
         report.say(json!({ "event": "started", "device": surface.gpu().describe(), "pid": std::process::id() }));
         window.set_visible(true);
@@ -192,6 +243,9 @@ impl Running {
             painted_at: now,
             hidden: false,
             title: String::new(),
+            system_theme,
+            window_file,
+            keeps_size: options.size.is_none(),
         })
     }
 
@@ -219,6 +273,7 @@ impl Running {
             WindowEvent::Focused(focused) => {
                 if !focused {
                     self.held.clear();
+                    self.remember();
                 }
                 self.session.apply(Command::Focus(*focused));
             }
@@ -234,13 +289,10 @@ impl Running {
 
     /// Passes a key on to the shader if the picture has the keyboard and the window has no use for it.
     fn key(&mut self, event: &winit::event::KeyEvent, is_synthetic: bool) {
-        let ours = self.input.egui_input().events.iter().rev().find_map(|e| match e {
-            egui::Event::Key { key, modifiers, pressed: true, .. } => {
-                Some(shortcuts::action(*key, *modifiers).is_some())
-            }
-            _ => None,
-        });
-        let to_shader = self.shell.picture_has_keys(&self.ctx) && !is_synthetic && ours != Some(true);
+        let is_press = |e: &&egui::Event| matches!(e, egui::Event::Key { pressed: true, .. });
+        let press = self.input.egui_input().events.iter().rev().find(is_press);
+        let is_ours = press.is_some_and(|event| self.shell.is_action(event));
+        let to_shader = self.shell.picture_has_keys(&self.ctx) && !is_synthetic && !is_ours;
         match self.held.change(event, to_shader) {
             Some(KeyChange::Down(code)) => self.session.apply(Command::KeyDown(code)),
             Some(KeyChange::Up(code)) => self.session.apply(Command::KeyUp(code)),
@@ -248,9 +300,30 @@ impl Running {
         }
     }
 
+    /// What is shown is told to others only while they ask for it.
+    fn assist(&mut self, event: accesskit_winit::WindowEvent) {
+        match event {
+            accesskit_winit::WindowEvent::InitialTreeRequested => self.ctx.enable_accesskit(),
+            accesskit_winit::WindowEvent::ActionRequested(request) => self.input.on_accesskit_action_request(request),
+            accesskit_winit::WindowEvent::AccessibilityDeactivated => self.ctx.disable_accesskit(),
+        }
+        self.paint_soon();
+    }
+
     fn paint_soon(&mut self) {
-        let now = Instant::now();
-        self.paint_at = Some(self.paint_at.map_or(now, |at| at.min(now)));
+        self.paint_by(Instant::now());
+    }
+
+    fn paint_by(&mut self, at: Instant) {
+        self.paint_at = Some(self.paint_at.map_or(at, |earlier| earlier.min(at)));
+    }
+
+    /// Returns when to paint what is ready at a moment. The screen's own rhythm holds the loop back; where it does not
+    /// (software drivers), this does.
+    fn paced(&self, at: Instant) -> Instant {
+        let interval = self.screen_interval();
+        let is_early = self.painted_at + interval.mul_f64(0.75) > at;
+        if is_early { at.max(self.painted_at + interval) } else { at }
     }
 
     fn frame(&mut self) -> Result<Next, GuiError> {
@@ -258,20 +331,22 @@ impl Running {
             return Ok(Next::Go);
         }
         let began = Instant::now();
+        if let Some(theme) = self.system_theme.try_iter().last() {
+            self.input.egui_input_mut().system_theme = Some(theme);
+        }
         let raw = self.input.take_egui_input(&self.window);
         let renderer = self.surface.renderer();
         let Frame { output, tick, wants_next } =
             frame::run(&self.ctx, &mut self.shell, &mut self.session, renderer, raw, began);
         self.input.handle_platform_output(&self.window, output.platform_output.clone());
+        if self.shell.take_clipboard_wish() {
+            let text = self.input.clipboard_text().unwrap_or_default();
+            self.input.egui_input_mut().events.push(egui::Event::Paste(text));
+            self.paint_soon();
+        }
         let delay = output.viewport_output.values().map(|v| v.repaint_delay).min().unwrap_or(Duration::MAX);
         let presented = self.surface.paint(&self.window, output, &self.ctx);
-        self.shell.report(
-            &self.session,
-            &mut self.report,
-            self.surface.size(),
-            self.window.scale_factor() as f32,
-            began,
-        );
+        self.shell.report(&self.session, &mut self.report, self.surface.size(), self.ctx.pixels_per_point(), began);
         match self.surface.gpu().take_trouble("the window") {
             Ok(()) => {}
             Err(reason @ GpuError::Lost(_)) => {
@@ -288,10 +363,7 @@ impl Running {
             next = Some(began);
         }
         if let Some(at) = tick.wake_at {
-            // The screen's own rhythm holds the loop back; where it does not (software drivers), this does.
-            let interval = self.screen_interval();
-            let early = self.painted_at + interval.mul_f64(0.75) > began;
-            let at = if early { at.max(self.painted_at + interval) } else { at };
+            let at = at.max(self.paced(began));
             next = Some(next.map_or(at, |n| n.min(at)));
         }
         self.paint_at = match (self.paint_at, next) {
@@ -305,7 +377,10 @@ impl Running {
     fn take_requests(&mut self) -> Next {
         while let Some(request) = self.session.take_request() {
             match request {
-                Request::Exit => return Next::Exit,
+                Request::Exit => {
+                    self.remember();
+                    return Next::Exit;
+                }
                 Request::SaveAs { suggested_name } => {
                     self.shell.ask_save_as(&suggested_name);
                     self.paint_soon();
@@ -313,6 +388,24 @@ impl Running {
             }
         }
         Next::Go
+    }
+
+    /// Keeps where the window is and what is in it, for the next start.
+    fn remember(&mut self) {
+        let (window, dock) = (&self.window, self.shell.dock());
+        let is_maximized = window.is_maximized();
+        let known = self.window_file.known().place;
+        // Where it goes back to is what it was before it was made larger.
+        let is_usual = !is_maximized && window.fullscreen().is_none() && !self.hidden;
+        let place = if is_usual && self.keeps_size {
+            let size = window.inner_size().to_logical::<f64>(window.scale_factor());
+            let corner = window.outer_position().ok().map(|at| (at.x, at.y));
+            Place { size: Some((size.width, size.height)), corner, is_maximized }
+        } else {
+            Place { is_maximized: is_maximized && self.keeps_size || known.is_maximized && !self.keeps_size, ..known }
+        };
+        let (open, layout) = (Some(dock.open_panels().clone()), dock.arrangement());
+        self.window_file.keep(Remembered { place, open, layout });
     }
 
     fn screen_interval(&self) -> Duration {
@@ -332,6 +425,31 @@ impl Running {
         if is_full != self.shell.is_fullscreen() {
             self.window.set_fullscreen(self.shell.is_fullscreen().then_some(Fullscreen::Borderless(None)));
         }
+    }
+}
+
+/// Where and how large the window opens: as the command line says, else as it was, else as suits the screen.
+fn attributes(event_loop: &ActiveEventLoop, options: &Options, place: &Place) -> WindowAttributes {
+    let attributes = Window::default_attributes()
+        .with_title("Eddy")
+        .with_visible(false)
+        .with_min_inner_size(LogicalSize::new(360.0, 240.0));
+    if let Some((width, height)) = options.size {
+        return attributes.with_inner_size(PhysicalSize::new(width, height));
+    }
+    let (width, height) = place.size.unwrap_or((1280.0, 760.0));
+    let attributes = attributes.with_inner_size(LogicalSize::new(width, height)).with_maximized(place.is_maximized);
+    // A screen that is not there any more shows nothing.
+    let is_on_screen = |at: &(i32, i32)| {
+        event_loop.available_monitors().any(|monitor| {
+            let (from, size) = (monitor.position(), monitor.size().cast::<i32>());
+            (from.x - 50..from.x + size.width - 100).contains(&at.0)
+                && (from.y - 50..from.y + size.height - 100).contains(&at.1)
+        })
+    };
+    match place.corner.filter(is_on_screen) {
+        Some((x, y)) => attributes.with_position(PhysicalPosition::new(x, y)),
+        None => attributes,
     }
 }
 

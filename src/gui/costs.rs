@@ -1,11 +1,6 @@
 //! The table under the picture: what each pass of the open project costs. Nothing is gathered while it is closed.
 
-use super::{
-    icons::{self, Icon},
-    outbox::Outbox,
-    shortcuts::{self, Action},
-    theme,
-};
+use super::{outbox::Outbox, theme};
 use crate::{
     engine::{CostClock, PassRole},
     session::{PassCosts, Session, TimedPass},
@@ -13,7 +8,6 @@ use crate::{
 use egui::{Align2, Color32, FontId, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
 
 const ROW: f32 = 19.0;
-const HEADER: f32 = 26.0;
 const SIZE: f32 = 12.0;
 
 /// Right edges of the columns, as distances from the table's right edge; the name takes what is left.
@@ -46,11 +40,11 @@ impl Columns {
 }
 
 pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+    out.stop("costs", ui);
     let costs = session.pass_costs();
     ui.spacing_mut().item_spacing.y = 0.0;
-    header(ui, &costs, out);
     let columns = Columns::of(ui.available_width());
-    line(ui, &columns, ["Pass", "Format", "Size", "Time", "Held", "Moved"], theme::WEAK, theme::WEAK);
+    line(ui, &columns, ["Pass", "Format", "Size", "Time", "Held", "Moved"], theme::of(ui).weak, theme::of(ui).weak);
     let list_height = (ui.available_height() - ROW - 6.0).max(ROW);
     let most = costs.passes.iter().filter_map(|p| p.millis).fold(0.0, f64::max);
     ScrollArea::vertical().id_salt("costs").max_height(list_height).auto_shrink([false, true]).show_rows(
@@ -66,41 +60,30 @@ pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     sum(ui, &columns, &costs, out);
 }
 
-fn header(ui: &mut Ui, costs: &PassCosts, out: &mut Outbox) {
-    ui.allocate_ui(vec2(ui.available_width(), HEADER), |ui| {
-        ui.horizontal_centered(|ui| {
-            ui.label(RichText::new("Costs of a frame").color(theme::STRONG));
-            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-                let close = icons::button(ui, Icon::Close, "Close");
-                let close = close.on_hover_text(format!("Close ({})", shortcuts::hint(Action::Costs)));
-                if out.clicked("costs:close", &close) {
-                    out.act(Action::Costs);
-                }
-                let (short, long) = match costs.clock {
-                    CostClock::Timestamps => (
-                        "device timestamps",
-                        "Milliseconds between the device's timestamps before and after each pass: the median of the \
-                        newest 30 frames",
-                    ),
-                    CostClock::Waited => (
-                        "passes one by one",
-                        "This device has no timestamps. While this table is open each pass is handed in and waited for \
-                         by itself, by the wall's clock, less the time of handing in nothing: the median of the newest \
-                         30 frames. Frames take longer so",
-                    ),
-                };
-                let text = RichText::new(short).size(11.5).color(theme::WEAK);
-                ui.add(egui::Label::new(text).truncate()).on_hover_text(long);
-            });
-        });
-    });
+/// Says at the right end of the panel's row how the times were found.
+pub fn tools(ui: &mut Ui, session: &Session) {
+    let (short, long) = match session.pass_costs().clock {
+        CostClock::Timestamps => (
+            "device timestamps",
+            "Milliseconds between the device's timestamps before and after each pass: the median of the newest 30 \
+             frames",
+        ),
+        CostClock::Waited => (
+            "passes one by one",
+            "This device has no timestamps. While this table is open each pass is handed in and waited for by itself, \
+             by the wall's clock, less the time of handing in nothing: the median of the newest 30 frames. Frames take \
+             longer so",
+        ),
+    };
+    let text = RichText::new(short).size(11.5).color(theme::of(ui).weak);
+    ui.add(egui::Label::new(text).truncate()).on_hover_text(long);
 }
 
 /// One row of texts, in the order of the columns.
 fn line(ui: &mut Ui, columns: &Columns, texts: [&str; 6], name: Color32, color: Color32) -> egui::Response {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
     if response.hovered() {
-        ui.painter().rect_filled(rect, 0.0, theme::RAISED);
+        ui.painter().rect_filled(rect, 0.0, theme::of(ui).raised);
     }
     texts_in(ui, columns, rect, texts, name, color);
     response
@@ -150,16 +133,16 @@ fn row(ui: &mut Ui, columns: &Columns, pass: &TimedPass, most: f64, out: &mut Ou
     let formats: Vec<&str> = cost.formats.iter().map(|f| f.name()).collect();
     let (held, moved) = (bytes(cost.held_bytes), bytes(cost.moved_bytes));
     let size = format!("{}×{}", cost.size.0, cost.size.1);
-    let color = if is_drawn { theme::TEXT } else { theme::WEAK };
+    let color = if is_drawn { theme::of(ui).text } else { theme::of(ui).weak };
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
     if response.hovered() {
-        ui.painter().rect_filled(rect, 0.0, theme::RAISED);
+        ui.painter().rect_filled(rect, 0.0, theme::of(ui).raised);
     }
     if let (None, Some(ms)) = (why, pass.millis) {
         // How it stands to the dearest, behind its name.
         let width = (rect.width() - columns.name_end() - 12.0).max(0.0) * (ms / most.max(1e-9)) as f32;
         let bar = Rect::from_min_size(rect.min + vec2(0.0, 2.0), vec2(width, ROW - 4.0));
-        ui.painter().rect_filled(bar, 2.0, theme::ACCENT_FILL.gamma_multiply(0.6));
+        ui.painter().rect_filled(bar, 2.0, theme::of(ui).accent_fill.gamma_multiply(0.6));
     }
     let joined = formats.join(" ");
     let format = if formats.len() > 1 { format!("{}×{}", formats[0], formats.len()) } else { joined.clone() };
@@ -200,8 +183,8 @@ fn sum(ui: &mut Ui, columns: &Columns, costs: &PassCosts, out: &mut Outbox) {
         n => format!("{} of {} passes drawn", at_work.len(), at_work.len() + n),
     };
     let texts = [title.as_str(), "", "", &format!("{millis:.3} ms"), &bytes(held), &bytes(moved)];
-    ui.painter().hline(ui.max_rect().x_range(), ui.cursor().top(), egui::Stroke::new(1.0, theme::LINE));
-    let response = line(ui, columns, texts, theme::STRONG, theme::STRONG);
+    ui.painter().hline(ui.max_rect().x_range(), ui.cursor().top(), egui::Stroke::new(1.0, theme::of(ui).line));
+    let response = line(ui, columns, texts, theme::of(ui).strong, theme::of(ui).strong);
     out.place("costs:sum", response.rect);
 }
 

@@ -1,14 +1,18 @@
 //! File dialogs: the desktop's own where there is one, else a field for the path.
 //!
-//! The desktop's dialog runs on a thread of its own, so the picture goes on while it is open.
+//! The desktop's dialog runs on a thread of its own, so the picture goes on while it is open, and that thread alone
+//! says how the dialog ended.
 
 use super::{
-    outbox::{Outbox, Pick, Wish},
+    dialogs::{self, Dialog, Kind, Outcome},
+    outbox::{Outbox, Pick},
     theme,
 };
-use egui::{Id, Key, Modal, TextEdit, Ui};
+use crate::project::PICTURES;
+use egui::{Align2, Area, Frame, Id, Key, Modal, Order, TextEdit, Ui, vec2};
 use std::{
-    path::PathBuf,
+    panic::catch_unwind,
+    path::{MAIN_SEPARATOR, PathBuf},
     sync::{
         Arc,
         mpsc::{Receiver, TryRecvError, channel},
@@ -16,21 +20,25 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// A dialog that is gone sooner than this was never seen: no person cancels so fast. It means that the desktop has none
-/// (no portal answers), which the dialogs' library does not tell from a cancel.
-const UNSEEN: Duration = Duration::from_millis(400);
+/// How long a dialog may take to come before a way around it is offered.
+const PATIENCE: Duration = Duration::from_secs(1);
 
 pub struct Files {
     wake: Arc<dyn Fn() + Send + Sync>,
+    /// Shows a dialog of the desktop's and waits for its end.
+    desktop: fn(&Dialog) -> Outcome,
     asked: Option<Asked>,
     typing: Option<Typing>,
+    /// What gets the keyboard in the next frame: a modal that closes still takes it from all below in its last one.
+    gets_keyboard: Option<Id>,
 }
 
 /// A dialog of the desktop's that is open.
 struct Asked {
     pick: Pick,
+    start: Option<PathBuf>,
     since: Instant,
-    answer: Receiver<Option<PathBuf>>,
+    answer: Receiver<Outcome>,
 }
 
 /// Our own field for a path.
@@ -38,9 +46,12 @@ struct Typing {
     pick: Pick,
     path: String,
     is_new: bool,
+    /// What had the keyboard before, and gets it back.
+    before: Option<Id>,
 }
 
 /// The outcome of a dialog.
+#[derive(Debug, PartialEq)]
 pub enum Picked {
     Path(Pick, PathBuf),
     Cancelled(Pick),
@@ -48,7 +59,7 @@ pub enum Picked {
 
 impl Files {
     pub fn new(wake: Arc<dyn Fn() + Send + Sync>) -> Self {
-        Self { wake, asked: None, typing: None }
+        Self { wake, desktop: dialogs::show, asked: None, typing: None, gets_keyboard: None }
     }
 
     /// Opens a dialog. One at a time: a second is not opened over it.
@@ -57,44 +68,57 @@ impl Files {
             return;
         }
         let (sender, answer) = channel();
-        let (wake, wanted) = (self.wake.clone(), pick.clone());
+        let (wake, show) = (self.wake.clone(), self.desktop);
+        let dialog = dialog(&pick, start.clone());
         let spawned = std::thread::Builder::new().name("file dialog".into()).spawn(move || {
+            let end = catch_unwind(|| show(&dialog)).unwrap_or(Outcome::Unavailable);
             // A receiver that is gone no longer wants the answer.
-            let _ = sender.send(desktop_dialog(&wanted, start));
+            let _ = sender.send(end);
             wake();
         });
         match spawned {
-            Ok(_) => self.asked = Some(Asked { pick, since: Instant::now(), answer }),
-            Err(_) => self.type_path(pick),
+            Ok(_) => self.asked = Some(Asked { pick, start, since: Instant::now(), answer }),
+            Err(_) => self.type_path(pick, start),
         }
     }
 
-    fn type_path(&mut self, pick: Pick) {
-        let mut path = std::env::current_dir().map(|d| d.display().to_string()).unwrap_or_default();
-        if !path.ends_with(std::path::MAIN_SEPARATOR) {
-            path.push(std::path::MAIN_SEPARATOR);
+    /// A path is being typed.
+    pub fn is_asking(&self) -> bool {
+        self.typing.is_some() || self.gets_keyboard.is_some()
+    }
+
+    fn type_path(&mut self, pick: Pick, start: Option<PathBuf>) {
+        let mut path = start.or_else(|| std::env::current_dir().ok()).unwrap_or_default().display().to_string();
+        if !path.ends_with(MAIN_SEPARATOR) {
+            path.push(MAIN_SEPARATOR);
         }
         if let Pick::SaveAs(name) = &pick {
             path.push_str(name);
         }
-        self.typing = Some(Typing { pick, path, is_new: true });
+        self.typing = Some(Typing { pick, path, is_new: true, before: None });
     }
 
     /// Shows what is to be shown; a dialog's end.
     pub fn show(&mut self, ui: &Ui, out: &mut Outbox) -> Option<Picked> {
-        if let Some(asked) = &self.asked {
-            let answer = match asked.answer.try_recv() {
-                Err(TryRecvError::Empty) => return None,
-                Err(TryRecvError::Disconnected) => None,
-                Ok(path) => path,
-            };
-            let asked = self.asked.take()?;
-            match answer {
-                Some(path) => return Some(Picked::Path(asked.pick, path)),
-                None if asked.since.elapsed() < UNSEEN => self.type_path(asked.pick),
-                None => return Some(Picked::Cancelled(asked.pick)),
+        if let Some(id) = self.gets_keyboard.take() {
+            ui.memory_mut(|m| m.request_focus(id));
+        }
+        if let Some(asked) = self.asked.take() {
+            match asked.answer.try_recv() {
+                Err(TryRecvError::Empty) if asked.wants_to_type(ui, out) => self.type_path(asked.pick, asked.start),
+                Err(TryRecvError::Empty) => {
+                    self.asked = Some(asked);
+                    return None;
+                }
+                Ok(Outcome::Path(path)) => return Some(Picked::Path(asked.pick, path)),
+                Ok(Outcome::Cancelled) => return Some(Picked::Cancelled(asked.pick)),
+                Ok(Outcome::Unavailable) | Err(TryRecvError::Disconnected) => self.type_path(asked.pick, asked.start),
             }
         }
+        self.path_field(ui, out)
+    }
+
+    fn path_field(&mut self, ui: &Ui, out: &mut Outbox) -> Option<Picked> {
         let typing = self.typing.as_mut()?;
         let (mut done, mut cancelled) = (false, false);
         let (title, action) = match &typing.pick {
@@ -104,18 +128,25 @@ impl Files {
             Pick::LabReport => ("Write the lab's report into a folder", "Write"),
             Pick::Picture { .. } => ("A picture for the channel", "Use"),
         };
+        // A modal takes the keyboard from all that lies below it.
+        if typing.is_new {
+            typing.before = ui.memory(|m| m.focused());
+        }
         let modal = Modal::new(Id::unique("path")).frame(theme::dialog(ui.style())).show(ui.ctx(), |ui| {
             ui.set_width((ui.ctx().content_rect().width() - 80.0).min(460.0));
             ui.heading(title);
             ui.add_space(4.0);
-            ui.colored_label(theme::WEAK, help(&typing.pick));
+            ui.colored_label(theme::of(ui).weak, help(&typing.pick));
             let field = ui.add(TextEdit::singleline(&mut typing.path).desired_width(f32::INFINITY));
             out.place("field:path", field.rect);
             if std::mem::take(&mut typing.is_new) {
                 field.request_focus();
                 let end = egui::text::CCursor::new(typing.path.chars().count());
+                // What is likely to be typed anew is selected: the name, behind the folder.
+                let start = typing.path.rfind(MAIN_SEPARATOR).map_or(0, |at| typing.path[..=at].chars().count());
                 if let Some(mut state) = TextEdit::load_state(ui.ctx(), field.id) {
-                    state.cursor.set_char_range(Some(egui::text::CCursorRange::one(end)));
+                    let range = egui::text::CCursorRange::two(egui::text::CCursor::new(start), end);
+                    state.cursor.set_char_range(Some(range));
                     state.store(ui.ctx(), field.id);
                 }
             }
@@ -124,37 +155,44 @@ impl Files {
             ui.horizontal(|ui| {
                 let ok = ui.add_enabled(!typing.path.trim().is_empty(), egui::Button::new(action));
                 done |= out.clicked("button:path-ok", &ok);
-                cancelled |= ui.button("Cancel").clicked();
+                cancelled |= out.clicked("button:path-cancel", &ui.button("Cancel"));
             });
         });
-        if done && !typing.path.trim().is_empty() {
+        let is_done = done && !typing.path.trim().is_empty();
+        let is_cancelled = cancelled || modal.should_close();
+        if let Some(before) = typing.before.filter(|_| is_done || is_cancelled) {
+            self.gets_keyboard = Some(before);
+            ui.ctx().request_repaint();
+        }
+        if is_done {
             let typing = self.typing.take()?;
             return Some(Picked::Path(typing.pick, expand_home(typing.path.trim())));
         }
-        if cancelled || modal.should_close() {
+        if is_cancelled {
             return self.typing.take().map(|t| Picked::Cancelled(t.pick));
         }
         None
     }
-
-    /// Takes files dropped on the window: the first is opened, or becomes a channel's picture.
-    pub fn dropped(ui: &Ui, channel: impl Fn(egui::Pos2) -> Option<usize>, out: &mut Outbox) {
-        let (files, at) = ui.input(|i| (i.raw.dropped_files.clone(), i.pointer.latest_pos()));
-        let Some(file) = files.first() else { return };
-        let path = file.path().to_owned();
-        let pick = match at.and_then(channel).filter(|_| is_picture(&path)) {
-            Some(channel) => Pick::Picture { channel },
-            None if is_picture(&path) => Pick::Picture { channel: 0 },
-            None => Pick::OpenFile,
-        };
-        out.wishes.push(Wish::Picked(pick, path));
-    }
 }
 
-const PICTURES: [&str; 8] = ["png", "jpg", "jpeg", "webp", "bmp", "tga", "gif", "hdr"];
-
-fn is_picture(path: &std::path::Path) -> bool {
-    path.extension().is_some_and(|e| PICTURES.iter().any(|p| e.eq_ignore_ascii_case(p)))
+impl Asked {
+    /// While a dialog of the desktop's is open: one that hides, or hangs, can be done without.
+    fn wants_to_type(&self, ui: &Ui, out: &mut Outbox) -> bool {
+        if let Some(wait) = PATIENCE.checked_sub(self.since.elapsed()) {
+            ui.ctx().request_repaint_after(wait);
+            return false;
+        }
+        let area = Area::new(Id::unique("file dialog")).order(Order::Foreground);
+        let shown = area.anchor(Align2::CENTER_BOTTOM, vec2(0.0, -52.0)).show(ui.ctx(), |ui| {
+            Frame::popup(ui.style()).fill(theme::of(ui).raised).show(ui, |ui| {
+                ui.horizontal(|ui| {
+                    ui.label("Waiting for the desktop's file dialog");
+                    out.clicked("button:type-path", &ui.button("Type the path instead"))
+                })
+            })
+        });
+        shown.inner.inner.inner
+    }
 }
 
 fn help(pick: &Pick) -> &'static str {
@@ -176,21 +214,66 @@ fn expand_home(path: &str) -> PathBuf {
     }
 }
 
-fn desktop_dialog(pick: &Pick, start: Option<PathBuf>) -> Option<PathBuf> {
-    let mut dialog = rfd::FileDialog::new();
-    if let Some(start) = start {
-        dialog = dialog.set_directory(start);
+fn dialog(pick: &Pick, start: Option<PathBuf>) -> Dialog {
+    let (title, kind) = match pick {
+        Pick::OpenFolder => ("Open a project's folder", Kind::OpenFolder),
+        Pick::OpenFile => ("Open a shader", Kind::OpenFile("Shaders", &["glsl", "frag", "json", "toml"])),
+        Pick::LabFolder => ("Keep the lab's results in a folder", Kind::OpenFolder),
+        Pick::LabReport => ("Write the lab's report into a folder", Kind::OpenFolder),
+        Pick::SaveAs(name) => ("Save into a folder", Kind::Save(name.clone())),
+        Pick::Picture { .. } => ("A picture for the channel", Kind::OpenFile("Pictures", &PICTURES)),
+    };
+    Dialog { title, kind, start }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::{AtomicBool, Ordering};
+
+    /// Shows frames until a dialog has ended or the field for the path is there.
+    fn end_of(desktop: fn(&Dialog) -> Outcome, between_frames: Duration) -> (Option<Picked>, bool) {
+        let woken = Arc::new(AtomicBool::new(false));
+        let flag = woken.clone();
+        let mut files = Files { desktop, ..Files::new(Arc::new(move || flag.store(true, Ordering::Release))) };
+        files.ask(Pick::SaveAs("mine".into()), Some("/begin".into()));
+        let ctx = egui::Context::default();
+        let give_up = Instant::now() + Duration::from_secs(10);
+        loop {
+            std::thread::sleep(between_frames);
+            let mut out = Outbox::default();
+            let mut picked = None;
+            let mut output = ctx.run_ui(egui::RawInput::default(), |ui| picked = files.show(ui, &mut out));
+            output.textures_delta.clear();
+            if picked.is_some() || files.typing.is_some() {
+                while !woken.load(Ordering::Acquire) {
+                    assert!(Instant::now() < give_up, "the window sleeps until it is woken");
+                    std::thread::yield_now();
+                }
+                assert!(files.asked.is_none());
+                return (picked, files.typing.is_some_and(|t| t.path == "/begin/mine"));
+            }
+            assert!(Instant::now() < give_up);
+        }
     }
-    match pick {
-        Pick::OpenFolder => dialog.set_title("Open a project's folder").pick_folder(),
-        Pick::OpenFile => {
-            dialog.set_title("Open a shader").add_filter("Shaders", &["glsl", "frag", "json", "toml"]).pick_file()
-        }
-        Pick::LabFolder => dialog.set_title("Keep the lab's results in a folder").pick_folder(),
-        Pick::LabReport => dialog.set_title("Write the lab's report into a folder").pick_folder(),
-        Pick::SaveAs(name) => dialog.set_title("Save into a folder").set_file_name(name).save_file(),
-        Pick::Picture { .. } => {
-            dialog.set_title("A picture for the channel").add_filter("Pictures", &PICTURES).pick_file()
-        }
+
+    #[test]
+    fn where_no_dialog_can_be_had_the_field_appears_however_slow_the_frames_and_the_desktop() {
+        let late = |_: &Dialog| {
+            std::thread::sleep(Duration::from_millis(600));
+            Outcome::Unavailable
+        };
+        assert_eq!(end_of(|_| Outcome::Unavailable, Duration::from_millis(600)), (None, true));
+        assert_eq!(end_of(late, Duration::from_millis(5)), (None, true));
+        assert_eq!(end_of(|_| panic!("planted"), Duration::from_millis(5)), (None, true));
+    }
+
+    #[test]
+    fn a_dialog_that_is_closed_at_once_is_a_cancel() {
+        let pick = || Pick::SaveAs("mine".into());
+        assert_eq!(end_of(|_| Outcome::Cancelled, Duration::ZERO), (Some(Picked::Cancelled(pick())), false));
+        let path = PathBuf::from("/there");
+        let chosen = |_: &Dialog| Outcome::Path("/there".into());
+        assert_eq!(end_of(chosen, Duration::ZERO), (Some(Picked::Path(pick(), path)), false));
     }
 }

@@ -1,5 +1,6 @@
 //! Buttons with drawn signs: no font holds them all in one style.
 
+use super::theme;
 use egui::{Color32, Pos2, Rect, Response, Sense, Shape, Stroke, StrokeKind, Ui, pos2, vec2};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +15,8 @@ pub enum Icon {
     Previous,
     Next,
     Close,
+    /// Code over a picture.
+    Present,
 }
 
 /// A button with a sign; `label` is what it is called to those who do not see it.
@@ -23,6 +26,33 @@ pub fn button(ui: &mut Ui, icon: Icon, label: &str) -> Response {
     let visuals = ui.style().interact(&response);
     ui.painter().rect(rect, visuals.corner_radius, visuals.weak_bg_fill, visuals.bg_stroke, StrokeKind::Inside);
     paint(ui, rect, icon, visuals.fg_stroke.color);
+    response
+}
+
+/// Does the same for what is wanted first: larger, and in the window's accent.
+pub fn first(ui: &mut Ui, icon: Icon, label: &str) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(40.0, 28.0), Sense::click());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label));
+    let p = theme::of(ui);
+    let (fill, ink) = if p.is_dark { (p.accent_fill, p.strong) } else { (p.accent, p.background) };
+    let fill = if response.hovered() { fill.gamma_multiply(0.85) } else { fill };
+    ui.painter().rect_filled(rect, ui.visuals().widgets.inactive.corner_radius, fill);
+    if response.has_focus() {
+        ui.painter().rect_stroke(rect.expand(1.5), 6.0, p.focus(), StrokeKind::Inside);
+    }
+    paint(ui, rect, icon, ink);
+    response
+}
+
+/// Does the same without a ground, for rows of titles.
+pub fn flat(ui: &mut Ui, icon: Icon, label: &str) -> Response {
+    let (rect, response) = ui.allocate_exact_size(vec2(20.0, 20.0), Sense::click());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label));
+    let p = theme::of(ui);
+    if response.hovered() || response.has_focus() {
+        ui.painter().rect_filled(rect, 4.0, p.button);
+    }
+    paint(ui, rect, icon, if response.hovered() { p.strong } else { p.weak });
     response
 }
 
@@ -72,6 +102,12 @@ fn paint(ui: &Ui, rect: Rect, icon: Icon, color: Color32) {
         Icon::Close => {
             painter.line_segment([at(-3.5, -3.5), at(3.5, 3.5)], line);
             painter.line_segment([at(3.5, -3.5), at(-3.5, 3.5)], line);
+        }
+        Icon::Present => {
+            painter.rect_stroke(Rect::from_min_max(at(-7.5, -5.5), at(7.5, 5.5)), 1.5, line, StrokeKind::Middle);
+            for (y, width) in [(-2.0, 5.0), (1.5, 8.0)] {
+                painter.line_segment([at(-4.5, y), at(-4.5 + width, y)], line);
+            }
         }
     }
 }

@@ -4,41 +4,53 @@
 //! to the session's commands. Holds no logic that a command line would need too: a panel reads `&Session` and hands
 //! back commands. Only this module names egui or winit.
 
+mod accessible;
+mod actions;
 mod app;
 mod channels;
 mod code;
 mod costs;
+mod custom_uniforms;
+mod dialogs;
+mod dock;
 mod editor;
 mod files;
+mod focus;
+mod fonts;
 mod frame;
 mod gallery;
 mod geometry;
+mod halt;
 mod help;
 mod icons;
 mod keys;
-mod knobs;
 mod lab;
 mod outbox;
+mod palette;
+mod passes;
 mod problems;
 mod questions;
 mod report;
 mod rescue;
+mod settings;
 mod shell;
-mod shortcuts;
 mod steps;
 mod surface;
+mod system_theme;
 mod tabs;
 mod theme;
 mod thumbnails;
 mod toasts;
 mod top_bar;
 mod transport;
+mod uniform_row;
 mod uses;
 mod viewport;
 
 pub use app::run;
 
 use crate::{gpu::GpuError, session::SessionError};
+use std::time::Duration;
 
 /// The project to open, and how.
 #[derive(Clone, Debug, Default)]
@@ -47,8 +59,12 @@ pub struct Options {
     pub project: Option<String>,
     /// Physical pixels inside the window's frame; none: what suits the screen.
     pub size: Option<(u32, u32)>,
-    /// Values for the project's own uniforms, as [`crate::session::Command::AssignKnob`] takes them.
+    /// Values for the project's own uniforms, as [`crate::session::Command::AssignCustomUniform`] takes them.
     pub set: Vec<String>,
+    /// Draw nothing of the project before the user says so.
+    pub paused: bool,
+    /// A frame that takes longer pauses the picture; none: the session's own limit.
+    pub frame_limit: Option<Duration>,
     /// Say on standard output what happens, one JSON object a line, for scripts that drive the window.
     pub json: bool,
 }

@@ -2,12 +2,13 @@
 //! things are.
 
 use super::{
+    actions::{Action, Keymap},
     geometry::{Area, Shape},
-    shortcuts::Action,
+    settings::Change,
 };
 use crate::{project::Tab, session::Command};
-use egui::{Rect, Response};
-use std::{collections::BTreeMap, path::PathBuf};
+use egui::{Id, Rect, Response, Ui};
+use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
 
 /// The purpose of a file dialog.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,7 +36,23 @@ pub enum Wish {
     GoTo(Tab, Option<(usize, usize)>),
     Picked(Pick, PathBuf),
     CloseGallery,
+    /// The window of passes, with one chosen.
+    ChoosePass(Tab),
+    /// The project that takes the place of the open one stays paused.
+    ShowRecovered,
     Shape(Shape),
+    Set(Change),
+}
+
+/// A part of the window that F6 goes to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stop {
+    pub name: &'static str,
+    /// Its `Ui`.
+    pub ui: Id,
+    pub rect: Rect,
+    /// The widget that takes every key while it has the keyboard; else the first one that can have it is gone to.
+    pub home: Option<Id>,
 }
 
 #[derive(Debug, Default)]
@@ -44,9 +61,17 @@ pub struct Outbox {
     pub wishes: Vec<Wish>,
     /// Named places, in points.
     pub places: BTreeMap<String, Rect>,
+    /// Where F6 takes the keyboard.
+    pub stops: Vec<Stop>,
+    /// The keys of actions, for tips and menus.
+    pub keys: Arc<Keymap>,
 }
 
 impl Outbox {
+    pub fn new(keys: Arc<Keymap>) -> Self {
+        Self { keys, ..Self::default() }
+    }
+
     pub fn ask(&mut self, command: Command) {
         self.commands.push(command);
     }
@@ -62,10 +87,27 @@ impl Outbox {
         }
     }
 
+    /// Notes that what is shown in `ui` is a part of the window, which F6 takes the keyboard to.
+    pub fn stop(&mut self, name: &'static str, ui: &Ui) {
+        self.stops.push(Stop { name, ui: ui.unique_id(), rect: ui.max_rect(), home: None });
+    }
+
+    /// The same for one with a widget that takes every key while it has the keyboard.
+    pub fn home(&mut self, name: &'static str, ui: &Ui, home: Id) {
+        self.stops.push(Stop { name, ui: ui.unique_id(), rect: ui.max_rect(), home: Some(home) });
+    }
+
     /// Notes where a button is; whether it was clicked.
     pub fn clicked(&mut self, name: &str, response: &Response) -> bool {
         self.place(name, response.rect);
         response.clicked()
+    }
+
+    /// Returns the name of a place.
+    pub fn named(&self, rect: Rect) -> Option<&str> {
+        let differs = |other: Rect| (other.min - rect.min).length() + (other.max - rect.max).length();
+        let near = self.places.iter().map(|(name, other)| (differs(*other), name));
+        near.filter(|(by, _)| *by < 8.0).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, name)| name.as_str())
     }
 
     /// Every named place in physical pixels.

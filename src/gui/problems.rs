@@ -1,24 +1,30 @@
 //! The line under the editor that says how the last compile went, and the list of what is wrong.
 
 use super::{
+    accessible,
     outbox::{Outbox, Wish},
-    theme,
+    theme::{self, Palette},
 };
 use crate::{
     diag::Severity,
+    project::Tab,
     session::{Outcome, Place, Session, TabDiagnostic},
 };
-use egui::{Align2, FontId, Rect, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
+use egui::{Align2, Color32, FontId, Frame, Label, Margin, Rect, RichText, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
 
 const ROW: f32 = 22.0;
 /// A further place stands so far to the right of its problem.
 const INDENT: f32 = 14.0;
+/// The least room in which a hint is shown behind its problem.
+const HINT_ROOM: f32 = 60.0;
 
-/// `limit`: how high the list may be.
-pub fn show(ui: &mut Ui, session: &Session, limit: f32, out: &mut Outbox) {
+/// `caret`: the tab in front and its caret's line from 0, whose problem is told in whole. `limit`: how high the list
+/// may be.
+pub fn show(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, limit: f32, out: &mut Outbox) {
+    out.stop("problems", ui);
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 24.0), Sense::hover());
-    ui.painter().hline(rect.x_range(), rect.top() + 0.5, Stroke::new(1.0, theme::LINE));
-    let (text, color) = state(session);
+    ui.painter().hline(rect.x_range(), rect.top() + 0.5, Stroke::new(1.0, theme::of(ui).line));
+    let (text, color) = state(session, theme::of(ui));
     let dot = pos2(rect.left() + 13.0, rect.center().y);
     ui.painter().circle_filled(dot, 4.0, color);
     let painter = ui.painter().with_clip_rect(rect);
@@ -27,17 +33,23 @@ pub fn show(ui: &mut Ui, session: &Session, limit: f32, out: &mut Outbox) {
         Align2::LEFT_CENTER,
         text,
         FontId::proportional(12.0),
-        theme::TEXT,
+        theme::of(ui).text,
     );
     let includes: Vec<&str> = session.project().includes.iter().map(|i| i.source.name.as_str()).collect();
     if !includes.is_empty() {
         let shown = format!("with {}", crate::project::listed(&includes));
         let font = FontId::proportional(12.0);
-        let end =
-            painter.text(pos2(rect.right() - 8.0, rect.center().y), Align2::RIGHT_CENTER, shown, font, theme::WEAK);
+        let end = painter.text(
+            pos2(rect.right() - 8.0, rect.center().y),
+            Align2::RIGHT_CENTER,
+            shown,
+            font,
+            theme::of(ui).weak,
+        );
         out.place("includes", end);
     }
     out.place("compile-state", rect);
+    whole(ui, session, caret, out);
     let rows: Vec<Row<'_>> = session.diagnostics().iter().enumerate().flat_map(|(i, d)| rows_of(i, d)).collect();
     if rows.is_empty() {
         return;
@@ -54,23 +66,49 @@ pub fn show(ui: &mut Ui, session: &Session, limit: f32, out: &mut Outbox) {
     ui.add_space(4.0);
 }
 
-pub fn state(session: &Session) -> (String, egui::Color32) {
+/// The whole message of the problem in the caret's line: beside the code and in the list there may be room for its
+/// beginning only.
+fn whole(ui: &mut Ui, session: &Session, caret: Option<(&Tab, usize)>, out: &mut Outbox) {
+    let Some((tab, line)) = caret else { return };
+    let is_here = |p: &Place| p.tab.as_ref() == Some(tab) && p.line == line + 1;
+    let here = session.diagnostics().iter().filter(|d| d.place.as_ref().is_some_and(is_here));
+    let Some(problem) = here.max_by_key(|d| d.severity) else { return };
+    let frame =
+        Frame::NONE.fill(theme::of(ui).background).inner_margin(Margin { left: 25, right: 8, top: 4, bottom: 5 });
+    let shown = frame.show(ui, |ui| {
+        ui.set_width(ui.available_width());
+        ui.spacing_mut().item_spacing.y = 2.0;
+        let text = |text: &str| RichText::new(text).size(12.5);
+        ui.add(
+            Label::new(text(&problem.message).color(theme::of(ui).of_severity(problem.severity)))
+                .wrap()
+                .selectable(true),
+        );
+        for hint in &problem.hints {
+            ui.add(Label::new(text(hint).color(theme::of(ui).weak)).wrap());
+        }
+    });
+    out.place("problem-at-caret", shown.response.rect);
+}
+
+/// Returns how the newest compile ended in words, and their colour.
+pub fn state(session: &Session, palette: &Palette) -> (String, Color32) {
     let state = session.compile_state();
     if state.compiling {
-        return ("Compiling…".into(), theme::ACCENT);
+        return ("Compiling…".into(), palette.accent);
     }
     let some = |n: usize, noun: &str| format!("{n} {noun}{}", if n == 1 { "" } else { "s" });
     let (errors, warnings) = counts(session);
     match &state.last {
-        None => ("Nothing compiled yet".into(), theme::WEAK),
-        Some(Outcome::Ok { millis, .. }) if warnings == 0 => (format!("Compiled in {millis:.0} ms"), theme::GOOD),
+        None => ("Nothing compiled yet".into(), palette.weak),
+        Some(Outcome::Ok { millis, .. }) if warnings == 0 => (format!("Compiled in {millis:.0} ms"), palette.good),
         Some(Outcome::Ok { millis, .. }) => {
-            (format!("Compiled in {millis:.0} ms, {}", some(warnings, "warning")), theme::WARNING)
+            (format!("Compiled in {millis:.0} ms, {}", some(warnings, "warning")), palette.warning)
         }
         Some(Outcome::Failed { .. }) if warnings > 0 => {
-            (format!("{}, {}", some(errors, "error"), some(warnings, "warning")), theme::ERROR)
+            (format!("{}, {}", some(errors, "error"), some(warnings, "warning")), palette.error)
         }
-        Some(Outcome::Failed { .. }) => (some(errors, "error"), theme::ERROR),
+        Some(Outcome::Failed { .. }) => (some(errors, "error"), palette.error),
     }
 }
 
@@ -94,16 +132,20 @@ fn rows_of(index: usize, problem: &TabDiagnostic) -> impl Iterator<Item = Row<'_
 }
 
 impl Row<'_> {
+    /// What it says to those who do not see it.
+    fn name_of(&self) -> String {
+        let place = self.place.map(|p| format!("{} line {}: ", p.title(), p.line)).unwrap_or_default();
+        let kind = if self.is_label { "see also" } else { self.problem.severity.name() };
+        format!("{kind}: {place}{}", self.message)
+    }
+
     fn show(&self, ui: &mut Ui, out: &mut Outbox) {
         let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
+        accessible::name(&response, egui::Role::Button, self.name_of());
         if response.hovered() {
-            ui.painter().rect_filled(rect, 0.0, theme::RAISED);
+            ui.painter().rect_filled(rect, 0.0, theme::of(ui).raised);
         }
-        let color = match self.problem.severity {
-            Severity::Error => theme::ERROR,
-            Severity::Warning => theme::WARNING,
-            Severity::Note => theme::ACCENT,
-        };
+        let color = theme::of(ui).of_severity(self.problem.severity);
         let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
         let mut x = rect.left() + 25.0;
         if self.is_label {
@@ -114,16 +156,31 @@ impl Row<'_> {
         if let Some(place) = self.place {
             let at = format!("{} {}:{}", place.title(), place.line, place.column);
             let font = FontId::proportional(12.0);
-            let end = painter.text(pos2(x, rect.center().y), Align2::LEFT_CENTER, at, font, theme::WEAK);
+            let end = painter.text(pos2(x, rect.center().y), Align2::LEFT_CENTER, at, font, theme::of(ui).weak);
             x = end.right() + 10.0;
         }
-        let color_of_text = if self.is_label { theme::WEAK } else { theme::TEXT };
+        let color_of_text = if self.is_label { theme::of(ui).weak } else { theme::of(ui).text };
         let text = self.message.replace('\n', " ");
         let mut job = egui::text::LayoutJob::simple_singleline(text, FontId::proportional(12.5), color_of_text);
         job.wrap = egui::text::TextWrapping::truncate_at_width((rect.right() - x - 8.0).max(20.0));
         let galley = painter.layout_job(job);
         let text_rect = Rect::from_min_size(pos2(x, rect.center().y - galley.size().y / 2.0), galley.size());
         painter.galley(text_rect.min, galley, color_of_text);
+        if let Some(hint) = self.problem.hints.first().filter(|_| !self.is_label) {
+            let mut job = egui::text::LayoutJob::simple_singleline(
+                hint.replace('\n', " "),
+                FontId::proportional(12.0),
+                theme::of(ui).weak,
+            );
+            let room = rect.right() - text_rect.right() - 20.0;
+            job.wrap = egui::text::TextWrapping::truncate_at_width(room.max(0.0));
+            let galley = painter.layout_job(job);
+            // A few cut letters say nothing; what is pointed at says all.
+            if room > HINT_ROOM {
+                let at = pos2(text_rect.right() + 12.0, rect.center().y - galley.size().y / 2.0);
+                painter.galley(at, galley, theme::of(ui).weak);
+            }
+        }
         if out.clicked(&self.name, &response)
             && let Some(wish) = self.place.and_then(wish_of)
         {

@@ -1,9 +1,12 @@
 //! Questions of the session, which stand in front of everything until they are answered.
 
-use super::{outbox::Outbox, theme};
+use super::{
+    outbox::{Outbox, Wish},
+    theme,
+};
 use crate::{
-    project::Tab,
-    session::{Answer, Command, DiffLine, Question, Session, Then},
+    project::{Origin, Tab},
+    session::{Answer, Command, DiffLine, Question, Recovered, Session, Then},
 };
 use egui::{Color32, FontId, Frame, Id, Modal, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
 use std::path::{Path, PathBuf};
@@ -12,7 +15,7 @@ use std::path::{Path, PathBuf};
 pub fn show(ui: &Ui, session: &Session, out: &mut Outbox) {
     let Some(question) = session.question() else { return };
     let window = ui.ctx().content_rect();
-    let wide = matches!(question, Question::Conflict { .. });
+    let wide = matches!(question, Question::Conflict { .. } | Question::Recover(_));
     let width = (window.width() - 48.0).min(if wide { 900.0 } else { 440.0 });
     Modal::new(Id::unique("question")).frame(theme::dialog(ui.style())).show(ui.ctx(), |ui| {
         ui.set_width(width);
@@ -23,27 +26,28 @@ pub fn show(ui: &Ui, session: &Session, out: &mut Outbox) {
                 conflict(ui, tab.as_ref(), file, diff, room, out);
             }
             Question::Overwrite { folder, files } => overwrite(ui, folder, files, out),
-            Question::RemoveTab(tab) => {
-                ui.heading(format!("Remove {}?", tab.title()));
-                ui.label("Its text goes with it. Nothing is deleted on disk before the project is saved.");
-                answers(ui, &[("Remove", Answer::Remove), ("Cancel", Answer::Cancel)], out);
-            }
+            Question::Recover(recovered) => recover(ui, recovered, (window.height() - 260.0).max(60.0), out),
         }
     });
 }
 
-/// A row of buttons, the last one the safe way out. Its key is Escape.
+/// A row of buttons: the first has the colour and Enter, the last is the safe way out and has Escape.
 fn answers(ui: &mut Ui, list: &[(&str, Answer)], out: &mut Outbox) {
+    let takes_keys = takes_keys(ui);
     ui.add_space(12.0);
     ui.horizontal_wrapped(|ui| {
         for (i, (label, answer)) in list.iter().enumerate() {
             let text = RichText::new(*label);
             let button = if i == 0 {
-                egui::Button::new(text.color(theme::STRONG)).fill(theme::ACCENT_FILL)
+                egui::Button::new(text.color(theme::of(ui).strong)).fill(theme::of(ui).accent_fill)
             } else {
                 egui::Button::new(text)
             };
             let response = ui.add(button.min_size(vec2(84.0, 28.0)));
+            // Enter presses the first, unless another one was gone to.
+            if i == 0 && takes_keys && ui.memory(|m| m.focused().is_none()) {
+                response.request_focus();
+            }
             if out.clicked(&format!("answer:{}", name_of(answer)), &response) {
                 out.ask(Command::Answer(answer.clone()));
             }
@@ -55,6 +59,23 @@ fn answers(ui: &mut Ui, list: &[(&str, Answer)], out: &mut Outbox) {
     }
 }
 
+/// How long a question stands before a key answers it: what was being typed when it came is no answer.
+const DEAF_SECS: f64 = 0.7;
+
+fn takes_keys(ui: &Ui) -> bool {
+    let id = Id::unique("question since");
+    let (now, pass) = (ui.input(|i| i.time), ui.ctx().cumulative_pass_nr());
+    let (since, last): (f64, u64) = ui.data(|d| d.get_temp(id)).unwrap_or((now, 0));
+    // One that was not there a few passes ago is new.
+    let since = if pass.saturating_sub(last) > 4 { now } else { since };
+    ui.data_mut(|d| d.insert_temp(id, (since, pass)));
+    let left = since + DEAF_SECS - now;
+    if left > 0.0 {
+        ui.ctx().request_repaint_after_secs(left as f32);
+    }
+    left <= 0.0
+}
+
 fn name_of(answer: &Answer) -> &'static str {
     match answer {
         Answer::Save => "save",
@@ -64,7 +85,7 @@ fn name_of(answer: &Answer) -> &'static str {
         Answer::TakeDisk => "take-disk",
         Answer::SaveMineAs(_) => "save-mine-as",
         Answer::Overwrite => "overwrite",
-        Answer::Remove => "remove",
+        Answer::Recover => "recover",
     }
 }
 
@@ -72,7 +93,9 @@ fn unsaved(ui: &mut Ui, session: &Session, then: &Then, tabs: &[Tab], out: &mut 
     ui.heading(format!("Save the changes to {}?", session.project().name));
     let what = match then {
         Then::Open(_) | Then::OpenProject { .. } => "when another project is opened",
+        Then::Keep(_) => "when the new one takes their place",
         Then::New => "when a new shader is begun",
+        Then::Recover(_) => "when the recovered work takes their place",
         Then::Close => "when the window closes",
     };
     let list: Vec<String> = tabs.iter().map(Tab::title).collect();
@@ -100,11 +123,60 @@ fn conflict(ui: &mut Ui, tab: Option<&Tab>, file: &Path, diff: &[DiffLine], room
         "Another program wrote the file while there are unsaved edits here. Whichever you take, the other text \
     is kept in a file beside it.",
     );
-    ui.colored_label(theme::WEAK, file.display().to_string());
+    ui.colored_label(theme::of(ui).weak, file.display().to_string());
     ui.add_space(8.0);
+    both(ui, "Here, unsaved", "On disk", diff, room);
+    answers(ui, &[("Keep mine", Answer::KeepMine), ("Take the one on disk", Answer::TakeDisk)], out);
+}
+
+fn recover(ui: &mut Ui, recovered: &Recovered, room: f32, out: &mut Outbox) {
+    let Recovered { file, name, origin, written, tabs, is_structure_changed, trouble } = recovered;
+    ui.heading(format!("Recover unsaved changes to {name}?"));
+    ui.label(format!("Eddy ended before they were saved. The last change was made on {written}."));
+    let (place, there) = match origin {
+        Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => {
+            (path.display().to_string(), "On disk")
+        }
+        Origin::Preset(name) => (format!("a copy of the preset {name}"), "The preset"),
+        Origin::Unsaved => ("never saved so far".into(), "A new shader"),
+    };
+    ui.colored_label(theme::of(ui).weak, place);
+    if let Some(why) = trouble {
+        ui.colored_label(theme::of(ui).warning, why);
+    }
+    ui.add_space(8.0);
+    // Which tab's difference is shown.
+    let id = Id::unique(("recovered tab", file));
+    let mut shown = ui.data_mut(|d| *d.get_temp_mut_or_default::<usize>(id)).min(tabs.len().saturating_sub(1));
+    if tabs.len() > 1 {
+        ui.horizontal_wrapped(|ui| {
+            for (i, tab) in tabs.iter().enumerate() {
+                let choice = ui.add(egui::Button::new(tab.tab.title()).selected(i == shown));
+                if out.clicked(&format!("recovered:{}", tab.tab.title()), &choice) {
+                    shown = i;
+                }
+            }
+        });
+        ui.data_mut(|d| d.insert_temp(id, shown));
+    }
+    if let Some(tab) = tabs.get(shown) {
+        ui.push_id((file, shown), |ui| both(ui, "Recovered", there, &tab.diff, room));
+    }
+    if *is_structure_changed {
+        ui.label("Passes, channels, sliders or the name were changed too.");
+    }
+    let list = [("Recover", Answer::Recover), ("Discard", Answer::Discard), ("Ask again later", Answer::Cancel)];
+    answers(ui, &list, out);
+    if out.commands.contains(&Command::Answer(Answer::Recover)) {
+        out.wishes.push(Wish::ShowRecovered);
+    }
+}
+
+/// Two texts side by side below what they are.
+fn both(ui: &mut Ui, left: &str, right: &str, diff: &[DiffLine], room: f32) {
     let half = (ui.available_width() - 8.0) / 2.0;
     ui.horizontal(|ui| {
-        for (text, tint) in [("Here, unsaved", theme::GOOD), ("On disk", theme::WARNING)] {
+        for (text, tint) in [(left, theme::of(ui).good), (right, theme::of(ui).warning)] {
             let layout = egui::Layout::left_to_right(egui::Align::Center);
             ui.allocate_ui_with_layout(vec2(half, 18.0), layout, |ui| {
                 ui.set_width(half);
@@ -112,8 +184,7 @@ fn conflict(ui: &mut Ui, tab: Option<&Tab>, file: &Path, diff: &[DiffLine], room
             });
         }
     });
-    Frame::NONE.fill(theme::BACKGROUND).corner_radius(4.0).show(ui, |ui| side_by_side(ui, &pair(diff), room));
-    answers(ui, &[("Keep mine", Answer::KeepMine), ("Take the one on disk", Answer::TakeDisk)], out);
+    Frame::NONE.fill(theme::of(ui).background).corner_radius(4.0).show(ui, |ui| side_by_side(ui, &pair(diff), room));
 }
 
 /// A row of two texts side by side: mine, and the disk's. Where one has no line, the other stands alone.
@@ -159,7 +230,7 @@ fn side_by_side(ui: &mut Ui, rows: &[(Row<'_>, bool)], room: f32) {
         for ((here, disk), differs) in &rows[range] {
             let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
             let (left, right) = rect.split_left_right_at_fraction(0.5);
-            for (side, text, tint) in [(left, here, theme::GOOD), (right, disk, theme::WARNING)] {
+            for (side, text, tint) in [(left, here, theme::of(ui).good), (right, disk, theme::of(ui).warning)] {
                 half_row(ui, side.shrink2(vec2(2.0, 0.0)), *text, differs.then_some(tint));
             }
         }
@@ -171,7 +242,7 @@ fn half_row(ui: &Ui, rect: Rect, text: Option<&str>, tint: Option<Color32>) {
         ui.painter().rect_filled(rect, 0.0, tint.gamma_multiply(0.16));
     }
     if let Some(text) = text {
-        let color = tint.unwrap_or(theme::WEAK);
+        let color = tint.unwrap_or(theme::of(ui).weak);
         let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
         let at = pos2(rect.left() + 6.0, rect.center().y);
         painter.text(at, egui::Align2::LEFT_CENTER, text, FontId::monospace(11.5), color);

@@ -37,7 +37,10 @@ pub fn save_unsaved(session: &Session) -> String {
     }
     let project = session.project();
     match save(project, places(project)) {
-        Ok(folder) => format!(". Your unsaved work is in {}", folder.display()),
+        Ok(folder) => {
+            session.forget_unsaved();
+            format!(". Your unsaved work is in {}", folder.display())
+        }
         Err(reason) => format!(". Your unsaved work could not be written anywhere: {reason}"),
     }
 }

@@ -40,6 +40,7 @@ fn ends_step(event: &Event) -> bool {
             let is_command = modifiers.contains(Modifiers::COMMAND) || modifiers.alt;
             is_command || matches!(key, Key::Enter | Key::Escape | Key::Tab) || is_function(*key)
         }
+        Event::AccessKitActionRequest(_) => true,
         _ => false,
     }
 }

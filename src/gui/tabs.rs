@@ -1,37 +1,47 @@
 //! The row of tabs over the editor.
 
 use super::{
+    accessible,
+    actions::Action,
     outbox::{Outbox, Wish},
-    theme,
+    passes, theme,
 };
 use crate::{
     diag::Severity,
-    project::{PassId, Tab},
+    project::{PassEdit, PassId, Tab},
     session::{Command, Session},
 };
-use egui::{Align2, Color32, FontId, Id, Rect, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
+use egui::{Align2, FontId, Id, Rect, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
 
 const HEIGHT: f32 = 32.0;
+/// Width of the button behind the tabs.
+const ADD: f32 = 36.0;
 
-/// Shows the tabs; `current` has the accent.
-pub fn show(ui: &mut Ui, session: &Session, current: &Tab, out: &mut Outbox) {
+/// Shows the tabs; `current` has the accent. True: a hand drags what is beside them.
+pub fn show(ui: &mut Ui, session: &Session, current: &Tab, out: &mut Outbox) -> bool {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::hover());
-    ui.painter().rect_filled(rect, 0.0, theme::PANEL);
-    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, Stroke::new(1.0, theme::LINE));
+    // Below the tabs, which come after it. That it takes clicks too keeps a click from moving anything.
+    let handle = ui.interact(rect, ui.scope_id().with("tab row"), Sense::CLICK | Sense::DRAG);
+    ui.painter().rect_filled(rect, 0.0, theme::of(ui).panel);
+    ui.painter().hline(rect.x_range(), rect.bottom() - 0.5, Stroke::new(1.0, theme::of(ui).line));
     let mut row =
         ui.new_child(egui::UiBuilder::new().max_rect(rect).layout(egui::Layout::left_to_right(egui::Align::Center)));
+    out.stop("tabs", &row);
+    row.spacing_mut().item_spacing.x = 4.0;
+    // Beside them, however many there are, is the way to one more.
     ScrollArea::horizontal()
         .id_salt("tabs")
-        .auto_shrink(false)
+        .max_width((row.available_width() - ADD).max(0.0))
+        .auto_shrink([true, false])
         .scroll_bar_visibility(egui::scroll_area::ScrollBarVisibility::AlwaysHidden)
         .show(&mut row, |ui| {
             ui.spacing_mut().item_spacing.x = 0.0;
             for tab in session.tabs() {
                 show_tab(ui, session, &tab, tab == *current, out);
             }
-            ui.add_space(4.0);
-            add_menu(ui, session, out);
         });
+    add_menu(&mut row, session, out);
+    handle.drag_started()
 }
 
 fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &mut Outbox) {
@@ -45,15 +55,16 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &m
         }
     }
     let dirty = session.is_tab_dirty(tab);
-    let color = if is_current { theme::STRONG } else { theme::WEAK };
+    let color = if is_current { theme::of(ui).strong } else { theme::of(ui).weak };
     let title = ui.painter().layout_no_wrap(tab.title(), FontId::proportional(13.0), color);
     let badge = match (errors, warnings) {
         (0, 0) => None,
-        (0, n) => Some((n, theme::WARNING)),
-        (n, _) => Some((n, theme::ERROR)),
+        (0, n) => Some((n, theme::of(ui).warning)),
+        (n, _) => Some((n, theme::of(ui).error)),
     };
     let extra = if badge.is_some() { 24.0 } else { 0.0 } + if dirty { 12.0 } else { 0.0 };
     let (rect, response) = ui.allocate_exact_size(vec2(title.size().x + 24.0 + extra, HEIGHT), Sense::click());
+    accessible::choice(&response, egui::Role::Tab, is_current, tab.title());
     if is_current {
         // In sight when it comes to the front and when it grows; else people scroll where they like.
         let id = Id::unique("current tab");
@@ -62,17 +73,17 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &m
             ui.data_mut(|d| d.insert_temp(id, now));
             response.scroll_to_me(None);
         }
-        ui.painter().rect_filled(rect, 0.0, theme::BACKGROUND);
-        ui.painter().hline(rect.x_range(), rect.top() + 1.0, Stroke::new(2.0, theme::ACCENT));
+        ui.painter().rect_filled(rect, 0.0, theme::of(ui).background);
+        ui.painter().hline(rect.x_range(), rect.top() + 1.0, Stroke::new(2.0, theme::of(ui).accent));
     } else if response.hovered() {
-        ui.painter().rect_filled(rect, 0.0, theme::RAISED);
+        ui.painter().rect_filled(rect, 0.0, theme::of(ui).raised);
     }
     let mut x = rect.left() + 12.0;
     let width = title.size().x;
     ui.painter().galley(pos2(x, rect.center().y - title.size().y / 2.0), title, color);
     x += width;
     if dirty {
-        ui.painter().circle_filled(pos2(x + 9.0, rect.center().y), 3.0, theme::ACCENT);
+        ui.painter().circle_filled(pos2(x + 9.0, rect.center().y), 3.0, theme::of(ui).accent);
         x += 12.0;
     }
     if let Some((count, fill)) = badge {
@@ -84,7 +95,7 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &m
             Align2::CENTER_CENTER,
             text,
             FontId::proportional(10.5),
-            Color32::from_gray(20),
+            theme::of(ui).background,
         );
     }
     if out.clicked(&format!("tab:{}", tab.title()), &response) {
@@ -96,9 +107,14 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &m
         {
             out.ask(Command::ShowPass(id.clone()));
         }
+        if let Some(id) = tab.pass()
+            && ui.button("Name, size, format, steps…").clicked()
+        {
+            out.wishes.push(Wish::ChoosePass(Tab::Pass(id.clone())));
+        }
         let can_go = *tab != Tab::Pass(PassId::Image);
         if ui.add_enabled(can_go, egui::Button::new(format!("Remove {}", tab.title()))).clicked() {
-            out.ask(Command::RemoveTab(tab.clone()));
+            out.ask(Command::EditPasses(PassEdit::Remove(tab.clone())));
         }
     });
     let time = session.pass_times().iter().find(|t| *tab == Tab::Pass(t.pass.clone()));
@@ -106,60 +122,30 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &m
     response.on_hover_ui(|ui| {
         ui.label(tab.title());
         if let Some(path) = file {
-            ui.colored_label(theme::WEAK, path.display().to_string());
+            ui.colored_label(theme::of(ui).weak, path.display().to_string());
         }
         if let Some(time) = time {
             ui.label(format!("{:.3} ms on the graphics device", time.gpu_millis));
         }
         if dirty {
-            ui.colored_label(theme::ACCENT, "Not saved yet");
+            ui.colored_label(theme::of(ui).accent, "Not saved yet");
         }
         if *tab != Tab::Pass(PassId::Image) {
-            ui.colored_label(theme::WEAK, "Right click: show, remove");
+            ui.colored_label(theme::of(ui).weak, "Right click: show, remove");
         }
     });
 }
 
 fn add_menu(ui: &mut Ui, session: &Session, out: &mut Outbox) {
-    let tabs = session.tabs();
-    let menu = ui.menu_button("+", |ui| {
-        let add = |ui: &mut Ui, tab: Tab, out: &mut Outbox| {
-            if ui.button(tab.title()).clicked() {
-                out.ask(Command::AddTab(tab.clone()));
-                out.wishes.push(Wish::GoTo(tab, None));
-                ui.close();
-            }
-        };
-        if !tabs.contains(&Tab::Common) {
-            add(ui, Tab::Common, out);
-        }
-        for tab in free_buffers(&tabs) {
-            add(ui, tab, out);
+    let menu = passes::adding(ui, "+", |ui| {
+        passes::add_menu(ui, session, out);
+        ui.separator();
+        let all = ui.button("All passes…");
+        if out.clicked("add:passes", &all) {
+            out.act(Action::Passes);
+            ui.close();
         }
     });
-    out.place("button:add-tab", menu.response.rect);
-    menu.response.on_hover_text("Add Common or a buffer");
-}
-
-/// The site's four buffers that are not there yet; when all are, the next letter.
-fn free_buffers(tabs: &[Tab]) -> Vec<Tab> {
-    let tab = |c: char| Tab::Pass(PassId::Buffer(c.to_string()));
-    let free = |c: &char| !tabs.contains(&tab(*c));
-    let mut list: Vec<char> = ('A'..='D').filter(free).collect();
-    if list.is_empty() {
-        list.extend(('E'..='Z').find(free));
-    }
-    list.into_iter().map(tab).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_fifth_buffer_is_offered_when_four_are_there() {
-        let buffer = |name: &str| Tab::Pass(PassId::Buffer(name.into()));
-        assert_eq!(free_buffers(&[buffer("B")]), [buffer("A"), buffer("C"), buffer("D")]);
-        assert_eq!(free_buffers(&["A", "B", "C", "D", "E"].map(buffer)), [buffer("F")]);
-    }
+    out.place("button:add-tab", menu.rect);
+    menu.on_hover_text("Add Common or a buffer");
 }

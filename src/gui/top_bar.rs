@@ -1,81 +1,174 @@
-//! The bar at the top: gallery, new, open, save, the project's name, help.
+//! The bar at the top: gallery, new, open, save, the project's name, what is shown of the window, help.
 
 use super::{
+    actions::Action,
+    dock::Panel,
     icons::{self, Icon},
     outbox::{Outbox, Pick, Wish},
-    shortcuts::{self, Action},
+    settings::{Change, Settings, Theme},
     theme,
 };
-use crate::{
-    project::Origin,
-    session::{Command, Session},
+use crate::{project::Origin, session::Session};
+use egui::{
+    Align, Align2, Button, FontId, Layout, PopupCloseBehavior, Sense, Ui,
+    containers::menu::{MenuButton, MenuConfig},
 };
-use egui::{Align, Align2, Button, FontId, Layout, Sense, Ui};
+use std::collections::BTreeSet;
 
-pub fn show(ui: &mut Ui, session: &Session, gallery: bool, lab: bool, out: &mut Outbox) {
+/// What the bar shows of the window's state.
+pub struct State<'a> {
+    pub is_gallery: bool,
+    pub open: &'a BTreeSet<Panel>,
+    pub settings: &'a Settings,
+}
+
+/// Where there is less room, what can be done elsewhere is left out.
+const ROOMY: f32 = 640.0;
+
+pub fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut Outbox) {
+    out.stop("top", ui);
     ui.spacing_mut().item_spacing.x = 4.0;
+    let width = ui.available_width();
     ui.horizontal_centered(|ui| {
         let item =
             |ui: &mut Ui, name: &str, label: &str, tip: &str, action: Action, selected: bool, out: &mut Outbox| {
                 let response = ui.add(Button::new(label).selected(selected));
-                let response = response.on_hover_text(format!("{tip} ({})", shortcuts::hint(action)));
+                let response = response.on_hover_text(out.keys.tip(tip, action));
                 if out.clicked(name, &response) {
                     out.act(action);
                 }
             };
-        item(ui, "button:gallery", "Gallery", "Presets to start from", Action::Gallery, gallery, out);
+        item(ui, "button:gallery", "Gallery", "Presets to start from", Action::Gallery, state.is_gallery, out);
         item(ui, "button:new", "New", "A shader of one Image pass", Action::New, false, out);
         let menu = ui.menu_button("Open", |ui| {
             if ui.button("Folder…").on_hover_text("A folder with eddy.toml or with .glsl files").clicked() {
                 out.wishes.push(Wish::Pick(Pick::OpenFolder));
                 ui.close();
             }
-            let file = Button::new("File…").shortcut_text(shortcuts::hint(Action::Open));
+            let file = Button::new("File…").shortcut_text(out.keys.hint(Action::Open));
             if ui.add(file).on_hover_text("One .glsl file, or a Shadertoy .json").clicked() {
                 out.act(Action::Open);
                 ui.close();
             }
         });
         out.place("button:open", menu.response.rect);
-        if !gallery {
+        if !state.is_gallery {
             item(ui, "button:save", "Save", "Write the project to its files", Action::Save, false, out);
-            item(ui, "button:save-as", "Save as", "Write the project into another folder", Action::SaveAs, false, out);
+            if width > ROOMY {
+                let tip = "Write the project into another folder";
+                item(ui, "button:save-as", "Save as", tip, Action::SaveAs, false, out);
+            }
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             item(ui, "button:help", "?", "Keys", Action::Help, false, out);
-            // Where there is room beside the rest.
-            if ui.available_width() > 90.0 {
-                item(
-                    ui,
-                    "button:lab",
-                    "Lab",
-                    "Measure methods: speed against error",
-                    Action::Lab,
-                    lab && !gallery,
-                    out,
-                );
-            }
-            if !gallery {
+            if !state.is_gallery {
                 let full = icons::button(ui, Icon::Expand, "Full screen")
-                    .on_hover_text(format!("Picture alone, full screen ({})", shortcuts::hint(Action::Fullscreen)));
+                    .on_hover_text(out.keys.tip("Picture alone, full screen", Action::Fullscreen));
                 if out.clicked("button:fullscreen", &full) {
                     out.act(Action::Fullscreen);
                 }
-                let compile = ui.button("Compile").on_hover_text(format!(
-                    "Compile at once ({}); it happens by itself a moment after the last key",
-                    shortcuts::hint(Action::Compile)
-                ));
-                if out.clicked("button:compile", &compile) {
-                    out.ask(Command::CompileNow);
+                let present = icons::button(ui, Icon::Present, "Present")
+                    .on_hover_text(out.keys.tip("Code over a picture that fills the window", Action::Present));
+                if out.clicked("button:present", &present) {
+                    out.act(Action::Present);
                 }
+            }
+            view_menu(ui, state, out);
+            if width > ROOMY {
+                let is_on = state.open.contains(&Panel::Lab) && !state.is_gallery;
+                item(ui, "button:lab", "Lab", "Measure methods: speed against error", Action::Lab, is_on, out);
+            }
+            if !state.is_gallery {
                 name(ui, session);
             }
         });
     });
 }
 
+/// What of the window is shown, and how.
+fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut Outbox) {
+    // Several things are changed one after the other.
+    let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    let (button, _) = MenuButton::new("View").config(config).ui(ui, |ui| {
+        ui.set_min_width(230.0);
+        for panel in Panel::ALL {
+            let action = match panel {
+                Panel::Lab => Action::Lab,
+                Panel::Costs => Action::Costs,
+                panel => Action::Panel(panel),
+            };
+            let is_open = state.open.contains(&panel) && !state.is_gallery;
+            let entry = ui.add(Button::selectable(is_open, panel.title()).shortcut_text(out.keys.hint(action)));
+            if out.clicked(&format!("view:{}", panel.name()), &entry) {
+                out.act(action);
+                ui.close();
+            }
+        }
+        let mut item = |ui: &mut Ui, name: &str, label: &str, action: Action| {
+            let entry = ui.add(Button::new(label).shortcut_text(out.keys.hint(action)));
+            if out.clicked(name, &entry) {
+                out.act(action);
+                ui.close();
+            }
+        };
+        item(ui, "view:usual", "All in their usual places", Action::UsualLayout);
+        ui.separator();
+        item(ui, "view:present", "Code over the picture", Action::Present);
+        item(ui, "view:full-screen", "Picture alone, full screen", Action::Fullscreen);
+        ui.separator();
+        ui.horizontal(|ui| {
+            ui.label("Theme");
+            for theme in Theme::ALL {
+                let title = match theme {
+                    Theme::System => "System",
+                    Theme::Dark => "Dark",
+                    Theme::Light => "Light",
+                };
+                let choice = ui.add(Button::selectable(state.settings.theme == theme, title));
+                let choice = choice.on_hover_text(match theme {
+                    Theme::System => "What the system prefers",
+                    Theme::Dark => "Always dark",
+                    Theme::Light => "Always light",
+                });
+                if out.clicked(&format!("theme:{}", theme.name()), &choice) {
+                    out.wishes.push(Wish::Set(Change::Theme(theme)));
+                }
+            }
+        });
+        ui.horizontal(|ui| {
+            ui.label("Zoom");
+            let percent = format!("{:.0} %", state.settings.zoom * 100.0);
+            for (name, label, action) in [
+                ("zoom:out", "−", Action::ZoomOut),
+                ("zoom:usual", percent.as_str(), Action::ZoomReset),
+                ("zoom:in", "+", Action::ZoomIn),
+            ] {
+                let button = ui.button(label).on_hover_text(out.keys.tip(action.title(), action));
+                if out.clicked(name, &button) {
+                    out.act(action);
+                }
+            }
+        });
+        ui.separator();
+        let wraps = Button::selectable(state.settings.word_wrap, "Wrap long lines of code");
+        let wraps = ui.add(wraps.shortcut_text(out.keys.hint(Action::WordWrap)));
+        if out.clicked("view:word-wrap", &wraps) {
+            out.act(Action::WordWrap);
+            ui.close();
+        }
+        let file = ui.button("The file of settings");
+        if out.clicked("view:settings", &file) {
+            out.act(Action::SettingsFile);
+            ui.close();
+        }
+    });
+    out.place("button:view", button.rect);
+    button.on_hover_text("What is shown, and how");
+}
+
 /// The project's name in what room is left, with a dot while it is not saved.
 fn name(ui: &mut Ui, session: &Session) {
+    let p = theme::of(ui);
     let project = session.project();
     let (rect, response) = ui.allocate_exact_size(egui::vec2(ui.available_width(), 24.0), Sense::hover());
     let kind = match &project.origin {
@@ -85,29 +178,31 @@ fn name(ui: &mut Ui, session: &Session) {
     };
     let mut job = egui::text::LayoutJob::default();
     let format = |size, color| egui::TextFormat::simple(FontId::proportional(size), color);
-    job.append(&project.name, 0.0, format(13.5, theme::STRONG));
-    job.append(kind, 0.0, format(12.0, theme::WEAK));
-    job.wrap = egui::text::TextWrapping::truncate_at_width(rect.width() - 36.0);
+    job.append(&project.name, 0.0, format(13.5, p.strong));
+    job.append(kind, 0.0, format(12.0, p.weak));
+    job.wrap = egui::text::TextWrapping::truncate_at_width((rect.width() - 36.0).max(0.0));
     let galley = ui.painter().layout_job(job);
-    let at = Align2::CENTER_CENTER.align_size_within_rect(galley.size(), rect);
-    ui.painter().galley(at.min, galley, theme::TEXT);
-    if session.is_dirty() {
-        ui.painter().circle_filled(at.left_center() - egui::vec2(9.0, 0.0), 3.5, theme::ACCENT);
+    if rect.width() > 60.0 {
+        let at = Align2::CENTER_CENTER.align_size_within_rect(galley.size(), rect);
+        ui.painter().galley(at.min, galley, p.text);
+        if session.is_dirty() {
+            ui.painter().circle_filled(at.left_center() - egui::vec2(9.0, 0.0), 3.5, p.accent);
+        }
     }
     let info = &project.info;
     response.on_hover_ui(|ui| {
         ui.label(&project.name);
         match &project.origin {
             Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => {
-                ui.colored_label(theme::WEAK, path.display().to_string());
+                ui.colored_label(p.weak, path.display().to_string());
             }
             Origin::Preset(_) => {
-                drop(ui.colored_label(theme::WEAK, "Saving asks for a folder; the preset itself stays as it is."))
+                drop(ui.colored_label(p.weak, "Saving asks for a folder; the preset itself stays as it is."))
             }
-            Origin::Unsaved => drop(ui.colored_label(theme::WEAK, "Saving asks for a folder.")),
+            Origin::Unsaved => drop(ui.colored_label(p.weak, "Saving asks for a folder.")),
         }
         if !info.author.is_empty() {
-            ui.colored_label(theme::WEAK, format!("by {}", info.author));
+            ui.colored_label(p.weak, format!("by {}", info.author));
         }
         if !info.description.is_empty() {
             ui.set_max_width(360.0);

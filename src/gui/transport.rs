@@ -1,10 +1,11 @@
 //! The bar under the picture: time, speed, size, which pass is shown.
 
 use super::{
+    accessible,
+    actions::Action,
     geometry::Shape,
     icons::{self, Icon},
     outbox::{Outbox, Wish},
-    shortcuts::{self, Action},
     theme,
 };
 use crate::{
@@ -17,40 +18,70 @@ const SCALES: [(f32, &str); 6] = [(2.0, "2x"), (1.0, "1x"), (0.75, "3/4"), (0.5,
 const SIZES: [(u32, u32); 8] =
     [(256, 144), (640, 360), (800, 450), (1280, 720), (1920, 1080), (3840, 2160), (512, 512), (1024, 1024)];
 
-pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
+/// Height of the bar.
+pub const HEIGHT: f32 = 40.0;
+
+/// Points for the pass that is shown and the menu behind it, and for the size.
+const BEHIND: f32 = 116.0;
+const SIZE: f32 = 108.0;
+
+/// Fills the space there is. True: a hand drags what is free of it.
+pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) -> bool {
+    out.stop("transport", ui);
     let transport = session.transport();
+    // That it takes clicks too keeps a click from moving anything.
+    let handle = ui.interact(ui.max_rect(), ui.scope_id().with("bar"), egui::Sense::CLICK | egui::Sense::DRAG);
     ui.spacing_mut().item_spacing.x = 4.0;
     ui.horizontal_centered(|ui| {
+        let (icon, tip) = if transport.playing { (Icon::Pause, "Pause") } else { (Icon::Play, "Play") };
+        let play = icons::first(ui, icon, tip).on_hover_text(out.keys.tip(tip, Action::TogglePlay));
+        if out.clicked("button:play", &play) {
+            out.act(Action::TogglePlay);
+        }
         let mut button = |ui: &mut Ui, name: &str, icon: Icon, tip: &str, action: Action| {
-            let response = icons::button(ui, icon, tip).on_hover_text(format!("{tip} ({})", shortcuts::hint(action)));
+            let response = icons::button(ui, icon, tip).on_hover_text(out.keys.tip(tip, action));
             if out.clicked(name, &response) {
                 out.act(action);
             }
         };
         button(ui, "button:reset", Icon::Reset, "Reset time and buffers", Action::Reset);
-        let (icon, tip) = if transport.playing { (Icon::Pause, "Pause") } else { (Icon::Play, "Play") };
-        button(ui, "button:play", icon, tip, Action::TogglePlay);
         button(ui, "button:step", Icon::Step, "One frame forward, then pause", Action::Step);
         button(ui, "button:screenshot", Icon::Camera, "Save a picture of the shown pass as PNG", Action::Screenshot);
-        ui.spacing_mut().item_spacing.x = 10.0;
-        let width = ui.available_width();
-        value(ui, 62.0, &format!("{:.2} s", transport.time_secs), "Time (iTime)");
-        if width > 470.0 {
-            value(ui, 56.0, &format!("#{}", transport.frame), "Frame (iFrame)");
+        // What there is no room for is in the menu at the right, or in the table of costs.
+        let roomy = ui.available_width() >= BEHIND + SIZE + 64.0;
+        let gap = 8.0;
+        ui.spacing_mut().item_spacing.x = gap;
+        let mut room = ui.available_width() - if roomy { BEHIND + SIZE } else { BEHIND };
+        let mut fits = |width: f32| {
+            let fits = room >= width + gap;
+            room -= if fits { width + gap } else { 0.0 };
+            fits
+        };
+        let (shows_time, shows_cost) = (fits(56.0), fits(60.0));
+        let (shows_fps, shows_frame) = (fits(58.0), fits(52.0));
+        if shows_time {
+            value(ui, 56.0, &format!("{:.2} s", transport.time_secs), "Time (iTime)");
         }
-        if width > 330.0 {
-            value(ui, 58.0, &format!("{:.1} fps", transport.fps), "Frames a second, over the last half second");
+        if shows_frame {
+            value(ui, 52.0, &format!("#{}", transport.frame), "Frame (iFrame)");
         }
-        if width > 400.0 {
+        if shows_fps {
+            let text = transport.fps.map_or_else(|| "– fps".to_owned(), |fps| format!("{fps:.1} fps"));
+            value(ui, 58.0, &text, "Frames a second, over the last half second");
+        }
+        if shows_cost {
             cost(ui, session, out);
         }
         ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
             options(ui, session, out);
             shown_pass(ui, session, out);
-            size(ui, session, shape, out);
+            if roomy {
+                size(ui, session, shape, out);
+            }
         });
     });
+    handle.drag_started()
 }
 
 /// A number that keeps its place while it changes.
@@ -58,33 +89,39 @@ fn value(ui: &mut Ui, width: f32, text: &str, tip: &str) {
     let (rect, response) = ui.allocate_exact_size(vec2(width, 24.0), egui::Sense::hover());
     let font = egui::FontId::monospace(12.0);
     let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
-    painter.text(rect.right_center(), egui::Align2::RIGHT_CENTER, text, font, theme::TEXT);
+    painter.text(rect.right_center(), egui::Align2::RIGHT_CENTER, text, font, theme::of(ui).text);
     response.on_hover_text(tip);
 }
 
 /// Milliseconds a frame; on hover, where they go.
 fn cost(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     let transport = session.transport();
-    let (text, of) = match transport.gpu_millis {
-        Some(millis) => (format!("{millis:.2} ms"), "graphics device"),
-        None => (format!("{:.2} ms", transport.cpu_micros / 1000.0), "processor"),
+    let (text, of) = match (transport.gpu_millis, transport.cpu_micros) {
+        (Some(millis), _) => (format!("{millis:.2} ms"), "graphics device"),
+        (None, Some(micros)) => (format!("{:.2} ms", micros / 1000.0), "processor"),
+        (None, None) => ("– ms".to_owned(), "graphics device"),
     };
-    let (rect, response) = ui.allocate_exact_size(vec2(70.0, 24.0), egui::Sense::click());
+    let (rect, response) = ui.allocate_exact_size(vec2(60.0, 24.0), egui::Sense::click());
+    accessible::name(&response, egui::Role::Button, "What each pass costs");
     if out.clicked("button:costs", &response) {
         out.act(Action::Costs);
     }
     if response.hovered() {
-        ui.painter().rect_filled(rect.expand2(vec2(4.0, 0.0)), 4.0, theme::BUTTON);
+        ui.painter().rect_filled(rect.expand2(vec2(4.0, 0.0)), 4.0, theme::of(ui).button);
     }
     ui.painter().text(
         rect.right_center(),
         egui::Align2::RIGHT_CENTER,
         text,
         egui::FontId::monospace(12.0),
-        theme::TEXT,
+        theme::of(ui).text,
     );
     response.on_hover_ui(|ui| {
         ui.label(format!("A frame's time on the {of}"));
+        if !transport.playing {
+            ui.colored_label(theme::of(ui).weak, "Paused: no frames are drawn.");
+            return;
+        }
         egui::Grid::new("costs").num_columns(2).spacing([24.0, 3.0]).show(ui, |ui| {
             for time in session.pass_times() {
                 ui.label(time.pass.title());
@@ -92,16 +129,13 @@ fn cost(ui: &mut Ui, session: &Session, out: &mut Outbox) {
                 ui.end_row();
             }
             ui.label("Processor, the engine's part");
-            ui.monospace(format!("{:.0} µs", transport.cpu_micros));
+            ui.monospace(format!("{:.0} µs", transport.cpu_micros.unwrap_or_default()));
             ui.end_row();
         });
         if session.pass_times().is_empty() {
-            ui.colored_label(theme::WEAK, "This device does not say what each pass takes.");
+            ui.colored_label(theme::of(ui).weak, "This device does not say what each pass takes.");
         }
-        ui.colored_label(
-            theme::WEAK,
-            format!("Click for a table with sizes and bytes ({})", shortcuts::hint(Action::Costs)),
-        );
+        ui.colored_label(theme::of(ui).weak, out.keys.tip("Click for a table with sizes and bytes", Action::Costs));
     });
 }
 
@@ -121,7 +155,7 @@ fn size(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
                 }
             }
             ui.separator();
-            ui.colored_label(theme::WEAK, "As large as the view, times");
+            ui.colored_label(theme::of(ui).weak, "As large as the view, times");
             for (scale, name) in SCALES {
                 let on = transport.fixed_size.is_none() && (transport.scale - scale).abs() < 1e-3;
                 if ui.selectable_label(on, name).clicked() {
@@ -130,7 +164,7 @@ fn size(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
                 }
             }
             ui.separator();
-            ui.colored_label(theme::WEAK, "Always");
+            ui.colored_label(theme::of(ui).weak, "Always");
             for size in SIZES {
                 if ui.selectable_label(transport.fixed_size == Some(size), format!("{} × {}", size.0, size.1)).clicked()
                 {
@@ -176,14 +210,8 @@ fn options(ui: &mut Ui, session: &Session, out: &mut Outbox) {
             out.ask(Command::SetResetOnReload(reset));
         }
         ui.separator();
-        for (label, action) in [
-            ("Save a picture (PNG)", Action::Screenshot),
-            ("Save float texels (.npy)", Action::SaveTexels),
-            ("Picture alone, full screen", Action::Fullscreen),
-            ("What each pass costs", Action::Costs),
-            ("Compile now", Action::Compile),
-        ] {
-            let item = Button::new(label).shortcut_text(shortcuts::hint(action));
+        for action in [Action::Screenshot, Action::SaveTexels, Action::Fullscreen, Action::Costs, Action::Compile] {
+            let item = Button::new(action.title()).shortcut_text(out.keys.hint(action));
             if ui.add(item).clicked() {
                 out.act(action);
                 ui.close();

@@ -1,6 +1,7 @@
 //! The list of all uses of a name, below the code.
 
 use super::{
+    accessible,
     icons::{self, Icon},
     outbox::Outbox,
     theme,
@@ -52,15 +53,16 @@ impl Uses {
 
     /// `limit`: how high the list may be.
     pub fn show(&mut self, ui: &mut Ui, session: &Session, limit: f32, out: &mut Outbox) -> Shown {
+        out.stop("uses", ui);
         let mut shown = Shown::default();
         let top = ui.max_rect().top() + 0.5;
-        ui.painter().hline(ui.max_rect().x_range(), top, Stroke::new(1.0, theme::LINE));
+        ui.painter().hline(ui.max_rect().x_range(), top, Stroke::new(1.0, theme::of(ui).line));
         ui.add_space(3.0);
         ui.horizontal(|ui| {
             ui.add_space(12.0);
             let count = self.places.len();
             ui.monospace(&self.name);
-            ui.colored_label(theme::WEAK, if count == 1 { "1 place".into() } else { format!("{count} places") });
+            ui.colored_label(theme::of(ui).weak, if count == 1 { "1 place".into() } else { format!("{count} places") });
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 let close = icons::button(ui, Icon::Close, "Close the list").on_hover_text("Close (Esc)");
                 shown.closed = out.clicked("button:close-uses", &close);
@@ -89,23 +91,27 @@ impl Uses {
     fn row(&self, ui: &mut Ui, index: usize, several: bool, out: &mut Outbox) -> bool {
         let place = &self.places[index];
         let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
+        let name = format!("{} line {}: {}", place.tab.title(), place.line, place.text);
+        accessible::name(&response, egui::Role::Button, name);
         if self.selected == Some(index) || response.hovered() {
-            let fill = if response.hovered() { theme::RAISED } else { theme::ACCENT_FILL.gamma_multiply(0.5) };
+            let fill =
+                if response.hovered() { theme::of(ui).raised } else { theme::of(ui).accent_fill.gamma_multiply(0.5) };
             ui.painter().rect_filled(rect, 0.0, fill);
         }
         let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
         let at = if several { format!("{} {}", place.tab.title(), place.line) } else { format!("line {}", place.line) };
         let font = FontId::proportional(12.0);
-        let end = painter.text(pos2(rect.left() + 14.0, rect.center().y), Align2::LEFT_CENTER, at, font, theme::WEAK);
+        let end =
+            painter.text(pos2(rect.left() + 14.0, rect.center().y), Align2::LEFT_CENTER, at, font, theme::of(ui).weak);
         let mut job = egui::text::LayoutJob::default();
         let format = |color| egui::TextFormat::simple(FontId::monospace(12.0), color);
-        job.append(&place.text[..place.name.start], 0.0, format(theme::TEXT));
-        job.append(&place.text[place.name.clone()], 0.0, format(theme::ACCENT));
-        job.append(&place.text[place.name.end..], 0.0, format(theme::TEXT));
+        job.append(&place.text[..place.name.start], 0.0, format(theme::of(ui).text));
+        job.append(&place.text[place.name.clone()], 0.0, format(theme::of(ui).accent));
+        job.append(&place.text[place.name.end..], 0.0, format(theme::of(ui).text));
         job.break_on_newline = false;
         let galley = painter.layout_job(job);
         let x = end.right().max(rect.left() + 90.0) + 12.0;
-        painter.galley(pos2(x, rect.center().y - galley.size().y / 2.0), galley, theme::TEXT);
+        painter.galley(pos2(x, rect.center().y - galley.size().y / 2.0), galley, theme::of(ui).text);
         let clicked = out.clicked(&format!("use:{index}"), &response);
         response.on_hover_cursor(egui::CursorIcon::PointingHand);
         clicked

@@ -1,7 +1,9 @@
 //! The picture, and the mouse over it.
 
 use super::{
+    accessible,
     geometry::{Area, Letterbox, Shape},
+    halt,
     outbox::Outbox,
     theme,
 };
@@ -15,6 +17,15 @@ use egui_wgpu::Renderer;
 /// Left free round the picture, so that the frame of what has the keyboard covers none of it. Physical pixels.
 const RIM: f32 = 3.0;
 
+/// What is around the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Around {
+    /// Other panels, one of which may have the keyboard.
+    Panels,
+    /// Nothing: the picture fills the window.
+    Nothing,
+}
+
 pub struct Viewport {
     texture: Option<TextureId>,
     /// The generation of the display that the texture shows, and whether it is magnified texel by texel.
@@ -27,6 +38,9 @@ pub struct Viewport {
 }
 
 impl Viewport {
+    /// Points that the picture's frame takes of the height, and a little more where pixels are coarse.
+    pub const RIMS: f32 = 2.0 * RIM + 1.0;
+
     pub fn new() -> Self {
         Self {
             texture: None,
@@ -76,16 +90,19 @@ impl Viewport {
         self.shows = shows;
     }
 
-    /// Fills the space there is. `alone`: nothing is beside it that could have the keyboard.
-    pub fn show(&mut self, ui: &mut Ui, session: &Session, alone: bool, out: &mut Outbox) {
+    /// Fills the space there is.
+    pub fn show(&mut self, ui: &mut Ui, session: &Session, around: Around, out: &mut Outbox) {
+        let alone = around == Around::Nothing;
         let rect = ui.available_rect_before_wrap();
         let scale = ui.pixels_per_point();
         let rim = if alone { 0.0 } else { RIM };
-        ui.painter().rect_filled(rect, 0.0, theme::SURROUND);
+        ui.painter().rect_filled(rect, 0.0, theme::of(ui).surround);
         let min = (rect.min.to_vec2() * scale).round() + vec2(rim, rim);
         let max = (rect.max.to_vec2() * scale).round() - vec2(rim, rim);
         let area = Area { x: min.x, y: min.y, width: (max.x - min.x).max(0.0), height: (max.y - min.y).max(0.0) };
-        let size = self.shape.within(area.width as u32, area.height as u32);
+        // As on the site, which gives full screen all of it.
+        let shape = if alone { Shape::Fill } else { self.shape };
+        let size = shape.within(area.width as u32, area.height as u32);
         if size != self.asked_size && size.0 > 0 && size.1 > 0 {
             self.asked_size = size;
             out.ask(Command::SetViewport { width: size.0, height: size.1 });
@@ -103,6 +120,9 @@ impl Viewport {
         out.place("viewport", picture);
 
         let response = ui.interact(rect, Self::id(), Sense::click_and_drag());
+        accessible::name(&response, egui::Role::Canvas, format!("Picture of {}", session.shown_pass().title()));
+        out.home("picture", ui, Self::id());
+        out.place("picture", rect);
         self.mouse(ui, &response, &letterbox, out);
         if std::mem::take(&mut self.take_focus) {
             response.request_focus();
@@ -111,14 +131,15 @@ impl Viewport {
             let all = EventFilter { tab: true, horizontal_arrows: true, vertical_arrows: true, escape: true };
             ui.memory_mut(|m| m.set_focus_lock_filter(Self::id(), all));
             if !alone {
-                ui.painter().rect_stroke(rect, 0.0, theme::FOCUS, egui::StrokeKind::Inside);
+                ui.painter().rect_stroke(rect, 0.0, theme::of(ui).focus(), egui::StrokeKind::Inside);
             }
         } else if reads_keyboard(session) {
-            pill(ui, rect, Align2::RIGHT_TOP, "Click the picture to give it the keyboard", theme::WEAK);
+            pill(ui, rect, Align2::RIGHT_TOP, "Click the picture to give it the keyboard", theme::DARK.weak);
         }
         if let Some(Outcome::Failed { errors, meanwhile }) = session.compile_state().last {
-            pill(ui, rect, Align2::LEFT_TOP, &trouble(errors, meanwhile), theme::ERROR);
+            pill(ui, rect, Align2::LEFT_TOP, &trouble(errors, meanwhile), theme::DARK.error);
         }
+        halt::show(ui, session, rect, out);
     }
 
     /// Mouse events in their order: a press and a release between two frames are both told of.
@@ -163,7 +184,7 @@ fn reads_keyboard(session: &Session) -> bool {
     session.project().passes.iter().flat_map(|p| p.channels.iter().flatten()).any(|c| c.input == Input::Keyboard)
 }
 
-/// A line of text over a corner of the picture.
+/// A line of text over a corner of the picture, on black in either theme.
 fn pill(ui: &Ui, rect: Rect, corner: Align2, text: &str, color: Color32) {
     let room = (rect.width() / 2.0 - 24.0).max(60.0);
     let mut job = egui::text::LayoutJob::simple_singleline(text.to_owned(), FontId::proportional(12.0), color);

@@ -4,8 +4,8 @@
 //! lines. Knows no window, no keys and no GLSL. Positions are bytes on character boundaries; lines count from 0.
 
 use super::{
-    history::{Change, History, Kind},
-    selection::Selection,
+    history::{Change, Edit, History, Kind},
+    selection::{Carets, Selection},
 };
 use std::ops::Range;
 
@@ -16,20 +16,42 @@ pub struct Unchanged {
     pub tail: usize,
 }
 
+/// A part of the text that another text takes the place of, and the selection that is left there, counted from the
+/// part's beginning.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Replacement {
+    pub range: Range<usize>,
+    pub with: String,
+    pub anchor: usize,
+    pub head: usize,
+}
+
+impl Replacement {
+    /// Leaves the caret behind what is put there.
+    pub fn new(range: Range<usize>, with: impl Into<String>) -> Self {
+        let with = with.into();
+        Self { range, anchor: with.len(), head: with.len(), with }
+    }
+}
+
 /// A text being edited.
 #[derive(Clone, Debug)]
 pub struct Buffer {
     text: String,
     /// Byte at which each line begins; never empty.
     starts: Vec<usize>,
-    pub(super) selection: Selection,
+    carets: Carets,
     history: History,
     /// Counts changes of the text.
     revision: u64,
     /// The ends that are as they were at the last [`Buffer::take_unchanged`]; `None` if nothing has changed.
     unchanged: Option<Unchanged>,
-    /// Column the caret wants to keep while it moves up and down, in characters.
-    pub(super) wanted_column: Option<usize>,
+    /// The lines that have changed since then, where that was one edit of many places that left all lines lines.
+    touched: Vec<usize>,
+    /// Closing brackets that were put there when their opening ones were typed, and can be typed over.
+    pub(super) closers: Vec<usize>,
+    /// The selections were made from a caret: others like them are whole words.
+    pub(super) selects_words: bool,
 }
 
 impl Buffer {
@@ -37,11 +59,13 @@ impl Buffer {
         Self {
             text: text.to_owned(),
             starts: line_starts(text),
-            selection: Selection::default(),
+            carets: Carets::default(),
             history: History::default(),
             revision: 0,
             unchanged: Some(Unchanged { head: 0, tail: 0 }),
-            wanted_column: None,
+            touched: Vec::new(),
+            closers: Vec::new(),
+            selects_words: false,
         }
     }
 
@@ -53,19 +77,31 @@ impl Buffer {
         self.revision
     }
 
+    pub fn carets(&self) -> &Carets {
+        &self.carets
+    }
+
+    /// Returns the main selection.
     pub fn selection(&self) -> Selection {
-        self.selection
+        self.carets.main()
     }
 
+    /// Returns what the main selection holds.
     pub fn selected_text(&self) -> &str {
-        &self.text[self.selection.range()]
+        &self.text[self.selection().range()]
     }
 
-    /// Puts the selection somewhere; both ends are moved to the nearest places that exist.
+    /// Puts one selection somewhere; both ends are moved to the nearest places that exist.
     pub fn select(&mut self, anchor: usize, head: usize) {
-        self.selection = Selection { anchor: self.snap(anchor), head: self.snap(head) };
-        self.wanted_column = None;
+        self.set_carets(Carets::one(Selection::new(anchor, head)));
+    }
+
+    /// Puts selections where they are wanted; ends are moved to the nearest places that exist.
+    pub fn set_carets(&mut self, carets: Carets) {
+        self.carets = carets.map(|s| Selection { anchor: self.snap(s.anchor), head: self.snap(s.head), ..s });
+        self.selects_words = false;
         self.history.seal();
+        self.settle_closers();
     }
 
     /// The nearest position at or before `at` that lies between two characters and not inside a `\r\n`.
@@ -121,32 +157,61 @@ impl Buffer {
         }
     }
 
-    /// Puts `with` in the place of `range` and the caret behind it.
+    /// Puts `with` in the place of `range` and one caret behind it.
     pub fn replace(&mut self, range: Range<usize>, with: &str, kind: Kind) {
-        let caret = range.start + with.len();
-        self.replace_selecting(range, with, Selection::caret(caret), kind);
+        let caret = Selection::caret(range.start + with.len());
+        self.change(vec![(range, with.to_owned())], kind, |_| Carets::one(caret));
     }
 
-    /// Puts `with` in the place of `range`, then selects `after`.
-    pub fn replace_selecting(&mut self, range: Range<usize>, with: &str, after: Selection, kind: Kind) {
-        if range.is_empty() && with.is_empty() {
-            self.selection = after;
-            return;
+    /// Replaces a part of the text for each caret, as one edit. Parts that overlap are cut off where the one before
+    /// ends.
+    pub(super) fn replace_at_carets(&mut self, kind: Kind, part: impl Fn(&Self, Selection) -> Replacement) {
+        let mut parts: Vec<Replacement> = self.carets.list().iter().map(|s| part(self, *s)).collect();
+        let mut end = 0;
+        let mut shift = 0isize;
+        let mut after = Vec::with_capacity(parts.len());
+        for part in &mut parts {
+            part.range = part.range.start.max(end)..part.range.end.max(end);
+            end = part.range.end;
+            let start = part.range.start.saturating_add_signed(shift);
+            shift += part.with.len() as isize - part.range.len() as isize;
+            after.push(Selection::new(start + part.anchor, start + part.head));
         }
-        let change = Change {
-            at: range.start,
-            removed: self.text[range.clone()].to_owned(),
-            inserted: with.to_owned(),
-            before: self.selection,
-            after,
-        };
-        self.apply(range, with);
-        self.selection = after;
-        self.wanted_column = None;
-        self.history.push(change, kind);
+        let after = Carets::new(after, self.carets.main_index());
+        self.change(parts.into_iter().map(|p| (p.range, p.with)).collect(), kind, |_| after);
     }
 
-    /// Makes the text equal to `new` by the smallest single change, so that the caret stays where it was when it can.
+    /// Replaces parts of the text, which are in order and apart, as one edit. `after` is asked for the carets when the
+    /// text is as it will be.
+    pub(super) fn change(
+        &mut self,
+        parts: Vec<(Range<usize>, String)>,
+        kind: Kind,
+        after: impl FnOnce(&Self) -> Carets,
+    ) {
+        let change = |(range, with): (Range<usize>, String)| {
+            let removed = self.text[range.clone()].to_owned();
+            (removed != with).then_some(Change { at: range.start, removed, inserted: with })
+        };
+        let changes: Vec<Change> = parts.into_iter().filter_map(change).collect();
+        self.apply(&changes);
+        self.closers.retain_mut(|at| {
+            let stays = !changes.iter().any(|c| c.range().contains(at));
+            *at = moved(&changes, *at);
+            stays
+        });
+        let before = std::mem::take(&mut self.carets);
+        self.carets = after(self);
+        self.selects_words = false;
+        if changes.is_empty() {
+            self.history.go_on(&self.carets);
+        } else {
+            self.history.push(Edit { changes, before, after: self.carets.clone() }, kind);
+        }
+        self.settle_closers();
+    }
+
+    /// Makes the text equal to `new` by the smallest single change, so that carets stay where they were when they can.
     /// Undo leads back. This is how a text that changed elsewhere arrives.
     pub fn set_text(&mut self, new: &str) {
         if new == self.text {
@@ -174,39 +239,32 @@ impl Buffer {
                 at.min(range.start + with.len())
             }
         };
-        let after = Selection { anchor: moved(self.selection.anchor), head: moved(self.selection.head) };
-        self.replace_selecting(range, with, after, Kind::Other);
-        self.select(after.anchor, after.head);
-    }
-
-    /// Joins every change until [`Buffer::end_group`] into one step of undo.
-    pub fn begin_group(&mut self) {
-        self.history.begin_group();
-    }
-
-    pub fn end_group(&mut self) {
-        self.history.end_group();
+        let after = self.carets.map(|s| s.map(moved));
+        self.change(vec![(range.clone(), with.to_owned())], Kind::Other, |_| after);
+        self.set_carets(self.carets.clone());
     }
 
     /// Takes the last step back. False if there is none.
     pub fn undo(&mut self) -> bool {
         let Some(step) = self.history.undo() else { return false };
-        for change in step.iter().rev() {
-            self.apply(change.at..change.at + change.inserted.len(), &change.removed);
-            self.selection = change.before;
+        for edit in step.into_iter().rev() {
+            self.apply(&edit.inverse());
+            self.carets = edit.before;
         }
-        self.wanted_column = None;
+        self.closers.clear();
+        self.selects_words = false;
         true
     }
 
     /// Does again what undo took back. False if there is nothing.
     pub fn redo(&mut self) -> bool {
         let Some(step) = self.history.redo() else { return false };
-        for change in &step {
-            self.apply(change.at..change.at + change.removed.len(), &change.inserted);
-            self.selection = change.after;
+        for edit in step {
+            self.apply(&edit.changes);
+            self.carets = edit.after;
         }
-        self.wanted_column = None;
+        self.closers.clear();
+        self.selects_words = false;
         true
     }
 
@@ -215,7 +273,65 @@ impl Buffer {
         self.unchanged.take()
     }
 
-    fn apply(&mut self, range: Range<usize>, with: &str) {
+    /// Returns the lines that have changed since [`Buffer::take_unchanged`], in order, if it is known that all others
+    /// between them have not; else none.
+    pub fn take_touched(&mut self) -> Vec<usize> {
+        std::mem::take(&mut self.touched)
+    }
+
+    /// Makes changes, which are in order and apart: one of the whole from the first to the last, so that many cost as
+    /// much as copying what lies between them.
+    fn apply(&mut self, changes: &[Change]) {
+        match changes {
+            [] => {}
+            [one] => self.splice(one.range(), &one.inserted),
+            [first, .., last] => {
+                let whole = first.at..last.range().end;
+                if changes.iter().all(|c| !c.removed.contains('\n') && !c.inserted.contains('\n')) {
+                    return self.change_within_lines(changes);
+                }
+                let mut text = String::with_capacity(whole.len());
+                let mut at = whole.start;
+                for change in changes {
+                    text.push_str(&self.text[at..change.at]);
+                    text.push_str(&change.inserted);
+                    at = change.range().end;
+                }
+                self.splice(whole, &text);
+            }
+        }
+    }
+
+    /// Makes several changes none of which makes or takes a line: lines only move.
+    fn change_within_lines(&mut self, changes: &[Change]) {
+        let mut text = String::with_capacity(self.text.len() + changes.iter().map(|c| c.inserted.len()).sum::<usize>());
+        let mut touched = Vec::with_capacity(changes.len());
+        let (mut at, mut line, mut shift) = (0, 0, 0isize);
+        for change in changes {
+            text.push_str(&self.text[at..change.at]);
+            text.push_str(&change.inserted);
+            at = change.range().end;
+            // Lines that begin behind the changes before, up to this one's.
+            while self.starts.get(line + 1).is_some_and(|start| *start <= change.at) {
+                line += 1;
+                self.starts[line] = self.starts[line].saturating_add_signed(shift);
+            }
+            shift += change.inserted.len() as isize - change.removed.len() as isize;
+            if touched.last() != Some(&line) {
+                touched.push(line);
+            }
+        }
+        text.push_str(&self.text[at..]);
+        for start in &mut self.starts[line + 1..] {
+            *start = start.saturating_add_signed(shift);
+        }
+        let (head, tail) = (changes[0].at, self.text.len() - at);
+        self.text = text;
+        self.touched = if self.unchanged.is_none() { touched } else { Vec::new() };
+        self.changed_but(head, tail);
+    }
+
+    fn splice(&mut self, range: Range<usize>, with: &str) {
         let first = self.line_of(range.start);
         let last = self.line_of(range.end);
         self.text.replace_range(range.clone(), with);
@@ -224,11 +340,26 @@ impl Buffer {
         }
         let added = with.bytes().enumerate().filter(|(_, b)| *b == b'\n').map(|(i, _)| range.start + i + 1);
         self.starts.splice(first + 1..=last, added);
+        self.touched.clear();
+        self.changed_but(range.start, self.text.len() - range.start - with.len());
+    }
+
+    /// Notes that all but so much at the ends has changed.
+    fn changed_but(&mut self, head: usize, tail: usize) {
         self.revision += 1;
-        let (head, tail) = (range.start, self.text.len() - range.start - with.len());
         let before = self.unchanged.unwrap_or(Unchanged { head, tail });
         self.unchanged = Some(Unchanged { head: head.min(before.head), tail: tail.min(before.tail) });
     }
+}
+
+/// Returns where a place of the text before some changes is after them. What was inserted at it goes before it; a place
+/// in what was removed goes to the end of what was put there.
+pub(super) fn moved(changes: &[Change], at: usize) -> usize {
+    let behind = changes.partition_point(|c| c.at <= at);
+    let shift: isize = changes[..behind].iter().map(|c| c.inserted.len() as isize - c.removed.len() as isize).sum();
+    // Only the last of them can reach over the place.
+    let over = changes[..behind].last().map_or(0, |c| c.range().end.saturating_sub(at));
+    (at + over).saturating_add_signed(shift)
 }
 
 fn line_starts(text: &str) -> Vec<usize> {

@@ -2,17 +2,22 @@
 //!
 //! `cargo test --lib editor::cost -- --ignored --nocapture`
 
-use super::{look::Look, view::CodeEditor};
+use super::{
+    EditorAction, Motion,
+    look::Look,
+    selection::{Carets, Selection},
+    view::CodeEditor,
+};
 use egui::{Event, Id, RawInput, Rect, pos2, vec2};
 use std::time::Instant;
 
-fn frame(ctx: &egui::Context, editor: &mut CodeEditor, events: Vec<Event>) -> f64 {
-    let look = Look { font_size: 13.0, marks: &[], matches: &[], shared: "", help: None };
+fn frame(ctx: &egui::Context, editor: &mut CodeEditor, wraps: bool, events: Vec<Event>) -> f64 {
+    let look = Look { name: "Code", font_size: 13.0, wraps, marks: &[], matches: &[], shared: "", help: None };
     let screen_rect = Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(700.0, 700.0)));
     let input = RawInput { screen_rect, events, focused: true, ..Default::default() };
     let began = Instant::now();
     let mut output = ctx.run_ui(input, |ui| {
-        editor.show(ui, Id::unique("editor"), look);
+        editor.show(ui, Id::unique("editor"), look, &|_| None);
     });
     let triangles = ctx.tessellate(std::mem::take(&mut output.shapes), output.pixels_per_point);
     let millis = began.elapsed().as_secs_f64() * 1000.0;
@@ -49,14 +54,14 @@ fn a_frame_idle_and_typing() {
         ("a line of 1 MB", line(1_000_000)),
         ("a line of 10 MB", line(10_000_000)),
     ];
-    for (name, text) in texts {
+    for (name, text, wraps) in texts.iter().flat_map(|(name, text)| [(name, text, false), (name, text, true)]) {
         let ctx = egui::Context::default();
         let began = Instant::now();
-        let mut editor = CodeEditor::new(&text);
+        let mut editor = CodeEditor::new(text);
         let count = editor.buffer.line_count();
         editor.go_to(count / 2, if count < 3 { text.len() / 2 } else { 4 });
         let frames = |editor: &mut CodeEditor, n, events: &[Event]| -> Vec<f64> {
-            (0..n).map(|_| frame(&ctx, editor, events.to_vec())).collect()
+            (0..n).map(|_| frame(&ctx, editor, wraps, events.to_vec())).collect()
         };
         frames(&mut editor, 1, &[]);
         let opened = began.elapsed().as_secs_f64() * 1000.0;
@@ -64,7 +69,34 @@ fn a_frame_idle_and_typing() {
         let idle = median(frames(&mut editor, 20, &[]));
         let typing = median(frames(&mut editor, 20, &[Event::Text("x".into())]));
         assert_ne!(editor.buffer.text(), text, "the letters arrived");
-        println!("{name:18}: opened in {opened:7.1} ms, idle {idle:6.2} ms, typing {typing:6.2} ms a frame");
+        let name = format!("{name}{}", if wraps { ", wrapped" } else { "" });
+        println!("{name:28}: opened in {opened:7.1} ms, idle {idle:6.2} ms, typing {typing:6.2} ms a frame");
+    }
+}
+
+#[test]
+#[ignore = "prints times; they mean something on a quiet machine only"]
+fn a_frame_typing_with_folds_and_many_carets() {
+    let block = "void f() {\n".to_owned() + &lines(8) + "}\n";
+    for carets in [1, 2, 100, 1700] {
+        for folds in [false, true] {
+            let ctx = egui::Context::default();
+            let mut editor = CodeEditor::new(&block.repeat(1_700));
+            frame(&ctx, &mut editor, false, Vec::new());
+            if folds {
+                editor.act(EditorAction::FoldAll);
+            }
+            let at = |i: usize| Selection::caret(editor.buffer.line_range(i * 17_000 / carets).start);
+            let list = (0..carets).map(at).collect();
+            editor.buffer.set_carets(Carets::new(list, 0));
+            editor.focus();
+            editor.act(EditorAction::Go(Motion::Home));
+            for _ in 0..4 {
+                frame(&ctx, &mut editor, false, Vec::new());
+            }
+            let typing = (0..20).map(|_| frame(&ctx, &mut editor, false, vec![Event::Text("x".into())])).collect();
+            println!("17,000 lines, {carets} carets, folded: {folds}: {:6.2} ms a frame", median(typing));
+        }
     }
 }
 
@@ -81,18 +113,39 @@ fn a_letter_lays_out_what_is_in_sight_and_looks_at_what_is_around_it() {
         ("é".repeat(300_000), 150_000),
         ("/*".repeat(300_000), 150_000),
     ] {
-        let ctx = egui::Context::default();
-        let mut editor = CodeEditor::new(&text);
-        editor.go_to(editor.buffer.line_count() / 2, column);
-        for _ in 0..4 {
-            frame(&ctx, &mut editor, Vec::new());
+        for wraps in [false, true] {
+            let ctx = egui::Context::default();
+            let mut editor = CodeEditor::new(&text);
+            editor.go_to(editor.buffer.line_count() / 2, column);
+            for _ in 0..4 {
+                frame(&ctx, &mut editor, wraps, Vec::new());
+            }
+            assert_eq!(editor.work.scanned, 0, "nothing has changed");
+            let caret = editor.buffer.selection().head;
+            frame(&ctx, &mut editor, wraps, vec![Event::Text("x".into())]);
+            assert_eq!(editor.buffer.text().as_bytes()[caret], b'x');
+            let super::view::Work { scanned, laid_out } = editor.work;
+            assert!(scanned > 0 && scanned < 8 * super::pieces::PIECE, "{scanned} bytes scanned for a letter");
+            assert!(laid_out > 0 && laid_out < in_sight, "{laid_out} bytes laid out");
         }
-        assert_eq!(editor.work.scanned, 0, "nothing has changed");
-        let caret = editor.buffer.selection().head;
-        frame(&ctx, &mut editor, vec![Event::Text("x".into())]);
-        assert_eq!(editor.buffer.text().as_bytes()[caret], b'x');
-        let super::view::Work { scanned, laid_out } = editor.work;
-        assert!(scanned > 0 && scanned < 8 * super::pieces::PIECE, "{scanned} bytes scanned for a letter");
-        assert!(laid_out > 0 && laid_out < in_sight, "{laid_out} bytes laid out");
     }
+}
+
+/// What is typed at many carets costs what their lines are long, not what lies between them.
+#[test]
+fn a_letter_at_many_carets_looks_at_their_lines_alone() {
+    let ctx = egui::Context::default();
+    let mut editor = CodeEditor::new(&lines(17_000));
+    frame(&ctx, &mut editor, false, Vec::new());
+    let at = |i: usize| Selection::caret(editor.buffer.line_range(i * 170).start);
+    let list = (0..100).map(at).collect();
+    editor.buffer.set_carets(Carets::new(list, 0));
+    editor.focus();
+    editor.act(EditorAction::Go(Motion::Home));
+    for _ in 0..3 {
+        frame(&ctx, &mut editor, false, Vec::new());
+    }
+    frame(&ctx, &mut editor, false, vec![Event::Text("x".into())]);
+    assert_eq!(editor.buffer.text().matches("\n    xvec3").count(), 99);
+    assert!((1..100 * 100).contains(&editor.work.scanned), "{} bytes scanned", editor.work.scanned);
 }

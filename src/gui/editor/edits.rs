@@ -1,176 +1,144 @@
-//! Edits are what the editor's keys do to a text: typing, indenting, comments, whole lines.
+//! Edits are what the editor's keys do to a text: typing, new lines, deleting, pasting. Each is made at every caret.
 
-use super::{buffer::Buffer, history::Kind, motion::Motion, selection::Selection};
+use super::{
+    buffer::{Buffer, Replacement},
+    history::Kind,
+    motion::Motion,
+};
 use std::ops::Range;
 
-const INDENT: &str = "    ";
+pub(super) const INDENT: &str = "    ";
 
 impl Buffer {
-    /// Types text over the selection.
+    /// Types text over the selections.
     pub fn insert(&mut self, text: &str) {
         let kind = if text.chars().count() == 1 { Kind::Typing } else { Kind::Other };
-        // A closing brace alone on its line goes back one step.
-        if text == "}" && self.selection.is_empty() {
-            let line = self.line_range(self.line_of(self.selection.head));
-            let before = &self.text()[line.start..self.selection.head];
-            if !before.is_empty() && before.trim().is_empty() {
-                let kept = before.len() - unit_at_end(before);
-                self.replace(line.start + kept..self.selection.head, text, Kind::Other);
-                return;
-            }
-        }
-        self.replace(self.selection.range(), text, kind);
+        let kind = if text == "}" && self.carets().list().iter().any(|s| s.is_empty() && self.dedent_at(s.head) > 0) {
+            Kind::Other
+        } else {
+            kind
+        };
+        self.replace_at_carets(kind, |buffer, s| {
+            let back = if text == "}" && s.is_empty() { buffer.dedent_at(s.head) } else { 0 };
+            Replacement::new(s.range().start - back..s.range().end, text)
+        });
     }
 
-    /// Pastes: line ends become the file's own.
+    /// How many bytes a closing brace goes back that is typed alone on its line: one step of its indent.
+    fn dedent_at(&self, at: usize) -> usize {
+        let before = &self.text()[self.line_range(self.line_of(at)).start..at];
+        if !before.is_empty() && before.trim().is_empty() { unit_at_end(before) } else { 0 }
+    }
+
+    /// Pastes: line ends become the file's own. As many lines as there are carets are dealt out among them.
     pub fn paste(&mut self, text: &str) {
         let text = text.replace("\r\n", "\n").replace('\r', "\n");
-        let text = if self.line_end() == "\n" { text } else { text.replace('\n', "\r\n") };
-        self.replace(self.selection.range(), &text, Kind::Other);
+        let carets = self.carets().list().to_vec();
+        let lines: Vec<&str> = text.strip_suffix('\n').unwrap_or(&text).split('\n').collect();
+        let deals = carets.len() > 1 && lines.len() == carets.len();
+        let end = self.line_end();
+        self.replace_at_carets(Kind::Other, |_, s| {
+            let index = carets.iter().position(|c| *c == s).unwrap_or(0);
+            let part = if deals { lines[index] } else { &text };
+            Replacement::new(s.range(), if end == "\n" { part.to_owned() } else { part.replace('\n', end) })
+        });
     }
 
     /// Enter: the new line is indented as this one, one step more after an opening brace.
     pub fn new_line(&mut self) {
-        let range = self.selection.range();
-        let line = self.line_range(self.line_of(range.start));
-        let before = &self.text()[line.start..range.start];
-        let indent = before[..before.len() - before.trim_start().len()].to_owned();
-        let opens = before.trim_end().ends_with(['{', '(']);
-        let closes = self.text()[range.end..].starts_with(['}', ')']);
-        let end = self.line_end();
-        let mut text = format!("{end}{indent}");
-        if opens {
-            text.push_str(unit_of(&indent));
-        }
-        let caret = range.start + text.len();
-        if opens && closes {
-            text.push_str(end);
-            text.push_str(&indent);
-        }
-        self.replace_selecting(range, &text, Selection::caret(caret), Kind::Other);
+        self.replace_at_carets(Kind::Other, |buffer, s| {
+            let range = s.range();
+            let line = buffer.line_range(buffer.line_of(range.start));
+            let before = &buffer.text()[line.start..range.start];
+            let indent = &before[..before.len() - before.trim_start().len()];
+            let opens = before.trim_end().ends_with(['{', '(']);
+            let closes = buffer.text()[range.end..].starts_with(['}', ')']);
+            let end = buffer.line_end();
+            let mut text = format!("{end}{indent}");
+            if opens {
+                text.push_str(unit_of(indent));
+            }
+            let caret = text.len();
+            if opens && closes {
+                text.push_str(end);
+                text.push_str(indent);
+            }
+            Replacement { anchor: caret, head: caret, ..Replacement::new(range, text) }
+        });
     }
 
-    /// Backspace and Delete: the selection, or what `motion` passes over.
+    /// Backspace and Delete: the selections, or what `motion` passes over.
     pub fn delete(&mut self, motion: Motion) {
-        let mut range = self.selection.range();
-        if range.is_empty() {
-            let to = self.target(motion, range.start);
-            range = range.start.min(to)..range.start.max(to);
+        let is_run = self.carets().list().iter().all(|s| s.is_empty());
+        let kind = if is_run { Kind::Deleting } else { Kind::Other };
+        self.replace_at_carets(kind, |buffer, s| {
+            let range = if s.is_empty() { buffer.passed_over(motion, s.head) } else { s.range() };
+            Replacement::new(range, "")
+        });
+    }
+
+    /// What Backspace or Delete takes at a caret.
+    fn passed_over(&self, motion: Motion, at: usize) -> Range<usize> {
+        let to = self.target(motion, at);
+        let mut range = at.min(to)..at.max(to);
+        if motion == Motion::Left {
             // Backspace in the indent takes a step of it.
-            let line = self.line_range(self.line_of(range.end));
-            let before = &self.text()[line.start..range.end.max(line.start)];
-            if motion == Motion::Left && before.len() > 1 && before.bytes().all(|b| b == b' ') {
+            let line = self.line_range(self.line_of(at));
+            let before = &self.text()[line.start..at];
+            if before.len() > 1 && before.bytes().all(|b| b == b' ') {
                 range.start = range.end - unit_at_end(before);
+            } else if self.is_empty_pair(at) {
+                range.end += 1;
             }
         }
-        let kind = if self.selection.is_empty() { Kind::Deleting } else { Kind::Other };
-        self.replace(range, "", kind);
+        range
     }
 
-    /// Tab: indents the lines of a selection, or adds spaces up to the next stop.
-    pub fn indent(&mut self) {
-        let range = self.selection.range();
-        if self.line_of(range.start) == self.line_of(range.end) {
-            let (_, column) = self.line_column(range.start);
-            let spaces = INDENT.len() - column % INDENT.len();
-            self.replace(range, &INDENT[..spaces], Kind::Other);
-        } else {
-            self.edit_lines(|line| if line.trim().is_empty() { line.to_owned() } else { format!("{INDENT}{line}") });
-        }
-    }
-
-    /// Shift+Tab: takes one step of indent from every line of the selection.
-    pub fn unindent(&mut self) {
-        self.edit_lines(|line| {
-            let spaces = line.len() - line.trim_start_matches(' ').len();
-            let cut = if line.starts_with('\t') { 1 } else { spaces.min(INDENT.len()) };
-            line[cut..].to_owned()
-        });
-    }
-
-    /// Ctrl+/: turns every line of the selection into a comment, or back if all are.
-    pub fn toggle_comment(&mut self) {
-        let range = self.selected_lines();
-        let lines: Vec<&str> = range.clone().map(|l| self.line(l)).filter(|l| !l.trim().is_empty()).collect();
-        let all = !lines.is_empty() && lines.iter().all(|l| l.trim_start().starts_with("//"));
-        let depth = lines.iter().map(|l| l.len() - l.trim_start().len()).min().unwrap_or(0);
-        self.edit_lines(|line| {
-            let body = line.trim_start();
-            if line.trim().is_empty() {
-                line.to_owned()
-            } else if all {
-                let rest = body[2..].strip_prefix(' ').unwrap_or(&body[2..]);
-                format!("{}{rest}", &line[..line.len() - body.len()])
-            } else {
-                format!("{}// {}", &line[..depth], &line[depth..])
+    /// Returns what Ctrl+C takes: what is selected, or the whole line of each caret that selects nothing.
+    pub fn copied_ranges(&self) -> Vec<Range<usize>> {
+        let mut ranges: Vec<Range<usize>> = Vec::new();
+        for s in self.carets().list() {
+            let range = if s.is_empty() { self.whole_line(s.head) } else { s.range() };
+            match ranges.last_mut() {
+                // Two carets in a line take it once.
+                Some(last) if range.start < last.end => last.end = last.end.max(range.end),
+                _ => ranges.push(range),
             }
-        });
-    }
-
-    /// Alt+Shift+Down: a copy of the selected lines below them.
-    pub fn duplicate_lines(&mut self) {
-        let lines = self.selected_lines();
-        let range = self.line_range(lines.start).start..self.line_range(lines.end - 1).end;
-        let copy = format!("{}{}", self.line_end(), &self.text()[range.clone()]);
-        let by = copy.len();
-        let Selection { anchor, head } = self.selection;
-        self.replace_selecting(
-            range.end..range.end,
-            &copy,
-            Selection { anchor: anchor + by, head: head + by },
-            Kind::Other,
-        );
-    }
-
-    /// Returns what Ctrl+C takes: the selection, or the caret's whole line.
-    pub fn copied_range(&self) -> Range<usize> {
-        let range = self.selection.range();
-        if !range.is_empty() {
-            return range;
         }
-        let line = self.line_of(range.start);
+        ranges
+    }
+
+    /// Returns the text that Ctrl+C takes: the parts of several carets in a line each.
+    pub fn copied_text(&self) -> String {
+        let parts: Vec<&str> = self.copied_ranges().into_iter().map(|r| &self.text()[r]).collect();
+        match &parts[..] {
+            [one] => (*one).to_owned(),
+            several => several.iter().map(|p| p.trim_end_matches(['\n', '\r'])).collect::<Vec<_>>().join("\n"),
+        }
+    }
+
+    /// Takes away what Ctrl+C would take.
+    pub fn cut(&mut self) {
+        let parts: Vec<_> = self.copied_ranges().into_iter().map(|range| (range, String::new())).collect();
+        let carets = {
+            let mut gone = 0;
+            let at = |range: &Range<usize>| {
+                let at = range.start - gone;
+                gone += range.len();
+                super::selection::Selection::caret(at)
+            };
+            parts.iter().map(|(range, _)| range).map(at).collect()
+        };
+        let main = self.carets().main_index();
+        self.change(parts, Kind::Other, |_| super::selection::Carets::new(carets, main));
+    }
+
+    /// A line with its end.
+    pub(super) fn whole_line(&self, at: usize) -> Range<usize> {
+        let line = self.line_of(at);
         let start = self.line_range(line).start;
         let end = if line + 1 < self.line_count() { self.line_range(line + 1).start } else { self.text().len() };
         start..end
-    }
-
-    /// Lines the selection touches; a selection that ends at a line's start does not touch it.
-    fn selected_lines(&self) -> Range<usize> {
-        let range = self.selection.range();
-        let first = self.line_of(range.start);
-        let mut last = self.line_of(range.end);
-        if last > first && self.line_range(last).start == range.end {
-            last -= 1;
-        }
-        first..last + 1
-    }
-
-    /// Changes every selected line as one step, and keeps the ends of the selection at their letters.
-    fn edit_lines(&mut self, change: impl Fn(&str) -> String) {
-        let lines = self.selected_lines();
-        let Selection { anchor, head } = self.selection;
-        let ends = [self.line_column(anchor), self.line_column(head)];
-        let lengths: Vec<usize> = ends.iter().map(|(line, _)| self.line(*line).chars().count()).collect();
-        self.begin_group();
-        for line in lines {
-            let old = self.line(line).to_owned();
-            let new = change(&old);
-            if new != old {
-                self.replace(self.line_range(line), &new, Kind::Other);
-            }
-        }
-        self.end_group();
-        let moved: Vec<usize> = ends
-            .iter()
-            .zip(lengths)
-            .map(|((line, column), was)| {
-                let now = self.line(*line).chars().count();
-                // Column 0 of a line stays: a selection of whole lines goes on being one.
-                let column = if *column == 0 { 0 } else { (column + now).saturating_sub(was) };
-                self.position(*line, column)
-            })
-            .collect();
-        self.selection = Selection { anchor: moved[0], head: moved[1] };
     }
 }
 
@@ -197,6 +165,7 @@ fn unit_at_end(indent: &str) -> usize {
 }
 
 #[cfg(test)]
+#[expect(clippy::single_range_in_vec_init, reason = "one range is what is expected")]
 mod tests {
     use super::*;
 
@@ -214,32 +183,6 @@ mod tests {
         assert_eq!(b.line_column(b.selection().head), (1, 8));
         b.insert("}");
         assert_eq!(b.line(1), "    }");
-    }
-
-    #[test]
-    fn comments_come_and_go_as_one_step() {
-        let text = "  a;\n\n    b;\nc;";
-        let mut b = with(text, 0, 10);
-        b.toggle_comment();
-        assert_eq!(b.text(), "  // a;\n\n  //   b;\nc;");
-        b.toggle_comment();
-        assert_eq!(b.text(), text);
-        b.undo();
-        b.undo();
-        assert_eq!(b.text(), text);
-        assert!(!b.undo());
-    }
-
-    #[test]
-    fn tab_indents_a_selection_and_comes_back() {
-        let mut b = with("a\nb\nc", 0, 3);
-        b.indent();
-        assert_eq!(b.text(), "    a\n    b\nc");
-        b.unindent();
-        assert_eq!(b.text(), "a\nb\nc");
-        let mut b = with("ab", 2, 2);
-        b.indent();
-        assert_eq!(b.text(), "ab  ");
     }
 
     #[test]
@@ -264,10 +207,9 @@ mod tests {
         let mut b = with("a\r\nb", 4, 4);
         b.paste("x\ny\r\nz");
         assert_eq!(b.text(), "a\r\nbx\r\ny\r\nz");
-        assert_eq!(with("a\nb", 0, 0).copied_range(), 0..2);
+        assert_eq!(with("a\nb", 0, 0).copied_ranges(), [0..2]);
         let mut b = with("a\nb", 2, 2);
-        b.duplicate_lines();
-        assert_eq!(b.text(), "a\nb\nb");
-        assert_eq!(b.selection().head, 4);
+        b.cut();
+        assert_eq!(b.text(), "a\n");
     }
 }

@@ -1,6 +1,11 @@
 //! Finding and replacing in one text.
 
-use super::{buffer::Buffer, history::Kind, selection::Selection};
+use super::{
+    buffer::Buffer,
+    history::Kind,
+    selection::{Carets, Selection},
+};
+use regex::{Regex, RegexBuilder};
 use std::ops::Range;
 
 /// A text to find, and how.
@@ -8,33 +13,94 @@ use std::ops::Range;
 pub struct Query {
     pub text: String,
     pub match_case: bool,
+    /// The text is a regular expression.
+    pub is_regex: bool,
+}
+
+/// A query that can be asked.
+#[derive(Clone, Debug)]
+pub struct Finder {
+    /// `None` for an empty query, which is found nowhere.
+    regex: Option<Regex>,
+    /// `$1` in a replacement is what the first group found.
+    expands: bool,
 }
 
 impl Query {
-    /// Every place where it stands, from the top; none for an empty query.
-    pub fn matches(&self, text: &str) -> Vec<Range<usize>> {
-        if self.text.is_empty() {
-            return Vec::new();
-        }
-        if self.match_case {
-            return text.match_indices(&self.text).map(|(i, m)| i..i + m.len()).collect();
-        }
-        // ASCII letters alone fold: folding others can change their length, and GLSL has none.
-        let haystack = text.to_ascii_lowercase();
-        let needle = self.text.to_ascii_lowercase();
-        haystack.match_indices(&needle).map(|(i, m)| i..i + m.len()).collect()
+    /// Returns what finds it, or why the regular expression is none.
+    pub fn finder(&self) -> Result<Finder, String> {
+        let pattern = if self.is_regex { self.text.clone() } else { regex::escape(&self.text) };
+        let regex = match self.text.is_empty() {
+            true => None,
+            false => Some(
+                RegexBuilder::new(&pattern)
+                    .case_insensitive(!self.match_case)
+                    .multi_line(true)
+                    .crlf(true)
+                    .build()
+                    .map_err(|error| reason(&error))?,
+            ),
+        };
+        Ok(Finder { regex, expands: self.is_regex })
     }
+}
+
+/// The last line of the message is the reason; those before draw the expression.
+fn reason(error: &regex::Error) -> String {
+    let text = error.to_string();
+    let last = text.lines().last().unwrap_or_default();
+    last.strip_prefix("error: ").unwrap_or(last).to_owned()
+}
+
+impl Finder {
+    /// Every place where it stands, from the top.
+    pub fn matches(&self, text: &str) -> Vec<Range<usize>> {
+        self.regex.iter().flat_map(|regex| regex.find_iter(text)).map(|m| m.range()).collect()
+    }
+
+    /// What takes the place of a match.
+    fn replacement(&self, text: &str, found: &Range<usize>, with: &str) -> String {
+        let captures = self.regex.as_ref().and_then(|regex| regex.captures_at(text, found.start));
+        match captures.filter(|_| self.expands) {
+            Some(captures) => {
+                let mut expanded = String::new();
+                captures.expand(&unescaped(with), &mut expanded);
+                expanded
+            }
+            None => with.to_owned(),
+        }
+    }
+}
+
+/// `\n` and `\t` in a replacement are what they are in an expression.
+fn unescaped(with: &str) -> String {
+    let mut text = String::new();
+    let mut letters = with.chars();
+    while let Some(c) = letters.next() {
+        match (c, letters.as_str().chars().next()) {
+            ('\\', Some(next)) if "nt\\".contains(next) => {
+                letters.next();
+                text.push(match next {
+                    'n' => '\n',
+                    't' => '\t',
+                    other => other,
+                });
+            }
+            _ => text.push(c),
+        }
+    }
+    text
 }
 
 impl Buffer {
     /// Selects the next match at or after the selection's end (before its start, going back), round the text's ends.
-    /// The match's number and how many there are.
+    /// The match's number.
     pub fn find(&mut self, matches: &[Range<usize>], forward: bool) -> Option<usize> {
         let now = self.selection().range();
         let index = if forward {
             matches.iter().position(|m| m.start >= now.end && *m != now).unwrap_or(0)
         } else {
-            matches.iter().rposition(|m| m.end <= now.start).unwrap_or(matches.len().checked_sub(1)?)
+            matches.iter().rposition(|m| m.end <= now.start && *m != now).unwrap_or(matches.len().checked_sub(1)?)
         };
         let found = matches.get(index)?;
         self.select(found.start, found.end);
@@ -42,55 +108,88 @@ impl Buffer {
     }
 
     /// Replaces the selection if it is a match, and returns whether it was.
-    pub fn replace_match(&mut self, matches: &[Range<usize>], with: &str) -> bool {
+    pub fn replace_match(&mut self, finder: &Finder, matches: &[Range<usize>], with: &str) -> bool {
         let range = self.selection().range();
         let hit = matches.contains(&range);
         if hit {
-            self.replace(range, with, Kind::Other);
+            let with = finder.replacement(self.text(), &range, with);
+            self.replace(range, &with, Kind::Other);
         }
         hit
     }
 
     /// Replaces every match as one step of undo.
-    pub fn replace_all(&mut self, matches: &[Range<usize>], with: &str) {
-        let (Some(first), Some(last)) = (matches.first(), matches.last()) else { return };
-        let whole = first.start..last.end;
-        let mut text = String::with_capacity(whole.len());
-        let mut at = whole.start;
-        for m in matches {
-            text.push_str(&self.text()[at..m.start]);
-            text.push_str(with);
-            at = m.end;
-        }
-        let end = whole.start + text.len();
-        self.replace_selecting(whole, &text, Selection::caret(end), Kind::Other);
+    pub fn replace_all(&mut self, finder: &Finder, matches: &[Range<usize>], with: &str) {
+        let part = |m: &Range<usize>| (m.clone(), finder.replacement(self.text(), m, with));
+        let parts: Vec<_> = matches.iter().map(part).collect();
+        let Some(last) = parts.last() else { return };
+        let shift: isize = parts.iter().map(|(r, with)| with.len() as isize - r.len() as isize).sum();
+        let caret = Selection::caret(last.0.end.saturating_add_signed(shift));
+        self.change(parts, Kind::Other, |_| Carets::one(caret));
     }
 }
 
 #[cfg(test)]
+#[expect(clippy::single_range_in_vec_init, reason = "one range is what is expected")]
 mod tests {
     use super::*;
+
+    fn finder(text: &str, match_case: bool, is_regex: bool) -> Finder {
+        Query { text: text.into(), match_case, is_regex }.finder().unwrap()
+    }
 
     #[test]
     fn finding_goes_round_and_replacing_is_one_step() {
         let mut b = Buffer::new("uv UV uv");
-        let query = Query { text: "uv".into(), match_case: false };
-        let m = query.matches(b.text());
+        let uv = finder("uv", false, false);
+        let m = uv.matches(b.text());
         assert_eq!(m, [0..2, 3..5, 6..8]);
         assert_eq!(b.find(&m, true), Some(0));
         assert_eq!(b.find(&m, true), Some(1));
         assert_eq!(b.find(&m, false), Some(0));
         assert_eq!(b.find(&m, false), Some(2));
         assert_eq!(b.find(&m, true), Some(0));
-        assert!(b.replace_match(&m, "position"));
-        let m = query.matches(b.text());
+        assert!(b.replace_match(&uv, &m, "position"));
+        let m = uv.matches(b.text());
         assert_eq!(m.len(), 2);
-        b.replace_all(&m, "p");
+        b.replace_all(&uv, &m, "p");
         assert_eq!(b.text(), "position p p");
         b.undo();
         assert_eq!(b.text(), "position UV uv");
-        assert_eq!(Query { text: "uv".into(), match_case: true }.matches(b.text()).len(), 1);
+        assert_eq!(finder("uv", true, false).matches(b.text()).len(), 1);
         assert_eq!(b.find(&[], true), None);
         assert_eq!(b.find(&[], false), None);
+        assert!(finder("", false, false).matches("x").is_empty());
+        assert_eq!(finder("a.b", false, false).matches("axb a.b"), [4..7]);
+    }
+
+    #[test]
+    fn regular_expressions_find_groups_and_put_them_elsewhere() {
+        let mut b = Buffer::new("mix(a, b) + mix(c, d);\r\n// end\r\n");
+        let swap = finder(r"mix\((\w+), (\w+)\)", true, true);
+        let m = swap.matches(b.text());
+        b.replace_all(&swap, &m, "mix($2, ${1})");
+        assert_eq!(b.text(), "mix(b, a) + mix(d, c);\r\n// end\r\n");
+        assert!(b.undo());
+        b.find(&m, true);
+        assert!(b.replace_match(&swap, &m, r"f($1)\n"));
+        assert_eq!(b.line(0), "f(a)");
+        // Lines end before what ends them.
+        assert_eq!(finder("^.*;$", true, true).matches("a;\r\nb\r\nc;"), [0..2, 7..9]);
+        assert_eq!(finder("END", false, true).matches("// end"), [3..6]);
+        assert_eq!(finder("$1", true, false).replacement("$1", &(0..2), "$1$1"), "$1$1", "plain text is plain");
+        let wrong = Query { text: "f(".into(), is_regex: true, ..Query::default() };
+        assert_eq!(wrong.finder().unwrap_err(), "unclosed group");
+    }
+
+    #[test]
+    fn a_match_of_nothing_is_gone_past() {
+        let mut b = Buffer::new("a\nb");
+        let starts = finder("^", true, true);
+        let m = starts.matches(b.text());
+        assert_eq!(m, [0..0, 2..2]);
+        assert_eq!((b.find(&m, true), b.find(&m, true), b.find(&m, true)), (Some(1), Some(0), Some(1)));
+        b.replace_all(&starts, &m, "// ");
+        assert_eq!(b.text(), "// a\n// b");
     }
 }

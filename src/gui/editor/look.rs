@@ -21,7 +21,11 @@ pub struct Mark {
 /// How a text is shown; not a part of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Look<'a> {
+    /// What it is called to those who do not see it.
+    pub name: &'a str,
     pub font_size: f32,
+    /// Lines go on in the next row where they are too long.
+    pub wraps: bool,
     pub marks: &'a [Mark],
     /// Places found, tinted.
     pub matches: &'a [Range<usize>],

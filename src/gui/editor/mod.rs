@@ -7,28 +7,48 @@
 //! 0.3 ms in 142 lines, 0.5 ms in 17,000 and 1.4 ms in a single line of 10 MB (`cost`, two slow cores under load, not
 //! optimised).
 
+mod accessible;
+mod action;
 mod assist;
+mod brackets;
 mod buffer;
 mod colors;
 #[cfg(test)]
 mod cost;
+mod drag;
 mod edits;
 mod find;
+mod folding;
+mod gutter;
 mod highlight;
 mod history;
 mod input;
 mod lexer;
+mod line_edits;
 mod lines;
 mod look;
+mod many;
 mod motion;
+mod nesting;
 mod paint;
+mod pairs;
 mod pieces;
+mod pointer;
+mod rows;
+mod ruler;
 mod selection;
 mod semantic;
 mod view;
 mod words;
+mod wrap;
 
+pub use action::EditorAction;
 pub use assist::Ask;
-pub use find::Query;
+pub use buffer::Buffer;
+pub use find::{Finder, Query};
 pub use look::{Help, Look, Mark};
+pub use motion::{Motion, Way};
 pub use view::CodeEditor;
+
+#[cfg(test)]
+mod tests;

@@ -10,6 +10,8 @@ pub enum Motion {
     WordRight,
     /// Up or down by so many lines.
     Lines(isize),
+    /// Up or down by so many pages, which only the window knows the size of.
+    Pages(isize),
     /// First letter of the line, or its start if the caret is there.
     Home,
     End,
@@ -17,21 +19,52 @@ pub enum Motion {
     Finish,
 }
 
+/// Up or down.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    Up,
+    Down,
+}
+
 impl Buffer {
-    /// Moves the caret; `selecting` keeps the anchor.
+    /// Moves every caret; `selecting` keeps the anchors.
     pub fn go(&mut self, motion: Motion, selecting: bool) {
-        let range = self.selection.range();
-        let head = match motion {
-            // A selection collapses to the side one goes to.
-            Motion::Left if !selecting && !range.is_empty() => range.start,
-            Motion::Right if !selecting && !range.is_empty() => range.end,
-            Motion::Lines(by) => return self.go_lines(by, selecting),
-            _ => self.target(motion, self.selection.head),
-        };
-        self.select(if selecting { self.selection.anchor } else { head }, head);
+        if let Motion::Lines(by) | Motion::Pages(by) = motion {
+            return self.go_to(selecting, |buffer, s| buffer.lines_away(s, by));
+        }
+        self.go_to(selecting, |buffer, s| {
+            let range = s.range();
+            Selection::caret(match motion {
+                // A selection collapses to the side one goes to.
+                Motion::Left if !selecting && !range.is_empty() => range.start,
+                Motion::Right if !selecting && !range.is_empty() => range.end,
+                _ => buffer.target(motion, s.head),
+            })
+        });
     }
 
-    /// Returns where a motion leads from `at`. `Lines` counts from the caret's wanted column and is not asked here.
+    /// Moves every caret to where `target` leads, which gives a caret; `selecting` keeps the anchors.
+    pub(super) fn go_to(&mut self, selecting: bool, target: impl Fn(&Self, Selection) -> Selection) {
+        let carets = self.carets().map(|s| {
+            let to = target(self, s);
+            Selection { anchor: if selecting { s.anchor } else { to.head }, ..to }
+        });
+        self.set_carets(carets);
+    }
+
+    /// A caret so many lines away, at the column that this one wants to keep.
+    pub(super) fn lines_away(&self, from: Selection, by: isize) -> Selection {
+        let (line, column) = self.line_column(from.head);
+        let column = from.column.unwrap_or(column);
+        let head = match line.checked_add_signed(by) {
+            None => 0,
+            Some(to) if to >= self.line_count() => self.text().len(),
+            Some(to) => self.position(to, column),
+        };
+        Selection { column: Some(column), ..Selection::caret(head) }
+    }
+
+    /// Returns where a motion leads from `at`. Those by lines count from a column and are not asked here.
     pub(super) fn target(&self, motion: Motion, at: usize) -> usize {
         let text = self.text();
         match motion {
@@ -73,7 +106,7 @@ impl Buffer {
             Motion::End => self.line_range(self.line_of(at)).end,
             Motion::Start => 0,
             Motion::Finish => text.len(),
-            Motion::Lines(_) => at,
+            Motion::Lines(_) | Motion::Pages(_) => at,
         }
     }
 
@@ -106,24 +139,6 @@ impl Buffer {
     fn after(&self, at: usize) -> usize {
         let rest = &self.text()[at..];
         at + if rest.starts_with("\r\n") { 2 } else { rest.chars().next().map_or(0, char::len_utf8) }
-    }
-
-    fn go_lines(&mut self, by: isize, selecting: bool) {
-        let (line, column) = self.line_column(self.selection.head);
-        let wanted = self.wanted_column.unwrap_or(column);
-        let last = self.line_count() as isize - 1;
-        let to = line as isize + by;
-        let head = if to < 0 {
-            0
-        } else if to > last {
-            self.text().len()
-        } else {
-            self.position(to as usize, wanted)
-        };
-        let anchor = if selecting { self.selection.anchor } else { head };
-        self.select(anchor, head);
-        self.selection = Selection { anchor, head };
-        self.wanted_column = Some(wanted);
     }
 }
 

@@ -4,10 +4,12 @@ use super::{
     buffer::Buffer,
     lines::{Lines, MARGIN, touching},
     look::{Look, Mark},
+    selection::Selection,
 };
-use crate::{diag::Severity, gui::theme};
+use crate::gui::theme;
 use egui::{
-    Align2, Color32, FontId, Pos2, Rect, Shape, Stroke, Ui, emath::GuiRounding as _, pos2, text::LayoutJob, vec2,
+    Align2, Color32, FontId, Pos2, Rect, Shape, Stroke, StrokeKind, Ui, emath::GuiRounding as _, pos2, text::LayoutJob,
+    vec2,
 };
 use std::ops::Range;
 
@@ -19,12 +21,16 @@ pub(super) struct Caret<'a> {
     pub is_lit: bool,
     /// Places of the name it is on.
     pub uses: &'a [Range<usize>],
+    /// The bracket it is at, and the one that belongs to it.
+    pub brackets: Option<[usize; 2]>,
 }
 
 /// The places that painting found.
 #[derive(Debug)]
 pub(super) struct Painted {
     pub caret: Rect,
+    /// All that was painted on.
+    pub whole: Rect,
     pub popup: Option<Popup>,
     /// Lines with a mark that are in sight, and where they are.
     pub marked: Vec<(usize, Rect)>,
@@ -41,7 +47,7 @@ pub(super) struct Popup {
 
 impl Default for Painted {
     fn default() -> Self {
-        Self { caret: Rect::ZERO, popup: None, marked: Vec::new() }
+        Self { caret: Rect::ZERO, whole: Rect::ZERO, popup: None, marked: Vec::new() }
     }
 }
 
@@ -55,100 +61,141 @@ pub(super) fn text(
     shown: Rect,
 ) -> Painted {
     let painter = ui.painter();
-    let Caret { has_focus, is_lit, uses } = caret;
+    let Caret { has_focus, is_lit, uses, brackets } = caret;
     let caret = lines.caret_rect(buffer);
     let caret_line = buffer.line_of(buffer.selection().head);
     let hovered = ui.ctx().pointer_latest_pos().filter(|p| shown.contains(*p) && !ui.ctx().any_popup_open());
-    let mut painted = Painted { caret, popup: None, marked: Vec::new() };
+    let mut painted = Painted { caret, whole: shown, popup: None, marked: Vec::new() };
     for (i, laid_out) in lines.rows.iter().enumerate() {
-        let line = lines.first + i;
-        let row = Rect::from_min_size(pos2(shown.left(), lines.top(line)), vec2(shown.width(), lines.row_height));
+        let row = lines.first + i;
+        let part = &laid_out.part;
+        let line = part.line;
+        let area = Rect::from_min_size(pos2(shown.left(), lines.top(row)), vec2(shown.width(), lines.row_height));
+        let box_of_row = theme::of(ui).code.row;
+        if box_of_row != Color32::TRANSPARENT && !part.bytes.is_empty() {
+            let right = lines.end(laid_out) + 5.0;
+            painter.rect_filled(area.with_max_x(right.clamp(shown.left(), shown.right())), 0.0, box_of_row);
+        }
         let marks: Vec<&Mark> = look.marks.iter().filter(|m| m.line == line).collect();
         let worst = marks.iter().max_by_key(|m| m.severity);
         if let Some(worst) = worst {
-            painter.rect_filled(row, 0.0, color(worst.severity).gamma_multiply(0.13));
-            painted.marked.push((line, row));
+            painter.rect_filled(area, 0.0, theme::of(ui).of_severity(worst.severity).gamma_multiply(0.13));
+            if part.is_first {
+                painted.marked.push((line, area));
+            }
         } else if has_focus && line == caret_line {
-            painter.rect_filled(row, 0.0, Color32::from_white_alpha(8));
+            painter.rect_filled(area, 0.0, theme::of(ui).code.caret_line);
         }
         let in_sight = laid_out.bytes().unwrap_or(0..0);
         for used in touching(uses, &in_sight) {
-            fill_range(ui, lines, buffer, line, used, Color32::from_rgb(52, 60, 74));
+            fill_range(ui, lines, buffer, row, used, theme::of(ui).code.uses);
         }
         for found in touching(look.matches, &in_sight) {
-            fill_range(ui, lines, buffer, line, found, Color32::from_rgb(94, 80, 36));
+            fill_range(ui, lines, buffer, row, found, theme::of(ui).code.found);
         }
-        let selection = if has_focus { Color32::from_rgb(44, 84, 136) } else { Color32::from_rgb(50, 68, 96) };
-        fill_range(ui, lines, buffer, line, &buffer.selection().range(), selection);
+        let fills = &theme::of(ui).code;
+        let selection = if has_focus { fills.selection } else { fills.selection_idle };
+        for s in in_sight_of(buffer.carets().list(), &part.bytes) {
+            fill_range(ui, lines, buffer, row, &s.range(), selection);
+        }
+        for at in brackets.into_iter().flatten() {
+            frame_letter(ui, lines, buffer, row, at);
+        }
         for run in &laid_out.runs {
-            painter.galley(lines.run_pos(line, run), run.galley.clone(), theme::TEXT);
+            painter.galley(lines.run_pos(row, run), run.galley.clone(), theme::of(ui).text);
         }
         for mark in &marks {
-            underline(ui, lines, buffer, mark);
+            underline(ui, lines, buffer, row, mark);
+        }
+        let mut end = lines.end(laid_out);
+        if part.is_last && lines.folding.is_folded(line) {
+            end = folded(ui, pos2(end + 8.0, area.center().y), lines);
         }
         if let Some(worst) = worst {
-            let end = lines.end(laid_out);
             let room = shown.right() - end - 40.0;
-            let fits = room > 140.0;
-            if fits {
-                beside(ui, lines, pos2(end + 28.0, lines.top(line)), worst, marks.len(), room);
+            if part.is_last && room > 60.0 {
+                beside(ui, lines, pos2(end + 28.0, area.top()), worst, marks.len(), room);
             }
-            let under_pointer = hovered.is_some_and(|p| row.contains(p));
-            if under_pointer || (!fits && has_focus && line == caret_line) {
-                let start = buffer.line_range(line).start;
-                let x = lines.x(buffer, line, start).max(shown.left() + MARGIN);
-                let below = row.bottom() + 70.0 < shown.bottom();
-                let y = if below { row.bottom() + 2.0 } else { row.top() - 2.0 };
+            if hovered.is_some_and(|p| area.contains(p)) {
+                let x = lines.rect_of(buffer, part.bytes.start).left().max(shown.left() + MARGIN);
+                // Above, so that what one goes on writing stays in sight.
+                let below = area.top() - 60.0 < shown.top();
+                let y = if below { area.bottom() + 2.0 } else { area.top() - 2.0 };
                 painted.popup = Some(Popup { at: pos2(x, y), below, marks: marks.into_iter().cloned().collect() });
             }
         }
     }
     if is_lit {
-        let x = caret.left().round_to_pixels(ui.pixels_per_point());
-        painter.rect_filled(
-            Rect::from_min_size(pos2(x - 0.5, caret.top()), vec2(2.0, caret.height())),
-            0.0,
-            theme::STRONG,
-        );
+        let first = lines.rows.first().map_or(0, |row| row.part.bytes.start);
+        let last = lines.rows.last().map_or(0, |row| row.part.bytes.end);
+        for s in in_sight_of(buffer.carets().list(), &(first..last)) {
+            let caret = lines.rect_of(buffer, s.head);
+            let x = caret.left().round_to_pixels(ui.pixels_per_point());
+            let place = Rect::from_min_size(pos2(x - 0.5, caret.top()), vec2(2.0, caret.height()));
+            painter.rect_filled(place, 0.0, theme::of(ui).strong);
+        }
     }
     painted
 }
 
-fn color(severity: Severity) -> Color32 {
-    match severity {
-        Severity::Error => theme::ERROR,
-        Severity::Warning => theme::WARNING,
-        Severity::Note => theme::ACCENT,
-    }
+/// Selections that touch some bytes.
+fn in_sight_of<'s>(list: &'s [Selection], bytes: &Range<usize>) -> &'s [Selection] {
+    let first = list.partition_point(|s| s.range().end < bytes.start);
+    let behind = list[first..].partition_point(|s| s.range().start <= bytes.end);
+    &list[first..first + behind]
 }
 
-/// Fills the part of a range of the text that lies in a line.
-fn fill_range(ui: &Ui, lines: &Lines<'_>, buffer: &Buffer, line: usize, range: &Range<usize>, fill: Color32) {
-    let of_line = buffer.line_range(line);
-    if range.is_empty() || range.end < of_line.start || range.start > of_line.end {
+/// A sign for the lines that are folded away; gives where it ends.
+fn folded(ui: &Ui, left: Pos2, lines: &Lines<'_>) -> f32 {
+    let rect = Rect::from_min_size(left - vec2(0.0, lines.row_height * 0.3), vec2(22.0, lines.row_height * 0.6));
+    ui.painter().rect_filled(rect, 3.0, theme::of(ui).button);
+    for x in [-5.0, 0.0, 5.0] {
+        ui.painter().circle_filled(rect.center() + vec2(x, 0.0), 1.2, theme::of(ui).text);
+    }
+    rect.right()
+}
+
+/// A frame round a letter of a row, if it is of that row.
+fn frame_letter(ui: &Ui, lines: &Lines<'_>, buffer: &Buffer, row: usize, at: usize) {
+    if lines.row(row).is_none_or(|r| !r.part.bytes.contains(&at)) {
         return;
     }
-    let Some((left, mut right)) = lines.span(buffer, line, range) else { return };
-    if range.end > of_line.end {
+    let Some((left, right)) = lines.span(buffer, row, &(at..at + 1)) else { return };
+    let rect = Rect::from_min_max(pos2(left, lines.top(row)), pos2(right, lines.top(row) + lines.row_height));
+    ui.painter().rect(rect, 2.0, theme::of(ui).code.bracket, Stroke::new(1.0, theme::of(ui).weak), StrokeKind::Inside);
+}
+
+/// Fills the part of a range of the text that lies in a row.
+fn fill_range(ui: &Ui, lines: &Lines<'_>, buffer: &Buffer, row: usize, range: &Range<usize>, fill: Color32) {
+    let Some(part) = lines.row(row).map(|r| &r.part) else { return };
+    if range.is_empty() || range.end < part.bytes.start || range.start > part.bytes.end {
+        return;
+    }
+    let Some((left, mut right)) = lines.span(buffer, row, range) else { return };
+    if range.end > part.bytes.end && part.is_last {
         // The line's end is taken too.
         right += lines.glyph;
     }
-    let rect = Rect::from_min_max(pos2(left, lines.top(line)), pos2(right, lines.top(line) + lines.row_height));
+    let rect = Rect::from_min_max(pos2(left, lines.top(row)), pos2(right, lines.top(row) + lines.row_height));
     ui.painter().rect_filled(rect, 2.0, fill);
 }
 
-/// A wave under what a mark is about.
-fn underline(ui: &Ui, lines: &Lines<'_>, buffer: &Buffer, mark: &Mark) {
-    let of_line = buffer.line_range(mark.line);
-    let start = mark.range.start.clamp(of_line.start, of_line.end);
-    let end = mark.range.end.clamp(start, of_line.end);
-    let Some((left, right)) = lines.span(buffer, mark.line, &(start..end)) else { return };
+/// A wave under what a mark is about in a row.
+fn underline(ui: &Ui, lines: &Lines<'_>, buffer: &Buffer, row: usize, mark: &Mark) {
+    let Some(part) = lines.row(row).map(|r| &r.part) else { return };
+    let is_elsewhere = mark.range.end < part.bytes.start || mark.range.start > part.bytes.end;
+    if is_elsewhere && !(part.is_first && part.is_last) {
+        return;
+    }
+    let start = mark.range.start.clamp(part.bytes.start, part.bytes.end);
+    let end = mark.range.end.clamp(start, part.bytes.end);
+    let Some((left, right)) = lines.span(buffer, row, &(start..end)) else { return };
     let right = right.max(left + lines.glyph);
-    let y = lines.top(mark.line) + lines.row_height - 2.0;
+    let y = lines.top(row) + lines.row_height - 2.0;
     let steps = ((right - left) / 2.0).ceil() as usize;
     let wave =
         (0..=steps).map(|i| pos2((left + i as f32 * 2.0).min(right), if i % 2 == 0 { y } else { y - 2.0 })).collect();
-    ui.painter().add(Shape::line(wave, Stroke::new(1.0, color(mark.severity))));
+    ui.painter().add(Shape::line(wave, Stroke::new(1.0, theme::of(ui).of_severity(mark.severity))));
 }
 
 /// The message right of the code, as much of it as fits.
@@ -156,35 +203,12 @@ fn beside(ui: &Ui, lines: &Lines<'_>, at: Pos2, mark: &Mark, count: usize, room:
     let more = if count > 1 { format!("  (+{})", count - 1) } else { String::new() };
     let text = format!("{}{more}", mark.message.replace('\n', " "));
     let size = (lines.font.size - 0.5).max(9.0);
-    let mut job = LayoutJob::simple_singleline(text, FontId::proportional(size), color(mark.severity));
+    let mut job =
+        LayoutJob::simple_singleline(text, FontId::proportional(size), theme::of(ui).of_severity(mark.severity));
     job.wrap = egui::text::TextWrapping::truncate_at_width(room);
     let galley = ui.painter().layout_job(job);
     let y = at.y + (lines.row_height - galley.size().y) / 2.0;
-    ui.painter().galley(pos2(at.x, y), galley, theme::TEXT);
-}
-
-/// Line numbers, and a dot where there is a mark.
-pub(super) fn gutter(ui: &Ui, rect: Rect, top: f32, row_height: f32, buffer: &Buffer, look: &Look<'_>) {
-    let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
-    painter.rect_filled(rect, 0.0, theme::BACKGROUND);
-    let first = ((rect.top() - top) / row_height).max(0.0) as usize;
-    let last = (((rect.bottom() - top) / row_height).ceil().max(0.0) as usize).min(buffer.line_count());
-    let caret_line = buffer.line_of(buffer.selection().head);
-    let font = FontId::monospace((look.font_size - 1.0).max(7.0));
-    for line in first..last {
-        let middle = (f64::from(top) + (line as f64 + 0.5) * f64::from(row_height)) as f32;
-        let worst = look.marks.iter().filter(|m| m.line == line).map(|m| m.severity).max();
-        let tint = match worst {
-            Some(severity) => color(severity),
-            None if line == caret_line => theme::TEXT,
-            None => Color32::from_rgb(98, 106, 121),
-        };
-        painter.text(pos2(rect.right() - 10.0, middle), Align2::RIGHT_CENTER, line + 1, font.clone(), tint);
-        if worst.is_some() {
-            painter.circle_filled(pos2(rect.left() + 8.0, middle), 3.5, tint);
-        }
-    }
-    painter.vline(rect.right() - 1.0, rect.y_range(), Stroke::new(1.0, theme::RAISED));
+    ui.painter().galley(pos2(at.x, y), galley, theme::of(ui).text);
 }
 
 /// Whole messages over the text.
@@ -200,9 +224,9 @@ pub(super) fn popup(ui: &Ui, within: Rect, popup: &Popup) {
             egui::Frame::popup(ui.style()).show(ui, |ui| {
                 ui.set_max_width(width);
                 for mark in &popup.marks {
-                    ui.colored_label(color(mark.severity), &mark.message);
+                    ui.colored_label(theme::of(ui).of_severity(mark.severity), &mark.message);
                     for hint in &mark.hints {
-                        ui.colored_label(theme::WEAK, hint);
+                        ui.colored_label(theme::of(ui).weak, hint);
                     }
                 }
             });

@@ -3,7 +3,10 @@
 //! A line of ordinary code is one piece; one of ten million characters is ten thousand, of which a frame looks at those
 //! in sight. After a change only the pieces around it are cut anew.
 
-use super::lexer::{LexState, Scanner};
+use super::{
+    lexer::{Inside, LexState, Scanner},
+    nesting::Nesting,
+};
 
 /// Bytes of a piece: cut at the next place between two tokens from here on, at twice as many wherever that is.
 pub const PIECE: usize = 1024;
@@ -17,6 +20,10 @@ pub struct Piece {
     pub state: LexState,
     /// How wide it is, in widths of a digit.
     pub columns: f32,
+    /// What its brackets open and close.
+    pub nesting: Nesting,
+    /// In how many rows it is shown; 0 until it is counted.
+    pub rows: u32,
 }
 
 /// Pieces of a line as it was, and how many bytes at an end of it are as they were.
@@ -78,12 +85,19 @@ pub fn cut(
     }
     let mut scanner = Scanner::new(line, at, begins_in);
     let mut start = (at, begins_in);
-    let mut push = |pieces: &mut Vec<Piece>, from: (usize, LexState), to: usize, scanned: &mut usize| {
+    let mut nesting = Nesting::default();
+    let mut push = |pieces: &mut Vec<Piece>, from: (usize, LexState), to: usize, nesting: &mut Nesting| {
         *scanned += to - from.0;
-        pieces.push(Piece { len: to - from.0, state: from.1, columns: columns(&line[from.0..to], width) });
+        let columns = columns(&line[from.0..to], width);
+        pieces.push(Piece { len: to - from.0, state: from.1, columns, nesting: std::mem::take(nesting), rows: 0 });
     };
     while !scanner.is_at_end() {
+        let byte = line.as_bytes()[scanner.at];
         scanner.step();
+        if scanner.state.inside == Inside::Code {
+            // The end of a comment is no bracket.
+            nesting.push(byte);
+        }
         let len = scanner.at - start.0;
         while joints.last().is_some_and(|(at, _)| *at < scanner.at) {
             joints.pop();
@@ -91,7 +105,7 @@ pub fn cut(
         if let Some((_, i)) =
             joints.last().filter(|(at, i)| *at == scanner.at && tail.pieces[*i].state == scanner.state)
         {
-            push(&mut pieces, start, scanner.at, scanned);
+            push(&mut pieces, start, scanner.at, &mut nesting);
             pieces.extend_from_slice(&tail.pieces[*i..]);
             return Cut { pieces, end: tail_end };
         }
@@ -99,12 +113,12 @@ pub fn cut(
         let waits = joints.last().is_some_and(|(at, _)| *at <= start.0 + 2 * PIECE);
         let is_due = (len >= PIECE && !waits && is_between_tokens(line.as_bytes()[scanner.at - 1])) || len >= 2 * PIECE;
         if is_due && line.is_char_boundary(scanner.at) && !scanner.is_at_end() {
-            push(&mut pieces, start, scanner.at, scanned);
+            push(&mut pieces, start, scanner.at, &mut nesting);
             start = (scanner.at, scanner.state);
         }
     }
     if scanner.at > start.0 {
-        push(&mut pieces, start, scanner.at, scanned);
+        push(&mut pieces, start, scanner.at, &mut nesting);
     }
     Cut { pieces, end: scanner.state }
 }

@@ -1,24 +1,36 @@
 //! The widget: scrolling, pointer, focus, input methods.
 
 use super::{
+    accessible,
+    action::EditorAction,
     assist::{Ask, Assist},
+    brackets,
     buffer::Buffer,
+    drag::Drag,
+    gutter::{self, Gutter},
     highlight::Highlight,
     input,
-    lines::Lines,
+    lines::{Lines, MARGIN},
     look::{Help, Look},
     paint::{self, Painted},
+    rows::Rows,
+    ruler,
     semantic::Semantic,
 };
-use egui::{EventFilter, FontId, Id, Rect, ScrollArea, Sense, Ui, emath::GuiRounding as _, pos2, vec2};
+use crate::gui::theme;
+use egui::{Event, EventFilter, FontId, Id, Rect, ScrollArea, Sense, Ui, emath::GuiRounding as _, pos2, vec2};
 use std::ops::Range;
+
+/// Says what a key asks of the code.
+pub type Keys<'a> = &'a dyn Fn(&Event) -> Option<EditorAction>;
 
 /// The results of a frame.
 #[derive(Clone, Debug)]
 pub struct EditorOutput {
-    pub changed: bool,
     /// The area of the text without the numbers beside it.
     pub text_rect: Rect,
+    /// The part of it that takes the keyboard.
+    pub focus_rect: Rect,
     /// Lines with a mark that are in sight, counted from 0, and where they are.
     pub marked: Vec<(usize, Rect)>,
     /// The author's requests that concern other texts.
@@ -30,19 +42,30 @@ pub struct EditorOutput {
 /// A text being edited, with all that outlives a frame.
 #[derive(Debug)]
 pub struct CodeEditor {
-    pub buffer: Buffer,
-    highlight: Highlight,
-    assist: Assist,
+    pub(super) buffer: Buffer,
+    pub(super) highlight: Highlight,
+    pub(super) assist: Assist,
     /// The text that an input method is composing.
     preedit: String,
-    follow_caret: bool,
+    pub(super) follow_caret: bool,
     take_focus: bool,
     /// When the caret last moved, in seconds: it blinks from there.
-    moved_at: f64,
-    /// The place where a drag began, whole words or lines at a time.
-    drag: Option<(Range<usize>, Granularity)>,
-    page: usize,
+    pub(super) moved_at: f64,
+    pub(super) drag: Option<Drag>,
+    pub(super) page: usize,
+    pub(super) rows: Rows,
+    /// The revision that `rows` is of.
+    rows_of: Option<u64>,
+    /// The brackets at the caret, and for which revision and caret they were found.
+    brackets: Option<[usize; 2]>,
+    brackets_of: Option<(u64, usize)>,
+    /// To be pasted in the next frame.
+    pub(super) pasted: Option<String>,
+    /// The revision of the text that others have.
+    told: u64,
     pub(super) work: Work,
+    /// How high the text was in the frame before, and whether the caret could be seen.
+    sight: (f32, bool),
 }
 
 /// The bytes that the newest frame looked at: bytes, not time, so that a test can hold it to a bound.
@@ -52,13 +75,6 @@ pub(super) struct Work {
     pub scanned: usize,
     /// To be painted.
     pub laid_out: usize,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Granularity {
-    Letter,
-    Word,
-    Line,
 }
 
 impl CodeEditor {
@@ -73,7 +89,54 @@ impl CodeEditor {
             moved_at: 0.0,
             drag: None,
             page: 20,
+            rows: Rows::default(),
+            rows_of: None,
+            brackets: None,
+            brackets_of: None,
+            pasted: None,
+            told: 0,
             work: Work::default(),
+            sight: (0.0, false),
+        }
+    }
+
+    pub fn buffer(&self) -> &Buffer {
+        &self.buffer
+    }
+
+    /// Changes the text, or what is selected in it.
+    pub fn edit<R>(&mut self, change: impl FnOnce(&mut Buffer) -> R) -> R {
+        change(&mut self.buffer)
+    }
+
+    /// Takes over a text that was changed elsewhere.
+    pub fn take_text(&mut self, text: &str) {
+        self.buffer.set_text(text);
+        self.told = self.buffer.revision();
+    }
+
+    /// Returns the text if it has changed since the last call.
+    pub fn take_changed(&mut self) -> Option<&str> {
+        let revision = self.buffer.revision();
+        (std::mem::replace(&mut self.told, revision) != revision).then(|| self.buffer.text())
+    }
+
+    /// Does what a key or the palette asks.
+    pub fn act(&mut self, action: EditorAction) {
+        match action {
+            EditorAction::Propose => self.assist.propose(),
+            EditorAction::Signature => self.assist.show_signature(),
+            EditorAction::Definition => self.assist.go_to_definition(),
+            EditorAction::Uses => self.assist.list_uses(),
+            EditorAction::OtherBracket => {
+                let caret = self.buffer.selection().head;
+                if let Some([open, close]) = brackets::pair_at(&self.highlight, &self.buffer, caret) {
+                    let to = if caret == close { open } else { close };
+                    self.buffer.select(to, to);
+                }
+                self.follow_caret = true;
+            }
+            action => self.follow_caret |= self.act_on_rows(action) || input::act(&mut self.buffer, action),
         }
     }
 
@@ -104,38 +167,51 @@ impl CodeEditor {
     }
 
     /// Fills the space there is. `id` is the widget's own, the same in every frame.
-    pub fn show(&mut self, ui: &mut Ui, id: Id, look: Look<'_>) -> EditorOutput {
-        let revision = self.buffer.revision();
+    pub fn show(&mut self, ui: &mut Ui, id: Id, look: Look<'_>, keys: Keys<'_>) -> EditorOutput {
         let font = FontId::monospace(look.font_size);
         let (row_height, glyph) = ui.fonts_mut(|f| (f.row_height(&font), f.glyph_width(&font, '0')));
         let row_height = (row_height * 1.12).round_to_pixels(ui.pixels_per_point());
         let has_focus = ui.memory(|m| m.has_focus(id));
+        self.work.scanned = 0;
+        self.assist.take_chosen(&mut self.buffer);
+        if let Some(text) = self.pasted.take() {
+            self.buffer.paste(&text);
+        }
         if has_focus {
-            self.take_keys(ui, id);
+            self.take_keys(ui, id, &look, keys);
         } else {
             self.assist.close_all();
         }
         let help = self.fresh(look.help);
         self.assist.update(&self.buffer, help);
-        ui.fonts_mut(|f| {
-            let mut width = |c: char| f.glyph_width(&font, c) / glyph;
-            self.work.scanned = self.highlight.update(&mut self.buffer, look.shared, &mut width);
-        });
+        self.sync(ui, &look);
+        self.reveal_carets();
 
         let whole = ui.available_rect_before_wrap();
         let digits = self.buffer.line_count().to_string().len().max(3);
-        let gutter = (digits as f32 * glyph + 26.0).round();
+        let gutter = (digits as f32 * glyph + gutter::BESIDE).round();
         let text_rect = Rect::from_min_max(pos2((whole.left() + gutter).min(whole.right()), whole.top()), whole.max);
+        // What opens below the text must not cover the line that one is in.
+        let (height, was_seen) = self.sight;
+        self.follow_caret |= was_seen && text_rect.height() < height;
         self.page = ((text_rect.height() / row_height) as usize).saturating_sub(2).max(1);
-        ui.painter().rect_filled(whole, 0.0, super::super::theme::BACKGROUND);
+        ui.painter().rect_filled(whole, 0.0, theme::of(ui).background);
 
         let mut text_ui = ui.new_child(egui::UiBuilder::new().max_rect(text_rect).id_salt(id));
         text_ui.spacing_mut().scroll.fade.strength = 0.0;
         text_ui.set_clip_rect(text_rect.intersect(ui.clip_rect()));
-        let size = vec2((self.highlight.columns() + 4.0) * glyph + 12.0, self.buffer.line_count() as f32 * row_height);
+        // Beside the margins there is room for the scroll bar.
+        let wrap = look.wraps.then(|| ((text_rect.width() - 2.0 * MARGIN - 16.0) / glyph).max(8.0));
+        if self.highlight.set_wrap(&self.buffer, wrap) {
+            self.rows.update(&self.buffer, &self.highlight, None);
+        }
+        let columns = if wrap.is_some() { 0.0 } else { self.highlight.columns() + 4.0 };
+        let row_count = self.rows.len(&self.buffer);
+        let size = vec2(columns * glyph + 12.0, row_count as f32 * row_height);
         let mut painted = None;
         // Lines in sight are shown by it while the editor goes on.
         let index = std::mem::take(&mut self.highlight);
+        let folding = std::mem::take(&mut self.rows);
         let scrolled = ScrollArea::both().id_salt(id).auto_shrink(false).content_margin(0).show_viewport(
             &mut text_ui,
             |ui, viewport| {
@@ -148,23 +224,35 @@ impl CodeEditor {
                 let shown = viewport.translate(origin.to_vec2());
                 let response = ui.interact(shown, id, Sense::click_and_drag());
                 let first = (viewport.top() / row_height).max(0.0) as usize;
-                let last = ((viewport.bottom() / row_height).ceil() as usize).min(self.buffer.line_count());
-                let mut lines =
-                    Lines { index: &index, origin, row_height, glyph, font: font.clone(), first, rows: Vec::new() };
+                let last = ((viewport.bottom() / row_height).ceil() as usize).min(row_count);
+                let mut lines = Lines {
+                    index: &index,
+                    folding: &folding,
+                    origin,
+                    row_height,
+                    glyph,
+                    font: font.clone(),
+                    palette: theme::of(ui),
+                    first,
+                    rows: Vec::new(),
+                };
                 let semantic = look.help.map(|help| Semantic::new(help, self.buffer.text()));
                 let range = first..last.max(first);
                 lines.lay_out(ui, &self.buffer, semantic.as_ref(), &self.preedit, range, shown);
                 self.work.laid_out = lines.rows.iter().flat_map(|r| &r.runs).map(|r| r.galley.text().len()).sum();
+                accessible::tell(ui, &response, &lines, &self.buffer, look.name);
                 self.pointer(ui, &response, &lines, help);
+                self.find_brackets(&index);
                 if std::mem::take(&mut self.take_focus) {
                     response.request_focus();
                 }
                 // The pointer may have moved the caret; what is painted must be where it is now.
                 let caret_shown = has_focus && self.caret_is_lit(ui);
                 let uses = if has_focus { self.assist.uses() } else { &[] };
-                let caret = paint::Caret { has_focus, is_lit: caret_shown, uses };
+                let brackets = if has_focus { self.brackets } else { None };
+                let caret = paint::Caret { has_focus, is_lit: caret_shown, uses, brackets };
                 let mut p = paint::text(ui, &lines, &self.buffer, &look, caret, shown);
-                self.assist.show(ui, &lines, &mut self.buffer, shown);
+                self.assist.show(ui, &lines, &self.buffer, shown);
                 let hangs = self.assist.show_hover(ui, &lines, &self.buffer, help, shown);
                 if hangs || self.assist.is_open() {
                     // Both would hang from the same line.
@@ -190,21 +278,30 @@ impl CodeEditor {
             },
         );
         self.highlight = index;
+        self.rows = folding;
         let painted: Painted = painted.unwrap_or_default();
-        let gutter_rect = Rect::from_min_max(whole.min, pos2(text_rect.left(), whole.bottom()));
+        let is_seen = painted.caret.is_positive() && text_rect.y_range().contains(painted.caret.center().y);
+        self.sight = (text_rect.height(), is_seen);
+        let rect = Rect::from_min_max(whole.min, pos2(text_rect.left(), whole.bottom()));
         let top = text_rect.top() - scrolled.state.clamped_offset().y;
-        paint::gutter(ui, gutter_rect, top, row_height, &self.buffer, &look);
+        let gutter = Gutter { rect, top, row_height, index: &self.highlight, rows: &self.rows };
+        if let Some(line) = gutter.show(ui, id, &self.buffer, &look) {
+            self.toggle_fold(line);
+            ui.ctx().request_repaint();
+        }
+        ruler::show(ui, text_rect, &self.buffer, &self.rows, &look, has_focus);
         if let Some(popup) = painted.popup {
             paint::popup(ui, text_rect, &popup);
         }
-        if has_focus {
+        let is_over_picture = theme::of(ui).background == egui::Color32::TRANSPARENT;
+        if has_focus && !is_over_picture {
             let ring = whole.shrink(0.75);
-            ui.painter().rect_stroke(ring, 0.0, super::super::theme::FOCUS, egui::StrokeKind::Middle);
+            ui.painter().rect_stroke(ring, 0.0, theme::of(ui).focus(), egui::StrokeKind::Middle);
         }
         ui.allocate_rect(whole, Sense::hover());
         EditorOutput {
-            changed: self.buffer.revision() != revision,
             text_rect,
+            focus_rect: painted.whole,
             marked: painted.marked,
             asks: std::mem::take(&mut self.assist.asks),
             placed: std::mem::take(&mut self.assist.placed),
@@ -216,107 +313,65 @@ impl CodeEditor {
         help.filter(|help| help.text == self.buffer.text())
     }
 
-    fn take_keys(&mut self, ui: &mut Ui, id: Id) {
+    fn take_keys(&mut self, ui: &Ui, id: Id, look: &Look<'_>, keys: Keys<'_>) {
         let filter = EventFilter { tab: true, horizontal_arrows: true, vertical_arrows: true, escape: true };
         ui.memory_mut(|m| m.set_focus_lock_filter(id, filter));
         let events = ui.input(|i| i.filtered_events(&filter));
+        let moved_at = ui.input(|i| i.time);
         for event in &events {
             let before = self.buffer.revision();
             if self.assist.take(event, &mut self.buffer) {
                 self.follow_caret |= self.buffer.revision() != before;
                 continue;
             }
-            let handled = input::handle(&mut self.buffer, &mut self.preedit, self.page, std::slice::from_ref(event));
-            self.assist.after(event, &self.buffer);
-            if let Some(text) = handled.copied.filter(|t| !t.is_empty()) {
-                ui.ctx().copy_text(text);
-            }
-            if handled.follow_caret {
-                self.follow_caret = true;
-                self.moved_at = ui.input(|i| i.time);
-            }
-        }
-    }
-
-    fn pointer(&mut self, ui: &Ui, response: &egui::Response, lines: &Lines<'_>, help: Option<Help<'_>>) {
-        let Some(pointer) = response.interact_pointer_pos().or_else(|| response.hover_pos()) else { return };
-        let (pressed, shift, command) =
-            ui.input(|i| (i.pointer.primary_pressed(), i.modifiers.shift, i.modifiers.command));
-        let at = lines.position_at(&self.buffer, pointer);
-        // A press and its release can come between two frames: then there is only the click.
-        let clicked_between = response.clicked() && ui.input(|i| i.pointer.primary_pressed());
-        if (pressed && response.is_pointer_button_down_on()) || clicked_between {
-            response.request_focus();
-            self.moved_at = ui.input(|i| i.time);
-            self.assist.close_all();
-            if command && !shift {
-                self.drag = None;
-                self.buffer.select(at, at);
-                self.assist.go_to_definition();
-                ui.ctx().request_repaint();
-                return;
-            }
-            if shift {
-                self.buffer.select(self.buffer.selection().anchor, at);
-                self.drag = Some((self.buffer.selection().anchor..self.buffer.selection().anchor, Granularity::Letter));
-            } else {
-                self.buffer.select(at, at);
-                self.drag = Some((at..at, Granularity::Letter));
-            }
-        }
-        let grown = if response.triple_clicked() {
-            Some(Granularity::Line)
-        } else if response.double_clicked() {
-            Some(Granularity::Word)
-        } else {
-            None
-        };
-        if let Some(granularity) = grown {
-            let range = self.grain(at, granularity);
-            self.buffer.select(range.start, range.end);
-            self.drag = Some((range, granularity));
-        } else if response.dragged_by(egui::PointerButton::Primary)
-            && response.drag_delta() != egui::Vec2::ZERO
-            && let Some((from, granularity)) = self.drag.clone()
-        {
-            let to = self.grain(at, granularity);
-            if to.start < from.start {
-                self.buffer.select(from.end, to.start);
-            } else {
-                self.buffer.select(from.start, to.end);
-            }
-            self.moved_at = ui.input(|i| i.time);
-            self.follow_caret = !ui.clip_rect().contains(pointer);
-        }
-        if command && response.hovered() && help.is_some_and(|h| h.analysis.definition(h.source, at).is_some()) {
-            ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
-        }
-        let pasted = ui.input(|i| {
-            i.events.iter().find_map(|e| match e {
-                egui::Event::MiddleClickPaste { pos, text } if response.rect.contains(*pos) => {
-                    Some((*pos, text.clone()))
+            if let Some(action) = keys(event) {
+                // What lies in a comment and which bracket is whose is asked of the text as it is now.
+                self.sync(ui, look);
+                self.act(action);
+                if action.is_help() {
+                    continue;
                 }
-                _ => None,
-            })
-        });
-        if let Some((pos, text)) = pasted.filter(|_| response.hovered()) {
-            let at = lines.position_at(&self.buffer, pos);
-            self.buffer.select(at, at);
-            self.buffer.paste(&text);
-            response.request_focus();
+            } else {
+                if matches!(event, Event::Text(_)) {
+                    self.sync(ui, look);
+                }
+                let Self { buffer, preedit, highlight, .. } = self;
+                let handled = input::handle(buffer, preedit, event, &|b, at| highlight.is_comment(b, at));
+                if let Some(text) = handled.copied.filter(|t| !t.is_empty()) {
+                    ui.ctx().copy_text(text);
+                }
+                self.follow_caret |= handled.follow_caret;
+            }
+            self.assist.after(event, &self.buffer);
+            if self.follow_caret {
+                self.moved_at = moved_at;
+            }
         }
     }
 
-    fn grain(&self, at: usize, granularity: Granularity) -> Range<usize> {
-        match granularity {
-            Granularity::Letter => at..at,
-            Granularity::Word => self.buffer.word_at(at),
-            Granularity::Line => {
-                let line = self.buffer.line_of(at);
-                let start = self.buffer.line_range(line).start;
-                let last = line + 1 >= self.buffer.line_count();
-                start..if last { self.buffer.text().len() } else { self.buffer.line_range(line + 1).start }
-            }
+    /// Brings the index of the text up to date.
+    fn sync(&mut self, ui: &Ui, look: &Look<'_>) {
+        let font = FontId::monospace(look.font_size);
+        let Self { buffer, highlight, .. } = self;
+        let revision = buffer.revision();
+        self.work.scanned += ui.fonts_mut(|f| {
+            let glyph = f.glyph_width(&font, '0');
+            highlight.update(buffer, look.shared, &mut |c: char| f.glyph_width(&font, c) / glyph)
+        });
+        if self.rows_of != Some(revision) {
+            self.rows_of = Some(revision);
+            let replaced = self.highlight.take_replaced();
+            self.rows.update(&self.buffer, &self.highlight, replaced);
+        }
+    }
+
+    /// Finds the brackets at the caret where it or the text is not what it was.
+    fn find_brackets(&mut self, index: &Highlight) {
+        let now = (self.buffer.revision(), self.buffer.selection().head);
+        if self.brackets_of != Some(now) {
+            self.brackets_of = Some(now);
+            let is_caret = self.buffer.selection().is_empty();
+            self.brackets = is_caret.then(|| brackets::pair_at(index, &self.buffer, now.1)).flatten();
         }
     }
 

@@ -48,4 +48,6 @@ pub fn run(
 }
 
 #[cfg(test)]
+mod names;
+#[cfg(test)]
 mod tests;

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::{
-    project::{PassId, Tab},
+    project::{Input, Media, PassId, Tab},
     session::{Command, SessionOptions, testing},
 };
 use egui::{Event, Modifiers, PointerButton, Pos2, Rect, pos2, vec2};
@@ -50,13 +50,36 @@ impl Stage {
     }
 
     fn frame(&mut self, events: Vec<Event>) -> Frame {
+        self.frame_of(RawInput { events, ..RawInput::default() })
+    }
+
+    /// Drops files on a widget, or beside all of them.
+    fn drop_files(&mut self, names: &[&str], on: Option<&str>) {
+        let at = on.map_or(pos2(450.0, 5.0), |widget| self.shell.place(widget).unwrap().center());
+        self.frame(vec![Event::PointerMoved(at)]);
+        let file = |name: &&str| Arc::new(Dropped(self.folder.path().join(name))) as egui::DroppedFileHandle;
+        let dropped_files = names.iter().map(file).collect();
+        self.frame_of(RawInput { dropped_files, ..RawInput::default() });
+        self.frame(vec![]);
+    }
+
+    fn frame_of(&mut self, input: RawInput) -> Frame {
         let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, vec2(900.0, 600.0)));
-        let input = RawInput { screen_rect, events, ..RawInput::default() };
+        let input = RawInput { screen_rect, ..input };
         let Stage { ctx, shell, session, renderer, .. } = self;
         let mut frame = run(ctx, shell, session, renderer, input, Instant::now());
         frame.output.textures_delta.clear();
         self.session.gpu().wait().unwrap();
         frame
+    }
+
+    fn until(&mut self, what: &str, is_so: impl Fn(&mut Stage) -> bool) {
+        let end = Instant::now() + Duration::from_secs(60);
+        while !is_so(self) {
+            assert!(Instant::now() < end, "never {what}: {:?}", self.session.diagnostics());
+            self.frame(vec![]);
+            std::thread::sleep(Duration::from_millis(2));
+        }
     }
 
     /// A point of the picture as fractions from its bottom left.
@@ -72,6 +95,20 @@ impl Stage {
         assert!(path.starts_with(self.folder.path()), "{}", Path::display(&path));
         let picture = image::open(path).unwrap().to_rgb8();
         picture.get_pixel(0, 0).0
+    }
+}
+
+/// A file that the window system hands over.
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|e| e.to_string())
     }
 }
 
@@ -141,4 +178,151 @@ fn a_problem_and_the_further_places_it_speaks_of_lead_to_their_tabs() {
     assert_eq!(stage.shell.caret(), (Tab::Common, 2));
     stage.click("problem:0");
     assert_eq!(stage.shell.caret(), (Tab::Pass(PassId::Image), 1));
+}
+
+/// Only what a card shows is read back, and a window at rest reads nothing.
+#[test]
+fn a_channel_that_reads_a_buffer_sees_it_as_it_is_now() {
+    let color = |rgb: &str| format!("void mainImage(out vec4 o, in vec2 p) {{ o = vec4({rgb}, 1.0); }}\n");
+    let image = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }\n";
+    let manifest = "[passes.buffer_a]\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n";
+    let green = color("0.0, 1.0, 0.0");
+    let files = [("buffer_a.glsl", green.as_str()), ("image.glsl", image), ("eddy.toml", manifest)];
+    let Some(mut stage) = Stage::open(&files) else { return };
+    stage.session.apply(Command::Pause);
+    let a = PassId::Buffer("A".into());
+    let texel = |stage: &Stage| {
+        let (small, _) = stage.session.miniature(&a, 0)?;
+        let p = &small.picture;
+        Some(p.bytes[4 * (p.width * p.height / 2) as usize..][..3].to_vec())
+    };
+    for _ in 0..4 {
+        stage.frame(vec![]);
+    }
+    assert_eq!(texel(&stage), Some(vec![0, 255, 0]));
+    let rests = stage.frame(vec![]);
+    assert!(!rests.wants_next && rests.tick.wake_at.is_none());
+
+    stage.session.apply(Command::EditText { tab: Tab::Pass(a.clone()), text: color("0.0, 0.0, 1.0") });
+    stage.session.apply(Command::CompileNow);
+    let end = Instant::now() + Duration::from_secs(60);
+    while texel(&stage) != Some(vec![0, 0, 255]) {
+        stage.frame(vec![]);
+        assert!(Instant::now() < end, "{:?}", texel(&stage));
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    // The card is in the panel of the pass in front; the buffer itself reads nothing.
+    stage.click("tab:Buffer A");
+    stage.frame(vec![]);
+    assert_eq!(texel(&stage), None);
+}
+
+#[test]
+fn the_theme_of_the_settings_is_the_windows() {
+    use crate::gui::theme;
+    let Some(mut stage) = Stage::open(&[("image.glsl", MOUSE)]) else { return };
+    for (preference, is_dark) in [(egui::ThemePreference::Light, false), (egui::ThemePreference::Dark, true)] {
+        stage.ctx.set_theme(preference);
+        stage.frame(vec![]);
+        let visuals = stage.ctx.style_of(stage.ctx.theme()).visuals.clone();
+        assert_eq!(theme::of_visuals(&visuals).is_dark, is_dark);
+    }
+    // What the system prefers, and dark where it does not say.
+    stage.ctx.set_theme(egui::ThemePreference::System);
+    theme::apply(&stage.ctx);
+    let ask = |system_theme| {
+        let mut output = stage.ctx.run_ui(RawInput { system_theme, ..RawInput::default() }, |_| {});
+        output.textures_delta.clear();
+        stage.ctx.theme()
+    };
+    let wanted = [egui::Theme::Light, egui::Theme::Dark, egui::Theme::Dark];
+    assert_eq!([ask(Some(egui::Theme::Light)), ask(Some(egui::Theme::Dark)), ask(None)], wanted);
+}
+
+#[test]
+fn one_more_tab_can_be_added_beside_twenty() {
+    let names: Vec<String> = ('a'..='t').map(|c| format!("buffer_{c}.glsl")).collect();
+    let mut files: Vec<(&str, &str)> = names.iter().map(|name| (name.as_str(), MOUSE)).collect();
+    files.push(("image.glsl", MOUSE));
+    let Some(mut stage) = Stage::open(&files) else { return };
+    assert_eq!(stage.session.tabs().len(), 21);
+    for tab in ["tab:Buffer A", "tab:Buffer B"] {
+        let add = stage.shell.place("button:add-tab").unwrap();
+        assert!(add.left() > 450.0 && add.right() <= 900.0, "{add:?}");
+        stage.click(tab);
+    }
+}
+
+/// A picture of one pixel, and a model of one triangle.
+fn things(stage: &Stage) {
+    image::RgbaImage::from_pixel(1, 1, image::Rgba([255, 0, 0, 255]))
+        .save(stage.folder.path().join("red.png"))
+        .unwrap();
+    let model = "v 0 0 0\nv 20 0 0\nv 0 20 0\nf 1 2 3\n";
+    std::fs::write(stage.folder.path().join("triangle.obj"), model).unwrap();
+}
+
+fn reads(stage: &Stage, channel: usize) -> Option<Input> {
+    let image = stage.session.project().pass(&PassId::Image).unwrap();
+    image.channels[channel].as_ref().map(|channel| channel.input.clone())
+}
+
+const READS_SECOND: &str = "void mainImage(out vec4 o, in vec2 p) { o = texture(iChannel2, vec2(0.5)); }";
+
+#[test]
+fn a_dropped_picture_goes_to_the_channel_under_it_or_to_one_that_is_read() {
+    let Some(mut stage) = Stage::open(&[("image.glsl", READS_SECOND)]) else { return };
+    things(&stage);
+    let picture = || Some(Input::Texture(Media::File("red.png".into())));
+    stage.drop_files(&["red.png"], None);
+    assert_eq!((reads(&stage, 0), reads(&stage, 2)), (None, picture()), "the text reads iChannel2");
+    let notice = stage.session.notices().last().unwrap().clone();
+    assert_eq!(notice.text, "iChannel2 of Image reads red.png");
+    stage.until("the picture", |stage| stage.colour() == [255, 0, 0]);
+    // The notice takes it back.
+    stage.click(&format!("toast:{}:undo", notice.id));
+    assert_eq!(reads(&stage, 2), None);
+    stage.drop_files(&["red.png"], Some("channel:1"));
+    assert_eq!((reads(&stage, 1), reads(&stage, 2)), (picture(), None));
+}
+
+#[test]
+fn a_dropped_model_is_drawn_by_a_pass_of_its_own() {
+    let Some(mut stage) = Stage::open(&[("image.glsl", READS_SECOND)]) else { return };
+    things(&stage);
+    stage.drop_files(&["triangle.obj"], None);
+    let model = PassId::Buffer("model".into());
+    assert_eq!(reads(&stage, 2), Some(Input::Buffer("model".into())));
+    stage.until("a frame of it", |stage| {
+        stage.session.compile_state().last.is_some() && !stage.session.compile_state().compiling
+    });
+    assert!(stage.session.diagnostics().is_empty(), "{:?}", stage.session.diagnostics());
+    stage.until("the triangle", |stage| stage.colour() != [0, 0, 0]);
+    assert!(stage.session.project().pass(&model).is_some());
+}
+
+#[test]
+fn what_cannot_be_used_is_told_and_a_project_is_opened() {
+    let Some(mut stage) = Stage::open(&[("image.glsl", MOUSE), ("notes.docx", ""), ("lone.glsl", MOUSE)]) else {
+        return;
+    };
+    let before = stage.session.project().clone();
+    stage.drop_files(&["notes.docx"], None);
+    assert!(stage.session.notices().last().unwrap().text.contains("notes.docx is nothing that Eddy opens"));
+    assert_eq!(*stage.session.project(), before);
+    stage.drop_files(&["lone.glsl"], None);
+    assert_eq!(stage.session.project().name, "lone");
+}
+
+#[test]
+fn a_text_that_is_pasted_beside_the_code_is_opened() {
+    let Some(mut stage) = Stage::open(&[("image.glsl", MOUSE)]) else { return };
+    stage.click("viewport");
+    let text = "#iChannel3 \"keyboard\"\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }";
+    stage.frame(vec![Event::Paste(text.into())]);
+    assert_eq!(stage.session.project().name, "Pasted shader");
+    assert_eq!(reads(&stage, 3), Some(Input::Keyboard));
+    assert!(stage.session.is_dirty(), "it lies nowhere else");
+    stage.frame(vec![Event::Paste("https://www.shadertoy.com/view/abc".into())]);
+    assert!(stage.session.notices().last().unwrap().text.contains("bookmarklet"));
 }

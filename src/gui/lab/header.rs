@@ -6,9 +6,9 @@ use super::{
 };
 use crate::{
     gui::{
+        actions::Action,
         icons::{self, Icon},
         outbox::{Outbox, Pick},
-        shortcuts::{self, Action},
         theme,
     },
     lab::Extent,
@@ -24,7 +24,7 @@ pub fn show(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
         start(ui, lab, out);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let close = icons::button(ui, Icon::Close, "Close the lab");
-            let close = close.on_hover_text(format!("Close the lab ({})", shortcuts::hint(Action::Lab)));
+            let close = close.on_hover_text(out.keys.tip("Close the lab", Action::Lab));
             if out.clicked("lab:close", &close) {
                 out.act(Action::Lab);
             }
@@ -98,8 +98,8 @@ fn start(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
         (false, true) => ("Go on", "Measure what is missing"),
         (false, false) => ("Start", "Measure in the background; the window goes on"),
     };
-    let text = RichText::new(label).color(theme::STRONG);
-    let button = ui.add_enabled(!is_whole || is_temporary, Button::new(text).fill(theme::ACCENT_FILL));
+    let text = RichText::new(label).color(theme::of(ui).strong);
+    let button = ui.add_enabled(!is_whole || is_temporary, Button::new(text).fill(theme::of(ui).accent_fill));
     if out.clicked("lab:start", &button.on_hover_text(tip).on_disabled_hover_text(tip)) {
         lab.start();
     }
@@ -115,8 +115,8 @@ fn progress(ui: &mut Ui, lab: &Lab) {
     if width < 60.0 {
         return;
     }
-    let bar = ProgressBar::new(part).desired_width(width).desired_height(18.0).fill(theme::ACCENT_FILL);
-    let text = RichText::new(words.clone()).size(11.5).color(theme::STRONG);
+    let bar = ProgressBar::new(part).desired_width(width).desired_height(18.0).fill(theme::of(ui).accent_fill);
+    let text = RichText::new(words.clone()).size(11.5).color(theme::of(ui).strong);
     let tip = "Costs are measured beside this window: a picture at work makes them larger. `eddy lab` on a quiet machine gives those to publish";
     ui.add(bar.text(text).corner_radius(4)).on_hover_text(format!("{words}\n{tip}"));
 }
@@ -129,7 +129,7 @@ fn more(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
             Folder::Temporary(_) => "Results are kept until the window closes".to_owned(),
             Folder::Chosen(path) => format!("Results are kept in {}", path.display()),
         };
-        ui.colored_label(theme::WEAK, place);
+        ui.colored_label(theme::of(ui).weak, place);
         let choose = ui.add_enabled(lab.run.is_none(), Button::new("Keep results in a folder…"));
         let choose =
             choose.on_hover_text("A run goes on where the folder's was; `eddy lab merge` can join it with others");

@@ -1,6 +1,6 @@
 //! The list of methods beside the plot, and what the signs mean.
 
-use super::{model::Shown, plot};
+use super::{ink::Ink, model::Shown, plot};
 use crate::{gui::theme, lab::report::Look};
 use egui::{Color32, FontId, RichText, ScrollArea, Sense, Stroke, Ui, pos2, vec2};
 
@@ -18,7 +18,9 @@ pub fn show(ui: &mut Ui, shown: &Shown) -> Option<usize> {
                 hovered = Some(n);
             }
         }
-        ui.label(RichText::new(format!("settings: {}", shown.table.about.knob)).size(11.5).color(theme::WEAK));
+        ui.label(
+            RichText::new(format!("settings: {}", shown.table.about.parameter)).size(11.5).color(theme::of(ui).weak),
+        );
         ui.add_space(5.0);
         key(ui);
     });
@@ -38,8 +40,8 @@ fn line(ui: &mut Ui, text: &str, size: f32, color: Color32) -> egui::Response {
 
 fn method(ui: &mut Ui, shown: &Shown, n: usize) -> bool {
     let method = shown.methods[n];
-    let row = line(ui, method.title, 13.0, theme::TEXT);
-    let color = plot::color(n);
+    let row = line(ui, method.title, 13.0, theme::of(ui).text);
+    let color = Ink::of(ui).method(n);
     plot::sign(ui.painter(), pos2(row.rect.left() + 10.0, row.rect.center().y), n, 0.72, color, color);
     let settings: Vec<String> = shown.table.of(method).map(|r| r.point.setting.to_string()).collect();
     let without = shown.without_place(method).filter(|r| r.millis.is_some() || r.trouble.is_some()).count();
@@ -50,34 +52,34 @@ fn method(ui: &mut Ui, shown: &Shown, n: usize) -> bool {
     }
     let mut is_hovered = row.hovered();
     if !words.is_empty() {
-        is_hovered |= line(ui, &words, 11.0, theme::WEAK).hovered();
+        is_hovered |= line(ui, &words, 11.0, theme::of(ui).weak).hovered();
     }
     is_hovered
 }
 
 fn key(ui: &mut Ui) {
-    let ink = theme::TEXT;
+    let ink = theme::of(ui).text;
     for (look, words) in [
         (Some(Look::Full), "best at its cost"),
         (Some(Look::Grey), "another is cheaper and closer"),
         (Some(Look::Hollow), "fails a hard case"),
         (None, "the frontier"),
     ] {
-        let row = line(ui, words, 11.5, theme::WEAK).rect;
+        let row = line(ui, words, 11.5, theme::of(ui).weak).rect;
         let at = pos2(row.left() + 10.0, row.center().y);
         match look {
-            Some(look) => plot::sign(ui.painter(), at, 0, 0.62, ink, plot::fill(look, ink)),
+            Some(look) => plot::sign(ui.painter(), at, 0, 0.62, ink, Ink::of(ui).fill(look, ink)),
             None => {
                 let ends = [at - vec2(8.0, 0.0), at + vec2(8.0, 0.0)];
-                ui.painter().line_segment(ends, Stroke::new(5.0, plot::FRONTIER));
+                ui.painter().line_segment(ends, Stroke::new(5.0, Ink::of(ui).frontier()));
             }
         }
     }
-    line(ui, "faint: its cost is an estimate as yet", 11.5, theme::WEAK);
+    line(ui, "faint: its cost is an estimate as yet", 11.5, theme::of(ui).weak);
     ui.add_space(4.0);
     ui.label(
         RichText::new("A click on a point opens its project. Drag to move, scroll to zoom, double-click to see all.")
             .size(11.0)
-            .color(theme::WEAK),
+            .color(theme::of(ui).weak),
     );
 }

@@ -5,6 +5,7 @@
 
 mod axis;
 mod header;
+mod ink;
 mod legend;
 mod model;
 mod panel;

@@ -9,10 +9,11 @@ const ROOM_FOR_LEGEND: f32 = 640.0;
 
 impl Lab {
     pub fn show(&mut self, ui: &mut Ui, out: &mut Outbox) {
+        out.stop("lab", ui);
         ui.spacing_mut().item_spacing = vec2(6.0, 4.0);
         header::show(ui, self, out);
         if let Some((words, is_bad)) = &self.told {
-            let color = if *is_bad { theme::ERROR } else { theme::GOOD };
+            let color = if *is_bad { theme::of(ui).error } else { theme::of(ui).good };
             ui.add(egui::Label::new(RichText::new(words).size(12.0).color(color)).truncate().selectable(true));
         }
         let Some(shown) = self.shown.take() else { return self.show_about(ui) };
@@ -46,14 +47,14 @@ impl Lab {
         egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.add_space(6.0);
             ui.set_max_width(760.0);
-            ui.label(RichText::new(about.title).size(17.0).color(theme::STRONG));
+            ui.label(RichText::new(about.title).size(17.0).color(theme::of(ui).strong));
             ui.label(about.text);
             ui.add_space(4.0);
             for method in study.methods() {
                 let settings: Vec<String> = method.settings.iter().map(f64::to_string).collect();
                 ui.horizontal_wrapped(|ui| {
                     ui.label(method.title);
-                    ui.colored_label(theme::WEAK, format!("{}: {}", about.knob, settings.join(", ")));
+                    ui.colored_label(theme::of(ui).weak, format!("{}: {}", about.parameter, settings.join(", ")));
                 });
             }
             ui.add_space(4.0);
@@ -63,7 +64,7 @@ impl Lab {
                 Some(_) => "The first points come soon.".to_owned(),
                 None => format!("Start measures {points} points on grids of {} texels a side.", grids.join(", ")),
             };
-            ui.colored_label(theme::WEAK, words);
+            ui.colored_label(theme::of(ui).weak, words);
         });
     }
 }

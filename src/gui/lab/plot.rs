@@ -3,37 +3,22 @@
 
 use super::{
     axis::{self, short},
+    ink::Ink,
     model::{Dot, Shown, nearest},
 };
 use crate::{
-    gui::{outbox::Outbox, theme},
+    gui::{
+        outbox::Outbox,
+        theme::{self, Palette},
+    },
     lab::{
         Extent, Point,
-        report::{self, Look, TARGET},
+        report::{self, TARGET},
     },
 };
 use egui::{Color32, CursorIcon, Painter, Pos2, Rangef, Rect, RichText, Shape, Stroke, Ui, vec2};
 use egui_plot::{AxisHints, Plot, PlotPoint, PlotTransform};
 
-/// Colours that are told apart by people who see fewer (Okabe and Ito 2008), lightened for a dark ground, and further
-/// ones that differ in brightness. In the order of the report's.
-const COLOURS: [Color32; report::COLOURS] = [
-    Color32::from_rgb(70, 160, 235),
-    Color32::from_rgb(240, 120, 50),
-    Color32::from_rgb(30, 190, 140),
-    Color32::from_rgb(225, 140, 190),
-    Color32::from_rgb(135, 210, 250),
-    Color32::from_rgb(240, 180, 50),
-    Color32::from_rgb(190, 150, 110),
-    Color32::from_rgb(140, 140, 245),
-    Color32::from_rgb(230, 85, 115),
-    Color32::from_rgb(140, 195, 100),
-    Color32::from_rgb(215, 215, 215),
-    Color32::from_rgb(180, 145, 235),
-];
-const GREY: Color32 = Color32::from_rgb(84, 90, 102);
-pub const FRONTIER: Color32 = Color32::from_rgb(128, 106, 44);
-const GRID: Color32 = Color32::from_rgb(92, 99, 114);
 /// How near the pointer has to be to a point, in points of the screen.
 const REACH: f32 = 13.0;
 
@@ -43,18 +28,6 @@ pub struct View<'a> {
     /// A method that is shown up.
     pub lit: Option<usize>,
     pub extent: Extent,
-}
-
-pub fn color(method: usize) -> Color32 {
-    COLOURS[method % COLOURS.len()]
-}
-
-pub fn fill(look: Look, color: Color32) -> Color32 {
-    match look {
-        Look::Full => color,
-        Look::Grey => GREY,
-        Look::Hollow => theme::BACKGROUND,
-    }
 }
 
 /// The nth method's sign.
@@ -67,13 +40,13 @@ pub fn sign(painter: &Painter, at: Pos2, n: usize, scale: f32, edge: Color32, fi
 
 /// The row whose point was clicked.
 pub fn show(ui: &mut Ui, shown: &Shown, view: &View<'_>, out: &mut Outbox) -> Option<usize> {
-    let table = &shown.table;
+    let (table, ink) = (&shown.table, Ink::of(ui));
     let tick = |mark: egui_plot::GridMark, range: &std::ops::RangeInclusive<f64>| {
         axis::label(mark, range.end() - range.start())
     };
     let axis = |hints: AxisHints<'static>, label: String| {
-        let label = RichText::new(label).size(12.0).color(theme::WEAK);
-        hints.label(label).formatter(tick).tick_label_color(theme::TEXT).label_spacing(Rangef::new(9.0, 12.0))
+        let label = RichText::new(label).size(12.0).color(theme::of(ui).weak);
+        hints.label(label).formatter(tick).tick_label_color(theme::of(ui).text).label_spacing(Rangef::new(9.0, 12.0))
     };
     let x = axis(AxisHints::new_x(), format!("{} ({} x {} texels)", table.about.unit.label(), table.grid, table.grid));
     let y = axis(AxisHints::new_y(), format!("relative L2 error {}", table.about.error)).min_thickness(52.0);
@@ -83,7 +56,7 @@ pub fn show(ui: &mut Ui, shown: &Shown, view: &View<'_>, out: &mut Outbox) -> Op
         .x_grid_spacer(axis::marks)
         .y_grid_spacer(axis::marks)
         .grid_spacing(Rangef::new(5.0, 90.0))
-        .grid_color(GRID)
+        .grid_color(ink.grid())
         .set_margin_fraction(vec2(0.03, 0.05))
         .show_crosshair(false)
         .allow_scroll(false)
@@ -100,8 +73,8 @@ pub fn show(ui: &mut Ui, shown: &Shown, view: &View<'_>, out: &mut Outbox) -> Op
     });
     let (area, transform) = (response.response.rect, response.transform);
     let painter = ui.painter().with_clip_rect(area.intersect(ui.clip_rect()));
-    let pen = Pen { painter: &painter, transform: &transform, shown, view };
-    target(&painter, area, &transform);
+    let pen = Pen { painter: &painter, transform: &transform, ink, shown, view };
+    target(&painter, ink.palette, area, &transform);
     pen.lines();
     let pointer = response.response.hover_pos();
     let hovered = pointer.and_then(|at| nearest(shown.dots.iter().map(|dot| pen.place(dot.at)), at, REACH));
@@ -128,6 +101,7 @@ pub fn show(ui: &mut Ui, shown: &Shown, view: &View<'_>, out: &mut Outbox) -> Op
 struct Pen<'a> {
     painter: &'a Painter,
     transform: &'a PlotTransform,
+    ink: &'static Ink,
     shown: &'a Shown,
     view: &'a View<'a>,
 }
@@ -145,11 +119,11 @@ impl Pen<'_> {
                 self.painter.line_segment([self.place(ends[0]), self.place(ends[1])], stroke);
             }
         };
-        pieces(&self.shown.frontier, Stroke::new(6.0, FRONTIER));
+        pieces(&self.shown.frontier, Stroke::new(6.0, self.ink.frontier()));
         for n in 0..self.shown.methods.len() {
             let is_dim = self.view.lit.is_some_and(|lit| lit != n);
             let width = if self.view.lit == Some(n) { 3.0 } else { 1.8 };
-            let stroke = Stroke::new(width, color(n).gamma_multiply(if is_dim { 0.25 } else { 0.85 }));
+            let stroke = Stroke::new(width, self.ink.method(n).gamma_multiply(if is_dim { 0.25 } else { 0.85 }));
             pieces(&self.shown.line(n), stroke);
         }
     }
@@ -157,54 +131,54 @@ impl Pen<'_> {
     fn dot(&self, dot: &Dot, is_hovered: bool) {
         let (at, row) = (self.place(dot.at), self.shown.row(dot));
         let is_dim = self.view.lit.is_some_and(|lit| lit != dot.method);
-        let edge = color(dot.method).gamma_multiply(if is_dim { 0.3 } else { 1.0 });
+        let edge = self.ink.method(dot.method).gamma_multiply(if is_dim { 0.3 } else { 1.0 });
         if let (Some(times), false) = (row.millis, dot.is_estimate) {
             // From the least to the most of all turns.
             let ends = [times.min, times.max].map(|millis| self.place([millis.log10(), dot.at[1]]));
             self.painter.line_segment(ends, Stroke::new(1.0, edge.gamma_multiply(0.7)));
         }
-        let body = fill(dot.look, edge);
+        let body = self.ink.fill(dot.look, edge);
         let faint = if dot.is_estimate { 0.5 } else { 1.0 };
         let scale = if is_hovered { 0.95 } else { 0.72 };
         sign(self.painter, at, dot.method, scale, edge.gamma_multiply(faint), body.gamma_multiply(faint));
         if self.view.opened == Some(&row.point) {
-            self.painter.circle_stroke(at, 11.0, Stroke::new(1.5, theme::STRONG));
+            self.painter.circle_stroke(at, 11.0, Stroke::new(1.5, self.ink.palette.strong));
         }
     }
 }
 
 /// The error whose time the report tells.
-fn target(painter: &Painter, area: Rect, transform: &PlotTransform) {
+fn target(painter: &Painter, palette: &Palette, area: Rect, transform: &PlotTransform) {
     let y = transform.position_from_point(&PlotPoint::new(0.0, TARGET.log10())).y;
     if !area.y_range().contains(y) {
         return;
     }
     let ends = [egui::pos2(area.left(), y), egui::pos2(area.right(), y)];
-    painter.extend(Shape::dashed_line(&ends, Stroke::new(1.0, theme::WEAK), 6.0, 5.0));
+    painter.extend(Shape::dashed_line(&ends, Stroke::new(1.0, palette.weak), 6.0, 5.0));
     let (at, align) = match y - area.top() > 18.0 {
         true => (y - 2.0, egui::Align2::LEFT_BOTTOM),
         false => (y + 2.0, egui::Align2::LEFT_TOP),
     };
     let font = egui::FontId::proportional(11.0);
-    painter.text(egui::pos2(area.left() + 6.0, at), align, "error 1 %", font, theme::WEAK);
+    painter.text(egui::pos2(area.left() + 6.0, at), align, "error 1 %", font, palette.weak);
 }
 
 fn tooltip(ui: &mut Ui, shown: &Shown, dot: &Dot) {
     let (row, about) = (shown.row(dot), shown.table.about);
     ui.set_max_width(360.0);
-    ui.colored_label(theme::STRONG, row.method.title);
-    ui.label(format!("{} = {}", about.knob, row.point.setting));
+    ui.colored_label(theme::of(ui).strong, row.method.title);
+    ui.label(format!("{} = {}", about.parameter, row.point.setting));
     let cost = row.millis.map_or(String::new(), |t| short(t.median));
     let estimate = if dot.is_estimate { ", an estimate" } else { "" };
     ui.label(format!("{cost} {}{estimate}", about.unit.label()));
     ui.label(format!("error {}", row.error().map_or(String::new(), short)));
     if let Some(measured) = &row.measured {
         for (name, value) in &measured.values {
-            ui.colored_label(theme::WEAK, format!("{name} {}", short(value.0)));
+            ui.colored_label(theme::of(ui).weak, format!("{name} {}", short(value.0)));
         }
         for case in measured.hard.iter().filter(|c| !c.passed) {
-            ui.colored_label(theme::WARNING, format!("fails: {} ({})", case.name, case.detail));
+            ui.colored_label(theme::of(ui).warning, format!("fails: {} ({})", case.name, case.detail));
         }
     }
-    ui.colored_label(theme::WEAK, "Click to open it");
+    ui.colored_label(theme::of(ui).weak, "Click to open it");
 }

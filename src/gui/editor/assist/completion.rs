@@ -3,9 +3,9 @@
 use super::{super::buffer::Buffer, draw};
 use crate::{
     glsl::services::{Completion, Completions},
-    gui::theme,
+    gui::{accessible, theme},
 };
-use egui::{Align2, Area, Color32, FontId, Frame, Id, Margin, Order, Rect, Sense, Ui, pos2, vec2};
+use egui::{Align2, Area, FontId, Frame, Id, Margin, Order, Rect, Sense, Ui, pos2, vec2};
 use std::ops::Range;
 
 /// Rows in sight.
@@ -115,11 +115,15 @@ impl Popup {
                     let first = self.top;
                     for i in first..(first + ROWS).min(self.fitting.len()) {
                         let (rect, response) = ui.allocate_exact_size(vec2(width, row), Sense::click());
+                        if let Some(item) = self.item(i) {
+                            let is_selected = i == self.selected;
+                            accessible::choice(&response, egui::Role::ListBoxOption, is_selected, &item.label);
+                        }
                         if response.hovered() && i != self.selected {
-                            ui.painter().rect_filled(rect, 4.0, theme::BUTTON);
+                            ui.painter().rect_filled(rect, 4.0, theme::of(ui).button);
                         }
                         if i == self.selected {
-                            ui.painter().rect_filled(rect, 4.0, theme::ACCENT_FILL);
+                            ui.painter().rect_filled(rect, 4.0, theme::of(ui).accent_fill);
                         }
                         if let Some(item) = self.item(i) {
                             paint_row(ui, rect, item, font, i == self.selected);
@@ -141,9 +145,9 @@ impl Popup {
                     if let Some(doc) = doc {
                         ui.add_space(4.0);
                         let line = ui.max_rect().x_range();
-                        ui.painter().hline(line, ui.cursor().top(), egui::Stroke::new(1.0, theme::LINE));
+                        ui.painter().hline(line, ui.cursor().top(), egui::Stroke::new(1.0, theme::of(ui).line));
                         ui.add_space(5.0);
-                        let label = egui::RichText::new(doc).size((font.size - 0.5).max(9.0)).color(theme::TEXT);
+                        let label = egui::RichText::new(doc).size((font.size - 0.5).max(9.0)).color(theme::of(ui).text);
                         ui.add(egui::Label::new(label).wrap());
                         ui.add_space(2.0);
                     }
@@ -160,14 +164,14 @@ impl Popup {
         let top = whole.top() + height * self.top as f32 / self.fitting.len() as f32;
         let left = whole.left() + width - 3.0;
         let bar = Rect::from_min_size(pos2(left, top), vec2(3.0, (height * part).max(12.0)));
-        ui.painter().rect_filled(bar, 1.5, Color32::from_white_alpha(40));
+        ui.painter().rect_filled(bar, 1.5, theme::of(ui).weak.gamma_multiply(0.5));
     }
 }
 
 /// A sign for the kind, the name, and its type or signature as far as there is room.
 fn paint_row(ui: &Ui, rect: Rect, item: &Completion, font: &FontId, is_selected: bool) {
     let painter = ui.painter().with_clip_rect(rect);
-    let (sign, color) = draw::sign(item.kind);
+    let (sign, color) = draw::sign(item.kind, theme::of(ui));
     let badge = Rect::from_center_size(pos2(rect.left() + 14.0, rect.center().y), vec2(17.0, 15.0));
     painter.rect_filled(badge, 3.0, color.gamma_multiply(0.22));
     painter.text(badge.center(), Align2::CENTER_CENTER, sign, FontId::monospace(font.size - 2.5), color);
@@ -176,11 +180,11 @@ fn paint_row(ui: &Ui, rect: Rect, item: &Completion, font: &FontId, is_selected:
         Align2::LEFT_CENTER,
         &item.label,
         font.clone(),
-        if is_selected { theme::STRONG } else { theme::TEXT },
+        if is_selected { theme::of(ui).strong } else { theme::of(ui).text },
     );
     let room = rect.right() - 10.0 - name.right() - 14.0;
     if room > 30.0 && !item.detail.is_empty() {
-        let weak = if is_selected { theme::TEXT } else { theme::WEAK };
+        let weak = if is_selected { theme::of(ui).text } else { theme::of(ui).weak };
         let font = FontId::monospace((font.size - 1.5).max(8.0));
         let mut job = egui::text::LayoutJob::simple_singleline(item.detail.clone(), font, weak);
         job.wrap = egui::text::TextWrapping::truncate_at_width(room);

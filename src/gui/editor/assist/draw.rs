@@ -7,7 +7,7 @@ use crate::{
             colors::code_color,
             lexer::{self, LexState, TokenKind},
         },
-        theme,
+        theme::Palette,
     },
 };
 use egui::{
@@ -17,7 +17,7 @@ use egui::{
 use std::ops::Range;
 
 /// A letter and a colour.
-pub(super) fn sign(kind: CompletionKind) -> (&'static str, Color32) {
+pub(super) fn sign(kind: CompletionKind, palette: &Palette) -> (&'static str, Color32) {
     use CompletionKind as K;
     let (sign, token) = match kind {
         K::Local => ("v", TokenKind::Plain),
@@ -33,25 +33,25 @@ pub(super) fn sign(kind: CompletionKind) -> (&'static str, Color32) {
         K::Uniform => ("u", TokenKind::Uniform),
         K::Keyword => ("k", TokenKind::Keyword),
     };
-    (sign, code_color(token))
+    (sign, code_color(token, palette))
 }
 
 /// Lines of GLSL in colour; `strong` is set off from the rest of them.
-pub(super) fn code(lines: &[String], font: &FontId, strong: Option<Range<usize>>) -> LayoutJob {
+pub(super) fn code(palette: &Palette, lines: &[String], font: &FontId, strong: Option<Range<usize>>) -> LayoutJob {
     let mut job = LayoutJob::default();
     for (i, line) in lines.iter().enumerate() {
         if i > 0 {
-            job.append("\n", 0.0, TextFormat::simple(font.clone(), theme::TEXT));
+            job.append("\n", 0.0, TextFormat::simple(font.clone(), palette.text));
         }
         let mut at = 0;
         for token in lexer::lex(line, 0..line.len(), LexState::default(), &|_| false) {
             let range = at..at + token.len;
             at = range.end;
-            let color = code_color(token.kind);
+            let color = code_color(token.kind, palette);
             let format = |is_strong: bool| {
-                let mut format = TextFormat::simple(font.clone(), if is_strong { theme::STRONG } else { color });
+                let mut format = TextFormat::simple(font.clone(), if is_strong { palette.strong } else { color });
                 if is_strong {
-                    format.background = theme::ACCENT_FILL;
+                    format.background = palette.accent_fill;
                     format.expand_bg = 2.0;
                 }
                 format

@@ -42,6 +42,8 @@ pub(super) struct Assist {
     /// Uses of the name at the caret, and for which revision and caret they were found.
     uses: Vec<Range<usize>>,
     uses_of: Option<(u64, usize)>,
+    /// A proposal was clicked.
+    is_chosen: bool,
     /// The question about the caret's name that waits for the analysis.
     question: Option<Question>,
     pub asks: Vec<Ask>,
@@ -50,7 +52,7 @@ pub(super) struct Assist {
 }
 
 impl Assist {
-    /// Takes an event if it is for what is open, or asks for help. Otherwise the editor gets it.
+    /// Takes an event if it is for what is open. Otherwise the editor gets it.
     pub fn take(&mut self, event: &Event, buffer: &mut Buffer) -> bool {
         let Event::Key { key, pressed: true, modifiers: m, .. } = *event else { return false };
         self.hover.close();
@@ -79,18 +81,27 @@ impl Assist {
                 return true;
             }
         }
-        match key {
-            Key::Escape if self.signature.is_some() => self.close_signature(),
-            Key::Space if m.command && m.shift => self.signature_is_on = true,
-            Key::Space if m.command => {
-                self.wanted = Some(true);
-                self.dismissed = None;
-            }
-            Key::F12 if m.shift => self.question = Some(Question::Uses),
-            Key::F12 if plain => self.go_to_definition(),
-            _ => return false,
+        let closes = key == Key::Escape && self.signature.is_some();
+        if closes {
+            self.close_signature();
         }
-        true
+        closes
+    }
+
+    /// Opens the list of proposals, also where nothing is typed yet.
+    pub fn propose(&mut self) {
+        self.wanted = Some(true);
+        self.dismissed = None;
+    }
+
+    /// Shows what the call around the caret takes.
+    pub fn show_signature(&mut self) {
+        self.signature_is_on = true;
+    }
+
+    /// Lists the uses of the name at the caret as soon as they are known.
+    pub fn list_uses(&mut self) {
+        self.question = Some(Question::Uses);
     }
 
     /// After the editor has taken an event: what opens, goes on or closes by it.
@@ -219,14 +230,22 @@ impl Assist {
         &self.uses
     }
 
-    /// Shows what is open. A proposal that was clicked is taken.
-    pub fn show(&mut self, ui: &Ui, lines: &Lines<'_>, buffer: &mut Buffer, shown: Rect) {
+    /// Takes the proposal that was clicked in the frame before: while lines are shown the text stays as it is.
+    pub fn take_chosen(&mut self, buffer: &mut Buffer) {
+        if std::mem::take(&mut self.is_chosen) {
+            self.accept(buffer);
+        }
+    }
+
+    /// Shows what is open.
+    pub fn show(&mut self, ui: &Ui, lines: &Lines<'_>, buffer: &Buffer, shown: Rect) {
         let caret = lines.caret_rect(buffer);
         let is_in_sight = shown.intersects(caret);
         if let Some(popup) = self.popup.as_mut().filter(|_| is_in_sight) {
             let at = lines.rect_of(buffer, popup.start());
             if popup.show(ui, at, &lines.font, &mut self.placed) {
-                self.accept(buffer);
+                self.is_chosen = true;
+                ui.ctx().request_repaint();
             }
         }
         if let Some(signature) = self.signature.as_ref().filter(|_| is_in_sight) {

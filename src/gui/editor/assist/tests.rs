@@ -4,6 +4,10 @@ use super::*;
 use crate::{
     diag::SourceId,
     glsl::{PassKind, PassSource, Text, services::Analysis},
+    gui::{
+        actions::{Action, Keymap, Listening},
+        editor::{EditorAction, input},
+    },
 };
 use egui::Modifiers;
 
@@ -31,8 +35,19 @@ fn type_into(text: &str, input: &str) -> (Assist, String) {
         };
         rest = behind;
         if !assist.take(&event, &mut buffer) {
-            super::super::input::handle(&mut buffer, &mut String::new(), 20, std::slice::from_ref(&event));
-            assist.after(&event, &buffer);
+            let entry = Keymap::default().pressed(&event, Listening { code: true, find_bar: false });
+            match entry.map(|e| e.action) {
+                Some(Action::Code(EditorAction::Propose)) => assist.propose(),
+                Some(Action::Code(EditorAction::Definition)) => assist.go_to_definition(),
+                Some(Action::Code(action)) => {
+                    input::act(&mut buffer, action);
+                    assist.after(&event, &buffer);
+                }
+                _ => {
+                    input::handle(&mut buffer, &mut String::new(), &event, &|_, _| false);
+                    assist.after(&event, &buffer);
+                }
+            }
         }
         let now = buffer.text().to_owned();
         let analysis = Analysis::new(&PassSource::new(PassKind::Image, Text { id: ID, text: &now }));

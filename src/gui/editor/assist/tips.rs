@@ -73,12 +73,12 @@ impl Pointer {
         let Some(name) = name_rect(lines, buffer, open) else { return false };
         tip(ui, name, true, "hover", placed, |ui| {
             if !open.signature.is_empty() {
-                ui.add(Label::new(draw::code(&open.signature, &lines.font, None)).wrap());
+                ui.add(Label::new(draw::code(theme::of(ui), &open.signature, &lines.font, None)).wrap());
             }
             if !open.doc.is_empty() {
                 ui.add(Label::new(RichText::new(&open.doc).size(text_size(&lines.font))).wrap());
             }
-            ui.add(Label::new(RichText::new(open.kind).size(small_size(&lines.font)).color(theme::WEAK)));
+            ui.add(Label::new(RichText::new(open.kind).size(small_size(&lines.font)).color(theme::of(ui).weak)));
         })
     }
 }
@@ -98,13 +98,13 @@ pub(super) fn signature(ui: &Ui, help: &SignatureHelp, at: Rect, font: &FontId, 
     let Some(signature) = help.signatures.get(help.active) else { return };
     tip(ui, at, true, "signature", placed, |ui| {
         let strong = signature.params.get(help.parameter).cloned();
-        ui.add(Label::new(draw::code(std::slice::from_ref(&signature.label), font, strong)).wrap());
+        ui.add(Label::new(draw::code(theme::of(ui), std::slice::from_ref(&signature.label), font, strong)).wrap());
         if !help.doc.is_empty() {
-            ui.add(Label::new(RichText::new(&help.doc).size(text_size(font)).color(theme::WEAK)).wrap());
+            ui.add(Label::new(RichText::new(&help.doc).size(text_size(font)).color(theme::of(ui).weak)).wrap());
         }
         if help.signatures.len() > 1 {
             let count = format!("overload {} of {}", help.active + 1, help.signatures.len());
-            ui.add(Label::new(RichText::new(count).size(small_size(font)).color(theme::WEAK)));
+            ui.add(Label::new(RichText::new(count).size(small_size(font)).color(theme::of(ui).weak)));
         }
     });
 }

@@ -1,10 +1,18 @@
-//! The lines in sight, laid out: between places of the text and points of the window.
+//! The rows in sight, laid out: between places of the text and points of the window.
 //!
-//! Only pieces that can be seen are laid out. Where they are is reckoned from a line's and a piece's number in 64 bits:
+//! Only pieces that can be seen are laid out. Where they are is reckoned from a row's and a piece's number in 64 bits:
 //! ten million letters are 80 million points wide, and a 32-bit number of that size has steps of eight.
 
-use super::{buffer::Buffer, colors::code_color, highlight::Highlight, pieces, semantic::Semantic};
-use crate::gui::theme;
+use super::{
+    buffer::Buffer,
+    colors::code_color,
+    highlight::Highlight,
+    lexer::Token,
+    pieces,
+    rows::{Part, Rows},
+    semantic::Semantic,
+};
+use crate::gui::theme::Palette;
 use egui::{
     FontId, Galley, Pos2, Rect, Stroke, Ui, pos2,
     text::{CCursor, LayoutJob, TextFormat},
@@ -17,29 +25,34 @@ pub(super) const MARGIN: f32 = 6.0;
 
 pub(super) struct Lines<'a> {
     pub index: &'a Highlight,
+    /// Which row shows what.
+    pub folding: &'a Rows,
     /// The top left corner of the text, which may be far out of the window.
     pub origin: Pos2,
     pub row_height: f32,
     /// Width of a digit.
     pub glyph: f32,
     pub font: FontId,
+    pub palette: &'static Palette,
+    /// The row that is laid out first.
     pub first: usize,
     pub rows: Vec<Row>,
 }
 
-/// A line in sight.
-#[derive(Debug, Default)]
+/// A row in sight.
+#[derive(Debug)]
 pub(super) struct Row {
+    pub part: Part,
     /// The runs of it that are laid out, from left to right without a gap.
     pub runs: Vec<Run>,
-    /// The width of the whole line, in points.
+    /// Where the row ends, in points from where lines begin.
     pub width: f64,
 }
 
 /// A piece laid out.
 #[derive(Debug)]
 pub(super) struct Run {
-    /// From where the line begins, in points.
+    /// From where lines begin, in points.
     x: f64,
     /// Bytes of the text.
     bytes: Range<usize>,
@@ -54,7 +67,7 @@ impl Row {
 }
 
 impl Lines<'_> {
-    /// Lays out what is in sight of some lines; egui keeps what it has seen in the last frame, so what stands still
+    /// Lays out what is in sight of some rows; egui keeps what it has seen in the last frame, so what stands still
     /// costs its lexing. `shown` is what can be seen of the window.
     pub fn lay_out(
         &mut self,
@@ -65,79 +78,128 @@ impl Lines<'_> {
         range: Range<usize>,
         shown: Rect,
     ) {
-        let caret = buffer.selection().head;
-        let caret_line = buffer.line_of(caret);
         let left = f64::from(shown.left()) - f64::from(self.origin.x + MARGIN);
-        let right = left + f64::from(shown.width());
-        for line in range {
-            let of_line = buffer.line_range(line);
-            let text = &buffer.text()[of_line.clone()];
-            let composed = if line == caret_line { preedit } else { "" };
-            let mut row = Row::default();
-            let mut at = 0;
-            for piece in self.index.pieces(line) {
-                let bytes = at..at + piece.len;
-                let mut width = f64::from(piece.columns * self.glyph);
-                let is_last = bytes.end == text.len();
-                let has_caret = bytes.contains(&caret.wrapping_sub(of_line.start)) || (is_last && caret == of_line.end);
-                let composed = if has_caret { composed } else { "" };
-                if !composed.is_empty() {
-                    let glyph = |c| ui.fonts_mut(|f| f.glyph_width(&self.font, c));
-                    width += f64::from(self.glyph * pieces::columns(composed, &mut |c| glyph(c) / self.glyph));
-                }
-                if row.width + width >= left && row.width <= right {
-                    let of_text = of_line.start + at..of_line.start + bytes.end;
-                    let known = semantic.and_then(|s| s.tokens(of_text.clone(), &text[bytes.clone()]));
-                    let tokens = known.unwrap_or_else(|| self.index.tokens(text, bytes.clone(), piece.state));
-                    let mut job = LayoutJob::default();
-                    job.wrap.max_width = f32::INFINITY;
-                    job.break_on_newline = false;
-                    let composing = (!composed.is_empty()).then(|| caret - of_text.start);
-                    let mut from = 0;
-                    for token in tokens {
-                        let part = &text[at + from..at + from + token.len];
-                        let format = TextFormat::simple(self.font.clone(), code_color(token.kind));
-                        match composing.filter(|c| (from..from + token.len).contains(c)) {
-                            Some(c) => {
-                                job.append(&part[..c - from], 0.0, format.clone());
-                                self.append_preedit(&mut job, composed);
-                                job.append(&part[c - from..], 0.0, format);
-                            }
-                            None => job.append(part, 0.0, format),
-                        }
-                        from += token.len;
-                    }
-                    if composing == Some(piece.len) {
-                        self.append_preedit(&mut job, composed);
-                    }
-                    row.runs.push(Run { x: row.width, bytes: of_text, galley: ui.painter().layout_job(job) });
-                }
-                row.width += width;
-                at = bytes.end;
-            }
-            if text.is_empty() {
-                let mut job = LayoutJob::default();
-                if !composed.is_empty() {
-                    self.append_preedit(&mut job, composed);
-                }
-                row.runs.push(Run { x: 0.0, bytes: of_line, galley: ui.painter().layout_job(job) });
-            } else if let [run] = &row.runs[..]
-                && self.index.pieces(line).len() == 1
-            {
-                // What a line is in whole is known to the last point, whatever its letters join to.
-                row.width = f64::from(run.galley.size().x);
-            }
+        let in_sight = left..left + f64::from(shown.width());
+        for row in range {
+            let part = self.folding.part(buffer, self.index, row);
+            let row = self.row_of_part(ui, buffer, semantic, preedit, part, &in_sight);
             self.rows.push(row);
         }
     }
 
-    fn append_preedit(&self, job: &mut LayoutJob, preedit: &str) {
-        let underline = Stroke::new(1.0, theme::ACCENT);
-        job.append(preedit, 0.0, TextFormat { underline, ..TextFormat::simple(self.font.clone(), theme::STRONG) });
+    fn row_of_part(
+        &self,
+        ui: &Ui,
+        buffer: &Buffer,
+        semantic: Option<&Semantic<'_>>,
+        preedit: &str,
+        part: Part,
+        in_sight: &Range<f64>,
+    ) -> Row {
+        let caret = buffer.selection().head;
+        let of_line = buffer.line_range(part.line);
+        let text = &buffer.text()[of_line.clone()];
+        let indent = f64::from(part.indent * self.glyph);
+        let mut row = Row { runs: Vec::new(), width: indent, part };
+        let mut at = of_line.start;
+        for piece in self.index.pieces(row.part.line) {
+            let whole = at..at + piece.len;
+            at = whole.end;
+            if whole.start >= row.part.bytes.end {
+                break;
+            }
+            let bytes = whole.start.max(row.part.bytes.start)..whole.end.min(row.part.bytes.end);
+            if bytes.is_empty() {
+                continue;
+            }
+            let is_end = bytes.end == row.part.bytes.end && row.part.is_last;
+            let has_caret = bytes.contains(&caret) || (is_end && caret == bytes.end);
+            let composed = if has_caret { preedit } else { "" };
+            let glyph = |c| ui.fonts_mut(|f| f.glyph_width(&self.font, c)) / self.glyph;
+            let columns = if bytes == whole {
+                piece.columns
+            } else {
+                pieces::columns(&buffer.text()[bytes.clone()], &mut |c| glyph(c))
+            };
+            let mut width = f64::from(columns * self.glyph);
+            if !composed.is_empty() {
+                width += f64::from(self.glyph * pieces::columns(composed, &mut |c| glyph(c)));
+            }
+            if row.width + width >= in_sight.start && row.width <= in_sight.end {
+                let of_piece = &buffer.text()[whole.clone()];
+                let known = semantic.and_then(|s| s.tokens(whole.clone(), of_piece));
+                let tokens = known.unwrap_or_else(|| {
+                    let in_line = whole.start - of_line.start..whole.end - of_line.start;
+                    self.index.tokens(text, in_line, piece.state)
+                });
+                let composing = (!composed.is_empty()).then_some((caret, composed));
+                let job = self.job(buffer, &tokens, whole.start, &bytes, composing);
+                row.runs.push(Run { x: row.width, bytes, galley: ui.painter().layout_job(job) });
+            }
+            row.width += width;
+        }
+        if row.part.bytes.is_empty() {
+            let mut job = LayoutJob::default();
+            if !preedit.is_empty() && caret == of_line.start {
+                self.append_preedit(&mut job, preedit);
+            }
+            row.runs.push(Run { x: row.width, bytes: of_line, galley: ui.painter().layout_job(job) });
+        } else if let [run] = &row.runs[..]
+            && run.bytes == row.part.bytes
+        {
+            // What a row is in whole is known to the last point, whatever its letters join to.
+            row.width = run.x + f64::from(run.galley.size().x);
+        }
+        row
     }
 
-    pub fn row(&self, line: usize) -> Option<&Row> {
-        line.checked_sub(self.first).and_then(|i| self.rows.get(i))
+    /// The text of some bytes in its colours. `tokens` begin at the byte `from`; `composing` is what an input method
+    /// composes and where.
+    fn job(
+        &self,
+        buffer: &Buffer,
+        tokens: &[Token],
+        from: usize,
+        bytes: &Range<usize>,
+        composing: Option<(usize, &str)>,
+    ) -> LayoutJob {
+        let mut job = LayoutJob::default();
+        job.wrap.max_width = f32::INFINITY;
+        job.break_on_newline = false;
+        let mut at = from;
+        for token in tokens {
+            let part = at.max(bytes.start)..(at + token.len).min(bytes.end);
+            at += token.len;
+            if part.is_empty() {
+                continue;
+            }
+            let format = TextFormat::simple(self.font.clone(), code_color(token.kind, self.palette));
+            match composing.filter(|(caret, _)| part.contains(caret)) {
+                Some((caret, composed)) => {
+                    job.append(&buffer.text()[part.start..caret], 0.0, format.clone());
+                    self.append_preedit(&mut job, composed);
+                    job.append(&buffer.text()[caret..part.end], 0.0, format);
+                }
+                None => job.append(&buffer.text()[part], 0.0, format),
+            }
+        }
+        if let Some((_, composed)) = composing.filter(|(caret, _)| *caret == bytes.end) {
+            self.append_preedit(&mut job, composed);
+        }
+        job
+    }
+
+    fn append_preedit(&self, job: &mut LayoutJob, preedit: &str) {
+        let underline = Stroke::new(1.0, self.palette.accent);
+        job.append(
+            preedit,
+            0.0,
+            TextFormat { underline, ..TextFormat::simple(self.font.clone(), self.palette.strong) },
+        );
+    }
+
+    pub fn row(&self, row: usize) -> Option<&Row> {
+        row.checked_sub(self.first).and_then(|i| self.rows.get(i))
     }
 
     /// A place right of where lines begin, in the window.
@@ -145,40 +207,42 @@ impl Lines<'_> {
         (f64::from(self.origin.x) + f64::from(MARGIN) + x) as f32
     }
 
-    /// Left end of the character at a byte of a line; what is out of sight is measured by the piece.
-    pub fn x(&self, buffer: &Buffer, line: usize, at: usize) -> f32 {
-        let runs = self.row(line).map_or(&[][..], |row| &row.runs);
+    /// Left end of the character at a byte of a row; what is out of sight is measured by the piece.
+    fn x(&self, buffer: &Buffer, row: usize, at: usize) -> f32 {
+        let runs = self.row(row).map_or(&[][..], |row| &row.runs);
         if let Some(run) = runs.iter().find(|r| (r.bytes.start..=r.bytes.end).contains(&at)) {
             let column = buffer.text()[run.bytes.start..at].chars().count();
             let in_galley = run.galley.pos_from_cursor(CCursor::new(column)).left();
             return self.in_window(run.x + f64::from(in_galley));
         }
-        let start = buffer.line_range(line).start;
-        let (mut from, mut x) = (start, 0.0);
-        for piece in self.index.pieces(line) {
-            if at < from + piece.len {
-                break;
+        let part = self.folding.part(buffer, self.index, row);
+        let (mut from, mut x) = (part.bytes.start, f64::from(part.indent * self.glyph));
+        if part.is_first && part.is_last {
+            for piece in self.index.pieces(part.line) {
+                if at < from + piece.len {
+                    break;
+                }
+                from += piece.len;
+                x += f64::from(piece.columns * self.glyph);
             }
-            from += piece.len;
-            x += f64::from(piece.columns * self.glyph);
         }
         let rest = pieces::columns(&buffer.text()[from.min(at)..at], &mut |_| 1.0);
         self.in_window(x + f64::from(rest * self.glyph))
     }
 
-    /// Returns where a line ends.
+    /// Returns where a row ends.
     pub fn end(&self, row: &Row) -> f32 {
         self.in_window(row.width)
     }
 
-    /// Returns where a run is painted in its line.
-    pub fn run_pos(&self, line: usize, run: &Run) -> Pos2 {
-        let y = self.top(line) + (self.row_height - run.galley.size().y) / 2.0;
+    /// Returns where a run is painted in its row.
+    pub fn run_pos(&self, row: usize, run: &Run) -> Pos2 {
+        let y = self.top(row) + (self.row_height - run.galley.size().y) / 2.0;
         pos2(self.in_window(run.x), y)
     }
 
-    pub fn top(&self, line: usize) -> f32 {
-        (f64::from(self.origin.y) + line as f64 * f64::from(self.row_height)) as f32
+    pub fn top(&self, row: usize) -> f32 {
+        (f64::from(self.origin.y) + row as f64 * f64::from(self.row_height)) as f32
     }
 
     pub fn caret_rect(&self, buffer: &Buffer) -> Rect {
@@ -188,17 +252,17 @@ impl Lines<'_> {
     /// A caret at a position.
     pub fn rect_of(&self, buffer: &Buffer, at: usize) -> Rect {
         let at = buffer.snap(at);
-        let line = buffer.line_of(at);
-        Rect::from_min_size(pos2(self.x(buffer, line, at), self.top(line)), vec2(1.0, self.row_height))
+        let row = self.folding.of(buffer, self.index, at);
+        Rect::from_min_size(pos2(self.x(buffer, row, at), self.top(row)), vec2(1.0, self.row_height))
     }
 
-    /// Left and right end of what is laid out of a part of a line; `None` where none of it is.
-    pub fn span(&self, buffer: &Buffer, line: usize, range: &Range<usize>) -> Option<(f32, f32)> {
-        let laid_out = self.row(line)?.bytes()?;
+    /// Left and right end of what is laid out of a part of a row; `None` where none of it is.
+    pub fn span(&self, buffer: &Buffer, row: usize, range: &Range<usize>) -> Option<(f32, f32)> {
+        let laid_out = self.row(row)?.bytes()?;
         if range.end < laid_out.start || range.start > laid_out.end {
             return None;
         }
-        let x = |at: usize| self.x(buffer, line, buffer.snap(at.clamp(laid_out.start, laid_out.end)));
+        let x = |at: usize| self.x(buffer, row, buffer.snap(at.clamp(laid_out.start, laid_out.end)));
         Some((x(range.start), x(range.end)))
     }
 
@@ -208,15 +272,14 @@ impl Lines<'_> {
         if row < 0.0 {
             return 0;
         }
-        let line = (row as usize).min(buffer.line_count() - 1);
-        if row as usize > line {
+        if row as usize >= self.folding.len(buffer) {
             return buffer.text().len();
         }
-        let of_line = buffer.line_range(line);
+        let part = self.folding.part(buffer, self.index, row as usize);
         let x = f64::from(point.x) - f64::from(self.origin.x) - f64::from(MARGIN);
-        let runs = self.row(line).map_or(&[][..], |row| &row.runs);
-        let is_first = |run: &Run| run.bytes.start == of_line.start;
-        let is_last = |run: &Run| run.bytes.end == of_line.end;
+        let runs = self.row(row as usize).map_or(&[][..], |row| &row.runs);
+        let is_first = |run: &Run| run.bytes.start == part.bytes.start;
+        let is_last = |run: &Run| run.bytes.end == part.bytes.end;
         let found = runs.iter().enumerate().find(|(i, run)| {
             let right = match runs.get(i + 1) {
                 Some(next) => next.x,
@@ -228,10 +291,16 @@ impl Lines<'_> {
         if let Some((_, run)) = found {
             let column: usize = run.galley.cursor_from_pos(vec2((x - run.x) as f32, 0.0)).index.into();
             let text = &buffer.text()[run.bytes.clone()];
+            // Behind the last letter of a row that goes on begins the next one.
+            let last = if part.is_last || !is_last(run) { usize::MAX } else { text.chars().count().saturating_sub(1) };
+            let column = column.min(last);
             return text.char_indices().nth(column).map_or(run.bytes.end, |(i, _)| run.bytes.start + i);
         }
-        let (mut from, mut left) = (of_line.start, 0.0);
-        for piece in self.index.pieces(line) {
+        if !(part.is_first && part.is_last) {
+            return part.bytes.start;
+        }
+        let (mut from, mut left) = (part.bytes.start, 0.0);
+        for piece in self.index.pieces(part.line) {
             let width = f64::from(piece.columns * self.glyph);
             if x < left + width {
                 let column = ((x - left) / f64::from(self.glyph)).round().max(0.0) as usize;
@@ -240,7 +309,7 @@ impl Lines<'_> {
             }
             (from, left) = (from + piece.len, left + width);
         }
-        of_line.end
+        part.bytes.end
     }
 }
 

@@ -17,7 +17,18 @@ fn with_lines(text: &str, scrolled: f32, check: impl Fn(&Lines<'_>, &Buffer)) {
             let mut index = Highlight::default();
             ui.fonts_mut(|f| index.update(&mut buffer, "", &mut |c| f.glyph_width(&font, c) / glyph));
             let origin = pos2(-scrolled, 0.0);
-            let mut lines = Lines { index: &index, origin, row_height, glyph, font, first: 0, rows: Vec::new() };
+            let folding = Rows::default();
+            let mut lines = Lines {
+                index: &index,
+                folding: &folding,
+                origin,
+                row_height,
+                glyph,
+                font,
+                palette: &crate::gui::theme::DARK,
+                first: 0,
+                rows: Vec::new(),
+            };
             lines.lay_out(ui, &buffer, None, "", 0..buffer.line_count().min(5), window);
             check(&lines, &buffer);
         });
@@ -82,6 +93,6 @@ fn a_selection_of_ten_million_letters_is_a_rectangle_in_sight() {
 fn ranges_that_touch_are_found_by_halving() {
     let list = [0..2, 5..6, 8..12, 20..21];
     assert_eq!(touching(&list, &(6..8)), [5..6, 8..12]);
-    assert_eq!(touching(&list, &(13..19)), []);
+    assert!(touching(&list, &(13..19)).is_empty());
     assert_eq!(touching(&list, &(0..99)), list);
 }

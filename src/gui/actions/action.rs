@@ -1,0 +1,60 @@
+//! Everything that a key, a menu or the palette can ask for.
+
+use crate::gui::{dock::Panel, editor::EditorAction};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Action {
+    Compile,
+    Save,
+    SaveAs,
+    Open,
+    New,
+    Gallery,
+    TogglePlay,
+    Reset,
+    Step,
+    TabLeft,
+    TabRight,
+    NextPanel,
+    PreviousPanel,
+    Screenshot,
+    SaveTexels,
+    Fullscreen,
+    /// Code over a picture that fills the window.
+    Present,
+    Lab,
+    Costs,
+    /// Opens or closes a panel.
+    Panel(Panel),
+    /// Every panel where it is at first.
+    UsualLayout,
+    NextTheme,
+    ZoomIn,
+    ZoomOut,
+    ZoomReset,
+    SettingsFile,
+    Passes,
+    UndoPasses,
+    RedoPasses,
+    Paste,
+    Help,
+    Palette,
+    KeyFile,
+    Find,
+    Replace,
+    FindNext,
+    FindPrevious,
+    FindCase,
+    FindRegex,
+    ReplaceAll,
+    GoToLine,
+    NextProblem,
+    PreviousProblem,
+    FontLarger,
+    FontSmaller,
+    FontReset,
+    WordWrap,
+    Quit,
+    /// In the text that has the keyboard, or had it last.
+    Code(EditorAction),
+}

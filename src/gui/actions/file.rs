@@ -1,0 +1,156 @@
+//! The file in which a person gives actions other keys.
+
+use super::{
+    Chord, Keymap,
+    keymap::level,
+    table::{ACTIONS, Entry, Group},
+};
+use crate::project::nearest;
+use std::{fmt::Write as _, ops::Range};
+use toml_edit::{Document, Item, Value};
+
+/// Something in the file that cannot be done as it stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mistake {
+    /// From 1.
+    pub line: usize,
+    /// What is wrong and how to mend it.
+    pub text: String,
+}
+
+/// Returns the keys that a file's text gives, and all mistakes in it. What is wrong leaves an action its own keys.
+pub fn read(text: &str) -> (Keymap, Vec<Mistake>) {
+    let mut keymap = Keymap::default();
+    let mut mistakes = Vec::new();
+    let line = |span: Option<Range<usize>>| 1 + text[..span.map_or(0, |s| s.start)].matches('\n').count();
+    let document = match Document::parse(text) {
+        Ok(document) => document,
+        Err(error) => {
+            let text = format!("{}; write lines such as: palette = \"Ctrl+Shift+P\"", error.message());
+            return (keymap, vec![Mistake { line: line(error.span()), text }]);
+        }
+    };
+    let table = document.as_table();
+    let mut given: Vec<(&Entry, Chord, usize)> = Vec::new();
+    for (name, item) in table.iter() {
+        let at = line(table.key(name).and_then(toml_edit::Key::span).or_else(|| item.span()));
+        let mut wrong = |line: usize, text: String| mistakes.push(Mistake { line, text });
+        let Some(entry) = ACTIONS.iter().find(|e| e.name == name) else {
+            let mend = match nearest(name, ACTIONS.iter().map(|e| e.name)) {
+                Some(near) => format!("did you mean \"{near}\"?"),
+                None => "the file that Eddy writes lists them all".to_owned(),
+            };
+            wrong(at, format!("there is no action \"{name}\"; {mend}"));
+            continue;
+        };
+        let Some(texts) = texts(item) else {
+            wrong(at, format!("the keys of {name} must be one text or a list: {name} = [\"Ctrl+K\", \"F4\"]"));
+            continue;
+        };
+        let mut chords = Vec::new();
+        for (text, span) in texts.iter().filter(|(text, _)| !text.is_empty()) {
+            let at = line(span.clone());
+            match Chord::parse(text) {
+                Ok(chord) => {
+                    let same = |g: &&(&Entry, Chord, usize)| g.1 == chord && level(g.0.group) == level(entry.group);
+                    if let Some((other, _, first)) = given.iter().find(same) {
+                        let other = other.name;
+                        wrong(
+                            at,
+                            format!("{chord} is {other}'s already, in line {first}; give one of them another key"),
+                        );
+                    } else {
+                        given.push((entry, chord, at));
+                        chords.push(chord);
+                    }
+                }
+                Err(error) => wrong(at, format!("{name} = \"{text}\": {error}")),
+            }
+        }
+        if chords.len() == texts.iter().filter(|(text, _)| !text.is_empty()).count() {
+            keymap.give(entry, chords);
+        }
+    }
+    (keymap, mistakes)
+}
+
+/// A text, and where it stands in the file.
+type Spanned<'a> = (&'a str, Option<Range<usize>>);
+
+/// The texts of an item that is a text or a list of texts.
+fn texts(item: &Item) -> Option<Vec<Spanned<'_>>> {
+    match item.as_value()? {
+        Value::String(one) => Some(vec![(one.value().as_str(), one.span())]),
+        Value::Array(all) => all.iter().map(|value| Some((value.as_str()?, value.span()))).collect(),
+        _ => None,
+    }
+}
+
+/// Returns the text of a new file: every action with the keys it has, each as a comment.
+pub fn template() -> String {
+    let mut text = String::from(
+        "# Keys of Eddy. Take the # from a line to change it; what is left out stays as it is.\n\
+         # name = \"Ctrl+K\", several as [\"Ctrl+K\", \"F4\"], none as \"\". On a Mac, Ctrl is the Command key.\n",
+    );
+    for group in Group::ALL {
+        // Writing to a string does not fail.
+        let _ = writeln!(text, "\n# {}", group.title());
+        for entry in ACTIONS.iter().filter(|e| e.group == group) {
+            let keys = entry.keys.iter().map(|key| toml_edit::Value::from(*key).to_string()).collect::<Vec<_>>();
+            let keys = match &keys[..] {
+                [] => "\"\"".to_owned(),
+                [one] => one.clone(),
+                several => format!("[{}]", several.join(", ")),
+            };
+            let _ = writeln!(text, "# {} = {keys}  # {}", entry.name, entry.title);
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gui::actions::Action;
+
+    #[test]
+    fn keys_of_the_file_take_the_place_of_the_tables() {
+        let (keymap, mistakes) = read("palette = \"F9\"\nsave = [\"Ctrl+S\", \"F2\"]\nlab = \"\"\nquit = \"Ctrl+F\"\n");
+        assert_eq!(mistakes, []);
+        let hints = [Action::Palette, Action::Save, Action::Lab, Action::Quit, Action::Find].map(|a| keymap.hint(a));
+        assert_eq!(hints, ["F9", "Ctrl+S", "", "Ctrl+F", ""]);
+    }
+
+    #[test]
+    fn every_mistake_is_told_at_its_line_and_leaves_the_action_its_keys() {
+        let text = "# mine\npalete = \"F9\"\nsave = 3\nlab = [\"F9\",\n  \"Ctrl+Fo\"]\nquit = \"F7\"\nnew = \"f7\"\n";
+        let (keymap, mistakes) = read(text);
+        let told: Vec<_> = mistakes.iter().map(|m| (m.line, m.text.as_str())).collect();
+        let wanted = [
+            (2, "there is no action \"palete\"; did you mean \"palette\"?"),
+            (3, "the keys of save must be one text or a list: save = [\"Ctrl+K\", \"F4\"]"),
+            (5, "lab = \"Ctrl+Fo\": no key is called \"Fo\"; keys are written as A, 7, F3, Up, PageDown, Space or /"),
+            (7, "F7 is quit's already, in line 6; give one of them another key"),
+        ];
+        assert_eq!(told, wanted);
+        let hints = [Action::Palette, Action::Save, Action::Lab, Action::Quit, Action::New].map(|a| keymap.hint(a));
+        assert_eq!(hints, ["Ctrl+Shift+P", "Ctrl+S", "Ctrl+Shift+L", "F7", "Ctrl+N"]);
+        let (_, mistakes) = read("save = \"F2\"\nopen = \n");
+        assert_eq!(mistakes.len(), 1);
+        assert_eq!(mistakes[0].line, 2);
+        assert!(mistakes[0].text.ends_with("write lines such as: palette = \"Ctrl+Shift+P\""), "{mistakes:?}");
+    }
+
+    /// What the new file says is what holds without it.
+    #[test]
+    fn the_new_file_says_what_holds() {
+        let is_row = |line: &&str| line.contains(" = ") && !line.starts_with("# name");
+        let text = template().lines().filter(is_row).map(|line| &line[2..]).collect::<Vec<_>>().join("\n");
+        let (keymap, mistakes) = read(&text);
+        assert_eq!(mistakes, []);
+        for entry in ACTIONS {
+            assert_eq!(keymap.chords(entry.action), Keymap::default().chords(entry.action), "{}", entry.name);
+        }
+        assert_eq!(read(&template()).1, []);
+    }
+}

@@ -1,0 +1,171 @@
+//! The keys as they are now: the table's, or those that a person gave.
+
+use super::{
+    Action, Chord,
+    table::{ACTIONS, Entry, Group},
+};
+use egui::{Event, Key, Modifiers};
+
+/// What is open and has the keyboard, and so whose keys are listened to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Listening {
+    pub code: bool,
+    pub find_bar: bool,
+}
+
+/// The keys of every action.
+#[derive(Clone, Debug)]
+pub struct Keymap {
+    /// As many as [`ACTIONS`], in its order.
+    chords: Vec<Vec<Chord>>,
+}
+
+impl Default for Keymap {
+    fn default() -> Self {
+        // A key of the table that cannot be read is found by the test below.
+        let keys = |entry: &Entry| entry.keys.iter().filter_map(|k| Chord::parse(k).ok()).collect();
+        Self { chords: ACTIONS.iter().map(keys).collect() }
+    }
+}
+
+impl Keymap {
+    /// Gives an action other keys, none of which is any other action's afterwards that is listened to at the same time.
+    pub fn give(&mut self, entry: &Entry, chords: Vec<Chord>) {
+        for (other, keys) in ACTIONS.iter().zip(&mut self.chords) {
+            if level(other.group) == level(entry.group) {
+                keys.retain(|k| !chords.contains(k));
+            }
+            if other.name == entry.name {
+                keys.clone_from(&chords);
+            }
+        }
+    }
+
+    pub fn chords(&self, action: Action) -> &[Chord] {
+        ACTIONS.iter().position(|e| e.action == action).map_or(&[], |i| &self.chords[i])
+    }
+
+    /// Returns the key of an action as a tooltip says it: the first of several, empty for none.
+    pub fn hint(&self, action: Action) -> String {
+        self.chords(action).first().map(Chord::to_string).unwrap_or_default()
+    }
+
+    /// Returns a tip with the action's key behind it.
+    pub fn tip(&self, tip: &str, action: Action) -> String {
+        match self.hint(action) {
+            key if key.is_empty() => tip.to_owned(),
+            key => format!("{tip} ({key})"),
+        }
+    }
+
+    /// Returns all keys of an action, with what stands in their way.
+    pub fn listed(&self, entry: &Entry) -> String {
+        let name = |chord: &Chord| {
+            let is_taken = level(entry.group) > 0 && self.holder(0, chord.key, chord.modifiers).is_some();
+            if is_taken { format!("{chord} (not while typing)") } else { chord.to_string() }
+        };
+        self.chords(entry.action).iter().map(name).collect::<Vec<_>>().join(", ")
+    }
+
+    /// Returns what a key press means.
+    pub fn pressed(&self, event: &Event, listening: Listening) -> Option<&'static Entry> {
+        let Event::Key { key, physical_key, pressed: true, modifiers, .. } = event else { return None };
+        let levels = [listening.code, listening.find_bar, true];
+        let levels = || levels.into_iter().enumerate().filter(|(_, is_on)| *is_on).map(|(level, _)| level);
+        let find = |key: Key, m: Modifiers| levels().find_map(|level| self.holder(level, key, m));
+        // Letters and digits are called by one letter, signs by a word.
+        let shifted = modifiers.shift && key.name().len() > 1;
+        find(*key, *modifiers)
+            // Ctrl+Shift+= is how Ctrl++ is typed on many keyboards, and Ctrl+Shift+[ comes as Ctrl+Shift+{.
+            .or_else(|| find(*key, Modifiers { shift: false, ..*modifiers }).filter(|_| shifted && is_plus(*key)))
+            .or_else(|| find((*physical_key)?, *modifiers).filter(|_| shifted))
+    }
+
+    /// Returns what an action of a level has this key.
+    fn holder(&self, of_level: usize, key: Key, modifiers: Modifiers) -> Option<&'static Entry> {
+        let holds = |chords: &[Chord]| chords.iter().any(|c| c.is_pressed(key, modifiers));
+        ACTIONS.iter().zip(&self.chords).find(|(e, c)| level(e.group) == of_level && holds(c)).map(|(e, _)| e)
+    }
+}
+
+/// Actions that are listened to at the same time; lower ones come first.
+pub(super) fn level(group: Group) -> usize {
+    match group {
+        Group::Code | Group::Caret => 0,
+        Group::FindBar => 1,
+        Group::Project | Group::Picture | Group::Window | Group::Search => 2,
+    }
+}
+
+fn is_plus(key: Key) -> bool {
+    matches!(key, Key::Plus | Key::Equals)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gui::editor::{EditorAction, Motion, Way};
+
+    fn press(key: Key, modifiers: Modifiers) -> Event {
+        Event::Key { key, physical_key: Some(key), pressed: true, repeat: false, modifiers }
+    }
+
+    fn action(key: Key, modifiers: Modifiers, code: bool) -> Option<Action> {
+        let listening = Listening { code, find_bar: false };
+        Keymap::default().pressed(&press(key, modifiers), listening).map(|e| e.action)
+    }
+
+    #[test]
+    fn the_table_can_be_read_and_no_key_means_two_things() {
+        let keymap = Keymap::default();
+        for (i, entry) in ACTIONS.iter().enumerate() {
+            entry.keys.iter().for_each(|key| assert!(Chord::parse(key).is_ok(), "{key} of {}", entry.name));
+            let has_own_name = entry.name.bytes().all(|b| b.is_ascii_lowercase() || b == b'-');
+            assert!(has_own_name, "{}", entry.name);
+            for (j, other) in ACTIONS.iter().enumerate().take(i) {
+                assert!(entry.name != other.name && entry.action != other.action, "{} twice", entry.name);
+                if level(entry.group) == level(other.group) {
+                    let twice = keymap.chords[i].iter().find(|k| keymap.chords[j].contains(k));
+                    assert!(twice.is_none(), "{} is of {} and {}", twice.unwrap(), entry.name, other.name);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn keys_are_told_apart_by_what_is_held_with_them_and_by_who_listens() {
+        let ctrl = Modifiers { ctrl: true, command: true, ..Modifiers::NONE };
+        let ctrl_shift = Modifiers { shift: true, ..ctrl };
+        assert_eq!(action(Key::S, ctrl, false), Some(Action::Save));
+        assert_eq!(action(Key::S, Modifiers::NONE, true), None);
+        assert_eq!(action(Key::Enter, Modifiers::ALT, true), Some(Action::Compile));
+        assert_eq!(action(Key::Equals, ctrl_shift, false), Some(Action::FontLarger));
+        assert_eq!(action(Key::ArrowUp, Modifiers::NONE, false), None);
+        assert_eq!(
+            action(Key::ArrowUp, Modifiers::NONE, true),
+            Some(Action::Code(EditorAction::Go(Motion::Lines(-1))))
+        );
+        assert_eq!(action(Key::ArrowUp, Modifiers::ALT, false), Some(Action::TogglePlay));
+        assert_eq!(action(Key::ArrowUp, Modifiers::ALT, true), Some(Action::Code(EditorAction::MoveLines(Way::Up))));
+        assert_eq!(action(Key::F12, Modifiers::NONE, true), Some(Action::Code(EditorAction::Definition)));
+        assert_eq!(action(Key::F12, Modifiers::NONE, false), Some(Action::Screenshot));
+        // A US keyboard types { with Shift and [.
+        let (key, physical_key) = (Key::OpenCurlyBracket, Some(Key::OpenBracket));
+        let event = Event::Key { key, physical_key, pressed: true, repeat: false, modifiers: ctrl_shift };
+        let found = Keymap::default().pressed(&event, Listening { code: true, find_bar: false });
+        assert_eq!(found.map(|e| e.name), Some("fold"));
+    }
+
+    #[test]
+    fn a_key_that_is_given_away_is_no_longer_where_it_was() {
+        let mut keymap = Keymap::default();
+        let entry = ACTIONS.iter().find(|e| e.name == "lab").unwrap();
+        keymap.give(entry, vec![Chord::parse("Ctrl+P").unwrap()]);
+        assert_eq!(keymap.hint(Action::Lab), "Ctrl+P");
+        assert_eq!(keymap.hint(Action::Screenshot), "F12");
+        let play = ACTIONS.iter().find(|e| e.name == "play").unwrap();
+        assert_eq!(keymap.listed(play), "Alt+Up (not while typing), F5");
+        keymap.give(play, vec![]);
+        assert_eq!((keymap.listed(play).as_str(), keymap.tip("Play", Action::TogglePlay).as_str()), ("", "Play"));
+    }
+}

@@ -1,0 +1,18 @@
+//! The actions of the window: one table says their names, titles and keys, and everything that offers, explains or
+//! takes an action reads it.
+//!
+//! Owns the table, the way from a key to an action, and the file in which a person gives actions other keys. What an
+//! action does is in the shell and in the editor, each in one `match` over all of them.
+
+mod action;
+mod chord;
+mod file;
+mod keymap;
+mod table;
+mod watch;
+
+pub use action::Action;
+pub use chord::Chord;
+pub use keymap::{Keymap, Listening};
+pub use table::{ACTIONS, Entry, Group};
+pub use watch::KeyFile;

@@ -1,0 +1,283 @@
+//! The table of actions.
+
+use super::Action;
+use crate::gui::{
+    dock::Panel,
+    editor::{EditorAction as Code, Motion, Way},
+};
+
+/// Where an action belongs in the help, and when its keys are listened to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    Project,
+    Picture,
+    Window,
+    Search,
+    /// While the bar for finding is open.
+    FindBar,
+    /// While the code has the keyboard, where these come before all others.
+    Code,
+    Caret,
+}
+
+impl Group {
+    pub const ALL: [Group; 7] =
+        [Group::Project, Group::Picture, Group::Window, Group::Search, Group::FindBar, Group::Code, Group::Caret];
+
+    pub fn title(self) -> &'static str {
+        match self {
+            Group::Project => "Project",
+            Group::Picture => "Picture",
+            Group::Window => "Window",
+            Group::Search => "Find",
+            Group::FindBar => "While the find bar is open",
+            Group::Code => "While typing code",
+            Group::Caret => "Caret and selection",
+        }
+    }
+}
+
+/// An action, what it is called, and the keys it has unless a person gives it others.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    pub action: Action,
+    /// In the file of keys.
+    pub name: &'static str,
+    /// In the palette and in the help.
+    pub title: &'static str,
+    pub keys: &'static [&'static str],
+    pub group: Group,
+}
+
+impl Action {
+    /// Returns what the palette, the help and menus call it.
+    pub fn title(self) -> &'static str {
+        ACTIONS.iter().find(|e| e.action == self).map_or("", |e| e.title)
+    }
+}
+
+impl Entry {
+    /// Returns whether a key that is held down does it again and again.
+    pub fn repeats(&self) -> bool {
+        use Action as A;
+        let again = [
+            A::Step,
+            A::FontLarger,
+            A::FontSmaller,
+            A::ZoomIn,
+            A::ZoomOut,
+            A::FindNext,
+            A::FindPrevious,
+            A::NextProblem,
+            A::NextPanel,
+        ];
+        matches!(self.action, A::Code(_)) || again.contains(&self.action)
+    }
+}
+
+const fn row(
+    action: Action,
+    name: &'static str,
+    title: &'static str,
+    keys: &'static [&'static str],
+    group: Group,
+) -> Entry {
+    Entry { action, name, title, keys, group }
+}
+
+const fn code(action: Code, name: &'static str, title: &'static str, keys: &'static [&'static str]) -> Entry {
+    row(Action::Code(action), name, title, keys, Group::Code)
+}
+
+/// A motion of the caret, and the same with Shift, which selects.
+const fn go(motion: Motion, name: &'static str, title: &'static str, keys: &'static [&'static str]) -> Entry {
+    row(Action::Code(Code::Go(motion)), name, title, keys, Group::Caret)
+}
+
+const fn select(motion: Motion, name: &'static str, title: &'static str, keys: &'static [&'static str]) -> Entry {
+    row(Action::Code(Code::Select(motion)), name, title, keys, Group::Caret)
+}
+
+const fn caret(action: Code, name: &'static str, title: &'static str, keys: &'static [&'static str]) -> Entry {
+    row(Action::Code(action), name, title, keys, Group::Caret)
+}
+
+/// A Mac moves by words with Option and to the ends of lines with Command.
+const fn or_mac(keys: &'static [&'static str], mac: &'static [&'static str]) -> &'static [&'static str] {
+    if cfg!(target_os = "macos") { mac } else { keys }
+}
+
+/// Keys are Shadertoy's where it has one, else those of VS Code. In the code, VS Code's come first: there Alt+Up moves
+/// a line, and F5 plays and pauses wherever one is.
+pub const ACTIONS: &[Entry] = &[
+    row(Action::Save, "save", "Save", &["Ctrl+S"], Group::Project),
+    row(Action::SaveAs, "save-as", "Save as a new folder", &["Ctrl+Shift+S"], Group::Project),
+    row(Action::Open, "open", "Open a project", &["Ctrl+O"], Group::Project),
+    row(Action::New, "new", "New shader", &["Ctrl+N"], Group::Project),
+    row(Action::Paste, "paste", "Open what is on the clipboard: Shadertoy JSON, GLSL or a path", &[], Group::Project),
+    row(Action::Gallery, "gallery", "Gallery of presets", &["Ctrl+Shift+G"], Group::Project),
+    row(Action::Quit, "quit", "Quit", &["Ctrl+Q"], Group::Project),
+    row(Action::TogglePlay, "play", "Play or pause", &["Alt+Up", "F5"], Group::Picture),
+    row(Action::Reset, "reset", "Reset time and buffers", &["Alt+Down", "Ctrl+Shift+F5"], Group::Picture),
+    row(Action::Step, "step", "One frame forward, then pause", &["Alt+."], Group::Picture),
+    row(Action::Compile, "compile", "Compile now", &["Alt+Enter", "Ctrl+Enter"], Group::Picture),
+    row(
+        Action::Screenshot,
+        "save-picture",
+        "Save a picture (PNG) of the shown pass",
+        &["Ctrl+P", "F12"],
+        Group::Picture,
+    ),
+    row(
+        Action::SaveTexels,
+        "save-texels",
+        "Save the shown pass's float texels (.npy)",
+        &["Ctrl+Shift+E"],
+        Group::Picture,
+    ),
+    row(Action::Fullscreen, "full-screen", "Picture alone, full screen", &["F11"], Group::Picture),
+    row(Action::Present, "present", "Present: code over a picture that fills the window", &["F9"], Group::Picture),
+    row(Action::Palette, "palette", "Command palette: every action by its name", &["Ctrl+Shift+P"], Group::Window),
+    row(Action::Help, "help", "Help: all keys", &["F1"], Group::Window),
+    row(Action::KeyFile, "keys", "Give actions other keys: the file for it", &[], Group::Window),
+    row(Action::TabLeft, "tab-left", "Tab to the left", &["Alt+Left", "Ctrl+PageUp"], Group::Window),
+    row(Action::TabRight, "tab-right", "Tab to the right", &["Alt+Right", "Ctrl+PageDown"], Group::Window),
+    row(Action::NextPanel, "next-panel", "Keyboard to the next part of the window", &["F6"], Group::Window),
+    row(
+        Action::PreviousPanel,
+        "previous-panel",
+        "Keyboard to the part of the window before",
+        &["Shift+F6"],
+        Group::Window,
+    ),
+    row(Action::Lab, "lab", "Lab: speed against error", &["Ctrl+Shift+L"], Group::Window),
+    row(Action::Passes, "passes", "Passes: add, rename, order, size, format, steps", &["Ctrl+Shift+B"], Group::Window),
+    row(Action::UndoPasses, "undo-passes", "Undo the last change of passes or channels", &["Ctrl+Z"], Group::Window),
+    row(
+        Action::RedoPasses,
+        "redo-passes",
+        "Redo a change of passes or channels",
+        &["Ctrl+Shift+Z", "Ctrl+Y"],
+        Group::Window,
+    ),
+    row(Action::Costs, "costs", "What each pass costs", &["Ctrl+Shift+M"], Group::Window),
+    row(Action::Panel(Panel::Picture), "picture-panel", "Panel: the picture", &[], Group::Window),
+    row(Action::Panel(Panel::Code), "code-panel", "Panel: the code", &[], Group::Window),
+    row(Action::Panel(Panel::Uniforms), "uniforms", "Panel: uniforms", &[], Group::Window),
+    row(Action::Panel(Panel::Channels), "channels", "Panel: channels", &[], Group::Window),
+    row(Action::UsualLayout, "usual-layout", "Every panel in its usual place", &[], Group::Window),
+    row(Action::NextTheme, "theme", "Dark, light, or what the system prefers", &[], Group::Window),
+    row(Action::ZoomIn, "zoom-in", "Everything larger", &["Ctrl+Alt+=", "Ctrl+Alt++"], Group::Window),
+    row(Action::ZoomOut, "zoom-out", "Everything smaller", &["Ctrl+Alt+-"], Group::Window),
+    row(Action::ZoomReset, "zoom-usual", "Everything in its usual size", &["Ctrl+Alt+0"], Group::Window),
+    row(Action::SettingsFile, "settings", "The file of settings", &[], Group::Window),
+    row(Action::FontLarger, "code-larger", "Larger code", &["Ctrl++", "Ctrl+=", "Alt++", "Alt+="], Group::Window),
+    row(Action::FontSmaller, "code-smaller", "Smaller code", &["Ctrl+-", "Alt+-"], Group::Window),
+    row(Action::FontReset, "code-usual-size", "Code in its usual size", &["Ctrl+0"], Group::Window),
+    row(Action::WordWrap, "word-wrap", "Wrap long lines of code, or not", &["Alt+Z"], Group::Window),
+    row(Action::Find, "find", "Find", &["Ctrl+F"], Group::Search),
+    row(Action::Replace, "replace", "Find and replace", &["Ctrl+H"], Group::Search),
+    row(Action::FindNext, "find-next", "Next match", &["F3"], Group::Search),
+    row(Action::FindPrevious, "find-previous", "Previous match", &["Shift+F3"], Group::Search),
+    row(Action::GoToLine, "go-to-line", "Go to a line", &["Ctrl+G"], Group::Search),
+    row(Action::NextProblem, "next-problem", "Next problem", &["F8"], Group::Search),
+    row(Action::PreviousProblem, "previous-problem", "Previous problem", &["Shift+F8"], Group::Search),
+    row(Action::FindCase, "find-case", "Upper and lower case count, or not", &["Alt+C"], Group::FindBar),
+    row(Action::FindRegex, "find-regex", "Find a regular expression, or plain text", &["Alt+R"], Group::FindBar),
+    row(Action::ReplaceAll, "replace-all", "Replace all matches", &["Ctrl+Alt+Enter"], Group::FindBar),
+    code(Code::Definition, "go-to-definition", "Go to where a name is declared (also Ctrl+click)", &["F12"]),
+    code(Code::Uses, "list-uses", "List every use of a name", &["Shift+F12"]),
+    code(Code::Propose, "propose", "Propose names; Enter or Tab takes one", &["Ctrl+Space"]),
+    code(Code::Signature, "signature", "Show what the call around the caret takes", &["Ctrl+Shift+Space"]),
+    code(Code::ToggleComment, "toggle-comment", "Comment lines in or out", &["Ctrl+/"]),
+    code(Code::MoveLines(Way::Up), "move-lines-up", "Move lines up", &["Alt+Up"]),
+    code(Code::MoveLines(Way::Down), "move-lines-down", "Move lines down", &["Alt+Down"]),
+    code(Code::CopyLines(Way::Up), "copy-lines-up", "Copy lines above", &["Shift+Alt+Up"]),
+    code(Code::CopyLines(Way::Down), "copy-lines-down", "Copy lines below", &["Shift+Alt+Down"]),
+    code(Code::DeleteLines, "delete-lines", "Delete lines", &["Ctrl+Shift+K"]),
+    code(Code::Indent, "indent", "Indent, or go on to the next stop", &["Tab"]),
+    code(Code::Unindent, "unindent", "Unindent lines", &["Shift+Tab"]),
+    code(Code::NewLine, "new-line", "New line", &["Enter", "Shift+Enter"]),
+    code(Code::Delete(Motion::Left), "delete-left", "Delete the letter before", &["Backspace", "Shift+Backspace"]),
+    code(Code::Delete(Motion::Right), "delete-right", "Delete the letter behind", &["Delete"]),
+    code(
+        Code::Delete(Motion::WordLeft),
+        "delete-word-left",
+        "Delete the word before",
+        or_mac(&["Ctrl+Backspace"], &["Alt+Backspace"]),
+    ),
+    code(
+        Code::Delete(Motion::WordRight),
+        "delete-word-right",
+        "Delete the word behind",
+        or_mac(&["Ctrl+Delete"], &["Alt+Delete"]),
+    ),
+    code(Code::Undo, "undo", "Undo", &["Ctrl+Z"]),
+    code(Code::Redo, "redo", "Redo", &["Ctrl+Shift+Z", "Ctrl+Y"]),
+    code(Code::Fold, "fold", "Fold the block around the caret", &["Ctrl+Shift+["]),
+    code(Code::Unfold, "unfold", "Unfold the block at the caret", &["Ctrl+Shift+]"]),
+    code(Code::FoldAll, "fold-all", "Fold all blocks", &[]),
+    code(Code::UnfoldAll, "unfold-all", "Unfold all blocks", &[]),
+    caret(Code::AddNext, "add-next", "Select the word, then its next occurrence too", &["Ctrl+D"]),
+    caret(Code::AddAll, "add-all", "Select every occurrence of the word", &["Ctrl+F2"]),
+    caret(Code::AddCaret(Way::Up), "add-caret-up", "One more caret above", &["Ctrl+Alt+Up"]),
+    caret(Code::AddCaret(Way::Down), "add-caret-down", "One more caret below", &["Ctrl+Alt+Down"]),
+    caret(Code::OneCaret, "one-caret", "Back to one caret", &["Escape"]),
+    caret(Code::OtherBracket, "other-bracket", "To the matching bracket", &["Ctrl+Shift+\\"]),
+    caret(Code::SelectAll, "select-all", "Select the whole text", &["Ctrl+A"]),
+    caret(Code::SelectLine, "select-line", "Select the line", &["Ctrl+L"]),
+    go(Motion::Left, "left", "To the left", &["Left"]),
+    go(Motion::Right, "right", "To the right", &["Right"]),
+    go(Motion::Lines(-1), "up", "Up a line", &["Up"]),
+    go(Motion::Lines(1), "down", "Down a line", &["Down"]),
+    go(Motion::WordLeft, "word-left", "A word to the left", or_mac(&["Ctrl+Left"], &["Alt+Left"])),
+    go(Motion::WordRight, "word-right", "A word to the right", or_mac(&["Ctrl+Right"], &["Alt+Right"])),
+    go(Motion::Home, "line-start", "To the line's start", or_mac(&["Home"], &["Home", "Ctrl+Left"])),
+    go(Motion::End, "line-end", "To the line's end", or_mac(&["End"], &["End", "Ctrl+Right"])),
+    go(Motion::Start, "text-start", "To the text's start", or_mac(&["Ctrl+Home"], &["Ctrl+Home", "Ctrl+Up"])),
+    go(Motion::Finish, "text-end", "To the text's end", or_mac(&["Ctrl+End"], &["Ctrl+End", "Ctrl+Down"])),
+    go(Motion::Pages(-1), "page-up", "Up a page", &["PageUp"]),
+    go(Motion::Pages(1), "page-down", "Down a page", &["PageDown"]),
+    select(Motion::Left, "select-left", "Select to the left", &["Shift+Left"]),
+    select(Motion::Right, "select-right", "Select to the right", &["Shift+Right"]),
+    select(Motion::Lines(-1), "select-up", "Select up a line", &["Shift+Up"]),
+    select(Motion::Lines(1), "select-down", "Select down a line", &["Shift+Down"]),
+    select(
+        Motion::WordLeft,
+        "select-word-left",
+        "Select a word to the left",
+        or_mac(&["Ctrl+Shift+Left"], &["Shift+Alt+Left"]),
+    ),
+    select(
+        Motion::WordRight,
+        "select-word-right",
+        "Select a word to the right",
+        or_mac(&["Ctrl+Shift+Right"], &["Shift+Alt+Right"]),
+    ),
+    select(
+        Motion::Home,
+        "select-line-start",
+        "Select to the line's start",
+        or_mac(&["Shift+Home"], &["Shift+Home", "Ctrl+Shift+Left"]),
+    ),
+    select(
+        Motion::End,
+        "select-line-end",
+        "Select to the line's end",
+        or_mac(&["Shift+End"], &["Shift+End", "Ctrl+Shift+Right"]),
+    ),
+    select(
+        Motion::Start,
+        "select-text-start",
+        "Select to the text's start",
+        or_mac(&["Ctrl+Shift+Home"], &["Ctrl+Shift+Home", "Ctrl+Shift+Up"]),
+    ),
+    select(
+        Motion::Finish,
+        "select-text-end",
+        "Select to the text's end",
+        or_mac(&["Ctrl+Shift+End"], &["Ctrl+Shift+End", "Ctrl+Shift+Down"]),
+    ),
+    select(Motion::Pages(-1), "select-page-up", "Select up a page", &["Shift+PageUp"]),
+    select(Motion::Pages(1), "select-page-down", "Select down a page", &["Shift+PageDown"]),
+];

@@ -1,0 +1,125 @@
+//! What a channel shall read, and how: the popup of its card.
+
+use super::{
+    names::{filter_name, input_name, wrap_name},
+    swatch::Swatches,
+};
+use crate::{
+    gui::{
+        accessible,
+        outbox::{Outbox, Pick, Wish},
+        theme,
+    },
+    media,
+    project::{Channel, Filter, Input, Media, PassId, Sampler, Wrap},
+    session::Command,
+};
+use egui::{ComboBox, FontId, Rect, ScrollArea, Sense, Ui, pos2, vec2};
+
+/// The popup of a card.
+pub fn choose(
+    ui: &mut Ui,
+    pass: &PassId,
+    index: usize,
+    channel: Option<&Channel>,
+    swatches: &mut Swatches<'_>,
+    out: &mut Outbox,
+) {
+    let session = swatches.session;
+    let set = |out: &mut Outbox, channel: Option<Channel>| {
+        out.ask(Command::SetChannel { pass: pass.clone(), index, channel });
+    };
+    let now = channel.map(|c| &c.input);
+    ui.colored_label(theme::of(ui).weak, format!("iChannel{index} of {} reads", pass.title()));
+    ui.horizontal_wrapped(|ui| {
+        let none = ui.selectable_label(now.is_none(), "none");
+        if out.clicked("choose:none", &none) {
+            set(out, None);
+        }
+        for other in &session.project().passes {
+            let PassId::Buffer(name) = &other.id else { continue };
+            for index in 0..other.settings.formats().len() {
+                let (input, place) = match index {
+                    0 => (Input::Buffer(name.clone()), format!("choose:buffer:{name}")),
+                    _ => (Input::Target { buffer: name.clone(), index }, format!("choose:buffer:{name}:{index}")),
+                };
+                let item = ui.selectable_label(now == Some(&input), input_name(&input));
+                if out.clicked(&place, &item) && now != Some(&input) {
+                    set(out, Some(Channel { input, sampler: Sampler::BUFFER }));
+                }
+            }
+        }
+        let item = ui.selectable_label(now == Some(&Input::Keyboard), "Keyboard");
+        if out.clicked("choose:keyboard", &item) {
+            let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: false };
+            set(out, Some(Channel { input: Input::Keyboard, sampler }));
+        }
+        if out.clicked("choose:file", &ui.button("Picture…")) {
+            out.wishes.push(Wish::Pick(Pick::Picture { channel: index }));
+        }
+    });
+    if let Some(channel) = channel {
+        sampler(ui, channel, out, set);
+    }
+    ui.separator();
+    ui.colored_label(theme::of(ui).weak, "Textures that come with Eddy");
+    ScrollArea::vertical().max_height(210.0).auto_shrink([false, true]).show(ui, |ui| {
+        ui.spacing_mut().item_spacing = vec2(6.0, 6.0);
+        ui.horizontal_wrapped(|ui| {
+            for name in media::builtin::names() {
+                let input = Input::Texture(Media::Builtin(name.to_owned()));
+                let (rect, response) = ui.allocate_exact_size(vec2(84.0, 82.0), Sense::click());
+                let chosen = now == Some(&input);
+                accessible::choice(&response, egui::Role::Button, chosen, name);
+                if ui.is_rect_visible(rect) {
+                    texture_card(ui, rect, name, &input, chosen || response.hovered(), swatches);
+                }
+                if out.clicked(&format!("choose:texture:{name}"), &response) && !chosen {
+                    set(out, Some(Channel { input, sampler: Sampler::TEXTURE }));
+                }
+                response.on_hover_text(name);
+            }
+        });
+    });
+}
+
+fn texture_card(ui: &Ui, rect: Rect, name: &str, input: &Input, hot: bool, swatches: &mut Swatches<'_>) {
+    ui.painter().rect_filled(rect, 4.0, if hot { theme::of(ui).accent_fill } else { theme::of(ui).background });
+    let place = Rect::from_center_size(pos2(rect.center().x, rect.top() + 34.0), vec2(60.0, 60.0));
+    swatches.show(ui, place, input);
+    let mut job =
+        egui::text::LayoutJob::simple_singleline(name.to_owned(), FontId::proportional(10.5), theme::of(ui).text);
+    job.wrap = egui::text::TextWrapping::truncate_at_width(rect.width() - 6.0);
+    let galley = ui.painter().layout_job(job);
+    let at = pos2(rect.center().x - galley.size().x / 2.0, rect.bottom() - 16.0);
+    ui.painter().galley(at, galley, theme::of(ui).text);
+}
+
+/// Filter, wrap and flip, as far as the input has them.
+fn sampler(ui: &mut Ui, channel: &Channel, out: &mut Outbox, set: impl Fn(&mut Outbox, Option<Channel>)) {
+    if matches!(channel.input, Input::Keyboard | Input::Music(_) | Input::Microphone) {
+        return;
+    }
+    let mut sampler = channel.sampler;
+    ui.separator();
+    ui.horizontal_wrapped(|ui| {
+        let filter = ComboBox::from_id_salt("filter").width(78.0).selected_text(filter_name(sampler.filter));
+        filter.show_ui(ui, |ui| {
+            for filter in [Filter::Nearest, Filter::Linear, Filter::Mipmap] {
+                ui.selectable_value(&mut sampler.filter, filter, filter_name(filter));
+            }
+        });
+        let wrap = ComboBox::from_id_salt("wrap").width(72.0).selected_text(wrap_name(sampler.wrap));
+        wrap.show_ui(ui, |ui| {
+            for wrap in [Wrap::Clamp, Wrap::Repeat] {
+                ui.selectable_value(&mut sampler.wrap, wrap, wrap_name(wrap));
+            }
+        });
+        if matches!(channel.input, Input::Texture(_) | Input::Cubemap(_) | Input::Video(_) | Input::Webcam) {
+            ui.checkbox(&mut sampler.vflip, "flip").on_hover_text("The picture's top row lies at v = 1");
+        }
+    });
+    if sampler != channel.sampler {
+        set(out, Some(Channel { sampler, ..channel.clone() }));
+    }
+}

@@ -1,0 +1,175 @@
+//! The panel of channels: what each channel of the pass in front reads, and how.
+
+mod choose;
+mod live;
+mod names;
+mod swatch;
+
+pub use live::Live;
+
+use super::{outbox::Outbox, theme, thumbnails::Thumbnails};
+use crate::{
+    project::{self, Channel, Pass, Tab},
+    session::Session,
+};
+use egui::{
+    Align2, Color32, FontId, Popup, PopupCloseBehavior, Rect, Response, Sense, Stroke, StrokeKind, Ui, pos2, vec2,
+};
+use names::{input_name, sampler_name};
+use swatch::Swatches;
+
+/// What the cards would like to be high, with the room around them.
+pub const HEIGHT: f32 = 92.0;
+/// Higher, they grow no more.
+const MOST: f32 = 128.0;
+/// A channel that reads nothing.
+const EMPTY: f32 = 46.0;
+const GAP: f32 = 6.0;
+
+/// The panel's title: whose channels they are.
+pub fn title(session: &Session, tab: &Tab) -> String {
+    match pass(session, tab) {
+        Some(pass) => format!("Channels of {}", pass.id.title()),
+        None => "Channels".to_owned(),
+    }
+}
+
+fn pass<'s>(session: &'s Session, tab: &Tab) -> Option<&'s Pass> {
+    match tab {
+        Tab::Pass(id) | Tab::Stage(id, _) => session.project().pass(id),
+        Tab::Common => None,
+    }
+}
+
+pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, thumbnails: &mut Thumbnails, live: &mut Live, out: &mut Outbox) {
+    out.stop("channels", ui);
+    let rect = ui.available_rect_before_wrap();
+    let mut swatches = Swatches { session, thumbnails, live };
+    let Some(pass) = pass(session, tab) else {
+        let text = "Common is put before every pass; channels belong to the passes";
+        let painter = ui.painter().with_clip_rect(rect);
+        let font = FontId::proportional(12.0);
+        painter.text(rect.center(), Align2::CENTER_CENTER, text, font, theme::of(ui).weak);
+        return;
+    };
+    let inner = rect.shrink2(vec2(8.0, 0.0)).with_max_y(rect.bottom() - 8.0);
+    let height = inner.height().clamp(24.0, MOST);
+    let widths = widths(inner.width(), &pass.channels.each_ref().map(Option::is_some));
+    let mut left = inner.left();
+    for (index, channel) in pass.channels.iter().enumerate() {
+        let card = Rect::from_min_size(pos2(left, inner.top()), vec2(widths[index], height));
+        left = card.right() + GAP;
+        let response = match channel {
+            Some(channel) => show_card(ui, card, index, channel, &mut swatches),
+            None => show_empty(ui, card, index),
+        };
+        out.place(format!("channel:{index}"), card);
+        let width = (rect.width() - 16.0).clamp(260.0, 760.0);
+        Popup::from_toggle_button_response(&response)
+            .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+            .width(width)
+            .show(|ui| choose::choose(ui, &pass.id, index, channel.as_ref(), &mut swatches, out));
+    }
+}
+
+/// Channels that read something share what those that read nothing leave.
+fn widths(width: f32, is_read: &[bool; 4]) -> [f32; 4] {
+    let empty = is_read.iter().filter(|read| !**read).count() as f32;
+    let room = width - 3.0 * GAP;
+    let least = EMPTY.min(room / 4.0);
+    let of_read = (room - empty * least) / (4.0 - empty).max(1.0);
+    is_read.map(|read| if read { of_read.clamp(0.0, 260.0) } else { least })
+}
+
+/// A place for an input.
+fn show_empty(ui: &Ui, card: Rect, index: usize) -> Response {
+    let p = theme::of(ui);
+    let response = ui.interact(card, ui.scope_id().with(("channel", index)), Sense::click());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("iChannel{index}: none")));
+    let is_hot = response.hovered() || response.has_focus();
+    let (fill, edge, ink) = if is_hot { (p.button, p.accent, p.strong) } else { (p.panel, p.line, p.weak) };
+    ui.painter().rect(card, 5.0, fill, Stroke::new(1.0, edge), StrokeKind::Inside);
+    let c = card.center() - vec2(0.0, if card.height() > 40.0 { 6.0 } else { 0.0 });
+    for arm in [vec2(5.0, 0.0), vec2(0.0, 5.0)] {
+        ui.painter().line_segment([c - arm, c + arm], Stroke::new(1.5, ink));
+    }
+    if card.height() > 40.0 {
+        let at = pos2(card.center().x, c.y + 16.0);
+        ui.painter().text(at, Align2::CENTER_CENTER, index, FontId::proportional(11.0), p.weak);
+    }
+    response
+        .on_hover_text(format!("iChannel{index} reads nothing. Click to give it an input"))
+        .on_hover_cursor(egui::CursorIcon::PointingHand)
+}
+
+fn show_card(ui: &Ui, card: Rect, index: usize, channel: &Channel, swatches: &mut Swatches<'_>) -> Response {
+    let p = theme::of(ui);
+    let response = ui.interact(card, ui.scope_id().with(("channel", index)), Sense::click());
+    let name = input_name(&channel.input);
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, format!("iChannel{index}: {name}")));
+    let painter = ui.painter().with_clip_rect(card);
+    let is_hot = response.hovered() || response.has_focus();
+    painter.rect_filled(card, 5.0, if is_hot { p.button } else { p.raised });
+    painter.rect_stroke(card, 5.0, Stroke::new(1.0, if is_hot { p.accent } else { p.line }), StrokeKind::Inside);
+    let missing = project::missing_pass(swatches.session.project(), &channel.input);
+    // Beside the picture where the card is wide, below it where it is high.
+    let is_upright = card.height() > 76.0 && card.width() < 2.2 * card.height();
+    let texts = if is_upright { 36.0 } else { 0.0 };
+    let room = vec2(card.width() - 10.0, card.height() - 10.0 - texts);
+    let room = if is_upright { room } else { vec2(room.x.min(room.y * 16.0 / 9.0), room.y) };
+    let has_picture = room.x > 20.0 && (is_upright || card.width() > room.x + 66.0);
+    let mut text = card.shrink2(vec2(8.0, 5.0));
+    if has_picture {
+        let place = Rect::from_min_size(card.min + vec2(5.0, 5.0), room);
+        match missing {
+            // Nothing is read, and nothing is shown.
+            Some(_) => drop(painter.rect_filled(place, 3.0, p.surround)),
+            None => swatches.show(ui, place, &channel.input),
+        }
+        text = if is_upright { text.with_min_y(place.bottom() + 2.0) } else { text.with_min_x(place.right() + 8.0) };
+    }
+    let line = |y: f32, text_: &str, size: f32, color: Color32| {
+        let mut job = egui::text::LayoutJob::simple_singleline(text_.to_owned(), FontId::proportional(size), color);
+        job.wrap = egui::text::TextWrapping::truncate_at_width((card.right() - text.left() - 5.0).max(8.0));
+        let galley = painter.layout_job(job);
+        painter.galley(pos2(text.left(), y - galley.size().y / 2.0), galley, color);
+    };
+    let (tint, how) = match missing {
+        Some(_) => (p.warning, "is no pass".to_owned()),
+        None => (p.text, sampler_name(channel)),
+    };
+    let of_how = if missing.is_some() { p.warning } else { p.weak };
+    if is_upright {
+        line(text.top() + 8.0, &format!("{index}  {name}"), 12.5, tint);
+        line(text.top() + 24.0, &how, 11.0, of_how);
+    } else if card.height() > 52.0 {
+        let middle = card.center().y;
+        line(middle - 17.0, &format!("iChannel{index}"), 11.0, p.weak);
+        line(middle, &name, 12.5, tint);
+        line(middle + 17.0, &how, 11.0, of_how);
+    } else {
+        line(card.center().y, &format!("{index}  {name}"), 12.0, tint);
+    }
+    let more = match missing {
+        Some(id) => format!("There is no {}; the channel reads zeros", id.title()),
+        None => sampler_name(channel),
+    };
+    response.on_hover_text(format!("iChannel{index}: {name}\n{more}")).on_hover_cursor(egui::CursorIcon::PointingHand)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn channels_that_read_nothing_fold() {
+        let sum = |widths: [f32; 4]| widths.iter().sum::<f32>() + 3.0 * GAP;
+        let all = widths(600.0, &[true; 4]);
+        assert!((sum(all) - 600.0).abs() < 0.1 && all[0] == all[3]);
+        let one = widths(600.0, &[false, true, false, false]);
+        assert_eq!((one[0], one[1]), (EMPTY, 260.0));
+        let none = widths(600.0, &[false; 4]);
+        assert_eq!(none, [EMPTY; 4]);
+        assert!(sum(widths(120.0, &[true, false, true, false])) <= 120.1);
+    }
+}

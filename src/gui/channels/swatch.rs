@@ -1,0 +1,96 @@
+//! The small picture of an input.
+
+use super::Live;
+use crate::{
+    gui::{
+        theme,
+        thumbnails::{Subject, Thumbnail, Thumbnails},
+    },
+    project::{Input, Origin, PassId},
+    session::Session,
+};
+use egui::{FontId, Rect, Ui, vec2};
+use std::path::PathBuf;
+
+/// Points of the smallest letters of a buffer's name.
+const SMALL: f32 = 9.0;
+
+/// What small pictures are made of.
+pub struct Swatches<'a> {
+    pub session: &'a Session,
+    pub thumbnails: &'a mut Thumbnails,
+    pub live: &'a mut Live,
+}
+
+impl Swatches<'_> {
+    /// Shows an input in a place: a texture as it is, a pass as it was drawn a moment ago.
+    pub fn show(&mut self, ui: &Ui, place: Rect, input: &Input) {
+        let buffer = match input {
+            Input::Buffer(name) => Some((name, 0)),
+            Input::Target { buffer, index } => Some((buffer, *index)),
+            _ => None,
+        };
+        if let Some((name, index)) = buffer {
+            let pass = PassId::Buffer(name.clone());
+            if let Some((texture, aspect)) = self.live.get(ui, self.session, &pass, index) {
+                let shown = fitting(place, aspect);
+                ui.painter().rect_filled(place, 3.0, theme::of(ui).surround);
+                return egui::Image::new((texture.id(), shown.size())).corner_radius(3.0).paint_at(ui, shown);
+            }
+        }
+        swatch(ui, self.session, place, input, self.thumbnails);
+    }
+}
+
+/// The largest place of a shape in the middle of another.
+fn fitting(place: Rect, aspect: f32) -> Rect {
+    let width = place.width().min(place.height() * aspect);
+    Rect::from_center_size(place.center(), vec2(width, width / aspect.max(0.01)))
+}
+
+fn swatch(ui: &Ui, session: &Session, place: Rect, input: &Input, thumbnails: &mut Thumbnails) {
+    let painter = ui.painter();
+    painter.rect_filled(place, 3.0, theme::of(ui).surround);
+    let letter = match input {
+        Input::Texture(media) => match thumbnails.get(Subject::Texture(media.clone(), folder(session))) {
+            Thumbnail::Ready(texture) => {
+                let size = texture.size_vec2();
+                let shown = fitting(place, size.x / size.y.max(1.0));
+                return egui::Image::new(&texture).corner_radius(3.0).paint_at(ui, shown);
+            }
+            Thumbnail::Waiting => "…",
+            Thumbnail::Failed(_) => "!",
+        },
+        Input::Buffer(name) | Input::Target { buffer: name, .. } => name.as_str(),
+        Input::Keyboard => "K",
+        Input::CubemapPass | Input::Cubemap(_) => "C",
+        Input::Volume(_) => "V",
+        Input::Video(_) | Input::Webcam => "film",
+        Input::Music(_) | Input::Microphone => "snd",
+    };
+    // A buffer's name may be long: as large as fits, and what does not fit even small is cut.
+    let layout = |size: f32| {
+        let mut job = egui::text::LayoutJob::simple_singleline(
+            letter.to_owned(),
+            FontId::proportional(size),
+            theme::of(ui).accent,
+        );
+        job.wrap =
+            egui::text::TextWrapping::truncate_at_width(if size > SMALL { f32::INFINITY } else { place.width() });
+        painter.layout_job(job)
+    };
+    let size = place.height() * 0.45;
+    let whole = layout(size);
+    let fitting = size * (place.width() - 4.0) / whole.size().x;
+    let galley = if fitting < size { layout(fitting.max(SMALL)) } else { whole };
+    painter.galley(place.center() - galley.size() / 2.0, galley, theme::of(ui).accent);
+}
+
+/// The project's folder, which pictures' paths are relative to.
+fn folder(session: &Session) -> Option<PathBuf> {
+    match &session.project().origin {
+        Origin::Folder { path, .. } => Some(path.clone()),
+        Origin::File(path) | Origin::Json(path) => path.parent().map(PathBuf::from),
+        Origin::Unsaved | Origin::Preset(_) => None,
+    }
+}

@@ -1,0 +1,407 @@
+//! The editor's side of the window: which tab is in front, its text, finding in it, the list of problems below.
+
+mod find_bar;
+mod places;
+
+use super::{
+    actions::{Action, Keymap, Listening},
+    editor::{Ask, Buffer, CodeEditor, EditorAction, Help, Look, Query},
+    outbox::Outbox,
+    problems, tabs, theme, toasts,
+    uses::Uses,
+};
+use crate::{
+    project::{Origin, PassId, Tab},
+    session::{Command, Session},
+};
+use egui::{Frame, Id, Key, Margin, Panel, TextEdit, Ui};
+use find_bar::FindBar;
+use std::{collections::HashMap, ops::Range};
+
+pub struct CodePanel {
+    editors: HashMap<Tab, CodeEditor>,
+    current: Tab,
+    /// The session's text generation that the editors hold.
+    generation: Option<u64>,
+    /// Which project they are of: another one's undo must not lead back here.
+    project: (String, Origin),
+    font_size: f32,
+    wraps: bool,
+    find: FindBar,
+    go_to_line: Option<String>,
+    bar_takes_focus: bool,
+    /// The text takes the keyboard as soon as it is shown.
+    takes_focus: bool,
+    /// The shaders begun so far, each of which takes the keyboard once.
+    begun: u64,
+    /// Which problem was jumped to last.
+    problem: Option<usize>,
+    uses: Option<Uses>,
+    /// The tab the session was told is in front.
+    told_front: Option<Tab>,
+    /// How many of the session's renamed passes have been followed.
+    followed: usize,
+}
+
+impl CodePanel {
+    pub fn new() -> Self {
+        Self {
+            editors: HashMap::new(),
+            current: Tab::Pass(PassId::Image),
+            generation: None,
+            project: (String::new(), Origin::Unsaved),
+            font_size: 13.0,
+            wraps: false,
+            find: FindBar::default(),
+            go_to_line: None,
+            bar_takes_focus: false,
+            takes_focus: false,
+            begun: 0,
+            problem: None,
+            uses: None,
+            told_front: None,
+            followed: 0,
+        }
+    }
+
+    pub fn current(&self) -> &Tab {
+        &self.current
+    }
+
+    /// The tab in front, and the line of its caret from 0.
+    #[cfg(test)]
+    pub fn caret(&self) -> (Tab, usize) {
+        let buffer = self.editors[&self.current].buffer();
+        let before = &buffer.text()[..buffer.selection().range().start];
+        (self.current.clone(), before.matches('\n').count())
+    }
+
+    /// The text has the keyboard.
+    pub fn has_keys(&self, ctx: &egui::Context) -> bool {
+        ctx.memory(|m| m.has_focus(Self::id(&self.current)))
+    }
+
+    pub fn id(tab: &Tab) -> Id {
+        Id::unique(("code", tab.title()))
+    }
+
+    /// Brings a tab to the front, and its caret to a line and column from 0.
+    pub fn go_to(&mut self, tab: Tab, place: Option<(usize, usize)>) {
+        if let Some((line, column)) = place
+            && let Some(editor) = self.editors.get_mut(&tab)
+        {
+            editor.go_to(line, column);
+        }
+        self.current = tab;
+    }
+
+    pub fn go_aside(&mut self, session: &Session, by: isize) {
+        let tabs = session.tabs();
+        if let Some(at) = tabs.iter().position(|t| *t == self.current) {
+            let to = (at as isize + by).rem_euclid(tabs.len() as isize) as usize;
+            self.current = tabs[to].clone();
+            self.focus();
+        }
+    }
+
+    /// Goes to the next problem, or to the one before, round the ends of the list.
+    pub fn go_to_problem(&mut self, session: &Session, forward: bool) {
+        let list = session.diagnostics();
+        let count = list.len();
+        let order = (1..=count).map(|step| match (self.problem.filter(|i| *i < count), forward) {
+            (Some(at), true) => (at + step) % count,
+            (Some(at), false) => (at + count - step) % count,
+            (None, true) => step - 1,
+            (None, false) => count - step,
+        });
+        let found = order.into_iter().find_map(|i| {
+            let place = list[i].place.as_ref()?;
+            Some((i, place.tab.clone()?, (place.line - 1, place.column - 1)))
+        });
+        if let Some((i, tab, place)) = found {
+            self.problem = Some(i);
+            self.go_to(tab, Some(place));
+        }
+    }
+
+    pub fn focus(&mut self) {
+        self.takes_focus = true;
+    }
+
+    /// `size`: points of a letter; `wraps`: lines go on in the next row where they are too long.
+    pub fn set_look(&mut self, size: f32, wraps: bool) {
+        (self.font_size, self.wraps) = (size, wraps);
+    }
+
+    /// Opens the bar for finding, with what is selected in it; `replaces`: also for replacing.
+    pub fn open_find(&mut self, replaces: bool) {
+        let selected = self.editors.get(&self.current).map(|e| e.buffer().selected_text()).unwrap_or_default();
+        self.find.open(selected, replaces);
+        self.go_to_line = None;
+    }
+
+    pub fn is_finding(&self) -> bool {
+        self.find.is_open()
+    }
+
+    /// Goes to the next match or the one before, also while the bar is closed.
+    pub fn find_on(&mut self, forward: bool) {
+        if self.find.is_empty() {
+            self.open_find(false);
+        }
+        if let Some(editor) = self.editors.get_mut(&self.current) {
+            self.find.step(&self.current, editor, forward);
+        }
+    }
+
+    pub fn switch_find(&mut self, switch: impl Fn(&mut Query)) {
+        self.find.switch(switch);
+    }
+
+    pub fn replace_all(&mut self, out: &mut Outbox) {
+        if let Some(editor) = self.editors.get_mut(&self.current) {
+            self.find.replace_all(&self.current, editor);
+        }
+        self.tell_changed(out);
+    }
+
+    /// Does what a key or the palette asks of the text in front.
+    pub fn act(&mut self, action: EditorAction, out: &mut Outbox) {
+        if let Some(editor) = self.editors.get_mut(&self.current) {
+            editor.act(action);
+            editor.focus();
+        }
+        self.tell_changed(out);
+    }
+
+    /// Tells the session of the text in front if it has changed.
+    fn tell_changed(&mut self, out: &mut Outbox) {
+        if let Some(text) = self.editors.get_mut(&self.current).and_then(CodeEditor::take_changed) {
+            out.ask(Command::EditText { tab: self.current.clone(), text: text.to_owned() });
+            self.problem = None;
+            // Its places are of the old text.
+            self.uses = None;
+        }
+    }
+
+    pub fn open_go_to_line(&mut self) {
+        self.go_to_line = Some(String::new());
+        self.find.close();
+        self.bar_takes_focus = true;
+    }
+
+    /// Takes over texts that were changed by something else than the editors.
+    pub fn prepare(&mut self, session: &Session) {
+        let project = session.project();
+        if std::mem::replace(&mut self.begun, session.begun()) != session.begun() {
+            self.takes_focus = true;
+        }
+        if self.project.0 != project.name || !same_place(&self.project.1, &project.origin) {
+            let moved = self.project.1 == Origin::Unsaved || self.project.0 != project.name;
+            // Saving under a new name keeps the texts, and so their undo.
+            let kept = moved && self.editors.iter().all(|(tab, e)| session.text(tab) == e.buffer().text());
+            if !kept {
+                self.editors.clear();
+                self.problem = None;
+                self.uses = None;
+                self.current = Tab::Pass(PassId::Image);
+            }
+            self.project = (project.name.clone(), project.origin.clone());
+        }
+        self.follow_renames(session);
+        let tabs = session.tabs();
+        if self.generation != Some(session.text_generation()) || tabs.len() != self.editors.len() {
+            self.generation = Some(session.text_generation());
+            self.editors.retain(|tab, _| tabs.contains(tab));
+            for tab in &tabs {
+                let text = session.text(tab);
+                match self.editors.get_mut(tab) {
+                    Some(editor) => editor.take_text(text),
+                    None => drop(self.editors.insert(tab.clone(), CodeEditor::new(text))),
+                }
+            }
+        }
+        if !self.editors.contains_key(&self.current) {
+            self.current = Tab::Pass(PassId::Image);
+        }
+    }
+
+    /// An editor with its caret and its undo stays with a pass that has another name now.
+    fn follow_renames(&mut self, session: &Session) {
+        for (from, to) in session.renamed_passes().iter().skip(self.followed) {
+            let tabs: Vec<Tab> = self.editors.keys().filter(|tab| tab.pass() == Some(from)).cloned().collect();
+            for tab in tabs {
+                let new = tab.of_pass(to.clone());
+                if let Some(editor) = self.editors.remove(&tab) {
+                    self.editors.insert(new.clone(), editor);
+                }
+                if self.current == tab {
+                    self.current = new;
+                }
+            }
+        }
+        self.followed = session.renamed_passes().len();
+    }
+
+    /// Fills the space there is. True: a hand begins to move it all by the row of tabs.
+    pub fn show(&mut self, ui: &mut Ui, session: &Session, out: &mut Outbox) -> bool {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        let is_dragged = tabs::show(ui, session, &self.current, out);
+        let bar = Frame::NONE.fill(theme::of(ui).raised).inner_margin(Margin::symmetric(8, 5));
+        if self.find.is_open() {
+            bar.show(ui, |ui| {
+                ui.set_width(ui.available_width());
+                self.find_bar(ui, out);
+            });
+        } else if self.go_to_line.is_some() {
+            bar.show(ui, |ui| {
+                ui.set_width(ui.available_width());
+                self.go_to_bar(ui);
+            });
+        }
+        let room = ui.available_height();
+        Panel::bottom("problems")
+            .frame(Frame::NONE.fill(theme::of(ui).panel))
+            .show_separator_line(false)
+            .resizable(false)
+            .show(ui, |ui| problems::show(ui, session, self.caret_line(), (room * 0.35).min(150.0), out));
+        toasts::panel(ui, session, out);
+        self.show_uses(ui, session, out);
+        if self.told_front.as_ref() != Some(&self.current) {
+            self.told_front = Some(self.current.clone());
+            out.ask(Command::BringToFront(self.current.clone()));
+        }
+        self.editor(ui, session, out);
+        is_dragged
+    }
+
+    fn editor(&mut self, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+        let marks = places::marks(session, &self.current);
+        let shared = if self.current == Tab::Common { "" } else { session.text(&Tab::Common) };
+        let Some(editor) = self.editors.get_mut(&self.current) else { return };
+        if std::mem::take(&mut self.takes_focus) {
+            editor.focus();
+        }
+        let analysis = session.analysis().filter(|a| a.front == self.current);
+        let help = analysis.and_then(|a| {
+            let source = a.source_of(&self.current)?;
+            Some(Help { analysis: &a.analysis, source, classes: &a.classes, text: a.text() })
+        });
+        let (font_size, wraps) = (self.font_size, self.wraps);
+        let name = format!("Code of {}", self.current.title());
+        let look = Look { name: &name, font_size, wraps, marks: &marks, matches: self.find.matches(), shared, help };
+        let keymap = out.keys.clone();
+        out.home("code", ui, Self::id(&self.current));
+        let shown = editor.show(ui, Self::id(&self.current), look, &|event| of_code(&keymap, event));
+        out.place("editor", shown.text_rect);
+        out.place("code", shown.focus_rect);
+        for (line, rect) in shown.marked {
+            out.place(format!("mark:{}", line + 1), rect);
+        }
+        self.tell_changed(out);
+        for (name, rect) in shown.placed {
+            out.place(name, rect);
+        }
+        for ask in shown.asks {
+            let (Some(analysis), Some(help)) = (analysis, help) else { break };
+            match ask {
+                Ask::GoTo(span) => {
+                    if let Some(tab) = analysis.tab_of(span.source) {
+                        self.show_range(tab, span.range());
+                    }
+                }
+                Ask::ListUses(at) => self.uses = Uses::new(session, session.uses(analysis, help.source, at)),
+            }
+            ui.ctx().request_repaint();
+        }
+    }
+
+    /// Selects bytes of a tab's text.
+    fn show_range(&mut self, tab: Tab, range: Range<usize>) {
+        if let Some(editor) = self.editors.get_mut(&tab) {
+            editor.show_range(range);
+            self.current = tab;
+        }
+    }
+
+    fn show_uses(&mut self, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+        let Some(uses) = &mut self.uses else { return };
+        let frame = Frame::NONE.fill(theme::of(ui).panel);
+        let limit = (ui.available_height() * 0.35).min(160.0);
+        let shown = Panel::bottom("uses")
+            .frame(frame)
+            .show_separator_line(false)
+            .resizable(false)
+            .show(ui, |ui| uses.show(ui, session, limit, out));
+        let shown = shown.inner;
+        if let Some((tab, range)) = shown.go_to {
+            self.show_range(tab, range);
+        }
+        if shown.closed {
+            self.uses = None;
+            self.focus();
+        }
+    }
+
+    fn find_bar(&mut self, ui: &mut Ui, out: &mut Outbox) {
+        let Some(editor) = self.editors.get_mut(&self.current) else { return };
+        let closes = self.find.show(ui, &self.current, editor, out);
+        // While one types, Escape first goes back to one caret.
+        let is_for_code = self.has_keys(ui.ctx()) && self.buffer().is_some_and(|b| b.carets().list().len() > 1);
+        self.tell_changed(out);
+        if closes || (ui.input(|i| i.key_pressed(Key::Escape)) && !is_for_code) {
+            self.find.close();
+            self.focus();
+        }
+    }
+
+    fn buffer(&self) -> Option<&Buffer> {
+        self.editors.get(&self.current).map(CodeEditor::buffer)
+    }
+
+    /// The tab in front, and the line of its caret from 0.
+    fn caret_line(&self) -> Option<(&Tab, usize)> {
+        let buffer = self.buffer()?;
+        Some((&self.current, buffer.line_of(buffer.selection().head)))
+    }
+
+    fn go_to_bar(&mut self, ui: &mut Ui) {
+        let take_focus = std::mem::take(&mut self.bar_takes_focus);
+        let Some(text) = &mut self.go_to_line else { return };
+        let mut done = false;
+        ui.horizontal(|ui| {
+            ui.label("Line");
+            let field = ui.add(TextEdit::singleline(text).hint_text("12 or 12:5").desired_width(90.0));
+            if take_focus {
+                field.request_focus();
+            }
+            let entered = field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
+            done = entered || ui.button("Go").clicked();
+        });
+        let place = places::parse(text);
+        let closed = ui.input(|i| i.key_pressed(Key::Escape));
+        if done || closed {
+            self.go_to_line = None;
+            match place.filter(|_| done) {
+                Some(place) => self.go_to(self.current.clone(), Some(place)),
+                None => self.focus(),
+            }
+        }
+    }
+}
+
+/// Returns whether two origins are one project: saving makes a manifest where there was none.
+fn same_place(a: &Origin, b: &Origin) -> bool {
+    match (a, b) {
+        (Origin::Folder { path: a, .. }, Origin::Folder { path: b, .. }) => a == b,
+        _ => a == b,
+    }
+}
+
+/// What a key asks of the code while it has the keyboard.
+fn of_code(keymap: &Keymap, event: &egui::Event) -> Option<EditorAction> {
+    match keymap.pressed(event, Listening { code: true, find_bar: false })?.action {
+        Action::Code(action) => Some(action),
+        _ => None,
+    }
+}

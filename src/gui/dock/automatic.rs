@@ -1,0 +1,146 @@
+//! The arrangement that nobody has made: by the window's shape, and by what the panels have to show.
+
+use super::{BAR, Node, Panel};
+use egui::Vec2;
+use std::collections::BTreeSet;
+
+/// What panels would like to be high, without their titles.
+#[derive(Clone, Copy, Debug)]
+pub struct Heights {
+    /// The bar below the picture.
+    pub transport: f32,
+    pub uniforms: f32,
+    pub channels: f32,
+}
+
+/// Lines of code are this wide at least, where the window has room for more.
+const CODE_WIDTH: f32 = 700.0;
+/// What the panels below the picture have, where there is room to choose.
+const BELOW: f32 = 250.0;
+/// Channels shrink to so much where others want the room.
+const LEAST_CHANNELS: f32 = 44.0;
+/// Channels grow to so much where nothing else wants the room.
+const MOST_CHANNELS: f32 = 150.0;
+/// A table of costs is so high.
+const COSTS: f32 = 170.0;
+/// The lab's part of the height.
+const LAB: f32 = 0.48;
+
+/// Returns where each open panel is.
+pub fn arrange(size: Vec2, open: &BTreeSet<Panel>, front: Option<Panel>, heights: Heights) -> Node {
+    let has_lab = open.contains(&Panel::Lab);
+    let rest = open.iter().any(|panel| *panel != Panel::Lab);
+    let upper = Vec2::new(size.x, if has_lab && rest { size.y * (1.0 - LAB) } else { size.y });
+    let aside: Vec<Node> = open.iter().copied().filter(|panel| panel.is_aside()).map(Node::Panel).collect();
+    let aside = match aside.len() {
+        0 => None,
+        1 => aside.into_iter().next(),
+        n => {
+            let at = aside.iter().position(|node| front.is_some_and(|front| *node == Node::Panel(front)));
+            Some(Node::Tabs(aside, at.unwrap_or(n - 1)))
+        }
+    };
+    let tall = upper.y > upper.x * 1.1;
+    let whole = if tall { one_column(upper, open, aside, heights) } else { two_columns(upper, open, aside, heights) };
+    match (whole, has_lab) {
+        (Some(node), true) => Node::Column(vec![(node, 1.0 - LAB), (Node::Panel(Panel::Lab), LAB)]),
+        (Some(node), false) => node,
+        (None, _) => Node::Panel(Panel::Lab),
+    }
+}
+
+/// The picture with everything about it on the left, the code on the right.
+fn two_columns(size: Vec2, open: &BTreeSet<Panel>, aside: Option<Node>, heights: Heights) -> Option<Node> {
+    let has_code = open.contains(&Panel::Code);
+    let left_width = if has_code { left_width(size, heights) } else { size.x };
+    let left = below_each_other(Vec2::new(left_width, size.y), open, aside, heights);
+    match (left, has_code) {
+        (Some(left), true) => {
+            Some(Node::Row(vec![(left, left_width), (Node::Panel(Panel::Code), size.x - left_width)]))
+        }
+        (None, true) => Some(Node::Panel(Panel::Code)),
+        (left, false) => left,
+    }
+}
+
+/// As wide as makes a picture of 16:9 fill the height that the panels below it leave.
+fn left_width(size: Vec2, heights: Heights) -> f32 {
+    let fitting = (size.y - heights.transport - BELOW) * 16.0 / 9.0;
+    let least = if size.x < 1000.0 { 0.5 } else { 0.44 };
+    fitting.clamp(size.x * least, (size.x * 0.5).max(size.x - CODE_WIDTH))
+}
+
+fn below_each_other(size: Vec2, open: &BTreeSet<Panel>, aside: Option<Node>, heights: Heights) -> Option<Node> {
+    let has_picture = open.contains(&Panel::Picture);
+    let wants_picture = if has_picture { (size.x * 9.0 / 16.0).ceil() + heights.transport } else { 0.0 };
+    let wants_channels = if open.contains(&Panel::Channels) { BAR + heights.channels } else { 0.0 };
+    let wants_aside = aside_height(open, heights);
+    // The picture goes before what is below it, which can be scrolled, but leaves it something to scroll in.
+    let least_below = wants_channels + wants_aside.min(BAR + 60.0);
+    let picture = wants_picture.min((size.y - least_below).max(size.y * 0.4));
+    let below = size.y - picture;
+    let (channels, aside_height) = if wants_aside == 0.0 {
+        (below, 0.0)
+    } else if wants_channels == 0.0 {
+        (0.0, below)
+    } else {
+        let spare = below - wants_channels - wants_aside;
+        let channels = if spare >= 0.0 {
+            (wants_channels + spare).min(BAR + MOST_CHANNELS)
+        } else {
+            // Cards of one line say it too; what is above them must not be scrolled for.
+            (wants_channels + spare).max(BAR + LEAST_CHANNELS)
+        };
+        (channels.min(below * 0.6), below - channels.min(below * 0.6))
+    };
+    // Where nothing is below it, the picture has it all.
+    let picture = if wants_channels + wants_aside == 0.0 { size.y } else { picture };
+    let mut parts = Vec::new();
+    if has_picture {
+        parts.push((Node::Panel(Panel::Picture), picture));
+    }
+    if let Some(aside) = aside {
+        parts.push((aside, aside_height));
+    }
+    if wants_channels > 0.0 {
+        parts.push((Node::Panel(Panel::Channels), channels));
+    }
+    column(parts)
+}
+
+/// A tall window has the code below the picture, where lines are long enough to read.
+fn one_column(size: Vec2, open: &BTreeSet<Panel>, aside: Option<Node>, heights: Heights) -> Option<Node> {
+    let mut parts = Vec::new();
+    let mut rest = size.y;
+    let mut take = |wanted: f32| {
+        let taken = wanted.min(rest);
+        rest -= taken;
+        taken
+    };
+    if open.contains(&Panel::Picture) {
+        let wanted = (size.x * 9.0 / 16.0).ceil() + heights.transport;
+        parts.push((Node::Panel(Panel::Picture), take(wanted.min(size.y * 0.45))));
+    }
+    let channels = open.contains(&Panel::Channels).then(|| take(BAR + heights.channels));
+    let aside = aside.map(|node| (node, take(aside_height(open, heights).min(size.y * 0.2))));
+    if open.contains(&Panel::Code) {
+        parts.push((Node::Panel(Panel::Code), rest));
+    }
+    parts.extend(aside);
+    parts.extend(channels.map(|height| (Node::Panel(Panel::Channels), height)));
+    column(parts)
+}
+
+fn aside_height(open: &BTreeSet<Panel>, heights: Heights) -> f32 {
+    let uniforms = open.contains(&Panel::Uniforms).then_some(BAR + heights.uniforms);
+    let costs = open.contains(&Panel::Costs).then_some(BAR + COSTS);
+    uniforms.into_iter().chain(costs).fold(0.0, f32::max)
+}
+
+fn column(mut parts: Vec<(Node, f32)>) -> Option<Node> {
+    match parts.len() {
+        0 => None,
+        1 => parts.pop().map(|(node, _)| node),
+        _ => Some(Node::Column(parts)),
+    }
+}

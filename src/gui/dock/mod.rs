@@ -1,0 +1,143 @@
+//! The panels of the window side by side: where each is, how large, and which are open.
+//!
+//! Owns the arrangement, the rows with the panels' titles, and what a hand moves. Until a person moves or resizes
+//! something, the arrangement follows the window's shape and what the panels have to show. What is in a panel is the
+//! shell's.
+
+mod automatic;
+mod bars;
+mod node;
+mod panel;
+mod separators;
+mod tree;
+
+pub use automatic::Heights;
+pub use bars::Contents;
+pub use node::Node;
+pub use panel::{BAR, Panel};
+
+use bars::Bars;
+use egui::Ui;
+use egui_tiles::{Container, Tile, Tree};
+use std::collections::BTreeSet;
+
+/// The arrangement.
+pub struct Dock {
+    tree: Tree<Panel>,
+    /// What a person has moved or resized; else the arrangement is made anew for each frame.
+    is_manual: bool,
+    open: BTreeSet<Panel>,
+    /// In front of those it shares a place with.
+    front: Option<Panel>,
+    /// Panels that were seen in the newest frame.
+    seen: BTreeSet<Panel>,
+}
+
+impl Dock {
+    pub fn new() -> Self {
+        let open = Panel::ALL.into_iter().filter(|panel| panel.is_open_at_first()).collect();
+        Self { tree: Tree::empty(tree::id()), is_manual: false, open, front: None, seen: BTreeSet::new() }
+    }
+
+    /// Takes up what was kept from the last start. `arrangement`: as a person had made it.
+    pub fn restore(&mut self, open: Option<BTreeSet<Panel>>, arrangement: Option<&Node>) {
+        if let Some(open) = open.filter(|open| !open.is_empty()) {
+            self.open = open;
+        }
+        if let Some(node) = arrangement {
+            self.tree = tree::of(node);
+            self.is_manual = true;
+            self.follow_open();
+        }
+    }
+
+    pub fn open_panels(&self) -> &BTreeSet<Panel> {
+        &self.open
+    }
+
+    /// The arrangement, if a person has made it.
+    pub fn arrangement(&self) -> Option<Node> {
+        self.is_manual.then(|| tree::node(&self.tree)).flatten()
+    }
+
+    pub fn is_open(&self, panel: Panel) -> bool {
+        self.open.contains(&panel)
+    }
+
+    /// A panel is in sight: open, and not behind another.
+    pub fn is_seen(&self, panel: Panel) -> bool {
+        self.seen.contains(&panel)
+    }
+
+    /// Opens a panel and brings it to the front of those it shares a place with, or closes it. The last one stays.
+    pub fn set_open(&mut self, panel: Panel, is_open: bool) {
+        if is_open {
+            self.open.insert(panel);
+            self.front = Some(panel);
+        } else if self.open.len() > 1 {
+            self.open.remove(&panel);
+        }
+        if self.is_manual {
+            self.follow_open();
+        }
+    }
+
+    /// Everything where it is at first, and as large.
+    pub fn reset(&mut self) {
+        *self = Self { seen: std::mem::take(&mut self.seen), ..Self::new() };
+    }
+
+    /// In an arrangement that a person has made: shows what is open.
+    fn follow_open(&mut self) {
+        let is_missing = |panel: &&Panel| self.tree.tiles.get(panel.tile()).is_none();
+        let missing: Vec<Panel> = self.open.iter().filter(is_missing).copied().collect();
+        if !missing.is_empty() {
+            let whole = missing.into_iter().fold(tree::node(&self.tree), |node, panel| Some(Node::with(node, panel)));
+            self.tree = whole.map_or_else(|| Tree::empty(tree::id()), |node| tree::of(&node));
+        }
+        for panel in Panel::ALL {
+            self.tree.tiles.set_visible(panel.tile(), self.open.contains(&panel));
+        }
+        if let Some(front) = self.front {
+            self.tree.make_active(|id, _| id == front.tile());
+        }
+    }
+
+    /// Fills the space there is.
+    pub fn show(&mut self, ui: &mut Ui, contents: &mut dyn Contents) {
+        let area = ui.available_rect_before_wrap();
+        if !self.is_manual {
+            let node = automatic::arrange(area.size(), &self.open, self.front, contents.heights());
+            self.tree = tree::of(&node);
+        }
+        let mut bars = Bars::new(contents, &self.tree);
+        self.tree.ui(&mut bars, ui);
+        let (edited, closed) = (bars.is_edited, bars.closed);
+        let edited = edited | separators::show(ui, &mut self.tree);
+        if !self.is_manual {
+            // Which tab is in front is no arrangement of a person's own.
+            self.front = self.front_tab().or(self.front);
+        }
+        self.is_manual |= edited;
+        if let Some(panel) = closed {
+            self.set_open(panel, false);
+            ui.ctx().request_repaint();
+        }
+        self.seen =
+            self.tree.active_tiles().into_iter().filter_map(|id| self.tree.tiles.get_pane(&id).copied()).collect();
+        self.seen.retain(|panel| self.open.contains(panel));
+    }
+
+    /// The panel in front of those that share a place.
+    fn front_tab(&self) -> Option<Panel> {
+        self.tree.tiles.tiles().find_map(|tile| match tile {
+            Tile::Container(Container::Tabs(tabs)) if tabs.children.len() > 1 => {
+                self.tree.tiles.get_pane(&tabs.active?).copied()
+            }
+            _ => None,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests;

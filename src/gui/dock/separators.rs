@@ -1,0 +1,73 @@
+//! The lines between panels, which a hand drags.
+//!
+//! `egui_tiles` has such lines too; those take the keyboard, and have no name for who does not see them.
+
+use super::Panel;
+use crate::gui::theme;
+use egui::{CursorIcon, Id, Rect, Sense, Stroke, Ui};
+use egui_tiles::{Container, Linear, LinearDir, Tile, TileId, Tree};
+
+/// No panel is made smaller.
+const LEAST: f32 = 60.0;
+/// How near to a line a hand has to be.
+const REACH: f32 = 4.0;
+
+/// Shows the lines over the panels, and moves what is dragged. True: something was moved.
+pub fn show(ui: &Ui, tree: &mut Tree<Panel>) -> bool {
+    let ids: Vec<TileId> = tree.active_tiles();
+    let mut is_moved = false;
+    for id in ids {
+        let Some(Tile::Container(Container::Linear(linear))) = tree.tiles.get(id) else { continue };
+        let seen: Vec<(TileId, Rect)> =
+            linear.children.iter().filter_map(|child| Some((*child, tree.tiles.rect(*child)?))).collect();
+        let dir = linear.dir;
+        for pair in seen.windows(2) {
+            let [(first, a), (second, b)] = [pair[0], pair[1]];
+            let Some(to) = drag(ui, dir, (first, a), (second, b)) else { continue };
+            if let Some(Tile::Container(Container::Linear(linear))) = tree.tiles.get_mut(id) {
+                share(linear, (first, length(dir, a)), (second, length(dir, b)), to);
+                is_moved = true;
+            }
+        }
+    }
+    is_moved
+}
+
+fn length(dir: LinearDir, rect: Rect) -> f32 {
+    if dir == LinearDir::Horizontal { rect.width() } else { rect.height() }
+}
+
+/// Returns how long the first of two shall be, while a hand has the line between them.
+fn drag(ui: &Ui, dir: LinearDir, (first, a): (TileId, Rect), (second, b): (TileId, Rect)) -> Option<f32> {
+    let (line, cursor) = match dir {
+        LinearDir::Horizontal => {
+            (Rect::from_x_y_ranges(a.right()..=b.left(), a.y_range()), CursorIcon::ResizeHorizontal)
+        }
+        LinearDir::Vertical => (Rect::from_x_y_ranges(a.x_range(), a.bottom()..=b.top()), CursorIcon::ResizeVertical),
+    };
+    let id = Id::unique(("dock line", first, second));
+    let response = ui.interact(line.expand(REACH), id, Sense::DRAG);
+    if response.hovered() || response.dragged() {
+        ui.ctx().set_cursor_icon(cursor);
+        let stroke = Stroke::new(2.0, theme::of(ui).accent);
+        match dir {
+            LinearDir::Horizontal => ui.painter().vline(line.center().x, line.y_range(), stroke),
+            LinearDir::Vertical => ui.painter().hline(line.x_range(), line.center().y, stroke),
+        };
+    }
+    // A click moves nothing.
+    let is_moving = response.dragged() && ui.input(|i| i.pointer.is_decidedly_dragging());
+    let at = response.interact_pointer_pos().filter(|_| is_moving)?;
+    let both = length(dir, a) + length(dir, b);
+    let wanted = if dir == LinearDir::Horizontal { at.x - a.left() } else { at.y - a.top() };
+    let least = LEAST.min(both / 2.0);
+    Some(wanted.clamp(least, both - least))
+}
+
+/// Gives the first of two a length, and the second what is left of both.
+fn share(linear: &mut Linear, (first, a): (TileId, f32), (second, b): (TileId, f32), to: f32) {
+    let sum = linear.shares[first] + linear.shares[second];
+    let part = to / (a + b).max(1.0);
+    linear.shares.set_share(first, sum * part);
+    linear.shares.set_share(second, sum * (1.0 - part));
+}

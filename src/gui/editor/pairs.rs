@@ -1,0 +1,161 @@
+//! Brackets and comments that close themselves while they are typed.
+
+use super::{
+    buffer::{Buffer, Replacement},
+    history::Kind,
+    selection::Selection,
+};
+
+const PAIRS: [(&str, &str); 3] = [("(", ")"), ("[", "]"), ("{", "}")];
+
+impl Buffer {
+    /// Types a letter, with what closes it: an opening bracket brings its closing one, round what is selected too, and
+    /// `/*` brings `*/`. A closing one that came so is typed over. `is_comment` says whether a byte lies in a comment,
+    /// where nothing is closed.
+    pub fn type_closing(&mut self, text: &str, is_comment: &dyn Fn(&Self, usize) -> bool) {
+        if self.types_over(text) {
+            let past: Vec<usize> = self.carets().list().iter().map(|s| s.head).collect();
+            self.replace_at_carets(Kind::Typing, |_, s| Replacement {
+                range: s.head..s.head,
+                anchor: text.len(),
+                head: text.len(),
+                ..Replacement::default()
+            });
+            self.closers.retain(|at| !past.contains(at));
+            return;
+        }
+        let closing = |buffer: &Self, s: Selection| match PAIRS.iter().find(|(open, _)| *open == text) {
+            Some((_, close)) => buffer.can_close(s, is_comment).then_some(*close),
+            None => (text == "*" && buffer.opens_comment(s, is_comment)).then_some("*/"),
+        };
+        let plan: Vec<(Selection, Option<&str>)> =
+            self.carets().list().iter().map(|s| (*s, closing(self, *s))).collect();
+        if plan.iter().all(|(_, close)| close.is_none()) {
+            self.insert(text);
+            return;
+        }
+        self.replace_at_carets(Kind::Typing, |buffer, s| {
+            let Some(close) = plan.iter().find(|(of, _)| *of == s).and_then(|(_, close)| *close) else {
+                return Replacement::new(s.range(), text);
+            };
+            let inner = &buffer.text()[s.range()];
+            let start = s.range().start;
+            let (anchor, head) = (text.len() + s.anchor - start, text.len() + s.head - start);
+            Replacement { anchor, head, ..Replacement::new(s.range(), format!("{text}{inner}{close}")) }
+        });
+        let closers = self.carets().list().iter().zip(&plan).filter(|(s, _)| s.is_empty());
+        let closers: Vec<usize> =
+            closers.flat_map(|(s, (_, close))| s.head..s.head + close.map_or(0, str::len)).collect();
+        self.closers.extend(closers);
+    }
+
+    /// Every caret stands before a closing letter that came by itself and is this one.
+    fn types_over(&self, text: &str) -> bool {
+        let is_before =
+            |s: &Selection| s.is_empty() && self.closers.contains(&s.head) && self.text()[s.head..].starts_with(text);
+        text.len() == 1 && self.carets().list().iter().all(is_before)
+    }
+
+    /// An opening bracket is closed at the end of a line, before a blank, and before what ends something.
+    fn can_close(&self, s: Selection, is_comment: &dyn Fn(&Self, usize) -> bool) -> bool {
+        let next = self.text()[s.range().end..].chars().next();
+        let is_free = next.is_none_or(|c| c.is_whitespace() || ")]};,".contains(c));
+        (is_free || !s.is_empty()) && !is_comment(self, s.range().start)
+    }
+
+    /// A `*` here begins a comment, and nothing is behind it in its line.
+    fn opens_comment(&self, s: Selection, is_comment: &dyn Fn(&Self, usize) -> bool) -> bool {
+        let line = self.line_range(self.line_of(s.head));
+        s.is_empty()
+            && self.text()[line.start..s.head].ends_with('/')
+            && self.text()[s.head..line.end].trim().is_empty()
+            && !is_comment(self, s.head - 1)
+            && !is_comment(self, s.head)
+    }
+
+    /// A caret stands between a bracket and the closing one that came with it.
+    pub(super) fn is_empty_pair(&self, at: usize) -> bool {
+        let (before, behind) = self.text().split_at(at);
+        self.closers.contains(&at)
+            && PAIRS.iter().any(|(open, close)| before.ends_with(open) && behind.starts_with(close))
+    }
+
+    /// Forgets closing brackets that no caret stands before in their line: what is typed there is meant.
+    pub(super) fn settle_closers(&mut self) {
+        if self.closers.is_empty() {
+            return;
+        }
+        let mut closers = std::mem::take(&mut self.closers);
+        closers.retain(|at| {
+            let line = self.line_range(self.line_of(*at));
+            self.carets().list().iter().any(|s| line.start <= s.head && s.head <= *at)
+        });
+        self.closers = closers;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gui::editor::motion::Motion;
+
+    /// Types letters, `<` being Backspace and `|` in `text` the caret; the text with its caret.
+    fn typed(text: &str, letters: &str) -> String {
+        let mut b = Buffer::new(&text.replace('|', ""));
+        let at = text.find('|').unwrap();
+        b.select(at, at);
+        type_all(&mut b, letters);
+        let mut text = b.text().to_owned();
+        text.insert(b.selection().head, '|');
+        text
+    }
+
+    fn type_all(b: &mut Buffer, letters: &str) {
+        for letter in letters.chars() {
+            match letter {
+                '<' => b.delete(Motion::Left),
+                '>' => b.go(Motion::Right, false),
+                letter => b.type_closing(&letter.to_string(), &|b, at| b.text()[..at].contains("//")),
+            }
+        }
+    }
+
+    #[test]
+    fn brackets_close_themselves_and_are_typed_over() {
+        for (text, letters, found) in [
+            ("|", "f(x)", "f(x)|"),
+            ("|", "f(a[0])", "f(a[0])|"),
+            ("|", "(", "(|)"),
+            ("|", "(<", "|"),
+            ("|", "(a<<", "|"),
+            ("|;", "f(", "f(|);"),
+            ("|x", "(", "(|x"),
+            ("(|)", ")", "()|)"),
+            ("|", "(>)", "())|"),
+            ("// |", "(", "// (|"),
+            ("|", "/*", "/*|*/"),
+            ("|", "/*a*/", "/*a*/|"),
+            ("a | b", "/*", "a /*| b"),
+            ("//|", "*", "//*|"),
+        ] {
+            assert_eq!(typed(text, letters), found, "{letters} into {text}");
+        }
+    }
+
+    #[test]
+    fn a_call_typed_is_one_step_and_a_selection_is_wrapped() {
+        let mut b = Buffer::new("");
+        type_all(&mut b, "f(x)");
+        assert_eq!(b.text(), "f(x)");
+        assert!(b.undo());
+        assert_eq!(b.text(), "");
+        assert!(!b.undo());
+        b.redo();
+        assert_eq!((b.text(), b.selection().head), ("f(x)", 4));
+        b.select(2, 3);
+        type_all(&mut b, "(");
+        assert_eq!((b.text(), b.selected_text()), ("f((x))", "x"));
+        b.undo();
+        assert_eq!((b.text(), b.selected_text()), ("f(x)", "x"));
+    }
+}

@@ -1,0 +1,257 @@
+//! Who has the keyboard: the way from panel to panel and within one by keys, the frame round what has it, and who gets
+//! it back.
+//!
+//! Owns no widget. A part of the window says by [`Outbox::stop`] that F6 stops there, and everything inside it is found
+//! by egui's own record of which widget lies in which. Two widgets are home: the picture and the code. They take every
+//! key, Tab too, and whichever had the keyboard last gets it back when nothing else has it.
+
+use super::{
+    outbox::{Outbox, Stop},
+    theme,
+};
+use egui::{
+    Context, Event, FocusDirection, Id, Key, LayerId, Modifiers, Order, Popup, Rect, Ui, WidgetRect, WidgetRects,
+    accesskit,
+};
+use std::collections::HashMap;
+
+#[derive(Default)]
+pub struct Focus {
+    /// Those of the frame before, in reading order.
+    stops: Vec<Stop>,
+    /// What had the keyboard last in each of them.
+    visited: HashMap<&'static str, Id>,
+    /// The home that had the keyboard last.
+    home: Option<Id>,
+    had: Option<Id>,
+    /// A popup was open in the frame before, opened by this widget.
+    popup_of: Option<Option<Id>>,
+    /// The last press was of a key and not of the mouse: then people want to see who has the keyboard.
+    by_key: bool,
+    brings_into_sight: Option<Id>,
+    /// Where what has the keyboard is, for scripts.
+    place: Option<[Rect; 2]>,
+}
+
+impl Focus {
+    /// Takes the keys that move the keyboard within a panel, before any widget sees them.
+    pub fn take_keys(&mut self, ui: &Ui) {
+        if let Some(id) = self.brings_into_sight.take() {
+            bring_into_sight(ui, id);
+        }
+        ui.input(|i| {
+            for event in &i.events {
+                match event {
+                    Event::Key { pressed: true, .. } => self.by_key = true,
+                    Event::PointerButton { pressed: true, .. } => self.by_key = false,
+                    _ => {}
+                }
+            }
+        });
+        // It closes what is open, and means nothing to what lies below.
+        let is_escape = |e: &Event| matches!(e, Event::Key { key: Key::Escape, pressed: true, .. });
+        if Popup::is_any_open(ui.ctx()) && ui.input(|i| i.events.iter().any(is_escape)) {
+            Popup::close_all(ui.ctx());
+            ui.input_mut(|i| i.events.retain(|e| !is_escape(e)));
+        }
+        let focused = ui.memory(|m| m.focused());
+        if self.stops.iter().any(|p| p.home.is_some() && p.home == focused) {
+            return;
+        }
+        let pressed = |m: Modifiers| ui.input(|i| i.events.iter().any(|e| is_tab(e, m)));
+        let (forward, back) = (pressed(Modifiers::NONE), pressed(Modifiers::SHIFT));
+        if !forward && !back {
+            return;
+        }
+        let widgets = ui.ctx().viewport(|v| v.prev_pass.widgets.clone());
+        if let Some(next) = self.within(ui, &widgets, focused, forward) {
+            ui.input_mut(|i| i.events.retain(|e| !is_tab(e, Modifiers::NONE) && !is_tab(e, Modifiers::SHIFT)));
+            ui.memory_mut(|m| {
+                m.move_focus(FocusDirection::None);
+                m.request_focus(next);
+            });
+        }
+    }
+
+    /// The next widget of what is open over the panels, or of the panel that has the keyboard.
+    fn within(&self, ui: &Ui, widgets: &WidgetRects, focused: Option<Id>, forward: bool) -> Option<Id> {
+        let popup = open_popup(ui.ctx());
+        let list: Vec<Id> = match (popup, focused.and_then(|id| self.stop_of(widgets, id))) {
+            (Some(layer), _) => focusable(widgets, layer).map(|w| w.id).collect(),
+            (None, Some(stop)) => self.inside(widgets, stop),
+            // A dialog: egui goes round in it. Nothing has the keyboard: to what is most of the window.
+            (None, None) if focused.is_some() || ui.memory(|m| m.top_modal_layer().is_some()) => return None,
+            (None, None) => {
+                let area = |p: &&Stop| p.rect.area();
+                let largest = self.stops.iter().max_by(|a, b| area(a).total_cmp(&area(b)))?;
+                return self.entry(widgets, largest);
+            }
+        };
+        let at = focused.and_then(|id| list.iter().position(|other| *other == id));
+        let count = list.len();
+        match (at, forward) {
+            (Some(at), true) => list.get((at + 1) % count),
+            (Some(at), false) => list.get((at + count - 1) % count),
+            (None, true) => list.first(),
+            (None, false) => list.last(),
+        }
+        .copied()
+    }
+
+    /// Gives the keyboard to the next panel, or to the one before, round the ends.
+    pub fn step(&mut self, ui: &Ui, out: &Outbox, forward: bool) {
+        self.stops = ordered(&out.stops);
+        let found = ui.ctx().viewport(|v| {
+            let widgets = &v.this_pass.widgets;
+            let now = self.had.and_then(|id| self.stop_of(widgets, id));
+            let at = now.and_then(|now| self.stops.iter().position(|p| p == now));
+            let count = self.stops.len();
+            let order = (1..=count).map(|by| match (at, forward) {
+                (Some(at), true) => (at + by) % count,
+                (Some(at), false) => (at + count - by) % count,
+                (None, true) => by - 1,
+                (None, false) => count - by,
+            });
+            order.map(|i| &self.stops[i]).find_map(|stop| self.entry(widgets, stop))
+        });
+        if let Some(id) = found {
+            ui.memory_mut(|m| m.request_focus(id));
+            self.by_key = true;
+        }
+    }
+
+    /// Where the keyboard goes in a panel: to its home, to what had it there last, or to the first that can.
+    fn entry(&self, widgets: &WidgetRects, stop: &Stop) -> Option<Id> {
+        let inside = self.inside(widgets, stop);
+        let visited = self.visited.get(stop.name).filter(|id| inside.contains(id));
+        stop.home.filter(|id| widgets.contains(*id)).or_else(|| visited.or(inside.first()).copied())
+    }
+
+    /// Looks who has the keyboard when everything has been shown, and gives it back where nobody has it.
+    ///
+    /// `is_covered`: something is in front that has the keyboard to itself, or nothing is there that wants it.
+    pub fn settle(&mut self, ui: &Ui, out: &Outbox, is_covered: bool) {
+        self.stops = ordered(&out.stops);
+        let is_popup_open = Popup::is_any_open(ui.ctx());
+        self.place = None;
+        let had = std::mem::replace(&mut self.had, ui.memory(|m| m.focused()));
+        match (is_popup_open, self.popup_of) {
+            (true, None) => self.popup_of = Some(had),
+            (false, Some(opener)) => {
+                self.popup_of = None;
+                if let (None, Some(opener)) = (self.had, opener) {
+                    self.give(ui, opener);
+                }
+            }
+            _ => {}
+        }
+        let Some(id) = self.had else {
+            let is_held = ui.input(|i| i.pointer.any_down());
+            let home = self.home.filter(|id| self.stops.iter().any(|p| p.home == Some(*id)));
+            let home = home.or_else(|| self.stops.iter().find_map(|p| p.home));
+            if let (Some(home), false) = (home, is_covered || is_popup_open || is_held) {
+                self.give(ui, home);
+            }
+            return;
+        };
+        self.place = ui.ctx().viewport(|v| v.this_pass.widgets.get(id).map(|w| [w.rect, w.interact_rect]));
+        if self.stops.iter().any(|p| p.home == Some(id)) {
+            self.home = Some(id);
+            return;
+        }
+        let Some(widget) = ui.ctx().viewport(|v| {
+            let widgets = &v.this_pass.widgets;
+            if let Some(stop) = self.stop_of(widgets, id) {
+                self.visited.insert(stop.name, id);
+            }
+            widgets.get(id).copied()
+        }) else {
+            return;
+        };
+        if self.by_key {
+            if had != Some(id) && widget.interact_rect != widget.rect {
+                self.brings_into_sight = Some(id);
+                ui.ctx().request_repaint();
+            }
+            frame(ui, &widget);
+        }
+    }
+
+    /// Returns where what has the keyboard is: as a whole, and what of it is in sight.
+    pub fn place(&self) -> Option<[Rect; 2]> {
+        self.place
+    }
+
+    fn give(&mut self, ui: &Ui, id: Id) {
+        if ui.ctx().viewport(|v| v.this_pass.widgets.contains(id)) {
+            ui.memory_mut(|m| m.request_focus(id));
+            self.had = Some(id);
+            ui.ctx().request_repaint();
+        }
+    }
+
+    /// The innermost panel that a widget lies in.
+    fn stop_of(&self, widgets: &WidgetRects, id: Id) -> Option<&Stop> {
+        let mut at = widgets.get(id)?;
+        loop {
+            if let Some(stop) = self.stops.iter().find(|p| p.ui == at.id || p.ui == at.parent_id) {
+                return Some(stop);
+            }
+            at = widgets.get(at.parent_id).filter(|parent| parent.id != at.id)?;
+        }
+    }
+
+    /// What can have the keyboard in a panel, in the order in which it was shown.
+    fn inside(&self, widgets: &WidgetRects, stop: &Stop) -> Vec<Id> {
+        let Some(layer) = widgets.get(stop.ui).map(|w| w.layer_id) else { return Vec::new() };
+        let is_inside = |w: &&WidgetRect| self.stop_of(widgets, w.id).is_some_and(|p| p.ui == stop.ui);
+        focusable(widgets, layer).filter(is_inside).map(|w| w.id).collect()
+    }
+}
+
+/// Lines of panels from the top, each from the left.
+fn ordered(stops: &[Stop]) -> Vec<Stop> {
+    let mut list = stops.to_vec();
+    list.sort_by(|a, b| (a.rect.top(), a.rect.left()).partial_cmp(&(b.rect.top(), b.rect.left())).unwrap());
+    list
+}
+
+/// Scroll bars and the edges of panels are thinner than anything else; they are for the mouse.
+const THIN: f32 = 14.0;
+
+fn focusable(widgets: &WidgetRects, layer: LayerId) -> impl Iterator<Item = &WidgetRect> {
+    let takes_keys = |w: &&WidgetRect| w.enabled && w.visible && w.sense.is_focusable();
+    widgets.get_layer(layer).filter(takes_keys).filter(|w| w.rect.size().min_elem() >= THIN)
+}
+
+/// The layer of the menu or list that is open.
+fn open_popup(ctx: &Context) -> Option<LayerId> {
+    Popup::is_any_open(ctx).then(|| ctx.memory(|m| m.areas().top_layer_id(Order::Foreground))).flatten()
+}
+
+fn is_tab(event: &Event, with: Modifiers) -> bool {
+    matches!(event, Event::Key { key: Key::Tab, pressed: true, modifiers, .. } if modifiers.matches_exact(with))
+}
+
+/// Asks a widget to scroll to where it can be seen, as a screen reader does.
+fn bring_into_sight(ui: &Ui, id: Id) {
+    let request = accesskit::ActionRequest {
+        action: accesskit::Action::ScrollIntoView,
+        target_tree: accesskit::TreeId::ROOT,
+        target_node: id.accesskit_id(),
+        data: None,
+    };
+    ui.input_mut(|i| i.events.push(Event::AccessKitActionRequest(request)));
+}
+
+/// Draws the frame round a widget.
+fn frame(ui: &Ui, widget: &WidgetRect) {
+    if !widget.interact_rect.is_positive() {
+        return;
+    }
+    let painter = ui.ctx().layer_painter(widget.layer_id).with_clip_rect(widget.interact_rect.expand(3.0));
+    painter.rect_stroke(widget.rect.expand(1.0), 5.0, theme::of(ui).focus(), egui::StrokeKind::Outside);
+}
+
+#[cfg(test)]
+mod tests;

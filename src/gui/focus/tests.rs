@@ -1,0 +1,111 @@
+//! The keyboard's way through two panels of buttons and a text that takes every key.
+
+use super::*;
+use egui::{EventFilter, Modal, Panel as Side, RawInput, Sense, pos2, vec2};
+
+#[derive(Default)]
+struct Stage {
+    ctx: Context,
+    focus: Focus,
+    /// A dialog of two buttons is open.
+    asks: bool,
+}
+
+/// What a frame does besides showing.
+#[derive(Clone, Copy, PartialEq)]
+enum Step {
+    None,
+    Panel { forward: bool },
+}
+
+impl Stage {
+    fn text() -> Id {
+        Id::unique("text")
+    }
+
+    /// Shows a frame; the label of what has the keyboard behind it.
+    fn frame(&mut self, events: Vec<Event>, step: Step) -> String {
+        let screen_rect = Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 300.0)));
+        let input = RawInput { screen_rect, events, focused: true, ..RawInput::default() };
+        let mut names: Vec<(Id, String)> = vec![(Self::text(), "text".into())];
+        let Stage { ctx, focus, asks } = self;
+        let mut output = ctx.run_ui(input, |ui| {
+            let mut out = Outbox::default();
+            focus.take_keys(ui);
+            let mut button = |ui: &mut Ui, name: &str| names.push((ui.button(name).id, name.to_owned()));
+            Side::top("top").show(ui, |ui| {
+                out.stop("top", ui);
+                ui.horizontal(|ui| ["a", "b", "c"].into_iter().for_each(|name| button(ui, name)));
+            });
+            Side::left("left").show(ui, |ui| {
+                out.stop("left", ui);
+                ["d", "e"].into_iter().for_each(|name| button(ui, name));
+            });
+            egui::CentralPanel::default().show(ui, |ui| {
+                out.home("text", ui, Self::text());
+                let response = ui.interact(ui.max_rect(), Self::text(), Sense::click_and_drag());
+                if response.has_focus() {
+                    let all = EventFilter { tab: true, horizontal_arrows: true, vertical_arrows: true, escape: true };
+                    ui.memory_mut(|m| m.set_focus_lock_filter(Self::text(), all));
+                }
+            });
+            if *asks {
+                let list = ["yes", "no"].into_iter();
+                Modal::new(Id::unique("ask")).show(ui.ctx(), |ui| list.for_each(|name| button(ui, name)));
+            }
+            if let Step::Panel { forward } = step {
+                focus.step(ui, &out, forward);
+            }
+            focus.settle(ui, &out, *asks);
+        });
+        output.textures_delta.clear();
+        let focused = self.ctx.memory(|m| m.focused());
+        let name = names.iter().find(|(id, _)| Some(*id) == focused).map(|(_, name)| name.clone());
+        name.unwrap_or_else(|| format!("{focused:?}"))
+    }
+
+    fn press(&mut self, key: Key, modifiers: Modifiers) -> String {
+        let event = Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers };
+        self.frame(vec![event], Step::None);
+        self.frame(vec![], Step::None)
+    }
+
+    fn tab(&mut self) -> String {
+        self.press(Key::Tab, Modifiers::NONE)
+    }
+
+    fn step(&mut self, forward: bool) -> String {
+        self.frame(vec![], Step::Panel { forward });
+        self.frame(vec![], Step::None)
+    }
+}
+
+#[test]
+fn panels_are_gone_round_and_tab_stays_within_one() {
+    let mut stage = Stage::default();
+    stage.frame(vec![], Step::None);
+    assert_eq!(stage.frame(vec![], Step::None), "text", "what is home has the keyboard where nobody else has");
+    assert_eq!(stage.tab(), "text", "Tab is typed there");
+    assert_eq!(stage.step(true), "a");
+    assert_eq!([stage.tab(), stage.tab(), stage.tab()], ["b", "c", "a"]);
+    assert_eq!(stage.press(Key::Tab, Modifiers::SHIFT), "c");
+    assert_eq!([stage.step(true), stage.tab()], ["d", "e"]);
+    assert_eq!([stage.step(false), stage.step(true), stage.step(true)], ["c", "e", "text"], "where one was before");
+    assert_eq!(stage.step(false), "e");
+    assert_eq!(stage.press(Key::Escape, Modifiers::NONE), "text");
+}
+
+#[test]
+fn a_dialog_has_the_keyboard_to_itself_and_gives_it_back() {
+    let mut stage = Stage::default();
+    stage.frame(vec![], Step::None);
+    assert_eq!(stage.frame(vec![], Step::None), "text");
+    stage.asks = true;
+    stage.frame(vec![], Step::None);
+    assert_eq!(stage.frame(vec![], Step::None), "None", "what lies below has lost it");
+    assert_eq!([stage.tab(), stage.tab(), stage.tab()], ["yes", "no", "yes"]);
+    stage.asks = false;
+    stage.frame(vec![], Step::None);
+    stage.frame(vec![], Step::None);
+    assert_eq!(stage.frame(vec![], Step::None), "text");
+}

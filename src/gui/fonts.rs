@@ -1,0 +1,86 @@
+//! The fonts of the window: Eddy's own for code, egui's for the rest, and the system's for scripts that these lack.
+
+use egui::{Context, FontData, FontDefinitions, FontFamily};
+use std::{fs, sync::Arc};
+
+/// Noto Sans Mono: its zero has a thin stroke, which small letters leave room for.
+const CODE: &[u8] = include_bytes!("../../assets/fonts/NotoSansMono-Regular.ttf");
+const CODE_NAME: &str = "Noto Sans Mono";
+const OWN_NAME: &str = "code-font";
+
+/// Lets letters that no font of the window has be looked up among the system's, when the first of them is shown.
+pub fn install_system(ctx: &Context) {
+    ctx.add_font_provider(Arc::new(egui_system_font_provider::SystemFontProvider::new()));
+}
+
+/// Gives code its font; `own` is the file of one that a person has chosen. Err: why that is not used.
+pub fn set(ctx: &Context, own: Option<&str>) -> Result<(), String> {
+    let chosen = own.map(read);
+    let mut definitions = FontDefinitions::default();
+    definitions.font_data.insert(CODE_NAME.into(), Arc::new(FontData::from_static(CODE)));
+    let mut names = vec![CODE_NAME.to_owned()];
+    if let Some(Ok(data)) = &chosen {
+        definitions.font_data.insert(OWN_NAME.into(), Arc::new(FontData::from_owned(data.clone())));
+        names.insert(0, OWN_NAME.to_owned());
+    }
+    definitions.families.entry(FontFamily::Monospace).or_default().splice(0..0, names);
+    ctx.set_fonts(definitions);
+    chosen.transpose().map(drop)
+}
+
+/// Reads a font and sees that it is one: what is none would end the window.
+fn read(path: &str) -> Result<Vec<u8>, String> {
+    let data = fs::read(path).map_err(|error| format!("code-font: {path}: {error}"))?;
+    let face = ttf_parser::Face::parse(&data, 0)
+        .map_err(|error| format!("code-font: {path} is no font in TrueType or OpenType: {error}"))?;
+    match face.glyph_index('m') {
+        Some(_) => Ok(data),
+        None => Err(format!("code-font: {path} has no letters for code")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui::FontId;
+
+    fn frame(ctx: &Context) {
+        let mut output = ctx.run_ui(egui::RawInput::default(), |_| {});
+        output.textures_delta.clear();
+    }
+
+    #[test]
+    fn code_has_a_font_in_which_all_letters_are_as_wide() {
+        let ctx = Context::default();
+        set(&ctx, None).unwrap();
+        frame(&ctx);
+        let mono = FontId::monospace(13.0);
+        ctx.fonts_mut(|fonts| {
+            assert_eq!(fonts.definitions().families[&FontFamily::Monospace][0], CODE_NAME);
+            let wide = fonts.glyph_width(&mono, 'm');
+            for c in "il.0O{}αЖ→≤".chars() {
+                assert!(fonts.has_glyph(&mono, c), "{c}");
+                assert!((fonts.glyph_width(&mono, c) - wide).abs() < 0.01, "{c}");
+            }
+        });
+    }
+
+    #[test]
+    fn a_font_of_ones_own_goes_first_and_what_is_none_is_told() {
+        let folder = tempfile::tempdir().unwrap();
+        let (good, bad) = (folder.path().join("a.ttf"), folder.path().join("b.ttf"));
+        fs::write(&good, epaint_default_fonts::UBUNTU_LIGHT).unwrap();
+        fs::write(&bad, "no font").unwrap();
+        let ctx = Context::default();
+        set(&ctx, good.to_str()).unwrap();
+        frame(&ctx);
+        let first = |ctx: &Context| ctx.fonts(|fonts| fonts.definitions().families[&FontFamily::Monospace][0].clone());
+        assert_eq!(first(&ctx), OWN_NAME);
+        for path in [&bad, &folder.path().join("none.ttf")] {
+            let why = set(&ctx, path.to_str()).unwrap_err();
+            assert!(why.starts_with(&format!("code-font: {}", path.display())), "{why}");
+            frame(&ctx);
+            assert_eq!(first(&ctx), CODE_NAME);
+        }
+    }
+}

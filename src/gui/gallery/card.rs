@@ -1,0 +1,125 @@
+//! A preset's card: its picture, its name, and all of its description.
+
+use crate::{
+    gui::{
+        accessible,
+        outbox::Outbox,
+        theme,
+        thumbnails::{Subject, Thumbnail, Thumbnails},
+    },
+    project::presets,
+    session::Command,
+};
+use egui::{Align2, Color32, FontId, Galley, Rect, Sense, Stroke, StrokeKind, Ui, pos2, text::LayoutJob, vec2};
+use std::sync::{Arc, LazyLock};
+
+/// Around the words.
+const MARGIN: f32 = 12.0;
+const TITLE: f32 = 22.0;
+
+/// What a card says of a preset.
+#[derive(Debug)]
+pub struct Card {
+    /// The preset.
+    pub name: &'static str,
+    title: String,
+    about: String,
+    /// Everything that a search looks at, in lower case.
+    words: String,
+}
+
+/// Reading them all takes milliseconds, which not every frame has.
+static CARDS: LazyLock<Vec<Card>> = LazyLock::new(|| presets::names().iter().map(|name| Card::new(name)).collect());
+
+pub fn of(name: &str) -> Option<&'static Card> {
+    CARDS.iter().find(|card| card.name == name)
+}
+
+/// Height of a card with so much text.
+pub fn height(width: f32, text: f32) -> f32 {
+    picture(width).y + 9.0 + TITLE + text + MARGIN
+}
+
+/// A card's picture is 16:9.
+fn picture(width: f32) -> egui::Vec2 {
+    vec2(width, (width * 9.0 / 16.0).round())
+}
+
+impl Card {
+    fn new(name: &'static str) -> Card {
+        let (title, info) = match presets::load(name) {
+            Ok(loaded) => (loaded.project.name, loaded.project.info),
+            Err(_) => (name.to_owned(), Default::default()),
+        };
+        let words = format!("{name} {title} {} {}", info.description, info.tags.join(" ")).to_lowercase();
+        Card { name, title, about: info.description, words }
+    }
+
+    /// Returns whether each of some words, in lower case, is in it.
+    pub fn fits(&self, words: &[String]) -> bool {
+        words.iter().all(|word| self.words.contains(word.as_str()))
+    }
+
+    /// The description as it is laid out on a card of this width.
+    pub fn text(&self, ui: &Ui, width: f32) -> Arc<Galley> {
+        let color = theme::of(ui).weak;
+        let font = FontId::proportional(12.0);
+        ui.painter().layout_job(LayoutJob::simple(self.about.clone(), font, color, width - 2.0 * MARGIN))
+    }
+
+    /// True while the pointer is on it.
+    pub fn show(&self, ui: &Ui, rect: Rect, text: Arc<Galley>, thumbnails: &mut Thumbnails, out: &mut Outbox) -> bool {
+        let p = theme::of(ui);
+        let response = ui.interact(rect, egui::Id::unique(("preset", self.name)), Sense::click());
+        accessible::name(&response, egui::Role::Button, format!("{}: {}", self.title, self.about));
+        if response.gained_focus() {
+            response.scroll_to_me(None);
+        }
+        if ui.is_rect_visible(rect) {
+            out.place(format!("preset:{}", self.name), rect.intersect(ui.clip_rect()));
+        }
+        if response.clicked() {
+            out.ask(Command::Open(self.name.to_owned()));
+        }
+        if !ui.is_rect_visible(rect) {
+            return false;
+        }
+        let painter = ui.painter();
+        let hot = response.hovered() || response.has_focus();
+        painter.rect_filled(rect, 8.0, if hot { p.button } else { p.panel });
+        let place = Rect::from_min_size(rect.min, picture(rect.width()));
+        let top = egui::CornerRadius { nw: 8, ne: 8, sw: 0, se: 0 };
+        let picture = match thumbnails.live(self.name) {
+            Some(texture) => Thumbnail::Ready(texture),
+            None => thumbnails.get(Subject::Preset(self.name.to_owned())),
+        };
+        let mut trouble = None;
+        match picture {
+            Thumbnail::Ready(texture) => {
+                let state = if thumbnails.live(self.name).is_some() { "live" } else { "picture" };
+                out.place(format!("{state}:{}", self.name), place);
+                egui::Image::new(&texture).corner_radius(top).paint_at(ui, place);
+            }
+            Thumbnail::Waiting => {
+                painter.rect_filled(place, top, p.surround);
+            }
+            Thumbnail::Failed(why) => {
+                painter.rect_filled(place, top, p.surround);
+                painter.text(place.center(), Align2::CENTER_CENTER, "No picture", FontId::proportional(12.0), p.weak);
+                trouble = Some(why);
+            }
+        }
+        let border = if hot { Stroke::new(1.5, p.accent) } else { Stroke::new(1.0, p.line) };
+        painter.rect_stroke(rect, 8.0, border, StrokeKind::Inside);
+        let at = pos2(rect.left() + MARGIN, place.bottom() + 9.0);
+        let title = LayoutJob::simple_singleline(self.title.clone(), FontId::proportional(14.5), p.strong);
+        let galley = painter.layout_job(title);
+        painter.with_clip_rect(rect.shrink2(vec2(MARGIN, 0.0)).intersect(ui.clip_rect())).galley(at, galley, p.strong);
+        painter.galley(at + vec2(0.0, TITLE), text, Color32::PLACEHOLDER);
+        let response = response.on_hover_cursor(egui::CursorIcon::PointingHand);
+        match trouble {
+            Some(why) => response.on_hover_text(why).hovered(),
+            None => response.hovered(),
+        }
+    }
+}

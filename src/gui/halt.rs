@@ -1,0 +1,118 @@
+//! The message over a picture that stands still though nobody has paused it, and the ways on.
+
+use super::{outbox::Outbox, theme};
+use crate::session::{Command, Halt, Session};
+use egui::{Align, Area, Button, Frame, Id, Layout, Margin, Order, Rect, RichText, Stroke, Ui, vec2};
+use std::time::Duration;
+
+/// What is offered, by the name that scripts click on.
+const GO_ON: &str = "halt:go-on";
+const SMALLER: &str = "halt:smaller";
+const LAST_GOOD: &str = "halt:last-good";
+
+/// Shows the message in the middle of the picture's area. It takes no keyboard: one can go on typing.
+pub fn show(ui: &Ui, session: &Session, area: Rect, out: &mut Outbox) {
+    let Some(halt) = session.halt() else { return };
+    let (title, text, go_on) = words(halt);
+    let width = (area.width() - 24.0).clamp(150.0, 420.0);
+    let frame = Frame::popup(ui.style()).fill(theme::of(ui).raised).inner_margin(Margin::same(14));
+    let shown = Area::new(Id::unique("halt"))
+        .order(Order::Middle)
+        .pivot(egui::Align2::CENTER_CENTER)
+        .fixed_pos(area.center())
+        .constrain_to(area)
+        .show(ui.ctx(), |ui| {
+            frame.stroke(Stroke::new(1.0, theme::of(ui).line)).show(ui, |ui| {
+                out.stop("halt", ui);
+                ui.set_width(width);
+                ui.label(RichText::new(title).size(15.0).color(theme::of(ui).strong));
+                ui.add(egui::Label::new(text).wrap());
+                ui.add_space(8.0);
+                ui.with_layout(Layout::left_to_right(Align::Center).with_main_wrap(true), |ui| {
+                    let mut offer = |name: &str, label: &str, tip: &str, is_first: bool, is_on: bool, command| {
+                        let color = if is_first { theme::of(ui).strong } else { theme::of(ui).text };
+                        let mut button = Button::new(RichText::new(label).color(color)).min_size(vec2(0.0, 26.0));
+                        if is_first {
+                            button = button.fill(theme::of(ui).accent_fill);
+                        }
+                        let response = ui.add_enabled(is_on, button).on_hover_text(tip);
+                        if out.clicked(name, &response) {
+                            out.ask(command);
+                        }
+                    };
+                    offer(GO_ON, go_on, "Draw it, however long it takes", true, true, Command::GoOn);
+                    let tip = "As few pixels as bring a frame below the limit";
+                    offer(SMALLER, "Smaller resolution", tip, false, true, Command::DrawSmaller);
+                    if !matches!(halt, Halt::Opened { .. }) {
+                        let tip = "The picture of the newest code that was fast enough. The text stays as it is";
+                        let is_on = session.has_last_good();
+                        offer(LAST_GOOD, "Last good code", tip, false, is_on, Command::DrawLastGood);
+                    }
+                });
+            });
+        });
+    out.place("halt", shown.response.rect);
+}
+
+/// Returns a title, what there is to say, and what going on is called.
+fn words(halt: &Halt) -> (String, String, &'static str) {
+    match halt {
+        Halt::Drawing { limit, .. } => (
+            format!("A frame takes longer than {}", time(*limit)),
+            "The device is still drawing it, and the picture waits. Your text is as you left it: change it, or".into(),
+            "Go on",
+        ),
+        Halt::Drawn { limit, took } => (
+            format!("A frame took {}", time(*took)),
+            format!("That is longer than {}, so the picture is paused.", time(*limit)),
+            "Go on",
+        ),
+        Halt::Forecast { limit, would_take } => (
+            format!("A frame of this code would take about {}", time(*would_take)),
+            format!("A small part of it was tried. Frames longer than {} are not drawn unasked.", time(*limit)),
+            "Draw it",
+        ),
+        Halt::Opened { after_trouble: true } => (
+            "Opened paused".into(),
+            "The last time this project was open, its code froze the picture or ended Eddy. Nothing of it has been \
+             drawn yet."
+                .into(),
+            "Play",
+        ),
+        Halt::Opened { after_trouble: false } => {
+            ("Opened paused".into(), "Nothing of it has been drawn yet.".into(), "Play")
+        }
+    }
+}
+
+fn time(time: Duration) -> String {
+    match time.as_secs_f64() {
+        secs if secs < 10.0 => format!("{} s", (secs * 10.0).round() / 10.0),
+        secs if secs < 120.0 => format!("{secs:.0} s"),
+        secs if secs < 7200.0 => format!("{:.0} minutes", secs / 60.0),
+        secs => format!("{:.0} hours", secs / 3600.0),
+    }
+}
+
+/// Returns the kind of a halt, for scripts.
+pub fn kind(halt: &Halt) -> &'static str {
+    match halt {
+        Halt::Drawing { .. } => "drawing",
+        Halt::Drawn { .. } => "drawn",
+        Halt::Forecast { .. } => "forecast",
+        Halt::Opened { after_trouble: true } => "opened-after-trouble",
+        Halt::Opened { after_trouble: false } => "opened",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_said_as_people_say_them() {
+        let said = |secs| time(Duration::from_secs_f64(secs));
+        assert_eq!([said(2.0), said(3.46), said(41.2)], ["2 s", "3.5 s", "41 s"]);
+        assert_eq!([said(600.0), said(86_400.0)], ["10 minutes", "24 hours"]);
+    }
+}

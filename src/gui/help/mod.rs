@@ -1,0 +1,179 @@
+//! The help: a page over the window with what there is to know and every key, to search and to scroll.
+
+mod text;
+
+use super::{
+    actions::{ACTIONS, Entry, Group},
+    outbox::Outbox,
+    theme,
+};
+use egui::{
+    Align, FocusDirection, FontId, Grid, Id, Key, Layout, Margin, Modal, Modifiers, RichText, ScrollArea, TextEdit, Ui,
+    style::ScrollAnimation, vec2,
+};
+use text::SECTIONS;
+
+/// As wide as lines are read well.
+const WIDTH: f32 = 700.0;
+
+/// The page while it is open.
+#[derive(Default)]
+pub struct Help {
+    search: String,
+    is_new: bool,
+}
+
+impl Help {
+    pub fn new() -> Self {
+        Self { is_new: true, ..Self::default() }
+    }
+
+    /// Shows it; false when it is closed.
+    pub fn show(&mut self, ui: &Ui, out: &mut Outbox) -> bool {
+        let window = ui.ctx().content_rect();
+        let mut is_open = true;
+        let height = (window.height() - 150.0).max(80.0);
+        let by = scrolled_by_keys(ui, height);
+        let modal = Modal::new(Id::unique("help")).frame(theme::dialog(ui.style())).show(ui.ctx(), |ui| {
+            ui.set_width((window.width() - 60.0).min(WIDTH));
+            self.header(ui, &mut is_open, out);
+            ui.add_space(6.0);
+            let list = ScrollArea::vertical().id_salt("help").max_height(height).auto_shrink([false, false]);
+            let shown = list.show(ui, |ui| {
+                ui.set_max_width(ui.available_width() - 12.0);
+                ui.scroll_with_delta_animation(vec2(0.0, -by), ScrollAnimation::none());
+                self.contents(ui, out);
+            });
+            out.place("help:page", shown.inner_rect);
+        });
+        is_open && !modal.should_close()
+    }
+
+    fn header(&mut self, ui: &mut Ui, is_open: &mut bool, out: &mut Outbox) {
+        ui.horizontal(|ui| {
+            ui.heading("Help");
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                if out.clicked("button:close-help", &ui.button("Close").on_hover_text("Escape")) {
+                    *is_open = false;
+                }
+                let width = ui.available_width().min(260.0);
+                let field = TextEdit::singleline(&mut self.search).hint_text("Search").desired_width(width);
+                let field = ui.add(field.margin(Margin::symmetric(8, 4)));
+                out.place("field:help", field.rect);
+                if std::mem::take(&mut self.is_new) {
+                    field.request_focus();
+                }
+            });
+        });
+        ui.separator();
+    }
+
+    fn contents(&self, ui: &mut Ui, out: &Outbox) {
+        let wanted = Wanted::new(&self.search);
+        let mut is_empty = true;
+        for section in SECTIONS {
+            let all = wanted.is_in(section.title);
+            let list: Vec<_> = section.paragraphs.iter().filter(|p| all || wanted.is_in(p)).collect();
+            if list.is_empty() {
+                continue;
+            }
+            is_empty = false;
+            title(ui, section.title);
+            for paragraph in list {
+                match paragraph.strip_prefix('\t') {
+                    Some(code) => ui.label(RichText::new(format!("    {code}")).font(FontId::monospace(12.5))),
+                    None => ui.label(*paragraph),
+                };
+            }
+        }
+        for group in Group::ALL {
+            let keys = |entry: &Entry| out.keys.listed(entry);
+            let all = wanted.is_in(group.title());
+            let is_wanted = |e: &&Entry| {
+                let keys = keys(e);
+                e.group == group && !keys.is_empty() && (all || wanted.is_in(&format!("{} {keys}", e.title)))
+            };
+            let list: Vec<_> = ACTIONS.iter().filter(is_wanted).collect();
+            if list.is_empty() {
+                continue;
+            }
+            is_empty = false;
+            title(ui, &format!("Keys: {}", group.title()));
+            Grid::new(group.title()).num_columns(2).min_col_width(190.0).spacing([20.0, 5.0]).striped(true).show(
+                ui,
+                |ui| {
+                    for entry in list {
+                        ui.label(RichText::new(keys(entry)).color(theme::of(ui).strong));
+                        ui.label(entry.title);
+                        ui.end_row();
+                    }
+                },
+            );
+        }
+        if is_empty {
+            ui.add_space(20.0);
+            let text = format!("Nothing in the help speaks of \"{}\".", self.search.trim());
+            ui.vertical_centered(|ui| ui.colored_label(theme::of(ui).weak, text));
+        }
+        ui.add_space(8.0);
+    }
+}
+
+/// How far keys scroll the page, in points: all but the letters of a search are for it.
+fn scrolled_by_keys(ui: &Ui, height: f32) -> f32 {
+    let count = |key| {
+        let times = ui.input_mut(|i| i.count_and_consume_key(Modifiers::NONE, key));
+        if times > 0 {
+            ui.memory_mut(|m| m.move_focus(FocusDirection::None));
+        }
+        times as f32
+    };
+    let rows = count(Key::ArrowDown) - count(Key::ArrowUp);
+    let pages = count(Key::PageDown) - count(Key::PageUp);
+    rows * 40.0 + pages * (height - 40.0)
+}
+
+fn title(ui: &mut Ui, text: &str) {
+    ui.add_space(12.0);
+    ui.label(RichText::new(text).size(15.0).color(theme::of(ui).strong));
+    ui.allocate_space(vec2(0.0, 1.0));
+}
+
+/// The words that are looked for, in small letters.
+struct Wanted(Vec<String>);
+
+impl Wanted {
+    fn new(typed: &str) -> Self {
+        Self(typed.split_whitespace().map(str::to_lowercase).collect())
+    }
+
+    /// A text has all of them; any text where nothing is looked for.
+    fn is_in(&self, text: &str) -> bool {
+        let text = text.to_lowercase();
+        self.0.iter().all(|word| text.contains(word.as_str()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_words_of_a_search_are_found_in_any_order_and_size() {
+        let text = "The mouse over the picture is iMouse";
+        assert!(Wanted::new("").is_in(text) && Wanted::new("  imouse PICTURE ").is_in(text));
+        assert!(!Wanted::new("imouse keys").is_in(text));
+        assert!(SECTIONS.iter().any(|s| s.paragraphs.iter().any(|p| Wanted::new("iuniform color3").is_in(p))));
+    }
+
+    /// The help speaks of keys by their usual names: they are those of the table.
+    #[test]
+    fn keys_named_in_the_text_are_the_tables() {
+        let keys: Vec<&str> = ACTIONS.iter().flat_map(|e| e.keys).copied().collect();
+        let is_key = |word: &str| word.starts_with('F') && word[1..].parse::<u8>().is_ok() || word.contains("Shift+");
+        let said = SECTIONS.iter().flat_map(|s| s.paragraphs).flat_map(|p| p.split([' ', ',', '.']));
+        let said: Vec<&str> = said.filter(|word| is_key(word)).collect();
+        assert!(said.contains(&"F6"), "{said:?}");
+        said.iter().for_each(|key| assert!(keys.contains(key), "{key} is no key of the table"));
+    }
+}

@@ -1,0 +1,98 @@
+//! How well a few letters fit a title.
+
+/// Costs of a letter of a title: it goes on from the one before, begins a word, or stands anywhere.
+const GOES_ON: u32 = 0;
+const BEGINS_WORD: u32 = 1;
+const ANYWHERE: u32 = 6;
+
+/// Returns a cost, smaller where `typed` fits better, and the bytes of the letters of `title` that it is; `None` where
+/// it does not fit. Letters stand in the title's order, in upper or lower case; words typed may stand in any order.
+pub fn fit(typed: &str, title: &str) -> Option<(u32, Vec<usize>)> {
+    let mut letters = Vec::new();
+    let mut cost = 0;
+    let mut from = 0;
+    for (i, word) in typed.split_whitespace().enumerate() {
+        // In the order typed where that fits, which is better.
+        let (word_cost, found) = match word_fit(word, title, from) {
+            Some(fit) => fit,
+            None => word_fit(word, title, 0).filter(|_| i > 0).map(|(c, found)| (c + ANYWHERE, found))?,
+        };
+        from = found.last().map_or(from, |last| last + 1);
+        cost += word_cost;
+        letters.extend(found);
+    }
+    // Of equals, the one that says less besides.
+    let rest = title.chars().count().saturating_sub(letters.len()) as u32;
+    Some((cost * 256 + if typed.trim().is_empty() { 0 } else { rest.min(255) }, letters))
+}
+
+/// The cheapest way in which the letters of a word stand in a title from a byte on, in order.
+fn word_fit(word: &str, title: &str, from: usize) -> Option<(u32, Vec<usize>)> {
+    let places: Vec<(usize, char, bool)> = {
+        let mut before = ' ';
+        let place = |(i, c): (usize, char)| {
+            let begins = !before.is_alphanumeric() && c.is_alphanumeric();
+            before = c;
+            (i, lower(c), begins)
+        };
+        title.char_indices().map(place).filter(|(i, ..)| *i >= from).collect()
+    };
+    // For each place: the cheapest way that ends there, and the place before it on that way.
+    let mut ways: Vec<Vec<Option<(u32, usize)>>> = Vec::new();
+    for (n, letter) in word.chars().map(lower).enumerate() {
+        let mut cheapest: Option<(u32, usize)> = None;
+        let mut row = Vec::with_capacity(places.len());
+        for (p, (_, c, begins)) in places.iter().enumerate() {
+            let step = if *begins { BEGINS_WORD } else { ANYWHERE };
+            let reached = match n.checked_sub(1).map(|before| &ways[before]) {
+                None => Some((step, p)),
+                Some(before) => {
+                    let next = p.checked_sub(1).and_then(|q| before[q].map(|(cost, _)| (cost + GOES_ON, q)));
+                    let far = cheapest.map(|(cost, q)| (cost + step, q));
+                    if let Some((cost, _)) = p.checked_sub(1).and_then(|q| before[q])
+                        && cheapest.is_none_or(|(least, _)| cost < least)
+                    {
+                        cheapest = Some((cost, p - 1));
+                    }
+                    [next, far].into_iter().flatten().min_by_key(|(cost, _)| *cost)
+                }
+            };
+            row.push(reached.filter(|_| *c == letter));
+        }
+        ways.push(row);
+    }
+    let (mut at, cost) = {
+        let ends = ways.last()?.iter().enumerate().filter_map(|(p, way)| Some((p, (*way)?.0)));
+        ends.min_by_key(|(_, cost)| *cost)?
+    };
+    let mut found = Vec::new();
+    for row in ways.iter().rev() {
+        found.push(places[at].0);
+        at = row[at]?.1;
+    }
+    found.reverse();
+    Some((cost, found))
+}
+
+fn lower(c: char) -> char {
+    c.to_lowercase().next().unwrap_or(c)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::fit;
+
+    #[test]
+    fn better_fits_cost_less() {
+        let cost = |typed: &str, title: &str| fit(typed, title).unwrap().0;
+        assert!(cost("find", "Find") < cost("find", "Find and replace"));
+        assert!(cost("far", "Find and replace") < cost("far", "Safe area"), "first letters of words");
+        assert!(cost("line", "Delete lines") < cost("line", "Play in here"));
+        assert!(cost("go line", "Go to a line") < cost("line go", "Go to a line"));
+        assert_eq!(fit("go line", "Go to a line").unwrap().1, [0, 1, 8, 9, 10, 11]);
+        assert_eq!(fit("lin", "A long line").unwrap().1, [7, 8, 9], "letters that go on, not the first there are");
+        assert_eq!(fit("x", "Go"), None);
+        assert_eq!(fit("oog", "Go"), None);
+        assert_eq!(fit("", "Go").unwrap(), (0, vec![]));
+    }
+}

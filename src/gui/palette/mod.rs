@@ -1,0 +1,237 @@
+//! The command palette: every action by a few letters of its name.
+
+mod fuzzy;
+
+use super::{
+    accessible,
+    actions::{ACTIONS, Action, Entry},
+    outbox::Outbox,
+    theme,
+};
+use egui::{
+    Align2, Area, FontId, Frame, Id, Key, Margin, Modifiers, Order, Rect, Sense, TextEdit, Ui, pos2, text::LayoutJob,
+    vec2,
+};
+
+const WIDTH: f32 = 520.0;
+const ROW: f32 = 26.0;
+/// Rows in sight where there is room for them.
+const ROWS: usize = 12;
+
+#[derive(Default)]
+pub struct Palette {
+    open: Option<Open>,
+    /// What had the keyboard before, and gets it back.
+    before: Option<Id>,
+    /// Newest first: they lead the list before anything is typed.
+    recent: Vec<Action>,
+}
+
+#[derive(Default)]
+struct Open {
+    typed: String,
+    selected: usize,
+    /// First row in sight.
+    top: usize,
+    takes_focus: bool,
+    keys: Keys,
+}
+
+/// The keys of a frame that are for the list.
+#[derive(Default)]
+struct Keys {
+    rows: isize,
+    pages: isize,
+    enter: bool,
+    escape: bool,
+}
+
+/// An action that fits, and the letters of its title that do.
+struct Fit {
+    entry: &'static Entry,
+    letters: Vec<usize>,
+}
+
+impl Palette {
+    pub fn open(&mut self, ui: &Ui) {
+        self.before = ui.memory(|m| m.focused());
+        self.open = Some(Open { takes_focus: true, ..Open::default() });
+    }
+
+    pub fn is_open(&self) -> bool {
+        self.open.is_some()
+    }
+
+    pub fn close(&mut self, ui: &Ui) {
+        self.open = None;
+        if let Some(id) = self.before.take() {
+            ui.memory_mut(|m| m.request_focus(id));
+        }
+    }
+
+    /// Takes the keys that are for the list before any panel sees them.
+    pub fn take_keys(&mut self, ui: &Ui) {
+        let Some(open) = &mut self.open else { return };
+        let count = |key| ui.input_mut(|i| i.count_and_consume_key(Modifiers::NONE, key)) as isize;
+        open.keys = Keys {
+            rows: count(Key::ArrowDown) - count(Key::ArrowUp),
+            pages: count(Key::PageDown) - count(Key::PageUp),
+            enter: count(Key::Enter) > 0,
+            escape: count(Key::Escape) > 0,
+        };
+    }
+
+    /// Shows it while it is open. The action that was chosen comes back, and the palette closes.
+    pub fn show(&mut self, ui: &Ui, out: &mut Outbox) -> Option<Action> {
+        let open = self.open.as_mut()?;
+        let fits = fits(&open.typed, &self.recent);
+        let window = ui.ctx().content_rect();
+        let width = WIDTH.min(window.width() - 24.0);
+        let rows = (((window.height() - 110.0) / ROW) as usize).clamp(1, ROWS);
+        open.step(ui, fits.len(), rows);
+        let mut chosen = open.keys.enter.then_some(open.selected);
+        let mut closes = open.keys.escape;
+        let area = Area::new(Id::unique("palette"))
+            .order(Order::Foreground)
+            .fixed_pos(pos2(window.center().x, window.top() + 44.0))
+            .pivot(Align2::CENTER_TOP)
+            .constrain_to(window)
+            .show(ui.ctx(), |ui| {
+                Frame::popup(ui.style()).inner_margin(Margin::same(6)).show(ui, |ui| {
+                    ui.set_width(width);
+                    let field = TextEdit::singleline(&mut open.typed).id(Id::unique("palette field"));
+                    let field = field.hint_text("What to do: a few letters of its name").desired_width(f32::INFINITY);
+                    let field = ui.add(field.margin(Margin::symmetric(8, 6)));
+                    out.place("field:palette", field.rect);
+                    if std::mem::take(&mut open.takes_focus) {
+                        field.request_focus();
+                    }
+                    if field.changed() {
+                        (open.selected, open.top) = (0, 0);
+                    }
+                    closes |= field.lost_focus() && chosen.is_none();
+                    ui.add_space(4.0);
+                    ui.spacing_mut().item_spacing.y = 0.0;
+                    if fits.is_empty() {
+                        ui.colored_label(theme::of(ui).weak, "Nothing is called so.");
+                    }
+                    for (i, fit) in fits.iter().enumerate().skip(open.top).take(rows) {
+                        let (rect, response) = ui.allocate_exact_size(vec2(width, ROW), Sense::click());
+                        let name = fit.entry.title;
+                        let is_selected = i == open.selected;
+                        accessible::choice(&response, egui::Role::ListBoxOption, is_selected, name);
+                        if i == open.selected {
+                            ui.painter().rect_filled(rect, 4.0, theme::of(ui).accent_fill);
+                        } else if response.hovered() {
+                            ui.painter().rect_filled(rect, 4.0, theme::of(ui).button);
+                        }
+                        row(ui, rect, fit, &out.keys.hint(fit.entry.action), i == open.selected);
+                        out.place(format!("palette:{}", fit.entry.name), rect);
+                        // A press takes the keyboard from the field, which must not close before the row is clicked.
+                        if response.is_pointer_button_down_on() || response.clicked() {
+                            closes = false;
+                            field.request_focus();
+                        }
+                        if response.clicked() {
+                            chosen = Some(i);
+                        }
+                    }
+                });
+            });
+        out.place("palette", area.response.rect);
+        let action = chosen.and_then(|i| fits.get(i)).map(|fit| fit.entry.action);
+        if let Some(action) = action {
+            self.recent.retain(|a| *a != action);
+            self.recent.insert(0, action);
+        }
+        if closes || action.is_some() {
+            self.close(ui);
+        }
+        action
+    }
+}
+
+impl Open {
+    /// Moves the selection, and keeps it in sight.
+    fn step(&mut self, ui: &Ui, count: usize, rows: usize) {
+        let last = count.saturating_sub(1);
+        let Keys { rows: by, pages, .. } = self.keys;
+        // A single step goes round the ends, a page stops there.
+        if by != 0 && count > 0 {
+            self.selected = (self.selected as isize + by).rem_euclid(count as isize) as usize;
+        }
+        self.selected = self.selected.saturating_add_signed(pages * rows as isize);
+        self.selected = self.selected.min(last);
+        self.top = self.top.clamp(self.selected.saturating_sub(rows - 1), self.selected);
+        let scrolled = ui.input(|i| i.smooth_scroll_delta().y);
+        if scrolled != 0.0 {
+            self.top = self.top.saturating_add_signed(if scrolled < 0.0 { 1 } else { -1 });
+            self.top = self.top.min(count.saturating_sub(rows));
+            self.selected = self.selected.clamp(self.top, (self.top + rows - 1).min(last));
+        }
+    }
+}
+
+/// Actions that fit, best first; all of them before anything is typed.
+fn fits(typed: &str, recent: &[Action]) -> Vec<Fit> {
+    let age = |action: Action| recent.iter().position(|a| *a == action).unwrap_or(usize::MAX);
+    let mut found: Vec<_> = ACTIONS
+        .iter()
+        .filter(|entry| entry.action != Action::Palette)
+        .filter_map(|entry| Some((fuzzy::fit(typed, entry.title)?, age(entry.action), entry)))
+        .collect();
+    // Equal ones stay in the table's order.
+    found.sort_by_key(|((cost, _), age, _)| (*cost, *age));
+    found.into_iter().map(|((_, letters), _, entry)| Fit { entry, letters }).collect()
+}
+
+/// A title with the letters that fit set off, and the key.
+fn row(ui: &Ui, rect: Rect, fit: &Fit, key: &str, is_selected: bool) {
+    let painter = ui.painter().with_clip_rect(rect);
+    let weak = if is_selected { theme::of(ui).text } else { theme::of(ui).weak };
+    let key = painter.layout_no_wrap(key.to_owned(), FontId::proportional(12.0), weak);
+    let mut job = LayoutJob::default();
+    for (i, letter) in fit.entry.title.char_indices() {
+        let color = match (fit.letters.contains(&i), is_selected) {
+            (true, true) => theme::of(ui).strong,
+            (true, false) => theme::of(ui).accent,
+            (false, _) => theme::of(ui).text,
+        };
+        job.append(letter.encode_utf8(&mut [0; 4]), 0.0, egui::TextFormat::simple(FontId::proportional(13.5), color));
+    }
+    let room = rect.width() - key.size().x - 36.0;
+    job.wrap = egui::text::TextWrapping::truncate_at_width(room.max(40.0));
+    let title = painter.layout_job(job);
+    painter.galley(pos2(rect.left() + 10.0, rect.center().y - title.size().y / 2.0), title, theme::of(ui).text);
+    let at = pos2(rect.right() - 10.0 - key.size().x, rect.center().y - key.size().y / 2.0);
+    painter.galley(at, key, weak);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn first(typed: &str) -> Action {
+        fits(typed, &[])[0].entry.action
+    }
+
+    #[test]
+    fn a_few_letters_find_an_action() {
+        assert_eq!(first("play"), Action::TogglePlay);
+        assert_eq!(first("wrap"), Action::WordWrap);
+        assert_eq!(first("go line"), Action::GoToLine);
+        assert_eq!(first("gtl"), Action::GoToLine);
+        assert_eq!(first("full"), Action::Fullscreen);
+        assert_eq!(first("FIND REPL"), Action::Replace);
+        assert!(fits("qqq", &[]).is_empty());
+    }
+
+    #[test]
+    fn every_action_but_the_palette_itself_is_in_it() {
+        assert_eq!(fits("", &[]).len(), ACTIONS.len() - 1);
+        assert_eq!(fits("", &[Action::Lab, Action::Help])[0].entry.action, Action::Lab);
+        for entry in ACTIONS.iter().filter(|e| e.action != Action::Palette) {
+            assert_eq!(first(entry.title), entry.action, "{} is not first by its own title", entry.title);
+        }
+    }
+}

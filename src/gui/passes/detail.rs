@@ -1,0 +1,362 @@
+//! How the chosen pass is called, drawn and read.
+
+use crate::{
+    gui::{
+        accessible,
+        outbox::{Outbox, Wish},
+        theme,
+    },
+    project::{Filter, Pass, PassEdit, PassFormat, PassId, PassSize, Project, Region, Tab, Wrap},
+    session::{Command, Session},
+};
+use egui::{ComboBox, DragValue, Grid, Key, Response, RichText, Role, TextEdit, Ui};
+
+/// A name that is being typed.
+#[derive(Debug, Default)]
+pub struct Naming {
+    of: Option<Tab>,
+    text: String,
+}
+
+pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, naming: &mut Naming, out: &mut Outbox) {
+    let project = session.project();
+    if naming.of.as_ref() != Some(tab) {
+        *naming = Naming { of: Some(tab.clone()), text: name_of(tab) };
+    }
+    let Some(pass) = tab.pass().and_then(|id| project.pass(id)) else {
+        ui.heading("Common");
+        ui.label("Its text is put before that of every pass.");
+        shows(ui, tab, None, out);
+        return;
+    };
+    let is_buffer = matches!(pass.id, PassId::Buffer(_));
+    Grid::new("pass settings").num_columns(2).spacing([14.0, 9.0]).show(ui, |ui| {
+        ui.label("Name");
+        if is_buffer {
+            name(ui, project, &pass.id, naming, out);
+        } else {
+            ui.label(RichText::new(pass.id.title()).color(theme::of(ui).strong));
+        }
+        ui.end_row();
+        ui.label("File");
+        let file = match &pass.source.path {
+            Some(_) => pass.source.name.clone(),
+            None => "not saved yet".into(),
+        };
+        ui.add(egui::Label::new(RichText::new(file).color(theme::of(ui).weak)).truncate());
+        ui.end_row();
+        if is_buffer {
+            ui.label("Size");
+            size(ui, session, pass, out);
+            ui.end_row();
+            ui.label("Format");
+            format(ui, pass, out);
+            ui.end_row();
+        }
+        if is_buffer || pass.id == PassId::Image {
+            ui.label("Region");
+            region(ui, session, pass, out);
+            ui.end_row();
+        }
+        if is_buffer {
+            ui.label("Steps");
+            steps(ui, project, pass, out);
+            ui.end_row();
+            ui.label("Read with");
+            samplers(ui, project, &pass.id, out);
+            ui.end_row();
+        }
+    });
+    let note = match &pass.id {
+        PassId::Image => "Image has the size of the canvas and 32-bit floats.",
+        PassId::Cubemap => "Cubemap passes are kept and saved; Eddy does not draw them yet.",
+        PassId::Sound => "Sound passes are kept and saved; Eddy does not play them yet.",
+        PassId::Buffer(_) if pass.settings.meshes().is_some() => {
+            "This pass draws meshes; which ones, and its camera, are said in eddy.toml."
+        }
+        PassId::Buffer(_) => "",
+    };
+    if !note.is_empty() {
+        ui.add_space(4.0);
+        ui.add(egui::Label::new(RichText::new(note).color(theme::of(ui).weak)).wrap());
+    }
+    shows(ui, tab, Some(&pass.id), out);
+}
+
+/// The ways from here to the text and to the picture.
+fn shows(ui: &mut Ui, tab: &Tab, pass: Option<&PassId>, out: &mut Outbox) {
+    ui.add_space(8.0);
+    ui.horizontal(|ui| {
+        if out.clicked("passes:text", &ui.button("Edit its text")) {
+            out.wishes.push(Wish::GoTo(tab.clone(), None));
+        }
+        if let Some(pass) = pass.filter(|id| !matches!(id, PassId::Sound | PassId::Cubemap))
+            && out.clicked("passes:show", &ui.button("Show its picture"))
+        {
+            out.ask(Command::ShowPass(pass.clone()));
+        }
+    });
+}
+
+fn name_of(tab: &Tab) -> String {
+    match tab {
+        Tab::Pass(PassId::Buffer(name)) => name.clone(),
+        other => other.title(),
+    }
+}
+
+fn name(ui: &mut Ui, project: &Project, id: &PassId, naming: &mut Naming, out: &mut Outbox) {
+    let is_wrong = checked(project, id, &naming.text).1.is_some();
+    let field = TextEdit::singleline(&mut naming.text).desired_width(150.0);
+    let field = field.text_color_opt(is_wrong.then_some(theme::of(ui).error));
+    let response = ui.add(field);
+    // Typed and entered in one frame, where frames are slow.
+    let (wanted, why) = checked(project, id, &naming.text);
+    accessible::name(&response, Role::TextInput, "Name");
+    out.place("passes:name", response.rect);
+    let is_cancelled = ui.input(|i| i.key_pressed(Key::Escape));
+    if response.lost_focus() {
+        match wanted.filter(|_| why.is_none() && !is_cancelled) {
+            Some(other) if other != *id => {
+                out.ask(Command::EditPasses(PassEdit::Rename { pass: id.clone(), name: naming.text.clone() }));
+                naming.of = None;
+            }
+            _ => naming.text = name_of(&Tab::Pass(id.clone())),
+        }
+    }
+    if let Some(why) = why {
+        response.on_hover_text(why);
+    }
+}
+
+/// The pass that a name means, and why it cannot be this one's.
+fn checked(project: &Project, id: &PassId, name: &str) -> (Option<PassId>, Option<String>) {
+    let wanted = PassId::buffer_named(name);
+    let why = match &wanted {
+        None => Some(PassId::NAMES.to_owned()),
+        Some(other) if other != id && project.pass(other).is_some() => {
+            Some(format!("There is a {} already", other.title()))
+        }
+        Some(_) => None,
+    };
+    (wanted, why)
+}
+
+fn edit(out: &mut Outbox, edit: PassEdit) {
+    out.ask(Command::EditPasses(edit));
+}
+
+/// Notes where a number is, and says what it is.
+fn number(response: &Response, name: &str, out: &mut Outbox) {
+    accessible::name(response, Role::SpinButton, name.replace(':', " "));
+    out.place(format!("passes:{name}"), response.rect);
+}
+
+fn combo_box(response: &Response, name: &str, out: &mut Outbox) {
+    accessible::name(response, Role::ComboBox, name);
+    out.place(format!("passes:{name}"), response.rect);
+}
+
+fn size(ui: &mut Ui, session: &Session, pass: &Pass, out: &mut Outbox) {
+    let canvas = session.transport().resolution;
+    let now = pass.settings.size;
+    ui.horizontal(|ui| {
+        let label = match now {
+            PassSize::Canvas => "the canvas",
+            PassSize::Scale(_) => "of the canvas",
+            PassSize::Fixed(..) => "fixed",
+        };
+        let combo = ComboBox::from_id_salt("size").width(104.0).selected_text(label).show_ui(ui, |ui| {
+            let (width, height) = now.of(canvas);
+            let factor = match now {
+                PassSize::Scale(by) => by,
+                _ => 0.5,
+            };
+            for (name, label, size) in [
+                ("canvas", "the canvas", PassSize::Canvas),
+                ("scale", "of the canvas", PassSize::Scale(factor)),
+                ("fixed", "fixed", PassSize::Fixed(width, height)),
+            ] {
+                let is_now = std::mem::discriminant(&size) == std::mem::discriminant(&now);
+                if out.clicked(&format!("passes:size:{name}"), &ui.selectable_label(is_now, label)) && !is_now {
+                    edit(out, PassEdit::Size(pass.id.clone(), size));
+                }
+            }
+        });
+        combo_box(&combo.response, "size", out);
+        match now {
+            PassSize::Canvas => {}
+            PassSize::Scale(by) => {
+                let mut value = by;
+                let drag = DragValue::new(&mut value).speed(0.005).range(0.001..=64.0).max_decimals(4);
+                number(&ui.add(drag), "scale", out);
+                if value != by {
+                    edit(out, PassEdit::Size(pass.id.clone(), PassSize::Scale(value)));
+                }
+            }
+            PassSize::Fixed(width, height) => {
+                let (mut w, mut h) = (width, height);
+                number(&ui.add(DragValue::new(&mut w).range(1..=32_768).speed(1.0)), "width", out);
+                ui.label("×");
+                number(&ui.add(DragValue::new(&mut h).range(1..=32_768).speed(1.0)), "height", out);
+                if (w, h) != (width, height) {
+                    edit(out, PassEdit::Size(pass.id.clone(), PassSize::Fixed(w, h)));
+                }
+            }
+        }
+        if !matches!(now, PassSize::Fixed(..)) {
+            let (width, height) = now.of(canvas);
+            ui.colored_label(theme::of(ui).weak, format!("{width}×{height} now"));
+        }
+    });
+}
+
+fn format(ui: &mut Ui, pass: &Pass, out: &mut Outbox) {
+    let now = pass.settings.format;
+    ui.horizontal(|ui| {
+        let combo = ComboBox::from_id_salt("format").width(104.0).selected_text(now.name()).show_ui(ui, |ui| {
+            for format in PassFormat::ALL {
+                let label = format!("{}   {}", format.name(), meaning(format));
+                let item = ui.selectable_label(format == now, label);
+                if out.clicked(&format!("passes:format:{}", format.name()), &item) && format != now {
+                    edit(out, PassEdit::Format(pass.id.clone(), format));
+                }
+            }
+        });
+        combo_box(&combo.response, "format", out);
+        let bytes = now.bytes();
+        let unit = if bytes == 1 { "byte" } else { "bytes" };
+        ui.colored_label(theme::of(ui).weak, format!("{bytes} {unit} a texel"));
+    });
+    let more = pass.settings.meshes().map_or(0, |g| g.more_targets.len());
+    if more > 0 {
+        ui.end_row();
+        ui.label("");
+        let names: Vec<&str> = pass.settings.formats().iter().skip(1).map(|f| f.name()).collect();
+        ui.colored_label(theme::of(ui).weak, format!("further targets: {}", names.join(", ")));
+    }
+}
+
+fn meaning(format: PassFormat) -> &'static str {
+    match format {
+        PassFormat::Rgba32f => "four floats, as on the site",
+        PassFormat::Rgba16f => "four half floats",
+        PassFormat::Rgba8 => "four from 0 to 1, 256 values",
+        PassFormat::Rg32f => "two floats",
+        PassFormat::Rg16f => "two half floats",
+        PassFormat::Rg8 => "two from 0 to 1, 256 values",
+        PassFormat::R32f => "one float",
+        PassFormat::R16f => "one half float",
+        PassFormat::R8 => "one from 0 to 1, 256 values",
+    }
+}
+
+fn region(ui: &mut Ui, session: &Session, pass: &Pass, out: &mut Outbox) {
+    let now = pass.settings.region;
+    ui.vertical(|ui| {
+        let mut is_part = now.is_some();
+        let check = ui.checkbox(&mut is_part, "draw only a part");
+        if out.clicked("passes:region", &check) {
+            let (width, height) = pass.settings.size.of(session.transport().resolution);
+            edit(out, PassEdit::Region(pass.id.clone(), is_part.then_some(Region { x: 0, y: 0, width, height })));
+        }
+        check.on_hover_text("The other texels keep what they held");
+        let Some(now) = now else { return };
+        let mut next = now;
+        ui.horizontal(|ui| {
+            for (name, value, least) in [("x", &mut next.x, 0), ("y", &mut next.y, 0)]
+                .into_iter()
+                .chain([("width", &mut next.width, 1), ("height", &mut next.height, 1)])
+            {
+                let drag = DragValue::new(value).range(least..=u32::MAX).speed(1.0).prefix(format!("{} ", &name[..1]));
+                let response = ui.add(drag);
+                number(&response, &format!("region:{name}"), out);
+                response.on_hover_text(format!("{name} in texels, from the bottom left"));
+            }
+        });
+        if next != now {
+            edit(out, PassEdit::Region(pass.id.clone(), Some(next)));
+        }
+    });
+}
+
+fn steps(ui: &mut Ui, project: &Project, pass: &Pass, out: &mut Outbox) {
+    let group = project.groups.iter().find(|g| g.passes.contains(&pass.id));
+    let now = group.map_or(1, |g| g.steps);
+    let buffers: Vec<&PassId> = project.passes.iter().map(|p| &p.id).take_while(|id| **id != pass.id).collect();
+    ui.vertical(|ui| {
+        ui.horizontal(|ui| {
+            let mut value = now;
+            number(&ui.add(DragValue::new(&mut value).range(1..=10_000).speed(0.1)), "steps", out);
+            if value != now {
+                edit(out, PassEdit::Steps(pass.id.clone(), value));
+            }
+            ui.label(if now == 1 { "time a frame" } else { "times a frame" });
+        });
+        if let Some(before) = buffers.last() {
+            let is_joined = group.is_some_and(|g| g.passes.contains(before));
+            let mut joined = is_joined;
+            let check = ui.checkbox(&mut joined, format!("in turns with {}", before.title()));
+            if out.clicked("passes:joined", &check) && joined != is_joined {
+                edit(out, PassEdit::WithPrevious(pass.id.clone(), joined));
+            }
+            check.on_hover_text("Both are drawn once, one after the other, then both again");
+        }
+    });
+}
+
+/// The filter and the wrap of all channels that read a buffer.
+fn samplers(ui: &mut Ui, project: &Project, id: &PassId, out: &mut Outbox) {
+    let PassId::Buffer(name) = id else { return };
+    let channels = project.passes.iter().flat_map(|p| p.channels.iter().flatten());
+    let readers: Vec<_> = channels.filter(|c| c.input.buffer().is_some_and(|(b, _)| b == name)).collect();
+    if readers.is_empty() {
+        ui.colored_label(theme::of(ui).weak, "no channel reads it");
+        return;
+    }
+    let filter = same(readers.iter().map(|c| c.sampler.filter));
+    let wrap = same(readers.iter().map(|c| c.sampler.wrap));
+    ui.horizontal(|ui| {
+        let label = filter.map_or("several filters", filter_name);
+        let combo = ComboBox::from_id_salt("filter").width(84.0).selected_text(label).show_ui(ui, |ui| {
+            for one in [Filter::Nearest, Filter::Linear, Filter::Mipmap] {
+                let item = ui.selectable_label(filter == Some(one), filter_name(one));
+                if out.clicked(&format!("passes:filter:{}", filter_name(one)), &item) && filter != Some(one) {
+                    edit(out, PassEdit::Filter(id.clone(), one));
+                }
+            }
+        });
+        combo_box(&combo.response, "filter", out);
+        let label = wrap.map_or("several wraps", wrap_name);
+        let combo = ComboBox::from_id_salt("wrap").width(84.0).selected_text(label).show_ui(ui, |ui| {
+            for one in [Wrap::Clamp, Wrap::Repeat] {
+                let item = ui.selectable_label(wrap == Some(one), wrap_name(one));
+                if out.clicked(&format!("passes:wrap:{}", wrap_name(one)), &item) && wrap != Some(one) {
+                    edit(out, PassEdit::Wrap(id.clone(), one));
+                }
+            }
+        });
+        combo_box(&combo.response, "wrap", out);
+    });
+}
+
+/// The value that all have.
+fn same<T: PartialEq>(mut all: impl Iterator<Item = T>) -> Option<T> {
+    let first = all.next()?;
+    all.all(|one| one == first).then_some(first)
+}
+
+fn filter_name(filter: Filter) -> &'static str {
+    match filter {
+        Filter::Nearest => "nearest",
+        Filter::Linear => "linear",
+        Filter::Mipmap => "mipmap",
+    }
+}
+
+fn wrap_name(wrap: Wrap) -> &'static str {
+    match wrap {
+        Wrap::Clamp => "clamp",
+        Wrap::Repeat => "repeat",
+    }
+}

@@ -1,0 +1,222 @@
+//! The window of passes: which there are, their order, and how each is drawn and read.
+//!
+//! Owns what is chosen and typed here. What is asked for goes to the session as an edit, which it can take back.
+
+mod detail;
+mod list;
+
+use super::{
+    accessible,
+    actions::Action,
+    outbox::{Outbox, Wish},
+    theme,
+};
+use crate::{
+    project::{PassId, Tab},
+    session::{Command, Session},
+};
+use detail::Naming;
+use egui::{Id, Popup, PopupCloseBehavior, Response, RichText, Ui, Window, vec2};
+
+/// Width of the list; the rest is the chosen pass's.
+const LIST: f32 = 196.0;
+const SIZE: egui::Vec2 = vec2(600.0, 392.0);
+
+#[derive(Debug, Default)]
+pub struct Passes {
+    open: bool,
+    chosen: Option<Tab>,
+    naming: Naming,
+    /// How many of the session's renamed passes have been followed.
+    followed: usize,
+}
+
+impl Passes {
+    /// Opens the window on a pass, or closes it if none is named and it is open.
+    pub fn toggle(&mut self, tab: Option<Tab>) {
+        self.open = tab.is_some() || !self.open;
+        if tab.is_some() {
+            self.chosen = tab;
+        }
+    }
+
+    /// `current`: the tab in front, which is chosen first.
+    pub fn show(&mut self, ui: &Ui, session: &Session, current: &Tab, out: &mut Outbox) {
+        if !self.open {
+            return;
+        }
+        self.follow(session, current);
+        let mut open = true;
+        let screen = ui.ctx().content_rect();
+        let size = SIZE.min(screen.size() - vec2(40.0, 90.0)).max(vec2(300.0, 160.0));
+        let window = Window::new(RichText::new("Passes").size(15.0))
+            .id(Id::unique("passes"))
+            .open(&mut open)
+            .collapsible(false)
+            .resizable(true)
+            .default_size(size)
+            .min_size(vec2(320.0, 180.0))
+            .default_pos(screen.left_top() + vec2(24.0, 56.0))
+            .constrain_to(screen);
+        let shown = window.show(ui.ctx(), |ui| {
+            ui.set_min_size(ui.available_size());
+            out.stop("passes", ui);
+            self.contents(ui, session, out);
+        });
+        if let Some(shown) = shown {
+            out.place("passes", shown.response.rect);
+            let of_window = |id| ui.ctx().read_response(id).is_some_and(|r| r.layer_id == shown.response.layer_id);
+            let is_front = ui.ctx().memory(|m| m.focused()).is_none_or(of_window);
+            if is_front && ui.input(|i| i.key_pressed(egui::Key::Escape)) {
+                open = false;
+            }
+        }
+        self.open = open;
+    }
+
+    /// Keeps to a pass when it is renamed, and to one that is there.
+    fn follow(&mut self, session: &Session, current: &Tab) {
+        for (from, to) in session.renamed_passes().iter().skip(self.followed) {
+            if let Some(tab) = self.chosen.as_mut().filter(|tab| tab.pass() == Some(from)) {
+                *tab = tab.of_pass(to.clone());
+            }
+        }
+        self.followed = session.renamed_passes().len();
+        if self.chosen.as_ref().is_none_or(|tab| session.project().source(tab).is_none()) {
+            self.chosen = Some(current.pass().map_or(Tab::Common, |id| Tab::Pass(id.clone())));
+        }
+    }
+
+    fn contents(&mut self, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+        tools(ui, session, out);
+        ui.add_space(2.0);
+        let room = ui.available_rect_before_wrap();
+        let wide = room.width() > 460.0;
+        let tab = self.chosen.clone().unwrap_or(Tab::Pass(PassId::Image));
+        if wide {
+            let list = egui::Rect::from_min_size(room.min, vec2(LIST, room.height()));
+            let rest = egui::Rect::from_min_max(egui::pos2(list.right() + 14.0, room.top()), room.max);
+            ui.scope_builder(egui::UiBuilder::new().max_rect(list), |ui| self.list(ui, session, &tab, out));
+            ui.painter().vline(list.right() + 7.0, room.y_range(), egui::Stroke::new(1.0, theme::of(ui).line));
+            ui.scope_builder(egui::UiBuilder::new().max_rect(rest), |ui| self.detail(ui, session, &tab, out));
+            ui.advance_cursor_after_rect(room);
+        } else {
+            egui::ScrollArea::vertical().id_salt("narrow passes").show(ui, |ui| {
+                self.list(ui, session, &tab, out);
+                ui.separator();
+                self.detail(ui, session, &tab, out);
+            });
+        }
+    }
+
+    fn list(&mut self, ui: &mut Ui, session: &Session, tab: &Tab, out: &mut Outbox) {
+        if let Some(tab) = list::show(ui, session, tab, out) {
+            self.chosen = Some(tab);
+        }
+    }
+
+    fn detail(&mut self, ui: &mut Ui, session: &Session, tab: &Tab, out: &mut Outbox) {
+        egui::ScrollArea::vertical().id_salt("pass detail").auto_shrink(false).show(ui, |ui| {
+            detail::show(ui, session, tab, &mut self.naming, out);
+        });
+    }
+}
+
+/// Adding, and the way back.
+fn tools(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+    ui.horizontal(|ui| {
+        let add = adding(ui, "Add", |ui| add_menu(ui, session, out));
+        out.place("passes:add", add.rect);
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            let redo = session.pass_redo().map(|step| step.title.to_owned());
+            let undo = session.pass_undo().map(|step| step.title.to_owned());
+            for (name, label, title, action) in
+                [("passes:redo", "Redo", redo, Action::RedoPasses), ("passes:undo", "Undo", undo, Action::UndoPasses)]
+            {
+                let button = ui.add_enabled(title.is_some(), egui::Button::new(label));
+                if out.clicked(name, &button) {
+                    out.act(action);
+                }
+                let tip = format!("{label}: {}", title.as_deref().unwrap_or("nothing"));
+                button.on_hover_text(out.keys.tip(&tip, action)).on_disabled_hover_text(format!("Nothing to {label}"));
+            }
+        });
+    });
+}
+
+/// A button with a menu that stays while one types in it.
+pub fn adding(ui: &mut Ui, label: &str, contents: impl FnOnce(&mut Ui)) -> Response {
+    let button = ui.button(label);
+    let menu = Popup::from_toggle_button_response(&button);
+    menu.close_behavior(PopupCloseBehavior::CloseOnClickOutside).show(contents);
+    button
+}
+
+/// The passes that can be added: what the site has, and a buffer of any name.
+pub fn add_menu(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+    let id = Id::unique("name of a new buffer");
+    ui.set_min_width(190.0);
+    let add = |ui: &mut Ui, tab: Tab, out: &mut Outbox| {
+        out.ask(Command::AddTab(tab.clone()));
+        out.wishes.push(Wish::GoTo(tab.clone(), None));
+        out.wishes.push(Wish::ChoosePass(tab));
+        ui.data_mut(|d| d.remove_temp::<String>(id));
+        ui.close();
+    };
+    for tab in addable(&session.tabs()) {
+        let item = ui.button(tab.title());
+        if out.clicked(&format!("add:{}", tab.title()), &item) {
+            add(ui, tab, out);
+        }
+    }
+    ui.separator();
+    ui.label(RichText::new("A buffer of any name").color(theme::of(ui).weak).small());
+    let mut name = ui.data_mut(|d| d.get_temp_mut_or_default::<String>(id).clone());
+    ui.horizontal(|ui| {
+        let field = ui.add(egui::TextEdit::singleline(&mut name).hint_text("velocity").desired_width(110.0));
+        accessible::name(&field, egui::Role::TextInput, "Name of a new buffer");
+        out.place("add:name", field.rect);
+        let wanted = PassId::buffer_named(&name).map(Tab::Pass);
+        let is_free = wanted.as_ref().is_some_and(|tab| !session.tabs().contains(tab));
+        let entered = field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter));
+        let button = ui.add_enabled(is_free, egui::Button::new("Add"));
+        let clicked = out.clicked("add:named", &button);
+        let why = match &wanted {
+            None => PassId::NAMES.to_owned(),
+            Some(tab) => format!("There is a {} already", tab.title()),
+        };
+        button.on_disabled_hover_text(why);
+        if let Some(tab) = wanted.filter(|_| is_free && (entered || clicked)) {
+            name.clear();
+            add(ui, tab, out);
+        }
+    });
+    ui.data_mut(|d| d.insert_temp(id, name));
+}
+
+/// Common, the site's four buffers that are not there yet or else the next letter, and the cubemap pass.
+fn addable(tabs: &[Tab]) -> Vec<Tab> {
+    let buffer = |c: char| Tab::Pass(PassId::Buffer(c.to_string()));
+    let is_free = |tab: &Tab| !tabs.contains(tab);
+    let mut buffers: Vec<Tab> = ('A'..='D').map(buffer).filter(is_free).collect();
+    if buffers.is_empty() {
+        buffers.extend(('E'..='Z').map(buffer).find(is_free));
+    }
+    let rest = std::iter::once(Tab::Pass(PassId::Cubemap)).filter(is_free);
+    std::iter::once(Tab::Common).filter(is_free).chain(buffers).chain(rest).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_fifth_buffer_is_offered_when_four_are_there() {
+        let tab = |id: PassId| Tab::Pass(id);
+        let buffer = |name: &str| tab(PassId::Buffer(name.into()));
+        let cube = tab(PassId::Cubemap);
+        assert_eq!(addable(&[buffer("B"), cube.clone()]), [Tab::Common, buffer("A"), buffer("C"), buffer("D")]);
+        let full = ["A", "B", "C", "D", "E"].map(buffer).into_iter().chain([Tab::Common]).collect::<Vec<_>>();
+        assert_eq!(addable(&full), [buffer("F"), cube]);
+    }
+}

@@ -1,0 +1,149 @@
+//! The text of `settings.toml`: read, made anew, and changed in one line.
+
+use super::keys::{Change, KEYS, Settings};
+use crate::project::nearest;
+use std::{fmt::Write as _, ops::Range};
+use toml_edit::{Document, DocumentMut, Item};
+
+/// Something in the file that cannot be done as it stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mistake {
+    /// From 1.
+    pub line: usize,
+    /// What is wrong and how to mend it.
+    pub text: String,
+}
+
+/// Returns the settings that a file's text gives, and all mistakes in it. What is wrong leaves a setting as it is at
+/// first.
+pub fn read(text: &str) -> (Settings, Vec<Mistake>) {
+    let mut settings = Settings::default();
+    let mut mistakes = Vec::new();
+    let line = |span: Option<Range<usize>>| 1 + text[..span.map_or(0, |s| s.start)].matches('\n').count();
+    let document = match Document::parse(text) {
+        Ok(document) => document,
+        Err(error) => {
+            let text = format!("{}; write lines such as: theme = \"dark\"", error.message().trim_end());
+            return (settings, vec![Mistake { line: line(error.span()), text }]);
+        }
+    };
+    let table = document.as_table();
+    for (name, item) in table.iter() {
+        let at = line(table.key(name).and_then(toml_edit::Key::span).or_else(|| item.span()));
+        let mut wrong = |text: String| mistakes.push(Mistake { line: at, text });
+        let Some(key) = KEYS.iter().find(|key| key.name == name) else {
+            let mend = match nearest(name, KEYS.iter().map(|key| key.name)) {
+                Some(near) => format!("did you mean \"{near}\"?"),
+                None => format!("there are {}", KEYS.iter().map(|key| key.name).collect::<Vec<_>>().join(", ")),
+            };
+            wrong(format!("there is no setting \"{name}\"; {mend}"));
+            continue;
+        };
+        let Some(value) = item.as_value() else {
+            wrong(format!("{name} is one value, such as: {name} = {}", key.usual));
+            continue;
+        };
+        if let Err(what) = (key.read)(&mut settings, value) {
+            wrong(format!("{name} {what}"));
+        }
+    }
+    (settings, mistakes)
+}
+
+/// Returns the text with one setting changed, and everything else as it was. Err: the text is none that can be changed.
+pub fn change(text: &str, change: Change) -> Result<String, Mistake> {
+    let mut document: DocumentMut = text.parse().map_err(|error: toml_edit::TomlError| {
+        let line = 1 + text[..error.span().map_or(0, |s| s.start)].matches('\n').count();
+        Mistake { line, text: format!("{}; what you changed in the window is not kept", error.message().trim_end()) }
+    })?;
+    let (name, value) = change.written();
+    match document.get_mut(name).and_then(Item::as_value_mut) {
+        Some(there) => {
+            // A comment behind the value stays.
+            let decor = there.decor().clone();
+            *there = value;
+            *there.decor_mut() = decor;
+        }
+        None => drop(document.insert(name, Item::Value(value))),
+    }
+    Ok(document.to_string())
+}
+
+/// Returns the text of a new file: every setting as it is at first, each as a comment.
+pub fn template() -> String {
+    let mut text = String::from(
+        "# Settings of Eddy. Take the # from a line to change it; what is left out stays as it is.\n\
+         # It is read when you come back to the window. Keys are in keybindings.toml beside it.\n",
+    );
+    for key in KEYS {
+        // Writing to a string does not fail.
+        let _ = write!(text, "\n# {}.\n# {} = {}\n", key.about, key.name, key.usual);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gui::settings::Theme;
+    use std::time::Duration;
+
+    #[test]
+    fn settings_are_read_and_every_mistake_is_told_at_its_line() {
+        let (settings, mistakes) = read(
+            "theme = \"light\"\nzoom = 2\ncode-size = 15.5\nword-wrap = true\nframe-timeout = 0.5\n\
+             code-font = \"/a/b.ttf\"\n",
+        );
+        assert_eq!(mistakes, []);
+        let wanted = Settings {
+            theme: Theme::Light,
+            zoom: 2.0,
+            code_size: 15.5,
+            code_font: Some("/a/b.ttf".into()),
+            word_wrap: true,
+            frame_timeout: Duration::from_millis(500),
+        };
+        assert_eq!(settings, wanted);
+        let text =
+            "# mine\nthem = \"light\"\ntheme = \"blue\"\nzoom = 40\n[word-wrap]\non = true\n[editor]\nsize = 3\n";
+        let (settings, mistakes) = read(text);
+        assert_eq!(settings, Settings::default());
+        let told: Vec<_> = mistakes.iter().map(|m| (m.line, m.text.as_str())).collect();
+        let all = "theme, zoom, code-size, code-font, word-wrap, frame-timeout";
+        let nothing_near = format!("there is no setting \"editor\"; there are {all}");
+        let wanted = [
+            (2, "there is no setting \"them\"; did you mean \"theme\"?"),
+            (3, "theme must be \"system\", \"dark\" or \"light\""),
+            (4, "zoom must be a number from 0.5 to 4"),
+            (5, "word-wrap is one value, such as: word-wrap = false"),
+            (7, nothing_near.as_str()),
+        ];
+        assert_eq!(told, wanted);
+        let (_, mistakes) = read("zoom = 1\ntheme = \n");
+        assert_eq!((mistakes.len(), mistakes[0].line), (1, 2), "{mistakes:?}");
+        let (_, mistakes) = read("frame-timeout = -1");
+        assert_eq!(mistakes.len(), 1);
+    }
+
+    #[test]
+    fn a_change_leaves_comments_order_and_unknown_keys() {
+        let text = "# mine\nzoom = 1.5 # large\n\nthem = 3\n";
+        let text = change(text, Change::Zoom(1.75)).unwrap();
+        assert_eq!(text, "# mine\nzoom = 1.75 # large\n\nthem = 3\n");
+        let text = change(&text, Change::Theme(Theme::Light)).unwrap();
+        assert_eq!(read(&text).0, Settings { zoom: 1.75, theme: Theme::Light, ..Settings::default() });
+        assert!(text.starts_with("# mine\nzoom = 1.75 # large\n"), "{text}");
+        assert_eq!(change("zoom = 1\nzoom =", Change::Zoom(2.0)).unwrap_err().line, 2);
+        let fresh = change(&template(), Change::WordWrap(true)).unwrap();
+        assert!(read(&fresh).0.word_wrap && fresh.contains("# theme = "), "{fresh}");
+    }
+
+    /// What the new file says is what holds without it.
+    #[test]
+    fn the_new_file_says_what_holds() {
+        assert_eq!(read(&template()), (Settings::default(), vec![]));
+        let rows = template().lines().filter(|l| l.contains(" = ")).map(|l| l[2..].to_owned()).collect::<Vec<_>>();
+        assert_eq!(rows.len(), KEYS.len());
+        assert_eq!(read(&rows.join("\n")), (Settings::default(), vec![]));
+    }
+}

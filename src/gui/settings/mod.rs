@@ -1,0 +1,14 @@
+//! What a person has chosen for the window, and what the window remembers by itself.
+//!
+//! Owns two files that people can read. `settings.toml` in the folder for settings is written by people and by the
+//! window's menus, which change one line and leave the rest; `window.toml` in the folder for what is remembered has the
+//! window's place and its layout.
+
+mod file;
+mod keys;
+mod place;
+mod watch;
+
+pub use keys::{Change, Settings, Theme};
+pub use place::{Place, Remembered, WindowFile};
+pub use watch::SettingsFile;

@@ -1,0 +1,186 @@
+//! `window.toml`: where the window was, and its layout, from one start to the next.
+
+use super::watch::write;
+use crate::gui::dock::{Node, Panel};
+use std::{collections::BTreeSet, fs, io, path::PathBuf};
+use toml_edit::{Array, DocumentMut, Item, Value};
+
+const NAME: &str = "window.toml";
+const HEADER: &str =
+    "# The window of Eddy when it was closed last. Without this file everything is where it is at first.\n";
+const KEYS: [&str; 7] = ["width", "height", "x", "y", "maximized", "open", "layout"];
+
+/// Where the window is, in points of the system.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Place {
+    pub size: Option<(f64, f64)>,
+    /// The corner of its frame, where the system tells; physical pixels.
+    pub corner: Option<(i32, i32)>,
+    pub is_maximized: bool,
+}
+
+/// What is remembered of the window.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Remembered {
+    pub place: Place,
+    /// The panels that are open.
+    pub open: Option<BTreeSet<Panel>>,
+    /// As a person has made it.
+    pub layout: Option<Node>,
+}
+
+/// The file.
+#[derive(Debug)]
+pub struct WindowFile {
+    /// `None` where the system has no place for it.
+    path: Option<PathBuf>,
+    /// As it was read or written last.
+    known: Remembered,
+}
+
+impl WindowFile {
+    /// `folder`: for what is remembered between two starts.
+    pub fn new(folder: Option<PathBuf>) -> Self {
+        Self { path: folder.map(|folder| folder.join(NAME)), known: Remembered::default() }
+    }
+
+    /// Reads the file. What is wrong in it comes back, one line each; the rest of it counts.
+    pub fn read(&mut self) -> (Remembered, Vec<String>) {
+        let Some(path) = &self.path else { return Default::default() };
+        let text = match fs::read_to_string(path) {
+            Ok(text) => text,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Default::default(),
+            Err(error) => return (Remembered::default(), vec![format!("{}: {error}", path.display())]),
+        };
+        let (remembered, mistakes) = read(&text);
+        self.known = remembered.clone();
+        let told = |(line, what): (usize, String)| format!("{}:{line}: {what}", path.display());
+        (remembered, mistakes.into_iter().map(told).collect())
+    }
+
+    pub fn known(&self) -> &Remembered {
+        &self.known
+    }
+
+    /// Writes the file if it would say something new.
+    pub fn keep(&mut self, remembered: Remembered) {
+        let Some(path) = &self.path else { return };
+        if remembered == self.known {
+            return;
+        }
+        match write(path, &text(&remembered)) {
+            Ok(()) => self.known = remembered,
+            // The window is where it is all the same: only the next start knows less.
+            Err(error) => log::warn!("{}: {error}", path.display()),
+        }
+    }
+}
+
+fn text(remembered: &Remembered) -> String {
+    let Remembered { place, open, layout } = remembered;
+    let mut document = DocumentMut::new();
+    let mut set = |name: &str, value: Value| drop(document.insert(name, Item::Value(value)));
+    if let Some((width, height)) = place.size {
+        set("width", width.round().into());
+        set("height", height.round().into());
+    }
+    if let Some((x, y)) = place.corner {
+        set("x", i64::from(x).into());
+        set("y", i64::from(y).into());
+    }
+    if place.is_maximized {
+        set("maximized", true.into());
+    }
+    if let Some(open) = open {
+        set("open", Value::Array(open.iter().map(|panel| panel.name()).collect::<Array>()));
+    }
+    if let Some(layout) = layout {
+        set("layout", layout.to_value());
+    }
+    format!("{HEADER}{document}")
+}
+
+fn read(text: &str) -> (Remembered, Vec<(usize, String)>) {
+    let mut remembered = Remembered::default();
+    let mut mistakes = Vec::new();
+    let document = match toml_edit::Document::parse(text) {
+        Ok(document) => document,
+        Err(error) => {
+            let line = 1 + text[..error.span().map_or(0, |s| s.start)].matches('\n').count();
+            return (remembered, vec![(line, error.message().trim_end().to_owned())]);
+        }
+    };
+    let table = document.as_table();
+    let mut wrong = |name: &str, what: String| {
+        let start = table.key(name).and_then(toml_edit::Key::span).map_or(0, |span| span.start);
+        mistakes.push((1 + text[..start].matches('\n').count(), what));
+    };
+    for (name, _) in table.iter().filter(|(name, _)| !KEYS.contains(name)) {
+        wrong(name, format!("there is no \"{name}\" here; there are {}", KEYS.join(", ")));
+    }
+    let value = |name: &str| table.get(name).and_then(Item::as_value);
+    let number = |name: &str| value(name).and_then(|v| v.as_float().or_else(|| v.as_integer().map(|n| n as f64)));
+    let is_size = |n: &f64| (100.0..=100_000.0).contains(n);
+    remembered.place.size = number("width").filter(is_size).zip(number("height").filter(is_size));
+    let whole = |name: &str| value(name)?.as_integer().and_then(|n| i32::try_from(n).ok());
+    remembered.place.corner = whole("x").zip(whole("y"));
+    remembered.place.is_maximized = value("maximized").and_then(Value::as_bool).unwrap_or(false);
+    if let Some(list) = value("open") {
+        let names = list.as_array().map(|list| list.iter().filter_map(Value::as_str).collect::<Vec<_>>());
+        for name in names.iter().flatten().filter(|name| Panel::named(name).is_none()) {
+            let all = Panel::ALL.map(Panel::name).join(", ");
+            wrong("open", format!("there is no panel \"{name}\"; there are {all}"));
+        }
+        remembered.open = names.map(|names| names.into_iter().filter_map(Panel::named).collect());
+    }
+    match value("layout").map(Node::from_value) {
+        Some(Ok(node)) => remembered.layout = Some(node),
+        Some(Err(what)) => wrong("layout", format!("the layout is the usual one: {what}")),
+        None => {}
+    }
+    (remembered, mistakes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn example() -> Remembered {
+        let left = vec![
+            (Node::Panel(Panel::Picture), 0.75),
+            (Node::Tabs(vec![Node::Panel(Panel::Uniforms), Node::Panel(Panel::Costs)], 1), 0.25),
+        ];
+        Remembered {
+            place: Place { size: Some((1300.0, 800.0)), corner: Some((-10, 20)), is_maximized: true },
+            open: Some(BTreeSet::from([Panel::Picture, Panel::Code, Panel::Costs])),
+            layout: Some(Node::Row(vec![(Node::Column(left), 0.5), (Node::Panel(Panel::Code), 0.5)])),
+        }
+    }
+
+    #[test]
+    fn what_is_written_is_read_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut file = WindowFile::new(Some(folder.path().join("eddy")));
+        assert_eq!(file.read(), (Remembered::default(), vec![]));
+        file.keep(example());
+        let text = fs::read_to_string(folder.path().join("eddy").join(NAME)).unwrap();
+        assert!(text.contains("layout = { row = [{ column = [\"picture\", { tabs = "), "{text}");
+        let mut next = WindowFile::new(Some(folder.path().join("eddy")));
+        assert_eq!(next.read(), (example(), vec![]));
+    }
+
+    #[test]
+    fn what_is_wrong_is_told_and_the_rest_counts() {
+        let text = "width = 900.0\nheight = 600\nwidht = 3\nopen = [\"code\", \"cdoe\"]\n\
+                    layout = { row = [\"code\", \"code\"] }\nx = 1\n";
+        let (remembered, mistakes) = read(text);
+        assert_eq!(remembered.place, Place { size: Some((900.0, 600.0)), ..Place::default() });
+        assert_eq!(remembered.open, Some(BTreeSet::from([Panel::Code])));
+        assert_eq!(remembered.layout, None);
+        let lines: Vec<usize> = mistakes.iter().map(|(line, _)| *line).collect();
+        assert_eq!(lines, [3, 4, 5], "{mistakes:?}");
+        assert!(mistakes[2].1.ends_with("a panel is in it twice"), "{mistakes:?}");
+        let (remembered, mistakes) = read("x = \n");
+        assert_eq!((remembered, mistakes.len()), (Remembered::default(), 1));
+    }
+}

@@ -1,0 +1,62 @@
+//! What comes in from outside: dropped files, a pasted text, what is on the clipboard.
+
+use super::Shell;
+use crate::{
+    gui::outbox::Outbox,
+    project::PassId,
+    session::{Command, Session},
+};
+use egui::Ui;
+use std::path::PathBuf;
+
+impl Shell {
+    /// True once after somebody asked for what is on the clipboard, which then comes as a paste.
+    pub fn take_clipboard_wish(&mut self) -> bool {
+        let wants = std::mem::take(&mut self.wants_clipboard);
+        self.takes_paste |= wants;
+        wants
+    }
+
+    /// Takes files that are dropped and texts that are pasted where nothing is typed.
+    pub(super) fn take_arrivals(&mut self, ui: &Ui, session: &Session, out: &mut Outbox) {
+        if std::mem::replace(&mut self.opened, session.opened()) != session.opened() && self.gallery {
+            self.close_gallery(out);
+        }
+        let (files, at) = ui.input(|i| (i.raw.dropped_files.clone(), i.pointer.latest_pos()));
+        if !files.is_empty() {
+            let channel = at.and_then(|at| self.channel_at(at));
+            self.bring(files.iter().map(|file| file.path().to_owned()).collect(), channel, out);
+        }
+        let types = ui.ctx().text_edit_focused() || self.code.has_keys(ui.ctx()) || self.palette.is_open();
+        if types && !self.takes_paste {
+            return;
+        }
+        let mut pasted = None;
+        ui.input_mut(|i| {
+            i.events.retain(|event| match event {
+                egui::Event::Paste(text) => {
+                    pasted = Some(text.clone());
+                    false
+                }
+                _ => true,
+            });
+        });
+        if let Some(text) = pasted {
+            self.takes_paste = false;
+            out.ask(Command::Paste(text));
+        }
+    }
+
+    /// Brings files in: projects are opened, pictures and models go to the pass in front.
+    pub(super) fn bring(&self, paths: Vec<PathBuf>, channel: Option<usize>, out: &mut Outbox) {
+        let pass = self.code.current().pass().cloned().unwrap_or(PassId::Image);
+        // Nothing is in front while the gallery covers it.
+        let to = (!self.gallery).then_some((pass, channel));
+        out.ask(Command::Bring { paths, to });
+    }
+
+    /// Which channel's card a point is on.
+    fn channel_at(&self, at: egui::Pos2) -> Option<usize> {
+        (0..4).find(|i| self.places.places.get(&format!("channel:{i}")).is_some_and(|r| r.contains(at)))
+    }
+}

@@ -1,0 +1,376 @@
+//! The window's contents: which panels there are, where, and what becomes of what they want.
+
+mod act;
+mod arrivals;
+mod panels;
+mod report;
+
+use super::{
+    actions::{Action, KeyFile, Listening},
+    channels::Live,
+    code::CodePanel,
+    dock::Dock,
+    files::{Files, Picked},
+    focus::Focus,
+    fonts,
+    gallery::Gallery,
+    help::Help,
+    lab::Lab,
+    outbox::{Outbox, Pick, Wish},
+    palette::Palette,
+    passes::Passes,
+    questions,
+    settings::{Change, Remembered, Settings, SettingsFile, Theme},
+    thumbnails::Thumbnails,
+    toasts,
+    viewport::{Around, Viewport},
+};
+use crate::{
+    gpu::Gpu,
+    project::Origin,
+    session::{Command, Level, Session},
+};
+use egui::{CentralPanel, Frame, Ui};
+use egui_wgpu::Renderer;
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+    time::Instant,
+};
+
+pub struct Shell {
+    viewport: Viewport,
+    code: CodePanel,
+    files: Files,
+    lab: Lab,
+    dock: Dock,
+    sees_costs: bool,
+    /// Small pictures of buffers.
+    live: Live,
+    thumbnails: Thumbnails,
+    gallery: bool,
+    help: Option<Help>,
+    page: Gallery,
+    fullscreen: bool,
+    /// The code stands over a picture that fills the window.
+    presents: bool,
+    keys: KeyFile,
+    settings: SettingsFile,
+    /// The settings in effect.
+    in_effect: Option<Settings>,
+    /// The command line has the last word on it.
+    keeps_frame_limit: bool,
+    palette: Palette,
+    focus: Focus,
+    passes: Passes,
+    /// Somebody asked to open what is on the clipboard: it comes as if it had been pasted.
+    wants_clipboard: bool,
+    takes_paste: bool,
+    /// The projects that the session has opened so far.
+    opened: u64,
+    /// The window had the keyboard in the frame before.
+    was_focused: bool,
+    /// A key with Alt was an action: the letter that it also types is not for the text.
+    drops_text: bool,
+    /// Wanted by the frame before: done when the session has done what went with it.
+    wishes: Vec<Wish>,
+    places: Outbox,
+    /// Notices and texts told of in the report.
+    reported_notice: Option<u64>,
+    reported_generation: Option<u64>,
+}
+
+impl Shell {
+    /// `gallery`: begin on the page of presets.
+    pub fn new(gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>, gallery: bool) -> Self {
+        let mut viewport = Viewport::new();
+        if !gallery {
+            viewport.focus();
+        }
+        Self {
+            viewport,
+            code: CodePanel::new(),
+            files: Files::new(wake.clone()),
+            lab: Lab::new(&gpu, wake.clone()),
+            dock: Dock::new(),
+            sees_costs: false,
+            live: Live::default(),
+            thumbnails: Thumbnails::new(gpu, wake),
+            gallery,
+            page: Gallery::default(),
+            help: None,
+            fullscreen: false,
+            presents: false,
+            keys: KeyFile::new(),
+            settings: SettingsFile::new(),
+            in_effect: None,
+            keeps_frame_limit: false,
+            palette: Palette::default(),
+            focus: Focus::default(),
+            passes: Passes::default(),
+            wants_clipboard: false,
+            takes_paste: false,
+            opened: 0,
+            was_focused: false,
+            drops_text: false,
+            wishes: Vec::new(),
+            places: Outbox::default(),
+            reported_notice: None,
+            reported_generation: None,
+        }
+    }
+
+    /// Takes up what was kept from the last start. `keeps_frame_limit`: the command line gave one.
+    pub fn restore(&mut self, settings: SettingsFile, remembered: &Remembered, keeps_frame_limit: bool) {
+        self.settings = settings;
+        self.keeps_frame_limit = keeps_frame_limit;
+        self.dock.restore(remembered.open.clone(), remembered.layout.as_ref());
+    }
+
+    /// The panels, for the next start.
+    pub fn dock(&self) -> &Dock {
+        &self.dock
+    }
+
+    pub fn is_fullscreen(&self) -> bool {
+        self.fullscreen
+    }
+
+    /// The picture has the keyboard: keys are the shader's.
+    pub fn picture_has_keys(&self, ctx: &egui::Context) -> bool {
+        !self.gallery && ctx.memory(|m| m.has_focus(Viewport::id()))
+    }
+
+    /// A key press means something to the window wherever the keyboard is.
+    pub fn is_action(&self, event: &egui::Event) -> bool {
+        self.keys.keymap().pressed(event, Listening::default()).is_some()
+    }
+
+    pub fn ask_save_as(&mut self, name: &str) {
+        self.files.ask(Pick::SaveAs(name.to_owned()), None);
+    }
+
+    /// Takes over what the session has new, before it is shown or painted.
+    pub fn prepare(&mut self, session: &Session, renderer: &mut Renderer) {
+        self.code.prepare(session);
+        self.viewport.prepare(session, renderer);
+    }
+
+    /// Shows everything once. What the session is to do comes back.
+    pub fn show(&mut self, ui: &mut Ui, session: &Session) -> Vec<Command> {
+        self.thumbnails.update(ui.ctx());
+        self.lab.update();
+        let mistakes = self.refresh_files(ui);
+        let mut out = Outbox::new(self.keys.keymap().clone());
+        for text in mistakes {
+            out.ask(Command::Notify { level: Level::Error, text, path: None });
+        }
+        out.commands.extend(self.follow_settings(ui.ctx()));
+        out.wishes.append(&mut self.wishes);
+        let asking = session.question().is_some();
+        if asking && self.palette.is_open() {
+            self.palette.close(ui);
+        }
+        self.focus.take_keys(ui);
+        if !asking {
+            self.keys(ui, &mut out);
+            self.palette.take_keys(ui);
+            self.take_arrivals(ui, session, &mut out);
+        }
+        if self.presents && !self.gallery {
+            self.present(ui, session, &mut out);
+        } else if self.fullscreen && !self.gallery {
+            let picture = |ui: &mut Ui| self.viewport.show(ui, session, Around::Nothing, &mut out);
+            CentralPanel::default().frame(Frame::NONE).show(ui, picture);
+        } else {
+            self.panels(ui, session, &mut out);
+        }
+        out.commands.extend(self.live.end_frame());
+        toasts::expire(ui.ctx(), session, Instant::now(), &mut out);
+        toasts::over(ui, session, Instant::now(), &mut out);
+        if !self.gallery {
+            self.thumbnails.animate(None);
+            self.passes.show(ui, session, &self.code.current().clone(), &mut out);
+        }
+        questions::show(ui, session, &mut out);
+        if self.help.as_mut().is_some_and(|help| !help.show(ui, &mut out)) {
+            self.help = None;
+        }
+        if let Some(action) = self.palette.show(ui, &mut out) {
+            out.act(action);
+        }
+        match self.files.show(ui, &mut out) {
+            Some(Picked::Path(pick, path)) => out.wishes.push(Wish::Picked(pick, path)),
+            Some(Picked::Cancelled(Pick::SaveAs(_))) => out.ask(Command::SaveAsCancelled),
+            Some(Picked::Cancelled(_)) | None => {}
+        }
+        for wish in std::mem::take(&mut out.wishes) {
+            self.grant(ui, session, wish, &mut out);
+        }
+        let is_covered =
+            self.gallery || asking || self.help.is_some() || self.palette.is_open() || self.files.is_asking();
+        self.focus.settle(ui, &out, is_covered);
+        let commands = std::mem::take(&mut out.commands);
+        self.places = out;
+        commands
+    }
+
+    /// Reads the files of keys and settings when the window gets the keyboard. What is wrong in them comes back.
+    fn refresh_files(&mut self, ui: &Ui) -> Vec<String> {
+        let is_focused = ui.input(|i| i.focused);
+        let was_focused = std::mem::replace(&mut self.was_focused, is_focused);
+        if !is_focused || was_focused {
+            return Vec::new();
+        }
+        let mut mistakes = self.keys.refresh();
+        mistakes.extend(self.settings.refresh());
+        mistakes
+    }
+
+    /// Puts the settings into effect, where they are others than before. What the session has to do with it comes back.
+    pub fn follow_settings(&mut self, ctx: &egui::Context) -> Vec<Command> {
+        let settings = self.settings.settings();
+        let before = self.in_effect.replace(settings.clone());
+        if before.as_ref() == Some(settings) {
+            return Vec::new();
+        }
+        let mut commands = Vec::new();
+        ctx.set_theme(match settings.theme {
+            Theme::System => egui::ThemePreference::System,
+            Theme::Dark => egui::ThemePreference::Dark,
+            Theme::Light => egui::ThemePreference::Light,
+        });
+        ctx.set_zoom_factor(settings.zoom);
+        self.code.set_look(settings.code_size, settings.word_wrap);
+        if before.as_ref().map(|before| &before.code_font) != Some(&settings.code_font)
+            && let Err(text) = fonts::set(ctx, settings.code_font.as_deref())
+        {
+            commands.push(Command::Notify { level: Level::Error, text, path: None });
+        }
+        if !self.keeps_frame_limit {
+            commands.push(Command::SetFrameLimit(settings.frame_timeout));
+        }
+        ctx.request_repaint();
+        commands
+    }
+
+    /// Changes a setting, and keeps it.
+    fn change(&mut self, change: Change, out: &mut Outbox) {
+        if let Err(text) = self.settings.change(change) {
+            out.ask(Command::Notify { level: Level::Warning, text, path: None });
+        }
+    }
+
+    /// The window's own keys, taken before any widget sees them. Those of the code are left to it, in their order with
+    /// what is typed.
+    fn keys(&mut self, ui: &Ui, out: &mut Outbox) {
+        let listening = Listening { code: self.code.has_keys(ui.ctx()), find_bar: self.code.is_finding() };
+        let keymap = self.keys.keymap().clone();
+        let drops_text = &mut self.drops_text;
+        // A field for a name has an undo of its own.
+        let types = ui.ctx().text_edit_focused();
+        ui.input_mut(|i| {
+            i.events.retain(|event| {
+                if let egui::Event::Text(_) = event {
+                    return !std::mem::take(drops_text);
+                }
+                let egui::Event::Key { key, modifiers, pressed: true, repeat, .. } = event else { return true };
+                let found = keymap.pressed(event, listening);
+                *drops_text = found.is_some() && modifiers.alt && key.name().len() == 1;
+                let Some(entry) = found.filter(|e| !(types && is_of_texts(e.action))) else { return true };
+                if matches!(entry.action, Action::Code(_)) {
+                    return true;
+                }
+                if !repeat || entry.repeats() {
+                    out.wishes.push(Wish::Act(entry.action));
+                }
+                false
+            });
+        });
+        if self.fullscreen && !self.palette.is_open() && ui.input(|i| i.key_pressed(egui::Key::Escape)) {
+            out.act(Action::Fullscreen);
+        }
+    }
+
+    /// Returns where a named widget was shown last, in points.
+    #[cfg(test)]
+    pub fn place(&self, name: &str) -> Option<egui::Rect> {
+        self.places.places.get(name).copied()
+    }
+
+    /// The tab in front, and the line of its caret from 0.
+    #[cfg(test)]
+    pub fn caret(&self) -> (crate::project::Tab, usize) {
+        self.code.caret()
+    }
+
+    fn grant(&mut self, ui: &Ui, session: &Session, wish: Wish, out: &mut Outbox) {
+        match wish {
+            Wish::Act(action) => self.act(ui, session, action, out),
+            Wish::Shape(shape) => self.viewport.set_shape(shape),
+            Wish::Set(change) => self.change(change, out),
+            Wish::Pick(pick) => self.files.ask(pick, start_folder(session)),
+            Wish::Picked(pick, path) => self.picked(pick, path, out),
+            Wish::CloseGallery => self.close_gallery(out),
+            Wish::ChoosePass(tab) => self.passes.toggle(Some(tab)),
+            Wish::ShowRecovered => {
+                self.uncover(out);
+                self.code.focus();
+            }
+            Wish::GoTo(tab, place) => {
+                if session.tabs().contains(&tab) {
+                    let clicked = place.is_none();
+                    self.code.go_to(tab, place);
+                    if clicked {
+                        self.code.focus();
+                    }
+                } else if !self.wishes.contains(&Wish::GoTo(tab.clone(), place))
+                    && out.commands.contains(&Command::AddTab(tab.clone()))
+                {
+                    // The tab is being made; it is there in the next frame.
+                    self.wishes.push(Wish::GoTo(tab, place));
+                }
+                ui.ctx().request_repaint();
+            }
+        }
+    }
+
+    fn close_gallery(&mut self, out: &mut Outbox) {
+        self.uncover(out);
+        self.viewport.focus();
+    }
+
+    /// Closes the gallery and leaves the keyboard where it is.
+    fn uncover(&mut self, out: &mut Outbox) {
+        if std::mem::take(&mut self.gallery) {
+            out.ask(Command::Cover(false));
+        }
+    }
+
+    fn picked(&mut self, pick: Pick, path: PathBuf, out: &mut Outbox) {
+        match pick {
+            Pick::OpenFolder | Pick::OpenFile => {
+                out.ask(Command::Open(path.display().to_string()));
+            }
+            Pick::SaveAs(_) => out.ask(Command::SaveAs(path)),
+            Pick::LabFolder => self.lab.keep_in(path),
+            Pick::LabReport => self.lab.save_report(path),
+            Pick::Picture { channel } => self.bring(vec![path], Some(channel), out),
+        }
+    }
+}
+
+/// Returns whether a field that is typed in does the same with its own text.
+fn is_of_texts(action: Action) -> bool {
+    matches!(action, Action::UndoPasses | Action::RedoPasses)
+}
+
+/// Returns where a file dialog begins: beside the project.
+fn start_folder(session: &Session) -> Option<PathBuf> {
+    match &session.project().origin {
+        Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => {
+            std::path::absolute(path).ok()?.parent().map(Path::to_owned)
+        }
+        Origin::Unsaved | Origin::Preset(_) => None,
+    }
+}

@@ -1,0 +1,170 @@
+//! Where the panels are, and what is in each.
+
+use super::Shell;
+use crate::{
+    gui::{
+        channels::{self, Live},
+        code::CodePanel,
+        costs, custom_uniforms,
+        dock::{Contents, Heights, Panel},
+        lab::Lab,
+        outbox::{Outbox, Wish},
+        theme,
+        thumbnails::Thumbnails,
+        toasts, top_bar, transport,
+        viewport::{Around, Viewport},
+    },
+    project::Origin,
+    session::{Command, Session},
+};
+use egui::{CentralPanel, Frame, Id, Margin, Order, Rect, Ui, vec2};
+
+impl Shell {
+    pub(super) fn panels(&mut self, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+        let p = theme::of(ui);
+        let state = top_bar::State {
+            is_gallery: self.gallery,
+            open: self.dock.open_panels(),
+            settings: self.settings.settings(),
+        };
+        egui::Panel::top("top")
+            .exact_size(38.0)
+            .frame(Frame::NONE.fill(p.panel).inner_margin(Margin::symmetric(8, 0)))
+            .show(ui, |ui| top_bar::show(ui, session, &state, out));
+        if self.gallery {
+            self.watch_costs(false, out);
+            let can_close = session.project().origin != Origin::Unsaved || session.is_dirty();
+            toasts::panel(ui, session, out);
+            let frame = Frame::NONE.fill(p.background);
+            CentralPanel::default().frame(frame).show(ui, |ui| {
+                out.stop("gallery", ui);
+                self.page.show(ui, session, &mut self.thumbnails, can_close, out);
+            });
+            return;
+        }
+        if let Some(tab) = self.lab.take_tab(session) {
+            out.wishes.push(Wish::GoTo(tab, Some((0, 0))));
+        }
+        if !self.dock.is_seen(Panel::Code) {
+            toasts::panel(ui, session, out);
+        }
+        let Self { viewport, code, lab, thumbnails, live, dock, .. } = self;
+        CentralPanel::default().frame(Frame::NONE.fill(p.panel)).show(ui, |ui| {
+            dock.show(ui, &mut Shown { viewport, code, lab, thumbnails, live, session, out });
+        });
+        let sees_costs = self.dock.is_seen(Panel::Costs);
+        self.watch_costs(sees_costs, out);
+    }
+
+    /// What is not looked at is not gathered.
+    fn watch_costs(&mut self, is_seen: bool, out: &mut Outbox) {
+        if std::mem::replace(&mut self.sees_costs, is_seen) != is_seen {
+            out.ask(Command::WatchCosts(is_seen));
+        }
+    }
+
+    /// The code over a picture that fills the window.
+    pub(super) fn present(&mut self, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+        CentralPanel::default().frame(Frame::NONE).show(ui, |ui| {
+            let whole = ui.max_rect();
+            self.viewport.show(ui, session, Around::Nothing, out);
+            // The rest is the picture's, with the mouse.
+            let size = vec2((whole.width() * 0.56).clamp(320.0_f32.min(whole.width()), 1000.0), whole.height());
+            let place = Rect::from_min_size(whole.min, size);
+            egui::Area::new(Id::unique("code over the picture"))
+                .order(Order::Middle)
+                .fixed_pos(place.min)
+                .constrain(false)
+                .show(ui.ctx(), |ui| {
+                    theme::put_over_picture(ui);
+                    ui.set_min_size(place.size());
+                    ui.set_max_size(place.size());
+                    ui.set_clip_rect(place);
+                    self.code.show(ui, session, out);
+                });
+        });
+    }
+}
+
+/// What is in the panels, while they are shown.
+struct Shown<'a> {
+    viewport: &'a mut Viewport,
+    code: &'a mut CodePanel,
+    lab: &'a mut Lab,
+    thumbnails: &'a mut Thumbnails,
+    live: &'a mut Live,
+    session: &'a Session,
+    out: &'a mut Outbox,
+}
+
+impl Contents for Shown<'_> {
+    fn show(&mut self, ui: &mut Ui, panel: Panel) -> bool {
+        let Self { code, lab, thumbnails, live, session, out, .. } = self;
+        match panel {
+            Panel::Picture => return self.picture(ui),
+            Panel::Code => return code.show(ui, session, out),
+            Panel::Uniforms => within(ui, Margin::symmetric(10, 0), |ui| custom_uniforms::show(ui, session, out)),
+            Panel::Channels => channels::show(ui, session, code.current(), thumbnails, live, out),
+            Panel::Costs => within(ui, Margin { left: 8, right: 6, top: 0, bottom: 4 }, |ui| {
+                costs::show(ui, session, out);
+            }),
+            Panel::Lab => within(ui, Margin { left: 10, right: 8, top: 2, bottom: 6 }, |ui| lab.show(ui, out)),
+        }
+        false
+    }
+
+    fn tools(&mut self, ui: &mut Ui, panel: Panel) {
+        match panel {
+            Panel::Uniforms => custom_uniforms::tools(ui, self.session, self.out),
+            Panel::Costs => costs::tools(ui, self.session),
+            _ => {}
+        }
+    }
+
+    fn title(&self, panel: Panel) -> String {
+        match panel {
+            Panel::Uniforms => match self.session.custom_uniforms().len() {
+                0 => panel.title().to_owned(),
+                n => format!("{} ({n})", panel.title()),
+            },
+            Panel::Channels => channels::title(self.session, self.code.current()),
+            Panel::Costs => "Costs of a frame".to_owned(),
+            _ => panel.title().to_owned(),
+        }
+    }
+
+    fn heights(&self) -> Heights {
+        Heights {
+            transport: transport::HEIGHT + Viewport::RIMS,
+            uniforms: custom_uniforms::height(self.session),
+            channels: channels::HEIGHT,
+        }
+    }
+
+    fn place(&mut self, name: String, rect: Rect) {
+        self.out.place(name, rect);
+    }
+}
+
+impl Shown<'_> {
+    /// The picture with its bar below it. True: a hand begins to move them.
+    fn picture(&mut self, ui: &mut Ui) -> bool {
+        let p = theme::of(ui);
+        let bar = egui::Panel::bottom("transport")
+            .exact_size(transport::HEIGHT)
+            .frame(Frame::NONE.fill(p.panel).inner_margin(Margin::symmetric(8, 0)))
+            .show_separator_line(false)
+            .show(ui, |ui| transport::show(ui, self.session, self.viewport.shape(), self.out));
+        CentralPanel::default()
+            .frame(Frame::NONE)
+            .show(ui, |ui| self.viewport.show(ui, self.session, Around::Panels, self.out));
+        bar.inner
+    }
+}
+
+fn within(ui: &mut Ui, margin: Margin, show: impl FnOnce(&mut Ui)) {
+    Frame::NONE.inner_margin(margin).show(ui, |ui| {
+        ui.set_min_size(ui.available_size());
+        show(ui);
+    });
+}

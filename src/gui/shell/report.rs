@@ -1,0 +1,97 @@
+//! What the window tells the scripts that drive it.
+
+use super::Shell;
+use crate::{
+    gui::{costs, dock::Panel, halt, problems, report::Report, theme},
+    project::{Origin, Tab},
+    session::{Outcome, Session},
+};
+use serde_json::{Value, json};
+use std::time::Instant;
+
+impl Shell {
+    /// Tells scripts what is new.
+    pub fn report(&mut self, session: &Session, report: &mut Report, window: (u32, u32), scale: f32, now: Instant) {
+        if !report.is_enabled() {
+            return;
+        }
+        let transport = session.transport();
+        let generation = session.text_generation();
+        let project = session.project();
+        let opened = report.say_if_new("opened", json!({ "name": project.name, "origin": origin(&project.origin) }));
+        if self.reported_generation.replace(generation).is_some_and(|g| g != generation) && !opened {
+            report.say(json!({ "event": "reloaded", "name": project.name }));
+        }
+        report.say_if_new("compiled", compiled(session));
+        let values: serde_json::Map<String, Value> = session
+            .custom_uniforms()
+            .iter()
+            .map(|k| (k.name.clone(), json!(session.custom_uniform_value(k).components())))
+            .collect();
+        report.say_if_new("uniforms", json!({ "values": values }));
+        report.say_if_new("shown", json!({ "pass": session.shown_pass().title() }));
+        for notice in session.notices() {
+            if self.reported_notice.is_none_or(|id| notice.id > id) {
+                self.reported_notice = Some(notice.id);
+                let level = format!("{:?}", notice.level).to_lowercase();
+                report.say(json!({ "event": "notice", "level": level, "text": notice.text, "path": notice.path }));
+            }
+        }
+        report.say_if_new("halt", json!({ "kind": session.halt().map(halt::kind) }));
+        let question =
+            session.question().map(|q| format!("{q:?}").split([' ', '(']).next().unwrap_or_default().to_lowercase());
+        report.say_if_new("question", json!({ "kind": question }));
+        let dirty: Vec<String> = session.tabs().iter().filter(|t| session.is_tab_dirty(t)).map(Tab::title).collect();
+        report.say_if_new("dirty", json!({ "dirty": session.is_dirty(), "tabs": dirty }));
+        if self.dock.is_open(Panel::Lab) {
+            report.say_if_new("lab", self.lab.report());
+        }
+        if self.dock.is_open(Panel::Costs) {
+            report.say_if_new("costs", costs::report(session));
+        }
+        let focused = self.focus.place();
+        let focused = focused.and_then(|[whole, seen]| self.places.named(whole).or_else(|| self.places.named(seen)));
+        report.say_if_new("focus", json!({ "widget": focused }));
+        report.layout(window, transport.resolution, scale, &self.places.areas(scale));
+        let frame = json!({
+            "frame": transport.frame,
+            "time": transport.time_secs,
+            "playing": transport.playing,
+            "fps": transport.fps,
+            "mouse_has_picture": self.viewport.mouse_is_down(),
+        });
+        report.frame(now, transport.playing, frame);
+    }
+}
+
+/// How the newest finished compile ended, with every diagnostic.
+fn compiled(session: &Session) -> Value {
+    let state = session.compile_state();
+    let diagnostics: Vec<Value> = session
+        .diagnostics()
+        .iter()
+        .map(|d| {
+            let place = d.place.as_ref();
+            json!({
+                "severity": d.severity.name(),
+                "tab": d.tab().map(Tab::title),
+                "file": place.filter(|place| place.tab.is_none()).map(|place| &place.text),
+                "line": place.map_or(0, |place| place.line),
+                "column": place.map_or(0, |place| place.column),
+                "message": d.message,
+            })
+        })
+        .collect();
+    let ok = state.last.as_ref().map(|l| matches!(l, Outcome::Ok { .. }));
+    json!({ "ok": ok, "compiling": state.compiling, "state": problems::state(session, &theme::DARK).0, "diagnostics": diagnostics })
+}
+
+fn origin(origin: &Origin) -> Value {
+    match origin {
+        Origin::Unsaved => json!(null),
+        Origin::Preset(name) => json!({ "preset": name }),
+        Origin::Folder { path, .. } => json!({ "folder": path }),
+        Origin::File(path) => json!({ "file": path }),
+        Origin::Json(path) => json!({ "json": path }),
+    }
+}

@@ -1,0 +1,51 @@
+//! Whether the system prefers dark or light windows, where the window system does not say so itself.
+//!
+//! On Linux the desktop portal knows, over D-Bus; on other systems `winit` tells.
+
+use std::sync::{
+    Arc,
+    mpsc::{Receiver, channel},
+};
+
+/// Asks once, and listens for changes. `wake` is called when there is an answer.
+#[cfg(not(any(windows, target_os = "macos")))]
+pub fn watch(wake: Arc<dyn Fn() + Send + Sync>) -> Receiver<egui::Theme> {
+    let (sender, receiver) = channel();
+    let work = move || {
+        let tell = |theme: Option<egui::Theme>| {
+            let is_heard = theme.is_none_or(|theme| sender.send(theme).is_ok());
+            wake();
+            is_heard
+        };
+        if let Err(error) = pollster::block_on(listen(tell)) {
+            log::info!("the desktop's portal does not say whether it is dark or light: {error}");
+        }
+    };
+    if let Err(error) = std::thread::Builder::new().name("system theme".into()).spawn(work) {
+        log::warn!("no thread for the system's theme: {error}");
+    }
+    receiver
+}
+
+#[cfg(any(windows, target_os = "macos"))]
+pub fn watch(_: Arc<dyn Fn() + Send + Sync>) -> Receiver<egui::Theme> {
+    channel().1
+}
+
+#[cfg(not(any(windows, target_os = "macos")))]
+async fn listen(tell: impl Fn(Option<egui::Theme>) -> bool) -> Result<(), ashpd::Error> {
+    use ashpd::desktop::settings::{ColorScheme, Settings};
+    use futures_lite::StreamExt as _;
+    let theme = |scheme| match scheme {
+        ColorScheme::PreferDark => Some(egui::Theme::Dark),
+        ColorScheme::PreferLight => Some(egui::Theme::Light),
+        ColorScheme::NoPreference => None,
+    };
+    let settings = Settings::new().await?;
+    let mut changes = settings.receive_color_scheme_changed().await?;
+    let mut goes_on = tell(theme(settings.color_scheme().await?));
+    while goes_on && let Some(scheme) = changes.next().await {
+        goes_on = tell(theme(scheme));
+    }
+    Ok(())
+}

@@ -1,0 +1,102 @@
+//! Colours, sizes and spacing, for a dark and for a light window.
+
+mod palette;
+
+pub use palette::{DARK, LIGHT, Palette};
+
+use palette::OVER_PICTURE;
+
+use egui::{CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, Style, TextStyle, Theme, Ui, Visuals, vec2};
+
+/// Returns the colours of what is shown in a place.
+pub fn of(ui: &Ui) -> &'static Palette {
+    of_visuals(ui.visuals())
+}
+
+/// Does the same where there is no place yet.
+pub fn of_visuals(visuals: &Visuals) -> &'static Palette {
+    match visuals.dark_mode {
+        true if visuals.panel_fill.is_opaque() => &DARK,
+        true => &OVER_PICTURE,
+        false => &LIGHT,
+    }
+}
+
+/// Shows what follows in a place over a picture, which is seen through.
+pub fn put_over_picture(ui: &mut Ui) {
+    ui.style_mut().visuals = visuals(&OVER_PICTURE);
+}
+
+/// Puts both themes into effect; which one is shown is [`egui::Options::theme_preference`].
+pub fn apply(ctx: &egui::Context) {
+    // A system that does not say what it prefers gets what pictures look best in.
+    ctx.options_mut(|options| options.fallback_theme = Theme::Dark);
+    for (theme, palette) in [(Theme::Dark, &DARK), (Theme::Light, &LIGHT)] {
+        ctx.style_mut_of(theme, |style| set(style, palette));
+    }
+}
+
+fn set(style: &mut Style, palette: &Palette) {
+    style.text_styles = [
+        (TextStyle::Small, FontId::new(11.0, FontFamily::Proportional)),
+        (TextStyle::Body, FontId::new(13.5, FontFamily::Proportional)),
+        (TextStyle::Button, FontId::new(13.5, FontFamily::Proportional)),
+        (TextStyle::Heading, FontId::new(19.0, FontFamily::Proportional)),
+        (TextStyle::Monospace, FontId::new(12.5, FontFamily::Monospace)),
+    ]
+    .into();
+    style.spacing.item_spacing = vec2(6.0, 6.0);
+    style.spacing.button_padding = vec2(8.0, 4.0);
+    style.spacing.interact_size = vec2(28.0, 24.0);
+    style.spacing.window_margin = Margin::same(16);
+    style.spacing.menu_margin = Margin::same(8);
+    style.interaction.tooltip_delay = 0.4;
+    // Menus are there at once.
+    style.animation_time = 0.0;
+    style.interaction.selectable_labels = false;
+    style.visuals = visuals(palette);
+}
+
+fn visuals(p: &Palette) -> Visuals {
+    let mut v = if p.is_dark { Visuals::dark() } else { Visuals::light() };
+    v.panel_fill = p.panel;
+    v.window_fill = p.raised;
+    v.window_stroke = Stroke::new(1.0, p.line);
+    v.window_corner_radius = CornerRadius::same(8);
+    v.menu_corner_radius = CornerRadius::same(6);
+    v.extreme_bg_color = p.background;
+    v.faint_bg_color = p.raised;
+    v.code_bg_color = p.background;
+    v.hyperlink_color = p.accent;
+    v.warn_fg_color = p.warning;
+    v.error_fg_color = p.error;
+    v.weak_text_color = Some(p.weak);
+    v.selection.bg_fill = p.accent_fill;
+    v.selection.stroke = Stroke::new(1.0, p.strong);
+    let shade = egui::Color32::from_black_alpha(if p.is_dark { 110 } else { 46 });
+    let shadow = Shadow { offset: [0, 6], blur: 20, spread: 0, color: shade };
+    v.window_shadow = shadow;
+    v.popup_shadow = shadow;
+    let radius = CornerRadius::same(5);
+    let states = [
+        (&mut v.widgets.noninteractive, p.panel, Stroke::new(1.0, p.line), p.text),
+        (&mut v.widgets.inactive, p.button, Stroke::NONE, p.text),
+        (&mut v.widgets.hovered, p.button_hovered, Stroke::new(1.0, p.button_edge), p.strong),
+        (&mut v.widgets.active, p.accent_fill, Stroke::new(1.0, p.accent), p.strong),
+        (&mut v.widgets.open, p.button_hovered, Stroke::new(1.0, p.line), p.strong),
+    ];
+    for (widget, fill, border, text) in states {
+        widget.bg_fill = fill;
+        widget.weak_bg_fill = fill;
+        widget.bg_stroke = border;
+        widget.fg_stroke = Stroke::new(1.0, text);
+        widget.corner_radius = radius;
+        widget.expansion = 0.0;
+    }
+    v
+}
+
+/// The frame of what stands in front of everything.
+pub fn dialog(style: &Style) -> egui::Frame {
+    egui::Frame::popup(style).inner_margin(Margin::same(18)).corner_radius(8)
+}

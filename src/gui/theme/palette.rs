@@ -1,0 +1,208 @@
+//! The colours of the window, dark and light.
+
+use crate::diag::Severity;
+use egui::{Color32, Stroke};
+
+/// A set of colours. Text of any of them is readable on the panel, the background and what is raised.
+#[derive(Clone, Debug)]
+pub struct Palette {
+    pub is_dark: bool,
+    /// Behind text that is typed.
+    pub background: Color32,
+    pub panel: Color32,
+    /// Cards, popups, dialogs.
+    pub raised: Color32,
+    pub button: Color32,
+    pub button_hovered: Color32,
+    pub button_edge: Color32,
+    pub line: Color32,
+    /// Beside the picture.
+    pub surround: Color32,
+    pub text: Color32,
+    /// For what need not be read.
+    pub weak: Color32,
+    pub strong: Color32,
+    pub accent: Color32,
+    /// Behind text of what is chosen.
+    pub accent_fill: Color32,
+    pub error: Color32,
+    pub warning: Color32,
+    /// A place found.
+    pub found: Color32,
+    pub good: Color32,
+    /// Behind code.
+    pub code: CodeFills,
+}
+
+/// What is drawn behind code.
+#[derive(Clone, Debug)]
+pub struct CodeFills {
+    pub selection: Color32,
+    /// While something else has the keyboard.
+    pub selection_idle: Color32,
+    pub caret_line: Color32,
+    pub uses: Color32,
+    pub found: Color32,
+    pub bracket: Color32,
+    /// Numbers of lines.
+    pub numbers: Color32,
+    /// Behind each row by itself, where nothing else is.
+    pub row: Color32,
+}
+
+impl Palette {
+    /// The frame round what has the keyboard.
+    pub fn focus(&self) -> Stroke {
+        Stroke::new(1.5, self.accent)
+    }
+
+    pub fn of_severity(&self, severity: Severity) -> Color32 {
+        match severity {
+            Severity::Error => self.error,
+            Severity::Warning => self.warning,
+            Severity::Note => self.accent,
+        }
+    }
+}
+
+const fn rgb(r: u8, g: u8, b: u8) -> Color32 {
+    Color32::from_rgb(r, g, b)
+}
+
+/// Calm, so that the picture is what one looks at.
+pub const DARK: Palette = Palette {
+    is_dark: true,
+    background: rgb(24, 26, 31),
+    panel: rgb(31, 34, 40),
+    raised: rgb(40, 44, 52),
+    button: rgb(50, 55, 65),
+    button_hovered: rgb(64, 70, 83),
+    button_edge: rgb(92, 100, 117),
+    line: rgb(53, 58, 68),
+    surround: rgb(15, 16, 19),
+    text: rgb(214, 219, 228),
+    weak: rgb(146, 154, 169),
+    strong: rgb(244, 246, 250),
+    accent: rgb(92, 168, 255),
+    accent_fill: rgb(36, 82, 138),
+    error: rgb(255, 120, 117),
+    warning: rgb(240, 190, 100),
+    found: rgb(196, 160, 60),
+    good: rgb(126, 201, 140),
+    code: CodeFills {
+        selection: rgb(44, 84, 136),
+        selection_idle: rgb(50, 68, 96),
+        caret_line: Color32::from_rgba_premultiplied(8, 8, 8, 8),
+        uses: rgb(52, 60, 74),
+        found: rgb(94, 80, 36),
+        bracket: Color32::from_rgba_premultiplied(14, 14, 14, 14),
+        numbers: rgb(98, 106, 121),
+        row: Color32::TRANSPARENT,
+    },
+};
+
+/// A colour of which so much is seen, of 255.
+const fn part(r: u8, g: u8, b: u8, alpha: u8) -> Color32 {
+    const fn of(x: u8, alpha: u8) -> u8 {
+        (x as u16 * alpha as u16 / 255) as u8
+    }
+    Color32::from_rgba_premultiplied(of(r, alpha), of(g, alpha), of(b, alpha), alpha)
+}
+
+/// Dark, and seen through. Behind text it is dense enough for any picture.
+pub const OVER_PICTURE: Palette = Palette {
+    background: Color32::TRANSPARENT,
+    panel: part(14, 16, 20, 205),
+    raised: part(30, 33, 39, 235),
+    line: part(120, 128, 144, 90),
+    text: rgb(232, 236, 243),
+    weak: rgb(186, 193, 206),
+    code: CodeFills {
+        selection: part(52, 110, 190, 190),
+        selection_idle: part(60, 84, 120, 170),
+        numbers: rgb(176, 184, 198),
+        row: part(10, 12, 15, 200),
+        ..DARK.code
+    },
+    ..DARK
+};
+
+pub const LIGHT: Palette = Palette {
+    is_dark: false,
+    background: rgb(255, 255, 255),
+    panel: rgb(242, 243, 246),
+    raised: rgb(252, 252, 254),
+    button: rgb(226, 229, 235),
+    button_hovered: rgb(213, 218, 227),
+    button_edge: rgb(172, 180, 193),
+    line: rgb(211, 215, 222),
+    surround: rgb(221, 224, 229),
+    text: rgb(40, 45, 56),
+    weak: rgb(92, 100, 115),
+    strong: rgb(14, 17, 23),
+    accent: rgb(20, 98, 204),
+    accent_fill: rgb(190, 216, 250),
+    error: rgb(186, 26, 38),
+    warning: rgb(146, 86, 0),
+    found: rgb(196, 150, 20),
+    good: rgb(26, 118, 56),
+    code: CodeFills {
+        selection: rgb(173, 205, 247),
+        selection_idle: rgb(214, 224, 238),
+        caret_line: Color32::from_rgba_premultiplied(0, 0, 0, 9),
+        uses: rgb(225, 231, 240),
+        found: rgb(255, 228, 150),
+        bracket: Color32::from_rgba_premultiplied(0, 0, 0, 16),
+        numbers: rgb(140, 148, 161),
+        row: Color32::TRANSPARENT,
+    },
+};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The ratio of contrast of WCAG 2.2.
+    fn contrast(a: Color32, b: Color32) -> f32 {
+        let luminance = |c: Color32| {
+            let [r, g, b] = [c.r(), c.g(), c.b()].map(|v| {
+                let v = f32::from(v) / 255.0;
+                if v <= 0.04045 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
+            });
+            0.2126 * r + 0.7152 * g + 0.0722 * b
+        };
+        let (a, b) = (luminance(a) + 0.05, luminance(b) + 0.05);
+        a.max(b) / a.min(b)
+    }
+
+    /// As it is seen over a ground.
+    fn over(color: Color32, ground: u8) -> Color32 {
+        let seen = |c: u8| c + (u16::from(ground) * u16::from(255 - color.a()) / 255) as u8;
+        Color32::from_rgb(seen(color.r()), seen(color.g()), seen(color.b()))
+    }
+
+    #[test]
+    fn code_can_be_read_over_a_white_picture() {
+        let p = OVER_PICTURE;
+        for ground in [p.code.row, p.panel].map(|color| over(color, 255)) {
+            for text in [p.text, p.strong, p.weak] {
+                assert!(contrast(text, ground) >= 4.5, "{text:?} on {ground:?}: {}", contrast(text, ground));
+            }
+        }
+    }
+
+    #[test]
+    fn every_text_can_be_read_on_every_ground() {
+        assert!((contrast(Color32::BLACK, Color32::WHITE) - 21.0).abs() < 0.01);
+        for p in [DARK, LIGHT] {
+            for ground in [p.background, p.panel, p.raised] {
+                for text in [p.text, p.weak, p.strong, p.accent, p.error, p.warning, p.good] {
+                    assert!(contrast(text, ground) >= 4.5, "{text:?} on {ground:?}: {}", contrast(text, ground));
+                }
+            }
+            for ground in [p.button, p.button_hovered, p.accent_fill, p.code.selection, p.code.found, p.code.uses] {
+                assert!(contrast(p.strong, ground) >= 4.5, "{ground:?}: {}", contrast(p.strong, ground));
+            }
+        }
+    }
+}

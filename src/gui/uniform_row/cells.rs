@@ -1,0 +1,74 @@
+//! Numbers in cells: each has its component's name at the left, the number at the right, and is filled as far as the
+//! number lies in its range.
+
+use super::parts::{HEIGHT, components};
+use crate::{
+    gui::{outbox::Outbox, theme},
+    project::{CustomUniform, CustomUniformType},
+};
+use egui::{Align, Align2, Color32, DragValue, FontId, Layout, Rect, Stroke, StrokeKind, Ui, UiBuilder, pos2, vec2};
+
+const GAP: f32 = 4.0;
+
+/// All components side by side, in equal parts of the room there is.
+pub(super) fn show(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64], out: &mut Outbox) {
+    let whole = ui.max_rect();
+    let names = components(custom_uniform.ty);
+    let width = (whole.width() - GAP * (names.len() - 1) as f32) / names.len() as f32;
+    for (i, component) in names.iter().enumerate() {
+        let left = whole.left() + i as f32 * (width + GAP);
+        let place = Rect::from_min_size(pos2(left, whole.center().y - 10.5), vec2(width, 21.0));
+        fill(ui, place, custom_uniform, all[i], i);
+        let label = place.left_center() + vec2(6.0, 0.0);
+        ui.painter().text(label, Align2::LEFT_CENTER, component, FontId::monospace(11.0), theme::of(ui).weak);
+        let name = format!("{}.{component}", custom_uniform.name);
+        number(ui, place, custom_uniform, all, i, &name);
+        out.place(format!("uniform:value:{}.{component}", custom_uniform.name), place);
+    }
+}
+
+/// How far the number lies in its range.
+fn fill(ui: &Ui, place: Rect, custom_uniform: &CustomUniform, x: f64, i: usize) {
+    let radius = 4.0;
+    ui.painter().rect_filled(place, radius, theme::of(ui).button);
+    let part = custom_uniform.range.map(|r| ((x - r.min[i]) / (r.max[i] - r.min[i])).clamp(0.0, 1.0));
+    if let Some(part) = part.filter(|p| *p > 0.0) {
+        let filled = place.with_max_x(place.left() + place.width() * part as f32);
+        ui.painter().with_clip_rect(filled.intersect(ui.clip_rect())).rect_filled(
+            place,
+            radius,
+            theme::of(ui).accent_fill,
+        );
+    }
+    ui.painter().rect_stroke(place, radius, Stroke::new(1.0, theme::of(ui).line), StrokeKind::Inside);
+}
+
+/// A number to drag or to type, at the right of its place. It moves by the author's step, else by a part of the range,
+/// else of its own size.
+pub(super) fn number(ui: &mut Ui, place: Rect, custom_uniform: &CustomUniform, all: &mut [f64], i: usize, name: &str) {
+    let span = custom_uniform.range.map(|r| (r.max[i] - r.min[i]) / 200.0);
+    let step = custom_uniform.step.map(|s| s[i]).or(span).unwrap_or_else(|| (all[i].abs() * 0.01).max(0.01));
+    let range = custom_uniform.range.map_or(f64::NEG_INFINITY..=f64::INFINITY, |r| r.min[i]..=r.max[i]);
+    let mut field = DragValue::new(&mut all[i]).speed(step).range(range).clip_text(true);
+    field = match custom_uniform.ty {
+        CustomUniformType::Int => field.speed(0.1).fixed_decimals(0),
+        _ => field.max_decimals(4).min_decimals(decimals(custom_uniform, i)),
+    };
+    let layout = Layout::right_to_left(Align::Center);
+    let mut ui = ui.new_child(UiBuilder::new().max_rect(place).layout(layout).id_salt(("number", i)));
+    let visuals = &mut ui.visuals_mut().widgets;
+    visuals.inactive.weak_bg_fill = Color32::TRANSPARENT;
+    visuals.inactive.bg_fill = Color32::TRANSPARENT;
+    visuals.hovered.weak_bg_fill = Color32::from_white_alpha(16);
+    ui.spacing_mut().button_padding = vec2(6.0, 2.0);
+    ui.spacing_mut().interact_size = vec2(10.0, HEIGHT - 6.0);
+    let font = FontId::monospace(12.0);
+    ui.style_mut().override_font_id = Some(font);
+    ui.name_inputs(name, |ui| ui.add(field)).on_hover_text("Drag, or click to type");
+}
+
+/// As many decimals as the step has, so that numbers keep their place while they are dragged.
+fn decimals(custom_uniform: &CustomUniform, i: usize) -> usize {
+    let step = custom_uniform.step.map(|s| s[i]).or(custom_uniform.range.map(|r| (r.max[i] - r.min[i]) / 200.0));
+    step.filter(|s| *s > 0.0).map_or(2, |s| (-s.log10()).ceil().clamp(0.0, 3.0) as usize)
+}

@@ -1,0 +1,35 @@
+//! What the rows' files share: places, and names of numbers.
+
+use crate::project::CustomUniformType;
+use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2};
+
+/// Height of a row.
+pub const HEIGHT: f32 = 27.0;
+const GAP: f32 = 8.0;
+
+/// A part of the row, its contents from the left and in the middle of its height.
+pub(super) fn child(ui: &mut Ui, place: Rect) -> Ui {
+    let layout = Layout::left_to_right(Align::Center);
+    let mut child = ui.new_child(UiBuilder::new().max_rect(place).layout(layout).id_salt(place.left() as i32));
+    child.set_clip_rect(ui.clip_rect().intersect(place.expand(4.0)));
+    child.spacing_mut().item_spacing.x = 4.0;
+    child
+}
+
+/// Returns so much of the right end of a place, and what is left.
+pub(super) fn cut_right(place: Rect, width: f32) -> (Rect, Rect) {
+    let at = (place.right() - width).max(place.left());
+    let rest = Rect::from_min_max(place.min, pos2((at - GAP).max(place.left()), place.bottom()));
+    (Rect::from_min_max(pos2(at, place.top()), place.max), rest)
+}
+
+/// The names of a value's numbers.
+pub(super) fn components(ty: CustomUniformType) -> &'static [&'static str] {
+    match ty {
+        CustomUniformType::Bool | CustomUniformType::Int | CustomUniformType::Float => &[""],
+        CustomUniformType::Vec2 => &["x", "y"],
+        CustomUniformType::Vec3 => &["x", "y", "z"],
+        CustomUniformType::Vec4 => &["x", "y", "z", "w"],
+        CustomUniformType::Color3 => &["r", "g", "b"],
+    }
+}
