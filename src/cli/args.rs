@@ -1,6 +1,6 @@
 //! This module declares the command line for clap. Scripts rely on it: an option is added here, never changed.
 
-use super::sweep::Sweep;
+use super::{sweep::Sweep, text_place::TextPlace};
 use crate::{
     glsl::opt::PassSet,
     lab::stability::BoundArgument,
@@ -9,11 +9,12 @@ use crate::{
         capture::Format,
         date,
         script::{ScriptedInputs, parse_keys, parse_mouse},
+        trace::STEPS,
     },
 };
 use clap::{Args, Parser, Subcommand};
 use jiff::civil::DateTime;
-use std::path::PathBuf;
+use std::{path::PathBuf, time::Duration};
 
 const PROJECT: &str = "A PROJECT is a folder with eddy.toml, a folder of common.glsl, buffer_a.glsl … image.glsl, one \
     .glsl file, a preset's name (see `eddy list`) or a Shadertoy API .json. One that is called like a command: \
@@ -40,6 +41,12 @@ pub struct Window {
     /// Set a uniform that an #iUniform line declares, as in viscosity=0.3 or tint=1,0.5,0; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     pub set: Vec<String>,
+    /// Open the project paused: nothing of it is drawn before you say so
+    #[arg(long)]
+    pub paused: bool,
+    /// A frame that takes longer pauses the picture [default: 2]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
+    pub frame_timeout: Option<Duration>,
     /// Tell on standard output what happens in the window, one JSON object a line
     #[arg(long)]
     pub json: bool,
@@ -49,6 +56,10 @@ pub struct Window {
 pub enum Command {
     /// Draw frames without a window, at a fixed step: frame i has iTime = i/60
     Render(RenderArgs),
+    /// Draw the value of an expression instead of the picture
+    Probe(ProbeArgs),
+    /// Say what a pass does for one pixel, step by step, and how far its value is from the device's
+    Trace(TraceArgs),
     /// Compile every pass and say what is wrong with it; needs no graphics device
     Check(CheckArgs),
     /// Measure what a frame costs, after a warm-up
@@ -126,6 +137,9 @@ pub struct RunArgs {
     /// Draw every pass in every frame, needed or not; the pictures stay the same
     #[arg(long)]
     pub no_skip: bool,
+    /// Give a project up when a frame of it takes longer [default: wait]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
+    pub frame_timeout: Option<Duration>,
     #[command(flatten)]
     pub without_pass: WithoutPass,
 }
@@ -155,14 +169,90 @@ impl RunArgs {
 
 #[derive(Debug, Args)]
 #[command(after_help = PROJECT)]
+pub struct ProbeArgs {
+    pub project: String,
+    /// Where the expression stands: a tab, a line and a column, as in image:12:9 or common:3:14. The innermost
+    /// expression there is meant, and at a variable that is declared its first value
+    #[arg(value_name = "TAB:LINE:COLUMN", value_parser = TextPlace::parse)]
+    pub at: TextPlace,
+    /// Which pass is drawn [default: that of the tab; of Common: image]
+    #[arg(long, value_name = "NAME", value_parser = picture)]
+    pub pass: Option<Picture>,
+    /// The value when the expression is evaluated for the time after so many in a pixel
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..1 << 31))]
+    pub visit: u32,
+    /// A pixel whose value is wanted, counted from the bottom left
+    #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
+    pub pixel: Option<(u32, u32)>,
+    /// The frame, counted from 0; those before it are drawn first
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..1 << 30))]
+    pub frame: u32,
+    /// Where the values of all pixels go: a .npy or .png file. Scalars have three equal components, and the fourth is 1
+    /// where the value has fewer; a pixel in which the expression is not evaluated has NaN
+    #[arg(long, value_name = "PATH")]
+    pub out: Option<PathBuf>,
+    /// png: 8 bits, as shown on a screen. npy: float32, height x width x 4, row 0 at the bottom
+    /// [default: what --out ends in, else npy]
+    #[arg(long, value_name = "png|npy", value_parser = format)]
+    pub format: Option<Format>,
+    #[command(flatten)]
+    pub run: RunArgs,
+    /// One JSON object a line instead of words
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl ProbeArgs {
+    /// The format of the file.
+    pub fn format(&self) -> Format {
+        let is_png = self.out.as_ref().and_then(|p| p.extension()).is_some_and(|e| e.eq_ignore_ascii_case("png"));
+        self.format.unwrap_or(if is_png { Format::Png } else { Format::Npy })
+    }
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = PROJECT)]
+pub struct TraceArgs {
+    #[arg(required = true)]
+    pub project: Vec<String>,
+    /// The pixel, counted from the bottom left
+    #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
+    pub pixel: (u32, u32),
+    /// The frame, counted from 0; those before it are drawn first
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..1 << 30))]
+    pub frame: u32,
+    /// Which pass to trace: image, buffer_a, a further buffer's name …
+    #[arg(long, value_name = "NAME", default_value = "image", value_parser = picture)]
+    pub pass: Picture,
+    #[command(flatten)]
+    pub run: RunArgs,
+    /// Give the pixel up after so many statements
+    #[arg(long, value_name = "N", default_value_t = STEPS)]
+    pub max_statements: u64,
+    /// Print the first so many steps [default: all]
+    #[arg(long, value_name = "N")]
+    pub max_steps: Option<usize>,
+    /// One JSON object a line instead of words
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// A pixel, as in 80,45.
+fn pixel(text: &str) -> Result<(u32, u32), String> {
+    let parts = text.split_once(',').and_then(|(x, y)| Some((x.trim().parse().ok()?, y.trim().parse().ok()?)));
+    parts.ok_or_else(|| format!("{text} is no pixel: write its column and its row, as in 80,45"))
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = PROJECT)]
 pub struct CheckArgs {
     #[arg(required = true)]
     pub project: Vec<String>,
     /// One JSON object a line instead of words
     #[arg(long)]
     pub json: bool,
-    /// Print the compiler's intermediate representation of each pass, as it is lowered and after each pass of the optimiser, or
-    /// before and after that one (docs/compiler.md)
+    /// Print the compiler's intermediate representation of each pass, as it is lowered and after each pass of the
+    /// optimiser, or before and after that one (docs/compiler.md)
     #[arg(long, value_name = "PASS", num_args = 0..=1, default_missing_value = "", require_equals = true, conflicts_with = "json", value_parser = dumped_pass)]
     pub dump_ir: Option<String>,
     #[command(flatten)]
@@ -353,6 +443,12 @@ fn size(text: &str) -> Result<(u32, u32), String> {
     }
 }
 
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse().ok().filter(|secs: &f64| *secs > 0.0);
+    let duration = seconds.and_then(|secs| Duration::try_from_secs_f64(secs).ok());
+    duration.ok_or_else(|| "seconds are a number above 0, as in 2.5".into())
+}
+
 fn fps(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(fps) if fps.is_finite() && fps > 0.0 => Ok(fps),
@@ -394,8 +490,11 @@ mod tests {
     fn every_option_of_the_contract_is_read() {
         let r = render(
             "eddy render a b --size 320x180 --frames 9 --out o --at 0,4,8 --pass buffer_b --format npy --fps 30 \
-             --date 2024-12-31T23:59:00 --media m --no-skip --json --mouse 0:down --keys 0:up --set a=1 --set b=1,2",
+             --date 2024-12-31T23:59:00 --media m --no-skip --json --mouse 0:down --keys 0:up --set a=1 --set b=1,2 \
+             --frame-timeout 0.5",
         );
+        assert_eq!(r.run.frame_timeout, Some(Duration::from_millis(500)));
+        assert!(parse("eddy fluid --paused").unwrap().window.paused);
         assert_eq!(r.project, ["a", "b"]);
         assert_eq!((r.run.size, r.frames, r.run.fps), ((320, 180), Some(9), 30.0));
         assert_eq!(
@@ -420,6 +519,8 @@ mod tests {
             ("eddy render a --out o --size 99999999999x10", "640x360"),
             ("eddy render a --out o --frames 0", "frames"),
             ("eddy render a --out o --fps 0", "above 0"),
+            ("eddy bench a --frame-timeout 0", "above 0"),
+            ("eddy a --frame-timeout nan", "above 0"),
             ("eddy render a --out o --fps nan", "above 0"),
             ("eddy render a --out o --format exr", "it writes png and npy"),
             ("eddy render a --out o --format bmp", "png or npy"),

@@ -113,9 +113,9 @@ fn measure(
         report.frames += 1;
     }
     // Apart from the others: timestamps cost a little in every frame, and waiting for each pass more.
-    let clock = offline.engine().cost_clock();
+    let clock = offline.engine()?.cost_clock();
     let millis_of = pass_times(&mut offline, args.frames)?;
-    let engine = offline.engine();
+    let engine = offline.engine()?;
     let worst_ms = millis.iter().copied().fold(0.0, f64::max);
     report.frame_ms = median(millis);
     let (width, height) = args.run.size;

@@ -11,10 +11,9 @@ use crate::{
     engine::{self, CompiledPass},
     glsl::Driver,
     media::{self, MediaSet},
-    project::{self, FillKind, Filter, Input, Project, SamplerRules, Wrap},
+    project::{self, Project},
 };
 use std::{
-    collections::BTreeMap,
     io::{self, Write},
     time::Instant,
 };
@@ -61,7 +60,9 @@ fn check(report: &mut Report, spec: &str, args: &CheckArgs, dumped: &mut String)
     media::meshes(project, &mut files);
     found.extend(files.fill_errors(project));
     found.extend(files.mesh_errors(project));
-    found.extend(shared_samplers(project));
+    // What the reader has said already, with its place in `eddy.toml`.
+    let is_new = |d: &Diagnostic| loaded.warnings.iter().all(|w| w.message != d.message);
+    found.extend(project::advice(project).into_iter().filter(is_new));
     report.diagnose(&found, &project.sources(), Some(project));
     Ok(())
 }
@@ -85,68 +86,14 @@ fn compile(project: &Project, driver: Driver) -> (Vec<Diagnostic>, Vec<CompiledP
     let texts = engine::Sources::new(project);
     found.extend(texts.diagnostics.iter().cloned());
     found.extend(texts.check_common());
-    for index in 0..project.passes.len() {
-        let pass = texts.compile_pass(index, [false; 4], driver);
-        let fills = FillKind::ALL.into_iter().filter_map(|k| texts.compile_fill(index, k, false, driver));
-        for outcome in [pass].into_iter().chain(fills) {
-            match outcome {
-                Ok(mut pass) => {
-                    diag::append(&mut found, pass.diagnostics.drain(..));
-                    compiled.push(pass);
-                }
-                Err(errors) => diag::append(&mut found, errors),
+    for outcome in texts.compile_all(driver) {
+        match outcome {
+            Ok(mut pass) => {
+                diag::append(&mut found, pass.diagnostics.drain(..));
+                compiled.push(pass);
             }
+            Err(errors) => diag::append(&mut found, errors),
         }
     }
     (found, compiled)
-}
-
-/// Returns where channels with samplers of their own read a buffer differently from each other, which the site cannot:
-/// there a buffer has one wrap, and one filter while a pass draws (`shadertoy.md`, section 7).
-fn shared_samplers(project: &Project) -> Vec<Diagnostic> {
-    if project.sampler_rules == SamplerRules::Site {
-        return Vec::new();
-    }
-    let mut warnings = Vec::new();
-    let mut wraps: BTreeMap<&str, Vec<(String, Wrap)>> = BTreeMap::new();
-    for pass in &project.passes {
-        let mut filters: BTreeMap<&str, Vec<(String, Filter)>> = BTreeMap::new();
-        for (index, channel) in pass.channels.iter().enumerate() {
-            let Some(channel) = channel else { continue };
-            let Input::Buffer(buffer) = &channel.input else { continue };
-            let place = format!("iChannel{index} of {}", pass.id.title());
-            filters.entry(buffer).or_default().push((place.clone(), channel.sampler.filter));
-            wraps.entry(buffer).or_default().push((place, channel.sampler.wrap));
-        }
-        warnings
-            .extend(filters.iter().filter_map(|(buffer, reads)| differ(buffer, reads, "filter", "while a pass draws")));
-    }
-    warnings.extend(wraps.iter().filter_map(|(buffer, reads)| differ(buffer, reads, "wrap", "for all passes")));
-    warnings
-}
-
-fn differ<T: PartialEq + std::fmt::Debug>(
-    buffer: &str,
-    reads: &[(String, T)],
-    what: &str,
-    when: &str,
-) -> Option<Diagnostic> {
-    let (last, wins) = reads.last()?;
-    let (other, loses) = reads.iter().find(|(_, setting)| setting != wins)?;
-    let name = |setting: &T| format!("{setting:?}").to_lowercase();
-    Some(
-        Diagnostic::warning(
-            None,
-            format!(
-                "{other} reads Buffer {buffer} with {what} {}, {last} with {}: on the site a buffer has one {what} \
-                 {when}, the last one named, and the picture differs",
-                name(loses),
-                name(wins)
-            ),
-        )
-        .hint(format!(
-            "give both the same {what}, or set sampler_rules = \"site\" in eddy.toml to see what the site \
-        shows"
-        )),
-    )
 }

@@ -97,7 +97,7 @@ fn list(studies: &[&dyn Study]) -> io::Result<u8> {
         writeln!(out, "{}: {}", about.name, about.title)?;
         for method in study.methods() {
             let settings: Vec<String> = method.settings.iter().map(f64::to_string).collect();
-            writeln!(out, "    {:24} {} ({}: {})", method.name, method.title, about.knob, settings.join(", "))?;
+            writeln!(out, "    {:24} {} ({}: {})", method.name, method.title, about.parameter, settings.join(", "))?;
         }
     }
     out.flush()?;

@@ -48,11 +48,11 @@ pub fn export(args: &ExportArgs) -> io::Result<u8> {
             return Err(mend(ProjectError::WouldOverwrite { path: args.out.clone() }.into()));
         }
         save(&project, &args.out, args.force)?;
-        let knobs: Vec<String> = project.knobs().list.into_iter().map(|k| k.name).collect();
-        let note = match knobs.len() {
+        let custom_uniforms: Vec<String> = project.custom_uniforms().list.into_iter().map(|k| k.name).collect();
+        let note = match custom_uniforms.len() {
             0 => String::new(),
-            1 => format!("; {} is a constant there", knobs[0]),
-            _ => format!("; {} are constants there", project::listed(&knobs)),
+            1 => format!("; {} is a constant there", custom_uniforms[0]),
+            _ => format!("; {} are constants there", project::listed(&custom_uniforms)),
         };
         let has_settings =
             !project.groups.is_empty() || project.passes.iter().any(|p| p.settings != Default::default());

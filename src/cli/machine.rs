@@ -9,11 +9,15 @@ use super::{
 use crate::{
     diag::{Diagnostic, SourceMap},
     engine::{BuildError, BuildOptions, EngineError},
+    glsl::Probe,
     gpu::{Gpu, GpuError, GpuOptions},
     lab::Shard,
     media,
     project::{self, PassId, Project, ProjectError},
-    session::{offline::Offline, script::ScriptedInputs},
+    session::{
+        offline::{Offline, OfflineError},
+        script::ScriptedInputs,
+    },
 };
 use std::{
     env,
@@ -49,6 +53,15 @@ impl From<BuildError> for Trouble {
 impl From<EngineError> for Trouble {
     fn from(error: EngineError) -> Self {
         Trouble::Other(error.into())
+    }
+}
+
+impl From<OfflineError> for Trouble {
+    fn from(error: OfflineError) -> Self {
+        match error {
+            OfflineError::Engine(error) => error.into(),
+            other => Trouble::Other(other.into()),
+        }
     }
 }
 
@@ -105,6 +118,10 @@ impl Machine {
                 if let Some(EngineError::Gpu(GpuError::Lost(_) | GpuError::OutOfMemory(_))) = error.downcast_ref() {
                     self.gpu = None;
                 }
+                if let Some(OfflineError::TimedOut { .. }) = error.downcast_ref() {
+                    // It is still at that frame.
+                    self.gpu = None;
+                }
                 report.fail(Status::Error, told(&error));
             }
             Err(panic) => {
@@ -141,6 +158,32 @@ pub fn open(
     wanted: &PassId,
     inputs: ScriptedInputs,
 ) -> Result<(Project, Offline), Trouble> {
+    open_with(machine, report, spec, run, (wanted, None), inputs)
+}
+
+/// Says which value of a project is probed.
+pub type FindProbe<'a> = &'a dyn Fn(&Project) -> anyhow::Result<Probe>;
+
+/// Does the same as [`open`] for a project of which a value of a pass is drawn beside it.
+pub fn open_probed(
+    machine: &mut Machine,
+    report: &mut Report,
+    spec: &str,
+    run: &RunArgs,
+    (pass, probe): (&PassId, FindProbe<'_>),
+    inputs: ScriptedInputs,
+) -> Result<Offline, Trouble> {
+    open_with(machine, report, spec, run, (pass, Some(probe)), inputs).map(|(_, offline)| offline)
+}
+
+fn open_with(
+    machine: &mut Machine,
+    report: &mut Report,
+    spec: &str,
+    run: &RunArgs,
+    (wanted, probe): (&PassId, Option<FindProbe<'_>>),
+    inputs: ScriptedInputs,
+) -> Result<(Project, Offline), Trouble> {
     let loaded = project::load(spec)?;
     let mut project = loaded.project;
     report.diagnose(&loaded.warnings, &loaded.sources, Some(&project));
@@ -157,14 +200,17 @@ pub fn open(
     }
     for (option, assignments) in [("--set", &run.set), ("--sweep", &report.sweep)] {
         for assignment in assignments {
-            project.set_knob(assignment).map_err(|why| anyhow::anyhow!("{option} {why}"))?;
+            project.set_custom_uniform(assignment).map_err(|why| anyhow::anyhow!("{option} {why}"))?;
         }
     }
     let (media, missing) = media::gather(&project, run.media.as_deref());
     report.diagnose(&missing, &loaded.sources, Some(&project));
     let gpu = machine.gpu()?;
     let mut offline = Offline::new(&gpu, run.size, inputs)?;
-    let options = BuildOptions { wanted: vec![wanted.clone()], skip: !run.no_skip, without: run.without_pass.set() };
+    offline.set_frame_limit(run.frame_timeout);
+    let probe = probe.map(|probe| anyhow::Ok((wanted.clone(), probe(&project)?))).transpose()?;
+    let wanted = [wanted.clone()].into_iter().chain(probe.iter().map(|_| BuildOptions::probed())).collect();
+    let options = BuildOptions { wanted, skip: !run.no_skip, without: run.without_pass.set(), probe };
     let built = offline.build(&project, &media, &options);
     report.compile_ms = offline.build_millis();
     let (diagnostics, sources) = match built {

@@ -11,12 +11,15 @@ mod lab;
 mod library;
 mod machine;
 mod precision;
+mod probe;
 mod quiet;
 mod render;
 mod report;
 mod stability;
 mod sweep;
 mod targets;
+mod text_place;
+mod trace;
 
 pub use args::Window;
 use args::{Cli, Command};
@@ -40,7 +43,10 @@ pub enum Next {
 pub fn main() -> Next {
     let Cli { window, command } = Cli::parse();
     let Some(command) = command else { return Next::Window(window) };
-    if matches!(command, Command::Render(_) | Command::Bench(_) | Command::Lab(_)) {
+    if matches!(
+        command,
+        Command::Render(_) | Command::Probe(_) | Command::Trace(_) | Command::Bench(_) | Command::Lab(_)
+    ) {
         quiet::ask_for_no_wayland();
     }
     let worker = std::thread::Builder::new().name("main".into()).stack_size(STACK_BYTES);
@@ -66,6 +72,14 @@ fn run(command: &Command) -> u8 {
             }
             render::run(args, &targets, &inputs)
         }
+        Command::Probe(args) => match args.run.inputs() {
+            Ok(inputs) => probe::run(args, &inputs),
+            Err(usage) => return trouble(usage),
+        },
+        Command::Trace(args) => match args.run.inputs() {
+            Ok(inputs) => trace::run(args, &inputs),
+            Err(usage) => return trouble(usage),
+        },
         Command::Check(args) => check::run(args),
         Command::Bench(args) => match args.run.inputs().and_then(|i| Ok((sweep::combinations(&args.sweep)?, i))) {
             Ok((sweep, inputs)) => bench::run(args, &sweep, &inputs),

@@ -60,7 +60,7 @@ fn compare(
     let mut project = loaded.project;
     report.diagnose(&loaded.warnings, &loaded.sources, Some(&project));
     for assignment in &args.run.set {
-        project.set_knob(assignment).map_err(|why| anyhow::anyhow!("--set {why}"))?;
+        project.set_custom_uniform(assignment).map_err(|why| anyhow::anyhow!("--set {why}"))?;
     }
     let (media, missing) = media::gather(&project, args.run.media.as_deref());
     report.diagnose(&missing, &loaded.sources, Some(&project));

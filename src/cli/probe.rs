@@ -1,0 +1,144 @@
+//! `eddy probe`: the value of an expression, drawn instead of the picture.
+
+use super::{
+    args::ProbeArgs,
+    machine::{Machine, Trouble, open_probed},
+    report::{Printer, Report},
+    targets,
+};
+use crate::{
+    engine::{BuildOptions, Pixels},
+    glsl::Probe,
+    project::{PassId, Project, Tab},
+    session::{script::ScriptedInputs, trace::Number},
+};
+use serde::Serialize;
+use std::{fmt::Write, io, path::PathBuf};
+
+/// The report of `render`, and the value.
+#[derive(Serialize)]
+struct Line<'a> {
+    #[serde(flatten)]
+    report: &'a Report,
+    #[serde(flatten)]
+    probed: Option<&'a Probed>,
+}
+
+#[derive(Serialize)]
+struct Probed {
+    /// As it was asked for.
+    at: String,
+    visit: u32,
+    frame: u32,
+    width: u32,
+    height: u32,
+    /// Pixels in which the expression was evaluated so often.
+    visited: usize,
+    /// Of each component, over these pixels, without what is no number.
+    min: [Number; 4],
+    max: [Number; 4],
+    mean: [Number; 4],
+    /// Components, over these pixels, that are NaN or infinite.
+    nonfinite: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pixel: Option<[u32; 2]>,
+    /// The value there; null where the expression was not evaluated so often.
+    value: Option<[Number; 4]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    written: Option<PathBuf>,
+}
+
+pub fn run(args: &ProbeArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
+    let mut printer = Printer::new(args.json);
+    let mut machine = Machine::default();
+    let mut report = Report::new(&args.project);
+    let probed = machine.attempt(&mut report, |machine, report| probed(machine, report, args, inputs.clone()));
+    let words = probed.as_ref().map_or(String::new(), |probed| words(&args.project, probed));
+    printer.print_as(&Line { report: &report, probed: probed.as_ref() }, &report, words.trim_end())?;
+    Ok(printer.exit_code())
+}
+
+fn probed(
+    machine: &mut Machine,
+    report: &mut Report,
+    args: &ProbeArgs,
+    inputs: ScriptedInputs,
+) -> Result<Probed, Trouble> {
+    let pass = match (&args.pass, &args.at.tab) {
+        (Some(pass), _) => pass.pass.clone(),
+        (None, Tab::Pass(pass)) => pass.clone(),
+        (None, _) => PassId::Image,
+    };
+    let probe = |project: &Project| {
+        let (source, at) = args.at.find(project).map_err(anyhow::Error::msg)?;
+        Ok(Probe { source, at, visit: args.visit })
+    };
+    let mut offline = open_probed(machine, report, &args.project, &args.run, (&pass, &probe), inputs)?;
+    for _ in 0..=args.frame {
+        offline.draw()?;
+        report.frames += 1;
+    }
+    let pixels = offline.read(&BuildOptions::probed(), 0)?;
+    if let Some((x, y)) = args.pixel.filter(|&(x, y)| x >= pixels.width || y >= pixels.height) {
+        let (width, height) = (pixels.width, pixels.height);
+        return Err(anyhow::anyhow!("pixel {x},{y} is outside of the pass, which has {width} x {height} texels").into());
+    }
+    if let Some(path) = &args.out {
+        targets::write(path, &pixels, args.format())?;
+    }
+    Ok(summary(args, &pixels))
+}
+
+fn summary(args: &ProbeArgs, pixels: &Pixels) -> Probed {
+    let is_seen = |texel: &&[f32; 4]| !texel.iter().all(|x| x.is_nan());
+    let seen = || pixels.texels.iter().filter(is_seen);
+    let component = |fold: fn(f32, f32) -> f32, begin: f32| {
+        std::array::from_fn(|i| {
+            let numbers = seen().map(|texel| texel[i]).filter(|x| x.is_finite());
+            Number::Float(numbers.fold(begin, fold))
+        })
+    };
+    let mean = std::array::from_fn(|i| {
+        let numbers = seen().map(|texel| f64::from(texel[i])).filter(|x| x.is_finite());
+        let (sum, count) = numbers.fold((0.0, 0.0), |(sum, count), x| (sum + x, count + 1.0));
+        Number::Double(sum / count)
+    });
+    let texel = args.pixel.map(|(x, y)| pixels.texels[(y * pixels.width + x) as usize]);
+    Probed {
+        at: format!("{}:{}:{}", args.at.tab.title(), args.at.line, args.at.column),
+        visit: args.visit,
+        frame: args.frame,
+        width: pixels.width,
+        height: pixels.height,
+        visited: seen().count(),
+        min: component(f32::min, f32::INFINITY),
+        max: component(f32::max, f32::NEG_INFINITY),
+        mean,
+        nonfinite: seen().flatten().filter(|x| !x.is_finite()).count(),
+        pixel: args.pixel.map(|(x, y)| [x, y]),
+        value: texel.as_ref().filter(is_seen).map(|texel| texel.map(Number::Float)),
+        written: args.out.clone(),
+    }
+}
+
+fn words(project: &str, probed: &Probed) -> String {
+    let list = |values: &[Number; 4]| format!("({})", values.map(|n| n.to_string()).join(", "));
+    let Probed { at, frame, width, height, visited, nonfinite, .. } = probed;
+    let mut out = format!("{project}: {at} in frame {frame}: {visited} of {} pixels\n", width * height);
+    if *visited > 0 {
+        let _ = writeln!(out, "  min   {}", list(&probed.min));
+        let _ = writeln!(out, "  max   {}", list(&probed.max));
+        let _ = writeln!(out, "  mean  {}", list(&probed.mean));
+    }
+    if *nonfinite > 0 {
+        let _ = writeln!(out, "  {nonfinite} components are no finite numbers");
+    }
+    if let Some([x, y]) = probed.pixel {
+        let value = probed.value.as_ref().map_or("not evaluated".into(), list);
+        let _ = writeln!(out, "  at {x},{y}  {value}");
+    }
+    if let Some(path) = &probed.written {
+        let _ = writeln!(out, "  {}", path.display());
+    }
+    out
+}

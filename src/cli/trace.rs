@@ -1,0 +1,182 @@
+//! `eddy trace`: what a pass does for one pixel, step by step, and how far its value is from the device's.
+
+use super::{
+    args::TraceArgs,
+    machine::{Machine, Trouble, open},
+    report::{Printer, Report},
+};
+use crate::{
+    diag::{SourceMap, Span},
+    engine,
+    project::{PassFormat, Project},
+    session::{
+        script::ScriptedInputs,
+        trace::{self, Event, Extent, Number, Trace, TraceError, ulps},
+    },
+};
+use serde::Serialize;
+use std::{fmt::Write, io};
+
+/// The report of `render`, and the trace.
+#[derive(Serialize)]
+struct Line<'a> {
+    #[serde(flatten)]
+    report: &'a Report,
+    #[serde(flatten)]
+    trace: Option<&'a Traced>,
+}
+
+#[derive(Serialize)]
+struct Traced {
+    pass: String,
+    pixel: [u32; 2],
+    frame: u32,
+    /// What the walker found; null where the pass draws nothing.
+    value: Option<[Number; 4]>,
+    /// The same way in double precision.
+    double: Option<[Number; 4]>,
+    /// The texel that the device drew, as it is stored.
+    device: [Number; 4],
+    /// How it is stored.
+    format: &'static str,
+    /// Numbers of single precision between the two, of the components that are stored; null where these are of fewer
+    /// bits.
+    ulps: Option<Vec<u32>>,
+    statements: u64,
+    left_out: u64,
+    steps: Vec<PlacedStep>,
+}
+
+/// A step with its place spelled out.
+#[derive(Serialize)]
+struct PlacedStep {
+    kind: &'static str,
+    depth: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    source: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    line: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    column: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    name: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    turn: Option<u64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    value: Vec<Number>,
+}
+
+pub fn run(args: &TraceArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
+    let mut printer = Printer::new(args.json);
+    let mut machine = Machine::default();
+    for spec in &args.project {
+        let mut report = Report::new(spec);
+        let traced =
+            machine.attempt(&mut report, |machine, report| traced(machine, report, args, spec, inputs.clone()));
+        let words = traced.as_ref().map_or(String::new(), |traced| words(spec, traced));
+        printer.print_as(&Line { report: &report, trace: traced.as_ref() }, &report, words.trim_end())?;
+    }
+    Ok(printer.exit_code())
+}
+
+fn traced(
+    machine: &mut Machine,
+    report: &mut Report,
+    args: &TraceArgs,
+    spec: &str,
+    inputs: ScriptedInputs,
+) -> Result<Traced, Trouble> {
+    let pass = &args.pass.pass;
+    let (project, mut offline) = open(machine, report, spec, &args.run, pass, inputs)?;
+    for _ in 0..args.frame {
+        offline.draw()?;
+    }
+    let read = offline.draw_inspected(pass)?;
+    report.frames = args.frame + 1;
+    let device = offline.read(pass, 0)?;
+    let index = project.passes.iter().position(|p| p.id == *pass).unwrap_or_default();
+    let texts = engine::Sources::new(&project);
+    let extent = Extent { statements: args.max_statements, steps: args.max_steps.unwrap_or(usize::MAX) };
+    let trace = match trace::trace(&texts, index, &read, args.pixel, extent) {
+        Err(TraceError::Diagnostics(found)) => return Err(Trouble::Diagnostics(found, project.sources())),
+        Err(TraceError::Meshes) => return Err(Trouble::Unsupported(TraceError::Meshes.to_string())),
+        other => other.map_err(anyhow::Error::from)?,
+    };
+    let (x, y) = args.pixel;
+    let texel = device.texels[(y * device.width + x) as usize];
+    Ok(placed(&project, args, texel, trace))
+}
+
+fn placed(project: &Project, args: &TraceArgs, device: [f32; 4], trace: Trace) -> Traced {
+    let sources = project.sources();
+    let format = project.pass(&args.pass.pass).map_or_else(PassFormat::default, |pass| pass.settings.format);
+    let apart = |value: [f32; 4]| (0..format.components()).map(|i| ulps(value[i], device[i])).collect();
+    let floats = |values: [f32; 4]| values.map(Number::Float);
+    let steps = trace.steps.into_iter().map(|step| {
+        let (source, line, column) = place(&sources, step.span);
+        let mut placed =
+            PlacedStep { kind: "", depth: step.depth, source, line, column, name: None, turn: None, value: Vec::new() };
+        match step.event {
+            Event::Enter(name) => (placed.kind, placed.name) = ("enter", Some(name)),
+            Event::Leave => placed.kind = "leave",
+            Event::Turn(turn) => (placed.kind, placed.turn) = ("turn", Some(turn)),
+            Event::Set { name, value } => (placed.kind, placed.name, placed.value) = ("set", Some(name), value),
+        }
+        placed
+    });
+    Traced {
+        pass: args.pass.pass.key(),
+        pixel: [args.pixel.0, args.pixel.1],
+        frame: args.frame,
+        value: trace.value.map(floats),
+        double: trace.double.map(|values| values.map(Number::Double)),
+        device: floats(device),
+        format: format.name(),
+        ulps: trace.value.filter(|_| format.is_32_bit()).map(apart),
+        statements: trace.statements,
+        left_out: trace.left_out,
+        steps: steps.collect(),
+    }
+}
+
+fn place(sources: &SourceMap, span: Option<Span>) -> (Option<String>, Option<usize>, Option<usize>) {
+    let at = span.and_then(|span| sources.line_column(span));
+    let name = span.and_then(|span| sources.get(span.source)).map(|source| source.name.clone());
+    (name, at.map(|at| at.line), at.map(|at| at.column))
+}
+
+fn words(spec: &str, traced: &Traced) -> String {
+    let mut out = String::new();
+    let list = |values: &[Number]| values.iter().map(Number::to_string).collect::<Vec<_>>().join(", ");
+    let vector = |values: &[Number]| if values.len() == 1 { list(values) } else { format!("({})", list(values)) };
+    for step in &traced.steps {
+        let at = match (&step.source, step.line) {
+            (Some(source), Some(line)) => format!("{source}:{line}"),
+            _ => String::new(),
+        };
+        let what = match (step.kind, &step.name, step.turn) {
+            ("enter", Some(name), _) => format!("{name}()"),
+            ("set", Some(name), _) => format!("{name} = {}", vector(&step.value)),
+            (_, _, Some(turn)) => format!("turn {turn}"),
+            _ => continue,
+        };
+        let _ = writeln!(out, "{at:<24} {:indent$}{what}", "", indent = 2 * step.depth as usize);
+    }
+    if traced.left_out > 0 {
+        let _ = writeln!(out, "... and {} more steps", traced.left_out);
+    }
+    let Traced { pass, pixel: [x, y], frame, statements, .. } = traced;
+    let _ = writeln!(out, "{spec}: {pass} at {x},{y} in frame {frame}, {statements} statements");
+    let device = format!("{}, stored as {}", vector(&traced.device), traced.format);
+    let (Some(value), Some(double)) = (&traced.value, &traced.double) else {
+        let _ = writeln!(out, "  walker  draws nothing\n  device  {device}");
+        return out;
+    };
+    let _ = writeln!(out, "  walker  {}\n  device  {device}", vector(value));
+    if let Some(ulps) = &traced.ulps {
+        let ulps: Vec<String> = ulps.iter().map(u32::to_string).collect();
+        let _ = writeln!(out, "  apart   ({}) numbers of single precision", ulps.join(", "));
+    }
+    let _ = writeln!(out, "  double  {}", vector(double));
+    out
+}
