@@ -1,8 +1,8 @@
 //! How long the front end takes: `cargo bench --bench front_end`.
 //!
-//! Measures every pass of the presets, or of the projects named in the file that `EDDY_CORPUS` points to (one a line, as on
-//! the command line: folders, Shadertoy JSON files). One thread, each pass the best of a few runs, so that what else the
-//! machine does counts little.
+//! Measures every pass of the presets, or of the projects named in the file that `EDDY_CORPUS` points to (one a line,
+//! as on the command line: folders, Shadertoy JSON files). One thread, each pass the best of a few runs, so that what
+//! else the machine does counts little.
 
 use eddy::{
     diag::SourceId,

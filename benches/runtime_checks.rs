@@ -1,9 +1,10 @@
-//! What the checks cost that naga adds to a shader unless it is told not to: bounds of indices, turns of loops, divisors of
-//! integers. `cargo bench --bench runtime_checks`.
+//! What the checks cost that naga adds to a shader unless it is told not to: bounds of indices, turns of loops,
+//! divisors of integers. `cargo bench --bench runtime_checks`.
 //!
-//! Draws the presets, or the projects named in the file that `EDDY_CORPUS` points to (one a line), with and without them, in
-//! turn, and prints the ratio of the frames' medians. Eddy draws without: the front end keeps indices in range where it cannot
-//! prove that they are, and loops and divisions need no check on any device (see `gpu::GpuOptions::runtime_checks`).
+//! Draws the presets, or the projects named in the file that `EDDY_CORPUS` points to (one a line), with and without
+//! them, in turn, and prints the ratio of the frames' medians. Eddy draws without: the front end keeps indices in range
+//! where it cannot prove that they are, and loops and divisions need no check on any device (see
+//! `gpu::GpuOptions::runtime_checks`).
 
 use eddy::{
     engine::{BuildOptions, Engine, FrameInputs, Program},

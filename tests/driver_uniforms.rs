@@ -5,7 +5,7 @@
 #[path = "it/support/mod.rs"]
 mod support;
 
-use eddy::glsl::{self, Driver, Knob, KnobKind, PassKind, PassSource};
+use eddy::glsl::{self, CustomUniform, CustomUniformKind, Driver, PassKind, PassSource};
 use naga::{AddressSpace, BinaryOperator, Expression, Function, Handle, Module};
 use support::*;
 
@@ -46,10 +46,10 @@ fn loads(module: &Module, function: &Function) -> (usize, Vec<Load>) {
 
 #[test]
 fn are_values_of_the_pixel_where_the_driver_asks_for_it() {
-    let knobs = [
-        Knob { name: "level", kind: KnobKind::Float, slot: 0 },
-        Knob { name: "many", kind: KnobKind::Int, slot: 1 },
-        Knob { name: "on", kind: KnobKind::Bool, slot: 2 },
+    let custom_uniforms = [
+        CustomUniform { name: "level", kind: CustomUniformKind::Float, slot: 0 },
+        CustomUniform { name: "many", kind: CustomUniformKind::Int, slot: 1 },
+        CustomUniform { name: "on", kind: CustomUniformKind::Bool, slot: 2 },
     ];
     let programs = [
         (
@@ -71,7 +71,7 @@ fn are_values_of_the_pixel_where_the_driver_asks_for_it() {
         (PassKind::Fragment, 2, "in vec3 at; out vec4 o; void main() { o = vec4(iCameraPosition - at, iTime); }"),
     ];
     for (kind, at_least, code) in programs {
-        let source = PassSource { kind, knobs: &knobs, ..PassSource::image(code) };
+        let source = PassSource { kind, custom_uniforms: &custom_uniforms, ..PassSource::image(code) };
         let plain = glsl::compile(&source).unwrap_or_else(|e| panic!("{kind:?}: {e:?}"));
         let driver = Driver { opaque_uniforms: true, ..Driver::default() };
         let opaque = glsl::compile(&PassSource { driver, ..source }).unwrap_or_else(|e| panic!("{kind:?}: {e:?}"));
@@ -122,8 +122,8 @@ fn resident() -> Option<u64> {
     Some(kilobytes.trim().parse::<u64>().ok()? * 1024)
 }
 
-/// A preset of many scales, whose loops and branches ask the mouse and the knobs: lavapipe used to keep 2 MiB of
-/// programs a frame of it.
+/// A preset of many scales, whose loops and branches ask the mouse and the custom_uniforms: lavapipe used to keep 2 MiB
+/// of programs a frame of it.
 #[test]
 fn frames_take_no_memory() {
     let Some(gpu) = gpu() else { return };

@@ -154,6 +154,23 @@ fn two_runs_and_a_run_without_skipping_write_the_same_bytes() {
 }
 
 #[test]
+fn a_frame_that_takes_longer_than_it_may_is_an_error_and_the_next_project_is_drawn() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    let turns = "float a = fragCoord.x; for (int i = 0; i < 10000000; i++) a = fract(sin(a) * 43758.5 + float(i & 1));";
+    b.image("slow.glsl", &format!("{turns} fragColor = vec4(a);"));
+    b.image("fast.glsl", "fragColor = vec4(1.0);");
+    let run =
+        b.line("render slow.glsl fast.glsl --size 320x180 --frames 2 --frame-timeout 0.5 --json --out o").expect(2);
+    let [slow, fast] = &run.json()[..] else { panic!("{}", run.out) };
+    assert_eq!((&slow["status"], &fast["status"]), (&"error".into(), &"ok".into()), "{}", run.out);
+    assert!(run.out.contains("within 0.5 s") && run.out.contains("--frame-timeout"), "{}", run.out);
+    assert_eq!(b.names("o"), ["fast.png"]);
+    let run = b.line("bench slow.glsl --size 320x180 --frames 1 --frame-timeout 0.5").expect(2);
+    assert!(run.err.contains("frame 0 was not drawn within 0.5 s"), "{}", run.err);
+}
+
+#[test]
 fn the_mouse_script_reaches_imouse() {
     let Some(_) = gpu() else { return };
     let b = Bench::new();

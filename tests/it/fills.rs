@@ -5,7 +5,7 @@ use eddy::{
     diag::render_all,
     engine::{BuildError, BuildOptions, Engine, Program},
     media::{self, MediaSet},
-    project::{Boundary, Fill, KnobValue, Overwrite, PassFormat, PassId, Project, Region, load, save},
+    project::{Boundary, CustomUniformValue, Fill, Overwrite, PassFormat, PassId, Project, Region, load, save},
 };
 use std::{fs, path::Path};
 
@@ -38,7 +38,7 @@ fn an_expression_is_what_the_frame_before_the_first_holds_and_again_after_a_rese
                 path: None,
                 text: "#iUniform float high = 2.0 in { 0.0, 9.0 }\nfloat twice(float x) { return 2.0 * x; }".into(),
             });
-            p.knob_values.insert("high".into(), KnobValue::Float(3.0));
+            p.custom_uniform_values.insert("high".into(), CustomUniformValue::Float(3.0));
             p.passes[0].settings.format = format;
             p.passes[0].settings.initial =
                 Some(Fill::expression("vec4(twice(fragCoord.x), fragCoord.y, iResolution.x, high)"));

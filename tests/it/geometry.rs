@@ -246,7 +246,7 @@ fn a_hull_drawn_with_other_program_and_culling_outlines_the_mesh() {
 }
 
 #[test]
-fn a_stage_reads_channels_uniforms_knobs_and_tables() {
+fn a_stage_reads_channels_uniforms_custom_uniforms_and_tables() {
     let Some(gpu) = gpu() else { return };
     let vertex = "#iUniform float lift = 0.25
         in vec3 aPosition;

@@ -8,7 +8,7 @@ use crate::support::{compute::*, *};
 /// Drivers take a quotient by a zero they can see for anything.
 #[test]
 fn a_constant_zero_divides() {
-    check(&[
+    check_driver(&[
         with(
             "float unite(float a, float b, float k) {\n\
              float h = clamp(0.5 + 0.5 * (b - a) / k, 0.0, 1.0); return mix(b, a, h) - k * h * (1.0 - h); }",
@@ -41,7 +41,7 @@ fn a_constant_zero_divides() {
 /// What is not a number is not nothing, and is cut to zero.
 #[test]
 fn comparisons_of_nan() {
-    check(&[case(
+    check_driver(&[case(
         "float z = Z * 3.0; r = vec4(abs(z) > 0.0, 0.0 < abs(z - 2.0), abs(z) < 0.0, abs(z) > 1.0);",
         [0., 1., 0., 0.],
     )]);
@@ -49,7 +49,7 @@ fn comparisons_of_nan() {
 
 #[test]
 fn negative_floats_as_uints() {
-    check(&[case(
+    check_driver(&[case(
         "r = vec4(uint(Z - 1.5), uint(Z - 3000.0), uint(Z + 7.9), uvec2(Z - 4.0, Z + 4.0).y);",
         [0., 0., 7., 4.],
     )]);
@@ -58,7 +58,7 @@ fn negative_floats_as_uints() {
 /// A mix by what can only be 0 or 1 is a choice: no sum keeps all of a small number beside a large one, or beside NaN.
 #[test]
 fn mix_by_a_condition() {
-    check(&[
+    check_driver(&[
         case("r = vec4(floatBitsToUint(mix(1000.0, Z + 18.721829, step(Z, 1.0))) - 0x4195c64eu);", [0.; 4]),
         case(
             "float x = Z + 18.721829, hit = step(Z, 1.0) * step(Z + 1.0, x);\n\
@@ -81,7 +81,7 @@ fn order_of_evaluation() {
     if gpu.info.device_type != wgpu::DeviceType::Cpu {
         return skipped("this device may fuse or round otherwise");
     }
-    check(&[
+    check_driver(&[
         // What is added to a dot product goes to its last term: x x' + (y y' + 0.6).
         case(
             "vec2 p = Z + vec2(3.69, 6.83); r = vec4(floatBitsToUint(dot(p, vec2(12.98, 96.77)) + 0.6) - 0x44315bdbu);",

@@ -33,7 +33,7 @@ struct Case {
     mouse: String,
     #[serde(default)]
     keys: String,
-    /// Knobs that are not at their default, as `--set`.
+    /// Custom uniforms that are not at their default, as `--set`.
     #[serde(default)]
     set: Vec<String>,
     tolerance: Tolerance,
@@ -64,7 +64,7 @@ impl Case {
     fn draw(&self, gpu: &eddy::gpu::Gpu, preset: &str) -> Result<RgbaImage, String> {
         let mut project = presets::load(preset).map_err(|e| e.to_string())?.project;
         for assignment in &self.set {
-            project.set_knob(assignment)?;
+            project.set_custom_uniform(assignment)?;
         }
         let [width, height] = self.size;
         let mut engine = engine_with(gpu, &project, &MediaSet::new(), &BuildOptions::default(), (width, height));

@@ -32,7 +32,7 @@ fn velocity(rig: &Rig, setup: &Setup, frames: u32) -> Vec<f64> {
 fn a_chain_of_three_passes_is_three_steps_of_one_bit_for_bit() {
     let Some(rig) = rig() else { return };
     let texels = |method: &str, frames| {
-        let setup = Setup::new("fluid_guay", (33, 20)).define("METHOD", method).knob("noise", 0.1);
+        let setup = Setup::new("fluid_guay", (33, 20)).define("METHOD", method).uniform("noise", 0.1);
         rig.after(&setup, frames, "field").unwrap().texels().to_vec()
     };
     let chain = texels("CHAIN", 4);
@@ -78,7 +78,7 @@ fn wave_growth(rig: &Rig, setup: &Setup, weight: f64, steps: u32) -> f64 {
 
 /// Factor a step by which noise grows between two times.
 fn noise_growth(rig: &Rig, setup: &Setup, from: u32, to: u32) -> f64 {
-    let setup = setup.clone().knob("speed", 0.0).knob("noise", 1e-5);
+    let setup = setup.clone().uniform("speed", 0.0).uniform("noise", 1e-5);
     let norm = |v: Vec<f64>| v.iter().map(|x| x * x).sum::<f64>().sqrt();
     let mut running: Running = rig.open(&setup).unwrap();
     running.frames(from).unwrap();
@@ -98,13 +98,13 @@ fn a_fluid_at_rest_grows_as_von_neumann_says() {
     for nu in [0.0, 0.05] {
         let quarter = TAU / 4.0;
         let theory = one_pass_growth(dt, nu, stiffness, quarter, quarter).ln();
-        let measured = wave_growth(&rig, &guay(n as u32).knob("viscosity", nu), stiffness / dt, 150).ln();
+        let measured = wave_growth(&rig, &guay(n as u32).uniform("viscosity", nu), stiffness / dt, 150).ln();
         assert!((measured / theory - 1.0).abs() < 0.05, "nu {nu}: {measured} for {theory}");
     }
     // Stable from nu = K on; the unstable case of the same test is above.
-    let measured = noise_growth(&rig, &guay(n as u32).knob("viscosity", 0.21), 100, 300);
+    let measured = noise_growth(&rig, &guay(n as u32).uniform("viscosity", 0.21), 100, 300);
     assert!(measured <= 1.0, "{measured}");
-    let setup = Setup::new("fluid_guay", (32, 32)).define("METHOD", "FORWARD_BACKWARD").knob("viscosity", 0.0);
+    let setup = Setup::new("fluid_guay", (32, 32)).define("METHOD", "FORWARD_BACKWARD").uniform("viscosity", 0.0);
     assert!(fastest(n, |kx, ky| forward_backward_growth(dt, 0.0, stiffness, kx, ky)) <= 1.0 + 1e-12);
     let measured = noise_growth(&rig, &setup, 100, 400);
     assert!((measured - 1.0).abs() < 1e-3, "{measured}");
@@ -114,8 +114,8 @@ fn a_fluid_at_rest_grows_as_von_neumann_says() {
 fn without_viscosity_a_fluid_at_rest_blows_up_and_forward_backward_does_not() {
     let Some(rig) = rig() else { return };
     let largest = |method| {
-        let setup = Setup::new("fluid_guay", (32, 32)).define("METHOD", method).knob("viscosity", 0.0);
-        let setup = setup.knob("speed", 0.0).knob("noise", 1e-3);
+        let setup = Setup::new("fluid_guay", (32, 32)).define("METHOD", method).uniform("viscosity", 0.0);
+        let setup = setup.uniform("speed", 0.0).uniform("noise", 1e-3);
         velocity(&rig, &setup, 600)
             .iter()
             .fold(0.0, |a: f64, v| if v.is_nan() { f64::INFINITY } else { a.max(v.abs()) })
@@ -191,12 +191,12 @@ fn gray_scott_grows_as_linear_theory_says_and_sixteen_bits_stall() {
 #[test]
 fn a_sea_without_v_follows_its_exact_factor() {
     let Some(rig) = rig() else { return };
-    let setup = Setup::new("gray_scott_stencil", (4, 4)).define("STENCIL", 5).knob("feed", 0.037);
+    let setup = Setup::new("gray_scott_stencil", (4, 4)).define("STENCIL", 5).uniform("feed", 0.037);
     let at_rest = setup.clone().initial("field", "vec4(0.5, 0.0, 0.0, 1.0)");
     let u = rig.after(&at_rest, 40, "field").unwrap().component(0)[0];
     let exact = 1.0 - 0.5 * (1.0 - 0.037f64).powi(40);
     assert!((u / exact - 1.0).abs() < 1e-5, "{u} {exact}");
-    let small = setup.knob("kill", 0.06).initial("field", "vec4(0.0, 0.001, 0.0, 1.0)").knob("feed", 0.0);
+    let small = setup.uniform("kill", 0.06).initial("field", "vec4(0.0, 0.001, 0.0, 1.0)").uniform("feed", 0.0);
     let v = rig.after(&small, 40, "field").unwrap().component(1)[0];
     let exact = 0.001 * (1.0 - 0.06f64).powi(40);
     assert!((v / exact - 1.0).abs() < 1e-5, "{v} {exact}");
@@ -208,7 +208,7 @@ fn diffusion_converges_at_second_order_to_the_heat_kernel() {
     let error = |n: u32| {
         let (start, rate) = (f64::from(n) / 32.0, 0.05);
         let steps = (6.25 * start * start / rate).round();
-        let setup = Setup::new("diffusion_stencil", (n, n)).define("STENCIL", 5).knob("rate", rate);
+        let setup = Setup::new("diffusion_stencil", (n, n)).define("STENCIL", 5).uniform("rate", rate);
         let after = rig.after(&setup.steps("solver", steps as u32), 1, "field").unwrap().component(0);
         let exact = gaussian_on_torus(n as usize, start, start * start + 2.0 * rate * steps);
         Norms::of(&after, &exact).l2

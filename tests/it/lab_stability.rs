@@ -138,7 +138,7 @@ fn the_lit_fluid_with_its_tension_at_the_texel_diverges_and_is_found() {
     // The paper's form within its limits, where flows are fast.
     let set = |mut subject: Subject| {
         for assignment in ["form=0", "stiffness=0.5", "viscosity=0.6", "tension=1"] {
-            subject.project.set_knob(assignment).unwrap();
+            subject.project.set_custom_uniform(assignment).unwrap();
         }
         subject
     };

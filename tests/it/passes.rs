@@ -177,7 +177,7 @@ fn a_group_is_stepped_in_order_and_sees_its_newest() {
     assert_eq!(whole.read(&PassId::Image).unwrap(), halves.read(&PassId::Image).unwrap());
 }
 
-/// B is made of A and a knob, A of nothing that moves, C of the mouse, D of keys; Image of all.
+/// B is made of A and a custom uniform, A of nothing that moves, C of the mouse, D of keys; Image of all.
 fn resting() -> Project {
     let c = |n: &str| nearest(n);
     let fixed = "void mainImage(out vec4 o, in vec2 p) { o = vec4(p, 1.0, 1.0); }";
@@ -209,7 +209,7 @@ fn what_did_not_change_is_not_drawn_again_and_every_change_is() {
         assert_eq!((stats.passes_drawn, stats.passes_cached), (drawn, 5 - drawn), "{what}");
         // What it shows is what drawing everything shows.
         let mut full = no_skip(&gpu, &project, engine.size());
-        full.set_knobs(&project.knob_values);
+        full.set_custom_uniforms(&project.custom_uniform_values);
         full.draw(inputs).unwrap();
         assert_eq!(engine.read(&PassId::Image).unwrap(), full.read(&PassId::Image).unwrap(), "{what}");
         stats.bytes_cached
@@ -227,9 +227,9 @@ fn what_did_not_change_is_not_drawn_again_and_every_change_is() {
     engine.reset();
     draw(&mut engine, &inputs, "a reset", 5);
     draw(&mut engine, &inputs, "rest again", 0);
-    project.set_knob("gain=3").unwrap();
-    assert!(engine.set_knobs(&project.knob_values));
-    assert_eq!(engine.draw(&inputs).unwrap().passes_drawn, 2, "a knob: B and Image");
+    project.set_custom_uniform("gain=3").unwrap();
+    assert!(engine.set_custom_uniforms(&project.custom_uniform_values));
+    assert_eq!(engine.draw(&inputs).unwrap().passes_drawn, 2, "a custom uniform: B and Image");
     let mut full = no_skip(&gpu, &project, engine.size());
     full.draw(&inputs).unwrap();
     assert_eq!(engine.read(&PassId::Image).unwrap(), full.read(&PassId::Image).unwrap());

@@ -8,8 +8,8 @@ const SPOT: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(ivec2(p) ==
 
 /// An engine whose Buffer A is the spot and whose picture is the bloom alone, in linear light.
 fn bloom_of_a_spot(gpu: &Gpu, name: &str, size: (u32, u32)) -> Engine {
-    let knobs = if name == "bloom" { &["strength=1"][..] } else { &["strength=1", "calm=false"] };
-    let mut project = preset(name, knobs);
+    let custom_uniforms = if name == "bloom" { &["strength=1"][..] } else { &["strength=1", "calm=false"] };
+    let mut project = preset(name, custom_uniforms);
     replace(&mut project, "A", SPOT);
     let source = &mut project.pass_mut(&PassId::Image).unwrap().source;
     let (curve, light) = match name {
@@ -82,8 +82,8 @@ const FIREFLY: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(ivec2(p)
 fn one_texel_of_a_million_does_not_flash() {
     let Some(gpu) = gpu() else { return };
     for name in ["bloom", "bloom-sized"] {
-        let shown = |knobs: &[&str]| {
-            let mut project = preset(name, knobs);
+        let shown = |custom_uniforms: &[&str]| {
+            let mut project = preset(name, custom_uniforms);
             replace(&mut project, "A", FIREFLY);
             let mut engine = engine(&gpu, &project, (320, 180));
             engine.draw(&at_frame(0, Some([160.0, 90.0]))).unwrap();

@@ -174,8 +174,8 @@ fn resolved(gpu: &eddy::gpu::Gpu, project: &Project, frame: i32, size: (u32, u32
 fn a_resting_edge_comes_within_35_db_of_64_samples() {
     let Some(gpu) = gpu() else { return };
     let size = (64, 64);
-    let measure = |knobs: &[&str]| {
-        let mut project = preset("taa", knobs);
+    let measure = |custom_uniforms: &[&str]| {
+        let mut project = preset("taa", custom_uniforms);
         replace(&mut project, "A", EDGE);
         psnr(&resolved(&gpu, &project, 64, size), &truth(&gpu, &project, TAA_JITTER, 64, size))
     };
@@ -254,8 +254,8 @@ fn a_history_holds_colours_of_a_screen() {
 fn motion_vectors_and_catmull_rom_are_worth_their_cost() {
     let Some(gpu) = gpu() else { return };
     let size = (160, 90);
-    let measure = |knobs: &[&str]| {
-        let project = preset("taa", knobs);
+    let measure = |custom_uniforms: &[&str]| {
+        let project = preset("taa", custom_uniforms);
         psnr(&resolved(&gpu, &project, 40, size), &truth(&gpu, &project, TAA_JITTER, 40, size))
     };
     let [all, linear] = [measure(&[]), measure(&["catmullRom=false"])];
@@ -279,8 +279,8 @@ fn compressed(texels: &[[f32; 4]]) -> Vec<[f32; 4]> {
 fn the_chains_history_follows_the_camera() {
     let Some(gpu) = gpu() else { return };
     let size = (160, 90);
-    let measure = |knobs: &[&str]| {
-        let project = preset("scene-bloom-taa", knobs);
+    let measure = |custom_uniforms: &[&str]| {
+        let project = preset("scene-bloom-taa", custom_uniforms);
         let mut samples = project.clone();
         // Each sample as the history takes its mean, so that the truth is a mean of the same thing.
         let source = &mut samples.pass_mut(&buffer("A")).unwrap().source;

@@ -115,8 +115,8 @@ fn pixel_of(p: V, size: [f64; 2]) -> [f64; 2] {
 
 // ---------------------------------------------------------------------------------------------------------- occlusion
 
-fn occlusion(gpu: &eddy::gpu::Gpu, height: f64, knobs: &[&str], size: (u32, u32)) -> Pixels {
-    let mut project = preset("gbuffer-ssao-ssr", knobs);
+fn occlusion(gpu: &eddy::gpu::Gpu, height: f64, custom_uniforms: &[&str], size: (u32, u32)) -> Pixels {
+    let mut project = preset("gbuffer-ssao-ssr", custom_uniforms);
     corner(&mut project, height);
     let mut engine = whole(gpu, &project, size);
     draw(&mut engine, 0..1);
@@ -126,13 +126,13 @@ fn occlusion(gpu: &eddy::gpu::Gpu, height: f64, knobs: &[&str], size: (u32, u32)
 #[test]
 fn an_open_plane_sees_its_whole_sky() {
     let Some(gpu) = gpu() else { return };
-    for knobs in [&[][..], &["radius=4", "slices=1"], &["radius=4", "slices=8", "steps=16"]] {
-        let open = occlusion(&gpu, 0.0, knobs, (160, 90));
+    for custom_uniforms in [&[][..], &["radius=4", "slices=1"], &["radius=4", "slices=8", "steps=16"]] {
+        let open = occlusion(&gpu, 0.0, custom_uniforms, (160, 90));
         // The square of 4 x 4 texels whose mean is taken must be whole.
         let inside = (3..86).flat_map(|y| (3..156).map(move |x| (x, y)));
         let most = inside.map(|(x, y)| texel(&open, x, y)[0]).fold(0.0, f32::max);
-        println!("open plane, {knobs:?}: at most {most}");
-        assert!(most < 0.01, "{knobs:?}: a plane hides {most} of its own sky");
+        println!("open plane, {custom_uniforms:?}: at most {most}");
+        assert!(most < 0.01, "{custom_uniforms:?}: a plane hides {most} of its own sky");
     }
 }
 

@@ -2,7 +2,7 @@
 //! them in.
 
 use crate::support::{preset::*, presets::overwrite, presets::untouched, *};
-use eddy::project::{KnobRange, KnobType, KnobValue, KnobValues, PassId};
+use eddy::project::{CustomUniformRange, CustomUniformType, CustomUniformValue, CustomUniformValues, PassId};
 
 /// The part of all squares of 16 x 16 texels in which V is seen.
 fn filled(pixels: &eddy::engine::Pixels) -> f64 {
@@ -16,16 +16,16 @@ fn filled(pixels: &eddy::engine::Pixels) -> f64 {
 #[test]
 fn the_reaction_fills_the_canvas_however_large_it_is() {
     let Some(gpu) = gpu() else { return };
-    for (knobs, size, frames, least) in [
+    for (custom_uniforms, size, frames, least) in [
         (&[][..], (320, 180), 90, 0.95),
         (&["map=1"], (241, 137), 150, 0.85),
         (&["diffusion=3", "dt=2"], (161, 97), 90, 0.95),
     ] {
-        let mut engine = whole(&gpu, &preset("reaction-diffusion", knobs), size);
+        let mut engine = whole(&gpu, &preset("reaction-diffusion", custom_uniforms), size);
         draw(&mut engine, 0..frames);
         let part = filled(&read(&mut engine, "A"));
-        println!("{knobs:?} at {size:?}: {part:.3} of the canvas after {frames} frames");
-        assert!(part > least, "{knobs:?}: only {part} of the canvas has a pattern");
+        println!("{custom_uniforms:?} at {size:?}: {part:.3} of the canvas after {frames} frames");
+        assert!(part > least, "{custom_uniforms:?}: only {part} of the canvas has a pattern");
     }
 }
 
@@ -35,8 +35,8 @@ fn a_blur_in_two_passes_diffuses_exactly_at_any_step() {
     let (width, mode) = (48u32, 5.0);
     let wave = std::f64::consts::PI * mode / f64::from(width);
     for dt in [0.5f64, 1.0, 2.5, 5.0] {
-        let knobs = ["sower=0", "sway=0", "feed=0", "kill=0", "diffusion=3", &format!("dt={dt}")];
-        let mut project = preset("reaction-diffusion", &knobs);
+        let custom_uniforms = ["sower=0", "sway=0", "feed=0", "kill=0", "diffusion=3", &format!("dt={dt}")];
+        let mut project = preset("reaction-diffusion", &custom_uniforms);
         // U alone: nothing reacts.
         let seed = format!("if (iFrame == 0) o = vec4(0.4 + 0.1 * cos({wave} * (float(p.x) + 0.5)), 0.0, 0.0, 0.0);");
         overwrite(&mut project, "A", &seed);
@@ -80,7 +80,7 @@ fn fronts_in_the_stirred_paint_have_no_bright_rims() {
     }
 }
 
-const SWITCH: KnobRange = KnobRange { min: [0.0; 4], max: [1.0; 4] };
+const SWITCH: CustomUniformRange = CustomUniformRange { min: [0.0; 4], max: [1.0; 4] };
 
 #[test]
 fn every_slider_at_both_ends_leaves_a_picture_in_range() {
@@ -99,22 +99,25 @@ fn every_slider_at_both_ends_leaves_a_picture_in_range() {
     ] {
         let project = preset(name, &[]);
         let mut engine = engine(&gpu, &project, (65, 37));
-        let knobs = engine.program().unwrap().knobs().to_vec();
-        assert!(!knobs.is_empty(), "{name} has no slider");
+        let custom_uniforms = engine.program().unwrap().custom_uniforms().to_vec();
+        assert!(!custom_uniforms.is_empty(), "{name} has no slider");
         let mut frame = 0;
-        for knob in &knobs {
-            let Some(range) = knob.range.or((knob.ty == KnobType::Bool).then_some(SWITCH)) else { continue };
+        for custom_uniform in &custom_uniforms {
+            let Some(range) = custom_uniform.range.or((custom_uniform.ty == CustomUniformType::Bool).then_some(SWITCH))
+            else {
+                continue;
+            };
             for end in [range.min, range.max] {
-                let value = KnobValue::new(knob.ty, &end);
-                let values = KnobValues::from([(knob.name.clone(), value.clone())]);
-                engine.set_knobs(&values);
+                let value = CustomUniformValue::new(custom_uniform.ty, &end);
+                let values = CustomUniformValues::from([(custom_uniform.name.clone(), value.clone())]);
+                engine.set_custom_uniforms(&values);
                 for _ in 0..3 {
                     engine.draw(&untouched(frame)).unwrap();
                     frame += 1;
                 }
                 let pixels = engine.read(&PassId::Image).unwrap();
                 let bad = pixels.texels.iter().flatten().find(|v| !(-1e-3..=100.0).contains(*v));
-                assert!(bad.is_none(), "{name}, {} = {value:?}: {bad:?}", knob.name);
+                assert!(bad.is_none(), "{name}, {} = {value:?}: {bad:?}", custom_uniform.name);
             }
         }
     }

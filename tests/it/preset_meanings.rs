@@ -10,8 +10,8 @@ use eddy::{
 // ------------------------------------------------------------------------------------------------------------- fluid
 
 /// The fluid with its three sub-steps as one pass that reads itself, drawn `steps` times a frame.
-fn fluid_in_one_pass(knobs: &[&str], steps: u32) -> Project {
-    let mut project = preset_with("fluid", knobs);
+fn fluid_in_one_pass(custom_uniforms: &[&str], steps: u32) -> Project {
+    let mut project = preset_with("fluid", custom_uniforms);
     project.passes.retain(|p| p.id == buffer("A") || p.id == PassId::Image);
     project.pass_mut(&buffer("A")).unwrap().channels[0] = nearest("A");
     project.groups.push(Group { name: "solver".into(), passes: vec![buffer("A")], steps });
@@ -93,8 +93,8 @@ fn sound_in_the_fluid_decays_or_grows_as_linear_theory_says() {
     ];
     for (form, viscosity, stiffness, acting) in cases {
         let set = [format!("viscosity={viscosity}"), format!("stiffness={stiffness}"), format!("form={form}")];
-        let knobs = [&*set[0], &*set[1], &*set[2], "nozzles=0", "confinement=0", "edge_drag=0"];
-        let mut project = fluid_in_one_pass(&knobs, 1);
+        let custom_uniforms = [&*set[0], &*set[1], &*set[2], "nozzles=0", "confinement=0", "edge_drag=0"];
+        let mut project = fluid_in_one_pass(&custom_uniforms, 1);
         // A standing wave that the walls reflect onto itself.
         let seed =
             format!("if (iFrame == 0 && p.y > 0) o = vec4(1e-3 * sin({k} * (float(p.x) + 0.5)), 0.0, 1.0, 0.0);");
@@ -141,12 +141,12 @@ fn the_fluid_comes_back_from_sliders_beyond_its_method() {
         let mut engine = whole(&gpu, &project, true, (32, 20));
         draw(&mut engine, 0..30, drag);
         assert!(!hatched(&mut engine), "hatched at the defaults");
-        engine.set_knobs(&values("fluid", &[&published, beyond].concat()));
+        engine.set_custom_uniforms(&values("fluid", &[&published, beyond].concat()));
         draw(&mut engine, 30..1200, untouched);
         let (wild, _) = energy_and_mass(&mut engine, "C");
         assert!(wild.is_finite() && wild > 1e-3, "{beyond:?}: {wild}, so nothing is beyond the method here");
         assert!(hatched(&mut engine), "{beyond:?} is not marked");
-        engine.set_knobs(&values("fluid", &published));
+        engine.set_custom_uniforms(&values("fluid", &published));
         draw(&mut engine, 1200..1800, untouched);
         let (calm, mass) = energy_and_mass(&mut engine, "C");
         assert!(calm < 1e-2 * wild && calm < 1e-4, "{beyond:?}: energy {wild}, ten seconds later {calm}");
@@ -159,22 +159,25 @@ fn the_fluid_comes_back_from_sliders_beyond_its_method() {
 #[test]
 fn forward_and_backward_no_slider_makes_energy() {
     let Some(gpu) = gpu() else { return };
-    for (knobs, marked) in [
+    for (custom_uniforms, marked) in [
         (&["viscosity=0", "stiffness=0.7"][..], false),
         (&["viscosity=0"], true),
         (&["viscosity=0", "dt=2", "stiffness=10"], true),
         (&["viscosity=1.25", "dt=0.5", "stiffness=10"], true),
         (&["viscosity=1.25", "stiffness=0"], true),
     ] {
-        let mut project = preset_with("fluid", &[&["nozzles=0"], knobs].concat());
+        let mut project = preset_with("fluid", &[&["nozzles=0"], custom_uniforms].concat());
         overwrite(&mut project, "A", NOISE);
         let mut engine = whole(&gpu, &project, true, (32, 20));
         draw(&mut engine, 0..3, untouched);
         let (begin, _) = energy_and_mass(&mut engine, "C");
         draw(&mut engine, 3..600, untouched);
         let (end, mass) = energy_and_mass(&mut engine, "C");
-        assert!(begin > 1e-6 && end < begin && mass.abs() < 1e-4, "{knobs:?}: {begin} became {end}, mass {mass}");
-        assert_eq!(hatched(&mut engine), marked, "{knobs:?}");
+        assert!(
+            begin > 1e-6 && end < begin && mass.abs() < 1e-4,
+            "{custom_uniforms:?}: {begin} became {end}, mass {mass}"
+        );
+        assert_eq!(hatched(&mut engine), marked, "{custom_uniforms:?}");
     }
 }
 
@@ -302,14 +305,20 @@ fn moving_dye_decays_as_stated_too() {
 fn the_surface_stays_within_its_bounds() {
     let Some(gpu) = gpu() else { return };
     // Untouched, and with every dent as deep and as lasting as the sliders allow, and with and without surface tension.
-    for (knobs, most) in [(&[][..], 1.3), (&["dent=4", "settle_seconds=20", "tension=0"], 8.0), (&["tension=1"], 1.3)] {
+    for (custom_uniforms, most) in
+        [(&[][..], 1.3), (&["dent=4", "settle_seconds=20", "tension=0"], 8.0), (&["tension=1"], 1.3)]
+    {
         let options = BuildOptions { wanted: vec![buffer("height")], ..Default::default() };
-        let mut engine = engine_with(&gpu, &preset_with("fluid-lit", knobs), &MediaSet::new(), &options, (240, 135));
+        let mut engine =
+            engine_with(&gpu, &preset_with("fluid-lit", custom_uniforms), &MediaSet::new(), &options, (240, 135));
         draw(&mut engine, 0..150, untouched);
         let height = engine.read(&buffer("height")).unwrap();
         let (low, high) = height.texels.iter().fold((0.0f32, 0.0f32), |(l, h), t| (l.min(t[0]), h.max(t[0])));
-        println!("{knobs:?}: heights from {low} to {high}");
-        assert!(all_finite(&height) && high - low > 0.05 && low > -most && high < most, "{knobs:?}: {low} to {high}");
+        println!("{custom_uniforms:?}: heights from {low} to {high}");
+        assert!(
+            all_finite(&height) && high - low > 0.05 && low > -most && high < most,
+            "{custom_uniforms:?}: {low} to {high}"
+        );
     }
 }
 

@@ -15,11 +15,11 @@ fn of_each_type(lives: &[[f32; 4]]) -> [usize; 3] {
 #[test]
 fn particles_live_as_long_as_they_say_and_none_is_lost() {
     let Some(gpu) = gpu() else { return };
-    for knobs in [&[][..], &["lifetime=0.1"], &["speed=10"]] {
-        let project = preset_with("particles", knobs);
+    for custom_uniforms in [&[][..], &["lifetime=0.1"], &["speed=10"]] {
+        let project = preset_with("particles", custom_uniforms);
         let mut engine = whole(&gpu, &project, true, (64, 36));
         draw(&mut engine, 0..1, drag);
-        let step = if knobs == ["speed=10"] { 10.0 / 60.0 } else { 1.0f32 / 60.0 };
+        let step = if custom_uniforms == ["speed=10"] { 10.0 / 60.0 } else { 1.0f32 / 60.0 };
         let mut before = lives(&engine.read(&buffer("life")).unwrap());
         assert_eq!(of_each_type(&before), [512, 384, 128]);
         let mut births = 0;

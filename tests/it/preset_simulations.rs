@@ -6,7 +6,7 @@ use crate::support::{presets::*, *};
 use eddy::{
     engine::{BuildOptions, Engine, FrameInputs},
     media::MediaSet,
-    project::{KnobType, KnobValue, PassId},
+    project::{CustomUniformType, CustomUniformValue, PassId},
 };
 
 /// A simulation: the buffer that is its state, the largest number that may ever stand in one of its buffers, and how
@@ -146,22 +146,22 @@ fn every_slider_may_go_to_its_ends_and_come_back() {
         let mut engine = whole(&gpu, &project, true, (32, 20));
         let mut run = in_turn((32.0, 20.0));
         run(&mut engine, 3, false);
-        for knob in project.knobs().list {
-            let Some(range) = &knob.range else { continue };
-            let ends = match knob.ty {
-                KnobType::Bool => continue,
+        for custom_uniform in project.custom_uniforms().list {
+            let Some(range) = &custom_uniform.range else { continue };
+            let ends = match custom_uniform.ty {
+                CustomUniformType::Bool => continue,
                 _ => [range.min, range.max],
             };
             for end in ends {
                 let mut turned = project.clone();
-                turned.turn_knob(&knob, KnobValue::new(knob.ty, &end));
-                engine.set_knobs(&turned.knob_values);
+                turned.turn_custom_uniform(&custom_uniform, CustomUniformValue::new(custom_uniform.ty, &end));
+                engine.set_custom_uniforms(&turned.custom_uniform_values);
                 run(&mut engine, 12, true);
                 run(&mut engine, 12, false);
-                check(s, &mut engine, &format!("{} at {end:?}", knob.name));
-                engine.set_knobs(&project.knob_values);
+                check(s, &mut engine, &format!("{} at {end:?}", custom_uniform.name));
+                engine.set_custom_uniforms(&project.custom_uniform_values);
                 run(&mut engine, 6, false);
-                check(s, &mut engine, &format!("back from {} at {end:?}", knob.name));
+                check(s, &mut engine, &format!("back from {} at {end:?}", custom_uniform.name));
             }
         }
     }
@@ -177,8 +177,8 @@ fn after_a_violent_hand_it_is_calm_again() {
         ("fluid-accurate", "velocity", &["jets=0", "viscosity=0.01"], 600),
         ("mip-fluid", "velocity", &["stirring=0"], 500),
     ];
-    for (name, state, knobs, frames) in cases {
-        let mut engine = whole(&gpu, &preset_with(name, knobs), true, (48, 27));
+    for (name, state, custom_uniforms, frames) in cases {
+        let mut engine = whole(&gpu, &preset_with(name, custom_uniforms), true, (48, 27));
         // Row 0 of the fluid is the mouse's memory.
         let energy = |engine: &mut Engine| {
             let pixels = engine.read(&buffer(state)).unwrap();
@@ -207,16 +207,16 @@ fn all_sliders_may_go_to_their_ends_at_once_and_come_back() {
         run(&mut engine, 3, false);
         for corner in [0, u64::MAX, 0x9e37_79b9_7f4a_7c15, 0x6a09_e667_f3bc_c909, 0xb7e1_5162_8aed_2a6b] {
             let mut turned = project.clone();
-            for (i, knob) in project.knobs().list.iter().enumerate() {
-                let Some(range) = &knob.range else { continue };
+            for (i, custom_uniform) in project.custom_uniforms().list.iter().enumerate() {
+                let Some(range) = &custom_uniform.range else { continue };
                 let end = if corner >> i & 1 == 0 { &range.min } else { &range.max };
-                turned.turn_knob(knob, KnobValue::new(knob.ty, end));
+                turned.turn_custom_uniform(custom_uniform, CustomUniformValue::new(custom_uniform.ty, end));
             }
-            engine.set_knobs(&turned.knob_values);
+            engine.set_custom_uniforms(&turned.custom_uniform_values);
             run(&mut engine, 20, true);
             run(&mut engine, 20, false);
             check(s, &mut engine, &format!("sliders at {corner:x}"));
-            engine.set_knobs(&project.knob_values);
+            engine.set_custom_uniforms(&project.custom_uniform_values);
             run(&mut engine, 10, false);
             check(s, &mut engine, &format!("back from sliders at {corner:x}"));
         }

@@ -38,8 +38,8 @@ fn corner(project: &mut Project, height: Option<f64>) {
 }
 
 /// The world's positions, and what is open, in a scene of [`corner`].
-fn open(gpu: &Gpu, height: Option<f64>, knobs: &[&str]) -> (Pixels, Pixels) {
-    let mut project = preset("ssao", knobs);
+fn open(gpu: &Gpu, height: Option<f64>, custom_uniforms: &[&str]) -> (Pixels, Pixels) {
+    let mut project = preset("ssao", custom_uniforms);
     corner(&mut project, height);
     let mut engine = whole(gpu, &project, SIZE);
     draw(&mut engine, 0..1);
@@ -103,9 +103,9 @@ fn beside_a_wall_the_occlusion_is_the_analytic_one_within_the_stated_bias() {
         (0.6, 0.25, false, 0.045, 0.01),
     ] {
         let method = if rays { "method=0" } else { "method=1" };
-        let knobs = ["power=1".to_owned(), method.to_owned(), format!("radius={radius}")];
-        let knobs: Vec<&str> = knobs.iter().map(String::as_str).collect();
-        let (world, open) = open(&gpu, Some(height), &knobs);
+        let custom_uniforms = ["power=1".to_owned(), method.to_owned(), format!("radius={radius}")];
+        let custom_uniforms: Vec<&str> = custom_uniforms.iter().map(String::as_str).collect();
+        let (world, open) = open(&gpu, Some(height), &custom_uniforms);
         let rows = by_distance(&world, &open);
         let (mut low, mut high, mut beside, mut beyond) = (0.0f64, 0.0f64, 0, 0);
         for (distance, hidden) in rows {
@@ -133,13 +133,15 @@ fn beside_a_wall_the_occlusion_is_the_analytic_one_within_the_stated_bias() {
 #[test]
 fn an_open_plane_is_open() {
     let Some(gpu) = gpu() else { return };
-    for knobs in [&["bias=0.002"][..], &["radius=2", "bias=0.002"], &["radius=0.05"], &["method=1", "bias=0.002"]] {
-        let (world, open) = open(&gpu, None, knobs);
+    for custom_uniforms in
+        [&["bias=0.002"][..], &["radius=2", "bias=0.002"], &["radius=0.05"], &["method=1", "bias=0.002"]]
+    {
+        let (world, open) = open(&gpu, None, custom_uniforms);
         let floor = world.texels.iter().zip(&open.texels).filter(|(w, _)| w[3] > 0.0);
         let all: Vec<f32> = floor.map(|(_, o)| o[0]).collect();
         assert!(
             all.len() > 10_000 && all.iter().all(|o| *o == 1.0),
-            "{knobs:?}: {:?}",
+            "{custom_uniforms:?}: {:?}",
             all.iter().min_by(|a, b| a.total_cmp(b))
         );
     }

@@ -36,10 +36,10 @@ fn camera(distance: f64) -> Camera {
 }
 
 /// One mesh about the origin, turned, with a page's programs, and behind it in drawing order what else there is.
-fn scene(page: Page, mesh: &str, rotation: [f64; 3], distance: f64, knobs: &[&str]) -> Project {
+fn scene(page: Page, mesh: &str, rotation: [f64; 3], distance: f64, custom_uniforms: &[&str]) -> Project {
     let mut project = preset("toon-outline", &PLAIN);
-    // One by one: a knob may be turned once.
-    knobs.iter().for_each(|knob| project.set_knob(knob).unwrap());
+    // One by one: a custom uniform may be turned once.
+    custom_uniforms.iter().for_each(|custom_uniform| project.set_custom_uniform(custom_uniform).unwrap());
     let geometry = project.pass_mut(&buffer("scene")).unwrap().settings.meshes_mut().unwrap();
     geometry.camera = camera(distance);
     let first = 3 * page as usize;
@@ -60,8 +60,8 @@ fn picture_of(gpu: &Gpu, project: &Project) -> Pixels {
     read(&mut engine, "scene")
 }
 
-fn drawn(gpu: &Gpu, page: Page, mesh: &str, rotation: [f64; 3], distance: f64, knobs: &[&str]) -> Pixels {
-    picture_of(gpu, &scene(page, mesh, rotation, distance, knobs))
+fn drawn(gpu: &Gpu, page: Page, mesh: &str, rotation: [f64; 3], distance: f64, custom_uniforms: &[&str]) -> Pixels {
+    picture_of(gpu, &scene(page, mesh, rotation, distance, custom_uniforms))
 }
 
 fn is_line(t: &[f32; 4]) -> bool {
@@ -90,8 +90,8 @@ fn a_line_is_as_many_pixels_wide_as_its_formula_says() {
     let (width, nearest, farthest) = (0.2, 4.0, 16.0);
     for mode in ["outlineMode=0", "outlineMode=1"] {
         for distance in [5.0, 8.0, 12.0] {
-            let knobs = [mode, "outlineWidth=0.2", "nearest=4", "farthest=16"];
-            let pixels = drawn(&gpu, Page::Figure, "builtin:sphere", [0.0; 3], distance, &knobs);
+            let custom_uniforms = [mode, "outlineWidth=0.2", "nearest=4", "farthest=16"];
+            let pixels = drawn(&gpu, Page::Figure, "builtin:sphere", [0.0; 3], distance, &custom_uniforms);
             let expected = formula(width, distance, nearest, farthest, f64::from(pixels.height));
             // Rings have the areas of discs; so a width is known to a part of a pixel.
             let radius = |n: usize| (n as f64 / std::f64::consts::PI).sqrt();
@@ -104,8 +104,8 @@ fn a_line_is_as_many_pixels_wide_as_its_formula_says() {
             assert!((measured - expected).abs() < 0.25, "{mode}, {distance}: {measured} px, not {expected}");
             assert!((along - expected).abs() <= 1.0, "{mode}, {distance}: {along} px, not {expected}");
         }
-        let knobs = [mode, "outlineWidth=0.2", "nearest=4", "farthest=16"];
-        let far = drawn(&gpu, Page::Figure, "builtin:sphere", [0.0; 3], 16.5, &knobs);
+        let custom_uniforms = [mode, "outlineWidth=0.2", "nearest=4", "farthest=16"];
+        let far = drawn(&gpu, Page::Figure, "builtin:sphere", [0.0; 3], 16.5, &custom_uniforms);
         assert_eq!(count(&far, is_line), 0, "beyond the farthest distance");
         assert!(count(&far, is_covered) > 500);
     }
@@ -124,7 +124,7 @@ fn the_width_mask_makes_a_line_thinner_as_far_as_it_counts() {
 fn without_width_and_with_depth_alone_there_is_no_line() {
     let Some(gpu) = gpu() else { return };
     for (page, mesh) in [(Page::Figure, "builtin:figure"), (Page::Cube, "builtin:cube"), (Page::Knot, "builtin:knot")] {
-        let with = |knobs: &[&str]| drawn(&gpu, page, mesh, [20.0, 30.0, 0.0], 7.0, knobs);
+        let with = |custom_uniforms: &[&str]| drawn(&gpu, page, mesh, [20.0, 30.0, 0.0], 7.0, custom_uniforms);
         let mut bare = scene(page, mesh, [20.0, 30.0, 0.0], 7.0, &[]);
         bare.pass_mut(&buffer("scene")).unwrap().settings.meshes_mut().unwrap().draws.truncate(1);
         let bare = picture_of(&gpu, &bare);
@@ -167,8 +167,8 @@ fn what_is_cut_out_and_its_inverse_are_the_whole() {
     for clipping in ["clipping=1", "clipping=2"] {
         for level in ["clipLevel=0.25", "clipLevel=0.5", "clipLevel=0.8"] {
             let with = |inverse: &str| {
-                let knobs = ["outlineWidth=0", clipping, level, inverse];
-                drawn(&gpu, Page::Figure, "builtin:sphere", [0.0; 3], 5.0, &knobs)
+                let custom_uniforms = ["outlineWidth=0", clipping, level, inverse];
+                drawn(&gpu, Page::Figure, "builtin:sphere", [0.0; 3], 5.0, &custom_uniforms)
             };
             let uncut = drawn(&gpu, Page::Figure, "builtin:sphere", [0.0; 3], 5.0, &["outlineWidth=0"]);
             let (kept, inverse) = (with("clipInverse=false"), with("clipInverse=true"));
@@ -184,8 +184,8 @@ fn what_is_cut_out_and_its_inverse_are_the_whole() {
             assert!(counts.iter().all(|n| *n > 500), "{clipping}, {level}: {counts:?}");
         }
         // The level's end: everything is kept. And lines are cut out with their mesh.
-        let lines = |knobs: &[&str]| {
-            let all = [&[clipping][..], knobs].concat();
+        let lines = |custom_uniforms: &[&str]| {
+            let all = [&[clipping][..], custom_uniforms].concat();
             drawn(&gpu, Page::Figure, "builtin:sphere", [0.0; 3], 5.0, &all)
         };
         let uncut = drawn(&gpu, Page::Figure, "builtin:sphere", [0.0; 3], 5.0, &[]);
@@ -241,9 +241,9 @@ fn notches(pixels: &Pixels) -> usize {
 #[test]
 fn scaled_positions_and_baked_normals_keep_a_cubes_corners_closed() {
     let Some(gpu) = gpu() else { return };
-    let with = |knobs: &[&str]| {
-        let knobs = [&["outlineWidth=0.25"][..], knobs].concat();
-        drawn(&gpu, Page::Cube, "builtin:cube", [25.0, 35.0, 0.0], 8.0, &knobs)
+    let with = |custom_uniforms: &[&str]| {
+        let custom_uniforms = [&["outlineWidth=0.25"][..], custom_uniforms].concat();
+        drawn(&gpu, Page::Cube, "builtin:cube", [25.0, 35.0, 0.0], 8.0, &custom_uniforms)
     };
     let split = with(&["outlineMode=0"]);
     let scaled = with(&["outlineMode=1"]);
@@ -262,8 +262,8 @@ fn scaled_positions_and_baked_normals_keep_a_cubes_corners_closed() {
 fn a_lines_colour_is_its_own_the_lights_the_textures_and_the_meshs() {
     let Some(gpu) = gpu() else { return };
     let bare = drawn(&gpu, Page::Figure, "builtin:figure", [0.0; 3], 7.0, &["outlineWidth=0"]);
-    let colours = |knobs: &[&str]| -> Vec<[u8; 3]> {
-        let pixels = drawn(&gpu, Page::Figure, "builtin:figure", [0.0; 3], 7.0, knobs);
+    let colours = |custom_uniforms: &[&str]| -> Vec<[u8; 3]> {
+        let pixels = drawn(&gpu, Page::Figure, "builtin:figure", [0.0; 3], 7.0, custom_uniforms);
         let beside = pixels.texels.iter().zip(&bare.texels).filter(|(t, b)| is_covered(t) && !is_covered(b));
         let mut all: Vec<[u8; 3]> = beside.map(|(t, _)| [0, 1, 2].map(|i| (t[i] * 255.0).round() as u8)).collect();
         assert!(all.len() > 500);
@@ -294,8 +294,8 @@ fn a_lines_colour_is_its_own_the_lights_the_textures_and_the_meshs() {
 fn depth_alone_of_no_width_hides_what_the_mesh_hides() {
     let Some(gpu) = gpu() else { return };
     // The hull alone, and a large cube behind it, drawn after it.
-    let seen = |knobs: &[&str]| {
-        let mut project = scene(Page::Figure, "builtin:sphere", [0.0; 3], 6.0, knobs);
+    let seen = |custom_uniforms: &[&str]| {
+        let mut project = scene(Page::Figure, "builtin:sphere", [0.0; 3], 6.0, custom_uniforms);
         let geometry = project.pass_mut(&buffer("scene")).unwrap().settings.meshes_mut().unwrap();
         let position = [0.0, 0.0, -5.0];
         let cube = MeshSource::parse("builtin:cube");
@@ -304,15 +304,15 @@ fn depth_alone_of_no_width_hides_what_the_mesh_hides() {
         count(&picture_of(&gpu, &project), is_covered) as f64
     };
     let whole = seen(&["zOnly=false"]);
-    let hidden = |knobs: &[&str]| whole - seen(&[&["zOnly=true"][..], knobs].concat());
+    let hidden = |custom_uniforms: &[&str]| whole - seen(&[&["zOnly=true"][..], custom_uniforms].concat());
     // A sphere of radius 1, and with its line of 0.1.
     let disc = |r: f64| {
         std::f64::consts::PI * (360.0 / (2.0 * (FOV / 2.0).to_radians().tan()) * r / (36.0 - r * r).sqrt()).powi(2)
     };
-    for (knobs, radius) in
+    for (custom_uniforms, radius) in
         [(&["outlineWidth=0"][..], 1.0), (&["zOnlyWidth=0"], 1.0), (&["zOnlyWidth=0.5"], 1.05), (&[], 1.1)]
     {
-        let part = hidden(knobs) / disc(radius);
-        assert!((part - 1.0).abs() < 0.03, "{knobs:?}: {part} of a disc of radius {radius}");
+        let part = hidden(custom_uniforms) / disc(radius);
+        assert!((part - 1.0).abs() < 0.03, "{custom_uniforms:?}: {part} of a disc of radius {radius}");
     }
 }

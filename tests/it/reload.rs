@@ -8,6 +8,7 @@ use eddy::{
 use std::{
     fs,
     io::Write,
+    path::{Path, PathBuf},
     time::{Duration, Instant},
 };
 
@@ -111,6 +112,31 @@ fn an_edited_tab_asks_and_keeps_both_texts_whatever_the_answer() {
         assert!(!stage.session.is_dirty());
         stage.until_compiled();
         assert_eq!(stage.red(), if answer == "mine" { 102 } else { 153 });
+    }
+}
+
+/// By a path from the current folder, as it is typed in a terminal.
+fn relative(path: &Path) -> PathBuf {
+    let here = std::env::current_dir().unwrap();
+    let up = here.components().skip(1).map(|_| Path::new(".."));
+    up.collect::<PathBuf>().join(path.strip_prefix("/").unwrap())
+}
+
+#[test]
+fn the_other_text_is_kept_beside_a_file_that_was_opened_by_a_relative_path() {
+    for name in ["edit.glsl", "."] {
+        let Some(gpu) = support::gpu() else { return };
+        let mut stage = Stage::bare(gpu);
+        let file = if name == "." { "image.glsl" } else { name };
+        stage.write(file, plain(0.2));
+        stage.session.apply(Command::Open(relative(&stage.path(name)).display().to_string()));
+        assert_eq!(stage.session.text(&IMAGE), plain(0.2), "{:?}", stage.session.notices());
+        stage.edit(&plain(0.4));
+        stage.write(file, plain(0.6));
+        stage.until("the question", |s| s.question().is_some());
+        stage.session.apply(Command::Answer(Answer::KeepMine));
+        assert_eq!(stage.read(&format!("{file}.disk-0001")), plain(0.6));
+        assert_eq!(fs::read_dir(stage.folder()).unwrap().count(), 2);
     }
 }
 

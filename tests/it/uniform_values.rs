@@ -5,7 +5,7 @@ use eddy::{
     diag::render_all,
     engine::{BuildError, BuildOptions, Program},
     media::MediaSet,
-    project::{KnobValue, Overwrite, Project, load, save},
+    project::{CustomUniformValue, Overwrite, Project, load, save},
 };
 use std::{fs, path::PathBuf};
 
@@ -88,12 +88,12 @@ fn every_type_takes_its_values_from_the_file() {
 #[test]
 fn values_are_kept_when_the_project_is_saved_and_go_with_an_export() {
     let project = open("saved", TOML, IMAGE);
-    assert!(matches!(&project.knob_values["kernel"], KnobValue::List(all) if all.len() == 5));
+    assert!(matches!(&project.custom_uniform_values["kernel"], CustomUniformValue::List(all) if all.len() == 5));
     let copy = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("uniform_values_copy");
     let _ = fs::remove_dir_all(&copy);
     save(&project, &copy, Overwrite::Refuse).unwrap();
     let again = load(copy.to_str().unwrap()).unwrap().project;
-    assert_eq!(again.knob_values, project.knob_values);
+    assert_eq!(again.custom_uniform_values, project.custom_uniform_values);
     let file = copy.with_extension("json");
     let _ = fs::remove_file(&file);
     save(&project, &file, Overwrite::Refuse).unwrap();

@@ -5,7 +5,7 @@ use eddy::{
     diag::render_all,
     engine::{BuildError, BuildOptions, Program},
     media::MediaSet,
-    project::{KnobType, KnobValue, PassId, Source},
+    project::{CustomUniformType, CustomUniformValue, PassId, Source},
     session::{Command, Level},
 };
 
@@ -44,10 +44,10 @@ fn every_type_reaches_the_shader_and_turning_one_compiles_nothing() {
     );
     for set in ["speed=-1e-3", "count=2147483647", "at=7", "on=false", "gain=9,8,7,6", "tint=0,0,1"] {
         let set = if set == "at=7" { "at=vec2(7)" } else { set };
-        project.set_knob(set).unwrap();
+        project.set_custom_uniform(set).unwrap();
     }
-    assert!(engine.set_knobs(&project.knob_values));
-    assert!(!engine.set_knobs(&project.knob_values), "nothing is different");
+    assert!(engine.set_custom_uniforms(&project.custom_uniform_values));
+    assert!(!engine.set_custom_uniforms(&project.custom_uniform_values), "nothing is different");
     run(&mut engine, 1, 2);
     let turned = row(&engine.read(&buffer("A")).unwrap());
     assert_eq!(
@@ -111,26 +111,26 @@ const SLIDER: &str = "#iUniform float red = 0.2 in { 0.0, 1.0 }
 void mainImage(out vec4 o, in vec2 p) { o = vec4(red * float(n), 0.0, 0.0, 1.0); }
 ";
 
-fn set(name: &str, value: KnobValue) -> Command {
-    Command::SetKnob { name: name.into(), value: Some(value) }
+fn set(name: &str, value: CustomUniformValue) -> Command {
+    Command::SetCustomUniform { name: name.into(), value: Some(value) }
 }
 
 #[test]
-fn turning_a_knob_while_paused_draws_one_frame_and_saving_writes_it_down() {
+fn turning_a_custom_uniform_while_paused_draws_one_frame_and_saving_writes_it_down() {
     let Some(gpu) = gpu() else { return };
     let toml = "# mine\neddy = 1\n\n[uniforms] # turned\nred = 0.4 # warm\n\n[passes.image]\n";
     let mut stage = Stage::open(gpu, &[("image.glsl", SLIDER), ("eddy.toml", toml)]);
     assert_eq!(stage.red(), 102);
     let (frames, compiles) = (stage.frames(), stage.session.compile_state().clone());
-    stage.session.apply(set("red", KnobValue::Float(0.6)));
+    stage.session.apply(set("red", CustomUniformValue::Float(0.6)));
     stage.tick();
     stage.tick();
     assert_eq!((stage.red(), stage.frames()), (153, frames + 1));
     assert_eq!(stage.session.compile_state(), &compiles, "nothing was compiled");
     assert!(stage.session.is_dirty());
-    stage.session.apply(set("red", KnobValue::Float(7.0)));
-    stage.session.apply(set("n", KnobValue::Int(0)));
-    stage.session.apply(set("nobody", KnobValue::Int(0)));
+    stage.session.apply(set("red", CustomUniformValue::Float(7.0)));
+    stage.session.apply(set("n", CustomUniformValue::Int(0)));
+    stage.session.apply(set("nobody", CustomUniformValue::Int(0)));
     stage.tick();
     assert_eq!(stage.red(), 0);
     stage.session.apply(Command::Save);
@@ -139,30 +139,30 @@ fn turning_a_knob_while_paused_draws_one_frame_and_saving_writes_it_down() {
         stage.read("eddy.toml"),
         "# mine\neddy = 1\n\n[uniforms] # turned\nred = 1.0 # warm\nn = 0\n\n[passes.image]\n"
     );
-    stage.session.apply(Command::SetKnob { name: "n".into(), value: None });
+    stage.session.apply(Command::SetCustomUniform { name: "n".into(), value: None });
     stage.tick();
     assert_eq!(stage.red(), 255);
-    stage.session.apply(Command::ResetKnobs);
+    stage.session.apply(Command::ResetCustomUniforms);
     stage.tick();
     assert_eq!(stage.red(), 51);
     stage.session.apply(Command::Save);
     assert_eq!(stage.read("eddy.toml"), "# mine\neddy = 1\n\n[passes.image]\n");
-    stage.session.apply(Command::AssignKnob("red=0.5".into()));
-    stage.session.apply(Command::AssignKnob("rde=0.5".into()));
+    stage.session.apply(Command::AssignCustomUniform("red=0.5".into()));
+    stage.session.apply(Command::AssignCustomUniform("rde=0.5".into()));
     stage.tick();
     assert_eq!(stage.red(), 128);
     assert_eq!(stage.notices(Level::Error), ["not set: no #iUniform line declares `rde` (did you mean red?)"]);
 }
 
 #[test]
-fn knobs_follow_the_text_and_the_disk() {
+fn custom_uniforms_follow_the_text_and_the_disk() {
     let Some(gpu) = gpu() else { return };
     let mut stage = Stage::open(gpu, &[("image.glsl", SLIDER)]);
-    stage.session.apply(set("red", KnobValue::Float(0.8)));
+    stage.session.apply(set("red", CustomUniformValue::Float(0.8)));
     stage.edit(&SLIDER.replace("1.0 }", "0.5 }"));
     stage.session.apply(Command::CompileNow);
     stage.until_compiled();
-    assert_eq!(stage.session.knobs()[0].ty, KnobType::Float);
+    assert_eq!(stage.session.custom_uniforms()[0].ty, CustomUniformType::Float);
     assert_eq!(stage.red(), 128, "within the new range");
     stage.edit(SLIDER);
     stage.session.apply(Command::CompileNow);
@@ -171,7 +171,9 @@ fn knobs_follow_the_text_and_the_disk() {
     stage.session.apply(Command::Save);
     assert!(stage.read("eddy.toml").contains("[uniforms]\nred = 0.8\n"), "{}", stage.read("eddy.toml"));
     stage.write("eddy.toml", stage.read("eddy.toml").replace("0.8", "0.4"));
-    stage.until("the value from disk", |s| s.knob_value(&s.knobs()[0]) == KnobValue::Float(0.4));
+    stage.until("the value from disk", |s| {
+        s.custom_uniform_value(&s.custom_uniforms()[0]) == CustomUniformValue::Float(0.4)
+    });
     stage.until_compiled();
     assert_eq!(stage.red(), 102);
 }

@@ -5,4 +5,11 @@ mod support;
 
 mod window;
 mod window_editor;
+mod window_endurance;
+mod window_keyboard;
+mod window_keys;
 mod window_lab;
+mod window_layout;
+mod window_passes;
+mod window_save;
+mod window_slow;

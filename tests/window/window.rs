@@ -59,7 +59,7 @@ fn saved_texels(window: &mut Window, pass: &str) -> Texels {
     window.click_on(&format!("pass:{pass}"));
     // A pass shown for the first time may have to be compiled into the frame first.
     window.wait_until("the pass to be shown", "shown", |e| e["pass"] == pass);
-    let path = saved(window, "ctrl+shift+s");
+    let path = saved(window, "ctrl+shift+e");
     let key = pass.to_lowercase().replace(' ', "_");
     assert!(path.to_string_lossy().contains(&key), "{} is not of {pass}", path.display());
     Texels::read(&path)
@@ -136,7 +136,10 @@ fn typing_shows_the_new_colour_and_an_error_keeps_the_old_one() {
     window.click_on("editor");
     window.keys(&["ctrl+End", "Return"]);
     window.type_text("float f() { return missing; }");
-    let failed = compiled(&mut window, false);
+    // While one types, the beginnings of the line are compiled too.
+    let failed = window.wait_until("the mistake to be found", "compiled", |e| {
+        e["diagnostics"][0]["message"].as_str().is_some_and(|m| m.contains("missing"))
+    });
     let problem = &failed["diagnostics"][0];
     assert_eq!((problem["tab"].as_str(), problem["line"].as_u64()), (Some("Image"), Some(2)), "{failed}");
     assert!(problem["message"].as_str().unwrap().contains("missing"), "{problem}");
@@ -238,12 +241,12 @@ fn a_slider_changes_the_picture_while_it_is_paused_and_resets() {
     window.keys(&["alt+Up"]);
     window.wait_until("the pause", "frame", |e| e["playing"] == false);
     // Held until it shows: a press and a release between two frames drag nothing.
-    let slider = window.centre("knob:red");
+    let slider = window.centre("uniform:red");
     window.move_to(slider);
     window.press();
     window.wait_until("the slider", "uniforms", |e| e["values"]["red"][0].as_f64().is_some_and(|x| x > 0.0));
     window.release();
-    window.click_on("knob:on");
+    window.click_on("uniform:on");
     window.wait_until("the switch", "uniforms", |e| e["values"]["on"][0] == 1.0);
     // Notices of saved pictures lie over the lower rows for a while: the first picture comes after the last click
     // there.
@@ -253,9 +256,9 @@ fn a_slider_changes_the_picture_while_it_is_paused_and_resets() {
     if let Some(path) = std::env::var_os("EDDY_PHOTOGRAPH") {
         display.photograph(Path::new(&path));
     }
-    window.click_on("knob:reset:red");
+    window.click_on("uniform:reset:red");
     window.wait_until("the default", "uniforms", |e| e["values"]["red"][0] == 0.0);
-    window.click_on("knobs:reset");
+    window.click_on("uniforms:reset");
     window.wait_until("all defaults", "uniforms", |e| e["values"]["tint"][1] == 0.0 && e["values"]["on"][0] == 0.0);
     assert_eq!(colour(&mut window), [0, 0, 0]);
 }

@@ -34,23 +34,6 @@ fn saved(window: &mut Window, home: &Path, file: &str) -> String {
     fs::read_to_string(home.join("project").join(file)).unwrap()
 }
 
-fn shows(window: &mut Window, what: &str) {
-    window.wait_until(&format!("{what} to be shown"), "layout", |e| e["rects"][what].is_array());
-}
-
-fn hides(window: &mut Window, what: &str) {
-    window.wait_until(&format!("{what} to be hidden"), "layout", |e| e["rects"][what].is_null());
-}
-
-/// Where `EDDY_SHOTS` says: pictures for a person to look at.
-fn photograph(display: &Display, name: &str) {
-    if let Some(folder) = std::env::var_os("EDDY_SHOTS") {
-        // Popups fade in.
-        std::thread::sleep(std::time::Duration::from_millis(600));
-        display.photograph(&Path::new(&folder).join(name));
-    }
-}
-
 #[test]
 fn a_proposal_is_taken_by_enter_and_a_call_shows_what_it_takes() {
     let Some(display) = Display::open() else { return };
@@ -58,31 +41,31 @@ fn a_proposal_is_taken_by_enter_and_a_call_shows_what_it_takes() {
     let mut window = open(&display, home.path());
     go_to(&mut window, 5, 5);
     window.type_text("vec3 n = norm");
-    shows(&mut window, "completion:normalize");
-    photograph(&display, "completion.png");
+    window.shows("completion:normalize");
+    display.shot("completion.png");
     window.keys(&["Return"]);
-    hides(&mut window, "completions");
+    window.hides("completions");
     window.type_text("(");
-    shows(&mut window, "signature");
-    photograph(&display, "signature.png");
+    window.shows("signature");
+    display.shot("signature.png");
     // What the author declared comes first, also from Common, and members follow from the type.
     window.type_text("vec3(bri");
-    shows(&mut window, "completion:brightness");
+    window.shows("completion:brightness");
     window.keys(&["Tab"]);
-    hides(&mut window, "completions");
+    window.hides("completions");
     window.type_text("(fragCoord.");
-    shows(&mut window, "completion:xy");
-    photograph(&display, "members.png");
+    window.shows("completion:xy");
+    display.shot("members.png");
     window.type_text("x");
     // A word that is whole already leaves Enter to the text.
     window.type_text("y, 1.0)));");
-    hides(&mut window, "completions");
+    window.hides("completions");
     window.keys(&["Return"]);
     window.type_text("float speed = uv.x");
     window.keys(&["Return"]);
     window.type_text("+ spee");
     window.keys(&["Escape"]);
-    hides(&mut window, "completions");
+    window.hides("completions");
     window.type_text("x;");
     let text = saved(&mut window, home.path(), "image.glsl");
     let wanted = "    vec3 n = normalize(vec3(brightness(fragCoord.xy, 1.0)));\n    float speed = uv.x\n    + speex;\n";
@@ -97,14 +80,14 @@ fn the_way_leads_from_a_name_to_its_declaration_and_to_its_uses() {
     go_to(&mut window, 4, 25);
     // The list has the declaration in Common and the use here.
     window.keys(&["shift+F12"]);
-    shows(&mut window, "use:1");
+    window.shows("use:1");
     window.wait_until("two uses and no more", "layout", |e| e["rects"]["use:2"].is_null());
-    photograph(&display, "uses.png");
+    display.shot("uses.png");
     window.keys(&["Escape"]);
-    hides(&mut window, "use:0");
+    window.hides("use:0");
     window.keys(&["F12"]);
     // Common has no channels.
-    hides(&mut window, "channel:0");
+    window.hides("channel:0");
     // The name in Common is selected now: typing replaces it there.
     window.type_text("glow");
     let text = saved(&mut window, home.path(), "common.glsl");
@@ -121,10 +104,10 @@ fn a_pointer_at_rest_is_told_what_it_is_on() {
     let top = layout["rects"]["editor"][1].as_f64().unwrap();
     // `mainImage` begins the text, behind `void `.
     window.move_to((left as i64 + 70, top as i64 + 10));
-    shows(&mut window, "hover");
-    photograph(&display, "hover.png");
+    window.shows("hover");
+    display.shot("hover.png");
     window.move_to((left as i64 + 70, top as i64 + 260));
-    hides(&mut window, "hover");
+    window.hides("hover");
 }
 
 /// The strip under the editor offers each target of a pass that draws meshes.
@@ -149,8 +132,8 @@ fn a_channel_is_given_a_further_target_by_the_mouse() {
     let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
     window.wait_until("the first compile", "compiled", |e| e["compiling"] == false);
     window.click_on("channel:0");
-    shows(&mut window, "choose:buffer:scene:1");
-    photograph(&display, "targets.png");
+    window.shows("choose:buffer:scene:1");
+    display.shot("targets.png");
     window.click_on("choose:buffer:scene:1");
     saved(&mut window, home.path(), "image.glsl");
     let toml = fs::read_to_string(folder.join("eddy.toml")).unwrap();

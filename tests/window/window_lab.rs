@@ -2,15 +2,7 @@
 
 use crate::support::window::{Display, Window};
 use serde_json::Value;
-use std::{fs, path::Path};
-
-/// Where `EDDY_SHOTS` says: pictures for a person to look at.
-fn photograph(display: &Display, name: &str) {
-    if let Some(folder) = std::env::var_os("EDDY_SHOTS") {
-        std::thread::sleep(std::time::Duration::from_millis(600));
-        display.photograph(&Path::new(&folder).join(name));
-    }
-}
+use std::fs;
 
 fn compiled(window: &mut Window) {
     window.wait_until("a compile", "compiled", |e| e["compiling"] == false && e["ok"] == true);
@@ -52,7 +44,7 @@ fn a_study_runs_behind_the_window_and_a_click_on_a_point_opens_its_project() {
         window.wait_until("a point", "lab", |e| e["points"].as_u64() >= Some(wanted));
     }
     assert_eq!(window.newest("lab").unwrap()["running"], "blur", "plotted while it runs");
-    photograph(&display, "lab-running.png");
+    display.shot("lab-running.png");
     window.click_on("lab:stop");
     window.wait_until("the end of the run", "lab", |e| e["running"].is_null() && e["told"].is_null());
 
@@ -68,7 +60,7 @@ fn a_study_runs_behind_the_window_and_a_click_on_a_point_opens_its_project() {
     compiled(&mut window);
     // On the study's own canvas.
     window.wait_until("the canvas", "layout", |e| e["canvas"] == serde_json::json!([256, 256]));
-    photograph(&display, "lab-opened.png");
+    display.shot("lab-opened.png");
 
     // Another project has the view's size again.
     window.keys(&["ctrl+n"]);
@@ -96,7 +88,8 @@ fn the_table_of_costs_names_every_pass_and_closes_again() {
     compiled(&mut window);
     assert!(window.newest("costs").is_none(), "nothing is gathered while the table is closed");
 
-    window.click_on("button:costs");
+    window.click_on("button:view");
+    window.click_on("view:costs");
     let timed =
         |e: &Value| e["passes"].as_array().is_some_and(|p| p.iter().filter(|p| p["timed"] == true).count() == 2);
     let costs = window.wait_until("times of both passes", "costs", timed);
@@ -108,7 +101,7 @@ fn the_table_of_costs_names_every_pass_and_closes_again() {
     assert_eq!(seen, [said("Buffer A", true), said("Image", true), said("Buffer B", false)]);
     assert!(costs["passes"][1]["moved_bytes"].as_u64() <= Some(32 * texels), "{costs} for {texels} texels");
     window.wait_until("its sum", "layout", |e| e["rects"]["costs:sum"].is_array());
-    photograph(&display, "costs.png");
+    display.shot("costs.png");
 
     window.keys(&["ctrl+shift+m"]);
     window.wait_until("the table to be closed", "layout", |e| e["rects"]["costs:sum"].is_null());

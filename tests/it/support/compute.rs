@@ -1,6 +1,10 @@
 //! One texel of a buffer for each small program: what it computes on a device, held against what it should.
 
 use crate::support::*;
+use eddy::{
+    engine::FrameInputs,
+    session::trace::{self, Extent},
+};
 
 /// Where a program says what it computed.
 pub struct Case {
@@ -19,17 +23,30 @@ pub const fn with(before: &'static str, body: &'static str, expected: [f32; 4]) 
     Case { before, body, expected }
 }
 
-/// Draws each case alone and tells of all that differ.
+/// Draws each case alone, and walks through it on the processor; tells of all that differ.
 #[track_caller]
 pub fn check(cases: &[Case]) {
     if let Some(gpu) = gpu() {
-        check_on(&gpu, cases);
+        check_by(&gpu, cases, true);
     }
 }
 
-/// The same on this device.
+/// Draws each case alone: what the language leaves to the device.
+#[track_caller]
+pub fn check_driver(cases: &[Case]) {
+    if let Some(gpu) = gpu() {
+        check_by(&gpu, cases, false);
+    }
+}
+
+/// As [`check_driver`] on this device.
 #[track_caller]
 pub fn check_on(gpu: &eddy::gpu::Gpu, cases: &[Case]) {
+    check_by(gpu, cases, false);
+}
+
+#[track_caller]
+fn check_by(gpu: &eddy::gpu::Gpu, cases: &[Case], is_walked: bool) {
     let mut wrong = Vec::new();
     for case in cases {
         let code = format!(
@@ -55,13 +72,23 @@ pub fn check_on(gpu: &eddy::gpu::Gpu, cases: &[Case]) {
         };
         let mut engine = eddy::engine::Engine::new(gpu.clone(), 1, 1).unwrap();
         engine.set_program(built.program).unwrap();
-        run(&mut engine, 0, 1);
+        let (_, read) = engine.draw_inspected(&FrameInputs::at_fixed_step(0, 60.0), &buffer("A")).unwrap();
         let got = texel(&engine.read(&buffer("A")).unwrap(), 0, 0);
         let close = |(&got, &want): (&f32, &f32)| {
             got == want || (got.is_nan() && want.is_nan()) || (got - want).abs() <= 2e-5 * want.abs().max(1.0)
         };
         if !got.iter().zip(&case.expected).all(close) {
             wrong.push(format!("{:?}, not {:?}: {} {}", got, case.expected, case.before, case.body));
+        }
+        if !is_walked {
+            continue;
+        }
+        // The walker owes nothing to a driver.
+        let texts = eddy::engine::Sources::new(&project);
+        let walked = trace::trace(&texts, 0, &read, (0, 0), Extent { steps: 0, ..Extent::default() });
+        let walked = walked.unwrap_or_else(|error| panic!("{}: {error}", case.body)).value;
+        if !walked.is_some_and(|walked| walked.iter().zip(&case.expected).all(close)) {
+            wrong.push(format!("walked: {walked:?}, not {:?}: {} {}", case.expected, case.before, case.body));
         }
     }
     assert!(wrong.is_empty(), "{} of {} cases:\n{}", wrong.len(), cases.len(), wrong.join("\n"));

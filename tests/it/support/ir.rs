@@ -6,7 +6,8 @@ use std::fmt::Write;
 /// Returns the program of an Image pass after the last pass of the optimiser.
 pub fn optimised(code: &str, driver: Driver) -> String {
     let source = PassSource { driver, ..PassSource::image(code) };
-    let text = glsl::dump_ir(&source, &Link::default(), None).unwrap_or_else(|errors| panic!("{code}: {errors:?}"));
+    let text =
+        glsl::dump_ir(&source, &Link::default(), None, None).unwrap_or_else(|errors| panic!("{code}: {errors:?}"));
     let [program] = final_programs(&text)[..] else { panic!("an Image pass is one program") };
     program.trim_end().to_owned()
 }

@@ -81,7 +81,7 @@ pub fn project(passes: Vec<Pass>) -> Project {
         common: None,
         passes,
         sampler_rules: SamplerRules::PerChannel,
-        knob_values: Default::default(),
+        custom_uniform_values: Default::default(),
         groups: Vec::new(),
         includes: Vec::new(),
         origin: Origin::Unsaved,

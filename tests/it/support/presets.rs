@@ -5,7 +5,7 @@ use eddy::{
     engine::{BuildOptions, Engine, FrameInputs, Pixels},
     gpu::Gpu,
     media::MediaSet,
-    project::{KnobValues, PassId, Project, load},
+    project::{CustomUniformValues, PassId, Project, load},
 };
 
 /// Read from the source tree and not from the binary, so that a preset can be worked on without building Eddy anew.
@@ -14,21 +14,21 @@ pub fn preset(name: &str) -> Project {
 }
 
 /// A preset with its sliders set.
-pub fn preset_with(name: &str, knobs: &[&str]) -> Project {
+pub fn preset_with(name: &str, custom_uniforms: &[&str]) -> Project {
     let mut project = preset(name);
-    turn(&mut project, knobs);
+    turn(&mut project, custom_uniforms);
     project
 }
 
-pub fn turn(project: &mut Project, knobs: &[&str]) {
-    for knob in knobs {
-        project.set_knob(knob).unwrap();
+pub fn turn(project: &mut Project, custom_uniforms: &[&str]) {
+    for custom_uniform in custom_uniforms {
+        project.set_custom_uniform(custom_uniform).unwrap();
     }
 }
 
 /// The values that sliders of a running program are turned to.
-pub fn values(name: &str, knobs: &[&str]) -> KnobValues {
-    preset_with(name, knobs).knob_values
+pub fn values(name: &str, custom_uniforms: &[&str]) -> CustomUniformValues {
+    preset_with(name, custom_uniforms).custom_uniform_values
 }
 
 /// Puts `new` in place of `old` in a pass's text, which must have it: a preset that changed shall not pass by accident.

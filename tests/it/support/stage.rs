@@ -40,12 +40,17 @@ impl Stage {
     }
 
     pub fn bare(gpu: Gpu) -> Stage {
+        Self::with_options(gpu, |_| SessionOptions::default())
+    }
+
+    /// As [`Stage::bare`] with more options, which may name paths in the stage's own folder.
+    pub fn with_options(gpu: Gpu, options: impl FnOnce(&Path) -> SessionOptions) -> Stage {
         let dir = tempfile::tempdir().unwrap();
         fs::create_dir(dir.path().join("project")).unwrap();
         let options = SessionOptions {
             pictures: dir.path().join("pictures"),
             retry_for: Duration::from_millis(400),
-            ..SessionOptions::default()
+            ..options(dir.path())
         };
         let mut session = Session::with_options(gpu, Arc::new(|| ()), options).unwrap();
         session.apply(Command::SetFixedSize(Some((8, 4))));
@@ -147,7 +152,10 @@ impl Stage {
     }
 
     pub fn screenshot(&mut self) -> PathBuf {
+        let before = self.session.notices().len();
         self.session.apply(Command::Screenshot);
+        // A session that draws apart has it when the frame under way is drawn.
+        self.until("a notice of the picture", |s| s.notices().len() > before);
         let notice = self.session.notices().last().unwrap();
         let path = notice.text.strip_prefix("saved ").unwrap_or_else(|| panic!("{}", notice.text));
         PathBuf::from(path)

@@ -28,6 +28,11 @@ pub struct Display {
 impl Display {
     /// `None` after saying so where the machine has no Xvfb or xdotool; with `EDDY_REQUIRE_GPU=1` that is a failure.
     pub fn open() -> Option<Display> {
+        Self::of_size(1000, 700)
+    }
+
+    /// The same with a screen of so many pixels.
+    pub fn of_size(width: u32, height: u32) -> Option<Display> {
         let missing = ["Xvfb", "xdotool"].into_iter().find(|tool| {
             !Command::new("sh")
                 .args(["-c", &format!("command -v {tool} >/dev/null")])
@@ -41,7 +46,7 @@ impl Display {
         }
         // The server picks a free number and says which.
         let mut server = Command::new("Xvfb")
-            .args(["-displayfd", "1", "-noreset", "-screen", "0", "1000x700x24", "-nolisten", "tcp"])
+            .args(["-displayfd", "1", "-noreset", "-screen", "0", &format!("{width}x{height}x24"), "-nolisten", "tcp"])
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
             .spawn()
@@ -59,6 +64,15 @@ impl Display {
     /// A picture of the whole display, for a person to look at when something is wrong.
     pub fn photograph(&self, path: &Path) {
         let _ = Command::new("import").env("DISPLAY", &self.name).args(["-window", "root"]).arg(path).status();
+    }
+
+    /// A picture of the whole display in the folder that `EDDY_SHOTS` names, for a person to look at.
+    pub fn shot(&self, name: &str) {
+        if let Some(folder) = std::env::var_os("EDDY_SHOTS") {
+            // Popups fade in.
+            std::thread::sleep(Duration::from_millis(600));
+            self.photograph(&Path::new(&folder).join(name));
+        }
     }
 }
 
@@ -83,16 +97,38 @@ pub struct Window<'a> {
 impl<'a> Window<'a> {
     /// Opens a window with the given arguments, `home` being the home folder (and so where pictures go).
     pub fn open(display: &'a Display, home: &Path, arguments: &[&str]) -> Window<'a> {
+        Self::open_as(display, home, Some("760x440"), &[], arguments)
+    }
+
+    /// The same with a size, or as large as it was when it was closed last, and with further environment variables.
+    pub fn open_as(
+        display: &'a Display,
+        home: &Path,
+        size: Option<&str>,
+        environment: &[(&str, &str)],
+        arguments: &[&str],
+    ) -> Window<'a> {
         let runtime = home.join("runtime");
         std::fs::create_dir_all(&runtime).unwrap();
+        // A busy machine's slow frame is no reason to pause.
+        let has_limit = arguments.contains(&"--frame-timeout");
+        let patient: &[&str] = if has_limit { &[] } else { &["--frame-timeout", "60"] };
         let mut process = Command::new(env!("CARGO_BIN_EXE_eddy"))
-            .args(["--json", "--size", "760x440"])
+            .arg("--json")
+            .args(size.into_iter().flat_map(|size| ["--size", size]))
+            .args(patient)
             .args(arguments)
             .env("DISPLAY", &display.name)
             .env_remove("WAYLAND_DISPLAY")
             .env("HOME", home)
             .env("XDG_RUNTIME_DIR", runtime)
+            .envs(environment.iter().copied())
             .env_remove("XDG_PICTURES_DIR")
+            .env_remove("XDG_CONFIG_HOME")
+            .env_remove("XDG_STATE_HOME")
+            // No file dialogs of this desktop's: neither a portal nor a program.
+            .env_remove("DBUS_SESSION_BUS_ADDRESS")
+            .env("PATH", home.join("no-programs"))
             .current_dir(home)
             .stdout(Stdio::piped())
             .stderr(std::fs::File::create(home.join(STANDARD_ERROR)).unwrap())
@@ -147,6 +183,16 @@ impl<'a> Window<'a> {
             Some(event) if fits(&event) => event,
             _ => self.wait_for(what, |e| e["event"] == name && fits(e)),
         }
+    }
+
+    /// Waits until a named widget is there.
+    pub fn shows(&mut self, widget: &str) {
+        self.wait_until(&format!("{widget} to be shown"), "layout", |e| e["rects"][widget].is_array());
+    }
+
+    /// Waits until a named widget is gone.
+    pub fn hides(&mut self, widget: &str) {
+        self.wait_until(&format!("{widget} to be hidden"), "layout", |e| e["rects"][widget].is_null());
     }
 
     /// Takes in what has been said meanwhile.
@@ -216,6 +262,11 @@ impl<'a> Window<'a> {
         self.display.tool(&["mousedown", "1"]);
     }
 
+    /// Turns the wheel by one step where the pointer is.
+    pub fn wheel(&self, up: bool) {
+        self.display.tool(&["click", if up { "4" } else { "5" }]);
+    }
+
     pub fn release(&self) {
         self.display.tool(&["mouseup", "1"]);
     }
@@ -233,6 +284,38 @@ impl<'a> Window<'a> {
     /// Gives the window a size at once, without waiting for it to follow.
     pub fn resize(&self, width: u32, height: u32) {
         self.display.tool(&["windowsize", &self.id, &width.to_string(), &height.to_string()]);
+    }
+
+    /// Ends the process at once, as a power cut does (SIGKILL).
+    pub fn kill(mut self) {
+        self.process.kill().unwrap();
+        self.process.wait().unwrap();
+    }
+
+    /// Processor time that the window has taken so far, on all cores.
+    pub fn busy(&self) -> Duration {
+        let stat = std::fs::read_to_string(format!("/proc/{}/stat", self.process.id())).unwrap();
+        // Behind the name in brackets, which may hold anything: the 12th and 13th, in hundredths of a second.
+        let behind = stat.rsplit_once(')').unwrap().1;
+        let ticks: u64 = behind.split_whitespace().skip(11).take(2).map(|n| n.parse::<u64>().unwrap()).sum();
+        Duration::from_millis(ticks * 10)
+    }
+
+    /// What the window is called.
+    pub fn title(&self) -> String {
+        self.display.tool(&["getwindowname", &self.id])
+    }
+
+    /// Waits for the process to end. Returns its exit code; none if a signal ended it, or nothing has.
+    pub fn ends(&mut self) -> Option<i32> {
+        let end = Instant::now() + PATIENCE;
+        while Instant::now() < end {
+            if let Some(status) = self.process.try_wait().unwrap() {
+                return status.code();
+            }
+            std::thread::sleep(Duration::from_millis(10));
+        }
+        None
     }
 
     /// The process has not ended.

@@ -1,0 +1,268 @@
+//! End to end: a window at rest costs nothing, and one that is worked at random for as long as one likes neither ends
+//! nor loses a text nor grows.
+//!
+//! `EDDY_ENDURANCE_SECS=600 cargo test --test window endurance` works it for ten minutes, `EDDY_SEED` in another way.
+
+use crate::support::window::{Display, Window};
+use serde_json::Value;
+use std::{
+    fs,
+    path::Path,
+    time::{Duration, Instant},
+};
+
+/// Processor time of a process so far, in hundredths of a second.
+fn ticks(pid: u64) -> u64 {
+    let stat = fs::read_to_string(format!("/proc/{pid}/stat")).unwrap();
+    // Behind the name, which may have spaces: the state is the third field, the times are the 14th and 15th.
+    let fields: Vec<&str> = stat.rsplit_once(')').unwrap().1.split_whitespace().collect();
+    fields[11].parse::<u64>().unwrap() + fields[12].parse::<u64>().unwrap()
+}
+
+/// Resident memory of a process in bytes.
+fn resident(pid: u64) -> u64 {
+    let statm = fs::read_to_string(format!("/proc/{pid}/statm")).unwrap();
+    statm.split_whitespace().nth(1).unwrap().parse::<u64>().unwrap() * 4096
+}
+
+fn pid(window: &Window) -> u64 {
+    window.events.iter().find(|e| e["event"] == "started").unwrap()["pid"].as_u64().unwrap()
+}
+
+fn open<'a>(display: &'a Display, home: &Path) -> Window<'a> {
+    let folder = home.join("project");
+    fs::create_dir_all(&folder).unwrap();
+    let image = "#iUniform float red = 0.5 in { 0.0, 1.0 }\n#iUniform color3 tint = color3(1.0, 0.5, 0.0)\n\
+                 void mainImage(out vec4 o, in vec2 p)\n{\n    vec2 uv = p / iResolution.xy;\n\
+                 \x20   o = vec4(red * uv, 0.5 + 0.5 * sin(iTime), 1.0) * texture(iChannel0, uv).x;\n}\n";
+    let buffer = "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }\n";
+    fs::write(folder.join("image.glsl"), image).unwrap();
+    fs::write(folder.join("buffer_a.glsl"), buffer).unwrap();
+    let manifest = "eddy = 1\nname = \"Endurance\"\n[passes.buffer_a]\n[passes.image.channels.0]\nbuffer = \"A\"\n";
+    fs::write(folder.join("eddy.toml"), manifest).unwrap();
+    let mut window = Window::open(display, home, &[folder.to_str().unwrap()]);
+    window.wait_until("the first compile", "compiled", |e| e["compiling"] == false && e["ok"] == true);
+    window
+}
+
+#[test]
+fn a_paused_window_draws_nothing_and_takes_no_time() {
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let mut window = open(&display, home.path());
+    window.keys(&["F5"]);
+    window.wait_until("the pause", "frame", |e| e["playing"] == false && e["fps"].is_null());
+    // The caret of code that has the keyboard blinks; the picture has it.
+    let pid = pid(&window);
+    let span = Duration::from_secs(4);
+    // What was asked for before the pause, and other programs' work, may still be felt: the quietest of a few spans.
+    let least = (0..5)
+        .map(|_| {
+            window.drain();
+            let (before, said) = (ticks(pid), window.events.len());
+            std::thread::sleep(span);
+            window.drain();
+            let frames = window.events[said..].iter().filter(|e| e["event"] == "frame").count();
+            (frames, ticks(pid) - before)
+        })
+        .min()
+        .unwrap();
+    assert_eq!(least.0, 0, "frames are drawn while paused");
+    assert!(least.1 <= span.as_secs(), "{} hundredths of a second in {span:?}, more than 1 % of a core", least.1);
+}
+
+/// Numbers that look random and are the same for the same seed: splitmix64.
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, end: u64) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut x = self.0;
+        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        (x ^ (x >> 31)) % end
+    }
+
+    fn of<'a>(&mut self, list: &[&'a str]) -> &'a str {
+        list[self.below(list.len() as u64) as usize]
+    }
+}
+
+/// Everything but what ends the window or leaves the project by a person's own will, as the palette can.
+const KEYS: [&str; 57] = [
+    "a",
+    "e",
+    "x",
+    "1",
+    "0",
+    "period",
+    "semicolon",
+    "parenleft",
+    "parenright",
+    "braceleft",
+    "braceright",
+    "slash",
+    "asterisk",
+    "space",
+    "Return",
+    "BackSpace",
+    "Delete",
+    "Tab",
+    "shift+Tab",
+    "Escape",
+    "Left",
+    "Right",
+    "Up",
+    "Down",
+    "Home",
+    "End",
+    "Prior",
+    "Next",
+    "shift+Left",
+    "shift+Down",
+    "ctrl+Right",
+    "ctrl+shift+Left",
+    "ctrl+z",
+    "ctrl+shift+z",
+    "ctrl+a",
+    "ctrl+c",
+    "ctrl+x",
+    "ctrl+v",
+    "ctrl+d",
+    "ctrl+slash",
+    "ctrl+f",
+    "ctrl+h",
+    "ctrl+g",
+    "ctrl+shift+m",
+    "alt+z",
+    "alt+Up",
+    "alt+Down",
+    "alt+Right",
+    "F1",
+    "F3",
+    "F5",
+    "F6",
+    "shift+F6",
+    "F8",
+    "F11",
+    "ctrl+Return",
+    "ctrl+space",
+];
+const WORDS: [&str; 6] = ["vec3 ", "o.x = uv.y;", "float f(", "// ", "#define A ", "for (int i"];
+
+fn work(window: &Window, random: &mut Random, size: (u64, u64)) {
+    // Below the bar at the top, whose buttons leave the project.
+    let at = (random.below(size.0) as i64, 44 + random.below(size.1 - 44) as i64);
+    match random.below(10) {
+        0..5 => window.keys(&[random.of(&KEYS)]),
+        5 => window.type_text(random.of(&WORDS)),
+        6 | 7 => window.click(at),
+        8 => {
+            window.move_to(at);
+            window.press();
+            window.move_to((random.below(size.0) as i64, 44 + random.below(size.1 - 44) as i64));
+            window.release();
+        }
+        _ => {
+            window.move_to(at);
+            window.wheel(random.below(2) == 0);
+        }
+    }
+}
+
+/// The texts that are kept from a crash, by the name of their tab.
+fn kept(home: &Path) -> Vec<Value> {
+    let entries = fs::read_dir(home.join(".local/state/eddy/recovery")).into_iter().flatten().flatten();
+    let texts = entries.map(|e| e.path()).filter(|p| p.extension().is_some_and(|e| e == "json"));
+    texts.filter_map(|p| serde_json::from_str(&fs::read_to_string(p).ok()?).ok()).collect()
+}
+
+#[test]
+fn a_window_worked_at_random_neither_ends_nor_loses_a_text_nor_grows() {
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let number = |name: &str, else_: u64| std::env::var(name).ok().and_then(|n| n.parse().ok()).unwrap_or(else_);
+    let (secs, seed) = (number("EDDY_ENDURANCE_SECS", 20), number("EDDY_SEED", 7));
+    let mut window = open(&display, home.path());
+    let pid = pid(&window);
+    let mut random = Random(seed);
+    let size = (760, 440);
+    // What is loaded the first time it is used is no growth.
+    let began = Instant::now();
+    let (warm, end) = (Duration::from_secs(secs / 4), Duration::from_secs(secs));
+    let (mut start, mut most, mut steps) = (None, 0, 0);
+    while began.elapsed() < end {
+        work(&window, &mut random, size);
+        steps += 1;
+        window.drain();
+        if !window.lives() {
+            let code = window.ends();
+            panic!("it ended with {code:?} after {steps} steps of seed {seed}: {}", window.complaints());
+        }
+        let now = resident(pid);
+        if start.is_none() && began.elapsed() >= warm {
+            start = Some(now);
+        }
+        most = most.max(now);
+    }
+    // Whatever is open is closed, and the picture alone as well.
+    for _ in 0..6 {
+        window.keys(&["Escape"]);
+    }
+    window.wait_until("no question", "question", |e| e["kind"].is_null());
+    assert!(!window.complaints().contains("panicked"), "{}", window.complaints());
+    let told: Vec<_> = window.events.iter().filter(|e| e["event"] == "notice").map(|e| e["text"].clone()).collect();
+    assert!(!told.iter().any(|t| t.as_str().unwrap().contains("bug in Eddy")), "{told:?}");
+    let last = resident(pid);
+    let start = start.unwrap_or(last);
+    println!("{steps} steps: resident {} MiB, at most {}, at the end {}", start >> 20, most >> 20, last >> 20);
+    assert!(last < start + start / 5, "resident memory went from {} MiB to {} MiB", start >> 20, last >> 20);
+
+    // What was kept from a crash is what is saved.
+    window.keys(&["F6"]);
+    window.drain();
+    if window.newest("dirty").is_some_and(|e| e["dirty"] == true) {
+        std::thread::sleep(Duration::from_secs(3));
+        let kept = kept(home.path());
+        window.keys(&["ctrl+s"]);
+        window.wait_until("the save", "dirty", |e| e["dirty"] == false);
+        let saved = fs::read_to_string(home.path().join("project/image.glsl")).unwrap();
+        let has = |text: &Value| text.to_string().contains(&Value::from(saved.as_str()).to_string());
+        let is_changed = window.events.iter().rev().find(|e| e["event"] == "dirty" && e["dirty"] == true);
+        let is_image = is_changed.is_some_and(|e| e["tabs"].as_array().unwrap().iter().any(|t| t == "Image"));
+        assert!(!is_image || kept.iter().any(has), "saved:\n{saved}\nkept:\n{kept:?}");
+    }
+}
+
+#[test]
+#[ignore = "prints times; they mean something on a quiet machine only"]
+fn a_key_is_seen_in_the_picture_of_a_hundred_lines() {
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("project");
+    fs::create_dir(&folder).unwrap();
+    let line = |i: usize| format!("    c += 0.01 * sin(vec3({i}.0, 1.0, 2.0) * uv.x + iTime + {i}.5 * uv.y);\n");
+    let body: String = (0..94).map(line).collect();
+    let text = format!(
+        "void mainImage(out vec4 o, in vec2 p)\n{{\n    vec2 uv = p / iResolution.xy;\n    vec3 c = vec3(0.5);\n\
+         {body}    o = vec4(c, 1.0);\n}}\n"
+    );
+    assert_eq!(text.lines().count(), 100);
+    fs::write(folder.join("image.glsl"), text).unwrap();
+    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
+    window.wait_until("the first compile", "compiled", |e| e["compiling"] == false && e["ok"] == true);
+    window.click_on("editor");
+    // In the number of the fourth line.
+    window.keys(&["ctrl+Home", "Down", "Down", "Down", "End", "Left", "Left"]);
+    let mut millis = Vec::new();
+    for digit in ["1", "2", "3", "4", "5", "6", "7", "8", "9", "1", "2", "3", "4", "5", "6"] {
+        window.drain();
+        let began = Instant::now();
+        window.keys(&[digit]);
+        window.wait_for("the compile to begin", |e| e["event"] == "compiled" && e["compiling"] == true);
+        window.wait_for("the picture", |e| e["event"] == "compiled" && e["compiling"] == false && e["ok"] == true);
+        millis.push(began.elapsed().as_secs_f64() * 1000.0);
+    }
+    millis.sort_by(f64::total_cmp);
+    println!("from the key to the picture: {:.0} to {:.0} ms, median {:.0}", millis[0], millis[14], millis[7]);
+}

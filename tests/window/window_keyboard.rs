@@ -1,0 +1,131 @@
+//! End to end: the keyboard alone, from the start to a saved picture. By real key events, judged by files.
+
+use crate::support::window::{Display, Window};
+use std::{fs, path::Path};
+
+fn focus(window: &mut Window, widget: &str) {
+    window.wait_until(&format!("the keyboard at {widget}"), "focus", |e| e["widget"] == widget);
+}
+
+/// Presses a key until a widget has the keyboard.
+fn go_to(window: &mut Window, key: &str, widget: &str) {
+    for _ in 0..60 {
+        let before = window.newest("focus");
+        if before.as_ref().is_some_and(|e| e["widget"] == widget) {
+            return;
+        }
+        window.keys(&[key]);
+        window.wait_until("the keyboard to move", "focus", |e| Some(e) != before.as_ref());
+    }
+    panic!("{key} never came to {widget}");
+}
+
+/// Presses a key until something whose name begins so has the keyboard.
+fn go_to_part(window: &mut Window, key: &str, names: &[&str]) {
+    for _ in 0..20 {
+        let before = window.newest("focus");
+        window.keys(&[key]);
+        let now = window.wait_until("the keyboard to move", "focus", |e| Some(e) != before.as_ref());
+        if now["widget"].as_str().is_some_and(|widget| names.iter().any(|name| widget.starts_with(name))) {
+            return;
+        }
+    }
+    panic!("{key} never came to {names:?}");
+}
+
+fn compiled(window: &mut Window) {
+    window.wait_until("a compile", "compiled", |e| e["compiling"] == false && e["ok"] == true);
+}
+
+#[test]
+#[ignore = "fails: Tab does not come to a preset's card in the gallery"]
+fn the_keyboard_alone_goes_from_the_start_to_a_saved_picture() {
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let mut window = Window::open(&display, home.path(), &[]);
+    // A preset of the gallery.
+    go_to(&mut window, "Tab", "preset:feedback");
+    display.shot("keyboard-gallery.png");
+    window.keys(&["Return"]);
+    compiled(&mut window);
+    focus(&mut window, "picture");
+    // To the code, a line of one's own, saved into a folder whose path is typed.
+    go_to(&mut window, "F6", "code");
+    window.keys(&["ctrl+Home"]);
+    window.type_text("// by keys ");
+    window.wait_until("an unsaved text", "dirty", |e| e["dirty"] == true);
+    window.keys(&["ctrl+s"]);
+    focus(&mut window, "field:path");
+    window.keys(&["ctrl+a"]);
+    let folder = home.path().join("mine");
+    window.type_text(folder.to_str().unwrap());
+    window.keys(&["Return"]);
+    window.wait_until("the save", "dirty", |e| e["dirty"] == false);
+    let text = fs::read_to_string(folder.join("image.glsl")).unwrap();
+    assert!(text.starts_with("// by keys "), "{text}");
+    // The picture, by its button in the bar.
+    go_to_part(&mut window, "shift+F6", &["button:reset", "button:play"]);
+    display.shot("keyboard-transport.png");
+    go_to(&mut window, "Tab", "button:screenshot");
+    window.drain();
+    window.keys(&["space"]);
+    let notice = window.wait_for("a picture", |e| e["event"] == "notice" && e["path"].is_string());
+    let path = Path::new(notice["path"].as_str().unwrap());
+    assert!(image::open(path).unwrap().width() > 0, "{}", path.display());
+    display.shot("keyboard-notice.png");
+    // Escape gives the keyboard back to who had it last.
+    window.keys(&["Escape"]);
+    focus(&mut window, "code");
+}
+
+#[test]
+fn dialogs_menus_and_the_help_are_worked_by_keys_and_give_the_keyboard_back() {
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("project");
+    fs::create_dir(&folder).unwrap();
+    let text = "#iUniform float red = 0.5 in { 0.0, 1.0 }\n\
+                void mainImage(out vec4 o, in vec2 p) { o = vec4(red); }\n";
+    fs::write(folder.join("image.glsl"), text).unwrap();
+    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
+    compiled(&mut window);
+    go_to(&mut window, "F6", "code");
+    // The help: searched, scrolled, closed.
+    window.keys(&["F1"]);
+    focus(&mut window, "field:help");
+    window.type_text("keyboard");
+    window.keys(&["Next"]);
+    display.shot("help.png");
+    window.keys(&["Escape"]);
+    window.hides("field:help");
+    focus(&mut window, "code");
+    // A slider, by the arrow keys.
+    go_to_part(&mut window, "F6", &["uniform"]);
+    go_to(&mut window, "Tab", "uniform:red");
+    window.keys(&["Right"]);
+    window.wait_until("the slider", "uniforms", |e| e["values"]["red"][0].as_f64().is_some_and(|x| x > 0.5));
+    window.keys(&["Escape"]);
+    focus(&mut window, "code");
+    // A channel's list, opened and closed: the channel has the keyboard again.
+    go_to(&mut window, "F6", "channel:0");
+    window.keys(&["Return"]);
+    window.shows("choose:none");
+    go_to(&mut window, "Tab", "choose:keyboard");
+    display.shot("keyboard-channel.png");
+    window.keys(&["Escape"]);
+    window.hides("choose:none");
+    focus(&mut window, "channel:0");
+    window.keys(&["Escape"]);
+    focus(&mut window, "code");
+    // A question: Enter presses what has the colour.
+    window.keys(&["ctrl+Home"]);
+    window.type_text("// more ");
+    window.wait_until("an unsaved text", "dirty", |e| e["dirty"] == true);
+    window.keys(&["ctrl+n"]);
+    focus(&mut window, "answer:save");
+    display.shot("keyboard-question.png");
+    window.keys(&["Return"]);
+    window.wait_until("the new shader", "opened", |e| e["origin"].is_null());
+    assert!(fs::read_to_string(folder.join("image.glsl")).unwrap().starts_with("// more "));
+    focus(&mut window, "code");
+}

@@ -1,0 +1,87 @@
+//! End to end: code that the device does not come back from, in the real window, by real key events.
+
+use crate::support::window::{Display, Window};
+use std::{
+    fs,
+    path::Path,
+    time::{Duration, Instant},
+};
+
+const GREEN: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.0, 1.0, 0.0, 1.0); }\n";
+/// Its exit is never taken, which no driver can see. (llvmpipe ends it after 65,535 turns of its loops together,
+/// `LP_MAX_TGSI_LOOP_ITERATIONS`: seconds to minutes a frame.)
+const ENDLESS: &str = "void mainImage(out vec4 o, in vec2 p) { float a = p.x; for (;;) { for (int i = 0; i < 60000; \
+                       i++) a = fract(sin(a) * 43758.5 + 1.0); if (a > 2.0) break; } o = vec4(a); }\n";
+const SLOW: &str = "void mainImage(out vec4 o, in vec2 p) { float a = p.x; for (int j = 0; j < 1000; j++) for (int i = 0; \
+                    i < 10000; i++) a = fract(sin(a) * 43758.5 + float(i & 1)); o = vec4(a); }\n";
+
+fn halted(window: &mut Window) -> serde_json::Value {
+    window.wait_until("the halt", "halt", |e| e["kind"].is_string())
+}
+
+/// Types while the device is at work, and says how many keys a second were taken. The text is on disk then.
+fn typed_a_second(window: &mut Window, file: &Path) -> f64 {
+    const TYPED: &str = "// The quick brown fox jumps over the lazy dog, and over it again.";
+    window.click_on("editor");
+    window.keys(&["ctrl+Home"]);
+    window.drain();
+    let began = Instant::now();
+    window.type_text(TYPED);
+    window.keys(&["Return", "ctrl+s"]);
+    window.wait_until("the text to be saved", "dirty", |e| e["dirty"] == false);
+    let took = began.elapsed();
+    let text = fs::read_to_string(file).unwrap();
+    assert!(text.starts_with(&format!("{TYPED}\n")), "{text}");
+    (TYPED.len() + 2) as f64 / took.as_secs_f64()
+}
+
+#[test]
+fn one_goes_on_typing_over_code_that_never_ends_and_the_window_closes() {
+    let Some(display) = Display::open() else { return };
+    for code in [ENDLESS, SLOW] {
+        let home = tempfile::tempdir().unwrap();
+        let file = home.path().join("image.glsl");
+        fs::write(&file, GREEN).unwrap();
+        let mut window = Window::open(&display, home.path(), &[file.to_str().unwrap(), "--frame-timeout", "1"]);
+        window.wait_until("the first compile", "compiled", |e| e["ok"] == true && e["compiling"] == false);
+        window.wait_until("a frame", "frame", |e| e["frame"].as_u64() > Some(3));
+
+        // Another program writes it: the code comes at once, whole.
+        fs::write(&file, code).unwrap();
+        halted(&mut window);
+        display.shot("halted.png");
+        let rate = typed_a_second(&mut window, &file);
+        assert!(rate >= 20.0, "{rate} keys a second");
+
+        let began = Instant::now();
+        window.keys(&["ctrl+z"]);
+        window.wait_until("the undo", "dirty", |e| e["dirty"] == true);
+        let took = began.elapsed();
+        assert!(took < Duration::from_secs(1), "undone after {took:?}");
+
+        // Mended: the picture comes back.
+        window.keys(&["ctrl+a"]);
+        window.type_text("void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0, 0.0, 0.0, 1.0); }");
+        window.keys(&["ctrl+Return"]);
+        window.wait_until("the picture of the mended code", "compiled", |e| e["ok"] == true && e["compiling"] == false);
+        window.wait_until("the end of the halt", "halt", |e| e["kind"].is_null());
+        window.keys(&["ctrl+s"]);
+        window.wait_until("the text to be saved", "dirty", |e| e["dirty"] == false);
+        window.keys(&["ctrl+q"]);
+        assert_eq!(window.ends(), Some(0), "{}", window.complaints());
+    }
+}
+
+#[test]
+fn a_paused_start_draws_nothing_before_one_says_so() {
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let file = home.path().join("image.glsl");
+    fs::write(&file, GREEN).unwrap();
+    let mut window = Window::open(&display, home.path(), &[file.to_str().unwrap(), "--paused"]);
+    window.wait_until("the compile", "compiled", |e| e["ok"] == true && e["compiling"] == false);
+    assert_eq!(halted(&mut window)["kind"], "opened");
+    display.shot("opened-paused.png");
+    window.click_on("halt:go-on");
+    window.wait_until("frames", "frame", |e| e["playing"] == true && e["frame"].as_u64() > Some(2));
+}
