@@ -50,6 +50,13 @@ impl Keyboard {
         self.texels[usize::from(code)] != 0
     }
 
+    /// Sets a whole row to these codes and no others.
+    pub fn set_row(&mut self, row: usize, codes: &[u8]) {
+        let row = &mut self.texels[row * Self::WIDTH..][..Self::WIDTH];
+        row.fill(0);
+        codes.iter().for_each(|code| row[usize::from(*code)] = 255);
+    }
+
     /// 256x3 bytes, row 0 first.
     pub fn bytes(&self) -> &[u8] {
         &self.texels[..]

@@ -21,6 +21,7 @@ mod folder;
 mod format;
 mod geometry;
 mod includes;
+mod inspect_comments;
 pub mod json;
 pub mod limits;
 mod lines;
@@ -59,6 +60,7 @@ pub use geometry::{
     Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Stage, files_beside, unescaped,
 };
 pub use includes::{IncludeLines, include_names};
+pub use inspect_comments::{InspectComment, inspect_comments};
 pub use loaded::Loaded;
 pub use locate::{load, stem};
 pub use manifest::write as write_manifest;

@@ -2,7 +2,8 @@
 
 use super::{error::PassEditError, groups};
 use crate::project::{
-    Filter, Pass, PassFormat, PassId, PassSize, Project, Region, Sampler, Source, Tab, Wrap,
+    Boundary, Fill, FillValue, Filter, Pass, PassFormat, PassId, PassSize, Project, Region, Sampler, Source, Tab, Wrap,
+    confine,
     draws::draws,
     file_names::{self, Role},
     limits,
@@ -26,6 +27,10 @@ pub enum PassEdit {
     Size(PassId, PassSize),
     Format(PassId, PassFormat),
     Region(PassId, Option<Region>),
+    /// What a buffer holds before frame 0; `None`: zeros.
+    Initial(PassId, Option<FillValue>),
+    /// The outermost texels of a pass, and how many from each edge; `None`: as drawn.
+    Boundary(PassId, Option<(u32, FillValue)>),
     /// How often a frame a buffer is drawn, with the others of its group.
     Steps(PassId, u32),
     /// Draws a buffer in one group with the buffer before it, or begins another group with it.
@@ -57,6 +62,8 @@ impl PassEdit {
             PassEdit::Size(pass, _) => of("size", pass),
             PassEdit::Format(pass, _) => of("format", pass),
             PassEdit::Region(pass, _) => of("region", pass),
+            PassEdit::Initial(pass, _) => of("beginning", pass),
+            PassEdit::Boundary(pass, _) => of("edges", pass),
             PassEdit::Steps(pass, _) => of("steps", pass),
             PassEdit::WithPrevious(pass, _) => of("group", pass),
             PassEdit::Filter(pass, _) => of("filter", pass),
@@ -72,6 +79,9 @@ impl PassEdit {
                 a == b && std::mem::discriminant(a_size) == std::mem::discriminant(b_size)
             }
             (PassEdit::Region(a, Some(_)), PassEdit::Region(b, Some(_))) => a == b,
+            (PassEdit::Boundary(a, Some((_, a_value))), PassEdit::Boundary(b, Some((_, b_value)))) => {
+                a == b && a_value == b_value
+            }
             (PassEdit::Steps(a, _), PassEdit::Steps(b, _)) => a == b,
             _ => false,
         }
@@ -116,6 +126,20 @@ impl Project {
                 let found = if is_image { self.found(pass)? } else { self.buffer(pass, "region")? };
                 found.settings.region = *region;
             }
+            PassEdit::Initial(pass, value) => {
+                self.buffer(pass, "initial contents")?;
+                let settings = &mut self.filled(pass, "initial contents")?.settings;
+                settings.initial = fill(value.as_ref(), settings.initial.as_ref())?;
+            }
+            PassEdit::Boundary(pass, value) => {
+                let settings = &mut self.filled(pass, "boundary")?.settings;
+                let (width, value) = value.as_ref().map_or((1, None), |(width, value)| (*width, Some(value)));
+                if width == 0 {
+                    return Err(PassEditError::BadBoundary);
+                }
+                let value = fill(value, settings.boundary.as_ref().map(|boundary| &boundary.value))?;
+                settings.boundary = value.map(|value| Boundary { width, value });
+            }
             PassEdit::Steps(pass, steps) => {
                 self.buffer(pass, "steps")?;
                 groups::set_steps(self, pass, *steps)?;
@@ -139,6 +163,17 @@ impl Project {
         let is_buffer = matches!(id, PassId::Buffer(_));
         let found = self.found(id)?;
         if is_buffer { Ok(found) } else { Err(PassEditError::NotHere { pass: id.title(), what }) }
+    }
+
+    /// A pass whose texels can be filled from outside its own program.
+    fn filled(&mut self, id: &PassId, what: &'static str) -> Result<&mut Pass, PassEditError> {
+        let found = self.found(id)?;
+        let is_drawn = matches!(id, PassId::Buffer(_) | PassId::Image);
+        // One that draws meshes is cleared in every frame.
+        if !is_drawn || found.settings.meshes().is_some() {
+            return Err(PassEditError::NotHere { pass: id.title(), what });
+        }
+        Ok(found)
     }
 
     /// The samplers of all channels that read a buffer.
@@ -204,6 +239,23 @@ impl Project {
         }
         Ok(())
     }
+}
+
+/// Returns a fill with a value. One that says the same keeps its place in `eddy.toml`.
+fn fill(value: Option<&FillValue>, now: Option<&Fill>) -> Result<Option<Fill>, PassEditError> {
+    let Some(value) = value else { return Ok(None) };
+    match value {
+        FillValue::Expression(text) if text.trim().is_empty() => return Err(PassEditError::EmptyFill),
+        FillValue::Expression(_) | FillValue::Held { .. } => {}
+        FillValue::File(path) => {
+            let name = path.to_str().and_then(|name| confine::relative("", name).ok());
+            if name.is_none() {
+                return Err(PassEditError::BadFillFile(path.display().to_string()));
+            }
+        }
+    }
+    let kept = now.filter(|now| now.value == *value).cloned();
+    Ok(Some(kept.unwrap_or_else(|| Fill { value: value.clone(), written: None })))
 }
 
 impl Source {

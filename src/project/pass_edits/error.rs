@@ -23,6 +23,12 @@ pub enum PassEditError {
     BadSize,
     #[error("a region has at least one texel each way")]
     BadRegion,
+    #[error("a boundary is at least one texel wide")]
+    BadBoundary,
+    #[error("an expression is missing, as vec4(0.0)")]
+    EmptyFill,
+    #[error("\"{0}\" is not the name of a file in the project's folder")]
+    BadFillFile(String),
     #[error("a buffer is drawn at least once a frame")]
     NoSteps,
     #[error("a frame would draw {0} passes and meshes with all their steps; the most is {most}", most = limits::DRAWS)]

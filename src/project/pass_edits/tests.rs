@@ -1,6 +1,7 @@
 use super::*;
 use crate::project::{
-    self, Channel, Filter, Group, Input, Overwrite, PassFormat, PassId, PassSize, Project, Region, Sampler, Tab, Wrap,
+    self, Channel, FillValue, Filter, Group, Input, Overwrite, PassFormat, PassId, PassSize, Project, Region, Sampler,
+    Tab, Wrap,
 };
 use std::{
     fs,
@@ -238,4 +239,53 @@ fn how_a_pass_is_drawn_and_read_is_saved() {
         assert!(project.edit_passes(&edit).is_err(), "{edit:?}");
         assert_eq!(project, before);
     }
+}
+
+#[test]
+fn what_a_pass_begins_with_and_its_edges_are_saved() {
+    let (dir, mut project) = on_disk();
+    let expression = |text: &str| FillValue::Expression(text.into());
+    fs::write(dir.path().join("state.npy"), b"not read here").unwrap();
+    for edit in [
+        PassEdit::Initial(buffer("A"), Some(expression("vec4(0.5)"))),
+        PassEdit::Initial(buffer("B"), Some(FillValue::File("state.npy".into()))),
+        PassEdit::Boundary(buffer("A"), Some((2, expression("vec4(fragCoord, 0.0, 1.0)")))),
+        PassEdit::Boundary(PassId::Image, Some((1, expression("vec4(0.0)")))),
+    ] {
+        assert!(project.edit_passes(&edit).unwrap().is_changed, "{edit:?}");
+    }
+    saved(&project, dir.path());
+    let mut project = project::load(dir.path().to_str().unwrap()).unwrap().project;
+    let settings = |project: &Project, id: &PassId| project.pass(id).unwrap().settings.clone();
+    let a = settings(&project, &buffer("A"));
+    assert_eq!(a.initial.as_ref().unwrap().value, expression("vec4(0.5)"));
+    let boundary = a.boundary.unwrap();
+    assert_eq!((boundary.width, boundary.value.value), (2, expression("vec4(fragCoord, 0.0, 1.0)")));
+    let written = |project: &Project| settings(project, &buffer("A")).boundary.unwrap().value.written.is_some();
+    assert!(written(&project), "a mistake in it is shown where it stands");
+    // Another width leaves the value where it is.
+    let edit = PassEdit::Boundary(buffer("A"), Some((3, expression("vec4(fragCoord, 0.0, 1.0)"))));
+    project.edit_passes(&edit).unwrap();
+    assert!(written(&project) && settings(&project, &buffer("A")).boundary.unwrap().width == 3);
+    for edit in [
+        PassEdit::Initial(buffer("A"), None),
+        PassEdit::Initial(buffer("B"), None),
+        PassEdit::Boundary(buffer("A"), None),
+        PassEdit::Boundary(PassId::Image, None),
+    ] {
+        assert!(project.edit_passes(&edit).unwrap().is_changed, "{edit:?}");
+    }
+    let after = saved(&project, dir.path());
+    assert_eq!(settings(&after, &buffer("A")), settings(&on_disk().1, &buffer("A")));
+    for edit in [
+        PassEdit::Initial(buffer("A"), Some(expression("  "))),
+        PassEdit::Initial(buffer("A"), Some(FillValue::File("../state.npy".into()))),
+        PassEdit::Initial(PassId::Image, Some(expression("vec4(0.0)"))),
+        PassEdit::Boundary(buffer("A"), Some((0, expression("vec4(0.0)")))),
+    ] {
+        assert!(project.edit_passes(&edit).is_err(), "{edit:?}");
+    }
+    // The values of a width that is dragged are one step.
+    let dragged = |width| PassEdit::Boundary(buffer("A"), Some((width, expression("vec4(0.0)"))));
+    assert!(dragged(1).is_same_kind(&dragged(2)));
 }
