@@ -25,11 +25,13 @@ mod pieces;
 mod preamble;
 mod preprocess;
 mod probe;
+mod probed;
 pub mod reflection;
 mod report;
 pub mod services;
 mod source;
 pub mod stages;
+pub(crate) mod statements;
 pub(crate) mod types;
 pub(crate) mod walk;
 pub(crate) mod walkable;
@@ -40,6 +42,7 @@ pub use compiled::Compiled;
 pub use driver::Driver;
 pub use preamble::Preamble;
 pub use probe::Probe;
+pub use probed::{ProbedExpression, probed};
 pub use reflection::{ChannelUse, CustomUniformSet, Reflection, UniformSet};
 pub use source::{
     ChannelKind, CustomUniform, CustomUniformKind, GivenValue, Include, PassKind, PassSource, Text, UniformValue,

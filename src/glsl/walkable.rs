@@ -4,9 +4,12 @@
 use super::{
     PassSource,
     ast::{Interner, Loc, Origins},
-    check, ir, lower, parse, report,
+    check, ir,
+    lower::{self, Mark},
+    parse, report,
     stages::{self, Link},
-    types::StructId,
+    statements::Statements,
+    types::{StructId, TypeId},
 };
 use crate::diag::{Diagnostic, Span};
 
@@ -16,11 +19,36 @@ pub(crate) struct Walkable {
     names: lower::Names,
     origins: Origins,
     interner: Interner,
+    statements: Statements,
+    /// Every type as GLSL writes it, by its id; none where nobody steps through the program.
+    type_texts: Vec<String>,
+}
+
+/// Control comes to a part of a statement, which [`Statements`] tells of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Coming {
+    /// It begins.
+    Begin(u32),
+    /// A loop begins a turn: with its test, if that stands before its body.
+    Turn(u32),
+    /// A loop comes to the test behind its body.
+    Test(u32),
+    /// A loop comes to what it does between two turns.
+    Step(u32),
 }
 
 impl Walkable {
     /// Lowers a pass. On failure the list holds at least one error.
     pub fn new(source: &PassSource<'_>) -> Result<Self, Vec<Diagnostic>> {
+        Self::with(source, false)
+    }
+
+    /// Does the same for who steps through the program, statement by statement.
+    pub fn by_statements(source: &PassSource<'_>) -> Result<Self, Vec<Diagnostic>> {
+        Self::with(source, true)
+    }
+
+    fn with(source: &PassSource<'_>, is_marked: bool) -> Result<Self, Vec<Diagnostic>> {
         let parsed = parse::parse(source, None);
         let mut checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source, None);
         let interface = stages::interface(
@@ -36,8 +64,51 @@ impl Walkable {
         if all.diagnostics.iter().any(Diagnostic::is_error) {
             return Err(all.diagnostics);
         }
-        let lower::Lowered { program, names, .. } = lower::lower(&checked.module, source, interface);
-        Ok(Self { program, names, origins: parsed.origins, interner: parsed.names })
+        let (module, origins, interner) = (checked.module, parsed.origins, parsed.names);
+        let marks = lower::Marks { undefined: true, statements: is_marked };
+        let lower::Lowered { program, names, .. } = lower::lower_to_walk(&module, source, interface, marks);
+        let (mut statements, mut type_texts) = Default::default();
+        if is_marked {
+            statements = Statements::new(&module, &origins, &interner);
+            let types = (0..module.types.len()).map(|index| TypeId(index as u32));
+            type_texts = types.map(|ty| module.type_text(&interner, ty)).collect();
+        }
+        Ok(Self { program, names, origins, interner, statements, type_texts })
+    }
+
+    /// What the marks of a program that is stepped through stand for.
+    pub fn statements(&self) -> &Statements {
+        &self.statements
+    }
+
+    /// The values of a function that say where control comes to.
+    pub fn marks(&self, function: ir::FuncId) -> impl Iterator<Item = (ir::Value, Coming)> {
+        self.names.functions[function.index()].marks.iter().map(|&(value, mark)| {
+            let coming = match mark {
+                Mark::Statement(stmt) => Coming::Begin(stmt.index() as u32),
+                Mark::Turn(stmt) => Coming::Turn(stmt.index() as u32),
+                Mark::Test(stmt) => Coming::Test(stmt.index() as u32),
+                Mark::Step(stmt) => Coming::Step(stmt.index() as u32),
+            };
+            (value, coming)
+        })
+    }
+
+    /// The author's variables of a function: each by its place in [`Statements::locals`], with the value or place that
+    /// it is.
+    pub fn variables(&self, function: ir::FuncId) -> impl Iterator<Item = (u32, ir::Value)> {
+        let names = &self.names.functions[function.index()];
+        names.ids.iter().zip(&names.locals).map(|(id, &(_, value))| (id.index() as u32, value))
+    }
+
+    /// The author's variables of the module that the program has, with their names.
+    pub fn globals(&self) -> impl Iterator<Item = (&str, ir::GlobalId)> {
+        self.names.globals.iter().map(|&(symbol, id)| (self.interner.get(symbol), id))
+    }
+
+    /// A type as GLSL writes it.
+    pub fn type_text(&self, ty: TypeId) -> &str {
+        self.type_texts.get(ty.0 as usize).map_or("", String::as_str)
     }
 
     /// Where a value is written: for what a macro brought in, the use of the macro.
@@ -53,6 +124,11 @@ impl Walkable {
     /// The author's variables of a function: each with its name and the value or place that it is.
     pub fn locals(&self, function: ir::FuncId) -> impl Iterator<Item = (&str, ir::Value)> {
         self.names.functions[function.index()].locals.iter().map(|&(symbol, value)| (self.interner.get(symbol), value))
+    }
+
+    /// The values of a function that stand for what GLSL leaves undefined.
+    pub fn undefined(&self, function: ir::FuncId) -> &[ir::Value] {
+        &self.names.functions[function.index()].undefined
     }
 
     /// The name of a member of a structure.

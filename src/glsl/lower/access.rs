@@ -143,6 +143,7 @@ impl Builder<'_, '_> {
             },
             ExprKind::Global(id) => match hir[id].value {
                 Some(value) if hir[id].storage == GlobalStorage::Private => self.folded(value),
+                None if hir[id].storage == GlobalStorage::Private => self.undefined(ty),
                 _ => self.zero(ty),
             },
             ExprKind::CustomUniform(index) => self.custom_uniform(index, ty),

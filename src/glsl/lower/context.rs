@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::{
     arguments::{Arguments, Instance},
-    names::Names,
+    names::{Marks, Names},
 };
 use crate::glsl::{
     PassSource, Reflection,
@@ -28,6 +28,7 @@ pub(super) struct Lowering<'a> {
     pub names: Names,
     /// The value that is drawn instead of the picture.
     pub probed: Option<Probed>,
+    pub marks: Marks,
 }
 
 impl Lowering<'_> {

@@ -9,11 +9,14 @@ use crate::glsl::{
 impl Builder<'_, '_> {
     /// The value of an expression that is not void.
     pub fn value(&mut self, expr: ExprId) -> Value {
+        // What is computed of several values belongs to the whole, not to the last of them.
+        let outer = self.loc;
         // Left spines may be thousands of links long: descended by this loop, not by recursion.
         let hir = self.cx.hir;
         let mut spine = Vec::new();
         let mut at = expr;
         let mut value = loop {
+            self.loc = hir[at].loc;
             match hir[at].kind {
                 ExprKind::Member { .. } | ExprKind::Swizzle { .. } | ExprKind::Index { .. } => match self.read(at) {
                     Ok(value) => {
@@ -50,6 +53,7 @@ impl Builder<'_, '_> {
             value = self.link(link, value);
             self.probe(link, value);
         }
+        self.loc = outer;
         value
     }
 

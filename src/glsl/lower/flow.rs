@@ -3,6 +3,7 @@
 use super::{
     context::const_id,
     function::{Builder, Slot},
+    names::Mark,
     reach::known_bool,
 };
 use crate::glsl::{
@@ -26,13 +27,16 @@ impl Builder<'_, '_> {
     pub fn statement(&mut self, stmt: StmtId) {
         let hir = self.cx.hir;
         self.loc = hir[stmt].loc;
+        if !matches!(hir[stmt].kind, StmtKind::Block(_)) {
+            self.mark(Mark::Statement(stmt));
+        }
         match hir[stmt].kind {
             StmtKind::Block(list) => self.statements(list),
             StmtKind::Expr(expr) => self.effect(expr),
             StmtKind::Declare { local, init } => self.declaration(local, init),
             StmtKind::If { cond, then, otherwise } => self.branch(cond, then, otherwise),
-            StmtKind::For { init, test, step, body } => self.for_loop(init, test, step, body),
-            StmtKind::DoWhile { body, test } => self.do_while(body, test),
+            StmtKind::For { init, test, step, body } => self.for_loop(stmt, init, (test, step), body),
+            StmtKind::DoWhile { body, test } => self.do_while(stmt, body, test),
             StmtKind::Switch { value, cases } => self.switch(value, &hir[cases]),
             StmtKind::Return(value) => match value {
                 Some(expr) if self.result != TypeId::VOID => {
@@ -70,7 +74,7 @@ impl Builder<'_, '_> {
         }
         let value = match init {
             Some(init) => self.value(init),
-            None => self.zero(hir[local].ty),
+            None => self.undefined(hir[local].ty),
         };
         self.declare(local, value);
     }
@@ -79,7 +83,11 @@ impl Builder<'_, '_> {
     /// that: to fill memory twice is dear, and not every driver sees that the first time is for nothing.
     fn starts_with_value(&mut self, local: LocalId, init: Option<ExprId>) -> bool {
         let hir = self.cx.hir;
-        if self.loops > 0 || !self.needs_memory(local) || self.is_vector_or_scalar(hir[local].ty) {
+        if (self.cx.marks.undefined && init.is_none())
+            || self.loops > 0
+            || !self.needs_memory(local)
+            || self.is_vector_or_scalar(hir[local].ty)
+        {
             return false;
         }
         let value = match init.map(|init| hir[init].kind) {
@@ -103,7 +111,13 @@ impl Builder<'_, '_> {
         self.ended = then_ended && else_ended;
     }
 
-    fn for_loop(&mut self, init: List<StmtId>, test: Option<ExprId>, step: Option<ExprId>, body: List<StmtId>) {
+    fn for_loop(
+        &mut self,
+        stmt: StmtId,
+        init: List<StmtId>,
+        (test, step): (Option<ExprId>, Option<ExprId>),
+        body: List<StmtId>,
+    ) {
         let hir = self.cx.hir;
         self.statements(init);
         let known = test.map_or(Some(true), |test| known_bool(hir, test));
@@ -112,23 +126,31 @@ impl Builder<'_, '_> {
         }
         self.loops += 1;
         let (body, _) = self.nested(|b| {
+            b.mark(Mark::Turn(stmt));
             if let (None, Some(test)) = (known, test) {
                 let condition = b.value(test);
                 b.push(Stmt::If { condition, accept: Block::new(), reject: vec![Stmt::Break] });
             }
             b.statements(body);
         });
-        let (continuing, _) = self.nested(|b| step.into_iter().for_each(|step| b.effect(step)));
+        let (continuing, _) = self.nested(|b| {
+            b.mark(Mark::Step(stmt));
+            step.into_iter().for_each(|step| b.effect(step));
+        });
         self.loops -= 1;
         self.push(Stmt::Loop { body, continuing, break_if: None });
     }
 
-    fn do_while(&mut self, body: List<StmtId>, test: ExprId) {
+    fn do_while(&mut self, stmt: StmtId, body: List<StmtId>, test: ExprId) {
         let known = known_bool(self.cx.hir, test);
         self.loops += 1;
-        let (body, _) = self.nested(|b| b.statements(body));
+        let (body, _) = self.nested(|b| {
+            b.mark(Mark::Turn(stmt));
+            b.statements(body);
+        });
         let mut break_if = None;
         let (continuing, _) = self.nested(|b| {
+            b.mark(Mark::Test(stmt));
             if known != Some(true) {
                 let again = b.value(test);
                 break_if = Some(b.not(again));

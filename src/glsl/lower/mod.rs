@@ -45,7 +45,7 @@ use std::collections::HashMap;
 
 pub(in crate::glsl) use self::{
     constant_arrays::arrays_to_constants,
-    names::{FunctionNames, Names},
+    names::{FunctionNames, Mark, Marks, Names},
     reach::reached,
 };
 use self::{
@@ -66,21 +66,35 @@ pub(crate) struct Lowered {
 }
 
 /// Lowers a program without errors. The result keeps the rules of [`ir::verify`]; what does not is a bug of this
-/// module.
+/// module. With a probe the pass draws the value of an expression, when it is evaluated for the time after so many.
 ///
 /// # Panics
 /// If `module` breaks the promises of [`hir`], such as having no entry point.
-pub(in crate::glsl) fn lower(module: &hir::Module, source: &PassSource<'_>, interface: Interface) -> Lowered {
-    lower_probed(module, source, interface, None)
-}
-
-/// Does the same as [`lower`] for a pass that draws the value of an expression, when it is evaluated for the time after
-/// so many.
 pub(in crate::glsl) fn lower_probed(
     module: &hir::Module,
     source: &PassSource<'_>,
     interface: Interface,
     probe: Option<(hir::ExprId, u32)>,
+) -> Lowered {
+    lower_with(module, source, interface, probe, Marks::default())
+}
+
+/// Does the same without a probe, for who walks through the program: with the marks that are asked for.
+pub(in crate::glsl) fn lower_to_walk(
+    module: &hir::Module,
+    source: &PassSource<'_>,
+    interface: Interface,
+    marks: Marks,
+) -> Lowered {
+    lower_with(module, source, interface, None, marks)
+}
+
+fn lower_with(
+    module: &hir::Module,
+    source: &PassSource<'_>,
+    interface: Interface,
+    probe: Option<(hir::ExprId, u32)>,
+    marks: Marks,
 ) -> Lowered {
     let (reach, arguments) = Reach::new(module);
     let mut out = begin(module);
@@ -96,6 +110,7 @@ pub(in crate::glsl) fn lower_probed(
         functions: HashMap::with_capacity(reach.instances.len()),
         reflection: Reflection::default(),
         names: Names::default(),
+        marks,
         probed,
     };
     for instance in &reach.instances {

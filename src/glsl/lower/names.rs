@@ -1,6 +1,10 @@
 //! Names of the author's, for who shows a program while it runs.
 
-use crate::glsl::{ast::Symbol, ir};
+use crate::glsl::{
+    ast::Symbol,
+    hir::{LocalId, StmtId},
+    ir,
+};
 
 /// The names in a program as lowering made it. A pass over the program may put others in the place of what they name.
 #[derive(Debug, Default)]
@@ -19,4 +23,32 @@ pub(in crate::glsl) struct FunctionNames {
     pub name: Option<Symbol>,
     /// Parameters and local variables, in the order of their declarations: each is a value, or a place.
     pub locals: Vec<(Symbol, ir::Value)>,
+    /// Zeros that stand for what GLSL leaves undefined, where these are marked.
+    pub undefined: Vec<ir::Value>,
+    /// Which they are, in the same order.
+    pub ids: Vec<LocalId>,
+    /// Values that mean nothing but that control has come to a part of the text; only where they are asked for.
+    pub marks: Vec<(ir::Value, Mark)>,
+}
+
+/// A part of the text that control comes to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::glsl) enum Mark {
+    /// A statement begins.
+    Statement(StmtId),
+    /// A loop begins a turn: with its test, if that stands before its body.
+    Turn(StmtId),
+    /// A loop comes to the test behind its body.
+    Test(StmtId),
+    /// A loop comes to what it does between two turns.
+    Step(StmtId),
+}
+
+/// What is marked in a program for who walks through it; nothing for a device.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::glsl) struct Marks {
+    /// What GLSL leaves undefined is told from zeros that the author wrote ([`FunctionNames::undefined`]).
+    pub undefined: bool,
+    /// Where each statement begins ([`FunctionNames::marks`]).
+    pub statements: bool,
 }

@@ -7,7 +7,7 @@ use super::{
     state::{Frame, LANES, State},
     world::{World, uniform_words},
 };
-use crate::glsl::ir::{Block, Case, FuncId, GlobalKind, Input, Module, Op, Output, Stmt, Value};
+use crate::glsl::ir::{Block, Case, FuncId, GlobalId, GlobalKind, Input, Module, Op, Output, Stmt, Value};
 
 /// A set of lanes.
 type Lanes = u8;
@@ -34,8 +34,6 @@ struct Jumps {
 /// Goes through a program.
 pub struct Machine<'a, R> {
     state: State<'a, R>,
-    /// First cell of each variable of the module.
-    globals: Vec<usize>,
     /// Where each lane's pixel lies.
     positions: [[f64; 4]; LANES],
     /// Lanes that have drawn, or never will.
@@ -60,7 +58,6 @@ impl<'a, R: Real> Machine<'a, R> {
         let (x, y) = (x & !1, y & !1);
         let mut machine = Self {
             state: State::new(module, world),
-            globals: Vec::new(),
             positions: std::array::from_fn(|lane| {
                 let (dx, dy) = (lane as u32 & 1, lane as u32 >> 1);
                 [f64::from(x + dx) + 0.5, f64::from(y + dy) + 0.5, 0.0, 1.0]
@@ -80,6 +77,17 @@ impl<'a, R: Real> Machine<'a, R> {
         ((x & 1) | (y & 1) << 1) as usize
     }
 
+    /// Lets a variable of the module begin with these words, in every lane.
+    pub fn set_global(&mut self, global: GlobalId, words: &[u32]) {
+        let start = self.state.globals[global.index()];
+        let mut cells = Vec::new();
+        let ty = self.state.module[global].ty;
+        layout::constant(self.state.module, ty, &mut words.iter().copied().chain(std::iter::repeat(0)), &mut cells);
+        for memory in &mut self.state.memory {
+            memory[start..start + cells.len()].copy_from_slice(&cells);
+        }
+    }
+
     /// Runs the entry point. `observer` sees what the lane of one pixel does.
     pub fn run(mut self, lane: usize, observer: &mut dyn Observer<R>) -> Result<Drawn<R>, Stop> {
         let entry = FuncId::new(self.state.module.functions.len() - 1);
@@ -96,7 +104,7 @@ impl<'a, R: Real> Machine<'a, R> {
     fn fill_globals(&mut self) {
         for global in &self.state.module.globals {
             let start = self.state.memory[0].len();
-            self.globals.push(start);
+            self.state.globals.push(start);
             let mut cells = Vec::new();
             let mut fill = |mut words: &mut dyn Iterator<Item = u32>| {
                 layout::constant(self.state.module, global.ty, &mut words, &mut cells);
@@ -160,7 +168,7 @@ impl<'a, R: Real> Machine<'a, R> {
             let Slot::Place(place) = layout.slots[value.index()] else { continue };
             let start = match *op {
                 Op::Var(var) => base + layout.vars[var.index()],
-                Op::Global(global) => self.globals[global.index()],
+                Op::Global(global) => self.state.globals[global.index()],
                 _ => continue,
             };
             frame.places[place as usize] = [start as u32; LANES];
@@ -381,6 +389,7 @@ impl<'a, R: Real> Machine<'a, R> {
                 }
                 _ => self.state.pure(frame, value, op, lane, &mut scratch),
             }
+            observer.correct(frame.function, value, &mut scratch);
             self.state.register_mut(frame, value, lane).copy_from_slice(&scratch);
         }
         self.scratch = scratch;

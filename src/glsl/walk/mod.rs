@@ -17,6 +17,7 @@ mod state;
 mod tests;
 mod world;
 
+pub use layout::cells;
 pub use machine::{Machine, Stop};
 pub use number::{Cell, Shadowed};
 pub use observer::{Nobody, Observer, View};

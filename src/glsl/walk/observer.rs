@@ -1,10 +1,11 @@
 //! Who watches a walk.
 
 use super::{
+    layout,
     number::{Cell, Real},
-    state::{Frame, State},
+    state::{Frame, LANES, State},
 };
-use crate::glsl::ir::{FuncId, Function, Module, Op, Value};
+use crate::glsl::ir::{FuncId, Function, GlobalId, Module, Op, Value};
 
 /// One activation of a function, as the pixel that is watched sees it.
 pub struct View<'v, 'a, R> {
@@ -39,6 +40,47 @@ impl<'v, 'a, R: Real> View<'v, 'a, R> {
         self.state.value(self.frame, value, self.lane)
     }
 
+    /// The first cell of a place, by which places that overlap are told.
+    pub fn address(&self, place: Value) -> usize {
+        self.state.place(self.frame, place)[self.lane] as usize
+    }
+
+    /// A value is an address.
+    pub fn is_place(&self, value: Value) -> bool {
+        self.function().is_place(value)
+    }
+
+    /// The variable, parameter or global that a place lies in, and how many cells of it lie before the place.
+    pub fn root(&self, place: Value) -> (Value, usize) {
+        let (function, module) = (self.function(), self.module());
+        let (mut root, mut before) = (place, 0);
+        loop {
+            match *self.op(root) {
+                Op::Part { base, index } => {
+                    before += layout::offset(module, function.ty(base), index);
+                    root = base;
+                }
+                Op::Element { base, index } => {
+                    let index = self.value(index)[0].bits().min(module.extent(function.ty(base)) - 1);
+                    before += index as usize * layout::cells(module, module.part(function.ty(base), 0));
+                    root = base;
+                }
+                _ => return (root, before),
+            }
+        }
+    }
+
+    /// The cells of a variable of the module.
+    pub fn global(&self, global: GlobalId) -> &[Cell<R>] {
+        self.state.global(global, self.lane)
+    }
+
+    /// What the function gives back, as far as it has.
+    pub fn result(&self) -> &[Cell<R>] {
+        let size = self.frame.result.len() / LANES;
+        &self.frame.result[self.lane * size..][..size]
+    }
+
     /// The cells that a place holds.
     pub fn memory(&self, place: Value) -> &[Cell<R>] {
         self.state.memory(self.frame, place, self.lane)
@@ -55,6 +97,10 @@ pub trait Observer<R> {
 
     /// A loop begins another turn.
     fn turn(&mut self, _: &View<'_, '_, R>) {}
+
+    /// The cells of a value that has been computed, in one of the lanes, before anything uses them: they may be made
+    /// others.
+    fn correct(&mut self, _: FuncId, _: Value, _: &mut [Cell<R>]) {}
 
     /// A value has been computed.
     fn value(&mut self, _: &View<'_, '_, R>, _: Value) {}

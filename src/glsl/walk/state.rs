@@ -5,7 +5,7 @@ use super::{
     number::{Cell, Real},
     world::World,
 };
-use crate::glsl::ir::{FuncId, Module, Value};
+use crate::glsl::ir::{FuncId, GlobalId, Module, Value};
 
 /// Pixels that run together: at (0, 0), (1, 0), (0, 1) and (1, 1) of a block of two by two.
 pub const LANES: usize = 4;
@@ -28,12 +28,14 @@ pub struct State<'a, R> {
     pub layouts: Vec<Layout<R>>,
     /// Of each lane: the variables of the module, then those of each activation.
     pub memory: [Vec<Cell<R>>; LANES],
+    /// First cell of each variable of the module.
+    pub globals: Vec<usize>,
 }
 
 impl<'a, R: Real> State<'a, R> {
     pub fn new(module: &'a Module, world: &'a dyn World) -> Self {
         let layouts = module.functions.iter().map(|function| Layout::new(module, function)).collect();
-        Self { module, world, layouts, memory: Default::default() }
+        Self { module, world, layouts, memory: Default::default(), globals: Vec::new() }
     }
 
     /// Where a value that is computed lies in a lane.
@@ -62,6 +64,12 @@ impl<'a, R: Real> State<'a, R> {
         let start = self.place(frame, place)[lane] as usize;
         let size = layout::cells(self.module, self.module[frame.function].ty(place));
         &self.memory[lane][start..start + size]
+    }
+
+    /// The cells of a variable of the module in a lane.
+    pub fn global(&self, global: GlobalId, lane: usize) -> &[Cell<R>] {
+        let start = self.globals[global.index()];
+        &self.memory[lane][start..start + layout::cells(self.module, self.module[global].ty)]
     }
 
     pub fn place(&self, frame: &Frame<R>, place: Value) -> [u32; LANES] {

@@ -59,6 +59,17 @@ impl Builder<'_, '_> {
         value
     }
 
+    /// The zero that WebGL gives to what GLSL leaves undefined: a variable that nothing was written to, the result of a
+    /// function that ends without one.
+    pub fn undefined(&mut self, ty: TypeId) -> Value {
+        if !self.cx.marks.undefined {
+            return self.zero(ty);
+        }
+        let value = self.free(Op::Zero(ty));
+        self.undefined.push(value);
+        value
+    }
+
     /// A folded composite.
     pub fn constant(&mut self, id: ConstId) -> Value {
         self.const_value(const_id(id))

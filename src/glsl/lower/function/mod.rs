@@ -10,7 +10,7 @@ pub(super) use constants::Part as PartOf;
 use super::{
     arguments::{Instance, Specialization},
     context::{Lowering, Map, const_id},
-    names::FunctionNames,
+    names::{FunctionNames, Mark},
 };
 use crate::glsl::{
     ast::{List, Loc},
@@ -55,6 +55,9 @@ pub(super) struct Builder<'m, 'a> {
     /// The author's function, none of the code around the entry point; and what this copy has in place of parameters.
     pub func: Option<FuncId>,
     pub given: Box<[Specialization]>,
+    /// See [`FunctionNames::undefined`].
+    pub undefined: Vec<Value>,
+    pub(super) marks: Vec<(Value, Mark)>,
 }
 
 /// Lowers one copy of a user function.
@@ -77,7 +80,7 @@ pub(super) fn lower(cx: &mut Lowering<'_>, instance: &Instance) -> (ir::Function
     builder.statements(function.body.unwrap_or(List::EMPTY));
     if !builder.ended && function.result != TypeId::VOID {
         // Falling off the end gives zero.
-        let value = builder.zero(function.result);
+        let value = builder.undefined(function.result);
         builder.push(Stmt::Return(Some(value)));
     }
     let names = builder.names(instance.func);
@@ -104,6 +107,8 @@ impl<'m, 'a> Builder<'m, 'a> {
             result: TypeId::VOID,
             func: None,
             given: Box::default(),
+            undefined: Vec::new(),
+            marks: Vec::new(),
         }
     }
 
@@ -137,7 +142,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             let argument = argument(self, Param { ty: param.ty, by_reference: by_pointer });
             if by_pointer {
                 if param.kind == LocalKind::Out {
-                    let zero = self.zero(param.ty);
+                    let zero = self.undefined(param.ty);
                     self.store(argument, zero);
                 }
                 self.set_slot(local, Slot::Memory(argument));
@@ -158,6 +163,14 @@ impl<'m, 'a> Builder<'m, 'a> {
         let value = self.f.append(op, ty, self.loc);
         self.block.push(Stmt::Let(value));
         value
+    }
+
+    /// Says that control comes to a part of the text, where somebody wants to know.
+    pub fn mark(&mut self, mark: Mark) {
+        if self.cx.marks.statements {
+            let value = self.add(Op::OpaqueZero);
+            self.marks.push((value, mark));
+        }
     }
 
     /// A free operation: one that no statement computes.

@@ -83,10 +83,12 @@ impl Builder<'_, '_> {
             let id = LocalId::new(index as usize);
             let name = self.cx.hir[id].name?;
             match self.slot(id) {
-                Slot::Value(value) | Slot::Memory(value) => Some((name.symbol, value)),
+                Slot::Value(value) | Slot::Memory(value) => Some(((name.symbol, value), id)),
                 Slot::Unset | Slot::Table(_) | Slot::Channel(_) => None,
             }
         };
-        FunctionNames { name: Some(function.name.symbol), locals: function.locals.clone().filter_map(local).collect() }
+        let (locals, ids) = function.locals.clone().filter_map(local).unzip();
+        let (marks, undefined) = (self.marks.clone(), self.undefined.clone());
+        FunctionNames { name: Some(function.name.symbol), locals, ids, marks, undefined }
     }
 }

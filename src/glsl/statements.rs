@@ -1,0 +1,218 @@
+//! The statements of a pass for who steps through it: where each stands, what it lies in, and which variables can be
+//! named there.
+
+use super::{
+    ast::{Interner, List, Loc, Origins},
+    hir::{ExprId, LocalId, LocalKind, Module, StmtId, StmtKind},
+    types::TypeId,
+};
+use crate::diag::Span;
+
+/// A statement, by its place in [`Statements::list`].
+#[derive(Clone, Debug)]
+pub(crate) struct Statement {
+    /// Its text; of a branch or a loop the head alone.
+    pub head: Span,
+    /// Of a loop its test, and what it does between two turns.
+    pub test: Option<Span>,
+    pub step: Option<Span>,
+    /// The statement that it lies in.
+    pub parent: Option<u32>,
+    /// The test stands before the body.
+    pub tests_first: bool,
+    /// It begins a `for`, and belongs to its head.
+    pub is_init: bool,
+    /// What can be named before it, within its head and its body, and behind it.
+    before: Option<u32>,
+    within: Option<u32>,
+    after: Option<u32>,
+    /// The whole text of it.
+    pub whole: Span,
+    function: u32,
+}
+
+/// A parameter or local variable.
+#[derive(Clone, Debug)]
+pub(crate) struct LocalVariable {
+    pub name: String,
+    pub ty: TypeId,
+    /// The value of a `const`.
+    pub constant: Option<Vec<u32>>,
+    /// Where its name stands.
+    declared: Option<Span>,
+}
+
+/// When a variable is asked for: before a statement, in its head, or behind it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum When {
+    Before,
+    Within,
+    After,
+}
+
+/// The statements and variables of a pass.
+#[derive(Debug, Default)]
+pub(crate) struct Statements {
+    /// By the ids of the checked program; none of what is no statement of a function's body.
+    pub list: Vec<Option<Statement>>,
+    pub locals: Vec<LocalVariable>,
+    /// The whole text of each function.
+    pub functions: Vec<Span>,
+    /// Of each function its `const` variables.
+    constants: Vec<Vec<u32>>,
+    /// Each variable that can be named, and those that could be before it.
+    scopes: Vec<(Option<u32>, u32)>,
+}
+
+struct Finder<'m> {
+    module: &'m Module,
+    origins: &'m Origins,
+    out: Statements,
+    function: u32,
+}
+
+impl Statement {
+    /// The function that it is in.
+    pub fn function(&self) -> u32 {
+        self.function
+    }
+}
+
+impl Statements {
+    pub(super) fn new(module: &Module, origins: &Origins, names: &Interner) -> Self {
+        let local = |local: &super::hir::Local| LocalVariable {
+            name: local.name.map_or(String::new(), |name| names.get(name.symbol).to_owned()),
+            ty: local.ty,
+            constant: local.value.map(|id| module[module[id].words].to_vec()),
+            declared: local.name.map(|name| origins.token_span(name.token)),
+        };
+        let out = Statements {
+            list: vec![None; module.stmts.len()],
+            locals: module.locals.iter().map(local).collect(),
+            functions: module.functions.iter().map(|function| origins.span(function.loc)).collect(),
+            constants: vec![Vec::new(); module.functions.len()],
+            scopes: Vec::new(),
+        };
+        let mut finder = Finder { module, origins, out, function: 0 };
+        for (index, function) in module.functions.iter().enumerate() {
+            let Some(body) = function.body else { continue };
+            finder.function = index as u32;
+            let mut scope = None;
+            for param in 0..function.param_count {
+                scope = Some(finder.scope(scope, LocalId::new((function.locals.start + param) as usize)));
+            }
+            let is_const = |id: &u32| module[LocalId::new(*id as usize)].kind == LocalKind::Const;
+            finder.out.constants[index] = function.locals.clone().filter(is_const).collect();
+            finder.statements(body, None, scope, false);
+        }
+        finder.out
+    }
+
+    pub fn get(&self, index: u32) -> Option<&Statement> {
+        self.list.get(index as usize)?.as_ref()
+    }
+
+    /// The variables that can be named at a statement, the outermost first: of those of one name the last is meant.
+    pub fn visible(&self, index: u32, when: When) -> Vec<u32> {
+        let Some(statement) = self.get(index) else { return Vec::new() };
+        let mut scope = match when {
+            When::Before => statement.before,
+            When::Within => statement.within,
+            When::After => statement.after,
+        };
+        let mut found = Vec::new();
+        while let Some((outer, local)) = scope.map(|scope| self.scopes[scope as usize]) {
+            found.push(local);
+            scope = outer;
+        }
+        found.reverse();
+        // They are folded away where they are declared, and no statement does that.
+        let is_before = |id: &&u32| {
+            let declared = self.locals[**id as usize].declared;
+            declared.is_some_and(|at| at.source == statement.head.source && at.start < statement.head.start)
+        };
+        let constants = self.constants[statement.function as usize].iter().filter(is_before);
+        constants.copied().chain(found).collect()
+    }
+
+    /// Whether a statement is or lies in another.
+    pub fn lies_in(&self, index: u32, outer: u32) -> bool {
+        std::iter::successors(Some(index), |&at| self.get(at)?.parent).any(|at| at == outer)
+    }
+}
+
+impl Finder<'_> {
+    fn scope(&mut self, outer: Option<u32>, local: LocalId) -> u32 {
+        self.out.scopes.push((outer, local.index() as u32));
+        self.out.scopes.len() as u32 - 1
+    }
+
+    /// The scope behind the list.
+    fn statements(
+        &mut self,
+        list: List<StmtId>,
+        parent: Option<u32>,
+        mut scope: Option<u32>,
+        is_init: bool,
+    ) -> Option<u32> {
+        for &stmt in &self.module[list] {
+            scope = self.statement(stmt, parent, scope, is_init);
+        }
+        scope
+    }
+
+    fn statement(&mut self, stmt: StmtId, parent: Option<u32>, before: Option<u32>, is_init: bool) -> Option<u32> {
+        let whole = self.module[stmt].loc;
+        let loc_of = |expr: ExprId| self.module[expr].loc;
+        let to = |end: Option<Loc>| end.map_or(whole, |end| Loc { first: whole.first, last: end.last });
+        let (mut head, mut test, mut step): (Loc, Option<Loc>, Option<Loc>) = (whole, None, None);
+        let (mut within, mut after, mut tests_first) = (before, before, false);
+        let own = Some(stmt.index() as u32);
+        match self.module[stmt].kind {
+            StmtKind::Block(list) => {
+                self.statements(list, own, before, false);
+            }
+            StmtKind::Declare { local, .. } => after = Some(self.scope(before, local)),
+            StmtKind::If { cond, then, otherwise } => {
+                head = to(Some(loc_of(cond)));
+                self.statements(then, own, before, false);
+                self.statements(otherwise, own, before, false);
+            }
+            StmtKind::For { init, test: condition, step: between, body } => {
+                (test, step) = (condition.map(loc_of), between.map(loc_of));
+                head = to(step.or(test).or(Some(whole.first.into())));
+                tests_first = true;
+                within = self.statements(init, own, before, true);
+                self.statements(body, own, within, false);
+            }
+            StmtKind::DoWhile { body, test: condition } => {
+                test = Some(loc_of(condition));
+                head = whole.first.into();
+                self.statements(body, own, before, false);
+            }
+            StmtKind::Switch { value, cases } => {
+                head = to(Some(loc_of(value)));
+                let mut scope = before;
+                for case in &self.module[cases] {
+                    scope = self.statements(case.body, own, scope, false);
+                }
+            }
+            StmtKind::Expr(_) | StmtKind::Return(_) | StmtKind::Break | StmtKind::Continue | StmtKind::Discard => {}
+        }
+        let span = |loc: Loc| self.origins.span(loc);
+        self.out.list[stmt.index()] = Some(Statement {
+            head: span(head),
+            test: test.map(span),
+            step: step.map(span),
+            parent,
+            tests_first,
+            is_init,
+            before,
+            within,
+            after,
+            whole: span(whole),
+            function: self.function,
+        });
+        after
+    }
+}
