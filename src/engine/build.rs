@@ -18,7 +18,7 @@ use crate::{
     gpu::Gpu,
     graph::{ChannelFacts, FramePlan, PassFacts},
     media::MediaSet,
-    project::{FillKind, Input, Media, Pass, PassFormat, PassId, PassSettings, Project},
+    project::{FillKind, Group, Input, Media, Pass, PassFormat, PassId, PassSettings, Project},
 };
 
 /// The pictures that are wanted, and whether the others may be left out.
@@ -173,6 +173,8 @@ impl Builder {
         let options: Vec<_> =
             drawn.map(|(index, _)| (index, self.options(project, media, index, build.without))).collect();
         texts.compile_ahead(&mut self.stages, options);
+        // Image is drawn last, wherever it stands in the project: its probe is drawn after all buffers.
+        let mut probe_of_image = None;
         for (index, pass) in project.passes.iter().enumerate() {
             if !is_drawn(pass) {
                 let what = pass.id.title();
@@ -202,9 +204,16 @@ impl Builder {
             if let Some((_, probe)) = build.probe.as_ref().filter(|(id, _)| *id == pass.id) {
                 match texts.compile_pass_with(&mut self.stages, index, PassOptions { probe: Some(*probe), ..options }) {
                     Ok(compiled) => {
-                        drawable.passes.push(without_cubemap_passes(probed(pass)));
                         let mixing = mixing(&self.gpu, project, media, index);
-                        passes.push(CompiledParts { compiled, fills: [None, None], mixing });
+                        let parts = CompiledParts { compiled, fills: [None, None], mixing };
+                        let probe = without_cubemap_passes(probed(pass));
+                        if pass.id == PassId::Image {
+                            probe_of_image = Some((probe, parts));
+                        } else {
+                            join_group(&mut drawable.groups, &pass.id);
+                            drawable.passes.push(probe);
+                            passes.push(parts);
+                        }
                     }
                     Err(errors) => said.extend(errors),
                 }
@@ -219,6 +228,10 @@ impl Builder {
                 Err(errors) => said.extend(errors),
             }
             diag::append(&mut diagnostics, said);
+        }
+        if let Some((probe, parts)) = probe_of_image {
+            drawable.passes.push(probe);
+            passes.push(parts);
         }
         if diagnostics.iter().any(Diagnostic::is_error) {
             Err(diagnostics)
@@ -260,6 +273,15 @@ fn probed(pass: &Pass) -> Pass {
     let PassSettings { size, region, .. } = pass.settings.clone();
     let settings = PassSettings { size, region, format: PassFormat::Rgba32f, ..PassSettings::default() };
     Pass { id: BuildOptions::probed(), settings, ..pass.clone() }
+}
+
+/// A probe of a pass in a group is drawn with it, step by step: between two passes of a group it would part them.
+fn join_group(groups: &mut [Group], pass: &PassId) {
+    for group in groups {
+        if let Some(at) = group.passes.iter().position(|id| id == pass) {
+            group.passes.insert(at, BuildOptions::probed());
+        }
+    }
 }
 
 /// A cubemap pass is not drawn, so a channel that reads it is as one whose file is missing.

@@ -2,7 +2,7 @@
 
 use super::targets::Target;
 use crate::{
-    gpu::{Gpu, GpuError, Presenter, Texture},
+    gpu::{Gpu, GpuError, Presenter, Texture, ValueLook, ValuePainter},
     project::PassId,
 };
 
@@ -16,12 +16,16 @@ pub(super) struct Display {
     bound: Vec<wgpu::BindGroup>,
     /// The place of the shown target in the plan.
     target: usize,
+    /// Made when numbers are first to be seen as such.
+    painter: Option<ValuePainter>,
+    /// The target holds numbers and no picture.
+    has_look: bool,
 }
 
 impl Display {
     pub fn new(gpu: &Gpu, (width, height): (u32, u32)) -> Result<Self, GpuError> {
         let (presenter, texture) = (Presenter::new(gpu), Presenter::texture(gpu, width, height)?);
-        Ok(Self { presenter, texture, shown: None, bound: Vec::new(), target: 0 })
+        Ok(Self { presenter, texture, shown: None, bound: Vec::new(), target: 0, painter: None, has_look: false })
     }
 
     /// The picture, its first row the top.
@@ -44,6 +48,14 @@ impl Display {
         self.shown = Some(pass);
     }
 
+    /// Shows what the pass holds as numbers, so; none: as a picture. It must be bound anew.
+    pub fn look(&mut self, gpu: &Gpu, look: Option<ValueLook>) {
+        if let Some(look) = &look {
+            self.painter.get_or_insert_with(|| ValuePainter::new(gpu)).set(gpu, look);
+        }
+        self.has_look = look.is_some();
+    }
+
     /// Shows the chosen pass, if one is chosen, from these targets on; a pass without a target is black and of the
     /// canvas's size.
     pub fn rebind(&mut self, gpu: &Gpu, canvas: (u32, u32), targets: &[Target]) {
@@ -61,7 +73,12 @@ impl Display {
             && let Some(i) = place
         {
             self.target = i;
-            self.bound = targets[i].textures.iter().map(|t| self.presenter.bind(gpu, t)).collect();
+            let painter = self.painter.as_ref().filter(|_| self.has_look);
+            let bind = |texture| match painter {
+                Some(painter) => painter.bind(gpu, texture),
+                None => self.presenter.bind(gpu, texture),
+            };
+            self.bound = targets[i].textures.iter().map(bind).collect();
         }
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("show") });
         if !self.present(gpu, &mut encoder, targets) {
@@ -74,7 +91,10 @@ impl Display {
     pub fn present(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, targets: &[Target]) -> bool {
         let newest = targets.get(self.target).map_or(0, |t| t.front);
         let Some(bound) = self.bound.get(newest) else { return false };
-        self.presenter.present(gpu, encoder, bound, &self.texture);
+        match self.painter.as_ref().filter(|_| self.has_look) {
+            Some(painter) => painter.present(gpu, encoder, bound, &self.texture),
+            None => self.presenter.present(gpu, encoder, bound, &self.texture),
+        }
         true
     }
 }

@@ -15,6 +15,8 @@ pub enum EngineError {
     NoSuchPass(String),
     #[error("{pass} has no target {index}")]
     NoSuchTarget { pass: String, index: usize },
+    #[error("{reader} reads {read}, which has been drawn several times since: what it held then is gone")]
+    Overwritten { reader: String, read: String },
     #[error(transparent)]
     Mesh(#[from] MeshError),
 }

@@ -7,11 +7,12 @@ use super::{
 use super::{
     inspect::{Capture, PassInputs},
     shared::Shared,
+    snapshot::{self, Snapshot},
     targets::Target,
     watch::Watch,
 };
 use crate::{
-    gpu::{FloatConverter, Gpu, MINIATURE_SIZE, Miniatures, Presenter, Readback},
+    gpu::{FloatConverter, Gpu, MINIATURE_SIZE, Miniatures, Presenter, Readback, ValueLook},
     project::{CustomUniformValues, PassId},
 };
 
@@ -138,6 +139,35 @@ impl Engine {
         Ok((stats, capture.taken.ok_or_else(none)?))
     }
 
+    /// Copies what every target holds.
+    pub fn snapshot(&self) -> Result<Snapshot, EngineError> {
+        let snapshot = Snapshot::take(&self.shared.gpu, self.targets())?;
+        self.shared.gpu.take_trouble("a snapshot")?;
+        Ok(snapshot)
+    }
+
+    /// What [`Engine::snapshot`] would take of the device's memory.
+    pub fn snapshot_bytes(&self) -> u64 {
+        snapshot::bytes(self.targets())
+    }
+
+    /// Puts back what every target held. False, and nothing is changed, if the snapshot is one of another program's
+    /// targets or of another canvas.
+    pub fn restore(&mut self, snapshot: &Snapshot) -> bool {
+        self.running.as_mut().is_some_and(|running| running.restore(&self.shared, snapshot))
+    }
+
+    /// Takes what a pass read when it was drawn last, and draws nothing. Waits for the device.
+    pub fn inspect(&mut self, pass: &PassId) -> Result<PassInputs, EngineError> {
+        let none = || EngineError::NoSuchPass(pass.title());
+        let running = self.running.as_ref().ok_or_else(none)?;
+        let converter = self.converter.get_or_insert_with(|| FloatConverter::new(&self.shared.gpu));
+        let index = running.program.draws.iter().position(|draw| draw.id == *pass).ok_or_else(none)?;
+        let mut capture = Capture::of_the_past(pass, converter);
+        capture.take(running, &self.shared, index)?;
+        capture.taken.ok_or_else(none)
+    }
+
     /// Returns the texels of a pass, across and up.
     pub fn pass_size(&self, pass: &PassId) -> Option<(u32, u32)> {
         self.targets().iter().find(|t| t.id == *pass).map(Target::size)
@@ -215,6 +245,12 @@ impl Engine {
     /// first call. A pass that is not drawn shows black.
     pub fn show(&mut self, pass: PassId) {
         self.display.show(pass);
+        self.rebind_display();
+    }
+
+    /// Shows what the shown pass holds as numbers, from its newest texels on; none: as a picture.
+    pub fn show_values(&mut self, look: Option<ValueLook>) {
+        self.display.look(&self.shared.gpu, look);
         self.rebind_display();
     }
 

@@ -2,10 +2,10 @@
 
 use super::custom_uniforms;
 use crate::{
-    diag::{Diagnostic, SourceId},
+    diag::{Diagnostic, SourceId, Span},
     glsl::{
-        self, ChannelKind, Driver, Include, Link, PassKind, PassSource, Preamble, Text, UniformValue,
-        services::Analysis, walkable::Walkable,
+        self, ChannelKind, Driver, Include, Link, PassKind, PassSource, Preamble, Probe, ProbedExpression, Text,
+        UniformValue, services::Analysis, walkable::Walkable,
     },
     project::{
         Channel, CustomUniforms, FillKind, FillText, Geometry, IncludeLines, Input, Pass, PassBody, PassId, Project,
@@ -50,6 +50,12 @@ impl<'p> Sources<'p> {
         let diagnostics = lines.diagnostics.iter().chain(&custom_uniforms.diagnostics).cloned().collect();
         let values = custom_uniforms::given(&custom_uniforms, &project.custom_uniform_values);
         Self { project, texts, lines, custom_uniforms, values, preamble: OnceLock::new(), fills, diagnostics }
+    }
+
+    /// What the author wrote at a place.
+    pub(crate) fn written(&self, span: Span) -> &str {
+        let text = self.texts.get(span.source.0 as usize);
+        text.and_then(|text| text.get(span.range())).unwrap_or_default()
     }
 
     pub fn custom_uniforms(&self) -> &CustomUniforms {
@@ -126,13 +132,42 @@ impl<'p> Sources<'p> {
     /// # Panics
     /// If there is no such pass.
     pub(crate) fn walkable(&self, index: usize) -> Option<Result<Walkable, Vec<Diagnostic>>> {
+        self.walked(index, Walkable::new)
+    }
+
+    /// Does the same for who steps through the pass, statement by statement.
+    ///
+    /// # Panics
+    /// If there is no such pass.
+    pub(crate) fn walkable_by_statements(&self, index: usize) -> Option<Result<Walkable, Vec<Diagnostic>>> {
+        self.walked(index, Walkable::by_statements)
+    }
+
+    /// Lowers what stands in `project.passes[index]` and behind it a text that defines `mainCubemap`, which is what
+    /// runs: so further code is read with everything that the pass declares.
+    ///
+    /// # Panics
+    /// If there is no such pass.
+    pub(crate) fn walkable_with(&self, index: usize, behind: &str) -> Option<Result<Walkable, Vec<Diagnostic>>> {
+        self.walked(index, |source| {
+            let text = format!("{}\n{behind}", source.code.text);
+            let code = Text { id: source.code.id, text: &text };
+            Walkable::new(&PassSource { kind: PassKind::Cubemap, code, ..*source })
+        })
+    }
+
+    fn walked<T>(&self, index: usize, make: impl FnOnce(&PassSource<'_>) -> T) -> Option<T> {
         let own = &self.project.passes[index];
         let is_walked = own.settings.meshes().is_none();
-        is_walked.then(|| {
-            self.with_source(index, self.stage_id(index, Stage::Own), pass_kind(&own.id), |source| {
-                Walkable::new(source)
-            })
-        })
+        is_walked.then(|| self.with_source(index, self.stage_id(index, Stage::Own), pass_kind(&own.id), make))
+    }
+
+    /// What a probe of `project.passes[index]` means; `None` where there is no value.
+    ///
+    /// # Panics
+    /// If there is no such pass.
+    pub fn probed(&self, index: usize, probe: &Probe) -> Option<ProbedExpression> {
+        self.walked(index, |source| glsl::probed(source, probe))?
     }
 
     /// Analyses `project.passes[index]` as an editor understands it, whether it compiles or not.

@@ -170,6 +170,9 @@ impl Gpu {
             label: Some("eddy"),
             required_features: features,
             required_limits: adapter.limits(),
+            // Large textures get memory of their own, which is given back when the canvas becomes smaller. Blocks of
+            // hundreds of megabytes, as the other hint has them, stay for the sake of one small buffer in each.
+            memory_hints: wgpu::MemoryHints::MemoryUsage,
             ..Default::default()
         }))
         .map_err(|e| GpuError::NoDevice { adapter: info.name.clone(), reason: e.to_string() })?;

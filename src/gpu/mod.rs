@@ -20,6 +20,7 @@ mod samplers;
 mod spirv;
 mod texture;
 mod timer;
+mod values;
 
 pub use bindings::Binding;
 pub use buffer::constant_buffer;
@@ -35,3 +36,4 @@ pub use readback::Readback;
 pub use samplers::{Address, Filtering, Samplers};
 pub use texture::{Texture, TextureDescriptor, mip_levels};
 pub use timer::PassTimer;
+pub use values::{Paint, ValueLook, ValuePainter};

@@ -4,7 +4,7 @@ use super::{PassInputs, TextureCopy, texture::Level};
 use crate::{
     engine::{EngineError, program::CompiledDraw, running::Running, shared::Shared},
     gpu::{FloatConverter, Gpu, Readback, Texture},
-    graph::{Draw, Source},
+    graph::{Source, When},
     project::{Filter, PassId, Wrap},
 };
 
@@ -12,12 +12,19 @@ use crate::{
 pub(in crate::engine) struct Capture<'a> {
     pass: &'a PassId,
     converter: &'a FloatConverter,
+    /// The pass has been drawn already.
+    is_past: bool,
     pub taken: Option<PassInputs>,
 }
 
 impl<'a> Capture<'a> {
     pub fn new(pass: &'a PassId, converter: &'a FloatConverter) -> Self {
-        Self { pass, converter, taken: None }
+        Self { pass, converter, is_past: false, taken: None }
+    }
+
+    /// Takes the inputs of a pass after the frame: they are there as long as nothing new is drawn.
+    pub fn of_the_past(pass: &'a PassId, converter: &'a FloatConverter) -> Self {
+        Self { pass, converter, is_past: true, taken: None }
     }
 
     pub fn wants(&self, compiled: &CompiledDraw) -> bool {
@@ -29,7 +36,7 @@ impl<'a> Capture<'a> {
         let (compiled, draw) = (&running.program.draws[index], &running.program.plan.draws[index]);
         let mut channels = [const { None }; 4];
         for (channel, copy) in channels.iter_mut().enumerate() {
-            *copy = Some(self.channel(running, shared, (compiled, draw), channel)?);
+            *copy = Some(self.channel(running, shared, (compiled, index), channel)?);
         }
         self.taken = Some(PassInputs {
             uniforms: running.uniforms.uniform_block(index),
@@ -44,13 +51,16 @@ impl<'a> Capture<'a> {
         &self,
         running: &Running,
         shared: &Shared,
-        (compiled, draw): (&CompiledDraw, &Draw),
+        (compiled, index): (&CompiledDraw, usize),
         channel: usize,
     ) -> Result<TextureCopy, EngineError> {
         let bound = &compiled.channels[channel];
-        let read = draw.reads[channel].as_ref();
+        let read = running.program.plan.draws[index].reads[channel].as_ref();
         let texture = match read.map(|read| &read.source) {
             _ if !bound.texture => None,
+            Some(Source::Target { index: target, when: When::LastFrame }) if self.is_past => {
+                Some(self.before(running, index, *target)?)
+            }
             Some(Source::Target { index, .. }) => Some(running.targets[*index].newest()),
             Some(Source::Keyboard) => Some(&shared.keyboard.texture),
             Some(Source::Media | Source::Nothing) | None => bound.media.as_ref(),
@@ -59,6 +69,24 @@ impl<'a> Capture<'a> {
         let (filter, wrap) = read.map_or((Filter::Nearest, Wrap::Clamp), |r| (r.sampler.filter, r.sampler.wrap));
         let levels = (0..texture.levels()).map(|level| self.level(&shared.gpu, texture, level));
         Ok(TextureCopy { levels: levels.collect::<Result<_, _>>()?, filter, wrap })
+    }
+
+    /// What a target held when draw `reader` read it, which is done before the target is drawn.
+    fn before<'r>(&self, running: &'r Running, reader: usize, target: usize) -> Result<&'r Texture, EngineError> {
+        let plan = &running.program.plan;
+        let held = &running.targets[target];
+        let Some(drawer) = plan.draws.iter().position(|draw| draw.targets.contains(&target)) else {
+            return Ok(held.newest());
+        };
+        let run_of = |draw: usize| plan.runs.iter().position(|run| run.draws.contains(&draw));
+        match running.steps_drawn.get(drawer) {
+            // It was left out, as nothing that it reads had changed.
+            None | Some(0) => Ok(held.newest()),
+            Some(&steps) if steps > 1 && run_of(drawer) != run_of(reader) => {
+                Err(EngineError::Overwritten { reader: self.pass.title(), read: held.id.title() })
+            }
+            Some(_) => Ok(&held.textures[held.back()]),
+        }
     }
 
     fn level(&self, gpu: &Gpu, texture: &Texture, level: u32) -> Result<Level, EngineError> {

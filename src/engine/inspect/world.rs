@@ -7,7 +7,7 @@ use crate::glsl::{
 };
 
 /// The uniforms and textures that a draw reads, as they were when it began.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PassInputs {
     pub uniforms: UniformBlock,
     /// The author's own, by their slots.
