@@ -1,0 +1,61 @@
+//! The operation in which most of a pixel's error is born.
+
+use super::{
+    distance::error_of,
+    watch::{Blame, Watch},
+};
+use crate::{
+    glsl::{
+        ir::{FuncId, Value},
+        walk::{Cell, Observer, Shadowed},
+    },
+    session::trace::TraceError,
+};
+
+/// Errors of a pixel's value that are not looked into, relative to a value of 1: a few roundings.
+const NOTHING: f64 = 1e-5;
+/// How many operations are tried.
+const SUSPECTS: usize = 8;
+/// The part of an error that is left at most where the operation that it is born in is exact.
+const MOST: f64 = 0.5;
+
+/// Makes an operation exact: its result of single precision is that of double precision, rounded.
+struct Exact {
+    function: FuncId,
+    value: Value,
+}
+
+impl Observer<Shadowed> for Exact {
+    fn correct(&mut self, function: FuncId, value: Value, cells: &mut [Cell<Shadowed>]) {
+        if (function, value) != (self.function, self.value) {
+            return;
+        }
+        for cell in cells {
+            if let Cell::Float(x) = cell {
+                x.single = x.double as f32;
+            }
+        }
+    }
+}
+
+/// Walks again with each suspect exact; `drawn` is what the pixel draws, and `walk` goes through it.
+pub fn find(
+    drawn: &[Shadowed; 4],
+    watch: &Watch<'_>,
+    walk: impl Fn(&mut dyn Observer<Shadowed>) -> Result<[Shadowed; 4], TraceError>,
+) -> Result<Option<Blame>, TraceError> {
+    let error = error_of(drawn);
+    let size = drawn.iter().map(|x| x.double.abs()).filter(|x| x.is_finite()).fold(1.0, f64::max);
+    if error < NOTHING * size {
+        return Ok(None);
+    }
+    let mut best: Option<Blame> = None;
+    for birth in watch.births().into_iter().take(SUSPECTS) {
+        let drawn = walk(&mut Exact { function: birth.function, value: birth.value })?;
+        let left = error_of(&drawn);
+        if left <= MOST * error && best.as_ref().is_none_or(|best| left < best.left) {
+            best = Some(Blame { birth: birth.clone(), error, left });
+        }
+    }
+    Ok(best)
+}

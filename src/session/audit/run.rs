@@ -1,0 +1,133 @@
+//! Audits pixels, on all processors.
+
+use super::{
+    blame,
+    distance::{apart, error_of},
+    finding::Finding,
+    watch::Watch,
+};
+use crate::{
+    engine::{PassInputs, Sources},
+    glsl::{
+        ir::Output,
+        walk::{Machine, Observer, Shadowed},
+        walkable::Walkable,
+    },
+    session::trace::TraceError,
+};
+use std::{
+    collections::BTreeMap,
+    sync::atomic::{AtomicUsize, Ordering},
+};
+
+/// A pixel of a pass in both precisions. Components that are not stored, and pixels where nothing is drawn, are 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AuditedPixel {
+    pub pixel: (u32, u32),
+    pub single: [f32; 4],
+    pub double: [f64; 4],
+    /// The largest difference of a component; infinite where one of the two alone is a number.
+    pub error: f64,
+}
+
+impl AuditedPixel {
+    /// How far each component of a device's texel is from double precision; 0 for those that are not stored.
+    pub fn apart(&self, device: [f32; 4], stored: usize) -> [f64; 4] {
+        let one = |i: usize| apart(Shadowed { single: device[i], double: self.double[i] });
+        std::array::from_fn(|i| if i < stored { one(i) } else { 0.0 })
+    }
+}
+
+/// Pixels in the middles of cells of even size, row after row; one of a small pass may come more than once.
+pub fn spread((columns, rows): (u32, u32), (width, height): (u32, u32)) -> Vec<(u32, u32)> {
+    let at = |i: u32, n: u32, size: u32| ((u64::from(2 * i + 1) * u64::from(size)) / u64::from(2 * n)) as u32;
+    (0..rows).flat_map(|y| (0..columns).map(move |x| (at(x, columns, width), at(y, rows, height)))).collect()
+}
+
+/// What was found.
+#[derive(Clone, Debug, Default)]
+pub struct Audit {
+    /// In the order in which they were asked for.
+    pub pixels: Vec<AuditedPixel>,
+    /// In the order of their weight.
+    pub findings: Vec<Finding>,
+}
+
+/// Audits `project.passes[index]` at some pixels, counted from the bottom left, on all processors.
+pub fn audit(
+    sources: &Sources<'_>,
+    index: usize,
+    inputs: &PassInputs,
+    pixels: &[(u32, u32)],
+    limit: u64,
+) -> Result<Audit, TraceError> {
+    if let Some(&pixel) = pixels.iter().find(|p| p.0 >= inputs.size.0 || p.1 >= inputs.size.1) {
+        return Err(TraceError::Outside { pixel, size: inputs.size });
+    }
+    let walkable = sources.walkable(index).ok_or(TraceError::Meshes)?.map_err(TraceError::Diagnostics)?;
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut done = Vec::new();
+        while let Some(&pixel) = pixels.get(next.fetch_add(1, Ordering::Relaxed)) {
+            done.push(audit_pixel(&walkable, sources, inputs, pixel, limit)?);
+        }
+        Ok::<_, TraceError>(done)
+    };
+    let threads = std::thread::available_parallelism().map_or(1, |n| n.get()).min(pixels.len().max(1));
+    let done: Result<Vec<_>, TraceError> = std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();
+        threads.into_iter().map(|t| t.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))).collect()
+    });
+    let mut found: BTreeMap<(u32, u32), (AuditedPixel, Vec<Finding>)> =
+        done?.into_iter().flatten().map(|(pixel, findings)| (pixel.pixel, (pixel, findings))).collect();
+    let mut audit = Audit::default();
+    let mut all: Vec<Finding> = Vec::new();
+    for pixel in pixels {
+        // One that is asked for twice counts once.
+        let Some((audited, findings)) = found.remove(pixel) else { continue };
+        audit.pixels.push(audited);
+        for finding in findings {
+            match all.iter_mut().find(|known| known.is_like(&finding)) {
+                Some(known) => known.add(&finding),
+                None => all.push(finding),
+            }
+        }
+    }
+    all.sort_by(|a, b| a.kind.class().cmp(&b.kind.class()).then(b.pixels.cmp(&a.pixels)));
+    audit.findings = all;
+    Ok(audit)
+}
+
+fn audit_pixel(
+    walkable: &Walkable,
+    sources: &Sources<'_>,
+    inputs: &PassInputs,
+    pixel: (u32, u32),
+    limit: u64,
+) -> Result<(AuditedPixel, Vec<Finding>), TraceError> {
+    let mut watch = Watch::new(walkable, sources, inputs);
+    let drawn = walk(walkable, inputs, pixel, limit, &mut watch)?;
+    let audited = AuditedPixel {
+        pixel,
+        single: drawn.map(|x| x.single),
+        double: drawn.map(|x| x.double),
+        error: error_of(&drawn),
+    };
+    let born = blame::find(&drawn, &watch, |observer| walk(walkable, inputs, pixel, limit, observer))?;
+    Ok((audited, watch.end(pixel, born)))
+}
+
+/// What a pixel draws in both precisions, by the way of the single one.
+fn walk(
+    walkable: &Walkable,
+    inputs: &PassInputs,
+    pixel: (u32, u32),
+    limit: u64,
+    observer: &mut dyn Observer<Shadowed>,
+) -> Result<[Shadowed; 4], TraceError> {
+    let lane = Machine::<Shadowed>::lane_of(pixel);
+    let drawn = Machine::<Shadowed>::new(&walkable.program, inputs, pixel, limit).run(lane, observer)?;
+    let cells = drawn.outputs.iter().find(|(output, _)| *output == Output::Target(0)).map(|(_, cells)| &cells[lane]);
+    let nothing = Shadowed { single: 0.0, double: 0.0 };
+    Ok(std::array::from_fn(|i| cells.and_then(|cells| cells.get(i)).map_or(nothing, |cell| cell.float())))
+}

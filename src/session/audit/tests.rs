@@ -1,0 +1,132 @@
+//! Faults that were planted, and code without any.
+
+use super::*;
+use crate::{
+    engine::{PassInputs, Sources, TextureCopy},
+    glsl::interface::UniformBlock,
+    session::{template, trace::STEPS},
+};
+use bytemuck::Zeroable;
+
+fn inputs() -> PassInputs {
+    let uniforms = UniformBlock { resolution: [8.0, 4.0, 1.0], time: 0.5, ..UniformBlock::zeroed() };
+    let channels = std::array::from_fn(|_| TextureCopy::black());
+    PassInputs { uniforms, custom_uniforms: Vec::new(), channels, size: (8, 4) }
+}
+
+fn audited(code: &str) -> Audit {
+    let mut project = template::project();
+    project.passes[0].source.text = code.into();
+    let pixels: Vec<(u32, u32)> = (0..4).flat_map(|y| (0..8).map(move |x| (x, y))).collect();
+    audit(&Sources::new(&project), 0, &inputs(), &pixels, STEPS).unwrap()
+}
+
+fn image(body: &str) -> String {
+    format!("void mainImage(out vec4 o, in vec2 p) {{\n{body}\n}}\n")
+}
+
+fn named<'a>(code: &'a str, audit: &'a Audit) -> Vec<(&'static str, &'a str)> {
+    let text = |finding: &Finding| finding.span.map_or("", |span| &code[span.range()]);
+    audit.findings.iter().map(|finding| (finding.kind.name(), text(finding))).collect()
+}
+
+#[test]
+fn code_without_fault_has_no_findings() {
+    let code = image(
+        "vec3 n = normalize(vec3(p, 1.));\nfloat d = 0.;\nfor (int i = 0; i < 9; i++) d += sqrt(float(i)) * n.x;\n\
+         o = vec4(n * smoothstep(0., 1., d), pow(abs(n.y), 2.));",
+    );
+    let audit = audited(&code);
+    assert_eq!(named(&code, &audit), []);
+    assert_eq!(audit.pixels.len(), 32);
+    assert!(audit.pixels.iter().all(|p| p.error < 1e-5), "{:?}", audit.pixels[0]);
+    assert!(audit.pixels.iter().any(|p| p.error > 0.0), "two precisions round differently");
+}
+
+#[test]
+fn a_cancellation_is_where_the_error_is_born() {
+    let code = image("float a = 1000. + p.x * 1e-3;\nfloat b = a * a - 1e6;\no = vec4(b * 0.5, 0., 0., 1.);");
+    let audit = audited(&code);
+    let rounding: Vec<_> = audit.findings.iter().filter(|f| f.kind.class() == Class::Rounding).collect();
+    assert_eq!(rounding.len(), 1, "{:?}", named(&code, &audit));
+    let finding = rounding[0];
+    assert_eq!(&code[finding.span.unwrap().range()], "a * a - 1e6");
+    assert!(finding.kind.message().starts_with("cancellation"), "{}", finding.kind.message());
+    let (error, left) = finding.error.unwrap();
+    assert!(error > 1e-3 && left < error / 100.0, "{error} {left}");
+}
+
+#[test]
+fn a_large_angle_is_named() {
+    let code = image("o = vec4(sin(p.x * 7e4 / 3.), 0., 0., 1.);");
+    let audit = audited(&code);
+    assert!(audit.findings.iter().any(|f| f.kind.message().starts_with("a trigonometric function of a large number")));
+    // A hash by fract of a large sine, which everybody has.
+    let code = image("o = vec4(fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453), 0., 0., 1.);");
+    let audit = audited(&code);
+    assert!(audit.pixels.iter().any(|p| p.error > 1e-4));
+    assert!(named(&code, &audit).iter().any(|(kind, text)| *kind == "rounding" && text.starts_with("fract")));
+}
+
+#[test]
+fn what_is_read_before_it_is_written_is_found() {
+    for (body, text) in [
+        ("float a;\nif (p.x > 4.) a = 1.;\no = vec4(a * 2.);", "a * 2."),
+        ("float a;\no = vec4(a + 1.);", "a + 1."),
+        ("vec2 v;\nv.x = 1.;\no = vec4(v.y - 1.);", "v.y - 1."),
+    ] {
+        let code = image(body);
+        let audit = audited(&code);
+        let expected = ("undefined", text);
+        assert!(named(&code, &audit).contains(&expected), "{body}: {:?}", named(&code, &audit));
+    }
+    let partly = image("vec4 v;\nv.xyz = vec3(p, 1.);\nv *= 2.;\no = vec4(v.xyz, 1.);");
+    assert_eq!(named(&partly, &audited(&partly)), [], "the fourth component is carried along and thrown away");
+    let global =
+        "float g;\nfloat set;\nvoid f() { set = 1.; }\nvoid mainImage(out vec4 o, vec2 p) { f(); o = vec4(g + set); }";
+    let audit = audited(global);
+    assert_eq!(named(global, &audit), [("undefined", "g + set")]);
+    let looped = image("float s = 0.;\nfor (int i = 0; i < 3; i++) { float t; t = float(i); s += t; }\no = vec4(s);");
+    assert_eq!(named(&looped, &audited(&looped)), []);
+}
+
+#[test]
+fn results_that_the_language_leaves_open_are_listed_with_their_numbers() {
+    for (body, text, numbers) in [
+        ("o = vec4(pow(p.x - 9., 2.));", "pow(p.x - 9., 2.)", "pow(-8.5, 2.0)"),
+        ("o = vec4(normalize(p - p), 0., 1.);", "normalize(p - p)", "inversesqrt(0.0)"),
+        ("o = vec4(smoothstep(p.x, .25, .5));", "smoothstep(p.x, .25, .5)", "smoothstep(0.5, 0.25, …)"),
+        ("o = vec4(1 << (int(p.x) + 32));", "1 << (int(p.x) + 32)", "… by 32"),
+        ("o = vec4(int(p.x * 1e10));", "int(p.x * 1e10)", "int(5000000000.0)"),
+        ("o = vec4(uint(p.x - 9.));", "uint(p.x - 9.)", "uint(-8.5)"),
+        ("o = vec4(1. / (p.x - .5));", "1. / (p.x - .5)", "1.0 / 0.0"),
+        ("o = vec4(7 / (int(p.x) - 3));", "7 / (int(p.x) - 3)", "… / 0"),
+        ("o = vec4(sqrt(p.x - 9.));", "sqrt(p.x - 9.)", "sqrt(-8.5)"),
+        ("float a[3] = float[3](1., 2., 3.);\no = vec4(a[int(p.x)]);", "a[int(p.x)]", "[3] of 3"),
+        ("o = texelFetch(iChannel0, ivec2(p), 0);", "texelFetch(iChannel0, ivec2(p), 0)", "[1, 0], 0) of 1x1"),
+        ("o = vec4(atan(p.x - .5, 0.));", "atan(p.x - .5, 0.)", "atan(0.0, 0.0)"),
+        ("o = vec4(clamp(p.x, 1., p.y - 9.));", "clamp(p.x, 1., p.y - 9.)", "clamp(…, 1.0, -8.5)"),
+    ] {
+        let code = image(body);
+        let audit = audited(&code);
+        let found = audit.findings.iter().find(|f| f.kind.name() == "undefined");
+        let found = found.unwrap_or_else(|| panic!("{body}: {:?}", named(&code, &audit)));
+        assert_eq!(found.span.map(|span| &code[span.range()]), Some(text), "{body}");
+        assert!(found.numbers.contains(numbers), "{body}: {}", found.numbers);
+    }
+}
+
+#[test]
+fn nan_is_named_where_it_is_born_and_not_where_it_goes() {
+    let code = image("float a = p.x - p.x;\nfloat b = a / a;\nfloat c = b + 1.;\no = vec4(c * 2.);");
+    let audit = audited(&code);
+    let nonfinite: Vec<_> = audit.findings.iter().filter(|f| f.kind.name() == "nonfinite").collect();
+    assert_eq!(nonfinite.len(), 1, "{:?}", named(&code, &audit));
+    assert_eq!((&code[nonfinite[0].span.unwrap().range()], nonfinite[0].pixels), ("a / a", 32));
+}
+
+#[test]
+fn a_comparison_that_rounding_decides_is_told() {
+    let code = image("float a = p.x * .1;\no = vec4(a * 3. == p.x * .3 ? 1. : 0.);");
+    assert!(named(&code, &audited(&code)).iter().any(|(kind, _)| *kind == "decided-by-rounding"));
+}

@@ -1,0 +1,364 @@
+//! Watches a walk in both precisions.
+
+use super::{
+    distance::apart,
+    finding::{Finding, Kind},
+    undefined,
+};
+use crate::{
+    diag::Span,
+    engine::{PassInputs, Sources},
+    glsl::{
+        ast::Loc,
+        ir::{Binary, FuncId, GlobalKind, Math, Op, Value},
+        walk::{Cell, Observer, Shadowed, View, World},
+        walkable::Walkable,
+    },
+};
+use std::collections::{HashMap, HashSet};
+
+/// Half the distance of single precision's numbers, relative to them.
+const ROUNDING: f64 = 1.0 / (1 << 24) as f64;
+/// By how much an operation makes relative errors larger for its error to be its own and not its operands'.
+const GROWTH: f64 = 16.0;
+/// A sum is a cancellation where it is smaller than its operands by this.
+const CANCELLED: f64 = 1.0 / 16.0;
+/// Where the distance of single precision's numbers is a thousandth of a turn.
+const LARGE_ANGLE: f32 = 1e4;
+
+/// An operation whose result is much less exact than its operands.
+#[derive(Clone, Debug)]
+pub struct Birth {
+    pub function: FuncId,
+    pub value: Value,
+    /// Relative error of the result.
+    pub error: f64,
+    pub what: &'static str,
+    pub numbers: String,
+    span: Option<Span>,
+}
+
+/// An operation, a pixel's error, and what is left of it where the operation is exact.
+pub struct Blame {
+    pub birth: Birth,
+    pub error: f64,
+    pub left: f64,
+}
+
+pub struct Watch<'w> {
+    walkable: &'w Walkable,
+    sources: &'w Sources<'w>,
+    inputs: &'w PassInputs,
+    births: HashMap<(FuncId, Value), Birth>,
+    found: Vec<(Kind, Option<Span>, String)>,
+    /// Cells of memory that nothing was written to.
+    unset: HashSet<usize>,
+    /// Cells of variables of the module that something was written to.
+    written: HashSet<usize>,
+    /// Of each call under way, the values of which components are undefined.
+    calls: Vec<HashMap<Value, Vec<bool>>>,
+    variables: HashMap<FuncId, Vec<Value>>,
+}
+
+impl<'w> Watch<'w> {
+    pub fn new(walkable: &'w Walkable, sources: &'w Sources<'w>, inputs: &'w PassInputs) -> Self {
+        Self {
+            walkable,
+            sources,
+            inputs,
+            births: HashMap::new(),
+            found: Vec::new(),
+            unset: HashSet::new(),
+            written: HashSet::new(),
+            calls: Vec::new(),
+            variables: HashMap::new(),
+        }
+    }
+
+    /// The operations in which errors are born, the largest first.
+    pub fn births(&self) -> Vec<&Birth> {
+        let mut births: Vec<&Birth> = self.births.values().collect();
+        births.sort_by(|a, b| b.error.total_cmp(&a.error).then(a.span.cmp_place(&b.span)));
+        births
+    }
+
+    pub fn end(self, pixel: (u32, u32), born: Option<Blame>) -> Vec<Finding> {
+        let finding = |(kind, span, numbers)| Finding { kind, span, pixels: 1, pixel, numbers, error: None };
+        let mut all: Vec<Finding> = self.found.into_iter().map(finding).collect();
+        if let Some(Blame { birth, error, left }) = born {
+            let (kind, span, numbers) = (Kind::Rounding(birth.what), birth.span, birth.numbers);
+            all.push(Finding { kind, span, pixels: 1, pixel, numbers, error: Some((error, left)) });
+        }
+        all
+    }
+
+    fn span(&self, loc: Loc) -> Option<Span> {
+        (loc != Loc::default()).then(|| self.walkable.span(loc))
+    }
+
+    fn find(&mut self, kind: Kind, span: Option<Span>, numbers: String) {
+        if !self.found.iter().any(|(k, s, _)| *k == kind && *s == span) {
+            self.found.push((kind, span, numbers));
+        }
+    }
+
+    fn undefined_components(&self, view: &View<'_, '_, Shadowed>, value: Value) -> Option<Vec<bool>> {
+        if self.walkable.undefined(view.function_id()).contains(&value) {
+            return Some(vec![true; view.value(value).len()]);
+        }
+        self.calls.last()?.get(&value).cloned()
+    }
+
+    /// The variable of the module that a place lies in, if nothing is written there before the program writes.
+    fn is_unset_global(&self, view: &View<'_, '_, Shadowed>, place: Value) -> bool {
+        match *view.op(place) {
+            Op::Part { base, .. } | Op::Element { base, .. } => self.is_unset_global(view, base),
+            Op::Global(global) => {
+                let is_empty = matches!(view.module()[global].kind, GlobalKind::Private(None));
+                is_empty && self.walkable.global_name(global).is_some()
+            }
+            _ => false,
+        }
+    }
+
+    /// Which components of a value nothing was written to, and whether that counts as a use of them.
+    fn follow(&mut self, view: &View<'_, '_, Shadowed>, value: Value, op: &Op) {
+        let mut is_used = false;
+        let undefined: Option<Vec<bool>> = match op {
+            Op::Load { place } => {
+                let (start, count) = (view.address(*place), view.memory(*place).len());
+                let is_global = self.is_unset_global(view, *place);
+                let is_unset = |cell: usize| self.unset.contains(&cell) || (is_global && !self.written.contains(&cell));
+                let components: Vec<bool> = (start..start + count).map(is_unset).collect();
+                components.contains(&true).then_some(components)
+            }
+            Op::Part { base, index } => {
+                let size = view.value(value).len();
+                let parts = self.undefined_components(view, *base);
+                parts.map(|parts| parts[*index as usize * size..][..size].to_vec())
+            }
+            Op::Swizzle { vector, swizzle } => {
+                let parts = self.undefined_components(view, *vector);
+                parts.map(|parts| swizzle.iter().map(|i| parts[i]).collect())
+            }
+            Op::Splat { size, value } => {
+                let part = self.undefined_components(view, *value);
+                part.map(|part| vec![part[0]; usize::from(*size)])
+            }
+            Op::Compose { parts, .. } => {
+                let mut all = Vec::new();
+                for &part in &**parts {
+                    let size = view.value(part).len();
+                    all.extend(self.undefined_components(view, part).unwrap_or_else(|| vec![false; size]));
+                }
+                Some(all)
+            }
+            _ => {
+                let size = view.value(value).len();
+                let mut components = vec![false; size];
+                for operand in operands(op) {
+                    if view.is_place(operand) {
+                        continue;
+                    }
+                    let Some(parts) = self.undefined_components(view, operand) else { continue };
+                    // A component that is nothing may be carried along and thrown away.
+                    is_used |= parts.iter().all(|&part| part) || parts.len() != size;
+                    let each = |i: usize| parts[if parts.len() == 1 { 0 } else { i.min(parts.len() - 1) }];
+                    components.iter_mut().enumerate().for_each(|(i, c)| *c |= each(i));
+                }
+                (!is_used).then_some(components)
+            }
+        };
+        if is_used {
+            let span = self.span(view.function().loc(value));
+            let what = "a value is used that nothing was written to (4.3.1: it is undefined)";
+            self.find(Kind::Undefined(what), span, String::new());
+        }
+        if let Some(call) = self.calls.last_mut() {
+            match undefined.filter(|components| components.contains(&true)) {
+                Some(components) => call.insert(value, components),
+                None => call.remove(&value),
+            };
+        }
+    }
+}
+
+impl Observer<Shadowed> for Watch<'_> {
+    fn enter(&mut self, view: &View<'_, '_, Shadowed>) {
+        self.calls.push(HashMap::new());
+        let variables = self.variables.entry(view.function_id()).or_insert_with(|| {
+            let is_variable = |(value, op): (Value, &Op)| matches!(op, Op::Var(_)).then_some(value);
+            view.function().values().filter_map(is_variable).collect()
+        });
+        // The cells were another call's.
+        for &variable in &*variables {
+            let start = view.address(variable);
+            for cell in start..start + view.memory(variable).len() {
+                self.unset.remove(&cell);
+            }
+        }
+    }
+
+    fn leave(&mut self, _: &View<'_, '_, Shadowed>) {
+        self.calls.pop();
+    }
+
+    fn store(&mut self, view: &View<'_, '_, Shadowed>, place: Value, value: Value) {
+        let (start, count) = (view.address(place), view.memory(place).len());
+        let undefined = self.undefined_components(view, value);
+        for i in 0..count {
+            match undefined.as_ref().is_some_and(|parts| parts[i.min(parts.len() - 1)]) {
+                true => self.unset.insert(start + i),
+                false => self.unset.remove(&(start + i)),
+            };
+        }
+        if self.is_unset_global(view, place) {
+            self.written.extend(start..start + count);
+        }
+    }
+
+    fn value(&mut self, view: &View<'_, '_, Shadowed>, value: Value) {
+        let op = view.op(value);
+        let loc = view.function().loc(value);
+        if view.is_place(value) {
+            if let Op::Element { .. } = op
+                && let Some((what, numbers)) = undefined::reason(view, op, &|| "", &|_, _| [0; 3])
+            {
+                let span = self.span(loc);
+                self.find(Kind::Undefined(what), span, numbers);
+            }
+            return;
+        }
+        self.follow(view, value, op);
+        let (sources, inputs) = (self.sources, self.inputs);
+        let text = || self.span(loc).map_or("", |span| sources.written(span));
+        let size = |channel, level| World::size(inputs, channel, level);
+        if let Some((what, numbers)) = undefined::reason(view, op, &text, &size) {
+            let span = self.span(loc);
+            self.find(Kind::Undefined(what), span, numbers);
+        }
+        let own = match op {
+            Op::Binary { op, left, right } if op.is_comparison() => {
+                if decides_otherwise(view, *op, *left, *right) {
+                    let span = self.span(loc);
+                    self.find(Kind::Decided, span, shown(view, &[*left, *right]));
+                }
+                return;
+            }
+            Op::Binary { op, left, right } => birth_of_binary(view, *op, *left, *right, value),
+            Op::Math { fun, arg, .. } => birth_of_math(view, *fun, *arg),
+            _ => return,
+        };
+        let operands: Vec<Value> = operands(op).into_iter().filter(|&operand| !view.is_place(operand)).collect();
+        let error = relative(view.value(value));
+        let before = operands.iter().map(|&operand| relative(view.value(operand))).fold(0.0, f64::max);
+        let is_finite =
+            |value: Value| view.value(value).iter().all(|c| !matches!(c, Cell::Float(x) if !x.single.is_finite()));
+        if !is_finite(value) && operands.iter().all(|&operand| is_finite(operand)) {
+            let span = self.span(loc);
+            let is_nan = view.value(value).iter().any(|c| matches!(c, Cell::Float(x) if x.single.is_nan()));
+            let what = if is_nan { "NaN is born here" } else { "an infinity is born here" };
+            self.find(Kind::Nonfinite(what), span, shown(view, &operands));
+        }
+        if error < GROWTH * ROUNDING || error < GROWTH * before.max(ROUNDING) {
+            return;
+        }
+        let key = (view.function_id(), value);
+        if self.births.get(&key).is_none_or(|known| known.error < error) {
+            let (function, numbers) = (view.function_id(), shown(view, &operands));
+            let span = self.span(loc);
+            self.births.insert(key, Birth { function, value, error, what: own, numbers, span });
+        }
+    }
+}
+
+fn operands(op: &Op) -> Vec<Value> {
+    let mut all = Vec::new();
+    op.operands(|operand| all.push(operand));
+    all
+}
+
+fn birth_of_binary(view: &View<'_, '_, Shadowed>, op: Binary, left: Value, right: Value, value: Value) -> &'static str {
+    let size = |value: Value| view.value(value).iter().map(|c| c.float().single.abs()).fold(0.0, f32::max);
+    match op {
+        Binary::Add | Binary::Subtract
+            if f64::from(size(value)) < CANCELLED * f64::from(size(left).max(size(right))) =>
+        {
+            "cancellation: of almost equal numbers little but their rounding errors is left"
+        }
+        Binary::Divide => "a small divisor makes rounding errors large",
+        _ => "rounding errors grow here",
+    }
+}
+
+fn birth_of_math(view: &View<'_, '_, Shadowed>, fun: Math, arg: Value) -> &'static str {
+    let is_large = view.value(arg).iter().any(|c| matches!(c, Cell::Float(x) if x.single.abs() >= LARGE_ANGLE));
+    match fun {
+        Math::Sin | Math::Cos | Math::Tan if is_large => {
+            "a trigonometric function of a large number: rounding has lost where in its turn it is"
+        }
+        Math::Fract | Math::Floor | Math::Ceil | Math::Round | Math::Trunc => {
+            "a step: on its two sides rounding gives different whole numbers, or the fraction of a large number"
+        }
+        Math::Exp | Math::Exp2 | Math::Pow => "an exponential makes rounding errors of its exponent large",
+        _ => "rounding errors grow here",
+    }
+}
+
+/// The largest error of a component, relative to it.
+fn relative(cells: &[Cell<Shadowed>]) -> f64 {
+    let one = |cell: &Cell<Shadowed>| match *cell {
+        Cell::Float(x) => {
+            let size = x.double.abs().max(f64::from(x.single).abs());
+            match apart(x) {
+                0.0 => 0.0,
+                error if size.is_finite() => error / size.max(f64::from(f32::MIN_POSITIVE)),
+                _ => f64::INFINITY,
+            }
+        }
+        Cell::Bits(_) => 0.0,
+    };
+    cells.iter().map(one).fold(0.0, f64::max)
+}
+
+fn decides_otherwise(view: &View<'_, '_, Shadowed>, op: Binary, left: Value, right: Value) -> bool {
+    let (a, b) = (view.value(left), view.value(right));
+    let outcome = |order: Option<std::cmp::Ordering>| match op {
+        Binary::Equal => order.is_some_and(|o| o.is_eq()),
+        Binary::NotEqual => order.is_none_or(|o| o.is_ne()),
+        Binary::Less => order.is_some_and(|o| o.is_lt()),
+        Binary::LessEqual => order.is_some_and(|o| o.is_le()),
+        Binary::Greater => order.is_some_and(|o| o.is_gt()),
+        _ => order.is_some_and(|o| o.is_ge()),
+    };
+    a.iter().zip(b).any(|(a, b)| match (a, b) {
+        (Cell::Float(a), Cell::Float(b)) => {
+            outcome(a.single.partial_cmp(&b.single)) != outcome(a.double.partial_cmp(&b.double))
+        }
+        _ => false,
+    })
+}
+
+fn shown(view: &View<'_, '_, Shadowed>, values: &[Value]) -> String {
+    let one = |cell: &Cell<Shadowed>| match cell {
+        Cell::Float(x) => format!("{:?}", x.single),
+        Cell::Bits(bits) => (*bits as i32).to_string(),
+    };
+    let each = values.iter().map(|&value| {
+        let all: Vec<String> = view.value(value).iter().map(one).collect();
+        if all.len() == 1 { all[0].clone() } else { format!("({})", all.join(", ")) }
+    });
+    each.collect::<Vec<_>>().join(" and ")
+}
+
+/// Places in the order of the text, so that equal errors are told in one order on every run.
+trait ComparePlace {
+    fn cmp_place(&self, other: &Self) -> std::cmp::Ordering;
+}
+
+impl ComparePlace for Option<Span> {
+    fn cmp_place(&self, other: &Self) -> std::cmp::Ordering {
+        let key = |span: &Option<Span>| span.map(|s| (s.source.0, s.start));
+        key(self).cmp(&key(other))
+    }
+}

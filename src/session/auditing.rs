@@ -1,0 +1,105 @@
+//! The audit that a person asks for of the picture that is shown: taken of the pass after a frame, done on a thread of
+//! its own, told in the list of problems until the next compile.
+
+use super::{
+    audit::{self, Audit, Class, Finding},
+    trace::STEPS,
+    tracing::Taken,
+    view::TabDiagnostic,
+    worker::{Panicked, Worker},
+};
+use crate::{
+    diag::{Diagnostic, Severity},
+    engine::Sources,
+    project::{PassId, Project},
+};
+use std::sync::Arc;
+
+/// How many pixels are looked at, across and up.
+const PIXELS: (u32, u32) = (32, 18);
+
+struct Job {
+    project: Project,
+    pass: PassId,
+    taken: Taken,
+}
+
+/// What came of it.
+pub(super) struct Told {
+    pub pass: PassId,
+    pub pixels: usize,
+    /// The largest difference of a component between the device and double precision.
+    pub error: f64,
+    pub findings: Vec<TabDiagnostic>,
+}
+
+pub(super) struct Auditing {
+    worker: Worker<Job, Result<Told, String>>,
+    /// What the shown pass read is to be taken.
+    pub is_due: bool,
+    /// The pass of which it is being taken.
+    taking: Option<PassId>,
+}
+
+impl Auditing {
+    pub fn new(wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
+        Ok(Self { worker: Worker::new("audit", wake, told)?, is_due: false, taking: None })
+    }
+
+    /// The pass whose inputs are to be taken now, if any are.
+    pub fn take_due(&mut self, shown: &PassId) -> Option<PassId> {
+        if std::mem::take(&mut self.is_due) {
+            self.taking = Some(shown.clone());
+        }
+        self.taking.clone()
+    }
+
+    /// The pass of which something was being taken: it is here, or cannot be had.
+    pub fn taken(&mut self) -> Option<PassId> {
+        self.taking.take()
+    }
+
+    pub fn submit(&mut self, project: Project, pass: PassId, taken: Taken) {
+        self.worker.submit(Job { project, pass, taken });
+    }
+
+    /// Takes an audit that has ended; the error says why it gives nothing.
+    pub fn take(&mut self) -> Option<Result<Told, String>> {
+        Some(match self.worker.take()? {
+            Ok(told) => told,
+            Err(Panicked(why)) => Err(format!("this is a bug in Eddy: the walker gave up ({why})")),
+        })
+    }
+}
+
+fn told(Job { project, pass, taken: (inputs, device) }: Job) -> Result<Told, String> {
+    let index = project.passes.iter().position(|p| p.id == pass).ok_or("the pass has gone")?;
+    let pixels = audit::spread(PIXELS, inputs.size);
+    let found = audit::audit(&Sources::new(&project), index, &inputs, &pixels, STEPS).map_err(|e| e.to_string())?;
+    let stored = project.passes[index].settings.format.components();
+    let texel = |(x, y): (u32, u32)| device.texels.get((y * device.width + x) as usize).copied().unwrap_or_default();
+    let error = |audit: &Audit| {
+        let each = audit.pixels.iter().flat_map(|pixel| pixel.apart(texel(pixel.pixel), stored));
+        each.fold(0.0, f64::max)
+    };
+    let sources = project.sources();
+    let findings =
+        found.findings.iter().map(|finding| TabDiagnostic::new(&diagnostic(finding, &found), &sources, &project));
+    Ok(Told { pass, pixels: found.pixels.len(), error: error(&found), findings: findings.collect() })
+}
+
+fn diagnostic(finding: &Finding, audit: &Audit) -> Diagnostic {
+    let severity = match finding.kind.class() {
+        Class::Nonfinite | Class::Undefined => Severity::Warning,
+        Class::Rounding | Class::Decided => Severity::Note,
+    };
+    let ((x, y), count) = (finding.pixel, audit.pixels.len());
+    let mut hint = format!("in {} of {count} pixels, as {x},{y}", finding.pixels);
+    if !finding.numbers.is_empty() {
+        hint = format!("{}, {hint}", finding.numbers);
+    }
+    if let Some((error, left)) = finding.error {
+        hint = format!("{hint}; its error of {error:.1e} would be {left:.1e} were this exact");
+    }
+    Diagnostic::new(severity, finding.span, finding.kind.message()).hint(hint)
+}

@@ -1,0 +1,42 @@
+//! A person asks for an audit of the picture that is shown.
+
+use super::{Session, auditing::Told, tracing::Taken, view::Level};
+
+impl Session {
+    /// Hands on what the audited pass read. What was taken for something else is given back.
+    pub(super) fn audit(&mut self, taken: Taken) -> Option<Taken> {
+        let Some(pass) = self.auditing.taken() else { return Some(taken) };
+        if let Some(project) = self.drawing.project().cloned() {
+            self.auditing.submit(project, pass, taken);
+        }
+        None
+    }
+
+    /// Takes an audit that has ended.
+    pub(super) fn take_audited(&mut self) {
+        let Some(told) = self.auditing.take() else { return };
+        self.changed = true;
+        let Told { pass, pixels, error, findings } = match told {
+            Ok(told) => told,
+            Err(why) => return self.notice(Level::Warning, format!("the picture was not checked: {why}")),
+        };
+        let count = match findings.len() {
+            0 => "nothing is undefined, and no operation stands out".to_owned(),
+            1 => "one finding is in the list of problems".to_owned(),
+            n => format!("{n} findings are in the list of problems"),
+        };
+        let pass = pass.title();
+        let text = format!("{pass} is off double precision by {error:.1e} at most, of {pixels} pixels; {count}");
+        self.notice(Level::Info, text);
+        self.compile.diagnostics.extend(findings);
+    }
+
+    /// What was asked of the device for an audit could not be had.
+    pub(super) fn audit_failed(&mut self, why: &str) -> bool {
+        let is_ours = self.auditing.taken().is_some();
+        if is_ours {
+            self.notice(Level::Warning, format!("the picture was not checked: {why}"));
+        }
+        is_ours
+    }
+}
