@@ -1,0 +1,13 @@
+//! Numbers that stand for a whole pass, and what is claimed of them: `sum(buffer_a.x) within 1e-4 of 1`.
+//!
+//! Owns the spelling of quantities and assertions, and their values. Reads no device: it is given texels.
+
+mod assertion;
+mod quantity;
+mod reader;
+
+pub use assertion::{Assertion, Failure};
+pub use quantity::{Quantity, Reduction};
+
+#[cfg(test)]
+mod tests;
