@@ -6,7 +6,9 @@
 use super::script::ScriptedInputs;
 use crate::{
     diag::{Diagnostic, SourceMap},
-    engine::{BuildError, BuildOptions, Engine, EngineError, FrameStats, PassInputs, PassTime, Pixels, Program},
+    engine::{
+        BuildError, BuildOptions, Engine, EngineError, FrameInputs, FrameStats, PassInputs, PassTime, Pixels, Program,
+    },
     gpu::{Gpu, GpuError},
     media::MediaSet,
     project::{PassId, Project},
@@ -77,9 +79,26 @@ impl Offline {
         self.build_millis
     }
 
+    /// What the next frame is drawn with. A recording may give it another canvas and other values of uniforms first.
+    fn next_inputs(&mut self) -> Result<FrameInputs, EngineError> {
+        if let Some(change) = self.inputs.next_change() {
+            let engine = self.engine.as_mut().ok_or_else(gone)?;
+            if let Some((width, height)) = change.size {
+                engine.resize(width, height)?;
+            }
+            if let Some(values) = &change.values {
+                engine.set_custom_uniforms(values);
+            }
+            if change.reset {
+                engine.reset();
+            }
+        }
+        Ok(self.inputs.next_frame())
+    }
+
     /// Draws the next frame and waits until the device has finished it.
     pub fn draw(&mut self) -> Result<DrawnFrame, OfflineError> {
-        let inputs = self.inputs.next_frame();
+        let inputs = self.next_inputs()?;
         let number = inputs.frame;
         self.within(number, move |engine| {
             let began = Instant::now();
@@ -92,7 +111,7 @@ impl Offline {
 
     /// Draws the next frame, and takes what a pass reads when it is drawn.
     pub fn draw_inspected(&mut self, pass: &PassId) -> Result<PassInputs, OfflineError> {
-        let (inputs, pass) = (self.inputs.next_frame(), pass.clone());
+        let (inputs, pass) = (self.next_inputs()?, pass.clone());
         self.within(inputs.frame, move |engine| Ok(engine.draw_inspected(&inputs, &pass)?.1))
     }
 
@@ -106,7 +125,7 @@ impl Offline {
             self.draw()?;
             return Ok(self.engine.as_mut().and_then(Engine::pass_times).unwrap_or_default());
         }
-        let inputs = self.inputs.next_frame();
+        let inputs = self.next_inputs()?;
         self.within(inputs.frame, move |engine| {
             let began = Instant::now();
             Ok(engine.draw_waited(&inputs, &mut || millis_since(began))?.1)

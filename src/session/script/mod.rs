@@ -1,10 +1,16 @@
 //! Input written down beforehand: `--mouse`, `--keys`, and the [`FrameInputs`] that come of them at a fixed step.
 //!
-//! Events of frame i happen before frame i is drawn, so a script gives the same pictures on every machine.
+//! Events of frame i happen before frame i is drawn, so a script gives the same pictures on every machine. A
+//! [`Recording`] takes the place of both.
 
-use super::{date, mouse::Mouse};
+use super::{
+    date,
+    mouse::Mouse,
+    recording::{Change, Recording},
+};
 use crate::{engine::FrameInputs, media::Keyboard};
 use jiff::{SignedDuration, civil::DateTime};
+use std::sync::Arc;
 
 /// An action of the mouse.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -178,6 +184,7 @@ pub struct ScriptedInputs {
     mouse: Mouse,
     keyboard: Keyboard,
     frame: i32,
+    replay: Option<Arc<Recording>>,
 }
 
 impl ScriptedInputs {
@@ -191,6 +198,7 @@ impl ScriptedInputs {
             mouse: Mouse::default(),
             keyboard: Keyboard::default(),
             frame: 0,
+            replay: None,
         }
     }
 
@@ -215,6 +223,40 @@ impl ScriptedInputs {
         self
     }
 
+    /// Frames as they were recorded, instead of any script. Behind the last one time goes on at the fixed step.
+    #[must_use]
+    pub fn with_replay(mut self, recording: Option<Arc<Recording>>) -> Self {
+        self.replay = recording.filter(|recording| !recording.frames.is_empty());
+        self
+    }
+
+    /// Returns how many frames the recording has, if there is one.
+    pub fn recorded_frames(&self) -> Option<usize> {
+        self.replay.as_ref().map(|recording| recording.frames.len())
+    }
+
+    /// Returns what a recording changes of the engine before the next frame.
+    pub fn next_change(&self) -> Option<Change> {
+        let index = usize::try_from(self.frame).ok()?;
+        self.replay.as_ref()?.change(index).map(|(change, _)| change)
+    }
+
+    fn replayed(&self, recording: &Recording, frame: usize) -> FrameInputs {
+        if let Some((_, inputs)) = recording.change(frame) {
+            return inputs.clone();
+        }
+        let last = recording.frames.len() - 1;
+        let mut inputs = recording.frames[last].inputs.clone();
+        let beyond = frame - last;
+        inputs.frame = inputs.frame.saturating_add(beyond as i32);
+        inputs.time_secs += beyond as f64 / self.fps;
+        inputs.time_delta_secs = (1.0 / self.fps) as f32;
+        // Of a press that is over.
+        inputs.mouse[3] = -inputs.mouse[3].abs();
+        inputs.keyboard.frame_painted();
+        inputs
+    }
+
     /// Number of the frame that [`ScriptedInputs::next_frame`] gives next.
     pub fn frame(&self) -> i32 {
         self.frame
@@ -224,6 +266,9 @@ impl ScriptedInputs {
     pub fn next_frame(&mut self) -> FrameInputs {
         let frame = self.frame;
         self.frame = self.frame.saturating_add(1);
+        if let Some(recording) = &self.replay {
+            return self.replayed(recording, frame as usize);
+        }
         for event in of_frame(&self.mouse_events, frame) {
             match event {
                 MouseAction::Down(x, y) => self.mouse.press(x, y),

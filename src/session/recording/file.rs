@@ -1,0 +1,217 @@
+//! The file of a recording: JSON lines, a head and then a line a frame with what is new in it.
+//!
+//! ```text
+//! {"eddy_recording":1,"project":"fluid"}
+//! {"time":0.0,"delta":0.016666667,"rate":60.0,"size":[640,360],"mouse":[0,0,0,0],"date":[2026,0,1,0]}
+//! {"time":0.016,"delta":0.016,"mouse":[320,180,320,180],"held":[32],"pressed":[32],"toggled":[32]}
+//! ```
+//!
+//! A member that is left out is as in the line before; `frame` counts up by itself, `reset` is left out where it is
+//! false. Members that a later version of Eddy adds are passed over.
+
+use super::{RecordedFrame, Recording};
+use crate::{
+    engine::FrameInputs,
+    media::Keyboard,
+    project::{CustomUniformValue, CustomUniformValues},
+};
+use serde::{Deserialize, Serialize};
+use std::io::{self, BufRead, Write};
+
+/// Of the files' names.
+pub const EXTENSION: &str = "replay";
+const VERSION: u32 = 1;
+
+#[derive(Serialize, Deserialize)]
+struct Head {
+    eddy_recording: u32,
+    #[serde(default)]
+    project: String,
+}
+
+/// Floats are written as doubles, which JSON's shortest decimals give back bit for bit.
+#[derive(Default, Serialize, Deserialize)]
+#[serde(default)]
+struct Line {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    frame: Option<i32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    time: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    delta: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    rate: Option<f64>,
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    reset: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    size: Option<(u32, u32)>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mouse: Option<[f64; 4]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    drag: Option<[f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    date: Option<[f64; 4]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    held: Option<Vec<u8>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pressed: Option<Vec<u8>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    toggled: Option<Vec<u8>>,
+    /// All that are not at their defaults.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    set: Option<serde_json::Map<String, serde_json::Value>>,
+}
+
+/// A file that cannot be replayed.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    #[error("{0}")]
+    Io(#[from] io::Error),
+    #[error("this is no recording of Eddy's: its first line is not {{\"eddy_recording\":{VERSION},…}}")]
+    NoRecording,
+    #[error("it was recorded by a later version of Eddy (its form is {0}, and this one reads up to {VERSION})")]
+    Later(u32),
+    #[error("line {line}: {what}")]
+    Line { line: usize, what: String },
+    #[error("it holds no frame")]
+    Empty,
+}
+
+impl Recording {
+    pub fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        serde_json::to_writer(&mut *out, &Head { eddy_recording: VERSION, project: self.project.clone() })?;
+        out.write_all(b"\n")?;
+        let mut before: Option<&RecordedFrame> = None;
+        for frame in &self.frames {
+            serde_json::to_writer(&mut *out, &Line::after(before, frame))?;
+            out.write_all(b"\n")?;
+            before = Some(frame);
+        }
+        Ok(())
+    }
+
+    /// Reads a whole file. Errors name the line.
+    pub fn read(text: impl BufRead) -> Result<Self, ReadError> {
+        let mut lines = text.lines();
+        let head: Head = match lines.next().transpose()? {
+            Some(line) => serde_json::from_str(&line).map_err(|_| ReadError::NoRecording)?,
+            None => return Err(ReadError::NoRecording),
+        };
+        if head.eddy_recording > VERSION {
+            return Err(ReadError::Later(head.eddy_recording));
+        }
+        let mut frames: Vec<RecordedFrame> = Vec::new();
+        for (index, line) in lines.enumerate() {
+            let line = line?;
+            if line.trim().is_empty() {
+                continue;
+            }
+            let wrong = |what: String| ReadError::Line { line: index + 2, what };
+            let read: Line = serde_json::from_str(&line).map_err(|e| wrong(e.to_string()))?;
+            frames.push(read.onto(frames.last()).map_err(wrong)?);
+        }
+        if frames.is_empty() {
+            return Err(ReadError::Empty);
+        }
+        Ok(Self { project: head.project, frames })
+    }
+}
+
+impl Line {
+    fn after(before: Option<&RecordedFrame>, now: &RecordedFrame) -> Self {
+        fn new<T: PartialEq>(before: Option<T>, now: T) -> Option<T> {
+            (before.as_ref() != Some(&now)).then_some(now)
+        }
+        let (inputs, earlier) = (&now.inputs, before.map(|before| &before.inputs));
+        let row = |keyboard: &Keyboard, row: usize| -> Vec<u8> {
+            let bytes = &keyboard.bytes()[row * Keyboard::WIDTH..][..Keyboard::WIDTH];
+            (0..=u8::MAX).filter(|code| bytes[usize::from(*code)] != 0).collect()
+        };
+        // Bits count: -0 is not 0 to a shader that asks for the sign.
+        let mouse = |inputs: &FrameInputs| inputs.mouse.map(f32::to_bits);
+        let keys = |n: usize| {
+            // Nothing is pressed before the first frame.
+            let before = earlier.map_or_else(Vec::new, |earlier| row(&earlier.keyboard, n));
+            new(Some(before), row(&inputs.keyboard, n))
+        };
+        let expected = earlier.map_or(0, |earlier| earlier.frame.saturating_add(1));
+        let values = |frame: &RecordedFrame| frame.values.clone();
+        Self {
+            frame: (inputs.frame != expected).then_some(inputs.frame),
+            time: Some(inputs.time_secs),
+            delta: new(earlier.map(|i| i.time_delta_secs), inputs.time_delta_secs).map(f64::from),
+            rate: new(earlier.map(|i| i.frame_rate), inputs.frame_rate).map(f64::from),
+            reset: now.reset,
+            size: new(before.map(|before| before.size), now.size),
+            mouse: new(earlier.map(mouse), mouse(inputs)).map(|bits| bits.map(|bits| f32::from_bits(bits).into())),
+            drag: new(earlier.map(|i| i.drag), inputs.drag).map(|drag| drag.map(f64::from)),
+            date: new(earlier.map(|i| i.date), inputs.date).map(|date| date.map(f64::from)),
+            held: keys(0),
+            pressed: keys(1),
+            toggled: keys(2),
+            set: new(before.map(values).or_else(|| Some(CustomUniformValues::new())), values(now))
+                .map(|values| values.into_iter().map(|(name, value)| (name, written(&value))).collect()),
+        }
+    }
+
+    fn onto(self, before: Option<&RecordedFrame>) -> Result<RecordedFrame, String> {
+        let mut frame = before.cloned().unwrap_or_else(|| RecordedFrame {
+            inputs: FrameInputs::at_fixed_step(-1, 60.0),
+            size: (0, 0),
+            values: CustomUniformValues::new(),
+            reset: false,
+        });
+        let inputs = &mut frame.inputs;
+        inputs.frame = self.frame.unwrap_or(inputs.frame.saturating_add(1));
+        let time = self.time.or_else(|| before.map(|before| before.inputs.time_secs));
+        inputs.time_secs = time.ok_or("the first frame has no `time`")?;
+        let single = |x: f64| x as f32;
+        inputs.time_delta_secs = self.delta.map_or(inputs.time_delta_secs, single);
+        inputs.frame_rate = self.rate.map_or(inputs.frame_rate, single);
+        inputs.mouse = self.mouse.map_or(inputs.mouse, |mouse| mouse.map(single));
+        inputs.drag = self.drag.map_or(inputs.drag, |drag| drag.map(single));
+        inputs.date = self.date.map_or(inputs.date, |date| date.map(single));
+        for (row, codes) in [self.held, self.pressed, self.toggled].into_iter().enumerate() {
+            if let Some(codes) = codes {
+                inputs.keyboard.set_row(row, &codes);
+            }
+        }
+        frame.reset = self.reset;
+        frame.size = self.size.or(before.map(|before| before.size)).ok_or("the first frame has no `size`")?;
+        if frame.size.0 == 0 || frame.size.1 == 0 {
+            return Err("a `size` of 0 holds no pixel".into());
+        }
+        if let Some(set) = self.set {
+            let read = |(name, value)| {
+                let value = read_value(&value).ok_or_else(|| format!("`{name}` has a value that no uniform takes"))?;
+                Ok((name, value))
+            };
+            frame.values = set.into_iter().map(read).collect::<Result<_, String>>()?;
+        }
+        Ok(frame)
+    }
+}
+
+fn written(value: &CustomUniformValue) -> serde_json::Value {
+    match value {
+        CustomUniformValue::Bool(on) => (*on).into(),
+        CustomUniformValue::Int(n) => (*n).into(),
+        CustomUniformValue::Float(x) => (*x).into(),
+        CustomUniformValue::Vector(all) => all.clone().into(),
+        CustomUniformValue::List(all) => all.iter().map(written).collect(),
+    }
+}
+
+fn read_value(value: &serde_json::Value) -> Option<CustomUniformValue> {
+    use serde_json::Value;
+    Some(match value {
+        Value::Bool(on) => CustomUniformValue::Bool(*on),
+        Value::Number(n) if n.is_f64() => CustomUniformValue::Float(n.as_f64()?),
+        Value::Number(n) => CustomUniformValue::Int(i32::try_from(n.as_i64()?).ok()?),
+        Value::Array(all) if (2..=4).contains(&all.len()) && all.iter().all(Value::is_f64) => {
+            CustomUniformValue::Vector(all.iter().filter_map(Value::as_f64).collect())
+        }
+        Value::Array(all) => CustomUniformValue::List(all.iter().map(read_value).collect::<Option<_>>()?),
+        _ => return None,
+    })
+}

@@ -1,0 +1,101 @@
+use super::*;
+use crate::{
+    media::Keyboard,
+    project::{CustomUniformValue, CustomUniformValues},
+};
+
+fn frame(number: i32, change: impl FnOnce(&mut RecordedFrame)) -> RecordedFrame {
+    let mut frame = RecordedFrame {
+        inputs: FrameInputs::at_fixed_step(number, 60.0),
+        size: (640, 360),
+        values: CustomUniformValues::new(),
+        reset: false,
+    };
+    change(&mut frame);
+    frame
+}
+
+fn there_and_back(recording: &Recording) -> (String, Recording) {
+    let mut bytes = Vec::new();
+    recording.write(&mut bytes).unwrap();
+    let read = Recording::read(bytes.as_slice()).unwrap();
+    (String::from_utf8(bytes).unwrap(), read)
+}
+
+/// Numbers that no short decimal is equal to, and signs of zero.
+#[test]
+fn a_recording_comes_back_bit_for_bit() {
+    let mut keyboard = Keyboard::default();
+    keyboard.press(32);
+    let mut after = keyboard.clone();
+    after.frame_painted();
+    after.release(32);
+    let recording = Recording {
+        project: "my \"fluid\"".into(),
+        frames: vec![
+            frame(0, |f| {
+                f.inputs.mouse = [0.0, 0.0, -0.0, -0.0];
+                f.inputs.date = [2026.0, 0.0, 31.0, 86_399.01];
+                f.values.insert("on".into(), CustomUniformValue::Bool(true));
+            }),
+            frame(1, |f| {
+                f.inputs.time_secs = 0.1 + 0.2;
+                f.inputs.time_delta_secs = f32::from_bits(0x3c88_8889);
+                f.inputs.keyboard = keyboard;
+                f.values.insert("tint".into(), CustomUniformValue::Vector(vec![0.1, 1.0, 1.0 / 3.0]));
+                f.values.insert("count".into(), CustomUniformValue::Int(-3));
+                f.values.insert("x".into(), CustomUniformValue::Float(1.0));
+            }),
+            frame(2, |f| {
+                f.inputs.keyboard = after;
+                f.inputs.mouse = [7.0, 9.0, -7.0, 9.0];
+                f.size = (333, 187);
+            }),
+            frame(0, |f| f.reset = true),
+            frame(1, |_| {}),
+        ],
+    };
+    let (text, read) = there_and_back(&recording);
+    assert_eq!(read, recording, "{text}");
+    let bits = |r: &Recording| r.frames.iter().map(|f| f.inputs.mouse.map(f32::to_bits)).collect::<Vec<_>>();
+    assert_eq!(bits(&read), bits(&recording));
+    assert_eq!(text.lines().count(), 6);
+    let last = text.lines().last().unwrap();
+    assert_eq!(last, r#"{"time":0.016666666666666666}"#, "what stays is not written");
+}
+
+#[test]
+fn a_frame_says_what_is_new_in_it() {
+    let recording = Recording {
+        project: String::new(),
+        frames: vec![frame(0, |f| f.reset = true), frame(1, |_| {}), frame(0, |f| (f.size, f.reset) = ((8, 4), true))],
+    };
+    let change = |i| recording.change(i).map(|(change, _)| change);
+    let values = CustomUniformValues::new();
+    assert_eq!(change(0), Some(Change { size: Some((640, 360)), values: Some(values), reset: false }));
+    assert_eq!(change(1), Some(Change { size: None, values: None, reset: false }));
+    assert_eq!(change(2), Some(Change { size: Some((8, 4)), values: None, reset: true }));
+    assert_eq!(change(3), None);
+}
+
+#[test]
+fn a_file_that_is_no_recording_says_why_and_where() {
+    let head = "{\"eddy_recording\":1}\n";
+    let frame = "{\"time\":0.0,\"size\":[4,4]}\n";
+    for (text, says) in [
+        (String::new(), "no recording"),
+        ("{\"version\":1}\n".into(), "no recording"),
+        ("{\"eddy_recording\":2}\n".into(), "later version"),
+        (head.into(), "no frame"),
+        (format!("{head}{{\"size\":[4,4]}}"), "line 2: the first frame has no `time`"),
+        (format!("{head}{{\"time\":0.0}}"), "line 2: the first frame has no `size`"),
+        (format!("{head}{frame}{{\"size\":[0,4]}}"), "line 3: a `size` of 0"),
+        (format!("{head}{frame}{{\"mouse\":[1]}}"), "line 3: "),
+        (format!("{head}{frame}{{\"set\":{{\"a\":\"x\"}}}}"), "line 3: `a` has a value"),
+    ] {
+        let error = Recording::read(text.as_bytes()).expect_err(&text).to_string();
+        assert!(error.contains(says), "{text}: {error}");
+    }
+    let later = Recording::read(format!("{head}{{\"time\":1.5,\"size\":[4,4],\"gamepad\":[1]}}").as_bytes());
+    assert_eq!(later.unwrap().frames[0].inputs.time_secs, 1.5, "a member of a later version is passed over");
+}
