@@ -84,6 +84,14 @@ impl Clock {
         *self = Self { is_playing: self.is_playing, ..Self::default() };
     }
 
+    /// A frame that was drawn before is shown again: the next one is the one after it. Pauses.
+    pub fn go_to(&mut self, frame: i32, time_secs: f64) {
+        self.pause();
+        self.rebase();
+        self.time_secs = time_secs;
+        self.frame = frame.saturating_add(1);
+    }
+
     /// The next frame counts from the newest one's time, however much real time has passed: after a pause, or when the
     /// window got the focus back.
     pub fn rebase(&mut self) {

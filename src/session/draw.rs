@@ -5,12 +5,12 @@ use super::{
     clock::FrameTime,
     date,
     drawing::{Capture, Done, DrawnFrame, Job, TileLimit},
+    tracing::{self, Taken},
     view::Level,
 };
 use crate::{
     engine::{EngineError, FrameInputs, Pixels},
     gpu::GpuError,
-    project::PassId,
 };
 use std::time::Duration;
 
@@ -26,6 +26,10 @@ impl Session {
     pub(super) fn draw_due_frames(&mut self) -> bool {
         let (mut is_drawn, mut has_run) = (false, false);
         while !self.drawing.is_busy() && !self.halting.is_held() && !self.run.is_device_lost {
+            if self.run.back > 0 && self.go_back() {
+                is_drawn |= self.take_drawn(true);
+                continue;
+            }
             let frame = self.next_frame(&mut has_run);
             let is_frame = frame.is_some();
             // A picture that is asked for is one of the newest program, after the frame that is due. Another project's
@@ -35,10 +39,23 @@ impl Session {
             let captures = if is_current { std::mem::take(&mut self.drawing.captures) } else { Vec::new() };
             let is_running = self.run.clock.is_playing() && !self.run.is_covered;
             let miniatures = if is_current { self.run.miniatures.take_due(self.now, is_running) } else { Vec::new() };
-            if !is_frame && captures.is_empty() && miniatures.is_empty() && self.drawing.wanted.is_empty() {
+            let numbers = if is_current { self.probing.take_due(self.now, is_running) } else { None };
+            // Of the newest program, and once nothing more is to be drawn.
+            let is_newest = is_there && !self.is_compile_under_way();
+            let is_settled = is_newest && !is_running && !self.run.is_frame_due && self.run.steps == 0;
+            let traced = if is_settled && self.tracing.is_due { self.tracing.place() } else { None };
+            let traced = traced.map(|place| place.pass.clone());
+            let audited = if is_newest { self.auditing.take_due(&self.run.shown) } else { None };
+            self.tracing.is_due &= traced.is_none() || audited.is_some();
+            let inspect = audited.or(traced);
+            let is_read = !captures.is_empty() || !miniatures.is_empty() || numbers.is_some() || inspect.is_some();
+            if !is_frame && !is_read && self.drawing.wanted.is_empty() {
                 break;
             }
-            self.hand_in(frame, captures, miniatures);
+            self.hand_in(frame, |job| {
+                (job.captures, job.miniatures) = (captures, miniatures);
+                (job.numbers, job.inspect) = (numbers, inspect);
+            });
             is_drawn |= self.take_drawn(true);
         }
         is_drawn
@@ -68,6 +85,44 @@ impl Session {
         Some(self.inputs(time))
     }
 
+    pub(super) fn step_back(&mut self, by: usize) {
+        self.override_halt();
+        self.run.clock.pause();
+        self.run.back = self.run.back.saturating_add(by);
+        self.run.steps = 0;
+    }
+
+    /// Hands in the frames that are to be gone back. False where there is nothing to go back in.
+    fn go_back(&mut self) -> bool {
+        let by = std::mem::take(&mut self.run.back);
+        if !self.drawing.has_program() || self.drawing.is_program_coming() || self.drawing.wanted.restart {
+            return false;
+        }
+        // What is recorded is a run without a break.
+        self.end_recording();
+        self.drawing.submit(self.now, |job: &mut Job| job.back = Some(by));
+        true
+    }
+
+    /// The engine has gone back, or cannot.
+    fn went_back(&mut self, inputs: Option<Result<FrameInputs, EngineError>>) {
+        self.changed = true;
+        self.run.is_frame_due = false;
+        match inputs {
+            Some(Ok(inputs)) => self.run.clock.go_to(inputs.frame, inputs.time_secs),
+            Some(Err(error)) => self.stop_drawing(&error),
+            None => {
+                let reach = self.drawing.reach();
+                let text = match reach {
+                    0 => "there is no earlier frame to go back to: an edit, a reset or another size begins anew"
+                        .to_owned(),
+                    _ => format!("that frame is out of reach: one can go back {reach} frames"),
+                };
+                self.notice(Level::Warning, text);
+            }
+        }
+    }
+
     fn inputs(&mut self, time: FrameTime) -> FrameInputs {
         let inputs = FrameInputs {
             frame: time.frame,
@@ -83,7 +138,8 @@ impl Session {
         inputs
     }
 
-    fn hand_in(&mut self, frame: Option<FrameInputs>, captures: Vec<Capture>, miniatures: Vec<(PassId, usize)>) {
+    fn hand_in(&mut self, frame: Option<FrameInputs>, read: impl FnOnce(&mut Job)) {
+        self.note_job(frame.as_ref());
         let costs_of = self.run.costs.is_watched().then(|| self.documents.current().clone());
         let tile_limit = self.tile_limit();
         if self.drawing.wanted.program.is_some() {
@@ -91,8 +147,7 @@ impl Session {
         }
         self.drawing.submit(self.now, |job: &mut Job| {
             job.frame = frame;
-            job.captures = captures;
-            job.miniatures = miniatures;
+            read(job);
             job.costs_of = costs_of;
             job.tile_limit = tile_limit;
         });
@@ -115,9 +170,18 @@ impl Session {
             self.stop_drawing(&e);
             return false;
         }
-        let has_frame = done.frame.is_some();
+        let has_frame = done.frame.is_some() || matches!(done.back, Some(Some(Ok(_))));
+        if let Some(inputs) = done.back {
+            self.went_back(inputs);
+        }
         self.changed |= !done.miniatures.is_empty();
         self.run.miniatures.drew(has_frame, done.miniatures);
+        let has_numbers = done.numbers.is_some();
+        self.probing.drew(has_frame, done.numbers);
+        if has_numbers {
+            self.changed = true;
+            self.look_anew();
+        }
         match done.resized {
             Some((_, Ok(()))) => {
                 self.run.is_frame_due |= !has_frame;
@@ -134,11 +198,27 @@ impl Session {
             }
             None => {}
         }
+        match done.inspected {
+            Some(Ok(taken)) => {
+                if let Some(taken) = self.audit(taken) {
+                    self.walk(taken);
+                }
+            }
+            Some(Err(e)) if self.audit_failed(&e.to_string()) => {}
+            Some(Err(e)) => {
+                self.tracing.failed(e.to_string());
+                self.changed = true;
+            }
+            None if has_frame => self.tracing.drew(),
+            None => {}
+        }
         self.run.is_frame_due |= done.custom_uniforms_changed && !has_frame;
         self.changed |= self.run.costs.is_watched();
         match done.frame.transpose().and_then(|frame| Ok((frame, done.picture.transpose()?))) {
             Ok((frame, picture)) => {
                 if let Some(picture) = picture {
+                    // Also without a frame, where it is shown otherwise than before.
+                    self.changed |= frame.is_none();
                     match self.drawing.show(&picture) {
                         Ok(is_new) => self.display_generation += u64::from(is_new),
                         Err(e) => self.tell_of(&e),
@@ -154,6 +234,23 @@ impl Session {
                 self.stop_drawing(&e);
                 false
             }
+        }
+    }
+
+    /// Hands on what the traced pass read.
+    fn walk(&mut self, taken: Taken) {
+        let (Some(place), Some(project)) = (self.tracing.place().cloned(), self.drawing.project().cloned()) else {
+            return;
+        };
+        let frame = (self.run.clock.next_frame_number() - 1).max(0);
+        self.tracing.submit(tracing::Job { project, place, frame, taken });
+        self.changed = true;
+    }
+
+    /// Tells the engine how a probe is shown, if that is another way than before.
+    pub(super) fn look_anew(&mut self) {
+        if let Some(look) = self.probing.take_look(false) {
+            self.drawing.wanted.look = Some(look);
         }
     }
 
@@ -215,14 +312,14 @@ impl Session {
         }
         let project = self.documents.current();
         self.drawing.captures.push(Capture {
-            pass: self.run.shown.clone(),
+            pass: self.pictured(),
             format,
             folder: capture::folder_for(project, &self.options.pictures),
             stem: capture::stem_for(project, &self.run.shown),
         });
         if !self.drawing.is_apart() {
             let captures = std::mem::take(&mut self.drawing.captures);
-            self.hand_in(None, captures, Vec::new());
+            self.hand_in(None, |job| job.captures = captures);
             self.take_drawn(false);
         }
     }

@@ -1,9 +1,13 @@
 //! What the engine is asked to do at once, and what it answers.
 
 use crate::{
-    engine::{CostClock, EngineError, FrameInputs, Miniature, PassCost, PassTime, Picture, Pixels, Program},
+    engine::{CostClock, EngineError, FrameInputs, Miniature, PassCost, PassTime, Picture, Pixels, Program, ValueLook},
     project::{CustomUniform, CustomUniformValues, PassId, Project},
-    session::capture::Format,
+    session::{
+        capture::Format,
+        probe::{NumbersWanted, ProbeNumbers},
+        tracing::Taken,
+    },
 };
 use std::{path::PathBuf, time::Duration};
 
@@ -16,6 +20,8 @@ pub struct Changes {
     pub program: Option<Coming>,
     pub custom_uniforms: Option<CustomUniformValues>,
     pub shown: Option<PassId>,
+    /// How the shown pass is shown: as numbers, or as a picture.
+    pub look: Option<Option<ValueLook>>,
     /// Every buffer as before frame 0.
     pub reset: bool,
     /// The table of costs is to be made anew.
@@ -24,9 +30,10 @@ pub struct Changes {
 
 impl Changes {
     pub fn is_empty(&self) -> bool {
-        let Self { restart, size, program, custom_uniforms, shown, reset, costs } = self;
+        let Self { restart, size, program, custom_uniforms, shown, look, reset, costs } = self;
         let is_asked = *restart || *reset || *costs;
-        !is_asked && size.is_none() && program.is_none() && custom_uniforms.is_none() && shown.is_none()
+        let is_shown_otherwise = shown.is_some() || look.is_some();
+        !is_asked && size.is_none() && program.is_none() && custom_uniforms.is_none() && !is_shown_otherwise
     }
 }
 
@@ -70,9 +77,15 @@ pub struct Capture {
 pub struct Job {
     pub changes: Changes,
     pub frame: Option<FrameInputs>,
+    /// So many frames back from the newest.
+    pub back: Option<usize>,
     pub captures: Vec<Capture>,
     /// Targets of passes that panels show small.
     pub miniatures: Vec<(PassId, usize)>,
+    /// The numbers of the probe that is drawn.
+    pub numbers: Option<NumbersWanted>,
+    /// A pass whose inputs, as it was drawn last, and whose picture are asked for.
+    pub inspect: Option<PassId>,
     /// The project whose passes' costs are asked for: somebody looks at them.
     pub costs_of: Option<Project>,
     /// Tiles of a new program are tried before it; without, none.
@@ -99,9 +112,17 @@ pub struct Done {
     /// The display may be another texture.
     pub is_display_new: bool,
     pub frame: Option<Result<DrawnFrame, EngineError>>,
+    /// What the frame is drawn with that was gone back to; `Some(None)` where it is out of reach.
+    pub back: Option<Option<Result<FrameInputs, EngineError>>>,
+    /// How many frames one can go back.
+    pub reach: usize,
     pub captured: Vec<(Capture, Result<Pixels, EngineError>)>,
     /// One for each that was asked for and is drawn.
     pub miniatures: Vec<((PassId, usize), Miniature)>,
+    /// The numbers that were asked for, and how long they took.
+    pub numbers: Option<(ProbeNumbers, Duration)>,
+    /// What was asked for of a pass.
+    pub inspected: Option<Result<Taken, EngineError>>,
     /// The display's picture, if it may have changed and is handed out.
     pub picture: Option<Result<Picture, EngineError>>,
     pub costs: Option<Vec<PassCost>>,

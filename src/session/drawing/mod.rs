@@ -6,6 +6,7 @@
 
 mod apart;
 mod device;
+mod history;
 mod job;
 mod studio;
 
@@ -49,6 +50,7 @@ struct Facts {
     program: Option<ProgramOrigin>,
     costs: Vec<PassCost>,
     clock: CostClock,
+    reach: usize,
 }
 
 struct InFlight {
@@ -106,7 +108,7 @@ impl Drawing {
             place,
             wanted: Changes::default(),
             captures: Vec::new(),
-            facts: Facts { size, program: None, costs: Vec::new(), clock },
+            facts: Facts { size, program: None, costs: Vec::new(), clock, reach: 0 },
             in_flight: None,
             left: Vec::new(),
         }
@@ -190,6 +192,11 @@ impl Drawing {
         &self.facts.costs
     }
 
+    /// How many frames one can go back from the newest.
+    pub fn reach(&self) -> usize {
+        self.facts.reach
+    }
+
     pub fn clock(&self) -> CostClock {
         self.facts.clock
     }
@@ -222,8 +229,11 @@ impl Drawing {
         let mut job = Job {
             changes,
             frame: None,
+            back: None,
             captures: Vec::new(),
             miniatures: Vec::new(),
+            numbers: None,
+            inspect: None,
             costs_of: None,
             tile_limit: None,
         };
@@ -271,6 +281,7 @@ impl Drawing {
         if let Some(Ok(())) = &done.program {
             self.facts.program = job.program;
         }
+        self.facts.reach = done.reach;
         self.facts.clock = done.clock.unwrap_or(self.facts.clock);
         if let Some(costs) = done.costs.take() {
             self.facts.costs = costs;

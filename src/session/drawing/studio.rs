@@ -1,10 +1,14 @@
 //! An engine at work: does one job after the other.
 
-use super::job::{Capture, Changes, Done, DrawnFrame, Job, TileLimit};
+use super::{
+    history::History,
+    job::{Capture, Changes, Done, DrawnFrame, Job, TileLimit},
+};
 use crate::{
-    engine::{CostClock, Engine, EngineError, FrameInputs, PassTime, Pixels, Program},
+    engine::{BuildOptions, CostClock, Engine, EngineError, FrameInputs, PassTime, Pixels, Program},
     gpu::Gpu,
     project::PassId,
+    session::probe::{NumbersWanted, ProbeNumbers, Statistics},
 };
 use std::time::{Duration, Instant};
 
@@ -18,6 +22,7 @@ pub struct Studio {
     engine: Engine,
     /// The display's picture leaves the device.
     hands_out: bool,
+    history: History,
 }
 
 impl Studio {
@@ -25,7 +30,7 @@ impl Studio {
     pub fn new(gpu: Gpu, (width, height): (u32, u32), hands_out: bool) -> Result<Self, EngineError> {
         let mut engine = Engine::new(gpu, width, height)?;
         engine.set_timing(true);
-        Ok(Self { engine, hands_out })
+        Ok(Self { engine, hands_out, history: History::default() })
     }
 
     pub fn engine(&self) -> &Engine {
@@ -33,14 +38,24 @@ impl Studio {
     }
 
     pub fn work(&mut self, job: Job) -> Done {
-        let Job { changes, frame, captures, miniatures, costs_of, tile_limit } = job;
+        let Job { changes, frame, back, captures, miniatures, numbers, inspect, costs_of, tile_limit } = job;
         let mut done = Done::default();
         let first_inputs = frame.clone().unwrap_or_else(|| FrameInputs::at_fixed_step(0, 60.0));
         self.change(changes, tile_limit, &first_inputs, &mut done);
-        if let Some(inputs) = frame {
-            done.frame = Some(self.draw(&inputs, costs_of.is_some()));
+        if let Some(by) = back {
+            done.back = Some(self.history.go_back(&mut self.engine, by));
         }
-        if self.hands_out && (done.is_display_new || done.frame.is_some()) {
+        if let Some(inputs) = frame {
+            self.history.before_frame(&self.engine);
+            let drawn = self.draw(&inputs, costs_of.is_some());
+            match &drawn {
+                Ok(drawn) => self.history.drew(inputs, drawn.took),
+                Err(_) => self.history.begin(),
+            }
+            done.frame = Some(drawn);
+        }
+        done.reach = self.history.reach();
+        if self.hands_out && (done.is_display_new || done.frame.is_some() || done.back.is_some()) {
             done.picture = Some(self.engine.picture());
         }
         done.captured = captures.into_iter().map(|capture| self.read(capture)).collect();
@@ -48,13 +63,15 @@ impl Studio {
         let picture = |target: (PassId, usize)| Some((self.engine.miniature(&target.0, target.1).ok()?, target));
         done.miniatures =
             miniatures.into_iter().filter_map(picture).map(|(picture, target)| (target, picture)).collect();
+        done.numbers = numbers.and_then(|wanted| self.numbers(wanted));
+        done.inspected = inspect.map(|pass| Ok((self.engine.inspect(&pass)?, self.engine.read(&pass)?)));
         done.costs = costs_of.map(|project| self.engine.pass_costs(&project));
         done.clock = Some(self.engine.cost_clock());
         done
     }
 
     fn change(&mut self, changes: Changes, tile_limit: Option<TileLimit>, inputs: &FrameInputs, done: &mut Done) {
-        let Changes { restart, size, program, custom_uniforms, shown, reset, costs: _ } = changes;
+        let Changes { restart, size, program, custom_uniforms, shown, look, reset, costs: _ } = changes;
         if restart {
             let made = Studio::new(self.engine.gpu().clone(), self.engine.size(), self.hands_out);
             done.restarted = Some(made.map(|studio| *self = studio));
@@ -62,6 +79,7 @@ impl Studio {
         }
         if let Some((width, height)) = size.filter(|size| *size != self.engine.size()) {
             done.resized = Some(((width, height), self.engine.resize(width, height)));
+            self.history.begin();
             done.is_display_new = true;
         }
         if let Some(coming) = program {
@@ -70,17 +88,24 @@ impl Studio {
                 None => Ok(coming.program),
             };
             done.program = Some(tried.and_then(|program| self.engine.set_program(program)));
+            self.history.begin();
             done.is_display_new = true;
         }
         if let Some(values) = custom_uniforms {
             done.custom_uniforms_changed = self.engine.set_custom_uniforms(&values);
+            self.history.set_values(&values);
         }
         if let Some(pass) = shown {
             self.engine.show(pass);
             done.is_display_new = true;
         }
+        if let Some(look) = look {
+            self.engine.show_values(look);
+            done.is_display_new = true;
+        }
         if reset {
             self.engine.reset();
+            self.history.begin();
         }
     }
 
@@ -132,6 +157,14 @@ impl Studio {
             times = self.engine.pass_times();
         }
         Ok(DrawnFrame { cpu_micros, times, took: began.elapsed() })
+    }
+
+    /// Reads the values of the probe back, with their figures. A program without a probe has none.
+    fn numbers(&mut self, wanted: NumbersWanted) -> Option<(ProbeNumbers, Duration)> {
+        let began = Instant::now();
+        let pixels = self.engine.read(&BuildOptions::probed()).ok()?;
+        let statistics = Statistics::new(&pixels, wanted.components, wanted.range);
+        Some((ProbeNumbers { pixels, statistics }, began.elapsed()))
     }
 
     fn read(&mut self, capture: Capture) -> (Capture, Result<Pixels, EngineError>) {
