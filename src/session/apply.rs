@@ -1,7 +1,7 @@
 //! Commands of the front ends that concern the open project, its picture and its input. Those about files are in
 //! `files`.
 
-use super::{Session, capture, command::Command, view::Level};
+use super::{Session, capture, command::Command, tracing::Place, view::Level};
 use crate::{
     media::Keyboard,
     project::{self, Channel, CustomUniformValue, CustomUniformValues, PassId, Tab, include_names},
@@ -56,6 +56,7 @@ impl Session {
                 self.run.clock.pause();
                 self.run.steps = self.run.steps.saturating_add(1);
             }
+            Command::StepBack(by) => self.step_back(by),
             Command::Reset => self.reset(),
             // Minimised windows have no area; the picture keeps its size.
             Command::SetViewport { width: 0, .. } | Command::SetViewport { height: 0, .. } => {}
@@ -101,7 +102,30 @@ impl Session {
             Command::Focus(focused) => self.focus(focused),
             Command::Screenshot => self.capture(super::capture::Format::Png),
             Command::SaveTexels => self.capture(super::capture::Format::Npy),
+            Command::Record => self.record(),
+            Command::Audit => self.auditing.is_due = true,
             Command::ShowPass(pass) => self.show_pass(pass),
+            Command::Probe(place) => {
+                if self.probing.want(place, self.documents.current()) {
+                    self.compile_soon();
+                }
+            }
+            Command::Trace(at) => {
+                if at.is_some() {
+                    self.pause();
+                }
+                let probed = self.probing.view().and_then(|view| Some(view.value?.ok()?.pass.clone()));
+                let pass = probed.unwrap_or_else(|| self.run.shown.clone());
+                // With a probe the pass itself may not be drawn.
+                if at.is_some() && self.probing.want(None, self.documents.current()) {
+                    self.compile_soon();
+                }
+                self.tracing.want(at.map(|at| Place { pass, at }));
+            }
+            Command::LookAtProbe(look) => {
+                self.probing.set_look(look);
+                self.look_anew();
+            }
             Command::WatchCosts(on) => {
                 self.run.costs.watch(on);
                 self.drawing.wanted.costs = on;
@@ -159,6 +183,7 @@ impl Session {
         if let Some(source) = self.documents.current_mut().source_mut(tab) {
             source.text = text.into();
         }
+        self.probing.follow(self.documents.current());
         if let (Some(before), Tab::Pass(id)) = (before, tab) {
             let now = self.declared_channels(tab);
             if before != now
@@ -256,8 +281,12 @@ impl Session {
             return;
         }
         let is_drawn = self.drawing.draws(&pass);
-        self.drawing.wanted.shown = Some(pass.clone());
-        self.run.shown = pass;
+        self.run.shown = pass.clone();
+        if self.probing.want(None, self.documents.current()) {
+            // Its program does not draw what is shown now.
+            return self.compile_soon();
+        }
+        self.drawing.wanted.shown = Some(pass);
         if !is_drawn {
             // A pass that nothing reads is in the program only while it is shown.
             self.compile_soon();

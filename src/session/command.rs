@@ -1,7 +1,10 @@
 //! Commands are what a front end asks of a [`Session`](super::Session); questions and requests are what the session
 //! asks back.
 
-use super::view::Level;
+use super::{
+    probe::{ProbeLook, ProbePlace},
+    view::Level,
+};
 use crate::project::{Channel, CustomUniformValue, Origin, PassEdit, PassId, Project, Tab};
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
@@ -61,6 +64,9 @@ pub enum Command {
     DrawLastGood,
     /// Draws one frame and pauses: 1/60 s later than the one before.
     Step,
+    /// Draws the frame again that is so many before the newest, with the buffers as they were then, and pauses. One that
+    /// is out of reach is told of in a notice.
+    StepBack(usize),
     /// Time, frame and every buffer to zero. Keyboard toggles and the mouse stay.
     Reset,
     /// Size in physical pixels of the area the picture may fill.
@@ -117,8 +123,23 @@ pub enum Command {
     Screenshot,
     /// Writes the shown pass's float texels as `.npy`, likewise.
     SaveTexels,
+    /// Holds pixels of the shown pass, as its newest frame has them, against double precision and looks for what GLSL
+    /// leaves undefined. What is found is in [`Session::diagnostics`](super::Session::diagnostics) until the next
+    /// compile.
+    Audit,
+    /// Begins anew at frame 0 and records the inputs of every frame; the second time, ends that and writes them beside
+    /// the pictures, for `eddy render --replay`.
+    Record,
     /// Which pass is shown and captured.
     ShowPass(PassId),
+    /// Draws the value of an expression instead of the picture; `None`: the picture again. See
+    /// [`Session::probe`](super::Session::probe).
+    Probe(Option<ProbePlace>),
+    /// How it is shown.
+    LookAtProbe(ProbeLook),
+    /// Traces the pixel of the shown pass at a place of its picture, from 0 to 1 across and up, and pauses; `None`:
+    /// none any more. See [`Session::trace`](super::Session::trace).
+    Trace(Option<[f32; 2]>),
     /// Says whether somebody looks at what each pass costs: only then is it gathered. See
     /// [`Session::pass_costs`](super::Session::pass_costs).
     WatchCosts(bool),

@@ -2,6 +2,7 @@
 
 use super::{
     drawing::Device,
+    probe::{self, ProbePlace, ProbedValue},
     stamps::{Stamp, Stamps},
     view::TabDiagnostic,
 };
@@ -29,6 +30,8 @@ pub(super) struct Job {
     pub include_edit: Option<u64>,
     /// The project is not the newest: one to fall back to.
     pub is_fallback: bool,
+    /// The value that is drawn instead of the picture, and whether it has gone from the text.
+    pub probe: Option<(ProbePlace, bool)>,
     /// Only tells whether the pictures and models on disk are other than those of the last compile.
     pub is_look: bool,
 }
@@ -55,6 +58,8 @@ pub(super) struct Compiled {
     pub diagnostics: Vec<TabDiagnostic>,
     /// From the texts to a program, or to what is wrong in them.
     pub took: Duration,
+    /// The value that the program draws, or why it draws none though one is asked for.
+    pub probe: Option<Result<ProbedValue, String>>,
 }
 
 /// A compile that takes no longer than this is not felt, whatever is typed meanwhile.
@@ -87,7 +92,9 @@ pub(super) fn work(device: Device, media_dir: Option<PathBuf>) -> impl FnMut(Job
             return Done { files, is_changed: media.of != Some(named), includes: None, compiled: None };
         }
         let mut found = media.update(&job, named);
-        let options = BuildOptions { wanted: wanted(&job), skip: true, ..BuildOptions::default() };
+        let mut options = BuildOptions { wanted: wanted(&job), skip: true, ..BuildOptions::default() };
+        let asked = job.probe.as_ref().map(|order| probe::options(&job.project, &job.shown, order));
+        let probe = asked.map(|asked| asked.map(|(probing, value)| (options = probing, value).1));
         if job.project.origin.has_channels_in_texts() {
             diag::append(&mut found, project::declare_channels(&mut job.project.clone()));
         }
@@ -111,7 +118,7 @@ pub(super) fn work(device: Device, media_dir: Option<PathBuf>) -> impl FnMut(Job
         let diagnostics = found.iter().map(|d| TabDiagnostic::new(d, &sources, &job.project)).collect();
         let includes = job.include_edit.map(|edit| (edit, job.project.includes.clone()));
         let Job { project, is_fallback, .. } = job;
-        let compiled = Compiled { project, is_fallback, program, diagnostics, took };
+        let compiled = Compiled { project, is_fallback, program, diagnostics, took, probe };
         Done { files, is_changed: false, includes, compiled: Some(compiled) }
     }
 }

@@ -73,6 +73,7 @@ impl Session {
             Then::Keep(project) => self.replace(Documents::restored(*project, template::project())),
             Then::Recover(file) => self.recover(&file),
             Then::Close => {
+                self.end_recording();
                 self.keep_time();
                 self.forget_unsaved();
                 self.dialog.requests.push_back(Request::Exit);
@@ -92,6 +93,7 @@ impl Session {
 
     /// Another project takes the place of this one, from where its time stood when it was open last.
     pub(super) fn replace(&mut self, documents: Documents) {
+        self.end_recording();
         self.keep_time();
         self.drawing.restart();
         self.documents = documents;
@@ -118,6 +120,8 @@ impl Session {
         self.run.fps.restart();
         self.run.costs.forget();
         self.run.miniatures.forget();
+        self.probing.want(None, self.documents.current());
+        self.tracing.want(None);
         self.text_generation += 1;
         self.halt_for_new_project();
         self.disk_is_known();

@@ -13,6 +13,8 @@ use std::time::{Duration, Instant};
 
 /// Limits of a frame after which a device that still draws it is given up.
 const GIVE_UP: u32 = 5;
+/// The same for new code, which drivers compile in its first frame: many passes take seconds on a busy processor.
+const GIVE_UP_NEW: u32 = 15;
 /// The user who lets a frame go on lets it have so many limits, or so often what it has taken.
 const ALLOWED_LIMITS: u32 = 5;
 const ALLOWED_TIMES: u32 = 3;
@@ -41,7 +43,7 @@ impl Session {
                 self.end_halt_of_frame();
                 self.compile_soon();
             }
-        } else if age >= limit * GIVE_UP {
+        } else if age >= self.patience() {
             let secs = age.as_secs_f64().round();
             if !self.halting.is_new {
                 // It was fast enough until now, and would come to this again.
@@ -71,8 +73,13 @@ impl Session {
         } else if self.is_newer_wanted() {
             Some(self.now + LOOK)
         } else {
-            Some(since + limit * GIVE_UP)
+            Some(since + self.patience())
         }
+    }
+
+    /// The time after which a device is given up that still draws a frame.
+    fn patience(&self) -> Duration {
+        self.halting.limit() * if self.halting.is_new { GIVE_UP_NEW } else { GIVE_UP }
     }
 
     /// How long the engine has been drawing, if that is too long.

@@ -3,6 +3,7 @@
 
 use super::{
     analysis::Analyst,
+    auditing::Auditing,
     clock::Clock,
     command::{Question, Request, Then},
     compile,
@@ -14,14 +15,17 @@ use super::{
     miniatures::Miniatures,
     mouse::Mouse,
     pass_history::PassHistory,
+    probe::{ProbeView, Probing},
     recent::{Recent, RecentProject},
+    recorder::Recorder,
     recovery::Safekeeping,
+    tracing::{TraceView, Tracing},
     view::{CompileState, Halt, Level, Notice, TabDiagnostic, Transport},
     watch::Watch,
     worker::Worker,
 };
 use crate::{
-    engine::{EngineError, Miniature, PassTime},
+    engine::{BuildOptions, EngineError, Miniature, PassTime},
     gpu::{Gpu, GpuError, GpuOptions},
     media::Keyboard,
     project::{CustomUniform, CustomUniformValue, PassId, Project, Tab},
@@ -113,6 +117,9 @@ pub struct Session {
     pub(super) safekeeping: Safekeeping,
     pub(super) recent: Recent,
     pub(super) run: Run,
+    pub(super) probing: Probing,
+    pub(super) tracing: Tracing,
+    pub(super) auditing: Auditing,
     pub(super) notices: Vec<Notice>,
     pub(super) next_notice: u64,
     pub(super) text_generation: u64,
@@ -202,6 +209,8 @@ pub(super) struct Run {
     /// A frame must be drawn though time stands still.
     pub is_frame_due: bool,
     pub steps: u32,
+    /// Frames to go back.
+    pub back: usize,
     /// Nobody sees the picture.
     pub is_covered: bool,
     /// The device is gone for good.
@@ -210,6 +219,8 @@ pub(super) struct Run {
     pub cpu_micros: f64,
     pub costs: Costs,
     pub miniatures: Miniatures,
+    /// The inputs of what is drawn are recorded.
+    pub recorder: Option<Recorder>,
 }
 
 impl Session {
@@ -234,6 +245,8 @@ impl Session {
         let work = compile::work(drawing.device(), options.media_dir.clone());
         let compiler = Worker::new("compile", wake.clone(), work).map_err(SessionError::Thread)?;
         let analyst = Analyst::new(wake.clone()).map_err(SessionError::Thread)?;
+        let tracing = Tracing::new(wake.clone()).map_err(SessionError::Thread)?;
+        let auditing = Auditing::new(wake.clone()).map_err(SessionError::Thread)?;
         let (recent, forgotten) = Recent::open(options.state_dir.as_deref());
         let mut session = Session {
             wake,
@@ -279,13 +292,18 @@ impl Session {
                 shown: PassId::Image,
                 is_frame_due: false,
                 steps: 0,
+                back: 0,
                 is_covered: false,
                 is_device_lost: false,
                 fps: FpsMeter::default(),
                 cpu_micros: 0.0,
                 costs: Costs::default(),
                 miniatures: Miniatures::default(),
+                recorder: None,
             },
+            probing: Probing::default(),
+            tracing,
+            auditing,
             notices: Vec::new(),
             next_notice: 0,
             text_generation: 0,
@@ -419,6 +437,22 @@ impl Session {
     /// ([`Command::WatchTargets`](super::Command::WatchTargets)), and a number that grows with each new one.
     pub fn miniature(&self, pass: &PassId, index: usize) -> Option<(&Miniature, u64)> {
         self.run.miniatures.get(pass, index)
+    }
+
+    /// What is drawn instead of the picture, while somebody has asked for it: see
+    /// [`Command::Probe`](super::Command::Probe).
+    pub fn probe(&self) -> Option<ProbeView<'_>> {
+        self.probing.view()
+    }
+
+    /// The pixel that is traced ([`Command::Trace`](super::Command::Trace)).
+    pub fn trace(&self) -> TraceView<'_> {
+        self.tracing.view()
+    }
+
+    /// What the display shows: the shown pass, or a value of the code.
+    pub(super) fn pictured(&self) -> PassId {
+        if self.probing.is_drawn() { BuildOptions::probed() } else { self.run.shown.clone() }
     }
 
     pub fn shown_pass(&self) -> &PassId {

@@ -24,6 +24,8 @@ impl Session {
         self.take_compiled();
         self.analyse();
         self.take_analysed();
+        self.changed |= self.tracing.take();
+        self.take_audited();
         self.fit_canvas();
         self.keep_unsaved();
         frame_drawn |= self.draw_due_frames();
@@ -72,6 +74,7 @@ impl Session {
             include_edit: (is_compile && self.compile.includes_read != self.compile.include_edits)
                 .then_some(self.compile.include_edits)
                 .filter(|_| !is_fallback),
+            probe: self.probing.order(),
             is_look: !is_compile,
         });
     }
@@ -131,7 +134,7 @@ impl Session {
     }
 
     fn take_program(&mut self, compiled: Compiled) {
-        let Compiled { project, is_fallback, program, diagnostics, took } = compiled;
+        let Compiled { project, is_fallback, program, diagnostics, took, probe } = compiled;
         // What is said is about the newest text.
         if !is_fallback {
             self.compile.diagnostics = diagnostics;
@@ -155,7 +158,9 @@ impl Session {
         self.drawing.wanted.program = Some(Coming::new(program, project, millis));
         // They may have been turned while it was being compiled.
         self.custom_uniforms_turned();
-        self.drawing.wanted.shown = Some(self.run.shown.clone());
+        self.probing.built(probe);
+        self.drawing.wanted.shown = Some(self.pictured());
+        self.drawing.wanted.look = self.probing.take_look(true);
         self.compile.state.compiling = self.is_compile_under_way();
     }
 

@@ -1,14 +1,22 @@
 //! What a pass does for one pixel, step by step.
 //!
 //! Owns the record of a walk: calls, turns of loops, and every value that one of the author's names takes, each with
-//! its place in the text. The walk itself is [`crate::glsl::walk`]'s.
+//! its place in the text; and the history that a person goes forwards and backwards in, with expressions over it. The
+//! walk itself is [`crate::glsl::walk`]'s.
 
+mod examine;
+mod history;
 mod number;
 mod recorder;
 mod step;
+pub mod travel;
+mod watch;
 
+pub use examine::{Breakpoint, Examiner, Printed, Traced};
+pub use history::{Call, History, Moment, MomentKind, Shown, Turn, Value};
 pub use number::Number;
 pub use step::{Event, Step};
+pub use watch::Watched;
 
 use crate::{
     diag::Diagnostic,
@@ -129,14 +137,4 @@ pub fn ulps(a: f32, b: f32) -> u32 {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::ulps;
-
-    #[test]
-    fn distances_are_counted_in_numbers() {
-        let next = |x: f32| f32::from_bits(x.to_bits() + 1);
-        assert_eq!([ulps(1.0, 1.0), ulps(1.0, next(1.0)), ulps(next(-1.0), -1.0), ulps(0.0, -0.0)], [0, 1, 1, 0]);
-        assert_eq!([ulps(f32::from_bits(1), -f32::from_bits(1)), ulps(f32::NAN, f32::NAN)], [2, 0]);
-        assert_eq!([ulps(1.0, f32::NAN), ulps(f32::INFINITY, f32::MAX)], [u32::MAX, 1]);
-    }
-}
+mod tests;

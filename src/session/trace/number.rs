@@ -1,5 +1,6 @@
 //! A scalar of a trace.
 
+use crate::glsl::types::Scalar;
 use serde::{Serialize, Serializer};
 use std::fmt;
 
@@ -12,6 +13,29 @@ pub enum Number {
     Float(f32),
     /// A float in double precision.
     Double(f64),
+}
+
+impl Number {
+    /// The scalar whose bits these are.
+    pub(super) fn of(scalar: Scalar, bits: u32) -> Self {
+        match scalar {
+            Scalar::Bool => Number::Bool(bits != 0),
+            Scalar::Int => Number::Int(bits as i32),
+            Scalar::Uint => Number::Uint(bits),
+            Scalar::Float => Number::Float(f32::from_bits(bits)),
+        }
+    }
+
+    /// The number; 1 for true and 0 for false.
+    pub fn as_f64(self) -> f64 {
+        match self {
+            Number::Bool(value) => u8::from(value).into(),
+            Number::Int(value) => value.into(),
+            Number::Uint(value) => value.into(),
+            Number::Float(value) => value.into(),
+            Number::Double(value) => value,
+        }
+    }
 }
 
 impl fmt::Display for Number {

@@ -1,0 +1,268 @@
+//! A value of the code that is drawn instead of the picture: what is asked for, what it turned out to be, and its
+//! numbers.
+//!
+//! Owns the place in the text, which follows edits, and how often the numbers come back from the device. Drawing is
+//! the engine's, and how a value becomes a colour is [`crate::engine::ValueLook`]'s.
+
+mod statistics;
+
+pub use statistics::{BINS, Statistics};
+
+use crate::{
+    diag::follow,
+    engine::{BuildOptions, Paint, Pixels, Sources, ValueLook},
+    glsl::{Probe, ProbedExpression},
+    project::{PassId, Project, Tab},
+};
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+/// While time runs, the numbers are read back so often at most: each time waits for the device.
+const EVERY: Duration = Duration::from_millis(100);
+/// And they take this part of the time at most.
+const SHARE: u32 = 20;
+
+/// The expression that is asked for.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProbePlace {
+    pub tab: Tab,
+    /// A byte of its text.
+    pub at: usize,
+    /// The value when it is computed for the time after so many.
+    pub visit: u32,
+}
+
+/// How the values are shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ProbeLook {
+    /// `None`: from the least number to the largest.
+    pub range: Option<(f32, f32)>,
+    pub paint: Paint,
+    pub channel: Option<u8>,
+}
+
+/// The expression that is probed, as the running program has it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ProbedValue {
+    /// The pass in which it is evaluated.
+    pub pass: PassId,
+    pub text: String,
+    pub type_text: String,
+    pub components: u8,
+    /// Its numbers are ints, uints or bools.
+    pub is_whole: bool,
+    /// From 1.
+    pub line: usize,
+}
+
+/// What a front end shows of a probe.
+#[derive(Clone, Copy, Debug)]
+pub struct ProbeView<'s> {
+    pub place: &'s ProbePlace,
+    /// What is drawn, or why the picture is; `None` before the first compile.
+    pub value: Option<Result<&'s ProbedValue, &'s str>>,
+    pub look: ProbeLook,
+    pub numbers: Option<&'s ProbeNumbers>,
+}
+
+/// The numbers of a frame.
+#[derive(Clone, Debug)]
+pub struct ProbeNumbers {
+    pub pixels: Pixels,
+    pub statistics: Statistics,
+}
+
+/// A probe, if there is one.
+#[derive(Default)]
+pub(super) struct Probing {
+    wanted: Option<Wanted>,
+    /// Of the running program.
+    built: Option<Result<ProbedValue, String>>,
+    look: ProbeLook,
+    numbers: Option<Arc<ProbeNumbers>>,
+    /// What was drawn is newer than they are.
+    is_due: bool,
+    /// When they came, and how long that took.
+    taken: Option<(Instant, Duration)>,
+    /// The engine was told of it.
+    told: Option<ValueLook>,
+}
+
+struct Wanted {
+    place: ProbePlace,
+    /// The text that the place is in.
+    text: Arc<str>,
+    /// Its expression was taken out since.
+    is_gone: bool,
+}
+
+/// The numbers that are asked for with a job.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NumbersWanted {
+    pub components: u8,
+    pub range: Option<(f32, f32)>,
+}
+
+impl Probing {
+    /// Asks for another expression, or for none. Says whether the program must be another.
+    pub fn want(&mut self, place: Option<ProbePlace>, project: &Project) -> bool {
+        let is_new = place.as_ref() != self.wanted.as_ref().map(|wanted| &wanted.place);
+        let is_other = place.as_ref().map(|p| (&p.tab, p.at))
+            != self.wanted.as_ref().map(|wanted| (&wanted.place.tab, wanted.place.at));
+        if is_other {
+            // A range that was typed is for the numbers of before.
+            self.look = ProbeLook { paint: self.look.paint, ..ProbeLook::default() };
+        }
+        self.wanted = place.and_then(|place| {
+            let text = project.source(&place.tab)?.text.clone();
+            Some(Wanted { place, text, is_gone: false })
+        });
+        if self.wanted.is_none() {
+            self.built = None;
+            self.numbers = None;
+        }
+        is_new
+    }
+
+    /// Follows the text's edits.
+    pub fn follow(&mut self, project: &Project) {
+        let Some(wanted) = &mut self.wanted else { return };
+        let Some(source) = project.source(&wanted.place.tab) else { return };
+        if Arc::ptr_eq(&wanted.text, &source.text) {
+            return;
+        }
+        // What was taken out may come back, as by undoing: it is looked for from where it was.
+        let found = follow(&wanted.text, &source.text, wanted.place.at);
+        wanted.is_gone = found.is_none();
+        if let Some(at) = found {
+            wanted.place.at = at;
+            wanted.text = source.text.clone();
+        }
+    }
+
+    /// What is to be built: the place, and whether there is nothing any more.
+    pub fn order(&self) -> Option<(ProbePlace, bool)> {
+        self.wanted.as_ref().map(|wanted| (wanted.place.clone(), wanted.is_gone))
+    }
+
+    /// The program that draws from now on was built with this.
+    pub fn built(&mut self, built: Option<Result<ProbedValue, String>>) {
+        self.built = built.filter(|_| self.wanted.is_some());
+        self.is_due = true;
+        if !self.is_drawn() {
+            self.numbers = None;
+        }
+    }
+
+    /// The running program draws a value.
+    pub fn is_drawn(&self) -> bool {
+        matches!(self.built, Some(Ok(_)))
+    }
+
+    pub fn set_look(&mut self, look: ProbeLook) {
+        self.look = look;
+        self.is_due = true;
+    }
+
+    /// How the engine is to show what it draws, where that is new to it; always with another program.
+    pub fn take_look(&mut self, is_other_program: bool) -> Option<Option<ValueLook>> {
+        let look = self.engine_look();
+        let is_new = std::mem::replace(&mut self.told, look) != look;
+        (is_new || is_other_program).then_some(look)
+    }
+
+    fn engine_look(&self) -> Option<ValueLook> {
+        let Some(Ok(value)) = &self.built else { return None };
+        let ProbeLook { range, paint, channel } = self.look;
+        let channel = channel.filter(|channel| *channel < value.components);
+        let all = || self.numbers.as_ref().map_or((0.0, 1.0), |numbers| numbers.statistics.extent(channel));
+        let (low, high) = range.unwrap_or_else(all);
+        Some(ValueLook { low, high, paint, channel, components: value.components })
+    }
+
+    pub fn view(&self) -> Option<ProbeView<'_>> {
+        let wanted = self.wanted.as_ref()?;
+        let value = self.built.as_ref().map(|built| built.as_ref().map_err(String::as_str));
+        Some(ProbeView { place: &wanted.place, value, look: self.look, numbers: self.numbers.as_deref() })
+    }
+
+    /// Returns what is to be read back now. While time runs, another frame comes anyway, and they wait for their turn.
+    pub fn take_due(&mut self, now: Instant, is_running: bool) -> Option<NumbersWanted> {
+        let Some(Ok(value)) = &self.built else { return None };
+        let is_early = |(at, took): (Instant, Duration)| now.saturating_duration_since(at) < EVERY.max(SHARE * took);
+        if !self.is_due || (is_running && self.taken.is_some_and(is_early)) {
+            return None;
+        }
+        self.is_due = false;
+        self.taken = Some((now, self.taken.map_or(Duration::ZERO, |(_, took)| took)));
+        Some(NumbersWanted { components: value.components, range: self.look.range })
+    }
+
+    /// Takes what has come back, with a frame or without one.
+    pub fn drew(&mut self, has_frame: bool, numbers: Option<(ProbeNumbers, Duration)>) {
+        self.is_due |= has_frame && numbers.is_none();
+        if let Some((numbers, took)) = numbers.filter(|_| self.is_drawn()) {
+            self.taken = self.taken.map(|(at, _)| (at, took));
+            self.numbers = Some(Arc::new(numbers));
+        }
+    }
+}
+
+/// What a build draws besides what it would: the probe, and every buffer that Image may need, as a simulation goes on
+/// whether it is looked at or not.
+pub(super) fn options(
+    project: &Project,
+    shown: &PassId,
+    (place, is_gone): &(ProbePlace, bool),
+) -> Result<(BuildOptions, ProbedValue), String> {
+    let pass = match &place.tab {
+        Tab::Pass(pass) => pass.clone(),
+        Tab::Common => shown.clone(),
+        Tab::Stage(..) => return Err("stages of meshes cannot be probed".into()),
+    };
+    let gone = || "there is no value at this place any more: the picture is shown".to_owned();
+    if *is_gone {
+        return Err(gone());
+    }
+    let index = project.passes.iter().position(|p| p.id == pass).ok_or_else(gone)?;
+    let source = match &place.tab {
+        Tab::Common => Project::COMMON_ID,
+        _ => Project::pass_id(index),
+    };
+    let probe = Probe { source, at: place.at as u32, visit: place.visit };
+    let ProbedExpression { span, type_text, components, is_whole } =
+        Sources::new(project).probed(index, &probe).ok_or_else(gone)?;
+    let sources = project.sources();
+    let at = sources.line_column(span).ok_or_else(gone)?;
+    let text = sources.get(span.source).and_then(|source| source.text.get(span.range())).unwrap_or_default();
+    let value = ProbedValue {
+        pass: pass.clone(),
+        text: text.split_whitespace().collect::<Vec<_>>().join(" "),
+        type_text,
+        components,
+        is_whole,
+        line: at.line,
+    };
+    let mut wanted = vec![BuildOptions::probed()];
+    wanted.extend(needed(project, &pass));
+    Ok((BuildOptions { wanted, probe: Some((pass, probe)), ..BuildOptions::default() }, value))
+}
+
+/// The buffers that Image and the probed pass read, and those that these read.
+fn needed(project: &Project, probed: &PassId) -> Vec<PassId> {
+    let mut found = vec![PassId::Image];
+    found.extend((*probed != PassId::Image).then(|| probed.clone()));
+    let mut next = 0;
+    while let Some(pass) = found.get(next).and_then(|id| project.pass(id)) {
+        next += 1;
+        for channel in pass.channels.iter().flatten() {
+            let buffer = channel.input.buffer().map(|(name, _)| PassId::Buffer(name.to_owned()));
+            if let Some(id) = buffer.filter(|id| project.pass(id).is_some() && !found.contains(id)) {
+                found.push(id);
+            }
+        }
+    }
+    found.split_off(1)
+}

@@ -1,0 +1,238 @@
+//! A traced pixel as a person examines it: watches, breakpoints with conditions, what `//@print` asks for.
+
+use super::{
+    TraceError,
+    history::{History, HistoryRecorder},
+    travel::{self, Direction},
+    ulps,
+    watch::{Watched, Watches},
+};
+use crate::{
+    diag::{SourceId, Span},
+    engine::{PassInputs, Pixels, Sources},
+    glsl::{
+        ir::Output,
+        walk::{Machine, Nobody, Shadowed, Stop},
+    },
+    project::{PassFormat, PassId, Project, Tab, inspect_comments},
+};
+use std::sync::Arc;
+
+/// Statements after which a walk is given up: a few seconds.
+const STATEMENTS: u64 = 20_000_000;
+/// Values that a comment prints.
+const MOST_PRINTED: usize = 1000;
+
+/// A pixel of a pass at a frame, with the way that leads to its value.
+#[derive(Debug)]
+pub struct Traced {
+    /// The texts that were walked through.
+    pub project: Project,
+    pub pass: PassId,
+    index: usize,
+    pub pixel: (u32, u32),
+    pub size: (u32, u32),
+    pub frame: i32,
+    pub history: History,
+    /// What the walker found; `None` where the pass draws nothing there.
+    pub value: Option<[f32; 4]>,
+    /// The same way in double precision.
+    pub double: Option<[f64; 4]>,
+    /// The texel that the device drew, as it is stored.
+    pub device: [f32; 4],
+    pub format: PassFormat,
+    /// The walk was given up: it is as long as this tells.
+    pub is_endless: bool,
+    inputs: PassInputs,
+}
+
+/// A line at which one stops, where a condition holds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Breakpoint {
+    pub tab: Tab,
+    /// From 0.
+    pub line: usize,
+    /// Empty: always.
+    pub condition: String,
+    pub is_on: bool,
+}
+
+/// What a comment asked for, each time that its turn came.
+#[derive(Clone, Debug)]
+pub struct Printed {
+    pub tab: Tab,
+    /// From 0.
+    pub line: usize,
+    pub expression: String,
+    /// The moments, and what it was then.
+    pub values: Vec<(usize, Watched)>,
+    /// Its turn came more often.
+    pub is_cut: bool,
+}
+
+impl Traced {
+    /// Walks through a pass for the pixel at a place of its picture, from 0 to 1 across and up.
+    pub fn new(
+        project: Project,
+        pass: &PassId,
+        frame: i32,
+        (inputs, drawn): (PassInputs, &Pixels),
+        place: [f32; 2],
+    ) -> Result<Self, TraceError> {
+        let index = project.passes.iter().position(|p| p.id == *pass).ok_or(TraceError::Meshes)?;
+        let texel = |part: f32, count: u32| ((part * count as f32) as u32).min(count.saturating_sub(1));
+        let pixel = (texel(place[0], inputs.size.0), texel(place[1], inputs.size.1));
+        let sources = Sources::new(&project);
+        let walkable = sources.walkable_by_statements(index).ok_or(TraceError::Meshes)?;
+        let walkable = walkable.map_err(TraceError::Diagnostics)?;
+        let mut recorder = HistoryRecorder::new(&walkable);
+        let lane = Machine::<f32>::lane_of(pixel);
+        let walked = Machine::<f32>::new(&walkable.program, &inputs, pixel, STATEMENTS).run(lane, &mut recorder);
+        let recorded = recorder.end();
+        let is_endless = matches!(walked, Err(Stop::Steps(_)));
+        let cells = walked.ok().and_then(|drawn| {
+            let target = drawn.outputs.into_iter().find(|(output, _)| *output == Output::Target(0))?;
+            Some(target.1[lane].clone()).filter(|cells| cells.len() == 4)
+        });
+        let value = cells.map(|cells| std::array::from_fn(|i| cells[i].float()));
+        let mut double = None;
+        if value.is_some() {
+            let machine = Machine::<Shadowed>::new(&walkable.program, &inputs, pixel, STATEMENTS);
+            let drawn = machine.run(lane, &mut Nobody)?;
+            let target = drawn.outputs.into_iter().find(|(output, _)| *output == Output::Target(0));
+            let cells = target.map(|(_, cells)| cells[lane].clone()).filter(|cells| cells.len() == 4);
+            double = cells.map(|cells| std::array::from_fn(|i| cells[i].float().double));
+        }
+        drop(sources);
+        let device = drawn.texels.get((pixel.1 * drawn.width + pixel.0) as usize).copied().unwrap_or_default();
+        let format = project.passes[index].settings.format;
+        Ok(Self {
+            index,
+            pass: pass.clone(),
+            pixel,
+            size: inputs.size,
+            frame,
+            history: recorded.of(walkable),
+            value,
+            double,
+            device,
+            format,
+            is_endless,
+            inputs,
+            project,
+        })
+    }
+
+    /// Numbers of single precision between the walker's value and the device's, of the components that are stored; none
+    /// where these are of fewer bits.
+    pub fn ulps(&self) -> Option<Vec<u32>> {
+        let value = self.value.filter(|_| self.format.is_32_bit())?;
+        Some((0..self.format.components()).map(|i| ulps(value[i], self.device[i])).collect())
+    }
+
+    /// A place of the texts: its tab, its line from 0 and its bytes. `None` for one in a text that is no tab.
+    pub fn place(&self, span: Span) -> Option<(Tab, usize, std::ops::Range<usize>)> {
+        let tab = self.project.tab_of(span.source)?;
+        let text = &self.project.source(&tab)?.text;
+        let line = text.get(..span.start as usize)?.matches('\n').count();
+        Some((tab, line, span.range()))
+    }
+
+    /// The text of a tab, as it was walked through.
+    pub fn text(&self, tab: &Tab) -> &str {
+        self.project.source(tab).map_or("", |source| &source.text)
+    }
+
+    fn source(&self, tab: &Tab) -> Option<SourceId> {
+        match tab {
+            Tab::Common => Some(Project::COMMON_ID),
+            Tab::Pass(pass) if *pass == self.pass => Some(Project::pass_id(self.index)),
+            _ => None,
+        }
+    }
+
+    /// The statement that a line stands for: its own or the next one.
+    pub fn statement_at(&self, tab: &Tab, line: usize) -> Option<u32> {
+        let text = self.text(tab);
+        let start = text.split_inclusive('\n').take(line).map(str::len).sum::<usize>();
+        self.history.statement_from(self.source(tab)?, start as u32)
+    }
+
+    /// The line, from 0, at which a breakpoint of a line really stops.
+    pub fn line_of(&self, statement: u32) -> Option<usize> {
+        Some(self.place(self.history.statement_head(statement)?)?.1)
+    }
+}
+
+/// A traced pixel with what is asked of it.
+pub struct Examiner {
+    pub traced: Arc<Traced>,
+    watches: Watches,
+}
+
+impl Examiner {
+    pub fn new(traced: Arc<Traced>) -> Self {
+        Self { traced, watches: Watches::default() }
+    }
+
+    /// An expression at a moment.
+    pub fn watch(&mut self, at: usize, expression: &str) -> Watched {
+        let traced = &*self.traced;
+        let place = (&traced.project, traced.index);
+        self.watches.value((&traced.history, at), place, (&traced.inputs, traced.pixel), expression)
+    }
+
+    /// Returns the nearest moment that way at which a breakpoint stops; a condition that is no truth value or number,
+    /// or does not compile, stops and is told of where it stands.
+    pub fn go_on(&mut self, at: usize, breakpoints: &[Breakpoint], direction: Direction) -> Option<usize> {
+        let traced = self.traced.clone();
+        let on = breakpoints.iter().filter(|breakpoint| breakpoint.is_on);
+        let stops: Vec<(u32, &str)> =
+            on.filter_map(|b| Some((traced.statement_at(&b.tab, b.line)?, b.condition.trim()))).collect();
+        let is_there = |statement: u32| stops.iter().any(|(at, _)| *at == statement);
+        let accepts = |other: usize| {
+            let statement = traced.history.statement_of(other);
+            let mut here = stops.iter().filter(|(at, _)| Some(*at) == statement);
+            here.any(|(_, condition)| condition.is_empty() || self.holds(other, condition).unwrap_or(true))
+        };
+        travel::run(&traced.history, at, is_there, accepts, direction)
+    }
+
+    /// Whether a condition holds at a moment.
+    pub fn holds(&mut self, at: usize, condition: &str) -> Result<bool, String> {
+        match &self.watch(at, condition)?.numbers[..] {
+            [number] => Ok(number.as_f64() != 0.0),
+            _ => Err("a condition is a bool or a number".into()),
+        }
+    }
+
+    /// Returns the nearest moment that way at which a line runs.
+    pub fn run_to(&self, at: usize, (tab, line): (&Tab, usize), direction: Direction) -> Option<usize> {
+        let statement = self.traced.statement_at(tab, line)?;
+        travel::run(&self.traced.history, at, |other| other == statement, |_| true, direction)
+    }
+
+    /// What the comments of the texts ask for.
+    pub fn printed(&mut self) -> Vec<Printed> {
+        let traced = self.traced.clone();
+        let tabs = [Tab::Common, Tab::Pass(traced.pass.clone())];
+        let mut found = Vec::new();
+        for tab in tabs {
+            let Some(source) = traced.source(&tab) else { continue };
+            for comment in inspect_comments(traced.text(&tab)).iter().filter(|comment| comment.kind == "print") {
+                let mut values = Vec::new();
+                let mut is_cut = false;
+                for at in traced.history.turns_of_comment(source, traced.text(&tab), comment.at as u32) {
+                    is_cut = values.len() == MOST_PRINTED;
+                    if is_cut {
+                        break;
+                    }
+                    values.push((at, self.watch(at, comment.argument)));
+                }
+                let (line, expression) = (comment.line, comment.argument.to_owned());
+                found.push(Printed { tab: tab.clone(), line, expression, values, is_cut });
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,108 @@
+//! Where moments are in the texts, and which moments a place of a text has.
+
+use super::record::{History, Moment, MomentKind};
+use crate::{
+    diag::{SourceId, Span},
+    glsl::statements::Statement,
+};
+
+impl History {
+    /// The text that control is at.
+    pub fn span(&self, at: usize) -> Option<Span> {
+        let moment = self.moments.get(at)?;
+        let statement = self.walkable.statements().get(moment.statement)?;
+        Some(match moment.kind {
+            MomentKind::Statement | MomentKind::Return => statement.head,
+            MomentKind::Turn(1) | MomentKind::Turn(_) | MomentKind::Test => statement.test.unwrap_or(statement.head),
+            MomentKind::Step => statement.step.unwrap_or(statement.head),
+        })
+    }
+
+    /// One stops at it: what goes with the line that one is at already is passed.
+    pub fn is_stop(&self, at: usize) -> bool {
+        let Some(moment) = self.moments.get(at) else { return false };
+        let Some(statement) = self.walkable.statements().get(moment.statement) else { return false };
+        match moment.kind {
+            MomentKind::Statement => !statement.is_init,
+            MomentKind::Turn(turn) => turn > 1 && statement.tests_first,
+            MomentKind::Test | MomentKind::Return => true,
+            MomentKind::Step => false,
+        }
+    }
+
+    pub fn depth(&self, at: usize) -> u32 {
+        self.moments.get(at).map_or(0, |moment| self.calls[moment.call as usize].depth)
+    }
+
+    /// The statement that a line stands for: the first that begins in it or below it, in a text.
+    pub(in crate::session::trace) fn statement_from(&self, source: SourceId, from: u32) -> Option<u32> {
+        let statements = self.walkable.statements().list.iter().enumerate();
+        let begins = statements.filter_map(|(index, statement)| {
+            let statement = statement.as_ref()?;
+            let is_block = statement.head == statement.whole && self.is_block(index as u32);
+            let is_there = statement.head.source == source && statement.head.start >= from;
+            (is_there && !statement.is_init && !is_block).then_some((statement.head.start, index as u32))
+        });
+        begins.min().map(|(_, index)| index)
+    }
+
+    /// Nothing but a bracket around others.
+    fn is_block(&self, index: u32) -> bool {
+        let list = &self.walkable.statements().list;
+        list.iter().flatten().any(|other| other.parent == Some(index))
+    }
+
+    pub(in crate::session::trace) fn statement_head(&self, index: u32) -> Option<Span> {
+        self.walkable.statements().get(index).map(|statement| statement.head)
+    }
+
+    /// The statement that is about to run.
+    pub(in crate::session::trace) fn statement_of(&self, at: usize) -> Option<u32> {
+        self.moments.get(at).map(|moment| moment.statement)
+    }
+
+    /// The moments at which it is the turn of a comment at a byte of a text: behind the statement that ends before it
+    /// in the same block, or, where none does, before the first one of the block.
+    pub(in crate::session::trace) fn turns_of_comment(&self, source: SourceId, text: &str, byte: u32) -> Vec<usize> {
+        let statements = self.walkable.statements();
+        let holds = |span: &Span| span.source == source && span.start <= byte && byte < span.end;
+        let Some(function) = statements.functions.iter().position(holds) else { return Vec::new() };
+        let all = || {
+            let list = statements.list.iter().enumerate();
+            let own = list.filter_map(|(index, statement)| Some((index as u32, statement.as_ref()?)));
+            own.filter(|(_, s)| s.function() as usize == function && s.whole.source == source && !s.is_init)
+        };
+        // The innermost statement around it, which is a block, a branch or a loop.
+        let around = all().filter(|(_, s)| holds(&s.whole)).min_by_key(|(_, s)| s.whole.end - s.whole.start);
+        let around = around.map(|(index, _)| index);
+        let siblings = || all().filter(|(_, s)| s.parent == around);
+        // What stands in the other half of a branch is no neighbour.
+        let is_near =
+            |s: &Statement| text.get(s.whole.end as usize..byte as usize).is_none_or(|between| !between.contains('}'));
+        let before = siblings().filter(|(_, s)| s.whole.end <= byte && is_near(s)).max_by_key(|(_, s)| s.whole.end);
+        let behind = siblings().filter(|(_, s)| s.whole.start >= byte).min_by_key(|(_, s)| s.whole.start);
+        let begins = |of: u32| {
+            let is_it = move |moment: &Moment| moment.statement == of && moment.kind == MomentKind::Statement;
+            self.moments.iter().enumerate().filter(move |(_, moment)| is_it(moment)).map(|(at, _)| at)
+        };
+        match (before, behind) {
+            (Some((index, _)), _) => begins(index).filter_map(|at| self.done(at)).collect(),
+            (None, Some((index, _))) => begins(index).collect(),
+            (None, None) => Vec::new(),
+        }
+    }
+
+    /// The moment at which a statement with what it holds has been done, after one at which it begins.
+    fn done(&self, at: usize) -> Option<usize> {
+        let begun = self.moments.get(at)?;
+        let statements = self.walkable.statements();
+        let is_behind = |other: &Moment| {
+            other.call == begun.call
+                && (other.kind == MomentKind::Return
+                    || !statements.lies_in(other.statement, begun.statement)
+                    || (other.statement == begun.statement && other.kind == MomentKind::Statement))
+        };
+        let behind = self.moments[at + 1..].iter().position(is_behind)?;
+        Some(at + 1 + behind)
+    }
+}

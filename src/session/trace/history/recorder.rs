@@ -1,0 +1,361 @@
+//! Writes a history down while the walk goes on.
+
+use super::record::{Call, History, Moment, MomentKind, NONE, Variable, Write};
+use crate::glsl::{
+    ir::{Block, FuncId, GlobalId, GlobalKind, Op, Stmt, Value},
+    types::TypeId,
+    walk::{Cell, Observer, View},
+    walkable::{Coming, Walkable},
+};
+use std::collections::HashMap;
+
+/// Moments, calls' variables and words that are kept: some 200 MB at most, as a write of a word takes 20 bytes.
+const MOST_MOMENTS: usize = 2_000_000;
+const MOST_SLOTS: usize = 8_000_000;
+const MOST_WORDS: usize = 6_000_000;
+/// What is passed by reference is noted at the call where it is no longer than this.
+const MOST_PASSED: usize = 64;
+
+/// What a value of a function means to who records.
+#[derive(Clone, Debug, Default)]
+struct Role {
+    coming: Option<Coming>,
+    /// Variables of the function that the value is, or the place of.
+    variables: Vec<u32>,
+    global: Option<u32>,
+}
+
+/// A function, as it is recorded.
+struct Function {
+    name: Option<String>,
+    /// By [`Value::index`]: 0 for a value that means nothing, else one more than its place among the roles.
+    roles: Vec<u32>,
+    list: Vec<Role>,
+    /// Parameters that are variables, with whether they are places.
+    params: Vec<(Value, bool)>,
+    /// The number of its variables, behind which stands what it gives back.
+    slots: u32,
+    /// Parameters that it writes.
+    writes: Vec<bool>,
+}
+
+struct Active {
+    /// None of the code around the author's.
+    call: Option<u32>,
+    /// Loops under way, each with its turns.
+    loops: Vec<(u32, u32)>,
+    last: Option<u32>,
+}
+
+pub struct HistoryRecorder<'w> {
+    functions: Vec<Function>,
+    variables: Vec<Vec<Variable>>,
+    globals: Vec<Variable>,
+    ids: Vec<GlobalId>,
+    active: Vec<Active>,
+    moments: Vec<Moment>,
+    calls: Vec<Call>,
+    writes: Vec<Write>,
+    words: Vec<u32>,
+    slots: Vec<u32>,
+    is_cut: bool,
+    has_begun: bool,
+    walkable: &'w Walkable,
+}
+
+impl<'w> HistoryRecorder<'w> {
+    pub fn new(walkable: &'w Walkable) -> Self {
+        let program = &walkable.program;
+        let mut globals = Vec::new();
+        let mut ids = Vec::new();
+        for (name, id) in walkable.globals() {
+            if matches!(program[id].kind, GlobalKind::Private(_)) {
+                globals.push(Variable { name: name.to_owned(), ty: program[id].ty, local: None, constant: None });
+                ids.push(id);
+            }
+        }
+        let mut recorder = Self {
+            functions: Vec::new(),
+            variables: Vec::new(),
+            slots: vec![NONE; globals.len()],
+            globals,
+            ids,
+            active: Vec::new(),
+            moments: Vec::new(),
+            calls: Vec::new(),
+            writes: Vec::new(),
+            words: Vec::new(),
+            is_cut: false,
+            has_begun: false,
+            walkable,
+        };
+        (0..program.functions.len()).for_each(|index| recorder.add_function(FuncId::new(index)));
+        recorder
+    }
+
+    fn add_function(&mut self, id: FuncId) {
+        let (walkable, statements) = (self.walkable, self.walkable.statements());
+        let function = &walkable.program[id];
+        let mut roles: HashMap<usize, Role> = HashMap::new();
+        for (value, coming) in walkable.marks(id) {
+            roles.entry(value.index()).or_default().coming = Some(coming);
+        }
+        let mut variables = Vec::new();
+        for (local, value) in walkable.variables(id) {
+            let known = &statements.locals[local as usize];
+            // What is never computed is always the same.
+            let constant = (!function.is_place(value)).then(|| constant(walkable, id, value)).flatten();
+            let (name, ty) = (known.name.clone(), known.ty);
+            roles.entry(value.index()).or_default().variables.push(variables.len() as u32);
+            variables.push(Variable { name, ty, local: Some(local), constant });
+        }
+        variables.push(Variable { name: String::new(), ty: function.result, local: None, constant: None });
+        let slots = variables.len() as u32;
+        // Constants of the language are no values of the function, and nothing is written to them.
+        for (local, known) in statements.locals.iter().enumerate() {
+            if let Some(words) = &known.constant {
+                let (name, ty) = (known.name.clone(), known.ty);
+                variables.push(Variable { name, ty, local: Some(local as u32), constant: Some(words.clone()) });
+            }
+        }
+        for (value, op) in function.values() {
+            if let Op::Global(global) = *op
+                && let Some(at) = self.ids.iter().position(|id| *id == global)
+            {
+                roles.entry(value.index()).or_default().global = Some(at as u32);
+            }
+        }
+        let (mut places, mut list) = (vec![0; function.len()], Vec::new());
+        for (value, role) in roles {
+            list.push(role);
+            places[value] = list.len() as u32;
+        }
+        let params = function.values().filter(|(_, op)| matches!(op, Op::Param(_)));
+        let params = params.filter(|(value, _)| places[value.index()] > 0);
+        let params = params.map(|(value, _)| (value, function.is_place(value))).collect();
+        let mut writes = vec![false; function.params.len()];
+        self.note_writes(id, &function.body, &mut writes);
+        self.functions.push(Function {
+            name: walkable.function_name(id).map(str::to_owned),
+            roles: places,
+            list,
+            params,
+            slots,
+            writes,
+        });
+        self.variables.push(variables);
+    }
+
+    /// Which parameters a function writes, itself or by what it calls: callees come before their callers.
+    fn note_writes(&self, id: FuncId, block: &Block, writes: &mut [bool]) {
+        let function = &self.walkable.program[id];
+        let mut note = |place: Value| {
+            if let Op::Param(index) = function[function.root(place)] {
+                writes[index as usize] = true;
+            }
+        };
+        for stmt in block {
+            match stmt {
+                Stmt::Store { place, .. } => note(*place),
+                Stmt::Let(value) => {
+                    if let Op::Call { function: callee, args } = &function[*value] {
+                        let written = self.functions[callee.index()].writes.iter();
+                        args.iter().zip(written).filter(|(_, written)| **written).for_each(|(arg, _)| note(*arg));
+                    }
+                }
+                _ => {}
+            }
+        }
+        for stmt in block {
+            stmt.blocks(|inner| self.note_writes(id, inner, writes));
+        }
+    }
+
+    /// The history, once the walk has ended.
+    pub fn end(self) -> Recorded {
+        let Self { variables, globals, moments, calls, writes, words, slots, is_cut, .. } = self;
+        Recorded { variables, globals, moments, calls, writes, words, slots, is_cut }
+    }
+
+    fn role(&self, function: FuncId, value: Value) -> Option<&Role> {
+        let function = &self.functions[function.index()];
+        let place = *function.roles.get(value.index())?;
+        (place > 0).then(|| &function.list[place as usize - 1])
+    }
+
+    fn call(&self) -> Option<u32> {
+        self.active.last()?.call
+    }
+
+    fn moment(&mut self, kind: MomentKind, statement: u32) {
+        let Some(call) = self.call() else { return };
+        let is_full = self.words.len() >= MOST_WORDS || self.slots.len() >= MOST_SLOTS;
+        if self.moments.len() >= MOST_MOMENTS || is_full {
+            self.is_cut = true;
+            return;
+        }
+        if let Some(active) = self.active.last_mut() {
+            active.last = Some(statement);
+        }
+        self.moments.push(Moment { kind, statement, call, writes: self.writes.len() as u32 });
+    }
+
+    fn write(&mut self, slot: usize, offset: usize, cells: &[Cell<f32>]) {
+        if self.is_cut {
+            return;
+        }
+        let words = self.words.len() as u32;
+        self.words.extend(cells.iter().map(|cell| cell.bits()));
+        let previous = std::mem::replace(&mut self.slots[slot], self.writes.len() as u32);
+        self.writes.push(Write { words, offset: offset as u32, count: cells.len() as u32, previous });
+    }
+
+    fn come(&mut self, coming: Coming) {
+        let Some(active) = self.active.last_mut() else { return };
+        let (kind, statement) = match coming {
+            Coming::Begin(statement) => {
+                active.loops.retain(|(of, _)| *of != statement);
+                (MomentKind::Statement, statement)
+            }
+            Coming::Turn(statement) => {
+                let turn = match active.loops.iter_mut().find(|(of, _)| *of == statement) {
+                    Some((_, turns)) => {
+                        *turns += 1;
+                        *turns
+                    }
+                    None => {
+                        active.loops.push((statement, 1));
+                        1
+                    }
+                };
+                (MomentKind::Turn(turn), statement)
+            }
+            Coming::Test(statement) => (MomentKind::Test, statement),
+            Coming::Step(statement) => (MomentKind::Step, statement),
+        };
+        self.moment(kind, statement);
+    }
+
+    /// Notes what a place of the function at hand holds, by the variable that it lies in.
+    fn note(&mut self, view: &View<'_, '_, f32>, place: Value) {
+        let (root, offset) = view.root(place);
+        let Some(role) = self.role(view.function_id(), root) else { return };
+        let (variable, global) = (role.variables.first().copied(), role.global);
+        let cells = view.memory(place);
+        if let Some(global) = global {
+            self.write(global as usize, offset, cells);
+        }
+        if let (Some(variable), Some(call)) = (variable, self.call()) {
+            let slot = self.calls[call as usize].slots + variable;
+            self.write(slot as usize, offset, cells);
+        }
+    }
+}
+
+/// The words of a value that no statement computes.
+fn constant(walkable: &Walkable, function: FuncId, value: Value) -> Option<Vec<u32>> {
+    let program = &walkable.program;
+    match program[function][value] {
+        Op::Literal(_, bits) => Some(vec![bits]),
+        Op::Const(id) => Some(program[id].words.clone()),
+        Op::Zero(ty) => Some(vec![0; crate::glsl::walk::cells(program, ty)]),
+        _ => None,
+    }
+}
+
+/// A history without the program that it is of.
+pub struct Recorded {
+    variables: Vec<Vec<Variable>>,
+    globals: Vec<Variable>,
+    moments: Vec<Moment>,
+    calls: Vec<Call>,
+    writes: Vec<Write>,
+    words: Vec<u32>,
+    slots: Vec<u32>,
+    is_cut: bool,
+}
+
+impl Recorded {
+    pub fn of(self, walkable: Walkable) -> History {
+        let Self { variables, globals, moments, calls, writes, words, slots, is_cut } = self;
+        History { walkable, moments, calls, is_cut, writes, words, slots, globals, variables }
+    }
+}
+
+impl Observer<f32> for HistoryRecorder<'_> {
+    fn enter(&mut self, view: &View<'_, '_, f32>) {
+        if !std::mem::replace(&mut self.has_begun, true) {
+            for slot in 0..self.ids.len() {
+                self.write(slot, 0, view.global(self.ids[slot]));
+            }
+        }
+        let id = view.function_id();
+        let function = &self.functions[id.index()];
+        let parent = self.active.iter().rev().find_map(|active| active.call);
+        let mut call = None;
+        if let Some(name) = function.name.clone().filter(|_| !self.is_cut) {
+            let slots = self.slots.len() as u32;
+            self.slots.resize(self.slots.len() + function.slots as usize, NONE);
+            call = Some(self.calls.len() as u32);
+            self.calls.push(Call {
+                name,
+                parent,
+                from: (self.moments.len() as u32).saturating_sub(1),
+                depth: parent.map_or(0, |parent| self.calls[parent as usize].depth + 1),
+                slots,
+                function: id.index() as u32,
+            });
+        }
+        self.active.push(Active { call, loops: Vec::new(), last: None });
+        if call.is_none() {
+            return;
+        }
+        for index in 0..self.functions[id.index()].params.len() {
+            let (param, is_place) = self.functions[id.index()].params[index];
+            match is_place {
+                false => self.value(view, param),
+                true if view.memory(param).len() <= MOST_PASSED => self.note(view, param),
+                true => {}
+            }
+        }
+    }
+
+    fn leave(&mut self, view: &View<'_, '_, f32>) {
+        if let (Some(call), Some(last)) = (self.call(), self.active.last().and_then(|active| active.last)) {
+            let function = &self.functions[view.function_id().index()];
+            let slot = self.calls[call as usize].slots + function.slots - 1;
+            if view.function().result != TypeId::VOID {
+                self.write(slot as usize, 0, view.result());
+            }
+            self.moment(MomentKind::Return, last);
+        }
+        self.active.pop();
+    }
+
+    fn value(&mut self, view: &View<'_, '_, f32>, value: Value) {
+        let id = view.function_id();
+        if let Some(role) = self.role(id, value) {
+            if let Some(coming) = role.coming {
+                return self.come(coming);
+            }
+            if let Some(call) = self.call().filter(|_| !view.function().is_place(value)) {
+                for variable in role.variables.clone() {
+                    let slot = self.calls[call as usize].slots + variable;
+                    self.write(slot as usize, 0, view.value(value));
+                }
+            }
+        }
+        // What a function has written to what it was passed is its caller's.
+        if let Op::Call { function: callee, args } = view.op(value) {
+            for (index, &arg) in args.iter().enumerate() {
+                if self.functions[callee.index()].writes.get(index) == Some(&true) && view.function().is_place(arg) {
+                    self.note(view, arg);
+                }
+            }
+        }
+    }
+
+    fn store(&mut self, view: &View<'_, '_, f32>, place: Value, _: Value) {
+        self.note(view, place);
+    }
+}

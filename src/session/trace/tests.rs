@@ -1,0 +1,233 @@
+use super::{
+    Breakpoint, Examiner, MomentKind, Number, Traced, Turn,
+    travel::{self, Direction, Stride},
+    ulps,
+};
+use crate::{
+    engine::{PassInputs, Pixels, TextureCopy},
+    project::{PassId, Tab},
+    session::template,
+};
+use std::sync::Arc;
+
+const CODE: &str = "float glow = 0.25;
+struct Hit { float d; vec3 at; };
+float map(vec3 p, inout float steps) {
+    const float one = 1.0; steps += one;
+    return length(p - vec3(0.0, 0.0, 10.0)) - 1.0;
+}
+void mainImage(out vec4 o, in vec2 c) {
+    vec3 p = vec3(0.0), rd = vec3(0.0, 0.0, 1.0);
+    float steps = 0.0;
+    Hit hit;
+    for (int i = 0; i < 40; i++) {
+        float d = map(p, steps) * 0.5;
+        p += rd * d; //@print d
+        hit.at.z = p.z;
+        if (d < 0.001)
+            break;
+    }
+    glow *= 2.0;
+    o = vec4(p, steps);
+}
+";
+
+fn traced(code: &str) -> Traced {
+    let mut project = template::project();
+    project.passes[0].source.text = code.into();
+    let inputs = PassInputs {
+        uniforms: bytemuck::Zeroable::zeroed(),
+        custom_uniforms: Vec::new(),
+        channels: std::array::from_fn(|_| TextureCopy::black()),
+        size: (4, 4),
+    };
+    let drawn = Pixels { width: 4, height: 4, texels: vec![[0.0, 0.0, 1.0, 1.0]; 16] };
+    Traced::new(project, &PassId::Image, 3, (inputs, &drawn), [0.3, 0.3]).unwrap()
+}
+
+/// The line, from 1, of a moment.
+fn line(traced: &Traced, at: usize) -> usize {
+    traced.place(traced.history.span(at).unwrap()).unwrap().1 + 1
+}
+
+fn lines(traced: &Traced, mut at: usize, stride: Stride, direction: Direction, count: usize) -> Vec<usize> {
+    let mut found = Vec::new();
+    while let Some(next) = travel::step(&traced.history, at, stride, direction).filter(|_| found.len() < count) {
+        found.push(line(traced, next));
+        at = next;
+    }
+    found
+}
+
+fn begin(traced: &Traced) -> usize {
+    travel::end(&traced.history, Direction::Back).unwrap()
+}
+
+fn number(traced: &Traced, at: usize, name: &str) -> f64 {
+    traced.history.value(at, name).unwrap_or_else(|| panic!("no {name}")).numbers[0].as_f64()
+}
+
+#[test]
+fn one_steps_into_over_and_out_of_calls_both_ways() {
+    use {Direction::*, Stride::*};
+    let traced = traced(CODE);
+    let first = begin(&traced);
+    assert_eq!(line(&traced, first), 8);
+    // Two variables are declared in one line; the head of a loop is one stop at its begin.
+    assert_eq!(lines(&traced, first, Into, Forward, 9), [8, 9, 10, 11, 12, 4, 5, 5, 13]);
+    assert_eq!(lines(&traced, first, Over, Forward, 10), [8, 9, 10, 11, 12, 13, 14, 15, 11, 12]);
+    let inside = (0..).find(|at| line(&traced, *at) == 5).unwrap();
+    let out = travel::step(&traced.history, inside, Out, Forward).unwrap();
+    assert_eq!((line(&traced, out), traced.history.depth(out)), (13, 0));
+    let back = travel::step(&traced.history, inside, Out, Back).unwrap();
+    assert_eq!((line(&traced, back), traced.history.stack(inside).len()), (12, 2));
+    // Backwards over the call, and into it from behind.
+    assert_eq!(lines(&traced, out, Over, Back, 2), [12, 11]);
+    assert_eq!(lines(&traced, out, Into, Back, 3), [5, 5, 4]);
+    // Each way ends, and every step forward is one step back.
+    let last = travel::end(&traced.history, Forward).unwrap();
+    assert_eq!(travel::step(&traced.history, last, Into, Forward), None);
+    assert_eq!(travel::step(&traced.history, first, Into, Back), None);
+    assert_eq!(travel::step(&traced.history, first, Out, Forward), Some(last));
+    let there = lines(&traced, first, Into, Forward, usize::MAX);
+    let mut and_back = lines(&traced, last, Into, Back, usize::MAX);
+    and_back.reverse();
+    assert_eq!(there[..there.len() - 1], and_back[1..]);
+}
+
+#[test]
+fn variables_are_what_they_were() {
+    let traced = traced(CODE);
+    let history = &traced.history;
+    // At the begin of the third turn.
+    let third = history.moments.iter().position(|m| m.kind == MomentKind::Turn(3)).unwrap();
+    let names: Vec<String> = history.visible(third).into_iter().map(|shown| shown.name).collect();
+    assert_eq!(names, ["o", "c", "p", "rd", "steps", "hit", "i", "glow"]);
+    assert_eq!([number(&traced, third, "i"), number(&traced, third, "steps")], [2.0, 2.0]);
+    // Half of the distance is gone each time: 4.5, then 2.25.
+    let z = 4.5 + 2.25;
+    assert_eq!(history.value(third, "p").unwrap().numbers[2], Number::Float(z));
+    let hit = history.value(third, "hit").unwrap();
+    assert_eq!((hit.type_text.as_str(), &hit.numbers[3]), ("Hit", &Number::Float(z)));
+    assert!(history.value(third, "d").is_none(), "it is of the block that is not entered");
+    // In the call, where the caller's variable has the callee's name.
+    let call = history.moments.iter().rposition(|m| m.kind == MomentKind::Return && history.depth(0) == 0).unwrap();
+    assert_eq!(call, history.moments.len() - 1);
+    let callee = (third..).find(|at| history.depth(*at) == 1).unwrap();
+    assert_eq!([number(&traced, callee, "steps"), number(&traced, callee + 1, "steps")], [2.0, 3.0]);
+    assert_eq!(number(&traced, callee + 1, "one"), 1.0, "a constant, which nothing declares while it runs");
+    assert!(history.value(third, "one").is_none());
+    let end = (callee..).find(|at| history.moments[*at].kind == MomentKind::Return).unwrap();
+    let result = history.result(end).unwrap();
+    assert_eq!(result.numbers, [Number::Float(10.0 - z - 1.0)]);
+    // A global before and after it is written, and what the pass drew.
+    let last = history.moments.len() - 1;
+    assert_eq!([number(&traced, 0, "glow"), number(&traced, last, "glow")], [0.25, 0.5]);
+    let drawn: Vec<f64> = history.value(last, "o").unwrap().numbers.iter().map(|n| n.as_f64()).collect();
+    assert_eq!(drawn[..3].iter().map(|x| *x as f32).collect::<Vec<_>>(), traced.value.unwrap()[..3]);
+    assert_eq!((traced.pixel, traced.frame), ((1, 1), 3));
+}
+
+#[test]
+fn the_turns_of_a_loop_are_its_rows() {
+    let traced = traced(CODE);
+    let history = &traced.history;
+    let inside = history.moments.iter().position(|m| m.kind == MomentKind::Turn(2)).unwrap();
+    let turns = history.turns(inside);
+    let of = |turn: &Turn, name: &str| {
+        let values = history.turn_values(turn);
+        values.iter().find(|shown| shown.name == name).unwrap().value.numbers[0].as_f64()
+    };
+    let rows: Vec<(f64, f64)> = turns.iter().map(|turn| (of(turn, "i"), of(turn, "d"))).collect();
+    assert_eq!(rows[..3], [(0.0, 4.5), (1.0, 2.25), (2.0, 1.125)]);
+    // 4.5 / 2^13 < 0.001.
+    assert_eq!((rows.len(), rows.last().unwrap().0), (14, 13.0));
+    assert!(turns[1].first <= inside && inside <= turns[1].end);
+    assert_eq!(history.turns(0), []);
+    assert_eq!(history.turns(history.moments.len() - 1), []);
+}
+
+#[test]
+fn expressions_mean_what_they_mean_in_the_code() {
+    let mut examiner = Examiner::new(Arc::new(traced(CODE)));
+    let third = examiner.traced.history.moments.iter().position(|m| m.kind == MomentKind::Turn(3)).unwrap();
+    let mut watch = |expression: &str| {
+        let value = examiner.watch(third, expression);
+        value.map(|value| (value.type_text, value.numbers.iter().map(|n| n.as_f64()).collect::<Vec<_>>()))
+    };
+    assert_eq!(watch("p.zx * 2.0"), Ok(("vec2".into(), vec![13.5, 0.0])));
+    assert_eq!(watch("i == 2 && steps < 2.5"), Ok(("bool".into(), vec![1.0])));
+    assert_eq!(watch("hit.at.z + glow"), Ok(("float".into(), vec![7.0])));
+    assert_eq!(watch("map(p, steps)"), Ok(("float".into(), vec![2.25])));
+    assert_eq!(watch("mat2(i)"), Ok(("mat2".into(), vec![2.0, 0.0, 0.0, 2.0])));
+    assert_eq!(watch("steps"), Ok(("float".into(), vec![2.0])), "the call has its own copy");
+    assert_eq!(watch("iResolution.x"), Ok(("float".into(), vec![0.0])));
+    let wrong = watch("nothing + 1.0").unwrap_err();
+    assert!(wrong.contains("nothing"), "{wrong}");
+    assert_eq!(watch("hit, glow").unwrap().1, [0.25]);
+    assert!(watch("i = ").is_err() && watch("").is_err() && watch("p += ; }").is_err());
+    assert!(watch("discard").is_err() && watch("mainImage(o, c)").is_err());
+}
+
+#[test]
+fn breakpoints_stop_where_their_condition_holds_both_ways() {
+    use Direction::*;
+    let mut examiner = Examiner::new(Arc::new(traced(CODE)));
+    let traced = examiner.traced.clone();
+    let image = Tab::Pass(PassId::Image);
+    let at_line = |line: usize, condition: &str| {
+        [Breakpoint { tab: image.clone(), line: line - 1, condition: condition.into(), is_on: true }]
+    };
+    let first = begin(&traced);
+    let stop = examiner.go_on(first, &at_line(14, "i == 7 && d < 1.0"), Forward).unwrap();
+    assert_eq!((line(&traced, stop), number(&traced, stop, "i")), (14, 7.0));
+    let before = examiner.go_on(stop, &at_line(14, ""), Back).unwrap();
+    assert_eq!(number(&traced, before, "i"), 6.0);
+    assert_eq!(examiner.go_on(stop, &at_line(14, "i == 7"), Forward), None);
+    assert_eq!(examiner.go_on(stop, &at_line(14, "i == 99"), Back), None);
+    // A line of Image where nothing begins is that of the next statement.
+    let slid = examiner.go_on(first, &at_line(2, ""), Forward).unwrap();
+    assert_eq!(line(&traced, slid), 4);
+    // One that is wrong stops, and says why where it stands.
+    assert!(examiner.go_on(first, &at_line(14, "i =="), Forward).is_some());
+    assert!(examiner.holds(stop, "p").is_err() && examiner.holds(stop, "d").unwrap());
+    let off = Breakpoint { is_on: false, ..at_line(14, "")[0].clone() };
+    assert_eq!(examiner.go_on(first, &[off], Forward), None);
+    let to = examiner.run_to(first, (&image, 17), Forward).unwrap();
+    assert_eq!((line(&traced, to), examiner.run_to(to, (&image, 17), Forward)), (18, None));
+}
+
+#[test]
+fn comments_print_what_is_true_where_they_stand() {
+    let code = CODE.replace(
+        "    glow *= 2.0;",
+        "    if (p.z > 1.0) { glow *= 2.0; } else { //@print p\n glow = 0.0; }\n    //@print glow",
+    );
+    let mut examiner = Examiner::new(Arc::new(traced(&code)));
+    let printed = examiner.printed();
+    let told: Vec<(usize, &str, usize)> =
+        printed.iter().map(|p| (p.line + 1, p.expression.as_str(), p.values.len())).collect();
+    assert_eq!(told, [(13, "d", 14), (18, "p", 0), (20, "glow", 1)]);
+    let numbers = |index: usize| -> Vec<f64> {
+        printed[index].values.iter().map(|(_, value)| value.as_ref().unwrap().numbers[0].as_f64()).collect()
+    };
+    assert_eq!((&numbers(0)[..3], numbers(2)), (&[4.5, 2.25, 1.125][..], vec![0.5]));
+}
+
+#[test]
+fn a_loop_that_does_not_end_is_still_told_of() {
+    let traced = traced(
+        "void mainImage(out vec4 o, in vec2 c) { float x = 1.0; for (;;) { x += 1.0; if (x < 0.0) break; } \
+         o = vec4(x); }",
+    );
+    assert!(traced.is_endless && traced.value.is_none() && !traced.history.moments.is_empty());
+    assert!(traced.history.is_cut);
+}
+
+#[test]
+fn distances_are_counted_in_numbers() {
+    let next = |x: f32| f32::from_bits(x.to_bits() + 1);
+    assert_eq!([ulps(1.0, 1.0), ulps(1.0, next(1.0)), ulps(next(-1.0), -1.0), ulps(0.0, -0.0)], [0, 1, 1, 0]);
+    assert_eq!([ulps(f32::from_bits(1), -f32::from_bits(1)), ulps(f32::NAN, f32::NAN)], [2, 0]);
+    assert_eq!([ulps(1.0, f32::NAN), ulps(f32::INFINITY, f32::MAX)], [u32::MAX, 1]);
+}

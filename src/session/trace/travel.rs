@@ -1,0 +1,70 @@
+//! Movements through a history: each goes from one moment to another, forwards or backwards.
+
+use super::history::{History, MomentKind};
+
+/// A step of a person's who reads a program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stride {
+    /// To the next line that runs, wherever it is.
+    Into,
+    /// To the next line of this call, or of one that it was made in.
+    Over,
+    /// To where this call was made.
+    Out,
+}
+
+/// Which way time goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    Forward,
+    Back,
+}
+
+/// Returns the moment that a step leads to; `None` where there is nothing more that way.
+pub fn step(history: &History, at: usize, stride: Stride, direction: Direction) -> Option<usize> {
+    let depth = history.depth(at);
+    let fits = |other: &usize| {
+        history.is_stop(*other)
+            && match stride {
+                Stride::Into => true,
+                Stride::Over => history.depth(*other) <= depth,
+                Stride::Out => history.depth(*other) < depth,
+            }
+    };
+    let found = ahead(history, at, direction).find(fits);
+    // Out of the outermost call one comes to an end of all.
+    found.or_else(|| (stride == Stride::Out && depth == 0).then(|| end(history, direction)).flatten())
+}
+
+/// The moments that way, the nearest first.
+fn ahead(history: &History, at: usize, direction: Direction) -> Box<dyn Iterator<Item = usize>> {
+    match direction {
+        Direction::Forward => Box::new(at + 1..history.moments.len()),
+        Direction::Back => Box::new((0..at.min(history.moments.len())).rev()),
+    }
+}
+
+/// Returns the first moment at which one stops, or the last.
+pub fn end(history: &History, direction: Direction) -> Option<usize> {
+    let mut all = 0..history.moments.len();
+    match direction {
+        Direction::Forward => all.rev().find(|at| history.is_stop(*at)),
+        Direction::Back => all.find(|at| history.is_stop(*at)),
+    }
+}
+
+/// Returns the nearest moment that way at which a statement is about to run that `accepts`: each time that it begins,
+/// and of a loop each turn.
+pub fn run(
+    history: &History,
+    at: usize,
+    statement: impl Fn(u32) -> bool,
+    mut accepts: impl FnMut(usize) -> bool,
+    direction: Direction,
+) -> Option<usize> {
+    ahead(history, at, direction).find(|&other| {
+        let moment = &history.moments[other];
+        let is_begun = !matches!(moment.kind, MomentKind::Return | MomentKind::Step);
+        is_begun && statement(moment.statement) && history.is_stop(other) && accepts(other)
+    })
+}

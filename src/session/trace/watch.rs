@@ -1,0 +1,173 @@
+//! Expressions of the language over what a history holds at a moment.
+//!
+//! An expression is compiled by this program's own front end, behind the text of the pass, with the variables that it
+//! names as parameters, and run by the walker. So it means what it would mean there: it can call the author's functions
+//! and read uniforms and channels.
+
+use super::{
+    history::{History, Value},
+    number::Number,
+};
+use crate::{
+    engine::{PassInputs, Sources},
+    glsl::{
+        ir::GlobalId,
+        types::{Scalar, Type},
+        walk::{Machine, Observer, View},
+        walkable::Walkable,
+    },
+    project::Project,
+};
+use std::collections::HashMap;
+
+/// Types that a result can have, beside those of variables that are shown as they are.
+const TYPES: [&str; 25] = [
+    "float", "vec2", "vec3", "vec4", "int", "ivec2", "ivec3", "ivec4", "uint", "uvec2", "uvec3", "uvec4", "bool",
+    "bvec2", "bvec3", "bvec4", "mat2", "mat3", "mat4", "mat2x3", "mat2x4", "mat3x2", "mat3x4", "mat4x2", "mat4x3",
+];
+
+/// Statements after which an expression is given up.
+const MOST: u64 = 10_000_000;
+
+/// What an expression is at a moment, or why it is nothing.
+pub type Watched = Result<Value, String>;
+
+/// Expressions over one history that were compiled, each by the variables that it names.
+#[derive(Default)]
+pub struct Watches {
+    known: HashMap<String, Result<Compiled, String>>,
+}
+
+/// An expression behind the text of its pass.
+struct Compiled {
+    walkable: Walkable,
+    /// Where each variable that it names begins.
+    inputs: Vec<Option<GlobalId>>,
+    kind: Option<GlobalId>,
+    results: Vec<(usize, GlobalId)>,
+}
+
+impl Watches {
+    /// The value of an expression at a moment of a history, in its pass.
+    pub fn value(
+        &mut self,
+        (history, at): (&History, usize),
+        (project, index): (&Project, usize),
+        (inputs, pixel): (&PassInputs, (u32, u32)),
+        expression: &str,
+    ) -> Watched {
+        let expression = expression.trim();
+        if expression.is_empty() {
+            return Err("nothing is asked for".into());
+        }
+        // A variable alone is shown whatever its type.
+        if let Some(value) = history.value(at, expression) {
+            return Ok(value);
+        }
+        let words: Vec<&str> = words(expression).collect();
+        let visible = history.names(at);
+        let named: Vec<&(String, String)> = visible.iter().filter(|(name, _)| words.contains(&name.as_str())).collect();
+        let globals: Vec<(&str, &str)> = history.global_names().collect();
+        // The rest of what is compiled is the same for a history.
+        let key = named.iter().flat_map(|(name, ty)| [ty, " ", name, ", "]).chain([expression]).collect();
+        let compiled = self.known.entry(key).or_insert_with(|| {
+            let text = text(&named, &globals, expression);
+            compile(&Sources::new(project), index, &text, [named.len(), globals.len()])
+        });
+        let compiled = compiled.as_ref().map_err(Clone::clone)?;
+        let mut machine = Machine::<f32>::new(&compiled.walkable.program, inputs, pixel, MOST);
+        let held = named.iter().map(|(name, _)| history.value(at, name).map(|value| value.words));
+        let held = held.chain(globals.iter().map(|(name, _)| history.global_words(at, name)));
+        for (global, words) in compiled.inputs.iter().zip(held) {
+            if let (Some(global), Some(words)) = (global, words) {
+                machine.set_global(*global, &words);
+            }
+        }
+        let mut result = Taken { compiled, value: None };
+        machine.run(Machine::<f32>::lane_of(pixel), &mut result).map_err(|stop| stop.to_string())?;
+        result.value.ok_or_else(|| "it has no value: the pixel was discarded".into())
+    }
+}
+
+/// Takes the result as the function that runs leaves it.
+struct Taken<'c> {
+    compiled: &'c Compiled,
+    value: Option<Value>,
+}
+
+impl Observer<f32> for Taken<'_> {
+    fn leave(&mut self, view: &View<'_, '_, f32>) {
+        let Compiled { walkable, kind, results, .. } = self.compiled;
+        if walkable.function_name(view.function_id()) != Some("mainCubemap") {
+            return;
+        }
+        let Some(kind) = kind.map(|kind| view.global(kind)[0].bits() as usize) else { return };
+        let Some((index, global)) = results.iter().find(|(index, _)| *index + 1 == kind) else { return };
+        let cells = view.global(*global);
+        let types = &walkable.program.types;
+        let ty = walkable.program[*global].ty;
+        let scalar = types.scalar(ty).unwrap_or(Scalar::Float);
+        self.value = Some(Value {
+            type_text: TYPES[*index].to_owned(),
+            numbers: cells.iter().map(|cell| Number::of(scalar, cell.bits())).collect(),
+            is_vector: matches!(types.get(ty), Type::Vector { scalar: Scalar::Float, size: 3 | 4 }),
+            words: cells.iter().map(|cell| cell.bits()).collect(),
+        });
+    }
+}
+
+/// The names in an expression, and other words.
+fn words(expression: &str) -> impl Iterator<Item = &str> {
+    expression.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).filter(|word| !word.is_empty())
+}
+
+/// What stands behind the pass: variables as parameters, and a function for each type that gives the result away.
+fn text(named: &[&(String, String)], globals: &[(&str, &str)], expression: &str) -> String {
+    let mut out = String::from("int eddy_kind;\n");
+    for (index, ty) in TYPES.iter().enumerate() {
+        out += &format!("{ty} eddy_{ty}; void eddy_put({ty} x) {{ eddy_kind = {}; eddy_{ty} = x; }}\n", index + 1);
+    }
+    for (index, (_, ty)) in named.iter().enumerate() {
+        out += &format!("{ty} eddy_local_{index};\n");
+    }
+    for (index, (_, ty)) in globals.iter().enumerate() {
+        out += &format!("{ty} eddy_global_{index};\n");
+    }
+    let list = |part: &dyn Fn(usize, &(String, String)) -> String| {
+        named.iter().enumerate().map(|(index, named)| part(index, named)).collect::<Vec<_>>().join(", ")
+    };
+    let parameters = list(&|_, (name, ty)| format!("{ty} {name}"));
+    let arguments = list(&|index, _| format!("eddy_local_{index}"));
+    // Written, so that they are memory, which can be given values.
+    let touched: String = (0..named.len()).map(|i| format!("eddy_local_{i} = eddy_local_{i}; ")).collect();
+    let restored: String = globals
+        .iter()
+        .enumerate()
+        .map(|(i, (name, _))| format!("eddy_global_{i} = eddy_global_{i}; {name} = eddy_global_{i}; "))
+        .collect();
+    out += &format!("void eddy_watch({parameters}) {{ eddy_put((\n{expression}\n)); }}\n");
+    out += &format!(
+        "void mainCubemap(out vec4 o, in vec2 p, in vec3 a, in vec3 b) {{ o = vec4(0.0); {touched}{restored}\
+         eddy_watch({arguments}); }}\n"
+    );
+    out
+}
+
+fn compile(sources: &Sources<'_>, index: usize, text: &str, counts: [usize; 2]) -> Result<Compiled, String> {
+    let lowered = sources.walkable_with(index, text).ok_or("passes that draw meshes cannot be traced")?;
+    let walkable = lowered.map_err(|diagnostics| {
+        let error = diagnostics.into_iter().find(|diagnostic| diagnostic.is_error());
+        error.map_or("it does not compile".into(), |error| match error.message.contains("eddy_put") {
+            true => "its value cannot be shown".to_owned(),
+            false => error.message,
+        })
+    })?;
+    let find = |name: &str| walkable.globals().find(|(there, _)| *there == name).map(|(_, id)| id);
+    let numbered = |prefix: &str, count: usize| -> Vec<Option<GlobalId>> {
+        (0..count).map(|index| find(&format!("{prefix}{index}"))).collect()
+    };
+    let inputs = [numbered("eddy_local_", counts[0]), numbered("eddy_global_", counts[1])].concat();
+    let results = TYPES.iter().enumerate().filter_map(|(index, ty)| Some((index, find(&format!("eddy_{ty}"))?)));
+    let (kind, results) = (find("eddy_kind"), results.collect());
+    Ok(Compiled { inputs, kind, results, walkable })
+}
