@@ -118,7 +118,7 @@ fn measure(
     let engine = offline.engine()?;
     let worst_ms = millis.iter().copied().fold(0.0, f64::max);
     report.frame_ms = median(millis);
-    let (width, height) = args.run.size;
+    let (width, height) = engine.size();
     let (device, plan) = (engine.gpu().describe(), engine.program().map(|p| p.plan().clone()).unwrap_or_default());
     let drawable = drawable(&project);
     let passes = engine.pass_costs(&project).into_iter().filter(|c| matches!(c.role, PassRole::Drawn { .. }));

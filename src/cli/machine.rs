@@ -158,7 +158,22 @@ pub fn open(
     wanted: &PassId,
     inputs: ScriptedInputs,
 ) -> Result<(Project, Offline), Trouble> {
-    open_with(machine, report, spec, run, (wanted, None), inputs)
+    open_with(machine, report, spec, run, (wanted, &|_| Vec::new(), None), inputs)
+}
+
+/// Says which passes of a project are read beside the wanted one.
+pub type FindPasses<'a> = &'a dyn Fn(&Project) -> Vec<PassId>;
+
+/// Does the same as [`open`] where further passes are read.
+pub fn open_measured(
+    machine: &mut Machine,
+    report: &mut Report,
+    spec: &str,
+    run: &RunArgs,
+    (wanted, beside): (&PassId, FindPasses<'_>),
+    inputs: ScriptedInputs,
+) -> Result<(Project, Offline), Trouble> {
+    open_with(machine, report, spec, run, (wanted, beside, None), inputs)
 }
 
 /// Says which value of a project is probed.
@@ -173,7 +188,7 @@ pub fn open_probed(
     (pass, probe): (&PassId, FindProbe<'_>),
     inputs: ScriptedInputs,
 ) -> Result<Offline, Trouble> {
-    open_with(machine, report, spec, run, (pass, Some(probe)), inputs).map(|(_, offline)| offline)
+    open_with(machine, report, spec, run, (pass, &|_| Vec::new(), Some(probe)), inputs).map(|(_, offline)| offline)
 }
 
 fn open_with(
@@ -181,23 +196,14 @@ fn open_with(
     report: &mut Report,
     spec: &str,
     run: &RunArgs,
-    (wanted, probe): (&PassId, Option<FindProbe<'_>>),
+    (wanted, beside, probe): (&PassId, FindPasses<'_>, Option<FindProbe<'_>>),
     inputs: ScriptedInputs,
 ) -> Result<(Project, Offline), Trouble> {
     let loaded = project::load(spec)?;
     let mut project = loaded.project;
     report.diagnose(&loaded.warnings, &loaded.sources, Some(&project));
-    match project.pass(wanted) {
-        None => {
-            let there: Vec<String> = project.passes.iter().map(|p| p.id.key()).collect();
-            let error = anyhow::anyhow!("there is no pass {}; there are {}", wanted.key(), project::listed(&there));
-            return Err(error.into());
-        }
-        Some(_) if matches!(wanted, PassId::Cubemap | PassId::Sound) => {
-            return Err(Trouble::Unsupported(format!("{} is not drawn by this version of Eddy", wanted.title())));
-        }
-        Some(_) => {}
-    }
+    let beside = beside(&project);
+    [wanted].into_iter().chain(&beside).try_for_each(|pass| is_drawn(&project, pass))?;
     for (option, assignments) in [("--set", &run.set), ("--sweep", &report.sweep)] {
         for assignment in assignments {
             project.set_custom_uniform(assignment).map_err(|why| anyhow::anyhow!("{option} {why}"))?;
@@ -209,7 +215,8 @@ fn open_with(
     let mut offline = Offline::new(&gpu, run.size, inputs)?;
     offline.set_frame_limit(run.frame_timeout);
     let probe = probe.map(|probe| anyhow::Ok((wanted.clone(), probe(&project)?))).transpose()?;
-    let wanted = [wanted.clone()].into_iter().chain(probe.iter().map(|_| BuildOptions::probed())).collect();
+    let probed = probe.iter().map(|_| BuildOptions::probed());
+    let wanted = [wanted.clone()].into_iter().chain(beside).chain(probed).collect();
     let options = BuildOptions { wanted, skip: !run.no_skip, without: run.without_pass.set(), probe };
     let built = offline.build(&project, &media, &options);
     report.compile_ms = offline.build_millis();
@@ -222,6 +229,21 @@ fn open_with(
     };
     report.diagnose(&diagnostics, &sources, Some(&project));
     Ok((project, offline))
+}
+
+/// Fails for a pass that the project does not have or that is no picture.
+fn is_drawn(project: &Project, pass: &PassId) -> Result<(), Trouble> {
+    match project.pass(pass) {
+        None => {
+            let there: Vec<String> = project.passes.iter().map(|p| p.id.key()).collect();
+            let error = anyhow::anyhow!("there is no pass {}; there are {}", pass.key(), project::listed(&there));
+            Err(error.into())
+        }
+        Some(_) if matches!(pass, PassId::Cubemap | PassId::Sound) => {
+            Err(Trouble::Unsupported(format!("{} is not drawn by this version of Eddy", pass.title())))
+        }
+        Some(_) => Ok(()),
+    }
 }
 
 pub fn millis_since(began: Instant) -> f64 {

@@ -4,17 +4,23 @@
 //! the front ends do not know each other. Holds nothing another front end would need too; that lies in `session`.
 
 mod args;
+mod audited;
 mod bench;
 mod check;
+mod compare;
 mod failure;
 mod lab;
 mod library;
 mod machine;
+mod measured;
+mod nonfinite;
 mod precision;
+mod printed;
 mod probe;
 mod quiet;
 mod render;
 mod report;
+mod revision;
 mod stability;
 mod sweep;
 mod targets;
@@ -45,7 +51,12 @@ pub fn main() -> Next {
     let Some(command) = command else { return Next::Window(window) };
     if matches!(
         command,
-        Command::Render(_) | Command::Probe(_) | Command::Trace(_) | Command::Bench(_) | Command::Lab(_)
+        Command::Render(_)
+            | Command::Probe(_)
+            | Command::Trace(_)
+            | Command::Compare(_)
+            | Command::Bench(_)
+            | Command::Lab(_)
     ) {
         quiet::ask_for_no_wayland();
     }
@@ -78,6 +89,10 @@ fn run(command: &Command) -> u8 {
         },
         Command::Trace(args) => match args.run.inputs() {
             Ok(inputs) => trace::run(args, &inputs),
+            Err(usage) => return trouble(usage),
+        },
+        Command::Compare(args) => match args.run.inputs() {
+            Ok(inputs) => compare::run(args, &inputs),
             Err(usage) => return trouble(usage),
         },
         Command::Check(args) => check::run(args),

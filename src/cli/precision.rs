@@ -1,7 +1,9 @@
-//! `eddy lab precision PROJECT`: what a project loses where its passes are stored in 16-bit floats.
+//! `eddy lab precision PROJECT`: what a project loses where its passes are stored in 16-bit floats, and how far its
+//! picture is from that of double precision.
 
 use super::{
     args::PrecisionArgs,
+    audited::{self, Audited},
     machine::{Machine, Trouble},
     report::{Printer, Report},
 };
@@ -34,6 +36,9 @@ struct Line<'a> {
     report: &'a Report,
     #[serde(flatten)]
     compared: Option<&'a Compared>,
+    /// Against double precision.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    double: Option<&'a Audited>,
 }
 
 pub fn run(args: &PrecisionArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
@@ -41,10 +46,23 @@ pub fn run(args: &PrecisionArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut machine = Machine::default();
     for spec in &args.project {
         let mut report = Report::new(spec);
-        let compared =
-            machine.attempt(&mut report, |machine, report| compare(machine, report, args, spec, inputs.clone()));
-        let words = compared.as_ref().map_or(String::new(), |c| words(spec, c));
-        printer.print_as(&Line { report: &report, compared: compared.as_ref() }, &report, words.trim_end())?;
+        let compared = machine
+            .attempt(&mut report, |machine, report| compare(machine, report, args, spec, inputs.clone()))
+            .flatten();
+        let is_well = report.errors() == 0;
+        let double = is_well
+            .then(|| {
+                machine
+                    .attempt(&mut report, |machine, report| audited::run(machine, report, args, spec, inputs.clone()))
+            })
+            .flatten();
+        let mut words = compared.as_ref().map_or(String::new(), |compared| words(spec, compared));
+        if let Some(double) = &double {
+            words.push_str(&if words.is_empty() { format!("{spec}\n") } else { String::new() });
+            words.push_str(&audited::words(double));
+        }
+        let line = Line { report: &report, compared: compared.as_ref(), double: double.as_ref() };
+        printer.print_as(&line, &report, words.trim_end())?;
     }
     Ok(printer.exit_code())
 }
@@ -55,7 +73,7 @@ fn compare(
     args: &PrecisionArgs,
     spec: &str,
     mut inputs: ScriptedInputs,
-) -> Result<Compared, Trouble> {
+) -> Result<Option<Compared>, Trouble> {
     let loaded = project::load(spec)?;
     let mut project = loaded.project;
     report.diagnose(&loaded.warnings, &loaded.sources, Some(&project));
@@ -67,15 +85,16 @@ fn compare(
     let gpu = machine.gpu()?;
     let (width, height) = args.run.size;
     let next = || inputs.next_frame();
-    let comparison =
-        precision::halved(&gpu, &project, &media, (width, height), args.frames, next).map_err(|e| match e {
-            PrecisionError::Build(error) => error.into(),
-            PrecisionError::Engine(error) => error.into(),
-            PrecisionError::NoFloats => Trouble::Other(e.into()),
-        })?;
+    let comparison = match precision::halved(&gpu, &project, &media, (width, height), args.frames, next) {
+        Ok(comparison) => comparison,
+        Err(PrecisionError::Build(error)) => return Err(error.into()),
+        Err(PrecisionError::Engine(error)) => return Err(error.into()),
+        // Nothing is stored that could be stored in fewer bits.
+        Err(PrecisionError::NoFloats) => return Ok(None),
+    };
     report.frames = args.frames;
     let cuts_off = precision::cuts_off(&Rig::new(gpu.clone())).map_err(anyhow::Error::from)?;
-    Ok(Compared { width, height, device: gpu.describe(), cuts_off, comparison })
+    Ok(Some(Compared { width, height, device: gpu.describe(), cuts_off, comparison }))
 }
 
 fn words(spec: &str, compared: &Compared) -> String {

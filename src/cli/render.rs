@@ -2,12 +2,23 @@
 
 use super::{
     args::RenderArgs,
-    machine::{Machine, Trouble, median, open},
+    machine::{Machine, Trouble, median, open_measured},
+    measured::{self, Measured, Measures},
     report::{Printer, Report},
     targets::{self, Targets},
 };
-use crate::session::script::ScriptedInputs;
+use crate::{project::Project, session::script::ScriptedInputs};
+use serde::Serialize;
 use std::{io, path::PathBuf};
+
+/// The report, and what was measured.
+#[derive(Serialize)]
+struct Line<'a> {
+    #[serde(flatten)]
+    report: &'a Report,
+    #[serde(skip_serializing_if = "<[Measured]>::is_empty")]
+    measured: &'a [Measured],
+}
 
 pub fn run(args: &RenderArgs, targets: &Targets, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
@@ -15,37 +26,49 @@ pub fn run(args: &RenderArgs, targets: &Targets, inputs: &ScriptedInputs) -> io:
     let runs = args.project.iter().enumerate();
     for ((index, spec), swept) in runs.flat_map(|run| targets.sweep.iter().map(move |swept| (run, swept))) {
         let mut report = Report::swept(spec, swept);
-        let written =
-            machine.attempt(&mut report, |machine, report| draw(machine, report, args, targets, inputs, index));
-        let words = written.map_or(String::new(), |written| {
+        let drawn = machine.attempt(&mut report, |machine, report| draw(machine, report, args, targets, inputs, index));
+        let (words, measured) = drawn.map_or((String::new(), Vec::new()), |(written, measures)| {
             let millis = report.frame_ms.unwrap_or_default();
             let paths: Vec<String> = written.iter().map(|p| p.display().to_string()).collect();
             let frames = if report.frames == 1 { "1 frame".into() } else { format!("{} frames", report.frames) };
-            format!("{}: {frames}, {millis:.2} ms each: {}", report.title(), paths.join(" "))
+            let words = format!("{}: {frames}, {millis:.2} ms each: {}", report.title(), paths.join(" "));
+            (words.trim_end_matches([':', ' ']).to_owned() + &measures.words(), measures.taken)
         });
-        printer.print(&report, &words)?;
+        printer.print_as(&Line { report: &report, measured: &measured }, &report, &words)?;
     }
     Ok(printer.exit_code())
 }
 
-/// Draws one project and gives the files it wrote.
-fn draw(
+/// Draws one project. Gives the files it wrote and the numbers it measured.
+fn draw<'a>(
     machine: &mut Machine,
     report: &mut Report,
-    args: &RenderArgs,
+    args: &'a RenderArgs,
     targets: &Targets,
     inputs: &ScriptedInputs,
     index: usize,
-) -> Result<Vec<PathBuf>, Trouble> {
+) -> Result<(Vec<PathBuf>, Measures<'a>), Trouble> {
     let wanted = &args.pass;
-    let (_, mut offline) = open(machine, report, &args.project[index], &args.run, &wanted.pass, inputs.clone())?;
+    let beside = |project: &Project| {
+        let (declared, _) = measured::declared(project);
+        let asserted = args.assert.iter().map(|assertion| &assertion.quantity);
+        args.probe.iter().chain(asserted).chain(&declared).map(|quantity| quantity.pass.clone()).collect()
+    };
+    let spec = &args.project[index];
+    let (project, mut offline) =
+        open_measured(machine, report, spec, &args.run, (&wanted.pass, &beside), inputs.clone())?;
+    let (declared, unread) = measured::declared(&project);
+    report.diagnose(&unread, &project.sources(), Some(&project));
+    let mut measures = Measures::new(&project, args.probe.iter().cloned().chain(declared).collect(), &args.assert);
     let (mut millis, mut written) = (Vec::new(), Vec::new());
     for frame in 0..targets.frames {
         millis.push(offline.draw()?.millis);
         report.frames += 1;
-        if targets.at.binary_search(&frame).is_ok()
-            && let Some(path) = targets.path(index, &report.sweep, frame)
-        {
+        if targets.at.binary_search(&frame).is_err() {
+            continue;
+        }
+        measures.take(&project, &mut offline, frame, report)?;
+        if let Some(path) = targets.path(index, &report.sweep, frame) {
             targets::write(&path, &offline.read(&wanted.pass, wanted.target)?, targets.format)?;
             written.push(path);
         }
@@ -55,5 +78,5 @@ fn draw(
         millis.remove(0);
     }
     report.frame_ms = median(millis);
-    Ok(written)
+    Ok((written, measures))
 }

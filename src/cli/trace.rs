@@ -3,6 +3,8 @@
 use super::{
     args::TraceArgs,
     machine::{Machine, Trouble, open},
+    nonfinite::{self, Begin},
+    printed::{self, Printed},
     report::{Printer, Report},
 };
 use crate::{
@@ -26,6 +28,14 @@ struct Line<'a> {
     trace: Option<&'a Traced>,
 }
 
+/// The report, and where the first number is that is not finite; null where all are.
+#[derive(Serialize)]
+struct Sought<'a> {
+    #[serde(flatten)]
+    report: &'a Report,
+    nonfinite: Option<Begin>,
+}
+
 #[derive(Serialize)]
 struct Traced {
     pass: String,
@@ -45,6 +55,9 @@ struct Traced {
     statements: u64,
     left_out: u64,
     steps: Vec<PlacedStep>,
+    /// What `//@print` comments ask for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    printed: Vec<Printed>,
 }
 
 /// A step with its place spelled out.
@@ -71,6 +84,14 @@ pub fn run(args: &TraceArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut machine = Machine::default();
     for spec in &args.project {
         let mut report = Report::new(spec);
+        if args.nonfinite {
+            let begin =
+                machine.attempt(&mut report, |machine, report| nonfinite::first(machine, report, args, spec, inputs));
+            let words = begin.as_ref().map(|begin| nonfinite::words(spec, report.frames, begin.as_ref()));
+            let line = Sought { report: &report, nonfinite: begin.flatten() };
+            printer.print_as(&line, &report, words.unwrap_or_default().trim_end())?;
+            continue;
+        }
         let traced =
             machine.attempt(&mut report, |machine, report| traced(machine, report, args, spec, inputs.clone()));
         let words = traced.as_ref().map_or(String::new(), |traced| words(spec, traced));
@@ -97,17 +118,19 @@ fn traced(
     let index = project.passes.iter().position(|p| p.id == *pass).unwrap_or_default();
     let texts = engine::Sources::new(&project);
     let extent = Extent { statements: args.max_statements, steps: args.max_steps.unwrap_or(usize::MAX) };
-    let trace = match trace::trace(&texts, index, &read, args.pixel, extent) {
+    let pixel = args.pixel.unwrap_or_default();
+    let trace = match trace::trace(&texts, index, &read, pixel, extent) {
         Err(TraceError::Diagnostics(found)) => return Err(Trouble::Diagnostics(found, project.sources())),
         Err(TraceError::Meshes) => return Err(Trouble::Unsupported(TraceError::Meshes.to_string())),
         other => other.map_err(anyhow::Error::from)?,
     };
-    let (x, y) = args.pixel;
+    let (x, y) = pixel;
     let texel = device.texels[(y * device.width + x) as usize];
-    Ok(placed(&project, args, texel, trace))
+    let printed = printed::printed(&project, pass, args.frame, (&read, &device), pixel).map_err(anyhow::Error::from)?;
+    Ok(placed(&project, args, texel, trace, printed))
 }
 
-fn placed(project: &Project, args: &TraceArgs, device: [f32; 4], trace: Trace) -> Traced {
+fn placed(project: &Project, args: &TraceArgs, device: [f32; 4], trace: Trace, printed: Vec<Printed>) -> Traced {
     let sources = project.sources();
     let format = project.pass(&args.pass.pass).map_or_else(PassFormat::default, |pass| pass.settings.format);
     let apart = |value: [f32; 4]| (0..format.components()).map(|i| ulps(value[i], device[i])).collect();
@@ -126,7 +149,7 @@ fn placed(project: &Project, args: &TraceArgs, device: [f32; 4], trace: Trace) -
     });
     Traced {
         pass: args.pass.pass.key(),
-        pixel: [args.pixel.0, args.pixel.1],
+        pixel: args.pixel.map_or([0, 0], |(x, y)| [x, y]),
         frame: args.frame,
         value: trace.value.map(floats),
         double: trace.double.map(|values| values.map(Number::Double)),
@@ -136,6 +159,7 @@ fn placed(project: &Project, args: &TraceArgs, device: [f32; 4], trace: Trace) -
         statements: trace.statements,
         left_out: trace.left_out,
         steps: steps.collect(),
+        printed,
     }
 }
 
@@ -165,6 +189,7 @@ fn words(spec: &str, traced: &Traced) -> String {
     if traced.left_out > 0 {
         let _ = writeln!(out, "... and {} more steps", traced.left_out);
     }
+    out.push_str(&printed::words(&traced.printed));
     let Traced { pass, pixel: [x, y], frame, statements, .. } = traced;
     let _ = writeln!(out, "{spec}: {pass} at {x},{y} in frame {frame}, {statements} statements");
     let device = format!("{}, stored as {}", vector(&traced.device), traced.format);

@@ -1,0 +1,130 @@
+//! Commands that look into a project.
+
+use super::{
+    run::RunArgs,
+    values::{PROJECT, Picture, format, picture, pixel},
+};
+use crate::{
+    cli::text_place::TextPlace,
+    session::{capture::Format, trace::STEPS},
+};
+use clap::Args;
+use std::path::PathBuf;
+
+#[derive(Debug, Args)]
+#[command(after_help = PROJECT)]
+pub struct ProbeArgs {
+    pub project: String,
+    /// Where the expression stands: a tab, a line and a column, as in image:12:9 or common:3:14. The innermost
+    /// expression there is meant, and at a variable that is declared its first value
+    #[arg(value_name = "TAB:LINE:COLUMN", value_parser = TextPlace::parse)]
+    pub at: TextPlace,
+    /// Which pass is drawn [default: that of the tab; of Common: image]
+    #[arg(long, value_name = "NAME", value_parser = picture)]
+    pub pass: Option<Picture>,
+    /// The value when the expression is evaluated for the time after so many in a pixel
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..1 << 31))]
+    pub visit: u32,
+    /// A pixel whose value is wanted, counted from the bottom left
+    #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
+    pub pixel: Option<(u32, u32)>,
+    /// The frame, counted from 0; those before it are drawn first
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..1 << 30))]
+    pub frame: u32,
+    /// Where the values of all pixels go: a .npy or .png file. Scalars have three equal components, and the fourth is 1
+    /// where the value has fewer; a pixel in which the expression is not evaluated has NaN
+    #[arg(long, value_name = "PATH")]
+    pub out: Option<PathBuf>,
+    /// png: 8 bits, as shown on a screen. npy: float32, height x width x 4, row 0 at the bottom
+    /// [default: what --out ends in, else npy]
+    #[arg(long, value_name = "png|npy", value_parser = format)]
+    pub format: Option<Format>,
+    #[command(flatten)]
+    pub run: RunArgs,
+    /// One JSON object a line instead of words
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl ProbeArgs {
+    /// The format of the file.
+    pub fn format(&self) -> Format {
+        let is_png = self.out.as_ref().and_then(|p| p.extension()).is_some_and(|e| e.eq_ignore_ascii_case("png"));
+        self.format.unwrap_or(if is_png { Format::Png } else { Format::Npy })
+    }
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = PROJECT)]
+pub struct TraceArgs {
+    #[arg(required = true)]
+    pub project: Vec<String>,
+    /// The pixel, counted from the bottom left
+    #[arg(long, value_name = "X,Y", value_parser = pixel, allow_hyphen_values = true)]
+    #[arg(required_unless_present = "nonfinite")]
+    pub pixel: Option<(u32, u32)>,
+    /// Look for the first texel of any pass that is NaN or infinite, in the frames up to --frame, and say which
+    /// operation made it
+    #[arg(long, conflicts_with_all = ["pixel", "pass"])]
+    pub nonfinite: bool,
+    /// The frame, counted from 0; those before it are drawn first
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..1 << 30))]
+    pub frame: u32,
+    /// Which pass to trace: image, buffer_a, a further buffer's name …
+    #[arg(long, value_name = "NAME", default_value = "image", value_parser = picture)]
+    pub pass: Picture,
+    #[command(flatten)]
+    pub run: RunArgs,
+    /// Give the pixel up after so many statements
+    #[arg(long, value_name = "N", default_value_t = STEPS)]
+    pub max_statements: u64,
+    /// Print the first so many steps [default: all]
+    #[arg(long, value_name = "N")]
+    pub max_steps: Option<usize>,
+    /// One JSON object a line instead of words
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = PROJECT)]
+pub struct CompareArgs {
+    /// The project that is judged
+    pub project: String,
+    /// What it is held against
+    #[arg(required_unless_present = "revision")]
+    pub reference: Option<String>,
+    /// Hold the project against itself as it was in this revision of its git repository
+    #[arg(long, value_name = "REVISION", conflicts_with = "reference")]
+    pub revision: Option<String>,
+    /// The frame, counted from 0; those before it are drawn first
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..1 << 30))]
+    pub frame: u32,
+    /// Which pass to compare: image, buffer_a, a further buffer's name …; scene:1 is target 1 of a pass that has several
+    #[arg(long, value_name = "NAME", default_value = "image", value_parser = picture)]
+    pub pass: Picture,
+    /// A .png for both pictures
+    #[arg(long, value_name = "PATH")]
+    pub out: Option<PathBuf>,
+    /// side: one beside the other. wipe: the left half of the one, the right half of the other. difference: their
+    /// distance in each component. flip: what a person who flips between them sees, from black to white
+    #[arg(long, value_name = "VIEW", default_value = "side")]
+    pub view: CompareView,
+    /// Turns that the two take while their times are compared; 0: no times
+    #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u32).range(..=1 << 20))]
+    pub repeats: u32,
+    #[command(flatten)]
+    pub run: RunArgs,
+    /// One JSON object a line instead of words
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// How two pictures are shown in one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum CompareView {
+    Side,
+    Wipe,
+    Difference,
+    Flip,
+}

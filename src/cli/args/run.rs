@@ -1,0 +1,80 @@
+//! How frames are drawn, wherever frames are drawn.
+
+use super::values::{fps, recording, seconds, size};
+use crate::{
+    glsl::opt::PassSet,
+    session::{
+        date,
+        recording::Recording,
+        script::{ScriptedInputs, parse_keys, parse_mouse},
+    },
+};
+use clap::Args;
+use jiff::civil::DateTime;
+use std::{path::PathBuf, sync::Arc, time::Duration};
+
+/// How frames are drawn, wherever frames are drawn.
+#[derive(Debug, Args)]
+pub struct RunArgs {
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = size, allow_hyphen_values = true)]
+    pub size: (u32, u32),
+    /// Frames in a second of iTime
+    #[arg(long, value_name = "N", default_value = "60", value_parser = fps, allow_hyphen_values = true)]
+    pub fps: f64,
+    /// Mouse events by frame, in canvas pixels from the bottom left: "0:down 40,40; 4:move 80,45; 10:up"
+    #[arg(long, value_name = "SCRIPT", default_value = "")]
+    pub mouse: String,
+    /// Key events by frame, with the site's key codes: "0:down 32; 3:up 32"
+    #[arg(long, value_name = "SCRIPT", default_value = "")]
+    pub keys: String,
+    /// Date and time of frame 0, from which iDate runs on with iTime [default: iDate is (0, 0, 0, iTime)]
+    #[arg(long, value_name = "YYYY-MM-DDTHH:MM:SS", value_parser = date::parse)]
+    pub date: Option<DateTime>,
+    /// A file that the window's "Record input" wrote: every frame gets the time, date, mouse, keys, canvas and uniforms
+    /// that it had there
+    #[arg(long, value_name = "FILE", value_parser = recording)]
+    #[arg(conflicts_with_all = ["size", "mouse", "keys", "date"])]
+    pub replay: Option<Arc<Recording>>,
+    /// A folder with the site's pictures, used instead of Eddy's own where a file has the right name
+    #[arg(long, value_name = "DIR")]
+    pub media: Option<PathBuf>,
+    /// Set a uniform that an #iUniform line declares, as in viscosity=0.3 or tint=1,0.5,0; may be repeated
+    #[arg(long, value_name = "NAME=VALUE")]
+    pub set: Vec<String>,
+    /// Draw every pass in every frame, needed or not; the pictures stay the same
+    #[arg(long)]
+    pub no_skip: bool,
+    /// Give a project up when a frame of it takes longer [default: wait]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
+    pub frame_timeout: Option<Duration>,
+    #[command(flatten)]
+    pub without_pass: WithoutPass,
+}
+
+impl RunArgs {
+    /// Returns what the scripts, the date and the rate make of frame 0, 1, 2 … Err: a script that cannot be read.
+    pub fn inputs(&self) -> Result<ScriptedInputs, String> {
+        let mouse = parse_mouse(&self.mouse).map_err(|e| format!("--mouse: {e}"))?;
+        let keys = parse_keys(&self.keys).map_err(|e| format!("--keys: {e}"))?;
+        Ok(ScriptedInputs::new(self.fps)
+            .with_mouse(mouse)
+            .with_keys(keys)
+            .with_date(self.date)
+            .with_replay(self.replay.clone()))
+    }
+}
+
+/// Passes of the shader compiler's optimiser that are left out: for who works on it.
+#[derive(Debug, Default, Args)]
+pub struct WithoutPass {
+    /// Leave out a pass of the optimiser; may be repeated
+    #[arg(long = "without-pass", value_name = "NAME", value_parser = PassSet::of, hide = true)]
+    passes: Vec<PassSet>,
+}
+
+impl WithoutPass {
+    pub fn set(&self) -> PassSet {
+        self.passes.iter().fold(PassSet::default(), |all, &set| all.with(set))
+    }
+}

@@ -1,0 +1,205 @@
+//! The part of `eddy lab precision` that holds a pass against double precision.
+
+use super::{
+    args::PrecisionArgs,
+    machine::{Machine, Trouble, open},
+    report::Report,
+    targets,
+};
+use crate::{
+    engine::{Pixels, Sources},
+    lab::Number,
+    project::Project,
+    session::{
+        audit::{self, Audit, AuditedPixel, Finding},
+        capture::Format,
+        script::ScriptedInputs,
+        trace::TraceError,
+    },
+};
+use serde::Serialize;
+use std::{fmt::Write, path::PathBuf};
+
+/// Pixels that are listed.
+const WORST: usize = 5;
+/// The errors that a picture of them shows as black and as white.
+const BLACK: f32 = 1e-8;
+
+#[derive(Debug, Serialize)]
+pub struct Audited {
+    pass: String,
+    frame: u32,
+    pixels: usize,
+    /// Of the pixels' largest difference of a component, device against double precision.
+    median: Number,
+    largest: Number,
+    /// Pixels that a screen of 8 bits would show otherwise.
+    visible: usize,
+    worst: Vec<Worst>,
+    findings: Vec<Found>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    written: Option<PathBuf>,
+}
+
+#[derive(Debug, Serialize)]
+struct Worst {
+    pixel: [u32; 2],
+    device: [Number; 4],
+    double: [Number; 4],
+    error: Number,
+}
+
+#[derive(Debug, Serialize)]
+struct Found {
+    kind: &'static str,
+    message: &'static str,
+    source: Option<String>,
+    line: Option<usize>,
+    column: Option<usize>,
+    /// What stands there, its first line.
+    text: String,
+    numbers: String,
+    /// How many of the pixels, and the one that shows it most.
+    pixels: usize,
+    pixel: [u32; 2],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<Number>,
+    /// The error where this operation alone is exact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error_left: Option<Number>,
+}
+
+pub fn run(
+    machine: &mut Machine,
+    report: &mut Report,
+    args: &PrecisionArgs,
+    spec: &str,
+    inputs: ScriptedInputs,
+) -> Result<Audited, Trouble> {
+    let wanted = &args.pass;
+    let mut quiet = Report::new(spec);
+    let (project, mut offline) = open(machine, &mut quiet, spec, &args.run, &wanted.pass, inputs)?;
+    for _ in 1..args.frames {
+        offline.draw()?;
+    }
+    let read = offline.draw_inspected(&wanted.pass)?;
+    report.frames = args.frames;
+    let device = offline.read(&wanted.pass, 0)?;
+    let index = project.passes.iter().position(|pass| pass.id == wanted.pass).unwrap_or_default();
+    let pixels = audit::spread(args.pixels, read.size);
+    let sources = Sources::new(&project);
+    let audit = match audit::audit(&sources, index, &read, &pixels, args.max_statements) {
+        Err(TraceError::Diagnostics(found)) => return Err(Trouble::Diagnostics(found, project.sources())),
+        Err(TraceError::Meshes) => return Err(Trouble::Unsupported(TraceError::Meshes.to_string())),
+        other => other.map_err(anyhow::Error::from)?,
+    };
+    told(args, &project, &audit, &device)
+}
+
+fn told(args: &PrecisionArgs, project: &Project, audit: &Audit, device: &Pixels) -> Result<Audited, Trouble> {
+    let stored = project.pass(&args.pass.pass).map_or(4, |pass| pass.settings.format.components());
+    let texel = |(x, y): (u32, u32)| device.texels[(y * device.width + x) as usize];
+    let differences = |pixel: &AuditedPixel| pixel.apart(texel(pixel.pixel), stored);
+    let error = |pixel: &AuditedPixel| differences(pixel).into_iter().fold(0.0, f64::max);
+    let mut order: Vec<(f64, &AuditedPixel)> = audit.pixels.iter().map(|pixel| (error(pixel), pixel)).collect();
+    order.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let worst = order.iter().take(WORST).filter(|(error, _)| *error > 0.0);
+    let written = args.map.as_ref().map(|path| {
+        let each = |pixel: &(u32, u32)| {
+            let audited = audit.pixels.iter().find(|audited| audited.pixel == *pixel);
+            audited.map_or([0.0; 4], |audited| differences(audited).map(|x| x as f32))
+        };
+        let (width, height) = args.pixels;
+        let texels = audit::spread(args.pixels, (device.width, device.height)).iter().map(each).collect();
+        let map = Pixels { width, height, texels };
+        match path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")) {
+            true => targets::write(path, &shown(&map), Format::Png)?,
+            false => targets::write(path, &map, Format::Npy)?,
+        }
+        anyhow::Ok(path.clone())
+    });
+    Ok(Audited {
+        pass: args.pass.pass.key(),
+        frame: args.frames - 1,
+        pixels: audit.pixels.len(),
+        median: Number(order.get(order.len() / 2).map_or(0.0, |o| o.0)),
+        largest: Number(order.first().map_or(0.0, |o| o.0)),
+        visible: order.iter().filter(|(error, _)| *error > 1.0 / 255.0).count(),
+        worst: worst
+            .map(|(error, pixel)| Worst {
+                pixel: [pixel.pixel.0, pixel.pixel.1],
+                device: texel(pixel.pixel).map(|x| Number(x.into())),
+                double: pixel.double.map(Number),
+                error: Number(*error),
+            })
+            .collect(),
+        findings: audit.findings.iter().map(|finding| found(project, finding)).collect(),
+        written: written.transpose()?,
+    })
+}
+
+/// The logarithms, as greys of a screen, without alpha.
+fn shown(map: &Pixels) -> Pixels {
+    let grey = |x: f32| if x > BLACK { 1.0 - x.log10() / BLACK.log10() } else { 0.0 };
+    let texels = map.texels.iter().map(|t| [grey(t[0]), grey(t[1]), grey(t[2]), 1.0]).collect();
+    Pixels { texels, ..*map }
+}
+
+fn found(project: &Project, finding: &Finding) -> Found {
+    let sources = project.sources();
+    let at = finding.span.and_then(|span| sources.line_column(span));
+    let source = finding.span.and_then(|span| sources.get(span.source));
+    let text = finding.span.zip(source).and_then(|(span, source)| source.text.get(span.range()));
+    Found {
+        kind: finding.kind.name(),
+        message: finding.kind.message(),
+        source: source.map(|source| source.name.clone()),
+        line: at.map(|at| at.line),
+        column: at.map(|at| at.column),
+        text: text.and_then(|text| text.lines().next()).unwrap_or_default().to_owned(),
+        numbers: finding.numbers.clone(),
+        pixels: finding.pixels,
+        pixel: [finding.pixel.0, finding.pixel.1],
+        error: finding.error.map(|(error, _)| Number(error)),
+        error_left: finding.error.map(|(_, left)| Number(left)),
+    }
+}
+
+pub fn words(audited: &Audited) -> String {
+    let Audited { pass, frame, pixels, median, largest, visible, worst, findings, written } = audited;
+    let mut out = format!("Single against double precision: {pixels} pixels of {pass} in frame {frame}\n");
+    let _ = writeln!(
+        out,
+        "  error: median {:.1e}, largest {:.1e}; {visible} pixels differ by more than 1/255",
+        median.0, largest.0
+    );
+    let list = |all: &[Number; 4]| all.iter().map(|n| format!("{:.6}", n.0)).collect::<Vec<_>>().join(", ");
+    for Worst { pixel: [x, y], device, double, error } in worst {
+        let _ =
+            writeln!(out, "  {x},{y}: ({}) is ({}) in double precision: {:.1e}", list(device), list(double), error.0);
+    }
+    if findings.is_empty() {
+        out.push_str("  nothing undefined, no NaN, and no operation that stands out\n");
+    }
+    for found in findings {
+        let at = match (&found.source, found.line, found.column) {
+            (Some(source), Some(line), Some(column)) => format!("{source}:{line}:{column}"),
+            _ => "in Eddy's own code".into(),
+        };
+        let _ = writeln!(out, "  {at}: {}", found.message);
+        let [x, y] = found.pixel;
+        let mut line = format!("      {}", found.text);
+        if !found.numbers.is_empty() {
+            let _ = write!(line, "    {}", found.numbers);
+        }
+        let _ = write!(line, "    in {} of {pixels} pixels, as {x},{y}", found.pixels);
+        if let (Some(error), Some(left)) = (&found.error, &found.error_left) {
+            let _ = write!(line, "; its error of {:.1e} would be {:.1e} were this exact", error.0, left.0);
+        }
+        let _ = writeln!(out, "{line}");
+    }
+    if let Some(path) = written {
+        let _ = writeln!(out, "  {}", path.display());
+    }
+    out
+}

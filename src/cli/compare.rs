@@ -1,0 +1,250 @@
+//! `eddy compare`: how far the pictures of two projects are apart, and how their times compare.
+//!
+//! Both get the same inputs and draw the same frames. Their times are taken in turns, so that a machine that is busy
+//! is busy for both.
+
+use super::{
+    args::{CompareArgs, CompareView},
+    machine::{Machine, Trouble, median, open},
+    report::{Printer, Report},
+    revision, targets,
+};
+use crate::{
+    engine::Pixels,
+    lab::{
+        flip,
+        picture::{self, Picture},
+    },
+    session::{capture::Format, offline::Offline, script::ScriptedInputs, trace::Number},
+};
+use anyhow::anyhow;
+use serde::Serialize;
+use std::{fmt::Write, io, path::PathBuf};
+
+/// Frames that a project draws in its turn.
+const TURN: u32 = 4;
+/// The least side that the window of structural similarity fits into.
+const SSIM_SIDE: u32 = 11;
+
+/// The report of `render`, and the comparison.
+#[derive(Serialize)]
+struct Line<'a> {
+    #[serde(flatten)]
+    report: &'a Report,
+    reference: &'a str,
+    #[serde(flatten)]
+    compared: Option<&'a Compared>,
+}
+
+#[derive(Debug, Serialize)]
+struct Compared {
+    frame: u32,
+    pass: String,
+    width: u32,
+    height: u32,
+    /// Texels that differ in any bit.
+    texels_apart: usize,
+    /// Largest difference of a component.
+    largest: Number,
+    /// Root of the mean square of the components' differences; 1 is the range of a screen.
+    rmse: Number,
+    /// Of the components as a screen shows them, in dB.
+    psnr: Number,
+    /// Structural similarity of luma; null for pictures of less than 11 pixels a side.
+    ssim: Option<f64>,
+    /// Mean of the FLIP map.
+    flip: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    time: Option<Time>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    written: Option<PathBuf>,
+}
+
+/// Milliseconds a frame, and the project's over the reference's.
+#[derive(Debug, Serialize)]
+struct Time {
+    project_ms: f64,
+    reference_ms: f64,
+    /// Median over the turns, and the quartiles.
+    ratio: f64,
+    ratio_low: f64,
+    ratio_high: f64,
+    repeats: u32,
+}
+
+pub fn run(args: &CompareArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
+    let mut printer = Printer::new(args.json);
+    let mut machine = Machine::default();
+    let mut report = Report::new(&args.project);
+    let reference = match (&args.reference, &args.revision) {
+        (Some(reference), _) => reference.clone(),
+        (None, revision) => format!("{} at {}", args.project, revision.as_deref().unwrap_or("HEAD")),
+    };
+    let compared = machine.attempt(&mut report, |machine, report| compare(machine, report, args, inputs));
+    let words = compared.as_ref().map_or(String::new(), |compared| words(&args.project, &reference, compared));
+    let line = Line { report: &report, reference: &reference, compared: compared.as_ref() };
+    printer.print_as(&line, &report, words.trim_end())?;
+    Ok(printer.exit_code())
+}
+
+fn compare(
+    machine: &mut Machine,
+    report: &mut Report,
+    args: &CompareArgs,
+    inputs: &ScriptedInputs,
+) -> Result<Compared, Trouble> {
+    let copy = args.revision.as_ref().map(|revision| revision::at(&args.project, revision)).transpose()?;
+    let reference = match (&copy, &args.reference) {
+        (Some((_, path)), _) => path.to_string_lossy().into_owned(),
+        (None, reference) => reference.clone().unwrap_or_default(),
+    };
+    let pass = &args.pass;
+    let (_, mut ours) = open(machine, report, &args.project, &args.run, &pass.pass, inputs.clone())?;
+    let compile_ms = report.compile_ms;
+    let (_, mut theirs) = open(machine, report, &reference, &args.run, &pass.pass, inputs.clone())?;
+    report.compile_ms = compile_ms;
+    for _ in 0..=args.frame {
+        ours.draw()?;
+        theirs.draw()?;
+        report.frames += 1;
+    }
+    let (a, b) = (ours.read(&pass.pass, pass.target)?, theirs.read(&pass.pass, pass.target)?);
+    if (a.width, a.height) != (b.width, b.height) {
+        let size = |p: &Pixels| format!("{} x {}", p.width, p.height);
+        return Err(anyhow!("pictures of two sizes cannot be compared: {} and {}", size(&a), size(&b)).into());
+    }
+    let mut compared = apart(args, &a, &b);
+    if let Some(path) = &args.out {
+        targets::write(path, &shown(args.view, &a, &b), Format::Png)?;
+        compared.written = Some(path.clone());
+    }
+    if args.repeats > 0 {
+        let time = times(&mut ours, &mut theirs, args.repeats)?;
+        report.frame_ms = Some(time.project_ms);
+        compared.time = Some(time);
+    }
+    Ok(compared)
+}
+
+fn apart(args: &CompareArgs, a: &Pixels, b: &Pixels) -> Compared {
+    let pairs = || a.texels.iter().flatten().zip(b.texels.iter().flatten());
+    // Equal bits are no difference, whatever they stand for.
+    let differences =
+        || pairs().map(|(a, b)| if a.to_bits() == b.to_bits() { 0.0 } else { f64::from(*a) - f64::from(*b) });
+    let bits = |texel: &[f32; 4]| texel.map(f32::to_bits);
+    let squares: f64 = differences().map(|d| d * d).sum();
+    let largest = differences().map(f64::abs).fold(0.0, |most: f64, d| if d.is_nan() { d } else { most.max(d) });
+    let [shown, reference] = [a, b].map(screen);
+    Compared {
+        frame: args.frame,
+        pass: args.pass.pass.key(),
+        width: a.width,
+        height: a.height,
+        texels_apart: a.texels.iter().zip(&b.texels).filter(|(a, b)| bits(a) != bits(b)).count(),
+        largest: Number::Double(largest),
+        rmse: Number::Double((squares / (4 * a.texels.len()) as f64).sqrt()),
+        psnr: Number::Double(picture::psnr(&shown, &reference)),
+        ssim: (a.width.min(a.height) >= SSIM_SIDE).then(|| picture::ssim(&shown, &reference)),
+        flip: flip::mean(&shown, &reference),
+        time: None,
+        written: None,
+    }
+}
+
+/// A picture as a screen shows it: in 8 bits.
+fn screen(pixels: &Pixels) -> Picture {
+    let bytes = pixels.to_rgba8();
+    let rgb = bytes.chunks_exact(4).map(|p| [0, 1, 2].map(|i| f64::from(p[i]) / 255.0)).collect();
+    Picture::new(pixels.width as usize, rgb)
+}
+
+/// One picture of both.
+fn shown(view: CompareView, a: &Pixels, b: &Pixels) -> Pixels {
+    let (width, height) = (a.width as usize, a.height as usize);
+    let rows =
+        |pixels: &Pixels| -> Vec<Vec<[f32; 4]>> { pixels.texels.chunks_exact(width).map(<[_]>::to_vec).collect() };
+    let texels = match view {
+        CompareView::Side => rows(a).into_iter().zip(rows(b)).flat_map(|(a, b)| [a, b].concat()).collect(),
+        CompareView::Wipe => {
+            let halves = |(a, b): (Vec<[f32; 4]>, Vec<[f32; 4]>)| [&a[..width / 2], &b[width / 2..]].concat();
+            rows(a).into_iter().zip(rows(b)).flat_map(halves).collect()
+        }
+        CompareView::Difference => {
+            let texel =
+                |(a, b): (&[f32; 4], &[f32; 4])| [0, 1, 2, 3].map(|i| if i == 3 { 1.0 } else { (a[i] - b[i]).abs() });
+            a.texels.iter().zip(&b.texels).map(texel).collect()
+        }
+        CompareView::Flip => {
+            // A screen's rows go from the top down.
+            let map = flip::map(&screen(a), &screen(b));
+            let grey = |&x: &f64| [x as f32, x as f32, x as f32, 1.0];
+            map.chunks_exact(width).rev().flat_map(|row| row.iter().map(grey)).collect::<Vec<_>>()
+        }
+    };
+    let width = if view == CompareView::Side { 2 * width } else { width };
+    Pixels { width: width as u32, height: height as u32, texels }
+}
+
+fn times(ours: &mut Offline, theirs: &mut Offline, repeats: u32) -> Result<Time, Trouble> {
+    let turn = |offline: &mut Offline| -> Result<f64, Trouble> {
+        let mut millis = Vec::new();
+        for _ in 0..TURN {
+            millis.push(offline.draw()?.millis);
+        }
+        Ok(millis.iter().sum::<f64>() / f64::from(TURN))
+    };
+    // Drivers compile for the machine when a pipeline is first used.
+    turn(ours)?;
+    turn(theirs)?;
+    let (mut a, mut b) = (Vec::new(), Vec::new());
+    for repeat in 0..repeats {
+        // Each goes first as often as the other.
+        if repeat % 2 == 0 {
+            a.push(turn(ours)?);
+            b.push(turn(theirs)?);
+        } else {
+            b.push(turn(theirs)?);
+            a.push(turn(ours)?);
+        }
+    }
+    let mut ratios: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a / b).collect();
+    ratios.sort_by(f64::total_cmp);
+    let quartile = |n: usize| ratios[((ratios.len() - 1) * n + 2) / 4];
+    Ok(Time {
+        project_ms: median(a).unwrap_or_default(),
+        reference_ms: median(b).unwrap_or_default(),
+        ratio: quartile(2),
+        ratio_low: quartile(1),
+        ratio_high: quartile(3),
+        repeats,
+    })
+}
+
+fn words(project: &str, reference: &str, compared: &Compared) -> String {
+    let Compared { frame, pass, width, height, texels_apart, largest, rmse, psnr, ssim, flip, time, written } =
+        compared;
+    let short = |number: &Number, digits: usize| match number {
+        Number::Double(x) => format!("{x:.digits$}"),
+        other => other.to_string(),
+    };
+    let mut out = format!("{project} against {reference}: {pass} in frame {frame}, {width}x{height}\n");
+    if *texels_apart == 0 {
+        out.push_str("  the same in every bit\n");
+    } else {
+        let ssim = ssim.map_or("none, as the picture is too small".into(), |ssim| format!("{ssim:.5}"));
+        let _ = writeln!(out, "  {texels_apart} of {} texels differ, by at most {}", width * height, short(largest, 6));
+        let (rmse, psnr) = (short(rmse, 6), short(psnr, 2));
+        let _ = writeln!(out, "  RMSE {rmse}, PSNR {psnr} dB, SSIM {ssim}, FLIP {flip:.5}");
+    }
+    if let Some(time) = time {
+        let _ = writeln!(
+            out,
+            "  {:.3} ms a frame against {:.3}: {:.3} times (quartiles {:.3} to {:.3}, {} turns)",
+            time.project_ms, time.reference_ms, time.ratio, time.ratio_low, time.ratio_high, time.repeats
+        );
+    }
+    if let Some(path) = written {
+        let _ = writeln!(out, "  {}", path.display());
+    }
+    out
+}

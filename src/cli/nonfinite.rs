@@ -1,0 +1,165 @@
+//! The first texel of a project that is no finite number: in which pass, in which frame, and by which operation.
+
+use super::{
+    args::TraceArgs,
+    machine::{Machine, Trouble, open_measured},
+    report::Report,
+};
+use crate::{
+    engine::{Pixels, Sources},
+    project::{PassBody, PassFormat, PassId, Project},
+    session::{
+        audit::{self, Class, Finding},
+        offline::Offline,
+        script::ScriptedInputs,
+        trace::TraceError,
+    },
+};
+use serde::Serialize;
+use std::fmt::Write;
+
+/// Where it begins.
+#[derive(Debug, Serialize)]
+pub struct Begin {
+    pass: String,
+    frame: u32,
+    texel: [u32; 2],
+    /// As it is stored; what JSON has no number for is a text.
+    value: [crate::lab::Number; 4],
+    /// How many texels of the pass are so in that frame.
+    texels: usize,
+    /// The operation; none where nothing but the storage of the pass or a texel that it reads can have made it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    born: Option<Born>,
+}
+
+#[derive(Debug, Serialize)]
+struct Born {
+    message: &'static str,
+    source: Option<String>,
+    line: Option<usize>,
+    column: Option<usize>,
+    text: String,
+    numbers: String,
+}
+
+/// Looks for it in the frames up to and with `args.frame`. `None`: every texel is a finite number.
+pub fn first(
+    machine: &mut Machine,
+    report: &mut Report,
+    args: &TraceArgs,
+    spec: &str,
+    inputs: &ScriptedInputs,
+) -> Result<Option<Begin>, Trouble> {
+    let (project, mut offline) = start(machine, report, args, spec, inputs)?;
+    let passes = drawn(&project);
+    let mut found = None;
+    while report.frames <= args.frame && found.is_none() {
+        let frame = report.frames;
+        offline.draw()?;
+        report.frames += 1;
+        for pass in &passes {
+            // What no picture needs is not drawn, and has no texels.
+            let Ok(pixels) = offline.read(pass, 0) else { continue };
+            let stored = project.pass(pass).map_or_else(PassFormat::default, |p| p.settings.format).components();
+            if let Some((texel, texels)) = nonfinite(&pixels, stored) {
+                found = Some((pass.clone(), frame, texel, texels, pixels));
+                break;
+            }
+        }
+    }
+    let Some((pass, frame, texel, texels, pixels)) = found else { return Ok(None) };
+    let value = pixels.texels[(texel.1 * pixels.width + texel.0) as usize];
+    let born = born(machine, args, spec, inputs, (&pass, frame, texel))?;
+    Ok(Some(Begin {
+        pass: pass.key(),
+        frame,
+        texel: [texel.0, texel.1],
+        value: value.map(|x| crate::lab::Number(x.into())),
+        texels,
+        born,
+    }))
+}
+
+fn start(
+    machine: &mut Machine,
+    report: &mut Report,
+    args: &TraceArgs,
+    spec: &str,
+    inputs: &ScriptedInputs,
+) -> Result<(Project, Offline), Trouble> {
+    open_measured(machine, report, spec, &args.run, (&PassId::Image, &drawn), inputs.clone())
+}
+
+/// The passes that make pictures, in the order in which they are drawn.
+fn drawn(project: &Project) -> Vec<PassId> {
+    let mut passes: Vec<PassId> = project.passes.iter().map(|pass| pass.id.clone()).collect();
+    passes.retain(|pass| !matches!(pass, PassId::Cubemap | PassId::Sound));
+    // The order of the project within a turn stays.
+    passes.sort_by_key(PassId::turn);
+    passes
+}
+
+/// The first texel, from the bottom left, of which a stored component is NaN or infinite, and how many there are.
+fn nonfinite(pixels: &Pixels, stored: usize) -> Option<((u32, u32), usize)> {
+    let is_bad = |texel: &&[f32; 4]| texel[..stored].iter().any(|x| !x.is_finite());
+    let at = pixels.texels.iter().position(|texel| is_bad(&texel))? as u32;
+    Some(((at % pixels.width, at / pixels.width), pixels.texels.iter().filter(is_bad).count()))
+}
+
+/// Draws everything again up to that frame and walks through the pass for that texel.
+fn born(
+    machine: &mut Machine,
+    args: &TraceArgs,
+    spec: &str,
+    inputs: &ScriptedInputs,
+    (pass, frame, texel): (&PassId, u32, (u32, u32)),
+) -> Result<Option<Born>, Trouble> {
+    let (project, mut offline) = start(machine, &mut Report::new(spec), args, spec, inputs)?;
+    for _ in 0..frame {
+        offline.draw()?;
+    }
+    let read = offline.draw_inspected(pass)?;
+    let index = project.passes.iter().position(|p| p.id == *pass).unwrap_or_default();
+    if !matches!(project.passes[index].settings.body, PassBody::Screen) {
+        return Ok(None);
+    }
+    let sources = Sources::new(&project);
+    let audit = match audit::audit(&sources, index, &read, &[texel], args.max_statements) {
+        Err(TraceError::Diagnostics(found)) => return Err(Trouble::Diagnostics(found, project.sources())),
+        other => other.map_err(anyhow::Error::from)?,
+    };
+    let born = audit.findings.iter().find(|finding| finding.kind.class() == Class::Nonfinite);
+    Ok(born.map(|finding| told(&project, finding)))
+}
+
+fn told(project: &Project, finding: &Finding) -> Born {
+    let sources = project.sources();
+    let at = finding.span.and_then(|span| sources.line_column(span));
+    let source = finding.span.and_then(|span| sources.get(span.source));
+    let text = finding.span.zip(source).and_then(|(span, source)| source.text.get(span.range()));
+    Born {
+        message: finding.kind.message(),
+        source: source.map(|source| source.name.clone()),
+        line: at.map(|at| at.line),
+        column: at.map(|at| at.column),
+        text: text.and_then(|text| text.lines().next()).unwrap_or_default().to_owned(),
+        numbers: finding.numbers.clone(),
+    }
+}
+
+pub fn words(spec: &str, frames: u32, begin: Option<&Begin>) -> String {
+    let Some(Begin { pass, frame, texel: [x, y], texels, born, .. }) = begin else {
+        return format!("{spec}: every texel of every pass is a finite number in {frames} frames");
+    };
+    let mut out = format!("{spec}: the first is in {pass}, frame {frame}, texel {x},{y} ({texels} in that frame)\n");
+    let _ = match born {
+        Some(Born { message, source: Some(source), line: Some(line), column: Some(column), text, numbers }) => {
+            writeln!(out, "  {source}:{line}:{column}: {message}\n      {text}    of {numbers}")
+        }
+        _ => {
+            writeln!(out, "  no operation makes it: it is too large for the pass's format, or was read from a texture")
+        }
+    };
+    out
+}

@@ -1,0 +1,79 @@
+//! What `//@print` comments of a pass ask for, at a pixel.
+
+use crate::{
+    engine::{PassInputs, Pixels},
+    project::{PassId, Project, Tab, inspect_comments},
+    session::trace::{Examiner, Number, TraceError, Traced},
+};
+use serde::Serialize;
+use std::{fmt::Write, sync::Arc};
+
+/// A comment, and its value each time that its turn came.
+#[derive(Debug, Serialize)]
+pub struct Printed {
+    tab: String,
+    line: usize,
+    expression: String,
+    /// The numbers of each value; null where it has none.
+    values: Vec<Option<Vec<Number>>>,
+    /// Why it has none, in the words of the compiler.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error: Option<String>,
+    /// There were more.
+    cut: bool,
+}
+
+/// Walks once more where there are such comments, by statements.
+pub fn printed(
+    project: &Project,
+    pass: &PassId,
+    frame: u32,
+    (inputs, device): (&PassInputs, &Pixels),
+    (x, y): (u32, u32),
+) -> Result<Vec<Printed>, TraceError> {
+    let asks = |tab: &Tab| {
+        let text = project.source(tab).map_or("", |source| &source.text);
+        inspect_comments(text).iter().any(|comment| comment.kind == "print")
+    };
+    if ![Tab::Common, Tab::Pass(pass.clone())].iter().any(asks) {
+        return Ok(Vec::new());
+    }
+    let (width, height) = inputs.size;
+    let place = [(x as f32 + 0.5) / width as f32, (y as f32 + 0.5) / height as f32];
+    let traced = Traced::new(project.clone(), pass, frame as i32, (inputs.clone(), device), place)?;
+    let all = Examiner::new(Arc::new(traced)).printed();
+    Ok(all
+        .into_iter()
+        .map(|printed| Printed {
+            tab: printed.tab.title(),
+            line: printed.line + 1,
+            expression: printed.expression,
+            error: printed.values.iter().find_map(|(_, value)| value.as_ref().err().cloned()),
+            values: printed.values.into_iter().map(|(_, value)| value.ok().map(|value| value.numbers)).collect(),
+            cut: printed.is_cut,
+        })
+        .collect())
+}
+
+pub fn words(all: &[Printed]) -> String {
+    let mut out = String::new();
+    for Printed { tab, line, expression, values, error, cut } in all {
+        let _ = writeln!(out, "{tab}:{line}: {expression}");
+        if let Some(error) = error {
+            let _ = writeln!(out, "    {error}");
+        }
+        for (turn, value) in values.iter().enumerate() {
+            let Some(numbers) = value else { continue };
+            let list: Vec<String> = numbers.iter().map(Number::to_string).collect();
+            let list = if list.len() == 1 { list[0].clone() } else { format!("({})", list.join(", ")) };
+            let _ = writeln!(out, "    {:>5}  {list}", turn + 1);
+        }
+        if values.is_empty() {
+            out.push_str("    its turn never came\n");
+        }
+        if *cut {
+            out.push_str("    … and more\n");
+        }
+    }
+    out
+}
