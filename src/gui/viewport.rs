@@ -4,8 +4,8 @@ use super::{
     accessible,
     geometry::{Area, Letterbox, Shape},
     halt,
-    outbox::Outbox,
-    theme,
+    outbox::{Outbox, Wish},
+    probe, theme,
 };
 use crate::{
     project::Input,
@@ -35,6 +35,10 @@ pub struct Viewport {
     mouse_is_down: bool,
     take_focus: bool,
     shape: Shape,
+    /// The next click says which pixel is traced.
+    picks: bool,
+    /// The place of the picture under the mouse, from 0 to 1.
+    under: Option<[f32; 2]>,
 }
 
 impl Viewport {
@@ -50,6 +54,8 @@ impl Viewport {
             mouse_is_down: false,
             take_focus: false,
             shape: Shape::Site,
+            picks: false,
+            under: None,
         }
     }
 
@@ -63,6 +69,20 @@ impl Viewport {
 
     pub fn set_shape(&mut self, shape: Shape) {
         self.shape = shape;
+    }
+
+    /// Lets the next click say which pixel is traced, or no more.
+    pub fn pick(&mut self) {
+        self.picks = !self.picks;
+    }
+
+    pub fn stop_picking(&mut self) -> bool {
+        std::mem::take(&mut self.picks)
+    }
+
+    /// The place of the picture under the mouse, from 0 to 1 across and up.
+    pub fn under(&self) -> Option<[f32; 2]> {
+        self.under
     }
 
     pub fn mouse_is_down(&self) -> bool {
@@ -124,6 +144,16 @@ impl Viewport {
         out.home("picture", ui, Self::id());
         out.place("picture", rect);
         self.mouse(ui, &response, &letterbox, out);
+        traced(ui, session, picture);
+        let scale = ui.pixels_per_point();
+        let pointer = ui.input(|i| i.pointer.latest_pos()).filter(|at| picture.contains(*at));
+        self.under = pointer.map(|at| fraction(&letterbox, at * scale));
+        if self.picks {
+            if pointer.is_some() {
+                ui.ctx().set_cursor_icon(egui::CursorIcon::Crosshair);
+            }
+            pill(ui, rect, Align2::LEFT_BOTTOM, "Click the pixel that is to be traced", theme::DARK.accent);
+        }
         if std::mem::take(&mut self.take_focus) {
             response.request_focus();
         }
@@ -139,6 +169,7 @@ impl Viewport {
         if let Some(Outcome::Failed { errors, meanwhile }) = session.compile_state().last {
             pill(ui, rect, Align2::LEFT_TOP, &trouble(errors, meanwhile), theme::DARK.error);
         }
+        probe::show(ui, session, rect, self.under, out);
         halt::show(ui, session, rect, out);
     }
 
@@ -151,8 +182,16 @@ impl Viewport {
         let events = ui.input(|i| i.events.clone());
         for event in events {
             match event {
-                egui::Event::PointerButton { pos, button: PointerButton::Primary, pressed: true, .. } => {
+                egui::Event::PointerButton { pos, button: PointerButton::Primary, pressed: true, modifiers } => {
                     let (x, y) = pixels(pos);
+                    let is_pick = self.picks || (modifiers.command && modifiers.shift);
+                    if is_pick && response.rect.contains(pos) && on_top(pos) {
+                        if letterbox.contains(x, y) {
+                            self.picks = false;
+                            out.wishes.push(Wish::Trace(fraction(letterbox, pos2(x, y))));
+                        }
+                        continue;
+                    }
                     if response.rect.contains(pos) && on_top(pos) {
                         response.request_focus();
                         if letterbox.contains(x, y) {
@@ -177,6 +216,23 @@ impl Viewport {
                 _ => {}
             }
         }
+    }
+}
+
+/// The place of the picture that a pixel of the window shows, from 0 to 1 across and up.
+fn fraction(letterbox: &Letterbox, at: Pos2) -> [f32; 2] {
+    let (x, y) = letterbox.canvas_from_window(at.x, at.y);
+    [x / letterbox.canvas.0.max(1) as f32, y / letterbox.canvas.1.max(1) as f32]
+}
+
+/// A ring round the pixel that is traced.
+fn traced(ui: &Ui, session: &Session, picture: Rect) {
+    let Some(traced) = session.trace().traced.filter(|traced| traced.pass == *session.shown_pass()) else { return };
+    let part = |at: u32, of: u32| (at as f32 + 0.5) / of.max(1) as f32;
+    let (x, y) = (part(traced.pixel.0, traced.size.0), part(traced.pixel.1, traced.size.1));
+    let at = picture.left_bottom() + vec2(x * picture.width(), -y * picture.height());
+    for (radius, color) in [(6.0, Color32::BLACK), (5.0, Color32::WHITE)] {
+        ui.painter().with_clip_rect(picture).circle_stroke(at, radius, egui::Stroke::new(1.0, color));
     }
 }
 

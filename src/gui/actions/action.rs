@@ -1,5 +1,6 @@
 //! Everything that a key, a menu or the palette can ask for.
 
+use super::TraceAction;
 use crate::gui::{dock::Panel, editor::EditorAction};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,12 +14,16 @@ pub enum Action {
     TogglePlay,
     Reset,
     Step,
+    StepBack,
     TabLeft,
     TabRight,
     NextPanel,
     PreviousPanel,
     Screenshot,
     SaveTexels,
+    Record,
+    /// Single against double precision, and what is undefined.
+    Audit,
     Fullscreen,
     /// Code over a picture that fills the window.
     Present,
@@ -54,6 +59,11 @@ pub enum Action {
     FontSmaller,
     FontReset,
     WordWrap,
+    /// The value of the expression at the caret instead of the picture, or the picture again.
+    Probe,
+    /// The next click on the picture says which pixel is traced.
+    TracePixel,
+    Trace(TraceAction),
     Quit,
     /// In the text that has the keyboard, or had it last.
     Code(EditorAction),

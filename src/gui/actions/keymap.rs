@@ -11,6 +11,7 @@ use egui::{Event, Key, Modifiers};
 pub struct Listening {
     pub code: bool,
     pub find_bar: bool,
+    pub trace: bool,
 }
 
 /// The keys of every action.
@@ -70,7 +71,7 @@ impl Keymap {
     /// Returns what a key press means.
     pub fn pressed(&self, event: &Event, listening: Listening) -> Option<&'static Entry> {
         let Event::Key { key, physical_key, pressed: true, modifiers, .. } = event else { return None };
-        let levels = [listening.code, listening.find_bar, true];
+        let levels = [listening.code, listening.find_bar, listening.trace, true];
         let levels = || levels.into_iter().enumerate().filter(|(_, is_on)| *is_on).map(|(level, _)| level);
         let find = |key: Key, m: Modifiers| levels().find_map(|level| self.holder(level, key, m));
         // Letters and digits are called by one letter, signs by a word.
@@ -93,7 +94,8 @@ pub(super) fn level(group: Group) -> usize {
     match group {
         Group::Code | Group::Caret => 0,
         Group::FindBar => 1,
-        Group::Project | Group::Picture | Group::Window | Group::Search => 2,
+        Group::Trace => 2,
+        Group::Project | Group::Picture | Group::Window | Group::Search => 3,
     }
 }
 
@@ -111,7 +113,7 @@ mod tests {
     }
 
     fn action(key: Key, modifiers: Modifiers, code: bool) -> Option<Action> {
-        let listening = Listening { code, find_bar: false };
+        let listening = Listening { code, ..Listening::default() };
         Keymap::default().pressed(&press(key, modifiers), listening).map(|e| e.action)
     }
 
@@ -152,7 +154,7 @@ mod tests {
         // A US keyboard types { with Shift and [.
         let (key, physical_key) = (Key::OpenCurlyBracket, Some(Key::OpenBracket));
         let event = Event::Key { key, physical_key, pressed: true, repeat: false, modifiers: ctrl_shift };
-        let found = Keymap::default().pressed(&event, Listening { code: true, find_bar: false });
+        let found = Keymap::default().pressed(&event, Listening { code: true, ..Listening::default() });
         assert_eq!(found.map(|e| e.name), Some("fold"));
     }
 

@@ -9,10 +9,12 @@ mod chord;
 mod file;
 mod keymap;
 mod table;
+mod trace;
 mod watch;
 
 pub use action::Action;
 pub use chord::Chord;
 pub use keymap::{Keymap, Listening};
 pub use table::{ACTIONS, Entry, Group};
+pub use trace::TraceAction;
 pub use watch::KeyFile;

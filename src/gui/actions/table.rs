@@ -1,9 +1,15 @@
 //! The table of actions.
 
-use super::Action;
-use crate::gui::{
-    dock::Panel,
-    editor::{EditorAction as Code, Motion, Way},
+use super::{Action, TraceAction};
+use crate::{
+    gui::{
+        dock::Panel,
+        editor::{EditorAction as Code, Motion, Way},
+    },
+    session::trace::travel::{
+        Direction::{self, Back, Forward},
+        Stride,
+    },
 };
 
 /// Where an action belongs in the help, and when its keys are listened to.
@@ -15,14 +21,24 @@ pub enum Group {
     Search,
     /// While the bar for finding is open.
     FindBar,
+    /// While the panel of a traced pixel is open.
+    Trace,
     /// While the code has the keyboard, where these come before all others.
     Code,
     Caret,
 }
 
 impl Group {
-    pub const ALL: [Group; 7] =
-        [Group::Project, Group::Picture, Group::Window, Group::Search, Group::FindBar, Group::Code, Group::Caret];
+    pub const ALL: [Group; 8] = [
+        Group::Project,
+        Group::Picture,
+        Group::Window,
+        Group::Search,
+        Group::FindBar,
+        Group::Trace,
+        Group::Code,
+        Group::Caret,
+    ];
 
     pub fn title(self) -> &'static str {
         match self {
@@ -31,6 +47,7 @@ impl Group {
             Group::Window => "Window",
             Group::Search => "Find",
             Group::FindBar => "While the find bar is open",
+            Group::Trace => "While the panel Trace is open",
             Group::Code => "While typing code",
             Group::Caret => "Caret and selection",
         }
@@ -62,6 +79,7 @@ impl Entry {
         use Action as A;
         let again = [
             A::Step,
+            A::StepBack,
             A::FontLarger,
             A::FontSmaller,
             A::ZoomIn,
@@ -71,7 +89,7 @@ impl Entry {
             A::NextProblem,
             A::NextPanel,
         ];
-        matches!(self.action, A::Code(_)) || again.contains(&self.action)
+        matches!(self.action, A::Code(_) | A::Trace(TraceAction::Go(..))) || again.contains(&self.action)
     }
 }
 
@@ -87,6 +105,20 @@ const fn row(
 
 const fn code(action: Code, name: &'static str, title: &'static str, keys: &'static [&'static str]) -> Entry {
     row(Action::Code(action), name, title, keys, Group::Code)
+}
+
+const fn go_on(
+    stride: Stride,
+    way: Direction,
+    name: &'static str,
+    title: &'static str,
+    keys: &'static [&'static str],
+) -> Entry {
+    row(Action::Trace(TraceAction::Go(stride, way)), name, title, keys, Group::Trace)
+}
+
+const fn trace(action: TraceAction, name: &'static str, title: &'static str, keys: &'static [&'static str]) -> Entry {
+    row(Action::Trace(action), name, title, keys, Group::Trace)
 }
 
 /// A motion of the caret, and the same with Shift, which selects.
@@ -119,6 +151,7 @@ pub const ACTIONS: &[Entry] = &[
     row(Action::Quit, "quit", "Quit", &["Ctrl+Q"], Group::Project),
     row(Action::TogglePlay, "play", "Play or pause", &["Alt+Up", "F5"], Group::Picture),
     row(Action::Reset, "reset", "Reset time and buffers", &["Alt+Down", "Ctrl+Shift+F5"], Group::Picture),
+    row(Action::StepBack, "step-back", "One frame back, buffers and all, then pause", &["Alt+,"], Group::Picture),
     row(Action::Step, "step", "One frame forward, then pause", &["Alt+."], Group::Picture),
     row(Action::Compile, "compile", "Compile now", &["Alt+Enter", "Ctrl+Enter"], Group::Picture),
     row(
@@ -126,6 +159,20 @@ pub const ACTIONS: &[Entry] = &[
         "save-picture",
         "Save a picture (PNG) of the shown pass",
         &["Ctrl+P", "F12"],
+        Group::Picture,
+    ),
+    row(
+        Action::Audit,
+        "audit",
+        "Check the picture: double precision, NaN, what GLSL leaves undefined",
+        &["Ctrl+Shift+U"],
+        Group::Picture,
+    ),
+    row(
+        Action::Record,
+        "record-input",
+        "Record input from frame 0, or end that and save it",
+        &["Ctrl+Shift+R"],
         Group::Picture,
     ),
     row(
@@ -137,6 +184,20 @@ pub const ACTIONS: &[Entry] = &[
     ),
     row(Action::Fullscreen, "full-screen", "Picture alone, full screen", &["F11"], Group::Picture),
     row(Action::Present, "present", "Present: code over a picture that fills the window", &["F9"], Group::Picture),
+    row(
+        Action::Probe,
+        "probe",
+        "Probe expression: draw the value at the caret, or the picture again",
+        &["Ctrl+Shift+I"],
+        Group::Picture,
+    ),
+    row(
+        Action::TracePixel,
+        "trace-pixel",
+        "Trace pixel: the next click on the picture says which (also Ctrl+Shift+click)",
+        &["Ctrl+T"],
+        Group::Picture,
+    ),
     row(Action::Palette, "palette", "Command palette: every action by its name", &["Ctrl+Shift+P"], Group::Window),
     row(Action::Help, "help", "Help: all keys", &["F1"], Group::Window),
     row(Action::KeyFile, "keys", "Give actions other keys: the file for it", &[], Group::Window),
@@ -165,6 +226,7 @@ pub const ACTIONS: &[Entry] = &[
     row(Action::Panel(Panel::Code), "code-panel", "Panel: the code", &[], Group::Window),
     row(Action::Panel(Panel::Uniforms), "uniforms", "Panel: uniforms", &[], Group::Window),
     row(Action::Panel(Panel::Channels), "channels", "Panel: channels", &[], Group::Window),
+    row(Action::Panel(Panel::Trace), "trace", "Panel: the way of a pixel", &["Ctrl+Shift+D"], Group::Window),
     row(Action::UsualLayout, "usual-layout", "Every panel in its usual place", &[], Group::Window),
     row(Action::NextTheme, "theme", "Dark, light, or what the system prefers", &[], Group::Window),
     row(Action::ZoomIn, "zoom-in", "Everything larger", &["Ctrl+Alt+=", "Ctrl+Alt++"], Group::Window),
@@ -185,6 +247,19 @@ pub const ACTIONS: &[Entry] = &[
     row(Action::FindCase, "find-case", "Upper and lower case count, or not", &["Alt+C"], Group::FindBar),
     row(Action::FindRegex, "find-regex", "Find a regular expression, or plain text", &["Alt+R"], Group::FindBar),
     row(Action::ReplaceAll, "replace-all", "Replace all matches", &["Ctrl+Alt+Enter"], Group::FindBar),
+    trace(TraceAction::Continue(Forward), "continue", "On to the next breakpoint", &["F5"]),
+    trace(TraceAction::Continue(Back), "continue-back", "Back to the breakpoint before", &["Alt+F5"]),
+    go_on(Stride::Over, Forward, "step-over", "Step over calls", &["F10"]),
+    go_on(Stride::Over, Back, "step-over-back", "Step back over calls", &["Alt+F10"]),
+    go_on(Stride::Into, Forward, "step-into", "Step into a call", &["F11"]),
+    go_on(Stride::Into, Back, "step-into-back", "Step back into a call", &["Alt+F11"]),
+    go_on(Stride::Out, Forward, "step-out", "Step out of the call", &["Shift+F11"]),
+    go_on(Stride::Out, Back, "step-out-back", "Back to where the call was made", &["Shift+Alt+F11"]),
+    trace(TraceAction::ToCursor(Forward), "run-to-cursor", "On to the line of the caret", &["Ctrl+F10"]),
+    trace(TraceAction::ToCursor(Back), "run-to-cursor-back", "Back to the line of the caret", &["Ctrl+Alt+F10"]),
+    trace(TraceAction::End(Back), "trace-begin", "To the begin of the pixel's way", &["Ctrl+Alt+Home"]),
+    trace(TraceAction::End(Forward), "trace-end", "To the end of the pixel's way", &["Ctrl+Alt+End"]),
+    trace(TraceAction::Breakpoint, "breakpoint", "A breakpoint at the line of the caret, or none", &["F9"]),
     code(Code::Definition, "go-to-definition", "Go to where a name is declared (also Ctrl+click)", &["F12"]),
     code(Code::Uses, "list-uses", "List every use of a name", &["Shift+F12"]),
     code(Code::Propose, "propose", "Propose names; Enter or Tab takes one", &["Ctrl+Space"]),

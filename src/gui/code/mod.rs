@@ -4,15 +4,16 @@ mod find_bar;
 mod places;
 
 use super::{
+    accessible,
     actions::{Action, Keymap, Listening},
-    editor::{Ask, Buffer, CodeEditor, EditorAction, Help, Look, Query},
-    outbox::Outbox,
+    editor::{Ask, Buffer, CodeEditor, Debug, EditorAction, Help, Look, Query},
+    outbox::{Outbox, Wish},
     problems, tabs, theme, toasts,
     uses::Uses,
 };
 use crate::{
     project::{Origin, PassId, Tab},
-    session::{Command, Session},
+    session::{Command, Session, probe::ProbePlace},
 };
 use egui::{Frame, Id, Key, Margin, Panel, TextEdit, Ui};
 use find_bar::FindBar;
@@ -41,6 +42,10 @@ pub struct CodePanel {
     told_front: Option<Tab>,
     /// How many of the session's renamed passes have been followed.
     followed: usize,
+    /// What the debugger shows in the tab in front.
+    debug: Debug,
+    /// The word that is probed while the pointer is over it and Ctrl and Alt are held, by its first byte.
+    pointed: Option<usize>,
 }
 
 impl CodePanel {
@@ -61,6 +66,8 @@ impl CodePanel {
             uses: None,
             told_front: None,
             followed: 0,
+            debug: Debug::default(),
+            pointed: None,
         }
     }
 
@@ -74,6 +81,26 @@ impl CodePanel {
         let buffer = self.editors[&self.current].buffer();
         let before = &buffer.text()[..buffer.selection().range().start];
         (self.current.clone(), before.matches('\n').count())
+    }
+
+    /// What the debugger shows in the tab in front.
+    pub fn set_debug(&mut self, debug: Debug) {
+        self.debug = debug;
+    }
+
+    /// Brings a line of a tab, from 0, into sight. The caret stays where it is.
+    pub fn reveal_line(&mut self, tab: Tab, line: usize) {
+        if let Some(editor) = self.editors.get_mut(&tab) {
+            editor.reveal_line(line);
+            self.current = tab;
+        }
+    }
+
+    /// The tab in front, with the byte and the line from 0 where its caret is.
+    pub fn caret_place(&self) -> Option<(Tab, usize, usize)> {
+        let buffer = self.buffer()?;
+        let head = buffer.selection().head;
+        Some((self.current.clone(), head, buffer.line_of(head)))
     }
 
     /// The text has the keyboard.
@@ -289,7 +316,16 @@ impl CodePanel {
         });
         let (font_size, wraps) = (self.font_size, self.wraps);
         let name = format!("Code of {}", self.current.title());
-        let look = Look { name: &name, font_size, wraps, marks: &marks, matches: self.find.matches(), shared, help };
+        let look = Look {
+            name: &name,
+            font_size,
+            wraps,
+            marks: &marks,
+            matches: self.find.matches(),
+            shared,
+            help,
+            debug: &self.debug,
+        };
         let keymap = out.keys.clone();
         out.home("code", ui, Self::id(&self.current));
         let shown = editor.show(ui, Self::id(&self.current), look, &|event| of_code(&keymap, event));
@@ -299,6 +335,10 @@ impl CodePanel {
             out.place(format!("mark:{}", line + 1), rect);
         }
         self.tell_changed(out);
+        if let Some(line) = shown.clicked_line {
+            out.wishes.push(Wish::Breakpoint(self.current.clone(), line));
+        }
+        self.point(shown.pointed, out);
         for (name, rect) in shown.placed {
             out.place(name, rect);
         }
@@ -313,6 +353,16 @@ impl CodePanel {
                 Ask::ListUses(at) => self.uses = Uses::new(session, session.uses(analysis, help.source, at)),
             }
             ui.ctx().request_repaint();
+        }
+    }
+
+    /// Probes what the pointer is over, and no more once it is over nothing.
+    fn point(&mut self, at: Option<usize>, out: &mut Outbox) {
+        let word = at.and_then(|at| Some(self.buffer()?.word_at(at).start));
+        if word != self.pointed {
+            self.pointed = word;
+            let tab = self.current.clone();
+            out.ask(Command::Probe(word.map(|at| ProbePlace { tab, at, visit: 0 })));
         }
     }
 
@@ -372,6 +422,7 @@ impl CodePanel {
         ui.horizontal(|ui| {
             ui.label("Line");
             let field = ui.add(TextEdit::singleline(text).hint_text("12 or 12:5").desired_width(90.0));
+            accessible::name(&field, egui::Role::TextInput, "Line");
             if take_focus {
                 field.request_focus();
             }
@@ -400,7 +451,7 @@ fn same_place(a: &Origin, b: &Origin) -> bool {
 
 /// What a key asks of the code while it has the keyboard.
 fn of_code(keymap: &Keymap, event: &egui::Event) -> Option<EditorAction> {
-    match keymap.pressed(event, Listening { code: true, find_bar: false })?.action {
+    match keymap.pressed(event, Listening { code: true, ..Listening::default() })?.action {
         Action::Code(action) => Some(action),
         _ => None,
     }

@@ -23,6 +23,8 @@ const LEAST_CHANNELS: f32 = 44.0;
 const MOST_CHANNELS: f32 = 150.0;
 /// A table of costs is so high.
 const COSTS: f32 = 170.0;
+/// The part of the code's height that the way of a pixel has.
+const TRACE: f32 = 0.42;
 /// The lab's part of the height.
 const LAB: f32 = 0.48;
 
@@ -51,15 +53,22 @@ pub fn arrange(size: Vec2, open: &BTreeSet<Panel>, front: Option<Panel>, heights
 
 /// The picture with everything about it on the left, the code on the right.
 fn two_columns(size: Vec2, open: &BTreeSet<Panel>, aside: Option<Node>, heights: Heights) -> Option<Node> {
-    let has_code = open.contains(&Panel::Code);
-    let left_width = if has_code { left_width(size, heights) } else { size.x };
+    let right = code_and_trace(open);
+    let left_width = if right.is_some() { left_width(size, heights) } else { size.x };
     let left = below_each_other(Vec2::new(left_width, size.y), open, aside, heights);
-    match (left, has_code) {
-        (Some(left), true) => {
-            Some(Node::Row(vec![(left, left_width), (Node::Panel(Panel::Code), size.x - left_width)]))
-        }
-        (None, true) => Some(Node::Panel(Panel::Code)),
-        (left, false) => left,
+    match (left, right) {
+        (Some(left), Some(right)) => Some(Node::Row(vec![(left, left_width), (right, size.x - left_width)])),
+        (None, right @ Some(_)) => right,
+        (left, None) => left,
+    }
+}
+
+/// The way of a pixel goes through the code above it.
+fn code_and_trace(open: &BTreeSet<Panel>) -> Option<Node> {
+    let is_open = |panel| open.contains(&panel).then_some(Node::Panel(panel));
+    match (is_open(Panel::Code), is_open(Panel::Trace)) {
+        (Some(code), Some(trace)) => Some(Node::Column(vec![(code, 1.0 - TRACE), (trace, TRACE)])),
+        (code, trace) => code.or(trace),
     }
 }
 
@@ -123,9 +132,7 @@ fn one_column(size: Vec2, open: &BTreeSet<Panel>, aside: Option<Node>, heights: 
     }
     let channels = open.contains(&Panel::Channels).then(|| take(BAR + heights.channels));
     let aside = aside.map(|node| (node, take(aside_height(open, heights).min(size.y * 0.2))));
-    if open.contains(&Panel::Code) {
-        parts.push((Node::Panel(Panel::Code), rest));
-    }
+    parts.extend(code_and_trace(open).map(|node| (node, rest)));
     parts.extend(aside);
     parts.extend(channels.map(|height| (Node::Panel(Panel::Channels), height)));
     column(parts)

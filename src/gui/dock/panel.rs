@@ -13,11 +13,12 @@ pub enum Panel {
     Channels,
     Costs,
     Lab,
+    Trace,
 }
 
 impl Panel {
-    pub const ALL: [Panel; 6] =
-        [Panel::Picture, Panel::Code, Panel::Uniforms, Panel::Channels, Panel::Costs, Panel::Lab];
+    pub const ALL: [Panel; 7] =
+        [Panel::Picture, Panel::Code, Panel::Uniforms, Panel::Channels, Panel::Costs, Panel::Lab, Panel::Trace];
 
     /// Returns what it is called where it is kept.
     pub fn name(self) -> &'static str {
@@ -28,6 +29,7 @@ impl Panel {
             Panel::Channels => "channels",
             Panel::Costs => "costs",
             Panel::Lab => "lab",
+            Panel::Trace => "trace",
         }
     }
 
@@ -44,11 +46,12 @@ impl Panel {
             Panel::Channels => "Channels",
             Panel::Costs => "Costs",
             Panel::Lab => "Lab",
+            Panel::Trace => "Trace",
         }
     }
 
     pub(super) fn is_open_at_first(self) -> bool {
-        !matches!(self, Panel::Costs | Panel::Lab)
+        !matches!(self, Panel::Costs | Panel::Lab | Panel::Trace)
     }
 
     /// It has a row of its own, by which it can be moved: another with its title would take room for nothing.

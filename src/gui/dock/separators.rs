@@ -7,8 +7,9 @@ use crate::gui::theme;
 use egui::{CursorIcon, Id, Rect, Sense, Stroke, Ui};
 use egui_tiles::{Container, Linear, LinearDir, Tile, TileId, Tree};
 
-/// No panel is made smaller.
-const LEAST: f32 = 60.0;
+/// No panel is made narrower or lower: what is in it could not be used.
+const LEAST_WIDTH: f32 = 140.0;
+const LEAST_HEIGHT: f32 = 60.0;
 /// How near to a line a hand has to be.
 const REACH: f32 = 4.0;
 
@@ -60,7 +61,7 @@ fn drag(ui: &Ui, dir: LinearDir, (first, a): (TileId, Rect), (second, b): (TileI
     let at = response.interact_pointer_pos().filter(|_| is_moving)?;
     let both = length(dir, a) + length(dir, b);
     let wanted = if dir == LinearDir::Horizontal { at.x - a.left() } else { at.y - a.top() };
-    let least = LEAST.min(both / 2.0);
+    let least = if dir == LinearDir::Horizontal { LEAST_WIDTH } else { LEAST_HEIGHT }.min(both / 2.0);
     Some(wanted.clamp(least, both - least))
 }
 

@@ -8,6 +8,7 @@ use egui::Color32;
 pub(super) fn code_color(kind: TokenKind, palette: &Palette) -> Color32 {
     let [dark, light] = match kind {
         TokenKind::Plain => return palette.text,
+        TokenKind::Comment if palette.is_over_picture() => return palette.weak,
         TokenKind::Keyword => [(201, 142, 226), (136, 38, 170)],
         TokenKind::Type => [(104, 194, 208), (0, 108, 124)],
         TokenKind::Builtin => [(106, 173, 245), (18, 88, 190)],

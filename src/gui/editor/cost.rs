@@ -4,7 +4,7 @@
 
 use super::{
     EditorAction, Motion,
-    look::Look,
+    look::{Look, NO_DEBUG},
     selection::{Carets, Selection},
     view::CodeEditor,
 };
@@ -12,7 +12,16 @@ use egui::{Event, Id, RawInput, Rect, pos2, vec2};
 use std::time::Instant;
 
 fn frame(ctx: &egui::Context, editor: &mut CodeEditor, wraps: bool, events: Vec<Event>) -> f64 {
-    let look = Look { name: "Code", font_size: 13.0, wraps, marks: &[], matches: &[], shared: "", help: None };
+    let look = Look {
+        name: "Code",
+        font_size: 13.0,
+        wraps,
+        marks: &[],
+        matches: &[],
+        shared: "",
+        help: None,
+        debug: &NO_DEBUG,
+    };
     let screen_rect = Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(700.0, 700.0)));
     let input = RawInput { screen_rect, events, focused: true, ..Default::default() };
     let began = Instant::now();

@@ -1,8 +1,14 @@
 //! The strip left of the text: line numbers, a dot where there is a mark, a sign where a block can be folded.
 
-use super::{buffer::Buffer, highlight::Highlight, look::Look, nesting::Bracket, rows::Rows};
-use crate::gui::theme;
-use egui::{Align2, Color32, FontId, Id, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
+use super::{
+    buffer::Buffer,
+    highlight::Highlight,
+    look::{Debug, Look},
+    nesting::Bracket,
+    rows::Rows,
+};
+use crate::gui::theme::{self, Palette};
+use egui::{Align2, Color32, FontId, Id, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 
 /// How wide it is beside its digits.
 pub(super) const BESIDE: f32 = 34.0;
@@ -16,9 +22,18 @@ pub(super) struct Gutter<'a> {
     pub rows: &'a Rows,
 }
 
+/// A click, with the line from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Clicked {
+    /// The sign that folds its block.
+    Fold(usize),
+    /// Its number, or what is left of it.
+    Line(usize),
+}
+
 impl Gutter<'_> {
-    /// Shows it. The line whose block was folded or unfolded by a click comes back.
-    pub fn show(&self, ui: &Ui, id: Id, buffer: &Buffer, look: &Look<'_>) -> Option<usize> {
+    /// Shows it. A click in it comes back.
+    pub fn show(&self, ui: &Ui, id: Id, buffer: &Buffer, look: &Look<'_>) -> Option<Clicked> {
         let Gutter { rect, top, row_height, .. } = *self;
         let painter = ui.painter().with_clip_rect(rect.intersect(ui.clip_rect()));
         let p = theme::of(ui);
@@ -49,6 +64,12 @@ impl Gutter<'_> {
             if worst.is_some() {
                 painter.circle_filled(pos2(rect.left() + 8.0, middle), 3.5, tint);
             }
+            let line_area = Rect::from_center_size(pos2(rect.center().x, middle), vec2(rect.width(), row_height));
+            let is_over = pointer.is_some_and(|p| line_area.contains(p));
+            debugged(&painter, pos2(rect.left() + 8.0, middle), line, look.debug, is_over, p);
+            if response.clicked() && is_over {
+                clicked = Some(Clicked::Line(line));
+            }
             let is_folded = self.rows.is_folded(line);
             let opens = self.index.nesting(line).of(Bracket::Curly).opened() > 0;
             if is_folded || (opens && pointer.is_some()) {
@@ -57,7 +78,7 @@ impl Gutter<'_> {
                 let is_over = pointer.is_some_and(|p| area.contains(p));
                 arrow(&painter, area, is_folded, if is_over { theme::of(ui).strong } else { theme::of(ui).weak });
                 if response.clicked() && is_over {
-                    clicked = Some(line);
+                    clicked = Some(Clicked::Fold(line));
                 }
             }
         }
@@ -65,6 +86,27 @@ impl Gutter<'_> {
             painter.vline(rect.right() - 1.0, rect.y_range(), Stroke::new(1.0, p.raised));
         }
         clicked
+    }
+}
+
+/// A breakpoint, and where one is.
+fn debugged(painter: &egui::Painter, at: Pos2, line: usize, debug: &Debug, is_over: bool, p: &Palette) {
+    match debug.breakpoints.iter().find(|(of, ..)| *of == line) {
+        Some((_, is_on, is_conditional)) => {
+            let color = if *is_on { p.error } else { p.weak };
+            painter.circle_filled(at, 5.0, color);
+            if *is_conditional {
+                let stroke = Stroke::new(1.5, p.background.to_opaque());
+                painter.line_segment([at - vec2(2.5, 1.5), at + vec2(2.5, -1.5)], stroke);
+                painter.line_segment([at - vec2(2.5, -1.5), at + vec2(2.5, 1.5)], stroke);
+            }
+        }
+        None if is_over => drop(painter.circle_filled(at, 4.0, p.error.gamma_multiply(0.3))),
+        None => {}
+    }
+    if debug.line == Some(line) {
+        let points = [vec2(-4.0, -5.0), vec2(5.0, 0.0), vec2(-4.0, 5.0)].map(|v| at + v);
+        painter.add(Shape::convex_polygon(points.to_vec(), p.warning, Stroke::new(1.0, p.background)));
     }
 }
 

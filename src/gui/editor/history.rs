@@ -1,7 +1,10 @@
 //! Steps of undo and redo. Knows what was put where, not why.
 
-use super::selection::Carets;
-use std::ops::Range;
+use super::selection::{Carets, Selection};
+use std::{collections::VecDeque, ops::Range};
+
+/// Bytes that steps may keep; the oldest go first. Hours of typing are a thousandth of it.
+const MOST: usize = 64 << 20;
 
 /// A replacement in a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,6 +30,13 @@ pub(super) struct Edit {
 }
 
 impl Edit {
+    /// Bytes that it keeps.
+    fn size(&self) -> usize {
+        let text = |c: &Change| c.removed.len() + c.inserted.len() + size_of::<Change>();
+        let carets = self.before.list().len() + self.after.list().len();
+        self.changes.iter().map(text).sum::<usize>() + carets * size_of::<Selection>() + size_of::<Edit>()
+    }
+
     /// Returns the changes that lead back.
     pub fn inverse(&self) -> Vec<Change> {
         let mut shift = 0isize;
@@ -52,7 +62,9 @@ pub enum Kind {
 
 #[derive(Clone, Debug, Default)]
 pub(super) struct History {
-    done: Vec<Vec<Edit>>,
+    done: VecDeque<Vec<Edit>>,
+    /// Bytes of what is done; what is undone was done once.
+    size: usize,
     undone: Vec<Vec<Edit>>,
     /// Kind of the newest step while more may join it.
     open: Option<Kind>,
@@ -61,9 +73,13 @@ pub(super) struct History {
 impl History {
     pub fn push(&mut self, edit: Edit, kind: Kind) {
         self.undone.clear();
-        match self.done.last_mut() {
+        self.size += edit.size();
+        match self.done.back_mut() {
             Some(step) if self.open == Some(kind) && joins(step.last(), &edit, kind) => step.push(edit),
-            _ => self.done.push(vec![edit]),
+            _ => self.done.push_back(vec![edit]),
+        }
+        while self.size > MOST && self.done.len() > 1 {
+            self.size -= self.done.pop_front().map_or(0, |step| size(&step));
         }
         self.open = (kind != Kind::Other).then_some(kind);
     }
@@ -75,7 +91,7 @@ impl History {
 
     /// Carets went on by what was typed, though the text was there already.
     pub fn go_on(&mut self, carets: &Carets) {
-        if let Some(edit) = self.done.last_mut().and_then(|step| step.last_mut())
+        if let Some(edit) = self.done.back_mut().and_then(|step| step.last_mut())
             && self.open == Some(Kind::Typing)
         {
             edit.after.clone_from(carets);
@@ -84,7 +100,8 @@ impl History {
 
     pub fn undo(&mut self) -> Option<Vec<Edit>> {
         self.open = None;
-        let step = self.done.pop()?;
+        let step = self.done.pop_back()?;
+        self.size -= size(&step);
         self.undone.push(step.clone());
         Some(step)
     }
@@ -92,9 +109,14 @@ impl History {
     pub fn redo(&mut self) -> Option<Vec<Edit>> {
         self.open = None;
         let step = self.undone.pop()?;
-        self.done.push(step.clone());
+        self.size += size(&step);
+        self.done.push_back(step.clone());
         Some(step)
     }
+}
+
+fn size(step: &[Edit]) -> usize {
+    step.iter().map(Edit::size).sum()
 }
 
 /// A word typed or a run deleted is one step; the first letter after a space begins the next.
@@ -115,5 +137,33 @@ fn joins(previous: Option<&Edit>, edit: &Edit, kind: Kind) -> bool {
                 && edit.changes.iter().zip(left).all(|(c, left)| c.at == left.head)
                 && edit.changes.iter().zip(&previous.changes).all(follows)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pasted(text: &str) -> Edit {
+        let changes = vec![Change { at: 0, removed: String::new(), inserted: text.to_owned() }];
+        Edit { changes, before: Carets::default(), after: Carets::default() }
+    }
+
+    #[test]
+    fn what_is_kept_is_bounded_and_the_newest_can_be_taken_back() {
+        let mut history = History::default();
+        let large = "x".repeat(MOST / 8);
+        for _ in 0..40 {
+            history.push(pasted(&large), Kind::Other);
+        }
+        assert!(history.size <= MOST && history.done.len() == 7, "{} in {}", history.size, history.done.len());
+        history.push(pasted("y"), Kind::Other);
+        assert_eq!(history.undo().unwrap()[0].changes[0].inserted, "y");
+        let steps = std::iter::from_fn(|| history.undo()).count();
+        assert_eq!((steps, history.size), (7, 0));
+        assert_eq!(std::iter::from_fn(|| history.redo()).count(), 8);
+        // One step of any size can be taken back.
+        history.push(pasted(&"z".repeat(2 * MOST)), Kind::Other);
+        assert!(history.undo().is_some() && history.undo().is_none());
     }
 }

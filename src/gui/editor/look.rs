@@ -33,7 +33,23 @@ pub struct Look<'a> {
     pub shared: &'a str,
     /// The analysis of the text, or of what it was a moment ago.
     pub help: Option<Help<'a>>,
+    pub debug: &'a Debug,
 }
+
+/// What a debugger has to show in a text.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Debug {
+    /// The line, from 0, that is about to run.
+    pub line: Option<usize>,
+    /// The bytes of it that are.
+    pub range: Option<Range<usize>>,
+    /// Lines, from 0, at which it stops: whether it does now, and whether only under a condition.
+    pub breakpoints: Vec<(usize, bool, bool)>,
+}
+
+/// Nothing.
+#[cfg(test)]
+pub const NO_DEBUG: Debug = Debug { line: None, range: None, breakpoints: Vec::new() };
 
 /// An analysis of the text that an editor shows.
 #[derive(Clone, Copy, Debug)]

@@ -46,7 +46,7 @@ pub use action::EditorAction;
 pub use assist::Ask;
 pub use buffer::Buffer;
 pub use find::{Finder, Query};
-pub use look::{Help, Look, Mark};
+pub use look::{Debug, Help, Look, Mark};
 pub use motion::{Motion, Way};
 pub use view::CodeEditor;
 

@@ -86,6 +86,12 @@ pub(super) fn text(
         } else if has_focus && line == caret_line {
             painter.rect_filled(area, 0.0, theme::of(ui).code.caret_line);
         }
+        if look.debug.line == Some(line) {
+            painter.rect_filled(area, 0.0, theme::of(ui).warning.gamma_multiply(0.14));
+            if let Some(range) = &look.debug.range {
+                fill_range(ui, lines, buffer, row, range, theme::of(ui).warning.gamma_multiply(0.22));
+            }
+        }
         let in_sight = laid_out.bytes().unwrap_or(0..0);
         for used in touching(uses, &in_sight) {
             fill_range(ui, lines, buffer, row, used, theme::of(ui).code.uses);

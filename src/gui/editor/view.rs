@@ -7,7 +7,7 @@ use super::{
     brackets,
     buffer::Buffer,
     drag::Drag,
-    gutter::{self, Gutter},
+    gutter::{self, Clicked, Gutter},
     highlight::Highlight,
     input,
     lines::{Lines, MARGIN},
@@ -37,6 +37,10 @@ pub struct EditorOutput {
     pub asks: Vec<Ask>,
     /// Popups and tips that are open, and where.
     pub placed: Vec<(String, Rect)>,
+    /// The line, from 0, whose number was clicked.
+    pub clicked_line: Option<usize>,
+    /// The byte under the pointer, while Ctrl and Alt are held.
+    pub pointed: Option<usize>,
 }
 
 /// A text being edited, with all that outlives a frame.
@@ -66,6 +70,8 @@ pub struct CodeEditor {
     pub(super) work: Work,
     /// How high the text was in the frame before, and whether the caret could be seen.
     sight: (f32, bool),
+    /// A line from 0 that is to be brought into sight.
+    sought_line: Option<usize>,
 }
 
 /// The bytes that the newest frame looked at: bytes, not time, so that a test can hold it to a bound.
@@ -97,6 +103,7 @@ impl CodeEditor {
             told: 0,
             work: Work::default(),
             sight: (0.0, false),
+            sought_line: None,
         }
     }
 
@@ -143,6 +150,11 @@ impl CodeEditor {
     /// Brings the caret into sight in the next frame.
     pub fn reveal(&mut self) {
         self.follow_caret = true;
+    }
+
+    /// Brings a line, from 0, into sight in the next frame, and leaves the caret where it is.
+    pub fn reveal_line(&mut self, line: usize) {
+        self.sought_line = Some(line);
     }
 
     /// Takes the keyboard in the next frame.
@@ -208,7 +220,7 @@ impl CodeEditor {
         let columns = if wrap.is_some() { 0.0 } else { self.highlight.columns() + 4.0 };
         let row_count = self.rows.len(&self.buffer);
         let size = vec2(columns * glyph + 12.0, row_count as f32 * row_height);
-        let mut painted = None;
+        let (mut painted, mut pointed) = (None, None);
         // Lines in sight are shown by it while the editor goes on.
         let index = std::mem::take(&mut self.highlight);
         let folding = std::mem::take(&mut self.rows);
@@ -242,6 +254,9 @@ impl CodeEditor {
                 self.work.laid_out = lines.rows.iter().flat_map(|r| &r.runs).map(|r| r.galley.text().len()).sum();
                 accessible::tell(ui, &response, &lines, &self.buffer, look.name);
                 self.pointer(ui, &response, &lines, help);
+                let is_asked = ui.input(|i| i.modifiers.command && i.modifiers.alt);
+                let pointer = response.hover_pos().filter(|_| is_asked);
+                pointed = pointer.map(|at| lines.position_at(&self.buffer, at));
                 self.find_brackets(&index);
                 if std::mem::take(&mut self.take_focus) {
                     response.request_focus();
@@ -268,6 +283,16 @@ impl CodeEditor {
                     // Lines just scrolled to are laid out in the next frame.
                     ui.ctx().request_repaint();
                 }
+                if let Some(line) = self.sought_line.take() {
+                    let row = folding.of_line(line.min(self.buffer.line_count().saturating_sub(1)));
+                    let place = Rect::from_min_size(pos2(shown.left(), lines.top(row)), vec2(1.0, row_height));
+                    // With some of what stands round it.
+                    let around = place.expand2(vec2(0.0, 3.0 * row_height));
+                    if !shown.y_range().contains(place.top()) || !shown.y_range().contains(place.bottom()) {
+                        ui.scroll_to_rect_animation(around, None, egui::style::ScrollAnimation::none());
+                        ui.ctx().request_repaint();
+                    }
+                }
                 if has_focus {
                     self.tell_input_method(ui, id, text_rect, p.caret);
                 }
@@ -285,10 +310,15 @@ impl CodeEditor {
         let rect = Rect::from_min_max(whole.min, pos2(text_rect.left(), whole.bottom()));
         let top = text_rect.top() - scrolled.state.clamped_offset().y;
         let gutter = Gutter { rect, top, row_height, index: &self.highlight, rows: &self.rows };
-        if let Some(line) = gutter.show(ui, id, &self.buffer, &look) {
+        let gutter_clicked = gutter.show(ui, id, &self.buffer, &look);
+        if let Some(Clicked::Fold(line)) = gutter_clicked {
             self.toggle_fold(line);
             ui.ctx().request_repaint();
         }
+        let clicked_line = gutter_clicked.and_then(|clicked| match clicked {
+            Clicked::Line(line) => Some(line),
+            Clicked::Fold(_) => None,
+        });
         ruler::show(ui, text_rect, &self.buffer, &self.rows, &look, has_focus);
         if let Some(popup) = painted.popup {
             paint::popup(ui, text_rect, &popup);
@@ -305,6 +335,8 @@ impl CodeEditor {
             marked: painted.marked,
             asks: std::mem::take(&mut self.assist.asks),
             placed: std::mem::take(&mut self.assist.placed),
+            clicked_line,
+            pointed,
         }
     }
 

@@ -35,7 +35,7 @@ fn type_into(text: &str, input: &str) -> (Assist, String) {
         };
         rest = behind;
         if !assist.take(&event, &mut buffer) {
-            let entry = Keymap::default().pressed(&event, Listening { code: true, find_bar: false });
+            let entry = Keymap::default().pressed(&event, Listening { code: true, ..Listening::default() });
             match entry.map(|e| e.action) {
                 Some(Action::Code(EditorAction::Propose)) => assist.propose(),
                 Some(Action::Code(EditorAction::Definition)) => assist.go_to_definition(),

@@ -1,0 +1,216 @@
+//! The bar over a picture that is a value of the code: what it is, how it is shown, its numbers.
+
+use super::{
+    accessible,
+    icons::{self, Icon},
+    outbox::Outbox,
+    theme,
+};
+use crate::{
+    engine::{Paint, Pixels},
+    session::{
+        Command, Session,
+        probe::{BINS, ProbeLook, ProbePlace, ProbeView, ProbedValue, Statistics},
+        trace::Number,
+    },
+};
+use egui::{Area, Color32, DragValue, Frame, Id, Margin, Order, Rect, RichText, Sense, Stroke, Ui, pos2, vec2};
+
+const NAMES: [&str; 4] = ["x", "y", "z", "w"];
+/// Of the components, where each has one.
+const INKS: [Color32; 4] = [
+    Color32::from_rgb(255, 110, 100),
+    Color32::from_rgb(110, 215, 110),
+    Color32::from_rgb(110, 165, 255),
+    Color32::from_rgb(200, 200, 200),
+];
+
+/// Shows it at the top of the picture's area. `under`: the place of the picture under the mouse, from 0 to 1.
+pub fn show(ui: &Ui, session: &Session, area: Rect, under: Option<[f32; 2]>, out: &mut Outbox) {
+    let Some(view) = session.probe() else { return };
+    let shown = Area::new(Id::unique("probe"))
+        .order(Order::Middle)
+        .fixed_pos(area.min + vec2(6.0, 6.0))
+        .constrain_to(area)
+        .show(ui.ctx(), |ui| {
+            theme::put_over_picture(ui);
+            let frame = Frame::NONE.fill(theme::of(ui).panel).corner_radius(6).inner_margin(Margin::symmetric(8, 5));
+            frame.show(ui, |ui| {
+                out.stop("probe", ui);
+                ui.set_max_width((area.width() - 28.0).max(160.0));
+                ui.spacing_mut().item_spacing = vec2(6.0, 4.0);
+                bar(ui, &view, under, out);
+            });
+        });
+    out.place("probe", shown.response.rect);
+}
+
+fn bar(ui: &mut Ui, view: &ProbeView<'_>, under: Option<[f32; 2]>, out: &mut Outbox) {
+    let p = theme::of(ui);
+    ui.horizontal_wrapped(|ui| {
+        match view.value {
+            None => drop(ui.colored_label(p.weak, "Compiling the probe…")),
+            Some(Err(why)) => drop(ui.colored_label(p.warning, why)),
+            Some(Ok(value)) => {
+                ui.label(RichText::new(&*value.text).monospace().color(p.strong));
+                ui.colored_label(
+                    p.weak,
+                    format!("{} · {} line {}", value.type_text, view.place.tab.title(), value.line),
+                );
+                visit(ui, view.place, out);
+            }
+        }
+        let close = icons::flat(ui, Icon::Close, "End the probe").on_hover_text("Show the picture again (Escape)");
+        if out.clicked("probe:close", &close) {
+            out.ask(Command::Probe(None));
+        }
+    });
+    let Some(Ok(value)) = view.value else { return };
+    look(ui, view, value, out);
+    let Some(numbers) = view.numbers else { return };
+    ui.horizontal(|ui| {
+        histogram(ui, value, &numbers.statistics, out);
+        ui.vertical(|ui| {
+            ui.spacing_mut().item_spacing.y = 1.0;
+            figures(ui, value, &numbers.statistics, out);
+            let under = under.and_then(|at| number_at(&numbers.pixels, at, value));
+            let text = under.map_or("–".into(), |(pixel, number)| format!("at {},{}: {number}", pixel.0, pixel.1));
+            let label = ui.label(RichText::new(text).monospace().color(p.strong));
+            out.place("probe:number", label.rect);
+        });
+    });
+}
+
+fn visit(ui: &mut Ui, place: &ProbePlace, out: &mut Outbox) {
+    let mut visit = place.visit;
+    let field = DragValue::new(&mut visit).prefix("visit ").range(0..=100_000);
+    let response = ui.add(field).on_hover_text("The value when it is computed for the time after so many");
+    out.place("probe:visit", response.rect);
+    if visit != place.visit {
+        out.ask(Command::Probe(Some(ProbePlace { visit, ..place.clone() })));
+    }
+}
+
+/// How it is shown: colours, one component or all, and the range.
+fn look(ui: &mut Ui, view: &ProbeView<'_>, value: &ProbedValue, out: &mut Outbox) {
+    let mut look = view.look;
+    ui.horizontal_wrapped(|ui| {
+        let paints = [(Paint::Range, "Range"), (Paint::Sign, "Sign"), (Paint::FalseColour, "False colour")];
+        for (paint, name) in paints {
+            let response = ui.selectable_label(look.paint == paint, name);
+            if out.clicked(&format!("probe:{}", name.to_lowercase().replace(' ', "-")), &response) {
+                look.paint = paint;
+            }
+        }
+        if value.components > 1 {
+            for channel in 0..value.components {
+                let is_on = look.channel == Some(channel);
+                let response = ui.selectable_label(is_on, NAMES[usize::from(channel) & 3]);
+                if out.clicked(&format!("probe:{}", NAMES[usize::from(channel) & 3]), &response) {
+                    look.channel = (!is_on).then_some(channel);
+                }
+            }
+        }
+        range(ui, view, &mut look, out);
+    });
+    if look != view.look {
+        out.ask(Command::LookAtProbe(look));
+    }
+}
+
+fn range(ui: &mut Ui, view: &ProbeView<'_>, look: &mut ProbeLook, out: &mut Outbox) {
+    let whole = view.numbers.map_or((0.0, 1.0), |numbers| numbers.statistics.extent(look.channel));
+    let (mut low, mut high) = look.range.unwrap_or(whole);
+    let speed = f64::from((high - low).abs()).max(1e-6) / 200.0;
+    let mut field = |ui: &mut Ui, name: &str, number: &mut f32| {
+        let response = ui.add(DragValue::new(number).speed(speed).max_decimals(6));
+        out.place(name, response.rect);
+        response.changed()
+    };
+    let is_typed = field(ui, "probe:low", &mut low) | field(ui, "probe:high", &mut high);
+    if is_typed {
+        look.range = Some((low, high));
+    }
+    let auto = ui.selectable_label(look.range.is_none(), "Auto").on_hover_text("From the least number to the largest");
+    if out.clicked("probe:auto", &auto) {
+        look.range = if look.range.is_none() { Some((low, high)) } else { None };
+    }
+}
+
+fn histogram(ui: &mut Ui, value: &ProbedValue, statistics: &Statistics, out: &mut Outbox) {
+    let p = theme::of(ui);
+    let (rect, response) = ui.allocate_exact_size(vec2(2.0 * BINS as f32, 34.0), Sense::hover());
+    let (low, high) = statistics.range;
+    accessible::name(&response, egui::Role::Canvas, format!("Histogram from {low} to {high}"));
+    out.place("probe:histogram", rect);
+    ui.painter().rect_filled(rect, 2.0, Color32::from_black_alpha(120));
+    let most = statistics.bins.iter().flatten().copied().max().unwrap_or(0).max(1) as f32;
+    for (bins, ink) in statistics.bins.iter().zip(INKS) {
+        let ink = if value.components == 1 { p.text } else { ink };
+        for (i, count) in bins.iter().enumerate().filter(|(_, count)| **count > 0) {
+            // A few pixels of many are seen too.
+            let height = (*count as f32 / most).sqrt() * (rect.height() - 2.0);
+            let x = rect.left() + 2.0 * i as f32 + 1.0;
+            let line = [pos2(x, rect.bottom() - 1.0 - height.max(1.0)), pos2(x, rect.bottom() - 1.0)];
+            ui.painter().line_segment(line, Stroke::new(2.0, ink.gamma_multiply(0.75)));
+        }
+    }
+}
+
+/// The least and the largest numbers, and what is amiss.
+fn figures(ui: &mut Ui, value: &ProbedValue, statistics: &Statistics, out: &mut Outbox) {
+    let p = theme::of(ui);
+    let words = statistics.extremes.iter().enumerate().filter_map(|(i, extreme)| {
+        let (low, high) = (*extreme)?;
+        let name = if value.components == 1 { String::new() } else { format!("{} ", NAMES[i]) };
+        Some(format!("{name}{} … {}", Number::Float(low), Number::Float(high)))
+    });
+    let mut text = words.collect::<Vec<_>>().join("   ");
+    if statistics.visited < statistics.pixels {
+        text += &format!("   {} of {} pixels", statistics.visited, statistics.pixels);
+    }
+    let label = ui.label(RichText::new(text).monospace().size(11.0).color(p.text));
+    out.place("probe:extremes", label.rect);
+    if statistics.nonfinite > 0 {
+        ui.colored_label(p.error, format!("{} numbers are NaN or infinite", statistics.nonfinite));
+    }
+}
+
+/// The texel under a place of the picture, and its numbers.
+pub fn number_at(pixels: &Pixels, at: [f32; 2], value: &ProbedValue) -> Option<((u32, u32), String)> {
+    let texel = |part: f32, count: u32| ((part * count as f32) as u32).min(count.saturating_sub(1));
+    let (x, y) = (texel(at[0], pixels.width), texel(at[1], pixels.height));
+    let found = pixels.texels.get((y * pixels.width + x) as usize)?;
+    if found.iter().all(|x| x.is_nan()) {
+        return Some(((x, y), "not evaluated".into()));
+    }
+    let number = |x: &f32| match value.is_whole && x.fract() == 0.0 {
+        true => format!("{x:.0}"),
+        false => Number::Float(*x).to_string(),
+    };
+    let numbers: Vec<String> = found.iter().take(value.components.into()).map(number).collect();
+    Some(((x, y), if numbers.len() == 1 { numbers.concat() } else { format!("({})", numbers.join(", ")) }))
+}
+
+/// What scripts are told.
+pub fn report(session: &Session, under: Option<[f32; 2]>) -> serde_json::Value {
+    let Some(view) = session.probe() else { return serde_json::json!({ "text": null }) };
+    let (value, trouble) = match view.value {
+        Some(Ok(value)) => (Some(value), None),
+        Some(Err(why)) => (None, Some(why)),
+        None => (None, None),
+    };
+    let under = value.zip(view.numbers).zip(under);
+    let under = under.and_then(|((value, numbers), at)| number_at(&numbers.pixels, at, value));
+    let extremes = view.numbers.map(|numbers| &numbers.statistics.extremes);
+    serde_json::json!({
+        "text": value.map(|value| &value.text),
+        "type": value.map(|value| &value.type_text),
+        "line": value.map(|value| value.line),
+        "visit": view.place.visit,
+        "trouble": trouble,
+        "range": extremes.map(|extremes| extremes.map(|extreme| extreme.map(|(low, high)| [low, high]))),
+        "pixel": under.as_ref().map(|(pixel, _)| [pixel.0, pixel.1]),
+        "number": under.as_ref().map(|(_, number)| number),
+    })
+}

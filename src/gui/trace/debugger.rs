@@ -1,0 +1,204 @@
+//! The state of the debugger, and what its keys do.
+
+use super::moment::{AtMoment, Rows};
+use crate::{
+    diag::follow_line,
+    gui::{actions::TraceAction, editor::Debug},
+    project::Tab,
+    session::{
+        Session,
+        trace::{
+            Breakpoint, Examiner, Printed, Traced,
+            travel::{self, Direction},
+        },
+    },
+};
+use std::{collections::HashMap, sync::Arc};
+
+/// The state of the debugger.
+#[derive(Default)]
+pub struct Debugger {
+    pub(super) examiner: Option<Examiner>,
+    /// The moment, and the one that was shown before.
+    pub(super) at: usize,
+    before: Option<usize>,
+    pub(super) breakpoints: Vec<Breakpoint>,
+    /// The texts that the breakpoints' lines are of.
+    texts: HashMap<Tab, String>,
+    pub(super) watches: Vec<String>,
+    pub(super) new_watch: String,
+    /// The variable that is plotted; none: the first that changes.
+    pub(super) plotted: Option<String>,
+    /// What there is to see at the moment.
+    pub(super) seen: Option<AtMoment>,
+    /// Of the moment before: most moments are in the loop of the one before.
+    rows: Option<Rows>,
+    pub(super) printed: Option<Vec<Printed>>,
+    /// Said of the newest step.
+    pub(super) said: Option<&'static str>,
+    /// The editor is to show the line.
+    reveals: bool,
+}
+
+impl Debugger {
+    /// Takes over what the session has new.
+    pub fn prepare(&mut self, session: &Session) {
+        self.follow_texts(session);
+        let traced = session.trace().traced;
+        let known = self.examiner.as_ref().map(|examiner| &examiner.traced);
+        let is_same = match (traced, known) {
+            (Some(new), Some(known)) => Arc::ptr_eq(new, known),
+            (None, None) => true,
+            _ => false,
+        };
+        if is_same {
+            return;
+        }
+        // Another frame, or the same code: one stays where one was.
+        let stays = traced.zip(known).is_some_and(|(new, known)| is_like(new, known));
+        // Who edits while a pixel is traced is not led away from where one types.
+        self.reveals = traced.zip(known).is_none_or(|(new, known)| !is_of_pixel(new, known));
+        self.examiner = traced.map(|traced| Examiner::new(traced.clone()));
+        (self.seen, self.rows, self.printed, self.said) = (None, None, None, None);
+        let Some(traced) = traced else { return };
+        let first = travel::end(&traced.history, Direction::Back).unwrap_or(0);
+        if !stays || self.at >= traced.history.moments.len() {
+            (self.at, self.before) = (first, None);
+        }
+    }
+
+    /// Finds what there is to see, unless it is known.
+    pub(super) fn look(&mut self) -> Option<&AtMoment> {
+        let examiner = self.examiner.as_mut()?;
+        if self.seen.is_none() {
+            let of = (&self.watches[..], &self.breakpoints[..]);
+            self.seen = Some(AtMoment::new(examiner, self.at, self.before, of, self.rows.take()));
+        }
+        self.seen.as_ref()
+    }
+
+    /// What there is to see is to be found anew.
+    pub(super) fn forget(&mut self) {
+        if let Some(seen) = self.seen.take() {
+            self.rows = Some(seen.rows);
+        }
+    }
+
+    /// There is a way to go.
+    pub fn is_on(&self) -> bool {
+        self.examiner.is_some()
+    }
+
+    fn follow_texts(&mut self, session: &Session) {
+        for (tab, text) in &mut self.texts {
+            let now = session.text(tab);
+            if now == text {
+                continue;
+            }
+            self.breakpoints.retain_mut(|breakpoint| {
+                if breakpoint.tab != *tab {
+                    return true;
+                }
+                let line = follow_line(text, now, breakpoint.line);
+                breakpoint.line = line.unwrap_or_default();
+                line.is_some()
+            });
+            now.clone_into(text);
+        }
+    }
+
+    /// Sets a breakpoint at a line from 0, or takes it away.
+    pub fn toggle(&mut self, session: &Session, tab: &Tab, line: usize) {
+        self.forget();
+        let there = self.breakpoints.iter().position(|b| b.tab == *tab && b.line == line);
+        match there {
+            Some(at) => drop(self.breakpoints.remove(at)),
+            None => {
+                self.texts.entry(tab.clone()).or_insert_with(|| session.text(tab).to_owned());
+                let (tab, condition) = (tab.clone(), String::new());
+                self.breakpoints.push(Breakpoint { tab, line, condition, is_on: true });
+                self.breakpoints.sort_by_key(|b| (b.tab.title(), b.line));
+            }
+        }
+    }
+
+    /// Does what a key or a button asks for. `caret`: the tab and line from 0 where it is.
+    pub fn act(&mut self, session: &Session, action: TraceAction, caret: Option<(Tab, usize)>) {
+        if let (TraceAction::Breakpoint, Some((tab, line))) = (action, &caret) {
+            return self.toggle(session, tab, *line);
+        }
+        let Some(examiner) = &mut self.examiner else { return };
+        let traced = examiner.traced.clone();
+        let end = |direction| travel::end(&traced.history, direction);
+        let found = match action {
+            TraceAction::Go(stride, direction) => travel::step(&traced.history, self.at, stride, direction),
+            TraceAction::Continue(direction) => {
+                examiner.go_on(self.at, &self.breakpoints, direction).or_else(|| end(direction))
+            }
+            TraceAction::ToCursor(direction) => {
+                caret.and_then(|(tab, line)| examiner.run_to(self.at, (&tab, line), direction))
+            }
+            TraceAction::End(direction) => end(direction),
+            TraceAction::Breakpoint => None,
+        };
+        self.said = match (found, action) {
+            (Some(at), _) if at != self.at => None,
+            (_, TraceAction::ToCursor(Direction::Forward)) => Some("that line does not run any more"),
+            (_, TraceAction::ToCursor(Direction::Back)) => Some("that line has not run before"),
+            (_, TraceAction::Go(_, Direction::Back) | TraceAction::Continue(Direction::Back)) => Some("the begin"),
+            _ => Some("the end"),
+        };
+        if let Some(at) = found {
+            self.go_to(at);
+        }
+    }
+
+    /// Goes to a moment.
+    pub fn go_to(&mut self, at: usize) {
+        if at != self.at {
+            self.before = Some(std::mem::replace(&mut self.at, at));
+            self.forget();
+        }
+        self.reveals = true;
+    }
+
+    /// The tab and the line from 0 that one is at, in the text as it is edited, with its bytes where that is the text
+    /// that was walked through.
+    fn place(&self, session: &Session) -> Option<(Tab, usize, Option<std::ops::Range<usize>>)> {
+        let traced = &self.examiner.as_ref()?.traced;
+        let (tab, line, range) = traced.place(traced.history.span(self.at)?)?;
+        let (old, now) = (traced.text(&tab), session.text(&tab));
+        if old == now {
+            return Some((tab, line, Some(range)));
+        }
+        let line = follow_line(old, now, line)?;
+        Some((tab, line, None))
+    }
+
+    /// What the editor shows in a tab.
+    pub fn marks(&self, session: &Session, tab: &Tab) -> Debug {
+        let place = self.place(session).filter(|(of, ..)| of == tab);
+        let of = self.breakpoints.iter().filter(|breakpoint| breakpoint.tab == *tab);
+        Debug {
+            line: place.as_ref().map(|(_, line, _)| *line),
+            range: place.and_then(|(.., range)| range),
+            breakpoints: of.map(|b| (b.line, b.is_on, !b.condition.trim().is_empty())).collect(),
+        }
+    }
+
+    /// The tab and line that are to be brought into sight, once.
+    pub fn take_reveal(&mut self, session: &Session) -> Option<(Tab, usize)> {
+        let reveals = std::mem::take(&mut self.reveals);
+        self.place(session).filter(|_| reveals).map(|(tab, line, _)| (tab, line))
+    }
+}
+
+/// Whether a place in the one's way is the same in the other's: the same pixel and the same texts.
+fn is_like(new: &Traced, known: &Traced) -> bool {
+    let texts = |traced: &Traced| [Tab::Common, Tab::Pass(traced.pass.clone())].map(|tab| traced.text(&tab).to_owned());
+    is_of_pixel(new, known) && texts(new) == texts(known)
+}
+
+fn is_of_pixel(new: &Traced, known: &Traced) -> bool {
+    new.pass == known.pass && new.pixel == known.pixel && new.size == known.size
+}

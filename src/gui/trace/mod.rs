@@ -1,0 +1,15 @@
+//! The debugger: a pixel's way through its pass, gone forwards and backwards.
+//!
+//! Owns where in it one is, breakpoints and watches ([`Debugger`]), and the panel that shows them. What a moment holds,
+//! and where a step leads to, is [`crate::session::trace`]'s.
+
+mod debugger;
+mod moment;
+mod panel;
+mod parts;
+mod report;
+mod rows;
+mod signs;
+
+pub use debugger::Debugger;
+pub use panel::show;

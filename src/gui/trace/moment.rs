@@ -1,0 +1,148 @@
+//! What there is to see at a moment, found once for it.
+
+use crate::{
+    project::Tab,
+    session::trace::{Breakpoint, Examiner, Number, Shown, Turn, Value, Watched},
+};
+
+/// A value is shown with so many numbers at most.
+const MOST_NUMBERS: usize = 16;
+/// Rows of a loop.
+const MOST_TURNS: usize = 2000;
+/// Variables of a loop's table.
+const COLUMNS: usize = 6;
+
+pub struct AtMoment {
+    pub variables: Vec<Variable>,
+    pub watches: Vec<Watched>,
+    /// The calls that it lies in, with moments to go to.
+    pub stack: Vec<(String, usize)>,
+    pub rows: Rows,
+    /// What the function gives back.
+    pub result: Option<Value>,
+    /// Of each breakpoint, what is wrong with its condition here.
+    pub conditions: Vec<Option<String>>,
+    /// The line, from 0.
+    pub place: Option<(Tab, usize)>,
+}
+
+pub struct Variable {
+    pub shown: Shown,
+    /// It is another than at the moment that was shown before.
+    pub is_changed: bool,
+}
+
+/// The turns of the loop around a moment.
+#[derive(Default)]
+pub struct Rows {
+    pub names: Vec<String>,
+    pub rows: Vec<Row>,
+    /// The turn that the moment is in.
+    pub current: Option<usize>,
+    pub is_cut: bool,
+}
+
+pub struct Row {
+    pub turn: Turn,
+    pub values: Vec<Option<Value>>,
+}
+
+impl Rows {
+    fn first(&self) -> Option<usize> {
+        self.rows.first().map(|row| row.turn.first)
+    }
+}
+
+impl AtMoment {
+    /// What there is to see at a moment, and what has changed since the one that was shown before.
+    pub fn new(
+        examiner: &mut Examiner,
+        at: usize,
+        before: Option<usize>,
+        (watches, breakpoints): (&[String], &[Breakpoint]),
+        known: Option<Rows>,
+    ) -> Self {
+        let traced = examiner.traced.clone();
+        let history = &traced.history;
+        let before = before.filter(|before| *before < history.moments.len());
+        let was = |name: &str| before.and_then(|before| history.value(before, name));
+        let variables = history.visible(at).into_iter().map(|shown| {
+            let is_changed = was(&shown.name).is_some_and(|was| !is_same(&was, &shown.value));
+            Variable { shown, is_changed }
+        });
+        let variables = variables.collect();
+        let place = history.span(at).and_then(|span| traced.place(span)).map(|(tab, line, _)| (tab, line));
+        let watches = watches.iter().map(|watch| examiner.watch(at, watch)).collect();
+        let conditions = breakpoints.iter().map(|breakpoint| {
+            let here = place.as_ref().is_some_and(|(tab, line)| *tab == breakpoint.tab && *line == breakpoint.line);
+            let condition = breakpoint.condition.trim();
+            (here && !condition.is_empty()).then(|| examiner.holds(at, condition).err()).flatten()
+        });
+        let conditions = conditions.collect();
+        let stack = history.stack(at).into_iter().map(|(call, at)| (call.name.clone(), at)).collect();
+        let turns = history.turns(at);
+        let is_cut = turns.len() > MOST_TURNS;
+        let current = turns.iter().position(|turn| (turn.first..=turn.end).contains(&at));
+        let first = turns.first().map(|turn| turn.first);
+        // In one loop they stay the same.
+        let rows = match known {
+            Some(rows) if rows.first() == first => rows,
+            _ => table(turns.into_iter().take(MOST_TURNS).map(|turn| (turn, history.turn_values(&turn))).collect()),
+        };
+        AtMoment {
+            variables,
+            watches,
+            stack,
+            result: history.result(at),
+            conditions,
+            place,
+            rows: Rows { current, is_cut, ..rows },
+        }
+    }
+}
+
+fn is_same(a: &Value, b: &Value) -> bool {
+    // NaN is no other than it was.
+    let bits = |value: &Value| value.numbers.iter().map(|n| n.as_f64().to_bits()).collect::<Vec<_>>();
+    a.type_text == b.type_text && bits(a) == bits(b)
+}
+
+/// The variables that change from turn to turn, no more than there is room for: numbers before vectors.
+fn table(turns: Vec<(Turn, Vec<Shown>)>) -> Rows {
+    let mut names: Vec<(usize, String)> = Vec::new();
+    for (_, values) in &turns {
+        for shown in values {
+            let count = shown.value.numbers.len();
+            if count > 4 || names.iter().any(|(_, name)| *name == shown.name) {
+                continue;
+            }
+            let find = |values: &[Shown]| values.iter().find(|other| other.name == shown.name).cloned();
+            let changes = turns.iter().any(|(_, other)| find(other).is_none_or(|o| !is_same(&o.value, &shown.value)));
+            if changes || turns.len() == 1 {
+                names.push((count, shown.name.clone()));
+            }
+        }
+        // What a later turn alone has is seldom worth a column, and looking for it is dear.
+        if names.len() >= COLUMNS {
+            break;
+        }
+    }
+    names.sort_by_key(|(count, _)| *count > 1);
+    names.truncate(COLUMNS);
+    let names: Vec<String> = names.into_iter().map(|(_, name)| name).collect();
+    let rows = turns.into_iter().map(|(turn, values)| {
+        let find = |name: &String| values.iter().find(|shown| shown.name == *name).map(|shown| shown.value.clone());
+        Row { turn, values: names.iter().map(find).collect() }
+    });
+    Rows { rows: rows.collect(), names, current: None, is_cut: false }
+}
+
+/// A value as it is shown: a number, or several in brackets.
+pub fn words(value: &Value) -> String {
+    let list = |numbers: &[Number]| numbers.iter().map(Number::to_string).collect::<Vec<_>>().join(", ");
+    match &value.numbers[..] {
+        [number] => number.to_string(),
+        numbers if numbers.len() <= MOST_NUMBERS => format!("({})", list(numbers)),
+        numbers => format!("({}, … {} numbers)", list(&numbers[..MOST_NUMBERS]), numbers.len()),
+    }
+}

@@ -1,0 +1,304 @@
+//! The panel: buttons, where one is, what there is to see, and at its foot how far the walker is from the device.
+
+use super::{
+    debugger::Debugger,
+    moment::words,
+    parts,
+    rows::{self, Asked},
+    signs,
+};
+use crate::{
+    gui::{
+        accessible,
+        actions::{Action, TraceAction},
+        icons::{self, Icon},
+        outbox::{Outbox, Wish},
+        theme,
+    },
+    session::{
+        Command, Session,
+        trace::{MomentKind, Number, Traced},
+    },
+};
+use egui::{Label, RichText, ScrollArea, TextEdit, Ui, vec2};
+
+/// Values of a comment that are listed.
+const SHOWN: usize = 200;
+/// Two columns where there is room for them.
+const WIDE: f32 = 560.0;
+
+pub fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+    out.stop("trace", ui);
+    ui.spacing_mut().item_spacing = vec2(6.0, 3.0);
+    ui.horizontal_wrapped(|ui| {
+        signs::show(ui, debugger.is_on(), out);
+        ui.add_space(6.0);
+        if parts::button(
+            ui,
+            "trace:pick",
+            "Pick a pixel",
+            &out.keys.tip("Then click it in the picture", Action::TracePixel),
+            out,
+        ) {
+            out.act(Action::TracePixel);
+        }
+        if debugger.is_on() && parts::button(ui, "trace:end-trace", "End", "Trace no pixel any more", out) {
+            out.ask(Command::Trace(None));
+        }
+        let view = session.trace();
+        if view.is_under_way {
+            ui.spinner();
+        } else if let Some(trouble) = view.trouble {
+            ui.colored_label(theme::of(ui).error, trouble);
+        }
+    });
+    let Some(traced) = debugger.examiner.as_ref().map(|examiner| examiner.traced.clone()) else {
+        let how = out.keys.hint(Action::TracePixel);
+        let text = format!(
+            "Ctrl+Shift+click a pixel of the picture, or press {how} and click. Its way through the code can then be \
+             gone line by line, forwards and backwards."
+        );
+        ui.add(Label::new(RichText::new(text).color(theme::of(ui).weak)).wrap());
+        breakpoints(debugger, ui, out);
+        return;
+    };
+    whereabouts(debugger, &traced, ui, out);
+    let foot = 40.0;
+    let height = (ui.available_height() - foot).max(60.0);
+    ScrollArea::vertical().id_salt("trace").max_height(height).auto_shrink(false).show(ui, |ui| {
+        // Rows of text, one close below the other.
+        ui.spacing_mut().interact_size.y = 19.0;
+        if ui.available_width() > WIDE {
+            ui.columns(2, |columns| {
+                watches(debugger, &mut columns[0], out);
+                variables(debugger, &mut columns[0], out);
+                turns(debugger, &mut columns[1], out);
+                printed(debugger, &mut columns[1], out);
+                breakpoints(debugger, &mut columns[1], out);
+            });
+        } else {
+            watches(debugger, ui, out);
+            variables(debugger, ui, out);
+            turns(debugger, ui, out);
+            printed(debugger, ui, out);
+            breakpoints(debugger, ui, out);
+        }
+    });
+    values(&traced, ui, out);
+}
+
+/// The pixel, the line, and how far along one is.
+fn whereabouts(debugger: &mut Debugger, traced: &Traced, ui: &mut Ui, out: &mut Outbox) {
+    let (at, said) = (debugger.at, debugger.said);
+    let p = theme::of(ui);
+    let (x, y) = traced.pixel;
+    let count = traced.history.moments.len();
+    let mut go_to = None;
+    ui.horizontal_wrapped(|ui| {
+        let mut words = format!("{} at {x},{y} in frame {}", traced.pass.title(), traced.frame);
+        if let Some(moment) = traced.history.moments.get(at) {
+            words += &match moment.kind {
+                MomentKind::Turn(turn) => format!(" · turn {turn}"),
+                MomentKind::Return => " · returns".to_owned(),
+                _ => String::new(),
+            };
+        }
+        let label = ui.label(RichText::new(words).color(p.text));
+        out.place("trace:where", label.rect);
+        ui.colored_label(p.weak, format!("moment {} of {count}", at + 1));
+        if let Some(said) = said {
+            ui.colored_label(p.warning, said);
+        }
+        if traced.is_endless || traced.history.is_cut {
+            ui.colored_label(p.warning, "it goes on: only the begin was kept");
+        }
+        let stack = debugger.look().map(|seen| seen.stack.clone()).unwrap_or_default();
+        for (index, (name, moment)) in stack.iter().enumerate() {
+            let response =
+                ui.selectable_label(index == 0, format!("{name}()")).on_hover_text("To where it was called from");
+            if out.clicked(&format!("trace:call:{index}"), &response) && index > 0 {
+                go_to = Some(*moment);
+            }
+        }
+    });
+    if let Some(moment) = go_to {
+        debugger.go_to(moment);
+    }
+}
+
+fn watches(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
+    parts::title(ui, "Watches");
+    let mut removed = None;
+    let mut is_edited = false;
+    let seen: Vec<_> = debugger.look().map(|seen| seen.watches.clone()).unwrap_or_default();
+    for (index, watch) in debugger.watches.iter_mut().enumerate() {
+        ui.horizontal(|ui| {
+            let close = icons::flat(ui, Icon::Close, "Remove the watch");
+            if out.clicked(&format!("trace:watch:{index}:remove"), &close) {
+                removed = Some(index);
+            }
+            let field = TextEdit::singleline(watch).id_salt(("watch", index)).font(egui::TextStyle::Monospace);
+            let field = ui.add(field.desired_width(110.0));
+            out.place(format!("trace:watch:{index}"), field.rect);
+            is_edited |= field.changed();
+            match seen.get(index) {
+                Some(Ok(value)) => {
+                    parts::swatch(ui, value);
+                    let text = RichText::new(words(value)).monospace().color(theme::of(ui).text);
+                    ui.add(Label::new(text).truncate()).on_hover_text(&value.type_text);
+                }
+                Some(Err(why)) => {
+                    let text = RichText::new(why).color(theme::of(ui).error);
+                    ui.add(Label::new(text).truncate()).on_hover_text(why);
+                }
+                None => {}
+            }
+        });
+    }
+    if let Some(index) = removed {
+        debugger.watches.remove(index);
+    }
+    let field = TextEdit::singleline(&mut debugger.new_watch)
+        .id_salt("new watch")
+        .font(egui::TextStyle::Monospace)
+        .hint_text("An expression, and Enter")
+        .desired_width(190.0);
+    let field = ui.add(field);
+    out.place("trace:watch:new", field.rect);
+    if field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter)) && !debugger.new_watch.trim().is_empty() {
+        debugger.watches.push(std::mem::take(&mut debugger.new_watch).trim().to_owned());
+        is_edited = true;
+        field.request_focus();
+    }
+    if is_edited {
+        debugger.forget();
+    }
+}
+
+fn variables(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
+    let Some(seen) = debugger.look() else { return };
+    if let Some(result) = &seen.result {
+        parts::title(ui, "Gives back");
+        parts::value(ui, "return", result, false);
+    }
+    parts::title(ui, "Variables");
+    for variable in &seen.variables {
+        let rect = parts::value(ui, &variable.shown.name, &variable.shown.value, variable.is_changed);
+        out.place(format!("trace:variable:{}", variable.shown.name), rect);
+    }
+}
+
+fn turns(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
+    let plotted = debugger.plotted.clone();
+    let Some(seen) = debugger.look().filter(|seen| !seen.rows.rows.is_empty()) else { return };
+    match rows::show(ui, &seen.rows, plotted.as_deref(), out) {
+        Some(Asked::GoTo(at)) => debugger.go_to(at),
+        Some(Asked::Plot(name)) => debugger.plotted = Some(name),
+        None => {}
+    }
+}
+
+fn printed(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
+    let Some(examiner) = &mut debugger.examiner else { return };
+    let printed = debugger.printed.get_or_insert_with(|| examiner.printed());
+    if printed.is_empty() {
+        return;
+    }
+    parts::title(ui, "Printed by comments");
+    let mut go_to = None;
+    for comment in printed.iter() {
+        let count = comment.values.len();
+        let times = if comment.is_cut { format!("more than {count}") } else { count.to_string() };
+        let head = format!("{}:{} {} · {times} times", comment.tab.title(), comment.line + 1, comment.expression);
+        let list = egui::CollapsingHeader::new(RichText::new(head).monospace().size(12.0))
+            .id_salt((comment.line, &comment.expression))
+            .default_open(count <= 8);
+        let shown = list.show(ui, |ui| {
+            ui.spacing_mut().item_spacing.y = 0.0;
+            for (at, value) in comment.values.iter().take(SHOWN) {
+                let (text, color) = match value {
+                    Ok(value) => (words(value), theme::of(ui).text),
+                    Err(why) => (why.clone(), theme::of(ui).error),
+                };
+                let is_here = *at == debugger.at;
+                let label = ui.selectable_label(is_here, RichText::new(text).monospace().size(12.0).color(color));
+                if label.on_hover_text("To that moment").clicked() {
+                    go_to = Some(*at);
+                }
+            }
+        });
+        out.place(format!("trace:print:{}", comment.line + 1), shown.header_response.rect);
+    }
+    if let Some(at) = go_to {
+        debugger.go_to(at);
+    }
+}
+
+fn breakpoints(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
+    parts::title(ui, "Breakpoints");
+    if debugger.breakpoints.is_empty() {
+        let key = out.keys.hint(Action::Trace(TraceAction::Breakpoint));
+        ui.colored_label(theme::of(ui).weak, format!("Click beside a line's number, or press {key} in it."));
+        return;
+    }
+    let wrong = debugger.look().map(|seen| seen.conditions.clone()).unwrap_or_default();
+    let (mut removed, mut is_edited) = (None, false);
+    for (index, breakpoint) in debugger.breakpoints.iter_mut().enumerate() {
+        ui.horizontal(|ui| {
+            let close = icons::flat(ui, Icon::Close, "Remove the breakpoint");
+            if out.clicked(&format!("trace:breakpoint:{index}:remove"), &close) {
+                removed = Some(index);
+            }
+            let name = format!("{} line {}", breakpoint.tab.title(), breakpoint.line + 1);
+            let switch = ui.checkbox(&mut breakpoint.is_on, "").on_hover_text("It stops, or is passed");
+            accessible::choice(&switch, egui::Role::CheckBox, breakpoint.is_on, format!("{name} stops"));
+            is_edited |= switch.changed();
+            let link = ui.link(name);
+            if out.clicked(&format!("trace:breakpoint:{index}"), &link) {
+                out.wishes.push(Wish::GoTo(breakpoint.tab.clone(), Some((breakpoint.line, 0))));
+            }
+            let field = TextEdit::singleline(&mut breakpoint.condition)
+                .id_salt(("condition", index))
+                .font(egui::TextStyle::Monospace)
+                .hint_text("always, or a condition")
+                .desired_width(150.0);
+            let field = ui.add(field);
+            out.place(format!("trace:breakpoint:{index}:condition"), field.rect);
+            is_edited |= field.changed();
+            if let Some(why) = wrong.get(index).and_then(Option::as_ref) {
+                let text = RichText::new(why).color(theme::of(ui).error);
+                ui.add(Label::new(text).truncate()).on_hover_text(why);
+            }
+        });
+    }
+    if let Some(index) = removed {
+        debugger.breakpoints.remove(index);
+    }
+    if is_edited || removed.is_some() {
+        debugger.forget();
+    }
+}
+
+/// The walker's value, the device's, and how far they are apart.
+fn values(traced: &Traced, ui: &mut Ui, out: &mut Outbox) {
+    let p = theme::of(ui);
+    let list = |values: &[f32]| {
+        let words: Vec<String> = values.iter().map(|x| Number::Float(*x).to_string()).collect();
+        format!("({})", words.join(", "))
+    };
+    let first = ui.horizontal_wrapped(|ui| {
+        ui.colored_label(p.weak, "walker");
+        let value = traced.value.map_or("draws nothing".into(), |value| list(&value));
+        ui.label(RichText::new(value).monospace().size(11.5).color(p.text));
+        ui.colored_label(p.weak, "device");
+        let device = format!("{} as {}", list(&traced.device), traced.format.name());
+        ui.label(RichText::new(device).monospace().size(11.5).color(p.text));
+        if let Some(ulps) = traced.ulps() {
+            let words: Vec<String> = ulps.iter().map(u32::to_string).collect();
+            let color = if ulps.iter().all(|n| *n == 0) { p.good } else { p.warning };
+            let label = ui.colored_label(color, format!("{} ULPs apart", words.join(", ")));
+            label.on_hover_text("Numbers of single precision between the two");
+        }
+    });
+    out.place("trace:values", first.response.rect);
+}

@@ -1,0 +1,62 @@
+//! What scripts are told of the debugger.
+
+use super::{debugger::Debugger, moment::words};
+use crate::session::{
+    Session,
+    trace::{Printed, Watched},
+};
+use serde_json::{Map, Value, json};
+
+impl Debugger {
+    pub fn report(&mut self, session: &Session) -> Value {
+        let breakpoints: Vec<Value> = self
+            .breakpoints
+            .iter()
+            .map(|b| json!({ "tab": b.tab.title(), "line": b.line + 1, "condition": b.condition, "on": b.is_on }))
+            .collect();
+        let (at, watched, said) = (self.at, self.watches.clone(), self.said);
+        let Some(traced) = self.examiner.as_ref().map(|examiner| examiner.traced.clone()) else {
+            return json!({ "pixel": null, "trouble": session.trace().trouble, "breakpoints": breakpoints });
+        };
+        let told_of = |comment: &Printed| {
+            let values: Vec<String> = comment.values.iter().map(|(_, value)| told(value)).collect();
+            json!({ "line": comment.line + 1, "expression": comment.expression, "values": values })
+        };
+        let printed: Vec<Value> = self.printed.iter().flatten().map(told_of).collect();
+        let Some(seen) = self.look() else { return Value::Null };
+        let variables: Map<String, Value> =
+            seen.variables.iter().map(|v| (v.shown.name.clone(), words(&v.shown.value).into())).collect();
+        let changed: Vec<&str> =
+            seen.variables.iter().filter(|v| v.is_changed).map(|v| v.shown.name.as_str()).collect();
+        let watches: Map<String, Value> =
+            watched.into_iter().zip(&seen.watches).map(|(watch, value)| (watch, told(value).into())).collect();
+        json!({
+            "pass": traced.pass.title(),
+            "pixel": [traced.pixel.0, traced.pixel.1],
+            "frame": traced.frame,
+            "moment": at,
+            "moments": traced.history.moments.len(),
+            "tab": seen.place.as_ref().map(|(tab, _)| tab.title()),
+            "line": seen.place.as_ref().map(|(_, line)| line + 1),
+            "depth": traced.history.depth(at),
+            "said": said,
+            "variables": variables,
+            "changed": changed,
+            "watches": watches,
+            "turns": seen.rows.rows.len(),
+            "turn": seen.rows.current.map(|turn| turn + 1),
+            "printed": printed,
+            "breakpoints": breakpoints,
+            "value": traced.value,
+            "device": traced.device,
+            "ulps": traced.ulps(),
+        })
+    }
+}
+
+fn told(value: &Watched) -> String {
+    match value {
+        Ok(value) => words(value),
+        Err(why) => format!("error: {why}"),
+    }
+}
