@@ -14,10 +14,7 @@ use super::{
     surface::{Presented, Surface},
     system_theme, theme,
 };
-use crate::{
-    gpu::GpuError,
-    session::{self, Command, Level, Request, Session, SessionOptions},
-};
+use crate::session::{self, Command, Level, Request, Session, SessionOptions};
 use egui_winit::accesskit_winit;
 use serde_json::json;
 use std::{
@@ -346,14 +343,8 @@ impl Running {
         }
         let delay = output.viewport_output.values().map(|v| v.repaint_delay).min().unwrap_or(Duration::MAX);
         let presented = self.surface.paint(&self.window, output, &self.ctx);
-        self.shell.report(&self.session, &mut self.report, self.surface.size(), self.ctx.pixels_per_point(), began);
-        match self.surface.gpu().take_trouble("the window") {
-            Ok(()) => {}
-            Err(reason @ GpuError::Lost(_)) => {
-                return Err(GuiError::Lost { reason, rescue: rescue::save_unsaved(&self.session) });
-            }
-            Err(refused) => self.session.tell_of(&refused),
-        }
+        self.shell.report(&self.session, &mut self.report, self.surface.size(), &self.ctx, began);
+        rescue::watch(self.surface.gpu(), &mut self.session)?;
         self.follow_shell();
         if let Next::Exit = self.take_requests() {
             return Ok(Next::Exit);

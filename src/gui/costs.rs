@@ -127,7 +127,7 @@ fn row(ui: &mut Ui, columns: &Columns, pass: &TimedPass, most: f64, out: &mut Ou
     };
     let millis = match (why, pass.millis) {
         (Some(why), _) => why.to_owned(),
-        (None, Some(ms)) => format!("{ms:.3} ms"),
+        (None, Some(ms)) => millis_text(ms),
         (None, None) => "–".into(),
     };
     let formats: Vec<&str> = cost.formats.iter().map(|f| f.name()).collect();
@@ -182,7 +182,7 @@ fn sum(ui: &mut Ui, columns: &Columns, costs: &PassCosts, out: &mut Outbox) {
         0 => format!("{} passes", at_work.len()),
         n => format!("{} of {} passes drawn", at_work.len(), at_work.len() + n),
     };
-    let texts = [title.as_str(), "", "", &format!("{millis:.3} ms"), &bytes(held), &bytes(moved)];
+    let texts = [title.as_str(), "", "", &millis_text(millis), &bytes(held), &bytes(moved)];
     ui.painter().hline(ui.max_rect().x_range(), ui.cursor().top(), egui::Stroke::new(1.0, theme::of(ui).line));
     let response = line(ui, columns, texts, theme::of(ui).strong, theme::of(ui).strong);
     out.place("costs:sum", response.rect);
@@ -225,6 +225,12 @@ pub fn report(session: &Session) -> serde_json::Value {
         })
         .collect();
     serde_json::json!({ "passes": passes })
+}
+
+/// Milliseconds in as many digits as say something, so that columns do not touch.
+fn millis_text(millis: f64) -> String {
+    let digits = if millis < 10.0 { 3 } else { usize::from(millis < 1000.0) };
+    format!("{millis:.digits$} ms")
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ pub enum Icon {
     Play,
     Pause,
     Step,
+    StepBack,
     Camera,
     Expand,
     More,
@@ -78,6 +79,9 @@ fn paint(ui: &Ui, rect: Rect, icon: Icon, color: Color32) {
         Icon::Step => {
             triangle([at(-5.0, -5.5), at(-5.0, 5.5), at(3.0, 0.0)]);
             bar(3.5, 2.0);
+        }
+        Icon::StepBack => {
+            triangle([at(4.0, -5.5), at(4.0, 5.5), at(-4.5, 0.0)]);
         }
         Icon::Camera => {
             painter.rect_stroke(Rect::from_min_max(at(-7.0, -3.5), at(7.0, 5.5)), 2.0, line, StrokeKind::Middle);

@@ -42,6 +42,10 @@ pub enum Wish {
     ShowRecovered,
     Shape(Shape),
     Set(Change),
+    /// A breakpoint at a line of a tab, from 0, or none there any more.
+    Breakpoint(Tab, usize),
+    /// The way of the pixel at a place of the picture, from 0 to 1.
+    Trace([f32; 2]),
 }
 
 /// A part of the window that F6 goes to.

@@ -2,6 +2,7 @@
 
 use super::GuiError;
 use crate::{
+    gpu::{Gpu, GpuError},
     project::{self, Origin, Overwrite, Project},
     session::Session,
 };
@@ -9,6 +10,17 @@ use std::{
     panic::{AssertUnwindSafe, catch_unwind},
     path::{Path, PathBuf},
 };
+
+/// Looks whether the window's device is still there. One that is lost takes every picture with it: the window ends, after
+/// what was not saved has been. What the device refused is told of, and the window goes on.
+pub fn watch(gpu: &Gpu, session: &mut Session) -> Result<(), GuiError> {
+    match gpu.take_trouble("the window") {
+        Ok(()) => {}
+        Err(reason @ GpuError::Lost(_)) => return Err(GuiError::Lost { reason, rescue: save_unsaved(session) }),
+        Err(refused) => session.tell_of(&refused),
+    }
+    Ok(())
+}
 
 /// Does a part of the window's work. A panic in it ends the window with an error that says so, after what was not saved
 /// has been: a bug in drawing is no reason to lose a text.
@@ -81,17 +93,38 @@ mod tests {
     };
     use std::{sync::Arc, time::Instant};
 
-    #[test]
-    fn a_panic_in_the_window_saves_what_was_not() {
-        let Some(gpu) = testing::gpu() else { return };
-        let folder = tempfile::tempdir().unwrap();
-        let project = folder.path().join("mine");
+    const UNSAVED: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); } // not saved";
+
+    fn open(gpu: Gpu, folder: &Path) -> Session {
+        let project = folder.join("mine");
         std::fs::create_dir(&project).unwrap();
         std::fs::write(project.join("image.glsl"), "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }").unwrap();
         let mut session = Session::new(gpu, Arc::new(|| ())).unwrap();
         session.apply(Command::Open(project.display().to_string()));
-        let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); } // not saved";
-        let tab = Tab::Pass(PassId::Image);
+        session
+    }
+
+    #[test]
+    fn a_window_whose_device_is_lost_saves_what_was_not() {
+        let Some(gpu) = testing::gpu() else { return };
+        let folder = tempfile::tempdir().unwrap();
+        let mut session = open(gpu.clone(), folder.path());
+        session.apply(Command::EditText { tab: Tab::Pass(PassId::Image), text: UNSAVED.into() });
+        watch(&gpu, &mut session).unwrap();
+        gpu.lose();
+        let error = watch(&gpu, &mut session).unwrap_err();
+        let saved = folder.path().join("mine-recovered-0001");
+        assert!(matches!(error, GuiError::Lost { .. }) && error.to_string().contains("the graphics device was lost"));
+        assert!(error.to_string().ends_with(&format!("Your unsaved work is in {}", saved.display())), "{error}");
+        assert_eq!(std::fs::read_to_string(saved.join("image.glsl")).unwrap(), UNSAVED);
+    }
+
+    #[test]
+    fn a_panic_in_the_window_saves_what_was_not() {
+        let Some(gpu) = testing::gpu() else { return };
+        let folder = tempfile::tempdir().unwrap();
+        let mut session = open(gpu, folder.path());
+        let (text, tab) = (UNSAVED, Tab::Pass(PassId::Image));
         let ends = |session: &mut Session| {
             caught(
                 session,

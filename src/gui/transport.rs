@@ -24,6 +24,8 @@ pub const HEIGHT: f32 = 40.0;
 /// Points for the pass that is shown and the menu behind it, and for the size.
 const BEHIND: f32 = 116.0;
 const SIZE: f32 = 108.0;
+/// For the mark of a recording.
+const RECORDING: f32 = 64.0;
 
 /// Fills the space there is. True: a hand drags what is free of it.
 pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) -> bool {
@@ -45,8 +47,10 @@ pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) -> b
             }
         };
         button(ui, "button:reset", Icon::Reset, "Reset time and buffers", Action::Reset);
+        button(ui, "button:step-back", Icon::StepBack, "One frame back, then pause", Action::StepBack);
         button(ui, "button:step", Icon::Step, "One frame forward, then pause", Action::Step);
         button(ui, "button:screenshot", Icon::Camera, "Save a picture of the shown pass as PNG", Action::Screenshot);
+        recording(ui, session, out);
         // What there is no room for is in the menu at the right, or in the table of costs.
         let roomy = ui.available_width() >= BEHIND + SIZE + 64.0;
         let gap = 8.0;
@@ -60,13 +64,17 @@ pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) -> b
         let (shows_time, shows_cost) = (fits(56.0), fits(60.0));
         let (shows_fps, shows_frame) = (fits(58.0), fits(52.0));
         if shows_time {
-            value(ui, 56.0, &format!("{:.2} s", transport.time_secs), "Time (iTime)");
+            value(ui, 56.0, &format!("{} s", figure(transport.time_secs, 2, 5)), "Time (iTime)");
         }
         if shows_frame {
-            value(ui, 52.0, &format!("#{}", transport.frame), "Frame (iFrame)");
+            let text = match f64::from(transport.frame) {
+                frame if frame < 1e6 => format!("#{frame}"),
+                frame => format!("#{:.2}M", frame / 1e6),
+            };
+            value(ui, 52.0, &text, "Frame (iFrame)");
         }
         if shows_fps {
-            let text = transport.fps.map_or_else(|| "– fps".to_owned(), |fps| format!("{fps:.1} fps"));
+            let text = transport.fps.map_or_else(|| "– fps".to_owned(), |fps| format!("{} fps", figure(fps, 1, 4)));
             value(ui, 58.0, &text, "Frames a second, over the last half second");
         }
         if shows_cost {
@@ -84,6 +92,27 @@ pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) -> b
     handle.drag_started()
 }
 
+/// Returns a number with so many digits behind the point, or as many as there is room for: it must not touch the one
+/// beside it.
+fn figure(value: f64, digits: usize, letters: usize) -> String {
+    let fits = |digits: &usize| format!("{value:.digits$}").len() <= letters;
+    let digits = (0..=digits).rev().find(fits).unwrap_or(0);
+    format!("{value:.digits$}")
+}
+
+/// While input is recorded: how many frames, on a button that ends it. There is always room for it, so that nobody
+/// forgets it.
+fn recording(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+    let Some(frames) = session.recorded_frames() else { return };
+    let text = RichText::new(format!("● {frames}")).monospace().size(12.0).color(theme::of(ui).error);
+    let tip = format!("{frames} frames of input recorded; click to end and save them");
+    let button = ui.add(Button::new(text).min_size(vec2(RECORDING, 24.0)));
+    accessible::name(&button, egui::Role::Button, "End the recording of input");
+    if out.clicked("button:recording", &button.on_hover_text(out.keys.tip(&tip, Action::Record))) {
+        out.act(Action::Record);
+    }
+}
+
 /// A number that keeps its place while it changes.
 fn value(ui: &mut Ui, width: f32, text: &str, tip: &str) {
     let (rect, response) = ui.allocate_exact_size(vec2(width, 24.0), egui::Sense::hover());
@@ -97,8 +126,8 @@ fn value(ui: &mut Ui, width: f32, text: &str, tip: &str) {
 fn cost(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     let transport = session.transport();
     let (text, of) = match (transport.gpu_millis, transport.cpu_micros) {
-        (Some(millis), _) => (format!("{millis:.2} ms"), "graphics device"),
-        (None, Some(micros)) => (format!("{:.2} ms", micros / 1000.0), "processor"),
+        (Some(millis), _) => (format!("{} ms", figure(millis, 2, 5)), "graphics device"),
+        (None, Some(micros)) => (format!("{} ms", figure(micros / 1000.0, 2, 5)), "processor"),
         (None, None) => ("– ms".to_owned(), "graphics device"),
     };
     let (rect, response) = ui.allocate_exact_size(vec2(60.0, 24.0), egui::Sense::click());
@@ -174,6 +203,7 @@ fn size(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
         })
         .response
         .on_hover_text("Size of the picture in pixels (iResolution)");
+    accessible::name(&response, egui::Role::ComboBox, "Size of the picture");
     out.place("combo:size", response.rect);
 }
 
@@ -196,6 +226,7 @@ fn shown_pass(ui: &mut Ui, session: &Session, out: &mut Outbox) {
         })
         .response
         .on_hover_text("The pass that is shown, and saved as a picture");
+    accessible::name(&response, egui::Role::ComboBox, "The pass that is shown");
     out.place("combo:pass", response.rect);
 }
 
@@ -210,7 +241,16 @@ fn options(ui: &mut Ui, session: &Session, out: &mut Outbox) {
             out.ask(Command::SetResetOnReload(reset));
         }
         ui.separator();
-        for action in [Action::Screenshot, Action::SaveTexels, Action::Fullscreen, Action::Costs, Action::Compile] {
+        let all = [
+            Action::Screenshot,
+            Action::SaveTexels,
+            Action::Record,
+            Action::Audit,
+            Action::Fullscreen,
+            Action::Costs,
+            Action::Compile,
+        ];
+        for action in all {
             let item = Button::new(action.title()).shortcut_text(out.keys.hint(action));
             if ui.add(item).clicked() {
                 out.act(action);
@@ -219,4 +259,16 @@ fn options(ui: &mut Ui, session: &Session, out: &mut Outbox) {
         }
     });
     more.on_hover_text("More");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_keep_to_their_width() {
+        let all = [0.0, 9.996, 99.994, 99.996, 144.04, 999.96, 12345.0].map(|value| figure(value, 2, 5));
+        assert_eq!(all, ["0.00", "10.00", "99.99", "100.0", "144.0", "1000", "12345"]);
+        assert_eq!([59.94, 99.96, 240.3, 1000.0].map(|value| figure(value, 1, 4)), ["59.9", "100", "240", "1000"]);
+    }
 }

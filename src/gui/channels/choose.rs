@@ -104,17 +104,19 @@ fn sampler(ui: &mut Ui, channel: &Channel, out: &mut Outbox, set: impl Fn(&mut O
     ui.separator();
     ui.horizontal_wrapped(|ui| {
         let filter = ComboBox::from_id_salt("filter").width(78.0).selected_text(filter_name(sampler.filter));
-        filter.show_ui(ui, |ui| {
+        let filter = filter.show_ui(ui, |ui| {
             for filter in [Filter::Nearest, Filter::Linear, Filter::Mipmap] {
                 ui.selectable_value(&mut sampler.filter, filter, filter_name(filter));
             }
         });
+        accessible::name(&filter.response, egui::Role::ComboBox, "Filter");
         let wrap = ComboBox::from_id_salt("wrap").width(72.0).selected_text(wrap_name(sampler.wrap));
-        wrap.show_ui(ui, |ui| {
+        let wrap = wrap.show_ui(ui, |ui| {
             for wrap in [Wrap::Clamp, Wrap::Repeat] {
                 ui.selectable_value(&mut sampler.wrap, wrap, wrap_name(wrap));
             }
         });
+        accessible::name(&wrap.response, egui::Role::ComboBox, "Wrap");
         if matches!(channel.input, Input::Texture(_) | Input::Cubemap(_) | Input::Video(_) | Input::Webcam) {
             ui.checkbox(&mut sampler.vflip, "flip").on_hover_text("The picture's top row lies at v = 1");
         }

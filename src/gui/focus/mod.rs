@@ -24,6 +24,8 @@ pub struct Focus {
     /// The home that had the keyboard last.
     home: Option<Id>,
     had: Option<Id>,
+    /// F6 is on its way, and nothing has been done where it came by: a home that is passed is not gone back to.
+    walks: bool,
     /// A popup was open in the frame before, opened by this widget.
     popup_of: Option<Option<Id>>,
     /// The last press was of a key and not of the mouse: then people want to see who has the keyboard.
@@ -42,8 +44,8 @@ impl Focus {
         ui.input(|i| {
             for event in &i.events {
                 match event {
-                    Event::Key { pressed: true, .. } => self.by_key = true,
-                    Event::PointerButton { pressed: true, .. } => self.by_key = false,
+                    Event::Key { pressed: true, .. } => (self.by_key, self.walks) = (true, false),
+                    Event::PointerButton { pressed: true, .. } => (self.by_key, self.walks) = (false, false),
                     _ => {}
                 }
             }
@@ -116,7 +118,7 @@ impl Focus {
         });
         if let Some(id) = found {
             ui.memory_mut(|m| m.request_focus(id));
-            self.by_key = true;
+            (self.by_key, self.walks) = (true, true);
         }
     }
 
@@ -156,7 +158,9 @@ impl Focus {
         };
         self.place = ui.ctx().viewport(|v| v.this_pass.widgets.get(id).map(|w| [w.rect, w.interact_rect]));
         if self.stops.iter().any(|p| p.home == Some(id)) {
-            self.home = Some(id);
+            if !self.walks {
+                self.home = Some(id);
+            }
             return;
         }
         let Some(widget) = ui.ctx().viewport(|v| {

@@ -9,6 +9,8 @@ struct Stage {
     focus: Focus,
     /// A dialog of two buttons is open.
     asks: bool,
+    /// There is a second text, the last of all.
+    has_second: bool,
 }
 
 /// What a frame does besides showing.
@@ -23,12 +25,16 @@ impl Stage {
         Id::unique("text")
     }
 
+    fn second() -> Id {
+        Id::unique("second text")
+    }
+
     /// Shows a frame; the label of what has the keyboard behind it.
     fn frame(&mut self, events: Vec<Event>, step: Step) -> String {
         let screen_rect = Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 300.0)));
         let input = RawInput { screen_rect, events, focused: true, ..RawInput::default() };
-        let mut names: Vec<(Id, String)> = vec![(Self::text(), "text".into())];
-        let Stage { ctx, focus, asks } = self;
+        let mut names: Vec<(Id, String)> = vec![(Self::text(), "text".into()), (Self::second(), "second".into())];
+        let Stage { ctx, focus, asks, has_second } = self;
         let mut output = ctx.run_ui(input, |ui| {
             let mut out = Outbox::default();
             focus.take_keys(ui);
@@ -41,14 +47,18 @@ impl Stage {
                 out.stop("left", ui);
                 ["d", "e"].into_iter().for_each(|name| button(ui, name));
             });
-            egui::CentralPanel::default().show(ui, |ui| {
-                out.home("text", ui, Self::text());
-                let response = ui.interact(ui.max_rect(), Self::text(), Sense::click_and_drag());
+            let mut home = |ui: &mut Ui, name: &'static str, id: Id| {
+                out.home(name, ui, id);
+                let response = ui.interact(ui.max_rect(), id, Sense::click_and_drag());
                 if response.has_focus() {
                     let all = EventFilter { tab: true, horizontal_arrows: true, vertical_arrows: true, escape: true };
-                    ui.memory_mut(|m| m.set_focus_lock_filter(Self::text(), all));
+                    ui.memory_mut(|m| m.set_focus_lock_filter(id, all));
                 }
-            });
+            };
+            if *has_second {
+                Side::bottom("second").exact_size(40.0).show(ui, |ui| home(ui, "second", Self::second()));
+            }
+            egui::CentralPanel::default().show(ui, |ui| home(ui, "text", Self::text()));
             if *asks {
                 let list = ["yes", "no"].into_iter();
                 Modal::new(Id::unique("ask")).show(ui.ctx(), |ui| list.for_each(|name| button(ui, name)));
@@ -108,4 +118,17 @@ fn a_dialog_has_the_keyboard_to_itself_and_gives_it_back() {
     stage.frame(vec![], Step::None);
     stage.frame(vec![], Step::None);
     assert_eq!(stage.frame(vec![], Step::None), "text");
+}
+
+#[test]
+fn escape_goes_back_to_where_one_was_and_not_to_what_f6_came_by() {
+    let mut stage = Stage { has_second: true, ..Stage::default() };
+    stage.frame(vec![], Step::None);
+    assert_eq!(stage.frame(vec![], Step::None), "text");
+    assert_eq!([stage.step(true), stage.step(true)], ["second", "a"]);
+    assert_eq!(stage.press(Key::Escape, Modifiers::NONE), "text");
+    assert_eq!(stage.step(true), "second");
+    assert_eq!(stage.press(Key::X, Modifiers::NONE), "second", "something is done there");
+    assert_eq!(stage.step(true), "a");
+    assert_eq!(stage.press(Key::Escape, Modifiers::NONE), "second");
 }

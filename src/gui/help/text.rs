@@ -62,6 +62,24 @@ pub(super) const SECTIONS: &[Section] = &[
         ],
     },
     Section {
+        title: "Seeing inside",
+        paragraphs: &[
+            "Probe expression draws the value at the caret instead of the picture: the bar over it says its range, its \
+             histogram and the number under the mouse. Stripes are pixels that never came by. Escape ends it. With \
+             Ctrl and Alt held, what the pointer is over is probed. Buffers go on as before.",
+            "Trace pixel, or a click on the picture with Ctrl and Shift held, pauses and follows one pixel through its \
+             code. Each line can then be gone to and back again: forwards by the usual keys of a debugger, backwards \
+             by the same keys with Alt. A click beside a line's number sets a breakpoint, which can have a condition. \
+             Watches are expressions of the language, and may call your own functions.",
+            "A comment prints what an expression is where it stands, each time, and means nothing to the site:",
+            "\t//@print distance * 0.5",
+            "One frame back draws the frame before again, with every buffer as it was. Record input writes down what \
+             each frame is given, so that the command line draws the same frames again.",
+            "Check the picture holds some of its pixels against double precision, and lists what GLSL leaves undefined \
+             below the code.",
+        ],
+    },
+    Section {
         title: "The lab and costs",
         paragraphs: &[
             "The table of costs says what each pass takes in time and memory. The lab measures methods against a \

@@ -1,12 +1,13 @@
 //! How the chosen pass is called, drawn and read.
 
+use super::fills::{self, Filling};
 use crate::{
     gui::{
         accessible,
         outbox::{Outbox, Wish},
         theme,
     },
-    project::{Filter, Pass, PassEdit, PassFormat, PassId, PassSize, Project, Region, Tab, Wrap},
+    project::{FillKind, Filter, Pass, PassEdit, PassFormat, PassId, PassSize, Project, Region, Tab, Wrap},
     session::{Command, Session},
 };
 use egui::{ComboBox, DragValue, Grid, Key, Response, RichText, Role, TextEdit, Ui};
@@ -18,7 +19,16 @@ pub struct Naming {
     text: String,
 }
 
-pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, naming: &mut Naming, out: &mut Outbox) {
+/// Everything that is being typed.
+#[derive(Debug, Default)]
+pub struct Typed {
+    naming: Naming,
+    initial: Filling,
+    boundary: Filling,
+}
+
+pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, typed: &mut Typed, out: &mut Outbox) {
+    let naming = &mut typed.naming;
     let project = session.project();
     if naming.of.as_ref() != Some(tab) {
         *naming = Naming { of: Some(tab.clone()), text: name_of(tab) };
@@ -64,6 +74,17 @@ pub fn show(ui: &mut Ui, session: &Session, tab: &Tab, naming: &mut Naming, out:
             ui.end_row();
             ui.label("Read with");
             samplers(ui, project, &pass.id, out);
+            ui.end_row();
+        }
+        let can_be_filled = pass.settings.meshes().is_none();
+        if is_buffer && can_be_filled {
+            ui.label("Begins with");
+            fills::show(ui, pass, FillKind::Initial, &mut typed.initial, out);
+            ui.end_row();
+        }
+        if (is_buffer || pass.id == PassId::Image) && can_be_filled {
+            ui.label("Edges").on_hover_text("The outermost texels, overwritten after each draw");
+            fills::show(ui, pass, FillKind::Boundary, &mut typed.boundary, out);
             ui.end_row();
         }
     });

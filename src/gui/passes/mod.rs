@@ -3,6 +3,7 @@
 //! Owns what is chosen and typed here. What is asked for goes to the session as an edit, which it can take back.
 
 mod detail;
+mod fills;
 mod list;
 
 use super::{
@@ -15,18 +16,18 @@ use crate::{
     project::{PassId, Tab},
     session::{Command, Session},
 };
-use detail::Naming;
-use egui::{Id, Popup, PopupCloseBehavior, Response, RichText, Ui, Window, vec2};
+use detail::Typed;
+use egui::{Frame, Id, Margin, Popup, PopupCloseBehavior, Response, RichText, Ui, Window, WindowDrag, vec2};
 
 /// Width of the list; the rest is the chosen pass's.
 const LIST: f32 = 196.0;
-const SIZE: egui::Vec2 = vec2(600.0, 392.0);
+const SIZE: egui::Vec2 = vec2(600.0, 486.0);
 
 #[derive(Debug, Default)]
 pub struct Passes {
     open: bool,
     chosen: Option<Tab>,
-    naming: Naming,
+    typed: Typed,
     /// How many of the session's renamed passes have been followed.
     followed: usize,
 }
@@ -53,6 +54,9 @@ impl Passes {
             .id(Id::unique("passes"))
             .open(&mut open)
             .collapsible(false)
+            // A title that is dragged would take the keyboard, and have no name.
+            .drag_area(WindowDrag::Anywhere)
+            .title_frame(Frame::window(ui.style()).inner_margin(Margin::symmetric(16, 9)))
             .resizable(true)
             .default_size(size)
             .min_size(vec2(320.0, 180.0))
@@ -117,7 +121,7 @@ impl Passes {
 
     fn detail(&mut self, ui: &mut Ui, session: &Session, tab: &Tab, out: &mut Outbox) {
         egui::ScrollArea::vertical().id_salt("pass detail").auto_shrink(false).show(ui, |ui| {
-            detail::show(ui, session, tab, &mut self.naming, out);
+            detail::show(ui, session, tab, &mut self.typed, out);
         });
     }
 }

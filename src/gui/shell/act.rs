@@ -9,7 +9,7 @@ use crate::{
         outbox::{Outbox, Pick},
         settings::{Change, Settings},
     },
-    session::{Command, Level, Session},
+    session::{Command, Level, Session, probe::ProbePlace},
 };
 use egui::Ui;
 use std::path::Path;
@@ -36,10 +36,13 @@ impl Shell {
             Action::TogglePlay => out.ask(Command::TogglePlay),
             Action::Reset => out.ask(Command::Reset),
             Action::Step => out.ask(Command::Step),
+            Action::StepBack => out.ask(Command::StepBack(1)),
             Action::TabLeft => self.code.go_aside(session, -1),
             Action::TabRight => self.code.go_aside(session, 1),
             Action::Screenshot => out.ask(Command::Screenshot),
             Action::SaveTexels => out.ask(Command::SaveTexels),
+            Action::Record => out.ask(Command::Record),
+            Action::Audit => out.ask(Command::Audit),
             Action::Fullscreen => {
                 self.fullscreen = !self.fullscreen;
                 self.viewport.focus();
@@ -94,9 +97,23 @@ impl Shell {
             Action::FontLarger => self.scale_code(Some(1.0), out),
             Action::FontSmaller => self.scale_code(Some(-1.0), out),
             Action::FontReset => self.scale_code(None, out),
+            Action::Probe => self.probe(session, out),
+            Action::TracePixel => self.viewport.pick(),
+            Action::Trace(action) => {
+                let caret = self.code.caret_place().map(|(tab, _, line)| (tab, line));
+                self.debugger.act(session, action, caret);
+            }
             Action::Quit => out.ask(Command::Close),
         }
         ui.ctx().request_repaint();
+    }
+
+    /// Draws the value of the expression at the caret, or the picture again where that is what is drawn.
+    fn probe(&mut self, session: &Session, out: &mut Outbox) {
+        let Some((tab, at, _)) = self.code.caret_place() else { return };
+        let is_drawn = session.probe().is_some_and(|view| view.place.tab == tab && view.place.at == at);
+        let place = (!is_drawn).then_some(ProbePlace { tab, at, visit: 0 });
+        out.ask(Command::Probe(place));
     }
 
     /// Opens a panel, or closes it. One that is behind another comes to the front.

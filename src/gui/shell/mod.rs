@@ -9,7 +9,7 @@ use super::{
     actions::{Action, KeyFile, Listening},
     channels::Live,
     code::CodePanel,
-    dock::Dock,
+    dock::{Dock, Panel},
     files::{Files, Picked},
     focus::Focus,
     fonts,
@@ -23,6 +23,7 @@ use super::{
     settings::{Change, Remembered, Settings, SettingsFile, Theme},
     thumbnails::Thumbnails,
     toasts,
+    trace::Debugger,
     viewport::{Around, Viewport},
 };
 use crate::{
@@ -43,6 +44,7 @@ pub struct Shell {
     code: CodePanel,
     files: Files,
     lab: Lab,
+    debugger: Debugger,
     dock: Dock,
     sees_costs: bool,
     /// Small pictures of buffers.
@@ -92,6 +94,7 @@ impl Shell {
             code: CodePanel::new(),
             files: Files::new(wake.clone()),
             lab: Lab::new(&gpu, wake.clone()),
+            debugger: Debugger::default(),
             dock: Dock::new(),
             sees_costs: false,
             live: Live::default(),
@@ -154,6 +157,11 @@ impl Shell {
     pub fn prepare(&mut self, session: &Session, renderer: &mut Renderer) {
         self.code.prepare(session);
         self.viewport.prepare(session, renderer);
+        self.debugger.prepare(session);
+        if let Some((tab, line)) = self.debugger.take_reveal(session) {
+            self.code.reveal_line(tab, line);
+        }
+        self.code.set_debug(self.debugger.marks(session, self.code.current()));
     }
 
     /// Shows everything once. What the session is to do comes back.
@@ -174,6 +182,7 @@ impl Shell {
         self.focus.take_keys(ui);
         if !asking {
             self.keys(ui, &mut out);
+            self.end_probe(ui, session, &mut out);
             self.palette.take_keys(ui);
             self.take_arrivals(ui, session, &mut out);
         }
@@ -264,7 +273,11 @@ impl Shell {
     /// The window's own keys, taken before any widget sees them. Those of the code are left to it, in their order with
     /// what is typed.
     fn keys(&mut self, ui: &Ui, out: &mut Outbox) {
-        let listening = Listening { code: self.code.has_keys(ui.ctx()), find_bar: self.code.is_finding() };
+        let listening = Listening {
+            code: self.code.has_keys(ui.ctx()),
+            find_bar: self.code.is_finding(),
+            trace: !self.gallery && self.dock.is_seen(Panel::Trace),
+        };
         let keymap = self.keys.keymap().clone();
         let drops_text = &mut self.drops_text;
         // A field for a name has an undo of its own.
@@ -292,6 +305,17 @@ impl Shell {
         }
     }
 
+    /// Escape ends what is shown instead of the picture, unless something else is open that it ends first.
+    fn end_probe(&mut self, ui: &Ui, session: &Session, out: &mut Outbox) {
+        let is_other = self.palette.is_open() || self.code.is_finding() || self.help.is_some() || self.fullscreen;
+        if is_other || !ui.input(|i| i.key_pressed(egui::Key::Escape)) {
+            return;
+        }
+        if !self.viewport.stop_picking() && session.probe().is_some() {
+            out.ask(Command::Probe(None));
+        }
+    }
+
     /// Returns where a named widget was shown last, in points.
     #[cfg(test)]
     pub fn place(&self, name: &str) -> Option<egui::Rect> {
@@ -309,6 +333,11 @@ impl Shell {
             Wish::Act(action) => self.act(ui, session, action, out),
             Wish::Shape(shape) => self.viewport.set_shape(shape),
             Wish::Set(change) => self.change(change, out),
+            Wish::Breakpoint(tab, line) => self.debugger.toggle(session, &tab, line),
+            Wish::Trace(at) => {
+                self.dock.set_open(Panel::Trace, true);
+                out.ask(Command::Trace(Some(at)));
+            }
             Wish::Pick(pick) => self.files.ask(pick, start_folder(session)),
             Wish::Picked(pick, path) => self.picked(pick, path, out),
             Wish::CloseGallery => self.close_gallery(out),

@@ -11,7 +11,9 @@ use crate::{
         outbox::{Outbox, Wish},
         theme,
         thumbnails::Thumbnails,
-        toasts, top_bar, transport,
+        toasts, top_bar,
+        trace::{self, Debugger},
+        transport,
         viewport::{Around, Viewport},
     },
     project::Origin,
@@ -37,7 +39,6 @@ impl Shell {
             toasts::panel(ui, session, out);
             let frame = Frame::NONE.fill(p.background);
             CentralPanel::default().frame(frame).show(ui, |ui| {
-                out.stop("gallery", ui);
                 self.page.show(ui, session, &mut self.thumbnails, can_close, out);
             });
             return;
@@ -48,10 +49,14 @@ impl Shell {
         if !self.dock.is_seen(Panel::Code) {
             toasts::panel(ui, session, out);
         }
-        let Self { viewport, code, lab, thumbnails, live, dock, .. } = self;
+        let Self { viewport, code, lab, debugger, thumbnails, live, dock, .. } = self;
         CentralPanel::default().frame(Frame::NONE.fill(p.panel)).show(ui, |ui| {
-            dock.show(ui, &mut Shown { viewport, code, lab, thumbnails, live, session, out });
+            dock.show(ui, &mut Shown { viewport, code, lab, debugger, thumbnails, live, session, out });
         });
+        // Who closes the panel is done with the pixel.
+        if session.trace().traced.is_some() && !self.dock.is_open(Panel::Trace) {
+            out.ask(Command::Trace(None));
+        }
         let sees_costs = self.dock.is_seen(Panel::Costs);
         self.watch_costs(sees_costs, out);
     }
@@ -91,6 +96,7 @@ struct Shown<'a> {
     viewport: &'a mut Viewport,
     code: &'a mut CodePanel,
     lab: &'a mut Lab,
+    debugger: &'a mut Debugger,
     thumbnails: &'a mut Thumbnails,
     live: &'a mut Live,
     session: &'a Session,
@@ -99,7 +105,7 @@ struct Shown<'a> {
 
 impl Contents for Shown<'_> {
     fn show(&mut self, ui: &mut Ui, panel: Panel) -> bool {
-        let Self { code, lab, thumbnails, live, session, out, .. } = self;
+        let Self { code, lab, debugger, thumbnails, live, session, out, .. } = self;
         match panel {
             Panel::Picture => return self.picture(ui),
             Panel::Code => return code.show(ui, session, out),
@@ -107,6 +113,9 @@ impl Contents for Shown<'_> {
             Panel::Channels => channels::show(ui, session, code.current(), thumbnails, live, out),
             Panel::Costs => within(ui, Margin { left: 8, right: 6, top: 0, bottom: 4 }, |ui| {
                 costs::show(ui, session, out);
+            }),
+            Panel::Trace => within(ui, Margin { left: 8, right: 6, top: 2, bottom: 4 }, |ui| {
+                trace::show(debugger, ui, session, out);
             }),
             Panel::Lab => within(ui, Margin { left: 10, right: 8, top: 2, bottom: 6 }, |ui| lab.show(ui, out)),
         }

@@ -2,7 +2,7 @@
 
 use super::Shell;
 use crate::{
-    gui::{costs, dock::Panel, halt, problems, report::Report, theme},
+    gui::{costs, dock::Panel, halt, probe, problems, report::Report, theme},
     project::{Origin, Tab},
     session::{Outcome, Session},
 };
@@ -11,11 +11,18 @@ use std::time::Instant;
 
 impl Shell {
     /// Tells scripts what is new.
-    pub fn report(&mut self, session: &Session, report: &mut Report, window: (u32, u32), scale: f32, now: Instant) {
+    pub fn report(
+        &mut self,
+        session: &Session,
+        report: &mut Report,
+        window: (u32, u32),
+        ctx: &egui::Context,
+        now: Instant,
+    ) {
         if !report.is_enabled() {
             return;
         }
-        let transport = session.transport();
+        let (transport, scale) = (session.transport(), ctx.pixels_per_point());
         let generation = session.text_generation();
         let project = session.project();
         let opened = report.say_if_new("opened", json!({ "name": project.name, "origin": origin(&project.origin) }));
@@ -49,9 +56,19 @@ impl Shell {
         if self.dock.is_open(Panel::Costs) {
             report.say_if_new("costs", costs::report(session));
         }
-        let focused = self.focus.place();
-        let focused = focused.and_then(|[whole, seen]| self.places.named(whole).or_else(|| self.places.named(seen)));
-        report.say_if_new("focus", json!({ "widget": focused }));
+        let under = session.probe().and(self.viewport.under());
+        report.say_if_new("probe", probe::report(session, under));
+        if self.dock.is_open(Panel::Trace) {
+            report.say_if_new("trace", self.debugger.report(session));
+        }
+        let theme = if ctx.theme() == egui::Theme::Dark { "dark" } else { "light" };
+        report.say_if_new("theme", json!({ "shown": theme }));
+        // What is not in sight yet comes there in the next frames, and only then has a place that is told of.
+        let place = self.focus.place();
+        if place.is_none_or(|[_, seen]| seen.is_positive()) {
+            let focused = place.and_then(|[whole, seen]| self.places.named(whole).or_else(|| self.places.named(seen)));
+            report.say_if_new("focus", json!({ "widget": focused }));
+        }
         report.layout(window, transport.resolution, scale, &self.places.areas(scale));
         let frame = json!({
             "frame": transport.frame,

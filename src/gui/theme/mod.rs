@@ -4,7 +4,7 @@ mod palette;
 
 pub use palette::{DARK, LIGHT, Palette};
 
-use palette::OVER_PICTURE;
+use palette::{DARK_OVER_PICTURE, LIGHT_OVER_PICTURE};
 
 use egui::{CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, Style, TextStyle, Theme, Ui, Visuals, vec2};
 
@@ -15,16 +15,18 @@ pub fn of(ui: &Ui) -> &'static Palette {
 
 /// Does the same where there is no place yet.
 pub fn of_visuals(visuals: &Visuals) -> &'static Palette {
-    match visuals.dark_mode {
-        true if visuals.panel_fill.is_opaque() => &DARK,
-        true => &OVER_PICTURE,
-        false => &LIGHT,
+    match (visuals.dark_mode, visuals.panel_fill.is_opaque()) {
+        (true, true) => &DARK,
+        (true, false) => &DARK_OVER_PICTURE,
+        (false, true) => &LIGHT,
+        (false, false) => &LIGHT_OVER_PICTURE,
     }
 }
 
 /// Shows what follows in a place over a picture, which is seen through.
 pub fn put_over_picture(ui: &mut Ui) {
-    ui.style_mut().visuals = visuals(&OVER_PICTURE);
+    let palette = if ui.visuals().dark_mode { &DARK_OVER_PICTURE } else { &LIGHT_OVER_PICTURE };
+    ui.style_mut().visuals = visuals(palette);
 }
 
 /// Puts both themes into effect; which one is shown is [`egui::Options::theme_preference`].

@@ -5,7 +5,7 @@
 
 use crate::{
     engine::{BuildOptions, Engine, FrameInputs, Program},
-    gpu::{Gpu, GpuOptions},
+    gpu::{self, Gpu, GpuOptions},
     media,
     project::{PassId, presets},
 };
@@ -23,8 +23,10 @@ use std::{
 const SIZE: (u32, u32) = (320, 180);
 /// Frames that are drawn before the first is shown: until then the picture that lies in the program says more.
 const HIDDEN: i32 = 24;
-/// Time between two frames that are shown; two are drawn in it.
+/// Least time between two frames that are shown; two are drawn in it.
 const INTERVAL: Duration = Duration::from_millis(33);
+/// Steps that the thread takes back behind others where a processor draws: a window that is used goes first.
+const STEPS_BACK: i32 = 10;
 
 pub struct Live {
     gpu: Gpu,
@@ -80,6 +82,9 @@ impl Live {
         let (sender, frames) = sync_channel(1);
         let (gpu, wake, wanted) = (self.gpu.clone(), self.wake.clone(), self.wanted.clone());
         let work = move || {
+            if gpu.is_cpu() {
+                gpu::step_back(STEPS_BACK);
+            }
             let mut device = None;
             while let Some(name) = wanted.next() {
                 // A panic is this picture's alone.
@@ -174,7 +179,7 @@ fn draw(
     engine.set_program(built.program).map_err(|e| e.to_string())?;
     let mut number = 0;
     while wanted.is(name) {
-        let next = Instant::now() + INTERVAL;
+        let began = Instant::now();
         for _ in 0..2 {
             let mut inputs = FrameInputs::at_fixed_step(number, 60.0);
             inputs.mouse = stroke(number);
@@ -193,7 +198,9 @@ fn draw(
             Ok(()) | Err(TrySendError::Full(_)) => wake(),
             Err(TrySendError::Disconnected(_)) => return Ok(()),
         }
-        wanted.rest(name, next);
+        // A device that is slow rests for as long as it draws.
+        let now = Instant::now();
+        wanted.rest(name, (began + INTERVAL).max(now + (now - began)));
     }
     Ok(())
 }
