@@ -14,6 +14,7 @@
 mod support;
 
 mod cli;
+mod cli_measure;
 mod cli_render;
 mod compile_budget;
 mod engine;
@@ -61,8 +62,10 @@ mod random_programs;
 mod recovery;
 mod reload;
 mod session;
+mod session_inside;
 mod session_media;
 mod thumbnails;
+mod time_travel;
 mod uniform_values;
 mod uniforms;
 mod walker;

@@ -4,7 +4,7 @@ use crate::support::{gpu, program::Bench, *};
 use eddy::{
     engine::{BuildOptions, Engine, FrameInputs, Program, Sources},
     media,
-    project::{self, PassBody, presets},
+    project::{self, Group, Pass, PassBody, PassId, Project, presets},
     session::trace::{self, Event, Extent},
 };
 
@@ -86,7 +86,7 @@ void mainImage(out vec4 o, in vec2 p) {
     let built = Program::build(&gpu, &project, &Default::default(), &Default::default()).unwrap();
     let mut engine = Engine::new(gpu, 8, 4).unwrap();
     engine.set_program(built.program).unwrap();
-    let image = eddy::project::PassId::Image;
+    let image = PassId::Image;
     let (_, read) = engine.draw_inspected(&FrameInputs::at_fixed_step(0, 60.0), &image).unwrap();
     let texts = Sources::new(&project);
     let trace = trace::trace(&texts, 0, &read, (5, 1), Extent::default()).unwrap();
@@ -175,4 +175,174 @@ fn eddy_probe_draws_the_value_of_an_expression() {
         b.line(&format!("probe p {wrong} --size 4x2")).expect(2);
     }
     b.line("probe p image:8:1 --size 4x2").expect(1);
+}
+
+/// The debugger takes a pass's inputs after the frame: they must be what the pass read while it was drawn.
+#[test]
+fn what_a_pass_read_is_still_there_after_the_frame() {
+    let Some(gpu) = gpu() else { return };
+    let mut seen = 0;
+    for name in presets::names() {
+        let project = project::load(&format!("presets/{name}")).unwrap().project;
+        let (media, _) = media::gather(&project, None);
+        let drawn = |pass: &&Pass| matches!(pass.settings.body, PassBody::Screen);
+        for pass in project.passes.iter().filter(drawn) {
+            let options = BuildOptions { wanted: vec![pass.id.clone()], ..BuildOptions::default() };
+            let built = Program::build(&gpu, &project, &media, &options).unwrap();
+            let mut engine = Engine::new(gpu.clone(), SIZE.0, SIZE.1).unwrap();
+            engine.set_program(built.program).unwrap();
+            let inputs = |frame: i32| FrameInputs {
+                mouse: [20.0 + 4.0 * frame as f32, 18.0, 20.0, 18.0],
+                ..FrameInputs::at_fixed_step(frame, 60.0)
+            };
+            (0..3).for_each(|frame| assert!(engine.draw(&inputs(frame)).is_ok()));
+            let (_, read) = engine.draw_inspected(&inputs(3), &pass.id).unwrap();
+            let before = engine.read(&pass.id).unwrap();
+            let Ok(after) = engine.inspect(&pass.id) else { continue };
+            assert!(after == read, "{name}, {}", pass.id.title());
+            assert_eq!(engine.read(&pass.id).unwrap().texels.len(), before.texels.len());
+            seen += 1;
+        }
+    }
+    assert!(seen > 60, "{seen} passes");
+}
+
+/// While a value is probed the buffers go on as if nobody looked, also those of a group, and those that the value does
+/// not need; and the value is this frame's, wherever its pass stands in the project.
+#[test]
+fn a_probe_disturbs_no_buffer_and_is_of_this_frame() {
+    let Some(gpu) = gpu() else { return };
+    let step = "void mainImage(out vec4 o, vec2 p) { vec4 s = texelFetch(iChannel0, ivec2(p), 0); vec4 t = \
+                texelFetch(iChannel1, ivec2(p), 0); o = s * 0.5 + t + vec4(1.0, p, 0.0); }\n";
+    let reads = |names: [&str; 2]| [nearest(names[0]), nearest(names[1]), None, None];
+    let image_code = "void mainImage(out vec4 o, vec2 p) {\n float one = float(iFrame);\n vec4 a = \
+                      texelFetch(iChannel0, ivec2(p), 0);\n o = a + texelFetch(iChannel1, ivec2(p), 0); }\n";
+    let mut project = project(vec![
+        image(image_code, reads(["a", "b"])),
+        pass(buffer("a"), step, reads(["a", "b"])),
+        pass(buffer("b"), step, reads(["b", "a"])),
+    ]);
+    let group = Group { name: "both".into(), passes: vec![buffer("a"), buffer("b")], steps: 3 };
+    project.groups.push(group);
+    let run = |probe: Option<(PassId, &str)>| {
+        let probe = probe.map(|(id, text)| {
+            let index = project.passes.iter().position(|p| p.id == id).unwrap();
+            let at = project.passes[index].source.text.find(text).unwrap() as u32;
+            (id, eddy::glsl::Probe { source: Project::pass_id(index), at, visit: 0 })
+        });
+        let image = || PassId::Image;
+        let wanted = if probe.is_some() {
+            vec![BuildOptions::probed(), buffer("a"), buffer("b")]
+        } else {
+            vec![image(), buffer("a"), buffer("b")]
+        };
+        let options = BuildOptions { wanted, probe, ..BuildOptions::default() };
+        let built = Program::build(&gpu, &project, &Default::default(), &options).unwrap();
+        let mut engine = Engine::new(gpu.clone(), 8, 4).unwrap();
+        engine.set_program(built.program).unwrap();
+        (0..5).for_each(|frame| assert!(engine.draw(&FrameInputs::at_fixed_step(frame, 60.0)).is_ok()));
+        let read = |engine: &mut Engine, id| engine.read(&id).unwrap().texels;
+        let probed = options.probe.is_some().then(|| read(&mut engine, BuildOptions::probed()));
+        (read(&mut engine, buffer("a")), read(&mut engine, buffer("b")), probed)
+    };
+    let (a, b, _) = run(None);
+    for (id, text) in
+        [(PassId::Image, "a = "), (PassId::Image, "one = "), (buffer("a"), "s * 0.5"), (buffer("b"), "t + vec4")]
+    {
+        let (probed_a, probed_b, value) = run(Some((id.clone(), text)));
+        assert!(probed_a == a && probed_b == b, "{text} of {}", id.title());
+        let value = value.unwrap();
+        match text {
+            // What Image reads has been drawn before it, though Image stands first.
+            "a = " => assert!(value == a),
+            "one = " => assert!(value.iter().all(|v| v[0] == 4.0)),
+            // In the last step of the group, where a has been drawn already.
+            "t + vec4" => assert!(value == a),
+            _ => assert!(value.iter().all(|v| v[0] > 0.0)),
+        }
+    }
+}
+
+/// A ray marcher of some 500 lines: a sphere a line.
+fn long_marcher() -> String {
+    let spheres: String = (0..480)
+        .map(|i| {
+            let angle = f64::from(i) * 0.37;
+            let (x, y) = (angle.cos() * 1.5, angle.sin() * 1.5);
+            format!("    d = min(d, length(p - vec3({x:.3}, {y:.3}, {:.3})) - 0.1);\n", 3.0 + f64::from(i % 7))
+        })
+        .collect();
+    format!(
+        "float map(vec3 p) {{\n    float d = p.z - 20.0;\n    d = abs(d);\n{spheres}    return d;\n}}\n\
+         void mainImage(out vec4 o, in vec2 c) {{\n    vec2 uv = (c - 0.5 * iResolution.xy) / iResolution.y;\n    \
+         vec3 rd = normalize(vec3(uv, 1.0 + 0.01 * iTime));\n    float t = 0.0;\n    \
+         for (int i = 0; i < 100; i++) {{\n        \
+         float d = map(rd * t);\n        if (d < 0.001) break;\n        t += d;\n    }}\n    \
+         o = vec4(vec3(t / 20.0), 1.0);\n}}\n"
+    )
+}
+
+/// `cargo test --test it walker::what_ -- --ignored --nocapture`
+#[test]
+#[ignore = "prints times; they mean something on a quiet machine only"]
+fn what_a_probe_and_a_traced_pixel_cost() {
+    let Some(gpu) = gpu() else { return };
+    let median = |mut list: Vec<f64>| {
+        list.sort_by(f64::total_cmp);
+        list[list.len() / 2]
+    };
+    let inputs = |frame: i32| FrameInputs::at_fixed_step(frame, 60.0);
+    let mut projects: Vec<(String, Project)> = ["taa", "gallery-of-tricks", "fluid", "brick-breaker", "bloom"]
+        .iter()
+        .map(|name| ((*name).to_owned(), project::load(&format!("presets/{name}")).unwrap().project))
+        .collect();
+    projects.push(("long marcher".into(), project(vec![image(&long_marcher(), Default::default())])));
+    for (name, project) in projects {
+        let (media, _) = media::gather(&project, None);
+        let index = project.passes.iter().position(|p| p.id == PassId::Image).unwrap();
+        let text = &project.passes[index].source.text;
+        let ids = project.passes.iter().map(|p| p.id.clone());
+        let buffers: Vec<PassId> = ids.filter(|id| *id != PassId::Image).collect();
+        let engine = |probe: Option<(PassId, eddy::glsl::Probe)>| {
+            let own = if probe.is_some() { BuildOptions::probed() } else { PassId::Image };
+            let wanted = [own].into_iter().chain(buffers.clone()).collect();
+            let options = BuildOptions { wanted, probe, ..BuildOptions::default() };
+            let built = Program::build(&gpu, &project, &media, &options).unwrap();
+            let mut engine = Engine::new(gpu.clone(), 640, 360).unwrap();
+            engine.set_program(built.program).unwrap();
+            engine
+        };
+        let millis = |engine: &mut Engine, frame| {
+            let began = std::time::Instant::now();
+            engine.draw(&inputs(frame)).unwrap();
+            gpu.wait().unwrap();
+            began.elapsed().as_secs_f64() * 1e3
+        };
+        let sources = Sources::new(&project);
+        let places: Vec<usize> = text.match_indices(" = ").map(|(at, _)| at + 3).collect();
+        for at in [0, places.len() / 2, places.len().saturating_sub(1)].map(|i| places[i]) {
+            let probe = eddy::glsl::Probe { source: Project::pass_id(index), at: at as u32, visit: 0 };
+            let Some(found) = sources.probed(index, &probe) else { continue };
+            // Frame by frame in turns, as the machine does other things too.
+            let (mut picture, mut probed) = (engine(None), engine(Some((PassId::Image, probe))));
+            let pairs = (0..24).map(|frame| (millis(&mut picture, frame), millis(&mut probed, frame)));
+            let pairs: Vec<(f64, f64)> = pairs.skip(3).collect();
+            let ratio = median(pairs.iter().map(|(picture, probed)| probed / picture).collect());
+            let frame = median(pairs.iter().map(|(picture, _)| *picture).collect());
+            println!("{name}: {} at {at}: x {ratio:.3} of {frame:.2} ms", found.type_text);
+        }
+        let mut picture = engine(None);
+        for frame in 0..3 {
+            millis(&mut picture, frame);
+        }
+        for place in [[0.5, 0.5], [0.3, 0.6]] {
+            let (read, drawn) = (picture.inspect(&PassId::Image).unwrap(), picture.read(&PassId::Image).unwrap());
+            let began = std::time::Instant::now();
+            let taken = (read, &drawn);
+            let traced = trace::Traced::new(project.clone(), &PassId::Image, 2, taken, place).unwrap();
+            let millis = began.elapsed().as_secs_f64() * 1e3;
+            let (lines, moments) = (text.lines().count(), traced.history.moments.len());
+            println!("{name}: {lines} lines, {moments} moments in {millis:.2} ms");
+        }
+    }
 }

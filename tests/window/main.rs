@@ -13,3 +13,7 @@ mod window_layout;
 mod window_passes;
 mod window_save;
 mod window_slow;
+// The portal is spoken to by a library that only the window needs.
+#[cfg(all(feature = "gui", not(any(windows, target_os = "macos"))))]
+mod window_theme;
+mod window_trace;

@@ -189,6 +189,8 @@ fn the_screenshot_is_what_render_draws_byte_for_byte() {
     let home = tempfile::tempdir().unwrap();
     let mut window = Window::open(&display, home.path(), &["feedback"]);
     compiled(&mut window, true);
+    // A reset that is asked for before there is a picture leaves frame 0 to the step after it.
+    window.wait_until("frames", "frame", |e| e["frame"].as_u64() > Some(2));
     window.keys(&["alt+Up"]);
     window.wait_until("the pause", "frame", |e| e["playing"] == false);
     window.keys(&["alt+Down"]);
@@ -209,6 +211,44 @@ fn the_screenshot_is_what_render_draws_byte_for_byte() {
     let rendered = image::open(rendered).unwrap().to_rgba8();
     assert!(shot == rendered, "the pictures differ");
     assert!(shot.pixels().any(|p| p.0[0] > 40), "the picture is not empty");
+}
+
+/// `EDDY_REPLAY_FRAMES` records that many.
+#[test]
+fn what_a_hand_did_is_drawn_again_by_the_command_line_byte_for_byte() {
+    let Some(display) = Display::open() else { return };
+    let frames = std::env::var("EDDY_REPLAY_FRAMES").ok().and_then(|n| n.parse().ok()).unwrap_or(90);
+    for preset in ["brick-breaker", "fluid"] {
+        let home = tempfile::tempdir().unwrap();
+        let mut window = Window::open(&display, home.path(), &[preset]);
+        compiled(&mut window, true);
+        window.keys(&["ctrl+shift+r"]);
+        window.shows("button:recording");
+        let mut step = 0;
+        while window.newest("frame").is_none_or(|e| e["frame"].as_i64() < Some(frames)) {
+            let at = |n: u32| 0.2 + 0.6 * f64::from(n * 37 % 100) / 100.0;
+            let to = window.picture_point(at(step), at(step + 5));
+            window.move_to(to);
+            match step % 12 {
+                1 => window.press(),
+                9 => window.release(),
+                _ => {}
+            }
+            window.wait_for("a frame", |e| e["event"] == "frame");
+            step += 1;
+        }
+        window.release();
+        window.keys(&["alt+Up"]);
+        window.wait_until("the pause", "frame", |e| e["playing"] == false);
+        let shot = image::open(saved(&mut window, "F12")).unwrap().to_rgba8();
+        let replay = saved(&mut window, "ctrl+shift+r");
+        assert_eq!(replay.extension().and_then(|e| e.to_str()), Some("replay"));
+        let rendered = home.path().join("rendered.png");
+        let mut eddy = Command::new(env!("CARGO_BIN_EXE_eddy"));
+        eddy.args(["render", preset, "--replay"]).arg(&replay).arg("--out").arg(&rendered);
+        assert!(eddy.status().unwrap().success());
+        assert!(shot == image::open(rendered).unwrap().to_rgba8(), "{preset}: the pictures differ");
+    }
 }
 
 #[test]

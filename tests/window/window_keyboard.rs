@@ -38,7 +38,6 @@ fn compiled(window: &mut Window) {
 }
 
 #[test]
-#[ignore = "fails: Tab does not come to a preset's card in the gallery"]
 fn the_keyboard_alone_goes_from_the_start_to_a_saved_picture() {
     let Some(display) = Display::open() else { return };
     let home = tempfile::tempdir().unwrap();

@@ -16,6 +16,9 @@ const PATIENCE: Duration = Duration::from_secs(60);
 /// A window that says nothing for so long has come to rest.
 const SETTLED: Duration = Duration::from_millis(400);
 
+/// A window that plays has drawn its first frames by then, if it draws any.
+const BEGINS: Duration = Duration::from_secs(4);
+
 /// The file in the home folder that a window's standard error goes to.
 pub const STANDARD_ERROR: &str = "stderr.txt";
 
@@ -122,12 +125,12 @@ impl<'a> Window<'a> {
             .env_remove("WAYLAND_DISPLAY")
             .env("HOME", home)
             .env("XDG_RUNTIME_DIR", runtime)
+            .env_remove("DBUS_SESSION_BUS_ADDRESS")
             .envs(environment.iter().copied())
             .env_remove("XDG_PICTURES_DIR")
             .env_remove("XDG_CONFIG_HOME")
             .env_remove("XDG_STATE_HOME")
-            // No file dialogs of this desktop's: neither a portal nor a program.
-            .env_remove("DBUS_SESSION_BUS_ADDRESS")
+            // No file dialogs of this desktop's: no program, and no portal above.
             .env("PATH", home.join("no-programs"))
             .current_dir(home)
             .stdout(Stdio::piped())
@@ -225,9 +228,15 @@ impl<'a> Window<'a> {
         let has = |e: &Value| e["rects"][&name].is_array();
         let mut layout = self.wait_until(&format!("the widget {widget}"), "layout", has);
         // A popup finds its place in its second frame: look again until nothing moves any more. While a picture plays
-        // its frames tell, however far apart; a paused window says nothing when it has come to rest.
-        let plays = |frame: Option<Value>| frame.is_some_and(|f| f["playing"] == true);
-        let patience = if plays(self.newest("frame")) { PATIENCE } else { SETTLED };
+        // its frames tell, however far apart; a window that is paused, or covered by the gallery, says nothing when it
+        // has come to rest.
+        let frame = self.newest("frame").filter(|frame| frame["playing"] == true && layout["viewport"].is_array());
+        let patience = match frame {
+            Some(frame) if frame["fps"].is_number() => PATIENCE,
+            // It begins to play, or has nothing to draw.
+            Some(_) => BEGINS,
+            None => SETTLED,
+        };
         while let Ok(event) = self.lines.recv_timeout(patience) {
             self.events.push(event.clone());
             if event["event"] == "layout" && has(&event) {
@@ -274,6 +283,23 @@ impl<'a> Window<'a> {
     pub fn click(&self, at: (i64, i64)) {
         self.move_to(at);
         self.display.tool(&["click", "1"]);
+    }
+
+    /// Clicks while keys are held, in xdotool's names.
+    pub fn click_holding(&self, keys: &[&str], at: (i64, i64)) {
+        self.move_to(at);
+        self.hold(keys);
+        self.display.tool(&["click", "1"]);
+        self.let_go(keys);
+    }
+
+    /// Holds keys down.
+    pub fn hold(&self, keys: &[&str]) {
+        keys.iter().for_each(|key| drop(self.display.tool(&["keydown", key])));
+    }
+
+    pub fn let_go(&self, keys: &[&str]) {
+        keys.iter().for_each(|key| drop(self.display.tool(&["keyup", key])));
     }
 
     pub fn click_on(&mut self, widget: &str) {

@@ -1,0 +1,263 @@
+//! `--probe`, `--assert`, `--replay` and `eddy compare` on the built program.
+
+use crate::support::{gpu, program::Bench};
+use std::process::Command;
+
+/// A buffer that grows by 1 in red each frame from frame 3 on, and a NaN in green from frame 5 on.
+const GROWING: &str = "fragColor = vec4(max(iFrame - 2, 0), iFrame > 4 ? sqrt(float(-iFrame)) : 0., 0., 1.);";
+
+fn growing(b: &Bench) {
+    b.image("growing/buffer_a.glsl", GROWING);
+    b.image("growing/image.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0) / 16.0;");
+}
+
+#[test]
+fn numbers_of_passes_are_measured_in_the_frames_that_are_named() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    growing(&b);
+    let run = b.line("render growing --size 4x2 --at 1,4,6 --probe sum(buffer_a.x) --probe nonfinite(buffer_a) --json");
+    let json = &run.expect(0).json()[0];
+    let measured = json["measured"].as_array().unwrap();
+    let of = |i: usize| (measured[i]["quantity"].as_str().unwrap(), &measured[i]["frame"], &measured[i]["value"]);
+    assert_eq!(measured.len(), 6, "{json}");
+    assert_eq!(of(0), ("sum(buffer_a.x)", &1.into(), &0.0.into()));
+    assert_eq!(of(2), ("sum(buffer_a.x)", &4.into(), &16.0.into()));
+    assert_eq!(of(4), ("sum(buffer_a.x)", &6.into(), &32.0.into()));
+    assert_eq!(of(5), ("nonfinite(buffer_a)", &6.into(), &8.0.into()));
+    assert_eq!(json["frames"], 7);
+    let words = b.line("render growing --size 4x2 --at 4 --probe max(buffer_a.x)").expect(0);
+    assert!(words.out.contains("max(buffer_a.x) = 2.0 in frame 4"), "{}", words.out);
+}
+
+#[test]
+fn a_comment_asks_for_a_number_and_stays_a_comment() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    growing(&b);
+    b.image("growing/image.glsl", "//@probe max(buffer_a.x)\nfragColor = vec4(1.); //@probe total(buffer_a)");
+    let run = b.line("render growing --size 4x2 --at 4 --json").expect(0);
+    let json = &run.json()[0];
+    assert_eq!(
+        (&json["measured"][0]["quantity"], &json["measured"][0]["value"]),
+        (&"max(buffer_a.x)".into(), &2.0.into())
+    );
+    let said = &json["diagnostics"][0];
+    assert_eq!(
+        (&said["severity"], &said["line"], &said["source"]),
+        (&"warning".into(), &3.into(), &"image.glsl".into())
+    );
+    assert!(said["message"].as_str().unwrap().contains("not `total`"), "{said}");
+}
+
+#[test]
+fn a_claim_that_does_not_hold_is_the_authors_to_mend() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    growing(&b);
+    let claims = |claims: &[&str]| {
+        let mut arguments = vec!["render", "growing", "--size", "4x2", "--at", "2,4,6", "--json"];
+        claims.iter().for_each(|claim| arguments.extend(["--assert", claim]));
+        b.eddy(&arguments)
+    };
+    claims(&["max(buffer_a.x) <= 4", "min(image) >= 0", "sum(buffer_a.z) within 1e-4 of first"]).expect(1);
+    claims(&["max(buffer_a.x) <= 4", "sum(buffer_a.z) within 1e-4 of first"]).expect(0);
+    let run = claims(&["max(buffer_a.x) <= 1"]).expect(1);
+    let said = &run.json()[0]["diagnostics"];
+    let message = |i: usize| said[i]["message"].as_str().unwrap();
+    assert_eq!(said.as_array().unwrap().len(), 2, "{said}");
+    assert_eq!(message(0), "frame 4: max(buffer_a.x) <= 1 does not hold: it is 2");
+    assert_eq!(message(1), "frame 6: max(buffer_a.x) <= 1 does not hold: it is 4");
+    let wrong = b.eddy(["render", "growing", "--assert", "sum(buffer_z) < 1"]).expect(2);
+    assert!(wrong.err.contains("there is no pass buffer_z"), "{}", wrong.err);
+    let wrong = b.eddy(["render", "growing", "--assert", "sum(buffer_a.x) about 1"]).expect(2);
+    assert!(wrong.err.contains("within TOLERANCE of VALUE"), "{}", wrong.err);
+}
+
+#[test]
+fn two_pictures_are_compared_bit_by_bit_and_as_one_sees_them() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    b.image("a.glsl", "fragColor = vec4(fragCoord / iResolution.xy, 0.5, 1.0);");
+    b.image("b.glsl", "fragColor = vec4(fragCoord / iResolution.xy, fragCoord.x < 8. ? 0.5 : 0.75, 1.0);");
+    let same = b.line("compare a.glsl a.glsl --size 16x16 --repeats 3 --json").expect(0);
+    let json = &same.json()[0];
+    assert_eq!(
+        (&json["texels_apart"], &json["rmse"], &json["psnr"]),
+        (&0.into(), &0.0.into(), &"inf".into()),
+        "{json}"
+    );
+    assert_eq!((&json["project"], &json["reference"]), (&"a.glsl".into(), &"a.glsl".into()));
+    let time = &json["time"];
+    assert!(time["ratio"].as_f64().unwrap() > 0.0 && time["repeats"] == 3, "{time}");
+
+    let apart = b.line("compare a.glsl b.glsl --size 16x16 --repeats 0 --json --view difference --out d.png").expect(0);
+    let json = &apart.json()[0];
+    assert_eq!((&json["texels_apart"], &json["largest"]), (&128.into(), &0.25.into()), "{json}");
+    // A quarter in one of four components of half of the texels.
+    assert!((json["rmse"].as_f64().unwrap() - (0.0625f64 / 8.0).sqrt()).abs() < 1e-9, "{json}");
+    assert!(json["ssim"].as_f64().unwrap() < 1.0 && json["flip"].as_f64().unwrap() > 0.0 && json["time"].is_null());
+    let picture = b.png("d.png");
+    assert_eq!((picture.get_pixel(3, 3).0, picture.get_pixel(12, 3).0), ([0, 0, 0, 255], [0, 0, 64, 255]));
+    b.line("compare a.glsl b.glsl --size 16x12 --repeats 0 --out s.png").expect(0);
+    assert_eq!(b.png("s.png").dimensions(), (32, 12), "one beside the other");
+    b.line("compare a.glsl b.glsl --size 16x12 --repeats 0 --view wipe --out w.png").expect(0);
+    assert_eq!(b.png("w.png").get_pixel(12, 3).0[2], 191);
+    let missing = b.line("compare a.glsl c.glsl --size 16x12").expect(2);
+    assert!(missing.err.contains("c.glsl"), "{}", missing.err);
+}
+
+#[test]
+fn a_project_is_compared_with_what_it_was_in_a_revision() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    let git = |arguments: &[&str]| {
+        let mut command = Command::new("git");
+        command.arg("-C").arg(b.path(".")).args(["-c", "user.name=a", "-c", "user.email=a@b"]).args(arguments);
+        assert!(command.output().unwrap().status.success(), "{arguments:?}");
+    };
+    b.image("p/image.glsl", "fragColor = vec4(0.25);");
+    b.image("one.glsl", "fragColor = vec4(0.25);");
+    git(&["init", "-q"]);
+    git(&["add", "."]);
+    git(&["commit", "-qm", "first"]);
+    b.image("p/image.glsl", "fragColor = vec4(0.75);");
+    b.image("p/new.glsl", "fragColor = vec4(0.75);");
+    for (project, largest) in [("p", 0.5), ("one.glsl", 0.0)] {
+        let run = b.line(&format!("compare {project} --revision HEAD --size 16x16 --repeats 0 --json")).expect(0);
+        assert_eq!(run.json()[0]["largest"], largest, "{project}: {}", run.out);
+    }
+    let wrong = b.line("compare p --revision v9 --size 16x16").expect(2);
+    assert!(wrong.err.contains("no such revision"), "{}", wrong.err);
+}
+
+#[test]
+fn a_recording_gives_every_frame_what_it_had() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    let code = "#iUniform float level = 0.5 in { 0.0, 1.0 }\nvoid mainImage(out vec4 o, in vec2 p) \
+                { o = vec4(iTime, iMouse.x, texelFetch(iChannel0, ivec2(32, 0), 0).x + 2. * level, 1.); }";
+    b.write("p/image.glsl", code);
+    b.write("p/eddy.toml", "eddy = 1\n[passes.image]\nchannels.0 = { keyboard = true }\n");
+    let lines = [
+        r#"{"eddy_recording":1,"project":"p"}"#,
+        r#"{"time":0.25,"size":[4,2],"held":[32]}"#,
+        r#"{"time":1.5,"mouse":[7,1,7,1],"held":[],"set":{"level":0.75}}"#,
+        r#"{"time":2.0,"size":[6,2]}"#,
+    ];
+    b.write("run.replay", lines.join("\n"));
+    let run = b.line("render p --replay run.replay --at 0,1,2 --format npy --out o --json").expect(0);
+    assert_eq!(run.json()[0]["frames"], 3);
+    let frame = |n: u32| b.npy(&format!("o/p_{n:04}.npy"));
+    assert_eq!((frame(0).width, frame(0).at(0, 0)), (4, [0.25, 0.0, 2.0, 1.0]));
+    assert_eq!((frame(1).width, frame(1).at(0, 0)), (4, [1.5, 7.0, 1.5, 1.0]));
+    assert_eq!((frame(2).width, frame(2).at(5, 1)), (6, [2.0, 7.0, 1.5, 1.0]));
+    let all = b.line("render p --replay run.replay --json").expect(0);
+    assert_eq!(all.json()[0]["frames"], 3, "all that were recorded");
+    for (line, says) in [
+        ("render p --replay run.replay --frames 4 --json", "3 were recorded"),
+        ("render p --replay run.replay --size 8x8 --json", "cannot be used with"),
+        ("render p --replay p/image.glsl --json", "no recording of Eddy's"),
+        ("render p --replay none.replay --json", "cannot read none.replay"),
+    ] {
+        let run = b.line(line).expect(2);
+        assert!(run.err.contains(says), "{line}: {}", run.err);
+    }
+}
+
+/// Planted: Buffer B takes the root of a number that falls below 0 in frame 40 at texel (3, 2); Buffer C hands it on a
+/// frame later, and Image shows it where it looks there, from frame 43 on.
+#[test]
+fn the_first_nan_is_named_by_pass_frame_texel_and_line() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    b.write(
+        "p/eddy.toml",
+        "eddy = 1\n[passes.buffer_b]\n[passes.buffer_a]\nchannels.0 = { buffer = \"B\" }\n[passes.buffer_c]\n\
+         channels.0 = { buffer = \"A\" }\nchannels.1 = { buffer = \"C\" }\n[passes.image]\nchannels.0 = { buffer = \"C\" }\n",
+    );
+    b.image("p/buffer_a.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0);");
+    b.image(
+        "p/buffer_b.glsl",
+        "float rest = ivec2(fragCoord) == ivec2(3, 2) ? 39.5 - float(iFrame) : 1.;\nfloat root = sqrt(rest);\n\
+         fragColor = vec4(root, 0., 0., 1.);",
+    );
+    b.image(
+        "p/buffer_c.glsl",
+        "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0) + 0. * texelFetch(iChannel1, ivec2(fragCoord), 0);",
+    );
+    b.image("p/image.glsl", "fragColor = iFrame < 43 ? vec4(0.) : texelFetch(iChannel0, ivec2(fragCoord), 0);");
+    let run = b.line("trace p --nonfinite --frame 60 --size 8x6 --json").expect(0);
+    let found = &run.json()[0]["nonfinite"];
+    assert_eq!(
+        (&found["pass"], &found["frame"], &found["texels"]),
+        (&"buffer_b".into(), &40.into(), &1.into()),
+        "{found}"
+    );
+    assert_eq!(found["texel"], serde_json::json!([3, 2]));
+    let born = &found["born"];
+    assert_eq!(
+        (&born["source"], &born["line"], &born["text"]),
+        (&"buffer_b.glsl".into(), &3.into(), &"sqrt(rest)".into())
+    );
+    assert_eq!(born["numbers"], "-0.5");
+    let words = b.line("trace p --nonfinite --frame 60 --size 8x6").expect(0).out;
+    assert!(
+        words.contains("buffer_b, frame 40, texel 3,2") && words.contains("buffer_b.glsl:3:14: NaN is born here"),
+        "{words}"
+    );
+    let none = b.line("trace p --nonfinite --frame 39 --size 8x6 --json").expect(0);
+    assert!(none.json()[0]["nonfinite"].is_null());
+    b.line("trace p --size 8x6").expect(2);
+}
+
+#[test]
+fn a_project_is_held_against_double_precision() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    b.image(
+        "p.glsl",
+        "float a = 1000. + fragCoord.x * 1e-3;\nfloat b = a * a - 1e6;\nfloat c;\nif (fragCoord.x > 1e9) c = 1.;\n\
+         fragColor = vec4(b * 0.5, c + 0.25, 0., 1.);",
+    );
+    let line = "lab precision p.glsl --frames 1 --size 16x9 --pixels 8x3 --json --map map.npy";
+    let run = b.line(line).expect(0);
+    let double = &run.json()[0]["double"];
+    assert_eq!((&double["pixels"], &double["pass"]), (&24.into(), &"image".into()), "{}", run.out);
+    let finding = |kind: &str| {
+        let all = double["findings"].as_array().unwrap();
+        all.iter().find(|f| f["kind"] == kind).unwrap_or_else(|| panic!("{kind}: {double}")).clone()
+    };
+    let (rounding, undefined) = (finding("rounding"), finding("undefined"));
+    assert_eq!((&rounding["line"], &rounding["text"]), (&3.into(), &"a * a - 1e6".into()));
+    assert!(rounding["error_left"].as_f64() < rounding["error"].as_f64());
+    assert_eq!(
+        (&undefined["line"], &undefined["text"], &undefined["pixels"]),
+        (&6.into(), &"c + 0.25".into(), &24.into())
+    );
+    let map = b.npy("map.npy");
+    assert_eq!((map.width, map.height), (8, 3));
+    let largest = map.texels.iter().map(|t| t[0]).fold(0.0, f32::max);
+    assert!((f64::from(largest) / double["largest"].as_f64().unwrap() - 1.0).abs() < 1e-5);
+    assert!(map.texels.iter().all(|t| t[1] == 0.0 && t[3] == 0.0));
+    let words = b.line("lab precision p.glsl --frames 1 --size 16x9 --pixels 8x3").expect(0).out;
+    assert!(words.contains("p.glsl:3:11: cancellation"), "{words}");
+}
+
+#[test]
+fn a_comment_prints_the_values_of_a_traced_pixel() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    b.image(
+        "p.glsl",
+        "float sum = 0.;\nfor (int i = 0; i < 3; i++) {\n    sum += fragCoord.x; //@print vec2(sum, i)\n}\n\
+         //@print nothing + 1.\nfragColor = vec4(sum);",
+    );
+    let run = b.line("trace p.glsl --pixel 2,1 --size 8x6 --json").expect(0);
+    let printed = &run.json()[0]["printed"];
+    assert_eq!((&printed[0]["line"], &printed[0]["expression"]), (&4.into(), &"vec2(sum, i)".into()), "{printed}");
+    assert_eq!(printed[0]["values"], serde_json::json!([[2.5, 0.0], [5.0, 1.0], [7.5, 2.0]]));
+    assert!(printed[1]["error"].as_str().unwrap().contains("nothing"), "{printed}");
+    let words = b.line("trace p.glsl --pixel 2,1 --size 8x6").expect(0).out;
+    assert!(words.contains("Image:4: vec2(sum, i)\n        1  (2.5, 0.0)"), "{words}");
+}

@@ -1,0 +1,239 @@
+//! End to end: the way of a pixel and the value of an expression, by real keys and clicks.
+
+use crate::support::window::{Display, Window};
+use serde_json::Value;
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+/// A ray marcher: in the middle the ray comes nearer by a quarter of what is left, from 3.
+const MARCHER: &str = "float map(vec3 p) {
+    return length(p - vec3(0.0, 0.0, 4.0)) - 1.0;
+}
+void mainImage(out vec4 o, in vec2 c) {
+    vec2 uv = (c - 0.5 * iResolution.xy) / iResolution.y;
+    vec3 rd = normalize(vec3(uv, 1.0));
+    float t = 0.0;
+    float d = 0.0;
+    for (int i = 0; i < 64; i++) {
+        d = 0.25 * map(rd * t); //@print d
+        t += d;
+        if (d < 0.00001) {
+            break;
+        }
+    }
+    o = vec4(vec3(t / 8.0), 1.0);
+}
+";
+
+const PROBED: &str = "void mainImage(out vec4 o, in vec2 c) {
+    float g = c.x * 2.0 - c.y;
+    vec3 wide = vec3(g, c);
+    o = vec4(0.5);
+}
+";
+
+fn project(home: &Path, code: &str) -> PathBuf {
+    let folder = home.join("marcher");
+    fs::create_dir(&folder).unwrap();
+    fs::write(folder.join("image.glsl"), code).unwrap();
+    folder
+}
+
+fn compiled(window: &mut Window) {
+    window.wait_until("a compile", "compiled", |e| e["ok"] == true && e["compiling"] == false);
+}
+
+/// Puts the caret at a line, or a line and a column.
+fn go_to(window: &mut Window, place: &str) {
+    window.keys(&["ctrl+g"]);
+    window.type_text(place);
+    window.keys(&["Return"]);
+}
+
+fn traced(window: &mut Window, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
+    window.wait_until(what, "trace", fits)
+}
+
+/// A number among the variables.
+fn number(event: &Value, name: &str) -> f64 {
+    let text = event["variables"][name].as_str().unwrap_or_else(|| panic!("no {name} in {event}"));
+    text.parse().unwrap()
+}
+
+#[test]
+fn a_ray_is_followed_to_its_seventeenth_turn_and_back() {
+    let Some(display) = Display::of_size(1300, 900) else { return };
+    let home = tempfile::tempdir().unwrap();
+    let folder = project(home.path(), MARCHER);
+    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
+    compiled(&mut window);
+    window.resize(1300, 900);
+    window.keys(&["ctrl+shift+d"]);
+    window.shows("trace:pick");
+    let middle = window.picture_point(0.5, 0.5);
+    window.click_holding(&["ctrl", "shift"], middle);
+    let begun = traced(&mut window, "the traced pixel", |e| e["pixel"].is_array());
+    assert_eq!((&begun["pass"], &begun["line"], &begun["depth"]), (&"Image".into(), &5.into(), &0.into()), "{begun}");
+    let frame = window.wait_until("the pause", "frame", |e| e["playing"] == false);
+    assert_eq!(begun["frame"], frame["frame"]);
+    // The walker and the device are of one mind, but for their last bits.
+    let values = |name: &str| begun[name][0].as_f64().unwrap();
+    assert!((values("value") - values("device")).abs() < 1e-5, "{begun}");
+    display.shot("trace-begun.png");
+
+    // A click beside the numbers sets a breakpoint, another takes it away.
+    let layout = window.wait_until("the editor", "layout", |e| e["rects"]["editor"].is_array());
+    let editor: Vec<f64> = layout["rects"]["editor"].as_array().unwrap().iter().map(|v| v.as_f64().unwrap()).collect();
+    let beside = ((editor[0] - 24.0) as i64, (editor[1] + 30.0) as i64);
+    window.click(beside);
+    traced(&mut window, "a breakpoint", |e| e["breakpoints"].as_array().is_some_and(|list| list.len() == 1));
+    window.click(beside);
+    traced(&mut window, "none", |e| e["breakpoints"].as_array().is_some_and(Vec::is_empty));
+
+    // With a condition, in the loop.
+    go_to(&mut window, "12");
+    window.keys(&["F9"]);
+    traced(&mut window, "the breakpoint", |e| e["breakpoints"][0]["line"] == 12);
+    window.click_on("trace:breakpoint:0:condition");
+    window.type_text("i == 17 && d < .01");
+    traced(&mut window, "the condition", |e| e["breakpoints"][0]["condition"] == "i == 17 && d < .01");
+    window.keys(&["F5"]);
+    let stopped = traced(&mut window, "the seventeenth turn", |e| e["line"] == 12);
+    assert_eq!((number(&stopped, "i"), &stopped["turn"]), (17.0, &18.into()), "{stopped}");
+    let near = 0.75f64.powi(17) * 0.75;
+    assert!((number(&stopped, "d") - near).abs() < 1e-4, "{stopped}");
+    // What the comment prints is there too, a value for each turn.
+    let printed = traced(&mut window, "what is printed", |e| e["printed"][0]["line"] == 10);
+    let list = printed["printed"][0]["values"].as_array().unwrap();
+    assert_eq!(list.len() as u64, printed["turns"].as_u64().unwrap());
+    assert_eq!(list[17], printed["variables"]["d"]);
+
+    // A watch of an expression that calls the author's own function, and one that is wrong.
+    window.click_on("trace:watch:new");
+    window.type_text("map(rd * t) * 2.0");
+    window.keys(&["Return"]);
+    let told = |e: &Value| e["watches"]["map(rd * t) * 2.0"].as_str().and_then(|text| text.parse::<f64>().ok());
+    let watched = traced(&mut window, "the watch", |e| told(e).is_some());
+    assert!((told(&watched).unwrap() - near * 6.0).abs() < 1e-3, "{watched}");
+    window.type_text("nonsense");
+    window.keys(&["Return"]);
+    let wrong = |e: &Value| e["watches"]["nonsense"].as_str().is_some_and(|text| text.contains("nonsense"));
+    traced(&mut window, "what is wrong", wrong);
+    display.shot("trace-stopped.png");
+
+    // Back: before the sum, and before the turn.
+    window.keys(&["alt+F10"]);
+    let back = traced(&mut window, "the line before", |e| e["line"] == 11);
+    assert!((number(&back, "t") + number(&back, "d") - number(&stopped, "t")).abs() < 1e-6, "{back}");
+    assert_eq!(back["changed"], serde_json::json!(["t"]), "{back}");
+    window.keys(&["F10"]);
+    traced(&mut window, "the line again", |e| e["line"] == 12);
+    // No other moment fits: back to the begin, and on again.
+    window.keys(&["alt+F5"]);
+    traced(&mut window, "the begin", |e| e["line"] == 5);
+    // Into the function from the caret's line, and out of it.
+    go_to(&mut window, "10");
+    window.keys(&["ctrl+F10"]);
+    traced(&mut window, "the caret's line", |e| e["line"] == 10);
+    window.keys(&["F11"]);
+    let inside = traced(&mut window, "the function", |e| e["line"] == 2);
+    assert_eq!(inside["depth"], 1);
+    window.keys(&["shift+F11"]);
+    traced(&mut window, "out of it", |e| e["line"] == 11 && e["depth"] == 0);
+    // A row of the loop leads to its turn.
+    window.click_on("trace:turn:3");
+    traced(&mut window, "the third turn", |e| e["turn"] == 3);
+    display.shot("trace-turns.png");
+}
+
+#[test]
+fn a_breakpoint_moves_with_its_line_and_an_edit_is_walked_anew() {
+    let Some(display) = Display::of_size(1300, 900) else { return };
+    let home = tempfile::tempdir().unwrap();
+    let folder = project(home.path(), MARCHER);
+    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
+    compiled(&mut window);
+    window.resize(1300, 900);
+    // The action, then a click.
+    window.keys(&["ctrl+t"]);
+    let middle = window.picture_point(0.5, 0.5);
+    window.click(middle);
+    traced(&mut window, "the traced pixel", |e| e["pixel"].is_array());
+    window.click_on("editor");
+    go_to(&mut window, "16");
+    window.keys(&["F9"]);
+    traced(&mut window, "the breakpoint", |e| e["breakpoints"][0]["line"] == 16);
+    // A line more at the begin of the text.
+    window.keys(&["ctrl+Home"]);
+    window.type_text("float scale = 2.0;");
+    window.keys(&["Return"]);
+    traced(&mut window, "the breakpoint below", |e| e["breakpoints"][0]["line"] == 17);
+    traced(&mut window, "the new code", |e| e["line"] == 6);
+    window.keys(&["F5"]);
+    traced(&mut window, "the last line", |e| e["line"] == 17);
+    display.shot("trace-edited.png");
+}
+
+#[test]
+fn a_probe_shows_the_number_under_the_mouse_and_follows_the_text() {
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let folder = project(home.path(), PROBED);
+    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
+    compiled(&mut window);
+    window.keys(&["alt+Up"]);
+    window.wait_until("the pause", "frame", |e| e["playing"] == false);
+    window.resize(1000, 700);
+    window.click_on("editor");
+    go_to(&mut window, "2:11");
+    window.keys(&["ctrl+shift+i"]);
+    let probed = window.wait_until("the probe", "probe", |e| e["text"].is_string() && e["range"].is_array());
+    assert_eq!(
+        (&probed["text"], &probed["type"], &probed["line"]),
+        (&"c.x * 2.0 - c.y".into(), &"float".into(), &2.into())
+    );
+    window.shows("probe:histogram");
+    let at = window.picture_point(0.25, 0.3);
+    window.move_to(at);
+    let under = window.wait_until("the number", "probe", |e| e["number"].is_string());
+    let pixel = |i: usize| under["pixel"][i].as_f64().unwrap() + 0.5;
+    assert_eq!(under["number"].as_str().unwrap().parse::<f64>().unwrap(), pixel(0) * 2.0 - pixel(1), "{under}");
+    display.shot("probe.png");
+    window.click_on("probe:false-colour");
+    display.shot("probe-false-colour.png");
+
+    // A vector, at its second name.
+    window.click_on("editor");
+    go_to(&mut window, "3:12");
+    window.keys(&["ctrl+shift+i"]);
+    window.wait_until("the vector", "probe", |e| e["type"] == "vec3" && e["range"][2].is_array());
+    // What is typed before it moves it.
+    window.keys(&["ctrl+Home"]);
+    window.type_text("// more");
+    window.keys(&["Return"]);
+    window.wait_until("the line below", "probe", |e| e["line"] == 4);
+    compiled(&mut window);
+    // Without its line there is no value, and with it again there is.
+    go_to(&mut window, "4");
+    window.keys(&["ctrl+shift+k"]);
+    let gone = window.wait_until("its end", "probe", |e| e["trouble"].is_string());
+    assert!(gone["text"].is_null(), "{gone}");
+    display.shot("probe-gone.png");
+    window.keys(&["Escape"]);
+    window.wait_until("the picture", "probe", |e| e["text"].is_null() && e["trouble"].is_null());
+    window.hides("probe");
+    compiled(&mut window);
+
+    // With two keys held, what the pointer is over, as long as they are.
+    let layout = window.wait_until("the editor", "layout", |e| e["rects"]["editor"].is_array());
+    let corner = [0, 1].map(|i| layout["rects"]["editor"][i].as_f64().unwrap() as i64);
+    // In the declaration of g, whose line is the third now.
+    window.move_to((corner[0] + 84, corner[1] + 2 * 18 + 9));
+    window.hold(&["ctrl", "alt"]);
+    let pointed = window.wait_until("what is pointed at", "probe", |e| e["text"].is_string());
+    assert_eq!(pointed["line"], 3, "{pointed}");
+    window.let_go(&["ctrl", "alt"]);
+    window.wait_until("the picture", "probe", |e| e["text"].is_null());
+}
