@@ -6,8 +6,10 @@
 //! never a `Diagnostic`.
 
 mod caret;
+mod follow;
 
 pub use caret::{render, render_all};
+pub use follow::{follow, follow_line};
 
 use std::{ops::Range, sync::Arc};
 

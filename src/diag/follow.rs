@@ -1,0 +1,60 @@
+//! A place in a text, after the text was edited.
+
+/// Returns where byte `at` of `old` is in `new`: what stands before the first difference stays, what stands behind the
+/// last one moves with it, and a place between goes to the edit's end at most. `None` where it was taken out, and
+/// nothing stands there now.
+pub fn follow(old: &str, new: &str, at: usize) -> Option<usize> {
+    let before = old.bytes().zip(new.bytes()).take_while(|(a, b)| a == b).count();
+    let most = old.len().min(new.len()) - before;
+    let behind = old.bytes().rev().zip(new.bytes().rev()).take(most).take_while(|(a, b)| a == b).count();
+    let mut found = if at <= before {
+        at
+    } else if at >= old.len() - behind {
+        at + new.len() - old.len()
+    } else if new.len() - behind <= before {
+        return None;
+    } else {
+        at.min(new.len() - behind)
+    };
+    while !new.is_char_boundary(found) {
+        found -= 1;
+    }
+    Some(found)
+}
+
+/// Does the same for a line, both counted from 0: it goes with its first letter that is no blank.
+pub fn follow_line(old: &str, new: &str, line: usize) -> Option<usize> {
+    let breaks = old.match_indices('\n').map(|(at, _)| at + 1);
+    let start = [0].into_iter().chain(breaks).nth(line)?;
+    let text = old[start..].split('\n').next().unwrap_or_default();
+    let found = follow(old, new, start + text.len() - text.trim_start().len())?;
+    Some(new[..found].matches('\n').count())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_place_moves_with_what_stands_behind_an_edit() {
+        assert_eq!(follow("abc def", "abc  def", 5), Some(6));
+        assert_eq!(follow("abc def", "abc def, g", 5), Some(5));
+        assert_eq!(follow("abc def ghi", "abc X ghi", 8), Some(6));
+        assert_eq!(follow("abc def ghi", "abc X ghi", 6), Some(5), "another stands there");
+        assert_eq!(follow("abc def ghi", "abc ghi", 6), None, "what it was in is gone");
+        assert_eq!(follow("aa", "a", 2), Some(1));
+        assert_eq!(follow("xé", "xö", 2), Some(1), "never within a letter");
+        assert_eq!(follow("", "abc", 0), Some(0));
+    }
+
+    #[test]
+    fn a_line_moves_with_its_text_and_goes_with_it() {
+        let old = "one\n  two\nthree\n";
+        assert_eq!(follow_line(old, "zero\none\n  two\nthree\n", 1), Some(2));
+        assert_eq!(follow_line(old, "one\n  two, too\nthree\n", 1), Some(1));
+        assert_eq!(follow_line(old, "one\n  two\nthree\nfour", 1), Some(1));
+        assert_eq!(follow_line(old, "two\nthree\n", 2), Some(1));
+        assert_eq!(follow_line(old, "one\n\nthree\n", 1), None);
+        assert_eq!(follow_line(old, old, 9), None);
+    }
+}
