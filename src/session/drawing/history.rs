@@ -16,7 +16,7 @@ const MOST: usize = 16;
 /// To draw the frames behind a snapshot again takes about so long at most.
 const REDRAWN: Duration = Duration::from_millis(600);
 /// Frames between two snapshots.
-const INTERVAL: std::ops::RangeInclusive<u64> = 8..=120;
+const INTERVAL: std::ops::RangeInclusive<u64> = 1..=120;
 
 /// A run of frames, without a break: a new program, another canvas or a reset begins another.
 pub struct History {
