@@ -62,6 +62,7 @@ fn the_keyboard_alone_goes_from_the_start_to_a_saved_picture() {
     window.wait_until("the save", "dirty", |e| e["dirty"] == false);
     let text = fs::read_to_string(folder.join("image.glsl")).unwrap();
     assert!(text.starts_with("// by keys "), "{text}");
+    focus(&mut window, "code");
     // The picture, by its button in the bar.
     go_to_part(&mut window, "shift+F6", &["button:reset", "button:play"]);
     display.shot("keyboard-transport.png");
