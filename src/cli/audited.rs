@@ -5,6 +5,7 @@ use super::{
     machine::{Machine, Trouble, open},
     report::Report,
     targets,
+    written::Written,
 };
 use crate::{
     engine::{Pixels, Sources},
@@ -53,11 +54,8 @@ struct Worst {
 struct Found {
     kind: &'static str,
     message: &'static str,
-    source: Option<String>,
-    line: Option<usize>,
-    column: Option<usize>,
-    /// What stands there, its first line.
-    text: String,
+    #[serde(flatten)]
+    written: Written,
     numbers: String,
     /// How many of the pixels, and the one that shows it most.
     pixels: usize,
@@ -146,17 +144,10 @@ fn shown(map: &Pixels) -> Pixels {
 }
 
 fn found(project: &Project, finding: &Finding) -> Found {
-    let sources = project.sources();
-    let at = finding.span.and_then(|span| sources.line_column(span));
-    let source = finding.span.and_then(|span| sources.get(span.source));
-    let text = finding.span.zip(source).and_then(|(span, source)| source.text.get(span.range()));
     Found {
         kind: finding.kind.name(),
         message: finding.kind.message(),
-        source: source.map(|source| source.name.clone()),
-        line: at.map(|at| at.line),
-        column: at.map(|at| at.column),
-        text: text.and_then(|text| text.lines().next()).unwrap_or_default().to_owned(),
+        written: Written::at(project, finding.span),
         numbers: finding.numbers.clone(),
         pixels: finding.pixels,
         pixel: [finding.pixel.0, finding.pixel.1],
@@ -182,13 +173,10 @@ pub fn words(audited: &Audited) -> String {
         out.push_str("  nothing undefined, no NaN, and no operation that stands out\n");
     }
     for found in findings {
-        let at = match (&found.source, found.line, found.column) {
-            (Some(source), Some(line), Some(column)) => format!("{source}:{line}:{column}"),
-            _ => "in Eddy's own code".into(),
-        };
+        let at = found.written.place().unwrap_or_else(|| "in Eddy's own code".into());
         let _ = writeln!(out, "  {at}: {}", found.message);
         let [x, y] = found.pixel;
-        let mut line = format!("      {}", found.text);
+        let mut line = format!("      {}", found.written.text);
         if !found.numbers.is_empty() {
             let _ = write!(line, "    {}", found.numbers);
         }

@@ -26,6 +26,7 @@ mod sweep;
 mod targets;
 mod text_place;
 mod trace;
+mod written;
 
 pub use args::Window;
 use args::{Cli, Command};

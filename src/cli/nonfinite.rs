@@ -4,12 +4,13 @@ use super::{
     args::TraceArgs,
     machine::{Machine, Trouble, open_measured},
     report::Report,
+    written::Written,
 };
 use crate::{
     engine::{Pixels, Sources},
     project::{PassBody, PassFormat, PassId, Project},
     session::{
-        audit::{self, Class, Finding},
+        audit::{self, Class},
         offline::Offline,
         script::ScriptedInputs,
         trace::TraceError,
@@ -36,10 +37,8 @@ pub struct Begin {
 #[derive(Debug, Serialize)]
 struct Born {
     message: &'static str,
-    source: Option<String>,
-    line: Option<usize>,
-    column: Option<usize>,
-    text: String,
+    #[serde(flatten)]
+    written: Written,
     numbers: String,
 }
 
@@ -130,22 +129,11 @@ fn born(
         other => other.map_err(anyhow::Error::from)?,
     };
     let born = audit.findings.iter().find(|finding| finding.kind.class() == Class::Nonfinite);
-    Ok(born.map(|finding| told(&project, finding)))
-}
-
-fn told(project: &Project, finding: &Finding) -> Born {
-    let sources = project.sources();
-    let at = finding.span.and_then(|span| sources.line_column(span));
-    let source = finding.span.and_then(|span| sources.get(span.source));
-    let text = finding.span.zip(source).and_then(|(span, source)| source.text.get(span.range()));
-    Born {
+    Ok(born.map(|finding| Born {
         message: finding.kind.message(),
-        source: source.map(|source| source.name.clone()),
-        line: at.map(|at| at.line),
-        column: at.map(|at| at.column),
-        text: text.and_then(|text| text.lines().next()).unwrap_or_default().to_owned(),
+        written: Written::at(&project, finding.span),
         numbers: finding.numbers.clone(),
-    }
+    }))
 }
 
 pub fn words(spec: &str, frames: u32, begin: Option<&Begin>) -> String {
@@ -153,11 +141,12 @@ pub fn words(spec: &str, frames: u32, begin: Option<&Begin>) -> String {
         return format!("{spec}: every texel of every pass is a finite number in {frames} frames");
     };
     let mut out = format!("{spec}: the first is in {pass}, frame {frame}, texel {x},{y} ({texels} in that frame)\n");
-    let _ = match born {
-        Some(Born { message, source: Some(source), line: Some(line), column: Some(column), text, numbers }) => {
-            writeln!(out, "  {source}:{line}:{column}: {message}\n      {text}    of {numbers}")
+    let place = born.as_ref().and_then(|born| Some((born, born.written.place()?)));
+    let _ = match place {
+        Some((Born { message, written, numbers }, place)) => {
+            writeln!(out, "  {place}: {message}\n      {}    of {numbers}", written.text)
         }
-        _ => {
+        None => {
             writeln!(out, "  no operation makes it: it is too large for the pass's format, or was read from a texture")
         }
     };

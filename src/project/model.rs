@@ -219,6 +219,23 @@ impl Origin {
 }
 
 impl Project {
+    /// A project of one Image pass that is nowhere on disk.
+    pub fn of_image(name: String, text: String) -> Project {
+        let id = PassId::Image;
+        let source = Source { name: id.title(), path: None, text: text.into() };
+        Project {
+            name,
+            info: Info::default(),
+            common: None,
+            passes: vec![Pass { id, source, channels: Default::default(), settings: Default::default() }],
+            sampler_rules: SamplerRules::PerChannel,
+            custom_uniform_values: Default::default(),
+            groups: Vec::new(),
+            includes: Vec::new(),
+            origin: Origin::Unsaved,
+        }
+    }
+
     pub fn pass(&self, id: &PassId) -> Option<&Pass> {
         self.passes.iter().find(|p| p.id == *id)
     }

@@ -2,10 +2,7 @@
 
 use crate::{
     diag::Diagnostic,
-    project::{
-        Info, Loaded, Origin, Pass, PassId, Project, ProjectError, SamplerRules, Source, folder, json, limits, presets,
-        unescaped,
-    },
+    project::{Loaded, Project, ProjectError, folder, json, limits, presets, unescaped},
 };
 use std::path::Path;
 
@@ -117,22 +114,7 @@ fn of_glsl(text: &str) -> Result<TextArrival, ProjectError> {
         return too_large(vec![Diagnostic::error(None, message).hint("make it smaller")], Default::default());
     }
     let text = text.replace("\r\n", "\n");
-    let mut project = Project {
-        name: "Pasted shader".into(),
-        info: Info::default(),
-        common: None,
-        passes: vec![Pass {
-            id: PassId::Image,
-            source: Source { name: PassId::Image.title(), path: None, text: text.into() },
-            channels: Default::default(),
-            settings: Default::default(),
-        }],
-        sampler_rules: SamplerRules::PerChannel,
-        custom_uniform_values: Default::default(),
-        groups: Vec::new(),
-        includes: Vec::new(),
-        origin: Origin::Unsaved,
-    };
+    let mut project = Project::of_image("Pasted shader".into(), text);
     // What is wrong in such a line shows when it is compiled.
     let warnings = folder::declare_channels(&mut project).into_iter().filter(|d| !d.is_error()).collect();
     project.read_includes();

@@ -1,8 +1,8 @@
 //! Pictures and models on their way into a project: which channel reads a picture, which pass draws a model.
 
 use crate::project::{
-    Camera, Channel, Cull, DepthTest, Geometry, Info, Input, Media, MeshDraw, MeshSource, Origin, Pass, PassBody,
-    PassId, PassSettings, Project, Sampler, SamplerRules, Source, Stage, limits,
+    Camera, Channel, Cull, DepthTest, Geometry, Input, Media, MeshDraw, MeshSource, Pass, PassBody, PassId,
+    PassSettings, Project, Sampler, Source, Stage, limits,
 };
 use std::path::Path;
 
@@ -83,22 +83,7 @@ impl Fit {
 pub fn new_for(path: &Path, is_model: bool) -> Project {
     let text = if is_model { COPY } else { PICTURE };
     let name = path.file_stem().map(|s| s.to_string_lossy().trim().to_owned()).filter(|s| !s.is_empty());
-    Project {
-        name: name.unwrap_or_else(|| "Untitled".into()),
-        info: Info::default(),
-        common: None,
-        passes: vec![Pass {
-            id: PassId::Image,
-            source: Source { name: PassId::Image.title(), path: None, text: text.into() },
-            channels: Default::default(),
-            settings: Default::default(),
-        }],
-        sampler_rules: SamplerRules::PerChannel,
-        custom_uniform_values: Default::default(),
-        groups: Vec::new(),
-        includes: Vec::new(),
-        origin: Origin::Unsaved,
-    }
+    Project::of_image(name.unwrap_or_else(|| "Untitled".into()), text.to_owned())
 }
 
 impl Project {
