@@ -26,9 +26,10 @@
 // any step, which may so be four times as long; then the reaction, in steps of its own.
 #iUniform int diffusion = 1 in { 0, 3 }
 
-// Time of a step. Explicit Euler is stable to dt = 1 / (4 Du) = 1.19 with five points, 3 / (8 Du) = 1.79 with nine, and
-// the blur in one pass to the reaction's own limit; beyond 1.19 the step stays at 1.19 and Image hatches the foot of
-// the picture. With 3 the limit is 5, where the kernel's tails reach the end of its 15 taps.
+// Time of a step. For diffusion alone explicit Euler is stable to dt = 1 / (4 Du) = 1.19 with five points and 3 / (8 Du)
+// = 1.79 with nine; the reaction needs room beside it. Beyond 1 with five points, and 1.19 with nine or with the blur
+// in one pass, the step stays there and Image hatches the foot of the picture. With 3 the limit is 5, where the
+// kernel's tails reach the end of its 15 taps.
 #iUniform float dt = 1.0 in { 0.0, 10.0 }
 
 #iUniform float brush_size = 0.035 in { 0.005, 0.2 }
@@ -37,10 +38,10 @@
 #iUniform color3 clay = color3(0.97, 0.86, 0.72)
 
 const vec2 RATE = vec2(0.2097152, 0.1048576); // Du, Dv in cells^2 a unit of time
-const float LONGEST_STEP = 1.19, LONGEST_BLUR = 5.0;
+const float LONGEST_FIVE_POINTS = 1.0, LONGEST_STEP = 1.19, LONGEST_BLUR = 5.0;
 
 float longestStep() {
-    return diffusion == 3 ? LONGEST_BLUR : LONGEST_STEP;
+    return diffusion == 3 ? LONGEST_BLUR : diffusion == 0 ? LONGEST_FIVE_POINTS : LONGEST_STEP;
 }
 
 // The discrete Gaussian of variance t, which is to a grid what the Gaussian is to the plane: exp(-t) I_n(t), of the sum
