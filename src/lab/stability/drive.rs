@@ -4,7 +4,7 @@
 use super::{
     Case, Subject,
     check::{self, Allowed, Area, Check, Found, HARD_LIMIT, Situation},
-    inputs::Inputs,
+    inputs::{Hand, Inputs},
 };
 use crate::{
     engine::{BuildOptions, Engine, Pixels, Program},
@@ -58,7 +58,7 @@ impl<'s> Driver<'s> {
     /// Draws a case and says what came of it. What the device refuses, as a canvas that is too large, is told in the
     /// record.
     pub fn measure(&mut self, case: &Case) -> StabilityRecord {
-        let situation = self.subject.situation(&case.values, case.size, case.steps.longest());
+        let situation = self.situation(case);
         let mut excuses: Vec<String> =
             self.subject.checks.iter().filter_map(|c| c.allowed(&situation).excuse).map(str::to_owned).collect();
         excuses.sort();
@@ -83,6 +83,10 @@ impl<'s> Driver<'s> {
             record.outcome = None;
         }
         record
+    }
+
+    fn situation(&self, case: &Case) -> Situation {
+        self.subject.situation(&case.values, case.size, case.steps.longest(), case.hand != Hand::Away)
     }
 
     fn fill(&mut self, case: &Case, situation: &Situation, record: &mut StabilityRecord) -> Result<(), LabError> {
@@ -169,7 +173,7 @@ impl<'s> Driver<'s> {
             return Ok(known.clone());
         }
         let twin = Case { disturbed: None, poison: None, resizes: Vec::new(), ..case.clone() };
-        let situation = self.subject.situation(&twin.values, twin.size, twin.steps.longest());
+        let situation = self.situation(&twin);
         let mut most = vec![0.0f64; self.subject.checks.len()];
         let mut run = self.begin(&twin)?;
         while run.frame < twin.frames {

@@ -228,7 +228,7 @@ fn section(out: &mut String, project: &str, records: &[StabilityRecord]) {
 /// The ranges at the sliders' defaults, and their reasons.
 fn bounds(out: &mut String, project: &str) {
     let Ok(subject) = Subject::load(project, &[]) else { return };
-    let usual = subject.situation(&Default::default(), (640, 360), 1.0 / 60.0);
+    let usual = subject.situation(&Default::default(), (640, 360), 1.0 / 60.0, true);
     out.push_str("<details><summary>Bounds</summary><table><thead><tr><th>quantity</th><th class=\"n\">from</th><th class=\"n\">to</th><th>reason</th></tr></thead><tbody>\n");
     for check in &subject.checks {
         let allowed = check.allowed(&usual);

@@ -7,7 +7,7 @@ use super::{
 use crate::{
     lab::LabError,
     media::{self, MediaSet},
-    project::{self, CustomUniform, CustomUniformValues, Input, Origin, PassId, Project},
+    project::{self, CustomUniform, CustomUniformValues, Origin, PassId, Project},
 };
 use std::collections::BTreeSet;
 
@@ -99,18 +99,7 @@ impl Subject {
 
     /// Buffers of which a pass reads what the last frame left in them: the project's state.
     pub fn stateful(&self) -> BTreeSet<PassId> {
-        let passes = &self.project.passes;
-        let read = |index: usize| {
-            passes[index].channels.iter().flatten().filter_map(|c| match &c.input {
-                Input::Buffer(name) | Input::Target { buffer: name, .. } => {
-                    passes.iter().position(|p| p.id == PassId::Buffer(name.clone()))
-                }
-                _ => None,
-            })
-        };
-        // A pass that is drawn later still holds the last frame.
-        let pairs = (0..passes.len()).flat_map(|index| read(index).filter(move |of| *of >= index));
-        pairs.map(|of| passes[of].id.clone()).collect()
+        self.project.stateful_passes()
     }
 
     /// Sliders that have two ends.
@@ -123,12 +112,20 @@ impl Subject {
             .collect()
     }
 
-    pub fn situation(&self, values: &CustomUniformValues, size: (u32, u32), longest_step: f64) -> Situation {
+    /// What a case is drawn with: sliders that are not at their defaults, canvas, longest step in seconds, and whether a
+    /// hand drags.
+    pub fn situation(
+        &self,
+        values: &CustomUniformValues,
+        size: (u32, u32),
+        longest_step: f64,
+        is_dragged: bool,
+    ) -> Situation {
         let custom_uniforms = self.project.custom_uniforms();
         let mut all = self.project.custom_uniform_values.clone();
         all.extend(values.clone());
         let sliders = custom_uniforms.list.iter().map(|k| (k.name.clone(), k.value(&all).components())).collect();
-        Situation { size, longest_step, sliders }
+        Situation { size, longest_step, is_dragged, sliders }
     }
 
     /// A number for all the texts: what was measured of other texts says nothing about these. FNV-1a (G. Fowler, L.
@@ -147,7 +144,7 @@ impl Subject {
         for pass in &self.project.passes {
             eat(format!("{:?} {:?}", pass.channels, pass.settings).as_bytes());
         }
-        let usual = self.situation(&CustomUniformValues::new(), (640, 360), 1.0 / 60.0);
+        let usual = self.situation(&CustomUniformValues::new(), (640, 360), 1.0 / 60.0, true);
         for check in &self.checks {
             eat(format!("{} {:?}", check.name(), check.allowed(&usual)).as_bytes());
         }

@@ -114,6 +114,8 @@ pub struct Situation {
     pub size: (u32, u32),
     /// The longest `iTimeDelta` of the case, in seconds.
     pub longest_step: f64,
+    /// Whether a hand drags at some time of the case.
+    pub is_dragged: bool,
     /// Components of each slider's value.
     pub sliders: std::collections::BTreeMap<String, Vec<f64>>,
 }
