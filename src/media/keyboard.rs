@@ -1,16 +1,17 @@
 //! The keyboard as Shadertoy's 256x3 texture: row 0 held, row 1 pressed this frame, row 2 toggled.
 
 use super::{TexelFormat, Texels};
+use std::sync::Arc;
 
-/// State of every key by JavaScript `keyCode`.
+/// State of every key by JavaScript `keyCode`. Clones share it until a key changes: a run keeps one for each frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Keyboard {
-    texels: Box<[u8; Self::WIDTH * 3]>,
+    texels: Arc<[u8; Self::WIDTH * 3]>,
 }
 
 impl Default for Keyboard {
     fn default() -> Self {
-        Self { texels: Box::new([0; Self::WIDTH * 3]) }
+        Self { texels: Arc::new([0; Self::WIDTH * 3]) }
     }
 }
 
@@ -24,26 +25,30 @@ impl Keyboard {
         if self.texels[held] != 0 {
             return;
         }
-        self.texels[held] = 255;
-        self.texels[pressed] = 255;
-        self.texels[toggle] = 255 - self.texels[toggle];
+        let texels = Arc::make_mut(&mut self.texels);
+        texels[held] = 255;
+        texels[pressed] = 255;
+        texels[toggle] = 255 - texels[toggle];
     }
 
     /// A key went up.
     pub fn release(&mut self, code: u8) {
         let (held, pressed, _) = Self::columns(code);
-        self.texels[held] = 0;
-        self.texels[pressed] = 0;
+        let texels = Arc::make_mut(&mut self.texels);
+        (texels[held], texels[pressed]) = (0, 0);
     }
 
     /// The window lost focus: nothing is held any more. Toggles stay.
     pub fn release_all(&mut self) {
-        self.texels[..2 * Self::WIDTH].fill(0);
+        Arc::make_mut(&mut self.texels)[..2 * Self::WIDTH].fill(0);
     }
 
     /// After every painted frame: "pressed" lasts one frame.
     pub fn frame_painted(&mut self) {
-        self.texels[Self::WIDTH..2 * Self::WIDTH].fill(0);
+        let pressed = Self::WIDTH..2 * Self::WIDTH;
+        if self.texels[pressed.clone()].iter().any(|byte| *byte != 0) {
+            Arc::make_mut(&mut self.texels)[pressed].fill(0);
+        }
     }
 
     pub fn is_held(&self, code: u8) -> bool {
@@ -52,7 +57,7 @@ impl Keyboard {
 
     /// Sets a whole row to these codes and no others.
     pub fn set_row(&mut self, row: usize, codes: &[u8]) {
-        let row = &mut self.texels[row * Self::WIDTH..][..Self::WIDTH];
+        let row = &mut Arc::make_mut(&mut self.texels)[row * Self::WIDTH..][..Self::WIDTH];
         row.fill(0);
         codes.iter().for_each(|code| row[usize::from(*code)] = 255);
     }

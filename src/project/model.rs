@@ -1,7 +1,7 @@
 //! A project as pure data: passes in their drawing order, what each channel reads, and where the texts came from.
 
 use super::{CustomUniformValues, Group, Included, PassId, PassSettings, Source};
-use std::path::PathBuf;
+use std::{collections::BTreeSet, path::PathBuf};
 
 /// All that the author wrote: enough to compile, plan and draw, and to write it back unchanged.
 #[derive(Clone, Debug, PartialEq)]
@@ -219,6 +219,25 @@ impl Origin {
 }
 
 impl Project {
+    /// Returns the passes of which one reads what the last frame left in them, itself or one that is drawn before it: the
+    /// project's state. A project without any draws the same picture at a time, whatever it drew before.
+    pub fn stateful_passes(&self) -> BTreeSet<PassId> {
+        let passes = &self.passes;
+        let read = |index: usize| {
+            passes[index].channels.iter().flatten().filter_map(|channel| {
+                let id = match &channel.input {
+                    Input::Buffer(name) | Input::Target { buffer: name, .. } => PassId::Buffer(name.clone()),
+                    Input::CubemapPass => PassId::Cubemap,
+                    _ => return None,
+                };
+                passes.iter().position(|p| p.id == id)
+            })
+        };
+        // A pass that is drawn later still holds the last frame.
+        let pairs = (0..passes.len()).flat_map(|index| read(index).filter(move |of| *of >= index));
+        pairs.map(|of| passes[of].id.clone()).collect()
+    }
+
     /// A project of one Image pass that is nowhere on disk.
     pub fn of_image(name: String, text: String) -> Project {
         let id = PassId::Image;

@@ -39,7 +39,7 @@ impl Session {
             Command::CompileNow => self.compile_soon(),
             Command::Play => self.play(),
             Command::Pause => self.pause(),
-            Command::TogglePlay if self.run.clock.is_playing() => self.pause(),
+            Command::TogglePlay if self.is_playing() => self.pause(),
             Command::TogglePlay => self.play(),
             Command::Cover(is_covered) => {
                 if std::mem::replace(&mut self.run.is_covered, is_covered) && !is_covered {
@@ -51,12 +51,13 @@ impl Session {
             Command::GoOn => self.go_on_drawing(),
             Command::DrawSmaller => self.draw_smaller(),
             Command::DrawLastGood => self.draw_last_good(),
-            Command::Step => {
-                self.override_halt();
-                self.run.clock.pause();
-                self.run.steps = self.run.steps.saturating_add(1);
-            }
+            Command::Step => self.step_forward(),
             Command::StepBack(by) => self.step_back(by),
+            Command::Seek(secs) => self.seek(secs),
+            Command::SetSpeed(speed) => self.run.clock.set_speed(speed),
+            Command::SetFixedRate(rate) => self.run.clock.set_fixed_rate(rate),
+            Command::SetTimeRange(range) => self.run.seeking.range = range,
+            Command::SetKeepInputs(on) => self.run.seeking.keeps_inputs = on,
             Command::Reset => self.reset(),
             // Minimised windows have no area; the picture keeps its size.
             Command::SetViewport { width: 0, .. } | Command::SetViewport { height: 0, .. } => {}
@@ -224,17 +225,20 @@ impl Session {
 
     pub(super) fn play(&mut self) {
         self.override_halt();
+        self.run.seeking.cancel();
         self.run.clock.play();
         self.run.fps.restart();
     }
 
     fn pause(&mut self) {
         self.halting.resumes = false;
+        self.run.seeking.cancel();
         self.run.clock.pause();
     }
 
     pub(super) fn reset(&mut self) {
         self.drawing.wanted.reset = true;
+        self.run.seeking.cancel();
         self.run.clock.reset();
         self.run.fps.restart();
         self.run.steps = 0;

@@ -3,6 +3,7 @@
 
 use super::{
     probe::{ProbeLook, ProbePlace},
+    seeking::TimeRange,
     view::Level,
 };
 use crate::project::{Channel, CustomUniformValue, Origin, PassEdit, PassId, Project, Tab};
@@ -67,6 +68,18 @@ pub enum Command {
     /// Draws the frame again that is so many before the newest, with the buffers as they were then, and pauses. One that
     /// is out of reach is told of in a notice.
     StepBack(usize),
+    /// Shows the picture at a time, in seconds. A project with a state is drawn again from the inputs that its frames
+    /// had, or on at a fixed step up to a later time. Playing or paused stays as it is.
+    Seek(f64),
+    /// Seconds of `iTime` in a second, above 0.
+    SetSpeed(f64),
+    /// Has every frame take the same time, so many in a second of `iTime`; `None`: as long as it really takes.
+    SetFixedRate(Option<f64>),
+    /// Plays a range of time again and again.
+    SetTimeRange(Option<TimeRange>),
+    /// Says whether new code draws all frames since the last reset again from the same inputs, and so shows the same
+    /// frame. Not across another canvas size.
+    SetKeepInputs(bool),
     /// Time, frame and every buffer to zero. Keyboard toggles and the mouse stay.
     Reset,
     /// Size in physical pixels of the area the picture may fill.

@@ -26,7 +26,8 @@ impl Session {
     pub(super) fn draw_due_frames(&mut self) -> bool {
         let (mut is_drawn, mut has_run) = (false, false);
         while !self.drawing.is_busy() && !self.halting.is_held() && !self.run.is_device_lost {
-            if self.run.back > 0 && self.go_back() {
+            self.loop_range();
+            if self.travel() {
                 is_drawn |= self.take_drawn(true);
                 continue;
             }
@@ -68,7 +69,9 @@ impl Session {
         if is_other_coming || !self.drawing.has_program() || self.halting.halt.is_some() {
             return None;
         }
-        let time = if self.run.steps > 0 {
+        let time = if self.is_step_due() {
+            self.run.clock.step_frame()
+        } else if self.run.steps > 0 {
             self.run.steps -= 1;
             self.run.clock.step_frame()
         } else if self.run.clock.is_playing() && !self.run.is_covered {
@@ -83,44 +86,6 @@ impl Session {
         };
         self.run.is_frame_due = false;
         Some(self.inputs(time))
-    }
-
-    pub(super) fn step_back(&mut self, by: usize) {
-        self.override_halt();
-        self.run.clock.pause();
-        self.run.back = self.run.back.saturating_add(by);
-        self.run.steps = 0;
-    }
-
-    /// Hands in the frames that are to be gone back. False where there is nothing to go back in.
-    fn go_back(&mut self) -> bool {
-        let by = std::mem::take(&mut self.run.back);
-        if !self.drawing.has_program() || self.drawing.is_program_coming() || self.drawing.wanted.restart {
-            return false;
-        }
-        // What is recorded is a run without a break.
-        self.end_recording();
-        self.drawing.submit(self.now, |job: &mut Job| job.back = Some(by));
-        true
-    }
-
-    /// The engine has gone back, or cannot.
-    fn went_back(&mut self, inputs: Option<Result<FrameInputs, EngineError>>) {
-        self.changed = true;
-        self.run.is_frame_due = false;
-        match inputs {
-            Some(Ok(inputs)) => self.run.clock.go_to(inputs.frame, inputs.time_secs),
-            Some(Err(error)) => self.stop_drawing(&error),
-            None => {
-                let reach = self.drawing.reach();
-                let text = match reach {
-                    0 => "there is no earlier frame to go back to: an edit, a reset or another size begins anew"
-                        .to_owned(),
-                    _ => format!("that frame is out of reach: one can go back {reach} frames"),
-                };
-                self.notice(Level::Warning, text);
-            }
-        }
     }
 
     fn inputs(&mut self, time: FrameTime) -> FrameInputs {
@@ -170,9 +135,9 @@ impl Session {
             self.stop_drawing(&e);
             return false;
         }
-        let has_frame = done.frame.is_some() || matches!(done.back, Some(Some(Ok(_))));
-        if let Some(inputs) = done.back {
-            self.went_back(inputs);
+        let has_frame = done.frame.is_some() || matches!(done.travelled, Some(Some(Ok(_))));
+        if let Some(travelled) = done.travelled {
+            self.travelled(travelled);
         }
         self.changed |= !done.miniatures.is_empty();
         self.run.miniatures.drew(has_frame, done.miniatures);
@@ -277,6 +242,8 @@ impl Session {
             self.compile.state.last = Some(self.compiled(millis));
             if std::mem::take(&mut self.compile.reset_when_built) {
                 self.reset();
+            } else {
+                self.keep_inputs();
             }
         } else {
             // What is drawn is older than what the errors are about.

@@ -113,6 +113,8 @@ impl Session {
         self.disk.media_files.clear();
         self.compile.reset_when_built = false;
         self.run.steps = 0;
+        self.run.seeking.cancel();
+        self.run.seeking.range = None;
         self.run.shown = PassId::Image;
         self.run.mouse = super::mouse::Mouse::default();
         self.run.keyboard = Keyboard::default();

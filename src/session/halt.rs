@@ -120,6 +120,7 @@ impl Session {
         }
         self.compile.is_newest_under_way = false;
         // Its buffers begin anew, and so must what they go by.
+        self.run.seeking.cancel();
         self.run.clock.reset();
         self.run.costs.forget();
         self.changed = true;

@@ -43,6 +43,8 @@ mod recovery;
 pub mod reduction;
 mod reload;
 pub mod script;
+mod seek;
+pub mod seeking;
 mod stamps;
 mod state;
 mod structure;

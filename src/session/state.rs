@@ -19,6 +19,7 @@ use super::{
     recent::{Recent, RecentProject},
     recorder::Recorder,
     recovery::Safekeeping,
+    seeking::Seeking,
     tracing::{TraceView, Tracing},
     view::{CompileState, Halt, Level, Notice, TabDiagnostic, Transport},
     watch::Watch,
@@ -209,8 +210,7 @@ pub(super) struct Run {
     /// A frame must be drawn though time stands still.
     pub is_frame_due: bool,
     pub steps: u32,
-    /// Frames to go back.
-    pub back: usize,
+    pub seeking: Seeking,
     /// Nobody sees the picture.
     pub is_covered: bool,
     /// The device is gone for good.
@@ -292,7 +292,7 @@ impl Session {
                 shown: PassId::Image,
                 is_frame_due: false,
                 steps: 0,
-                back: 0,
+                seeking: Seeking::default(),
                 is_covered: false,
                 is_device_lost: false,
                 fps: FpsMeter::default(),
@@ -408,7 +408,7 @@ impl Session {
 
     pub fn transport(&self) -> Transport {
         let times = self.pass_times();
-        let playing = self.run.clock.is_playing();
+        let playing = self.run.clock.is_playing() || self.run.seeking.resumes;
         Transport {
             playing,
             time_secs: self.run.clock.time_secs(),
@@ -419,6 +419,9 @@ impl Session {
             resolution: self.drawing.size(),
             scale: self.canvas.scale,
             fixed_size: self.canvas.fixed,
+            speed: self.run.clock.speed(),
+            fixed_rate: self.run.clock.fixed_rate(),
+            is_seeking: self.run.seeking.is_seeking(),
         }
     }
 

@@ -181,4 +181,10 @@ pub struct Transport {
     pub resolution: (u32, u32),
     pub scale: f32,
     pub fixed_size: Option<(u32, u32)>,
+    /// Seconds of `iTime` in a second.
+    pub speed: f64,
+    /// Frames in a second of `iTime`, if each takes the same time however long it really takes.
+    pub fixed_rate: Option<f64>,
+    /// Frames are drawn on the way to a time that was asked for.
+    pub is_seeking: bool,
 }

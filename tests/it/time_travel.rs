@@ -4,8 +4,10 @@ use crate::support::{self, stage::*};
 use eddy::{
     engine::{BuildOptions, Pixels},
     media,
-    project::{self, PassId},
-    session::{Command, Level, npy, offline::Offline, recording::Recording, script::ScriptedInputs},
+    project::{self, PassId, Tab},
+    session::{
+        Command, Level, npy, offline::Offline, recording::Recording, script::ScriptedInputs, seeking::TimeRange,
+    },
 };
 use std::{
     fs::{self, File},
@@ -101,6 +103,178 @@ fn what_is_out_of_reach_is_told_and_changes_nothing() {
     stage.session.apply(Command::StepBack(1));
     stage.tick();
     assert!(stage.notices(Level::Warning)[1].contains("begins anew"), "{:?}", stage.notices(Level::Warning));
+}
+
+/// Time and number of the frame that is shown.
+fn place(stage: &Stage) -> (f64, i32) {
+    let transport = stage.session.transport();
+    (transport.time_secs, transport.frame)
+}
+
+#[test]
+fn what_was_gone_back_from_is_gone_forward_to_until_something_else_is_drawn() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = stage(gpu);
+    steps(&mut stage, 0..150);
+    let last = texels(&mut stage);
+    stage.session.apply(Command::StepBack(100));
+    stage.tick();
+    assert_eq!((stage.session.transport().frame, stage.session.reach().ahead), (50, 100));
+    // With the mouse and the slider that those frames had.
+    for _ in 0..100 {
+        stage.session.apply(Command::Step);
+    }
+    stage.tick();
+    assert_eq!((stage.session.transport().frame, stage.session.reach().ahead), (150, 0));
+    assert!(texels(&mut stage) == last);
+    // A slider that is turned makes another run of it.
+    stage.session.apply(Command::StepBack(20));
+    stage.tick();
+    stage.session.apply(Command::AssignCustomUniform("level=0.75".into()));
+    stage.tick();
+    assert_eq!((stage.session.transport().frame, stage.session.reach().ahead), (131, 0));
+    for _ in 0..19 {
+        stage.session.apply(Command::Step);
+        stage.tick();
+    }
+    assert_eq!(stage.session.transport().frame, 150);
+    assert!(texels(&mut stage) != last);
+}
+
+#[test]
+fn a_picture_without_a_state_is_there_at_any_time_at_once() {
+    let Some(gpu) = support::gpu() else { return };
+    let time = "void mainImage(out vec4 o, in vec2 p) { o = vec4(iTime, float(iFrame), 0.0, 1.0); }";
+    let mut stage = Stage::open(gpu, &[("image.glsl", time)]);
+    for (secs, frame) in [(12.5, 750), (0.25, 15), (0.0, 0), (3600.0, 216_000)] {
+        let before = stage.frames();
+        stage.session.apply(Command::Seek(secs));
+        stage.tick();
+        assert_eq!((place(&stage), stage.frames()), ((secs, frame), before + 1));
+        let bytes = texels(&mut stage);
+        let red = f32::from_le_bytes(bytes[bytes.len() - 16..][..4].try_into().unwrap());
+        assert_eq!(red, secs as f32);
+    }
+    stage.session.apply(Command::Seek(f64::NAN));
+    stage.session.apply(Command::Seek(-3.0));
+    stage.tick();
+    assert_eq!(place(&stage), (0.0, 0));
+    // While it runs, it runs on from there.
+    stage.session.apply(Command::Play);
+    stage.session.apply(Command::Seek(7.0));
+    let now = Instant::now();
+    stage.session.tick(now);
+    stage.session.tick(now + Duration::from_millis(50));
+    assert!((place(&stage).0 - 7.05).abs() < 1e-9 && stage.session.transport().playing);
+}
+
+#[test]
+fn a_state_is_drawn_again_for_an_earlier_time_and_on_for_a_later_one() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = stage(gpu);
+    steps(&mut stage, 0..60);
+    let one_second = texels(&mut stage);
+    steps(&mut stage, 60..150);
+    stage.session.apply(Command::Seek(1.004));
+    stage.tick();
+    assert_eq!(place(&stage), (1.0, 60), "the last frame that is not later");
+    assert!(texels(&mut stage) == one_second);
+    stage.session.apply(Command::Seek(2.0));
+    stage.tick();
+    assert_eq!((place(&stage), stage.session.reach().ahead), ((2.0, 120), 30));
+    // Beyond what was drawn: the same as to go on step by step.
+    stage.session.apply(Command::Seek(3.0));
+    stage.tick();
+    assert_eq!((place(&stage), stage.session.transport().is_seeking), ((3.0, 180), false));
+    let sought = texels(&mut stage);
+    stage.session.apply(Command::Seek(2.5));
+    stage.tick();
+    for _ in 0..30 {
+        stage.session.apply(Command::Step);
+        stage.tick();
+    }
+    assert_eq!(place(&stage), (3.0, 180));
+    assert!(texels(&mut stage) == sought);
+    // On another canvas there is nothing to go back in: it begins at 0.
+    stage.session.apply(Command::SetFixedSize(Some((10, 4))));
+    stage.tick();
+    stage.session.apply(Command::Seek(0.5));
+    stage.tick();
+    assert_eq!(place(&stage), (0.5, 30));
+    assert!(stage.notices(Level::Warning).is_empty(), "{:?}", stage.notices(Level::Warning));
+}
+
+#[test]
+fn a_range_is_played_again_and_again_from_the_same_state() {
+    let Some(gpu) = support::gpu() else { return };
+    let mut stage = stage(gpu);
+    steps(&mut stage, 0..60);
+    let begin = texels(&mut stage);
+    stage.session.apply(Command::SetTimeRange(TimeRange::new(1.0, 1.5)));
+    stage.session.apply(Command::SetFixedRate(Some(60.0)));
+    stage.session.apply(Command::Play);
+    let (mut now, mut turns, mut before) = (Instant::now(), 0, 1.0);
+    for _ in 0..200 {
+        now += Duration::from_millis(7);
+        stage.session.tick(now);
+        let (time, _) = place(&stage);
+        assert!((1.0..=1.5001).contains(&time), "{time}");
+        turns += i32::from(time < before);
+        before = time;
+        if time == 1.0 {
+            assert!(texels(&mut stage) == begin);
+        }
+        assert!(stage.session.transport().playing);
+    }
+    assert!(turns >= 5, "{turns}");
+    stage.session.apply(Command::SetTimeRange(None));
+    for _ in 0..60 {
+        now += Duration::from_millis(7);
+        stage.session.tick(now);
+    }
+    assert!(place(&stage).0 > 1.5);
+}
+
+#[test]
+fn new_code_shows_the_same_frame_of_the_same_inputs() {
+    let Some(gpu) = support::gpu() else { return };
+    let other = HISTORY.replace("0.37", "0.41");
+    let buffer_a = || Tab::Pass(PassId::Buffer("A".into()));
+    let edited = |stage: &mut Stage, text: &str| {
+        stage.session.apply(Command::EditText { tab: buffer_a(), text: text.into() });
+        stage.session.apply(Command::CompileNow);
+        stage.until_compiled();
+    };
+    let mut kept = stage(gpu.clone());
+    kept.session.apply(Command::Reset);
+    kept.session.apply(Command::SetKeepInputs(true));
+    steps(&mut kept, 0..120);
+    let original = texels(&mut kept);
+    let shown = place(&kept);
+    edited(&mut kept, &other);
+    assert_eq!(place(&kept), shown, "no frame is added");
+    let changed = texels(&mut kept);
+    assert!(changed != original);
+    // As by the new code from the beginning.
+    let mut fresh = stage(gpu);
+    edited(&mut fresh, &other);
+    fresh.session.apply(Command::Reset);
+    steps(&mut fresh, 0..120);
+    assert_eq!(place(&fresh), shown);
+    assert!(texels(&mut fresh) == changed);
+    // And back, from the middle of the run: what was ahead still is.
+    kept.session.apply(Command::StepBack(40));
+    kept.tick();
+    edited(&mut kept, HISTORY);
+    assert_eq!((place(&kept).1, kept.session.reach().ahead), (shown.1 - 40, 40));
+    kept.session.apply(Command::Seek(shown.0));
+    kept.tick();
+    assert!(texels(&mut kept) == original);
+    // Without the switch it goes on from the buffers as they are.
+    kept.session.apply(Command::SetKeepInputs(false));
+    edited(&mut kept, &other);
+    assert_eq!(place(&kept).1, shown.1 + 1);
+    assert!(texels(&mut kept) != changed);
 }
 
 /// Plays a preset for so many frames of uneven length with a hand on it, and records it. Gives the recording and what

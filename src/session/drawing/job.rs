@@ -1,11 +1,13 @@
 //! What the engine is asked to do at once, and what it answers.
 
+use super::history::Travelled;
 use crate::{
     engine::{CostClock, EngineError, FrameInputs, Miniature, PassCost, PassTime, Picture, Pixels, Program, ValueLook},
     project::{CustomUniform, CustomUniformValues, PassId, Project},
     session::{
         capture::Format,
         probe::{NumbersWanted, ProbeNumbers},
+        seeking::{Goal, Reach},
         tracing::Taken,
     },
 };
@@ -77,8 +79,8 @@ pub struct Capture {
 pub struct Job {
     pub changes: Changes,
     pub frame: Option<FrameInputs>,
-    /// So many frames back from the newest.
-    pub back: Option<usize>,
+    /// Another frame of the run is to be shown.
+    pub travel: Option<Goal>,
     pub captures: Vec<Capture>,
     /// Targets of passes that panels show small.
     pub miniatures: Vec<(PassId, usize)>,
@@ -112,10 +114,10 @@ pub struct Done {
     /// The display may be another texture.
     pub is_display_new: bool,
     pub frame: Option<Result<DrawnFrame, EngineError>>,
-    /// What the frame is drawn with that was gone back to; `Some(None)` where it is out of reach.
-    pub back: Option<Option<Result<FrameInputs, EngineError>>>,
-    /// How many frames one can go back.
-    pub reach: usize,
+    /// The frame of the run that is shown now; `Some(None)` where the goal is out of reach.
+    pub travelled: Option<Option<Result<Travelled, EngineError>>>,
+    /// The frames that one can go to.
+    pub reach: Reach,
     pub captured: Vec<(Capture, Result<Pixels, EngineError>)>,
     /// One for each that was asked for and is drawn.
     pub miniatures: Vec<((PassId, usize), Miniature)>,

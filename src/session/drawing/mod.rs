@@ -12,12 +12,14 @@ mod studio;
 
 pub(super) use apart::Open;
 pub(super) use device::Device;
+pub(super) use history::Travelled;
 pub(super) use job::{Capture, Changes, Coming, Done, DrawnFrame, Job, ProgramOrigin, TileLimit};
 
 use crate::{
     engine::{CostClock, EngineError, PassCost, Picture},
     gpu::{Gpu, GpuError, Presenter, Texture},
     project::{CustomUniform, PassId, Project},
+    session::seeking::Reach,
 };
 use apart::Apart;
 use std::{
@@ -50,7 +52,7 @@ struct Facts {
     program: Option<ProgramOrigin>,
     costs: Vec<PassCost>,
     clock: CostClock,
-    reach: usize,
+    reach: Reach,
 }
 
 struct InFlight {
@@ -108,7 +110,7 @@ impl Drawing {
             place,
             wanted: Changes::default(),
             captures: Vec::new(),
-            facts: Facts { size, program: None, costs: Vec::new(), clock, reach: 0 },
+            facts: Facts { size, program: None, costs: Vec::new(), clock, reach: Reach::default() },
             in_flight: None,
             left: Vec::new(),
         }
@@ -192,8 +194,8 @@ impl Drawing {
         &self.facts.costs
     }
 
-    /// How many frames one can go back from the newest.
-    pub fn reach(&self) -> usize {
+    /// The frames that one can go to.
+    pub fn reach(&self) -> Reach {
         self.facts.reach
     }
 
@@ -229,7 +231,7 @@ impl Drawing {
         let mut job = Job {
             changes,
             frame: None,
-            back: None,
+            travel: None,
             captures: Vec::new(),
             miniatures: Vec::new(),
             numbers: None,

@@ -17,6 +17,8 @@ use std::time::{Duration, Instant};
 const TELLING: u32 = 20;
 /// How many tiles a graphics device draws at once is not known. A frame takes at least so often the time of one.
 const AT_LEAST: f64 = 4.0;
+/// Frames are drawn again for so long before the picture is shown and something else may be asked.
+const PATIENCE: Duration = Duration::from_millis(150);
 
 pub struct Studio {
     engine: Engine,
@@ -38,24 +40,24 @@ impl Studio {
     }
 
     pub fn work(&mut self, job: Job) -> Done {
-        let Job { changes, frame, back, captures, miniatures, numbers, inspect, costs_of, tile_limit } = job;
+        let Job { changes, frame, travel, captures, miniatures, numbers, inspect, costs_of, tile_limit } = job;
         let mut done = Done::default();
         let first_inputs = frame.clone().unwrap_or_else(|| FrameInputs::at_fixed_step(0, 60.0));
         self.change(changes, tile_limit, &first_inputs, &mut done);
-        if let Some(by) = back {
-            done.back = Some(self.history.go_back(&mut self.engine, by));
+        if let Some(goal) = travel {
+            done.travelled = Some(self.history.travel(&mut self.engine, goal, PATIENCE));
         }
         if let Some(inputs) = frame {
             self.history.before_frame(&self.engine);
             let drawn = self.draw(&inputs, costs_of.is_some());
             match &drawn {
                 Ok(drawn) => self.history.drew(inputs, drawn.took),
-                Err(_) => self.history.begin(),
+                Err(_) => self.history.begin(false),
             }
             done.frame = Some(drawn);
         }
         done.reach = self.history.reach();
-        if self.hands_out && (done.is_display_new || done.frame.is_some() || done.back.is_some()) {
+        if self.hands_out && (done.is_display_new || done.frame.is_some() || done.travelled.is_some()) {
             done.picture = Some(self.engine.picture());
         }
         done.captured = captures.into_iter().map(|capture| self.read(capture)).collect();
@@ -79,7 +81,7 @@ impl Studio {
         }
         if let Some((width, height)) = size.filter(|size| *size != self.engine.size()) {
             done.resized = Some(((width, height), self.engine.resize(width, height)));
-            self.history.begin();
+            self.history.begin(false);
             done.is_display_new = true;
         }
         if let Some(coming) = program {
@@ -88,7 +90,7 @@ impl Studio {
                 None => Ok(coming.program),
             };
             done.program = Some(tried.and_then(|program| self.engine.set_program(program)));
-            self.history.begin();
+            self.history.change_program();
             done.is_display_new = true;
         }
         if let Some(values) = custom_uniforms {
@@ -105,7 +107,7 @@ impl Studio {
         }
         if reset {
             self.engine.reset();
-            self.history.begin();
+            self.history.begin(true);
         }
     }
 

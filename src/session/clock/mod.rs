@@ -33,11 +33,28 @@ pub struct Clock {
     rate_window: Option<(Instant, u32)>,
     /// `iTime` that steps count from, and how many were made: adding up 1/60 would drift from frame/60.
     steps: Option<(f64, u32)>,
+    /// `iTime` against real time.
+    speed: f64,
+    /// Frames in a second of `iTime`, where each takes the same time whatever it really takes.
+    fixed_rate: Option<f64>,
 }
+
+/// Frames in a second of a step, unless another rate is asked for.
+const STEP_RATE: f64 = 60.0;
 
 impl Default for Clock {
     fn default() -> Self {
-        Self { is_playing: true, anchor: None, time_secs: 0.0, frame: 0, rate: 60.0, rate_window: None, steps: None }
+        Self {
+            is_playing: true,
+            anchor: None,
+            time_secs: 0.0,
+            frame: 0,
+            rate: 60.0,
+            rate_window: None,
+            steps: None,
+            speed: 1.0,
+            fixed_rate: None,
+        }
     }
 }
 
@@ -79,9 +96,49 @@ impl Clock {
         self.is_playing = false;
     }
 
-    /// Time and frame number to zero. Playing or paused stays as it is.
+    /// Time and frame number to zero. Playing or paused, speed and step stay as they are.
     pub fn reset(&mut self) {
-        *self = Self { is_playing: self.is_playing, ..Self::default() };
+        let Self { is_playing, speed, fixed_rate, .. } = *self;
+        *self = Self { is_playing, speed, fixed_rate, ..Self::default() };
+    }
+
+    /// Seconds of `iTime` in a second.
+    pub fn speed(&self) -> f64 {
+        self.speed
+    }
+
+    /// Has time run faster or slower than real time. What is no number above 0 changes nothing.
+    pub fn set_speed(&mut self, speed: f64) {
+        if speed.is_finite() && speed > 0.0 {
+            self.speed = speed;
+            self.rebase();
+        }
+    }
+
+    /// Frames in a second of `iTime`, if each takes the same time.
+    pub fn fixed_rate(&self) -> Option<f64> {
+        self.fixed_rate
+    }
+
+    /// Has every frame take the same time; `None`: as long as it really takes. A rate that is no number above 0 changes
+    /// nothing.
+    pub fn set_fixed_rate(&mut self, rate: Option<f64>) {
+        if rate.is_none_or(|rate| rate.is_finite() && rate > 0.0) {
+            self.fixed_rate = rate;
+            self.rebase();
+        }
+    }
+
+    /// Frames in a second of what [`step_frame`](Self::step_frame) draws.
+    pub fn step_rate(&self) -> f64 {
+        self.fixed_rate.unwrap_or(STEP_RATE)
+    }
+
+    /// The next frame is the one that a run at a fixed step has at about this time. Playing or paused stays as it is.
+    pub fn jump(&mut self, time_secs: f64) {
+        self.rebase();
+        self.time_secs = time_secs;
+        self.frame = (time_secs * self.step_rate()).round() as i32;
     }
 
     /// A frame that was drawn before is shown again: the next one is the one after it. Pauses.
@@ -102,17 +159,20 @@ impl Clock {
 
     /// A frame of the running picture.
     pub fn running_frame(&mut self, now: Instant) -> FrameTime {
-        self.steps = None;
-        let (time, delta) = match self.anchor {
-            None => {
+        let (time, delta) = match (self.fixed_rate, self.anchor) {
+            (Some(_), _) => self.step(),
+            (None, None) => {
                 self.anchor = Some((now, self.time_secs));
                 (self.time_secs, NOMINAL_DELTA_SECS)
             }
-            Some((since, from)) => {
-                let time = from + now.saturating_duration_since(since).as_secs_f64();
+            (None, Some((since, from))) => {
+                let time = from + self.speed * now.saturating_duration_since(since).as_secs_f64();
                 (time, time - self.time_secs)
             }
         };
+        if self.fixed_rate.is_none() {
+            self.steps = None;
+        }
         let (since, frames) = self.rate_window.get_or_insert((now, 0));
         let elapsed = now.saturating_duration_since(*since);
         if elapsed > RATE_WINDOW {
@@ -128,16 +188,22 @@ impl Clock {
         self.emit(self.time_secs, NOMINAL_DELTA_SECS)
     }
 
-    /// One frame further by 1/60 s, and paused. The first frame after a reset is the one at 0.
+    /// One frame further by a step, and paused. The first frame after a reset is the one at 0.
     pub fn step_frame(&mut self) -> FrameTime {
         self.pause();
+        let (time, delta) = self.step();
+        self.emit(time, delta)
+    }
+
+    /// Time and delta of the frame that is one step further.
+    fn step(&mut self) -> (f64, f64) {
+        let rate = self.step_rate();
         let (from, steps) = self.steps.get_or_insert((self.time_secs, 0));
         if self.frame > 0 {
             *steps += 1;
         }
         // Divided as a fixed-step run does, so that both give the same bits.
-        let time = *from + f64::from(*steps) / 60.0;
-        self.emit(time, NOMINAL_DELTA_SECS)
+        (*from + f64::from(*steps) / rate, 1.0 / rate)
     }
 
     fn emit(&mut self, time_secs: f64, delta_secs: f64) -> FrameTime {
@@ -150,88 +216,4 @@ impl Clock {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const NOMINAL: f32 = NOMINAL_DELTA_SECS as f32;
-
-    fn after(start: Instant, millis: u64) -> Instant {
-        start + Duration::from_millis(millis)
-    }
-
-    #[test]
-    fn the_first_frame_is_at_zero_and_the_delta_is_measured_after_it() {
-        let (mut c, t) = (Clock::default(), Instant::now());
-        let f = c.running_frame(after(t, 5000));
-        assert_eq!((f.frame, f.time_secs, f.time_delta_secs, f.frame_rate), (0, 0.0, NOMINAL, 60.0));
-        let f = c.running_frame(after(t, 5040));
-        assert_eq!((f.frame, f.time_secs, f.time_delta_secs), (1, 0.040, 0.040));
-        let f = c.running_frame(after(t, 5050));
-        assert!((f.time_secs - 0.050).abs() < 1e-12 && (f.time_delta_secs - 0.010).abs() < 1e-6);
-    }
-
-    #[test]
-    fn a_pause_freezes_time_and_forced_frames_still_count() {
-        let (mut c, t) = (Clock::default(), Instant::now());
-        c.running_frame(t);
-        c.running_frame(after(t, 100));
-        c.pause();
-        for i in 0..3 {
-            let f = c.forced_frame();
-            assert_eq!((f.frame, f.time_secs, f.time_delta_secs), (2 + i, 0.1, NOMINAL));
-        }
-        c.play();
-        let f = c.running_frame(after(t, 9000));
-        assert_eq!((f.frame, f.time_secs, f.time_delta_secs), (5, 0.1, NOMINAL), "no jump, and 1/60 on resume");
-        assert!((c.running_frame(after(t, 9020)).time_secs - 0.12).abs() < 1e-12);
-    }
-
-    #[test]
-    fn focus_counts_from_the_newest_frame() {
-        let (mut c, t) = (Clock::default(), Instant::now());
-        c.running_frame(t);
-        c.running_frame(after(t, 50));
-        c.rebase();
-        let f = c.running_frame(after(t, 60_000));
-        assert_eq!((f.time_secs, f.time_delta_secs), (0.050, NOMINAL));
-    }
-
-    #[test]
-    fn reset_goes_to_zero_and_keeps_playing_or_not() {
-        let (mut c, t) = (Clock::default(), Instant::now());
-        c.running_frame(t);
-        c.running_frame(after(t, 700));
-        c.reset();
-        let f = c.running_frame(after(t, 800));
-        assert_eq!((f.frame, f.time_secs, f.time_delta_secs, f.frame_rate), (0, 0.0, NOMINAL, 60.0));
-        c.pause();
-        c.reset();
-        assert!(!c.is_playing());
-    }
-
-    #[test]
-    fn frame_rate_is_measured_over_more_than_half_a_second() {
-        let (mut c, t) = (Clock::default(), Instant::now());
-        let mut rates = Vec::new();
-        for i in 0..=15 {
-            rates.push(c.running_frame(after(t, i * 50)).frame_rate);
-        }
-        assert!(rates[..=10].iter().all(|r| *r == 60.0), "500 ms is not more than 500 ms");
-        assert!((rates[11] - 20.0).abs() < 1e-4, "11 frames in 550 ms");
-        assert!(rates[12..].iter().all(|r| *r == rates[11]), "constant between");
-    }
-
-    #[test]
-    fn steps_land_on_the_times_of_a_fixed_step_run() {
-        let mut c = Clock::default();
-        for i in 0..1000 {
-            let f = c.step_frame();
-            let want = crate::engine::FrameInputs::at_fixed_step(i, 60.0);
-            assert_eq!(
-                (f.frame, f.time_secs, f.time_delta_secs, f.frame_rate),
-                (want.frame, want.time_secs, want.time_delta_secs, want.frame_rate)
-            );
-        }
-        assert!(!c.is_playing());
-    }
-}
+mod tests;

@@ -1,0 +1,193 @@
+//! Seeking: to a frame that was drawn before, to a time, round and round a range, and to the same frame by new code.
+//!
+//! A project whose passes read nothing of the last frame has a picture for each time, which is drawn at once. Any other
+//! is where its frames have brought it: one that was drawn is drawn again from the inputs that it had, and a later time is
+//! reached by drawing every frame on the way, at a fixed step.
+
+use super::{
+    Session,
+    drawing::{Job, Travelled},
+    seeking::{Goal, Reach, TimeRange},
+    view::Level,
+};
+use crate::engine::EngineError;
+
+impl Session {
+    /// Shows the frame that is so many before the one that is shown, and pauses.
+    pub(super) fn step_back(&mut self, by: usize) {
+        self.override_halt();
+        self.run.clock.pause();
+        self.run.steps = 0;
+        let by = i64::try_from(by).unwrap_or(i64::MAX);
+        let before = match self.run.seeking.goal {
+            Some(Goal::By(frames)) => frames,
+            _ => 0,
+        };
+        self.run.seeking.cancel();
+        self.run.seeking.goal = Some(Goal::By(before.saturating_sub(by)));
+    }
+
+    /// One frame further: the next one of the run, where one has gone back, else a new one.
+    pub(super) fn step_forward(&mut self) {
+        self.override_halt();
+        self.run.clock.pause();
+        let before = match self.run.seeking.goal {
+            Some(Goal::By(frames)) => frames,
+            _ => 0,
+        };
+        self.run.seeking.cancel();
+        let is_ahead = i64::try_from(self.drawing.reach().ahead).is_ok_and(|ahead| ahead > before);
+        if self.run.steps == 0 && is_ahead && !self.run.is_frame_due {
+            self.run.seeking.goal = Some(Goal::By(before + 1));
+        } else {
+            self.run.steps = self.run.steps.saturating_add(1);
+        }
+    }
+
+    /// Shows the picture at a time, in seconds. Playing or paused stays as it is.
+    pub(super) fn seek(&mut self, secs: f64) {
+        if !secs.is_finite() {
+            return;
+        }
+        let secs = secs.max(0.0);
+        self.override_halt();
+        // What is recorded is a run without a break.
+        self.end_recording();
+        let resumes = self.is_playing();
+        self.run.seeking.cancel();
+        self.run.steps = 0;
+        if !self.has_state() {
+            self.run.clock.jump(secs);
+            self.run.is_frame_due = true;
+            return;
+        }
+        let reach = self.drawing.reach();
+        self.run.clock.pause();
+        if self.run.clock.next_frame_number() == 0 || secs < reach.first_secs {
+            self.reset();
+            self.run.seeking.until = Some(secs);
+        } else {
+            self.run.seeking.goal = Some(Goal::Time(secs));
+            self.run.seeking.until = (secs > reach.last_secs).then_some(secs);
+        }
+        self.run.seeking.resumes = resumes;
+    }
+
+    /// Goes back to the beginning of the range that is played where its end has come.
+    pub(super) fn loop_range(&mut self) {
+        let Some(range) = self.run.seeking.range else { return };
+        if self.run.clock.is_playing() && !self.run.is_covered && self.run.clock.time_secs() >= range.to {
+            self.seek(range.from);
+        }
+    }
+
+    /// Hands in the frame that is to be shown. False where there is none, or nothing to draw it.
+    pub(super) fn travel(&mut self) -> bool {
+        let is_ready = self.drawing.has_program() && !self.drawing.wanted.restart;
+        if self.run.seeking.goal.is_none() || self.drawing.is_program_coming() {
+            return false;
+        }
+        let goal = self.run.seeking.goal.take();
+        if !is_ready {
+            self.run.seeking.cancel();
+            return false;
+        }
+        self.end_recording();
+        self.run.seeking.is_under_way = true;
+        self.drawing.submit(self.now, |job: &mut Job| job.travel = goal);
+        true
+    }
+
+    /// The engine shows another frame of the run, or cannot.
+    pub(super) fn travelled(&mut self, travelled: Option<Result<Travelled, EngineError>>) {
+        self.changed = true;
+        self.run.is_frame_due = false;
+        let is_wanted = std::mem::take(&mut self.run.seeking.is_under_way);
+        match travelled {
+            Some(Ok(Travelled { inputs, goal, left })) => {
+                self.run.clock.go_to(inputs.frame, inputs.time_secs);
+                if self.run.seeking.goal.is_some() || !is_wanted {
+                    return;
+                }
+                if left > 0 {
+                    self.run.seeking.goal = Some(Goal::Frame(goal));
+                } else {
+                    self.arrive();
+                }
+            }
+            Some(Err(error)) => {
+                self.run.seeking.cancel();
+                self.stop_drawing(&error);
+            }
+            None => {
+                self.run.seeking.cancel();
+                let text = match self.drawing.reach().back {
+                    0 => "there is no earlier frame to go back to: an edit, a reset or another size begins anew"
+                        .to_owned(),
+                    back => format!("that frame is out of reach: one can go back {back} frames"),
+                };
+                self.notice(Level::Warning, text);
+            }
+        }
+    }
+
+    /// Returns whether one more frame at a fixed step is due before the time that is sought.
+    pub(super) fn is_step_due(&mut self) -> bool {
+        let Some(until) = self.run.seeking.until.filter(|_| !self.run.seeking.is_under_way) else { return false };
+        let half = 0.5 / self.run.clock.step_rate();
+        // The frame that is nearest to it.
+        let is_due = self.run.clock.next_frame_number() == 0 || self.run.clock.time_secs() + half <= until;
+        if !is_due {
+            self.run.seeking.until = None;
+            self.arrive();
+        }
+        is_due
+    }
+
+    fn arrive(&mut self) {
+        if self.run.seeking.until.is_none() && std::mem::take(&mut self.run.seeking.resumes) {
+            self.run.clock.play();
+            self.run.fps.restart();
+        }
+    }
+
+    /// A new program draws: by the same inputs up to the same frame, where that is asked for.
+    pub(super) fn keep_inputs(&mut self) {
+        let reach = self.drawing.reach();
+        if !self.run.seeking.keeps_inputs || !reach.is_whole || reach.shown == 0 || !self.has_state() {
+            return;
+        }
+        let resumes = self.is_playing();
+        self.run.seeking.cancel();
+        self.run.clock.pause();
+        self.run.is_frame_due = false;
+        self.run.seeking.goal = Some(Goal::Anew(reach.shown));
+        self.run.seeking.resumes = resumes;
+    }
+
+    fn has_state(&self) -> bool {
+        // A project that was opened paused has no program yet.
+        let project = self.drawing.project().unwrap_or_else(|| self.documents.current());
+        !project.stateful_passes().is_empty()
+    }
+
+    /// Time runs, or will once the time that is sought is reached.
+    pub(super) fn is_playing(&self) -> bool {
+        self.run.clock.is_playing() || self.run.seeking.resumes
+    }
+
+    /// Returns the frames that one can go to without drawing new ones.
+    pub fn reach(&self) -> Reach {
+        self.drawing.reach()
+    }
+
+    /// Returns the range that is played again and again.
+    pub fn time_range(&self) -> Option<TimeRange> {
+        self.run.seeking.range
+    }
+
+    /// Returns whether new code draws the frames since the last reset again, from the same inputs.
+    pub fn keeps_inputs(&self) -> bool {
+        self.run.seeking.keeps_inputs
+    }
+}
