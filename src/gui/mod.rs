@@ -41,6 +41,7 @@ mod system_theme;
 mod tabs;
 mod theme;
 mod thumbnails;
+mod timeline;
 mod toasts;
 mod top_bar;
 mod trace;

@@ -6,7 +6,7 @@ use super::{
     geometry::Shape,
     icons::{self, Icon},
     outbox::{Outbox, Wish},
-    theme,
+    theme, timeline,
 };
 use crate::{
     project::{PassId, Tab},
@@ -19,7 +19,7 @@ const SIZES: [(u32, u32); 8] =
     [(256, 144), (640, 360), (800, 450), (1280, 720), (1920, 1080), (3840, 2160), (512, 512), (1024, 1024)];
 
 /// Height of the bar.
-pub const HEIGHT: f32 = 40.0;
+pub const HEIGHT: f32 = 40.0 + timeline::HEIGHT;
 
 /// Points for the pass that is shown and the menu behind it, and for the size.
 const BEHIND: f32 = 116.0;
@@ -33,7 +33,8 @@ pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) -> b
     let transport = session.transport();
     // That it takes clicks too keeps a click from moving anything.
     let handle = ui.interact(ui.max_rect(), ui.scope_id().with("bar"), egui::Sense::CLICK | egui::Sense::DRAG);
-    ui.spacing_mut().item_spacing.x = 4.0;
+    ui.spacing_mut().item_spacing = vec2(4.0, 0.0);
+    timeline::show(ui, session, out);
     ui.horizontal_centered(|ui| {
         let (icon, tip) = if transport.playing { (Icon::Pause, "Pause") } else { (Icon::Play, "Play") };
         let play = icons::first(ui, icon, tip).on_hover_text(out.keys.tip(tip, Action::TogglePlay));
@@ -64,7 +65,7 @@ pub fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) -> b
         let (shows_time, shows_cost) = (fits(56.0), fits(60.0));
         let (shows_fps, shows_frame) = (fits(58.0), fits(52.0));
         if shows_time {
-            value(ui, 56.0, &format!("{} s", figure(transport.time_secs, 2, 5)), "Time (iTime)");
+            timeline::button(ui, 56.0, &format!("{} s", figure(transport.time_secs, 2, 5)), session, out);
         }
         if shows_frame {
             let text = match f64::from(transport.frame) {

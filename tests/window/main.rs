@@ -16,4 +16,5 @@ mod window_slow;
 // The portal is spoken to by a library that only the window needs.
 #[cfg(all(feature = "gui", not(any(windows, target_os = "macos"))))]
 mod window_theme;
+mod window_time;
 mod window_trace;

@@ -1,6 +1,6 @@
 //! Everything that a key, a menu or the palette can ask for.
 
-use super::TraceAction;
+use super::{TimeAction, TraceAction};
 use crate::gui::{dock::Panel, editor::EditorAction};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -64,6 +64,7 @@ pub enum Action {
     /// The next click on the picture says which pixel is traced.
     TracePixel,
     Trace(TraceAction),
+    Time(TimeAction),
     Quit,
     /// In the text that has the keyboard, or had it last.
     Code(EditorAction),

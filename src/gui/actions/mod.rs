@@ -9,6 +9,7 @@ mod chord;
 mod file;
 mod keymap;
 mod table;
+mod time;
 mod trace;
 mod watch;
 
@@ -16,5 +17,6 @@ pub use action::Action;
 pub use chord::Chord;
 pub use keymap::{Keymap, Listening};
 pub use table::{ACTIONS, Entry, Group};
+pub use time::TimeAction;
 pub use trace::TraceAction;
 pub use watch::KeyFile;

@@ -1,6 +1,6 @@
 //! The table of actions.
 
-use super::{Action, TraceAction};
+use super::{Action, TimeAction, TraceAction};
 use crate::{
     gui::{
         dock::Panel,
@@ -121,6 +121,10 @@ const fn trace(action: TraceAction, name: &'static str, title: &'static str, key
     row(Action::Trace(action), name, title, keys, Group::Trace)
 }
 
+const fn time(action: TimeAction, name: &'static str, title: &'static str, keys: &'static [&'static str]) -> Entry {
+    row(Action::Time(action), name, title, keys, Group::Picture)
+}
+
 /// A motion of the caret, and the same with Shift, which selects.
 const fn go(motion: Motion, name: &'static str, title: &'static str, keys: &'static [&'static str]) -> Entry {
     row(Action::Code(Code::Go(motion)), name, title, keys, Group::Caret)
@@ -153,6 +157,15 @@ pub const ACTIONS: &[Entry] = &[
     row(Action::Reset, "reset", "Reset time and buffers", &["Alt+Down", "Ctrl+Shift+F5"], Group::Picture),
     row(Action::StepBack, "step-back", "One frame back, buffers and all, then pause", &["Alt+,"], Group::Picture),
     row(Action::Step, "step", "One frame forward, then pause", &["Alt+."], Group::Picture),
+    time(TimeAction::GoTo, "go-to-time", "Go to a time", &["Alt+G"]),
+    time(TimeAction::Slower, "slower", "Time half as fast", &[]),
+    time(TimeAction::Faster, "faster", "Time twice as fast", &[]),
+    time(TimeAction::UsualSpeed, "usual-speed", "Time as fast as the clock's", &[]),
+    time(TimeAction::FixedStep, "fixed-step", "Fixed step: every frame takes the same time, or no longer", &[]),
+    time(TimeAction::LoopFrom, "loop-from", "Loop from this time", &["Alt+["]),
+    time(TimeAction::LoopTo, "loop-to", "Loop to this time", &["Alt+]"]),
+    time(TimeAction::LoopOff, "loop-off", "Loop no longer", &[]),
+    time(TimeAction::KeepInputs, "keep-inputs", "After an edit the same frame from the same inputs, or no longer", &[]),
     row(Action::Compile, "compile", "Compile now", &["Alt+Enter", "Ctrl+Enter"], Group::Picture),
     row(
         Action::Screenshot,

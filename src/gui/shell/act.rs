@@ -8,6 +8,7 @@ use crate::{
         help::Help,
         outbox::{Outbox, Pick},
         settings::{Change, Settings},
+        timeline,
     },
     session::{Command, Level, Session, probe::ProbePlace},
 };
@@ -103,6 +104,7 @@ impl Shell {
                 let caret = self.code.caret_place().map(|(tab, _, line)| (tab, line));
                 self.debugger.act(session, action, caret);
             }
+            Action::Time(action) => timeline::act(ui.ctx(), session, action, out),
             Action::Quit => out.ask(Command::Close),
         }
         ui.ctx().request_repaint();

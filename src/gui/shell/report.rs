@@ -44,6 +44,15 @@ impl Shell {
                 report.say(json!({ "event": "notice", "level": level, "text": notice.text, "path": notice.path }));
             }
         }
+        report.say_if_new(
+            "time",
+            json!({
+                "speed": transport.speed,
+                "fixed_rate": transport.fixed_rate,
+                "range": session.time_range().map(|range| [range.from, range.to]),
+                "keeps_inputs": session.keeps_inputs(),
+            }),
+        );
         report.say_if_new("halt", json!({ "kind": session.halt().map(halt::kind) }));
         let question =
             session.question().map(|q| format!("{q:?}").split([' ', '(']).next().unwrap_or_default().to_lowercase());

@@ -224,6 +224,12 @@ impl<'a> Window<'a> {
 
     /// Where a named widget is: its centre, in pixels of the window.
     pub fn centre(&mut self, widget: &str) -> (i64, i64) {
+        let r = self.rect(widget).map(|x| x as i64);
+        (r[0] + r[2] / 2, r[1] + r[3] / 2)
+    }
+
+    /// Its place: x, y, width, height.
+    pub fn rect(&mut self, widget: &str) -> [f64; 4] {
         let name = widget.to_owned();
         let has = |e: &Value| e["rects"][&name].is_array();
         let mut layout = self.wait_until(&format!("the widget {widget}"), "layout", has);
@@ -245,9 +251,7 @@ impl<'a> Window<'a> {
                 break;
             }
         }
-        let r: Vec<i64> =
-            layout["rects"][widget].as_array().unwrap().iter().map(|v| v.as_f64().unwrap() as i64).collect();
-        (r[0] + r[2] / 2, r[1] + r[3] / 2)
+        std::array::from_fn(|i| layout["rects"][widget][i].as_f64().unwrap())
     }
 
     /// The picture's place in the window: x, y, width, height.

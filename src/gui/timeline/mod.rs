@@ -1,0 +1,144 @@
+//! Time as a line: where the picture is, which frames it has been through, the part that is played again and again; and
+//! the menu with what time does. Draws no frame and keeps no time: it asks the session.
+
+mod menu;
+mod seconds;
+
+pub use menu::button;
+
+use super::{accessible, actions::TimeAction, outbox::Outbox, theme};
+use crate::session::{
+    Command, Session,
+    seeking::{Reach, TimeRange},
+};
+use egui::{Key, Rect, Role, Sense, Stroke, Ui, pos2, vec2};
+
+/// Height of the line.
+pub const HEIGHT: f32 = 12.0;
+
+/// Seconds that a larger step of the keyboard goes.
+const STRIDE: f64 = 1.0;
+
+/// Fills the width there is. A hand goes to a time, with Shift it marks the part that is played again and again.
+pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
+    let p = theme::of(ui);
+    let (transport, reach, range) = (session.transport(), session.reach(), session.time_range());
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::CLICK | Sense::DRAG);
+    let response = response.on_hover_text(
+        "Time: click or drag to go there. Shift+drag: play a part again and again; Shift+click: no longer",
+    );
+    let end = seconds::end([transport.time_secs, reach.last_secs, range.map_or(0.0, |range| range.to)]);
+    accessible::name(
+        &response,
+        Role::Slider,
+        format!("Time: {} of {}", seconds::written(transport.time_secs), seconds::written(end)),
+    );
+    out.place("timeline", rect);
+    let line = Rect::from_center_size(rect.center(), vec2(rect.width() - 8.0, 4.0));
+    let at = |secs: f64| line.left() + line.width() * (secs / end).clamp(0.0, 1.0) as f32;
+    let secs_at = |x: f32| f64::from(((x - line.left()) / line.width()).clamp(0.0, 1.0)) * end;
+    let part = |from: f64, to: f64| Rect::from_x_y_ranges(at(from)..=at(to), line.y_range());
+
+    let painter = ui.painter_at(rect);
+    painter.rect_filled(line, 2.0, p.line);
+    if reach.back + reach.ahead > 0 {
+        painter.rect_filled(part(reach.first_secs, reach.last_secs), 2.0, p.accent_fill);
+    }
+    if let Some(range) = range {
+        let marked = part(range.from, range.to);
+        painter.rect_filled(marked, 2.0, p.found.gamma_multiply(0.6));
+        for x in [marked.left(), marked.right()] {
+            painter.line_segment([pos2(x, rect.top() + 1.0), pos2(x, rect.bottom() - 1.0)], Stroke::new(1.5, p.found));
+        }
+    }
+    let is_held = response.hovered() || response.dragged() || response.has_focus();
+    let (radius, ink) = if is_held { (5.0, p.accent) } else { (3.5, p.text) };
+    painter.circle_filled(pos2(at(transport.time_secs), line.center().y), radius, ink);
+    if response.has_focus() {
+        ui.painter().rect_stroke(rect.shrink(1.0), 3.0, p.focus(), egui::StrokeKind::Inside);
+    }
+
+    let from = response.id.with("range from");
+    let pointer = response.interact_pointer_pos().map(|at| secs_at(at.x));
+    let Some(secs) = pointer else {
+        keys(ui, session, &response, out);
+        return;
+    };
+    let begun: Option<f64> = ui.data(|data| data.get_temp(from));
+    if response.drag_started() && ui.input(|input| input.modifiers.shift) {
+        let origin = ui.input(|input| input.pointer.press_origin()).map_or(secs, |at| secs_at(at.x));
+        ui.data_mut(|data| data.insert_temp(from, origin));
+    } else if let Some(begun) = begun {
+        if let Some(range) = TimeRange::new(begun, secs) {
+            out.ask(Command::SetTimeRange(Some(range)));
+        }
+        if response.drag_stopped() {
+            ui.data_mut(|data| data.remove::<f64>(from));
+        }
+    } else if response.clicked() && ui.input(|input| input.modifiers.shift) {
+        out.ask(Command::SetTimeRange(None));
+    } else if (response.clicked() || response.dragged()) && is_another(session, reach, secs) {
+        out.ask(Command::Seek(secs));
+    }
+}
+
+/// Does what a key or the palette asks of time.
+pub fn act(ctx: &egui::Context, session: &Session, action: TimeAction, out: &mut Outbox) {
+    let (transport, range) = (session.transport(), session.time_range());
+    let time = transport.time_secs;
+    let fastest = menu::SPEEDS.last().map_or(1.0, |(speed, _)| *speed);
+    let ask = match action {
+        TimeAction::GoTo => return menu::open(ctx),
+        TimeAction::Slower => Command::SetSpeed((transport.speed / 2.0).max(menu::SPEEDS[0].0)),
+        TimeAction::Faster => Command::SetSpeed((transport.speed * 2.0).min(fastest)),
+        TimeAction::UsualSpeed => Command::SetSpeed(1.0),
+        TimeAction::FixedStep => Command::SetFixedRate(if transport.fixed_rate.is_some() { None } else { Some(60.0) }),
+        TimeAction::LoopFrom => {
+            let to = range.map(|range| range.to).filter(|to| *to > time).unwrap_or(time + menu::USUAL_RANGE);
+            Command::SetTimeRange(TimeRange::new(time, to))
+        }
+        TimeAction::LoopTo => {
+            let from = range.map(|range| range.from).filter(|from| *from < time);
+            Command::SetTimeRange(TimeRange::new(from.unwrap_or((time - menu::USUAL_RANGE).max(0.0)), time))
+        }
+        TimeAction::LoopOff => Command::SetTimeRange(None),
+        TimeAction::KeepInputs => Command::SetKeepInputs(!session.keeps_inputs()),
+    };
+    out.ask(ask);
+}
+
+/// A hand that rests asks for nothing.
+fn is_another(session: &Session, reach: Reach, secs: f64) -> bool {
+    let transport = session.transport();
+    let frame = 1.0 / transport.fixed_rate.unwrap_or(60.0);
+    let is_far = (secs - transport.time_secs).abs() >= frame;
+    // Before the first frame that is kept there is nothing nearer than that one, unless it is drawn anew.
+    is_far && !(transport.is_seeking && secs > reach.last_secs)
+}
+
+/// Arrows go by a frame, page keys by a second, Home to the beginning.
+fn keys(ui: &Ui, session: &Session, response: &egui::Response, out: &mut Outbox) {
+    if !response.has_focus() {
+        return;
+    }
+    let arrows = egui::EventFilter { horizontal_arrows: true, ..Default::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+    let pressed = |key| ui.input_mut(|input| input.count_and_consume_key(egui::Modifiers::NONE, key));
+    let secs = session.transport().time_secs;
+    for _ in 0..pressed(Key::ArrowRight) {
+        out.ask(Command::Step);
+    }
+    match pressed(Key::ArrowLeft) {
+        0 => {}
+        frames => out.ask(Command::StepBack(frames)),
+    }
+    if pressed(Key::PageUp) > 0 {
+        out.ask(Command::Seek(secs + STRIDE));
+    }
+    if pressed(Key::PageDown) > 0 {
+        out.ask(Command::Seek((secs - STRIDE).max(0.0)));
+    }
+    if pressed(Key::Home) > 0 {
+        out.ask(Command::Seek(0.0));
+    }
+}
