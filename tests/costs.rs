@@ -6,7 +6,7 @@
 mod support;
 
 use eddy::{
-    engine::{BuildOptions, CostClock, FrameInputs, PassRole},
+    engine::{BuildOptions, CostClock, FrameInputs, PassRole, When},
     gpu::GpuOptions,
     media::MediaSet,
     project::{PassFormat, PassSize, Project},
@@ -57,6 +57,12 @@ fn bytes_are_those_of_the_plan_and_an_unread_pass_is_said() {
             (name("buffer_c"), PassRole::Unread, 0, 0, 0),
         ]
     );
+    // What each reads, also of the pass that is not drawn.
+    let reads =
+        |i: usize| costs[i].reads.iter().map(|r| (r.channel, r.pass.key(), r.when, r.is_used)).collect::<Vec<_>>();
+    assert_eq!(reads(0), [(0, name("buffer_a"), When::LastFrame, true)]);
+    assert_eq!(reads(1), [(0, name("buffer_a"), When::ThisFrame, true)]);
+    assert_eq!(reads(3), [(0, name("buffer_c"), When::LastFrame, false)]);
     let plan = engine.program().unwrap().plan();
     assert_eq!(plan.traffic(SIZE).bytes, costs.iter().map(|c| c.moved_bytes).sum::<u64>());
     assert_eq!(plan.target_bytes(SIZE), costs.iter().map(|c| c.held_bytes).sum::<u64>());

@@ -1,7 +1,10 @@
 //! The costs of each pass: the bytes that its textures hold, the bytes that it moves, and the time that it takes.
 
 use super::Engine;
-use crate::project::{PassFormat, PassId, Project};
+use crate::{
+    graph::{Draw, FramePlan, PassFacts, Read, Source, When},
+    project::{PassFormat, PassId, Project},
+};
 
 /// Bytes a texel of a depth buffer.
 const DEPTH_BYTES: u64 = 4;
@@ -21,10 +24,24 @@ pub enum CostClock {
 pub enum PassRole {
     /// It is drawn; cached, if its picture of before did in the newest frame because nothing that it reads had changed.
     Drawn { is_cached: bool },
+    /// Its region lies outside of its texels: there is nothing to draw.
+    Outside,
     /// Nobody reads it: it is left out.
     Unread,
     /// Eddy does not draw passes of its kind.
     Unsupported,
+}
+
+/// A channel of a pass that names another pass, or the pass itself.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PassRead {
+    pub channel: usize,
+    pub pass: PassId,
+    /// Which of that pass's targets.
+    pub index: usize,
+    pub when: When,
+    /// The pass is drawn, and its code reads the channel.
+    pub is_used: bool,
 }
 
 /// A pass's part of a frame, by its plan.
@@ -45,6 +62,8 @@ pub struct PassCost {
     pub moved_bytes: u64,
     /// Texels that a frame draws of it, all steps together.
     pub texels: u64,
+    /// The passes that its channels name.
+    pub reads: Vec<PassRead>,
 }
 
 impl Engine {
@@ -53,6 +72,9 @@ impl Engine {
     pub fn pass_costs(&self, project: &Project) -> Vec<PassCost> {
         let Some(running) = self.running() else { return Vec::new() };
         let (plan, canvas) = (&running.program.plan, running.canvas);
+        // What is read if nothing is left out: also by passes that are not drawn, and by channels that no code reads.
+        let anything = vec![PassFacts::ANYTHING; project.passes.len()];
+        let whole = FramePlan::new(project, &anything, &[], false);
         let mut costs: Vec<PassCost> = Vec::new();
         for (index, (compiled, draw)) in running.program.planned_draws().enumerate() {
             let targets = &plan.targets[draw.targets.clone()];
@@ -62,7 +84,10 @@ impl Engine {
             let depth = if compiled.body.meshes().is_some() { DEPTH_BYTES } else { 0 };
             costs.push(PassCost {
                 pass: compiled.id.clone(),
-                role: PassRole::Drawn { is_cached: running.steps_drawn.get(index) == Some(&0) },
+                role: match draw.region {
+                    Some(region) if region.within(size).is_none() => PassRole::Outside,
+                    _ => PassRole::Drawn { is_cached: running.steps_drawn.get(index) == Some(&0) },
+                },
                 size,
                 formats: targets.iter().map(|t| t.format).collect(),
                 steps,
@@ -70,6 +95,7 @@ impl Engine {
                     + depth * u64::from(size.0) * u64::from(size.1),
                 moved_bytes: step.bytes * u64::from(steps),
                 texels: step.texels * u64::from(steps),
+                reads: reads(&whole, project, &compiled.id, Some(draw)),
             });
         }
         for pass in &project.passes {
@@ -87,6 +113,7 @@ impl Engine {
                 held_bytes: plan.targets.iter().filter(|t| t.id == pass.id).map(|t| t.bytes(canvas)).sum(),
                 moved_bytes: 0,
                 texels: 0,
+                reads: reads(&whole, project, &pass.id, None),
             });
         }
         costs
@@ -97,4 +124,18 @@ impl Engine {
     pub fn cost_clock(&self) -> CostClock {
         if self.gpu().has_timestamps { CostClock::Timestamps } else { CostClock::Waited }
     }
+}
+
+/// The reads of a pass in a plan of everything, and which of them its draw does.
+fn reads(whole: &FramePlan, project: &Project, pass: &PassId, drawn: Option<&Draw>) -> Vec<PassRead> {
+    let is_it = |draw: &&Draw| project.passes[draw.pass].id == *pass;
+    let Some(planned) = whole.draws.iter().find(is_it) else { return Vec::new() };
+    let read = |(channel, read): (usize, &Option<Read>)| {
+        let Source::Target { index, when } = read.as_ref()?.source else { return None };
+        let target = &whole.targets[index];
+        let used = drawn.and_then(|draw| draw.reads[channel].as_ref());
+        let is_used = used.is_some_and(|read| matches!(read.source, Source::Target { .. }));
+        Some(PassRead { channel, pass: target.id.clone(), index: target.index, when, is_used })
+    };
+    planned.reads.iter().enumerate().filter_map(read).collect()
 }

@@ -35,18 +35,22 @@ mod stage_cache;
 mod targets;
 mod uniforms;
 mod uploads;
+mod viewer;
 mod watch;
 
-pub use crate::gpu::{Paint, ValueLook};
+pub use crate::{
+    gpu::{Paint, ValueLook},
+    graph::When,
+};
 pub use build::{BuildOptions, BuildWork, Builder, Built};
 pub use compiled::CompiledPass;
-pub use costs::{CostClock, PassCost, PassRole};
+pub use costs::{CostClock, PassCost, PassRead, PassRole};
 pub use error::{BuildError, EngineError};
 pub use inputs::FrameInputs;
 pub use inspect::{Level, PassInputs, TextureCopy};
 pub use preamble::KeptPreamble;
 pub use program::Program;
-pub use results::{FrameStats, Miniature, PassTime, Picture, Pixels};
+pub use results::{FrameStats, Miniature, PassTime, Picture, Pixels, TexelAt};
 pub use run::Engine;
 pub use snapshot::Snapshot;
 pub use sources::{Sources, channel_kinds, pass_kind, stage_kind};

@@ -57,3 +57,16 @@ pub struct Miniature {
     /// Texels of the target, across and up.
     pub of: (u32, u32),
 }
+
+/// A texel of a target.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TexelAt {
+    pub pass: PassId,
+    /// Which of the pass's targets.
+    pub index: usize,
+    /// From the left, from the bottom.
+    pub texel: (u32, u32),
+    /// So many of the value's components are stored; what is missing reads as 0, alpha as 1.
+    pub components: u8,
+    pub value: [f32; 4],
+}

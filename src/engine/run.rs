@@ -1,7 +1,7 @@
 //! The engine: the program that is running, and what can be asked of it.
 
 use super::{
-    EngineError, FrameInputs, FrameStats, Miniature, PassTime, Picture, Pixels, Program, display::Display,
+    EngineError, FrameInputs, FrameStats, Miniature, PassTime, Picture, Pixels, Program, TexelAt, display::Display,
     running::Running,
 };
 use super::{
@@ -9,11 +9,12 @@ use super::{
     shared::Shared,
     snapshot::{self, Snapshot},
     targets::Target,
+    viewer::Viewer,
     watch::Watch,
 };
 use crate::{
     gpu::{FloatConverter, Gpu, MINIATURE_SIZE, Miniatures, Presenter, Readback, ValueLook},
-    project::{CustomUniformValues, PassId},
+    project::{CustomUniformValues, PassFormat, PassId},
 };
 
 /// A device, and the program that runs on it.
@@ -28,6 +29,8 @@ pub struct Engine {
     readback: Readback,
     /// For panels that show passes small; made when first asked for.
     miniatures: Option<(Miniatures, Readback)>,
+    /// For who looks at targets closely; made when first asked for.
+    viewer: Option<Viewer>,
 }
 
 impl Engine {
@@ -42,6 +45,7 @@ impl Engine {
             converter: None,
             readback: Readback::default(),
             miniatures: None,
+            viewer: None,
             shared: Shared::new(gpu)?,
         })
     }
@@ -280,6 +284,43 @@ impl Engine {
         let (width, height) = MINIATURE_SIZE;
         let of = (newest.width(), newest.height());
         Ok(Miniature { picture: Picture { width, height, bytes }, of })
+    }
+
+    /// Reads a picture back of what one of a pass's targets holds, as `look` says; waits for the device.
+    pub fn picture_of_values(&mut self, pass: &PassId, index: usize, look: &ValueLook) -> Result<Picture, EngineError> {
+        let gpu = &self.shared.gpu;
+        let running = self.running.as_ref().ok_or_else(|| EngineError::NoSuchPass(pass.title()))?;
+        let newest = running.target(pass, index)?.newest();
+        Ok(self.viewer.get_or_insert_with(|| Viewer::new(gpu)).paint(gpu, newest, look)?)
+    }
+
+    /// Reads the texel of each target that is drawn at a place, from 0 to 1 across and up; waits for the device once.
+    pub fn texels_at(&mut self, at: [f32; 2]) -> Result<Vec<TexelAt>, EngineError> {
+        let gpu = &self.shared.gpu;
+        let Some(running) = &self.running else { return Ok(Vec::new()) };
+        let plan = &running.program.plan;
+        let is_drawn = |(index, _): &(usize, &Target)| plan.is_drawn(*index);
+        let targets: Vec<(usize, &Target)> = running.targets.iter().enumerate().filter(is_drawn).collect();
+        let textures: Vec<_> = targets.iter().map(|(_, target)| target.newest()).collect();
+        let texels = self.viewer.get_or_insert_with(|| Viewer::new(gpu)).texels(gpu, &textures, at)?;
+        let told = targets.iter().zip(texels).map(|((index, target), value)| {
+            let (width, height) = target.size();
+            let texel = |part: f32, size: u32| ((part * size as f32) as u32).min(size.saturating_sub(1));
+            TexelAt {
+                pass: target.id.clone(),
+                index: target.index,
+                texel: (texel(at[0], width), texel(at[1], height)),
+                components: plan.targets[*index].format.components() as u8,
+                value,
+            }
+        });
+        Ok(told.collect())
+    }
+
+    /// Returns the format of one of a pass's targets, while the running program has it.
+    pub fn format(&self, pass: &PassId, index: usize) -> Option<PassFormat> {
+        let plan = &self.running.as_ref()?.program.plan;
+        plan.targets.iter().find(|target| target.id == *pass && target.index == index).map(|target| target.format)
     }
 
     /// Reads a pass's newest texels back; waits for the device.

@@ -1,6 +1,7 @@
 //! One triangle over the whole target.
 
-use super::{Gpu, bindings::pipeline_layout};
+use super::{Binding, Gpu, Texture, bindings};
+use bindings::pipeline_layout;
 
 /// The triangle's corners lie at (-1, -1), (3, -1) and (-1, 3).
 const TRIANGLE: &str = "
@@ -46,6 +47,30 @@ pub(super) fn pipeline(
         }),
         multiview_mask: None,
         cache: None,
+    })
+}
+
+/// The layout of a shader that reads values of any format at binding 0, and a uniform of 32 bytes at 1.
+pub(super) fn values_layout(gpu: &Gpu, label: &str) -> wgpu::BindGroupLayout {
+    let values = Binding::Texture { dimension: wgpu::TextureViewDimension::D2, filterable: false };
+    let groups = [vec![(0, values), (1, Binding::Uniform { bytes: 32 })]];
+    bindings::layouts(gpu, label, &groups, wgpu::ShaderStages::FRAGMENT).remove(0)
+}
+
+/// Binds values and their uniform to such a layout.
+pub(super) fn bind_values(
+    gpu: &Gpu,
+    layout: &wgpu::BindGroupLayout,
+    values: &Texture,
+    uniform: &wgpu::Buffer,
+) -> wgpu::BindGroup {
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("values"),
+        layout,
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&values.level_0) },
+            wgpu::BindGroupEntry { binding: 1, resource: uniform.as_entire_binding() },
+        ],
     })
 }
 

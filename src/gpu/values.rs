@@ -24,17 +24,19 @@ pub struct ValueLook {
     pub channel: Option<u8>,
     /// The number of components that mean something, 1 to 4.
     pub components: u8,
+    /// Four NaN are a pixel that never had the value, as a probe leaves them, and no NaN of the author's.
+    pub has_gaps: bool,
 }
 
 impl Default for ValueLook {
     fn default() -> Self {
-        Self { low: 0.0, high: 1.0, paint: Paint::Range, channel: None, components: 4 }
+        Self { low: 0.0, high: 1.0, paint: Paint::Range, channel: None, components: 4, has_gaps: false }
     }
 }
 
-/// Four NaN are a pixel that never had the value: stripes. One alone is violet, an infinity yellow.
+/// A pixel that never had the value is striped. One NaN is violet, an infinity yellow.
 const SHADER: &str = "
-struct Look { low: f32, high: f32, paint: u32, channel: u32, components: u32 }
+struct Look { low: f32, high: f32, paint: u32, channel: u32, components: u32, has_gaps: u32 }
 @group(0) @binding(0) var values: texture_2d<f32>;
 @group(0) @binding(1) var<uniform> look: Look;
 
@@ -53,7 +55,7 @@ fn false_colour(x: f32) -> vec3<f32> {
     // A comparison with NaN is false, and a driver may think that there are none.
     let bits = bitcast<vec4<u32>>(value) & vec4(0x7fffffffu);
     let is_nan = bits > vec4(0x7f800000u);
-    if all(is_nan) {
+    if look.has_gaps != 0u && all(is_nan) {
         let is_dark = ((texel.x + texel.y) / 4) % 2 == 0;
         return vec4(select(vec3(0.16), vec3(0.1), is_dark), 1.0);
     }
@@ -106,26 +108,7 @@ impl ValuePainter {
             label: Some(label),
             source: wgpu::ShaderSource::Wgsl(SHADER.into()),
         });
-        let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
-            binding,
-            visibility: wgpu::ShaderStages::FRAGMENT,
-            ty,
-            count: None,
-        };
-        let texture = wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Float { filterable: false },
-            view_dimension: wgpu::TextureViewDimension::D2,
-            multisampled: false,
-        };
-        let buffer = wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Uniform,
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        };
-        let layout = gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some(label),
-            entries: &[entry(0, texture), entry(1, buffer)],
-        });
+        let layout = full_screen::values_layout(gpu, label);
         let pipeline_layout = pipeline_layout(gpu, label, std::slice::from_ref(&layout));
         let pipeline = full_screen::pipeline(gpu, label, &pipeline_layout, (&fragment, "fragment"), FORMAT);
         let uniform = gpu.device.create_buffer(&wgpu::BufferDescriptor {
@@ -145,20 +128,22 @@ impl ValuePainter {
             Paint::FalseColour => 2,
         };
         let channel = look.channel.map_or(4, u32::from);
-        let words = [look.low.to_bits(), look.high.to_bits(), paint, channel, look.components.into(), 0, 0, 0];
+        let words = [
+            look.low.to_bits(),
+            look.high.to_bits(),
+            paint,
+            channel,
+            look.components.into(),
+            look.has_gaps.into(),
+            0,
+            0,
+        ];
         gpu.queue.write_buffer(&self.uniform, 0, bytemuck::cast_slice(&words));
     }
 
     /// Makes what [`ValuePainter::present`] needs to show one texture again and again.
     pub fn bind(&self, gpu: &Gpu, values: &Texture) -> wgpu::BindGroup {
-        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("values"),
-            layout: &self.layout,
-            entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&values.level_0) },
-                wgpu::BindGroupEntry { binding: 1, resource: self.uniform.as_entire_binding() },
-            ],
-        })
+        full_screen::bind_values(gpu, &self.layout, values, &self.uniform)
     }
 
     /// Draws the values into `display`, which has their size.

@@ -122,7 +122,7 @@ fn row(ui: &mut Ui, columns: &Columns, pass: &TimedPass, most: f64, out: &mut Ou
     let (why, is_drawn) = match cost.role {
         PassRole::Drawn { is_cached: false } => (None, true),
         PassRole::Drawn { is_cached: true } => (Some("at rest"), true),
-        PassRole::Unread => (Some("not drawn"), false),
+        PassRole::Unread | PassRole::Outside => (Some("not drawn"), false),
         PassRole::Unsupported => (Some("not played"), false),
     };
     let millis = match (why, pass.millis) {
@@ -155,6 +155,7 @@ fn row(ui: &mut Ui, columns: &Columns, pass: &TimedPass, most: f64, out: &mut Ou
             PassRole::Drawn { is_cached: true } => {
                 drop(ui.label("At rest: nothing that it reads has changed since it was drawn."));
             }
+            PassRole::Outside => drop(ui.label("Not drawn: its region lies outside of its texels.")),
             PassRole::Unread => drop(ui.label("Not drawn: no picture that is shown needs it.")),
             PassRole::Unsupported => {
                 drop(ui.label("Eddy does not draw passes of this kind; what reads it reads black."))
@@ -189,7 +190,7 @@ fn sum(ui: &mut Ui, columns: &Columns, costs: &PassCosts, out: &mut Outbox) {
 }
 
 /// Bytes as people read them, in powers of 1024.
-fn bytes(n: u64) -> String {
+pub fn bytes(n: u64) -> String {
     const KIB: f64 = 1024.0;
     let x = n as f64;
     match x {
@@ -228,7 +229,7 @@ pub fn report(session: &Session) -> serde_json::Value {
 }
 
 /// Milliseconds in as many digits as say something, so that columns do not touch.
-fn millis_text(millis: f64) -> String {
+pub fn millis_text(millis: f64) -> String {
     let digits = if millis < 10.0 { 3 } else { usize::from(millis < 1000.0) };
     format!("{millis:.digits$} ms")
 }

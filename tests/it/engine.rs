@@ -2,7 +2,7 @@
 
 use crate::support::*;
 use eddy::{
-    engine::{BuildError, BuildOptions, BuildWork, Builder, Engine, FrameInputs, Program},
+    engine::{BuildError, BuildOptions, BuildWork, Builder, Engine, FrameInputs, Program, ValueLook},
     gpu::{GpuError, GpuOptions},
     media::MediaSet,
     project::{Filter, PassFormat, PassId, Project, Source, Wrap},
@@ -357,4 +357,39 @@ fn buffers_keep_their_texels_through_edits_of_their_shape() {
         run(&mut engine, drawn, drawn + 1);
     }
     assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 0, 0), [9.0, 9.0, 9.0, 1.0]);
+}
+
+#[test]
+fn a_place_has_a_texel_of_each_target_and_values_become_a_picture() {
+    let Some(gpu) = gpu() else { return };
+    let place = "void mainImage(out vec4 o, in vec2 p) { o = vec4(p.x, p.y, iResolution.x, 2.0); }";
+    let both = "void mainImage(out vec4 o, in vec2 p) {
+        o = texelFetch(iChannel0, ivec2(0), 0) + texelFetch(iChannel1, ivec2(0), 0);
+    }";
+    let mut project = project(vec![
+        pass(buffer("A"), place, Default::default()),
+        pass(buffer("B"), place, Default::default()),
+        image(both, [nearest("A"), nearest("B"), None, None]),
+    ]);
+    project.passes[1].settings.size = eddy::project::PassSize::Scale(0.5);
+    project.passes[1].settings.format = PassFormat::Rg16f;
+    let mut engine = engine(&gpu, &project, (8, 4));
+    run(&mut engine, 0, 1);
+    let texels = engine.texels_at([0.8, 0.3]).unwrap();
+    let told: Vec<_> = texels.iter().map(|t| (t.pass.clone(), t.texel, t.components)).collect();
+    assert_eq!(told, [(buffer("A"), (6, 1), 4), (buffer("B"), (3, 0), 2), (PassId::Image, (6, 1), 4)]);
+    assert_eq!((texels[0].value, texels[1].value), ([6.5, 1.5, 8.0, 2.0], [3.5, 0.5, 0.0, 1.0]));
+    assert_eq!(engine.texels_at([1.0, 1.0]).unwrap()[0].texel, (7, 3), "the edge is of the last texel");
+
+    let look = ValueLook { low: 0.0, high: 8.0, channel: Some(0), ..ValueLook::default() };
+    let picture = engine.picture_of_values(&buffer("A"), 0, &look).unwrap();
+    let shade = |x: usize| picture.bytes[4 * x];
+    assert_eq!((picture.width, picture.height), (8, 4));
+    assert!((i32::from(shade(3)) - 112).abs() <= 1, "3.5 of 8 is {}", shade(3));
+    // Four NaN of a buffer are NaN, violet, and no gap as a probe leaves them.
+    engine.poison(&buffer("A"), (0, 3)).unwrap();
+    let violet = engine.picture_of_values(&buffer("A"), 0, &look).unwrap().bytes[..3].to_vec();
+    assert_eq!(violet, [204, 26, 230]);
+    let gap = ValueLook { has_gaps: true, ..look };
+    assert_ne!(engine.picture_of_values(&buffer("A"), 0, &gap).unwrap().bytes[..3], violet);
 }

@@ -179,7 +179,7 @@ impl Probing {
         let channel = channel.filter(|channel| *channel < value.components);
         let all = || self.numbers.as_ref().map_or((0.0, 1.0), |numbers| numbers.statistics.extent(channel));
         let (low, high) = range.unwrap_or_else(all);
-        Some(ValueLook { low, high, paint, channel, components: value.components })
+        Some(ValueLook { low, high, paint, channel, components: value.components, has_gaps: true })
     }
 
     pub fn view(&self) -> Option<ProbeView<'_>> {

@@ -1,0 +1,46 @@
+//! Targets as somebody sees them who looks closely: as pictures of their values, and texel by texel.
+
+use super::Picture;
+use crate::gpu::{Gpu, GpuError, Presenter, Readback, TexelPicker, Texture, ValueLook, ValuePainter};
+
+/// Paints into a texture of its own, so that the picture that the window shows stays as it is.
+pub(super) struct Viewer {
+    painter: ValuePainter,
+    picker: TexelPicker,
+    texture: Option<Texture>,
+    readback: Readback,
+}
+
+impl Viewer {
+    pub fn new(gpu: &Gpu) -> Self {
+        Self {
+            painter: ValuePainter::new(gpu),
+            picker: TexelPicker::new(gpu),
+            texture: None,
+            readback: Readback::default(),
+        }
+    }
+
+    /// Returns a picture of a texture's size.
+    pub fn paint(&mut self, gpu: &Gpu, values: &Texture, look: &ValueLook) -> Result<Picture, GpuError> {
+        let (width, height) = (values.width(), values.height());
+        let has_size = |texture: &Texture| (texture.width(), texture.height()) == (width, height);
+        let texture = match self.texture.take().filter(has_size) {
+            Some(texture) => texture,
+            None => Presenter::texture(gpu, width, height)?,
+        };
+        let texture = self.texture.insert(texture);
+        self.painter.set(gpu, look);
+        let bound = self.painter.bind(gpu, values);
+        let descriptor = wgpu::CommandEncoderDescriptor { label: Some("picture of values") };
+        let mut encoder = gpu.device.create_command_encoder(&descriptor);
+        self.painter.present(gpu, &mut encoder, &bound, texture);
+        gpu.queue.submit([encoder.finish()]);
+        Ok(Picture { width, height, bytes: self.readback.rgba8(gpu, texture)? })
+    }
+
+    /// Returns the texel of each texture at a place, from 0 to 1 across and up.
+    pub fn texels(&mut self, gpu: &Gpu, textures: &[&Texture], at: [f32; 2]) -> Result<Vec<[f32; 4]>, GpuError> {
+        self.picker.pick(gpu, textures, at)
+    }
+}
