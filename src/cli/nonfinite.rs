@@ -7,10 +7,9 @@ use super::{
     written::Written,
 };
 use crate::{
-    engine::{Pixels, Sources},
-    project::{PassBody, PassFormat, PassId, Project},
+    project::{PassId, Project},
     session::{
-        audit::{self, Class},
+        nonfinite::{self, NonfiniteTexels},
         offline::Offline,
         script::ScriptedInputs,
         trace::TraceError,
@@ -51,7 +50,7 @@ pub fn first(
     inputs: &ScriptedInputs,
 ) -> Result<Option<Begin>, Trouble> {
     let (project, mut offline) = start(machine, report, args, spec, inputs)?;
-    let passes = drawn(&project);
+    let passes = nonfinite::drawn(&project);
     let mut found = None;
     while report.frames <= args.frame && found.is_none() {
         let frame = report.frames;
@@ -60,9 +59,8 @@ pub fn first(
         for pass in &passes {
             // What no picture needs is not drawn, and has no texels.
             let Ok(pixels) = offline.read(pass, 0) else { continue };
-            let stored = project.pass(pass).map_or_else(PassFormat::default, |p| p.settings.format).components();
-            if let Some((texel, texels)) = nonfinite(&pixels, stored) {
-                found = Some((pass.clone(), frame, texel, texels, pixels));
+            if let Some(bad) = NonfiniteTexels::find(&pixels, nonfinite::stored(&project, pass)) {
+                found = Some((pass.clone(), frame, bad.first, bad.count, pixels));
                 break;
             }
         }
@@ -87,23 +85,7 @@ fn start(
     spec: &str,
     inputs: &ScriptedInputs,
 ) -> Result<(Project, Offline), Trouble> {
-    open_measured(machine, report, spec, &args.run, (&PassId::Image, &drawn), inputs.clone())
-}
-
-/// The passes that make pictures, in the order in which they are drawn.
-fn drawn(project: &Project) -> Vec<PassId> {
-    let mut passes: Vec<PassId> = project.passes.iter().map(|pass| pass.id.clone()).collect();
-    passes.retain(|pass| !matches!(pass, PassId::Cubemap | PassId::Sound));
-    // The order of the project within a turn stays.
-    passes.sort_by_key(PassId::turn);
-    passes
-}
-
-/// The first texel, from the bottom left, of which a stored component is NaN or infinite, and how many there are.
-fn nonfinite(pixels: &Pixels, stored: usize) -> Option<((u32, u32), usize)> {
-    let is_bad = |texel: &&[f32; 4]| texel[..stored].iter().any(|x| !x.is_finite());
-    let at = pixels.texels.iter().position(|texel| is_bad(&texel))? as u32;
-    Some(((at % pixels.width, at / pixels.width), pixels.texels.iter().filter(is_bad).count()))
+    open_measured(machine, report, spec, &args.run, (&PassId::Image, &nonfinite::drawn), inputs.clone())
 }
 
 /// Draws everything again up to that frame and walks through the pass for that texel.
@@ -119,16 +101,10 @@ fn born(
         offline.draw()?;
     }
     let read = offline.draw_inspected(pass)?;
-    let index = project.passes.iter().position(|p| p.id == *pass).unwrap_or_default();
-    if !matches!(project.passes[index].settings.body, PassBody::Screen) {
-        return Ok(None);
-    }
-    let sources = Sources::new(&project);
-    let audit = match audit::audit(&sources, index, &read, &[texel], args.max_statements) {
+    let born = match nonfinite::born(&project, pass, &read, texel, args.max_statements) {
         Err(TraceError::Diagnostics(found)) => return Err(Trouble::Diagnostics(found, project.sources())),
         other => other.map_err(anyhow::Error::from)?,
     };
-    let born = audit.findings.iter().find(|finding| finding.kind.class() == Class::Nonfinite);
     Ok(born.map(|finding| Born {
         message: finding.kind.message(),
         written: Written::at(&project, finding.span),

@@ -132,6 +132,8 @@ impl Session {
                 self.drawing.wanted.costs = on;
             }
             Command::WatchTargets(targets) => self.run.miniatures.watch(targets),
+            Command::WatchBuffers(watch) => self.run.buffers.watch(watch),
+            Command::FindNonfinite(is_wanted) => self.searching.want(is_wanted),
             Command::SetFrameLimit(limit) => self.halting.limit = limit,
             Command::SetResetOnReload(on) => self.disk.reset_on_reload = on,
             Command::DismissNotice(id) => self.notices.retain(|n| n.id != id),

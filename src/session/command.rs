@@ -2,6 +2,7 @@
 //! asks back.
 
 use super::{
+    buffers::BufferWatch,
     probe::{ProbeLook, ProbePlace},
     seeking::TimeRange,
     view::Level,
@@ -159,6 +160,12 @@ pub enum Command {
     /// Which targets of passes somebody sees small: only those are read back. See
     /// [`Session::miniature`](super::Session::miniature).
     WatchTargets(Vec<(PassId, usize)>),
+    /// What somebody looks at closely: only that is read back, and nothing with the default. See
+    /// [`Session::buffer`](super::Session::buffer) and [`Session::texels_under`](super::Session::texels_under).
+    WatchBuffers(BufferWatch),
+    /// Looks through the frames that are kept for the first NaN or infinity, beside the picture, which goes on; `false`
+    /// ends that. See [`Session::search`](super::Session::search).
+    FindNonfinite(bool),
     /// A frame that takes longer pauses the picture.
     SetFrameLimit(Duration),
     /// Says whether a reload from disk starts time and buffers anew.

@@ -4,7 +4,8 @@ use super::{
     Session, capture,
     clock::FrameTime,
     date,
-    drawing::{Capture, Done, DrawnFrame, Job, TileLimit},
+    drawing::{Capture, Done, DrawnFrame, Job, Replay, TileLimit},
+    nonfinite::SearchJob,
     tracing::{self, Taken},
     view::Level,
 };
@@ -40,6 +41,7 @@ impl Session {
             let captures = if is_current { std::mem::take(&mut self.drawing.captures) } else { Vec::new() };
             let is_running = self.run.clock.is_playing() && !self.run.is_covered;
             let miniatures = if is_current { self.run.miniatures.take_due(self.now, is_running) } else { Vec::new() };
+            let buffers = if is_current { self.run.buffers.take_due(self.now, is_running) } else { None };
             let numbers = if is_current { self.probing.take_due(self.now, is_running) } else { None };
             // Of the newest program, and once nothing more is to be drawn.
             let is_newest = is_there && !self.is_compile_under_way();
@@ -49,13 +51,16 @@ impl Session {
             let audited = if is_newest { self.auditing.take_due(&self.run.shown) } else { None };
             self.tracing.is_due &= traced.is_none() || audited.is_some();
             let inspect = audited.or(traced);
-            let is_read = !captures.is_empty() || !miniatures.is_empty() || numbers.is_some() || inspect.is_some();
+            let wants_replay = is_newest && std::mem::take(&mut self.searching.is_due);
+            let is_seen = !miniatures.is_empty() || numbers.is_some() || buffers.is_some();
+            let is_read = !captures.is_empty() || is_seen || inspect.is_some() || wants_replay;
             if !is_frame && !is_read && self.drawing.wanted.is_empty() {
                 break;
             }
             self.hand_in(frame, |job| {
                 (job.captures, job.miniatures) = (captures, miniatures);
-                (job.numbers, job.inspect) = (numbers, inspect);
+                (job.numbers, job.buffers) = (numbers, buffers);
+                (job.inspect, job.wants_replay) = (inspect, wants_replay);
             });
             is_drawn |= self.take_drawn(true);
         }
@@ -141,6 +146,10 @@ impl Session {
         }
         self.changed |= !done.miniatures.is_empty();
         self.run.miniatures.drew(has_frame, done.miniatures);
+        self.changed |= self.run.buffers.drew(has_frame, done.buffers);
+        if let Some(replay) = done.replay {
+            self.look_through(replay);
+        }
         let has_numbers = done.numbers.is_some();
         self.probing.drew(has_frame, done.numbers);
         if has_numbers {
@@ -199,6 +208,27 @@ impl Session {
                 self.stop_drawing(&e);
                 false
             }
+        }
+    }
+
+    /// Hands on the frames among which the first NaN is looked for.
+    fn look_through(&mut self, replay: Option<Replay>) {
+        self.changed = true;
+        let (Some(replay), Some(project)) = (replay, self.drawing.project().cloned()) else {
+            self.searching.failed("no frames are kept: the buffers are too large for that, or nothing is drawn yet");
+            return;
+        };
+        match self.drawing.device().wait() {
+            Err(e) => self.searching.failed(&e.to_string()),
+            Ok(gpu) => self.searching.submit(SearchJob {
+                gpu,
+                project,
+                shown: self.run.shown.clone(),
+                size: self.drawing.size(),
+                media_dir: self.options.media_dir.clone(),
+                snapshot: replay.snapshot,
+                frames: replay.frames.into_iter().map(|frame| (frame.inputs, (*frame.values).clone())).collect(),
+            }),
         }
     }
 

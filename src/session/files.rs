@@ -122,6 +122,8 @@ impl Session {
         self.run.fps.restart();
         self.run.costs.forget();
         self.run.miniatures.forget();
+        self.run.buffers.forget();
+        self.searching.want(false);
         self.probing.want(None, self.documents.current());
         self.tracing.want(None);
         self.text_generation += 1;

@@ -4,6 +4,7 @@
 use super::{
     analysis::Analyst,
     auditing::Auditing,
+    buffers::{BufferRead, Watching},
     clock::Clock,
     command::{Question, Request, Then},
     compile,
@@ -14,6 +15,7 @@ use super::{
     halting::Halting,
     miniatures::Miniatures,
     mouse::Mouse,
+    nonfinite::{SearchView, Searching},
     pass_history::PassHistory,
     probe::{ProbeView, Probing},
     recent::{Recent, RecentProject},
@@ -26,7 +28,7 @@ use super::{
     worker::Worker,
 };
 use crate::{
-    engine::{BuildOptions, EngineError, Miniature, PassTime},
+    engine::{BuildOptions, EngineError, Miniature, PassTime, TexelAt},
     gpu::{Gpu, GpuError, GpuOptions},
     media::Keyboard,
     project::{CustomUniform, CustomUniformValue, PassId, Project, Tab},
@@ -121,6 +123,8 @@ pub struct Session {
     pub(super) probing: Probing,
     pub(super) tracing: Tracing,
     pub(super) auditing: Auditing,
+    /// The first NaN is looked for.
+    pub(super) searching: Searching,
     pub(super) notices: Vec<Notice>,
     pub(super) next_notice: u64,
     pub(super) text_generation: u64,
@@ -219,6 +223,7 @@ pub(super) struct Run {
     pub cpu_micros: f64,
     pub costs: Costs,
     pub miniatures: Miniatures,
+    pub buffers: Watching,
     /// The inputs of what is drawn are recorded.
     pub recorder: Option<Recorder>,
 }
@@ -247,6 +252,7 @@ impl Session {
         let analyst = Analyst::new(wake.clone()).map_err(SessionError::Thread)?;
         let tracing = Tracing::new(wake.clone()).map_err(SessionError::Thread)?;
         let auditing = Auditing::new(wake.clone()).map_err(SessionError::Thread)?;
+        let searching = Searching::new(wake.clone()).map_err(SessionError::Thread)?;
         let (recent, forgotten) = Recent::open(options.state_dir.as_deref());
         let mut session = Session {
             wake,
@@ -299,11 +305,13 @@ impl Session {
                 cpu_micros: 0.0,
                 costs: Costs::default(),
                 miniatures: Miniatures::default(),
+                buffers: Watching::default(),
                 recorder: None,
             },
             probing: Probing::default(),
             tracing,
             auditing,
+            searching,
             notices: Vec::new(),
             next_notice: 0,
             text_generation: 0,
@@ -440,6 +448,22 @@ impl Session {
     /// ([`Command::WatchTargets`](super::Command::WatchTargets)), and a number that grows with each new one.
     pub fn miniature(&self, pass: &PassId, index: usize) -> Option<(&Miniature, u64)> {
         self.run.miniatures.get(pass, index)
+    }
+
+    /// Returns the target that is looked at closely ([`Command::WatchBuffers`](super::Command::WatchBuffers)), and a
+    /// number that grows with each new one.
+    pub fn buffer(&self) -> Option<(&Arc<BufferRead>, u64)> {
+        self.run.buffers.shown()
+    }
+
+    /// Returns the texel of each target at the place that is looked at.
+    pub fn texels_under(&self) -> &[TexelAt] {
+        self.run.buffers.under()
+    }
+
+    /// The search for the first NaN ([`Command::FindNonfinite`](super::Command::FindNonfinite)).
+    pub fn search(&self) -> SearchView<'_> {
+        self.searching.view()
     }
 
     /// What is drawn instead of the picture, while somebody has asked for it: see

@@ -78,7 +78,7 @@ pub struct Place {
 
 impl Place {
     /// Returns `None` for a span of a text that `sources` does not have.
-    fn new(span: Span, sources: &SourceMap, project: &Project) -> Option<Self> {
+    pub(super) fn new(span: Span, sources: &SourceMap, project: &Project) -> Option<Self> {
         let at = sources.line_column(span)?;
         let text = sources.get(span.source)?.name.clone();
         let tab = project.tab_of(span.source);

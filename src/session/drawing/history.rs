@@ -46,16 +46,25 @@ pub struct History {
     /// The run began with a reset, and the program has drawn all of it.
     is_from_reset: bool,
     /// Each with the number of frames that were drawn before it.
-    snapshots: VecDeque<(u64, Snapshot)>,
+    snapshots: VecDeque<(u64, Arc<Snapshot>)>,
     /// What the author's own uniforms stand at.
     values: Arc<CustomUniformValues>,
     /// The time that a frame takes.
     took: Duration,
 }
 
-struct Frame {
-    inputs: FrameInputs,
-    values: Arc<CustomUniformValues>,
+/// What a frame was drawn with.
+#[derive(Clone)]
+pub struct Frame {
+    pub inputs: FrameInputs,
+    pub values: Arc<CustomUniformValues>,
+}
+
+/// A run of frames that can be drawn again elsewhere on the same device.
+pub struct Replay {
+    /// The targets before the first of the frames.
+    pub snapshot: Arc<Snapshot>,
+    pub frames: Vec<Frame>,
 }
 
 impl Default for History {
@@ -125,12 +134,13 @@ impl History {
             return;
         }
         match engine.snapshot() {
-            Ok(snapshot) => self.snapshots.insert(place, (self.drawn, snapshot)),
+            Ok(snapshot) => self.snapshots.insert(place, (self.drawn, Arc::new(snapshot))),
             Err(_) => return self.snapshots.clear(),
         }
-        let held = |snapshots: &VecDeque<(u64, Snapshot)>| snapshots.iter().map(|(_, kept)| kept.bytes()).sum::<u64>();
+        let held =
+            |snapshots: &VecDeque<(u64, Arc<Snapshot>)>| snapshots.iter().map(|(_, kept)| kept.bytes()).sum::<u64>();
         // Those far from here go first.
-        let away = |at: Option<&(u64, Snapshot)>| at.map_or(0, |(at, _)| at.abs_diff(self.drawn));
+        let away = |at: Option<&(u64, Arc<Snapshot>)>| at.map_or(0, |(at, _)| at.abs_diff(self.drawn));
         while self.snapshots.len() > MOST || held(&self.snapshots) > BUDGET {
             if away(self.snapshots.front()) >= away(self.snapshots.back()) {
                 self.snapshots.pop_front();
@@ -138,6 +148,15 @@ impl History {
                 self.snapshots.pop_back();
             }
         }
+    }
+
+    /// The frames up to the one that is shown, from the oldest snapshot on; `None` where there is none.
+    pub fn replay(&self) -> Option<Replay> {
+        let (at, snapshot) = self.snapshots.front().filter(|(at, _)| *at <= self.drawn)?;
+        let first = at.checked_sub(self.forgotten)? as usize;
+        let count = (self.drawn - at) as usize;
+        let frames = self.frames.iter().skip(first).take(count).cloned().collect();
+        Some(Replay { snapshot: snapshot.clone(), frames })
     }
 
     fn interval(&self) -> u64 {

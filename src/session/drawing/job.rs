@@ -1,10 +1,11 @@
 //! What the engine is asked to do at once, and what it answers.
 
-use super::history::Travelled;
+use super::history::{Replay, Travelled};
 use crate::{
     engine::{CostClock, EngineError, FrameInputs, Miniature, PassCost, PassTime, Picture, Pixels, Program, ValueLook},
     project::{CustomUniform, CustomUniformValues, PassId, Project},
     session::{
+        buffers::{BuffersRead, BuffersWanted},
         capture::Format,
         probe::{NumbersWanted, ProbeNumbers},
         seeking::{Goal, Reach},
@@ -86,6 +87,10 @@ pub struct Job {
     pub miniatures: Vec<(PassId, usize)>,
     /// The numbers of the probe that is drawn.
     pub numbers: Option<NumbersWanted>,
+    /// What somebody looks at closely.
+    pub buffers: Option<BuffersWanted>,
+    /// The frames behind the newest are to be handed out.
+    pub wants_replay: bool,
     /// A pass whose inputs, as it was drawn last, and whose picture are asked for.
     pub inspect: Option<PassId>,
     /// The project whose passes' costs are asked for: somebody looks at them.
@@ -123,6 +128,10 @@ pub struct Done {
     pub miniatures: Vec<((PassId, usize), Miniature)>,
     /// The numbers that were asked for, and how long they took.
     pub numbers: Option<(ProbeNumbers, Duration)>,
+    /// What was looked at closely, and how long that took.
+    pub buffers: Option<(BuffersRead, Duration)>,
+    /// `Some(None)`: none are kept.
+    pub replay: Option<Option<Replay>>,
     /// What was asked for of a pass.
     pub inspected: Option<Result<Taken, EngineError>>,
     /// The display's picture, if it may have changed and is handed out.

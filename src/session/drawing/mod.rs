@@ -12,7 +12,7 @@ mod studio;
 
 pub(super) use apart::Open;
 pub(super) use device::Device;
-pub(super) use history::Travelled;
+pub(super) use history::{Replay, Travelled};
 pub(super) use job::{Capture, Changes, Coming, Done, DrawnFrame, Job, ProgramOrigin, TileLimit};
 
 use crate::{
@@ -235,6 +235,8 @@ impl Drawing {
             captures: Vec::new(),
             miniatures: Vec::new(),
             numbers: None,
+            buffers: None,
+            wants_replay: false,
             inspect: None,
             costs_of: None,
             tile_limit: None,

@@ -8,7 +8,11 @@ use crate::{
     engine::{BuildOptions, CostClock, Engine, EngineError, FrameInputs, PassTime, Pixels, Program},
     gpu::Gpu,
     project::PassId,
-    session::probe::{NumbersWanted, ProbeNumbers, Statistics},
+    session::{
+        buffers::{BufferRead, BuffersRead, BuffersWanted},
+        nonfinite::NonfiniteTexels,
+        probe::{NumbersWanted, ProbeNumbers, Statistics},
+    },
 };
 use std::time::{Duration, Instant};
 
@@ -40,7 +44,8 @@ impl Studio {
     }
 
     pub fn work(&mut self, job: Job) -> Done {
-        let Job { changes, frame, travel, captures, miniatures, numbers, inspect, costs_of, tile_limit } = job;
+        let Job { changes, frame, travel, captures, miniatures, .. } = job;
+        let Job { numbers, buffers, wants_replay, inspect, costs_of, tile_limit, .. } = job;
         let mut done = Done::default();
         let first_inputs = frame.clone().unwrap_or_else(|| FrameInputs::at_fixed_step(0, 60.0));
         self.change(changes, tile_limit, &first_inputs, &mut done);
@@ -66,6 +71,8 @@ impl Studio {
         done.miniatures =
             miniatures.into_iter().filter_map(picture).map(|(picture, target)| (target, picture)).collect();
         done.numbers = numbers.and_then(|wanted| self.numbers(wanted));
+        done.buffers = buffers.map(|wanted| self.buffers(&wanted));
+        done.replay = wants_replay.then(|| self.history.replay());
         done.inspected = inspect.map(|pass| Ok((self.engine.inspect(&pass)?, self.engine.read(&pass)?)));
         done.costs = costs_of.map(|project| self.engine.pass_costs(&project));
         done.clock = Some(self.engine.cost_clock());
@@ -165,8 +172,25 @@ impl Studio {
     fn numbers(&mut self, wanted: NumbersWanted) -> Option<(ProbeNumbers, Duration)> {
         let began = Instant::now();
         let pixels = self.engine.read(&BuildOptions::probed()).ok()?;
-        let statistics = Statistics::new(&pixels, wanted.components, wanted.range);
+        let statistics = Statistics::new(&pixels, wanted.components, wanted.range, true);
         Some((ProbeNumbers { pixels, statistics }, began.elapsed()))
+    }
+
+    /// Reads what somebody looks at closely. A target that is not drawn has nothing.
+    fn buffers(&mut self, wanted: &BuffersWanted) -> (BuffersRead, Duration) {
+        let began = Instant::now();
+        let shown = wanted.shown.as_ref().and_then(|((pass, index), look)| {
+            let components = self.engine.format(pass, *index)?.components();
+            let pixels = self.engine.read_target(pass, *index).ok()?;
+            let statistics = Statistics::new(&pixels, components as u8, look.range, false);
+            let values = look.values(components as u8, &statistics);
+            let picture = self.engine.picture_of_values(pass, *index, &values).ok()?;
+            let nonfinite = NonfiniteTexels::find(&pixels, components);
+            let target = (pass.clone(), *index);
+            Some(BufferRead { target, components: components as u8, pixels, picture, statistics, nonfinite })
+        });
+        let under = wanted.under.and_then(|at| self.engine.texels_at(at).ok());
+        (BuffersRead { shown, under }, began.elapsed())
     }
 
     fn read(&mut self, capture: Capture) -> (Capture, Result<Pixels, EngineError>) {

@@ -26,6 +26,7 @@ impl Session {
         self.take_analysed();
         self.changed |= self.tracing.take();
         self.take_audited();
+        self.changed |= self.searching.take();
         self.fit_canvas();
         self.keep_unsaved();
         frame_drawn |= self.draw_due_frames();

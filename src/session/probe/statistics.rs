@@ -13,6 +13,8 @@ pub struct Statistics {
     pub pixels: usize,
     /// The least and the largest finite number of each component; `None` without one.
     pub extremes: [Option<(f32, f32)>; 4],
+    /// The mean of the finite numbers of each component; `None` without one.
+    pub means: [Option<f64>; 4],
     /// Numbers that are NaN or infinite.
     pub nonfinite: usize,
     /// What the bars stand for, from the first one's left edge to the last one's right.
@@ -23,21 +25,24 @@ pub struct Statistics {
 
 impl Statistics {
     /// Takes the figures of the first so many components, the bars over a range or over all that there is.
-    pub fn new(pixels: &Pixels, components: u8, range: Option<(f32, f32)>) -> Self {
+    /// `has_gaps`: a pixel of four NaN never had the value.
+    pub fn new(pixels: &Pixels, components: u8, range: Option<(f32, f32)>, has_gaps: bool) -> Self {
         let count = usize::from(components).clamp(1, 4);
-        // A pixel that never had the value holds four NaN.
-        let seen = || pixels.texels.iter().filter(|texel| !texel.iter().all(|x| x.is_nan()));
+        let is_gap = |texel: &[f32; 4]| has_gaps && texel.iter().all(|x| x.is_nan());
+        let seen = || pixels.texels.iter().filter(|texel| !is_gap(texel));
         let mut extremes: [Option<(f32, f32)>; 4] = [None; 4];
+        let mut sums = [(0.0, 0u64); 4];
         let (mut visited, mut nonfinite) = (0, 0);
         for texel in seen() {
             visited += 1;
-            for (extreme, &x) in extremes.iter_mut().zip(texel).take(count) {
+            for ((extreme, sum), &x) in extremes.iter_mut().zip(&mut sums).zip(texel).take(count) {
                 if !x.is_finite() {
                     nonfinite += 1;
                     continue;
                 }
                 let (low, high) = extreme.unwrap_or((x, x));
                 *extreme = Some((low.min(x), high.max(x)));
+                *sum = (sum.0 + f64::from(x), sum.1 + 1);
             }
         }
         let range = range.unwrap_or_else(|| whole(&extremes));
@@ -52,7 +57,8 @@ impl Statistics {
                 }
             }
         }
-        Self { visited, pixels: pixels.texels.len(), extremes, nonfinite, range, bins }
+        let means = sums.map(|(sum, count)| (count > 0).then(|| sum / count as f64));
+        Self { visited, pixels: pixels.texels.len(), extremes, means, nonfinite, range, bins }
     }
 
     /// The range of one component, or of all together; from 0 to 1 where there is no number.
@@ -78,15 +84,18 @@ mod tests {
         let nan = f32::NAN;
         let texels = vec![[1.0, -2.0, 0.0, 1.0], [nan; 4], [3.0, nan, 0.0, 1.0], [2.0, f32::INFINITY, 9.0, 1.0]];
         let pixels = Pixels { width: 2, height: 2, texels };
-        let two = Statistics::new(&pixels, 2, None);
+        let two = Statistics::new(&pixels, 2, None, true);
         assert_eq!((two.visited, two.pixels, two.nonfinite), (3, 4, 2));
         assert_eq!(two.extremes, [Some((1.0, 3.0)), Some((-2.0, -2.0)), None, None]);
         assert_eq!((two.range, two.extent(Some(0)), two.extent(Some(3))), ((-2.0, 3.0), (1.0, 3.0), (0.0, 1.0)));
         assert_eq!((two.bins[0].iter().sum::<u32>(), two.bins[1][0], two.bins[0][BINS - 1]), (3, 1, 1));
+        assert_eq!(two.means, [Some(2.0), Some(-2.0), None, None]);
         assert!(two.bins[2].is_empty());
-        let within = Statistics::new(&pixels, 1, Some((0.0, 2.0)));
+        let whole = Statistics::new(&pixels, 2, None, false);
+        assert_eq!((whole.visited, whole.nonfinite), (4, 4), "of a buffer four NaN are four NaN");
+        let within = Statistics::new(&pixels, 1, Some((0.0, 2.0)), true);
         assert_eq!((within.bins[0].iter().sum::<u32>(), within.bins[0][BINS / 2]), (2, 1), "3 lies beside it");
         let flat = Pixels { width: 1, height: 1, texels: vec![[5.0; 4]] };
-        assert_eq!(Statistics::new(&flat, 1, None).bins[0][BINS / 2], 1);
+        assert_eq!(Statistics::new(&flat, 1, None, true).bins[0][BINS / 2], 1);
     }
 }

@@ -1,0 +1,73 @@
+//! How the values of a buffer become colours.
+
+use crate::{
+    engine::{Paint, ValueLook},
+    session::probe::Statistics,
+};
+
+/// What a person has chosen to see.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BufferLook {
+    /// `None`: from the least number to the largest.
+    pub range: Option<(f32, f32)>,
+    pub paint: Paint,
+    /// One component alone.
+    pub channel: Option<u8>,
+    /// In stops: values are shown times two to the power of it.
+    pub exposure: f32,
+}
+
+impl Default for BufferLook {
+    /// As a picture shows it.
+    fn default() -> Self {
+        Self { range: Some((0.0, 1.0)), paint: Paint::Range, channel: None, exposure: 0.0 }
+    }
+}
+
+impl BufferLook {
+    /// The same for a target of so many components that has these values.
+    pub fn values(&self, components: u8, statistics: &Statistics) -> ValueLook {
+        let channel = self.channel.filter(|channel| *channel < components);
+        // Colours are three; what the fourth holds would widen their range.
+        let seen = |component: &u8| channel.map_or(*component < components.min(3), |one| one == *component);
+        let extents = (0..4).filter(seen).filter_map(|i| statistics.extremes[usize::from(i)]);
+        let whole = extents.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or((0.0, 1.0));
+        let (low, high) = self.range.unwrap_or(whole);
+        let scale = (-self.exposure).exp2();
+        // Of several components the length is painted, and transparency is no part of it.
+        let components = if self.paint == Paint::Range { components } else { components.min(3) };
+        ValueLook {
+            low: low * scale,
+            high: high * scale,
+            paint: self.paint,
+            channel,
+            components: components.max(channel.map_or(1, |channel| channel + 1)),
+            has_gaps: false,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::Pixels;
+
+    #[test]
+    fn exposure_scales_the_range_and_alpha_does_not_widen_it() {
+        let pixels = Pixels { width: 2, height: 1, texels: vec![[-1.0, 2.0, 0.0, 9.0], [0.0, 3.0, 0.5, -9.0]] };
+        let statistics = Statistics::new(&pixels, 4, None, false);
+        let range = |look: BufferLook| {
+            let values = look.values(4, &statistics);
+            (values.low, values.high)
+        };
+        let auto = BufferLook { range: None, ..BufferLook::default() };
+        assert_eq!(range(BufferLook::default()), (0.0, 1.0));
+        assert_eq!(range(auto), (-1.0, 3.0));
+        assert_eq!(range(BufferLook { channel: Some(3), ..auto }), (-9.0, 9.0));
+        assert_eq!(range(BufferLook { exposure: 2.0, ..BufferLook::default() }), (0.0, 0.25));
+        let gone = BufferLook { channel: Some(2), ..auto }.values(1, &statistics);
+        assert_eq!((gone.channel, gone.components), (None, 1), "a format without that component shows what it has");
+        let signed = BufferLook { paint: Paint::Sign, channel: Some(3), ..auto }.values(4, &statistics);
+        assert_eq!((signed.channel, signed.components), (Some(3), 4));
+    }
+}

@@ -1,0 +1,87 @@
+//! Why a pass is not drawn.
+
+use crate::{
+    engine::{PassCost, PassRole, When},
+    project::PassId,
+};
+
+/// Returns in words why a pass was not drawn in the newest frame; `None` for one that was.
+pub fn reason(pass: &PassId, all: &[PassCost]) -> Option<String> {
+    let cost = all.iter().find(|cost| cost.pass == *pass)?;
+    match cost.role {
+        PassRole::Drawn { is_cached: false } => return None,
+        PassRole::Drawn { is_cached: true } => {
+            return Some("at rest: nothing that it reads has changed since it was drawn".into());
+        }
+        PassRole::Outside => return Some("not drawn: its region lies outside of its texels".into()),
+        PassRole::Unsupported => return Some("not drawn: Eddy does not draw passes of this kind".into()),
+        PassRole::Unread => {}
+    }
+    let is_drawn = |cost: &PassCost| !matches!(cost.role, PassRole::Unread | PassRole::Unsupported);
+    let readers = || {
+        let others = all.iter().filter(|other| other.pass != *pass);
+        others.flat_map(|other| other.reads.iter().filter(|read| read.pass == *pass).map(move |read| (other, read)))
+    };
+    if let Some((reader, read)) = readers().find(|(reader, _)| is_drawn(reader)) {
+        let (name, channel) = (reader.pass.title(), read.channel);
+        return Some(format!("not drawn: iChannel{channel} of {name} names it, but the code never reads that"));
+    }
+    let mut names: Vec<String> = readers().map(|(reader, _)| reader.pass.title()).collect();
+    names.dedup();
+    let itself = cost.reads.iter().any(|read| read.pass == *pass && read.when == When::LastFrame);
+    Some(match (names.is_empty(), itself) {
+        (false, _) => format!("not drawn: read only by {}, which is not drawn either", names.join(", ")),
+        (true, true) => "not drawn: no other pass reads it".into(),
+        (true, false) => "not drawn: no channel reads it".into(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::engine::PassRead;
+
+    fn cost(name: &str, role: PassRole, reads: &[&str]) -> PassCost {
+        let id = |name: &str| if name == "image" { PassId::Image } else { PassId::Buffer(name.into()) };
+        let read = |(channel, other): (usize, &&str)| PassRead {
+            channel,
+            pass: id(other),
+            index: 0,
+            when: if *other == name { When::LastFrame } else { When::ThisFrame },
+            is_used: false,
+        };
+        PassCost {
+            pass: id(name),
+            role,
+            size: (4, 4),
+            formats: vec![],
+            steps: 1,
+            held_bytes: 0,
+            moved_bytes: 0,
+            texels: 16,
+            reads: reads.iter().enumerate().map(read).collect(),
+        }
+    }
+
+    #[test]
+    fn a_pass_that_is_not_drawn_says_who_could_have_read_it() {
+        let drawn = PassRole::Drawn { is_cached: false };
+        let all = [
+            cost("A", PassRole::Drawn { is_cached: true }, &[]),
+            cost("image", drawn, &["A", "B"]),
+            cost("B", PassRole::Unread, &[]),
+            cost("C", PassRole::Unread, &["D"]),
+            cost("D", PassRole::Unread, &[]),
+            cost("E", PassRole::Unread, &["E"]),
+            cost("F", PassRole::Outside, &[]),
+        ];
+        let why = |name: &str| reason(&PassId::Buffer(name.into()), &all).unwrap();
+        assert_eq!(reason(&PassId::Image, &all), None);
+        assert!(why("A").starts_with("at rest"));
+        assert_eq!(why("B"), "not drawn: iChannel1 of Image names it, but the code never reads that");
+        assert_eq!(why("C"), "not drawn: no channel reads it");
+        assert_eq!(why("D"), "not drawn: read only by Buffer C, which is not drawn either");
+        assert_eq!(why("E"), "not drawn: no other pass reads it");
+        assert!(why("F").contains("region"));
+    }
+}

@@ -1,0 +1,9 @@
+//! Where NaN and infinities come from: the pass, the frame, the texel and the line that makes the first.
+
+mod search;
+mod texels;
+
+pub use search::{BornAt, FirstNonfinite, Search, SearchEnd, SearchView};
+pub use texels::{NonfiniteTexels, born, drawn, stored};
+
+pub(super) use search::{SearchJob, Searching};

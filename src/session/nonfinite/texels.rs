@@ -1,0 +1,75 @@
+//! Texels that are no finite numbers, and the operation that makes one.
+
+use crate::{
+    engine::{PassInputs, Pixels, Sources},
+    project::{PassBody, PassFormat, PassId, Project},
+    session::{
+        audit::{self, Class, Finding},
+        trace::TraceError,
+    },
+};
+
+/// Texels of a picture of which a stored component is NaN or infinite.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct NonfiniteTexels {
+    /// From the bottom left, row by row.
+    pub first: (u32, u32),
+    pub count: usize,
+}
+
+impl NonfiniteTexels {
+    /// `None`: every texel is a finite number.
+    pub fn find(pixels: &Pixels, stored: usize) -> Option<Self> {
+        let is_bad = |texel: &&[f32; 4]| texel[..stored.min(4)].iter().any(|x| !x.is_finite());
+        let at = pixels.texels.iter().position(|texel| is_bad(&texel))? as u32;
+        let count = pixels.texels[at as usize..].iter().filter(is_bad).count();
+        Some(Self { first: (at % pixels.width, at / pixels.width), count })
+    }
+}
+
+/// The passes that make pictures, in the order in which they are drawn.
+pub fn drawn(project: &Project) -> Vec<PassId> {
+    let mut passes: Vec<PassId> = project.passes.iter().map(|pass| pass.id.clone()).collect();
+    passes.retain(|pass| !matches!(pass, PassId::Cubemap | PassId::Sound));
+    // The order of the project within a turn stays.
+    passes.sort_by_key(PassId::turn);
+    passes
+}
+
+/// The number of components that a pass stores.
+pub fn stored(project: &Project, pass: &PassId) -> usize {
+    project.pass(pass).map_or_else(PassFormat::default, |p| p.settings.format).components()
+}
+
+/// Walks through a pass for a texel. `None`: no operation makes it: it is too large for the pass's format, or was read
+/// from a texture, or the pass draws meshes.
+pub fn born(
+    project: &Project,
+    pass: &PassId,
+    read: &PassInputs,
+    texel: (u32, u32),
+    limit: u64,
+) -> Result<Option<Finding>, TraceError> {
+    let found = project.passes.iter().position(|p| p.id == *pass);
+    let Some(index) = found.filter(|index| matches!(project.passes[*index].settings.body, PassBody::Screen)) else {
+        return Ok(None);
+    };
+    let audit = audit::audit(&Sources::new(project), index, read, &[texel], limit)?;
+    Ok(audit.findings.into_iter().find(|finding| finding.kind.class() == Class::Nonfinite))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_not_stored_does_not_count() {
+        let (nan, inf) = (f32::NAN, f32::INFINITY);
+        let texels = vec![[0.0, nan, 0.0, 1.0], [1.0; 4], [inf, 0.0, 0.0, 1.0], [nan, 0.0, 0.0, 1.0]];
+        let pixels = Pixels { width: 2, height: 2, texels };
+        assert_eq!(NonfiniteTexels::find(&pixels, 1), Some(NonfiniteTexels { first: (0, 1), count: 2 }));
+        assert_eq!(NonfiniteTexels::find(&pixels, 2), Some(NonfiniteTexels { first: (0, 0), count: 3 }));
+        let fine = Pixels { width: 1, height: 1, texels: vec![[0.5, nan, nan, nan]] };
+        assert_eq!(NonfiniteTexels::find(&fine, 1), None);
+    }
+}
