@@ -7,6 +7,7 @@
 mod accessible;
 mod actions;
 mod app;
+mod buffers;
 mod channels;
 mod code;
 mod costs;
@@ -22,6 +23,7 @@ mod gallery;
 mod geometry;
 mod halt;
 mod help;
+mod histogram;
 mod icons;
 mod keys;
 mod lab;

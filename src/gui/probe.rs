@@ -1,7 +1,7 @@
 //! The bar over a picture that is a value of the code: what it is, how it is shown, its numbers.
 
 use super::{
-    accessible,
+    histogram,
     icons::{self, Icon},
     outbox::Outbox,
     theme,
@@ -10,21 +10,13 @@ use crate::{
     engine::{Paint, Pixels},
     session::{
         Command, Session,
-        probe::{BINS, ProbeLook, ProbePlace, ProbeView, ProbedValue, Statistics},
+        probe::{ProbeLook, ProbePlace, ProbeView, ProbedValue, Statistics},
         trace::Number,
     },
 };
-use egui::{Area, Color32, DragValue, Frame, Id, Margin, Order, Rect, RichText, Sense, Stroke, Ui, pos2, vec2};
+use egui::{Area, DragValue, Frame, Id, Margin, Order, Rect, RichText, Ui, vec2};
 
 const NAMES: [&str; 4] = ["x", "y", "z", "w"];
-/// Of the components, where each has one.
-const INKS: [Color32; 4] = [
-    Color32::from_rgb(255, 110, 100),
-    Color32::from_rgb(110, 215, 110),
-    Color32::from_rgb(110, 165, 255),
-    Color32::from_rgb(200, 200, 200),
-];
-
 /// Shows it at the top of the picture's area. `under`: the place of the picture under the mouse, from 0 to 1.
 pub fn show(ui: &Ui, session: &Session, area: Rect, under: Option<[f32; 2]>, out: &mut Outbox) {
     let Some(view) = session.probe() else { return };
@@ -69,7 +61,7 @@ fn bar(ui: &mut Ui, view: &ProbeView<'_>, under: Option<[f32; 2]>, out: &mut Out
     look(ui, view, value, out);
     let Some(numbers) = view.numbers else { return };
     ui.horizontal(|ui| {
-        histogram(ui, value, &numbers.statistics, out);
+        histogram::show(ui, value.components, &numbers.statistics, "probe:histogram", 34.0, out);
         ui.vertical(|ui| {
             ui.spacing_mut().item_spacing.y = 1.0;
             figures(ui, value, &numbers.statistics, out);
@@ -134,26 +126,6 @@ fn range(ui: &mut Ui, view: &ProbeView<'_>, look: &mut ProbeLook, out: &mut Outb
     let auto = ui.selectable_label(look.range.is_none(), "Auto").on_hover_text("From the least number to the largest");
     if out.clicked("probe:auto", &auto) {
         look.range = if look.range.is_none() { Some((low, high)) } else { None };
-    }
-}
-
-fn histogram(ui: &mut Ui, value: &ProbedValue, statistics: &Statistics, out: &mut Outbox) {
-    let p = theme::of(ui);
-    let (rect, response) = ui.allocate_exact_size(vec2(2.0 * BINS as f32, 34.0), Sense::hover());
-    let (low, high) = statistics.range;
-    accessible::name(&response, egui::Role::Canvas, format!("Histogram from {low} to {high}"));
-    out.place("probe:histogram", rect);
-    ui.painter().rect_filled(rect, 2.0, Color32::from_black_alpha(120));
-    let most = statistics.bins.iter().flatten().copied().max().unwrap_or(0).max(1) as f32;
-    for (bins, ink) in statistics.bins.iter().zip(INKS) {
-        let ink = if value.components == 1 { p.text } else { ink };
-        for (i, count) in bins.iter().enumerate().filter(|(_, count)| **count > 0) {
-            // A few pixels of many are seen too.
-            let height = (*count as f32 / most).sqrt() * (rect.height() - 2.0);
-            let x = rect.left() + 2.0 * i as f32 + 1.0;
-            let line = [pos2(x, rect.bottom() - 1.0 - height.max(1.0)), pos2(x, rect.bottom() - 1.0)];
-            ui.painter().line_segment(line, Stroke::new(2.0, ink.gamma_multiply(0.75)));
-        }
     }
 }
 

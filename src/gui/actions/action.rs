@@ -63,6 +63,8 @@ pub enum Action {
     Probe,
     /// The next click on the picture says which pixel is traced.
     TracePixel,
+    /// Where the first NaN comes from.
+    FindNonfinite,
     Trace(TraceAction),
     Time(TimeAction),
     Quit,

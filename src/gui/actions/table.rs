@@ -182,6 +182,13 @@ pub const ACTIONS: &[Entry] = &[
         Group::Picture,
     ),
     row(
+        Action::FindNonfinite,
+        "first-nan",
+        "Find the first NaN or infinity: pass, frame, texel, line",
+        &[],
+        Group::Picture,
+    ),
+    row(
         Action::Record,
         "record-input",
         "Record input from frame 0, or end that and save it",
@@ -240,6 +247,13 @@ pub const ACTIONS: &[Entry] = &[
     row(Action::Panel(Panel::Uniforms), "uniforms", "Panel: uniforms", &[], Group::Window),
     row(Action::Panel(Panel::Channels), "channels", "Panel: channels", &[], Group::Window),
     row(Action::Panel(Panel::Trace), "trace", "Panel: the way of a pixel", &["Ctrl+Shift+D"], Group::Window),
+    row(
+        Action::Panel(Panel::Buffers),
+        "buffers",
+        "Buffers: texels and numbers of every pass, and the render graph",
+        &["Ctrl+Shift+T"],
+        Group::Window,
+    ),
     row(Action::UsualLayout, "usual-layout", "Every panel in its usual place", &[], Group::Window),
     row(Action::NextTheme, "theme", "Dark, light, or what the system prefers", &[], Group::Window),
     row(Action::ZoomIn, "zoom-in", "Everything larger", &["Ctrl+Alt+=", "Ctrl+Alt++"], Group::Window),

@@ -45,6 +45,11 @@ impl Live {
         self.textures.get(&target).map(|(texture, _)| (texture.clone(), aspect))
     }
 
+    /// Returns the texels of a target across and up, while its picture is asked for.
+    pub fn size(&self, session: &Session, pass: &PassId, index: usize) -> Option<(u32, u32)> {
+        session.miniature(pass, index).map(|(miniature, _)| miniature.of)
+    }
+
     /// Ends a frame: what was not looked at is not read back any more.
     pub fn end_frame(&mut self) -> Option<Command> {
         let wanted = std::mem::take(&mut self.wanted);

@@ -25,25 +25,26 @@ const MOST_CHANNELS: f32 = 150.0;
 const COSTS: f32 = 170.0;
 /// The part of the code's height that the way of a pixel has.
 const TRACE: f32 = 0.42;
+/// And what passes have drawn.
+const BUFFERS: f32 = 0.56;
 /// The lab's part of the height.
 const LAB: f32 = 0.48;
 
+/// The panels that are open, and those in front of others, the newest last.
+type Opened<'a> = (&'a BTreeSet<Panel>, &'a [Panel]);
+
 /// Returns where each open panel is.
-pub fn arrange(size: Vec2, open: &BTreeSet<Panel>, front: Option<Panel>, heights: Heights) -> Node {
+pub fn arrange(size: Vec2, open: &BTreeSet<Panel>, fronts: &[Panel], heights: Heights) -> Node {
     let has_lab = open.contains(&Panel::Lab);
     let rest = open.iter().any(|panel| *panel != Panel::Lab);
     let upper = Vec2::new(size.x, if has_lab && rest { size.y * (1.0 - LAB) } else { size.y });
-    let aside: Vec<Node> = open.iter().copied().filter(|panel| panel.is_aside()).map(Node::Panel).collect();
-    let aside = match aside.len() {
-        0 => None,
-        1 => aside.into_iter().next(),
-        n => {
-            let at = aside.iter().position(|node| front.is_some_and(|front| *node == Node::Panel(front)));
-            Some(Node::Tabs(aside, at.unwrap_or(n - 1)))
-        }
-    };
+    let aside = in_one_place(open.iter().copied().filter(|panel| panel.is_aside()), fronts);
     let tall = upper.y > upper.x * 1.1;
-    let whole = if tall { one_column(upper, open, aside, heights) } else { two_columns(upper, open, aside, heights) };
+    let whole = if tall {
+        one_column(upper, (open, fronts), aside, heights)
+    } else {
+        two_columns(upper, (open, fronts), aside, heights)
+    };
     match (whole, has_lab) {
         (Some(node), true) => Node::Column(vec![(node, 1.0 - LAB), (Node::Panel(Panel::Lab), LAB)]),
         (Some(node), false) => node,
@@ -52,8 +53,8 @@ pub fn arrange(size: Vec2, open: &BTreeSet<Panel>, front: Option<Panel>, heights
 }
 
 /// The picture with everything about it on the left, the code on the right.
-fn two_columns(size: Vec2, open: &BTreeSet<Panel>, aside: Option<Node>, heights: Heights) -> Option<Node> {
-    let right = code_and_trace(open);
+fn two_columns(size: Vec2, (open, fronts): Opened<'_>, aside: Option<Node>, heights: Heights) -> Option<Node> {
+    let right = code_and_below(open, fronts);
     let left_width = if right.is_some() { left_width(size, heights) } else { size.x };
     let left = below_each_other(Vec2::new(left_width, size.y), open, aside, heights);
     match (left, right) {
@@ -63,12 +64,28 @@ fn two_columns(size: Vec2, open: &BTreeSet<Panel>, aside: Option<Node>, heights:
     }
 }
 
-/// The way of a pixel goes through the code above it.
-fn code_and_trace(open: &BTreeSet<Panel>) -> Option<Node> {
-    let is_open = |panel| open.contains(&panel).then_some(Node::Panel(panel));
-    match (is_open(Panel::Code), is_open(Panel::Trace)) {
-        (Some(code), Some(trace)) => Some(Node::Column(vec![(code, 1.0 - TRACE), (trace, TRACE)])),
-        (code, trace) => code.or(trace),
+/// What shows the code at work is below it: the way of a pixel, and what passes have drawn.
+fn code_and_below(open: &BTreeSet<Panel>, fronts: &[Panel]) -> Option<Node> {
+    let is_open = |panel: &Panel| open.contains(panel);
+    let code = is_open(&Panel::Code).then_some(Node::Panel(Panel::Code));
+    let part = if is_open(&Panel::Buffers) { BUFFERS } else { TRACE };
+    let below = in_one_place([Panel::Trace, Panel::Buffers].into_iter().filter(is_open), fronts);
+    match (code, below) {
+        (Some(code), Some(below)) => Some(Node::Column(vec![(code, 1.0 - part), (below, part)])),
+        (code, below) => code.or(below),
+    }
+}
+
+/// Panels that share a place: the one that was opened last, or else the last, is in front.
+fn in_one_place(panels: impl Iterator<Item = Panel>, fronts: &[Panel]) -> Option<Node> {
+    let nodes: Vec<Node> = panels.map(Node::Panel).collect();
+    match nodes.len() {
+        0 | 1 => nodes.into_iter().next(),
+        n => {
+            let place = |panel: &Panel| nodes.iter().position(|node| *node == Node::Panel(*panel));
+            let at = fronts.iter().rev().find_map(place).unwrap_or(n - 1);
+            Some(Node::Tabs(nodes, at))
+        }
     }
 }
 
@@ -118,7 +135,7 @@ fn below_each_other(size: Vec2, open: &BTreeSet<Panel>, aside: Option<Node>, hei
 }
 
 /// A tall window has the code below the picture, where lines are long enough to read.
-fn one_column(size: Vec2, open: &BTreeSet<Panel>, aside: Option<Node>, heights: Heights) -> Option<Node> {
+fn one_column(size: Vec2, (open, fronts): Opened<'_>, aside: Option<Node>, heights: Heights) -> Option<Node> {
     let mut parts = Vec::new();
     let mut rest = size.y;
     let mut take = |wanted: f32| {
@@ -132,7 +149,7 @@ fn one_column(size: Vec2, open: &BTreeSet<Panel>, aside: Option<Node>, heights: 
     }
     let channels = open.contains(&Panel::Channels).then(|| take(BAR + heights.channels));
     let aside = aside.map(|node| (node, take(aside_height(open, heights).min(size.y * 0.2))));
-    parts.extend(code_and_trace(open).map(|node| (node, rest)));
+    parts.extend(code_and_below(open, fronts).map(|node| (node, rest)));
     parts.extend(aside);
     parts.extend(channels.map(|height| (Node::Panel(Panel::Channels), height)));
     column(parts)

@@ -27,8 +27,8 @@ pub struct Dock {
     /// What a person has moved or resized; else the arrangement is made anew for each frame.
     is_manual: bool,
     open: BTreeSet<Panel>,
-    /// In front of those it shares a place with.
-    front: Option<Panel>,
+    /// In front of those that they share a place with, the newest last.
+    fronts: Vec<Panel>,
     /// Panels that were seen in the newest frame.
     seen: BTreeSet<Panel>,
 }
@@ -36,7 +36,7 @@ pub struct Dock {
 impl Dock {
     pub fn new() -> Self {
         let open = Panel::ALL.into_iter().filter(|panel| panel.is_open_at_first()).collect();
-        Self { tree: Tree::empty(tree::id()), is_manual: false, open, front: None, seen: BTreeSet::new() }
+        Self { tree: Tree::empty(tree::id()), is_manual: false, open, fronts: Vec::new(), seen: BTreeSet::new() }
     }
 
     /// Takes up what was kept from the last start. `arrangement`: as a person had made it.
@@ -73,7 +73,7 @@ impl Dock {
     pub fn set_open(&mut self, panel: Panel, is_open: bool) {
         if is_open {
             self.open.insert(panel);
-            self.front = Some(panel);
+            self.bring_to_front([panel]);
         } else if self.open.len() > 1 {
             self.open.remove(&panel);
         }
@@ -98,7 +98,7 @@ impl Dock {
         for panel in Panel::ALL {
             self.tree.tiles.set_visible(panel.tile(), self.open.contains(&panel));
         }
-        if let Some(front) = self.front {
+        if let Some(front) = self.fronts.last() {
             self.tree.make_active(|id, _| id == front.tile());
         }
     }
@@ -107,7 +107,7 @@ impl Dock {
     pub fn show(&mut self, ui: &mut Ui, contents: &mut dyn Contents) {
         let area = ui.available_rect_before_wrap();
         if !self.is_manual {
-            let node = automatic::arrange(area.size(), &self.open, self.front, contents.heights());
+            let node = automatic::arrange(area.size(), &self.open, &self.fronts, contents.heights());
             self.tree = tree::of(&node);
         }
         let mut bars = Bars::new(contents, &self.tree);
@@ -116,7 +116,7 @@ impl Dock {
         let edited = edited | separators::show(ui, &mut self.tree);
         if !self.is_manual {
             // Which tab is in front is no arrangement of a person's own.
-            self.front = self.front_tab().or(self.front);
+            self.bring_to_front(self.front_tabs());
         }
         self.is_manual |= edited;
         if let Some(panel) = closed {
@@ -128,14 +128,22 @@ impl Dock {
         self.seen.retain(|panel| self.open.contains(panel));
     }
 
-    /// The panel in front of those that share a place.
-    fn front_tab(&self) -> Option<Panel> {
-        self.tree.tiles.tiles().find_map(|tile| match tile {
+    fn bring_to_front(&mut self, panels: impl IntoIterator<Item = Panel>) {
+        for panel in panels {
+            self.fronts.retain(|other| *other != panel);
+            self.fronts.push(panel);
+        }
+    }
+
+    /// The panels in front of those that they share a place with.
+    fn front_tabs(&self) -> Vec<Panel> {
+        let front = |tile: &Tile<Panel>| match tile {
             Tile::Container(Container::Tabs(tabs)) if tabs.children.len() > 1 => {
                 self.tree.tiles.get_pane(&tabs.active?).copied()
             }
             _ => None,
-        })
+        };
+        self.tree.tiles.tiles().filter_map(front).collect()
     }
 }
 

@@ -14,11 +14,20 @@ pub enum Panel {
     Costs,
     Lab,
     Trace,
+    Buffers,
 }
 
 impl Panel {
-    pub const ALL: [Panel; 7] =
-        [Panel::Picture, Panel::Code, Panel::Uniforms, Panel::Channels, Panel::Costs, Panel::Lab, Panel::Trace];
+    pub const ALL: [Panel; 8] = [
+        Panel::Picture,
+        Panel::Code,
+        Panel::Uniforms,
+        Panel::Channels,
+        Panel::Costs,
+        Panel::Lab,
+        Panel::Trace,
+        Panel::Buffers,
+    ];
 
     /// Returns what it is called where it is kept.
     pub fn name(self) -> &'static str {
@@ -30,6 +39,7 @@ impl Panel {
             Panel::Costs => "costs",
             Panel::Lab => "lab",
             Panel::Trace => "trace",
+            Panel::Buffers => "buffers",
         }
     }
 
@@ -47,11 +57,12 @@ impl Panel {
             Panel::Costs => "Costs",
             Panel::Lab => "Lab",
             Panel::Trace => "Trace",
+            Panel::Buffers => "Buffers",
         }
     }
 
     pub(super) fn is_open_at_first(self) -> bool {
-        !matches!(self, Panel::Costs | Panel::Lab | Panel::Trace)
+        !matches!(self, Panel::Costs | Panel::Lab | Panel::Trace | Panel::Buffers)
     }
 
     /// It has a row of its own, by which it can be moved: another with its title would take room for nothing.

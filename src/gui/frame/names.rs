@@ -125,6 +125,7 @@ fn everything_that_takes_the_keyboard_has_a_name() {
         ("finding and replacing", CTRL, Key::H, "Replace with"),
         ("going to a line", CTRL, Key::G, "Line"),
         ("the costs", CTRL_SHIFT, Key::M, "Close Costs"),
+        ("the buffers", CTRL_SHIFT, Key::T, "Render graph"),
         ("the palette", CTRL_SHIFT, Key::P, "Save"),
         ("the help", Modifiers::NONE, Key::F1, "Close"),
         ("the passes", CTRL_SHIFT, Key::B, "Add"),
@@ -134,7 +135,7 @@ fn everything_that_takes_the_keyboard_has_a_name() {
         press(&mut stage, modifiers, key);
         has(&named(&stage, state), &[wanted]);
         press(&mut stage, Modifiers::NONE, Key::Escape);
-        if matches!(key, Key::M | Key::L | Key::B) || (key == Key::G && modifiers == CTRL_SHIFT) {
+        if matches!(key, Key::M | Key::L | Key::B | Key::T) || (key == Key::G && modifiers == CTRL_SHIFT) {
             press(&mut stage, modifiers, key);
         }
     }
@@ -145,6 +146,15 @@ fn everything_that_takes_the_keyboard_has_a_name() {
         named(&stage, widget);
         press(&mut stage, Modifiers::NONE, Key::Escape);
     }
+    press(&mut stage, CTRL_SHIFT, Key::T);
+    let names = named(&stage, "texels");
+    has(&names, &["Exposure: 0", "False colour", "Fit", "RGB"]);
+    assert!(names.iter().any(|n| n.starts_with("Texels of ")), "{names:?}");
+    click(&mut stage, "buffers:page:graph");
+    stage.run_steps(3);
+    let names = named(&stage, "the graph");
+    assert!(names.iter().any(|n| n.starts_with("Buffer A, ")), "{names:?}");
+    press(&mut stage, CTRL_SHIFT, Key::T);
     let tab = stage.state().session.tabs()[0].clone();
     let place = format!("error: {} line 1: ", tab.title());
     stage.state_mut().session.apply(Command::EditText { tab, text: "no shader".into() });

@@ -100,6 +100,12 @@ impl Shell {
             Action::FontReset => self.scale_code(None, out),
             Action::Probe => self.probe(session, out),
             Action::TracePixel => self.viewport.pick(),
+            Action::FindNonfinite => {
+                self.uncover(out);
+                self.presents = false;
+                self.dock.set_open(Panel::Buffers, true);
+                out.ask(Command::FindNonfinite(true));
+            }
             Action::Trace(action) => {
                 let caret = self.code.caret_place().map(|(tab, _, line)| (tab, line));
                 self.debugger.act(session, action, caret);

@@ -7,6 +7,7 @@ mod report;
 
 use super::{
     actions::{Action, KeyFile, Listening},
+    buffers::Buffers,
     channels::Live,
     code::CodePanel,
     dock::{Dock, Panel},
@@ -45,6 +46,7 @@ pub struct Shell {
     files: Files,
     lab: Lab,
     debugger: Debugger,
+    buffers: Buffers,
     dock: Dock,
     sees_costs: bool,
     /// Small pictures of buffers.
@@ -95,6 +97,7 @@ impl Shell {
             files: Files::new(wake.clone()),
             lab: Lab::new(&gpu, wake.clone()),
             debugger: Debugger::default(),
+            buffers: Buffers::default(),
             dock: Dock::new(),
             sees_costs: false,
             live: Live::default(),
@@ -195,6 +198,7 @@ impl Shell {
             self.panels(ui, session, &mut out);
         }
         out.commands.extend(self.live.end_frame());
+        out.commands.extend(self.buffers.end_frame(session));
         toasts::expire(ui.ctx(), session, Instant::now(), &mut out);
         toasts::over(ui, session, Instant::now(), &mut out);
         if !self.gallery {

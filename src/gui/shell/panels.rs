@@ -3,6 +3,7 @@
 use super::Shell;
 use crate::{
     gui::{
+        buffers::{self, Buffers},
         channels::{self, Live},
         code::CodePanel,
         costs, custom_uniforms,
@@ -49,15 +50,17 @@ impl Shell {
         if !self.dock.is_seen(Panel::Code) {
             toasts::panel(ui, session, out);
         }
-        let Self { viewport, code, lab, debugger, thumbnails, live, dock, .. } = self;
+        let under_picture = if self.dock.is_seen(Panel::Picture) { self.viewport.under() } else { None };
+        let Self { viewport, code, lab, debugger, buffers, thumbnails, live, dock, .. } = self;
         CentralPanel::default().frame(Frame::NONE.fill(p.panel)).show(ui, |ui| {
-            dock.show(ui, &mut Shown { viewport, code, lab, debugger, thumbnails, live, session, out });
+            let panels = Panels { viewport, code, lab, debugger, buffers };
+            dock.show(ui, &mut Shown { panels, thumbnails, live, under_picture, session, out });
         });
         // Who closes the panel is done with the pixel.
         if session.trace().traced.is_some() && !self.dock.is_open(Panel::Trace) {
             out.ask(Command::Trace(None));
         }
-        let sees_costs = self.dock.is_seen(Panel::Costs);
+        let sees_costs = self.dock.is_seen(Panel::Costs) || self.buffers.wants_costs();
         self.watch_costs(sees_costs, out);
     }
 
@@ -91,12 +94,20 @@ impl Shell {
     }
 }
 
-/// What is in the panels, while they are shown.
-struct Shown<'a> {
+/// The panels with a state of their own.
+struct Panels<'a> {
     viewport: &'a mut Viewport,
     code: &'a mut CodePanel,
     lab: &'a mut Lab,
     debugger: &'a mut Debugger,
+    buffers: &'a mut Buffers,
+}
+
+/// What is in the panels, while they are shown.
+struct Shown<'a> {
+    panels: Panels<'a>,
+    /// The place of the picture under the pointer, as the newest frame had it.
+    under_picture: Option<[f32; 2]>,
     thumbnails: &'a mut Thumbnails,
     live: &'a mut Live,
     session: &'a Session,
@@ -105,7 +116,8 @@ struct Shown<'a> {
 
 impl Contents for Shown<'_> {
     fn show(&mut self, ui: &mut Ui, panel: Panel) -> bool {
-        let Self { code, lab, debugger, thumbnails, live, session, out, .. } = self;
+        let Self { panels, thumbnails, live, under_picture, session, out } = self;
+        let Panels { code, lab, debugger, buffers, .. } = panels;
         match panel {
             Panel::Picture => return self.picture(ui),
             Panel::Code => return code.show(ui, session, out),
@@ -116,6 +128,10 @@ impl Contents for Shown<'_> {
             }),
             Panel::Trace => within(ui, Margin { left: 8, right: 6, top: 2, bottom: 4 }, |ui| {
                 trace::show(debugger, ui, session, out);
+            }),
+            Panel::Buffers => within(ui, Margin { left: 8, right: 6, top: 2, bottom: 4 }, |ui| {
+                let around = buffers::Around { live, under_picture: *under_picture };
+                buffers::show(buffers, ui, session, around, out);
             }),
             Panel::Lab => within(ui, Margin { left: 10, right: 8, top: 2, bottom: 6 }, |ui| lab.show(ui, out)),
         }
@@ -136,7 +152,7 @@ impl Contents for Shown<'_> {
                 0 => panel.title().to_owned(),
                 n => format!("{} ({n})", panel.title()),
             },
-            Panel::Channels => channels::title(self.session, self.code.current()),
+            Panel::Channels => channels::title(self.session, self.panels.code.current()),
             Panel::Costs => "Costs of a frame".to_owned(),
             _ => panel.title().to_owned(),
         }
@@ -163,10 +179,10 @@ impl Shown<'_> {
             .exact_size(transport::HEIGHT)
             .frame(Frame::NONE.fill(p.panel).inner_margin(Margin::symmetric(8, 0)))
             .show_separator_line(false)
-            .show(ui, |ui| transport::show(ui, self.session, self.viewport.shape(), self.out));
+            .show(ui, |ui| transport::show(ui, self.session, self.panels.viewport.shape(), self.out));
         CentralPanel::default()
             .frame(Frame::NONE)
-            .show(ui, |ui| self.viewport.show(ui, self.session, Around::Panels, self.out));
+            .show(ui, |ui| self.panels.viewport.show(ui, self.session, Around::Panels, self.out));
         bar.inner
     }
 }

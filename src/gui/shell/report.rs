@@ -2,7 +2,7 @@
 
 use super::Shell;
 use crate::{
-    gui::{costs, dock::Panel, halt, probe, problems, report::Report, theme},
+    gui::{buffers, costs, dock::Panel, halt, probe, problems, report::Report, theme},
     project::{Origin, Tab},
     session::{Outcome, Session},
 };
@@ -64,6 +64,9 @@ impl Shell {
         }
         if self.dock.is_open(Panel::Costs) {
             report.say_if_new("costs", costs::report(session));
+        }
+        if self.dock.is_open(Panel::Buffers) {
+            report.say_if_new("buffers", buffers::report(&self.buffers, session));
         }
         let under = session.probe().and(self.viewport.under());
         report.say_if_new("probe", probe::report(session, under));

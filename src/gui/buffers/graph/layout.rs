@@ -1,0 +1,196 @@
+//! Where the nodes of a layered graph are, and the ways of its edges.
+
+use super::layers::{Edge, Layers};
+use egui::{Pos2, Rect, Vec2, pos2, vec2};
+
+/// Points of a node, and between nodes.
+pub const NODE: Vec2 = vec2(164.0, 68.0);
+const BETWEEN_LAYERS: f32 = 46.0;
+const BETWEEN_NODES: f32 = 26.0;
+/// Between a node and an edge that passes it.
+const BESIDE: f32 = 10.0;
+/// What an edge that passes a layer takes of its height.
+const PASSING: f32 = 14.0;
+/// Between the ways of edges that go back.
+const LANE: f32 = 9.0;
+const MARGIN: f32 = 12.0;
+
+/// A graph on a sheet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layout {
+    pub nodes: Vec<Rect>,
+    /// The corners of the way of each edge that leads on.
+    pub forth: Vec<Vec<Pos2>>,
+    /// And of each that leads back, or anywhere else.
+    pub back: Vec<Vec<Pos2>>,
+    pub size: Vec2,
+}
+
+impl Layout {
+    /// `forth`: edges that go round in no circle; `back`: all others.
+    pub fn new(nodes: usize, forth: &[Edge], back: &[Edge]) -> Self {
+        let layers = Layers::new(nodes, forth);
+        let middles = middles(&layers, nodes);
+        let at = |node: usize| pos2(left_of(layers.layer_of[node]) + NODE.x / 2.0, middles[node]);
+        let rects: Vec<Rect> = (0..nodes).map(|node| Rect::from_center_size(at(node), NODE)).collect();
+        let ports = ports(nodes, forth, back, &middles);
+        let forth_ways = forth.iter().zip(&layers.ways).enumerate().map(|(n, (edge, way))| {
+            let mut points = vec![rects[edge.0].right_center()];
+            for node in &way[1..way.len() - 1] {
+                let half = vec2(NODE.x / 2.0, 0.0);
+                points.extend([at(*node) - half, at(*node) + half]);
+            }
+            points.push(pos2(rects[edge.1].left(), rects[edge.1].top() + ports[n]));
+            points
+        });
+        let forth_ways = forth_ways.collect();
+        let lowest = rects.iter().map(|rect| rect.bottom()).fold(0.0, f32::max);
+        let mut lanes = 0;
+        let mut back_ways = Vec::new();
+        for (n, &(from, to)) in back.iter().enumerate() {
+            let (source, reader) = (rects[from], rects[to]);
+            let start = pos2(source.right(), source.bottom() - 11.0);
+            let end = pos2(reader.left(), reader.top() + ports[forth.len() + n]);
+            let (beside, before) = (10.0 + 4.0 * (n % 6) as f32, 10.0 + 4.0 * (n % 6) as f32);
+            // One that reads itself goes round its own node, the others below all.
+            let low = if from == to {
+                source.bottom() + 9.0
+            } else {
+                lanes += 1;
+                lowest + 16.0 + LANE * lanes as f32
+            };
+            let (right, left) = (start.x + beside, end.x - before);
+            back_ways.push(vec![
+                start,
+                pos2(right, start.y),
+                pos2(right, low),
+                pos2(left, low),
+                pos2(left, end.y),
+                end,
+            ]);
+        }
+        let width = left_of(layers.layers.len()) - BETWEEN_LAYERS + 34.0 + MARGIN;
+        let size = vec2(width, lowest + 24.0 + LANE * lanes as f32 + MARGIN);
+        Self { nodes: rects, forth: forth_ways, back: back_ways, size }
+    }
+}
+
+/// The left edge of a layer. The first has room before it for what leads back to it.
+fn left_of(layer: usize) -> f32 {
+    MARGIN + 34.0 + layer as f32 * (NODE.x + BETWEEN_LAYERS)
+}
+
+/// Where each edge comes in, below the top of its reader: from the top, by where it comes from.
+fn ports(nodes: usize, forth: &[Edge], back: &[Edge], middles: &[f32]) -> Vec<f32> {
+    let mut ports = vec![0.0; forth.len() + back.len()];
+    for node in 0..nodes {
+        let coming = |edges: &[Edge], first: usize| -> Vec<(f32, usize)> {
+            let into = edges.iter().enumerate().filter(|(_, edge)| edge.1 == node);
+            into.map(|(n, edge)| (middles[edge.0], first + n)).collect()
+        };
+        let mut ways = coming(forth, 0);
+        ways.sort_by(|a, b| a.0.total_cmp(&b.0));
+        // What comes from below comes in below.
+        ways.extend(coming(back, forth.len()));
+        let count = ways.len() as f32;
+        for (n, (_, edge)) in ways.into_iter().enumerate() {
+            ports[edge] = NODE.y * (n as f32 + 1.0) / (count + 1.0);
+        }
+    }
+    ports
+}
+
+/// The middle of each node's height: near those of its neighbours, and apart from those of its layer.
+fn middles(layers: &Layers, nodes: usize) -> Vec<f32> {
+    let height = |node: usize| if node < nodes { NODE.y } else { PASSING };
+    let apart = |a: usize, b: usize| {
+        let gap = match (a < nodes, b < nodes) {
+            (true, true) => BETWEEN_NODES,
+            (false, false) => 0.0,
+            _ => BESIDE,
+        };
+        (height(a) + height(b)) / 2.0 + gap
+    };
+    let mut middles = vec![0.0; layers.layer_of.len()];
+    for layer in &layers.layers {
+        let mut y = 0.0;
+        for (place, &node) in layer.iter().enumerate() {
+            y += if place > 0 { apart(layer[place - 1], node) } else { 0.0 };
+            middles[node] = y;
+        }
+        layer.iter().for_each(|node| middles[*node] -= y / 2.0);
+    }
+    let steps = layers.steps();
+    for _ in 0..8 {
+        for layer in &layers.layers {
+            let wanted: Vec<f32> = layer
+                .iter()
+                .map(|&node| {
+                    let other = |&(from, to): &Edge| match (from == node, to == node) {
+                        (true, false) => Some(to),
+                        (false, true) => Some(from),
+                        _ => None,
+                    };
+                    let near: Vec<f32> = steps.iter().filter_map(other).map(|other| middles[other]).collect();
+                    if near.is_empty() { middles[node] } else { near.iter().sum::<f32>() / near.len() as f32 }
+                })
+                .collect();
+            // From above each is pushed down, from below up: the mean of both keeps the order and the room.
+            let mut down = wanted.clone();
+            let mut up = wanted;
+            for place in 1..layer.len() {
+                down[place] = down[place].max(down[place - 1] + apart(layer[place - 1], layer[place]));
+                let back = layer.len() - 1 - place;
+                up[back] = up[back].min(up[back + 1] - apart(layer[back], layer[back + 1]));
+            }
+            for (place, &node) in layer.iter().enumerate() {
+                middles[node] = (down[place] + up[place]) / 2.0;
+            }
+        }
+    }
+    let top = (0..middles.len()).map(|node| middles[node] - height(node) / 2.0).fold(f32::INFINITY, f32::min);
+    middles.iter_mut().for_each(|middle| *middle += MARGIN - top);
+    middles
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn fluid() -> (usize, Vec<Edge>, Vec<Edge>) {
+        // Four passes in a chain, two beside it, the picture of all; three read what was a frame ago.
+        let forth = vec![(0, 1), (1, 2), (2, 3), (0, 3), (4, 6), (5, 6), (3, 6), (0, 6)];
+        (7, forth, vec![(3, 0), (4, 4), (5, 5)])
+    }
+
+    #[test]
+    fn nodes_lie_apart_on_the_sheet_and_edges_lead_from_left_to_right() {
+        let (nodes, forth, back) = fluid();
+        let layout = Layout::new(nodes, &forth, &back);
+        let sheet = Rect::from_min_size(Pos2::ZERO, layout.size);
+        for (i, a) in layout.nodes.iter().enumerate() {
+            assert!(sheet.contains_rect(*a), "{a:?} of {sheet:?}");
+            assert!(layout.nodes[i + 1..].iter().all(|b| !a.expand(8.0).intersects(*b)), "{:?}", layout.nodes);
+        }
+        for (edge, way) in forth.iter().zip(&layout.forth) {
+            assert!(way.windows(2).all(|step| step[1].x >= step[0].x), "{way:?}");
+            assert!(layout.nodes[edge.1].distance_to_pos(*way.last().unwrap()) < 0.1);
+        }
+    }
+
+    #[test]
+    fn a_way_back_crosses_no_node() {
+        let (nodes, forth, back) = fluid();
+        let layout = Layout::new(nodes, &forth, &back);
+        for way in layout.back.iter().chain(&layout.forth) {
+            for step in way.windows(2) {
+                let segment = Rect::from_two_pos(step[0], step[1]).expand(-0.5).expand(0.4);
+                let is_straight = step[0].x == step[1].x || step[0].y == step[1].y;
+                let hit = layout.nodes.iter().find(|node| is_straight && node.shrink(1.0).intersects(segment));
+                assert!(hit.is_none(), "{step:?} through {hit:?}");
+            }
+        }
+        let sheet = Rect::from_min_size(Pos2::ZERO, layout.size);
+        assert!(layout.back.iter().flatten().all(|point| sheet.contains(*point)));
+    }
+}

@@ -1,0 +1,20 @@
+//! The panel of buffers: one target down to its texels and their numbers, the texels of all under the pointer, figures
+//! of its values, and the render graph.
+//!
+//! Nothing is read back while it is closed, and of the graph's page only what passes cost.
+
+mod canvas;
+mod controls;
+mod figures;
+mod graph;
+mod list;
+mod numbers;
+mod panel;
+mod report;
+mod search;
+mod state;
+mod zoom;
+
+pub use panel::{Around, show};
+pub use report::report;
+pub use state::Buffers;

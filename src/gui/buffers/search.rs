@@ -1,0 +1,106 @@
+//! The row of the first NaN: the way to look for it, how far that is, and what was found.
+
+use super::state::Buffers;
+use crate::{
+    gui::{
+        outbox::{Outbox, Wish},
+        theme,
+    },
+    session::{
+        Command, Session,
+        nonfinite::{BornAt, FirstNonfinite, NonfiniteTexels, Search, SearchEnd},
+    },
+};
+use egui::{Label, RichText, Ui};
+
+pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+    let bad = state.seen.as_ref().and_then(|seen| seen.read.nonfinite);
+    let search = session.search();
+    if bad.is_none() && search.is_none() {
+        return;
+    }
+    let p = theme::of(ui);
+    ui.horizontal_wrapped(|ui| match search {
+        Some(Search::UnderWay { done, of }) => {
+            ui.spinner();
+            ui.label(format!("Looking for the first NaN: frame {done} of {of}"));
+            if out.clicked("buffers:stop", &ui.button("Stop")) {
+                out.ask(Command::FindNonfinite(false));
+            }
+        }
+        None => {
+            if let Some(NonfiniteTexels { first: (x, y), count }) = bad {
+                let words = match count {
+                    1 => format!("Texel {x},{y} is NaN or infinite"),
+                    _ => format!("{count} texels are NaN or infinite, the first is {x},{y}"),
+                };
+                let label = ui.label(RichText::new(words).color(p.error));
+                out.place("buffers:nonfinite", label.rect);
+                if out.clicked("buffers:show-nonfinite", &ui.button("Show")) {
+                    state.reveals = Some((x, y));
+                }
+            }
+            find(ui, "Find the first cause", out);
+        }
+        Some(Search::Ended(end)) => {
+            match end {
+                SearchEnd::Found(found) => first(state, ui, found, out),
+                SearchEnd::Nowhere { first, last } => {
+                    let text = format!("Every texel of every pass is a finite number in frames {first} to {last}.");
+                    let label = ui.add(Label::new(RichText::new(text).color(p.good)).wrap());
+                    out.place("buffers:found", label.rect);
+                }
+                SearchEnd::Failed(why) => {
+                    let label = ui.add(Label::new(RichText::new(why).color(p.error)).wrap());
+                    out.place("buffers:found", label.rect);
+                }
+            }
+            find(ui, "Again", out);
+            let close = ui.button("Close").on_hover_text("Do not show this any more");
+            if out.clicked("buffers:close-search", &close) {
+                out.ask(Command::FindNonfinite(false));
+            }
+        }
+    });
+}
+
+fn find(ui: &mut Ui, name: &str, out: &mut Outbox) {
+    let tip = "Draws the frames that are kept once more beside the picture, and names the first NaN: pass, frame, \
+               texel and line";
+    let response = ui.button(name).on_hover_text(tip);
+    if out.clicked("buffers:find", &response) {
+        out.ask(Command::FindNonfinite(true));
+    }
+}
+
+fn first(state: &mut Buffers, ui: &mut Ui, found: &FirstNonfinite, out: &mut Outbox) {
+    let p = theme::of(ui);
+    let (pass, (x, y)) = (found.pass.title(), found.texel);
+    let head = match found.is_older {
+        true => format!("{pass} has it at {x},{y} before the oldest frame that is kept: reset, and look again."),
+        false => format!("First NaN: {pass}, frame {}, texel {x},{y} ({} in that frame).", found.frame, found.texels),
+    };
+    let label = ui.add(Label::new(RichText::new(head).color(p.error)).wrap());
+    out.place("buffers:found", label.rect);
+    if let Some(BornAt { message, place, text, numbers }) = &found.born {
+        let of = if numbers.is_empty() { String::new() } else { format!(" of {numbers}") };
+        let words = match place {
+            Some(place) => format!("{} line {}: {message}: {text}{of}", place.title(), place.line),
+            None => format!("{message}{of}"),
+        };
+        ui.add(Label::new(RichText::new(words).color(p.text)).wrap());
+        if let Some(place) = place
+            && let Some(tab) = &place.tab
+            && out.clicked("buffers:go-to", &ui.button("Go to the line"))
+        {
+            out.wishes.push(Wish::GoTo(tab.clone(), Some((place.line - 1, place.column - 1))));
+        }
+    } else if !found.is_older {
+        let words = "No operation makes it: it is too large for the pass's format, or was read from a texture.";
+        ui.add(Label::new(RichText::new(words).color(p.text)).wrap());
+    }
+    if out.clicked("buffers:show-texel", &ui.button("Show the texel")) {
+        state.choose((found.pass.clone(), 0));
+        state.reveals = Some(found.texel);
+    }
+}

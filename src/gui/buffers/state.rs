@@ -1,0 +1,207 @@
+//! What the panel knows from frame to frame.
+
+use super::{
+    numbers::COMPONENTS,
+    zoom::{self, Zoom},
+};
+use crate::{
+    engine::TexelAt,
+    project::{PassId, Project},
+    session::{
+        Command, Session,
+        buffers::{BufferLook, BufferRead, BufferWatch, Target},
+        nonfinite::drawn,
+    },
+};
+use egui::TextureHandle;
+use std::sync::Arc;
+
+/// What the panel shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Page {
+    Texels,
+    Graph,
+}
+
+/// Runs of texels in a row that are kept to be flashed.
+const RUNS: usize = 4096;
+
+/// A target as the window has it.
+pub(super) struct Seen {
+    pub read: Arc<BufferRead>,
+    pub generation: u64,
+    pub texture: TextureHandle,
+    /// Texels that are NaN or infinite: from one column to before the other, and the row.
+    pub runs: Vec<((u32, u32), u32)>,
+}
+
+/// The state of the panel.
+pub struct Buffers {
+    pub(super) page: Page,
+    /// The one that is chosen; none: the first there is.
+    chosen: Option<Target>,
+    pub(super) look: BufferLook,
+    pub(super) zoom: Zoom,
+    /// Of the graph.
+    pub(super) sheet: Zoom,
+    /// The sheet that was placed last, by its texels.
+    pub(super) sheet_of: (u32, u32),
+    pub(super) seen: Option<Seen>,
+    /// The place under the pointer or the keyboard's cursor, of this frame.
+    pub(super) under: Option<[f32; 2]>,
+    /// The texel of the chosen target there.
+    pub(super) texel: Option<(u32, u32)>,
+    /// Points of a texel.
+    pub(super) scale: Option<f32>,
+    /// The numbers that are written on that texel.
+    pub(super) written: Vec<String>,
+    /// A texel that is to be seen, from a click beside the picture.
+    pub(super) reveals: Option<(u32, u32)>,
+    /// Looked at in this frame.
+    is_shown: bool,
+    /// What passes cost is to be gathered.
+    pub(super) wants_costs: bool,
+    /// What the session was told of.
+    told: BufferWatch,
+}
+
+impl Default for Buffers {
+    fn default() -> Self {
+        Self {
+            page: Page::Texels,
+            chosen: None,
+            look: BufferLook::default(),
+            zoom: Zoom::up_to(zoom::OF_TEXELS),
+            sheet: Zoom::up_to(zoom::OF_GRAPH),
+            sheet_of: (0, 0),
+            seen: None,
+            under: None,
+            texel: None,
+            scale: None,
+            written: Vec::new(),
+            reveals: None,
+            is_shown: false,
+            wants_costs: false,
+            told: BufferWatch::default(),
+        }
+    }
+}
+
+impl Buffers {
+    /// Every target that the project's passes have, in the order in which they are drawn.
+    pub(super) fn targets(project: &Project) -> Vec<Target> {
+        let count = |pass: &PassId| project.pass(pass).map_or(1, |p| p.settings.formats().len().max(1));
+        drawn(project).into_iter().flat_map(|pass| (0..count(&pass)).map(move |index| (pass.clone(), index))).collect()
+    }
+
+    /// The one that is shown.
+    pub(super) fn target(&self, project: &Project) -> Option<Target> {
+        let all = Self::targets(project);
+        let chosen = self.chosen.as_ref().filter(|chosen| all.contains(chosen));
+        chosen.or(all.first()).cloned()
+    }
+
+    pub(super) fn choose(&mut self, target: Target) {
+        self.chosen = Some(target);
+        self.page = Page::Texels;
+    }
+
+    /// The one so many behind the one that is shown.
+    pub(super) fn step(&mut self, project: &Project, by: i32) {
+        let all = Self::targets(project);
+        let Some(shown) = self.target(project) else { return };
+        let at = all.iter().position(|target| *target == shown).unwrap_or(0) as i32;
+        self.chosen = all.get((at + by).rem_euclid(all.len() as i32) as usize).cloned();
+    }
+
+    /// Begins a frame of the panel.
+    pub(super) fn begin(&mut self) {
+        (self.is_shown, self.wants_costs) = (true, false);
+        (self.under, self.texel, self.scale) = (None, None, None);
+        self.written.clear();
+    }
+
+    /// Takes over what the session has new of the target that is shown.
+    pub(super) fn update(&mut self, ctx: &egui::Context, session: &Session, target: &Target) {
+        let Some((read, generation)) = session.buffer().filter(|(read, _)| read.target == *target) else {
+            self.seen = None;
+            return;
+        };
+        if self.seen.as_ref().is_some_and(|seen| seen.generation == generation) {
+            return;
+        }
+        let picture = &read.picture;
+        let size = [picture.width as usize, picture.height as usize];
+        let image = egui::ColorImage::from_rgba_unmultiplied(size, &picture.bytes);
+        // A texel is a square; made smaller, several are mixed.
+        let options =
+            egui::TextureOptions { magnification: egui::TextureFilter::Nearest, ..egui::TextureOptions::LINEAR };
+        let runs = runs(read);
+        match &mut self.seen {
+            Some(seen) => {
+                seen.texture.set(image, options);
+                (seen.read, seen.generation, seen.runs) = (read.clone(), generation, runs);
+            }
+            None => {
+                let texture = ctx.load_texture("buffer", image, options);
+                self.seen = Some(Seen { read: read.clone(), generation, texture, runs });
+            }
+        }
+    }
+
+    /// What passes cost is looked at.
+    pub fn wants_costs(&self) -> bool {
+        self.is_shown && self.wants_costs
+    }
+
+    /// Ends a frame of the window: what was not looked at is not read back any more.
+    pub fn end_frame(&mut self, session: &Session) -> Option<Command> {
+        let shown = std::mem::take(&mut self.is_shown) && self.page == Page::Texels;
+        let watch = match self.target(session.project()).filter(|_| shown) {
+            Some(target) => BufferWatch { shown: Some((target, self.look)), under: self.under },
+            None => BufferWatch::default(),
+        };
+        if !shown {
+            self.seen = None;
+        }
+        if watch == self.told {
+            return None;
+        }
+        self.told = watch.clone();
+        Some(Command::WatchBuffers(watch))
+    }
+}
+
+/// What a target is called.
+pub(super) fn title(project: &Project, (pass, index): &Target) -> String {
+    let count = project.pass(pass).map_or(1, |p| p.settings.formats().len());
+    if count > 1 { format!("{} · {index}", pass.title()) } else { pass.title() }
+}
+
+/// The components of a texel in words.
+pub(super) fn words(texel: &TexelAt, letters: usize) -> Vec<String> {
+    let stored = usize::from(texel.components).clamp(1, 4);
+    let one = |i: usize| format!("{} {}", COMPONENTS[i], super::numbers::fitted(texel.value[i], letters));
+    (0..stored).map(one).collect()
+}
+
+fn runs(read: &BufferRead) -> Vec<((u32, u32), u32)> {
+    let mut runs: Vec<((u32, u32), u32)> = Vec::new();
+    if read.nonfinite.is_none() {
+        return runs;
+    }
+    let (pixels, stored) = (&read.pixels, usize::from(read.components).min(4));
+    for (at, texel) in pixels.texels.iter().enumerate() {
+        if texel[..stored].iter().all(|x| x.is_finite()) {
+            continue;
+        }
+        let (x, y) = (at as u32 % pixels.width, at as u32 / pixels.width);
+        let count = runs.len();
+        match runs.last_mut() {
+            Some(((_, end), row)) if *row == y && *end == x => *end += 1,
+            _ if count == RUNS => break,
+            _ => runs.push(((x, x + 1), y)),
+        }
+    }
+    runs
+}
