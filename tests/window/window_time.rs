@@ -131,5 +131,5 @@ fn an_edit_shows_the_same_frame_where_that_is_asked_for() {
         window.drain();
     }
     assert_eq!(seen, 181);
-    assert_eq!(window.newest("frame").unwrap()["frame"], 90);
+    window.wait_until("the same frame", "frame", |e| e["frame"] == 90);
 }
