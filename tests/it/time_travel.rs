@@ -270,6 +270,17 @@ fn new_code_shows_the_same_frame_of_the_same_inputs() {
     kept.session.apply(Command::Seek(shown.0));
     kept.tick();
     assert!(texels(&mut kept) == original);
+    // A canvas of another size has another run, which no reset began: it goes on as it is.
+    kept.session.apply(Command::SetFixedSize(Some((10, 4))));
+    kept.tick();
+    let resized = place(&kept);
+    edited(&mut kept, &other);
+    assert_eq!(place(&kept).1, resized.1 + 1);
+    kept.session.apply(Command::SetFixedSize(Some((8, 4))));
+    kept.session.apply(Command::Reset);
+    steps(&mut kept, 0..120);
+    edited(&mut kept, HISTORY);
+    assert_eq!(place(&kept), shown, "after a reset it is kept again");
     // Without the switch it goes on from the buffers as they are.
     kept.session.apply(Command::SetKeepInputs(false));
     edited(&mut kept, &other);

@@ -74,7 +74,8 @@ fn menu(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     });
     let mut keeps = session.keeps_inputs();
     let switch = ui.checkbox(&mut keeps, "An edit draws the same frame anew").on_hover_text(
-        "New code draws every frame since the last reset again, with the same mouse, keys, times and uniforms",
+        "New code draws every frame since the last reset again, with the same mouse, keys, times and uniforms. Another \
+         size of the picture begins anew",
     );
     out.place("time:keep-inputs", switch.rect);
     if switch.changed() {

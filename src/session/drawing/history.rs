@@ -43,7 +43,9 @@ pub struct History {
     forgotten: u64,
     /// The number of frames of the run that the targets have seen: the frame before this one is shown.
     drawn: u64,
-    /// The run began with a reset, and the program has drawn all of it.
+    /// The run began with a reset, and all that its frames were drawn with is kept.
+    is_whole: bool,
+    /// And the program has drawn all of it.
     is_from_reset: bool,
     /// Each with the number of frames that were drawn before it.
     snapshots: VecDeque<(u64, Arc<Snapshot>)>,
@@ -73,6 +75,7 @@ impl Default for History {
             frames: VecDeque::new(),
             forgotten: 0,
             drawn: 0,
+            is_whole: true,
             is_from_reset: true,
             snapshots: VecDeque::new(),
             values: Arc::default(),
@@ -84,9 +87,16 @@ impl Default for History {
 impl History {
     /// Forgets everything: what is drawn from now on does not follow from what was.
     pub fn begin(&mut self, is_reset: bool) {
-        (self.forgotten, self.drawn, self.is_from_reset) = (0, 0, is_reset);
+        (self.forgotten, self.drawn) = (0, 0);
+        (self.is_whole, self.is_from_reset) = (is_reset, is_reset);
         self.frames.clear();
         self.snapshots.clear();
+    }
+
+    /// Another canvas: its buffers hold what the smaller of both has in common, unless nothing has been drawn yet.
+    pub fn resize(&mut self) {
+        let is_untouched = self.drawn == 0 && self.is_from_reset;
+        self.begin(is_untouched);
     }
 
     /// Another program draws from now on. What the frames were drawn with is kept: [`Goal::Anew`] draws them by the new
@@ -113,7 +123,7 @@ impl History {
             while self.forgotten < first.max(self.forgotten + 1) && self.frames.pop_front().is_some() {
                 self.forgotten += 1;
             }
-            self.is_from_reset = false;
+            (self.is_whole, self.is_from_reset) = (false, false);
         }
     }
 
@@ -188,7 +198,7 @@ impl History {
             first_secs: secs(first),
             last_secs: secs(self.end() - 1),
             shown,
-            is_whole: self.forgotten == 0,
+            is_whole: self.is_whole,
         }
     }
 
@@ -197,7 +207,7 @@ impl History {
         let number = match goal {
             Goal::By(frames) => self.drawn.checked_sub(1)?.checked_add_signed(frames)?,
             Goal::Frame(number) => number,
-            Goal::Anew(number) => return (number < self.end() && self.forgotten == 0).then_some(number),
+            Goal::Anew(number) => return (number < self.end() && self.is_whole).then_some(number),
             // Time may have been set back on the way.
             Goal::Time(secs) => {
                 let found = self.frames.iter().rposition(|frame| frame.inputs.time_secs <= secs);

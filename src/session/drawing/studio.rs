@@ -88,7 +88,7 @@ impl Studio {
         }
         if let Some((width, height)) = size.filter(|size| *size != self.engine.size()) {
             done.resized = Some(((width, height), self.engine.resize(width, height)));
-            self.history.begin(false);
+            self.history.resize();
             done.is_display_new = true;
         }
         if let Some(coming) = program {
