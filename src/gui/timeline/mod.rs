@@ -24,9 +24,12 @@ pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     let p = theme::of(ui);
     let (transport, reach, range) = (session.transport(), session.reach(), session.time_range());
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), HEIGHT), Sense::CLICK | Sense::DRAG);
-    let response = response.on_hover_text(
-        "Time: click or drag to go there. Shift+drag: play a part again and again; Shift+click: no longer",
-    );
+    // Above the line: below it are the buttons that one wants next.
+    let mut tip = egui::Tooltip::for_enabled(&response);
+    tip.popup = tip.popup.align(egui::RectAlign::TOP_START);
+    tip.show(|ui| {
+        ui.label("Click or drag: go to a time. Shift+drag: play a part again and again. Shift+click: no longer");
+    });
     let end = seconds::end([transport.time_secs, reach.last_secs, range.map_or(0.0, |range| range.to)]);
     accessible::name(
         &response,
