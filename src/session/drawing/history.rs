@@ -118,13 +118,19 @@ impl History {
             self.snapshots.pop_back();
         }
         self.keep(engine, self.interval());
-        if self.frames.len() >= KEPT {
-            let first = self.first();
-            while self.forgotten < first.max(self.forgotten + 1) && self.frames.pop_front().is_some() {
-                self.forgotten += 1;
-            }
-            (self.is_whole, self.is_from_reset) = (false, false);
+        self.forget(KEPT);
+    }
+
+    /// Forgets the oldest frames where there are so many, up to the first that can be shown without them.
+    fn forget(&mut self, most: usize) {
+        if self.frames.len() < most {
+            return;
         }
+        (self.is_whole, self.is_from_reset) = (false, false);
+        let first = self.first().max(self.forgotten + 1);
+        let count = ((first - self.forgotten) as usize).min(self.frames.len());
+        self.frames.drain(..count);
+        self.forgotten += count as u64;
     }
 
     /// A frame has been drawn.
@@ -278,5 +284,43 @@ impl History {
                 self.is_from_reset
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_a_long_run_the_newest_frames_are_kept() {
+        let mut history = History::default();
+        for frame in 0..1000 {
+            history.forget(100);
+            history.drew(FrameInputs::at_fixed_step(frame, 60.0), Duration::from_millis(1));
+            let reach = history.reach();
+            assert_eq!((reach.shown, reach.ahead), (frame as u64, 0));
+            assert_eq!(reach.is_whole, frame < 100);
+            assert_eq!(reach.last_secs, f64::from(frame) / 60.0);
+            assert!(history.frames.len() <= 100 && history.number(Goal::By(0)) == Some(frame as u64));
+        }
+        // Without a snapshot nothing before the frame that is shown can be.
+        assert_eq!(
+            (history.reach().back, history.number(Goal::By(-1)), history.number(Goal::Anew(5))),
+            (0, None, None)
+        );
+    }
+
+    #[test]
+    fn a_time_is_that_of_the_last_frame_which_is_not_later() {
+        let mut history = History::default();
+        for frame in 0..100 {
+            history.drew(FrameInputs::at_fixed_step(frame, 10.0), Duration::from_millis(1));
+        }
+        let number = |secs| history.number(Goal::Time(secs));
+        assert_eq!([number(0.0), number(2.05), number(2.1), number(99.0)], [0, 20, 21, 99].map(Some));
+        assert_eq!(
+            [history.number(Goal::By(-99)), history.number(Goal::By(-100)), history.number(Goal::By(1))],
+            [Some(0), None, None]
+        );
     }
 }
