@@ -96,7 +96,8 @@ fn a_texel_shows_its_numbers_and_a_nan_its_cause() {
     assert_eq!((&begun["figures"]["mean"][0], &begun["figures"]["mean"][3]), (&json!(32.0), &json!(-1.0)));
     display.shot("buffers-whole.png");
 
-    // The pointer's texel stays under it, down to its numbers.
+    // The pointer's texel stays under it, down to its numbers. What is said of the NaN takes room from the canvas.
+    window.shows("buffers:find");
     let at = texel_of_a(&mut window, (3.0, 2.0));
     window.move_to(at);
     seen(&mut window, "the texel", |e| e["texel"] == json!([3, 2]));
