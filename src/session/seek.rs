@@ -154,7 +154,14 @@ impl Session {
     /// A new program draws: by the same inputs up to the same frame, where that is asked for.
     pub(super) fn keep_inputs(&mut self) {
         let reach = self.drawing.reach();
-        if !self.run.seeking.keeps_inputs || !reach.is_whole || reach.shown == 0 || !self.has_state() {
+        if !self.run.seeking.keeps_inputs || reach.shown == 0 || !self.has_state() {
+            return;
+        }
+        if !reach.is_whole {
+            self.notice(
+                Level::Info,
+                "the picture has another size than at the last reset: reset it once, and an edit draws the same frame",
+            );
             return;
         }
         let resumes = self.is_playing();

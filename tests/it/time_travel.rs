@@ -272,10 +272,11 @@ fn new_code_shows_the_same_frame_of_the_same_inputs() {
     assert!(texels(&mut kept) == original);
     // A canvas of another size has another run, which no reset began: it goes on as it is.
     kept.session.apply(Command::SetFixedSize(Some((10, 4))));
-    kept.tick();
+    steps(&mut kept, 0..3);
     let resized = place(&kept);
     edited(&mut kept, &other);
     assert_eq!(place(&kept).1, resized.1 + 1);
+    assert!(kept.notices(Level::Info).iter().any(|text| text.contains("reset it once")));
     kept.session.apply(Command::SetFixedSize(Some((8, 4))));
     kept.session.apply(Command::Reset);
     steps(&mut kept, 0..120);
