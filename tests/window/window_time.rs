@@ -2,7 +2,10 @@
 
 use crate::support::window::{Display, Window};
 use serde_json::Value;
-use std::fs;
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 /// Counts the frames it has seen, and shows them.
 const COUNT: &str = "void mainImage(out vec4 o, in vec2 p) {
@@ -20,6 +23,23 @@ fn time(frame: &Value) -> f64 {
     frame["time"].as_f64().unwrap()
 }
 
+fn project(home: &Path) -> PathBuf {
+    let folder = home.join("count");
+    fs::create_dir(&folder).unwrap();
+    for (name, text) in [("eddy.toml", MANIFEST), ("buffer_a.glsl", COUNT), ("image.glsl", SHOW)] {
+        fs::write(folder.join(name), text).unwrap();
+    }
+    folder
+}
+
+/// Opens it paused, before its first frame.
+fn open<'a>(display: &'a Display, home: &Path, folder: &Path) -> Window<'a> {
+    let mut window = Window::open(display, home, &["--paused", folder.to_str().unwrap()]);
+    window.resize(1300, 900);
+    window.wait_until("a compile", "compiled", |e| e["ok"] == true && e["compiling"] == false);
+    window
+}
+
 /// Opens the menu of time and types.
 fn go_to(window: &mut Window, text: &str) {
     window.keys(&["alt+g"]);
@@ -32,14 +52,8 @@ fn go_to(window: &mut Window, text: &str) {
 fn time_is_typed_dragged_and_looped() {
     let Some(display) = Display::of_size(1300, 900) else { return };
     let home = tempfile::tempdir().unwrap();
-    let folder = home.path().join("count");
-    fs::create_dir(&folder).unwrap();
-    for (name, text) in [("eddy.toml", MANIFEST), ("buffer_a.glsl", COUNT), ("image.glsl", SHOW)] {
-        fs::write(folder.join(name), text).unwrap();
-    }
-    let mut window = Window::open(&display, home.path(), &["--paused", folder.to_str().unwrap()]);
-    window.resize(1300, 900);
-    window.wait_until("a compile", "compiled", |e| e["ok"] == true && e["compiling"] == false);
+    let folder = project(home.path());
+    let mut window = open(&display, home.path(), &folder);
     // Frame by frame on the way there, as the state has to.
     go_to(&mut window, "0:02");
     let there = window.wait_until("two seconds", "frame", |e| e["frame"] == 120);
@@ -97,14 +111,8 @@ fn time_is_typed_dragged_and_looped() {
 fn an_edit_shows_the_same_frame_where_that_is_asked_for() {
     let Some(display) = Display::of_size(1300, 900) else { return };
     let home = tempfile::tempdir().unwrap();
-    let folder = home.path().join("count");
-    fs::create_dir(&folder).unwrap();
-    for (name, text) in [("eddy.toml", MANIFEST), ("buffer_a.glsl", COUNT), ("image.glsl", SHOW)] {
-        fs::write(folder.join(name), text).unwrap();
-    }
-    let mut window = Window::open(&display, home.path(), &["--paused", folder.to_str().unwrap()]);
-    window.resize(1300, 900);
-    window.wait_until("a compile", "compiled", |e| e["ok"] == true && e["compiling"] == false);
+    let folder = project(home.path());
+    let mut window = open(&display, home.path(), &folder);
     go_to(&mut window, "1.5");
     window.wait_until("a second and a half", "frame", |e| e["frame"] == 90);
     window.click_on("time:keep-inputs");

@@ -7,11 +7,8 @@ mod seconds;
 pub use menu::button;
 
 use super::{accessible, actions::TimeAction, outbox::Outbox, theme};
-use crate::session::{
-    Command, Session,
-    seeking::{Reach, TimeRange},
-};
-use egui::{Key, Rect, Role, Sense, Stroke, Ui, pos2, vec2};
+use crate::session::{Command, Session, seeking::TimeRange};
+use egui::{Key, Rect, Role, Sense, Stroke, Ui, Vec2, pos2, vec2};
 
 /// Height of the line.
 pub const HEIGHT: f32 = 12.0;
@@ -80,7 +77,8 @@ pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
         }
     } else if response.clicked() && ui.input(|input| input.modifiers.shift) {
         out.ask(Command::SetTimeRange(None));
-    } else if (response.clicked() || response.dragged()) && is_another(session, reach, secs) {
+    } else if response.clicked() || response.drag_started() || response.drag_delta() != Vec2::ZERO {
+        // A hand that rests asks for nothing.
         out.ask(Command::Seek(secs));
     }
 }
@@ -108,15 +106,6 @@ pub fn act(ctx: &egui::Context, session: &Session, action: TimeAction, out: &mut
         TimeAction::KeepInputs => Command::SetKeepInputs(!session.keeps_inputs()),
     };
     out.ask(ask);
-}
-
-/// A hand that rests asks for nothing.
-fn is_another(session: &Session, reach: Reach, secs: f64) -> bool {
-    let transport = session.transport();
-    let frame = 1.0 / transport.fixed_rate.unwrap_or(60.0);
-    let is_far = (secs - transport.time_secs).abs() >= frame;
-    // Before the first frame that is kept there is nothing nearer than that one, unless it is drawn anew.
-    is_far && !(transport.is_seeking && secs > reach.last_secs)
 }
 
 /// Arrows go by a frame, page keys by a second, Home to the beginning.
