@@ -43,7 +43,6 @@ pub(super) fn binary(op: Binary) -> BinaryOperator {
         Binary::ExclusiveOr => To::ExclusiveOr,
         Binary::InclusiveOr => To::InclusiveOr,
         Binary::LogicalAnd => To::LogicalAnd,
-        Binary::LogicalOr => To::LogicalOr,
         Binary::ShiftLeft => To::ShiftLeft,
         Binary::ShiftRight => To::ShiftRight,
     }

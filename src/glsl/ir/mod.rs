@@ -120,8 +120,6 @@ pub struct Var {
     pub ty: TypeId,
     /// A constant that it holds whenever the function begins; else it is written before it is read.
     pub init: Option<Value>,
-    /// It holds the value of one expression, from the branches that compute it to the load that follows them.
-    pub is_temporary: bool,
 }
 
 /// Statements that run one after the other.
@@ -270,37 +268,8 @@ impl Function {
     }
 
     pub fn add_var(&mut self, ty: TypeId) -> VarId {
-        self.vars.push(Var { ty, init: None, is_temporary: false });
+        self.vars.push(Var { ty, init: None });
         VarId::new(self.vars.len() - 1)
-    }
-
-    /// Drops variables that nothing names any more but these values.
-    pub fn drop_vars(&mut self, places: &[Value]) {
-        let mut gone = vec![None; self.vars.len()];
-        for &place in places {
-            if let Op::Var(var) = self[place] {
-                gone[var.index()] = Some(Op::Zero(self.ty(place)));
-            }
-        }
-        self.replace_vars(gone);
-    }
-
-    /// Puts other places in the place of variables, by [`VarId::index`]; variables without one stay.
-    pub fn replace_vars(&mut self, replacements: Vec<Option<Op>>) {
-        let mut kept = Vec::new();
-        let ops = std::mem::take(&mut self.vars).into_iter().zip(replacements).map(|(var, replacement)| {
-            replacement.unwrap_or_else(|| {
-                kept.push(var);
-                Op::Var(VarId::new(kept.len() - 1))
-            })
-        });
-        let ops: Vec<Op> = ops.collect();
-        self.vars = kept;
-        for Node { op, .. } in &mut self.nodes {
-            if let Op::Var(var) = *op {
-                *op = ops[var.index()].clone();
-            }
-        }
     }
 
     /// The variable, parameter or global that a place is or lies in.

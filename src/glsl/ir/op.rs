@@ -173,7 +173,6 @@ pub enum Binary {
     ExclusiveOr,
     InclusiveOr,
     LogicalAnd,
-    LogicalOr,
     /// The right side is a uint below 32.
     ShiftLeft,
     ShiftRight,

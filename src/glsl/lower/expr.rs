@@ -179,7 +179,7 @@ impl Builder<'_, '_> {
             (_, Some(_)) => return self.value(rhs),
             (_, None) => {}
         }
-        let result = self.result_of_branch(TypeId::BOOL);
+        let result = self.temporary(TypeId::BOOL);
         self.store(result, left);
         let (needed, _) = self.nested(|b| {
             let right = b.value(rhs);
@@ -198,7 +198,7 @@ impl Builder<'_, '_> {
             return self.value(if known { then } else { otherwise });
         }
         let condition = self.value(cond);
-        let result = self.result_of_branch(ty);
+        let result = self.temporary(ty);
         let (accept, _) = self.nested(|b| {
             let value = b.value(then);
             b.store(result, value);
@@ -209,15 +209,6 @@ impl Builder<'_, '_> {
         });
         self.push(Stmt::If { condition, accept, reject });
         self.load(result)
-    }
-
-    /// A variable for the value that two branches compute, and a load behind them reads.
-    fn result_of_branch(&mut self, ty: TypeId) -> Value {
-        let place = self.temporary(ty);
-        if let Op::Var(id) = self.f[place] {
-            self.f.vars[id.index()].is_temporary = true;
-        }
-        place
     }
 
     pub fn select(&mut self, condition: Value, accept: Value, reject: Value) -> Value {

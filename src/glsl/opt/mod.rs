@@ -7,7 +7,6 @@
 mod dce;
 #[cfg(test)]
 mod identity;
-mod if_convert;
 mod ranges;
 mod scalarize;
 #[cfg(test)]
@@ -25,11 +24,6 @@ pub struct Pass {
 
 /// All passes, in the order in which they run.
 pub const PASSES: &[Pass] = &[
-    Pass {
-        name: "if-convert",
-        purpose: "makes selects of cheap branches that compute one value (if-conversion)",
-        run: if_convert::run,
-    },
     Pass {
         name: "ranges",
         purpose: "drops clamps, guards and tests that value ranges make superfluous",

@@ -80,7 +80,7 @@ fn uint<R>(op: Binary, left: u32, right: u32) -> Cell<R> {
         Binary::GreaterEqual => (left >= right).into(),
         Binary::And | Binary::LogicalAnd => left & right,
         Binary::ExclusiveOr => left ^ right,
-        Binary::InclusiveOr | Binary::LogicalOr => left | right,
+        Binary::InclusiveOr => left | right,
         Binary::ShiftLeft => left.wrapping_shl(right),
         Binary::ShiftRight => left.wrapping_shr(right),
     })

@@ -5,29 +5,48 @@
 //! comparison may lie in any exit of the loop, and the `min` in a variable, so each limit that is no constant is
 //! hidden.
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::glsl::ir::{
-    Binary, Block, Function, Module, Op, Stmt, Unary, Value,
+    Binary, Block, Function, Module, Op, Stmt, Unary, Value, VarId,
     rewrite::{self, Rewriter, Rule},
 };
 
 pub(super) fn run(program: &mut Module) {
     for index in 0..program.functions.len() {
+        let f = &program.functions[index];
         let mut limits = Limits::default();
-        limits.block(&program.functions[index], &program.functions[index].body, false);
-        if !limits.0.is_empty() {
+        limits.note_stores(f, &f.body);
+        limits.block(f, &f.body, false);
+        if !limits.found.is_empty() {
             rewrite::function(program, index, &mut limits);
         }
     }
 }
 
-/// Comparisons, and whether their left and right sides are limits: what something is compared with where a loop goes on
-/// while that is greater.
 #[derive(Default)]
-struct Limits(FxHashMap<Value, [bool; 2]>);
+struct Limits {
+    /// Comparisons, and whether their left and right sides are limits: what something is compared with where a loop goes
+    /// on while that is greater.
+    found: FxHashMap<Value, [bool; 2]>,
+    /// What variables may hold.
+    stores: FxHashMap<VarId, Vec<Value>>,
+    /// Variables whose tests are noted, and whether a loop goes on where they hold.
+    followed: FxHashSet<(VarId, bool)>,
+}
 
 impl Limits {
+    fn note_stores(&mut self, f: &Function, block: &Block) {
+        for stmt in block {
+            if let Stmt::Store { place, value } = stmt
+                && let Op::Var(var) = f[*place]
+            {
+                self.stores.entry(var).or_default().push(*value);
+            }
+            stmt.blocks(|block| self.note_stores(f, block));
+        }
+    }
+
     fn block(&mut self, f: &Function, block: &Block, in_loop: bool) {
         for stmt in block {
             if let (true, Stmt::If { condition, accept, reject }) = (in_loop, stmt) {
@@ -50,9 +69,15 @@ impl Limits {
     fn compared(&mut self, f: &Function, condition: Value, goes_on: bool) {
         match f[condition] {
             Op::Unary { op: Unary::LogicalNot, operand } => self.compared(f, operand, !goes_on),
-            Op::Binary { op: Binary::LogicalAnd | Binary::LogicalOr, left, right } => {
-                self.compared(f, left, goes_on);
-                self.compared(f, right, goes_on);
+            // Of `&&` and `||`, whose sides are stored one after the other, or a test that the author keeps.
+            Op::Load { place } => {
+                let Op::Var(var) = f[place] else { return };
+                // A variable may be computed from itself.
+                if self.followed.insert((var, goes_on)) {
+                    for value in self.stores.get(&var).cloned().unwrap_or_default() {
+                        self.compared(f, value, goes_on);
+                    }
+                }
             }
             Op::Binary { op, left, right } if op.is_comparison() => {
                 let is_greater = match op {
@@ -62,7 +87,7 @@ impl Limits {
                 };
                 let (counter, limit) = if is_greater { (left, right) } else { (right, left) };
                 if is_counted(f, counter) && !matches!(f[limit], Op::Literal(..) | Op::Zero(_)) {
-                    self.0.entry(condition).or_default()[usize::from(is_greater)] = true;
+                    self.found.entry(condition).or_default()[usize::from(is_greater)] = true;
                 }
             }
             _ => {}
@@ -86,7 +111,7 @@ fn leaves(block: &Block) -> bool {
 
 impl Rule for Limits {
     fn operation(&mut self, r: &mut Rewriter<'_>, value: Value, op: &Op) -> Option<Value> {
-        let &[hides_left, hides_right] = self.0.get(&value)?;
+        let &[hides_left, hides_right] = self.found.get(&value)?;
         let Op::Binary { op, left, right } = *op else { return None };
         let left = if hides_left { r.opaque(left) } else { left };
         let right = if hides_right { r.opaque(right) } else { right };

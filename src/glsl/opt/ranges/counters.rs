@@ -239,14 +239,6 @@ fn test(f: &Function, body: &Block) -> Vec<(Binary, Value, Value)> {
 fn holding(f: &Function, condition: Value, truth: bool, out: &mut Vec<(Binary, Value, Value)>) {
     match f[condition] {
         Op::Unary { op: Unary::LogicalNot, operand } => holding(f, operand, !truth, out),
-        Op::Binary { op: Binary::LogicalAnd, left, right } if truth => {
-            holding(f, left, truth, out);
-            holding(f, right, truth, out);
-        }
-        Op::Binary { op: Binary::LogicalOr, left, right } if !truth => {
-            holding(f, left, truth, out);
-            holding(f, right, truth, out);
-        }
         Op::Binary { op, left, right } if truth => out.push((op, left, right)),
         // Of floats both may be false.
         Op::Binary { op, left, right } if matches!(f.ty(left), TypeId::INT | TypeId::UINT) => {
