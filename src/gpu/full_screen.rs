@@ -50,28 +50,71 @@ pub(super) fn pipeline(
     })
 }
 
-/// The layout of a shader that reads values of any format at binding 0, and a uniform of 32 bytes at 1.
-pub(super) fn values_layout(gpu: &Gpu, label: &str) -> wgpu::BindGroupLayout {
-    let values = Binding::Texture { dimension: wgpu::TextureViewDimension::D2, filterable: false };
-    let groups = [vec![(0, values), (1, Binding::Uniform { bytes: 32 })]];
-    bindings::layouts(gpu, label, &groups, wgpu::ShaderStages::FRAGMENT).remove(0)
+/// A fragment shader of Eddy's own that reads values of any format at group 0, binding 0, and a uniform of 32 bytes at
+/// binding 1.
+pub(super) struct ValuesShader {
+    label: &'static str,
+    layout: wgpu::BindGroupLayout,
+    pipeline: wgpu::RenderPipeline,
+    uniform: wgpu::Buffer,
 }
 
-/// Binds values and their uniform to such a layout.
-pub(super) fn bind_values(
-    gpu: &Gpu,
-    layout: &wgpu::BindGroupLayout,
-    values: &Texture,
-    uniform: &wgpu::Buffer,
-) -> wgpu::BindGroup {
-    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("values"),
-        layout,
-        entries: &[
-            wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&values.level_0) },
-            wgpu::BindGroupEntry { binding: 1, resource: uniform.as_entire_binding() },
-        ],
-    })
+impl ValuesShader {
+    /// Compiles WGSL with an entry point `fragment` that draws into targets of a format.
+    pub fn new(gpu: &Gpu, label: &'static str, wgsl: &str, target: wgpu::TextureFormat) -> Self {
+        let fragment = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(label),
+            source: wgpu::ShaderSource::Wgsl(wgsl.into()),
+        });
+        let values = Binding::Texture { dimension: wgpu::TextureViewDimension::D2, filterable: false };
+        let groups = [vec![(0, values), (1, Binding::Uniform { bytes: 32 })]];
+        let layout = bindings::layouts(gpu, label, &groups, wgpu::ShaderStages::FRAGMENT).remove(0);
+        let pipeline_layout = pipeline_layout(gpu, label, std::slice::from_ref(&layout));
+        let pipeline = pipeline(gpu, label, &pipeline_layout, (&fragment, "fragment"), target);
+        let uniform = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some(label),
+            size: 32,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        Self { label, layout, pipeline, uniform }
+    }
+
+    /// Sets the uniform from the next drawing on.
+    pub fn set<T: bytemuck::NoUninit>(&self, gpu: &Gpu, words: [T; 8]) {
+        gpu.queue.write_buffer(&self.uniform, 0, bytemuck::cast_slice(&words));
+    }
+
+    /// Binds the values that are read.
+    pub fn bind(&self, gpu: &Gpu, values: &Texture) -> wgpu::BindGroup {
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some(self.label),
+            layout: &self.layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&values.level_0) },
+                wgpu::BindGroupEntry { binding: 1, resource: self.uniform.as_entire_binding() },
+            ],
+        })
+    }
+
+    /// Draws into a target; `draw` says which values into which part of it.
+    pub fn draw(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: wgpu::RenderPassColorAttachment<'_>,
+        draw: impl FnOnce(&mut wgpu::RenderPass<'_>),
+    ) {
+        let descriptor = wgpu::RenderPassDescriptor {
+            label: Some(self.label),
+            color_attachments: &[Some(target)],
+            ..Default::default()
+        };
+        gpu.pass(encoder, descriptor, |pass| {
+            pass.set_pipeline(&self.pipeline);
+            draw(pass);
+        });
+    }
 }
 
 /// A fragment shader of Eddy's own that reads one picture.

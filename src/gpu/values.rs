@@ -1,6 +1,6 @@
 //! From float values to 8 bits for a window: what a number is shown as, whatever its range.
 
-use super::{Gpu, Texture, bindings::pipeline_layout, full_screen};
+use super::{Gpu, Texture, full_screen::ValuesShader};
 
 /// How numbers become colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -95,29 +95,11 @@ fn false_colour(x: f32) -> vec3<f32> {
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// Draws values into a display texture (rgba8unorm).
-pub struct ValuePainter {
-    layout: wgpu::BindGroupLayout,
-    pipeline: wgpu::RenderPipeline,
-    uniform: wgpu::Buffer,
-}
+pub struct ValuePainter(ValuesShader);
 
 impl ValuePainter {
     pub fn new(gpu: &Gpu) -> Self {
-        let label = "values";
-        let fragment = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(label),
-            source: wgpu::ShaderSource::Wgsl(SHADER.into()),
-        });
-        let layout = full_screen::values_layout(gpu, label);
-        let pipeline_layout = pipeline_layout(gpu, label, std::slice::from_ref(&layout));
-        let pipeline = full_screen::pipeline(gpu, label, &pipeline_layout, (&fragment, "fragment"), FORMAT);
-        let uniform = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some(label),
-            size: 32,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
-        Self { layout, pipeline, uniform }
+        Self(ValuesShader::new(gpu, "values", SHADER, FORMAT))
     }
 
     /// Sets what is shown and how, from the next drawing on.
@@ -138,24 +120,18 @@ impl ValuePainter {
             0,
             0,
         ];
-        gpu.queue.write_buffer(&self.uniform, 0, bytemuck::cast_slice(&words));
+        self.0.set(gpu, words);
     }
 
     /// Makes what [`ValuePainter::present`] needs to show one texture again and again.
     pub fn bind(&self, gpu: &Gpu, values: &Texture) -> wgpu::BindGroup {
-        full_screen::bind_values(gpu, &self.layout, values, &self.uniform)
+        self.0.bind(gpu, values)
     }
 
     /// Draws the values into `display`, which has their size.
     pub fn present(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, values: &wgpu::BindGroup, display: &Texture) {
         let target = display.attachment(gpu.load_what_is_overwritten());
-        let descriptor = wgpu::RenderPassDescriptor {
-            label: Some("values"),
-            color_attachments: &[Some(target)],
-            ..Default::default()
-        };
-        gpu.pass(encoder, descriptor, |pass| {
-            pass.set_pipeline(&self.pipeline);
+        self.0.draw(gpu, encoder, target, |pass| {
             pass.set_bind_group(0, values, &[]);
             pass.draw(0..3, 0..1);
         });
