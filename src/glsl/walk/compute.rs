@@ -132,31 +132,35 @@ impl<R: Real> State<'_, R> {
         lane: usize,
         out: &mut Vec<Cell<R>>,
     ) {
-        let vector = |value: Value| {
-            let mut at = [0.0; 3];
-            let cells = self.value(frame, value, lane);
-            at.iter_mut().zip(cells).for_each(|(at, cell)| *at = cell.float().to_f64());
-            at
-        };
-        let difference = |axis| {
-            let mut at = [0.0; 3];
-            let changes = self.difference(frame, axis, coordinate, lane);
-            at.iter_mut().zip(changes).for_each(|(at, change)| *at = change.to_f64());
-            at
-        };
-        let implicit = |bias| Lod::Derivatives { x: difference(Axis::X), y: difference(Axis::Y), bias };
-        let lod = match level {
-            Level::Auto => implicit(0.0),
-            Level::Bias(bias) => implicit(vector(bias)[0]),
-            Level::Exact(level) => Lod::Exact(vector(level)[0]),
-            Level::Gradient { x, y } => Lod::Derivatives { x: vector(x), y: vector(y), bias: 0.0 },
-        };
         let mut texels = [0; 3];
         if let Some(offset) = offset {
             let cells = self.value(frame, offset, lane);
             texels.iter_mut().zip(cells).for_each(|(n, cell)| *n = cell.bits() as i32);
         }
-        let texel = self.world.sample(channel, vector(coordinate), lod, texels);
-        out.extend(texel.map(|number| Cell::Float(R::from_f64(number))));
+        let read = |number: fn(R) -> f64| {
+            let vector = |value: Value| {
+                let mut at = [0.0; 3];
+                let cells = self.value(frame, value, lane);
+                at.iter_mut().zip(cells).for_each(|(at, cell)| *at = number(cell.float()));
+                at
+            };
+            let difference = |axis| {
+                let mut at = [0.0; 3];
+                let changes = self.difference(frame, axis, coordinate, lane);
+                at.iter_mut().zip(changes).for_each(|(at, change)| *at = number(change));
+                at
+            };
+            let implicit = |bias| Lod::Derivatives { x: difference(Axis::X), y: difference(Axis::Y), bias };
+            let lod = match level {
+                Level::Auto => implicit(0.0),
+                Level::Bias(bias) => implicit(vector(bias)[0]),
+                Level::Exact(level) => Lod::Exact(vector(level)[0]),
+                Level::Gradient { x, y } => Lod::Derivatives { x: vector(x), y: vector(y), bias: 0.0 },
+            };
+            self.world.sample(channel, vector(coordinate), lod, texels)
+        };
+        let texel = read(R::to_f64);
+        let shadow = if R::IS_SHADOWED { read(R::shadow) } else { texel };
+        out.extend(texel.iter().zip(shadow).map(|(texel, shadow)| Cell::Float(R::with_shadow(*texel, shadow))));
     }
 }

@@ -20,12 +20,19 @@ pub trait Real:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
+    /// Each number has another beside it.
+    const IS_SHADOWED: bool = false;
+
     /// The number of these bits of single precision.
     fn from_bits(bits: u32) -> Self;
     fn from_f64(value: f64) -> Self;
     /// The nearest number of single precision.
     fn to_f32(self) -> f32;
     fn to_f64(self) -> f64;
+    /// The number beside it in double precision; itself where there is none.
+    fn shadow(self) -> f64;
+    /// A number and the one beside it, which is dropped where there is none.
+    fn with_shadow(value: f64, shadow: f64) -> Self;
     /// A function of chapter 8 of one number.
     fn unary(self, fun: Math) -> Self;
     /// A function of chapter 8 of two numbers.
@@ -49,6 +56,14 @@ macro_rules! real {
 
             fn to_f64(self) -> f64 {
                 self.into()
+            }
+
+            fn shadow(self) -> f64 {
+                self.into()
+            }
+
+            fn with_shadow(value: f64, _: f64) -> Self {
+                value as $float
             }
 
             fn unary(self, fun: Math) -> Self {
@@ -152,6 +167,8 @@ impl Neg for Shadowed {
 }
 
 impl Real for Shadowed {
+    const IS_SHADOWED: bool = true;
+
     fn from_bits(bits: u32) -> Self {
         Self { single: f32::from_bits(bits), double: f32::from_bits(bits).into() }
     }
@@ -166,6 +183,14 @@ impl Real for Shadowed {
 
     fn to_f64(self) -> f64 {
         self.single.into()
+    }
+
+    fn shadow(self) -> f64 {
+        self.double
+    }
+
+    fn with_shadow(value: f64, shadow: f64) -> Self {
+        Self { single: value as f32, double: shadow }
     }
 
     fn unary(self, fun: Math) -> Self {

@@ -177,6 +177,13 @@ fn single_precision_is_a_devices_and_the_shadow_knows_better() {
     let drawn = Machine::<Shadowed>::new(&walkable.program, &world, (3, 2), LIMIT).run(1, &mut Nobody).unwrap();
     let Shadowed { single, double } = drawn.outputs[0].1[1][0].float();
     assert!(f64::from(single) < -0.3 && double.abs() < 1e-7, "{single} {double}");
+    // What is read of a texture is read twice, where the coordinates are apart.
+    let code =
+        "void mainImage(out vec4 r, in vec2 p) { float a = p.x * 0.1; r = texture(iChannel0, vec2((a + 1e8) - 1e8)); }";
+    let walkable = self::walkable(code);
+    let drawn = Machine::<Shadowed>::new(&walkable.program, &world, (3, 2), LIMIT).run(1, &mut Nobody).unwrap();
+    let Shadowed { single, double } = drawn.outputs[0].1[1][0].float();
+    assert!(single == 0.0 && (double - 0.35).abs() < 1e-7, "{single} {double}");
 }
 
 #[test]
