@@ -10,12 +10,12 @@ use super::{
 use crate::{
     engine::{Pixels, Sources},
     lab::Number,
-    project::Project,
+    project::{PassFormat, Project},
     session::{
         audit::{self, Audit, AuditedPixel, Finding},
         capture::Format,
         script::ScriptedInputs,
-        trace::TraceError,
+        trace::{TraceError, ulps},
     },
 };
 use serde::Serialize;
@@ -37,9 +37,32 @@ pub struct Audited {
     /// Pixels that a screen of 8 bits would show otherwise.
     visible: usize,
     worst: Vec<Worst>,
+    /// Against the walker; null where the pass stores fewer bits than it computes with.
+    walker: Option<Walked>,
     findings: Vec<Found>,
     #[serde(skip_serializing_if = "Option::is_none")]
     written: Option<PathBuf>,
+}
+
+/// The device against the single precision of the walker: what is apart here is the device's own arithmetic.
+#[derive(Debug, Serialize)]
+struct Walked {
+    /// Pixels of the same bits.
+    same: usize,
+    /// Numbers of single precision between the two, of a pixel's components that are furthest apart.
+    median_ulps: u32,
+    largest_ulps: u32,
+    /// Pixels that a screen of 8 bits would show otherwise.
+    visible: usize,
+    /// The pixel that is furthest apart, if any is.
+    furthest: Option<Furthest>,
+}
+
+#[derive(Debug, Serialize)]
+struct Furthest {
+    pixel: [u32; 2],
+    device: [Number; 4],
+    walker: [Number; 4],
 }
 
 #[derive(Debug, Serialize)]
@@ -95,7 +118,8 @@ pub fn run(
 }
 
 fn told(args: &PrecisionArgs, project: &Project, audit: &Audit, device: &Pixels) -> Result<Audited, Trouble> {
-    let stored = project.pass(&args.pass.pass).map_or(4, |pass| pass.settings.format.components());
+    let format = project.pass(&args.pass.pass).map_or_else(PassFormat::default, |pass| pass.settings.format);
+    let (stored, is_32_bit) = (format.components(), format.is_32_bit());
     let texel = |(x, y): (u32, u32)| device.texels[(y * device.width + x) as usize];
     let differences = |pixel: &AuditedPixel| pixel.apart(texel(pixel.pixel), stored);
     let error = |pixel: &AuditedPixel| differences(pixel).into_iter().fold(0.0, f64::max);
@@ -131,9 +155,39 @@ fn told(args: &PrecisionArgs, project: &Project, audit: &Audit, device: &Pixels)
                 error: Number(*error),
             })
             .collect(),
+        walker: is_32_bit.then(|| walked(&audit, texel, stored)),
         findings: audit.findings.iter().map(|finding| found(project, finding)).collect(),
         written: written.transpose()?,
     })
+}
+
+fn walked(audit: &Audit, texel: impl Fn((u32, u32)) -> [f32; 4], stored: usize) -> Walked {
+    let numbers = |values: [f32; 4]| values.map(|x| Number(x.into()));
+    let apart = |audited: &AuditedPixel| {
+        let device = texel(audited.pixel);
+        (0..stored).map(|i| ulps(audited.single[i], device[i])).max().unwrap_or(0)
+    };
+    let mut order: Vec<(u32, &AuditedPixel)> = audit.pixels.iter().map(|audited| (apart(audited), audited)).collect();
+    order.sort_by_key(|(ulps, _)| *ulps);
+    let is_visible = |audited: &AuditedPixel| {
+        let device = texel(audited.pixel);
+        // A number and none are apart, too.
+        (0..stored).any(|i| {
+            let (a, b) = (audited.single[i], device[i]);
+            a != b && !(a.is_nan() && b.is_nan()) && !((a - b).abs() <= 1.0 / 255.0)
+        })
+    };
+    Walked {
+        same: order.iter().filter(|(ulps, _)| *ulps == 0).count(),
+        median_ulps: order.get(order.len() / 2).map_or(0, |o| o.0),
+        largest_ulps: order.last().map_or(0, |o| o.0),
+        visible: audit.pixels.iter().filter(|audited| is_visible(audited)).count(),
+        furthest: order.last().filter(|(ulps, _)| *ulps > 0).map(|(_, audited)| Furthest {
+            pixel: [audited.pixel.0, audited.pixel.1],
+            device: numbers(texel(audited.pixel)),
+            walker: numbers(audited.single),
+        }),
+    }
 }
 
 /// The logarithms, as greys of a screen, without alpha.
@@ -157,7 +211,7 @@ fn found(project: &Project, finding: &Finding) -> Found {
 }
 
 pub fn words(audited: &Audited) -> String {
-    let Audited { pass, frame, pixels, median, largest, visible, worst, findings, written } = audited;
+    let Audited { pass, frame, pixels, median, largest, visible, worst, walker, findings, written } = audited;
     let mut out = format!("Single against double precision: {pixels} pixels of {pass} in frame {frame}\n");
     let _ = writeln!(
         out,
@@ -168,6 +222,16 @@ pub fn words(audited: &Audited) -> String {
     for Worst { pixel: [x, y], device, double, error } in worst {
         let _ =
             writeln!(out, "  {x},{y}: ({}) is ({}) in double precision: {:.1e}", list(device), list(double), error.0);
+    }
+    if let Some(Walked { same, median_ulps, largest_ulps, visible, furthest }) = walker {
+        let _ = writeln!(
+            out,
+            "  against the walker's single precision: {same} of {pixels} pixels have the same bits; numbers of single \
+             precision between them: median {median_ulps}, most {largest_ulps}; {visible} differ by more than 1/255"
+        );
+        if let Some(Furthest { pixel: [x, y], device, walker }) = furthest {
+            let _ = writeln!(out, "  {x},{y}: ({}) is ({}) by the walker", list(device), list(walker));
+        }
     }
     if findings.is_empty() {
         out.push_str("  nothing undefined, no NaN, and no operation that stands out\n");

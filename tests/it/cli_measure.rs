@@ -242,6 +242,12 @@ fn a_project_is_held_against_double_precision() {
     assert!(map.texels.iter().all(|t| t[1] == 0.0 && t[3] == 0.0));
     let words = b.line("lab precision p.glsl --frames 1 --size 16x9 --pixels 8x3").expect(0).out;
     assert!(words.contains("p.glsl:3:11: cancellation"), "{words}");
+
+    // No device may round these otherwise than IEEE 754 does.
+    b.image("exact.glsl", "fragColor = vec4(fragCoord * 0.5, 0.25, iFrame);");
+    let run = b.line("lab precision exact.glsl --frames 1 --size 16x9 --pixels 8x3 --json").expect(0);
+    let walker = serde_json::json!({ "same": 24, "median_ulps": 0, "largest_ulps": 0, "visible": 0, "furthest": null });
+    assert_eq!(run.json()[0]["double"]["walker"], walker);
 }
 
 #[test]
