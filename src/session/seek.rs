@@ -104,7 +104,7 @@ impl Session {
         self.run.is_frame_due = false;
         let is_wanted = std::mem::take(&mut self.run.seeking.is_under_way);
         match travelled {
-            Some(Ok(Travelled { inputs, goal, left })) => {
+            Some(Ok(Travelled { inputs, goal, left, is_display_new: _ })) => {
                 self.run.clock.go_to(inputs.frame, inputs.time_secs);
                 if self.run.seeking.goal.is_some() || !is_wanted {
                     return;
@@ -160,7 +160,7 @@ impl Session {
         if !reach.is_whole {
             self.notice(
                 Level::Info,
-                "the picture has another size than at the last reset: reset it once, and an edit draws the same frame",
+                "not all is kept that was drawn since the last reset: reset it once, and an edit draws the same frame",
             );
             return;
         }

@@ -34,15 +34,22 @@ pub struct Travelled {
     pub goal: u64,
     /// How many frames are to be drawn before it is.
     pub left: u64,
+    /// The display is another texture: the canvas had another size on the way.
+    pub is_display_new: bool,
 }
 
-/// A run of frames, without a break: another canvas or a reset begins another.
+/// A run of frames, without a break: a reset begins another. The canvas may get another size on the way; its buffers
+/// then hold what the smaller of both has in common.
 pub struct History {
     frames: VecDeque<Frame>,
     /// The number of frames that are forgotten: `frames[0]` is the frame of this number.
     forgotten: u64,
     /// The number of frames of the run that the targets have seen: the frame before this one is shown.
     drawn: u64,
+    /// The number of the first frame on the canvas of now: earlier ones are drawn again only on the way to later ones.
+    floor: u64,
+    /// The size that the canvas has now, while earlier frames are drawn on their own.
+    canvas: Option<(u32, u32)>,
     /// The run began with a reset, and all that its frames were drawn with is kept.
     is_whole: bool,
     /// And the program has drawn all of it.
@@ -60,6 +67,8 @@ pub struct History {
 pub struct Frame {
     pub inputs: FrameInputs,
     pub values: Arc<CustomUniformValues>,
+    /// Of the canvas.
+    size: (u32, u32),
 }
 
 /// A run of frames that can be drawn again elsewhere on the same device.
@@ -75,6 +84,8 @@ impl Default for History {
             frames: VecDeque::new(),
             forgotten: 0,
             drawn: 0,
+            floor: 0,
+            canvas: None,
             is_whole: true,
             is_from_reset: true,
             snapshots: VecDeque::new(),
@@ -87,16 +98,17 @@ impl Default for History {
 impl History {
     /// Forgets everything: what is drawn from now on does not follow from what was.
     pub fn begin(&mut self, is_reset: bool) {
-        (self.forgotten, self.drawn) = (0, 0);
+        (self.forgotten, self.drawn, self.floor) = (0, 0, 0);
         (self.is_whole, self.is_from_reset) = (is_reset, is_reset);
         self.frames.clear();
         self.snapshots.clear();
     }
 
-    /// Another canvas: its buffers hold what the smaller of both has in common, unless nothing has been drawn yet.
+    /// The canvas has another size from the next frame on.
     pub fn resize(&mut self) {
-        let is_untouched = self.drawn == 0 && self.is_from_reset;
-        self.begin(is_untouched);
+        self.frames.truncate((self.drawn - self.forgotten) as usize);
+        self.snapshots.clear();
+        (self.floor, self.canvas) = (self.drawn, None);
     }
 
     /// Another program draws from now on. What the frames were drawn with is kept: [`Goal::Anew`] draws them by the new
@@ -112,13 +124,25 @@ impl History {
 
     /// A new frame is about to be drawn: those behind the one that is shown are forgotten, and where it is time for one
     /// a snapshot is taken.
-    pub fn before_frame(&mut self, engine: &Engine) {
+    pub fn before_frame(&mut self, engine: &mut Engine) -> Result<(), EngineError> {
+        // On the way to a frame that is not wanted any more.
+        if self.put_canvas_back(engine)? {
+            self.floor = self.drawn;
+        }
         self.frames.truncate((self.drawn - self.forgotten) as usize);
         while self.snapshots.back().is_some_and(|(at, _)| *at > self.drawn) {
             self.snapshots.pop_back();
         }
         self.keep(engine, self.interval());
         self.forget(KEPT);
+        Ok(())
+    }
+
+    /// Gives the canvas the size of now. Says whether it had another.
+    fn put_canvas_back(&mut self, engine: &mut Engine) -> Result<bool, EngineError> {
+        let Some((width, height)) = self.canvas.take().filter(|size| *size != engine.size()) else { return Ok(false) };
+        engine.resize(width, height)?;
+        Ok(true)
     }
 
     /// Forgets the oldest frames where there are so many, up to the first that can be shown without them.
@@ -134,10 +158,10 @@ impl History {
     }
 
     /// A frame has been drawn.
-    pub fn drew(&mut self, inputs: FrameInputs, took: Duration) {
+    pub fn drew(&mut self, inputs: FrameInputs, size: (u32, u32), took: Duration) {
         // A slow one alone tells nothing.
         self.took = if self.took.is_zero() { took } else { (7 * self.took + took) / 8 };
-        self.frames.push_back(Frame { inputs, values: self.values.clone() });
+        self.frames.push_back(Frame { inputs, values: self.values.clone(), size });
         self.drawn += 1;
     }
 
@@ -146,7 +170,7 @@ impl History {
         let place = self.snapshots.partition_point(|(at, _)| *at <= self.drawn);
         let before = place.checked_sub(1).map(|n| self.snapshots[n].0);
         let bytes = engine.snapshot_bytes();
-        if before.is_some_and(|at| self.drawn - at < least) || bytes > BUDGET / 2 {
+        if self.drawn < self.floor || before.is_some_and(|at| self.drawn - at < least) || bytes > BUDGET / 2 {
             return;
         }
         match engine.snapshot() {
@@ -183,7 +207,8 @@ impl History {
     /// The number of the first frame that can be shown again.
     fn first(&self) -> u64 {
         let known = self.snapshots.front().map(|(at, _)| *at);
-        if self.is_from_reset { 0 } else { known.unwrap_or(self.drawn.saturating_sub(1)) }
+        let reset = (self.is_from_reset && self.floor == 0).then_some(0);
+        reset.or(known).unwrap_or(self.drawn.saturating_sub(1)).max(self.floor)
     }
 
     fn frame(&self, number: u64) -> Option<&Frame> {
@@ -236,17 +261,24 @@ impl History {
             engine.reset();
             self.snapshots.clear();
             (self.drawn, self.is_from_reset) = (0, true);
+            self.canvas.get_or_insert(engine.size());
         } else if !self.go_near(engine, number) {
             self.begin(false);
             return None;
         }
         let began = Instant::now();
-        let mut count: u32 = 0;
+        let (mut count, mut is_display_new): (u32, bool) = (0, false);
         while self.drawn <= number && (count == 0 || began.elapsed() < patience) {
+            let frame = self.frame(self.drawn)?.clone();
+            if frame.size != engine.size() {
+                if let Err(error) = engine.resize(frame.size.0, frame.size.1) {
+                    return Some(Err(error));
+                }
+                is_display_new = true;
+            }
             // A loop comes to its goal again and again.
             let is_there = self.drawn == number && count > 0;
             self.keep(engine, if is_there { SHORT } else { self.interval() });
-            let frame = self.frame(self.drawn)?;
             engine.set_custom_uniforms(&frame.values);
             if let Err(error) = engine.draw(&frame.inputs).and_then(|_| Ok(engine.gpu().wait()?)) {
                 return Some(Err(error));
@@ -257,10 +289,16 @@ impl History {
         if count > 0 {
             self.took = began.elapsed() / count;
         }
+        if self.drawn > number {
+            match self.put_canvas_back(engine) {
+                Ok(is_new) => is_display_new |= is_new,
+                Err(error) => return Some(Err(error)),
+            }
+        }
         // The values that stand now are those that a person turned, not those of that frame.
         engine.set_custom_uniforms(&self.values);
         let inputs = self.frame(self.drawn.checked_sub(1)?)?.inputs.clone();
-        Some(Ok(Travelled { inputs, goal: number, left: (number + 1).saturating_sub(self.drawn) }))
+        Some(Ok(Travelled { inputs, goal: number, left: (number + 1).saturating_sub(self.drawn), is_display_new }))
     }
 
     /// Puts back what is nearest before a frame, if that is nearer than what the targets hold. False: a snapshot does
@@ -290,13 +328,21 @@ impl History {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{
+        engine::{BuildOptions, Program},
+        media,
+        project::presets,
+        session::testing,
+    };
+
+    const SIZE: (u32, u32) = (32, 18);
 
     #[test]
     fn of_a_long_run_the_newest_frames_are_kept() {
         let mut history = History::default();
         for frame in 0..1000 {
             history.forget(100);
-            history.drew(FrameInputs::at_fixed_step(frame, 60.0), Duration::from_millis(1));
+            history.drew(FrameInputs::at_fixed_step(frame, 60.0), SIZE, Duration::from_millis(1));
             let reach = history.reach();
             assert_eq!((reach.shown, reach.ahead), (frame as u64, 0));
             assert_eq!(reach.is_whole, frame < 100);
@@ -314,7 +360,7 @@ mod tests {
     fn a_time_is_that_of_the_last_frame_which_is_not_later() {
         let mut history = History::default();
         for frame in 0..100 {
-            history.drew(FrameInputs::at_fixed_step(frame, 10.0), Duration::from_millis(1));
+            history.drew(FrameInputs::at_fixed_step(frame, 10.0), SIZE, Duration::from_millis(1));
         }
         let number = |secs| history.number(Goal::Time(secs));
         assert_eq!([number(0.0), number(2.05), number(2.1), number(99.0)], [0, 20, 21, 99].map(Some));
@@ -322,5 +368,40 @@ mod tests {
             [history.number(Goal::By(-99)), history.number(Goal::By(-100)), history.number(Goal::By(1))],
             [Some(0), None, None]
         );
+    }
+
+    #[test]
+    fn new_code_draws_each_frame_on_the_canvas_that_it_had() {
+        let Some(gpu) = testing::gpu() else { return };
+        let project = presets::load("feedback").unwrap().project;
+        let (media, _) = media::gather(&project, None);
+        let program = Program::build(&gpu, &project, &media, &BuildOptions::default()).unwrap().program;
+        let (small, large) = ((16, 9), (32, 18));
+        let mut engine = Engine::new(gpu, small.0, small.1).unwrap();
+        engine.set_program(program).unwrap();
+        let mut history = History::default();
+        let step = |history: &mut History, engine: &mut Engine, frame: i32| {
+            let inputs = FrameInputs::at_fixed_step(frame, 60.0);
+            history.before_frame(engine).unwrap();
+            engine.draw(&inputs).unwrap();
+            history.drew(inputs, engine.size(), Duration::from_millis(1));
+        };
+        (0..5).for_each(|frame| step(&mut history, &mut engine, frame));
+        engine.resize(large.0, large.1).unwrap();
+        history.resize();
+        (5..10).for_each(|frame| step(&mut history, &mut engine, frame));
+        let travel = |history: &mut History, engine: &mut Engine, goal: Goal, secs: u64| {
+            let travelled = history.travel(engine, goal, Duration::from_secs(secs)).unwrap().unwrap();
+            (travelled.left, travelled.is_display_new, engine.size())
+        };
+        assert_eq!(travel(&mut history, &mut engine, Goal::Anew(9), 0), (9, true, small));
+        assert_eq!(travel(&mut history, &mut engine, Goal::Frame(9), 60), (0, true, large));
+        assert_eq!(travel(&mut history, &mut engine, Goal::By(-4), 60), (0, false, large));
+        assert_eq!(history.number(Goal::By(-1)), None, "that one is on the small canvas");
+        // Something else is drawn before it is there.
+        assert_eq!(travel(&mut history, &mut engine, Goal::Anew(9), 0), (9, true, small));
+        step(&mut history, &mut engine, 1);
+        assert_eq!((engine.size(), history.reach().shown, history.reach().ahead), (large, 1, 0));
+        assert_eq!(travel(&mut history, &mut engine, Goal::Anew(1), 60), (0, true, large));
     }
 }

@@ -50,13 +50,17 @@ impl Studio {
         let first_inputs = frame.clone().unwrap_or_else(|| FrameInputs::at_fixed_step(0, 60.0));
         self.change(changes, tile_limit, &first_inputs, &mut done);
         if let Some(goal) = travel {
-            done.travelled = Some(self.history.travel(&mut self.engine, goal, PATIENCE));
+            let travelled = self.history.travel(&mut self.engine, goal, PATIENCE);
+            done.is_display_new |= travelled.as_ref().is_some_and(|t| t.as_ref().is_ok_and(|t| t.is_display_new));
+            done.travelled = Some(travelled);
         }
         if let Some(inputs) = frame {
-            self.history.before_frame(&self.engine);
-            let drawn = self.draw(&inputs, costs_of.is_some());
+            let size = self.engine.size();
+            let is_ready = self.history.before_frame(&mut self.engine);
+            done.is_display_new |= self.engine.size() != size;
+            let drawn = is_ready.and_then(|()| self.draw(&inputs, costs_of.is_some()));
             match &drawn {
-                Ok(drawn) => self.history.drew(inputs, drawn.took),
+                Ok(drawn) => self.history.drew(inputs, self.engine.size(), drawn.took),
                 Err(_) => self.history.begin(false),
             }
             done.frame = Some(drawn);
