@@ -250,8 +250,7 @@ impl Gpu {
         }
     }
 
-    /// Makes the device one that was lost.
-    #[cfg(test)]
+    /// Makes the device one that was lost: what is to happen then can be tried.
     pub fn lose(&self) {
         self.state.lost.store(true, Ordering::Relaxed);
     }

@@ -8,7 +8,7 @@ use super::{
     frame::{self, Frame},
     keys::{HeldKeys, KeyChange},
     report::Report,
-    rescue,
+    rescue::{self, Losses},
     settings::{Place, Remembered, SettingsFile, WindowFile},
     shell::Shell,
     surface::{Presented, Surface},
@@ -18,6 +18,7 @@ use crate::session::{self, Command, Level, Request, Session, SessionOptions};
 use egui_winit::accesskit_winit;
 use serde_json::json;
 use std::{
+    path::PathBuf,
     sync::{Arc, mpsc::Receiver},
     time::{Duration, Instant},
 };
@@ -82,6 +83,10 @@ struct Running {
     ctx: egui::Context,
     input: egui_winit::State,
     surface: Surface,
+    losses: Losses,
+    /// A file that makes the device one that was lost, when it appears.
+    lose_device: Option<PathBuf>,
+    wake: Arc<dyn Fn() + Send + Sync>,
     session: Session,
     shell: Shell,
     held: HeldKeys,
@@ -173,7 +178,7 @@ impl Running {
         let attributes = attributes(event_loop, options, &remembered.place);
         let window = Arc::new(event_loop.create_window(attributes).map_err(no_display)?);
         let surface = Surface::new(&window, event_loop.owned_display_handle())?;
-        let wake = {
+        let wake: Arc<dyn Fn() + Send + Sync> = {
             let proxy = proxy.clone();
             // The loop is gone when the window is: nobody is left to wake.
             Arc::new(move || {
@@ -205,7 +210,7 @@ impl Running {
         };
         let mut session = Session::with_options(surface.gpu().clone(), wake.clone(), session_options)?;
         let system_theme = system_theme::watch(wake.clone());
-        let mut shell = Shell::new(surface.gpu().clone(), wake, options.project.is_none());
+        let mut shell = Shell::new(surface.gpu().clone(), wake.clone(), options.project.is_none());
         let mut settings = SettingsFile::new();
         mistakes.extend(settings.refresh());
         shell.restore(settings, &remembered, options.frame_limit.is_some());
@@ -232,6 +237,9 @@ impl Running {
             ctx,
             input,
             surface,
+            losses: Losses::default(),
+            lose_device: options.lose_device.clone(),
+            wake,
             session,
             shell,
             held: HeldKeys::default(),
@@ -344,7 +352,7 @@ impl Running {
         let delay = output.viewport_output.values().map(|v| v.repaint_delay).min().unwrap_or(Duration::MAX);
         let presented = self.surface.paint(&self.window, output, &self.ctx);
         self.shell.report(&self.session, &mut self.report, self.surface.size(), &self.ctx, began);
-        rescue::watch(self.surface.gpu(), &mut self.session)?;
+        self.watch_device(began)?;
         self.follow_shell();
         if let Next::Exit = self.take_requests() {
             return Ok(Next::Exit);
@@ -363,6 +371,22 @@ impl Running {
         };
         self.painted_at = began;
         Ok(Next::Go)
+    }
+
+    /// Gets over the loss of the window's device.
+    fn watch_device(&mut self, now: Instant) -> Result<(), GuiError> {
+        if let Some(file) = self.lose_device.take_if(|file| std::fs::remove_file(file).is_ok()) {
+            log::warn!("{} was there: the device counts as lost", file.display());
+            self.surface.gpu().lose();
+        }
+        let gpu = self.surface.gpu().clone();
+        let Running { window, ctx, surface, shell, wake, .. } = self;
+        self.losses.watch(&gpu, &mut self.session, now, |session| {
+            surface.renew(window, ctx)?;
+            session.show_on(surface.gpu().clone())?;
+            shell.renew(surface.gpu().clone(), wake.clone());
+            Ok(())
+        })
     }
 
     fn take_requests(&mut self) -> Next {

@@ -55,7 +55,7 @@ mod viewport;
 pub use app::run;
 
 use crate::{gpu::GpuError, session::SessionError};
-use std::time::Duration;
+use std::{path::PathBuf, time::Duration};
 
 /// The project to open, and how.
 #[derive(Clone, Debug, Default)]
@@ -72,6 +72,8 @@ pub struct Options {
     pub frame_limit: Option<Duration>,
     /// Say on standard output what happens, one JSON object a line, for scripts that drive the window.
     pub json: bool,
+    /// The window's device is lost when this file appears: for tests.
+    pub lose_device: Option<PathBuf>,
 }
 
 /// The window cannot open, or cannot go on.

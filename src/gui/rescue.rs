@@ -4,22 +4,54 @@ use super::GuiError;
 use crate::{
     gpu::{Gpu, GpuError},
     project::{self, Origin, Overwrite, Project},
-    session::Session,
+    session::{Command, Level, Session},
 };
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
     path::{Path, PathBuf},
+    time::{Duration, Instant},
 };
 
-/// Looks whether the window's device is still there. One that is lost takes every picture with it: the window ends, after
-/// what was not saved has been. What the device refused is told of, and the window goes on.
-pub fn watch(gpu: &Gpu, session: &mut Session) -> Result<(), GuiError> {
-    match gpu.take_trouble("the window") {
-        Ok(()) => {}
-        Err(reason @ GpuError::Lost(_)) => return Err(GuiError::Lost { reason, rescue: save_unsaved(session) }),
-        Err(refused) => session.tell_of(&refused),
+/// A device that is lost again so soon after another would be lost for ever.
+const AGAIN: Duration = Duration::from_secs(10);
+
+/// The losses of the window's device so far.
+#[derive(Default)]
+pub struct Losses {
+    newest: Option<Instant>,
+}
+
+impl Losses {
+    /// Looks whether the window's device is still there. In the place of one that is lost comes another, which `renew`
+    /// opens; the window ends if that fails or was done just before, after what was not saved has been. What the device
+    /// refused is told of, and the window goes on.
+    pub fn watch(
+        &mut self,
+        gpu: &Gpu,
+        session: &mut Session,
+        now: Instant,
+        renew: impl FnOnce(&mut Session) -> Result<(), GuiError>,
+    ) -> Result<(), GuiError> {
+        let reason = match gpu.take_trouble("the window") {
+            Ok(()) => return Ok(()),
+            Err(reason @ GpuError::Lost(_)) => reason,
+            Err(refused) => {
+                session.tell_of(&refused);
+                return Ok(());
+            }
+        };
+        let is_again = self.newest.replace(now).is_some_and(|at| now.saturating_duration_since(at) < AGAIN);
+        if is_again {
+            return Err(GuiError::Lost { reason, rescue: save_unsaved(session) });
+        }
+        if let Err(e) = renew(session) {
+            log::error!("no other device: {e}");
+            return Err(GuiError::Lost { reason, rescue: save_unsaved(session) });
+        }
+        let text = format!("{reason}; the window has another now. Nothing of your texts is lost");
+        session.apply(Command::Notify { level: Level::Warning, text, path: None });
+        Ok(())
     }
-    Ok(())
 }
 
 /// Does a part of the window's work. A panic in it ends the window with an error that says so, after what was not saved
@@ -89,9 +121,9 @@ mod tests {
     use super::*;
     use crate::{
         project::{PassId, Tab},
-        session::{Command, testing},
+        session::testing,
     };
-    use std::{sync::Arc, time::Instant};
+    use std::sync::Arc;
 
     const UNSAVED: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); } // not saved";
 
@@ -105,18 +137,44 @@ mod tests {
     }
 
     #[test]
-    fn a_window_whose_device_is_lost_saves_what_was_not() {
+    fn a_window_whose_device_is_lost_again_and_again_saves_what_was_not() {
         let Some(gpu) = testing::gpu() else { return };
         let folder = tempfile::tempdir().unwrap();
         let mut session = open(gpu.clone(), folder.path());
         session.apply(Command::EditText { tab: Tab::Pass(PassId::Image), text: UNSAVED.into() });
-        watch(&gpu, &mut session).unwrap();
+        let (mut losses, start) = (Losses::default(), Instant::now());
+        let mut watch = |seconds: u64, session: &mut Session| {
+            let mut renewed = 0;
+            let now = start + Duration::from_secs(seconds);
+            let watched = losses.watch(&gpu, session, now, |_| {
+                renewed += 1;
+                Ok(())
+            });
+            (watched, renewed)
+        };
+        assert!(matches!(watch(0, &mut session), (Ok(()), 0)));
         gpu.lose();
-        let error = watch(&gpu, &mut session).unwrap_err();
+        assert!(matches!(watch(1, &mut session), (Ok(()), 1)));
+        assert!(matches!(watch(12, &mut session), (Ok(()), 1)), "eleven seconds later is another accident");
+        let warned = |n: &&crate::session::Notice| n.text.contains("Nothing of your texts is lost");
+        assert_eq!(session.notices().iter().filter(warned).count(), 2);
+        let (Err(error), 0) = watch(13, &mut session) else { panic!("a device that is lost each second") };
         let saved = folder.path().join("mine-recovered-0001");
         assert!(matches!(error, GuiError::Lost { .. }) && error.to_string().contains("the graphics device was lost"));
         assert!(error.to_string().ends_with(&format!("Your unsaved work is in {}", saved.display())), "{error}");
         assert_eq!(std::fs::read_to_string(saved.join("image.glsl")).unwrap(), UNSAVED);
+    }
+
+    #[test]
+    fn a_window_that_gets_no_other_device_saves_what_was_not() {
+        let Some(gpu) = testing::gpu() else { return };
+        let folder = tempfile::tempdir().unwrap();
+        let mut session = open(gpu.clone(), folder.path());
+        session.apply(Command::EditText { tab: Tab::Pass(PassId::Image), text: UNSAVED.into() });
+        gpu.lose();
+        let none = |_: &mut Session| Err(GuiError::Surface("planted".into()));
+        let error = Losses::default().watch(&gpu, &mut session, Instant::now(), none).unwrap_err();
+        assert!(error.to_string().contains("Your unsaved work is in"), "{error}");
     }
 
     #[test]

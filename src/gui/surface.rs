@@ -7,7 +7,7 @@ use super::GuiError;
 use crate::gpu::{Gpu, GpuOptions};
 use egui_wgpu::{Renderer, RendererOptions, ScreenDescriptor};
 use std::sync::Arc;
-use winit::{event_loop::OwnedDisplayHandle, window::Window};
+use winit::{dpi::PhysicalSize, event_loop::OwnedDisplayHandle, window::Window};
 
 /// The first instance that has a device for the window.
 fn open(
@@ -38,6 +38,28 @@ fn open(
     Err(GuiError::Gpu(crate::gpu::GpuError::NoAdapter(reasons.join("; "))))
 }
 
+fn config(
+    surface: &wgpu::Surface<'_>,
+    adapter: &wgpu::Adapter,
+    size: PhysicalSize<u32>,
+) -> Result<wgpu::SurfaceConfiguration, GuiError> {
+    let mut config = surface
+        .get_default_config(adapter, size.width.max(1), size.height.max(1))
+        .ok_or_else(|| GuiError::Surface(format!("{} cannot draw on this window", adapter.get_info().name)))?;
+    // egui blends in display values, and the picture is to arrive byte for byte: no conversion to sRGB on the way.
+    config.format = egui_wgpu::preferred_framebuffer_format(&surface.get_capabilities(adapter).formats)
+        .map_err(|e| GuiError::Surface(e.to_string()))?;
+    config.present_mode = wgpu::PresentMode::AutoVsync;
+    config.desired_maximum_frame_latency = 1;
+    Ok(config)
+}
+
+fn renderer(gpu: &Gpu, config: &wgpu::SurfaceConfiguration) -> Renderer {
+    // Dithering would change the picture's own values.
+    let options = RendererOptions { dithering: false, ..Default::default() };
+    Renderer::new(&gpu.device, config.format, options)
+}
+
 /// The outcome of presenting a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Presented {
@@ -49,6 +71,7 @@ pub enum Presented {
 }
 
 pub struct Surface {
+    display: OwnedDisplayHandle,
     instance: wgpu::Instance,
     surface: wgpu::Surface<'static>,
     config: wgpu::SurfaceConfiguration,
@@ -67,20 +90,30 @@ impl Surface {
     pub fn new(window: &Arc<Window>, display: OwnedDisplayHandle) -> Result<Surface, GuiError> {
         let (instance, surface, adapter) = open(window, &display)?;
         let gpu = Gpu::from_adapter(&adapter, &GpuOptions::default())?;
-        let size = window.inner_size();
-        let mut config = surface
-            .get_default_config(&adapter, size.width.max(1), size.height.max(1))
-            .ok_or_else(|| GuiError::Surface(format!("{} cannot draw on this window", gpu.info.name)))?;
-        // egui blends in display values, and the picture is to arrive byte for byte: no conversion to sRGB on the way.
-        config.format = egui_wgpu::preferred_framebuffer_format(&surface.get_capabilities(&adapter).formats)
-            .map_err(|e| GuiError::Surface(e.to_string()))?;
-        config.present_mode = wgpu::PresentMode::AutoVsync;
-        config.desired_maximum_frame_latency = 1;
+        let config = config(&surface, &adapter, window.inner_size())?;
         surface.configure(&gpu.device, &config);
-        // Dithering would change the picture's own values.
-        let options = RendererOptions { dithering: false, ..Default::default() };
-        let renderer = Renderer::new(&gpu.device, config.format, options);
-        Ok(Surface { instance, surface, config, renderer, gpu, needs_configure: false, refusals: 0 })
+        let renderer = renderer(&gpu, &config);
+        Ok(Surface { display, instance, surface, config, renderer, gpu, needs_configure: false, refusals: 0 })
+    }
+
+    /// Puts a fresh device and a fresh surface in the place of those that are lost. egui's fonts are handed over; all
+    /// other textures were on the lost device, and are to be made anew by those who show them.
+    pub fn renew(&mut self, window: &Arc<Window>, ctx: &egui::Context) -> Result<(), GuiError> {
+        let (instance, surface, adapter) = open(window, &self.display)?;
+        let gpu = Gpu::from_adapter(&adapter, &GpuOptions::default())?;
+        self.config = config(&surface, &adapter, window.inner_size())?;
+        // A window has one swapchain: the old one goes with its surface before there is another.
+        self.surface = surface;
+        self.surface.configure(&gpu.device, &self.config);
+        self.renderer = renderer(&gpu, &self.config);
+        let fonts = egui::epaint::ImageDelta::full(
+            ctx.fonts(|fonts| fonts.image()),
+            egui::epaint::TextureAtlas::texture_options(),
+        );
+        self.renderer.update_texture(&gpu.device, &gpu.queue, egui::TextureId::default(), &fonts);
+        (self.instance, self.gpu) = (instance, gpu);
+        (self.needs_configure, self.refusals) = (false, 0);
+        Ok(())
     }
 
     pub fn gpu(&self) -> &Gpu {

@@ -94,6 +94,11 @@ impl Viewport {
         self.take_focus = true;
     }
 
+    /// The texture was on a device that is lost.
+    pub fn forget_texture(&mut self) {
+        self.texture = None;
+    }
+
     /// Hands egui the picture as the engine has it now.
     pub fn prepare(&mut self, session: &Session, renderer: &mut Renderer) {
         let whole = self.letterbox.is_none_or(|l| l.shows_whole_texels());

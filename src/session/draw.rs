@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     engine::{EngineError, FrameInputs, Pixels},
-    gpu::GpuError,
+    gpu::{Gpu, GpuError},
 };
 use std::time::Duration;
 
@@ -299,6 +299,16 @@ impl Session {
                 format!("{error}. Your texts are all here: save them, then start Eddy again to go on drawing"),
             );
         }
+    }
+
+    /// Shows the picture on another device of the window's, whose own was lost. What draws is another device still.
+    pub fn show_on(&mut self, window: Gpu) -> Result<(), GpuError> {
+        self.drawing.show_on(window)?;
+        // Handed out once more, also while paused.
+        self.drawing.wanted.shown = Some(self.pictured());
+        self.display_generation += 1;
+        self.changed = true;
+        Ok(())
     }
 
     /// Writes the shown pass to a new file, as soon as the engine has time.

@@ -29,7 +29,7 @@ use super::{
 };
 use crate::{
     engine::{BuildOptions, EngineError, Miniature, PassTime, TexelAt},
-    gpu::{Gpu, GpuError, GpuOptions},
+    gpu::Gpu,
     media::Keyboard,
     project::{CustomUniform, CustomUniformValue, PassId, Project, Tab},
 };
@@ -243,7 +243,7 @@ impl Session {
         // Any size does until the first tick, which knows the viewport.
         let size = (640, 360);
         let drawing = if options.draws_apart {
-            Drawing::apart(gpu.clone(), size, Arc::new(move || another(&gpu)), wake.clone())?
+            Drawing::apart(gpu.clone(), size, drawing::beside(gpu), wake.clone())?
         } else {
             Drawing::here(gpu, size)?
         };
@@ -528,15 +528,6 @@ impl Session {
         self.next_notice += 1;
         self.changed = true;
     }
-}
-
-/// Returns a device beside the window's, or the window's own where there is no other: then a slow frame holds the
-/// window's painting.
-fn another(window: &Gpu) -> Result<Gpu, GpuError> {
-    Gpu::another(&window.info, &GpuOptions::default()).or_else(|e| {
-        log::warn!("frames are drawn on the window's own device, as there is no second one: {e}");
-        Ok(window.clone())
-    })
 }
 
 /// Frames a second as people read it: over half a second, as the site shows it.

@@ -53,6 +53,9 @@ pub struct Window {
     /// Tell on standard output what happens in the window, one JSON object a line
     #[arg(long)]
     pub json: bool,
+    /// Development only: the window's device is lost when FILE appears, which is removed
+    #[arg(long, value_name = "FILE", hide = true)]
+    pub lose_device: Option<PathBuf>,
 }
 
 #[derive(Debug, Subcommand)]

@@ -121,6 +121,11 @@ impl Buffers {
         self.written.clear();
     }
 
+    /// The texture was on a device that is lost.
+    pub fn forget_texture(&mut self) {
+        self.seen = None;
+    }
+
     /// Takes over what the session has new of the target that is shown.
     pub(super) fn update(&mut self, ctx: &egui::Context, session: &Session, target: &Target) {
         let Some((read, generation)) = session.buffer().filter(|(read, _)| read.target == *target) else {

@@ -133,6 +133,14 @@ impl Shell {
         self.dock.restore(remembered.open.clone(), remembered.layout.as_ref());
     }
 
+    /// Begins with no texture: the window has another device. `wake` is called as before.
+    pub fn renew(&mut self, gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>) {
+        self.viewport.forget_texture();
+        self.live = Live::default();
+        self.buffers.forget_texture();
+        self.thumbnails = Thumbnails::new(gpu, wake);
+    }
+
     /// The panels, for the next start.
     pub fn dock(&self) -> &Dock {
         &self.dock

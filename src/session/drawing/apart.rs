@@ -5,7 +5,7 @@ use super::{
     job::{Done, Job},
     studio::Studio,
 };
-use crate::gpu::{self, Gpu, GpuError};
+use crate::gpu::{self, Gpu, GpuError, GpuOptions};
 use std::{
     any::Any,
     panic::{AssertUnwindSafe, catch_unwind},
@@ -25,6 +25,17 @@ const STACK_BYTES: usize = 256 << 20;
 
 /// Opens a device. Called on the thread that draws.
 pub type Open = Arc<dyn Fn() -> Result<Gpu, GpuError> + Send + Sync>;
+
+/// Opens a device beside the window's, or gives the window's own where there is no other: then a slow frame holds the
+/// window's painting.
+pub fn beside(window: Gpu) -> Open {
+    Arc::new(move || {
+        Gpu::another(&window.info, &GpuOptions::default()).or_else(|e| {
+            log::warn!("frames are drawn on the window's own device, as there is no second one: {e}");
+            Ok(window.clone())
+        })
+    })
+}
 
 /// The thread. Dropped, it ends after the job under way, which nobody waits for.
 pub struct Apart {

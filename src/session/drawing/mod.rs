@@ -10,7 +10,7 @@ mod history;
 mod job;
 mod studio;
 
-pub(super) use apart::Open;
+pub(super) use apart::{Open, beside};
 pub(super) use device::Device;
 pub(super) use history::{Replay, Travelled};
 pub(super) use job::{Capture, Changes, Coming, Done, DrawnFrame, Job, ProgramOrigin, TileLimit};
@@ -302,6 +302,14 @@ impl Drawing {
         }
         remote.display.write(&remote.window, &picture.bytes);
         Ok(is_new)
+    }
+
+    /// Shows the picture on another device than before, which is lost. There is none until one is handed out.
+    pub fn show_on(&mut self, window: Gpu) -> Result<(), GpuError> {
+        let Place::Apart(remote) = &mut self.place else { return Ok(()) };
+        remote.display = Presenter::texture(&window, remote.display.width(), remote.display.height())?;
+        (remote.window, remote.open) = (window.clone(), beside(window));
+        Ok(())
     }
 
     /// Draws nothing more of the program that is there. The picture stays until there is another.
