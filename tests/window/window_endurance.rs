@@ -269,18 +269,13 @@ fn a_key_is_seen_in_the_picture_of_a_hundred_lines() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("project");
     fs::create_dir(&folder).unwrap();
-    let line = |i: usize| format!("    c += 0.01 * sin(vec3({i}.0, 1.0, 2.0) * uv.x + iTime + {i}.5 * uv.y);\n");
-    let body: String = (0..94).map(line).collect();
-    let text = format!(
-        "void mainImage(out vec4 o, in vec2 p)\n{{\n    vec2 uv = p / iResolution.xy;\n    vec3 c = vec3(0.5);\n\
-         {body}    o = vec4(c, 1.0);\n}}\n"
-    );
+    let text = include_str!("hundred_lines.glsl");
     assert_eq!(text.lines().count(), 100);
     fs::write(folder.join("image.glsl"), text).unwrap();
     let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
     window.wait_until("the first compile", "compiled", |e| e["compiling"] == false && e["ok"] == true);
     window.click_on("editor");
-    // In the number of the fourth line.
+    // In the number of the fourth line, 40.0.
     window.keys(&["ctrl+Home", "Down", "Down", "Down", "End", "Left", "Left"]);
     let (mut millis, mut until_begun) = (Vec::new(), Vec::new());
     for digit in ["1", "2", "3", "4", "5", "6", "7", "8", "9", "1", "2", "3", "4", "5", "6"] {
