@@ -139,7 +139,7 @@ fn a_window_whose_device_is_lost_goes_on_with_another() {
     window.keys(&["ctrl+s"]);
     window.wait_until("the text to be saved", "dirty", |e| e["dirty"] == false);
     assert!(fs::read_to_string(&file).unwrap().ends_with("// not saved\n// and more"));
-    window.keys(&["alt+Up"]);
+    window.click_on("button:play");
     window.wait_until("it to play", "frame", |e| e["playing"] == true);
     window.keys(&["ctrl+q"]);
     assert_eq!(window.ends(), Some(0), "{}", window.complaints());
