@@ -155,7 +155,7 @@ fn told(args: &PrecisionArgs, project: &Project, audit: &Audit, device: &Pixels)
                 error: Number(*error),
             })
             .collect(),
-        walker: is_32_bit.then(|| walked(&audit, texel, stored)),
+        walker: is_32_bit.then(|| walked(audit, texel, stored)),
         findings: audit.findings.iter().map(|finding| found(project, finding)).collect(),
         written: written.transpose()?,
     })
@@ -170,12 +170,8 @@ fn walked(audit: &Audit, texel: impl Fn((u32, u32)) -> [f32; 4], stored: usize) 
     let mut order: Vec<(u32, &AuditedPixel)> = audit.pixels.iter().map(|audited| (apart(audited), audited)).collect();
     order.sort_by_key(|(ulps, _)| *ulps);
     let is_visible = |audited: &AuditedPixel| {
-        let device = texel(audited.pixel);
-        // A number and none are apart, too.
-        (0..stored).any(|i| {
-            let (a, b) = (audited.single[i], device[i]);
-            a != b && !(a.is_nan() && b.is_nan()) && !((a - b).abs() <= 1.0 / 255.0)
-        })
+        let walker = AuditedPixel { double: audited.single.map(f64::from), ..audited.clone() };
+        walker.apart(texel(audited.pixel), stored).iter().any(|apart| *apart > 1.0 / 255.0)
     };
     Walked {
         same: order.iter().filter(|(ulps, _)| *ulps == 0).count(),
