@@ -33,6 +33,7 @@ mod source;
 pub mod stages;
 pub(crate) mod statements;
 pub(crate) mod types;
+mod unsequenced;
 pub(crate) mod walk;
 pub(crate) mod walkable;
 

@@ -10,6 +10,7 @@ use super::{
     stages::{self, Link},
     statements::Statements,
     types::{StructId, TypeId},
+    unsequenced,
 };
 use crate::diag::{Diagnostic, Span};
 
@@ -20,6 +21,8 @@ pub(crate) struct Walkable {
     origins: Origins,
     interner: Interner,
     statements: Statements,
+    /// Expressions that lean on an order which is undefined, and what is open there.
+    unsequenced: Vec<(Loc, &'static str)>,
     /// Every type as GLSL writes it, by its id; none where nobody steps through the program.
     type_texts: Vec<String>,
 }
@@ -73,7 +76,13 @@ impl Walkable {
             let types = (0..module.types.len()).map(|index| TypeId(index as u32));
             type_texts = types.map(|ty| module.type_text(&interner, ty)).collect();
         }
-        Ok(Self { program, names, origins, interner, statements, type_texts })
+        let unsequenced = unsequenced::find(&module);
+        Ok(Self { program, names, origins, interner, statements, unsequenced, type_texts })
+    }
+
+    /// What an expression leans on, if that is an order of evaluation which the language leaves open.
+    pub fn unsequenced(&self, loc: Loc) -> Option<&'static str> {
+        self.unsequenced.iter().find(|(place, _)| *place == loc).map(|(_, what)| *what)
     }
 
     /// What the marks of a program that is stepped through stand for.

@@ -151,6 +151,7 @@ impl Builder<'_, '_> {
         if !hir[expr].flags.contains(ExprFlags::EFFECTS) {
             return;
         }
+        self.loc = hir[expr].loc;
         match hir[expr].kind {
             ExprKind::Call { func, args } => {
                 self.call(func, &hir[args]);

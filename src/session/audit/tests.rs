@@ -130,3 +130,36 @@ fn a_comparison_that_rounding_decides_is_told() {
     let code = image("float a = p.x * .1;\no = vec4(a * 3. == p.x * .3 ? 1. : 0.);");
     assert!(named(&code, &audited(&code)).iter().any(|(kind, _)| *kind == "decided-by-rounding"));
 }
+
+#[test]
+fn what_leans_on_an_order_that_is_undefined_is_told_in_the_pixels_that_come_there() {
+    const SEED: &str = "float seed;\nfloat next() { seed = fract(seed * 7.1 + .3); return seed; }\n\
+                        float pure(float x) { return x * seed; }\nvoid pair(out float a, inout float b) { a = 1.; b = 2.; }\n";
+    for (body, text, pixels) in [
+        ("float r = 0.;\nif (p.x < 2.) r = next() - next();\no = vec4(r);", "next() - next()", 8),
+        ("o = vec4(next() * 2. + pure(p.x));", "next() * 2. + pure(p.x)", 32),
+        ("int i = 1;\no = vec4(i + i++);", "i + i++", 32),
+        ("int i = 1;\no = vec4((i = 3) < i);", "(i = 3) < i", 32),
+        ("float a[3];\nint i = 0;\na[1] = 2.;\npair(a[i++], a[1]);\no = vec4(a[0]);", "pair(a[i++], a[1])", 32),
+        ("vec3 v;\npair(v.x, v.x);\no = vec4(v, 1.);", "pair(v.x, v.x)", 32),
+    ] {
+        let code = format!("{SEED}{}", image(body));
+        let audit = audited(&code);
+        let orders = audit.findings.iter().filter(|f| f.kind.message().contains("which comes"));
+        let found: Vec<_> = orders.map(|f| (&code[f.span.unwrap().range()], f.pixels)).collect();
+        assert_eq!(found, [(text, pixels)], "{body}");
+    }
+    // An order is given, or there is nothing to put in one.
+    for body in [
+        "o = vec4(vec2(next(), next()), max(next(), next()), 1.);",
+        "int i = 1;\nbool b = i++ > 0 && i == 2;\no = vec4(b ? i++ : i--, (i++, i), 0., 1.);",
+        "float a = next();\no = vec4(a + next());",
+        "float a[2];\nint i = 0;\na[i++] = float(i);\no = vec4(a[0]);",
+        "vec3 v;\npair(v.x, v.y);\no = vec4(v, p.x + pure(p.x) * pure(p.y));",
+    ] {
+        let code = format!("{SEED}{}", image(body));
+        let audit = audited(&code);
+        let orders = audit.findings.iter().filter(|f| f.kind.message().contains("which comes"));
+        assert_eq!(orders.count(), 0, "{body}: {:?}", named(&code, &audit));
+    }
+}

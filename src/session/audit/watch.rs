@@ -230,6 +230,10 @@ impl Observer<Shadowed> for Watch<'_> {
             return;
         }
         self.follow(view, value, op);
+        if let Some(what) = self.walkable.unsequenced(loc) {
+            let span = self.span(loc);
+            self.find(Kind::Undefined(what), span, String::new());
+        }
         let (sources, inputs) = (self.sources, self.inputs);
         let text = || self.span(loc).map_or("", |span| sources.written(span));
         let size = |channel, level| World::size(inputs, channel, level);

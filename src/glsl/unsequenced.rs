@@ -1,0 +1,224 @@
+//! Expressions whose value depends on an order of evaluation that GLSL ES 3.00 leaves open.
+//!
+//! Arguments of calls and constructors are evaluated from left to right (section 6.1.1), the left side of an assignment
+//! before the right (5.8), and what stands before a comma, `&&`, `||` or `?` before what stands behind it (5.9). No
+//! section gives an order for the operands of the other operators, and `out` arguments are written back in any (6.1.1).
+//! Eddy goes from left to right everywhere, as ANGLE does.
+
+use super::{
+    ast::{List, Loc},
+    builtins::Builtin,
+    hir::{ExprId, ExprKind, FuncId, LocalKind, Module},
+};
+use std::collections::BTreeSet;
+
+pub const OPERANDS: &str = "one side changes what the other uses, and which comes first is undefined (5.9)";
+pub const ARGUMENTS: &str = "one variable is written back twice, and which comes last is undefined (6.1.1)";
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Variable {
+    Local(u32),
+    Global(u32),
+}
+
+/// What evaluating something reads and writes.
+#[derive(Clone, Debug, Default)]
+struct Effects {
+    reads: BTreeSet<Variable>,
+    writes: BTreeSet<Variable>,
+}
+
+impl Effects {
+    fn add(&mut self, mut other: Effects) {
+        if self.reads.len() + self.writes.len() < other.reads.len() + other.writes.len() {
+            std::mem::swap(self, &mut other);
+        }
+        self.reads.extend(other.reads);
+        self.writes.extend(other.writes);
+    }
+
+    /// One of the two changes what the other uses.
+    fn meets(&self, other: &Effects) -> bool {
+        let changes = |a: &Effects, b: &Effects| a.writes.iter().any(|v| b.reads.contains(v) || b.writes.contains(v));
+        changes(self, other) || changes(other, self)
+    }
+}
+
+/// Returns the places of such expressions in the functions that are reached, and what is open there.
+pub fn find(module: &Module) -> Vec<(Loc, &'static str)> {
+    let mut functions = vec![Effects::default(); module.functions.len()];
+    let mut found = Vec::new();
+    for &func in &module.call_order {
+        let mut finder = Finder { module, functions: &functions, found: &mut found, first: 0, effects: Vec::new() };
+        functions[func.index()] = finder.function(func);
+    }
+    found
+}
+
+struct Finder<'m> {
+    module: &'m Module,
+    /// Of those that are done: what a call does to variables of the module.
+    functions: &'m [Effects],
+    found: &'m mut Vec<(Loc, &'static str)>,
+    /// Of the function's expressions, from its first on; empty where a parent has taken them.
+    first: usize,
+    effects: Vec<Effects>,
+}
+
+impl Finder<'_> {
+    fn function(&mut self, func: FuncId) -> Effects {
+        let exprs = self.module[func].exprs.clone();
+        self.first = exprs.start as usize;
+        // A child stands before its parent.
+        for index in exprs {
+            let effects = self.expression(ExprId::new(index as usize));
+            self.effects.push(effects);
+        }
+        let mut all = Effects::default();
+        self.effects.drain(..).for_each(|effects| all.add(effects));
+        let is_global = |variable: &Variable| matches!(variable, Variable::Global(_));
+        all.reads.retain(is_global);
+        all.writes.retain(is_global);
+        all
+    }
+
+    fn take(&mut self, expr: ExprId) -> Effects {
+        self.effects.get_mut(expr.index().wrapping_sub(self.first)).map(std::mem::take).unwrap_or_default()
+    }
+
+    fn take_all(&mut self, exprs: List<ExprId>) -> Effects {
+        let mut all = Effects::default();
+        for &expr in &self.module[exprs] {
+            all.add(self.take(expr));
+        }
+        all
+    }
+
+    fn expression(&mut self, id: ExprId) -> Effects {
+        let expr = &self.module[id];
+        match expr.kind {
+            ExprKind::Error
+            | ExprKind::Literal(_)
+            | ExprKind::Const(_)
+            | ExprKind::Uniform(_)
+            | ExprKind::CustomUniform(_)
+            | ExprKind::Channel(_)
+            | ExprKind::BuiltinVar(_) => Effects::default(),
+            ExprKind::Local(local) => reads(Variable::Local(local.index() as u32)),
+            ExprKind::Global(global) => reads(Variable::Global(global.index() as u32)),
+            ExprKind::Member { base, .. } | ExprKind::Swizzle { base, .. } => self.take(base),
+            ExprKind::Unary { operand, .. } => self.take(operand),
+            ExprKind::Convert(arg)
+            | ExprKind::Splat(arg)
+            | ExprKind::MatrixDiagonal(arg)
+            | ExprKind::MatrixResize(arg) => self.take(arg),
+            ExprKind::Binary { lhs, rhs, .. } => self.unordered(expr.loc, lhs, rhs),
+            ExprKind::Index { base, index } => self.unordered(expr.loc, base, index),
+            ExprKind::Logical { lhs, rhs, .. } | ExprKind::Comma { lhs, rhs } => self.both(lhs, rhs),
+            ExprKind::Ternary { cond, then, otherwise } => {
+                let mut all = self.both(then, otherwise);
+                all.add(self.take(cond));
+                all
+            }
+            ExprKind::Assign { place, value } | ExprKind::AssignOp { place, value, .. } => {
+                let mut all = self.both(place, value);
+                all.writes.extend(self.root(place));
+                all
+            }
+            ExprKind::IncDec { place, .. } => {
+                let mut all = self.take(place);
+                all.writes.extend(self.root(place));
+                all
+            }
+            ExprKind::Vector(args) | ExprKind::Matrix(args) | ExprKind::Struct(args) | ExprKind::Array(args) => {
+                self.take_all(args)
+            }
+            ExprKind::Call { func, args } => self.call(expr.loc, func, args),
+            ExprKind::Builtin { builtin, args } => {
+                let mut all = self.take_all(args);
+                if builtin == Builtin::Modf {
+                    all.writes.extend(self.module[args].last().and_then(|&place| self.root(place)));
+                }
+                all
+            }
+        }
+    }
+
+    fn both(&mut self, a: ExprId, b: ExprId) -> Effects {
+        let mut all = self.take(a);
+        all.add(self.take(b));
+        all
+    }
+
+    fn unordered(&mut self, loc: Loc, a: ExprId, b: ExprId) -> Effects {
+        let (mut left, right) = (self.take(a), self.take(b));
+        if left.meets(&right) {
+            self.found.push((loc, OPERANDS));
+        }
+        left.add(right);
+        left
+    }
+
+    fn call(&mut self, loc: Loc, func: FuncId, args: List<ExprId>) -> Effects {
+        let mut all = self.take_all(args);
+        let is_written = |kind: LocalKind| matches!(kind, LocalKind::Out | LocalKind::Inout);
+        let params = self.module.params(func).iter().zip(&self.module[args]);
+        let written: Vec<ExprId> = params.filter(|(param, _)| is_written(param.kind)).map(|(_, &arg)| arg).collect();
+        let overlap = |(i, &a): (usize, &ExprId)| written[..i].iter().any(|&b| self.overlaps(a, b));
+        if written.iter().enumerate().any(overlap) {
+            self.found.push((loc, ARGUMENTS));
+        }
+        all.writes.extend(written.iter().filter_map(|&place| self.root(place)));
+        all.add(self.functions[func.index()].clone());
+        all
+    }
+
+    /// The variable that a place lies in.
+    fn root(&self, mut place: ExprId) -> Option<Variable> {
+        loop {
+            match self.module[place].kind {
+                ExprKind::Member { base, .. } | ExprKind::Swizzle { base, .. } | ExprKind::Index { base, .. } => {
+                    place = base;
+                }
+                ExprKind::Local(local) => return Some(Variable::Local(local.index() as u32)),
+                ExprKind::Global(global) => return Some(Variable::Global(global.index() as u32)),
+                _ => return None,
+            }
+        }
+    }
+
+    /// Whether two places may have a part in common.
+    fn overlaps(&self, a: ExprId, b: ExprId) -> bool {
+        if self.root(a).is_none() || self.root(a) != self.root(b) {
+            return false;
+        }
+        // From the variable down, as far as both go.
+        let (a, b) = (self.path(a), self.path(b));
+        !a.iter().zip(&b).any(|(a, b)| a & b == 0)
+    }
+
+    /// Of each step from the variable to a place, the parts that it may be, as bits; all where that is not known.
+    fn path(&self, mut place: ExprId) -> Vec<u128> {
+        let mut path = Vec::new();
+        let part = |index: u32| 1u128.checked_shl(index).unwrap_or(u128::MAX);
+        loop {
+            let (base, parts) = match self.module[place].kind {
+                ExprKind::Member { base, index } => (base, part(index)),
+                ExprKind::Swizzle { base, swizzle } => (base, swizzle.iter().fold(0, |all, i| all | part(i as u32))),
+                ExprKind::Index { base, index } => match self.module[index].kind {
+                    ExprKind::Literal(index) => (base, part(index)),
+                    _ => (base, u128::MAX),
+                },
+                _ => break,
+            };
+            path.push(parts);
+            place = base;
+        }
+        path.reverse();
+        path
+    }
+}
+
+fn reads(variable: Variable) -> Effects {
+    Effects { reads: BTreeSet::from([variable]), writes: BTreeSet::new() }
+}
