@@ -1,0 +1,120 @@
+//! Gets over the loss of the window's device, and saves unsaved work when the window cannot go on.
+
+#[cfg(test)]
+mod tests;
+
+use super::GuiError;
+use crate::{
+    gpu::{Gpu, GpuError},
+    project::{self, Origin, Overwrite, Project},
+    session::{Command, Level, Session},
+};
+use std::{
+    panic::{AssertUnwindSafe, catch_unwind},
+    path::{Path, PathBuf},
+    time::{Duration, Instant},
+};
+
+/// A device that is lost again so soon after another would be lost for ever.
+const AGAIN: Duration = Duration::from_secs(10);
+
+/// The losses of the window's device so far.
+#[derive(Default)]
+pub struct Losses {
+    newest: Option<Instant>,
+}
+
+impl Losses {
+    /// Looks whether the window's device is still there. In the place of one that is lost comes another, which `renew`
+    /// opens; the window ends if that fails or was done just before, after what was not saved has been. What the device
+    /// refused is told of, and the window goes on.
+    pub fn watch(
+        &mut self,
+        gpu: &Gpu,
+        session: &mut Session,
+        now: Instant,
+        renew: impl FnOnce(&mut Session) -> Result<(), GuiError>,
+    ) -> Result<(), GuiError> {
+        let reason = match gpu.take_trouble("the window") {
+            Ok(()) => return Ok(()),
+            Err(reason @ GpuError::Lost(_)) => reason,
+            Err(refused) => {
+                session.tell_of(&refused);
+                return Ok(());
+            }
+        };
+        let is_again = self.newest.replace(now).is_some_and(|at| now.saturating_duration_since(at) < AGAIN);
+        if is_again {
+            return Err(GuiError::Lost { reason, rescue: save_unsaved(session) });
+        }
+        if let Err(e) = renew(session) {
+            log::error!("no other device: {e}");
+            return Err(GuiError::Lost { reason, rescue: save_unsaved(session) });
+        }
+        let text = format!("{reason}; the window has another now. Nothing of your texts is lost");
+        session.apply(Command::Notify { level: Level::Warning, text, path: None });
+        Ok(())
+    }
+}
+
+/// Does a part of the window's work. A panic in it ends the window with an error that says so, after what was not saved
+/// has been: a bug in drawing is no reason to lose a text.
+pub fn caught<W, T>(
+    window: &mut W,
+    work: impl FnOnce(&mut W) -> Result<T, GuiError>,
+    session: impl FnOnce(&W) -> &Session,
+) -> Result<T, GuiError> {
+    let panic = match catch_unwind(AssertUnwindSafe(|| work(window))) {
+        Ok(done) => return done,
+        Err(panic) => panic,
+    };
+    let said = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
+    let reason = said.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no reason given".into());
+    // Whatever was left half done may make this stumble too.
+    let rescue = catch_unwind(AssertUnwindSafe(|| save_unsaved(session(window))));
+    let rescue = rescue.unwrap_or_else(|_| ". Your unsaved work could not be written".into());
+    Err(GuiError::Panicked { reason, rescue })
+}
+
+/// Writes what is not saved into a new folder, beside the project where that can be written, else at home, else among
+/// the temporary files. Returns what to tell the user; nothing if nothing was unsaved.
+pub fn save_unsaved(session: &Session) -> String {
+    if !session.is_dirty() {
+        return String::new();
+    }
+    let project = session.project();
+    match save(project, places(project)) {
+        Ok(folder) => {
+            session.forget_unsaved();
+            format!(". Your unsaved work is in {}", folder.display())
+        }
+        Err(reason) => format!(". Your unsaved work could not be written anywhere: {reason}"),
+    }
+}
+
+fn places(project: &Project) -> impl Iterator<Item = PathBuf> {
+    let beside = match &project.origin {
+        Origin::Folder { path, .. } | Origin::File(path) | Origin::Json(path) => path.parent().map(Path::to_owned),
+        Origin::Unsaved | Origin::Preset(_) => None,
+    };
+    beside.into_iter().chain(std::env::home_dir()).chain([std::env::temp_dir()])
+}
+
+fn save(project: &Project, places: impl Iterator<Item = PathBuf>) -> Result<PathBuf, String> {
+    let name: String = project.name.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
+    let mut reason = String::new();
+    for place in places {
+        let free = (1..).map(|n| place.join(format!("{name}-recovered-{n:04}"))).find(|path| !path.exists());
+        let Some(folder) = free else { continue };
+        match project::save(project, &folder, Overwrite::Refuse) {
+            Ok(_) => return Ok(folder),
+            Err(e) => reason = e.to_string(),
+        }
+        // What a text includes is still where it was read from.
+        let alone = Project { includes: Vec::new(), ..project.clone() };
+        if !project.includes.is_empty() && project::save(&alone, &folder, Overwrite::Refuse).is_ok() {
+            return Ok(folder);
+        }
+    }
+    Err(reason)
+}
