@@ -250,9 +250,14 @@ impl Gpu {
         }
     }
 
-    /// Makes the device one that was lost: what is to happen then can be tried.
+    /// Makes the device one that was lost, which refuses everything: what is to happen then can be tried.
     pub fn lose(&self) {
+        self.device.destroy();
         self.state.lost.store(true, Ordering::Relaxed);
+    }
+
+    pub fn is_lost(&self) -> bool {
+        self.state.lost.load(Ordering::Relaxed)
     }
 
     /// Waits until the device has done everything it was given.
@@ -263,7 +268,7 @@ impl Gpu {
 
     /// Returns what went wrong since the last call as an error, if anything did.
     pub fn take_trouble(&self, what: &str) -> Result<(), GpuError> {
-        if self.state.lost.load(Ordering::Relaxed) {
+        if self.is_lost() {
             return Err(GpuError::Lost("the driver gave up, often because a shader ran too long".into()));
         }
         match self.state.uncaptured.lock().unwrap_or_else(|e| e.into_inner()).take() {

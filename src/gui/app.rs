@@ -350,6 +350,10 @@ impl Running {
             self.paint_soon();
         }
         let delay = output.viewport_output.values().map(|v| v.repaint_delay).min().unwrap_or(Duration::MAX);
+        if let Some(file) = self.lose_device.take_if(|file| std::fs::remove_file(file).is_ok()) {
+            log::warn!("{} was there: the device is lost", file.display());
+            self.surface.gpu().lose();
+        }
         let presented = self.surface.paint(&self.window, output, &self.ctx);
         self.shell.report(&self.session, &mut self.report, self.surface.size(), &self.ctx, began);
         self.watch_device(began)?;
@@ -375,10 +379,6 @@ impl Running {
 
     /// Gets over the loss of the window's device.
     fn watch_device(&mut self, now: Instant) -> Result<(), GuiError> {
-        if let Some(file) = self.lose_device.take_if(|file| std::fs::remove_file(file).is_ok()) {
-            log::warn!("{} was there: the device counts as lost", file.display());
-            self.surface.gpu().lose();
-        }
         let gpu = self.surface.gpu().clone();
         let Running { window, ctx, surface, shell, wake, .. } = self;
         self.losses.watch(&gpu, &mut self.session, now, |session| {

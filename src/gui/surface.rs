@@ -6,7 +6,10 @@
 use super::GuiError;
 use crate::gpu::{Gpu, GpuOptions};
 use egui_wgpu::{Renderer, RendererOptions, ScreenDescriptor};
-use std::sync::Arc;
+use std::{
+    panic::{AssertUnwindSafe, catch_unwind, resume_unwind},
+    sync::Arc,
+};
 use winit::{dpi::PhysicalSize, event_loop::OwnedDisplayHandle, window::Window};
 
 /// The first instance that has a device for the window.
@@ -140,6 +143,15 @@ impl Surface {
 
     /// Paints a frame of egui's and shows it.
     pub fn paint(&mut self, window: &Arc<Window>, output: egui::FullOutput, ctx: &egui::Context) -> Presented {
+        match catch_unwind(AssertUnwindSafe(|| self.paint_on_device(window, output, ctx))) {
+            Ok(presented) => presented,
+            // egui's renderer panics where a lost device gives it no memory. Another takes the place of both.
+            Err(_) if self.gpu.is_lost() => Presented::Again,
+            Err(panic) => resume_unwind(panic),
+        }
+    }
+
+    fn paint_on_device(&mut self, window: &Arc<Window>, output: egui::FullOutput, ctx: &egui::Context) -> Presented {
         let egui::FullOutput { shapes, pixels_per_point, mut textures_delta, .. } = output;
         let triangles = ctx.tessellate(shapes, pixels_per_point);
         let (device, queue) = (&self.gpu.device, &self.gpu.queue);
