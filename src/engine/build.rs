@@ -264,6 +264,7 @@ fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
         array_loops: gpu.wants_array_loops,
         loop_closing_exits: gpu.keeps_loops_open,
         hidden_limits: gpu.misjudges_limits,
+        hidden_counters: gpu.unrolls_whole_arrays,
         without: PassSet::default(),
     }
 }

@@ -28,6 +28,9 @@ pub struct Driver {
     pub loop_closing_exits: bool,
     /// What a loop counts down to is hidden: Mesa takes `min(c, x)` for at least `c` there (`nir_loop_analyze.c`).
     pub hidden_limits: bool,
+    /// Counters are hidden where they index an array in a loop within a loop: Mesa writes both loops out, whatever that
+    /// costs (`nir_loop_analyze.c`).
+    pub hidden_counters: bool,
     /// Passes of the optimiser that are left out: for who works on the compiler.
     pub without: PassSet,
 }

@@ -82,6 +82,8 @@ pub struct Gpu {
     pub keeps_loops_open: bool,
     /// A loop that counts down to `min(c, x)` ends at `c`: Mesa's compiler takes the one for the other.
     pub misjudges_limits: bool,
+    /// A loop over an array by its counter is written out whatever it costs: Mesa's compiler does so.
+    pub unrolls_whole_arrays: bool,
     /// Timestamps can be written between passes.
     pub has_timestamps: bool,
     pub(super) runtime_checks: bool,
@@ -199,6 +201,7 @@ impl Gpu {
             keeps_denormals: is_lavapipe,
             wants_array_loops: features.contains(wgpu::Features::PASSTHROUGH_SHADERS),
             misjudges_limits: info.driver_info.contains("Mesa"),
+            unrolls_whole_arrays: info.driver_info.contains("Mesa"),
             keeps_loops_open: info.name.starts_with("llvmpipe"),
             nan_angle: info.backend == wgpu::Backend::Dx12,
             runtime_checks: options.runtime_checks,

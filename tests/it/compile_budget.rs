@@ -293,3 +293,16 @@ fn a_scene_in_an_array_of_structures_is_drawn_soon() {
     assert_eq!(a, b);
     assert_ne!(a, Some(table));
 }
+
+#[test]
+fn an_array_that_is_sorted_is_drawn_soon() {
+    let sorted = "struct S { vec2 at; float key; float kind; };\nvoid mainImage(out vec4 o, in vec2 p) {\nS s[24];\n\
+                  for (int i = 0; i < 24; i++) s[i] = S(p * float(i), sin(p.x * float(i) + p.y), float(i));\n\
+                  for (int i = 0; i < 24; i++) for (int j = 0; j < 24; j++)\n\
+                  if (s[i].key < s[j].key) { S t = s[j]; s[j] = s[i]; s[i] = t; }\n\
+                  int at = int(p.x) % 24; o = vec4(s[at].at * .01, s[at].key, s[at].kind / 24.); }\n";
+    let Some(drawn) = first_frame("24 structures that are sorted", sorted, Duration::from_secs(20)) else { return };
+    // From a loop that no compiler can write out.
+    let plain = sorted.replace("i < 24", "i < 24 + min(iFrame, 0)").replace("j < 24", "j < 24 + min(iFrame, 0)");
+    assert_eq!(first_frame("the same by loops", &plain, Duration::from_secs(60)), Some(drawn));
+}

@@ -1,6 +1,7 @@
 //! What drivers need done otherwise, as changes of the program before it is emitted. Each file names the driver and the
 //! fault. None changes what a program computes. ([`super::long_arrays`] is the one that works on the emitted module.)
 
+mod counters;
 mod filtering;
 mod limits;
 mod loop_exits;
@@ -26,6 +27,9 @@ pub(in crate::glsl) fn apply(program: &mut Module, source: &PassSource<'_>) {
     }
     if driver.hidden_limits {
         limits::run(program);
+    }
+    if driver.hidden_counters {
+        counters::run(program);
     }
     if driver.loop_closing_exits {
         loop_exits::run(program);

@@ -1,0 +1,47 @@
+//! Counters of loops in loops, hidden where they index an array.
+//!
+//! Mesa writes a loop out that indexes a variable by its counter and has as many rounds as that has elements, whatever
+//! it costs (`force_unroll_array_access` in `nir_loop_analyze.c`). Of a loop in a loop, as sorting has them, that is the
+//! square of the elements: LLVM takes 15 s for twelve structures of four numbers, and minutes for twenty.
+
+use crate::glsl::{
+    ir::{
+        Block, Module, Op, Value,
+        rewrite::{self, Rewriter, Rule},
+    },
+    types::Type,
+};
+
+/// As many bodies may be written out: more than a matrix takes, or a kernel of eight by eight.
+const BODIES: u32 = 64;
+
+pub(super) fn run(program: &mut Module) {
+    rewrite::each_function(program, Counters::default);
+}
+
+#[derive(Default)]
+struct Counters {
+    /// Loops that one is in.
+    depth: u32,
+}
+
+impl Rule for Counters {
+    fn operation(&mut self, r: &mut Rewriter<'_>, value: Value, op: &Op) -> Option<Value> {
+        let Op::Element { base, index } = *op else { return None };
+        let Type::Array { len, .. } = r.module.types.get(r.f.ty(base)) else { return None };
+        let is_written_out = self.depth > 1 && len.saturating_pow(self.depth) > BODIES;
+        if !is_written_out || !r.f.is_place(base) || !matches!(r.f[index], Op::Load { .. }) {
+            return None;
+        }
+        let index = r.opaque(index);
+        Some(r.add_typed(Op::Element { base, index }, r.f.ty(value)))
+    }
+
+    fn begin_body(&mut self, _: &mut Rewriter<'_>, _: &Block) {
+        self.depth += 1;
+    }
+
+    fn end_body(&mut self) {
+        self.depth -= 1;
+    }
+}
