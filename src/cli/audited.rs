@@ -52,7 +52,7 @@ struct Walked {
     /// Numbers of single precision between the two, of a pixel's components that are furthest apart.
     median_ulps: u32,
     largest_ulps: u32,
-    /// Pixels that a screen of 8 bits would show otherwise.
+    /// Pixels that differ by more than 1/255, of themselves where they are larger than 1.
     visible: usize,
     /// The pixel that is furthest apart, if any is.
     furthest: Option<Furthest>,
@@ -171,7 +171,8 @@ fn walked(audit: &Audit, texel: impl Fn((u32, u32)) -> [f32; 4], stored: usize) 
     order.sort_by_key(|(ulps, _)| *ulps);
     let is_visible = |audited: &AuditedPixel| {
         let walker = AuditedPixel { double: audited.single.map(f64::from), ..audited.clone() };
-        walker.apart(texel(audited.pixel), stored).iter().any(|apart| *apart > 1.0 / 255.0)
+        let mut apart = walker.apart(texel(audited.pixel), stored).into_iter().zip(walker.double);
+        apart.any(|(apart, value)| apart > value.abs().max(1.0) / 255.0)
     };
     Walked {
         same: order.iter().filter(|(ulps, _)| *ulps == 0).count(),
