@@ -121,7 +121,11 @@ impl ApplicationHandler<Outside> for App {
         let Some(running) = &mut self.running else { return };
         match event {
             // The picture is there, or something else is: at the screen's own rhythm.
-            Outside::Wake => running.paint_by(running.paced(Instant::now())),
+            Outside::Wake => {
+                let now = Instant::now();
+                running.session.attend(now);
+                running.paint_by(running.paced(now));
+            }
             Outside::Assistive(event) => running.assist(event.window_event),
         }
     }

@@ -27,6 +27,10 @@ impl Debounce {
         self.quiet = quiet;
     }
 
+    pub fn quiet(&self) -> Duration {
+        self.quiet
+    }
+
     pub fn touch(&mut self, now: Instant) {
         self.touched = Some((self.touched.map_or(now, |t| t.0), now));
     }

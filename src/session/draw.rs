@@ -24,8 +24,10 @@ impl Session {
 
     /// Hands in what is wanted and what is due, one job after the other, while the engine takes them: while playing one
     /// frame a call. Says whether a frame was drawn.
-    pub(super) fn draw_due_frames(&mut self) -> bool {
-        let (mut is_drawn, mut has_run) = (false, false);
+    ///
+    /// `runs`: a frame of the running picture may be among them.
+    pub(super) fn draw_due_frames(&mut self, runs: bool) -> bool {
+        let (mut is_drawn, mut has_run) = (false, !runs);
         while !self.drawing.is_busy() && !self.halting.is_held() && !self.run.is_device_lost {
             self.loop_range();
             if self.travel() {
@@ -80,7 +82,9 @@ impl Session {
             self.run.steps -= 1;
             self.run.clock.step_frame()
         } else if self.run.clock.is_playing() && !self.run.is_covered {
-            if std::mem::replace(has_run, true) {
+            // The first frame of a new program does not wait for the next tick.
+            let is_over = std::mem::replace(has_run, true) && !self.run.is_program_new;
+            if is_over || self.gives_way() {
                 return None;
             }
             self.run.clock.running_frame(self.now)
@@ -255,6 +259,9 @@ impl Session {
         if let Some(times) = times {
             self.run.costs.add(times, self.drawing.clock());
         }
+        if std::mem::take(&mut self.run.is_program_new) {
+            self.programs_drawn += u64::from(self.drawing.is_newest_program());
+        }
         if self.run.clock.is_playing() {
             self.changed |= self.run.fps.frame(self.now);
         } else {
@@ -266,6 +273,7 @@ impl Session {
     /// The newest program draws from now on.
     fn program_is_there(&mut self, forecast: Option<Duration>) {
         self.run.is_frame_due = true;
+        self.run.is_program_new = true;
         self.changed = true;
         self.compile.state.compiling = self.is_compile_under_way();
         if let Some(millis) = self.drawing.new_program_millis() {

@@ -129,6 +129,10 @@ pub struct Session {
     pub(super) next_notice: u64,
     pub(super) text_generation: u64,
     pub(super) display_generation: u64,
+    /// Counts the programs of the newest text that have drawn a frame.
+    pub(super) programs_drawn: u64,
+    /// A frame was drawn between two ticks.
+    pub(super) has_drawn: bool,
     /// Counts the shaders begun by [`Command::New`](super::Command::New).
     pub(super) begun: u64,
     /// Edits of passes and channels.
@@ -213,6 +217,8 @@ pub(super) struct Run {
     pub shown: PassId,
     /// A frame must be drawn though time stands still.
     pub is_frame_due: bool,
+    /// The newest program has not drawn a frame.
+    pub is_program_new: bool,
     pub steps: u32,
     pub seeking: Seeking,
     /// Nobody sees the picture.
@@ -297,6 +303,7 @@ impl Session {
                 keyboard: Keyboard::default(),
                 shown: PassId::Image,
                 is_frame_due: false,
+                is_program_new: false,
                 steps: 0,
                 seeking: Seeking::default(),
                 is_covered: false,
@@ -316,6 +323,8 @@ impl Session {
             next_notice: 0,
             text_generation: 0,
             display_generation: 0,
+            programs_drawn: 0,
+            has_drawn: false,
             begun: 0,
             passes: PassHistory::default(),
             renamed: Vec::new(),
@@ -366,6 +375,17 @@ impl Session {
 
     /// Grows whenever a text was changed by something else than [`Command::EditText`] (opened, reloaded, taken from
     /// disk): then an editor must take it anew.
+    /// Returns how many programs have drawn a frame so far, each of the text that was the newest: it grows when an edit
+    /// is in the picture.
+    pub fn programs_drawn(&self) -> u64 {
+        self.programs_drawn
+    }
+
+    /// Returns how long typing has to rest before it is compiled.
+    pub fn edit_debounce(&self) -> Duration {
+        self.compile.edits.quiet()
+    }
+
     pub fn text_generation(&self) -> u64 {
         self.text_generation
     }

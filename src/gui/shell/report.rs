@@ -30,6 +30,8 @@ impl Shell {
             report.say(json!({ "event": "reloaded", "name": project.name }));
         }
         report.say_if_new("compiled", compiled(session));
+        let debounce_ms = session.edit_debounce().as_secs_f64() * 1e3;
+        report.say_if_new("drawn", json!({ "programs": session.programs_drawn(), "debounce_ms": debounce_ms }));
         let values: serde_json::Map<String, Value> = session
             .custom_uniforms()
             .iter()

@@ -8,7 +8,11 @@ use super::{
     worker::Panicked,
 };
 use crate::{diag::Severity, engine::EngineError, gpu::GpuError};
-use std::time::Instant;
+use std::time::{Duration, Instant};
+
+/// A compile of so long goes before frames of the program that it takes the place of: they would take its processors,
+/// and nobody sees a pause of so long.
+const BRIEF: Duration = Duration::from_millis(100);
 
 impl Session {
     /// Takes finished compiles, changes on disk and drawn frames, and draws a frame if one is due: while playing one a
@@ -29,8 +33,26 @@ impl Session {
         self.changed |= self.searching.take();
         self.fit_canvas();
         self.keep_unsaved();
-        frame_drawn |= self.draw_due_frames();
+        frame_drawn |= self.draw_due_frames(true) | std::mem::take(&mut self.has_drawn);
         Tick { frame_drawn, wake_at: self.wake_at(), changed: std::mem::take(&mut self.changed) }
+    }
+
+    /// Takes a finished compile, and hands in its program and that program's first frame, though no tick is due yet:
+    /// what was typed is in the picture sooner. Nothing else is drawn. Call it when the session has woken the front
+    /// end; the next tick tells what has changed.
+    pub fn attend(&mut self, now: Instant) {
+        self.now = now;
+        self.has_drawn |= self.take_drawn(false);
+        self.take_compiled();
+        if self.drawing.wanted.program.is_some() || self.run.is_program_new {
+            self.fit_canvas();
+            self.has_drawn |= self.draw_due_frames(false);
+        }
+    }
+
+    /// The newest text is being compiled, and soon will be.
+    pub(super) fn gives_way(&self) -> bool {
+        self.compile.is_newest_under_way && self.compile.edits.quiet() <= BRIEF
     }
 
     fn wake_at(&self) -> Option<Instant> {
@@ -39,7 +61,8 @@ impl Session {
             && self.drawing.has_program()
             && !self.run.is_device_lost;
         // The end of a frame that is being drawn wakes.
-        let is_next_due = is_running && self.halting.halt.is_none() && !self.drawing.is_busy();
+        let is_held = self.halting.halt.is_some() || self.drawing.is_busy() || self.gives_way();
+        let is_next_due = is_running && !is_held;
         let deadlines = [self.compile.edits.deadline(), self.disk.changes.deadline(), self.drawing_deadline()];
         is_next_due.then_some(self.now).into_iter().chain(deadlines.into_iter().flatten()).min()
     }
