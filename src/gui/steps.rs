@@ -4,7 +4,8 @@
 //! next. When frames are slow, a click and the keys that follow it come together: the keys would go nowhere, and arrow
 //! keys, which the widget can claim only once it has the keyboard, would move it on to some other widget. So a pass
 //! ends behind each event that can move the keyboard or open something, and one without events follows, in which what
-//! was opened takes its place.
+//! was opened takes its place. A button that is let go of where it was dragged to ends a pass of its own: egui sees no
+//! drag in a pass that begins and ends it.
 
 use egui::{Event, Key, Modifiers, RawInput};
 
@@ -13,8 +14,11 @@ pub fn split(input: RawInput) -> Vec<RawInput> {
     let mut steps = vec![RawInput { events: Vec::new(), ..input.clone() }];
     let nothing = without_events(&input);
     let mut is_ended = false;
+    let mut has_moved = false;
     for event in input.events {
-        if std::mem::take(&mut is_ended) {
+        let ends_drag = has_moved && matches!(event, Event::PointerButton { pressed: false, .. });
+        has_moved = matches!(event, Event::PointerMoved(_)) || has_moved && !ends_step(&event);
+        if std::mem::take(&mut is_ended) || ends_drag {
             steps.push(nothing.clone());
         }
         is_ended = ends_step(&event);
@@ -82,6 +86,32 @@ mod tests {
             [1, 0, 2, 0, 1, 0, 2, 0, 1, 0]
         );
         let drag = vec![button(true), Event::PointerMoved(egui::Pos2::ZERO), button(false)];
-        assert_eq!(steps(drag), [1, 0, 2, 0]);
+        assert_eq!(steps(drag), [1, 0, 1, 1, 0]);
+    }
+
+    #[test]
+    fn a_drag_within_one_frame_is_seen() {
+        let ctx = egui::Context::default();
+        let at = |x: f32| egui::pos2(x, 10.0);
+        let mut seen = Vec::new();
+        let mut frame = |events: Vec<Event>| {
+            for step in split(RawInput { events, ..RawInput::default() }) {
+                let mut output = ctx.run_ui(step, |ui| {
+                    let rect = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(100.0, 20.0));
+                    let response = ui.interact(rect, egui::Id::unique("rail"), egui::Sense::click_and_drag());
+                    seen.extend(response.interact_pointer_pos().map(|at| at.x));
+                });
+                output.textures_delta.clear();
+            }
+        };
+        frame(vec![Event::PointerMoved(at(50.0))]);
+        let held = |x: f32, pressed: bool| match button(pressed) {
+            Event::PointerButton { button, modifiers, .. } => {
+                Event::PointerButton { pos: at(x), button, pressed, modifiers }
+            }
+            other => other,
+        };
+        frame(vec![held(50.0, true), Event::PointerMoved(at(30.0)), held(30.0, false)]);
+        assert_eq!((seen.first(), seen.last()), (Some(&50.0), Some(&30.0)), "{seen:?}");
     }
 }
