@@ -234,6 +234,9 @@ impl<'a, R: Real> Machine<'a, R> {
                     }
                 }
                 Stmt::If { condition, accept, reject } => {
+                    if is_seen {
+                        observer.decide(&View::new(&self.state, frame, lane), *condition);
+                    }
                     let accepted = self.lanes_where(frame, *condition, active);
                     let left = self.block(frame, accept, active & accepted, jumps, lane, observer)?;
                     let right = self.block(frame, reject, active & !accepted, jumps, lane, observer)?;
@@ -243,6 +246,9 @@ impl<'a, R: Real> Machine<'a, R> {
                     active = self.turns(frame, (body, continuing, *break_if), active, lane, observer)?;
                 }
                 Stmt::Switch { selector, cases } => {
+                    if is_seen {
+                        observer.decide(&View::new(&self.state, frame, lane), *selector);
+                    }
                     let mut inner = Jumps::default();
                     let end = self.cases(frame, *selector, cases, active, &mut inner, lane, observer)?;
                     jumps.continued |= inner.continued;
@@ -275,6 +281,9 @@ impl<'a, R: Real> Machine<'a, R> {
                 }
                 Stmt::Output(parts) => {
                     for &(output, value) in parts {
+                        if is_seen {
+                            observer.output(&View::new(&self.state, frame, lane), output, value);
+                        }
                         let mut cells: [Vec<Cell<R>>; LANES] = Default::default();
                         for lane in of(active) {
                             cells[lane] = self.state.value(frame, value, lane).to_vec();
@@ -322,6 +331,9 @@ impl<'a, R: Real> Machine<'a, R> {
             active = self.block(frame, continuing, end | jumps.continued, &mut jumps_behind, lane, observer)?;
             left |= jumps_behind.broke;
             if let Some(condition) = break_if {
+                if active & (1 << lane) != 0 {
+                    observer.decide(&View::new(&self.state, frame, lane), condition);
+                }
                 let done = self.lanes_where(frame, condition, active);
                 left |= done;
                 active &= !done;

@@ -5,7 +5,7 @@ use super::{
     number::{Cell, Real},
     state::{Frame, LANES, State},
 };
-use crate::glsl::ir::{FuncId, Function, GlobalId, Module, Op, Value};
+use crate::glsl::ir::{FuncId, Function, GlobalId, Module, Op, Output, Value};
 
 /// One activation of a function, as the pixel that is watched sees it.
 pub struct View<'v, 'a, R> {
@@ -104,6 +104,12 @@ pub trait Observer<R> {
 
     /// A value has been computed.
     fn value(&mut self, _: &View<'_, '_, R>, _: Value) {}
+
+    /// A value decides which way is gone.
+    fn decide(&mut self, _: &View<'_, '_, R>, _: Value) {}
+
+    /// A value is what the shader draws.
+    fn output(&mut self, _: &View<'_, '_, R>, _: Output, _: Value) {}
 
     /// A value has been written to a place.
     fn store(&mut self, _: &View<'_, '_, R>, _place: Value, _value: Value) {}

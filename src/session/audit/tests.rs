@@ -80,8 +80,25 @@ fn what_is_read_before_it_is_written_is_found() {
         let expected = ("undefined", text);
         assert!(named(&code, &audit).contains(&expected), "{body}: {:?}", named(&code, &audit));
     }
+    // What decides is used, though nothing is computed of it.
+    for (body, name) in [
+        ("bool b;\no = vec4(1.);\nif (b) o = vec4(p, 0., 1.);", "b"),
+        ("bool b;\nif (p.x > 4.) b = true;\no = b ? vec4(p, 0., 1.) : vec4(1.);", "b"),
+        ("bool b;\no = vec4(p.x > 9. || b);", "b"),
+        ("int k;\no = vec4(1.);\nswitch (k) { case 1: o = vec4(p, 0., 1.); }", "k"),
+        ("bool b;\no = vec4(1.);\nwhile (b) { o += 1.; b = false; }", "b"),
+    ] {
+        let code = image(body);
+        let audit = audited(&code);
+        let is_named = |(kind, text): &(&str, &str)| *kind == "undefined" && text.contains(name);
+        assert!(named(&code, &audit).iter().any(is_named), "{body}: {:?}", named(&code, &audit));
+    }
+    let nothing = image("if (p.x > 4.) o = vec4(1.);");
+    assert_eq!(named(&nothing, &audited(&nothing)), [("undefined", "")], "some pixels get nothing");
     let partly = image("vec4 v;\nv.xyz = vec3(p, 1.);\nv *= 2.;\no = vec4(v.xyz, 1.);");
     assert_eq!(named(&partly, &audited(&partly)), [], "the fourth component is carried along and thrown away");
+    let colour = image("o.xyz = vec3(p, 1.);");
+    assert_eq!(named(&colour, &audited(&colour)), [], "nobody sees the picture's alpha");
     let global =
         "float g;\nfloat set;\nvoid f() { set = 1.; }\nvoid mainImage(out vec4 o, vec2 p) { f(); o = vec4(g + set); }";
     let audit = audited(global);

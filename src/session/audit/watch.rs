@@ -10,7 +10,7 @@ use crate::{
     engine::{PassInputs, Sources},
     glsl::{
         ast::Loc,
-        ir::{Binary, FuncId, GlobalKind, Math, Op, Value},
+        ir::{Binary, FuncId, GlobalKind, Math, Op, Output, Value},
         walk::{Cell, Observer, Shadowed, View, World},
         walkable::Walkable,
     },
@@ -121,6 +121,13 @@ impl<'w> Watch<'w> {
         }
     }
 
+    /// A value is used where something undefined decides.
+    fn used(&mut self, view: &View<'_, '_, Shadowed>, value: Value) {
+        let span = self.span(view.function().loc(value));
+        let what = "a value is used that nothing was written to (4.3.1: it is undefined)";
+        self.find(Kind::Undefined(what), span, String::new());
+    }
+
     /// Which components of a value nothing was written to, and whether that counts as a use of them.
     fn follow(&mut self, view: &View<'_, '_, Shadowed>, value: Value, op: &Op) {
         let mut is_used = false;
@@ -170,9 +177,7 @@ impl<'w> Watch<'w> {
             }
         };
         if is_used {
-            let span = self.span(view.function().loc(value));
-            let what = "a value is used that nothing was written to (4.3.1: it is undefined)";
-            self.find(Kind::Undefined(what), span, String::new());
+            self.used(view, value);
         }
         if let Some(call) = self.calls.last_mut() {
             match undefined.filter(|components| components.contains(&true)) {
@@ -201,6 +206,21 @@ impl Observer<Shadowed> for Watch<'_> {
 
     fn leave(&mut self, _: &View<'_, '_, Shadowed>) {
         self.calls.pop();
+    }
+
+    fn decide(&mut self, view: &View<'_, '_, Shadowed>, value: Value) {
+        if self.undefined_components(view, value).is_some() {
+            self.used(view, value);
+        }
+    }
+
+    fn output(&mut self, view: &View<'_, '_, Shadowed>, _: Output, value: Value) {
+        // What is shown of a colour has no alpha, and buffers that need few components write few.
+        let parts = self.undefined_components(view, value).unwrap_or_default();
+        if !parts.is_empty() && parts.iter().take(3).all(|&part| part) {
+            let what = "nothing was written to what the pixel gets (4.3.1: it is undefined)";
+            self.find(Kind::Undefined(what), None, String::new());
+        }
     }
 
     fn store(&mut self, view: &View<'_, '_, Shadowed>, place: Value, value: Value) {
