@@ -5,17 +5,14 @@
 
 use super::{
     args::{CompareArgs, CompareView},
-    machine::{Machine, Trouble, median, open},
+    machine::{Machine, Trouble, open},
     report::{Printer, Report},
-    revision, targets,
+    targets,
 };
 use crate::{
     engine::Pixels,
-    lab::{
-        flip,
-        picture::{self, Picture},
-    },
-    session::{capture::Format, offline::Offline, script::ScriptedInputs, trace::Number},
+    lab::apart::{self, Apart, Times},
+    session::{capture::Format, offline::Offline, revision, script::ScriptedInputs, trace::Number},
 };
 use anyhow::anyhow;
 use serde::Serialize;
@@ -23,8 +20,6 @@ use std::{fmt::Write, io, path::PathBuf};
 
 /// Frames that a project draws in its turn.
 const TURN: u32 = 4;
-/// The least side that the window of structural similarity fits into.
-const SSIM_SIDE: u32 = 11;
 
 /// The report of `render`, and the comparison.
 #[derive(Serialize)]
@@ -93,7 +88,8 @@ fn compare(
     args: &CompareArgs,
     inputs: &ScriptedInputs,
 ) -> Result<Compared, Trouble> {
-    let copy = args.revision.as_ref().map(|revision| revision::at(&args.project, revision)).transpose()?;
+    let copy = args.revision.as_ref().map(|revision| revision::at(&args.project, revision));
+    let copy = copy.transpose().map_err(anyhow::Error::from)?;
     let reference = match (&copy, &args.reference) {
         (Some((_, path)), _) => path.to_string_lossy().into_owned(),
         (None, reference) => reference.clone().unwrap_or_default(),
@@ -109,13 +105,13 @@ fn compare(
         report.frames += 1;
     }
     let (a, b) = (ours.read(&pass.pass, pass.target)?, theirs.read(&pass.pass, pass.target)?);
-    if (a.width, a.height) != (b.width, b.height) {
+    let Some(apart) = Apart::new(&a, &b) else {
         let size = |p: &Pixels| format!("{} x {}", p.width, p.height);
         return Err(anyhow!("pictures of two sizes cannot be compared: {} and {}", size(&a), size(&b)).into());
-    }
-    let mut compared = apart(args, &a, &b);
+    };
+    let mut compared = Compared::new(args, &a, &apart);
     if let Some(path) = &args.out {
-        targets::write(path, &shown(args.view, &a, &b), Format::Png)?;
+        targets::write(path, &shown(args.view, &a, &b, &apart), Format::Png)?;
         compared.written = Some(path.clone());
     }
     if args.repeats > 0 {
@@ -126,40 +122,27 @@ fn compare(
     Ok(compared)
 }
 
-fn apart(args: &CompareArgs, a: &Pixels, b: &Pixels) -> Compared {
-    let pairs = || a.texels.iter().flatten().zip(b.texels.iter().flatten());
-    // Equal bits are no difference, whatever they stand for.
-    let differences =
-        || pairs().map(|(a, b)| if a.to_bits() == b.to_bits() { 0.0 } else { f64::from(*a) - f64::from(*b) });
-    let bits = |texel: &[f32; 4]| texel.map(f32::to_bits);
-    let squares: f64 = differences().map(|d| d * d).sum();
-    let largest = differences().map(f64::abs).fold(0.0, |most: f64, d| if d.is_nan() { d } else { most.max(d) });
-    let [shown, reference] = [a, b].map(screen);
-    Compared {
-        frame: args.frame,
-        pass: args.pass.pass.key(),
-        width: a.width,
-        height: a.height,
-        texels_apart: a.texels.iter().zip(&b.texels).filter(|(a, b)| bits(a) != bits(b)).count(),
-        largest: Number::Double(largest),
-        rmse: Number::Double((squares / (4 * a.texels.len()) as f64).sqrt()),
-        psnr: Number::Double(picture::psnr(&shown, &reference)),
-        ssim: (a.width.min(a.height) >= SSIM_SIDE).then(|| picture::ssim(&shown, &reference)),
-        flip: flip::mean(&shown, &reference),
-        time: None,
-        written: None,
+impl Compared {
+    fn new(args: &CompareArgs, shown: &Pixels, apart: &Apart) -> Self {
+        Self {
+            frame: args.frame,
+            pass: args.pass.pass.key(),
+            width: shown.width,
+            height: shown.height,
+            texels_apart: apart.texels_apart,
+            largest: Number::Double(apart.largest),
+            rmse: Number::Double(apart.rmse),
+            psnr: Number::Double(apart.psnr),
+            ssim: apart.ssim,
+            flip: apart.mean_flip(),
+            time: None,
+            written: None,
+        }
     }
 }
 
-/// A picture as a screen shows it: in 8 bits.
-fn screen(pixels: &Pixels) -> Picture {
-    let bytes = pixels.to_rgba8();
-    let rgb = bytes.chunks_exact(4).map(|p| [0, 1, 2].map(|i| f64::from(p[i]) / 255.0)).collect();
-    Picture::new(pixels.width as usize, rgb)
-}
-
 /// One picture of both.
-fn shown(view: CompareView, a: &Pixels, b: &Pixels) -> Pixels {
+fn shown(view: CompareView, a: &Pixels, b: &Pixels, apart: &Apart) -> Pixels {
     let (width, height) = (a.width as usize, a.height as usize);
     let rows =
         |pixels: &Pixels| -> Vec<Vec<[f32; 4]>> { pixels.texels.chunks_exact(width).map(<[_]>::to_vec).collect() };
@@ -169,16 +152,11 @@ fn shown(view: CompareView, a: &Pixels, b: &Pixels) -> Pixels {
             let halves = |(a, b): (Vec<[f32; 4]>, Vec<[f32; 4]>)| [&a[..width / 2], &b[width / 2..]].concat();
             rows(a).into_iter().zip(rows(b)).flat_map(halves).collect()
         }
-        CompareView::Difference => {
-            let texel =
-                |(a, b): (&[f32; 4], &[f32; 4])| [0, 1, 2, 3].map(|i| if i == 3 { 1.0 } else { (a[i] - b[i]).abs() });
-            a.texels.iter().zip(&b.texels).map(texel).collect()
-        }
+        CompareView::Difference => return apart::difference(a, b, 1.0),
         CompareView::Flip => {
             // A screen's rows go from the top down.
-            let map = flip::map(&screen(a), &screen(b));
             let grey = |&x: &f64| [x as f32, x as f32, x as f32, 1.0];
-            map.chunks_exact(width).rev().flat_map(|row| row.iter().map(grey)).collect::<Vec<_>>()
+            apart.flip.chunks_exact(width).rev().flat_map(|row| row.iter().map(grey)).collect::<Vec<_>>()
         }
     };
     let width = if view == CompareView::Side { 2 * width } else { width };
@@ -196,26 +174,20 @@ fn times(ours: &mut Offline, theirs: &mut Offline, repeats: u32) -> Result<Time,
     // Drivers compile for the machine when a pipeline is first used.
     turn(ours)?;
     turn(theirs)?;
-    let (mut a, mut b) = (Vec::new(), Vec::new());
+    let mut turns = Vec::new();
     for repeat in 0..repeats {
         // Each goes first as often as the other.
-        if repeat % 2 == 0 {
-            a.push(turn(ours)?);
-            b.push(turn(theirs)?);
-        } else {
-            b.push(turn(theirs)?);
-            a.push(turn(ours)?);
-        }
+        let first = if repeat % 2 == 0 { Some(turn(ours)?) } else { None };
+        let reference = turn(theirs)?;
+        turns.push((first.map_or_else(|| turn(ours), Ok)?, reference));
     }
-    let mut ratios: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a / b).collect();
-    ratios.sort_by(f64::total_cmp);
-    let quartile = |n: usize| ratios[((ratios.len() - 1) * n + 2) / 4];
+    let times = Times::new(&turns).ok_or_else(|| anyhow!("no turns were taken"))?;
     Ok(Time {
-        project_ms: median(a).unwrap_or_default(),
-        reference_ms: median(b).unwrap_or_default(),
-        ratio: quartile(2),
-        ratio_low: quartile(1),
-        ratio_high: quartile(3),
+        project_ms: times.ours,
+        reference_ms: times.theirs,
+        ratio: times.ratio,
+        ratio_low: times.ratio_low,
+        ratio_high: times.ratio_high,
         repeats,
     })
 }

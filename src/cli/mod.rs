@@ -20,7 +20,6 @@ mod probe;
 mod quiet;
 mod render;
 mod report;
-mod revision;
 mod stability;
 mod sweep;
 mod targets;

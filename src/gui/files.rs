@@ -126,6 +126,7 @@ impl Files {
             Pick::SaveAs(_) => ("Save into a folder", "Save"),
             Pick::LabFolder => ("Keep the lab's results in a folder", "Keep"),
             Pick::LabReport => ("Write the lab's report into a folder", "Write"),
+            Pick::Reference => ("Compare with a project", "Compare"),
             Pick::Picture { .. } => ("A picture for the channel", "Use"),
         };
         // A modal takes the keyboard from all that lies below it.
@@ -202,6 +203,7 @@ fn help(pick: &Pick) -> &'static str {
         }
         Pick::SaveAs(_) => "A folder for the project; it is made if it is not there",
         Pick::LabFolder => "A folder for results.jsonl; a run that was stopped there goes on",
+        Pick::Reference => "A folder with eddy.toml, a folder of .glsl files, one .glsl file, or a Shadertoy .json",
         Pick::LabReport => "An empty or a new folder for tables, plots and index.html",
         Pick::Picture { .. } => "png, jpg, webp, bmp, tga, gif or hdr",
     }
@@ -220,6 +222,7 @@ fn dialog(pick: &Pick, start: Option<PathBuf>) -> Dialog {
         Pick::OpenFile => ("Open a shader", Kind::OpenFile("Shaders", &["glsl", "frag", "json", "toml"])),
         Pick::LabFolder => ("Keep the lab's results in a folder", Kind::OpenFolder),
         Pick::LabReport => ("Write the lab's report into a folder", Kind::OpenFolder),
+        Pick::Reference => ("Compare with a project's folder", Kind::OpenFolder),
         Pick::SaveAs(name) => ("Save into a folder", Kind::Save(name.clone())),
         Pick::Picture { .. } => ("A picture for the channel", Kind::OpenFile("Pictures", &PICTURES)),
     };

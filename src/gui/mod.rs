@@ -10,6 +10,7 @@ mod app;
 mod buffers;
 mod channels;
 mod code;
+mod compare;
 mod costs;
 mod custom_uniforms;
 mod dialogs;

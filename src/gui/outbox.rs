@@ -21,6 +21,8 @@ pub enum Pick {
     SaveAs(String),
     /// A folder where the lab's results are kept.
     LabFolder,
+    /// A project to compare with: a folder.
+    Reference,
     /// A folder for the lab's report.
     LabReport,
     /// A picture for a channel of the pass in front.

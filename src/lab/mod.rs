@@ -6,6 +6,7 @@
 //! Owns no window, no argument and no environment variable: the command line hands them in. Reads the clock only to
 //! measure what a frame costs ([`cost`]).
 
+pub mod apart;
 pub mod background;
 pub mod cost;
 mod error;

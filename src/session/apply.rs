@@ -134,6 +134,7 @@ impl Session {
             Command::WatchTargets(targets) => self.run.miniatures.watch(targets),
             Command::WatchBuffers(watch) => self.run.buffers.watch(watch),
             Command::FindNonfinite(is_wanted) => self.searching.want(is_wanted),
+            Command::Compare(against) => self.comparing.want(against),
             Command::SetFrameLimit(limit) => self.halting.limit = limit,
             Command::SetResetOnReload(on) => self.disk.reset_on_reload = on,
             Command::DismissNotice(id) => self.notices.retain(|n| n.id != id),

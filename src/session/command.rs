@@ -3,6 +3,7 @@
 
 use super::{
     buffers::BufferWatch,
+    comparing::Against,
     probe::{ProbeLook, ProbePlace},
     seeking::TimeRange,
     view::Level,
@@ -166,6 +167,9 @@ pub enum Command {
     /// Looks through the frames that are kept for the first NaN or infinity, beside the picture, which goes on; `false`
     /// ends that. See [`Session::search`](super::Session::search).
     FindNonfinite(bool),
+    /// Draws the frames since the reset once more beside the picture, by this project and by what it is compared with,
+    /// from the same inputs; `None` ends that. See [`Session::comparison`](super::Session::comparison).
+    Compare(Option<Against>),
     /// A frame that takes longer pauses the picture.
     SetFrameLimit(Duration),
     /// Says whether a reload from disk starts time and buffers anew.

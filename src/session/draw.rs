@@ -3,8 +3,9 @@
 use super::{
     Session, capture,
     clock::FrameTime,
+    comparing::Order,
     date,
-    drawing::{Capture, Done, DrawnFrame, Job, Replay, TileLimit},
+    drawing::{Capture, Done, DrawnFrame, Job, Replay, Run, TileLimit},
     nonfinite::SearchJob,
     tracing::{self, Taken},
     view::Level,
@@ -54,15 +55,16 @@ impl Session {
             self.tracing.is_due &= traced.is_none() || audited.is_some();
             let inspect = audited.or(traced);
             let wants_replay = is_newest && std::mem::take(&mut self.searching.is_due);
+            let wants_run = is_newest && std::mem::take(&mut self.comparing.is_due);
             let is_seen = !miniatures.is_empty() || numbers.is_some() || buffers.is_some();
-            let is_read = !captures.is_empty() || is_seen || inspect.is_some() || wants_replay;
+            let is_read = !captures.is_empty() || is_seen || inspect.is_some() || wants_replay || wants_run;
             if !is_frame && !is_read && self.drawing.wanted.is_empty() {
                 break;
             }
             self.hand_in(frame, |job| {
                 (job.captures, job.miniatures) = (captures, miniatures);
                 (job.numbers, job.buffers) = (numbers, buffers);
-                (job.inspect, job.wants_replay) = (inspect, wants_replay);
+                (job.inspect, job.wants_replay, job.wants_run) = (inspect, wants_replay, wants_run);
             });
             is_drawn |= self.take_drawn(true);
         }
@@ -154,6 +156,9 @@ impl Session {
         if let Some(replay) = done.replay {
             self.look_through(replay);
         }
+        if let Some(run) = done.run {
+            self.compare(run);
+        }
         let has_numbers = done.numbers.is_some();
         self.probing.drew(has_frame, done.numbers);
         if has_numbers {
@@ -232,6 +237,27 @@ impl Session {
                 media_dir: self.options.media_dir.clone(),
                 snapshot: replay.snapshot,
                 frames: replay.frames.into_iter().map(|frame| (frame.inputs, (*frame.values).clone())).collect(),
+            }),
+        }
+    }
+
+    /// Hands on the frames that both projects of a comparison draw.
+    fn compare(&mut self, run: Run) {
+        self.changed = true;
+        let Some(project) = self.drawing.project().cloned() else {
+            self.comparing.failed("nothing is drawn yet");
+            return;
+        };
+        match self.drawing.device().wait() {
+            Err(e) => self.comparing.failed(&e.to_string()),
+            Ok(gpu) => self.comparing.submit(Order {
+                gpu,
+                project,
+                saved: self.documents.saved().clone(),
+                revision: self.documents.revision(),
+                shown: self.run.shown.clone(),
+                media_dir: self.options.media_dir.clone(),
+                run,
             }),
         }
     }

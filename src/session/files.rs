@@ -124,6 +124,7 @@ impl Session {
         self.run.miniatures.forget();
         self.run.buffers.forget();
         self.searching.want(false);
+        self.comparing.forget();
         self.probing.want(None, self.documents.current());
         self.tracing.want(None);
         self.text_generation += 1;

@@ -345,13 +345,15 @@ impl Session {
     /// Waits a moment for the frame under way. Returns whether threads that draw do not come back: only the end of the
     /// process ends them.
     pub fn end(&mut self) -> bool {
-        !self.drawing.rest(FAREWELL) || self.drawing.lost_threads() > 0
+        let has_lost = !self.comparing.rest(FAREWELL);
+        !self.drawing.rest(FAREWELL) || self.drawing.lost_threads() > 0 || has_lost
     }
 }
 
 impl Drop for Session {
     /// Nobody waits long for a frame, and not at all for a device that does not come back.
     fn drop(&mut self) {
+        self.comparing.rest(FAREWELL);
         if !self.drawing.rest(FAREWELL) {
             self.compiler.leave();
             return;

@@ -7,6 +7,7 @@ use super::{
     buffers::{BufferRead, Watching},
     clock::Clock,
     command::{Question, Request, Then},
+    comparing::{Compared, Comparing, ComparisonView},
     compile,
     costs::{Costs, PassCosts},
     debounce::Debounce,
@@ -125,6 +126,7 @@ pub struct Session {
     pub(super) auditing: Auditing,
     /// The first NaN is looked for.
     pub(super) searching: Searching,
+    pub(super) comparing: Comparing,
     pub(super) notices: Vec<Notice>,
     pub(super) next_notice: u64,
     pub(super) text_generation: u64,
@@ -259,6 +261,7 @@ impl Session {
         let tracing = Tracing::new(wake.clone()).map_err(SessionError::Thread)?;
         let auditing = Auditing::new(wake.clone()).map_err(SessionError::Thread)?;
         let searching = Searching::new(wake.clone()).map_err(SessionError::Thread)?;
+        let comparing = Comparing::new(wake.clone()).map_err(SessionError::Thread)?;
         let (recent, forgotten) = Recent::open(options.state_dir.as_deref());
         let mut session = Session {
             wake,
@@ -319,6 +322,7 @@ impl Session {
             tracing,
             auditing,
             searching,
+            comparing,
             notices: Vec::new(),
             next_notice: 0,
             text_generation: 0,
@@ -484,6 +488,16 @@ impl Session {
     /// The search for the first NaN ([`Command::FindNonfinite`](super::Command::FindNonfinite)).
     pub fn search(&self) -> SearchView<'_> {
         self.searching.view()
+    }
+
+    /// The comparison with another project ([`Command::Compare`](super::Command::Compare)).
+    pub fn comparison(&self) -> ComparisonView<'_> {
+        self.comparing.view()
+    }
+
+    /// The newest comparison is not of the project as it stands now.
+    pub fn is_comparison_old(&self) -> bool {
+        matches!(self.comparing.view(), Some(Compared::Ended(Ok(done))) if done.revision != self.documents.revision())
     }
 
     /// What is drawn instead of the picture, while somebody has asked for it: see

@@ -62,6 +62,7 @@ mod random_programs;
 mod recovery;
 mod reload;
 mod session;
+mod session_compare;
 mod session_inside;
 mod session_media;
 mod thumbnails;

@@ -5,6 +5,7 @@ mod support;
 
 mod window;
 mod window_buffers;
+mod window_compare;
 mod window_editor;
 mod window_endurance;
 mod window_keyboard;

@@ -254,6 +254,13 @@ pub const ACTIONS: &[Entry] = &[
         &["Ctrl+Shift+T"],
         Group::Window,
     ),
+    row(
+        Action::Panel(Panel::Compare),
+        "compare",
+        "Compare with the last save, another project or a revision",
+        &["Ctrl+Shift+O"],
+        Group::Window,
+    ),
     row(Action::UsualLayout, "usual-layout", "Every panel in its usual place", &[], Group::Window),
     row(Action::NextTheme, "theme", "Dark, light, or what the system prefers", &[], Group::Window),
     row(Action::ZoomIn, "zoom-in", "Everything larger", &["Ctrl+Alt+=", "Ctrl+Alt++"], Group::Window),

@@ -25,7 +25,7 @@ const MOST_CHANNELS: f32 = 150.0;
 const COSTS: f32 = 170.0;
 /// The part of the code's height that the way of a pixel has.
 const TRACE: f32 = 0.42;
-/// And what passes have drawn.
+/// And what passes have drawn, or two pictures.
 const BUFFERS: f32 = 0.56;
 /// The lab's part of the height.
 const LAB: f32 = 0.48;
@@ -64,12 +64,12 @@ fn two_columns(size: Vec2, (open, fronts): Opened<'_>, aside: Option<Node>, heig
     }
 }
 
-/// What shows the code at work is below it: the way of a pixel, and what passes have drawn.
+/// What shows the code at work is below it: the way of a pixel, what passes have drawn, and two pictures.
 fn code_and_below(open: &BTreeSet<Panel>, fronts: &[Panel]) -> Option<Node> {
     let is_open = |panel: &Panel| open.contains(panel);
     let code = is_open(&Panel::Code).then_some(Node::Panel(Panel::Code));
-    let part = if is_open(&Panel::Buffers) { BUFFERS } else { TRACE };
-    let below = in_one_place([Panel::Trace, Panel::Buffers].into_iter().filter(is_open), fronts);
+    let part = if is_open(&Panel::Buffers) || is_open(&Panel::Compare) { BUFFERS } else { TRACE };
+    let below = in_one_place([Panel::Trace, Panel::Buffers, Panel::Compare].into_iter().filter(is_open), fronts);
     match (code, below) {
         (Some(code), Some(below)) => Some(Node::Column(vec![(code, 1.0 - part), (below, part)])),
         (code, below) => code.or(below),

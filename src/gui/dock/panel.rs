@@ -15,10 +15,11 @@ pub enum Panel {
     Lab,
     Trace,
     Buffers,
+    Compare,
 }
 
 impl Panel {
-    pub const ALL: [Panel; 8] = [
+    pub const ALL: [Panel; 9] = [
         Panel::Picture,
         Panel::Code,
         Panel::Uniforms,
@@ -27,6 +28,7 @@ impl Panel {
         Panel::Lab,
         Panel::Trace,
         Panel::Buffers,
+        Panel::Compare,
     ];
 
     /// Returns what it is called where it is kept.
@@ -40,6 +42,7 @@ impl Panel {
             Panel::Lab => "lab",
             Panel::Trace => "trace",
             Panel::Buffers => "buffers",
+            Panel::Compare => "compare",
         }
     }
 
@@ -58,11 +61,12 @@ impl Panel {
             Panel::Lab => "Lab",
             Panel::Trace => "Trace",
             Panel::Buffers => "Buffers",
+            Panel::Compare => "Compare",
         }
     }
 
     pub(super) fn is_open_at_first(self) -> bool {
-        !matches!(self, Panel::Costs | Panel::Lab | Panel::Trace | Panel::Buffers)
+        !matches!(self, Panel::Costs | Panel::Lab | Panel::Trace | Panel::Buffers | Panel::Compare)
     }
 
     /// It has a row of its own, by which it can be moved: another with its title would take room for nothing.

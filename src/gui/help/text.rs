@@ -75,6 +75,8 @@ pub(super) const SECTIONS: &[Section] = &[
             "\t//@print distance * 0.5",
             "One frame back draws the frame before again, with every buffer as it was. Record input writes down what \
              each frame is given, so that the command line draws the same frames again.",
+            "Compare draws this project and another one (its last save, a revision of its git repository, any other \
+             project) from the same inputs, and shows both pictures, their difference and how their times compare.",
             "Check the picture holds some of its pixels against double precision, and lists what GLSL leaves undefined \
              below the code.",
         ],

@@ -10,6 +10,7 @@ use super::{
     buffers::Buffers,
     channels::Live,
     code::CodePanel,
+    compare::Compare,
     dock::{Dock, Panel},
     files::{Files, Picked},
     focus::Focus,
@@ -47,6 +48,7 @@ pub struct Shell {
     lab: Lab,
     debugger: Debugger,
     buffers: Buffers,
+    compare: Compare,
     dock: Dock,
     sees_costs: bool,
     /// Small pictures of buffers.
@@ -98,6 +100,7 @@ impl Shell {
             lab: Lab::new(&gpu, wake.clone()),
             debugger: Debugger::default(),
             buffers: Buffers::default(),
+            compare: Compare::new(wake.clone()),
             dock: Dock::new(),
             sees_costs: false,
             live: Live::default(),
@@ -138,6 +141,7 @@ impl Shell {
         self.viewport.forget_texture();
         self.live = Live::default();
         self.buffers.forget_texture();
+        self.compare.forget_textures();
         self.thumbnails = Thumbnails::new(gpu, wake);
     }
 
@@ -396,6 +400,7 @@ impl Shell {
             Pick::SaveAs(_) => out.ask(Command::SaveAs(path)),
             Pick::LabFolder => self.lab.keep_in(path),
             Pick::LabReport => self.lab.save_report(path),
+            Pick::Reference => self.compare.choose(&path),
             Pick::Picture { channel } => self.bring(vec![path], Some(channel), out),
         }
     }

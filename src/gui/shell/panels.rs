@@ -6,6 +6,7 @@ use crate::{
         buffers::{self, Buffers},
         channels::{self, Live},
         code::CodePanel,
+        compare::{self, Compare},
         costs, custom_uniforms,
         dock::{Contents, Heights, Panel},
         lab::Lab,
@@ -51,9 +52,9 @@ impl Shell {
             toasts::panel(ui, session, out);
         }
         let under_picture = if self.dock.is_seen(Panel::Picture) { self.viewport.under() } else { None };
-        let Self { viewport, code, lab, debugger, buffers, thumbnails, live, dock, .. } = self;
+        let Self { viewport, code, lab, debugger, buffers, compare, thumbnails, live, dock, .. } = self;
         CentralPanel::default().frame(Frame::NONE.fill(p.panel)).show(ui, |ui| {
-            let panels = Panels { viewport, code, lab, debugger, buffers };
+            let panels = Panels { viewport, code, lab, debugger, buffers, compare };
             dock.show(ui, &mut Shown { panels, thumbnails, live, under_picture, session, out });
         });
         // Who closes the panel is done with the pixel.
@@ -101,6 +102,7 @@ struct Panels<'a> {
     lab: &'a mut Lab,
     debugger: &'a mut Debugger,
     buffers: &'a mut Buffers,
+    compare: &'a mut Compare,
 }
 
 /// What is in the panels, while they are shown.
@@ -117,7 +119,7 @@ struct Shown<'a> {
 impl Contents for Shown<'_> {
     fn show(&mut self, ui: &mut Ui, panel: Panel) -> bool {
         let Self { panels, thumbnails, live, under_picture, session, out } = self;
-        let Panels { code, lab, debugger, buffers, .. } = panels;
+        let Panels { code, lab, debugger, buffers, compare, .. } = panels;
         match panel {
             Panel::Picture => return self.picture(ui),
             Panel::Code => return code.show(ui, session, out),
@@ -132,6 +134,9 @@ impl Contents for Shown<'_> {
             Panel::Buffers => within(ui, Margin { left: 8, right: 6, top: 2, bottom: 4 }, |ui| {
                 let around = buffers::Around { live, under_picture: *under_picture };
                 buffers::show(buffers, ui, session, around, out);
+            }),
+            Panel::Compare => within(ui, Margin { left: 8, right: 6, top: 2, bottom: 4 }, |ui| {
+                compare::show(compare, ui, session, out);
             }),
             Panel::Lab => within(ui, Margin { left: 10, right: 8, top: 2, bottom: 6 }, |ui| lab.show(ui, out)),
         }

@@ -2,7 +2,7 @@
 
 use super::Shell;
 use crate::{
-    gui::{buffers, costs, dock::Panel, halt, probe, problems, report::Report, theme},
+    gui::{buffers, compare, costs, dock::Panel, halt, probe, problems, report::Report, theme},
     project::{Origin, Tab},
     session::{Outcome, Session},
 };
@@ -69,6 +69,9 @@ impl Shell {
         }
         if self.dock.is_open(Panel::Buffers) {
             report.say_if_new("buffers", buffers::report(&self.buffers, session));
+        }
+        if self.dock.is_open(Panel::Compare) {
+            report.say_if_new("compare", compare::report(&self.compare, session));
         }
         let under = session.probe().and(self.viewport.under());
         report.say_if_new("probe", probe::report(session, under));

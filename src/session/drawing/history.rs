@@ -68,7 +68,14 @@ pub struct Frame {
     pub inputs: FrameInputs,
     pub values: Arc<CustomUniformValues>,
     /// Of the canvas.
-    size: (u32, u32),
+    pub size: (u32, u32),
+}
+
+/// What the frames up to the one that is shown were drawn with.
+pub struct Run {
+    pub frames: Vec<Frame>,
+    /// The first of them is the first since a reset.
+    pub is_whole: bool,
 }
 
 /// A run of frames that can be drawn again elsewhere on the same device.
@@ -197,6 +204,12 @@ impl History {
         let count = (self.drawn - at) as usize;
         let frames = self.frames.iter().skip(first).take(count).cloned().collect();
         Some(Replay { snapshot: snapshot.clone(), frames })
+    }
+
+    /// What all frames up to the one that is shown were drawn with, from the oldest that is kept.
+    pub fn run(&self) -> Run {
+        let count = (self.drawn - self.forgotten) as usize;
+        Run { frames: self.frames.iter().take(count).cloned().collect(), is_whole: self.is_whole }
     }
 
     fn interval(&self) -> u64 {

@@ -1,6 +1,6 @@
 //! What the engine is asked to do at once, and what it answers.
 
-use super::history::{Replay, Travelled};
+use super::history::{Replay, Run, Travelled};
 use crate::{
     engine::{CostClock, EngineError, FrameInputs, Miniature, PassCost, PassTime, Picture, Pixels, Program, ValueLook},
     project::{CustomUniform, CustomUniformValues, PassId, Project},
@@ -91,6 +91,8 @@ pub struct Job {
     pub buffers: Option<BuffersWanted>,
     /// The frames behind the newest are to be handed out.
     pub wants_replay: bool,
+    /// What the frames up to this one were drawn with is to be handed out.
+    pub wants_run: bool,
     /// A pass whose inputs, as it was drawn last, and whose picture are asked for.
     pub inspect: Option<PassId>,
     /// The project whose passes' costs are asked for: somebody looks at them.
@@ -132,6 +134,7 @@ pub struct Done {
     pub buffers: Option<(BuffersRead, Duration)>,
     /// `Some(None)`: none are kept.
     pub replay: Option<Option<Replay>>,
+    pub run: Option<Run>,
     /// What was asked for of a pass.
     pub inspected: Option<Result<Taken, EngineError>>,
     /// The display's picture, if it may have changed and is handed out.

@@ -12,7 +12,7 @@ mod studio;
 
 pub(super) use apart::{Open, beside};
 pub(super) use device::Device;
-pub(super) use history::{Replay, Travelled};
+pub(super) use history::{Frame, Replay, Run, Travelled};
 pub(super) use job::{Capture, Changes, Coming, Done, DrawnFrame, Job, ProgramOrigin, TileLimit};
 
 use crate::{
@@ -237,6 +237,7 @@ impl Drawing {
             numbers: None,
             buffers: None,
             wants_replay: false,
+            wants_run: false,
             inspect: None,
             costs_of: None,
             tile_limit: None,

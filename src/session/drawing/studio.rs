@@ -45,7 +45,7 @@ impl Studio {
 
     pub fn work(&mut self, job: Job) -> Done {
         let Job { changes, frame, travel, captures, miniatures, .. } = job;
-        let Job { numbers, buffers, wants_replay, inspect, costs_of, tile_limit, .. } = job;
+        let Job { numbers, buffers, wants_replay, wants_run, inspect, costs_of, tile_limit, .. } = job;
         let mut done = Done::default();
         let first_inputs = frame.clone().unwrap_or_else(|| FrameInputs::at_fixed_step(0, 60.0));
         self.change(changes, tile_limit, &first_inputs, &mut done);
@@ -77,6 +77,7 @@ impl Studio {
         done.numbers = numbers.and_then(|wanted| self.numbers(wanted));
         done.buffers = buffers.map(|wanted| self.buffers(&wanted));
         done.replay = wants_replay.then(|| self.history.replay());
+        done.run = wants_run.then(|| self.history.run());
         done.inspected = inspect.map(|pass| Ok((self.engine.inspect(&pass)?, self.engine.read(&pass)?)));
         done.costs = costs_of.map(|project| self.engine.pass_costs(&project));
         done.clock = Some(self.engine.cost_clock());

@@ -30,7 +30,7 @@ impl Session {
         self.take_analysed();
         self.changed |= self.tracing.take();
         self.take_audited();
-        self.changed |= self.searching.take();
+        self.changed |= self.searching.take() | self.comparing.take();
         self.fit_canvas();
         self.keep_unsaved();
         frame_drawn |= self.draw_due_frames(true) | std::mem::take(&mut self.has_drawn);

@@ -1,0 +1,203 @@
+//! The panel: what is compared, how it is shown, the pictures, and the figures at its foot.
+
+use super::{
+    pictures,
+    state::{Choice, Compare, View},
+};
+use crate::{
+    gui::{
+        accessible,
+        outbox::{Outbox, Pick, Wish},
+        theme,
+    },
+    lab::apart::{Apart, Times},
+    session::{
+        Command, Outcome, Session,
+        comparing::{Compared, Comparison},
+    },
+};
+use egui::{Label, ProgressBar, RichText, TextEdit, Ui, vec2};
+
+/// Height of the figures.
+const FOOT: f32 = 62.0;
+/// A difference is shown so many times as large.
+const GAINS: [u32; 4] = [1, 4, 16, 64];
+
+pub fn show(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+    out.stop("compare", ui);
+    ui.spacing_mut().item_spacing = vec2(5.0, 4.0);
+    state.update(ui.ctx(), session);
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 3.0;
+        reference(state, ui, out);
+        ui.add_space(6.0);
+        begin(state, ui, session, out);
+    });
+    ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 3.0;
+        views(state, ui, out);
+    });
+    if let Some(Compared::Ended(Err(why))) = session.comparison() {
+        let label = ui.add(Label::new(RichText::new(why).color(theme::of(ui).error)).wrap());
+        out.place("compare:trouble", label.rect);
+    }
+    let room = ui.available_rect_before_wrap();
+    let foot = if state.seen.is_some() { FOOT } else { 0.0 };
+    let (upper, lower) = room.split_top_bottom_at_y((room.bottom() - foot).max(room.top()));
+    pictures::show(state, ui, upper, out);
+    if state.seen.is_some() {
+        let mut child = ui.new_child(egui::UiBuilder::new().id_salt("figures").max_rect(lower));
+        child.set_clip_rect(lower.intersect(ui.clip_rect()));
+        figures(state, &mut child, session, out);
+    }
+    ui.advance_cursor_after_rect(room);
+}
+
+/// What the project is held against.
+fn reference(state: &mut Compare, ui: &mut Ui, out: &mut Outbox) {
+    ui.label("Against");
+    let choices = [
+        (Choice::LastSave, "Last save", "compare:last-save", "The project as it was last saved, read or begun"),
+        (Choice::Project, "Project", "compare:project", "A folder, a file, or a preset's name"),
+        (Choice::Revision, "Revision", "compare:revision", "The project in a revision of its git repository"),
+    ];
+    for (choice, name, place, tip) in choices {
+        let response = ui.selectable_label(state.choice == choice, name).on_hover_text(tip);
+        if out.clicked(place, &response) {
+            state.choice = choice;
+        }
+    }
+    let (text, name, hint, width) = match state.choice {
+        Choice::LastSave => return,
+        Choice::Project => (&mut state.project, "The other project", "folder, file or preset", 170.0),
+        Choice::Revision => (&mut state.revision, "The revision", "HEAD~1, a branch, a hash", 110.0),
+    };
+    let field = ui.add(TextEdit::singleline(text).desired_width(width).hint_text(hint));
+    accessible::name(&field, egui::Role::TextInput, name);
+    out.place("compare:name", field.rect);
+    if field.lost_focus() && ui.input(|i| i.key_pressed(egui::Key::Enter)) {
+        out.commands.extend(state.against().map(|against| Command::Compare(Some(against))));
+    }
+    if state.choice == Choice::Project {
+        let browse = ui.button("Browse…").on_hover_text("The other project's folder");
+        if out.clicked("compare:browse", &browse) {
+            out.wishes.push(Wish::Pick(Pick::Reference));
+        }
+    }
+}
+
+/// The button that begins or ends, and how far it is.
+fn begin(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+    if let Some(Compared::UnderWay { done, of }) = session.comparison() {
+        if out.clicked("compare:stop", &ui.button("Stop")) {
+            out.ask(Command::Compare(None));
+        }
+        if of > 1 {
+            let part = done as f32 / of as f32;
+            let bar = ProgressBar::new(part).desired_width(130.0).text(format!("frame {done} of {of}"));
+            let response = ui.add(bar);
+            accessible::name(&response, egui::Role::ProgressIndicator, format!("Drawn: frame {done} of {of}"));
+        } else {
+            ui.spinner();
+        }
+        return;
+    }
+    let against = state.against();
+    let tip = "Draws the frames since the reset once more, by both, from the same inputs. Beside a picture at work the \
+               times are noisier; paused they are not";
+    let compare = ui.add_enabled(against.is_some(), egui::Button::new("Compare")).on_hover_text(tip);
+    let is_asked = out.clicked("compare:begin", &compare);
+    let follows = ui.checkbox(&mut state.follows, "after each edit").on_hover_text("Compare again when new code draws");
+    out.place("compare:follow", follows.rect);
+    if state.is_measuring() {
+        ui.spinner();
+    }
+    let compile = session.compile_state();
+    let is_settled = !compile.compiling && matches!(compile.last, Some(Outcome::Ok { .. }));
+    let is_due = state.follows && is_settled && session.is_comparison_old();
+    if is_asked || is_due {
+        out.commands.extend(against.map(|against| Command::Compare(Some(against))));
+    }
+}
+
+fn views(state: &mut Compare, ui: &mut Ui, out: &mut Outbox) {
+    let views = [
+        (View::Side, "Side by side", "compare:side", "This project on the left"),
+        (View::Wipe, "Wipe", "compare:wipe", "One over the other: drag the line, or the arrow keys"),
+        (View::Difference, "Difference", "compare:difference", "The difference of each component"),
+        (View::Flip, "FLIP", "compare:flip", "How much of a difference an eye sees when one flips between both"),
+    ];
+    for (view, name, place, tip) in views {
+        let response = ui.selectable_label(state.view == view, name).on_hover_text(tip);
+        if out.clicked(place, &response) {
+            state.view = view;
+        }
+    }
+    if state.view == View::Difference {
+        ui.add_space(6.0);
+        for gain in GAINS {
+            let response = ui.selectable_label(state.gain == gain, format!("× {gain}"));
+            let response = response.on_hover_text(format!("{gain} times as large"));
+            if out.clicked(&format!("compare:gain:{gain}"), &response) {
+                state.gain = gain;
+            }
+        }
+    }
+}
+
+fn figures(state: &Compare, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+    let Some(seen) = &state.seen else { return };
+    let p = theme::of(ui);
+    let comparison = &seen.figures.comparison;
+    ui.spacing_mut().item_spacing.y = 1.0;
+    ui.add_space(3.0);
+    let mut first = whereabouts(comparison);
+    if session.is_comparison_old() && !state.follows {
+        first += " · the project has changed since";
+    }
+    ui.add(Label::new(RichText::new(first).color(p.weak)).truncate());
+    let second = match state.under {
+        Some((at, values)) => under(at, &values),
+        None => distance(&seen.figures.apart, comparison),
+    };
+    let label = ui.add(Label::new(RichText::new(second).color(p.text)).truncate());
+    out.place("compare:figures", label.rect);
+    if let Some(times) = seen.figures.times {
+        ui.add(Label::new(RichText::new(pace(&times)).color(p.text)).truncate());
+    }
+}
+
+fn whereabouts(comparison: &Comparison) -> String {
+    let Comparison { pass, frame, ours, against, is_cut, frames, .. } = comparison;
+    let cut = if *is_cut { format!(" · the last {frames} frames, from empty buffers") } else { String::new() };
+    format!("{} in frame {frame}, {}x{}, against {}{cut}", pass.title(), ours.width, ours.height, against.name())
+}
+
+pub(super) fn distance(apart: &Apart, comparison: &Comparison) -> String {
+    if apart.texels_apart == 0 {
+        return "The same in every bit".to_owned();
+    }
+    let ssim = apart.ssim.map_or("none".to_owned(), |ssim| format!("{ssim:.5}"));
+    format!(
+        "RMSE {:.6} · PSNR {:.2} dB · SSIM {ssim} · FLIP {:.5} · {} of {} texels differ, by at most {:.4}",
+        apart.rmse,
+        apart.psnr,
+        apart.mean_flip(),
+        apart.texels_apart,
+        comparison.ours.texels.len(),
+        apart.largest
+    )
+}
+
+pub(super) fn pace(times: &Times) -> String {
+    let Times { ours, theirs, ratio, ratio_low, ratio_high, turns } = times;
+    format!(
+        "{ours:.3} ms a frame against {theirs:.3}: {ratio:.3} times (quartiles {ratio_low:.3} to {ratio_high:.3}, \
+         {turns} turns)"
+    )
+}
+
+fn under((x, y): (u32, u32), values: &[[f32; 4]; 2]) -> String {
+    let words = |texel: &[f32; 4]| texel.map(|x| format!("{x:.4}")).join(" ");
+    format!("{x},{y}: {} against {}", words(&values[0]), words(&values[1]))
+}

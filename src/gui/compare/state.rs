@@ -1,0 +1,149 @@
+//! What the panel knows from frame to frame.
+
+use super::figures::{self, Figures};
+use crate::{
+    lab::apart,
+    session::{
+        Session,
+        comparing::{Against, Compared, Comparison},
+    },
+};
+use egui::{TextureHandle, TextureOptions};
+use std::{
+    path::Path,
+    sync::{Arc, mpsc::Receiver},
+};
+
+/// What the project is held against.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Choice {
+    LastSave,
+    Project,
+    Revision,
+}
+
+/// How the two pictures are shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum View {
+    Side,
+    Wipe,
+    Difference,
+    Flip,
+}
+
+/// The pictures of the newest comparison on the window's device.
+pub(super) struct Seen {
+    pub figures: Figures,
+    pub ours: TextureHandle,
+    pub theirs: TextureHandle,
+    pub flip: TextureHandle,
+    /// With its gain.
+    pub difference: Option<(TextureHandle, u32)>,
+}
+
+/// The state of the panel.
+pub struct Compare {
+    wake: Arc<dyn Fn() + Send + Sync>,
+    pub(super) choice: Choice,
+    /// A folder, a file, or a preset's name.
+    pub(super) project: String,
+    pub(super) revision: String,
+    pub(super) view: View,
+    /// The part of the picture that is ours, from the left.
+    pub(super) wipe: f32,
+    pub(super) gain: u32,
+    /// Compare again after each edit.
+    pub(super) follows: bool,
+    pub(super) seen: Option<Seen>,
+    coming: Option<Receiver<Figures>>,
+    /// The comparison whose figures are made, or there.
+    of: Option<Arc<Comparison>>,
+    /// The values of both at the pixel under the pointer, of this frame.
+    pub(super) under: Option<((u32, u32), [[f32; 4]; 2])>,
+}
+
+impl Compare {
+    pub fn new(wake: Arc<dyn Fn() + Send + Sync>) -> Self {
+        Self {
+            wake,
+            choice: Choice::LastSave,
+            project: String::new(),
+            revision: "HEAD".to_owned(),
+            view: View::Side,
+            wipe: 0.5,
+            gain: 1,
+            follows: true,
+            seen: None,
+            coming: None,
+            of: None,
+            under: None,
+        }
+    }
+
+    /// The textures were on a device that is lost. They are made again.
+    pub fn forget_textures(&mut self) {
+        (self.seen, self.coming, self.of) = (None, None, None);
+    }
+
+    /// The other project is in a folder or file that was chosen.
+    pub fn choose(&mut self, path: &Path) {
+        self.choice = Choice::Project;
+        self.project = path.display().to_string();
+    }
+
+    /// What is asked for; `None` where its name is not yet typed.
+    pub(super) fn against(&self) -> Option<Against> {
+        let typed = |text: &str| Some(text.trim().to_owned()).filter(|text| !text.is_empty());
+        match self.choice {
+            Choice::LastSave => Some(Against::LastSave),
+            Choice::Project => typed(&self.project).map(Against::Project),
+            Choice::Revision => typed(&self.revision).map(Against::Revision),
+        }
+    }
+
+    /// Takes over what the session has new.
+    pub(super) fn update(&mut self, ctx: &egui::Context, session: &Session) {
+        self.under = None;
+        match session.comparison() {
+            None => (self.seen, self.coming, self.of) = (None, None, None),
+            Some(Compared::Ended(Ok(done))) if self.of.as_ref().is_none_or(|of| !Arc::ptr_eq(of, done)) => {
+                self.of = Some(done.clone());
+                self.coming = Some(figures::begin(done.clone(), self.wake.clone()));
+            }
+            Some(_) => {}
+        }
+        let Some(figures) = self.coming.as_ref().and_then(|coming| coming.try_recv().ok()) else { return };
+        self.coming = None;
+        let load = |name: &str, image: &egui::ColorImage| ctx.load_texture(name, image.clone(), options());
+        self.seen = Some(Seen {
+            ours: load("ours", &figures.ours),
+            theirs: load("theirs", &figures.theirs),
+            flip: load("flip", &figures.flip),
+            difference: None,
+            figures,
+        });
+    }
+
+    /// Figures are being made of pictures that are there.
+    pub(super) fn is_measuring(&self) -> bool {
+        self.coming.is_some()
+    }
+}
+
+impl Seen {
+    /// The picture of the differences, so many times as large.
+    pub(super) fn difference(&mut self, ctx: &egui::Context, gain: u32) -> &TextureHandle {
+        let made = self.difference.take().filter(|(_, of)| *of == gain);
+        let made = made.unwrap_or_else(|| {
+            let comparison = &self.figures.comparison;
+            let pixels = apart::difference(&comparison.ours, &comparison.theirs, gain as f32);
+            (ctx.load_texture("difference", figures::image(&pixels), options()), gain)
+        });
+        &self.difference.insert(made).0
+    }
+}
+
+/// A texel that is made larger is a square.
+fn options() -> TextureOptions {
+    TextureOptions { magnification: egui::TextureFilter::Nearest, ..TextureOptions::LINEAR }
+}

@@ -1,0 +1,10 @@
+//! The open project held against another one: both draw the frames since the reset from the same inputs, beside the
+//! picture, which goes on.
+
+mod comparison;
+mod order;
+mod work;
+
+pub use comparison::{Against, Compared, Comparison, ComparisonView};
+
+pub(super) use order::{Comparing, Order};

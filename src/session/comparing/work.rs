@@ -1,0 +1,193 @@
+//! The two projects at work.
+
+use super::comparison::{Against, Comparison, Progress};
+use crate::{
+    diag,
+    engine::{BuildError, BuildOptions, Engine, EngineError, FrameInputs, Program},
+    gpu::{Gpu, GpuOptions},
+    media,
+    project::{self, PassId, Project},
+    session::{
+        drawing::{Frame, Run},
+        revision,
+    },
+};
+use std::{
+    path::{Path, PathBuf},
+    sync::atomic::Ordering,
+    time::{Duration, Instant},
+};
+
+/// Frames that a project draws in its turn.
+const TURN: i32 = 4;
+/// Turns that are timed, and when there are no more: a person waits.
+const TURNS: usize = 12;
+const LEAST_TURNS: usize = 3;
+const PATIENCE: Duration = Duration::from_secs(2);
+
+pub struct Job {
+    pub gpu: Gpu,
+    pub project: Project,
+    pub against: Against,
+    pub reference: Reference,
+    pub revision: u64,
+    pub shown: PassId,
+    pub media_dir: Option<PathBuf>,
+    pub run: Run,
+}
+
+/// Where the other project comes from.
+pub enum Reference {
+    Project(Box<Project>),
+    Load(String),
+    /// Where the open one lies, and a revision of it.
+    Revision(PathBuf, String),
+}
+
+/// `None`: nobody wants it any more. Fails where there is no other project, or one of both cannot be drawn.
+pub fn compare(job: Job, progress: &Progress, tell: &dyn Fn()) -> Result<Option<Comparison>, String> {
+    let Job { gpu, project, against, reference, revision, shown, media_dir, run } = job;
+    let Run { mut frames, is_whole } = run;
+    let last = frames.last().cloned().ok_or("no frame is drawn yet")?;
+    // Files of a revision are there for as long as they are read.
+    let copy;
+    let other = match reference {
+        Reference::Project(project) => *project,
+        Reference::Load(spec) => load(&spec, &spec)?,
+        Reference::Revision(path, name) => {
+            copy = revision::at(&path.to_string_lossy(), &name).map_err(|e| e.to_string())?;
+            load(&copy.1.to_string_lossy(), &against.name())?
+        }
+    };
+    let pass = if project.pass(&shown).is_some() && other.pass(&shown).is_some() { shown } else { PassId::Image };
+    // What a frame leaves nothing to the next is drawn alone.
+    let is_stateless = project.stateful_passes().is_empty() && other.stateful_passes().is_empty();
+    if is_stateless {
+        frames.drain(..frames.len() - 1);
+    }
+    let is_cut = !is_whole && !is_stateless;
+    // A project that nobody has drawn yet may lose its device: it is not the one that draws the picture, where there is
+    // another.
+    let gpu = Gpu::another(&gpu.info, &GpuOptions::default()).unwrap_or(gpu);
+    progress.of.store(frames.len(), Ordering::Relaxed);
+    let side = |project: &Project, name: &str| {
+        Side::new(&gpu, project, &pass, media_dir.as_deref(), frames[0].size).map_err(|why| format!("{name}: {why}"))
+    };
+    let (mut ours, mut theirs) = (side(&project, "this project")?, side(&other, &against.name())?);
+    for frame in &frames {
+        if progress.is_over.load(Ordering::Relaxed) {
+            return Ok(None);
+        }
+        ours.draw(frame).and_then(|()| theirs.draw(frame)).map_err(|e| e.to_string())?;
+        progress.done.fetch_add(1, Ordering::Relaxed);
+        tell();
+    }
+    let read = |side: &mut Side| side.engine.read(&pass).map_err(|e| e.to_string());
+    let (a, b) = (read(&mut ours)?, read(&mut theirs)?);
+    if (a.width, a.height) != (b.width, b.height) {
+        return Err(format!(
+            "pictures of two sizes cannot be compared: {} is {}x{} here, and {}x{} in {}",
+            pass.title(),
+            a.width,
+            a.height,
+            b.width,
+            b.height,
+            against.name()
+        ));
+    }
+    let turns = take_turns(&mut ours, &mut theirs, &last.inputs, progress).map_err(|e| e.to_string())?;
+    let (frame, frames) = (last.inputs.frame, frames.len());
+    Ok(Some(Comparison { against, pass, frame, ours: a, theirs: b, turns, frames, is_cut, revision }))
+}
+
+fn load(spec: &str, name: &str) -> Result<Project, String> {
+    Ok(project::load(spec).map_err(|e| format!("{name} was not opened: {e}"))?.project)
+}
+
+/// An engine that draws one of both.
+struct Side {
+    engine: Engine,
+}
+
+impl Side {
+    fn new(
+        gpu: &Gpu,
+        project: &Project,
+        pass: &PassId,
+        media_dir: Option<&Path>,
+        (width, height): (u32, u32),
+    ) -> Result<Self, String> {
+        let (media, _) = media::gather(project, media_dir);
+        let mut wanted = vec![PassId::Image];
+        wanted.extend((*pass != PassId::Image).then(|| pass.clone()));
+        // Also what does not change: it is timed.
+        let options = BuildOptions { wanted, skip: false, ..BuildOptions::default() };
+        let built = Program::build(gpu, project, &media, &options).map_err(|error| first_error(&error))?;
+        let mut engine = Engine::new(gpu.clone(), width, height).map_err(|e| e.to_string())?;
+        engine.set_program(built.program).map_err(|e| e.to_string())?;
+        engine.set_custom_uniforms(&project.custom_uniform_values);
+        Ok(Self { engine })
+    }
+
+    /// Draws a frame as it was drawn, and waits for it.
+    fn draw(&mut self, frame: &Frame) -> Result<(), EngineError> {
+        if frame.size != self.engine.size() {
+            self.engine.resize(frame.size.0, frame.size.1)?;
+        }
+        self.engine.set_custom_uniforms(&frame.values);
+        self.engine.draw(&frame.inputs)?;
+        Ok(self.engine.gpu().wait()?)
+    }
+
+    /// The milliseconds of a frame: the mean of the turn that begins so many frames behind the last.
+    fn turn(&mut self, last: &FrameInputs, ahead: i32) -> Result<f64, EngineError> {
+        let began = Instant::now();
+        for by in ahead + 1..=ahead + TURN {
+            let time_secs = last.time_secs + f64::from(by) * f64::from(last.time_delta_secs);
+            let inputs = FrameInputs { frame: last.frame + by, time_secs, ..last.clone() };
+            self.engine.draw(&inputs)?;
+            self.engine.gpu().wait()?;
+        }
+        Ok(began.elapsed().as_secs_f64() * 1e3 / f64::from(TURN))
+    }
+}
+
+/// Times of both, in turns, so that a machine that is busy is busy for both.
+fn take_turns(
+    ours: &mut Side,
+    theirs: &mut Side,
+    last: &FrameInputs,
+    progress: &Progress,
+) -> Result<Vec<(f64, f64)>, EngineError> {
+    // Drivers compile for the machine when a pipeline is first used.
+    ours.turn(last, 0)?;
+    theirs.turn(last, 0)?;
+    let began = Instant::now();
+    let mut turns = Vec::new();
+    while turns.len() < TURNS && !progress.is_over.load(Ordering::Relaxed) {
+        if turns.len() >= LEAST_TURNS && began.elapsed() > PATIENCE {
+            break;
+        }
+        let ahead = TURN * (turns.len() as i32 + 1);
+        // Each goes first as often as the other.
+        turns.push(if turns.len() % 2 == 0 {
+            let first = ours.turn(last, ahead)?;
+            (first, theirs.turn(last, ahead)?)
+        } else {
+            let first = theirs.turn(last, ahead)?;
+            (ours.turn(last, ahead)?, first)
+        });
+    }
+    Ok(turns)
+}
+
+/// The first of what an author has to mend, with its place.
+fn first_error(error: &BuildError) -> String {
+    match error {
+        BuildError::Engine(error) => error.to_string(),
+        BuildError::Diagnostics { diagnostics, sources } => {
+            let first = diagnostics.iter().find(|d| d.severity == diag::Severity::Error);
+            first.map_or_else(|| error.to_string(), |first| diag::render(first, sources))
+        }
+    }
+}
