@@ -70,6 +70,9 @@ fn no_display(error: impl std::fmt::Display) -> GuiError {
     GuiError::NoDisplay(reason.trim_end_matches('.').to_owned())
 }
 
+/// The first frame of a new program is waited for so long before the window is painted without it.
+const FIRST_FRAME: Duration = Duration::from_millis(100);
+
 struct App {
     proxy: EventLoopProxy<Outside>,
     options: Options,
@@ -124,7 +127,9 @@ impl ApplicationHandler<Outside> for App {
             Outside::Wake => {
                 let now = Instant::now();
                 running.session.attend(now);
-                running.paint_by(running.paced(now));
+                // The first frame of what was typed wakes the loop again: to paint before it would hold it up.
+                let wait = if running.session.is_first_frame_coming() { FIRST_FRAME } else { Duration::ZERO };
+                running.paint_by(running.paced(now + wait));
             }
             Outside::Assistive(event) => running.assist(event.window_event),
         }

@@ -50,6 +50,12 @@ impl Session {
         }
     }
 
+    /// A new program, or its first frame, is with the engine.
+    pub fn is_first_frame_coming(&self) -> bool {
+        let is_drawn = self.drawing.is_busy() && !self.halting.is_held();
+        is_drawn && (self.drawing.is_program_coming() || self.run.is_program_new)
+    }
+
     /// The newest text is being compiled, and soon will be.
     pub(super) fn gives_way(&self) -> bool {
         self.compile.is_newest_under_way && self.compile.edits.quiet() <= BRIEF
