@@ -2,12 +2,12 @@
 
 use super::report::{Report, Status};
 use crate::{
-    diag::{Diagnostic, Span},
+    diag::Diagnostic,
     engine::{EngineError, Pixels},
-    project::{PassFormat, PassId, Project, inspect_comments},
+    project::{PassId, Project},
     session::{
         offline::Offline,
-        reduction::{Assertion, Quantity},
+        reduction::{self, Assertion, Quantity},
         trace::Number,
     },
 };
@@ -36,20 +36,10 @@ pub struct Measures<'a> {
 /// What `//@probe` comments of a project ask for, and what is wrong with those that cannot be measured.
 pub fn declared(project: &Project) -> (Vec<Quantity>, Vec<Diagnostic>) {
     let (mut quantities, mut diagnostics) = (Vec::new(), Vec::new());
-    for (id, source) in project.texts().iter() {
-        for comment in inspect_comments(&source.text).into_iter().filter(|comment| comment.kind == "probe") {
-            let quantity = Quantity::parse(comment.argument).and_then(|quantity| match project.pass(&quantity.pass) {
-                Some(_) => Ok(quantity),
-                None => Err(format!("there is no pass {}", quantity.pass.key())),
-            });
-            match quantity {
-                Ok(quantity) => quantities.push(quantity),
-                Err(why) => {
-                    let span = Span::new(id, comment.range);
-                    let hint = "the form is //@probe sum(buffer_a.x), with sum, min, max, mean, rms or nonfinite";
-                    diagnostics.push(Diagnostic::warning(span, format!("nothing is measured here: {why}")).hint(hint));
-                }
-            }
+    for comment in reduction::declared(project) {
+        match comment.quantity {
+            Ok(quantity) => quantities.push(quantity),
+            Err(unmeasured) => diagnostics.push(unmeasured.diagnostic(comment.span)),
         }
     }
     (quantities, diagnostics)
@@ -57,7 +47,7 @@ pub fn declared(project: &Project) -> (Vec<Quantity>, Vec<Diagnostic>) {
 
 impl<'a> Measures<'a> {
     pub fn new(project: &Project, quantities: Vec<Quantity>, assertions: &'a [Assertion]) -> Self {
-        let stored = quantities.iter().map(|quantity| components(project, &quantity.pass)).collect();
+        let stored = quantities.iter().map(|quantity| components(project, quantity)).collect();
         Self { assertions, quantities, stored, first: Vec::new(), taken: Vec::new() }
     }
 
@@ -87,7 +77,7 @@ impl<'a> Measures<'a> {
         }
         let is_first = self.first.is_empty();
         for (i, assertion) in self.assertions.iter().enumerate() {
-            let value = value(&assertion.quantity, components(project, &assertion.quantity.pass))?;
+            let value = value(&assertion.quantity, components(project, &assertion.quantity))?;
             if is_first {
                 self.first.push(value);
             }
@@ -104,6 +94,6 @@ impl<'a> Measures<'a> {
     }
 }
 
-fn components(project: &Project, pass: &PassId) -> usize {
-    project.pass(pass).map_or_else(PassFormat::default, |pass| pass.settings.format).components()
+fn components(project: &Project, quantity: &Quantity) -> usize {
+    reduction::stored(project, &quantity.pass, quantity.target)
 }

@@ -1,0 +1,77 @@
+//! What `//@probe` comments of a project ask for.
+
+use super::quantity::Quantity;
+use crate::{
+    diag::{Diagnostic, Span},
+    project::{self, PassId, Project, inspect_comments},
+};
+
+/// Why a number cannot be had, and what mends that.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Unmeasured {
+    pub why: String,
+    pub mend: String,
+}
+
+/// A comment that asks for a number, as `//@probe sum(buffer_a.x)` does.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Declared {
+    /// What stands behind the word, in the project's texts.
+    pub span: Span,
+    pub text: String,
+    pub quantity: Result<Quantity, Unmeasured>,
+}
+
+impl Unmeasured {
+    pub fn diagnostic(&self, span: Span) -> Diagnostic {
+        Diagnostic::warning(span, format!("nothing is measured here: {}", self.why)).hint(self.mend.as_str())
+    }
+}
+
+/// The comments of a project that ask for numbers, in the order of its texts.
+pub fn declared(project: &Project) -> Vec<Declared> {
+    let mut all = Vec::new();
+    for (id, source) in project.texts().iter() {
+        for comment in inspect_comments(&source.text).into_iter().filter(|comment| comment.kind == "probe") {
+            let (span, text) = (Span::new(id, comment.range), comment.argument.to_owned());
+            all.push(Declared { span, quantity: quantity(project, &text), text });
+        }
+    }
+    all
+}
+
+/// The quantity that a comment names, if the project has it.
+fn quantity(project: &Project, text: &str) -> Result<Quantity, Unmeasured> {
+    let quantity = Quantity::parse(text).map_err(|why| Unmeasured {
+        why,
+        mend: "the form is //@probe sum(buffer_a.x), with sum, min, max, mean, rms or nonfinite".into(),
+    })?;
+    let key = quantity.pass.key();
+    let Some(pass) = project.pass(&quantity.pass) else {
+        let keys: Vec<String> = project.passes.iter().map(|pass| pass.id.key()).collect();
+        let mend = format!("the project's passes are {}", project::listed(&keys));
+        return Err(Unmeasured { why: format!("there is no pass {key}"), mend });
+    };
+    let formats = pass.settings.formats();
+    let Some(format) = formats.get(quantity.target) else {
+        let why = format!("{key} has no target {}", quantity.target);
+        let mend = match formats.len() {
+            1 => format!("it draws into one, which {key} names"),
+            count => format!("it draws into {count}, and they are numbered from 0"),
+        };
+        return Err(Unmeasured { why, mend });
+    };
+    match quantity.component.filter(|component| *component >= format.components()) {
+        Some(component) => Err(Unmeasured {
+            why: format!("{key} does not store {}", ["x", "y", "z", "w"][component]),
+            mend: format!("its format {} has {} of the four components", format.name(), format.components()),
+        }),
+        None => Ok(quantity),
+    }
+}
+
+/// How many components a target of a pass stores.
+pub fn stored(project: &Project, pass: &PassId, target: usize) -> usize {
+    let formats = project.pass(pass).map(|pass| pass.settings.formats()).unwrap_or_default();
+    formats.get(target).copied().unwrap_or_default().components()
+}
