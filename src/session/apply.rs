@@ -133,6 +133,9 @@ impl Session {
             }
             Command::WatchTargets(targets) => self.run.miniatures.watch(targets),
             Command::WatchBuffers(watch) => self.run.buffers.watch(watch),
+            Command::WatchMeasures(seen) => self.run.measuring.watch(seen),
+            Command::ClearMeasures => self.run.measuring.clear(),
+            Command::SaveMeasures => self.save_measures(),
             Command::FindNonfinite(is_wanted) => self.searching.want(is_wanted),
             Command::Compare(against) => self.comparing.want(against),
             Command::SetFrameLimit(limit) => self.halting.limit = limit,

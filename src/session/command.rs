@@ -164,6 +164,13 @@ pub enum Command {
     /// What somebody looks at closely: only that is read back, and nothing with the default. See
     /// [`Session::buffer`](super::Session::buffer) and [`Session::texels_under`](super::Session::texels_under).
     WatchBuffers(BufferWatch),
+    /// Which comments that ask for a number somebody looks at, by their serials: only those are measured. See
+    /// [`Session::measures`](super::Session::measures).
+    WatchMeasures(Vec<u64>),
+    /// Forgets what has been measured so far.
+    ClearMeasures,
+    /// Writes it as CSV beside the pictures; the path comes as a notice.
+    SaveMeasures,
     /// Looks through the frames that are kept for the first NaN or infinity, beside the picture, which goes on; `false`
     /// ends that. See [`Session::search`](super::Session::search).
     FindNonfinite(bool),

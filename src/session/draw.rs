@@ -45,6 +45,8 @@ impl Session {
             let is_running = self.run.clock.is_playing() && !self.run.is_covered;
             let miniatures = if is_current { self.run.miniatures.take_due(self.now, is_running) } else { Vec::new() };
             let buffers = if is_current { self.run.buffers.take_due(self.now, is_running) } else { None };
+            let is_busy = is_running || self.run.seeking.is_seeking();
+            let measures = if is_current { self.run.measuring.take_due(self.now, is_busy) } else { None };
             let numbers = if is_current { self.probing.take_due(self.now, is_running) } else { None };
             // Of the newest program, and once nothing more is to be drawn.
             let is_newest = is_there && !self.is_compile_under_way();
@@ -56,14 +58,14 @@ impl Session {
             let inspect = audited.or(traced);
             let wants_replay = is_newest && std::mem::take(&mut self.searching.is_due);
             let wants_run = is_newest && std::mem::take(&mut self.comparing.is_due);
-            let is_seen = !miniatures.is_empty() || numbers.is_some() || buffers.is_some();
+            let is_seen = !miniatures.is_empty() || numbers.is_some() || buffers.is_some() || measures.is_some();
             let is_read = !captures.is_empty() || is_seen || inspect.is_some() || wants_replay || wants_run;
             if !is_frame && !is_read && self.drawing.wanted.is_empty() {
                 break;
             }
             self.hand_in(frame, |job| {
                 (job.captures, job.miniatures) = (captures, miniatures);
-                (job.numbers, job.buffers) = (numbers, buffers);
+                (job.numbers, job.buffers, job.measures) = (numbers, buffers, measures);
                 (job.inspect, job.wants_replay, job.wants_run) = (inspect, wants_replay, wants_run);
             });
             is_drawn |= self.take_drawn(true);
@@ -116,6 +118,9 @@ impl Session {
 
     fn hand_in(&mut self, frame: Option<FrameInputs>, read: impl FnOnce(&mut Job)) {
         self.note_job(frame.as_ref());
+        if let Some(frame) = &frame {
+            self.run.measuring.begin_frame(frame.frame);
+        }
         let costs_of = self.run.costs.is_watched().then(|| self.documents.current().clone());
         let tile_limit = self.tile_limit();
         if self.drawing.wanted.program.is_some() {
@@ -153,6 +158,7 @@ impl Session {
         self.changed |= !done.miniatures.is_empty();
         self.run.miniatures.drew(has_frame, done.miniatures);
         self.changed |= self.run.buffers.drew(has_frame, done.buffers);
+        self.changed |= self.run.measuring.drew(has_frame, done.measured);
         if let Some(replay) = done.replay {
             self.look_through(replay);
         }

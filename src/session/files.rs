@@ -123,6 +123,7 @@ impl Session {
         self.run.costs.forget();
         self.run.miniatures.forget();
         self.run.buffers.forget();
+        self.run.measuring.forget();
         self.searching.want(false);
         self.comparing.forget();
         self.probing.want(None, self.documents.current());

@@ -28,6 +28,8 @@ mod frames;
 mod halt;
 mod halting;
 mod marker;
+mod measures;
+pub mod measuring;
 mod miniatures;
 pub mod mouse;
 pub mod nonfinite;

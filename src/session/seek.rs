@@ -112,6 +112,7 @@ impl Session {
                 if left > 0 {
                     self.run.seeking.goal = Some(Goal::Frame(goal));
                 } else {
+                    self.run.measuring.go_to(inputs.frame);
                     self.arrive();
                 }
             }

@@ -14,6 +14,7 @@ use super::{
     documents::Documents,
     drawing::{self, Drawing},
     halting::Halting,
+    measuring::Measuring,
     miniatures::Miniatures,
     mouse::Mouse,
     nonfinite::{SearchView, Searching},
@@ -232,6 +233,7 @@ pub(super) struct Run {
     pub costs: Costs,
     pub miniatures: Miniatures,
     pub buffers: Watching,
+    pub measuring: Measuring,
     /// The inputs of what is drawn are recorded.
     pub recorder: Option<Recorder>,
 }
@@ -316,6 +318,7 @@ impl Session {
                 costs: Costs::default(),
                 miniatures: Miniatures::default(),
                 buffers: Watching::default(),
+                measuring: Measuring::default(),
                 recorder: None,
             },
             probing: Probing::default(),

@@ -64,6 +64,7 @@ mod reload;
 mod session;
 mod session_compare;
 mod session_inside;
+mod session_measures;
 mod session_media;
 mod thumbnails;
 mod time_travel;

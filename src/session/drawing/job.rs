@@ -7,6 +7,7 @@ use crate::{
     session::{
         buffers::{BuffersRead, BuffersWanted},
         capture::Format,
+        measuring::{Measured, MeasuresWanted},
         probe::{NumbersWanted, ProbeNumbers},
         seeking::{Goal, Reach},
         tracing::Taken,
@@ -89,6 +90,8 @@ pub struct Job {
     pub numbers: Option<NumbersWanted>,
     /// What somebody looks at closely.
     pub buffers: Option<BuffersWanted>,
+    /// Numbers of passes.
+    pub measures: Option<MeasuresWanted>,
     /// The frames behind the newest are to be handed out.
     pub wants_replay: bool,
     /// What the frames up to this one were drawn with is to be handed out.
@@ -132,6 +135,8 @@ pub struct Done {
     pub numbers: Option<(ProbeNumbers, Duration)>,
     /// What was looked at closely, and how long that took.
     pub buffers: Option<(BuffersRead, Duration)>,
+    /// The numbers of passes that were asked for, and how long they took.
+    pub measured: Option<(Measured, Duration)>,
     /// `Some(None)`: none are kept.
     pub replay: Option<Option<Replay>>,
     pub run: Option<Run>,

@@ -236,6 +236,7 @@ impl Drawing {
             miniatures: Vec::new(),
             numbers: None,
             buffers: None,
+            measures: None,
             wants_replay: false,
             wants_run: false,
             inspect: None,

@@ -10,11 +10,16 @@ use crate::{
     project::PassId,
     session::{
         buffers::{BufferRead, BuffersRead, BuffersWanted},
+        measuring::{Measured, MeasuresWanted},
         nonfinite::NonfiniteTexels,
         probe::{NumbersWanted, ProbeNumbers, Statistics},
+        reduction::Quantity,
     },
 };
-use std::time::{Duration, Instant};
+use std::{
+    collections::HashMap,
+    time::{Duration, Instant},
+};
 
 /// A tile's time tells something where it is at least such a part of a frame's limit; less is lost in what else the
 /// machine does.
@@ -29,6 +34,8 @@ pub struct Studio {
     /// The display's picture leaves the device.
     hands_out: bool,
     history: History,
+    /// `iFrame` and `iTime` of what the targets hold.
+    shown: Option<(i32, f64)>,
 }
 
 impl Studio {
@@ -36,7 +43,7 @@ impl Studio {
     pub fn new(gpu: Gpu, (width, height): (u32, u32), hands_out: bool) -> Result<Self, EngineError> {
         let mut engine = Engine::new(gpu, width, height)?;
         engine.set_timing(true);
-        Ok(Self { engine, hands_out, history: History::default() })
+        Ok(Self { engine, hands_out, history: History::default(), shown: None })
     }
 
     pub fn engine(&self) -> &Engine {
@@ -45,17 +52,21 @@ impl Studio {
 
     pub fn work(&mut self, job: Job) -> Done {
         let Job { changes, frame, travel, captures, miniatures, .. } = job;
-        let Job { numbers, buffers, wants_replay, wants_run, inspect, costs_of, tile_limit, .. } = job;
+        let Job { numbers, buffers, measures, wants_replay, wants_run, inspect, costs_of, tile_limit, .. } = job;
         let mut done = Done::default();
         let first_inputs = frame.clone().unwrap_or_else(|| FrameInputs::at_fixed_step(0, 60.0));
         self.change(changes, tile_limit, &first_inputs, &mut done);
         if let Some(goal) = travel {
             let travelled = self.history.travel(&mut self.engine, goal, PATIENCE);
             done.is_display_new |= travelled.as_ref().is_some_and(|t| t.as_ref().is_ok_and(|t| t.is_display_new));
+            if let Some(Ok(travelled)) = &travelled {
+                self.shown = Some((travelled.inputs.frame, travelled.inputs.time_secs));
+            }
             done.travelled = Some(travelled);
         }
         if let Some(inputs) = frame {
             let size = self.engine.size();
+            self.shown = Some((inputs.frame, inputs.time_secs));
             let is_ready = self.history.before_frame(&mut self.engine);
             done.is_display_new |= self.engine.size() != size;
             let drawn = is_ready.and_then(|()| self.draw(&inputs, costs_of.is_some()));
@@ -76,6 +87,7 @@ impl Studio {
             miniatures.into_iter().filter_map(picture).map(|(picture, target)| (target, picture)).collect();
         done.numbers = numbers.and_then(|wanted| self.numbers(wanted));
         done.buffers = buffers.map(|wanted| self.buffers(&wanted));
+        done.measured = measures.and_then(|wanted| self.measure(wanted));
         done.replay = wants_replay.then(|| self.history.replay());
         done.run = wants_run.then(|| self.history.run());
         done.inspected = inspect.map(|pass| Ok((self.engine.inspect(&pass)?, self.engine.read(&pass)?)));
@@ -94,6 +106,7 @@ impl Studio {
         if let Some((width, height)) = size.filter(|size| *size != self.engine.size()) {
             done.resized = Some(((width, height), self.engine.resize(width, height)));
             self.history.resize();
+            self.shown = None;
             done.is_display_new = true;
         }
         if let Some(coming) = program {
@@ -120,6 +133,7 @@ impl Studio {
         if reset {
             self.engine.reset();
             self.history.begin(true);
+            self.shown = None;
         }
     }
 
@@ -196,6 +210,23 @@ impl Studio {
         });
         let under = wanted.under.and_then(|at| self.engine.texels_at(at).ok());
         (BuffersRead { shown, under }, began.elapsed())
+    }
+
+    /// Measures what the targets hold, each of which is read once. Nothing has a number before the first frame.
+    fn measure(&mut self, wanted: MeasuresWanted) -> Option<(Measured, Duration)> {
+        let began = Instant::now();
+        let (frame, time_secs) = self.shown?;
+        let mut read: HashMap<(PassId, usize), Option<(Pixels, usize)>> = HashMap::new();
+        let mut value = |quantity: &Quantity| {
+            let target = (quantity.pass.clone(), quantity.target);
+            let texels = read.entry(target).or_insert_with_key(|(pass, index)| {
+                let stored = self.engine.format(pass, *index)?.components();
+                Some((self.engine.read_target(pass, *index).ok()?, stored))
+            });
+            texels.as_ref().map(|(pixels, stored)| quantity.of(pixels, *stored))
+        };
+        let values = wanted.iter().map(|(serial, quantity)| (*serial, value(quantity))).collect();
+        Some((Measured { frame, time_secs, values }, began.elapsed()))
     }
 
     fn read(&mut self, capture: Capture) -> (Capture, Result<Pixels, EngineError>) {

@@ -33,6 +33,7 @@ impl Session {
         self.changed |= self.searching.take() | self.comparing.take();
         self.fit_canvas();
         self.keep_unsaved();
+        self.follow_measures();
         frame_drawn |= self.draw_due_frames(true) | std::mem::take(&mut self.has_drawn);
         Tick { frame_drawn, wake_at: self.wake_at(), changed: std::mem::take(&mut self.changed) }
     }
