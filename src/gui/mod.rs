@@ -28,6 +28,7 @@ mod histogram;
 mod icons;
 mod keys;
 mod lab;
+mod measures;
 mod outbox;
 mod palette;
 mod passes;

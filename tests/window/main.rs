@@ -12,6 +12,7 @@ mod window_keyboard;
 mod window_keys;
 mod window_lab;
 mod window_layout;
+mod window_measures;
 mod window_passes;
 mod window_save;
 mod window_slow;

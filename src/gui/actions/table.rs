@@ -261,6 +261,13 @@ pub const ACTIONS: &[Entry] = &[
         &["Ctrl+Shift+O"],
         Group::Window,
     ),
+    row(
+        Action::Panel(Panel::Measurements),
+        "measurements",
+        "Measurements: the numbers of //@probe comments over time",
+        &["Ctrl+Shift+J"],
+        Group::Window,
+    ),
     row(Action::UsualLayout, "usual-layout", "Every panel in its usual place", &[], Group::Window),
     row(Action::NextTheme, "theme", "Dark, light, or what the system prefers", &[], Group::Window),
     row(Action::ZoomIn, "zoom-in", "Everything larger", &["Ctrl+Alt+=", "Ctrl+Alt++"], Group::Window),

@@ -64,12 +64,14 @@ fn two_columns(size: Vec2, (open, fronts): Opened<'_>, aside: Option<Node>, heig
     }
 }
 
-/// What shows the code at work is below it: the way of a pixel, what passes have drawn, and two pictures.
+/// What shows the code at work is below it: the way of a pixel, what passes have drawn, two pictures, and numbers over
+/// time.
 fn code_and_below(open: &BTreeSet<Panel>, fronts: &[Panel]) -> Option<Node> {
     let is_open = |panel: &Panel| open.contains(panel);
     let code = is_open(&Panel::Code).then_some(Node::Panel(Panel::Code));
     let part = if is_open(&Panel::Buffers) || is_open(&Panel::Compare) { BUFFERS } else { TRACE };
-    let below = in_one_place([Panel::Trace, Panel::Buffers, Panel::Compare].into_iter().filter(is_open), fronts);
+    let shared = [Panel::Trace, Panel::Buffers, Panel::Compare, Panel::Measurements];
+    let below = in_one_place(shared.into_iter().filter(is_open), fronts);
     match (code, below) {
         (Some(code), Some(below)) => Some(Node::Column(vec![(code, 1.0 - part), (below, part)])),
         (code, below) => code.or(below),

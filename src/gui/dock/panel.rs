@@ -16,10 +16,11 @@ pub enum Panel {
     Trace,
     Buffers,
     Compare,
+    Measurements,
 }
 
 impl Panel {
-    pub const ALL: [Panel; 9] = [
+    pub const ALL: [Panel; 10] = [
         Panel::Picture,
         Panel::Code,
         Panel::Uniforms,
@@ -29,6 +30,7 @@ impl Panel {
         Panel::Trace,
         Panel::Buffers,
         Panel::Compare,
+        Panel::Measurements,
     ];
 
     /// Returns what it is called where it is kept.
@@ -43,6 +45,7 @@ impl Panel {
             Panel::Trace => "trace",
             Panel::Buffers => "buffers",
             Panel::Compare => "compare",
+            Panel::Measurements => "measurements",
         }
     }
 
@@ -62,11 +65,12 @@ impl Panel {
             Panel::Trace => "Trace",
             Panel::Buffers => "Buffers",
             Panel::Compare => "Compare",
+            Panel::Measurements => "Measurements",
         }
     }
 
     pub(super) fn is_open_at_first(self) -> bool {
-        !matches!(self, Panel::Costs | Panel::Lab | Panel::Trace | Panel::Buffers | Panel::Compare)
+        matches!(self, Panel::Picture | Panel::Code | Panel::Uniforms | Panel::Channels)
     }
 
     /// It has a row of its own, by which it can be moved: another with its title would take room for nothing.

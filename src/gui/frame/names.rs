@@ -32,6 +32,7 @@ const IMAGE: &str = "#iUniform float red = 0.5 in { 0.0, 1.0 }\n#iUniform int co
     #iUniform bool on\n#iUniform vec2 at\n#iUniform vec4 wide in { 0.0, 1.0 }\n\
     #iUniform color3 tint = color3(1.0, 0.5, 0.0)\n\
     void mainImage(out vec4 o, in vec2 p) {\n\
+    //@probe mean(image.r)\n\
     float unused; o = vec4(red * at.x * wide.x, tint.g, on ? 1.0 : 0.0, count); }";
 
 /// `None` where there is no device, after saying so.
@@ -126,6 +127,7 @@ fn everything_that_takes_the_keyboard_has_a_name() {
         ("going to a line", CTRL, Key::G, "Line"),
         ("the costs", CTRL_SHIFT, Key::M, "Close Costs"),
         ("the buffers", CTRL_SHIFT, Key::T, "Render graph"),
+        ("the measurements", CTRL_SHIFT, Key::J, "Image:8"),
         ("the palette", CTRL_SHIFT, Key::P, "Save"),
         ("the help", Modifiers::NONE, Key::F1, "Close"),
         ("the passes", CTRL_SHIFT, Key::B, "Add"),
@@ -135,7 +137,7 @@ fn everything_that_takes_the_keyboard_has_a_name() {
         press(&mut stage, modifiers, key);
         has(&named(&stage, state), &[wanted]);
         press(&mut stage, Modifiers::NONE, Key::Escape);
-        if matches!(key, Key::M | Key::L | Key::B | Key::T) || (key == Key::G && modifiers == CTRL_SHIFT) {
+        if matches!(key, Key::M | Key::L | Key::B | Key::T | Key::J) || (key == Key::G && modifiers == CTRL_SHIFT) {
             press(&mut stage, modifiers, key);
         }
     }

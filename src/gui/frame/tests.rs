@@ -326,3 +326,46 @@ fn a_text_that_is_pasted_beside_the_code_is_opened() {
     stage.frame(vec![Event::Paste("https://www.shadertoy.com/view/abc".into())]);
     assert!(stage.session.notices().last().unwrap().text.contains("bookmarklet"));
 }
+
+/// A panel that is closed, or behind another, measures nothing; one that is open what is in sight of it.
+#[test]
+fn only_measurements_in_sight_are_measured() {
+    let text = format!("{}{MOUSE}", "//@probe max(image.x)\n".repeat(40));
+    let Some(mut stage) = Stage::open(&[("image.glsl", &text)]) else { return };
+    let count = |stage: &Stage| stage.session.measured_frames();
+    stage.session.apply(Command::Play);
+    (0..5).for_each(|_| drop(stage.frame(vec![])));
+    assert_eq!((stage.session.measures().len(), count(&stage)), (40, 0));
+
+    let key = |key: egui::Key| {
+        let modifiers = Modifiers { ctrl: true, command: true, shift: true, ..Modifiers::NONE };
+        Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers }
+    };
+    stage.frame(vec![key(egui::Key::J)]);
+    stage.until("a measured frame", |stage| count(stage) > 2);
+    assert!(stage.shell.place("panel:measurements").is_some());
+    let measured = |stage: &Stage| stage.session.measures().iter().filter(|m| m.record.newest().is_some()).count();
+    assert!((1..20).contains(&measured(&stage)), "those in sight: {}", measured(&stage));
+
+    stage.click("measures:go:1");
+    assert_eq!(stage.shell.caret(), (Tab::Pass(PassId::Image), 1));
+
+    // Behind another panel of its place.
+    stage.frame(vec![key(egui::Key::T)]);
+    stage.until("the buffers in front", |stage| stage.shell.place("measures:card:0").is_none());
+    stage.frame(vec![]);
+    let covered = count(&stage);
+    (0..20).for_each(|_| drop(stage.frame(vec![])));
+    assert_eq!(count(&stage), covered);
+    stage.frame(vec![key(egui::Key::T)]);
+    stage.until("it is in front again", |stage| count(stage) > covered);
+
+    stage.frame(vec![key(egui::Key::J)]);
+    stage.until("the panel is closed", |stage| stage.shell.place("panel:measurements").is_none());
+    stage.frame(vec![]);
+    let closed = count(&stage);
+    let frame = stage.session.transport().frame;
+    (0..20).for_each(|_| drop(stage.frame(vec![])));
+    assert!(stage.session.transport().frame > frame && stage.shell.place("measures:card:0").is_none());
+    assert_eq!(count(&stage), closed);
+}

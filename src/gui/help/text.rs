@@ -73,6 +73,9 @@ pub(super) const SECTIONS: &[Section] = &[
              Watches are expressions of the language, and may call your own functions.",
             "A comment prints what an expression is where it stands, each time, and means nothing to the site:",
             "\t//@print distance * 0.5",
+            "Another comment has a number of a pass measured, which the panel Measurements plots over time while it is \
+             open:",
+            "\t//@probe sum(buffer_a.x)",
             "One frame back draws the frame before again, with every buffer as it was. Record input writes down what \
              each frame is given, so that the command line draws the same frames again.",
             "Compare draws this project and another one (its last save, a revision of its git repository, any other \

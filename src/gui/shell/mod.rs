@@ -18,6 +18,7 @@ use super::{
     gallery::Gallery,
     help::Help,
     lab::Lab,
+    measures::Measurements,
     outbox::{Outbox, Pick, Wish},
     palette::Palette,
     passes::Passes,
@@ -49,6 +50,7 @@ pub struct Shell {
     debugger: Debugger,
     buffers: Buffers,
     compare: Compare,
+    measurements: Measurements,
     dock: Dock,
     sees_costs: bool,
     /// Small pictures of buffers.
@@ -101,6 +103,7 @@ impl Shell {
             debugger: Debugger::default(),
             buffers: Buffers::default(),
             compare: Compare::new(wake.clone()),
+            measurements: Measurements::default(),
             dock: Dock::new(),
             sees_costs: false,
             live: Live::default(),
@@ -211,6 +214,7 @@ impl Shell {
         }
         out.commands.extend(self.live.end_frame());
         out.commands.extend(self.buffers.end_frame(session));
+        out.commands.extend(self.measurements.end_frame());
         toasts::expire(ui.ctx(), session, Instant::now(), &mut out);
         toasts::over(ui, session, Instant::now(), &mut out);
         if !self.gallery {

@@ -10,6 +10,7 @@ use crate::{
         costs, custom_uniforms,
         dock::{Contents, Heights, Panel},
         lab::Lab,
+        measures::{self, Measurements},
         outbox::{Outbox, Wish},
         theme,
         thumbnails::Thumbnails,
@@ -52,16 +53,17 @@ impl Shell {
             toasts::panel(ui, session, out);
         }
         let under_picture = if self.dock.is_seen(Panel::Picture) { self.viewport.under() } else { None };
-        let Self { viewport, code, lab, debugger, buffers, compare, thumbnails, live, dock, .. } = self;
+        let Self { viewport, code, lab, debugger, buffers, compare, measurements, thumbnails, live, dock, .. } = self;
         CentralPanel::default().frame(Frame::NONE.fill(p.panel)).show(ui, |ui| {
-            let panels = Panels { viewport, code, lab, debugger, buffers, compare };
+            let panels = Panels { viewport, code, lab, debugger, buffers, compare, measurements };
             dock.show(ui, &mut Shown { panels, thumbnails, live, under_picture, session, out });
         });
         // Who closes the panel is done with the pixel.
         if session.trace().traced.is_some() && !self.dock.is_open(Panel::Trace) {
             out.ask(Command::Trace(None));
         }
-        let sees_costs = self.dock.is_seen(Panel::Costs) || self.buffers.wants_costs();
+        let sees_costs =
+            self.dock.is_seen(Panel::Costs) | self.buffers.wants_costs() | self.measurements.take_costs_wish();
         self.watch_costs(sees_costs, out);
     }
 
@@ -103,6 +105,7 @@ struct Panels<'a> {
     debugger: &'a mut Debugger,
     buffers: &'a mut Buffers,
     compare: &'a mut Compare,
+    measurements: &'a mut Measurements,
 }
 
 /// What is in the panels, while they are shown.
@@ -119,7 +122,7 @@ struct Shown<'a> {
 impl Contents for Shown<'_> {
     fn show(&mut self, ui: &mut Ui, panel: Panel) -> bool {
         let Self { panels, thumbnails, live, under_picture, session, out } = self;
-        let Panels { code, lab, debugger, buffers, compare, .. } = panels;
+        let Panels { code, lab, debugger, buffers, compare, measurements, .. } = panels;
         match panel {
             Panel::Picture => return self.picture(ui),
             Panel::Code => return code.show(ui, session, out),
@@ -137,6 +140,9 @@ impl Contents for Shown<'_> {
             }),
             Panel::Compare => within(ui, Margin { left: 8, right: 6, top: 2, bottom: 4 }, |ui| {
                 compare::show(compare, ui, session, out);
+            }),
+            Panel::Measurements => within(ui, Margin { left: 8, right: 6, top: 2, bottom: 4 }, |ui| {
+                measures::show(measurements, ui, session, out);
             }),
             Panel::Lab => within(ui, Margin { left: 10, right: 8, top: 2, bottom: 6 }, |ui| lab.show(ui, out)),
         }

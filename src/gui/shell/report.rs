@@ -2,7 +2,7 @@
 
 use super::Shell;
 use crate::{
-    gui::{buffers, compare, costs, dock::Panel, halt, probe, problems, report::Report, theme},
+    gui::{buffers, compare, costs, dock::Panel, halt, measures, probe, problems, report::Report, theme},
     project::{Origin, Tab},
     session::{Outcome, Session},
 };
@@ -72,6 +72,9 @@ impl Shell {
         }
         if self.dock.is_open(Panel::Compare) {
             report.say_if_new("compare", compare::report(&self.compare, session));
+        }
+        if self.dock.is_open(Panel::Measurements) {
+            report.say_if_new("measurements", measures::report(&self.measurements, session));
         }
         let under = session.probe().and(self.viewport.under());
         report.say_if_new("probe", probe::report(session, under));

@@ -1,0 +1,106 @@
+//! A card: what is measured, where it is asked for, and its number over time; or why there is none.
+
+use super::{number::words, plot, state::Axis};
+use crate::{
+    gui::{
+        outbox::{Outbox, Wish},
+        theme,
+    },
+    session::{
+        measuring::{Measure, Record},
+        reduction::Unmeasured,
+    },
+};
+use egui::{Align, Frame, Label, Layout, Link, Margin, Rect, RichText, Ui};
+
+/// Letters of a comment that are shown.
+const LONGEST: usize = 40;
+
+/// What a card shows it in.
+pub struct View {
+    /// From the top of the panel, for scripts.
+    pub index: usize,
+    pub axis: Axis,
+    /// What the plots of all cards go over.
+    pub range: (f64, f64),
+}
+
+/// Returns the place of the card. `trouble`: why nothing is measured.
+pub fn show(ui: &mut Ui, measure: &Measure, trouble: Option<&Unmeasured>, view: &View, out: &mut Outbox) -> Rect {
+    let p = theme::of(ui);
+    let frame = Frame::NONE.fill(p.raised).corner_radius(5).inner_margin(Margin::symmetric(8, 5));
+    let shown = frame.show(ui, |ui| {
+        ui.set_width(ui.available_width());
+        head(ui, measure, trouble.is_none(), view.index, out);
+        match trouble {
+            None => {
+                if ui.is_rect_visible(Rect::from_min_size(ui.cursor().min, egui::vec2(1.0, plot::HEIGHT))) {
+                    let area = plot::show(ui, measure, view.axis, view.range);
+                    out.place(format!("measures:plot:{}", view.index), area);
+                } else {
+                    ui.add_space(plot::HEIGHT);
+                }
+            }
+            Some(Unmeasured { why, mend }) => {
+                let text = RichText::new(format!("Nothing is measured here: {why}")).color(p.warning);
+                ui.add(Label::new(text).wrap());
+                ui.add(Label::new(RichText::new(mend).color(p.weak)).wrap());
+            }
+        }
+    });
+    let place = shown.response.rect;
+    out.place(format!("measures:card:{}", view.index), place.intersect(ui.clip_rect()));
+    place
+}
+
+/// The comment, its place, and the newest value.
+fn head(ui: &mut Ui, measure: &Measure, is_measured: bool, index: usize, out: &mut Outbox) {
+    let p = theme::of(ui);
+    ui.horizontal(|ui| {
+        let text = RichText::new(shortened(&measure.text)).monospace().color(p.strong);
+        ui.label(text).on_hover_text(&measure.text);
+        let place = &measure.place;
+        let link = ui.add(Link::new(measure.whereabouts()));
+        if out.clicked(&format!("measures:go:{index}"), &link.on_hover_text("Go to the comment"))
+            && let Some(tab) = &place.tab
+        {
+            out.wishes.push(Wish::GoTo(tab.clone(), Some((place.line - 1, place.column - 1))));
+        }
+        if !is_measured {
+            return;
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let newest = measure.record.newest();
+            let (text, color) = match newest {
+                Some(newest) if newest.value.is_finite() => (words(newest.value), p.accent),
+                Some(newest) => (words(newest.value), p.error),
+                None => ("–".to_owned(), p.weak),
+            };
+            ui.label(RichText::new(text).monospace().size(14.0).color(color));
+            ui.add_space(6.0);
+            ui.add(Label::new(RichText::new(span(&measure.record)).size(11.5).color(p.weak)).truncate());
+        });
+    });
+}
+
+/// A comment may be of any length, and its place stands behind it.
+fn shortened(text: &str) -> String {
+    let mut short: String = text.chars().take(LONGEST).collect();
+    if short.len() < text.len() {
+        short.push('…');
+    }
+    short
+}
+
+/// The least and the largest of what is recorded.
+fn span(record: &Record) -> String {
+    let bad = record.samples().filter(|sample| !sample.value.is_finite()).count();
+    let mut text = match record.extremes() {
+        Some((low, high)) => format!("min {}  max {}", words(low), words(high)),
+        None => String::new(),
+    };
+    if bad > 0 {
+        text += if text.is_empty() { "not finite" } else { "  and not finite" };
+    }
+    text
+}

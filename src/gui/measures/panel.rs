@@ -1,0 +1,72 @@
+//! The panel: a row of buttons, and below it the cards.
+
+use super::{
+    card::{self, View},
+    state::{Axis, Measurements},
+};
+use crate::{
+    gui::{outbox::Outbox, theme},
+    session::{Command, Session, measuring::Measure},
+};
+use egui::{Button, Label, RichText, ScrollArea, Ui, vec2};
+
+pub fn show(state: &mut Measurements, ui: &mut Ui, session: &Session, out: &mut Outbox) {
+    out.stop("measurements", ui);
+    ui.spacing_mut().item_spacing = vec2(5.0, 5.0);
+    let measures = session.measures();
+    if measures.is_empty() {
+        let text = "A comment //@probe sum(buffer_a.x) in any pass has its number measured here, over time: the sum of a \
+                    component of a pass, or its min, max, mean, rms, or how many of it are nonfinite.";
+        ui.add(Label::new(RichText::new(text).color(theme::of(ui).weak)).wrap());
+        return;
+    }
+    controls(state, ui, measures, out);
+    let range = range(measures, state.axis);
+    ScrollArea::vertical().id_salt("measurements").auto_shrink(false).show(ui, |ui| {
+        for (index, measure) in measures.iter().enumerate() {
+            let trouble = session.unmeasured(measure);
+            let view = View { index, axis: state.axis, range };
+            let place = card::show(ui, measure, trouble.as_deref(), &view, out);
+            if ui.is_rect_visible(place) {
+                state.seen.push(measure.serial);
+                state.wants_costs |= trouble.is_some() && measure.quantity.is_ok();
+            }
+        }
+    });
+}
+
+fn controls(state: &mut Measurements, ui: &mut Ui, measures: &[Measure], out: &mut Outbox) {
+    ui.horizontal_wrapped(|ui| {
+        for (axis, place, tip) in [
+            (Axis::Frame, "measures:axis:frame", "Over the number of the frame"),
+            (Axis::Time, "measures:axis:time", "Over time, in seconds"),
+        ] {
+            let response = ui.selectable_label(state.axis == axis, axis.name()).on_hover_text(tip);
+            if out.clicked(place, &response) {
+                state.axis = axis;
+            }
+        }
+        ui.separator();
+        let is_empty = measures.iter().all(|measure| measure.record.newest().is_none());
+        let save = ui.add_enabled(!is_empty, Button::new("Save as CSV"));
+        let save =
+            save.on_hover_text("A row for each frame, a column for each comment; in a new file beside the pictures");
+        if out.clicked("measures:save", &save) {
+            out.ask(Command::SaveMeasures);
+        }
+        let clear = ui.add_enabled(!is_empty, Button::new("Clear")).on_hover_text("Begin all of them anew");
+        if out.clicked("measures:clear", &clear) {
+            out.ask(Command::ClearMeasures);
+        }
+    });
+}
+
+/// From the first sample of all to the last one.
+fn range(measures: &[Measure], axis: Axis) -> (f64, f64) {
+    let ends = measures.iter().filter_map(|measure| {
+        Some((axis.of(&measure.record.samples().next()?), axis.of(&measure.record.samples().next_back()?)))
+    });
+    let (first, last) = ends.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or((0.0, 0.0));
+    let air = ((last - first) * 0.01).max(if axis == Axis::Frame { 0.5 } else { 0.01 });
+    (first - air, last + air)
+}

@@ -1,0 +1,56 @@
+//! What the panel knows from frame to frame.
+
+use crate::session::{Command, measuring::Sample};
+
+/// What a plot goes over.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Axis {
+    #[default]
+    Frame,
+    Time,
+}
+
+impl Axis {
+    pub fn of(self, sample: &Sample) -> f64 {
+        match self {
+            Axis::Frame => f64::from(sample.frame),
+            Axis::Time => sample.time_secs,
+        }
+    }
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Axis::Frame => "iFrame",
+            Axis::Time => "iTime",
+        }
+    }
+}
+
+/// The state of the panel.
+#[derive(Default)]
+pub struct Measurements {
+    pub(super) axis: Axis,
+    /// The cards in sight in this frame, by the serials of their comments.
+    pub(super) seen: Vec<u64>,
+    /// What passes cost is to be gathered: it says why one is not drawn.
+    pub(super) wants_costs: bool,
+    /// What the session was told of.
+    told: Vec<u64>,
+}
+
+impl Measurements {
+    /// What passes cost was looked at in the newest frame. Asked once for each.
+    pub fn take_costs_wish(&mut self) -> bool {
+        std::mem::take(&mut self.wants_costs)
+    }
+
+    /// Ends a frame of the window: what was not in sight is not measured any more.
+    pub fn end_frame(&mut self) -> Option<Command> {
+        let seen = std::mem::take(&mut self.seen);
+        if seen == self.told {
+            return None;
+        }
+        self.told.clone_from(&seen);
+        Some(Command::WatchMeasures(seen))
+    }
+}
