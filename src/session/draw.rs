@@ -46,7 +46,7 @@ impl Session {
             let miniatures = if is_current { self.run.miniatures.take_due(self.now, is_running) } else { Vec::new() };
             let buffers = if is_current { self.run.buffers.take_due(self.now, is_running) } else { None };
             let is_busy = is_running || self.run.seeking.is_seeking();
-            let measures = if is_current { self.run.measuring.take_due(self.now, is_busy) } else { None };
+            let measures = if is_current { self.run.measuring.take_due(self.now, is_frame, is_busy) } else { None };
             let numbers = if is_current { self.probing.take_due(self.now, is_running) } else { None };
             // Of the newest program, and once nothing more is to be drawn.
             let is_newest = is_there && !self.is_compile_under_way();

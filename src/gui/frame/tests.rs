@@ -333,15 +333,19 @@ fn only_measurements_in_sight_are_measured() {
     let text = format!("{}{MOUSE}", "//@probe max(image.x)\n".repeat(40));
     let Some(mut stage) = Stage::open(&[("image.glsl", &text)]) else { return };
     let count = |stage: &Stage| stage.session.measured_frames();
+    // What takes long to read is read seldom.
+    stage.session.apply(Command::SetFixedSize(Some((16, 9))));
     stage.session.apply(Command::Play);
     (0..5).for_each(|_| drop(stage.frame(vec![])));
     assert_eq!((stage.session.measures().len(), count(&stage)), (40, 0));
 
-    let key = |key: egui::Key| {
+    let press = |stage: &mut Stage, key: egui::Key| {
         let modifiers = Modifiers { ctrl: true, command: true, shift: true, ..Modifiers::NONE };
-        Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers }
+        // One that is never let go of is pressed once.
+        let change = |pressed| Event::Key { key, physical_key: None, pressed, repeat: false, modifiers };
+        stage.frame(vec![change(true), change(false)]);
     };
-    stage.frame(vec![key(egui::Key::J)]);
+    press(&mut stage, egui::Key::J);
     stage.until("a measured frame", |stage| count(stage) > 2);
     assert!(stage.shell.place("panel:measurements").is_some());
     let measured = |stage: &Stage| stage.session.measures().iter().filter(|m| m.record.newest().is_some()).count();
@@ -351,16 +355,16 @@ fn only_measurements_in_sight_are_measured() {
     assert_eq!(stage.shell.caret(), (Tab::Pass(PassId::Image), 1));
 
     // Behind another panel of its place.
-    stage.frame(vec![key(egui::Key::T)]);
+    press(&mut stage, egui::Key::T);
     stage.until("the buffers in front", |stage| stage.shell.place("measures:card:0").is_none());
     stage.frame(vec![]);
     let covered = count(&stage);
     (0..20).for_each(|_| drop(stage.frame(vec![])));
     assert_eq!(count(&stage), covered);
-    stage.frame(vec![key(egui::Key::T)]);
+    press(&mut stage, egui::Key::T);
     stage.until("it is in front again", |stage| count(stage) > covered);
 
-    stage.frame(vec![key(egui::Key::J)]);
+    press(&mut stage, egui::Key::J);
     stage.until("the panel is closed", |stage| stage.shell.place("panel:measurements").is_none());
     stage.frame(vec![]);
     let closed = count(&stage);

@@ -146,7 +146,7 @@ fn told(measuring: &Measuring) -> Vec<(u64, &str, usize, bool)> {
 /// A frame is drawn, and what is due of it measured.
 fn draw(measuring: &mut Measuring, frame: i32, now: Instant, is_running: bool) -> Option<usize> {
     measuring.begin_frame(frame);
-    let wanted = measuring.take_due(now, is_running);
+    let wanted = measuring.take_due(now, true, is_running);
     let values = |wanted: &MeasuresWanted| wanted.iter().map(|(serial, _)| (*serial, Some(0.5))).collect();
     let measured = wanted.as_ref().map(|wanted| Measured { frame, time_secs: 0.0, values: values(wanted) });
     let count = wanted.map(|wanted| wanted.len());
@@ -186,10 +186,10 @@ fn what_cannot_be_measured_says_why_and_is_not_asked_for() {
     assert!(why(1).why.contains("no pass buffer_q") && why(1).mend.contains("are image"), "{:?}", why(1));
     assert!(why(2).why.contains("no target 2"), "{:?}", why(2));
     measuring.watch(vec![1, 2, 3, 4]);
-    assert_eq!(measuring.take_due(now, false).map(|wanted| wanted.len()), Some(1));
+    assert_eq!(measuring.take_due(now, false, false).map(|wanted| wanted.len()), Some(1));
     measuring.watch(vec![1, 2, 3]);
     measuring.drew(true, None);
-    assert_eq!(measuring.take_due(now, false), None);
+    assert_eq!(measuring.take_due(now, false, false), None);
 }
 
 #[test]
@@ -203,7 +203,7 @@ fn only_what_is_looked_at_is_measured_and_it_takes_a_part_of_the_time() {
     assert_eq!(draw(&mut measuring, 2, millis(39), true), None, "2 ms of 40");
     assert_eq!(draw(&mut measuring, 3, millis(40), true), Some(1));
     assert_eq!(draw(&mut measuring, 4, millis(41), false), Some(1), "paused, each frame");
-    assert_eq!(measuring.take_due(millis(500), false), None, "and once");
+    assert_eq!(measuring.take_due(millis(500), false, false), None, "and once");
     measuring.watch(vec![]);
     assert_eq!(draw(&mut measuring, 5, millis(900), false), None);
     assert_eq!(measuring.count(), 3);

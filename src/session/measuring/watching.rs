@@ -140,8 +140,10 @@ impl Measuring {
         (self.frame, self.is_due) = (Some(frame), true);
     }
 
-    /// Returns what is to be measured now. While time runs, another frame comes anyway, and it waits for its turn.
-    pub fn take_due(&mut self, now: Instant, is_running: bool) -> Option<MeasuresWanted> {
+    /// Returns what is to be measured now, of the frame that is to be drawn if there is one. While time runs, another
+    /// comes anyway, and it waits for its turn.
+    pub fn take_due(&mut self, now: Instant, has_frame: bool, is_running: bool) -> Option<MeasuresWanted> {
+        self.is_due |= has_frame;
         let is_early = self.asked_at.is_some_and(|at| now.saturating_duration_since(at) < SHARE * self.took);
         if !self.is_due || self.seen.is_empty() || (is_running && is_early) {
             return None;
