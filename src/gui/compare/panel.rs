@@ -2,7 +2,7 @@
 
 use super::{
     pictures,
-    state::{Choice, Compare, View},
+    state::{Choice, Compare, Under, View},
 };
 use crate::{
     gui::{
@@ -157,7 +157,7 @@ fn figures(state: &Compare, ui: &mut Ui, session: &Session, out: &mut Outbox) {
     }
     ui.add(Label::new(RichText::new(first).color(p.weak)).truncate());
     let second = match state.under {
-        Some((at, values)) => under(at, &values),
+        Some(at) => under(&at),
         None => distance(&seen.figures.apart, comparison),
     };
     let label = ui.add(Label::new(RichText::new(second).color(p.text)).truncate());
@@ -197,7 +197,7 @@ pub(super) fn pace(times: &Times) -> String {
     )
 }
 
-fn under((x, y): (u32, u32), values: &[[f32; 4]; 2]) -> String {
+fn under(Under { texel: (x, y), ours, theirs }: &Under) -> String {
     let words = |texel: &[f32; 4]| texel.map(|x| format!("{x:.4}")).join(" ");
-    format!("{x},{y}: {} against {}", words(&values[0]), words(&values[1]))
+    format!("{x},{y}: {} against {}", words(ours), words(theirs))
 }

@@ -1,6 +1,6 @@
 //! The two pictures: side by side, one over the other, or their difference.
 
-use super::state::{Compare, View};
+use super::state::{Compare, Under, View};
 use crate::gui::{accessible, outbox::Outbox, theme};
 use egui::{
     Align2, Color32, CursorIcon, EventFilter, FontId, Id, Key, Painter, Rect, Response, Sense, StrokeKind, TextureId,
@@ -71,7 +71,8 @@ pub fn show(state: &mut Compare, ui: &mut Ui, area: Rect, out: &mut Outbox) {
         // Row 0 is the bottom.
         let y = (((1.0 - part.y) * size.y) as u32).min(comparison.ours.height - 1);
         let index = (y * comparison.ours.width + x) as usize;
-        Some(((x, y), [*comparison.ours.texels.get(index)?, *comparison.theirs.texels.get(index)?]))
+        let (ours, theirs) = (*comparison.ours.texels.get(index)?, *comparison.theirs.texels.get(index)?);
+        Some(Under { texel: (x, y), ours, theirs })
     });
     let shown = match view {
         View::Side => "side by side".to_owned(),

@@ -2,7 +2,7 @@
 
 use super::{
     panel::{distance, pace},
-    state::{Compare, View},
+    state::{Compare, Under, View},
 };
 use crate::{
     lab::Number,
@@ -48,6 +48,8 @@ pub fn report(state: &Compare, session: &Session) -> Value {
         "wipe": state.wipe,
         "gain": state.gain,
         "figures": figures,
-        "under": state.under.map(|((x, y), values)| json!({ "texel": [x, y], "ours": values[0], "theirs": values[1] })),
+        "under": state.under.map(|Under { texel: (x, y), ours, theirs }| {
+            json!({ "texel": [x, y], "ours": ours, "theirs": theirs })
+        }),
     })
 }

@@ -41,6 +41,14 @@ pub(super) struct Seen {
     pub difference: Option<(TextureHandle, u32)>,
 }
 
+/// The pixel under the pointer, from the bottom left, and its values.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Under {
+    pub texel: (u32, u32),
+    pub ours: [f32; 4],
+    pub theirs: [f32; 4],
+}
+
 /// The state of the panel.
 pub struct Compare {
     wake: Arc<dyn Fn() + Send + Sync>,
@@ -58,8 +66,7 @@ pub struct Compare {
     coming: Option<Receiver<Figures>>,
     /// The comparison whose figures are made, or there.
     of: Option<Arc<Comparison>>,
-    /// The values of both at the pixel under the pointer, of this frame.
-    pub(super) under: Option<((u32, u32), [[f32; 4]; 2])>,
+    pub(super) under: Option<Under>,
 }
 
 impl Compare {
