@@ -1,5 +1,5 @@
-//! Sessions that draw apart, and frames that take too long or do not come back. A program of its own: what a test
-//! leaves behind on the device keeps processors busy until the process ends.
+//! Sessions that draw apart, and frames that take too long or do not come back. Each is a process of its own: what a
+//! test leaves behind on the device keeps processors busy until the process ends.
 
 #[path = "it/support/mod.rs"]
 mod support;
@@ -10,7 +10,7 @@ use eddy::{
     session::{Command, Halt, Level, Meanwhile, Outcome, Session, SessionOptions},
 };
 use std::{
-    fs,
+    env, fs, process,
     sync::Mutex,
     time::{Duration, Instant},
 };
@@ -21,6 +21,22 @@ const LIMIT: Duration = Duration::from_millis(500);
 const LARGE: (u32, u32) = (1920, 1080);
 /// One after the other: they measure how long frames take.
 static TURN: Mutex<()> = Mutex::new(());
+/// Set in the process of a single test.
+const ALONE: &str = "EDDY_TEST_ALONE";
+
+/// Runs one of the tests in a process of its own.
+fn alone(name: &str, test: impl FnOnce(Gpu)) {
+    let Some(gpu) = support::gpu() else { return };
+    if env::var_os(ALONE).is_some() {
+        return test(gpu);
+    }
+    drop(gpu);
+    let _turn = TURN.lock();
+    let mut command = process::Command::new(env::current_exe().unwrap());
+    let done = command.args(["--exact", name, "--nocapture"]).env(ALONE, "1").output().unwrap();
+    let said = [done.stdout, done.stderr].map(|text| String::from_utf8_lossy(&text).into_owned());
+    assert!(done.status.success() && said[0].contains("1 passed"), "{}{}", said[0], said[1]);
+}
 
 /// A shader of one red whose loops do so many turns that no compiler can leave out, in rounds of 1,000 or fewer. `ends`
 /// comes after each round. (llvmpipe ends a shader's loops after 65,535 turns, `LP_MAX_TGSI_LOOP_ITERATIONS`.)
@@ -100,8 +116,10 @@ fn slow_down(stage: &mut Stage, red: f32) {
 
 #[test]
 fn a_slow_frame_pauses_and_the_picture_goes_back_to_the_last_good_code() {
-    let Some(gpu) = support::gpu() else { return };
-    let _turn = TURN.lock();
+    alone("a_slow_frame_pauses_and_the_picture_goes_back_to_the_last_good_code", goes_back_to_the_last_good_code);
+}
+
+fn goes_back_to_the_last_good_code(gpu: Gpu) {
     let mut stage = open(gpu, &plain(0.2));
     stage.until("frames", |s| s.transport().frame > 3);
     assert_eq!(stage.red(), 51);
@@ -138,8 +156,10 @@ fn a_slow_frame_pauses_and_the_picture_goes_back_to_the_last_good_code() {
 
 #[test]
 fn a_slow_frame_is_drawn_when_the_user_says_go_on_or_wants_fewer_pixels() {
-    let Some(gpu) = support::gpu() else { return };
-    let _turn = TURN.lock();
+    alone("a_slow_frame_is_drawn_when_the_user_says_go_on_or_wants_fewer_pixels", goes_on_or_draws_fewer_pixels);
+}
+
+fn goes_on_or_draws_fewer_pixels(gpu: Gpu) {
     let mut stage = open(gpu, &plain(0.2));
     slow_down(&mut stage, 0.4);
     let frame = stage.session.transport().frame;
@@ -175,8 +195,10 @@ const SHOWN: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iCha
 
 #[test]
 fn a_device_that_does_not_come_back_is_given_up_and_the_text_stays() {
-    let Some(gpu) = support::gpu() else { return };
-    let _turn = TURN.lock();
+    alone("a_device_that_does_not_come_back_is_given_up_and_the_text_stays", gives_a_device_up);
+}
+
+fn gives_a_device_up(gpu: Gpu) {
     let mut stage = Stage::with_options(gpu, |_| SessionOptions { frame_limit: Duration::from_secs(1), ..options() });
     stage.session.apply(Command::SetFixedSize(Some((64, 36))));
     for (name, text) in [("eddy.toml", MANY), ("image.glsl", SHOWN), ("buffer_a.glsl", &plain(0.2))] {
@@ -215,8 +237,10 @@ fn a_device_that_does_not_come_back_is_given_up_and_the_text_stays() {
 
 #[test]
 fn a_project_that_froze_opens_paused_and_nothing_of_it_is_drawn() {
-    let Some(gpu) = support::gpu() else { return };
-    let _turn = TURN.lock();
+    alone("a_project_that_froze_opens_paused_and_nothing_of_it_is_drawn", opens_paused);
+}
+
+fn opens_paused(gpu: Gpu) {
     let state = tempfile::tempdir().unwrap();
     let marks = || fs::read_dir(state.path().join("drawing")).map_or(0, Iterator::count);
     let begin = || {
