@@ -57,7 +57,7 @@ impl Session {
         is_drawn && (self.drawing.is_program_coming() || self.run.is_program_new)
     }
 
-    /// The newest text is being compiled, and soon will be.
+    /// The newest text is being compiled, and will be soon if it takes as long as the one before.
     pub(super) fn gives_way(&self) -> bool {
         self.compile.is_newest_under_way && self.compile.edits.quiet() <= BRIEF
     }
