@@ -89,6 +89,13 @@ impl<T> fmt::Debug for List<T> {
     }
 }
 
+/// Copies a list that will grow. A clone has no room: its first push would copy everything once more.
+pub(in crate::glsl) fn with_room<T: Copy>(list: &[T]) -> Vec<T> {
+    let mut copy = Vec::with_capacity(list.len() + list.len() / 2 + 16);
+    copy.extend_from_slice(list);
+    copy
+}
+
 /// Which pool of `Owner` holds the [`List`]s of this type.
 pub trait Pooled<Owner>: Copy {
     fn pool(owner: &Owner) -> &Vec<Self>;

@@ -20,7 +20,7 @@ mod names;
 mod position;
 
 pub use arena::{List, Pooled};
-pub(in crate::glsl) use arena::{arenas, ids};
+pub(in crate::glsl) use arena::{arenas, ids, with_room};
 pub use names::{Interner, Symbol};
 pub use position::{Expansion, ExpansionId, Ident, Loc, MacroDef, MacroId, Origin, Origins, TokenId};
 
@@ -48,7 +48,7 @@ ids! {
 
 /// One translation unit. Arenas and pools are `pub` for reading; grow them through [`Ast::expr`], [`Ast::list`] and so
 /// on.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Ast {
     /// External declarations in text order: Common's, then the pass's. Prototypes and definitions are separate entries.
     pub items: Vec<DeclId>,
@@ -67,6 +67,30 @@ pub struct Ast {
     params: Vec<Param>,
     fields: Vec<Field>,
     idents: Vec<Ident>,
+}
+
+/// A copy is gone on with: what follows Common is parsed into it.
+impl Clone for Ast {
+    fn clone(&self) -> Self {
+        Self {
+            items: with_room(&self.items),
+            exprs: with_room(&self.exprs),
+            stmts: with_room(&self.stmts),
+            decls: with_room(&self.decls),
+            types: with_room(&self.types),
+            structs: with_room(&self.structs),
+            functions: with_room(&self.functions),
+            expr_lists: with_room(&self.expr_lists),
+            stmt_lists: with_room(&self.stmt_lists),
+            dims: with_room(&self.dims),
+            qualifiers: with_room(&self.qualifiers),
+            layout: with_room(&self.layout),
+            declarators: with_room(&self.declarators),
+            params: with_room(&self.params),
+            fields: with_room(&self.fields),
+            idents: with_room(&self.idents),
+        }
+    }
 }
 
 arenas! { Ast;

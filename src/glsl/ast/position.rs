@@ -3,6 +3,7 @@
 use super::{
     arena::ids,
     names::{Interner, Symbol},
+    with_room,
 };
 use crate::diag::{Diagnostic, Span};
 use std::{
@@ -105,7 +106,7 @@ pub struct MacroDef {
 
 /// Positions of all tokens and the macros they went through. Made by the preprocessor, outlives tree and HIR.
 /// Invariant: `tokens` is not empty; its last entry is the end of file, an empty span at the end of the pass's text.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Origins {
     pub tokens: Vec<Origin>,
     pub expansions: Vec<Expansion>,
@@ -115,6 +116,19 @@ pub struct Origins {
     pub macro_uses: Vec<(Span, MacroId)>,
     /// Lines that an `#if` leaves out, its directives not among them; for editors.
     pub inactive: Vec<Span>,
+}
+
+/// A copy is gone on with: the tokens that follow Common's are put behind.
+impl Clone for Origins {
+    fn clone(&self) -> Self {
+        Self {
+            tokens: with_room(&self.tokens),
+            expansions: with_room(&self.expansions),
+            macros: self.macros.clone(),
+            macro_uses: with_room(&self.macro_uses),
+            inactive: self.inactive.clone(),
+        }
+    }
 }
 
 impl Origins {

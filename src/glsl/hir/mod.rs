@@ -34,7 +34,7 @@ pub use ids::{ConstId, ExprId, FuncId, GlobalId, LocalId, StmtId};
 // ------------------------------------------------------------------------------------------------------------- module
 
 /// A checked translation unit for one pass.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Module {
     pub types: TypeTable,
     pub structs: Vec<Struct>,
@@ -61,6 +61,31 @@ pub struct Module {
     words: Vec<u32>,
     members: Vec<StructMember>,
     tokens: Vec<TokenId>,
+}
+
+/// A copy is gone on with: what follows Common is checked into it.
+impl Clone for Module {
+    fn clone(&self) -> Self {
+        Self {
+            types: self.types.clone(),
+            structs: self.structs.clone(),
+            globals: self.globals.clone(),
+            functions: self.functions.clone(),
+            exprs: ast::with_room(&self.exprs),
+            stmts: ast::with_room(&self.stmts),
+            consts: ast::with_room(&self.consts),
+            locals: ast::with_room(&self.locals),
+            entry: self.entry,
+            call_order: self.call_order.clone(),
+            uses: ast::with_room(&self.uses),
+            expr_lists: ast::with_room(&self.expr_lists),
+            stmt_lists: ast::with_room(&self.stmt_lists),
+            cases: ast::with_room(&self.cases),
+            words: ast::with_room(&self.words),
+            members: ast::with_room(&self.members),
+            tokens: ast::with_room(&self.tokens),
+        }
+    }
 }
 
 ast::arenas! { Module;

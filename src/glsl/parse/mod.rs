@@ -23,7 +23,7 @@ mod types;
 pub(super) use hint::foreign_type;
 
 use super::{
-    ast::{Ast, Interner, Origins},
+    ast::{Ast, Interner, Origins, with_room},
     lex::{Kind, words},
     pieces::{self, Piece},
     preprocess::{MacroTable, Preprocessed, Tok, Unit, preprocess},
@@ -44,7 +44,7 @@ pub(crate) struct Parsed {
 }
 
 /// What texts leave to those that follow them.
-#[derive(Clone, Default)]
+#[derive(Default)]
 struct Reader {
     /// As many as `origins.tokens`.
     tokens: Vec<Tok>,
@@ -54,6 +54,18 @@ struct Reader {
     has_line_numbers: bool,
     /// Says whether a struct has the name, by symbol.
     structs: Vec<bool>,
+}
+
+impl Clone for Reader {
+    fn clone(&self) -> Self {
+        Self {
+            tokens: with_room(&self.tokens),
+            macros: self.macros.clone(),
+            pieces: self.pieces,
+            has_line_numbers: self.has_line_numbers,
+            structs: with_room(&self.structs),
+        }
+    }
 }
 
 impl Parsed {
