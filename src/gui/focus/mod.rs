@@ -44,6 +44,8 @@ impl Focus {
         ui.input(|i| {
             for event in &i.events {
                 match event {
+                    // Shift+F6 begins with a press of Shift.
+                    Event::Key { key, .. } if is_modifier(*key) => {}
                     Event::Key { pressed: true, .. } => (self.by_key, self.walks) = (true, false),
                     Event::PointerButton { pressed: true, .. } => (self.by_key, self.walks) = (false, false),
                     _ => {}
@@ -231,6 +233,11 @@ fn focusable(widgets: &WidgetRects, layer: LayerId) -> impl Iterator<Item = &Wid
 /// The layer of the menu or list that is open.
 fn open_popup(ctx: &Context) -> Option<LayerId> {
     Popup::is_any_open(ctx).then(|| ctx.memory(|m| m.areas().top_layer_id(Order::Foreground))).flatten()
+}
+
+fn is_modifier(key: Key) -> bool {
+    use Key::{AltLeft, AltRight, ControlLeft, ControlRight, ShiftLeft, ShiftRight, SuperLeft, SuperRight};
+    matches!(key, ShiftLeft | ShiftRight | ControlLeft | ControlRight | AltLeft | AltRight | SuperLeft | SuperRight)
 }
 
 fn is_tab(event: &Event, with: Modifiers) -> bool {

@@ -132,3 +132,15 @@ fn escape_goes_back_to_where_one_was_and_not_to_what_f6_came_by() {
     assert_eq!(stage.step(true), "a");
     assert_eq!(stage.press(Key::Escape, Modifiers::NONE), "second");
 }
+
+#[test]
+fn a_press_of_shift_alone_does_nothing_where_f6_comes_by() {
+    let mut stage = Stage { has_second: true, ..Stage::default() };
+    stage.frame(vec![], Step::None);
+    assert_eq!(stage.frame(vec![], Step::None), "text");
+    for _ in 0..2 {
+        stage.press(Key::ShiftLeft, Modifiers::SHIFT);
+        stage.step(true);
+    }
+    assert_eq!(stage.press(Key::Escape, Modifiers::NONE), "text");
+}
