@@ -6,9 +6,11 @@ use crate::{
     gui::{outbox::Outbox, theme},
     project::{CustomUniform, CustomUniformType},
 };
-use egui::{Align, Align2, Color32, DragValue, FontId, Layout, Rect, Stroke, StrokeKind, Ui, UiBuilder, pos2, vec2};
+use egui::{Align, Color32, DragValue, FontId, Layout, Rect, Stroke, StrokeKind, Ui, UiBuilder, pos2, vec2};
 
 const GAP: f32 = 4.0;
+/// Between the edge of a cell and what is written in it.
+const PADDING: f32 = 6.0;
 
 /// All components side by side, in equal parts of the room there is.
 pub(super) fn show(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64], out: &mut Outbox) {
@@ -19,10 +21,14 @@ pub(super) fn show(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64],
         let left = whole.left() + i as f32 * (width + GAP);
         let place = Rect::from_min_size(pos2(left, whole.center().y - 10.5), vec2(width, 21.0));
         fill(ui, place, custom_uniform, all[i], i);
-        let label = place.left_center() + vec2(6.0, 0.0);
-        ui.painter().text(label, Align2::LEFT_CENTER, component, FontId::monospace(11.0), theme::of(ui).weak);
         let name = format!("{}.{component}", custom_uniform.name);
-        number(ui, place, custom_uniform, all, i, &name);
+        let number = number(ui, place, custom_uniform, all, i, &name);
+        let label = ui.painter().layout_no_wrap((*component).into(), FontId::monospace(11.0), theme::of(ui).weak);
+        // In a narrow panel the number alone has room.
+        let at = place.left_center() + vec2(PADDING, -label.size().y / 2.0);
+        if at.x + label.size().x <= number.left() + PADDING {
+            ui.painter().galley(at, label, Color32::PLACEHOLDER);
+        }
         out.place(format!("uniform:value:{}.{component}", custom_uniform.name), place);
     }
 }
@@ -44,8 +50,15 @@ fn fill(ui: &Ui, place: Rect, custom_uniform: &CustomUniform, x: f64, i: usize) 
 }
 
 /// A number to drag or to type, at the right of its place. It moves by the author's step, else by a part of the range,
-/// else of its own size.
-pub(super) fn number(ui: &mut Ui, place: Rect, custom_uniform: &CustomUniform, all: &mut [f64], i: usize, name: &str) {
+/// else of its own size. Its own place comes back.
+pub(super) fn number(
+    ui: &mut Ui,
+    place: Rect,
+    custom_uniform: &CustomUniform,
+    all: &mut [f64],
+    i: usize,
+    name: &str,
+) -> Rect {
     let span = custom_uniform.range.map(|r| (r.max[i] - r.min[i]) / 200.0);
     let step = custom_uniform.step.map(|s| s[i]).or(span).unwrap_or_else(|| (all[i].abs() * 0.01).max(0.01));
     let range = custom_uniform.range.map_or(f64::NEG_INFINITY..=f64::INFINITY, |r| r.min[i]..=r.max[i]);
@@ -60,15 +73,59 @@ pub(super) fn number(ui: &mut Ui, place: Rect, custom_uniform: &CustomUniform, a
     visuals.inactive.weak_bg_fill = Color32::TRANSPARENT;
     visuals.inactive.bg_fill = Color32::TRANSPARENT;
     visuals.hovered.weak_bg_fill = Color32::from_white_alpha(16);
-    ui.spacing_mut().button_padding = vec2(6.0, 2.0);
+    ui.spacing_mut().button_padding = vec2(PADDING, 2.0);
     ui.spacing_mut().interact_size = vec2(10.0, HEIGHT - 6.0);
     let font = FontId::monospace(12.0);
     ui.style_mut().override_font_id = Some(font);
-    ui.name_inputs(name, |ui| ui.add(field)).on_hover_text("Drag, or click to type");
+    ui.name_inputs(name, |ui| ui.add(field)).on_hover_text("Drag, or click to type").rect
 }
 
 /// As many decimals as the step has, so that numbers keep their place while they are dragged.
 fn decimals(custom_uniform: &CustomUniform, i: usize) -> usize {
     let step = custom_uniform.step.map(|s| s[i]).or(custom_uniform.range.map(|r| (r.max[i] - r.min[i]) / 200.0));
     step.filter(|s| *s > 0.0).map_or(2, |s| (-s.log10()).ceil().clamp(0.0, 3.0) as usize)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        diag::{SourceId, Span},
+        project::CustomUniformValue,
+    };
+    use egui::{Context, RawInput, Shape};
+
+    /// What is written where the cells have so much room.
+    fn written(width: f32) -> Vec<String> {
+        let uniform = CustomUniform {
+            name: "tint".into(),
+            ty: CustomUniformType::Color3,
+            default: CustomUniformValue::Vector(vec![1.0, 0.8, 0.6]),
+            range: None,
+            step: Some([0.001; 4]),
+            span: Span::new(SourceId::NONE, 0..0),
+            declared_in: Vec::new(),
+        };
+        let mut output = Context::default().run_ui(RawInput::default(), |ui| {
+            let place = Rect::from_min_size(pos2(10.0, 10.0), vec2(width, HEIGHT));
+            let mut ui = ui.new_child(UiBuilder::new().max_rect(place));
+            show(&mut ui, &uniform, &mut [1.0, 0.8, 0.6], &mut Outbox::default());
+        });
+        output.textures_delta.clear();
+        let texts = output.shapes.iter().filter_map(|shape| match &shape.shape {
+            Shape::Text(text) => Some(text.galley.text().to_owned()),
+            _ => None,
+        });
+        texts.collect()
+    }
+
+    #[test]
+    fn names_leave_the_room_to_the_numbers() {
+        let mut wide = written(300.0);
+        wide.sort();
+        assert_eq!(wide, ["0.600", "0.800", "1.000", "b", "g", "r"]);
+        let mut narrow = written(140.0);
+        narrow.sort();
+        assert_eq!(narrow, ["0.600", "0.800", "1.000"]);
+    }
 }
