@@ -147,6 +147,8 @@ impl Session {
             return false;
         }
         self.display_generation += u64::from(done.is_display_new && !self.drawing.is_apart());
+        // An engine on the session's own thread draws into the display itself.
+        self.pictures_shown += u64::from(done.picture.is_some() || !self.drawing.is_apart());
         if let Some(Err(e)) = done.restarted {
             self.stop_drawing(&e);
             return false;
@@ -341,12 +343,18 @@ impl Session {
         }
     }
 
+    /// Grows whenever the texels of [`Session::display`] may have changed.
+    pub fn pictures_shown(&self) -> u64 {
+        self.pictures_shown
+    }
+
     /// Shows the picture on another device of the window's, whose own was lost. What draws is another device still.
     pub fn show_on(&mut self, window: Gpu) -> Result<(), GpuError> {
         self.drawing.show_on(window)?;
         // Handed out once more, also while paused.
         self.drawing.wanted.shown = Some(self.pictured());
         self.display_generation += 1;
+        self.pictures_shown += 1;
         self.changed = true;
         Ok(())
     }

@@ -94,7 +94,7 @@ impl Session {
         wanted.restart
             || wanted.program.is_some()
             || self.compile.is_wanted
-            || self.compile.is_newest_under_way
+            || self.compile.newest_since.is_some()
             || self.compile.fallback.is_some()
             || self.compile.edits.deadline().is_some_and(|at| at <= self.now)
     }
@@ -118,7 +118,7 @@ impl Session {
             Ok(worker) => std::mem::replace(&mut self.compiler, worker).leave(),
             Err(e) => self.notice(Level::Error, format!("no thread for compiling: {e}. Save your texts")),
         }
-        self.compile.is_newest_under_way = false;
+        self.compile.newest_since = None;
         // Its buffers begin anew, and so must what they go by.
         self.run.seeking.cancel();
         self.run.clock.reset();

@@ -132,6 +132,7 @@ pub struct Session {
     pub(super) next_notice: u64,
     pub(super) text_generation: u64,
     pub(super) display_generation: u64,
+    pub(super) pictures_shown: u64,
     /// Counts the programs of the newest text that have drawn a frame.
     pub(super) programs_drawn: u64,
     /// A frame was drawn between two ticks.
@@ -179,8 +180,8 @@ pub(super) struct Compile {
     pub read: Vec<TabDiagnostic>,
     /// What is to be compiled instead of the newest text.
     pub fallback: Option<Project>,
-    /// The worker compiles the newest text.
-    pub is_newest_under_way: bool,
+    /// Since when the worker compiles the newest text, if it does.
+    pub newest_since: Option<Instant>,
     pub edited_at: Option<Instant>,
 }
 
@@ -285,7 +286,7 @@ impl Session {
                 diagnostics: Vec::new(),
                 read: Vec::new(),
                 fallback: None,
-                is_newest_under_way: false,
+                newest_since: None,
                 edited_at: None,
             },
             disk: Disk {
@@ -330,6 +331,7 @@ impl Session {
             next_notice: 0,
             text_generation: 0,
             display_generation: 0,
+            pictures_shown: 0,
             programs_drawn: 0,
             has_drawn: false,
             begun: 0,

@@ -59,7 +59,14 @@ impl Session {
 
     /// The newest text is being compiled, and will be soon if it takes as long as the one before.
     pub(super) fn gives_way(&self) -> bool {
-        self.compile.is_newest_under_way && self.compile.edits.quiet() <= BRIEF
+        self.gives_way_until().is_some()
+    }
+
+    /// Until when frames wait for the compile that is under way: one that takes longer than expected, as of a text that
+    /// was pasted, does not hold the picture.
+    fn gives_way_until(&self) -> Option<Instant> {
+        let until = self.compile.newest_since? + BRIEF;
+        (self.compile.edits.quiet() <= BRIEF && self.now < until).then_some(until)
     }
 
     fn wake_at(&self) -> Option<Instant> {
@@ -70,7 +77,8 @@ impl Session {
         // The end of a frame that is being drawn wakes.
         let is_held = self.halting.halt.is_some() || self.drawing.is_busy() || self.gives_way();
         let is_next_due = is_running && !is_held;
-        let deadlines = [self.compile.edits.deadline(), self.disk.changes.deadline(), self.drawing_deadline()];
+        let resumes = self.gives_way_until().filter(|_| is_running);
+        let deadlines = [self.compile.edits.deadline(), self.disk.changes.deadline(), self.drawing_deadline(), resumes];
         is_next_due.then_some(self.now).into_iter().chain(deadlines.into_iter().flatten()).min()
     }
 
@@ -94,7 +102,7 @@ impl Session {
         let is_fallback = fallback.is_some();
         if is_compile {
             self.compile.edits.cancel();
-            self.compile.is_newest_under_way = !is_fallback;
+            self.compile.newest_since = (!is_fallback).then_some(self.now);
             self.changed = true;
         }
         self.compiler.submit(Job {
@@ -132,11 +140,11 @@ impl Session {
                     self.changed |= std::mem::replace(&mut self.compile.state.compiling, is_under_way) != is_under_way;
                     return;
                 };
-                self.compile.is_newest_under_way = false;
+                self.compile.newest_since = None;
                 Ok(compiled)
             }
             Err(panicked) => {
-                self.compile.is_newest_under_way = false;
+                self.compile.newest_since = None;
                 Err(panicked)
             }
         };

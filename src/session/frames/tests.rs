@@ -73,13 +73,13 @@ fn a_text_that_compiled_fast_is_compiled_at_each_key() {
     session.compile.edits.set_quiet(compile::quiet_after(Duration::from_millis(1), session.options.edit_debounce));
     edit(&mut session, "void mainImage(out vec4 o, in vec2 p) { o = vec4(missing); }");
     // The compile may have come back within the tick.
-    let is_compiled = session.compile.is_newest_under_way || session.diagnostics() != before;
+    let is_compiled = session.compile.newest_since.is_some() || session.diagnostics() != before;
     assert!(!session.compile.edits.is_waiting() && is_compiled, "the tick of the key compiles");
     tick_until(&mut session, "the second mistake", |s| s.diagnostics() != before && !s.compile_state().compiling);
     // A slow one is waited for.
     session.compile.edits.set_quiet(compile::quiet_after(Duration::from_secs(7200), session.options.edit_debounce));
     edit(&mut session, "third");
-    assert!(session.compile.edits.is_waiting() && !session.compile.is_newest_under_way);
+    assert!(session.compile.edits.is_waiting() && session.compile.newest_since.is_none());
 }
 
 #[test]
@@ -124,6 +124,18 @@ fn a_lost_device_is_replaced_and_another_lost_right_after_it_is_not() {
         session.tick(Instant::now());
     }
     assert_eq!((session.notices().len(), session.transport().playing), (told, false), "{:?}", session.notices());
+}
+
+#[test]
+fn a_compile_that_takes_longer_than_the_one_before_holds_no_frames() {
+    let Some(gpu) = testing::gpu() else { return };
+    let mut session = open_apart(gpu);
+    let began = Instant::now();
+    session.compile.edits.set_quiet(Duration::ZERO);
+    (session.now, session.compile.newest_since) = (began, Some(began));
+    assert!(session.gives_way() && session.wake_at().is_some_and(|at| at <= began + BRIEF));
+    session.now = began + BRIEF;
+    assert!(!session.gives_way());
 }
 
 #[test]
