@@ -82,7 +82,7 @@ impl Display {
         }
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("show") });
         if !self.present(gpu, &mut encoder, targets) {
-            self.texture.clear(gpu, &mut encoder);
+            self.texture.clear(gpu, &mut encoder, wgpu::Color::BLACK);
         }
         gpu.queue.submit([encoder.finish()]);
     }

@@ -76,7 +76,7 @@ impl Target {
 
     pub fn clear(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, mips: &MipMaker) {
         for texture in &self.textures {
-            texture.clear(gpu, encoder);
+            texture.clear(gpu, encoder, wgpu::Color::TRANSPARENT);
         }
         for chain in &self.chains {
             mips.build(gpu, encoder, chain);

@@ -29,11 +29,14 @@ impl Presenter {
         Self { pipeline: shader.pipeline(gpu, FORMAT), shader }
     }
 
-    /// A display texture of the given size.
+    /// A display texture of the given size, opaque and black: whoever shows it sees nothing through it before its first
+    /// picture either.
     pub fn texture(gpu: &Gpu, width: u32, height: u32) -> Result<Texture, GpuError> {
         let descriptor =
             TextureDescriptor { label: "display", width, height, format: FORMAT, levels: 1, is_target: true };
-        Texture::new(gpu, &descriptor)
+        let texture = Texture::new(gpu, &descriptor)?;
+        texture.write(gpu, &[0, 0, 0, 255].repeat(width as usize * height as usize));
+        Ok(texture)
     }
 
     /// Makes what [`Presenter::present`] needs to show one picture again and again.

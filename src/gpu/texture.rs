@@ -113,13 +113,13 @@ impl Texture {
         encoder.copy_texture_to_texture(self.raw.as_image_copy(), to.raw.as_image_copy(), size);
     }
 
-    /// Sets level 0 to zeros. The texture must be a target.
-    pub fn clear(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder) {
+    /// Sets all texels of level 0. The texture must be a target.
+    pub fn clear(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, color: wgpu::Color) {
         gpu.pass(
             encoder,
             wgpu::RenderPassDescriptor {
                 label: Some("clear"),
-                color_attachments: &[Some(self.attachment(wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT)))],
+                color_attachments: &[Some(self.attachment(wgpu::LoadOp::Clear(color)))],
                 ..Default::default()
             },
             |_| (),

@@ -363,6 +363,9 @@ impl Running {
             log::warn!("{} was there: the device is lost", file.display());
             self.surface.gpu().lose();
         }
+        if let Some(texture) = self.shell.take_new_texels(&self.session) {
+            self.surface.touch(texture);
+        }
         let presented = self.surface.paint(&self.window, output, &self.ctx);
         self.shell.report(&self.session, &mut self.report, self.surface.size(), &self.ctx, began);
         self.watch_device(began)?;

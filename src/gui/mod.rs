@@ -7,12 +7,14 @@
 mod accessible;
 mod actions;
 mod app;
+mod back_buffer;
 mod buffers;
 mod channels;
 mod code;
 mod compare;
 mod costs;
 mod custom_uniforms;
+mod damage;
 mod dialogs;
 mod dock;
 mod editor;

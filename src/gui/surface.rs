@@ -1,9 +1,13 @@
 //! The window's surface: egui's triangles onto the screen.
 //!
-//! Owns the surface and egui's renderer, and gets over a surface that is outdated, lost or hidden. Knows nothing of
-//! what is painted.
+//! Owns the surface, egui's renderer and the back buffer that is copied to the surface, and gets over a surface that is
+//! outdated, lost or hidden. Knows nothing of what is painted.
 
-use super::GuiError;
+use super::{
+    GuiError,
+    back_buffer::{self, BackBuffer, Painting},
+    damage::Area,
+};
 use crate::gpu::{Gpu, GpuOptions};
 use egui_wgpu::{Renderer, RendererOptions, ScreenDescriptor};
 use std::{
@@ -50,8 +54,11 @@ fn config(
         .get_default_config(adapter, size.width.max(1), size.height.max(1))
         .ok_or_else(|| GuiError::Surface(format!("{} cannot draw on this window", adapter.get_info().name)))?;
     // egui blends in display values, and the picture is to arrive byte for byte: no conversion to sRGB on the way.
-    config.format = egui_wgpu::preferred_framebuffer_format(&surface.get_capabilities(adapter).formats)
-        .map_err(|e| GuiError::Surface(e.to_string()))?;
+    let capabilities = surface.get_capabilities(adapter);
+    config.format =
+        egui_wgpu::preferred_framebuffer_format(&capabilities.formats).map_err(|e| GuiError::Surface(e.to_string()))?;
+    // What is painted is kept, and copied to the screen where that can be.
+    config.usage |= capabilities.usages & wgpu::TextureUsages::COPY_DST;
     config.present_mode = wgpu::PresentMode::AutoVsync;
     config.desired_maximum_frame_latency = 1;
     Ok(config)
@@ -79,6 +86,7 @@ pub struct Surface {
     surface: wgpu::Surface<'static>,
     config: wgpu::SurfaceConfiguration,
     renderer: Renderer,
+    back_buffer: BackBuffer,
     gpu: Gpu,
     needs_configure: bool,
     /// How often in a row the surface did not take its size.
@@ -96,7 +104,17 @@ impl Surface {
         let config = config(&surface, &adapter, window.inner_size())?;
         surface.configure(&gpu.device, &config);
         let renderer = renderer(&gpu, &config);
-        Ok(Surface { display, instance, surface, config, renderer, gpu, needs_configure: false, refusals: 0 })
+        Ok(Surface {
+            display,
+            instance,
+            surface,
+            config,
+            renderer,
+            back_buffer: BackBuffer::default(),
+            gpu,
+            needs_configure: false,
+            refusals: 0,
+        })
     }
 
     /// Puts a fresh device and a fresh surface in the place of those that are lost. egui's fonts are handed over; all
@@ -109,6 +127,7 @@ impl Surface {
         self.surface = surface;
         self.surface.configure(&gpu.device, &self.config);
         self.renderer = renderer(&gpu, &self.config);
+        self.back_buffer = BackBuffer::default();
         let fonts = egui::epaint::ImageDelta::full(
             ctx.fonts(|fonts| fonts.image()),
             egui::epaint::TextureAtlas::texture_options(),
@@ -125,6 +144,11 @@ impl Surface {
 
     pub fn renderer(&mut self) -> &mut Renderer {
         &mut self.renderer
+    }
+
+    /// A texture that is not egui's own has other texels than in the last painting.
+    pub fn touch(&mut self, texture: egui::TextureId) {
+        self.back_buffer.touch(texture);
     }
 
     /// Physical pixels.
@@ -159,9 +183,10 @@ impl Surface {
         for (id, deltas) in textures_delta.set.drain() {
             for delta in deltas {
                 self.renderer.update_texture(device, queue, id, &delta);
+                self.back_buffer.update(id, &delta);
             }
         }
-        let presented = self.present(window, &triangles, pixels_per_point);
+        let presented = self.present(window, triangles, pixels_per_point);
         for id in textures_delta.free.drain() {
             self.renderer.free_texture(&id);
         }
@@ -191,7 +216,7 @@ impl Surface {
     fn present(
         &mut self,
         window: &Arc<Window>,
-        triangles: &[egui::ClippedPrimitive],
+        triangles: Vec<egui::ClippedPrimitive>,
         pixels_per_point: f32,
     ) -> Presented {
         if self.needs_configure {
@@ -226,19 +251,22 @@ impl Surface {
         // What is drawn on has the last word on its size: the window's may have changed since.
         let size_in_pixels = [frame.texture.width(), frame.texture.height()];
         let screen = ScreenDescriptor { size_in_pixels, pixels_per_point };
-        let mut commands = self.renderer.update_buffers(device, queue, &mut encoder, triangles, &screen);
-        let view = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
-        let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("window"),
-            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-                view: &view,
-                resolve_target: None,
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
-                depth_slice: None,
-            })],
-            ..Default::default()
-        });
-        self.renderer.render(&mut pass.forget_lifetime(), triangles, &screen);
+        let (gpu, renderer) = (&self.gpu, &mut self.renderer);
+        let mut commands = if self.config.usage.contains(wgpu::TextureUsages::COPY_DST) {
+            let painting = Painting { triangles, screen: &screen, format: frame.texture.format() };
+            let (contents, commands) = self.back_buffer.paint(gpu, renderer, &mut encoder, painting);
+            encoder.copy_texture_to_texture(
+                contents.as_image_copy(),
+                frame.texture.as_image_copy(),
+                frame.texture.size(),
+            );
+            commands
+        } else {
+            let [width, height] = size_in_pixels;
+            let whole = [Area { x: 0, y: 0, width, height }];
+            let view = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
+            back_buffer::paint_areas(gpu, renderer, &mut encoder, &view, triangles, &screen, &whole)
+        };
         commands.push(encoder.finish());
         queue.submit(commands);
         window.pre_present_notify();

@@ -30,6 +30,10 @@ pub struct Viewport {
     texture: Option<TextureId>,
     /// The generation of the display that the texture shows, and whether it is magnified texel by texel.
     shows: (u64, bool),
+    /// The count of pictures at the last painting.
+    painted: u64,
+    /// The texture has been made or bound anew since.
+    is_texture_new: bool,
     letterbox: Option<Letterbox>,
     asked_size: (u32, u32),
     mouse_is_down: bool,
@@ -49,6 +53,8 @@ impl Viewport {
         Self {
             texture: None,
             shows: (0, true),
+            painted: 0,
+            is_texture_new: false,
             letterbox: None,
             asked_size: (0, 0),
             mouse_is_down: false,
@@ -113,6 +119,15 @@ impl Viewport {
             Some(id) => renderer.update_egui_texture_from_wgpu_texture(device, session.display(), filter, id),
         }
         self.shows = shows;
+        self.is_texture_new = true;
+    }
+
+    /// Returns the picture's texture if its texels are other ones than in the last painting.
+    pub fn take_new_texels(&mut self, session: &Session) -> Option<TextureId> {
+        let shown = session.pictures_shown();
+        let has_new_texels = std::mem::replace(&mut self.painted, shown) != shown;
+        let is_new = std::mem::take(&mut self.is_texture_new) || has_new_texels;
+        self.texture.filter(|_| is_new)
     }
 
     /// Fills the space there is.

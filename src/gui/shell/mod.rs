@@ -182,6 +182,11 @@ impl Shell {
         self.code.set_debug(self.debugger.marks(session, self.code.current()));
     }
 
+    /// Returns the picture's texture if a painting of now differs from the last one there.
+    pub fn take_new_texels(&mut self, session: &Session) -> Option<egui::TextureId> {
+        self.viewport.take_new_texels(session)
+    }
+
     /// Shows everything once. What the session is to do comes back.
     pub fn show(&mut self, ui: &mut Ui, session: &Session) -> Vec<Command> {
         self.thumbnails.update(ui.ctx());

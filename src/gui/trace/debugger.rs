@@ -195,8 +195,8 @@ impl Debugger {
 
 /// Whether a place in the one's way is the same in the other's: the same pixel and the same texts.
 fn is_like(new: &Traced, known: &Traced) -> bool {
-    let texts = |traced: &Traced| [Tab::Common, Tab::Pass(traced.pass.clone())].map(|tab| traced.text(&tab).to_owned());
-    is_of_pixel(new, known) && texts(new) == texts(known)
+    let texts = |traced: &Traced| [Tab::Common, traced.tab.clone()].map(|tab| traced.text(&tab).to_owned());
+    is_of_pixel(new, known) && new.tab == known.tab && texts(new) == texts(known)
 }
 
 fn is_of_pixel(new: &Traced, known: &Traced) -> bool {

@@ -70,7 +70,7 @@ const OUTSIDE: &[(&[&str], &[&str])] = &[
 
 /// Where a render pass may be begun otherwise than by `Gpu::pass`, which keeps a driver's fault away: there, and where
 /// the window's one pass is drawn by egui.
-const PASSES: &[&str] = &["gpu/pass.rs", "gui/surface.rs"];
+const PASSES: &[&str] = &["gpu/pass.rs", "gui/back_buffer/mod.rs"];
 
 const LONGEST_FILE: usize = 600;
 
