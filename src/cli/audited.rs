@@ -111,7 +111,6 @@ pub fn run(
     let sources = Sources::new(&project);
     let audit = match audit::audit(&sources, index, &read, &pixels, args.max_statements) {
         Err(TraceError::Diagnostics(found)) => return Err(Trouble::Diagnostics(found, project.sources())),
-        Err(TraceError::Meshes) => return Err(Trouble::Unsupported(TraceError::Meshes.to_string())),
         other => other.map_err(anyhow::Error::from)?,
     };
     told(args, &project, &audit, &device)

@@ -13,7 +13,7 @@ use crate::{
     project::{PassFormat, Project},
     session::{
         script::ScriptedInputs,
-        trace::{self, Event, Extent, Number, Trace, TraceError, ulps},
+        trace::{self, Event, Extent, Number, Origin, Trace, TraceError, ulps},
     },
 };
 use serde::Serialize;
@@ -41,6 +41,12 @@ struct Traced {
     pass: String,
     pixel: [u32; 2],
     frame: u32,
+    /// The triangle whose fragment the texel holds, of a pass that draws meshes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    mesh: Option<MeshSaid>,
+    /// No triangle of a pass that draws meshes covers the pixel.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    clear: bool,
     /// What the walker found; null where the pass draws nothing.
     value: Option<[Number; 4]>,
     /// The same way in double precision.
@@ -58,6 +64,16 @@ struct Traced {
     /// What `//@print` comments ask for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     printed: Vec<Printed>,
+}
+
+/// A triangle of a mesh. Draws of the pass and triangles of the mesh are counted from 0.
+#[derive(Serialize)]
+struct MeshSaid {
+    draw: usize,
+    name: String,
+    triangle: usize,
+    /// Its front is seen.
+    front: bool,
 }
 
 /// A step with its place spelled out.
@@ -121,7 +137,6 @@ fn traced(
     let pixel = args.pixel.unwrap_or_default();
     let trace = match trace::trace(&texts, index, &read, pixel, extent) {
         Err(TraceError::Diagnostics(found)) => return Err(Trouble::Diagnostics(found, project.sources())),
-        Err(TraceError::Meshes) => return Err(Trouble::Unsupported(TraceError::Meshes.to_string())),
         other => other.map_err(anyhow::Error::from)?,
     };
     let (x, y) = pixel;
@@ -147,7 +162,19 @@ fn placed(project: &Project, args: &TraceArgs, device: [f32; 4], trace: Trace, p
         }
         placed
     });
+    let draws = project.pass(&args.pass.pass).and_then(|pass| pass.settings.meshes()).map_or(&[][..], |g| &g.draws);
+    let mesh = match trace.origin {
+        Origin::Mesh(fragment) => draws.get(fragment.draw).map(|draw| MeshSaid {
+            draw: fragment.draw,
+            name: draw.mesh.name(),
+            triangle: fragment.triangle,
+            front: fragment.is_front,
+        }),
+        Origin::Screen | Origin::Clear => None,
+    };
     Traced {
+        mesh,
+        clear: trace.origin == Origin::Clear,
         pass: args.pass.pass.key(),
         pixel: args.pixel.map_or([0, 0], |(x, y)| [x, y]),
         frame: args.frame,
@@ -192,6 +219,15 @@ fn words(spec: &str, traced: &Traced) -> String {
     out.push_str(&printed::words(&traced.printed));
     let Traced { pass, pixel: [x, y], frame, statements, .. } = traced;
     let _ = writeln!(out, "{spec}: {pass} at {x},{y} in frame {frame}, {statements} statements");
+    if let Some(MeshSaid { draw, name, triangle, front }) = &traced.mesh {
+        let side = if *front { "front" } else { "back" };
+        let _ = writeln!(out, "  draw {draw}, {name}: triangle {triangle}, seen from its {side}");
+    }
+    if traced.clear {
+        out.push_str(
+            "  no triangle of the meshes is drawn here: the texel holds the zeros that the pass begins with\n",
+        );
+    }
     let device = format!("{}, stored as {}", vector(&traced.device), traced.format);
     let (Some(value), Some(double)) = (&traced.value, &traced.double) else {
         let _ = writeln!(out, "  walker  draws nothing\n  device  {device}");

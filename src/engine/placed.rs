@@ -4,6 +4,7 @@ use super::FrameInputs;
 use crate::{
     glsl::interface::GeometryBlock,
     gpu::MeshBuffers,
+    media::mesh::Mesh,
     project::{Camera, MeshDraw},
 };
 use glam::{Mat3, Mat4, Quat, Vec3, camera::rh};
@@ -11,13 +12,15 @@ use std::sync::Arc;
 
 /// A mesh, and where it stands.
 pub(super) struct PlacedMesh {
+    /// What the buffers hold, for who asks what a draw read.
+    pub mesh: Arc<Mesh>,
     pub buffers: Arc<MeshBuffers>,
     model: Mat4,
 }
 
 impl PlacedMesh {
-    pub fn new(buffers: Arc<MeshBuffers>, draw: &MeshDraw) -> Self {
-        Self { buffers, model: model(draw) }
+    pub fn new(mesh: Arc<Mesh>, buffers: Arc<MeshBuffers>, draw: &MeshDraw) -> Self {
+        Self { mesh, buffers, model: model(draw) }
     }
 
     /// Returns what a program sees of it through a camera, in a picture of size `own` on a canvas.

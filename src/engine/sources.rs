@@ -5,7 +5,9 @@ use crate::{
     diag::{Diagnostic, SourceId, Span},
     glsl::{
         self, ChannelKind, Driver, Include, Link, PassKind, PassSource, Preamble, Probe, ProbedExpression, Text,
-        UniformValue, services::Analysis, walkable::Walkable,
+        UniformValue, Varying,
+        services::Analysis,
+        walkable::{Detail, Walkable},
     },
     project::{
         Channel, CustomUniforms, FillKind, FillText, Geometry, IncludeLines, Input, Pass, PassBody, PassId, Project,
@@ -127,39 +129,87 @@ impl<'p> Sources<'p> {
         stages.map(|stage| dump(stage, stage_kind(meshes, stage))).collect()
     }
 
-    /// Lowers `project.passes[index]` for the walker. `None` for a pass that draws meshes, which is not walked through.
+    /// The pass as the author has it.
     ///
     /// # Panics
     /// If there is no such pass.
-    pub(crate) fn walkable(&self, index: usize) -> Option<Result<Walkable, Vec<Diagnostic>>> {
-        self.walked(index, Walkable::new)
+    pub(crate) fn pass(&self, index: usize) -> &Pass {
+        &self.project.passes[index]
     }
 
-    /// Does the same for who steps through the pass, statement by statement.
+    /// Lowers `project.passes[index]`, which draws no meshes, for the walker.
     ///
     /// # Panics
     /// If there is no such pass.
-    pub(crate) fn walkable_by_statements(&self, index: usize) -> Option<Result<Walkable, Vec<Diagnostic>>> {
-        self.walked(index, Walkable::by_statements)
+    pub(crate) fn walkable(&self, index: usize, detail: Detail) -> Result<Walkable, Vec<Diagnostic>> {
+        self.walked(index, (Stage::Own, self.own_kind(index)), |source| Walkable::new(source, &Link::default(), detail))
     }
 
-    /// Lowers what stands in `project.passes[index]` and behind it a text that defines `mainCubemap`, which is what
-    /// runs: so further code is read with everything that the pass declares.
+    /// Lowers the vertex stage of a draw of `project.passes[index]` for the walker.
     ///
     /// # Panics
-    /// If there is no such pass.
-    pub(crate) fn walkable_with(&self, index: usize, behind: &str) -> Option<Result<Walkable, Vec<Diagnostic>>> {
-        self.walked(index, |source| {
-            let text = format!("{}\n{behind}", source.code.text);
+    /// If there is no such pass or stage.
+    pub(crate) fn walkable_vertices(&self, index: usize, stage: Stage) -> Result<Walkable, Vec<Diagnostic>> {
+        self.walked(index, (stage, PassKind::Vertex), |source| Walkable::new(source, &Link::default(), Detail::Values))
+    }
+
+    /// Lowers the fragment stage of a draw of `project.passes[index]`, to which a vertex stage hands these varyings.
+    ///
+    /// # Panics
+    /// If there is no such pass or stage.
+    pub(crate) fn walkable_fragments(
+        &self,
+        index: usize,
+        (stage, varyings): (Stage, &[Varying]),
+        detail: Detail,
+    ) -> Result<Walkable, Vec<Diagnostic>> {
+        let targets = Some(self.pass(index).settings.formats().len());
+        let link = Link { varyings: Some(varyings), targets };
+        self.walked(index, (stage, PassKind::Fragment), |source| Walkable::new(source, &link, detail))
+    }
+
+    /// Lowers what stands in `project.passes[index]`, of one that draws meshes the fragment stage of a draw, and behind
+    /// it `declarations` and an entry point of their own that does `body`. So further code is read with everything that
+    /// the text declares.
+    ///
+    /// # Panics
+    /// If there is no such pass or draw.
+    pub(crate) fn walkable_with(
+        &self,
+        (index, draw): (usize, Option<usize>),
+        (declarations, body): (&str, &str),
+    ) -> Result<Walkable, Vec<Diagnostic>> {
+        let Some(draw) = draw.and_then(|draw| self.pass(index).settings.meshes()?.draws.get(draw)) else {
+            return self.walked(index, (Stage::Own, self.own_kind(index)), |source| {
+                let text = format!(
+                    "{}\n{declarations}void mainCubemap(out vec4 o, in vec2 p, in vec3 a, in vec3 b) {{ o = vec4(0.0); \
+                     {body}}}\n",
+                    source.code.text
+                );
+                let code = Text { id: source.code.id, text: &text };
+                let source = PassSource { kind: PassKind::Cubemap, code, ..*source };
+                Walkable::new(&source, &Link::default(), Detail::Values)
+            });
+        };
+        let vertices = self.walkable_vertices(index, draw.vertex)?;
+        let link = Link { varyings: Some(&vertices.varyings), targets: None };
+        self.walked(index, (draw.fragment, PassKind::Fragment), |source| {
+            // The author's `main` stays as it is, by another name.
+            let text = format!(
+                "#define main eddy_main\n{}\n#undef main\n{declarations}void main() {{ {body}}}\n",
+                source.code.text
+            );
             let code = Text { id: source.code.id, text: &text };
-            Walkable::new(&PassSource { kind: PassKind::Cubemap, code, ..*source })
+            Walkable::new(&PassSource { code, ..*source }, &link, Detail::Values)
         })
     }
 
-    fn walked<T>(&self, index: usize, make: impl FnOnce(&PassSource<'_>) -> T) -> Option<T> {
-        let own = &self.project.passes[index];
-        let is_walked = own.settings.meshes().is_none();
-        is_walked.then(|| self.with_source(index, self.stage_id(index, Stage::Own), pass_kind(&own.id), make))
+    fn own_kind(&self, index: usize) -> PassKind {
+        pass_kind(&self.pass(index).id)
+    }
+
+    fn walked<T>(&self, index: usize, (stage, kind): (Stage, PassKind), make: impl FnOnce(&PassSource<'_>) -> T) -> T {
+        self.with_source(index, self.stage_id(index, stage), kind, make)
     }
 
     /// What a probe of `project.passes[index]` means; `None` where there is no value.
@@ -167,7 +217,9 @@ impl<'p> Sources<'p> {
     /// # Panics
     /// If there is no such pass.
     pub fn probed(&self, index: usize, probe: &Probe) -> Option<ProbedExpression> {
-        self.walked(index, |source| glsl::probed(source, probe))?
+        let is_probed = self.pass(index).settings.meshes().is_none();
+        let own = (Stage::Own, self.own_kind(index));
+        is_probed.then(|| self.walked(index, own, |source| glsl::probed(source, probe)))?
     }
 
     /// Analyses `project.passes[index]` as an editor understands it, whether it compiles or not.

@@ -122,6 +122,11 @@ impl Uniforms {
         bytemuck::pod_read_unaligned(&self.blocks.block(index)[..size_of::<UniformBlock>()])
     }
 
+    /// The matrices of a mesh, counted through all passes.
+    pub fn mesh_block(&self, mesh: usize) -> GeometryBlock {
+        bytemuck::pod_read_unaligned(&self.meshes.block(mesh)[..size_of::<GeometryBlock>()])
+    }
+
     /// The words of the author's own, by their slots.
     pub fn custom_uniforms(&self) -> &[[u32; 4]] {
         &self.custom_uniform_slots

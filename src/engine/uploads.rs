@@ -62,7 +62,8 @@ impl Uploads {
     pub fn placed(&mut self, gpu: &Gpu, media: &MediaSet, geometry: &Geometry) -> Result<Vec<PlacedMesh>, EngineError> {
         let placed = |draw: &crate::project::MeshDraw| {
             let mesh = media.mesh(&draw.mesh).map_err(|error: MeshError| EngineError::from(error))?;
-            Ok(PlacedMesh::new(self.mesh(gpu, &draw.mesh.name(), &mesh)?, draw))
+            let buffers = self.mesh(gpu, &draw.mesh.name(), &mesh)?;
+            Ok(PlacedMesh::new(mesh, buffers, draw))
         };
         geometry.draws.iter().map(placed).collect()
     }

@@ -7,7 +7,7 @@ use super::{
     check, ir,
     lower::{self, Mark},
     parse, report,
-    stages::{self, Link},
+    stages::{self, Link, Varying},
     statements::Statements,
     types::{StructId, TypeId},
     unsequenced,
@@ -25,6 +25,17 @@ pub(crate) struct Walkable {
     unsequenced: Vec<(Loc, &'static str)>,
     /// Every type as GLSL writes it, by its id; none where nobody steps through the program.
     type_texts: Vec<String>,
+    /// What a stage of vertices hands on.
+    pub varyings: Vec<Varying>,
+}
+
+/// What a program is lowered for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Detail {
+    /// Somebody looks at its values.
+    Values,
+    /// Somebody steps through it, statement by statement.
+    Statements,
 }
 
 /// Control comes to a part of a statement, which [`Statements`] tells of.
@@ -41,17 +52,9 @@ pub(crate) enum Coming {
 }
 
 impl Walkable {
-    /// Lowers a pass. On failure the list holds at least one error.
-    pub fn new(source: &PassSource<'_>) -> Result<Self, Vec<Diagnostic>> {
-        Self::with(source, false)
-    }
-
-    /// Does the same for who steps through the program, statement by statement.
-    pub fn by_statements(source: &PassSource<'_>) -> Result<Self, Vec<Diagnostic>> {
-        Self::with(source, true)
-    }
-
-    fn with(source: &PassSource<'_>, is_marked: bool) -> Result<Self, Vec<Diagnostic>> {
+    /// Lowers a pass, or a stage of a program that draws meshes. On failure the list holds at least one error.
+    pub fn new(source: &PassSource<'_>, link: &Link<'_>, detail: Detail) -> Result<Self, Vec<Diagnostic>> {
+        let is_marked = detail == Detail::Statements;
         let parsed = parse::parse(source, None);
         let mut checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source, None);
         let interface = stages::interface(
@@ -59,7 +62,7 @@ impl Walkable {
             &parsed.names,
             &parsed.origins,
             source.kind,
-            &Link::default(),
+            link,
             &mut checked.diagnostics,
         );
         let mut all = report::Report::default();
@@ -68,6 +71,7 @@ impl Walkable {
             return Err(all.diagnostics);
         }
         let (module, origins, interner) = (checked.module, parsed.origins, parsed.names);
+        let varyings = interface.varyings.clone();
         let marks = lower::Marks { undefined: true, statements: is_marked };
         let lower::Lowered { program, names, .. } = lower::lower_to_walk(&module, source, interface, marks);
         let (mut statements, mut type_texts) = Default::default();
@@ -77,7 +81,7 @@ impl Walkable {
             type_texts = types.map(|ty| module.type_text(&interner, ty)).collect();
         }
         let unsequenced = unsequenced::find(&module);
-        Ok(Self { program, names, origins, interner, statements, unsequenced, type_texts })
+        Ok(Self { program, names, origins, interner, statements, unsequenced, type_texts, varyings })
     }
 
     /// What an expression leans on, if that is an order of evaluation which the language leaves open.
@@ -113,6 +117,21 @@ impl Walkable {
     /// The author's variables of the module that the program has, with their names.
     pub fn globals(&self) -> impl Iterator<Item = (&str, ir::GlobalId)> {
         self.names.globals.iter().map(|&(symbol, id)| (self.interner.get(symbol), id))
+    }
+
+    /// The variables of the module that the device fills: the `in` variables of a stage.
+    pub fn inputs(&self) -> impl Iterator<Item = ir::GlobalId> {
+        let entry = self.program.functions.last();
+        let filled = |stmt: &ir::Stmt, entry: &ir::Function| {
+            let ir::Stmt::Store { place, value } = stmt else { return None };
+            let is_input =
+                matches!(entry[*value], ir::Op::Input(ir::Input::Attribute { .. } | ir::Input::Varying { .. }));
+            match entry[entry.root(*place)] {
+                ir::Op::Global(global) if is_input => Some(global),
+                _ => None,
+            }
+        };
+        entry.into_iter().flat_map(move |entry| entry.body.iter().filter_map(move |stmt| filled(stmt, entry)))
     }
 
     /// A type as GLSL writes it.

@@ -60,6 +60,7 @@ pub(crate) mod testing;
 pub mod trace;
 mod tracing;
 pub mod view;
+mod walked;
 mod watch;
 mod worker;
 

@@ -1,13 +1,10 @@
 //! Passes that draw meshes, by pictures: where vertices land, what hides what, what each target holds.
 
-use crate::support::*;
+use crate::support::{meshes::*, *};
 use eddy::{
     engine::{BuildError, BuildOptions, Engine, FrameInputs, Program},
     media::MediaSet,
-    project::{
-        Camera, Channel, Cull, DepthTest, Filter, Geometry, Input, MeshDraw, MeshSource, Pass, PassBody, PassFormat,
-        PassId, Project, Sampler, Source, Stage, Wrap,
-    },
+    project::{Camera, Cull, DepthTest, MeshDraw, PassFormat, PassId, Project, Stage},
 };
 use glam::{Mat4, Vec3, Vec4};
 
@@ -42,58 +39,6 @@ void main() {
     uv = vUv;
     fragment = vec4(gl_FragCoord.xyz, dFdy(gl_FragCoord.y));
 }";
-
-fn draw(mesh: &str) -> MeshDraw {
-    MeshDraw {
-        mesh: MeshSource::parse(mesh),
-        vertex: Stage::File(0),
-        fragment: Stage::Own,
-        cull: Cull::Back,
-        depth: DepthTest::Less,
-        depth_write: true,
-        color_write: true,
-        scale: 1.0,
-        rotation: [0.0; 3],
-        position: [0.0; 3],
-    }
-}
-
-fn source(name: &str, text: &str) -> Source {
-    Source { name: name.into(), path: None, text: text.into() }
-}
-
-/// A pass `scene` of 32-bit targets; its own text is the fragment stage, `stages` are further texts.
-fn scene(fragment: &str, stages: &[&str], targets: usize, camera: Camera, draws: Vec<MeshDraw>) -> Pass {
-    let mut scene = pass(buffer("scene"), fragment, Default::default());
-    scene.settings.body = PassBody::Meshes(Geometry {
-        draws,
-        more_targets: vec![PassFormat::Rgba32f; targets - 1],
-        camera,
-        stages: stages.iter().enumerate().map(|(i, t)| source(&format!("stage_{i}.glsl"), t)).collect(),
-    });
-    scene
-}
-
-fn target(index: usize) -> Option<Channel> {
-    let input = match index {
-        0 => Input::Buffer("scene".into()),
-        index => Input::Target { buffer: "scene".into(), index },
-    };
-    Some(Channel { input, sampler: Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: true } })
-}
-
-const SUM: &str = "void mainImage(out vec4 o, in vec2 p) { ivec2 i = ivec2(p);
-    o = texelFetch(iChannel0, i, 0) + texelFetch(iChannel1, i, 0) + texelFetch(iChannel2, i, 0) + \
-    texelFetch(iChannel3, i, 0); }";
-
-fn whole(scene: Pass) -> Project {
-    let count = scene.settings.formats().len();
-    project(vec![scene, image(SUM, [0, 1, 2, 3].map(|i| if i < count { target(i) } else { None }))])
-}
-
-fn camera() -> Camera {
-    Camera { yaw: 25.0, pitch: 35.0, distance: 5.0, target: [0.2, -0.1, 0.3], fov: 50.0, ..Camera::default() }
-}
 
 /// What glam has of the camera, apart from the engine's own use of it.
 fn to_clip(camera: &Camera, aspect: f32) -> Mat4 {
@@ -157,10 +102,6 @@ void main() { vColor = aColor; gl_Position = iProjection * iView * iModel * vec4
 
 fn one_colour(rgb: &str) -> String {
     format!("in vec4 vColor; out vec4 colour; void main() {{ colour = vec4({rgb}, 1.0) * vColor; }}")
-}
-
-fn straight() -> Camera {
-    Camera { yaw: 0.0, pitch: 0.0, distance: 5.0, ..Camera::default() }
 }
 
 /// The texel in the middle of the picture, drawn with two spheres' draws.

@@ -71,3 +71,4 @@ mod time_travel;
 mod uniform_values;
 mod uniforms;
 mod walker;
+mod walker_meshes;

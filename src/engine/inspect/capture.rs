@@ -1,8 +1,8 @@
 //! Reads back what a draw is about to read.
 
-use super::{PassInputs, TextureCopy, texture::Level};
+use super::{MeshInputs, PassInputs, TextureCopy, texture::Level};
 use crate::{
-    engine::{EngineError, program::CompiledDraw, running::Running, shared::Shared},
+    engine::{EngineError, placed::PlacedMesh, program::CompiledDraw, running::Running, shared::Shared},
     gpu::{FloatConverter, Gpu, Readback, Texture},
     graph::{Source, When},
     project::{Filter, PassId, Wrap},
@@ -38,11 +38,20 @@ impl<'a> Capture<'a> {
         for (channel, copy) in channels.iter_mut().enumerate() {
             *copy = Some(self.channel(running, shared, (compiled, index), channel)?);
         }
+        let meshes = compiled.body.meshes().map_or_else(Vec::new, |meshes| {
+            let each = meshes.programs.iter().enumerate();
+            let of = |(n, (_, placed)): (usize, &(_, PlacedMesh))| MeshInputs {
+                mesh: placed.mesh.clone(),
+                geometry: running.uniforms.mesh_block(meshes.first + n),
+            };
+            each.map(of).collect()
+        });
         self.taken = Some(PassInputs {
             uniforms: running.uniforms.uniform_block(index),
             custom_uniforms: running.uniforms.custom_uniforms().to_vec(),
             channels: channels.map(|copy| copy.unwrap_or_else(TextureCopy::black)),
             size: running.targets[draw.targets.start].size(),
+            meshes,
         });
         Ok(())
     }

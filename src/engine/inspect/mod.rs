@@ -1,6 +1,7 @@
 //! What a draw reads, in memory: the world of [`crate::glsl::walk`].
 //!
-//! Owns the copies of a draw's uniforms and textures as they were when it began, and the reference of a sampler.
+//! Owns the copies of a draw's uniforms, textures and meshes as they were when it began, and the reference of a
+//! sampler.
 
 mod capture;
 mod texture;
@@ -8,4 +9,5 @@ mod world;
 
 pub(super) use capture::Capture;
 pub use texture::{Level, TextureCopy};
-pub use world::PassInputs;
+pub(crate) use world::DrawInputs;
+pub use world::{MeshInputs, PassInputs};

@@ -1,10 +1,14 @@
 //! What one draw of a pass reads.
 
 use super::texture::TextureCopy;
-use crate::glsl::{
-    interface::UniformBlock,
-    walk::{Lod, World},
+use crate::{
+    glsl::{
+        interface::{GeometryBlock, UniformBlock},
+        walk::{Lod, World},
+    },
+    media::mesh::Mesh,
 };
+use std::sync::Arc;
 
 /// The uniforms and textures that a draw reads, as they were when it began.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,15 +19,43 @@ pub struct PassInputs {
     pub channels: [TextureCopy; 4],
     /// The texels that are drawn, across and up.
     pub size: (u32, u32),
+    /// What each draw of a pass that draws meshes reads besides, in drawing order; empty for any other pass.
+    pub meshes: Vec<MeshInputs>,
 }
 
-impl World for PassInputs {
+/// A mesh, and the matrices that it is drawn with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MeshInputs {
+    pub mesh: Arc<Mesh>,
+    pub geometry: GeometryBlock,
+}
+
+impl PassInputs {
+    /// What the programs of a draw read; `None` for the one of a pass that draws no meshes.
+    pub(crate) fn of_draw(&self, draw: Option<usize>) -> DrawInputs<'_> {
+        let mesh = draw.and_then(|draw| self.meshes.get(draw));
+        DrawInputs { pass: self, geometry: mesh.map_or_else(GeometryBlock::default, |mesh| mesh.geometry) }
+    }
+}
+
+/// The inputs of a pass as the programs of one of its draws read them.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DrawInputs<'i> {
+    pass: &'i PassInputs,
+    geometry: GeometryBlock,
+}
+
+impl World for DrawInputs<'_> {
     fn uniforms(&self) -> &UniformBlock {
-        &self.uniforms
+        &self.pass.uniforms
+    }
+
+    fn geometry(&self) -> GeometryBlock {
+        self.geometry
     }
 
     fn custom_uniform(&self, slot: u16) -> [u32; 4] {
-        self.custom_uniforms.get(usize::from(slot)).copied().unwrap_or_default()
+        self.pass.custom_uniforms.get(usize::from(slot)).copied().unwrap_or_default()
     }
 
     fn cube_face(&self) -> u32 {
@@ -31,20 +63,20 @@ impl World for PassInputs {
     }
 
     fn size(&self, channel: u8, level: i32) -> [i32; 3] {
-        let levels = &self.channels[usize::from(channel)].levels;
+        let levels = &self.pass.channels[usize::from(channel)].levels;
         let level = usize::try_from(level).ok().and_then(|level| levels.get(level));
         level.map_or([0; 3], |level| [level.width as i32, level.height as i32, 1])
     }
 
     fn levels(&self, channel: u8) -> u32 {
-        self.channels[usize::from(channel)].levels.len() as u32
+        self.pass.channels[usize::from(channel)].levels.len() as u32
     }
 
     fn fetch(&self, channel: u8, at: [i32; 3], level: i32) -> [f32; 4] {
-        self.channels[usize::from(channel)].fetch([at[0], at[1]], level)
+        self.pass.channels[usize::from(channel)].fetch([at[0], at[1]], level)
     }
 
     fn sample(&self, channel: u8, at: [f64; 3], lod: Lod, offset: [i32; 3]) -> [f64; 4] {
-        self.channels[usize::from(channel)].sample([at[0], at[1]], lod, [offset[0], offset[1]])
+        self.pass.channels[usize::from(channel)].sample([at[0], at[1]], lod, [offset[0], offset[1]])
     }
 }

@@ -1,6 +1,7 @@
 //! The machine: four neighbouring pixels go through a program in lockstep.
 
 use super::{
+    inputs::EntryInputs,
     layout::{self, Slot},
     number::{Cell, Real},
     observer::{Observer, View},
@@ -34,10 +35,13 @@ struct Jumps {
 /// Goes through a program.
 pub struct Machine<'a, R> {
     state: State<'a, R>,
-    /// Where each lane's pixel lies.
-    positions: [[f64; 4]; LANES],
+    /// The variables of the module as a run begins, of one lane.
+    initial: Vec<Cell<R>>,
+    inputs: EntryInputs,
     /// Lanes that have drawn, or never will.
     ended: Lanes,
+    /// Of these the ones that never will.
+    discarded: Lanes,
     outputs: Vec<(Output, [Vec<Cell<R>>; LANES])>,
     steps: u64,
     limit: u64,
@@ -49,20 +53,29 @@ pub struct Machine<'a, R> {
 pub struct Drawn<R> {
     /// Of each output, the cells of each lane; empty for lanes that drew nothing.
     pub outputs: Vec<(Output, [Vec<Cell<R>>; LANES])>,
+    /// Lanes that a `discard` ended.
+    pub discarded: [bool; LANES],
     pub steps: u64,
 }
 
+impl<R> Drawn<R> {
+    /// The cells of an output in a lane; `None` where the lane drew nothing there.
+    pub fn output(&self, output: Output, lane: usize) -> Option<&[Cell<R>]> {
+        let (_, cells) = self.outputs.iter().find(|(there, _)| *there == output)?;
+        Some(&cells[lane][..]).filter(|cells| !cells.is_empty())
+    }
+}
+
 impl<'a, R: Real> Machine<'a, R> {
-    /// A machine for the 2x2 block that a pixel lies in. It stops after `limit` statements.
-    pub fn new(module: &'a Module, world: &'a dyn World, (x, y): (u32, u32), limit: u64) -> Self {
-        let (x, y) = (x & !1, y & !1);
+    /// A machine for what the lanes of `inputs` are: four fragments of a quad, or four vertices. It stops a run after
+    /// `limit` statements.
+    pub fn new(module: &'a Module, world: &'a dyn World, inputs: EntryInputs, limit: u64) -> Self {
         let mut machine = Self {
             state: State::new(module, world),
-            positions: std::array::from_fn(|lane| {
-                let (dx, dy) = (lane as u32 & 1, lane as u32 >> 1);
-                [f64::from(x + dx) + 0.5, f64::from(y + dy) + 0.5, 0.0, 1.0]
-            }),
+            initial: Vec::new(),
+            inputs,
             ended: 0,
+            discarded: 0,
             outputs: Vec::new(),
             steps: 0,
             limit,
@@ -70,6 +83,11 @@ impl<'a, R: Real> Machine<'a, R> {
         };
         machine.fill_globals();
         machine
+    }
+
+    /// Lets the next run have other inputs.
+    pub fn set_inputs(&mut self, inputs: EntryInputs) {
+        self.inputs = inputs;
     }
 
     /// The lane of a pixel of the block.
@@ -83,13 +101,17 @@ impl<'a, R: Real> Machine<'a, R> {
         let mut cells = Vec::new();
         let ty = self.state.module[global].ty;
         layout::constant(self.state.module, ty, &mut words.iter().copied().chain(std::iter::repeat(0)), &mut cells);
-        for memory in &mut self.state.memory {
-            memory[start..start + cells.len()].copy_from_slice(&cells);
-        }
+        self.initial[start..start + cells.len()].copy_from_slice(&cells);
     }
 
-    /// Runs the entry point. `observer` sees what the lane of one pixel does.
-    pub fn run(mut self, lane: usize, observer: &mut dyn Observer<R>) -> Result<Drawn<R>, Stop> {
+    /// Runs the entry point from its beginning. `observer` sees what the lane of one pixel does.
+    pub fn run(&mut self, lane: usize, observer: &mut dyn Observer<R>) -> Result<Drawn<R>, Stop> {
+        for memory in &mut self.state.memory {
+            memory.clear();
+            memory.extend_from_slice(&self.initial);
+        }
+        (self.ended, self.discarded, self.steps) = (0, 0, 0);
+        self.outputs.clear();
         let entry = FuncId::new(self.state.module.functions.len() - 1);
         let mut frame = self.frame(entry);
         for (value, op) in self.state.module[entry].values() {
@@ -98,29 +120,25 @@ impl<'a, R: Real> Machine<'a, R> {
             }
         }
         self.body(&mut frame, ALL, lane, observer)?;
-        Ok(Drawn { outputs: self.outputs, steps: self.steps })
+        let discarded = std::array::from_fn(|lane| self.discarded & (1 << lane) != 0);
+        Ok(Drawn { outputs: std::mem::take(&mut self.outputs), discarded, steps: self.steps })
     }
 
     fn fill_globals(&mut self) {
         for global in &self.state.module.globals {
-            let start = self.state.memory[0].len();
-            self.state.globals.push(start);
-            let mut cells = Vec::new();
+            self.state.globals.push(self.initial.len());
             let mut fill = |mut words: &mut dyn Iterator<Item = u32>| {
-                layout::constant(self.state.module, global.ty, &mut words, &mut cells);
+                layout::constant(self.state.module, global.ty, &mut words, &mut self.initial);
             };
             match global.kind {
                 GlobalKind::Private(None) => fill(&mut std::iter::repeat(0)),
                 GlobalKind::Private(Some(id)) | GlobalKind::Table(id) => {
                     fill(&mut self.state.module[id].words.iter().copied());
                 }
-                GlobalKind::Uniform(uniform) => {
-                    fill(&mut uniform_words(self.state.world.uniforms(), uniform).into_iter())
-                }
+                GlobalKind::Uniform(uniform) => fill(&mut uniform_words(self.state.world, uniform).into_iter()),
                 GlobalKind::CustomUniform(slot) => fill(&mut self.state.world.custom_uniform(slot).into_iter()),
                 GlobalKind::CubeFace => fill(&mut [self.state.world.cube_face()].into_iter()),
             }
-            self.state.memory.iter_mut().for_each(|memory| memory.extend_from_slice(&cells));
         }
     }
 
@@ -140,12 +158,17 @@ impl<'a, R: Real> Machine<'a, R> {
             let out = self.state.register_mut(frame, value, lane);
             match input {
                 Input::Position => {
-                    for (cell, number) in out.iter_mut().zip(self.positions[lane]) {
-                        *cell = Cell::Float(R::from_f64(number));
+                    for (cell, number) in out.iter_mut().zip(self.inputs.position[lane]) {
+                        *cell = Cell::Float(R::with_shadow(number.single.into(), number.double));
                     }
                 }
-                // Of meshes, which are not walked through.
-                _ => out.fill(Cell::Bits(0)),
+                Input::VertexIndex => out.fill(Cell::Bits(self.inputs.vertices[lane])),
+                // There is one instance of each mesh.
+                Input::InstanceIndex => out.fill(Cell::Bits(0)),
+                Input::FrontFacing => out.fill(self.inputs.is_front.into()),
+                Input::Attribute { location, .. } | Input::Varying { location, .. } => {
+                    self.inputs.slot(location, lane, out);
+                }
             }
         }
     }
@@ -277,6 +300,7 @@ impl<'a, R: Real> Machine<'a, R> {
                 }
                 Stmt::Discard => {
                     self.ended |= active;
+                    self.discarded |= active;
                     active = 0;
                 }
                 Stmt::Output(parts) => {

@@ -127,6 +127,13 @@ pub struct Shadowed {
     pub double: f64,
 }
 
+impl Shadowed {
+    /// A number that both precisions hold; one that single precision lacks is rounded there.
+    pub fn exact(value: f64) -> Self {
+        Self { single: value as f32, double: value }
+    }
+}
+
 impl PartialEq for Shadowed {
     fn eq(&self, other: &Self) -> bool {
         self.single == other.single
@@ -174,7 +181,7 @@ impl Real for Shadowed {
     }
 
     fn from_f64(value: f64) -> Self {
-        Self { single: value as f32, double: value }
+        Self::exact(value)
     }
 
     fn to_f32(self) -> f32 {

@@ -1,7 +1,12 @@
 use super::{number::Real, *};
 use crate::{
     diag::SourceId,
-    glsl::{PassKind, PassSource, Text, interface::UniformBlock, ir::Output, walkable::Walkable},
+    glsl::{
+        Link, PassKind, PassSource, Text,
+        interface::{GeometryBlock, UniformBlock},
+        ir::Output,
+        walkable::{Detail, Walkable},
+    },
 };
 use bytemuck::Zeroable;
 
@@ -19,6 +24,10 @@ impl Default for Bare {
 impl World for Bare {
     fn uniforms(&self) -> &UniformBlock {
         &self.0
+    }
+
+    fn geometry(&self) -> GeometryBlock {
+        GeometryBlock::default()
     }
 
     fn custom_uniform(&self, _: u16) -> [u32; 4] {
@@ -53,13 +62,14 @@ impl World for Bare {
 
 fn walkable(code: &str) -> Walkable {
     let source = PassSource::new(PassKind::Buffer, Text { id: SourceId(0), text: code });
-    Walkable::new(&source).unwrap_or_else(|errors| panic!("{errors:?}"))
+    Walkable::new(&source, &Link::default(), Detail::Values).unwrap_or_else(|errors| panic!("{errors:?}"))
 }
 
 fn draw<R: Real>(code: &str, pixel: (u32, u32)) -> Result<[f64; 4], Stop> {
     let (walkable, world) = (walkable(code), Bare::default());
     let lane = Machine::<R>::lane_of(pixel);
-    let drawn = Machine::<R>::new(&walkable.program, &world, pixel, LIMIT).run(lane, &mut Nobody)?;
+    let drawn =
+        Machine::<R>::new(&walkable.program, &world, EntryInputs::of_pixel(pixel), LIMIT).run(lane, &mut Nobody)?;
     let (_, cells) = drawn.outputs.iter().find(|(output, _)| *output == Output::Target(0)).unwrap();
     Ok(std::array::from_fn(|i| cells[lane][i].float().to_f64()))
 }
@@ -163,7 +173,9 @@ fn what_never_ends_is_stopped_and_what_discards_draws_nothing() {
     assert_eq!(draw::<f32>(endless, (0, 0)), Err(Stop::Steps(LIMIT)));
     let (walkable, world) =
         (walkable("void mainImage(out vec4 r, in vec2 p) { if (p.x > 1.0) discard; r = vec4(1.0); }"), Bare::default());
-    let drawn = Machine::<f32>::new(&walkable.program, &world, (0, 0), LIMIT).run(0, &mut Nobody).unwrap();
+    let drawn = Machine::<f32>::new(&walkable.program, &world, EntryInputs::of_pixel((0, 0)), LIMIT)
+        .run(0, &mut Nobody)
+        .unwrap();
     let drew: Vec<bool> = drawn.outputs[0].1.iter().map(|cells| !cells.is_empty()).collect();
     assert_eq!(drew, [true, false, true, false]);
 }
@@ -174,14 +186,18 @@ fn single_precision_is_a_devices_and_the_shadow_knows_better() {
     assert_eq!(draw::<f32>(code, (3, 2)).unwrap()[0], f64::from((3.5f32 * 0.1 + 1e8) - 1e8 - 3.5 * 0.1));
     assert!(draw::<f64>(code, (3, 2)).unwrap()[0].abs() < 1e-7);
     let (walkable, world) = (walkable(code), Bare::default());
-    let drawn = Machine::<Shadowed>::new(&walkable.program, &world, (3, 2), LIMIT).run(1, &mut Nobody).unwrap();
+    let drawn = Machine::<Shadowed>::new(&walkable.program, &world, EntryInputs::of_pixel((3, 2)), LIMIT)
+        .run(1, &mut Nobody)
+        .unwrap();
     let Shadowed { single, double } = drawn.outputs[0].1[1][0].float();
     assert!(f64::from(single) < -0.3 && double.abs() < 1e-7, "{single} {double}");
     // What is read of a texture is read twice, where the coordinates are apart.
     let code =
         "void mainImage(out vec4 r, in vec2 p) { float a = p.x * 0.1; r = texture(iChannel0, vec2((a + 1e8) - 1e8)); }";
     let walkable = self::walkable(code);
-    let drawn = Machine::<Shadowed>::new(&walkable.program, &world, (3, 2), LIMIT).run(1, &mut Nobody).unwrap();
+    let drawn = Machine::<Shadowed>::new(&walkable.program, &world, EntryInputs::of_pixel((3, 2)), LIMIT)
+        .run(1, &mut Nobody)
+        .unwrap();
     let Shadowed { single, double } = drawn.outputs[0].1[1][0].float();
     assert!(single == 0.0 && (double - 0.35).abs() < 1e-7, "{single} {double}");
 }
@@ -209,12 +225,12 @@ fn an_observer_sees_the_way_of_one_pixel() {
          0; i < 2; i++) if (p.x > 1.0) s += twice(p.x); r = vec4(s); }",
     );
     let (world, mut log) = (Bare::default(), Log::default());
-    Machine::<f32>::new(&walkable.program, &world, (0, 0), LIMIT).run(1, &mut log).unwrap();
+    Machine::<f32>::new(&walkable.program, &world, EntryInputs::of_pixel((0, 0)), LIMIT).run(1, &mut log).unwrap();
     let calls = log.0.iter().filter(|line| *line == "enter 0").count();
     assert_eq!((calls, log.0.iter().filter(|line| *line == "turn").count()), (2, 3), "{:#?}", log.0);
     assert!(log.0.contains(&"store 6.0".to_owned()), "{:#?}", log.0);
     let mut other = Log::default();
-    Machine::<f32>::new(&walkable.program, &world, (0, 0), LIMIT).run(0, &mut other).unwrap();
+    Machine::<f32>::new(&walkable.program, &world, EntryInputs::of_pixel((0, 0)), LIMIT).run(0, &mut other).unwrap();
     assert!(!other.0.contains(&"enter 0".to_owned()), "{:#?}", other.0);
     let names: Vec<&str> = walkable.locals(crate::glsl::ir::FuncId::new(1)).map(|(name, _)| name).collect();
     assert_eq!(names, ["r", "p", "s", "i"]);

@@ -1,6 +1,9 @@
 //! What a program reads beside its own memory.
 
-use crate::glsl::{builtins::Uniform, interface::UniformBlock};
+use crate::glsl::{
+    builtins::Uniform,
+    interface::{GeometryBlock, UniformBlock},
+};
 
 /// A mip level, as a sample asks for it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,6 +22,8 @@ pub enum Lod {
 pub trait World {
     /// The site's uniforms.
     fn uniforms(&self) -> &UniformBlock;
+    /// What a mesh is drawn with; zeros for a pass that draws none, whose program names nothing of it.
+    fn geometry(&self) -> GeometryBlock;
     /// The words of the author's own uniform in a slot.
     fn custom_uniform(&self, slot: u16) -> [u32; 4];
     /// Face of the cube map that is drawn, 0 to 5.
@@ -33,7 +38,8 @@ pub trait World {
 }
 
 /// The words of one of the site's uniforms, in memory order.
-pub fn uniform_words(block: &UniformBlock, uniform: Uniform) -> Vec<u32> {
+pub fn uniform_words(world: &dyn World, uniform: Uniform) -> Vec<u32> {
+    let block = world.uniforms();
     let floats = |numbers: &[f32]| numbers.iter().map(|number| number.to_bits()).collect();
     let first = |slots: &[[f32; 4]; 4], count: usize| -> Vec<u32> {
         slots.iter().flat_map(|slot| slot[..count].iter().map(|number| number.to_bits())).collect()
@@ -52,9 +58,13 @@ pub fn uniform_words(block: &UniformBlock, uniform: Uniform) -> Vec<u32> {
         Uniform::TimeOffset => floats(&[block.time_offset]),
         Uniform::SampleOffset => vec![block.sample_offset as u32],
         Uniform::ChannelLoaded => block.channel_loaded.map(|loaded| loaded as u32).to_vec(),
-        // Of meshes, which are not walked through.
-        Uniform::Model | Uniform::View | Uniform::Projection | Uniform::NormalMatrix | Uniform::CameraPosition => {
-            vec![0; 16]
+        Uniform::Model => floats(world.geometry().model.as_flattened()),
+        Uniform::View => floats(world.geometry().view.as_flattened()),
+        Uniform::Projection => floats(world.geometry().projection.as_flattened()),
+        Uniform::NormalMatrix => {
+            let columns = world.geometry().normal.map(|[x, y, z, _]| [x, y, z]);
+            floats(columns.as_flattened())
         }
+        Uniform::CameraPosition => floats(&world.geometry().camera[..3]),
     }
 }

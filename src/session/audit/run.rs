@@ -9,11 +9,13 @@ use super::{
 use crate::{
     engine::{PassInputs, Sources},
     glsl::{
-        ir::Output,
-        walk::{Machine, Observer, Shadowed},
-        walkable::Walkable,
+        walk::{Observer, Shadowed},
+        walkable::Detail,
     },
-    session::trace::TraceError,
+    session::{
+        trace::TraceError,
+        walked::{WalkedPass, WalkedPixel},
+    },
 };
 use std::{
     collections::BTreeMap,
@@ -64,12 +66,12 @@ pub fn audit(
     if let Some(&pixel) = pixels.iter().find(|p| p.0 >= inputs.size.0 || p.1 >= inputs.size.1) {
         return Err(TraceError::Outside { pixel, size: inputs.size });
     }
-    let walkable = sources.walkable(index).ok_or(TraceError::Meshes)?.map_err(TraceError::Diagnostics)?;
+    let pass = WalkedPass::new(sources, index, inputs, Detail::Values, limit)?;
     let next = AtomicUsize::new(0);
     let work = || {
         let mut done = Vec::new();
         while let Some(&pixel) = pixels.get(next.fetch_add(1, Ordering::Relaxed)) {
-            done.push(audit_pixel(&walkable, sources, inputs, pixel, limit)?);
+            done.push(audit_pixel(&pass, sources, pixel)?);
         }
         Ok::<_, TraceError>(done)
     };
@@ -99,35 +101,28 @@ pub fn audit(
 }
 
 fn audit_pixel(
-    walkable: &Walkable,
+    pass: &WalkedPass<'_>,
     sources: &Sources<'_>,
-    inputs: &PassInputs,
     pixel: (u32, u32),
-    limit: u64,
 ) -> Result<(AuditedPixel, Vec<Finding>), TraceError> {
-    let mut watch = Watch::new(walkable, sources, inputs);
-    let drawn = walk(walkable, inputs, pixel, limit, &mut watch)?;
+    let Some(at) = pass.at(pixel)? else {
+        let audited = AuditedPixel { pixel, single: [0.0; 4], double: [0.0; 4], error: 0.0 };
+        return Ok((audited, Vec::new()));
+    };
+    let mut watch = Watch::new(at.walkable, sources, &at.world);
+    let drawn = walk(&at, &mut watch)?;
     let audited = AuditedPixel {
         pixel,
         single: drawn.map(|x| x.single),
         double: drawn.map(|x| x.double),
         error: error_of(&drawn),
     };
-    let born = blame::find(&drawn, &watch, |observer| walk(walkable, inputs, pixel, limit, observer))?;
+    let born = blame::find(&drawn, &watch, |observer| walk(&at, observer))?;
     Ok((audited, watch.end(pixel, born)))
 }
 
-/// What a pixel draws in both precisions, by the way of the single one.
-fn walk(
-    walkable: &Walkable,
-    inputs: &PassInputs,
-    pixel: (u32, u32),
-    limit: u64,
-    observer: &mut dyn Observer<Shadowed>,
-) -> Result<[Shadowed; 4], TraceError> {
-    let lane = Machine::<Shadowed>::lane_of(pixel);
-    let drawn = Machine::<Shadowed>::new(&walkable.program, inputs, pixel, limit).run(lane, observer)?;
-    let cells = drawn.outputs.iter().find(|(output, _)| *output == Output::Target(0)).map(|(_, cells)| &cells[lane]);
-    let nothing = Shadowed { single: 0.0, double: 0.0 };
-    Ok(std::array::from_fn(|i| cells.and_then(|cells| cells.get(i)).map_or(nothing, |cell| cell.float())))
+/// What a pixel draws in both precisions, by the way of the single one; zeros where it draws nothing.
+fn walk(at: &WalkedPixel<'_>, observer: &mut dyn Observer<Shadowed>) -> Result<[Shadowed; 4], TraceError> {
+    let drawn = at.machine::<Shadowed>().run(at.lane, observer)?;
+    Ok(at.value(&drawn).unwrap_or([Shadowed { single: 0.0, double: 0.0 }; 4]))
 }

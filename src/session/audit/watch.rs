@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     diag::Span,
-    engine::{PassInputs, Sources},
+    engine::{DrawInputs, Sources},
     glsl::{
         ast::Loc,
         ir::{Binary, FuncId, GlobalKind, Math, Op, Output, Value},
@@ -48,7 +48,7 @@ pub struct Blame {
 pub struct Watch<'w> {
     walkable: &'w Walkable,
     sources: &'w Sources<'w>,
-    inputs: &'w PassInputs,
+    inputs: &'w DrawInputs<'w>,
     births: HashMap<(FuncId, Value), Birth>,
     found: Vec<(Kind, Option<Span>, String)>,
     /// Cells of memory that nothing was written to.
@@ -61,7 +61,7 @@ pub struct Watch<'w> {
 }
 
 impl<'w> Watch<'w> {
-    pub fn new(walkable: &'w Walkable, sources: &'w Sources<'w>, inputs: &'w PassInputs) -> Self {
+    pub fn new(walkable: &'w Walkable, sources: &'w Sources<'w>, inputs: &'w DrawInputs<'w>) -> Self {
         Self {
             walkable,
             sources,

@@ -2,7 +2,7 @@
 
 use crate::{
     engine::{PassInputs, Pixels, Sources},
-    project::{PassBody, PassFormat, PassId, Project},
+    project::{PassFormat, PassId, Project},
     session::{
         audit::{self, Class, Finding},
         trace::TraceError,
@@ -41,8 +41,8 @@ pub fn stored(project: &Project, pass: &PassId) -> usize {
     project.pass(pass).map_or_else(PassFormat::default, |p| p.settings.format).components()
 }
 
-/// Walks through a pass for a texel. `None`: no operation makes it: it is too large for the pass's format, or was read
-/// from a texture, or the pass draws meshes.
+/// Walks through a pass for a texel of its first target. `None`: no operation makes it: it is too large for the pass's
+/// format, or was read from a texture, or comes from a vertex stage.
 pub fn born(
     project: &Project,
     pass: &PassId,
@@ -50,10 +50,7 @@ pub fn born(
     texel: (u32, u32),
     limit: u64,
 ) -> Result<Option<Finding>, TraceError> {
-    let found = project.passes.iter().position(|p| p.id == *pass);
-    let Some(index) = found.filter(|index| matches!(project.passes[*index].settings.body, PassBody::Screen)) else {
-        return Ok(None);
-    };
+    let Some(index) = project.passes.iter().position(|p| p.id == *pass) else { return Ok(None) };
     let audit = audit::audit(&Sources::new(project), index, read, &[texel], limit)?;
     Ok(audit.findings.into_iter().find(|finding| finding.kind.class() == Class::Nonfinite))
 }

@@ -11,10 +11,11 @@ use crate::{
     diag::{SourceId, Span},
     engine::{PassInputs, Pixels, Sources},
     glsl::{
-        ir::Output,
-        walk::{Machine, Nobody, Shadowed, Stop},
+        walk::{EntryInputs, Nobody, Shadowed, Stop},
+        walkable::Detail,
     },
-    project::{PassFormat, PassId, Project, Tab, inspect_comments},
+    project::{PassFormat, PassId, Project, Stage, Tab, inspect_comments},
+    session::walked::{Origin, WalkedPass},
 };
 use std::sync::Arc;
 
@@ -29,7 +30,12 @@ pub struct Traced {
     /// The texts that were walked through.
     pub project: Project,
     pub pass: PassId,
+    /// The text with the pass's entry point: of a pass that draws meshes the fragment stage of a draw.
+    pub tab: Tab,
+    text_id: SourceId,
     index: usize,
+    /// What the value comes from: never what is clear.
+    pub origin: Origin,
     pub pixel: (u32, u32),
     pub size: (u32, u32),
     pub frame: i32,
@@ -44,6 +50,7 @@ pub struct Traced {
     /// The walk was given up: it is as long as this tells.
     pub is_endless: bool,
     inputs: PassInputs,
+    entry: EntryInputs,
 }
 
 /// A line at which one stops, where a condition holds.
@@ -71,7 +78,8 @@ pub struct Printed {
 }
 
 impl Traced {
-    /// Walks through a pass for the pixel at a place of its picture, from 0 to 1 across and up.
+    /// Walks through a pass for the pixel at a place of its picture, from 0 to 1 across and up. Fails where the pass
+    /// draws meshes and none of them is drawn at the pixel.
     pub fn new(
         project: Project,
         pass: &PassId,
@@ -79,46 +87,46 @@ impl Traced {
         (inputs, drawn): (PassInputs, &Pixels),
         place: [f32; 2],
     ) -> Result<Self, TraceError> {
-        let index = project.passes.iter().position(|p| p.id == *pass).ok_or(TraceError::Meshes)?;
+        let index = project.passes.iter().position(|p| p.id == *pass).ok_or(TraceError::Gone)?;
         let texel = |part: f32, count: u32| ((part * count as f32) as u32).min(count.saturating_sub(1));
         let pixel = (texel(place[0], inputs.size.0), texel(place[1], inputs.size.1));
         let sources = Sources::new(&project);
-        let walkable = sources.walkable_by_statements(index).ok_or(TraceError::Meshes)?;
-        let walkable = walkable.map_err(TraceError::Diagnostics)?;
-        let mut recorder = HistoryRecorder::new(&walkable);
-        let lane = Machine::<f32>::lane_of(pixel);
-        let walked = Machine::<f32>::new(&walkable.program, &inputs, pixel, STATEMENTS).run(lane, &mut recorder);
+        let walked = WalkedPass::new(&sources, index, &inputs, Detail::Statements, STATEMENTS)?;
+        drop(sources);
+        let at = walked.at(pixel)?.ok_or(TraceError::Clear(pixel))?;
+        let mut recorder = HistoryRecorder::new(at.walkable);
+        let run = at.machine::<f32>().run(at.lane, &mut recorder);
         let recorded = recorder.end();
-        let is_endless = matches!(walked, Err(Stop::Steps(_)));
-        let cells = walked.ok().and_then(|drawn| {
-            let target = drawn.outputs.into_iter().find(|(output, _)| *output == Output::Target(0))?;
-            Some(target.1[lane].clone()).filter(|cells| cells.len() == 4)
-        });
-        let value = cells.map(|cells| std::array::from_fn(|i| cells[i].float()));
+        let is_endless = matches!(run, Err(Stop::Steps(_)));
+        let value = run.ok().and_then(|drawn| at.value(&drawn));
         let mut double = None;
         if value.is_some() {
-            let machine = Machine::<Shadowed>::new(&walkable.program, &inputs, pixel, STATEMENTS);
-            let drawn = machine.run(lane, &mut Nobody)?;
-            let target = drawn.outputs.into_iter().find(|(output, _)| *output == Output::Target(0));
-            let cells = target.map(|(_, cells)| cells[lane].clone()).filter(|cells| cells.len() == 4);
-            double = cells.map(|cells| std::array::from_fn(|i| cells[i].float().double));
+            let drawn = at.machine::<Shadowed>().run(at.lane, &mut Nobody)?;
+            double = at.value(&drawn).map(|value| value.map(|number| number.double));
         }
-        drop(sources);
+        let (origin, entry) = (at.origin, at.inputs);
+        let history = recorded.of(walked.into_walkable(origin));
         let device = drawn.texels.get((pixel.1 * drawn.width + pixel.0) as usize).copied().unwrap_or_default();
-        let format = project.passes[index].settings.format;
+        let settings = &project.passes[index].settings;
+        let draw = origin.draw().and_then(|draw| settings.meshes()?.draws.get(draw));
+        let text_id = project.stage_id(index, draw.map_or(Stage::Own, |draw| draw.fragment));
         Ok(Self {
             index,
             pass: pass.clone(),
+            tab: project.tab_of(text_id).unwrap_or_else(|| Tab::Pass(pass.clone())),
+            text_id,
+            origin,
             pixel,
             size: inputs.size,
             frame,
-            history: recorded.of(walkable),
+            history,
             value,
             double,
             device,
-            format,
+            format: settings.format,
             is_endless,
             inputs,
+            entry,
             project,
         })
     }
@@ -146,7 +154,7 @@ impl Traced {
     fn source(&self, tab: &Tab) -> Option<SourceId> {
         match tab {
             Tab::Common => Some(Project::COMMON_ID),
-            Tab::Pass(pass) if *pass == self.pass => Some(Project::pass_id(self.index)),
+            tab if *tab == self.tab => Some(self.text_id),
             _ => None,
         }
     }
@@ -178,8 +186,10 @@ impl Examiner {
     /// An expression at a moment.
     pub fn watch(&mut self, at: usize, expression: &str) -> Watched {
         let traced = &*self.traced;
-        let place = (&traced.project, traced.index);
-        self.watches.value((&traced.history, at), place, (&traced.inputs, traced.pixel), expression)
+        let draw = traced.origin.draw();
+        let place = (&traced.project, traced.index, draw);
+        let read = (&traced.inputs.of_draw(draw), &traced.entry, traced.pixel);
+        self.watches.value((&traced.history, at), place, read, expression)
     }
 
     /// Returns the nearest moment that way at which a breakpoint stops; a condition that is no truth value or number,
@@ -215,7 +225,7 @@ impl Examiner {
     /// What the comments of the texts ask for.
     pub fn printed(&mut self) -> Vec<Printed> {
         let traced = self.traced.clone();
-        let tabs = [Tab::Common, Tab::Pass(traced.pass.clone())];
+        let tabs = [Tab::Common, traced.tab.clone()];
         let mut found = Vec::new();
         for tab in tabs {
             let Some(source) = traced.source(&tab) else { continue };

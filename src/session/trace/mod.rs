@@ -12,6 +12,7 @@ mod step;
 pub mod travel;
 mod watch;
 
+pub use super::walked::{MeshFragment, Origin};
 pub use examine::{Breakpoint, Examiner, Printed, Traced};
 pub use history::{Call, History, Moment, MomentKind, Shown, Turn, Value};
 pub use number::Number;
@@ -22,10 +23,10 @@ use crate::{
     diag::Diagnostic,
     engine::{PassInputs, Sources},
     glsl::{
-        ir::Output,
-        walk::{Machine, Nobody, Shadowed, Stop},
-        walkable::Walkable,
+        walk::{Nobody, Shadowed, Stop},
+        walkable::Detail,
     },
+    session::walked::{WalkError, WalkedPass},
 };
 use recorder::Recorder;
 
@@ -38,12 +39,14 @@ pub struct Trace {
     pub steps: Vec<Step>,
     /// Steps that were left out, as there were more than wanted.
     pub left_out: u64,
-    /// What the pass draws, in single precision; none where it draws nothing.
+    /// What the pass draws into its first target, in single precision; none where it draws nothing.
     pub value: Option<[f32; 4]>,
     /// The same along the same way in double precision.
     pub double: Option<[f64; 4]>,
     /// Statements that were run.
     pub statements: u64,
+    /// What the value comes from. What is clear has no steps.
+    pub origin: Origin,
 }
 
 /// A pass cannot be traced.
@@ -51,8 +54,13 @@ pub struct Trace {
 pub enum TraceError {
     #[error("the pass has errors")]
     Diagnostics(Vec<Diagnostic>),
-    #[error("passes that draw meshes cannot be traced")]
-    Meshes,
+    #[error("the pass has gone")]
+    Gone,
+    #[error(
+        "no triangle of the meshes is drawn at pixel {},{} of the pass: it holds the zeros that the pass begins with",
+        .0.0, .0.1
+    )]
+    Clear((u32, u32)),
     #[error("pixel {},{} is outside of the pass, which has {} x {} texels", pixel.0, pixel.1, size.0, size.1)]
     Outside { pixel: (u32, u32), size: (u32, u32) },
     #[error(
@@ -66,6 +74,15 @@ impl From<Stop> for TraceError {
     fn from(stop: Stop) -> Self {
         match stop {
             Stop::Steps(limit) => TraceError::Endless(limit),
+        }
+    }
+}
+
+impl From<WalkError> for TraceError {
+    fn from(error: WalkError) -> Self {
+        match error {
+            WalkError::Diagnostics(found) => TraceError::Diagnostics(found),
+            WalkError::Stop(stop) => stop.into(),
         }
     }
 }
@@ -85,7 +102,44 @@ impl Default for Extent {
     }
 }
 
-/// Walks through `project.passes[index]` for a pixel, counted from the bottom left.
+/// A pass in one frame, of which any number of pixels can be traced.
+pub struct Tracer<'p> {
+    pass: WalkedPass<'p>,
+    size: (u32, u32),
+    extent: Extent,
+}
+
+impl<'p> Tracer<'p> {
+    /// Lowers `project.passes[index]`; of one that draws meshes all vertices are transformed.
+    pub fn new(
+        sources: &Sources<'_>,
+        index: usize,
+        inputs: &'p PassInputs,
+        extent: Extent,
+    ) -> Result<Self, TraceError> {
+        let pass = WalkedPass::new(sources, index, inputs, Detail::Values, extent.statements)?;
+        Ok(Self { pass, size: inputs.size, extent })
+    }
+
+    /// Walks through the pass for a pixel, counted from the bottom left.
+    pub fn trace(&self, pixel: (u32, u32)) -> Result<Trace, TraceError> {
+        if pixel.0 >= self.size.0 || pixel.1 >= self.size.1 {
+            return Err(TraceError::Outside { pixel, size: self.size });
+        }
+        let Some(at) = self.pass.at(pixel)? else {
+            let (value, double) = (Some([0.0; 4]), Some([0.0; 4]));
+            return Ok(Trace { steps: Vec::new(), left_out: 0, value, double, statements: 0, origin: Origin::Clear });
+        };
+        let mut recorder = Recorder::new(at.walkable, self.extent.steps);
+        let drawn = at.machine::<f32>().run(at.lane, &mut recorder)?;
+        let (steps, left_out) = recorder.end();
+        let shadowed = at.machine::<Shadowed>().run(at.lane, &mut Nobody)?;
+        let double = at.value(&shadowed).map(|value| value.map(|number| number.double));
+        Ok(Trace { steps, left_out, value: at.value(&drawn), double, statements: drawn.steps, origin: at.origin })
+    }
+}
+
+/// Walks through `project.passes[index]` for one pixel, counted from the bottom left; see [`Tracer`].
 pub fn trace(
     sources: &Sources<'_>,
     index: usize,
@@ -93,32 +147,7 @@ pub fn trace(
     pixel: (u32, u32),
     extent: Extent,
 ) -> Result<Trace, TraceError> {
-    if pixel.0 >= inputs.size.0 || pixel.1 >= inputs.size.1 {
-        return Err(TraceError::Outside { pixel, size: inputs.size });
-    }
-    let walkable = sources.walkable(index).ok_or(TraceError::Meshes)?.map_err(TraceError::Diagnostics)?;
-    let mut recorder = Recorder::new(&walkable, extent.steps);
-    let lane = Machine::<f32>::lane_of(pixel);
-    let machine = Machine::<f32>::new(&walkable.program, inputs, pixel, extent.statements);
-    let drawn = machine.run(lane, &mut recorder)?;
-    let value = drawn.outputs.iter().find(|(output, _)| *output == Output::Target(0)).map(|(_, cells)| &cells[lane]);
-    let value = value.filter(|cells| cells.len() == 4).map(|cells| std::array::from_fn(|i| cells[i].float()));
-    let (steps, left_out) = recorder.end();
-    let double = shadowed(&walkable, inputs, pixel, extent.statements)?;
-    Ok(Trace { steps, left_out, value, double, statements: drawn.steps })
-}
-
-fn shadowed(
-    walkable: &Walkable,
-    inputs: &PassInputs,
-    pixel: (u32, u32),
-    limit: u64,
-) -> Result<Option<[f64; 4]>, TraceError> {
-    let lane = Machine::<Shadowed>::lane_of(pixel);
-    let drawn = Machine::<Shadowed>::new(&walkable.program, inputs, pixel, limit).run(lane, &mut Nobody)?;
-    let cells = drawn.outputs.iter().find(|(output, _)| *output == Output::Target(0)).map(|(_, cells)| &cells[lane]);
-    let cells = cells.filter(|cells| cells.len() == 4);
-    Ok(cells.map(|cells| std::array::from_fn(|i| cells[i].float().double)))
+    Tracer::new(sources, index, inputs, extent)?.trace(pixel)
 }
 
 /// How many numbers of single precision lie between two: 0 for equal ones and for two NaN, `u32::MAX` where only one is

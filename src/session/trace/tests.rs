@@ -40,6 +40,7 @@ fn traced(code: &str) -> Traced {
         custom_uniforms: Vec::new(),
         channels: std::array::from_fn(|_| TextureCopy::black()),
         size: (4, 4),
+        meshes: Vec::new(),
     };
     let drawn = Pixels { width: 4, height: 4, texels: vec![[0.0, 0.0, 1.0, 1.0]; 16] };
     Traced::new(project, &PassId::Image, 3, (inputs, &drawn), [0.3, 0.3]).unwrap()

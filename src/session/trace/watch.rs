@@ -9,11 +9,11 @@ use super::{
     number::Number,
 };
 use crate::{
-    engine::{PassInputs, Sources},
+    engine::{DrawInputs, Sources},
     glsl::{
         ir::GlobalId,
         types::{Scalar, Type},
-        walk::{Machine, Observer, View},
+        walk::{EntryInputs, Machine, Observer, View},
         walkable::Walkable,
     },
     project::Project,
@@ -48,12 +48,12 @@ struct Compiled {
 }
 
 impl Watches {
-    /// The value of an expression at a moment of a history, in its pass.
+    /// The value of an expression at a moment of a history, in its pass, which may be one of the draws of meshes.
     pub fn value(
         &mut self,
         (history, at): (&History, usize),
-        (project, index): (&Project, usize),
-        (inputs, pixel): (&PassInputs, (u32, u32)),
+        (project, index, draw): (&Project, usize, Option<usize>),
+        (inputs, entry, pixel): (&DrawInputs<'_>, &EntryInputs, (u32, u32)),
         expression: &str,
     ) -> Watched {
         let expression = expression.trim();
@@ -72,10 +72,10 @@ impl Watches {
         let key = named.iter().flat_map(|(name, ty)| [ty, " ", name, ", "]).chain([expression]).collect();
         let compiled = self.known.entry(key).or_insert_with(|| {
             let text = text(&named, &globals, expression);
-            compile(&Sources::new(project), index, &text, [named.len(), globals.len()])
+            compile(&Sources::new(project), (index, draw), &text, [named.len(), globals.len()])
         });
         let compiled = compiled.as_ref().map_err(Clone::clone)?;
-        let mut machine = Machine::<f32>::new(&compiled.walkable.program, inputs, pixel, MOST);
+        let mut machine = Machine::<f32>::new(&compiled.walkable.program, inputs, entry.clone(), MOST);
         let held = named.iter().map(|(name, _)| history.value(at, name).map(|value| value.words));
         let held = held.chain(globals.iter().map(|(name, _)| history.global_words(at, name)));
         for (global, words) in compiled.inputs.iter().zip(held) {
@@ -98,7 +98,8 @@ struct Taken<'c> {
 impl Observer<f32> for Taken<'_> {
     fn leave(&mut self, view: &View<'_, '_, f32>) {
         let Compiled { walkable, kind, results, .. } = self.compiled;
-        if walkable.function_name(view.function_id()) != Some("mainCubemap") {
+        // An author's `main` has another name here.
+        if !matches!(walkable.function_name(view.function_id()), Some("mainCubemap" | "main")) {
             return;
         }
         let Some(kind) = kind.map(|kind| view.global(kind)[0].bits() as usize) else { return };
@@ -121,8 +122,9 @@ fn words(expression: &str) -> impl Iterator<Item = &str> {
     expression.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).filter(|word| !word.is_empty())
 }
 
-/// What stands behind the pass: variables as parameters, and a function for each type that gives the result away.
-fn text(named: &[&(String, String)], globals: &[(&str, &str)], expression: &str) -> String {
+/// What stands behind the pass: variables as parameters, and a function for each type that gives the result away; and
+/// what the entry point does there.
+fn text(named: &[&(String, String)], globals: &[(&str, &str)], expression: &str) -> (String, String) {
     let mut out = String::from("int eddy_kind;\n");
     for (index, ty) in TYPES.iter().enumerate() {
         out += &format!("{ty} eddy_{ty}; void eddy_put({ty} x) {{ eddy_kind = {}; eddy_{ty} = x; }}\n", index + 1);
@@ -146,16 +148,16 @@ fn text(named: &[&(String, String)], globals: &[(&str, &str)], expression: &str)
         .map(|(i, (name, _))| format!("eddy_global_{i} = eddy_global_{i}; {name} = eddy_global_{i}; "))
         .collect();
     out += &format!("void eddy_watch({parameters}) {{ eddy_put((\n{expression}\n)); }}\n");
-    out += &format!(
-        "void mainCubemap(out vec4 o, in vec2 p, in vec3 a, in vec3 b) {{ o = vec4(0.0); {touched}{restored}\
-         eddy_watch({arguments}); }}\n"
-    );
-    out
+    (out, format!("{touched}{restored}eddy_watch({arguments}); "))
 }
 
-fn compile(sources: &Sources<'_>, index: usize, text: &str, counts: [usize; 2]) -> Result<Compiled, String> {
-    let lowered = sources.walkable_with(index, text).ok_or("passes that draw meshes cannot be traced")?;
-    let walkable = lowered.map_err(|diagnostics| {
+fn compile(
+    sources: &Sources<'_>,
+    place: (usize, Option<usize>),
+    (declarations, body): &(String, String),
+    counts: [usize; 2],
+) -> Result<Compiled, String> {
+    let walkable = sources.walkable_with(place, (declarations, body)).map_err(|diagnostics| {
         let error = diagnostics.into_iter().find(|diagnostic| diagnostic.is_error());
         error.map_or("it does not compile".into(), |error| match error.message.contains("eddy_put") {
             true => "its value cannot be shown".to_owned(),

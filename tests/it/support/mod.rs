@@ -6,6 +6,7 @@ pub mod compiled;
 pub mod compute;
 pub mod first_frame;
 pub mod ir;
+pub mod meshes;
 pub mod preset;
 pub mod presets;
 pub mod program;

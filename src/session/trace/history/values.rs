@@ -49,9 +49,13 @@ impl History {
         names
     }
 
-    /// The author's variables of the module, with their types.
+    /// The author's variables of the module that code may write, with their types: no `in` variables of a stage.
     pub(in crate::session::trace) fn global_names(&self) -> impl Iterator<Item = (&str, &str)> {
-        self.globals.iter().map(|variable| (variable.name.as_str(), self.walkable.type_text(variable.ty)))
+        let inputs: Vec<_> = self.walkable.inputs().collect();
+        let inputs = self.walkable.globals().filter(|(_, id)| inputs.contains(id)).map(|(name, _)| name);
+        let inputs: Vec<&str> = inputs.collect();
+        let names = self.globals.iter().map(|variable| (variable.name.as_str(), self.walkable.type_text(variable.ty)));
+        names.filter(move |(name, _)| !inputs.contains(name))
     }
 
     /// The function's variables that can be named, the outermost first, with their places among its slots.

@@ -1,0 +1,24 @@
+//! What a pass runs for a pixel: which program, and what it is handed.
+//!
+//! Owns the rasterizer of passes that draw meshes: the vertex stage by the walker, clipping, culling, the fill rule,
+//! the depth test and the interpolation of varyings, as chapters 2 to 4 of the OpenGL ES 3.0 specification have them
+//! and the engine's pipelines set them. A pass that draws no meshes runs its one program for every pixel. The trace, the
+//! debugger and the audit all ask here. Coverage and depth are those of single precision; what a fragment is handed is
+//! interpolated in both. Knows no device; nothing is blended, as no pipeline of the engine blends.
+
+mod clip;
+mod corner;
+mod coverage;
+mod error;
+mod facts;
+mod origin;
+mod pass;
+mod pixel;
+mod raster;
+mod vertices;
+mod weights;
+
+pub use error::WalkError;
+pub use origin::{MeshFragment, Origin};
+pub use pass::WalkedPass;
+pub use pixel::WalkedPixel;

@@ -1,0 +1,32 @@
+//! What a texel's value comes from.
+
+/// What leaves its value in a texel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// The one program of a pass that draws no meshes.
+    Screen,
+    /// A fragment of a mesh: the last one that the depth test and `discard` let through.
+    Mesh(MeshFragment),
+    /// Nothing: the texel holds the zeros that a pass that draws meshes begins with.
+    Clear,
+}
+
+/// A fragment of a mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MeshFragment {
+    /// The draw of the pass, and the triangle of its mesh, from 0.
+    pub draw: usize,
+    pub triangle: usize,
+    /// The triangle's front is seen.
+    pub is_front: bool,
+}
+
+impl Origin {
+    /// The draw whose programs run.
+    pub fn draw(self) -> Option<usize> {
+        match self {
+            Origin::Mesh(fragment) => Some(fragment.draw),
+            Origin::Screen | Origin::Clear => None,
+        }
+    }
+}

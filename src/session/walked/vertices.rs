@@ -1,0 +1,123 @@
+//! Runs a vertex stage on the processor, four vertices at a time.
+
+use super::corner::{Corner, CornerVarying};
+use crate::{
+    engine::{DrawInputs, MeshInputs},
+    glsl::{
+        Attribute,
+        ir::{Input, Op, Output},
+        walk::{Cell, Drawn, EntryInputs, LANES, Machine, Nobody, Real, Shadowed, SlotCells, Stop},
+        walkable::Walkable,
+    },
+    media::mesh::Vertex,
+};
+use std::thread;
+
+/// Vertices that a thread is worth.
+const A_THREAD: usize = 1024;
+
+/// The vertex stage of a draw, and what it reads.
+pub struct VertexStage<'p> {
+    walkable: &'p Walkable,
+    world: DrawInputs<'p>,
+    mesh: &'p MeshInputs,
+    /// Those that the stage reads.
+    attributes: Vec<Attribute>,
+    limit: u64,
+}
+
+impl<'p> VertexStage<'p> {
+    /// A stage that gives up a vertex after `limit` statements.
+    pub fn new(walkable: &'p Walkable, world: DrawInputs<'p>, mesh: &'p MeshInputs, limit: u64) -> Self {
+        let reads = |attribute: &Attribute| {
+            let mut entry = walkable.program.functions.iter().flat_map(|function| function.values());
+            entry.any(|(_, op)| {
+                matches!(op, Op::Input(Input::Attribute { location, .. }) if *location == attribute.location())
+            })
+        };
+        let attributes = Attribute::ALL.into_iter().filter(reads).collect();
+        Self { walkable, world, mesh, attributes, limit }
+    }
+
+    /// The clip-space positions of all vertices of the mesh, on all processors.
+    pub fn positions(&self) -> Result<Vec<[f32; 4]>, Stop> {
+        let count = self.mesh.mesh.vertices.len();
+        let threads = thread::available_parallelism().map_or(1, |n| n.get()).min(count.div_ceil(A_THREAD)).max(1);
+        let a_thread = count.div_ceil(threads).next_multiple_of(LANES).max(LANES);
+        let parts: Result<Vec<Vec<[f32; 4]>>, Stop> = thread::scope(|scope| {
+            let begins = (0..count).step_by(a_thread);
+            let spawned = begins.map(|begin| scope.spawn(move || self.part(begin..count.min(begin + a_thread))));
+            let spawned: Vec<_> = spawned.collect();
+            spawned.into_iter().map(|t| t.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))).collect()
+        });
+        Ok(parts?.concat())
+    }
+
+    fn part(&self, range: std::ops::Range<usize>) -> Result<Vec<[f32; 4]>, Stop> {
+        let mut positions = Vec::with_capacity(range.len());
+        let mut machine = self.machine::<f32>();
+        for begin in range.clone().step_by(LANES) {
+            let count = LANES.min(range.end - begin);
+            machine.set_inputs(self.inputs(std::array::from_fn(|lane| (begin + lane.min(count - 1)) as u32)));
+            let drawn = machine.run(0, &mut Nobody)?;
+            positions.extend((0..count).map(|lane| position(&drawn, lane).map(Real::to_f32)));
+        }
+        Ok(positions)
+    }
+
+    /// The corners of a triangle of the mesh, in both precisions.
+    pub fn corners(&self, triangle: usize) -> Result<[Corner; 3], Stop> {
+        let [a, b, c] = self::triangle(self.mesh, triangle);
+        let mut machine = self.machine::<Shadowed>();
+        machine.set_inputs(self.inputs([a, b, c, c]));
+        let drawn = machine.run(0, &mut Nobody)?;
+        Ok(std::array::from_fn(|lane| Corner {
+            position: position(&drawn, lane),
+            varyings: drawn
+                .outputs
+                .iter()
+                .filter_map(|(output, cells)| match *output {
+                    Output::Varying { location, flat } => {
+                        Some(CornerVarying { location, is_flat: flat, cells: cells[lane].clone() })
+                    }
+                    _ => None,
+                })
+                .collect(),
+        }))
+    }
+
+    fn machine<R: Real>(&self) -> Machine<'_, R> {
+        Machine::new(&self.walkable.program, &self.world, self.inputs([0; LANES]), self.limit)
+    }
+
+    fn inputs(&self, vertices: [u32; LANES]) -> EntryInputs {
+        let slots = self.attributes.iter().map(|attribute| {
+            let cells: SlotCells =
+                vertices.map(|vertex| components(&self.mesh.mesh.vertices[vertex as usize], *attribute));
+            (attribute.location(), cells)
+        });
+        EntryInputs { slots: slots.collect(), vertices, ..EntryInputs::of_pixel((0, 0)) }
+    }
+}
+
+/// The vertices of a triangle of a mesh; the first is the provoking one.
+pub fn triangle(mesh: &MeshInputs, triangle: usize) -> [u32; 3] {
+    std::array::from_fn(|corner| mesh.mesh.indices[3 * triangle + corner])
+}
+
+fn components(vertex: &Vertex, attribute: Attribute) -> [Cell<Shadowed>; 4] {
+    let numbers = match attribute {
+        Attribute::Position => &vertex.position[..],
+        Attribute::Normal => &vertex.normal,
+        Attribute::Tangent => &vertex.tangent,
+        Attribute::Uv => &vertex.uv,
+        Attribute::Color => &vertex.color,
+    };
+    let number = |at: usize| numbers.get(at).copied().unwrap_or_default();
+    std::array::from_fn(|at| Cell::Float(Shadowed::exact(number(at).into())))
+}
+
+fn position<R: Real>(drawn: &Drawn<R>, lane: usize) -> [R; 4] {
+    let cells = drawn.output(Output::Position, lane);
+    std::array::from_fn(|i| cells.map_or(R::from_f64(f64::NAN), |cells| cells[i].float()))
+}

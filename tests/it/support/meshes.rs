@@ -1,0 +1,67 @@
+//! Passes that draw meshes, made in code.
+
+use super::{buffer, image, pass, project};
+use eddy::project::{
+    Camera, Channel, Cull, DepthTest, Filter, Geometry, Input, MeshDraw, MeshSource, Pass, PassBody, PassFormat,
+    Project, Sampler, Source, Stage, Wrap,
+};
+
+/// A mesh before the camera, as a manifest that says nothing more has it.
+pub fn draw(mesh: &str) -> MeshDraw {
+    MeshDraw {
+        mesh: MeshSource::parse(mesh),
+        vertex: Stage::File(0),
+        fragment: Stage::Own,
+        cull: Cull::Back,
+        depth: DepthTest::Less,
+        depth_write: true,
+        color_write: true,
+        scale: 1.0,
+        rotation: [0.0; 3],
+        position: [0.0; 3],
+    }
+}
+
+pub fn source(name: &str, text: &str) -> Source {
+    Source { name: name.into(), path: None, text: text.into() }
+}
+
+/// A pass `scene` of 32-bit targets; its own text is the fragment stage, `stages` are further texts.
+pub fn scene(fragment: &str, stages: &[&str], targets: usize, camera: Camera, draws: Vec<MeshDraw>) -> Pass {
+    let mut scene = pass(buffer("scene"), fragment, Default::default());
+    scene.settings.body = PassBody::Meshes(Geometry {
+        draws,
+        more_targets: vec![PassFormat::Rgba32f; targets - 1],
+        camera,
+        stages: stages.iter().enumerate().map(|(i, t)| source(&format!("stage_{i}.glsl"), t)).collect(),
+    });
+    scene
+}
+
+/// A channel that reads a target of the scene.
+pub fn target(index: usize) -> Option<Channel> {
+    let input = match index {
+        0 => Input::Buffer("scene".into()),
+        index => Input::Target { buffer: "scene".into(), index },
+    };
+    Some(Channel { input, sampler: Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: true } })
+}
+
+/// The sum of what four channels hold.
+pub const SUM: &str = "void mainImage(out vec4 o, in vec2 p) { ivec2 i = ivec2(p);
+    o = texelFetch(iChannel0, i, 0) + texelFetch(iChannel1, i, 0) + texelFetch(iChannel2, i, 0) + \
+    texelFetch(iChannel3, i, 0); }";
+
+/// A project of a scene, and Image that shows it.
+pub fn whole(scene: Pass) -> Project {
+    let count = scene.settings.formats().len();
+    project(vec![scene, image(SUM, [0, 1, 2, 3].map(|i| if i < count { target(i) } else { None }))])
+}
+
+pub fn camera() -> Camera {
+    Camera { yaw: 25.0, pitch: 35.0, distance: 5.0, target: [0.2, -0.1, 0.3], fov: 50.0, ..Camera::default() }
+}
+
+pub fn straight() -> Camera {
+    Camera { yaw: 0.0, pitch: 0.0, distance: 5.0, ..Camera::default() }
+}
