@@ -102,11 +102,13 @@ pub fn fluid_dye() -> Bounds {
 pub fn fluid_lit() -> Bounds {
     let mut checks = compressible("a");
     // An eddy of the jets turns by 0.05 in a unit of time on a canvas 360 high; smaller ones pass before they have
-    // dented much.
+    // dented much. Vorticity confinement feeds the smallest ones, the more the greater it is (the slider ends at 2), up
+    // to eddies of a few cells at the limit of speed: their vorticity is that speed over a cell.
     let rule = |s: &Situation| {
         let dented =
             s.slider("dent") * s.slider("settle_seconds").max(s.longest_step) * f64::from(s.size.1.max(90)) / 90.0;
-        let most = s.slider("swell") + 0.2 * dented;
+        let vorticity = (s.slider("confinement") / 2.0 * speed(s).high).max(0.2);
+        let most = s.slider("swell") + vorticity * dented;
         Allowed::new(-most, most).unless(is_beyond_classic(s), CLASSIC)
     };
     checks.push(by("height", Quantity::Component(0), FLUID, rule, "the swell, and what an eddy dents while it lasts"));
