@@ -73,6 +73,8 @@ fn an_edit_and_its_last_save_draw_the_same_frames_from_the_same_inputs() {
     assert!(written.ends_with(&drawn), "the session's own picture");
     assert!(!stage.session.is_comparison_old());
 
+    // The texts are read again for the file that was written beside them.
+    stage.settle();
     stage.edit(MORE);
     stage.until_compiled();
     assert!(stage.session.is_comparison_old());

@@ -45,8 +45,11 @@ fn the_keyboard_alone_goes_from_the_start_to_a_saved_picture() {
     // A preset of the gallery.
     go_to(&mut window, "Tab", "preset:feedback");
     display.shot("keyboard-gallery.png");
+    let drawn = |e: &serde_json::Value| e["programs"].as_u64().unwrap_or(0);
+    let before = window.newest("drawn").as_ref().map_or(0, drawn);
     window.keys(&["Return"]);
     compiled(&mut window);
+    window.wait_until("its picture", "drawn", |e| drawn(e) > before);
     focus(&mut window, "picture");
     // To the code, a line of one's own, saved into a folder whose path is typed.
     go_to(&mut window, "F6", "code");
