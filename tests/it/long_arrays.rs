@@ -217,7 +217,7 @@ fn long_arrays_of_constants_are_drawn_soon() {
 #[test]
 fn long_arrays_are_drawn_soon_and_begin_with_zeros() {
     for (name, text, texel) in LONG_ARRAYS {
-        let Some(picture) = first_frame(name, text, Duration::from_secs(10)) else { return };
+        let Some(picture) = first_frame(name, text, Duration::from_secs(30)) else { return };
         let texels = texels(&picture);
         assert_eq!(texels.len(), 32 * 18);
         for (i, &found) in texels.iter().enumerate() {
