@@ -54,8 +54,29 @@ pub struct Picture {
 pub struct Miniature {
     /// Of one size, whatever the target's shape.
     pub picture: Picture,
+    /// Where a texel of the target is NaN or infinite: from one column of the picture to before the other, and the row
+    /// from the top.
+    pub nonfinite: Vec<(u32, u32, u32)>,
     /// Texels of the target, across and up.
     pub of: (u32, u32),
+}
+
+impl Miniature {
+    /// `marked` has an alpha of 0 where a texel is NaN or infinite.
+    pub(super) fn new(marked: Picture, of: (u32, u32)) -> Self {
+        let mut picture = marked;
+        let mut nonfinite: Vec<(u32, u32, u32)> = Vec::new();
+        for (at, alpha) in picture.bytes.iter_mut().skip(3).step_by(4).enumerate() {
+            if std::mem::replace(alpha, 255) == 0 {
+                let (x, y) = (at as u32 % picture.width, at as u32 / picture.width);
+                match nonfinite.last_mut() {
+                    Some((_, end, row)) if (*end, *row) == (x, y) => *end += 1,
+                    _ => nonfinite.push((x, x + 1, y)),
+                }
+            }
+        }
+        Self { picture, nonfinite, of }
+    }
 }
 
 /// A texel of a target.
@@ -69,4 +90,18 @@ pub struct TexelAt {
     /// So many of the value's components are stored; what is missing reads as 0, alpha as 1.
     pub components: u8,
     pub value: [f32; 4],
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn marked_places_are_told_in_runs_and_shown_opaque() {
+        let alphas = [255, 0, 0, 0, 0, 255];
+        let bytes = alphas.iter().flat_map(|alpha| [10, 20, 30, *alpha]).collect();
+        let made = Miniature::new(Picture { width: 3, height: 2, bytes }, (640, 360));
+        assert_eq!(made.nonfinite, [(1, 3, 0), (0, 2, 1)]);
+        assert_eq!(made.picture.bytes, [10, 20, 30, 255].repeat(6));
+    }
 }

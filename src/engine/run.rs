@@ -283,7 +283,7 @@ impl Engine {
         let bytes = readback.rgba8(gpu, miniatures.draw(gpu, newest))?;
         let (width, height) = MINIATURE_SIZE;
         let of = (newest.width(), newest.height());
-        Ok(Miniature { picture: Picture { width, height, bytes }, of })
+        Ok(Miniature::new(Picture { width, height, bytes }, of))
     }
 
     /// Reads a picture back of what one of a pass's targets holds, as `look` says; waits for the device.

@@ -7,12 +7,24 @@ pub const SIZE: (u32, u32) = (160, 90);
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
-/// Four texels of each place, so that a row of thin lines is not all light or all dark.
+/// Colours are those of four texels of each place, so that a row of thin lines is not all light or all dark. Alpha is 0
+/// where any texel of the place is NaN or infinite.
 fn shader() -> String {
     let (width, height) = SIZE;
     format!(
         "
 @group(0) @binding(0) var picture: texture_2d<f32>;
+
+fn has_nonfinite(low: vec2<u32>, high: vec2<u32>) -> bool {{
+    let end = min(high, textureDimensions(picture));
+    for (var y = low.y; y < end.y; y++) {{
+        for (var x = low.x; x < end.x; x++) {{
+            let bits = bitcast<vec4<u32>>(textureLoad(picture, vec2(x, y), 0)) & vec4(0x7fffffffu);
+            if any(bits >= vec4(0x7f800000u)) {{ return true; }}
+        }}
+    }}
+    return false;
+}}
 
 @fragment fn fragment(@builtin(position) position: vec4<f32>) -> @location(0) vec4<f32> {{
     let size = vec2<f32>(textureDimensions(picture));
@@ -27,7 +39,7 @@ fn shader() -> String {
         let bits = bitcast<vec3<u32>>(colour) & vec3(0x7fffffffu);
         sum += select(clamp(colour, vec3(0.0), vec3(1.0)), vec3(0.0), bits > vec3(0x7f800000u));
     }}
-    return vec4(sum / 4.0, 1.0);
+    return vec4(sum / 4.0, select(1.0, 0.0, has_nonfinite(vec2<u32>(corner), vec2<u32>(ceil(corner + cell)))));
 }}
 "
     )

@@ -19,6 +19,7 @@ mod dialogs;
 mod dock;
 mod editor;
 mod files;
+mod flash;
 mod focus;
 mod fonts;
 mod frame;

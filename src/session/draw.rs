@@ -158,7 +158,7 @@ impl Session {
             self.travelled(travelled);
         }
         self.changed |= !done.miniatures.is_empty();
-        self.run.miniatures.drew(has_frame, done.miniatures);
+        self.run.miniatures.drew(has_frame, done.miniatures, done.miniatures_took);
         self.changed |= self.run.buffers.drew(has_frame, done.buffers);
         self.changed |= self.run.measuring.drew(has_frame, done.measured);
         if let Some(replay) = done.replay {

@@ -148,6 +148,59 @@ fn a_ray_is_followed_to_its_seventeenth_turn_and_back() {
     display.shot("trace-turns.png");
 }
 
+const VERTEX: &str = "in vec3 aPosition;
+void main() {
+    gl_Position = iProjection * iView * iModel * vec4(aPosition, 1.0);
+}
+";
+const FRAGMENT: &str = "out vec4 colour;
+void main() {
+    float shade = 0.5;
+    shade += 0.25;
+    colour = vec4(shade);
+}
+";
+const MESHES: &str = r#"
+[passes.buffer_scene]
+targets = ["rgba32f"]
+camera = { yaw = 0, pitch = 0, distance = 4, target = [0, 0, 0], fov = 45, near = 0.1, far = 100 }
+draw = [
+  { mesh = "builtin:sphere", vertex = "scene.vert.glsl", fragment = "scene.frag.glsl", position = [9, 0, 0] },
+  { mesh = "builtin:cube", vertex = "scene.vert.glsl", fragment = "scene.frag.glsl" },
+]
+
+[passes.image]
+channels.0 = { buffer = "scene" }
+"#;
+
+#[test]
+fn a_pixel_of_a_mesh_is_told_with_its_draw_and_triangle() {
+    let Some(display) = Display::of_size(1300, 900) else { return };
+    let home = tempfile::tempdir().unwrap();
+    let image = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
+    let folder = project(home.path(), image);
+    for (name, text) in [("scene.vert.glsl", VERTEX), ("scene.frag.glsl", FRAGMENT), ("eddy.toml", MESHES)] {
+        fs::write(folder.join(name), text).unwrap();
+    }
+    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
+    compiled(&mut window);
+    window.resize(1300, 900);
+    window.keys(&["ctrl+shift+d"]);
+    window.shows("trace:pick");
+    window.click_on("combo:pass");
+    window.click_on("pass:Buffer scene");
+    window.wait_until("the pass to be shown", "shown", |e| e["pass"] == "Buffer scene");
+    let at = window.picture_point(0.52, 0.45);
+    window.click_holding(&["ctrl", "shift"], at);
+    let traced = traced(&mut window, "the traced pixel", |e| e["mesh"].is_object());
+    let mesh = &traced["mesh"];
+    assert_eq!((&mesh["draw"], &mesh["front"]), (&1.into(), &true.into()), "{traced}");
+    assert!(mesh["name"].as_str().unwrap().contains("cube") && mesh["triangle"].as_u64() < Some(12), "{traced}");
+    assert_eq!((&traced["value"], &traced["device"]), (&[0.75; 4].as_slice().into(), &[0.75; 4].as_slice().into()));
+    window.shows("trace:mesh");
+    display.shot("trace-mesh.png");
+}
+
 #[test]
 fn a_breakpoint_moves_with_its_line_and_an_edit_is_walked_anew() {
     let Some(display) = Display::of_size(1300, 900) else { return };

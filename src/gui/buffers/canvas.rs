@@ -6,14 +6,13 @@ use super::{
     zoom::{Placed, Zoom},
 };
 use crate::{
-    gui::{accessible, outbox::Outbox, theme},
+    gui::{accessible, flash, outbox::Outbox, theme},
     session::Session,
 };
 use egui::{
     Align2, Color32, CursorIcon, EventFilter, FontId, Id, Key, Painter, Rect, Response, Sense, Stroke, StrokeKind, Ui,
     pos2, vec2,
 };
-use std::time::Duration;
 
 /// Texels of so many points have their numbers written on them.
 const WRITTEN: f32 = 48.0;
@@ -21,8 +20,6 @@ const WRITTEN: f32 = 48.0;
 const RULED: f32 = 10.0;
 /// A texel that is to be seen is so large.
 const REVEALED: f32 = 96.0;
-/// Half a turn of the flashing: slow enough for everybody's eyes.
-const FLASH: Duration = Duration::from_millis(500);
 /// A texel that flashes is so large at least.
 const FLASHED: f32 = 5.0;
 const STEP: f32 = 1.5;
@@ -67,7 +64,7 @@ pub fn show(
     let Some(seen) = &state.seen else { return };
     let painter = ui.painter().with_clip_rect(area.intersect(ui.clip_rect()));
     picture(&painter, seen, &placed);
-    let is_lit = flash(ui, &painter, seen, &placed);
+    let is_lit = flash_nonfinite(ui, &painter, seen, &placed);
     if placed.scale >= RULED {
         rule(&painter, &placed);
     }
@@ -167,14 +164,11 @@ fn picture(painter: &Painter, seen: &Seen, placed: &Placed) {
 
 /// Lights up what is NaN or infinite, and goes out again. Asks for frames only where something is. Says whether it is
 /// lit.
-fn flash(ui: &Ui, painter: &Painter, seen: &Seen, placed: &Placed) -> bool {
+fn flash_nonfinite(ui: &Ui, painter: &Painter, seen: &Seen, placed: &Placed) -> bool {
     if seen.runs.is_empty() {
         return false;
     }
-    let half = FLASH.as_secs_f64();
-    let time = ui.input(|i| i.time);
-    let is_lit = ((time / half) as u64).is_multiple_of(2);
-    ui.ctx().request_repaint_after(Duration::from_secs_f64(half - time % half + 0.005));
+    let (is_lit, fill) = flash::now(ui);
     for &(columns, row) in &seen.runs {
         let rect = placed.rect(columns, row);
         if !rect.intersects(placed.area) {
@@ -182,7 +176,6 @@ fn flash(ui: &Ui, painter: &Painter, seen: &Seen, placed: &Placed) -> bool {
         }
         // A texel of less than a pixel is seen too.
         let rect = Rect::from_center_size(rect.center(), rect.size().max(vec2(FLASHED, FLASHED)));
-        let fill = if is_lit { Color32::WHITE } else { Color32::from_rgb(204, 26, 230) };
         painter.rect_filled(rect, 0.0, fill);
     }
     is_lit

@@ -2,7 +2,8 @@
 
 use super::state::{Buffers, title, words};
 use crate::{
-    gui::{accessible, channels::Live, outbox::Outbox, theme},
+    engine::Miniature,
+    gui::{accessible, channels::Live, flash, outbox::Outbox, theme},
     session::{Session, buffers::Target},
 };
 use egui::{Color32, FontId, Pos2, Rect, ScrollArea, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
@@ -10,6 +11,8 @@ use egui::{Color32, FontId, Pos2, Rect, ScrollArea, Sense, Stroke, StrokeKind, U
 const ROW: f32 = 50.0;
 const PICTURE: f32 = 60.0;
 const NUMBERS: f32 = 10.5;
+/// What flashes on a small picture is so large at least.
+const FLASHED: f32 = 3.0;
 
 pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, live: &mut Live, out: &mut Outbox) {
     let shown = state.target(session.project());
@@ -34,7 +37,10 @@ fn row(ui: &mut Ui, session: &Session, live: &mut Live, target: &Target, is_chos
     let letters = ((column - 5.0) / (NUMBERS * 0.61) - 2.0).floor().max(3.0) as usize;
     let values = texel.map(|texel| words(texel, letters));
     let spoken = values.as_ref().map_or_else(String::new, |values| format!(": {}", values.join(", ")));
-    accessible::choice(&response, egui::Role::Button, is_chosen, format!("Buffer {name}{spoken}"));
+    let miniature = session.miniature(&target.0, target.1).map(|(miniature, _)| miniature);
+    let is_finite = miniature.is_none_or(|miniature| miniature.nonfinite.is_empty());
+    let bad = if is_finite { "" } else { ", has NaN or infinite texels" };
+    accessible::choice(&response, egui::Role::Button, is_chosen, format!("Buffer {name}{bad}{spoken}"));
     if ui.is_rect_visible(rect) {
         let fill = match (is_chosen, response.hovered()) {
             (true, _) => p.accent_fill,
@@ -86,10 +92,28 @@ fn row(ui: &mut Ui, session: &Session, live: &mut Live, target: &Target, is_chos
 fn thumbnail(ui: &Ui, session: &Session, live: &mut Live, (pass, index): &Target, place: Rect) {
     let p = theme::of(ui);
     ui.painter().rect_filled(place, 2.0, p.surround);
+    let mut edge = p.line;
     if let Some((texture, aspect)) = live.get(ui, session, pass, *index) {
         let width = place.width().min(place.height() * aspect);
         let shown = Rect::from_center_size(place.center(), vec2(width, width / aspect.max(0.01)));
         ui.painter().image(texture.id(), shown, Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0)), Color32::WHITE);
+        if let Some((miniature, _)) = session.miniature(pass, *index).filter(|(m, _)| !m.nonfinite.is_empty()) {
+            flash_nonfinite(ui, miniature, shown);
+            edge = p.error;
+        }
     }
-    ui.painter().rect_stroke(place, 2.0, Stroke::new(1.0, p.line), StrokeKind::Outside);
+    ui.painter().rect_stroke(place, 2.0, Stroke::new(1.0, edge), StrokeKind::Outside);
+}
+
+/// Flashes the places of a small picture where a texel is NaN or infinite.
+fn flash_nonfinite(ui: &Ui, miniature: &Miniature, shown: Rect) {
+    let fill = flash::now(ui).1;
+    let painter = ui.painter().with_clip_rect(shown.intersect(ui.clip_rect()));
+    let place = vec2(shown.width() / miniature.picture.width as f32, shown.height() / miniature.picture.height as f32);
+    for &(left, right, row) in &miniature.nonfinite {
+        let corner = |x: u32, y: u32| shown.min + vec2(x as f32, y as f32) * place;
+        let rect = Rect::from_min_max(corner(left, row), corner(right, row + 1));
+        let rect = Rect::from_center_size(rect.center(), rect.size().max(vec2(FLASHED, FLASHED)));
+        painter.rect_filled(rect, 0.0, fill);
+    }
 }

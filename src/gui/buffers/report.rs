@@ -8,7 +8,7 @@ use crate::{
     engine::{PassCost, When},
     session::{
         Session,
-        buffers::reason,
+        buffers::{Target, reason},
         nonfinite::{Search, SearchEnd},
     },
 };
@@ -53,7 +53,13 @@ pub fn report(state: &Buffers, session: &Session) -> Value {
             "text": found.born.as_ref().map(|born| &born.text),
         }),
     });
+    let is_nonfinite = |target: &Target| {
+        session.miniature(&target.0, target.1).is_some_and(|(miniature, _)| !miniature.nonfinite.is_empty())
+    };
+    let nonfinite = Buffers::targets(project).into_iter().filter(is_nonfinite);
+    let nonfinite: Vec<String> = nonfinite.map(|target| title(project, &target)).collect();
     json!({
+        "nonfinite": nonfinite,
         "page": if state.page == Page::Graph { "graph" } else { "texels" },
         "pass": state.target(project).map(|target| title(project, &target)),
         "texel": state.texel.map(|(x, y)| [x, y]),

@@ -106,6 +106,12 @@ fn whereabouts(debugger: &mut Debugger, traced: &Traced, ui: &mut Ui, out: &mut 
         let label = ui.label(RichText::new(words).color(p.text));
         out.place("trace:where", label.rect);
         ui.colored_label(p.weak, format!("moment {} of {count}", at + 1));
+        if let Some((fragment, name)) = traced.mesh() {
+            let side = if fragment.is_front { "front" } else { "back" };
+            let words = format!("draw {}, {name}: triangle {}, seen from its {side}", fragment.draw, fragment.triangle);
+            let label = ui.colored_label(p.weak, words);
+            out.place("trace:mesh", label.rect);
+        }
         if let Some(said) = said {
             ui.colored_label(p.warning, said);
         }

@@ -30,7 +30,11 @@ impl Debugger {
             seen.variables.iter().filter(|v| v.is_changed).map(|v| v.shown.name.as_str()).collect();
         let watches: Map<String, Value> =
             watched.into_iter().zip(&seen.watches).map(|(watch, value)| (watch, told(value).into())).collect();
+        let mesh = traced.mesh().map(|(fragment, name)| {
+            json!({ "draw": fragment.draw, "name": name, "triangle": fragment.triangle, "front": fragment.is_front })
+        });
         json!({
+            "mesh": mesh,
             "pass": traced.pass.title(),
             "pixel": [traced.pixel.0, traced.pixel.1],
             "frame": traced.frame,

@@ -131,6 +131,8 @@ pub struct Done {
     pub captured: Vec<(Capture, Result<Pixels, EngineError>)>,
     /// One for each that was asked for and is drawn.
     pub miniatures: Vec<((PassId, usize), Miniature)>,
+    /// How long they took together.
+    pub miniatures_took: Duration,
     /// The numbers that were asked for, and how long they took.
     pub numbers: Option<(ProbeNumbers, Duration)>,
     /// What was looked at closely, and how long that took.

@@ -82,9 +82,11 @@ impl Studio {
         }
         done.captured = captures.into_iter().map(|capture| self.read(capture)).collect();
         // A pass that nobody reads is not drawn, and has none.
+        let began = Instant::now();
         let picture = |target: (PassId, usize)| Some((self.engine.miniature(&target.0, target.1).ok()?, target));
         done.miniatures =
             miniatures.into_iter().filter_map(picture).map(|(picture, target)| (target, picture)).collect();
+        done.miniatures_took = began.elapsed();
         done.numbers = numbers.and_then(|wanted| self.numbers(wanted));
         done.buffers = buffers.map(|wanted| self.buffers(&wanted));
         done.measured = measures.and_then(|wanted| self.measure(wanted));

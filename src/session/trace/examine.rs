@@ -15,7 +15,7 @@ use crate::{
         walkable::Detail,
     },
     project::{PassFormat, PassId, Project, Stage, Tab, inspect_comments},
-    session::walked::{Origin, WalkedPass},
+    session::walked::{MeshFragment, Origin, WalkedPass},
 };
 use std::sync::Arc;
 
@@ -136,6 +136,14 @@ impl Traced {
     pub fn ulps(&self) -> Option<Vec<u32>> {
         let value = self.value.filter(|_| self.format.is_32_bit())?;
         Some((0..self.format.components()).map(|i| ulps(value[i], self.device[i])).collect())
+    }
+
+    /// The draw of the pass that the value is of, from 0, its mesh, and its triangle; `None` where the pass draws no
+    /// meshes.
+    pub fn mesh(&self) -> Option<(MeshFragment, String)> {
+        let Origin::Mesh(fragment) = self.origin else { return None };
+        let draw = self.project.passes[self.index].settings.meshes()?.draws.get(fragment.draw)?;
+        Some((fragment, draw.mesh.name()))
     }
 
     /// A place of the texts: its tab, its line from 0 and its bytes. `None` for one in a text that is no tab.
