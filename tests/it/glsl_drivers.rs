@@ -33,6 +33,19 @@ fn a_constant_zero_divides() {
             "vec2 v; give(v); vec2 q = (Z + vec2(3.0)) / v; r = vec4(q.x, min(q.y, 9.0), 0, 0);",
             [3., 9., 0., 0.],
         ),
+        // Constants that are folded, spread and counted to a zero.
+        case(
+            "float k = 1.0; r = vec4(min((Z + 3.0) / (1.0 - k), 5.0), max((Z - 3.0) / (k - 1.0), -6.0), 0, 0);",
+            [5., -6., 0., 0.],
+        ),
+        with(
+            "float over(float a, float b) { return clamp(0.5 + (Z + 2.0) / (b - a), 0.0, 1.0); }\n\
+             const float steps[3] = float[](1.0, 0.0, 2.0);",
+            "float u = Z + 3.0, s = 0.0; for (int i = -2; i <= 2; i++) s += clamp(0.5 + (Z + 1.0) / float(i), 0.0, 1.0);\n\
+             float t = 0.0; for (int i = 0; i < 3; i++) t += clamp((Z + 1.0) / steps[i], 0.0, 4.0);\n\
+             r = vec4(s, t, over(2.0, 2.0), min((Z + 1.0) / (u - u), 7.0));",
+            [3., 5.5, 1., 7.],
+        ),
         // Space is repeated along some axes alone by this.
         case("r = vec4(mod(Z + 5.5, 0.0), mod(vec2(Z + 5.5), vec2(0.0, 2.0)), 0);", [5.5, 5.5, 1.5, 0.]),
     ]);

@@ -1,60 +1,19 @@
-//! Divisors that may be a zero which is known before a program runs.
-//!
-//! `x / 0.0` is infinite or NaN on every device, and shaders rely on it: `clamp(0.5 + (b - a) / k, 0.0, 1.0)` with `k =
-//! 0.0` chooses a side. Mesa's llvmpipe takes a quotient for undefined once it sees that the divisor is zero, after it
-//! has inlined functions and spread constants. So what may be such a zero is kept out of its sight.
+//! Zeros that are written in a program, and where they get to.
 
+use super::{MOST_ROUNDS, is_of_floats};
 use crate::glsl::{
-    ir::{
-        Binary, Block, ConstId, Function, Global, GlobalKind, Module, Op, Stmt, Value,
-        rewrite::{self, Rewriter, Rule},
-    },
-    types::{Scalar, Type},
+    ir::{Binary, Block, ConstId, Function, Global, GlobalKind, Module, Op, Stmt, Value},
+    types::Type,
 };
 
-/// How often all values are looked at. One time more is needed for each step by which a zero gets from variable to
-/// variable against the order of the program, so that a chain of ten thousand would take as many.
-const MOST_ROUNDS: usize = 64;
-
-pub(super) fn run(program: &mut Module) {
-    let Some(zeros) = Zeros::of(program) else { return };
-    for index in 0..program.functions.len() {
-        let f = &program.functions[index];
-        let is_zero = |value: Value| zeros.values[index][value.index()];
-        let hides = |(value, op): (Value, &Op)| match *op {
-            Op::Binary { op: Binary::Divide, right, .. } => is_of_floats(program, f, value) && is_zero(right),
-            _ => false,
-        };
-        let divisions: Vec<bool> = f.values().map(hides).collect();
-        if divisions.contains(&true) {
-            rewrite::function(program, index, &mut HiddenDivisors(divisions));
-        }
-    }
-}
-
-fn is_of_floats(program: &Module, f: &Function, value: Value) -> bool {
-    program.types.scalar(f.ty(value)) == Some(Scalar::Float)
-}
-
-/// Divisions whose divisor is hidden, by [`Value::index`].
-struct HiddenDivisors(Vec<bool>);
-
-impl Rule for HiddenDivisors {
-    fn operation(&mut self, r: &mut Rewriter<'_>, value: Value, op: &Op) -> Option<Value> {
-        let Op::Binary { op, left, right } = *op else { return None };
-        if !self.0[value.index()] {
-            return None;
-        }
-        let right = r.opaque(right);
-        Some(r.add(Op::Binary { op, left, right }))
-    }
-}
+/// How deep two expressions are compared.
+const MOST_LEVELS: u32 = 8;
 
 /// Which values are, or hold, a number that may be a zero known without running anything. Neither the order of
 /// statements nor the parts of a variable are told apart: too many found cost an instruction each.
-struct Zeros {
+pub(super) struct Zeros {
     /// By function and [`Value::index`].
-    values: Vec<Vec<bool>>,
+    pub(super) values: Vec<Vec<bool>>,
     vars: Vec<Vec<bool>>,
     params: Vec<Vec<bool>>,
     results: Vec<bool>,
@@ -65,7 +24,7 @@ struct Zeros {
 
 impl Zeros {
     /// `None` if the program divides nothing.
-    fn of(program: &Module) -> Option<Zeros> {
+    pub(super) fn of(program: &Module) -> Option<Zeros> {
         let divides = |f: &Function| {
             f.values().any(|(value, op)| match *op {
                 Op::Binary { op: Binary::Divide, right, .. } => {
@@ -172,7 +131,10 @@ impl Zeros {
             | Op::Bitcast { value: of, .. }
             | Op::Load { place: of } => is_zero(of),
             Op::Compose { ref parts, .. } => parts.iter().any(|&part| is_zero(part)),
-            Op::Binary { op: Binary::Add | Binary::Subtract, left, right } => is_zero(left) && is_zero(right),
+            Op::Binary { op: Binary::Subtract, left, right } if is_same(f, left, right, MOST_LEVELS) => true,
+            Op::Binary { op: Binary::Add | Binary::Subtract | Binary::InclusiveOr, left, right } => {
+                is_zero(left) && is_zero(right)
+            }
             Op::Binary { op: Binary::Multiply, left, right } => is_zero(left) || is_zero(right),
             Op::Binary { op, left, .. } => !op.is_comparison() && is_zero(left),
             Op::Math { arg, arg1, arg2, arg3, .. } => {
@@ -230,6 +192,24 @@ fn set_of_all(flag: &mut bool, stale: &mut [bool]) {
         stale.fill(true);
     }
     *flag = true;
+}
+
+/// Says whether two values are the same expression of the same variables, so that a driver may take their difference
+/// for zero.
+fn is_same(f: &Function, left: Value, right: Value, levels: u32) -> bool {
+    if left == right {
+        return true;
+    }
+    let (l, r) = (&f[left], &f[right]);
+    if levels == 0 || std::mem::discriminant(l) != std::mem::discriminant(r) || matches!(l, Op::Call { .. }) {
+        return false;
+    }
+    // The operations are compared with their operands taken out.
+    let (mut of_left, mut of_right) = (Vec::new(), Vec::new());
+    let (mut shape_left, mut shape_right) = (l.clone(), r.clone());
+    shape_left.operands_mut(|value| of_left.push(std::mem::replace(value, left)));
+    shape_right.operands_mut(|value| of_right.push(std::mem::replace(value, left)));
+    shape_left == shape_right && of_left.iter().zip(&of_right).all(|(&l, &r)| is_same(f, l, r, levels - 1))
 }
 
 fn begins_with_zero(program: &Module, global: &Global) -> bool {
