@@ -96,8 +96,13 @@ pub(super) fn compile_seen(
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(diagnostics);
     }
-    lower::arrays_to_constants(&mut checked);
-    let lower::Lowered { mut program, mut reflection, .. } = lower::lower_probed(&checked, source, interface, probed);
+    lower::arrays_to_constants(&mut checked, emit::LEAST_STORAGE_TABLE);
+    let options = lower::Options {
+        by_reference: source.driver.array_loops.then_some(emit::LEAST_COPY),
+        table: emit::LEAST_UNIFORM_TABLE as usize,
+    };
+    let lower::Lowered { mut program, mut reflection, .. } =
+        lower::lower_probed(&checked, source, options, interface, probed);
     opt::optimise(&mut program, source.driver.without, &mut seen);
     emit::work_arounds::apply(&mut program, source);
     seen("work-arounds", &program);

@@ -4,7 +4,7 @@
 use super::{
     PassSource,
     ast::{Interner, Loc, Origins},
-    check, ir,
+    check, emit, ir,
     lower::{self, Mark},
     parse, report,
     stages::{self, Link, Varying},
@@ -73,7 +73,8 @@ impl Walkable {
         let (module, origins, interner) = (checked.module, parsed.origins, parsed.names);
         let varyings = interface.varyings.clone();
         let marks = lower::Marks { undefined: true, statements: is_marked };
-        let lower::Lowered { program, names, .. } = lower::lower_to_walk(&module, source, interface, marks);
+        let options = lower::Options { by_reference: None, table: emit::LEAST_UNIFORM_TABLE as usize };
+        let lower::Lowered { program, names, .. } = lower::lower_to_walk(&module, source, options, interface, marks);
         let (mut statements, mut type_texts) = Default::default();
         if is_marked {
             statements = Statements::new(&module, &origins, &interner);

@@ -25,6 +25,10 @@ use std::collections::HashSet;
 
 use self::context::{Constants, Emitter, Resources, Tables};
 pub(crate) use self::tables::TableBytes;
+pub(in crate::glsl) use self::{
+    long_arrays::LEAST_COPY,
+    tables::{LEAST_STORAGE_TABLE, LEAST_UNIFORM_TABLE},
+};
 use super::{
     PassSource, Reflection,
     interface::CUSTOM_UNIFORM_BYTES,

@@ -10,15 +10,25 @@ use std::num::NonZeroU32;
 
 use naga::{AddressSpace, ArraySize, GlobalVariable, Handle, ResourceBinding, StorageAccess, StructMember, TypeInner};
 
-use super::context::{Buffer, Emitter, TablePlace};
+use super::{
+    context::{Buffer, Emitter, TablePlace},
+    long_arrays::LEAST_COPY,
+};
 use crate::glsl::{
     PassKind, interface,
-    ir::{
-        ConstId,
-        layout::{LARGE, NOT_UNROLLED, round_up},
-    },
+    ir::{ConstId, layout::round_up},
     types::{Scalar, Type, TypeId},
 };
+
+/// Scalars from which on a constant that is indexed goes into a storage buffer. Its load is slow where neighbours read
+/// different places (five times the frame of a loop over 14 triangles on llvmpipe), and a driver that unrolls such a
+/// loop folds reads of memory away.
+pub(in crate::glsl) const LEAST_STORAGE_TABLE: usize = 256;
+
+/// Elements from which on a constant array that is indexed goes into the uniform buffer. To fill memory takes llvmpipe
+/// a store for each pixel and component at every start of the program; but Mesa unrolls loops of up to 32 turns
+/// (`max_unroll_iterations` in `lp_screen.c`), and then folds what they read of memory away.
+pub(in crate::glsl) const LEAST_UNIFORM_TABLE: u32 = 33;
 
 /// Bytes of a slot there: what a uniform buffer's array elements lie apart at least.
 const SLOT: u32 = 16;
@@ -30,9 +40,9 @@ pub(crate) struct TableBytes {
 }
 
 impl Emitter<'_> {
-    /// Whether values of a type are copied by loops, which the driver needs ([`super::long_arrays`]).
+    /// Returns whether values of a type are copied by loops, which the driver needs ([`super::long_arrays`]).
     pub fn is_long(&mut self, ty: TypeId) -> bool {
-        self.source.driver.array_loops && self.layouts.is_long(self.ir, ty)
+        self.source.driver.array_loops && self.layouts.is_aggregate_of(self.ir, ty, LEAST_COPY)
     }
 
     pub fn table_place(&mut self, id: ConstId) -> TablePlace {
@@ -46,7 +56,10 @@ impl Emitter<'_> {
             && self.tables.uniform.bytes.len() + size as usize <= interface::UNIFORM_TABLE_BYTES
         {
             TablePlace::Uniform(self.append_to_uniform(id, ty, size))
-        } else if scalars >= LARGE && !self.source.driver.tables_in_memory && !self.holds_booleans(constant.ty) {
+        } else if scalars >= LEAST_STORAGE_TABLE
+            && !self.source.driver.tables_in_memory
+            && !self.holds_booleans(constant.ty)
+        {
             TablePlace::Storage(self.storage_index(id))
         } else {
             TablePlace::Private(self.private_table(id))
@@ -58,7 +71,7 @@ impl Emitter<'_> {
     /// An array as a uniform buffer has it, and its bytes: its scalars and vectors lie in slots of 16 bytes, in the
     /// first components of vectors of three or four. `None` for what is no array of these, or too short to be worth it.
     fn in_slots(&mut self, ty: TypeId) -> Option<(Handle<naga::Type>, u32)> {
-        let Type::Array { element, len: len @ NOT_UNROLLED.. } = self.ir.types.get(ty) else { return None };
+        let Type::Array { element, len: len @ LEAST_UNIFORM_TABLE.. } = self.ir.types.get(ty) else { return None };
         let base = match self.ir.types.get(element) {
             Type::Scalar(Scalar::Bool) | Type::Vector { scalar: Scalar::Bool, .. } => return None,
             Type::Vector { size: 3.., .. } => self.ty(element),

@@ -1,22 +1,8 @@
-//! How values lie in memory that a device shares: sizes and alignments of WGSL's storage address space (section 14.4.1
+//! The layout of values in memory that a device shares: sizes and alignments of WGSL's storage address space (section 14.4.1
 //! of its specification).
 
 use super::Module;
 use crate::glsl::types::{Scalar, Type, TypeId};
-
-/// Scalars from which on a constant that is indexed goes into a storage buffer. Its load is slow where neighbours read
-/// different places (five times the frame of a loop over 14 triangles on llvmpipe), and a driver that unrolls such a
-/// loop folds reads of memory away.
-pub const LARGE: usize = 256;
-
-/// Elements from which on a constant array that is indexed goes into the uniform buffer. To fill memory takes llvmpipe
-/// a store for each pixel and component at every start of the program; but Mesa unrolls loops of up to 32 turns, and
-/// then folds what they read of memory away.
-pub const NOT_UNROLLED: u32 = 33;
-
-/// Scalars from which on an array, and a constant, is copied by a loop. lavapipe stores to an element that a loop
-/// counts lane by lane, which takes up to twice as long.
-pub const LEAST_COPY: u32 = 128;
 
 /// Bytes. Saturating: what is too large, a validator refuses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,10 +23,9 @@ impl Layout {
 pub struct Layouts(Vec<Option<Layout>>);
 
 impl Layouts {
-    /// Whether a value is an array or structure that is copied by a loop where a driver needs that.
-    pub fn is_long(&mut self, module: &Module, ty: TypeId) -> bool {
-        matches!(module.types.get(ty), Type::Array { .. } | Type::Struct(_))
-            && self.of(module, ty).size >= 4 * LEAST_COPY
+    /// Returns whether a type is an array or structure that takes the memory of so many scalars, or more.
+    pub fn is_aggregate_of(&mut self, module: &Module, ty: TypeId, scalars: u32) -> bool {
+        matches!(module.types.get(ty), Type::Array { .. } | Type::Struct(_)) && self.of(module, ty).size >= 4 * scalars
     }
 
     /// The layout of a value's type.

@@ -6,7 +6,6 @@ use std::collections::HashSet;
 use crate::glsl::{
     ast::List,
     hir::{ConstId, ExprFlags, ExprId, ExprKind, FuncId, GlobalId, GlobalStorage, LocalId, Module, Type, VarFlags},
-    ir::layout,
 };
 
 /// Globals that are looked at to find out which each function writes. A chain of ten thousand functions that write one
@@ -54,11 +53,13 @@ pub(super) struct Arguments {
     givable: Vec<Vec<LocalId>>,
     /// How many expressions name each constant, by [`ConstId::index`].
     named: Vec<u32>,
+    /// See [`Options::table`](super::options::Options::table).
+    table: usize,
 }
 
 impl Arguments {
     /// `writes` has the globals that each function itself writes, by [`FuncId::index`].
-    pub fn new(module: &Module, writes: Vec<HashSet<GlobalId>>) -> Self {
+    pub fn new(module: &Module, writes: Vec<HashSet<GlobalId>>, table: usize) -> Self {
         let mut written: Vec<_> = writes.into_iter().map(Some).collect();
         let mut work = 0;
         for &func in &module.call_order {
@@ -80,7 +81,7 @@ impl Arguments {
             }
         }
         let givable = vec![Vec::new(); module.functions.len()];
-        let mut made = Self { handed_on: handed_on(module), written, givable, named };
+        let mut made = Self { handed_on: handed_on(module), written, givable, named, table };
         for &func in &module.call_order {
             let first = module[func].locals.start as usize;
             let params = (first..first + module.params(func).len()).map(LocalId::new);
@@ -92,7 +93,7 @@ impl Arguments {
     /// Whether a constant is a table rather than a few numbers written into one call: those are cheaper put into memory
     /// where they are needed than at the start of every invocation.
     fn is_table(&self, module: &Module, id: ConstId) -> bool {
-        self.named[id.index()] > 1 || module[module[id].words].len() >= layout::NOT_UNROLLED as usize
+        self.named[id.index()] > 1 || module[module[id].words].len() >= self.table
     }
 
     pub fn givable(&self, func: FuncId) -> &[LocalId] {

@@ -118,7 +118,7 @@ impl Builder<'_, '_> {
         let (b_ty, b) = b;
         let fit = |this: &mut Self, value, from| if from == ty { value } else { this.splat(value, ty) };
         match builtin {
-            B::Atan => self.angle(ty, a, b),
+            B::Atan => self.math2(Math::Atan2, a, b),
             B::Pow => self.math2(Math::Pow, a, b),
             B::Min | B::Max => {
                 let b = fit(self, b, b_ty);
@@ -226,26 +226,10 @@ impl Builder<'_, '_> {
         self.add(Op::Derivative { axis, value: expr })
     }
 
-    /// `atan(y, x)`. The angle of (0, 0), which section 8.1 leaves undefined, is the device's, unless that is no
-    /// number: then 0, which constants fold to.
-    fn angle(&mut self, ty: TypeId, y: Value, x: Value) -> Value {
-        let is_number =
-            |this: &Self, value| this.floats(value).is_some_and(|numbers| numbers.iter().all(|&number| number != 0.0));
-        if !self.cx.source.driver.nan_angle || is_number(self, y) || is_number(self, x) {
-            return self.math2(Math::Atan2, y, x);
-        }
-        let zero = self.float_of(ty, 0.0);
-        let (none, flat) = (self.op(Binary::Equal, x, zero), self.op(Binary::Equal, y, zero));
-        let nowhere = self.op(Binary::And, none, flat);
-        let one = self.float_of(ty, 1.0);
-        let x = self.select(nowhere, one, x);
-        self.math2(Math::Atan2, y, x)
-    }
-
-    /// Section 8.3: `t = clamp((x - a) / (b - a), 0, 1)`, then `t t (3 - 2 t)`.
+    /// Writes out `t = clamp((x - a) / (b - a), 0, 1)`, then `t t (3 - 2 t)` (section 8.3), where the edges are not known
+    /// to differ.
     ///
-    /// Undefined for `a == b`, but shaders use it as a step: infinities clamp to 0 and 1. So no driver must see that
-    /// the divisor is zero (`emit/work_arounds/zero_divisors.rs`).
+    /// It is undefined for `a == b`, but shaders use it as a step: the quotient is infinite, and is clamped to 0 or 1.
     fn smoothstep(&mut self, ty: TypeId, a: Value, b: Value, x: Value) -> Value {
         let differ = |index| match (self.part(a, index), self.part(b, index)) {
             (PartOf::Known(a), PartOf::Known(b)) => a != b,
@@ -255,7 +239,6 @@ impl Builder<'_, '_> {
             return self.math3(Math::SmoothStep, a, b, x);
         }
         let width = self.op(Binary::Subtract, b, a);
-        let width = self.opaque(ty, width);
         let distance = self.op(Binary::Subtract, x, a);
         let quotient = self.op(Binary::Divide, distance, width);
         let t = self.math(Math::Saturate, quotient);

@@ -15,7 +15,6 @@ use super::writes;
 use crate::glsl::{
     ast::List,
     hir::{ExprId, ExprKind, GlobalId, GlobalStorage, Module, Stmt, StmtId, StmtKind, Swizzle, Type, TypeId, VarFlags},
-    ir::layout,
 };
 
 /// Arrays that are looked for in one program: a bit each.
@@ -27,11 +26,11 @@ const MOST_MEMBERS: usize = 64;
 /// How deep the call may lie that fills an array.
 const MOST_CALLS: u32 = 16;
 
-/// Makes constants of the arrays that are filled with constants before all else, and takes out what fills them. Smaller
-/// ones stay memory, as drivers fold what loops that they write out read of it.
-pub(in crate::glsl) fn arrays_to_constants(module: &mut Module) {
+/// Makes constants of the arrays of at least so many scalars that are filled with constants before all else, and takes
+/// out what fills them.
+pub(in crate::glsl) fn arrays_to_constants(module: &mut Module, least: usize) {
     let Some(entry) = module.entry else { return };
-    let mut arrays = candidates(module);
+    let mut arrays = candidates(module, least);
     if arrays.is_empty() {
         return;
     }
@@ -58,7 +57,7 @@ struct Array {
     is_open: bool,
 }
 
-fn candidates(module: &Module) -> Vec<Array> {
+fn candidates(module: &Module, least: usize) -> Vec<Array> {
     let mut found = Vec::new();
     for (i, global) in module.globals.iter().enumerate() {
         let is_array = matches!(module.types.get(global.ty), Type::Array { .. });
@@ -73,7 +72,7 @@ fn candidates(module: &Module) -> Vec<Array> {
             continue;
         }
         let size = words(module, global.ty);
-        if size < layout::LARGE || members(module, global.ty) > MOST_MEMBERS {
+        if size < least || members(module, global.ty) > MOST_MEMBERS {
             continue;
         }
         let first = global.value.map_or_else(|| vec![0; size], |value| module[module[value].words].to_vec());

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use super::{
     arguments::{Arguments, Instance},
     names::{Marks, Names},
+    options::Options,
 };
 use crate::glsl::{
     PassSource, Reflection,
@@ -17,6 +18,7 @@ use crate::glsl::{
 pub(super) struct Lowering<'a> {
     pub hir: &'a hir::Module,
     pub source: &'a PassSource<'a>,
+    pub options: Options,
     /// Of a stage: where its inputs and outputs lie.
     pub interface: Interface,
     pub out: ir::Module,
@@ -32,9 +34,10 @@ pub(super) struct Lowering<'a> {
 }
 
 impl Lowering<'_> {
-    /// Whether values of a type are copied by loops where the driver needs it, and passed by reference for that.
+    /// Returns whether values of a type are passed by reference though a copy would do.
     pub fn is_long(&mut self, ty: hir::TypeId) -> bool {
-        self.source.driver.array_loops && self.layouts.is_long(&self.out, ty)
+        let least = self.options.by_reference;
+        least.is_some_and(|scalars| self.layouts.is_aggregate_of(&self.out, ty, scalars))
     }
 }
 

@@ -31,8 +31,8 @@ mod function;
 mod geometry;
 mod matrix;
 mod names;
-mod opaque;
 mod operators;
+mod options;
 mod probe;
 mod reach;
 mod resources;
@@ -46,6 +46,7 @@ use std::collections::HashMap;
 pub(in crate::glsl) use self::{
     constant_arrays::arrays_to_constants,
     names::{FunctionNames, Mark, Marks, Names},
+    options::Options,
     reach::reached,
 };
 use self::{
@@ -73,35 +74,39 @@ pub(crate) struct Lowered {
 pub(in crate::glsl) fn lower_probed(
     module: &hir::Module,
     source: &PassSource<'_>,
+    options: Options,
     interface: Interface,
     probe: Option<(hir::ExprId, u32)>,
 ) -> Lowered {
-    lower_with(module, source, interface, probe, Marks::default())
+    lower_with(module, source, options, interface, probe, Marks::default())
 }
 
 /// Does the same without a probe, for who walks through the program: with the marks that are asked for.
 pub(in crate::glsl) fn lower_to_walk(
     module: &hir::Module,
     source: &PassSource<'_>,
+    options: Options,
     interface: Interface,
     marks: Marks,
 ) -> Lowered {
-    lower_with(module, source, interface, None, marks)
+    lower_with(module, source, options, interface, None, marks)
 }
 
 fn lower_with(
     module: &hir::Module,
     source: &PassSource<'_>,
+    options: Options,
     interface: Interface,
     probe: Option<(hir::ExprId, u32)>,
     marks: Marks,
 ) -> Lowered {
-    let (reach, arguments) = Reach::new(module);
+    let (reach, arguments) = Reach::new(module, options.table);
     let mut out = begin(module);
     let probed = probe.map(|(expr, visit)| Probed::new(&mut out, expr, visit));
     let mut cx = Lowering {
         hir: module,
         source,
+        options,
         interface,
         out,
         layouts: Layouts::default(),

@@ -39,7 +39,8 @@ struct Facts {
 }
 
 impl Reach {
-    pub fn new(module: &Module) -> (Self, Arguments) {
+    /// Finds it; a constant of at least `table` scalars can stand for a parameter though one call alone passes it.
+    pub fn new(module: &Module, table: usize) -> (Self, Arguments) {
         let entry = module.entry.expect("a program without errors has an entry point");
         let mut facts: Vec<Facts> = module.functions.iter().map(|_| Facts::default()).collect();
         for &func in &module.call_order {
@@ -48,7 +49,7 @@ impl Reach {
             facts[func.index()] = walk.run();
         }
         let writes = facts.iter_mut().map(|facts| std::mem::take(&mut facts.writes)).collect();
-        let arguments = Arguments::new(module, writes);
+        let arguments = Arguments::new(module, writes, table);
         let passed = |caller: Option<FuncId>, calls: &[(FuncId, List<ExprId>)]| {
             let passed =
                 |&(func, args): &(FuncId, List<ExprId>)| (func, arguments.passed(module, caller, func, &module[args]));

@@ -21,6 +21,7 @@ use naga::{
     MemoryDecorations, Module, Scalar, Span, Type, TypeInner,
 };
 
+pub(in crate::glsl) use copy::LEAST_COPY;
 use sizes::Sizes;
 use writer::{LEAST_ARRAY, Writer};
 

@@ -1,7 +1,9 @@
 //! What drivers need done otherwise, as changes of the program before it is emitted. Each file names the driver and the
 //! fault. None changes what a program computes. ([`super::long_arrays`] is the one that works on the emitted module.)
 
+mod angles;
 mod counters;
+mod edges;
 mod filtering;
 mod limits;
 mod loop_exits;
@@ -22,6 +24,10 @@ pub(in crate::glsl) fn apply(program: &mut Module, source: &PassSource<'_>) {
     let &PassSource { kind, driver, bilinear_by_hand, .. } = source;
     loop_steps::run(program);
     zero_divisors::run(program);
+    edges::run(program);
+    if driver.nan_angle {
+        angles::run(program);
+    }
     if bilinear_by_hand.contains(&true) {
         filtering::run(program, bilinear_by_hand);
     }
