@@ -105,6 +105,7 @@ pub(super) fn compile_seen(
         lower::lower_probed(&checked, source, options, interface, probed);
     opt::optimise(&mut program, source.driver.without, &mut seen);
     emit::work_arounds::apply(&mut program, source);
+    ir::verify::assert_kept(&program, "work-arounds");
     seen("work-arounds", &program);
     let emit::Emitted { module, tables, custom_uniform_bytes, filled_arrays } =
         emit::emit(&program, source, &mut reflection);

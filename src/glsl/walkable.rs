@@ -75,6 +75,7 @@ impl Walkable {
         let marks = lower::Marks { undefined: true, statements: is_marked };
         let options = lower::Options { by_reference: None, table: emit::LEAST_UNIFORM_TABLE as usize };
         let lower::Lowered { program, names, .. } = lower::lower_to_walk(&module, source, options, interface, marks);
+        ir::verify::assert_kept(&program, "lower");
         let (mut statements, mut type_texts) = Default::default();
         if is_marked {
             statements = Statements::new(&module, &origins, &interner);

@@ -1,4 +1,4 @@
-//! The rules that every program keeps. A broken one is a bug of the part of the compiler that ran last.
+//! Checks of the rules that can be read off a program. A broken one is a bug of the part of the compiler that ran last.
 
 use super::{Block, FuncId, Function, Module, Op, Stmt, Value};
 use crate::glsl::types::{Scalar, Type, TypeId};
@@ -29,6 +29,19 @@ pub fn verify(module: &Module) -> Result<(), String> {
         check.block(&function.body).map_err(|reason| format!("function {index}: {reason}"))?;
     }
     Ok(())
+}
+
+/// Checks a program in debug builds, and so in all tests, after the part of the compiler of this name.
+///
+/// # Panics
+/// If a rule is broken.
+pub fn assert_kept(module: &Module, culprit: &str) {
+    if cfg!(debug_assertions)
+        && let Err(reason) = verify(module)
+    {
+        let text = super::print::print(module);
+        panic!("`{culprit}` breaks a rule of the intermediate representation: {reason}\n{text}");
+    }
 }
 
 struct Check<'a> {

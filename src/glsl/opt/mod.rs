@@ -65,27 +65,14 @@ impl PassSet {
 /// Runs all passes but those that are left out. `seen` gets the program as lowering made it, under the name `lower`,
 /// and after each pass under its name.
 pub(super) fn optimise(program: &mut Module, without: PassSet, mut seen: impl FnMut(&str, &Module)) {
-    verify(program, "lower");
+    ir::verify::assert_kept(program, "lower");
     seen("lower", program);
     for (index, pass) in PASSES.iter().enumerate() {
         if without.contains(index) {
             continue;
         }
         (pass.run)(program);
-        verify(program, pass.name);
+        ir::verify::assert_kept(program, pass.name);
         seen(pass.name, program);
-    }
-}
-
-/// # Panics
-/// In debug builds, if a rule is broken.
-fn verify(program: &Module, culprit: &str) {
-    if cfg!(debug_assertions)
-        && let Err(reason) = ir::verify::verify(program)
-    {
-        panic!(
-            "the pass `{culprit}` breaks a rule of the intermediate representation: {reason}\n{}",
-            ir::print::print(program)
-        );
     }
 }
