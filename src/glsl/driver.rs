@@ -13,13 +13,13 @@ pub struct Driver {
     /// (`lvp_inline_uniforms.c`).
     pub opaque_uniforms: bool,
     /// A fragment stage has to be one that may discard, though it never does: Mesa's llvmpipe goes wrong where others
-    /// fail the depth test of a target of 16-bit floats.
+    /// fail the depth test of a target of 16-bit floats (`generate_unswizzled_blend` in `lp_state_fs.c`).
     pub may_discard: bool,
-    /// The angle of (0, 0) is no number on the device: `atan` asks for another one's.
+    /// The angle of (0, 0) is no number on the device, as Direct3D has it: `atan` asks for another one's.
     pub nan_angle: bool,
     /// Long arrays are filled, also with the zeros that they begin with, and copied by loops
     /// ([`super::Compiled::filled_arrays`]): Mesa's lavapipe takes minutes to compile stores of some hundred scalars
-    /// one by one.
+    /// one by one, which LLVM's `InstructionCombining.cpp` is slow at.
     pub array_loops: bool,
     /// Each loop that can change variables before its first exit begins with an exit that is never taken. Mesa's
     /// gallivm runs a loop until its last pixel leaves, and does not bring it into loop-closed SSA form

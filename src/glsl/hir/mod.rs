@@ -1,5 +1,5 @@
-//! The checked program: typed, resolved, constants folded. The checker makes it from [`super::ast`], lowering turns it
-//! into a `naga::Module`, editor services read its side tables.
+//! The checked program: typed, resolved, constants folded. The checker makes it from [`super::ast`], lowering makes
+//! [`super::ir`] of it, editor services read its side tables.
 //!
 //! The checker makes a [`Module`] for any tree, so that editors work on text that does not compile. Lowering runs only
 //! when no error was reported; then it may rely on everything said here, and on there being no `Error` expression and

@@ -1,8 +1,9 @@
 //! The intermediate representation: a program between the checked tree ([`super::hir`]) and the module of a graphics
 //! API.
 //!
-//! Owns its data ([`Module`], [`Function`], [`Op`]), the types of values ([`infer`]), the text form ([`print`]) and the
-//! rules that every program keeps ([`verify`]). Knows neither where programs come from nor what they become.
+//! Owns its data ([`Module`], [`Function`], [`Op`]), the types of values ([`infer`]), the text form ([`print`]), the walk
+//! that passes rewrite functions by ([`rewrite`]), and [`verify`], which checks the rules that can be read off a program.
+//! Knows neither where programs come from nor what they become.
 //!
 //! The form is structured SSA over memory:
 //! - A [`Value`] is computed once, by the [`Op`] that it names, where a [`Stmt::Let`] stands. It may be used wherever
@@ -16,7 +17,7 @@
 //! - Control flow is structured: [`Stmt::If`], [`Stmt::Loop`], [`Stmt::Switch`] hold blocks.
 //!
 //! All integers wrap; a divisor is never zero, nor -1 where the quotient would overflow; an index is always in range.
-//! Lowering sees to that, and each pass keeps it. So a program can be run, by a device or step by step on the
+//! Lowering sees to that, and each pass keeps it; [`verify`] cannot tell. So a program can be run, by a device or step by step on the
 //! processor.
 
 mod compact;

@@ -1,8 +1,10 @@
-//! What drivers need done otherwise, as changes of the program before it is emitted. Each file names the driver and the
-//! fault. None changes what a program computes. ([`super::long_arrays`] is the one that works on the emitted module.)
+//! Work-arounds for drivers, as changes of the program before it is emitted. Each file names the driver and its fault,
+//! or what the device lacks. None changes what a program computes. ([`super::long_arrays`] is the one that works on the
+//! emitted module.)
 
 mod angles;
 mod counters;
+mod discards;
 mod edges;
 mod filtering;
 mod limits;
@@ -11,13 +13,7 @@ mod loop_steps;
 mod uniforms;
 mod zero_divisors;
 
-use crate::glsl::{
-    PassKind, PassSource,
-    ir::{
-        Module, Op, Stmt, Value,
-        rewrite::{self, Rewriter, Rule},
-    },
-};
+use crate::glsl::{PassKind, PassSource, ir::Module};
 
 /// Applies those that a device and its driver need.
 pub(in crate::glsl) fn apply(program: &mut Module, source: &PassSource<'_>) {
@@ -44,20 +40,6 @@ pub(in crate::glsl) fn apply(program: &mut Module, source: &PassSource<'_>) {
         uniforms::run(program);
     }
     if driver.may_discard && kind == PassKind::Fragment {
-        let entry = program.functions.len() - 1;
-        rewrite::function(program, entry, &mut SeemToDiscard);
-    }
-}
-
-/// Discards what never is: see [`Driver::may_discard`](crate::glsl::Driver::may_discard).
-struct SeemToDiscard;
-
-impl Rule for SeemToDiscard {
-    fn begin(&mut self, r: &mut Rewriter<'_>) {
-        r.seem_to(Stmt::Discard);
-    }
-
-    fn operation(&mut self, _: &mut Rewriter<'_>, _: Value, _: &Op) -> Option<Value> {
-        None
+        discards::run(program);
     }
 }
