@@ -263,8 +263,8 @@ fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
         nan_angle: gpu.nan_angle,
         array_loops: gpu.wants_array_loops,
         loop_closing_exits: gpu.keeps_loops_open,
-        hidden_limits: gpu.misjudges_limits,
-        hidden_counters: gpu.unrolls_whole_arrays,
+        opaque_limits: gpu.misjudges_limits,
+        opaque_counters: gpu.unrolls_whole_arrays,
         without: PassSet::default(),
     }
 }

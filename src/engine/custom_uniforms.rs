@@ -2,7 +2,7 @@
 
 use crate::{
     diag::{Diagnostic, SourceId},
-    glsl::{self, CustomUniformKind, GivenValue, UniformValue, interface::CUSTOM_UNIFORM_BYTES},
+    glsl::{self, CustomUniformKind, UniformValue, UntypedValue, interface::CUSTOM_UNIFORM_BYTES},
     project::{
         CustomUniform, CustomUniformType, CustomUniformValue, CustomUniformValues, CustomUniforms, IncludeLines,
         Project,
@@ -63,18 +63,18 @@ pub(super) fn in_scope<'k>(
 }
 
 /// Returns the values for uniforms that the texts declare in GLSL's own way: those that are no custom uniform's.
-pub(super) fn given(custom_uniforms: &CustomUniforms, values: &CustomUniformValues) -> Vec<UniformValue> {
+pub(super) fn uniform_values(custom_uniforms: &CustomUniforms, values: &CustomUniformValues) -> Vec<UniformValue> {
     let others = values.iter().filter(|(name, _)| custom_uniforms.get(name).is_none());
-    others.map(|(name, value)| UniformValue { name: name.clone(), value: as_given(value) }).collect()
+    others.map(|(name, value)| UniformValue { name: name.clone(), value: untyped(value) }).collect()
 }
 
-fn as_given(value: &CustomUniformValue) -> GivenValue {
+fn untyped(value: &CustomUniformValue) -> UntypedValue {
     match value {
-        CustomUniformValue::Bool(on) => GivenValue::Bool(*on),
-        CustomUniformValue::Int(n) => GivenValue::Number(f64::from(*n)),
-        CustomUniformValue::Float(x) => GivenValue::Number(*x),
-        CustomUniformValue::Vector(all) => GivenValue::List(all.iter().copied().map(GivenValue::Number).collect()),
-        CustomUniformValue::List(all) => GivenValue::List(all.iter().map(as_given).collect()),
+        CustomUniformValue::Bool(on) => UntypedValue::Bool(*on),
+        CustomUniformValue::Int(n) => UntypedValue::Number(f64::from(*n)),
+        CustomUniformValue::Float(x) => UntypedValue::Number(*x),
+        CustomUniformValue::Vector(all) => UntypedValue::List(all.iter().copied().map(UntypedValue::Number).collect()),
+        CustomUniformValue::List(all) => UntypedValue::List(all.iter().map(untyped).collect()),
     }
 }
 

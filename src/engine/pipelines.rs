@@ -189,7 +189,7 @@ impl PipelineOrder {
 }
 
 fn shader(stage: &Compiled) -> Shader<'_> {
-    Shader { module: &stage.module, filled_arrays: stage.filled_arrays }
+    Shader { module: &stage.module, initialized_arrays: stage.initialized_arrays }
 }
 
 /// Returns the location, the number of floats and the offset of an attribute in a vertex.

@@ -50,7 +50,7 @@ impl<'p> Sources<'p> {
         let (lines, custom_uniforms) = (project.include_lines(), custom_uniforms::custom_uniforms(project));
         let fills = project.fills().filter_map(|(p, kind, _)| Some((p, kind, project.fill_text(p, kind)?))).collect();
         let diagnostics = lines.diagnostics.iter().chain(&custom_uniforms.diagnostics).cloned().collect();
-        let values = custom_uniforms::given(&custom_uniforms, &project.custom_uniform_values);
+        let values = custom_uniforms::uniform_values(&custom_uniforms, &project.custom_uniform_values);
         Self { project, texts, lines, custom_uniforms, values, preamble: OnceLock::new(), fills, diagnostics }
     }
 

@@ -4,8 +4,8 @@ use super::cache::Cache;
 use crate::{
     diag::{Diagnostic, SourceId, Span},
     glsl::{
-        self, ChannelKind, Compiled, CustomUniformKind, Driver, GivenValue, Link, PassKind, PassSource, Preamble,
-        Probe, Text, Varying,
+        self, ChannelKind, Compiled, CustomUniformKind, Driver, Link, PassKind, PassSource, Preamble, Probe, Text,
+        UntypedValue, Varying,
     },
 };
 use std::{
@@ -165,11 +165,11 @@ fn ids_of(source: &PassSource<'_>) -> Vec<SourceId> {
 }
 
 /// Returns a value as words: equal words, equal values, bit for bit.
-fn words(value: &GivenValue) -> Vec<u64> {
+fn words(value: &UntypedValue) -> Vec<u64> {
     match value {
-        GivenValue::Bool(on) => vec![0, u64::from(*on)],
-        GivenValue::Number(x) => vec![1, x.to_bits()],
-        GivenValue::List(all) => [2, all.len() as u64].into_iter().chain(all.iter().flat_map(words)).collect(),
+        UntypedValue::Bool(on) => vec![0, u64::from(*on)],
+        UntypedValue::Number(x) => vec![1, x.to_bits()],
+        UntypedValue::List(all) => [2, all.len() as u64].into_iter().chain(all.iter().flat_map(words)).collect(),
     }
 }
 

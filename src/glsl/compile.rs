@@ -107,11 +107,11 @@ pub(super) fn compile_seen(
     emit::work_arounds::apply(&mut program, source);
     ir::verify::assert_kept(&program, "work-arounds");
     seen("work-arounds", &program);
-    let emit::Emitted { module, tables, custom_uniform_bytes, filled_arrays } =
+    let emit::Emitted { module, tables, custom_uniform_bytes, initialized_arrays } =
         emit::emit(&program, source, &mut reflection);
     let emit::TableBytes { uniform: uniform_tables, storage: tables } = tables;
     let compiled =
-        Compiled { module, reflection, tables, uniform_tables, custom_uniform_bytes, filled_arrays, diagnostics };
+        Compiled { module, reflection, tables, uniform_tables, custom_uniform_bytes, initialized_arrays, diagnostics };
     // wgpu validates each module that it is given.
     if cfg!(debug_assertions)
         && let Err(bug) = compiled.validate()

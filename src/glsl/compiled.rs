@@ -20,7 +20,7 @@ pub struct Compiled {
     /// An array of at least so many scalars that has no initialiser is written before anything reads it, so that it
     /// need not begin with zeros. `None`: that was not asked for ([`super::Driver::array_loops`]), or no array is that
     /// long.
-    pub filled_arrays: Option<u32>,
+    pub initialized_arrays: Option<u32>,
     /// Warnings and notes; never an error.
     pub diagnostics: Vec<Diagnostic>,
 }

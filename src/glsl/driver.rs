@@ -18,8 +18,8 @@ pub struct Driver {
     /// The angle of (0, 0) is no number on the device, as Direct3D has it: `atan` asks for another one's.
     pub nan_angle: bool,
     /// Long arrays are filled, also with the zeros that they begin with, and copied by loops
-    /// ([`super::Compiled::filled_arrays`]): Mesa's lavapipe takes minutes to compile stores of some hundred scalars
-    /// one by one, which LLVM's `InstructionCombining.cpp` is slow at.
+    /// ([`super::Compiled::initialized_arrays`]): Mesa's lavapipe takes minutes to compile stores of some hundred
+    /// scalars one by one, which LLVM's `InstructionCombining.cpp` is slow at.
     pub array_loops: bool,
     /// Each loop that can change variables before its first exit begins with an exit that is never taken. Mesa's
     /// gallivm runs a loop until its last pixel leaves, and does not bring it into loop-closed SSA form
@@ -27,10 +27,10 @@ pub struct Driver {
     /// pixels that have left.
     pub loop_closing_exits: bool,
     /// What a loop counts down to is hidden: Mesa takes `min(c, x)` for at least `c` there (`nir_loop_analyze.c`).
-    pub hidden_limits: bool,
+    pub opaque_limits: bool,
     /// Counters are hidden where they index an array in a loop within a loop: Mesa writes both loops out, whatever that
     /// costs (`nir_loop_analyze.c`).
-    pub hidden_counters: bool,
+    pub opaque_counters: bool,
     /// Passes of the optimiser that are left out: for who works on the compiler.
     pub without: PassSet,
 }

@@ -46,6 +46,6 @@ pub use probe::Probe;
 pub use probed::{ProbedExpression, probed};
 pub use reflection::{ChannelUse, CustomUniformSet, Reflection, UniformSet};
 pub use source::{
-    ChannelKind, CustomUniform, CustomUniformKind, GivenValue, Include, PassKind, PassSource, Text, UniformValue,
+    ChannelKind, CustomUniform, CustomUniformKind, Include, PassKind, PassSource, Text, UniformValue, UntypedValue,
 };
 pub use stages::{Attribute, Link, Varying};

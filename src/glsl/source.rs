@@ -76,16 +76,16 @@ pub enum CustomUniformKind {
 #[derive(Clone, Debug, PartialEq)]
 pub struct UniformValue {
     pub name: String,
-    pub value: GivenValue,
+    pub value: UntypedValue,
 }
 
 /// A value whose type only the declaration knows: lists are vectors, columns of matrices, matrices and arrays.
 #[derive(Clone, Debug, PartialEq)]
-pub enum GivenValue {
+pub enum UntypedValue {
     Bool(bool),
     /// Holds every `int`, `uint` and `float`.
     Number(f64),
-    List(Vec<GivenValue>),
+    List(Vec<UntypedValue>),
 }
 
 /// Everything the front end needs to know of a pass.

@@ -12,7 +12,7 @@ pub struct Shader<'a> {
     pub module: &'a naga::Module,
     /// Arrays of at least so many scalars that the module's own variables hold are written before anything reads them,
     /// if their variables have no initialiser.
-    pub filled_arrays: Option<u32>,
+    pub initialized_arrays: Option<u32>,
 }
 
 /// A fragment shader over the whole target.
@@ -53,9 +53,9 @@ pub(super) fn shader_module(
     shader: Shader<'_>,
     groups: &[Vec<(u32, Binding)>],
 ) -> wgpu::ShaderModule {
-    let Shader { module, filled_arrays } = shader;
-    if let Some(filled_arrays) = filled_arrays.filter(|_| gpu.wants_array_loops && !gpu.runtime_checks)
-        && let Some(made) = spirv::shader_module(gpu, label, module, filled_arrays, groups)
+    let Shader { module, initialized_arrays } = shader;
+    if let Some(initialized_arrays) = initialized_arrays.filter(|_| gpu.wants_array_loops && !gpu.runtime_checks)
+        && let Some(made) = spirv::shader_module(gpu, label, module, initialized_arrays, groups)
     {
         return made;
     }

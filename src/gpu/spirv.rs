@@ -20,19 +20,19 @@ pub(super) fn shader_module(
     gpu: &Gpu,
     label: &str,
     module: &naga::Module,
-    filled_arrays: u32,
+    initialized_arrays: u32,
     groups: &[Vec<(u32, Binding)>],
 ) -> Option<wgpu::ShaderModule> {
     let entry = module.entry_points.first()?;
-    let words = without_zeros(&words(module, groups)?, filled_arrays);
+    let words = without_zeros(&words(module, groups)?, initialized_arrays);
     let entry_point = wgpu::PassthroughShaderEntryPoint { name: Cow::Borrowed(&entry.name), workgroup_size: (0, 0, 0) };
     // SAFETY: the driver gets what wgpu would give it, less some initialisers:
     // - `words` validates the module as wgpu does and writes it with the writer and the options of wgpu's Vulkan
     //   backend that `pipeline::shader_module` asks for; what the checks leave out is said there.
     // - The resources are those of the pipeline's layout: `binding_map` numbers them as wgpu does.
     // - A variable without an initialiser holds anything until it is written. `without_zeros` drops that of arrays of
-    //   `filled_arrays` scalars alone, which the front end has filled before anything reads them, at the start of the
-    //   variable's function or of the program (`glsl/emit/long_arrays`), or by the program itself
+    //   `initialized_arrays` scalars alone, which the front end has filled before anything reads them, at the start of
+    //   the variable's function or of the program (`glsl/emit/long_arrays`), or by the program itself
     //   (`glsl::ir::Var::init` and `GlobalKind::Private`).
     //   `tests/it/long_arrays.rs` reads such arrays where nothing was written.
     let module = unsafe {

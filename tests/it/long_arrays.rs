@@ -252,8 +252,8 @@ fn zeros_of_long_arrays_are_loops_where_the_driver_asks() {
             })
             .unwrap()
         });
-        assert_eq!(plain.filled_arrays, None, "{name}");
-        assert!(looped.filled_arrays.is_some_and(|scalars| scalars <= 90), "{name}");
+        assert_eq!(plain.initialized_arrays, None, "{name}");
+        assert!(looped.initialized_arrays.is_some_and(|scalars| scalars <= 90), "{name}");
         for (_, f) in looped.module.functions.iter() {
             assert_eq!(stores_of_zeros(&f.body, f, &looped.module.types), 0, "{name}");
         }
@@ -263,5 +263,5 @@ fn zeros_of_long_arrays_are_loops_where_the_driver_asks() {
         "void mainImage(out vec4 o, in vec2 p) { float a[40], b[40]; a[int(p.x)] = b[int(p.y)]; o = vec4(a[3]); }";
     let driver = Driver { array_loops: true, ..Driver::default() };
     let compiled = glsl::compile(&PassSource { driver, ..PassSource::image(text) }).unwrap();
-    assert_eq!(compiled.filled_arrays, None);
+    assert_eq!(compiled.initialized_arrays, None);
 }

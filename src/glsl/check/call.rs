@@ -319,7 +319,7 @@ impl Checker<'_> {
         if !counts.contains(&args.len()) {
             let (least, most) = (counts.iter().min().copied().unwrap_or(0), counts.iter().max().copied().unwrap_or(0));
             let needed = if least == most { count(least, "argument") } else { format!("{least} to {most} arguments") };
-            self.error(loc, format!("`{name}` takes {needed}, {}", self::given(args.len())));
+            self.error(loc, format!("`{name}` takes {needed}, {}", count_given(args.len())));
             self.candidates(builtin, given);
             return self.error_expr(loc);
         }
@@ -433,7 +433,7 @@ impl Checker<'_> {
 }
 
 /// `1 is given`, `2 are given`.
-pub(super) fn given(n: usize) -> String {
+pub(super) fn count_given(n: usize) -> String {
     format!("{n} {} given", if n == 1 { "is" } else { "are" })
 }
 

@@ -37,7 +37,7 @@ impl Checker<'_> {
         }
         if len != count {
             let name = self.type_name(base);
-            let (needed, given) = (call::count(len as usize, "argument"), call::given(count as usize));
+            let (needed, given) = (call::count(len as usize, "argument"), call::count_given(count as usize));
             self.error(loc, format!("`{name}[{len}]` needs {needed}, {given}"));
             self.hint(format!("write `{name}[](..)` to have them counted"));
             let ty = self.array_type(base, len, at);
@@ -338,7 +338,7 @@ impl Checker<'_> {
         let members = hir.members;
         if members.len() != args.len() {
             if args.is_empty() || self.ast[args].iter().all(|&arg| self.ty(self.done(arg)) != TypeId::ERROR) {
-                let (needed, given) = (call::count(members.len(), "argument"), call::given(args.len()));
+                let (needed, given) = (call::count(members.len(), "argument"), call::count_given(args.len()));
                 self.error(loc, format!("`{name}(..)` needs {needed}, one a member; {given}"));
                 if let Some(declared) = hir.name {
                     self.also(declared, "the struct");

@@ -234,8 +234,8 @@ impl Checker<'_> {
             let at = self.loc(value);
             self.error(at, format!("`{text}` is an interface variable and cannot have an initialiser"));
         }
-        let given = (storage == GlobalStorage::Uniform).then(|| self.given(name, ty)).flatten();
-        let is_set = given.is_some() || storage == GlobalStorage::In && self.env.is_stage();
+        let outer = (storage == GlobalStorage::Uniform).then(|| self.uniform_value(name, ty)).flatten();
+        let is_set = outer.is_some() || storage == GlobalStorage::In && self.env.is_stage();
         if matches!(storage, GlobalStorage::Uniform | GlobalStorage::In) && !is_set {
             let what = if storage == GlobalStorage::Uniform { "uniform" } else { "input" };
             self.warning(name, format!("nobody sets the {what} `{text}`: it is zero"));
@@ -247,7 +247,7 @@ impl Checker<'_> {
                 self.hint(format!("or give it a value in eddy.toml: [uniforms], {text} = .."));
             }
         }
-        let mut value = given.flatten();
+        let mut value = outer.flatten();
         let mut kept = None;
         match storage {
             GlobalStorage::Const => {

@@ -23,7 +23,6 @@ mod facts;
 mod fold;
 mod fold_builtin;
 mod function;
-mod given;
 mod graph;
 mod header;
 mod ops;
@@ -34,6 +33,7 @@ mod size;
 mod statement;
 mod suggest;
 mod types;
+mod uniform_values;
 mod words;
 
 #[cfg(test)]

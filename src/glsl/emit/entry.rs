@@ -81,7 +81,7 @@ impl Builder<'_, '_> {
 
     fn input(&mut self, input: Input) -> Handle<Expression> {
         let index = self.argument_of(input);
-        self.given(Expression::FunctionArgument(index))
+        self.add_preemitted(Expression::FunctionArgument(index))
     }
 
     /// Makes the zero that the driver cannot know, if some code reads it, of the sign of a number whose bits, read as

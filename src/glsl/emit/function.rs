@@ -47,7 +47,7 @@ pub(super) fn emit(cx: &mut Emitter<'_>, function: &ir::Function) -> naga::Funct
             let index = b.f.arguments.len() as u32;
             let ty = b.cx.pointer_ty(function.result);
             b.f.arguments.push(FunctionArgument { name: None, ty, binding: None });
-            b.long_result = Some(b.given(Expression::FunctionArgument(index)));
+            b.long_result = Some(b.add_preemitted(Expression::FunctionArgument(index)));
         } else {
             let ty = b.cx.ty(function.result);
             b.f.result = Some(FunctionResult { ty, binding: None });
@@ -120,7 +120,7 @@ impl<'m, 'a> Builder<'m, 'a> {
     }
 
     /// An expression that is there from the start of the function, or that a statement computes.
-    pub fn given(&mut self, expression: Expression) -> Handle<Expression> {
+    pub fn add_preemitted(&mut self, expression: Expression) -> Handle<Expression> {
         self.emit();
         self.f.expressions.append(expression, Span::UNDEFINED)
     }
@@ -136,21 +136,21 @@ impl<'m, 'a> Builder<'m, 'a> {
             Op::Literal(scalar, bits) => self.literal(scalar, bits),
             Op::Zero(ty) => {
                 let ty = self.cx.ty(ty);
-                self.given(Expression::ZeroValue(ty))
+                self.add_preemitted(Expression::ZeroValue(ty))
             }
             Op::Const(id) => match self.cx.constant(id) {
-                Some(constant) => self.given(Expression::Constant(constant)),
+                Some(constant) => self.add_preemitted(Expression::Constant(constant)),
                 None => return self.composed(id),
             },
-            Op::Param(index) => self.given(Expression::FunctionArgument(index)),
-            Op::Var(id) => self.given(Expression::LocalVariable(self.vars[id.index()])),
+            Op::Param(index) => self.add_preemitted(Expression::FunctionArgument(index)),
+            Op::Var(id) => self.add_preemitted(Expression::LocalVariable(self.vars[id.index()])),
             Op::Global(id) => match self.global(id) {
-                Some(variable) => self.given(Expression::GlobalVariable(variable)),
+                Some(variable) => self.add_preemitted(Expression::GlobalVariable(variable)),
                 None => return self.block_member_of(id),
             },
             Op::Input(input) => {
                 let index = self.argument_of(input);
-                self.given(Expression::FunctionArgument(index))
+                self.add_preemitted(Expression::FunctionArgument(index))
             }
             ref op => unreachable!("{op:?} is used before it is computed"),
         };
@@ -165,7 +165,7 @@ impl<'m, 'a> Builder<'m, 'a> {
         }
         match consts::literal(scalar, bits) {
             Some(literal) => {
-                let made = self.given(Expression::Literal(literal));
+                let made = self.add_preemitted(Expression::Literal(literal));
                 self.literals.insert((scalar as u8, bits), made);
                 made
             }
@@ -187,7 +187,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             // Copied from there by a loop.
             let index = self.cx.storage_index(id);
             let tables = self.cx.storage_tables();
-            let base = self.given(Expression::GlobalVariable(tables));
+            let base = self.add_preemitted(Expression::GlobalVariable(tables));
             let pointer = self.add(Expression::AccessIndex { base, index });
             return self.add(Expression::Load { pointer });
         }
@@ -319,12 +319,12 @@ impl<'m, 'a> Builder<'m, 'a> {
             let place = LocalVariable { name: None, ty, init: None };
             let place = self.f.local_variables.append(place, Span::UNDEFINED);
             self.written_first.insert(place);
-            let pointer = self.given(Expression::LocalVariable(place));
+            let pointer = self.add_preemitted(Expression::LocalVariable(place));
             arguments.push(pointer);
             self.push(Statement::Call { function, arguments, result: None });
             return Some(self.add(Expression::Load { pointer }));
         }
-        let result = (result != TypeId::VOID).then(|| self.given(Expression::CallResult(function)));
+        let result = (result != TypeId::VOID).then(|| self.add_preemitted(Expression::CallResult(function)));
         self.push(Statement::Call { function, arguments, result });
         result
     }

@@ -28,7 +28,7 @@ impl Builder<'_, '_> {
     /// The handle of a module-scope variable, or the pointer to it.
     pub fn variable(&mut self, variable: Handle<GlobalVariable>) -> Handle<Expression> {
         // naga makes no instruction of it: as many as there are uses do no harm.
-        self.given(Expression::GlobalVariable(variable))
+        self.add_preemitted(Expression::GlobalVariable(variable))
     }
 
     /// The variable that a global of the program is by itself; none for a member of a block.

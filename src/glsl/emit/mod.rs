@@ -41,8 +41,8 @@ pub(crate) struct Emitted {
     pub tables: TableBytes,
     /// Size of the array of the author's own uniforms; 0 if the module has none.
     pub custom_uniform_bytes: u64,
-    /// See [`super::Compiled::filled_arrays`].
-    pub filled_arrays: Option<u32>,
+    /// See [`super::Compiled::initialized_arrays`].
+    pub initialized_arrays: Option<u32>,
 }
 
 /// Emits a program, which keeps the rules of [`ir::verify`]; adds to `reflection` what the module declares. The result
@@ -74,9 +74,9 @@ pub(in crate::glsl) fn emit(program: &ir::Module, source: &PassSource<'_>, refle
     let custom_uniform_bytes =
         if emitter.reflection.custom_uniforms.is_empty() { 0 } else { slots * CUSTOM_UNIFORM_BYTES };
     let Emitter { mut out, overwritten, written_first, .. } = emitter;
-    let filled_arrays =
+    let initialized_arrays =
         if source.driver.array_loops { long_arrays::write(&mut out, &overwritten, &written_first) } else { None };
-    Emitted { module: out, tables, custom_uniform_bytes, filled_arrays }
+    Emitted { module: out, tables, custom_uniform_bytes, initialized_arrays }
 }
 
 /// Checks an emitted module. An error is a bug of this compiler, never the author's.

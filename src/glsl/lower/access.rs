@@ -71,7 +71,7 @@ impl Builder<'_, '_> {
                     return Some(Place::of(self.global(table), ty));
                 }
                 Slot::Unset if self.needs_memory(local) => {
-                    let pointer = self.memory(local);
+                    let pointer = self.address_of(local);
                     return Some(Place::of(pointer, ty));
                 }
                 Slot::Unset | Slot::Value(_) | Slot::Channel(_) => return None,

@@ -16,14 +16,14 @@ const MOST_WRITES: usize = 1 << 22;
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Instance {
     pub func: FuncId,
-    pub given: Box<[Specialization]>,
+    pub specializations: Box<[Specialization]>,
 }
 
 /// What a copy of a function has in place of one of its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) enum Specialization {
-    /// An argument, after all.
-    Argument,
+    /// Nothing: the argument is passed at run time.
+    None,
     /// The channel a sampler stands for.
     Channel(u8),
     /// A global that neither the function nor what it calls writes: the parameter is that global.
@@ -36,7 +36,7 @@ pub(super) enum Specialization {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Passed {
     Known(Specialization),
-    /// What the caller itself has for one of its parameters, counted among those that can be given.
+    /// What the caller itself has for one of its parameters, counted among those that can be specialized.
     Param(usize),
 }
 
@@ -50,7 +50,7 @@ pub(super) struct Arguments {
     /// them.
     written: Vec<Option<HashSet<GlobalId>>>,
     /// Parameters of each function that a copy of it can have something in place of, in order.
-    givable: Vec<Vec<LocalId>>,
+    specializable: Vec<Vec<LocalId>>,
     /// How many expressions name each constant, by [`ConstId::index`].
     named: Vec<u32>,
     /// See [`Options::table`](super::options::Options::table).
@@ -80,12 +80,12 @@ impl Arguments {
                 named[id.index()] += 1;
             }
         }
-        let givable = vec![Vec::new(); module.functions.len()];
-        let mut made = Self { handed_on: handed_on(module), written, givable, named, table };
+        let specializable = vec![Vec::new(); module.functions.len()];
+        let mut made = Self { handed_on: handed_on(module), written, specializable, named, table };
         for &func in &module.call_order {
             let first = module[func].locals.start as usize;
             let params = (first..first + module.params(func).len()).map(LocalId::new);
-            made.givable[func.index()] = params.filter(|&param| made.is_givable(module, param)).collect();
+            made.specializable[func.index()] = params.filter(|&param| made.is_specializable(module, param)).collect();
         }
         made
     }
@@ -96,11 +96,11 @@ impl Arguments {
         self.named[id.index()] > 1 || module[module[id].words].len() >= self.table
     }
 
-    pub fn givable(&self, func: FuncId) -> &[LocalId] {
-        &self.givable[func.index()]
+    pub fn specializable(&self, func: FuncId) -> &[LocalId] {
+        &self.specializable[func.index()]
     }
 
-    pub fn is_givable(&self, module: &Module, param: LocalId) -> bool {
+    pub fn is_specializable(&self, module: &Module, param: LocalId) -> bool {
         matches!(module.types.get(module[param].ty), Type::Sampler { .. }) || self.reads_in_place(module, param)
     }
 
@@ -128,7 +128,7 @@ impl Arguments {
     pub fn passed(&self, module: &Module, caller: Option<FuncId>, func: FuncId, args: &[ExprId]) -> Vec<Passed> {
         let first = module[func].locals.start as usize;
         let last_effect = last_effect(module, args);
-        let passed = self.givable(func).iter().map(|param| {
+        let passed = self.specializable(func).iter().map(|param| {
             let place = param.index() - first;
             // What a later argument changes is not what was passed.
             let changes = last_effect > Some(place);
@@ -141,20 +141,20 @@ impl Arguments {
                     Passed::Known(match (declared.flags.contains(VarFlags::WRITTEN), declared.value) {
                         (false, Some(value)) => Specialization::Table(value),
                         // Nobody sets it: it is zero.
-                        (false, None) if declared.init.is_none() => Specialization::Argument,
+                        (false, None) if declared.init.is_none() => Specialization::None,
                         _ if stays => Specialization::Global(global),
-                        _ => Specialization::Argument,
+                        _ => Specialization::None,
                     })
                 }
                 ExprKind::Local(local) => {
-                    let givable = caller.map_or(&[][..], |caller| self.givable(caller));
+                    let specializable = caller.map_or(&[][..], |caller| self.specializable(caller));
                     // They are in order.
-                    match givable.binary_search(&local) {
+                    match specializable.binary_search(&local) {
                         Ok(param) => Passed::Param(param),
-                        Err(_) => Passed::Known(Specialization::Argument),
+                        Err(_) => Passed::Known(Specialization::None),
                     }
                 }
-                _ => Passed::Known(Specialization::Argument),
+                _ => Passed::Known(Specialization::None),
             }
         });
         passed.collect()

@@ -25,21 +25,21 @@ impl Builder<'_, '_> {
         let hir = self.cx.hir;
         let params = hir.params(func);
         let mut arguments = Vec::with_capacity(args.len());
-        let given: Box<[Specialization]> = self
+        let specializations: Box<[Specialization]> = self
             .cx
             .arguments
             .passed(hir, self.func, func, args)
             .into_iter()
             .map(|passed| self.resolved(passed))
             .collect();
-        let mut next_given = given.iter();
+        let mut next_specialization = specializations.iter();
         let mut copies_out: Vec<(Place, Value)> = Vec::new();
         let last_effect = last_effect(hir, args);
         let outs = self.out_locals(params, args);
         for (i, (param, &arg)) in params.iter().zip(args).enumerate() {
             let local = LocalId::new(hir[func].locals.start as usize + i);
-            if self.cx.arguments.is_givable(hir, local)
-                && next_given.next().is_some_and(|g| *g != Specialization::Argument)
+            if self.cx.arguments.is_specializable(hir, local)
+                && next_specialization.next().is_some_and(|s| *s != Specialization::None)
             {
                 continue;
             }
@@ -79,7 +79,7 @@ impl Builder<'_, '_> {
             arguments.push(copy);
             copies_out.push((place, copy));
         }
-        let result = self.call_instance(Instance { func, given }, arguments);
+        let result = self.call_instance(Instance { func, specializations }, arguments);
         for (place, copy) in copies_out {
             let value = self.load(copy);
             self.store_place(place, value);
@@ -89,8 +89,8 @@ impl Builder<'_, '_> {
 
     fn resolved(&self, passed: Passed) -> Specialization {
         match passed {
-            Passed::Known(given) => given,
-            Passed::Param(index) => self.given[index],
+            Passed::Known(specialization) => specialization,
+            Passed::Param(index) => self.specializations[index],
         }
     }
 

@@ -1,6 +1,6 @@
 //! The fragment entry point: what the site's `main` does around the author's function, for each kind of pass.
 
-use super::{context::Lowering, function::Builder, reach::Reach};
+use super::{context::Lowering, function::Builder, reachable::Reachable};
 use crate::glsl::{
     PassKind,
     hir::{GlobalId, GlobalStorage, Scalar, Swizzle, TypeId, Uniform},
@@ -8,13 +8,13 @@ use crate::glsl::{
 };
 
 /// The entry point; every function is there already.
-pub(super) fn lower(cx: &mut Lowering<'_>, reach: &Reach) -> ir::Function {
-    let entry = reach.instances.last().expect("the entry point is reached").clone();
+pub(super) fn lower(cx: &mut Lowering<'_>, reachable: &Reachable) -> ir::Function {
+    let entry = reachable.instances.last().expect("the entry point is reached").clone();
     let author = cx.functions[&entry];
     let kind = cx.source.kind;
     let mut b = Builder::new(cx, 0, 0);
     // Lowered before what precedes them: they may reach globals that no function does.
-    let (initialisers, _) = b.nested(|b| b.initialise_globals(reach));
+    let (initialisers, _) = b.nested(|b| b.initialise_globals(reachable));
     let position = b.free(Op::Input(Input::Position));
     b.set_frag_coord(position);
     b.splice(initialisers);
@@ -43,10 +43,10 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reach: &Reach) -> ir::Function {
 
 impl Builder<'_, '_> {
     /// Values of globals that are no constants, in text order.
-    pub(super) fn initialise_globals(&mut self, reach: &Reach) {
+    pub(super) fn initialise_globals(&mut self, reachable: &Reachable) {
         let hir = self.cx.hir;
         for (i, global) in hir.globals.iter().enumerate() {
-            let (Some(init), None, true) = (global.init, global.value, reach.globals[i]) else { continue };
+            let (Some(init), None, true) = (global.init, global.value, reachable.globals[i]) else { continue };
             if matches!(global.storage, GlobalStorage::Private | GlobalStorage::Out) {
                 let value = self.value(init);
                 let variable = self.cx.global(GlobalId::new(i));

@@ -1,6 +1,6 @@
 //! Expressions: what they evaluate to, in which order, under which conditions.
 
-use super::{function::Builder, reach::known_bool};
+use super::{function::Builder, reachable::known_bool};
 use crate::glsl::{
     hir::{ConstId, ExprFlags, ExprId, ExprKind, LogicalOp, Scalar, Type, TypeId},
     ir::{Binary, Block, Op, Stmt, Unary, Value},

@@ -4,7 +4,7 @@ use super::{
     context::const_id,
     function::{Builder, Slot},
     names::Mark,
-    reach::known_bool,
+    reachable::known_bool,
 };
 use crate::glsl::{
     ast::List,
@@ -95,7 +95,7 @@ impl Builder<'_, '_> {
             Some(ExprKind::Const(id)) if self.is_initialiser(id) => self.constant(id),
             Some(_) => return false,
         };
-        let pointer = self.memory(local);
+        let pointer = self.address_of(local);
         self.begin_with(pointer, value);
         true
     }

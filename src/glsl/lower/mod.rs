@@ -5,7 +5,8 @@
 //! to everything undefined, clamped indices. Judges nothing: it runs only on programs without errors, and reports none.
 //!
 //! What the generated code looks like, and why:
-//! - Only what the entry point reaches is lowered ([`reach`]). A branch whose condition is a literal is not reached.
+//! - Only what the entry point reaches is lowered ([`reachable`]). A branch whose condition is a literal is not
+//!   reached.
 //! - A variable that nobody writes is a value, not memory. All others are variables of the function or of the module.
 //! - A function has one copy for each combination of channels, globals and tables that stand for parameters it only
 //!   reads ([`arguments`]).
@@ -34,7 +35,7 @@ mod names;
 mod operators;
 mod options;
 mod probe;
-mod reach;
+mod reachable;
 mod resources;
 mod stage;
 mod texture;
@@ -47,11 +48,11 @@ pub(in crate::glsl) use self::{
     constant_arrays::arrays_to_constants,
     names::{FunctionNames, Mark, Marks, Names},
     options::Options,
-    reach::reached,
+    reachable::reached,
 };
 use self::{
     context::{Lowering, Probed, Resources},
-    reach::Reach,
+    reachable::Reachable,
 };
 use super::{
     PassSource, Reflection, hir,
@@ -100,7 +101,7 @@ fn lower_with(
     probe: Option<(hir::ExprId, u32)>,
     marks: Marks,
 ) -> Lowered {
-    let (reach, arguments) = Reach::new(module, options.table);
+    let (reachable, arguments) = Reachable::new(module, options.table);
     let mut out = begin(module);
     let probed = probe.map(|(expr, visit)| Probed::new(&mut out, expr, visit));
     let mut cx = Lowering {
@@ -112,20 +113,21 @@ fn lower_with(
         layouts: Layouts::default(),
         resources: Resources::new(module.globals.len()),
         arguments,
-        functions: HashMap::with_capacity(reach.instances.len()),
+        functions: HashMap::with_capacity(reachable.instances.len()),
         reflection: Reflection::default(),
         names: Names::default(),
         marks,
         probed,
     };
-    for instance in &reach.instances {
+    for instance in &reachable.instances {
         let (function, names) = function::lower(&mut cx, instance);
         cx.names.functions.push(names);
         cx.out.functions.push(function);
         let id = ir::FuncId::new(cx.out.functions.len() - 1);
         cx.functions.insert(instance.clone(), id);
     }
-    let entry = if source.kind.is_stage() { stage::lower(&mut cx, &reach) } else { entry::lower(&mut cx, &reach) };
+    let entry =
+        if source.kind.is_stage() { stage::lower(&mut cx, &reachable) } else { entry::lower(&mut cx, &reachable) };
     cx.out.functions.push(entry);
     cx.names.functions.push(FunctionNames::default());
     (cx.names.globals, cx.names.members) = (cx.named_globals(), cx.member_names());

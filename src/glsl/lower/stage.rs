@@ -1,7 +1,7 @@
 //! The entry points of stages: what lies between the author's `main` and the pipeline. Inputs are put into the
 //! variables the author reads, and what the author left in others is handed on.
 
-use super::{context::Lowering, function::Builder, reach::Reach};
+use super::{context::Lowering, function::Builder, reachable::Reachable};
 use crate::glsl::{
     Attribute, PassKind,
     hir::{BuiltinVar, GlobalId, Scalar, Swizzle, Type, TypeId},
@@ -10,19 +10,19 @@ use crate::glsl::{
 };
 
 /// The entry point; every function is there already.
-pub(super) fn lower(cx: &mut Lowering<'_>, reach: &Reach) -> ir::Function {
-    let entry = reach.instances.last().expect("the entry point is reached").clone();
+pub(super) fn lower(cx: &mut Lowering<'_>, reachable: &Reachable) -> ir::Function {
+    let entry = reachable.instances.last().expect("the entry point is reached").clone();
     let author = cx.functions[&entry];
     let is_vertex = cx.source.kind == PassKind::Vertex;
     let inputs: Vec<(GlobalId, u32)> =
-        cx.interface.inputs.iter().copied().filter(|(id, _)| reach.globals[id.index()]).collect();
+        cx.interface.inputs.iter().copied().filter(|(id, _)| reachable.globals[id.index()]).collect();
     cx.reflection.varyings = cx.interface.varyings.clone();
     if is_vertex {
         let read = |a: &Attribute| inputs.iter().any(|(_, location)| *location == a.location());
         cx.reflection.attributes = Attribute::ALL.into_iter().filter(read).collect();
     }
     let mut b = Builder::new(cx, 0, 0);
-    let (initialisers, _) = b.nested(|b| b.initialise_globals(reach));
+    let (initialisers, _) = b.nested(|b| b.initialise_globals(reachable));
     b.splice(initialisers);
     for (id, location) in inputs {
         b.input(id, location, is_vertex);

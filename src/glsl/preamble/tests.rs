@@ -4,7 +4,7 @@ use super::*;
 use crate::{
     diag::{SourceId, Span},
     glsl::{
-        ChannelKind, Compiled, CustomUniformKind, GivenValue, Link, PassKind, compile_linked, diagnose, dump_ir,
+        ChannelKind, Compiled, CustomUniformKind, Link, PassKind, UntypedValue, compile_linked, diagnose, dump_ir,
         services::Analysis,
     },
 };
@@ -274,11 +274,11 @@ fn uniforms_of_the_author_are_checked_with_each_pass_that_has_them() {
     let mut case = Case::new("float f(float x) { return x; }", code);
     case.custom_uniforms = &custom_uniforms;
     case.is(Kept::Checked, &[]);
-    let values = [UniformValue { name: "gain".into(), value: GivenValue::Number(3.0) }];
+    let values = [UniformValue { name: "gain".into(), value: UntypedValue::Number(3.0) }];
     let mut case = Case::new("uniform float gain;\nfloat f(float x) { return x * gain; }", IMAGE);
     case.values = &values;
     case.is(Kept::Checked, &[]);
-    let other = [UniformValue { name: "gain".into(), value: GivenValue::Number(4.0) }];
+    let other = [UniformValue { name: "gain".into(), value: UntypedValue::Number(4.0) }];
     let preamble = Preamble::new(case.source().common.unwrap(), &[], &other).expect("it stands alone");
     assert!(preamble.checked(&case.source()).is_none(), "it was read for another value");
 }

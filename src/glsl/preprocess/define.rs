@@ -2,7 +2,7 @@
 //! may be defined again.
 
 use super::{
-    macros::{Given, Macro},
+    macros::{Macro, MacroOrigin},
     state::Preprocessor,
 };
 use crate::{
@@ -16,9 +16,15 @@ use std::collections::{HashMap, HashSet};
 
 impl Preprocessor<'_, '_> {
     /// Enters a macro under its name.
-    pub(super) fn add_macro(&mut self, def: MacroDef, params: (u32, u32), body: (u32, u32), given: Given) -> MacroId {
+    pub(super) fn add_macro(
+        &mut self,
+        def: MacroDef,
+        params: (u32, u32),
+        body: (u32, u32),
+        origin: MacroOrigin,
+    ) -> MacroId {
         self.origins.macros.push(def);
-        self.table.macros.push(Macro { body, params, busy: false, calls: 0, given, first_use: None });
+        self.table.macros.push(Macro { body, params, busy: false, calls: 0, origin, first_use: None });
         let symbol = def.name.0 as usize;
         if self.table.defined.len() <= symbol {
             self.table.defined.resize(self.names.len().max(symbol + 1), 0);
@@ -51,8 +57,8 @@ impl Preprocessor<'_, '_> {
             return None;
         }
         if let Some(id) = self.defined(name.value) {
-            let given = self.table.macros[id.index()].given;
-            if !matches!(given, Given::ByAuthor | Given::BySite(_)) {
+            let origin = self.table.macros[id.index()].origin;
+            if !matches!(origin, MacroOrigin::ByAuthor | MacroOrigin::BySite(_)) {
                 let what = if verb == "undef" { "undefined" } else { "defined again" };
                 self.error(&name, format!("`{text}` is part of the language and cannot be {what}"), None);
                 return None;
@@ -134,7 +140,7 @@ impl Preprocessor<'_, '_> {
             defined_at: Some(name.span.to(last)),
             function_like,
         };
-        self.add_macro(def, params, body, Given::ByAuthor);
+        self.add_macro(def, params, body, MacroOrigin::ByAuthor);
     }
 
     /// Reads `(a, b)` behind a macro's name; gives the position behind it.
@@ -202,8 +208,8 @@ impl Preprocessor<'_, '_> {
         let before = &self.table.macros[old.index()];
         let list = |range: (u32, u32)| &self.table.bodies[range.0 as usize..range.1 as usize];
         let names = |range: (u32, u32)| &self.table.params[range.0 as usize..range.1 as usize];
-        let same = match before.given {
-            Given::BySite(value) => {
+        let same = match before.origin {
+            MacroOrigin::BySite(value) => {
                 matches!(list(body), [t] if t.kind == Kind::Int && t.value == value) && !function_like
             }
             _ => {
@@ -225,7 +231,7 @@ impl Preprocessor<'_, '_> {
         if let Some(at) = def.name_at {
             diagnostic = diagnostic.label(at, "first defined here");
         }
-        let hint = if matches!(before.given, Given::BySite(_)) {
+        let hint = if matches!(before.origin, MacroOrigin::BySite(_)) {
             format!("the site defines `{text}` itself; write `#undef {text}` before, or `#ifndef {text}` around")
         } else {
             format!("write `#undef {text}` before, or choose another name")

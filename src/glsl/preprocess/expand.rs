@@ -2,7 +2,7 @@
 //! algorithm is C++'s, which the specification names, in the form that ANGLE and cpplib have it).
 
 use super::{
-    macros::Given,
+    macros::MacroOrigin,
     state::{Context, MAX_CALL_DEPTH, MAX_MACRO_TOKENS, Preprocessor, end_token},
 };
 use crate::{
@@ -81,13 +81,13 @@ impl Preprocessor<'_, '_> {
     /// Opens the replacement of a use of a macro, or gives the token that is to stand.
     fn expand(&mut self, token: Token, id: MacroId) -> Option<Token> {
         let def = self.origins[id];
-        match self.table.macros[id.index()].given {
-            Given::ByAuthor => {}
-            given => {
+        match self.table.macros[id.index()].origin {
+            MacroOrigin::ByAuthor => {}
+            origin => {
                 self.record_use(&token, id);
-                let value = match given {
-                    Given::ByLanguage(value) | Given::BySite(value) => value,
-                    Given::LineNumber => self.line_number(self.place(&token)) as u32,
+                let value = match origin {
+                    MacroOrigin::ByLanguage(value) | MacroOrigin::BySite(value) => value,
+                    MacroOrigin::LineNumber => self.line_number(self.place(&token)) as u32,
                     _ => self.line.file as u32,
                 };
                 return Some(Token { kind: Kind::Int, value, ..token });

@@ -26,14 +26,14 @@ pub(super) struct Macro {
     pub busy: bool,
     /// Calls whose arguments are being read.
     pub calls: u32,
-    pub given: Given,
+    pub origin: MacroOrigin,
     /// Its first use, through which uses inside its body are recorded once.
     pub first_use: Option<ExpansionId>,
 }
 
-/// Says where a macro's value comes from.
+/// The party that a macro comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Given {
+pub(super) enum MacroOrigin {
     ByAuthor,
     /// `HW_PERFORMANCE`, defined by the site's header like any macro.
     BySite(u32),
@@ -43,14 +43,14 @@ pub(super) enum Given {
     FileNumber,
 }
 
-impl Given {
+impl MacroOrigin {
     /// The macros that are there before the first line.
-    pub const ALL: [(&str, Given); 6] = [
-        ("__LINE__", Given::LineNumber),
-        ("__FILE__", Given::FileNumber),
-        ("__VERSION__", Given::ByLanguage(300)),
-        ("GL_ES", Given::ByLanguage(1)),
-        ("GL_FRAGMENT_PRECISION_HIGH", Given::ByLanguage(1)),
-        ("HW_PERFORMANCE", Given::BySite(1)),
+    pub const ALL: [(&str, MacroOrigin); 6] = [
+        ("__LINE__", MacroOrigin::LineNumber),
+        ("__FILE__", MacroOrigin::FileNumber),
+        ("__VERSION__", MacroOrigin::ByLanguage(300)),
+        ("GL_ES", MacroOrigin::ByLanguage(1)),
+        ("GL_FRAGMENT_PRECISION_HIGH", MacroOrigin::ByLanguage(1)),
+        ("HW_PERFORMANCE", MacroOrigin::BySite(1)),
     ];
 }

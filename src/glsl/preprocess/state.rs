@@ -1,7 +1,7 @@
 //! The preprocessor's state: texts, macros, tokens on their way to the parser.
 
 use super::{
-    macros::{Given, MacroTable},
+    macros::{MacroOrigin, MacroTable},
     preprocessed::Preprocessed,
     token::Tok,
     unit::{LineCount, Unit},
@@ -109,10 +109,10 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
         new.tokens.reserve(bytes / 4 + 16);
         new.origins.tokens.reserve(bytes / 4 + 16);
         if is_new {
-            for (name, given) in Given::ALL {
+            for (name, origin) in MacroOrigin::ALL {
                 let name = new.names.intern(name);
                 let def = MacroDef { name, name_at: None, defined_at: None, function_like: false };
-                new.add_macro(def, (0, 0), (0, 0), given);
+                new.add_macro(def, (0, 0), (0, 0), origin);
             }
         }
         new

@@ -89,7 +89,7 @@ impl Analysis {
         if let Some(id) = self.overloads_of(symbol, at).next() {
             return Some(Target::Decl(DeclRef::Func(id)));
         }
-        self.given(symbol).map(Target::Decl)
+        self.predeclared(symbol).map(Target::Decl)
     }
 
     /// User functions of a name that are declared before a place.
@@ -118,8 +118,8 @@ impl Analysis {
         Some(crate::glsl::ast::MacroId::new(found))
     }
 
-    /// Returns what the language and the site give under a name.
-    fn given(&self, symbol: Symbol) -> Option<DeclRef> {
+    /// Returns what the language or the site declares under a name.
+    fn predeclared(&self, symbol: Symbol) -> Option<DeclRef> {
         if let Some(builtin) = Builtin::from_symbol(symbol) {
             return (builtin != Builtin::StAssert || self.kind == PassKind::Image).then_some(DeclRef::Builtin(builtin));
         }

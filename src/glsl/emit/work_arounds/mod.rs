@@ -27,10 +27,10 @@ pub(in crate::glsl) fn apply(program: &mut Module, source: &PassSource<'_>) {
     if bilinear_by_hand.contains(&true) {
         filtering::run(program, bilinear_by_hand);
     }
-    if driver.hidden_limits {
+    if driver.opaque_limits {
         limits::run(program);
     }
-    if driver.hidden_counters {
+    if driver.opaque_counters {
         counters::run(program);
     }
     if driver.loop_closing_exits {

@@ -54,7 +54,7 @@ pub(super) struct Builder<'m, 'a> {
     pub result: TypeId,
     /// The author's function, none of the code around the entry point; and what this copy has in place of parameters.
     pub func: Option<FuncId>,
-    pub given: Box<[Specialization]>,
+    pub specializations: Box<[Specialization]>,
     /// See [`FunctionNames::undefined`].
     pub undefined: Vec<Value>,
     pub(super) marks: Vec<(Value, Mark)>,
@@ -70,7 +70,7 @@ pub(super) fn lower(cx: &mut Lowering<'_>, instance: &Instance) -> (ir::Function
     builder.result = function.result;
     builder.f.result = function.result;
     builder.func = Some(instance.func);
-    builder.given = instance.given.clone();
+    builder.specializations = instance.specializations.clone();
     builder.loc = function.header;
     builder.parameters(instance.func, |b, param| {
         let index = b.f.params.len() as u32;
@@ -106,7 +106,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             loops: 0,
             result: TypeId::VOID,
             func: None,
-            given: Box::default(),
+            specializations: Box::default(),
             undefined: Vec::new(),
             marks: Vec::new(),
         }
@@ -120,9 +120,10 @@ impl<'m, 'a> Builder<'m, 'a> {
     /// Says what a function's parameters are; `argument` gives the next one, of this type.
     pub fn parameters(&mut self, func: FuncId, mut argument: impl FnMut(&mut Self, Param) -> Value) {
         let hir = self.cx.hir;
-        for (local, given) in self.cx.arguments.givable(func).to_vec().into_iter().zip(self.given.clone()) {
-            let slot = match given {
-                Specialization::Argument => continue,
+        let specializable = self.cx.arguments.specializable(func).to_vec();
+        for (local, specialization) in specializable.into_iter().zip(self.specializations.clone()) {
+            let slot = match specialization {
+                Specialization::None => continue,
                 Specialization::Channel(channel) => Slot::Channel(channel),
                 Specialization::Table(table) => Slot::Table(const_id(table)),
                 Specialization::Global(global) => {

@@ -29,7 +29,7 @@ impl Builder<'_, '_> {
     /// Gives a local its first value.
     pub fn declare(&mut self, local: LocalId, value: Value) {
         if self.needs_memory(local) {
-            let pointer = self.memory(local);
+            let pointer = self.address_of(local);
             self.store(pointer, value);
         } else {
             self.set_slot(local, Slot::Value(value));
@@ -44,8 +44,8 @@ impl Builder<'_, '_> {
             || (self.cx.arguments.is_indexed(self.cx.hir, local) && !self.is_vector_or_scalar(declared.ty))
     }
 
-    /// The pointer to a local that is memory.
-    pub fn memory(&mut self, local: LocalId) -> Value {
+    /// Returns the pointer to a local that is memory.
+    pub fn address_of(&mut self, local: LocalId) -> Value {
         if let Slot::Memory(pointer) = self.slot(local) {
             return pointer;
         }

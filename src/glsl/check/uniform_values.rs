@@ -1,24 +1,24 @@
-//! Values that come from outside for the uniforms a text declares: whether they fit, and what they are as constants.
+//! Values that come from outside for the uniforms a text declares, as constants of the declared types.
 
 use super::checker::Checker;
 use crate::glsl::{
-    GivenValue,
+    UntypedValue,
     ast::Ident,
     hir::{ConstId, Scalar, Type, TypeId},
 };
 
 impl Checker<'_> {
-    /// The value that is given for a uniform of a type. `None`: none is; `Some(None)`: one that does not fit, which is
-    /// reported.
-    pub(super) fn given(&mut self, name: Ident, ty: TypeId) -> Option<Option<ConstId>> {
+    /// Returns the value that a uniform of a type is set to. `None`: it has none; `Some(None)`: one that does not fit,
+    /// which is reported.
+    pub(super) fn uniform_value(&mut self, name: Ident, ty: TypeId) -> Option<Option<ConstId>> {
         let values = self.settings.values;
         let text = self.name(name.symbol);
-        let given = values.iter().find(|v| v.name == text)?;
+        let found = values.iter().find(|v| v.name == text)?;
         if ty == TypeId::ERROR {
             return Some(None);
         }
         let mut words = Vec::new();
-        let fits = self.take(ty, &given.value, &mut words);
+        let fits = self.take(ty, &found.value, &mut words);
         Some(match fits {
             Ok(()) => Some(self.module.constant(ty, &words)),
             Err(why) => {
@@ -34,7 +34,7 @@ impl Checker<'_> {
     }
 
     /// Adds a value's scalars in memory order. Err: what is wrong with it.
-    fn take(&self, ty: TypeId, value: &GivenValue, words: &mut Vec<u32>) -> Result<(), String> {
+    fn take(&self, ty: TypeId, value: &UntypedValue, words: &mut Vec<u32>) -> Result<(), String> {
         let (parts, count) = match self.module.types.get(ty) {
             Type::Scalar(scalar) => {
                 words.push(word(scalar, value)?);
@@ -50,7 +50,7 @@ impl Checker<'_> {
                 return Err("only numbers, vectors, matrices and arrays of them can be given".to_owned());
             }
         };
-        let GivenValue::List(all) = value else {
+        let UntypedValue::List(all) = value else {
             return Err(format!("{} stands where {count} in brackets belong", shown(value)));
         };
         if all.len() != count as usize {
@@ -87,21 +87,23 @@ fn example(scalar: Scalar) -> &'static str {
     }
 }
 
-fn shown(value: &GivenValue) -> String {
+fn shown(value: &UntypedValue) -> String {
     match value {
-        GivenValue::Bool(on) => on.to_string(),
-        GivenValue::Number(x) => x.to_string(),
-        GivenValue::List(all) => format!("a list of {}", all.len()),
+        UntypedValue::Bool(on) => on.to_string(),
+        UntypedValue::Number(x) => x.to_string(),
+        UntypedValue::List(all) => format!("a list of {}", all.len()),
     }
 }
 
-fn word(scalar: Scalar, value: &GivenValue) -> Result<u32, String> {
+fn word(scalar: Scalar, value: &UntypedValue) -> Result<u32, String> {
     let is_whole = |x: f64, low: f64, high: f64| x.fract() == 0.0 && (low..=high).contains(&x);
     match (scalar, value) {
-        (Scalar::Bool, GivenValue::Bool(on)) => Ok(u32::from(*on)),
-        (Scalar::Float, GivenValue::Number(x)) if (*x as f32).is_finite() => Ok((*x as f32).to_bits()),
-        (Scalar::Int, GivenValue::Number(x)) if is_whole(*x, i32::MIN.into(), i32::MAX.into()) => Ok(*x as i32 as u32),
-        (Scalar::Uint, GivenValue::Number(x)) if is_whole(*x, 0.0, u32::MAX.into()) => Ok(*x as u32),
+        (Scalar::Bool, UntypedValue::Bool(on)) => Ok(u32::from(*on)),
+        (Scalar::Float, UntypedValue::Number(x)) if (*x as f32).is_finite() => Ok((*x as f32).to_bits()),
+        (Scalar::Int, UntypedValue::Number(x)) if is_whole(*x, i32::MIN.into(), i32::MAX.into()) => {
+            Ok(*x as i32 as u32)
+        }
+        (Scalar::Uint, UntypedValue::Number(x)) if is_whole(*x, 0.0, u32::MAX.into()) => Ok(*x as u32),
         _ => {
             let wants = match scalar {
                 Scalar::Bool => "true or false",

@@ -17,7 +17,7 @@ use crate::glsl::{
 };
 
 /// The reachable part of a module.
-pub(super) struct Reach {
+pub(super) struct Reachable {
     /// Callees before callers; the last is the entry point.
     pub instances: Vec<Instance>,
     /// By [`GlobalId::index`].
@@ -38,7 +38,7 @@ struct Facts {
     nodes: usize,
 }
 
-impl Reach {
+impl Reachable {
     /// Finds it; a constant of at least `table` scalars can stand for a parameter though one call alone passes it.
     pub fn new(module: &Module, table: usize) -> (Self, Arguments) {
         let entry = module.entry.expect("a program without errors has an entry point");
@@ -54,8 +54,8 @@ impl Reach {
             let passed =
                 |&(func, args): &(FuncId, List<ExprId>)| (func, arguments.passed(module, caller, func, &module[args]));
             let mut passed: Calls = calls.iter().map(passed).collect();
-            passed.sort_unstable_by_key(|(func, given)| (func.index(), given.len()));
-            // Where nothing is given one call of a function is as good as all.
+            passed.sort_unstable_by_key(|(func, passed)| (func.index(), passed.len()));
+            // Where nothing is specialized one call of a function is as good as all.
             passed.dedup_by(|a, b| a.0 == b.0 && a.1.is_empty());
             passed
         };
@@ -63,23 +63,23 @@ impl Reach {
         let mut globals = vec![false; module.globals.len()];
         let mut calls: Vec<Option<Calls>> = module.functions.iter().map(|_| None).collect();
         let mut found: HashSet<Instance> = HashSet::new();
-        let mut pending = vec![Instance { func: entry, given: Box::default() }];
+        let mut pending = vec![Instance { func: entry, specializations: Box::default() }];
         found.insert(pending[0].clone());
         while let Some(instance) = pending.pop() {
             let facts = &facts[instance.func.index()];
-            let mut call = |func: FuncId, passed: &[Passed], given: &[Specialization]| {
-                let given = passed.iter().map(|&passed| match passed {
-                    Passed::Known(given) => given,
-                    Passed::Param(index) => given[index],
+            let mut call = |func: FuncId, passed: &[Passed], of_caller: &[Specialization]| {
+                let specializations = passed.iter().map(|&passed| match passed {
+                    Passed::Known(specialization) => specialization,
+                    Passed::Param(index) => of_caller[index],
                 });
-                let instance = Instance { func, given: given.collect() };
+                let instance = Instance { func, specializations: specializations.collect() };
                 if found.insert(instance.clone()) {
                     pending.push(instance);
                 }
             };
             let calls = calls[instance.func.index()].get_or_insert_with(|| passed(Some(instance.func), &facts.calls));
             for (func, passed) in calls {
-                call(*func, passed, &instance.given);
+                call(*func, passed, &instance.specializations);
             }
             let mut named = facts.globals.clone();
             while let Some(global) = named.pop() {
@@ -102,8 +102,10 @@ impl Reach {
             order[func.index()] = i + 1;
         }
         let mut instances: Vec<_> = found.into_iter().collect();
-        // What is given makes the order the same in every run.
-        instances.sort_unstable_by(|a, b| (order[a.func.index()], &a.given).cmp(&(order[b.func.index()], &b.given)));
+        // By specializations too, so that the order is the same in every run.
+        instances.sort_unstable_by(|a, b| {
+            (order[a.func.index()], &a.specializations).cmp(&(order[b.func.index()], &b.specializations))
+        });
         (Self { instances, globals }, arguments)
     }
 }
