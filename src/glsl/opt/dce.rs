@@ -1,4 +1,5 @@
-//! Dead code: what is computed, and used by nothing that has an effect.
+//! Dead code elimination: drops what is computed and used by nothing that has an effect. The passes before it leave the
+//! operations that they replaced.
 
 use crate::glsl::ir::{Block, Function, Module, Op, Stmt, Value};
 
