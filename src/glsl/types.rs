@@ -72,6 +72,18 @@ pub enum SamplerDim {
     D2Array,
 }
 
+impl SamplerDim {
+    /// Returns what follows `sampler` in the names of such types.
+    pub fn name(self) -> &'static str {
+        match self {
+            SamplerDim::D2 => "2D",
+            SamplerDim::D3 => "3D",
+            SamplerDim::Cube => "Cube",
+            SamplerDim::D2Array => "2DArray",
+        }
+    }
+}
+
 /// Says what a [`TypeId`] stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Type {
@@ -176,23 +188,35 @@ impl TypeTable {
 fn basic_type(basic: BasicType) -> Type {
     use BasicType as B;
     let sampler = |dim, scalar, shadow| Type::Sampler { dim, scalar, shadow };
-    let index = basic as u8;
+    let vector = |scalar, size| Type::Vector { scalar, size };
+    let matrix = |columns, rows| Type::Matrix { columns, rows };
     match basic {
         B::Void => Type::Void,
-        B::Bool | B::Int | B::Uint | B::Float => Type::Scalar(match basic {
-            B::Bool => Scalar::Bool,
-            B::Int => Scalar::Int,
-            B::Uint => Scalar::Uint,
-            _ => Scalar::Float,
-        }),
-        B::Bvec2 | B::Bvec3 | B::Bvec4 => Type::Vector { scalar: Scalar::Bool, size: index - B::Bool as u8 + 1 },
-        B::Ivec2 | B::Ivec3 | B::Ivec4 => Type::Vector { scalar: Scalar::Int, size: index - B::Int as u8 + 1 },
-        B::Uvec2 | B::Uvec3 | B::Uvec4 => Type::Vector { scalar: Scalar::Uint, size: index - B::Uint as u8 + 1 },
-        B::Vec2 | B::Vec3 | B::Vec4 => Type::Vector { scalar: Scalar::Float, size: index - B::Float as u8 + 1 },
-        B::Mat2x2 | B::Mat2x3 | B::Mat2x4 | B::Mat3x2 | B::Mat3x3 | B::Mat3x4 | B::Mat4x2 | B::Mat4x3 | B::Mat4x4 => {
-            let i = index - B::Mat2x2 as u8;
-            Type::Matrix { columns: i / 3 + 2, rows: i % 3 + 2 }
-        }
+        B::Bool => Type::Scalar(Scalar::Bool),
+        B::Int => Type::Scalar(Scalar::Int),
+        B::Uint => Type::Scalar(Scalar::Uint),
+        B::Float => Type::Scalar(Scalar::Float),
+        B::Bvec2 => vector(Scalar::Bool, 2),
+        B::Bvec3 => vector(Scalar::Bool, 3),
+        B::Bvec4 => vector(Scalar::Bool, 4),
+        B::Ivec2 => vector(Scalar::Int, 2),
+        B::Ivec3 => vector(Scalar::Int, 3),
+        B::Ivec4 => vector(Scalar::Int, 4),
+        B::Uvec2 => vector(Scalar::Uint, 2),
+        B::Uvec3 => vector(Scalar::Uint, 3),
+        B::Uvec4 => vector(Scalar::Uint, 4),
+        B::Vec2 => vector(Scalar::Float, 2),
+        B::Vec3 => vector(Scalar::Float, 3),
+        B::Vec4 => vector(Scalar::Float, 4),
+        B::Mat2x2 => matrix(2, 2),
+        B::Mat2x3 => matrix(2, 3),
+        B::Mat2x4 => matrix(2, 4),
+        B::Mat3x2 => matrix(3, 2),
+        B::Mat3x3 => matrix(3, 3),
+        B::Mat3x4 => matrix(3, 4),
+        B::Mat4x2 => matrix(4, 2),
+        B::Mat4x3 => matrix(4, 3),
+        B::Mat4x4 => matrix(4, 4),
         B::Sampler2D => sampler(SamplerDim::D2, Scalar::Float, false),
         B::Sampler3D => sampler(SamplerDim::D3, Scalar::Float, false),
         B::SamplerCube => sampler(SamplerDim::Cube, Scalar::Float, false),

@@ -111,6 +111,87 @@ pub(in crate::glsl) enum Kind {
     False,
 }
 
+impl Kind {
+    /// Returns whether it is a keyword: one of the language's words, types and reserved words included.
+    #[inline]
+    pub fn is_keyword(self) -> bool {
+        use Kind::*;
+        self.is_qualifier()
+            || matches!(
+                self,
+                Type | Reserved
+                    | Precision
+                    | Struct
+                    | If
+                    | Else
+                    | For
+                    | While
+                    | Do
+                    | Switch
+                    | Case
+                    | Default
+                    | Return
+                    | Break
+                    | Continue
+                    | Discard
+                    | True
+                    | False
+            )
+    }
+
+    /// Returns whether it begins a qualifier of a declaration.
+    #[inline]
+    pub fn is_qualifier(self) -> bool {
+        use Kind::*;
+        matches!(
+            self,
+            Const | In | Out | Inout | Uniform | Flat | Smooth | Centroid | Invariant | Lowp | Mediump | Highp | Layout
+        )
+    }
+
+    /// Returns whether it is an operator that has an operand on its right; `++` and `--` may stand behind theirs.
+    #[inline]
+    pub fn is_operator(self) -> bool {
+        use Kind::*;
+        matches!(
+            self,
+            Question
+                | Plus
+                | Minus
+                | Star
+                | Slash
+                | Percent
+                | Bang
+                | Tilde
+                | Less
+                | Greater
+                | LessEqual
+                | GreaterEqual
+                | EqualEqual
+                | BangEqual
+                | LessLess
+                | GreaterGreater
+                | And
+                | Or
+                | Caret
+                | AndAnd
+                | OrOr
+                | CaretCaret
+                | Equal
+                | PlusEqual
+                | MinusEqual
+                | StarEqual
+                | SlashEqual
+                | PercentEqual
+                | LessLessEqual
+                | GreaterGreaterEqual
+                | AndEqual
+                | OrEqual
+                | CaretEqual
+        )
+    }
+}
+
 /// White space or a comment stands before the token.
 pub(in crate::glsl) const SPACE: u8 = 1;
 /// First token of its line.

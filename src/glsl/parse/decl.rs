@@ -70,7 +70,7 @@ impl Parser<'_> {
                 self.adrift = false;
                 format!("expected a declaration, found {}: statements stand in functions", self.shown(i))
             }
-            kind if hint::is_keyword(kind) => format!("{} stands outside of any function", self.shown(i)),
+            kind if kind.is_keyword() => format!("{} stands outside of any function", self.shown(i)),
             _ => {
                 self.adrift = false;
                 format!("expected a declaration, found {}", self.shown(i))
@@ -99,10 +99,10 @@ impl Parser<'_> {
             },
             Kind::Reserved => {
                 matches!(self.second(), Kind::Ident | Kind::Type | Kind::Reserved)
-                    || is_qualifier_kind(self.second())
+                    || self.second().is_qualifier()
                     || hint::begins_foreign_declaration(self.text(self.at))
             }
-            kind => is_qualifier_kind(kind) || matches!(kind, Kind::Precision | Kind::Struct),
+            kind => kind.is_qualifier() || matches!(kind, Kind::Precision | Kind::Struct),
         }
     }
 
@@ -155,7 +155,7 @@ impl Parser<'_> {
     /// A name and parameters. A keyword as the name is told when it is read; a number as the first parameter makes it a
     /// variable of C++.
     fn is_function(&self) -> bool {
-        (self.kind() == Kind::Ident || hint::is_keyword(self.kind()))
+        (self.kind() == Kind::Ident || self.kind().is_keyword())
             && self.second() == Kind::LParen
             && !matches!(self.kind_at(self.at + 2), Kind::Int | Kind::Uint | Kind::Float | Kind::Minus)
     }
@@ -198,7 +198,7 @@ impl Parser<'_> {
 
     pub(super) fn qualifiers(&mut self) -> Parse<List<Qualifier>> {
         // Most declarations have none.
-        if !is_qualifier_kind(self.kind()) && self.kind() != Kind::Reserved {
+        if !self.kind().is_qualifier() && self.kind() != Kind::Reserved {
             return Ok(List::EMPTY);
         }
         let mut found = Vec::new();
@@ -325,9 +325,4 @@ impl Parser<'_> {
             }
         }
     }
-}
-
-#[inline]
-fn is_qualifier_kind(kind: Kind) -> bool {
-    (Kind::Const as u8..=Kind::Highp as u8).contains(&(kind as u8)) || kind == Kind::Layout
 }

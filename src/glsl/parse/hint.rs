@@ -1,11 +1,6 @@
 //! Words of other languages (HLSL, WGSL, C++, JavaScript, desktop GLSL).
 
-use crate::glsl::{ast::BasicType, lex::Kind};
-
-/// A keyword or reserved word.
-pub(super) fn is_keyword(kind: Kind) -> bool {
-    kind as u8 >= Kind::Type as u8
-}
+use crate::glsl::ast::BasicType;
 
 /// The mend for a reserved word, where another than a new name.
 pub(super) fn reserved(word: &str) -> Option<&'static str> {

@@ -238,7 +238,7 @@ impl Parser<'_> {
                 self.bump();
                 return Err(Failed);
             }
-            kind if hint::is_keyword(kind) => {
+            kind if kind.is_keyword() => {
                 let message = format!("expected {what}, found {}, which is a keyword", self.quoted(i));
                 return Err(self.fail(i, message, Some("choose another name".into())));
             }

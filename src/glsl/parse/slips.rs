@@ -67,7 +67,7 @@ impl Parser<'_> {
                 let message = format!("a value is missing between {} and {}", self.shown(i - 1), self.shown(i));
                 self.fail(i, message, None)
             }
-            before if is_operator(before) => {
+            before if before.is_operator() => {
                 let message = format!("{} needs a value on its right, found {}", self.shown(i - 1), self.shown(i));
                 let hint = self.statement_hint(i);
                 self.fail(i, message, hint)
@@ -94,7 +94,7 @@ impl Parser<'_> {
     pub(super) fn type_as_operand(&mut self, first: usize) -> Failed {
         let name = self.text(first).to_owned();
         let before = if first > 0 { self.kind_at(first - 1) } else { Kind::Eof };
-        if is_operator(before) && self.starts_line(first) {
+        if before.is_operator() && self.starts_line(first) {
             let message = format!("{} needs a value on its right", self.shown(first - 1));
             return self.fail(first - 1, message, None);
         }
@@ -105,9 +105,4 @@ impl Parser<'_> {
         };
         self.fail(first, format!("`{name}` is a type, not a value"), Some(hint))
     }
-}
-
-fn is_operator(kind: Kind) -> bool {
-    (Kind::Question as u8..=Kind::CaretEqual as u8).contains(&(kind as u8))
-        && !matches!(kind, Kind::PlusPlus | Kind::MinusMinus)
 }

@@ -184,7 +184,7 @@ fn end_of_declarator(text: &Source, name: usize) -> u32 {
     for i in name + 1..text.tokens.len() {
         let token = &text.tokens[i];
         let ends = matches!(token.kind, Kind::Comma | Kind::Semicolon) && text.around(i) == level;
-        let begins = token.starts_line && (token.kind as u8 >= Kind::Type as u8 || token.kind == Kind::RBrace);
+        let begins = token.starts_line && (token.kind.is_keyword() || token.kind == Kind::RBrace);
         if ends || begins {
             return token.start;
         }

@@ -46,9 +46,9 @@ pub(super) enum Directive {
 }
 
 impl Lexeme {
-    /// A name, keyword or type: something a person would call a word.
+    /// Returns whether it is a name, keyword or type: something a person would call a word.
     pub fn is_word(&self) -> bool {
-        self.kind == Kind::Ident || self.kind == Kind::BadName || self.kind as u8 >= Kind::Type as u8
+        self.kind == Kind::Ident || self.kind == Kind::BadName || self.kind.is_keyword()
     }
 
     pub fn symbol(&self) -> Symbol {
