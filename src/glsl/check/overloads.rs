@@ -250,12 +250,7 @@ impl Overload {
             Pattern::Transposed => "matRxC".to_owned(),
             Pattern::Texel => "vec4".to_owned(),
             Pattern::Sampler(dim, shadow) => {
-                let dim = match dim {
-                    SamplerDim::D2 => "2D",
-                    SamplerDim::D3 => "3D",
-                    SamplerDim::Cube => "Cube",
-                    SamplerDim::D2Array => "2DArray",
-                };
+                let dim = dim.name();
                 format!("sampler{dim}{}", if shadow { "Shadow" } else { "" })
             }
             Pattern::Exactly(ty) => name(ty),

@@ -81,30 +81,14 @@ impl Checker<'_> {
                 let test = cond.and_then(|cond| self.condition(cond, "the condition of `for`"));
                 let init = self.take_statements(base);
                 let step = step.map(|step| self.expr(step));
-                self.loops += 1;
-                let errors = self.diagnostics.len();
-                let body = self.body(body);
-                self.loops -= 1;
-                if self.diagnostics.len() == errors {
-                    self.expect_end(test, body, loc);
-                }
-                self.pop_scope();
-                self.add_stmt(StmtKind::For { init, test, step, body }, loc);
+                self.rest_of_loop(init, test, step, body, loc);
             }
             S::While { cond, body } => {
                 self.scopes.push();
                 let base = self.stmt_stack.len();
                 let test = self.condition(cond, "the condition of `while`");
                 let init = self.take_statements(base);
-                self.loops += 1;
-                let errors = self.diagnostics.len();
-                let body = self.body(body);
-                self.loops -= 1;
-                if self.diagnostics.len() == errors {
-                    self.expect_end(test, body, loc);
-                }
-                self.pop_scope();
-                self.add_stmt(StmtKind::For { init, test, step: None, body }, loc);
+                self.rest_of_loop(init, test, None, body, loc);
             }
             S::DoWhile { body, cond } => {
                 self.loops += 1;
@@ -152,6 +136,26 @@ impl Checker<'_> {
                 self.add_stmt(StmtKind::Discard, loc);
             }
         }
+    }
+
+    /// Checks the body of a `for` or `while`, closes its scope, and adds the loop.
+    fn rest_of_loop(
+        &mut self,
+        init: List<StmtId>,
+        test: Option<ExprId>,
+        step: Option<ExprId>,
+        body: ast::StmtId,
+        loc: Loc,
+    ) {
+        self.loops += 1;
+        let errors = self.diagnostics.len();
+        let body = self.body(body);
+        self.loops -= 1;
+        if self.diagnostics.len() == errors {
+            self.expect_end(test, body, loc);
+        }
+        self.pop_scope();
+        self.add_stmt(StmtKind::For { init, test, step, body }, loc);
     }
 
     /// ANGLE, and with it the site, refuses `for` and `while` whose test is constant and true and that nothing leaves:

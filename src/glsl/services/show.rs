@@ -7,10 +7,7 @@ use crate::glsl::{
         env,
         overloads::{self, Overload, Pattern},
     },
-    hir::{
-        Builtin, BuiltinVar, ConstId, DeclRef, FuncId, GlobalStorage, LocalKind, SamplerDim, Scalar, StructId, Type,
-        TypeId,
-    },
+    hir::{Builtin, BuiltinVar, ConstId, DeclRef, FuncId, GlobalStorage, LocalKind, Scalar, StructId, Type, TypeId},
 };
 use std::ops::Range;
 
@@ -236,12 +233,7 @@ fn pattern_name(pattern: Pattern) -> String {
         Pattern::Square => "matN".into(),
         Pattern::Texel => "gvec4".into(),
         Pattern::Sampler(dim, shadow) => {
-            let dim = match dim {
-                SamplerDim::D2 => "2D",
-                SamplerDim::D3 => "3D",
-                SamplerDim::Cube => "Cube",
-                SamplerDim::D2Array => "2DArray",
-            };
+            let dim = dim.name();
             format!("{}sampler{dim}{}", if shadow { "" } else { "g" }, if shadow { "Shadow" } else { "" })
         }
         Pattern::Exactly(ty) => ty.as_basic().map_or("?", BasicType::name).into(),
