@@ -26,7 +26,8 @@ pub struct Driver {
     /// (`nir_to_lcssa.c`): a value that all exits agree on, and which needs no phi for that, is computed anew for
     /// pixels that have left.
     pub loop_closing_exits: bool,
-    /// What a loop counts down to is hidden: Mesa takes `min(c, x)` for at least `c` there (`nir_loop_analyze.c`).
+    /// Limits that loops count down to are hidden: Mesa takes `min(c, x)` for at least `c` there
+    /// (`nir_loop_analyze.c`).
     pub opaque_limits: bool,
     /// Counters are hidden where they index an array in a loop within a loop: Mesa writes both loops out, whatever that
     /// costs (`nir_loop_analyze.c`).

@@ -1,4 +1,4 @@
-//! What a probe of a pass means, for who shows it.
+//! The meaning of a probe's picture, for who shows it.
 
 use super::{
     check, parse,

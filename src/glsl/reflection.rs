@@ -43,7 +43,7 @@ impl CustomUniformSet {
     }
 }
 
-/// How a pass reads one channel.
+/// The ways in which a pass reads one channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct ChannelUse {
     /// The texture is declared in the module: it is fetched, sampled or its size is asked for.

@@ -3,7 +3,7 @@
 use super::{driver::Driver, probe::Probe};
 use crate::diag::{SourceId, Span};
 
-/// Which entry point a pass defines, and which uniforms it may name.
+/// The entry point that a pass defines, and with it the uniforms that it may name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PassKind {
     /// `void mainImage(out vec4, in vec2)`; alpha is forced to 1; may call `st_assert`.

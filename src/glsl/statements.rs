@@ -13,7 +13,7 @@ use crate::diag::Span;
 pub(crate) struct Statement {
     /// Its text; of a branch or a loop the head alone.
     pub head: Span,
-    /// Of a loop its test, and what it does between two turns.
+    /// The test of a loop, and the step between two turns.
     pub test: Option<Span>,
     pub step: Option<Span>,
     /// The statement that it lies in.
@@ -22,7 +22,7 @@ pub(crate) struct Statement {
     pub tests_first: bool,
     /// It begins a `for`, and belongs to its head.
     pub is_init: bool,
-    /// What can be named before it, within its head and its body, and behind it.
+    /// The variables that can be named before it, within its head and its body, and behind it.
     before: Option<u32>,
     within: Option<u32>,
     after: Option<u32>,
@@ -38,11 +38,11 @@ pub(crate) struct LocalVariable {
     pub ty: TypeId,
     /// The value of a `const`.
     pub constant: Option<Vec<u32>>,
-    /// Where its name stands.
+    /// The place of its name.
     declared: Option<Span>,
 }
 
-/// When a variable is asked for: before a statement, in its head, or behind it.
+/// The time for which a variable is asked for: before a statement, in its head, or behind it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum When {
     Before,
@@ -58,7 +58,7 @@ pub(crate) struct Statements {
     pub locals: Vec<LocalVariable>,
     /// The whole text of each function.
     pub functions: Vec<Span>,
-    /// Of each function its `const` variables.
+    /// The `const` variables of each function.
     constants: Vec<Vec<u32>>,
     /// Each variable that can be named, and those that could be before it.
     scopes: Vec<(Option<u32>, u32)>,
@@ -135,7 +135,7 @@ impl Statements {
         constants.copied().chain(found).collect()
     }
 
-    /// Whether a statement is or lies in another.
+    /// Returns whether a statement is or lies in another.
     pub fn lies_in(&self, index: u32, outer: u32) -> bool {
         std::iter::successors(Some(index), |&at| self.get(at)?.parent).any(|at| at == outer)
     }

@@ -21,7 +21,7 @@ enum Variable {
     Global(u32),
 }
 
-/// What evaluating something reads and writes.
+/// The reads and writes of an evaluation.
 #[derive(Clone, Debug, Default)]
 struct Effects {
     reads: BTreeSet<Variable>,
@@ -57,11 +57,12 @@ pub fn find(module: &Module) -> Vec<(Loc, &'static str)> {
 
 struct Finder<'m> {
     module: &'m Module,
-    /// Of those that are done: what a call does to variables of the module.
+    /// The effects on variables of the module of a call of each function that is done.
     functions: &'m [Effects],
     found: &'m mut Vec<(Loc, &'static str)>,
-    /// Of the function's expressions, from its first on; empty where a parent has taken them.
+    /// The index of the function's first expression.
     first: usize,
+    /// The effects of the function's expressions, from its first on; empty where a parent has taken them.
     effects: Vec<Effects>,
 }
 
@@ -187,7 +188,7 @@ impl Finder<'_> {
         }
     }
 
-    /// Whether two places may have a part in common.
+    /// Returns whether two places may have a part in common.
     fn overlaps(&self, a: ExprId, b: ExprId) -> bool {
         if self.root(a).is_none() || self.root(a) != self.root(b) {
             return false;
@@ -197,7 +198,7 @@ impl Finder<'_> {
         !a.iter().zip(&b).any(|(a, b)| a & b == 0)
     }
 
-    /// Of each step from the variable to a place, the parts that it may be, as bits; all where that is not known.
+    /// Returns the parts that each step from the variable to a place may be, as bits; all where that is not known.
     fn path(&self, mut place: ExprId) -> Vec<u128> {
         let mut path = Vec::new();
         let part = |index: u32| 1u128.checked_shl(index).unwrap_or(u128::MAX);

@@ -96,7 +96,7 @@ pub(in crate::glsl) fn with_room<T: Copy>(list: &[T]) -> Vec<T> {
     copy
 }
 
-/// Which pool of `Owner` holds the [`List`]s of this type.
+/// A type that `Owner` has a pool of [`List`]s for.
 pub trait Pooled<Owner>: Copy {
     fn pool(owner: &Owner) -> &Vec<Self>;
     fn pool_mut(owner: &mut Owner) -> &mut Vec<Self>;

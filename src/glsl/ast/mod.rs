@@ -26,7 +26,8 @@ pub use position::{Expansion, ExpansionId, Ident, Loc, MacroDef, MacroId, Origin
 
 use std::num::NonZeroU32;
 
-/// How deep statements and expressions together may nest (ANGLE's limit in WebGL, too); the parser's error names it.
+/// The depth to which statements and expressions together may nest (ANGLE's limit in WebGL, too); the parser's error
+/// names it.
 pub const MAX_NESTING: u32 = 256;
 
 ids! {

@@ -1,4 +1,4 @@
-//! What the checker knows between two declarations of a file, so that others can go on from there.
+//! State of the checker between two declarations of a file, so that others can go on from there.
 //!
 //! Only what is not the same everywhere at file scope is kept: no function is being read there, and no message was an
 //! error.
@@ -21,7 +21,7 @@ pub(super) type Precisions = [Option<Precision>; BasicType::ALL.len()];
 
 #[derive(Clone)]
 pub(crate) struct Begun {
-    /// How many of [`super::Ast::items`] were checked.
+    /// The number of [`super::Ast::items`] that were checked.
     pub(super) items: usize,
     pub(super) module: Module,
     pub(super) diagnostics: Vec<Diagnostic>,

@@ -26,7 +26,7 @@ pub(super) struct Switch {
     pub default: Option<Loc>,
 }
 
-/// What the project says beside its texts.
+/// Settings of the project beside its texts.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Settings<'a> {
     pub channels: [ChannelKind; 4],
@@ -46,7 +46,7 @@ pub(super) struct Checker<'a> {
     pub broken_tree: bool,
     pub module: Module,
     pub diagnostics: Vec<Diagnostic>,
-    /// How many of them were errors, those that were not kept among them.
+    /// The number of errors, those that were not kept among them.
     pub errors: usize,
     pub refused_in_common: Vec<Diagnostic>,
     pub scopes: Scopes,
@@ -87,7 +87,7 @@ pub(super) struct Checker<'a> {
     pub entry_symbol: Option<Symbol>,
     /// The entry point as the site's header declares it.
     pub header_entry: Option<FuncId>,
-    /// How many of [`Ast::items`] were checked.
+    /// The number of [`Ast::items`] that were checked.
     pub items: usize,
 }
 

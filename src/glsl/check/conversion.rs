@@ -85,7 +85,7 @@ impl Checker<'_> {
         false
     }
 
-    /// How to make a value of type `want` of this one.
+    /// Returns the mend that makes a value of type `want` of this one.
     pub(super) fn mend(&self, value: ExprId, written: ast::ExprId, want: TypeId) -> Option<Mend> {
         let found = self.ty(value);
         let (Some((from, n)), Some((to, m))) = (self.vector_shape(found), self.vector_shape(want)) else { return None };

@@ -6,7 +6,7 @@ use crate::glsl::{
     source::{CustomUniformKind, PassKind},
 };
 
-/// Which header stands before the text.
+/// The header that stands before the text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::glsl) enum Env {
     Pass(PassKind),
@@ -144,7 +144,8 @@ pub(crate) fn custom_uniform_type(kind: CustomUniformKind) -> TypeId {
     }
 }
 
-/// Why nothing can be declared by `name`, if nothing can: it is a keyword, or the language or the site has it already.
+/// Returns the reason that nothing can be declared by `name`, if nothing can: it is a keyword, or the language or the
+/// site has it already.
 pub fn taken(name: &str) -> Option<&'static str> {
     let entries = [PassKind::Image, PassKind::Cubemap, PassKind::Sound].map(|kind| entry(kind).name);
     if Uniform::ALL.iter().any(|u| u.name() == name) || CHANNELS.contains(&name) || CHANNEL_STRUCTS.contains(&name) {

@@ -175,7 +175,7 @@ pub(super) fn may_be_overloaded(builtin: Builtin) -> bool {
     matches!(builtin, X::Mix | X::TextureSize | X::Texture | X::TextureLod | X::TexelFetch | X::TextureGrad)
 }
 
-/// Which argument is the constant offset (section 8.8).
+/// Returns the argument that is the constant offset (section 8.8).
 pub(super) fn offset_argument(builtin: Builtin) -> Option<usize> {
     use Builtin as X;
     match builtin {

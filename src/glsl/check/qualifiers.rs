@@ -249,7 +249,8 @@ impl Checker<'_> {
         }
     }
 
-    /// Which layouts may stand where (section 4.3.8). None changes anything here: blocks are zero, outputs private.
+    /// Checks that layouts stand where they may (section 4.3.8). None changes anything here: blocks are zero, outputs
+    /// private.
     pub(super) fn check_layout(&mut self, quals: &Qualifiers, of: LayoutOf) {
         let Some((_, items)) = quals.layout else { return };
         let ast = self.ast;

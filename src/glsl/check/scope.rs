@@ -50,7 +50,7 @@ pub(super) struct Scopes {
 }
 
 impl Scopes {
-    /// How many symbols there is room for.
+    /// Returns the number of symbols that there is room for.
     pub fn symbols(&self) -> usize {
         self.table.len()
     }

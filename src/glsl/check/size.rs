@@ -1,4 +1,4 @@
-//! How large a program is once every call is written out, as every driver writes it.
+//! The size of a program once every call is written out, as every driver writes it.
 //!
 //! A shader has no stack: thirty functions of which each calls the one before twice are a billion copies of the first.
 //! A driver that is handed such a program takes all memory and minutes before it gives up, and there is no simpler code

@@ -71,7 +71,7 @@ pub(super) struct Buffer {
     pub align: u32,
 }
 
-/// Where a table lies.
+/// The place of a table.
 #[derive(Clone, Copy)]
 pub(super) enum TablePlace {
     Private(Handle<GlobalVariable>),

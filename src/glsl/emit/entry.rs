@@ -46,7 +46,7 @@ pub(super) fn emit(cx: &mut Emitter<'_>, function: &ir::Function) {
     });
 }
 
-/// What lies at a location; `interpolation` for what passes between stages.
+/// Returns the binding of a location; `interpolation` is of what passes between stages.
 fn at(location: u32, interpolation: Option<Interpolation>) -> Binding {
     let sampling = match interpolation {
         Some(Interpolation::Flat) => Some(Sampling::First),

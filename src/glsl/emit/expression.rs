@@ -13,7 +13,7 @@ use crate::glsl::{
 };
 
 impl Builder<'_, '_> {
-    /// What computes a value.
+    /// Returns the expression that computes a value.
     pub(super) fn expression(&mut self, value: Value, op: &Op) -> Expression {
         if let Op::Compose { ty, ref parts } = *op {
             return self.compose_op(ty, parts);

@@ -24,10 +24,10 @@ pub(super) struct Builder<'m, 'a> {
     pub block: Block,
     /// First and last expression not yet emitted.
     unemitted: Option<(Handle<Expression>, Handle<Expression>)>,
-    /// What each value became, by [`Value::index`].
+    /// The expression of each value, by [`Value::index`].
     values: Vec<Option<Handle<Expression>>>,
     literals: Map<(u8, u32), Handle<Expression>>,
-    /// Where the result goes of a function that returns a long one.
+    /// The place for the result of a function that returns a long one.
     pub long_result: Option<Handle<Expression>>,
     /// By [`ir::VarId`].
     vars: Vec<Handle<LocalVariable>>,
@@ -111,7 +111,7 @@ impl<'m, 'a> Builder<'m, 'a> {
         self.block.push(statement, Span::UNDEFINED);
     }
 
-    /// An expression that is computed here.
+    /// Adds an expression that is computed here.
     pub fn add(&mut self, expression: Expression) -> Handle<Expression> {
         let value = self.f.expressions.append(expression, Span::UNDEFINED);
         let first = self.unemitted.map_or(value, |(first, _)| first);
@@ -119,13 +119,14 @@ impl<'m, 'a> Builder<'m, 'a> {
         value
     }
 
-    /// An expression that is there from the start of the function, or that a statement computes.
+    /// Adds an expression that no `Emit` may cover: it is there from the start of the function, or a statement computes
+    /// it.
     pub fn add_preemitted(&mut self, expression: Expression) -> Handle<Expression> {
         self.emit();
         self.f.expressions.append(expression, Span::UNDEFINED)
     }
 
-    /// What a value or place became.
+    /// Returns the expression of a value or place.
     pub fn value(&mut self, value: Value) -> Handle<Expression> {
         if let Some(made) = self.values[value.index()] {
             return made;
@@ -158,7 +159,7 @@ impl<'m, 'a> Builder<'m, 'a> {
         made
     }
 
-    /// A scalar constant, bit for bit.
+    /// Returns a scalar constant, bit for bit.
     pub fn literal(&mut self, scalar: Scalar, bits: u32) -> Handle<Expression> {
         if let Some(&made) = self.literals.get(&(scalar as u8, bits)) {
             return made;
@@ -176,7 +177,7 @@ impl<'m, 'a> Builder<'m, 'a> {
         }
     }
 
-    /// A constant that naga has none for.
+    /// Composes a constant that naga has none for.
     pub fn composed(&mut self, id: ir::ConstId) -> Handle<Expression> {
         let ir = self.cx.ir;
         let constant = &ir[id];

@@ -72,7 +72,7 @@ impl Builder<'_, '_> {
         if is_face { self.add(Expression::AccessIndex { base: pointer, index: 0 }) } else { pointer }
     }
 
-    /// Whether the elements of this array lie in slots.
+    /// Returns whether the elements of this array lie in slots.
     fn is_padded(&mut self, place: Value) -> bool {
         let Op::Global(id) = self.ir[place] else { return false };
         match self.cx.ir[id].kind {
@@ -111,7 +111,7 @@ impl Builder<'_, '_> {
         })
     }
 
-    /// Where an element of a padded array lies.
+    /// Returns the slot of an element of a padded array.
     fn slot(&mut self, element: Value) -> Slot {
         let ir = self.ir;
         let (base, pointer) = match ir[element] {
@@ -148,7 +148,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// What a place holds.
+    /// Loads the contents of a place.
     pub fn load(&mut self, place: Value) -> Handle<Expression> {
         let ir = self.ir;
         if self.is_padded(place) {

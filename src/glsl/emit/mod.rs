@@ -35,7 +35,7 @@ use super::{
     ir::{self, layout::Layouts},
 };
 
-/// What emission makes.
+/// The result of emission.
 pub(crate) struct Emitted {
     pub module: naga::Module,
     pub tables: TableBytes,

@@ -1,4 +1,4 @@
-//! What naga calls our operators and functions.
+//! Operators and functions of the IR as naga's.
 
 use naga::{BinaryOperator, MathFunction, SwizzleComponent, UnaryOperator};
 

@@ -136,7 +136,7 @@ impl Emitter<'_> {
         block
     }
 
-    /// What a mesh is drawn with.
+    /// Returns the variable with the matrices and the camera that a mesh is drawn with.
     pub fn geometry_block(&mut self) -> Handle<GlobalVariable> {
         if let Some(block) = self.resources.geometry {
             return block;

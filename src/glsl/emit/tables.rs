@@ -33,7 +33,7 @@ pub(in crate::glsl) const LEAST_UNIFORM_TABLE: u32 = 33;
 /// Bytes of a slot there: what a uniform buffer's array elements lie apart at least.
 const SLOT: u32 = 16;
 
-/// What the buffers with constant tables hold; empty: the module has none of that kind.
+/// Contents of the buffers with constant tables; empty: the module has none of that kind.
 pub(crate) struct TableBytes {
     pub uniform: Vec<u8>,
     pub storage: Vec<u8>,

@@ -44,7 +44,7 @@ impl Emitter<'_> {
         self.layouts.of(self.ir, id)
     }
 
-    /// Of a value type: neither void, sampler nor error.
+    /// Returns naga's type of a value: neither void, sampler nor error.
     pub fn ty(&mut self, id: TypeId) -> Handle<naga::Type> {
         if let Some(made) = self.types[id.0 as usize] {
             return made;

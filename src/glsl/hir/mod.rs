@@ -386,7 +386,7 @@ pub enum BinaryOp {
     LogicalXor,
 }
 
-/// How the operand types of a [`BinaryOp`] meet. Orders, equality and `^^` are always `Same`.
+/// The way in which the operand types of a [`BinaryOp`] meet. Orders, equality and `^^` are always `Same`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shape {
     /// Equal types, component by component (for shifts: equal sizes). `Mul` of two matrices is never this.

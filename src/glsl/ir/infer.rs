@@ -3,7 +3,7 @@
 use super::{Binary, Function, Input, Math, Module, Op, Unary, Value};
 use crate::glsl::types::{Scalar, Type, TypeId};
 
-/// The type of an op of this function, or for a place that of what it holds.
+/// Returns the type of an op of this function; for a place, the type of its contents.
 pub fn ty(module: &Module, function: &Function, op: &Op) -> TypeId {
     let of = |value: Value| function.ty(value);
     let size = |value: Value| (module.types.components(of(value)).unwrap_or(1)) as u8;

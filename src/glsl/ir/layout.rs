@@ -28,7 +28,7 @@ impl Layouts {
         matches!(module.types.get(ty), Type::Array { .. } | Type::Struct(_)) && self.of(module, ty).size >= 4 * scalars
     }
 
-    /// The layout of a value's type.
+    /// Returns the layout of a type.
     pub fn of(&mut self, module: &Module, ty: TypeId) -> Layout {
         let index = ty.0 as usize;
         if let Some(&Some(found)) = self.0.get(index) {

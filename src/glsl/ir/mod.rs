@@ -66,7 +66,7 @@ pub struct Global {
     pub kind: GlobalKind,
 }
 
-/// Where a variable of the module lies.
+/// The place of a variable of the module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum GlobalKind {
     /// Memory of one invocation, which begins with this constant, or with zeros.
@@ -82,7 +82,7 @@ pub enum GlobalKind {
 }
 
 impl GlobalKind {
-    /// Whether nothing writes it.
+    /// Returns whether nothing writes it.
     pub fn is_read_only(self) -> bool {
         !matches!(self, GlobalKind::Private { .. })
     }
@@ -99,7 +99,7 @@ pub struct Function {
     nodes: Vec<Node>,
 }
 
-/// What computes a value, its type, and the part of the text that it is computed for.
+/// A value: the operation that computes it, its type, and the part of the text that it is computed for.
 #[derive(Clone, Debug)]
 struct Node {
     op: Op,
@@ -213,14 +213,14 @@ pub struct Case {
     pub falls_through: bool,
 }
 
-/// What an entry point hands on.
+/// A part of the result of an entry point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Output {
     /// A target of a fragment stage.
     Target(u32),
     /// A variable for the fragment stage.
     Varying { location: u32, flat: bool },
-    /// Where a vertex lies, in clip space.
+    /// The place of a vertex, in clip space.
     Position,
     /// The depth of a fragment.
     Depth,
@@ -258,7 +258,7 @@ impl Function {
         self.nodes[value.index()].loc
     }
 
-    /// How many values there are.
+    /// Returns the number of values.
     pub fn len(&self) -> usize {
         self.nodes.len()
     }
@@ -281,7 +281,7 @@ impl Function {
         place
     }
 
-    /// Whether a value is an address.
+    /// Returns whether a value is an address.
     pub fn is_place(&self, value: Value) -> bool {
         match self[self.root(value)] {
             Op::Var(_) | Op::Global(_) => true,
@@ -305,7 +305,7 @@ impl Module {
         GlobalId::new(self.globals.len() - 1)
     }
 
-    /// How many parts a value of a type has: components, columns, elements, members. None of a scalar.
+    /// Returns the number of parts of a type: components, columns, elements, members. A scalar has none.
     pub fn extent(&self, ty: TypeId) -> u32 {
         use super::types::Type;
         match self.types.get(ty) {
@@ -326,7 +326,7 @@ impl Module {
         }
     }
 
-    /// Whether some scalar of a value is a float.
+    /// Returns whether some scalar of a value is a float.
     pub fn holds_floats(&self, ty: TypeId) -> bool {
         use super::types::Type;
         match self.types.get(ty) {

@@ -3,7 +3,7 @@
 use super::ids::{ConstId, FuncId, GlobalId, Value, VarId};
 use crate::glsl::types::{Scalar, Swizzle, TypeId};
 
-/// What computes a value. Operands have the types that each op says; `verify` checks them.
+/// The operation that computes a value. Operands have the types that each op says; `verify` checks them.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Op {
     // Free: no statement computes these.
@@ -17,7 +17,7 @@ pub enum Op {
     Var(VarId),
     /// The address of a variable of the module.
     Global(GlobalId),
-    /// Of the entry point: what the device hands it.
+    /// A value that the device hands to the entry point.
     Input(Input),
 
     // Parts of values and of places.
@@ -80,11 +80,11 @@ pub enum Op {
         value: Value,
         to: Scalar,
     },
-    /// Whether all components of a vector of bools are true.
+    /// True where all components of a vector of bools are true.
     All(Value),
-    /// Whether some component of a vector of bools is true.
+    /// True where some component of a vector of bools is true.
     Any(Value),
-    /// How a float changes from pixel to pixel.
+    /// The change of a float from pixel to pixel.
     Derivative {
         axis: Axis,
         value: Value,
@@ -128,7 +128,7 @@ pub enum Op {
     OpaqueZero,
 }
 
-/// What the device hands to an entry point.
+/// A value that the device hands to an entry point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Input {
     /// `vec4`: where a fragment lies.
@@ -161,7 +161,7 @@ pub enum Binary {
     Subtract,
     Multiply,
     Divide,
-    /// Of ints and uints: the remainder of the division that rounds down, which has the divisor's sign.
+    /// For ints and uints: the remainder of the division that rounds down, which has the divisor's sign.
     Modulo,
     Equal,
     NotEqual,
@@ -179,7 +179,7 @@ pub enum Binary {
 }
 
 impl Binary {
-    /// Whether the result is a bool for each component.
+    /// Returns whether the result is a bool for each component.
     pub fn is_comparison(self) -> bool {
         use Binary::*;
         matches!(self, Equal | NotEqual | Less | LessEqual | Greater | GreaterEqual)
@@ -249,7 +249,7 @@ pub enum Axis {
     Width,
 }
 
-/// Which mip level a sample reads.
+/// The mip level that a sample reads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Level {
     /// By the derivatives of the coordinate.
@@ -317,7 +317,7 @@ macro_rules! each_operand {
 }
 
 impl Op {
-    /// Whether the value is there from the start of its function, without a statement.
+    /// Returns whether the value is there from the start of its function, without a statement.
     pub fn is_free(&self) -> bool {
         use Op::*;
         matches!(self, Literal(..) | Zero(_) | Const(_) | Param(_) | Var(_) | Global(_) | Input(_))

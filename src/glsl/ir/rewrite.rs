@@ -11,10 +11,10 @@ use crate::glsl::{
     types::{Scalar, Type, TypeId},
 };
 
-/// What a pass does to the operations and statements of a function.
+/// A rule that a pass applies to the operations and statements of a function.
 pub trait Rule {
-    /// Says what stands for a value, whose operation has the operands that stand for its own. `None`: the operation
-    /// itself.
+    /// Returns the value that stands for this one, whose operation has the operands that stand for its own. `None`: the
+    /// operation itself stands.
     fn operation(&mut self, r: &mut Rewriter<'_>, value: Value, op: &Op) -> Option<Value>;
 
     /// The function has begun.
@@ -52,13 +52,13 @@ pub struct Rewriter<'m> {
     pub module: &'m Module,
     pub f: Function,
     out: Block,
-    /// What comes before all else.
+    /// Statements that come before all else.
     start: Block,
-    /// What stands for each value of the old function.
+    /// The value that stands for each one of the old function.
     map: Vec<Value>,
     /// Made when a rule asks for one; each is one value already.
     literals: Option<FxHashMap<(Scalar, u32), Value>>,
-    /// Of the operation at hand.
+    /// The place of the operation at hand.
     loc: Loc,
 }
 
@@ -80,7 +80,7 @@ impl<'m> Rewriter<'m> {
         self.f
     }
 
-    /// An operation, computed here.
+    /// Adds an operation, computed here.
     pub fn add(&mut self, op: Op) -> Value {
         let ty = infer::ty(self.module, &self.f, &op);
         self.add_typed(op, ty)
@@ -97,7 +97,7 @@ impl<'m> Rewriter<'m> {
         self.out.push(stmt);
     }
 
-    /// What `add` adds comes before all else that the function does.
+    /// Lets `add` add before all else that the function does.
     pub fn at_start<T>(&mut self, add: impl FnOnce(&mut Self) -> T) -> T {
         std::mem::swap(&mut self.out, &mut self.start);
         let added = add(self);
@@ -105,7 +105,7 @@ impl<'m> Rewriter<'m> {
         added
     }
 
-    /// The same bits, of a scalar or vector of numbers, but joined with a zero that no compiler behind this one can
+    /// Adds the same bits, of a scalar or vector of numbers, joined with a zero that no compiler behind this one can
     /// know.
     pub fn opaque(&mut self, value: Value) -> Value {
         let scalar = self.module.scalar(self.f.ty(value));
@@ -126,7 +126,7 @@ impl<'m> Rewriter<'m> {
         self.push(Stmt::If { condition, accept: vec![jump], reject: Block::new() });
     }
 
-    /// A scalar constant, the same value each time.
+    /// Returns a scalar constant, the same value each time.
     pub fn literal(&mut self, scalar: Scalar, bits: u32) -> Value {
         let literal = |(value, op): (Value, &Op)| match *op {
             Op::Literal(scalar, bits) => Some(((scalar, bits), value)),
@@ -138,7 +138,7 @@ impl<'m> Rewriter<'m> {
         *literals.entry((scalar, bits)).or_insert_with(new)
     }
 
-    /// What stands for a value of the old function by now.
+    /// Returns the value that stands for one of the old function by now.
     pub fn value(&self, old: Value) -> Value {
         // What was added has no other stand-in.
         self.map.get(old.index()).copied().unwrap_or(old)

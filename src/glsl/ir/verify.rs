@@ -47,11 +47,11 @@ pub fn assert_kept(module: &Module, culprit: &str) {
 struct Check<'a> {
     module: &'a Module,
     function: &'a Function,
-    /// The function's number: it calls those before it alone.
+    /// The number of the function, which calls only those before it.
     index: usize,
-    /// Whether the value is computed wherever control passes here, by [`Value::index`].
+    /// True where the value is computed wherever control passes here, by [`Value::index`].
     available: Vec<bool>,
-    /// Whether a variable begins with a value, or something was written to it, by
+    /// True where a variable begins with a value, or something was written to it, by
     /// [`VarId::index`](super::VarId::index).
     written: Vec<bool>,
     /// Loops and switches around, and loops.
@@ -163,7 +163,7 @@ impl Check<'_> {
         }
     }
 
-    /// What `break_if` names may be computed in the block.
+    /// Checks the part of a loop that may compute the value of `break_if`.
     fn continuing(&mut self, block: &Block, break_if: Option<Value>) -> Result<(), String> {
         let mut defined = Vec::new();
         for stmt in block {

@@ -2,7 +2,7 @@
 
 use super::token::{Kind, is_name};
 
-/// Why a number is none.
+/// The reason that a number is none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub(in crate::glsl) enum BadNumber {

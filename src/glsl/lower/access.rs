@@ -13,7 +13,7 @@ use crate::glsl::{
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
     pub pointer: Value,
-    /// Of what the pointer points to.
+    /// The type that the pointer points to.
     pub ty: TypeId,
     /// Components of it that are meant; none: all of it.
     pub swizzle: Option<Swizzle>,
@@ -46,7 +46,7 @@ impl Builder<'_, '_> {
         Ok(self.load_place(place))
     }
 
-    /// What members, swizzles and indices stand on, and these from the outermost inwards.
+    /// Returns the base of members, swizzles and indices, and these from the outermost inwards.
     fn chain(&self, expr: ExprId) -> (ExprId, Vec<ExprId>) {
         let mut links = Vec::new();
         let mut root = expr;

@@ -1,4 +1,4 @@
-//! How arguments are handed over: what a copy of a function has in place of parameters, and which it reads where they
+//! Calling conventions: parameters that a copy of a function is specialized for, and those that it reads where they
 //! are.
 
 use std::collections::HashSet;
@@ -19,10 +19,10 @@ pub(super) struct Instance {
     pub specializations: Box<[Specialization]>,
 }
 
-/// What a copy of a function has in place of one of its parameters.
+/// A value known at compile time that a copy of a function has in place of one of its parameters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) enum Specialization {
-    /// Nothing: the argument is passed at run time.
+    /// Passed at run time.
     None,
     /// The channel a sampler stands for.
     Channel(u8),
@@ -32,26 +32,25 @@ pub(super) enum Specialization {
     Table(ConstId),
 }
 
-/// What a call passes for such a parameter.
+/// The argument of a call for such a parameter.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Passed {
     Known(Specialization),
-    /// What the caller itself has for one of its parameters, counted among those that can be specialized.
+    /// The specialization that the caller itself has of a parameter, counted among those that can be specialized.
     Param(usize),
 }
 
-/// How arguments are handed over in a module.
+/// The calling conventions of a module.
 pub(super) struct Arguments {
-    /// Which locals some call takes as a whole for a parameter that is indexed, there or in what it calls in turn; by
+    /// Locals that some call takes as a whole for a parameter that is indexed, there or in what it calls in turn; by
     /// [`LocalId::index`]. They are memory, as if they were indexed themselves: the call then reads them where they
     /// are.
     pub handed_on: Vec<bool>,
-    /// Which globals a function or what it calls writes, by [`FuncId::index`]; `None`: too many to tell, so any of
-    /// them.
+    /// Globals that a function or what it calls writes, by [`FuncId::index`]; `None`: too many to tell, so any of them.
     written: Vec<Option<HashSet<GlobalId>>>,
     /// Parameters of each function that a copy of it can have something in place of, in order.
     specializable: Vec<Vec<LocalId>>,
-    /// How many expressions name each constant, by [`ConstId::index`].
+    /// The number of expressions that name each constant, by [`ConstId::index`].
     named: Vec<u32>,
     /// See [`Options::table`](super::options::Options::table).
     table: usize,
@@ -90,8 +89,8 @@ impl Arguments {
         made
     }
 
-    /// Whether a constant is a table rather than a few numbers written into one call: those are cheaper put into memory
-    /// where they are needed than at the start of every invocation.
+    /// Returns whether a constant is a table rather than a few numbers written into one call: those are cheaper put
+    /// into memory where they are needed than at the start of every invocation.
     fn is_table(&self, module: &Module, id: ConstId) -> bool {
         self.named[id.index()] > 1 || module[module[id].words].len() >= self.table
     }
@@ -104,18 +103,18 @@ impl Arguments {
         matches!(module.types.get(module[param].ty), Type::Sampler { .. }) || self.reads_in_place(module, param)
     }
 
-    /// Whether a function or what it calls writes a global.
+    /// Returns whether a function or what it calls writes a global.
     pub fn writes(&self, func: FuncId, global: GlobalId) -> bool {
         self.written[func.index()].as_ref().is_none_or(|written| written.contains(&global))
     }
 
-    /// Whether a local is indexed, in its function or in one it is handed to as a whole.
+    /// Returns whether a local is indexed, in its function or in one it is handed to as a whole.
     pub fn is_indexed(&self, module: &Module, local: LocalId) -> bool {
         module[local].flags.contains(VarFlags::INDEXED) || self.handed_on[local.index()]
     }
 
-    /// Whether a parameter is only read, but indexed in a way values cannot be: then it is a pointer to what the caller
-    /// has, or that itself, and not a copy that each call fills anew, element by element.
+    /// Returns whether a parameter is only read, but indexed in a way values cannot be: then it is a pointer to what
+    /// the caller has, or that itself, and not a copy that each call fills anew, element by element.
     pub fn reads_in_place(&self, module: &Module, param: LocalId) -> bool {
         let declared = &module[param];
         !declared.kind.copies_out()
@@ -124,7 +123,7 @@ impl Arguments {
             && !matches!(module.types.get(declared.ty), Type::Scalar(_) | Type::Vector { .. } | Type::Sampler { .. })
     }
 
-    /// What a call in `caller` (none: an initialiser) passes for those.
+    /// Returns the arguments of a call in `caller` (none: an initialiser) for those.
     pub fn passed(&self, module: &Module, caller: Option<FuncId>, func: FuncId, args: &[ExprId]) -> Vec<Passed> {
         let first = module[func].locals.start as usize;
         let last_effect = last_effect(module, args);

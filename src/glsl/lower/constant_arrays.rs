@@ -23,7 +23,7 @@ const MOST: usize = 64;
 /// Members of a structure: they are counted for each store.
 const MOST_MEMBERS: usize = 64;
 
-/// How deep the call may lie that fills an array.
+/// The depth of calls at which an array may be filled.
 const MOST_CALLS: u32 = 16;
 
 /// Makes constants of the arrays of at least so many scalars that are filled with constants before all else, and takes
@@ -50,7 +50,7 @@ struct Array {
     words: Vec<u32>,
     /// Statements that do nothing but store constants here.
     stores: Vec<StmtId>,
-    /// How many expressions write it, and how many of those are in these statements.
+    /// The numbers of expressions that write it: all, and those in these statements.
     written: usize,
     seen: usize,
     /// Something may have read it: what is stored from now on is no first value.
@@ -94,7 +94,7 @@ fn candidates(module: &Module, least: usize) -> Vec<Array> {
     found
 }
 
-/// Members of the structure that an array has elements of.
+/// Counts the members of the structure that an array has elements of.
 fn members(module: &Module, ty: TypeId) -> usize {
     match module.types.element(ty).map(|element| module.types.get(element)) {
         Some(Type::Struct(id)) => module[id].members.len(),
@@ -102,7 +102,7 @@ fn members(module: &Module, ty: TypeId) -> usize {
     }
 }
 
-/// Scalars of a value.
+/// Counts the scalars of a type.
 fn words(module: &Module, ty: TypeId) -> usize {
     match module.types.get(ty) {
         Type::Array { element, len } => words(module, element) * len as usize,
@@ -111,7 +111,7 @@ fn words(module: &Module, ty: TypeId) -> usize {
     }
 }
 
-/// How many expressions call each function, by [`FuncId::index`](crate::glsl::hir::FuncId::index).
+/// Counts the expressions that call each function, by [`FuncId::index`](crate::glsl::hir::FuncId::index).
 fn call_counts(module: &Module) -> Vec<u32> {
     let mut counts = vec![0; module.functions.len()];
     for expr in &module.exprs {
@@ -125,7 +125,7 @@ fn call_counts(module: &Module) -> Vec<u32> {
 struct Search<'a> {
     module: &'a Module,
     arrays: &'a mut [Array],
-    /// Which arrays each function or what it calls names, by [`FuncId::index`](crate::glsl::hir::FuncId::index): a bit
+    /// Arrays that each function or what it calls names, by [`FuncId::index`](crate::glsl::hir::FuncId::index): a bit
     /// for each.
     named: Vec<u64>,
     calls: Vec<u32>,
@@ -140,7 +140,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The arrays that an expression names by itself, or what it calls.
+    /// Returns the arrays that an expression or what it calls names.
     fn names(&self, expr: ExprId) -> u64 {
         match self.module[expr].kind {
             ExprKind::Global(global) => {
@@ -152,7 +152,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// What runs before the entry point may read them.
+    /// Closes the arrays that run-time initialisers of globals name.
     fn global_initialisers(&mut self) {
         let module = self.module;
         for global in &module.globals {
@@ -162,7 +162,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// These run, and may read and write what they name.
+    /// Closes the arrays that statements and expressions name: these run, and may read and write them.
     fn close(&mut self, stmts: &[StmtId], exprs: &[ExprId]) {
         let mut named = 0;
         super::walk::walk(self.module, stmts, exprs, |node, _| {
@@ -175,8 +175,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Statements in the order in which they run, of a function that so many calls lead to; `false`: control may not
-    /// reach their end. In the entry point that is all the same, as nothing follows it.
+    /// Follows statements in the order in which they run, of a function that so many calls lead to. Returns `false`
+    /// where control may not reach their end. In the entry point that is all the same, as nothing follows it.
     fn statements(&mut self, list: List<StmtId>, calls: u32) -> bool {
         let module = self.module;
         for (i, &stmt) in module[list].iter().enumerate() {
@@ -267,16 +267,16 @@ impl<'a> Search<'a> {
 
 /// An assignment of a constant to a part of an array.
 struct Store<'a> {
-    /// Which array.
+    /// The array, by its place among those that are looked for.
     at: usize,
-    /// Where the part begins.
+    /// The scalar that the part begins at.
     from: usize,
-    /// Which of its components are meant, of a vector.
+    /// The components that are stored, where the part is a vector and not all are.
     components: Option<Swizzle>,
     value: &'a [u32],
 }
 
-/// Whether a statement can end the function that it stands in.
+/// Returns whether a statement can end the function that it stands in.
 fn may_leave(module: &Module, stmt: StmtId) -> bool {
     let mut leaves = false;
     super::walk::walk(module, &[stmt], &[], |node, _| {

@@ -19,7 +19,7 @@ pub(super) struct Lowering<'a> {
     pub hir: &'a hir::Module,
     pub source: &'a PassSource<'a>,
     pub options: Options,
-    /// Of a stage: where its inputs and outputs lie.
+    /// The locations of the inputs and outputs of a stage.
     pub interface: Interface,
     pub out: ir::Module,
     pub layouts: Layouts,
@@ -68,7 +68,7 @@ impl Resources {
     }
 }
 
-/// The constant of the program that a folded value is.
+/// Returns the constant of the program that a folded value is.
 pub(super) fn const_id(id: hir::ConstId) -> ir::ConstId {
     ir::ConstId::new(id.index())
 }
@@ -83,7 +83,7 @@ pub(super) struct Probed {
     pub visit: u32,
     /// A `vec4`; not known before the probe has been at the value.
     pub value: ir::GlobalId,
-    /// How often the expression has been evaluated: an `int`.
+    /// The number of times that the expression has been evaluated: an `int`.
     pub visits: ir::GlobalId,
 }
 

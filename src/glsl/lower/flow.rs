@@ -203,9 +203,9 @@ impl Builder<'_, '_> {
         self.push(Stmt::Switch { selector, cases });
     }
 
-    /// Where a body runs into the next one, naga's writers disagree on what they accept. So a first switch finds the
-    /// number of the body to begin with, and a second, with one case, holds all bodies, each under a test that it is
-    /// reached; a `break` leaves it.
+    /// Adds a switch in which a body runs into the next one. naga's writers disagree on what they accept there, so a
+    /// first switch finds the number of the body to begin with, and a second, with one case, holds all bodies, each
+    /// under a test that it is reached; a `break` leaves it.
     fn switch_with_fall_through(&mut self, selector: Value, cases: &[Case], bodies: Vec<(Block, bool)>) {
         use crate::glsl::hir::Scalar;
         let first = self.temporary(TypeId::INT);

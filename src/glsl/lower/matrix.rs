@@ -68,7 +68,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Of the element in column i, row j.
+    /// Returns the cofactor of the element in column i, row j.
     fn cofactor(&mut self, m: &[Vec<Value>], i: usize, j: usize) -> Value {
         let without = |skip: usize| (0..m.len()).filter(|&k| k != skip).collect::<Vec<_>>();
         let minor = self.minor(m, &without(i), &without(j));

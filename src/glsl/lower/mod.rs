@@ -4,7 +4,7 @@
 //! Owns the meaning of running code: evaluation order, copies of `out` and `inout` arguments, the zero that WebGL gives
 //! to everything undefined, clamped indices. Judges nothing: it runs only on programs without errors, and reports none.
 //!
-//! What the generated code looks like, and why:
+//! The form of the generated code, and reasons:
 //! - Only what the entry point reaches is lowered ([`reachable`]). A branch whose condition is a literal is not
 //!   reached.
 //! - A variable that nobody writes is a value, not memory. All others are variables of the function or of the module.
@@ -60,7 +60,7 @@ use super::{
     stages::Interface,
 };
 
-/// What lowering makes.
+/// The result of lowering.
 pub(crate) struct Lowered {
     pub program: ir::Module,
     pub reflection: Reflection,

@@ -12,7 +12,7 @@ pub(in crate::glsl) struct Names {
     /// By [`ir::FuncId::index`].
     pub functions: Vec<FunctionNames>,
     pub globals: Vec<(Symbol, ir::GlobalId)>,
-    /// Of each structure its members, by [`StructId::index`](crate::glsl::types::StructId::index).
+    /// The members of each structure, by [`StructId::index`](crate::glsl::types::StructId::index).
     pub members: Vec<Vec<Symbol>>,
 }
 
@@ -21,11 +21,11 @@ pub(in crate::glsl) struct Names {
 pub(in crate::glsl) struct FunctionNames {
     /// None of the code around the author's.
     pub name: Option<Symbol>,
-    /// Parameters and local variables, in the order of their declarations: each is a value, or a place.
+    /// Parameters and local variables, in the order of their declarations: each name has a value, or a place.
     pub locals: Vec<(Symbol, ir::Value)>,
-    /// Zeros that stand for what GLSL leaves undefined, where these are marked.
+    /// Zeros in place of values that GLSL leaves undefined, where these are marked.
     pub undefined: Vec<ir::Value>,
-    /// Which they are, in the same order.
+    /// The variables of `locals`, in the same order.
     pub ids: Vec<LocalId>,
     /// Values that mean nothing but that control has come to a part of the text; only where they are asked for.
     pub marks: Vec<(ir::Value, Mark)>,
@@ -44,11 +44,11 @@ pub(in crate::glsl) enum Mark {
     Step(StmtId),
 }
 
-/// What is marked in a program for who walks through it; nothing for a device.
+/// Marks in a program for who walks through it; a device needs none.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::glsl) struct Marks {
-    /// What GLSL leaves undefined is told from zeros that the author wrote ([`FunctionNames::undefined`]).
+    /// Zeros in place of undefined values are told from zeros that the author wrote ([`FunctionNames::undefined`]).
     pub undefined: bool,
-    /// Where each statement begins ([`FunctionNames::marks`]).
+    /// The beginning of each statement is marked ([`FunctionNames::marks`]).
     pub statements: bool,
 }

@@ -1,6 +1,6 @@
 //! Options of lowering.
 
-/// How a program is laid out, for who comes behind lowering. None of it changes what the program computes.
+/// The layout of a program, for who comes behind lowering. None of it changes what the program computes.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::glsl) struct Options {
     /// The scalars from which on an array or structure is passed by reference; `None`: each is passed by value where it

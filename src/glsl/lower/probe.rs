@@ -66,7 +66,8 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// What the pass draws instead of its picture: the probed value, or four NaN where the probe never was.
+    /// Loads the value that the pass draws instead of its picture: the probed one, or four NaN where the probe never
+    /// was.
     pub fn probed_value(&mut self) -> Option<Value> {
         let Probed { visit, value, visits, .. } = self.cx.probed?;
         let (value, visits) = (self.global(value), self.global(visits));

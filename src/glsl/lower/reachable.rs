@@ -1,5 +1,5 @@
-//! What the entry point reaches: functions, once for each combination of channels and tables passed to them, and
-//! globals.
+//! The part of a program that the entry point reaches: functions, once for each combination of channels and tables
+//! passed to them, and globals.
 //!
 //! A branch whose condition is a literal counts as not there; [`super::flow`] and [`super::expr`] leave out the same
 //! ones. Reads of uniforms and textures are noted while lowering, which visits exactly what is found here.
@@ -27,7 +27,7 @@ pub(super) struct Reachable {
 /// Calls in a body, with what they pass.
 type Calls = Vec<(FuncId, Vec<Passed>)>;
 
-/// What a function body or an initialiser names.
+/// The names in a function body or an initialiser.
 #[derive(Default)]
 struct Facts {
     calls: Vec<(FuncId, List<ExprId>)>,
@@ -110,7 +110,8 @@ impl Reachable {
     }
 }
 
-/// What is reached of a body: how many expressions and statements, and the functions they call, once for each call.
+/// Returns the number of expressions and statements that are reached of a body, and the functions that they call, once
+/// for each call.
 pub(in crate::glsl) fn reached(module: &Module, body: List<StmtId>) -> (usize, Vec<FuncId>) {
     let mut walk = Walk::new(module);
     walk.statements(body);
@@ -118,7 +119,7 @@ pub(in crate::glsl) fn reached(module: &Module, body: List<StmtId>) -> (usize, V
     (facts.nodes, facts.calls.into_iter().map(|(func, _)| func).collect())
 }
 
-/// The value of a condition that is a literal.
+/// Returns the value of a condition that is a literal.
 pub(super) fn known_bool(module: &Module, expr: ExprId) -> Option<bool> {
     match module[expr].kind {
         ExprKind::Literal(bits) => Some(bits != 0),

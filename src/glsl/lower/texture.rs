@@ -7,7 +7,7 @@ use crate::glsl::{
     ir::{Binary, Level, Op, Value},
 };
 
-/// What distinguishes the sampling functions.
+/// The differences between the sampling functions.
 struct Form {
     /// The coordinate's last component divides.
     proj: bool,

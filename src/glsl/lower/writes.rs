@@ -1,4 +1,4 @@
-//! Which places expressions write.
+//! Places that expressions write.
 
 use crate::glsl::hir::{Builtin, ExprId, ExprKind, Module};
 

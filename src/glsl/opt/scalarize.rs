@@ -1,6 +1,6 @@
 //! Vector arithmetic, written out by component.
 //!
-//! Which terms of sums and products a driver joins depends on whether it looks before or after it splits vectors.
+//! A driver joins other terms of sums and products where it looks before it splits vectors than where it looks after.
 //! OpenGL drivers split first, Vulkan ones later, so last bits differ; here it is done beforehand. Devices that compute
 //! by component have as much to do either way.
 
@@ -64,7 +64,7 @@ fn known_part(r: &Rewriter<'_>, value: Value, index: u32) -> Option<Value> {
     }
 }
 
-/// Whether a function works on each component alone.
+/// Returns whether a function works on each component alone.
 fn is_by_component(fun: Math) -> bool {
     use Math::*;
     matches!(

@@ -1,4 +1,4 @@
-//! What passes make of small programs, as snapshots that a person can read. `cargo insta review`, or
+//! Small programs before and after a pass, as snapshots that a person can read. `cargo insta review`, or
 //! `INSTA_UPDATE=always`, takes a change over.
 
 use super::{PASSES, identity};

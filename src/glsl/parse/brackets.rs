@@ -1,5 +1,5 @@
-//! Which bracket belongs to which, found before parsing: it decides what `a[..] b` is without trying both, and lets the
-//! parser step over a group that it did not understand.
+//! Pairs of brackets, found before parsing: they tell what `a[..] b` is without trying both, and let the parser step
+//! over a group that it did not understand.
 
 use crate::glsl::{lex::Kind, preprocess::Tok};
 

@@ -82,7 +82,7 @@ impl Parser<'_> {
         self.fail(i, message, hint)
     }
 
-    /// What follows is a declaration rather than an expression or another statement.
+    /// Returns whether a declaration follows rather than an expression or another statement.
     #[inline]
     pub(super) fn begins_declaration(&self) -> bool {
         match self.kind() {

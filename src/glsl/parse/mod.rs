@@ -43,13 +43,13 @@ pub(crate) struct Parsed {
     reader: Reader,
 }
 
-/// What texts leave to those that follow them.
+/// State that texts leave to those that follow them.
 #[derive(Default)]
 struct Reader {
     /// As many as `origins.tokens`.
     tokens: Vec<Tok>,
     macros: MacroTable,
-    /// How many pieces were read.
+    /// The number of pieces that were read.
     pieces: usize,
     has_line_numbers: bool,
     /// Says whether a struct has the name, by symbol.

@@ -48,7 +48,7 @@ pub(super) struct Parser<'p> {
 /// Section 3.9 leaves the limit open; WebGL 2 has this one.
 const MAX_NAME: usize = 1024;
 
-/// How deep calls may nest before exact heights of trees are looked at: each call adds at most two levels.
+/// The depth to which calls may nest before exact heights of trees are looked at: each call adds at most two levels.
 pub(super) const SAFE_DEPTH: u32 = 100;
 
 impl Parser<'_> {

@@ -43,7 +43,7 @@ impl Preamble {
         Some(Self { checked, mentioned, values: values.to_vec(), parsed })
     }
 
-    /// What [`super::check_common`] says, without reading Common again.
+    /// Returns the diagnostics of [`super::check_common`], without reading Common again.
     pub fn check_common(&self, custom_uniforms: &[CustomUniform<'_>]) -> Vec<Diagnostic> {
         // Whatever it could be refused for differs from pass to pass.
         if self.checked.is_some() {

@@ -14,7 +14,7 @@ const CODE: SourceId = SourceId(1);
 const INCLUDED: SourceId = SourceId(2);
 const IMAGE: &str = "void mainImage(out vec4 c, in vec2 p) { c = vec4(f(p.x), p, 1.0); }";
 
-/// How much of Common is read before.
+/// The part of Common that is read before.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kept {
     Nothing,
@@ -77,7 +77,7 @@ impl<'a> Case<'a> {
         (kept, diagnostics.into_iter().map(|d| d.message).collect())
     }
 
-    /// What the editor is told of each place is the same, too.
+    /// Compares the editor's answers for each place.
     #[track_caller]
     fn compare_analyses(&self, preamble: Option<&Preamble>) {
         let (own, behind) = (Analysis::new(&self.source()), Analysis::behind(&self.source(), preamble));

@@ -81,7 +81,7 @@ struct Evaluation<'e, 'p, 'a, 'r> {
     end: Token,
 }
 
-/// How tightly an operator binds; higher is tighter.
+/// Returns the precedence of an operator; a higher one binds tighter.
 fn precedence(kind: Kind) -> u32 {
     match kind {
         Kind::OrOr => 1,

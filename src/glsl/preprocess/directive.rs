@@ -1,4 +1,4 @@
-//! Which directive a line is, and what all of them but `#define` do: conditionals, `#error`, `#line`, `#version`,
+//! Directives, told by their names, and the work of all but `#define`: conditionals, `#error`, `#line`, `#version`,
 //! `#extension`, `#pragma`.
 
 use super::state::{Conditional, Preprocessor};

@@ -3,14 +3,14 @@
 use super::{macros::MacroTable, token::Tok};
 use crate::glsl::ast::Origins;
 
-/// What the parser goes on with, and what the preprocessor goes on with where further texts follow.
+/// Preprocessed tokens for the parser, and the state of the preprocessor where further texts follow.
 #[derive(Clone, Debug, Default)]
 pub(in crate::glsl) struct Preprocessed {
     /// As many as `origins.tokens`; the last is `Eof`.
     pub tokens: Vec<Tok>,
     pub origins: Origins,
     pub macros: MacroTable,
-    /// How many pieces were read.
+    /// The number of pieces that were read.
     pub pieces: usize,
     /// The text ends before its end, which was reported: an open comment or conditional hides what may be missing.
     pub is_cut: bool,

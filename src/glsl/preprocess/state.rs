@@ -19,7 +19,7 @@ use crate::{
 /// Tokens that macros may produce, those that are read again and again counted each time. Ten times what the largest
 /// known shader needs; a bomb reaches it in a fraction of a second.
 pub(super) const MAX_MACRO_TOKENS: u32 = 2_000_000;
-/// How deep macro calls may stand in each other's arguments.
+/// The depth to which macro calls may stand in each other's arguments.
 pub(super) const MAX_CALL_DEPTH: u32 = 200;
 
 /// An `#if` that is open.
@@ -43,7 +43,7 @@ pub(super) struct Preprocessor<'a, 'r> {
     pub pieces: &'r [Piece<'a>],
     /// Reads the current piece.
     pub lexer: Lexer<'a>,
-    /// Which of the pieces is being read.
+    /// The piece that is being read.
     pub current: usize,
     pub names: &'r mut Interner,
     pub report: &'r mut Report,

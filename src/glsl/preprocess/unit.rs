@@ -27,7 +27,7 @@ impl Unit {
 
 /// Says where lines end, in the pieces that were asked for.
 pub(super) struct LineCount {
-    /// How many ends of lines precede each piece, and the offsets of its own in its text.
+    /// The number of ends of lines that precede each piece, and the offsets of its own in its text.
     pub ends: Vec<(i32, Vec<u32>)>,
     /// Says what is to be added: the header's lines, or what `#line` made of them.
     pub shift: i32,

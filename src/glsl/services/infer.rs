@@ -16,7 +16,7 @@ use crate::glsl::{
 };
 use std::ops::Range;
 
-/// How many macros may stand in each other, and how deep groups may nest.
+/// The number of macros that may stand in each other, and the depth to which groups may nest.
 const MAX_DEPTH: u32 = 40;
 
 pub(super) struct Infer<'a> {

@@ -1,4 +1,4 @@
-//! How well a name fits the letters typed so far.
+//! Ranks of names by the letters typed so far.
 
 /// Smaller is better; `None`: it does not fit. Letters must come in order and the first one must begin a word of the
 /// name, so that `sms` finds `smoothstep` and `step` does too.

@@ -1,4 +1,4 @@
-//! Which names mean something at a place, broken text or not.
+//! Names that mean something at a place, broken text or not.
 //!
 //! The checker's scopes are gone when it is done, and it sees no half statement. What it did understand (functions,
 //! their locals, globals) is joined here with the brackets of the text as written.

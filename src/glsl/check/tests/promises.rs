@@ -52,7 +52,7 @@ fn words(module: &Module, ty: TypeId) -> u32 {
 
 struct Walk<'m> {
     module: &'m Module,
-    /// Which expressions have been met.
+    /// Expressions that have been met.
     parents: Vec<bool>,
 }
 

@@ -1,7 +1,7 @@
 //! Long values that are stored as a whole: copies, by loops, and constructors that hold such.
 //!
-//! What a constructor computes element by element stays a store for each: to put them into short arrays that loops copy
-//! was tried, which made arrays of numbers faster to compile, and arrays of structures slower.
+//! Elements that a constructor computes stay a store each: to put them into short arrays that loops copy was tried,
+//! which made arrays of numbers faster to compile, and arrays of structures slower.
 
 use naga::{
     AddressSpace, ArraySize, BinaryOperator, Block, Expression, Function, Handle, Range, Span, Statement, Type,
@@ -46,7 +46,7 @@ fn root(function: &Function, mut pointer: Value) -> Value {
     pointer
 }
 
-/// Whether two roots are different memory for sure. What a pointer argument points to may be any variable.
+/// Returns whether two roots are different memory for sure. A pointer argument may point to any variable.
 fn are_apart(function: &Function, a: Value, b: Value) -> bool {
     use Expression::{GlobalVariable, LocalVariable};
     match (&function.expressions[a], &function.expressions[b]) {
@@ -83,7 +83,7 @@ impl Writer<'_> {
         true
     }
 
-    /// Whether loops are the better way to store this value, and can be.
+    /// Returns whether loops are the better way to store this value, and can be.
     fn is_dear(&self, ty: Handle<Type>, value: Value, loads: &Loads) -> bool {
         let is_long = self.sizes.longest(ty) >= LEAST_COPY;
         is_long
@@ -103,7 +103,7 @@ impl Writer<'_> {
             }
     }
 
-    /// Whether a constructor's long parts are read from memory that it is stored to, or from anyone's.
+    /// Returns whether a constructor's long parts are read from memory that it is stored to, or from anyone's.
     fn reads(&self, value: Value, target: Value) -> bool {
         match &self.function.expressions[value] {
             Expression::Load { pointer } => {

@@ -1,8 +1,8 @@
-//! How many scalars the types of a module hold.
+//! Sizes of the types of a module, in scalars.
 
 use naga::{ArraySize, Handle, Type, TypeInner, UniqueArena};
 
-/// How much memory types take, by [`Handle::index`].
+/// The memory that types take, by [`Handle::index`].
 pub(super) struct Sizes {
     scalars: Vec<u32>,
     /// Scalars of the longest array within.

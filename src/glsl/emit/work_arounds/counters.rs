@@ -29,8 +29,8 @@ impl Rule for Counters {
     fn operation(&mut self, r: &mut Rewriter<'_>, value: Value, op: &Op) -> Option<Value> {
         let Op::Element { base, index } = *op else { return None };
         let Type::Array { len, .. } = r.module.types.get(r.f.ty(base)) else { return None };
-        let is_written_out = self.depth > 1 && len.saturating_pow(self.depth) > BODIES;
-        if !is_written_out || !r.f.is_place(base) || !matches!(r.f[index], Op::Load { .. }) {
+        let mesa_unrolls = self.depth > 1 && len.saturating_pow(self.depth) > BODIES;
+        if !mesa_unrolls || !r.f.is_place(base) || !matches!(r.f[index], Op::Load { .. }) {
             return None;
         }
         let index = r.opaque(index);

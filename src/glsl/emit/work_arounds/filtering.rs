@@ -19,7 +19,7 @@ pub(super) fn run(program: &mut Module, channels: [bool; 4]) {
     rewrite::each_function(program, || ByHand(channels));
 }
 
-/// Which channels are filtered by hand.
+/// The channels that are filtered by hand.
 struct ByHand([bool; 4]);
 
 impl Rule for ByHand {

@@ -1,4 +1,4 @@
-//! What loops count down to, hidden from drivers that take its largest value for its least.
+//! Limits that loops count down to, hidden from drivers that take their largest value for their least.
 //!
 //! Mesa's `nir_loop_analyze.c` bounds the rounds of a loop whose counter is compared with `min(c, x)` as if that were
 //! `c`. This is right for `i < min(c, x)`, but `for (int i = 4; i > min(6, x); i--)` then has no round at all. The
@@ -29,7 +29,7 @@ struct Limits {
     /// Comparisons, and whether their left and right sides are limits: what something is compared with where a loop goes
     /// on while that is greater.
     found: FxHashMap<Value, [bool; 2]>,
-    /// What variables may hold.
+    /// The values that variables may hold.
     stores: FxHashMap<VarId, Vec<Value>>,
     /// Variables whose tests are noted, and whether a loop goes on where they hold.
     followed: FxHashSet<(VarId, bool)>,
@@ -95,7 +95,7 @@ impl Limits {
     }
 }
 
-/// Whether a value is read from a variable, or has just been stepped.
+/// Returns whether a value is read from a variable, or has just been stepped.
 fn is_counted(f: &Function, value: Value) -> bool {
     let is_load = |value: Value| matches!(f[value], Op::Load { .. });
     match f[value] {
@@ -104,7 +104,7 @@ fn is_counted(f: &Function, value: Value) -> bool {
     }
 }
 
-/// Whether a block ends with leaving the loop, or the function.
+/// Returns whether a block ends with leaving the loop, or the function.
 fn leaves(block: &Block) -> bool {
     matches!(block.last(), Some(Stmt::Break | Stmt::Return(_)))
 }

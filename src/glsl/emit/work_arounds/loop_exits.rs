@@ -26,7 +26,7 @@ impl Rule for LoopExits {
     }
 }
 
-/// Whether nothing is written before the first exit.
+/// Returns whether nothing is written before the first exit.
 fn begins_with_exit(f: &Function, body: &Block) -> bool {
     let leaves = |block: &Block| matches!(block.first(), Some(Stmt::Break));
     let first = body.iter().find(|stmt| match stmt {

@@ -33,7 +33,7 @@ fn block(f: &mut Function, stmts: &mut Block) {
     }
 }
 
-/// Whether a round of the loop around may end in a block.
+/// Returns whether a round of the loop around may end in a block.
 fn continues(block: &Block) -> bool {
     block.iter().any(|stmt| match stmt {
         Stmt::Continue => true,

@@ -62,7 +62,7 @@ fn constant_path(r: &Rewriter<'_>, mut place: Value) -> Option<Vec<u32>> {
     Some(path)
 }
 
-/// What a place holds, in a way that the driver does not see through.
+/// Loads the contents of a place, in a way that the driver does not see through.
 fn load(r: &mut Rewriter<'_>, place: Value, ty: TypeId) -> Value {
     if !matches!(r.module.types.get(ty), Type::Array { .. } | Type::Matrix { .. }) {
         let value = r.add_typed(Op::Load { place }, ty);

@@ -86,7 +86,7 @@ impl Builder<'_, '_> {
         value
     }
 
-    /// Whether a variable can begin with a constant: it is not long, and holds numbers alone.
+    /// Returns whether a variable can begin with a constant: it is not long, and holds numbers alone.
     pub fn is_initialiser(&mut self, id: ConstId) -> bool {
         let constant = &self.cx.out[const_id(id)];
         let ty = constant.ty;

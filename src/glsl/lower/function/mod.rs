@@ -18,7 +18,7 @@ use crate::glsl::{
     ir::{self, Block, Op, Param, Stmt, Value},
 };
 
-/// What a parameter or local variable is in the generated code.
+/// The form of a parameter or local variable in the generated code.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Slot {
     /// Its declaration was not met yet.
@@ -49,11 +49,12 @@ pub(super) struct Builder<'m, 'a> {
     zeros: Map<TypeId, Value>,
     constants: Map<u32, Value>,
     globals: Map<ir::GlobalId, Value>,
-    /// How many loops the code at hand lies in.
+    /// The number of loops that the code at hand lies in.
     pub loops: usize,
     pub result: TypeId,
-    /// The author's function, none of the code around the entry point; and what this copy has in place of parameters.
+    /// The author's function; `None` for the code around the entry point.
     pub func: Option<FuncId>,
+    /// The specializations of this copy, one for each parameter that can have one.
     pub specializations: Box<[Specialization]>,
     /// See [`FunctionNames::undefined`].
     pub undefined: Vec<Value>,
@@ -88,7 +89,7 @@ pub(super) fn lower(cx: &mut Lowering<'_>, instance: &Instance) -> (ir::Function
 }
 
 impl<'m, 'a> Builder<'m, 'a> {
-    /// For a function whose locals are `count` from `first_local`.
+    /// Returns a builder of a function whose locals are `count` from `first_local`.
     pub fn new(cx: &'m mut Lowering<'a>, first_local: usize, count: usize) -> Self {
         Self {
             cx,
@@ -117,7 +118,7 @@ impl<'m, 'a> Builder<'m, 'a> {
         self.f
     }
 
-    /// Says what a function's parameters are; `argument` gives the next one, of this type.
+    /// Declares the parameters of a function; `argument` returns the next one, of this type.
     pub fn parameters(&mut self, func: FuncId, mut argument: impl FnMut(&mut Self, Param) -> Value) {
         let hir = self.cx.hir;
         let specializable = self.cx.arguments.specializable(func).to_vec();
@@ -153,20 +154,20 @@ impl<'m, 'a> Builder<'m, 'a> {
         }
     }
 
-    /// An operation to be computed here.
+    /// Adds an operation, computed here.
     pub fn add(&mut self, op: Op) -> Value {
         let ty = ir::infer::ty(&self.cx.out, &self.f, &op);
         self.add_typed(op, ty)
     }
 
-    /// An operation of this type that is computed here in any case.
+    /// Adds an operation of this type, computed here.
     pub fn add_typed(&mut self, op: Op, ty: TypeId) -> Value {
         let value = self.f.append(op, ty, self.loc);
         self.block.push(Stmt::Let(value));
         value
     }
 
-    /// Says that control comes to a part of the text, where somebody wants to know.
+    /// Marks that control comes to a part of the text, where statements are marked.
     pub fn mark(&mut self, mark: Mark) {
         if self.cx.marks.statements {
             let value = self.add(Op::OpaqueZero);
@@ -174,7 +175,7 @@ impl<'m, 'a> Builder<'m, 'a> {
         }
     }
 
-    /// A free operation: one that no statement computes.
+    /// Adds a free operation: one that no statement computes.
     pub fn free(&mut self, op: Op) -> Value {
         debug_assert!(op.is_free());
         let ty = ir::infer::ty(&self.cx.out, &self.f, &op);

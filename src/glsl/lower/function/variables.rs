@@ -21,7 +21,7 @@ impl Builder<'_, '_> {
         self.forced[local.index() - self.first_local] = true;
     }
 
-    /// Whether it is memory whatever is done to it.
+    /// Returns whether a local is memory whatever is done to it.
     pub fn is_forced(&self, local: LocalId) -> bool {
         self.forced[local.index() - self.first_local]
     }
@@ -36,7 +36,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Whether a local is written, or indexed in a way values cannot be.
+    /// Returns whether a local is written, or indexed in a way values cannot be.
     pub fn needs_memory(&self, local: LocalId) -> bool {
         let declared = self.cx.hir[local];
         declared.flags.contains(VarFlags::WRITTEN)
@@ -66,7 +66,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// A new variable of this function.
+    /// Adds a variable to this function.
     pub fn temporary(&mut self, ty: TypeId) -> Value {
         let variable = self.f.add_var(ty);
         self.free(Op::Var(variable))
@@ -76,7 +76,7 @@ impl Builder<'_, '_> {
         matches!(self.cx.hir.types.get(ty), Type::Scalar(_) | Type::Vector { .. })
     }
 
-    /// What the author's names stand for in a function whose body is done.
+    /// Returns the author's names in a function whose body is done, with what each stands for.
     pub(in crate::glsl::lower) fn names(&self, func: FuncId) -> FunctionNames {
         let function = &self.cx.hir[func];
         let local = |index: u32| {

@@ -1,4 +1,4 @@
-//! Which stores write the scalar variables of a function, and which loop counts one up or down.
+//! The stores that write the scalar variables of a function, and the loops that count them up or down.
 
 use rustc_hash::FxHashMap;
 
@@ -7,7 +7,7 @@ use crate::glsl::{
     types::{Scalar, TypeId},
 };
 
-/// How a variable is written.
+/// The stores to a variable.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Written {
     /// In ways that are not told apart.
@@ -19,7 +19,7 @@ pub(super) enum Written {
     Counted { number: usize, ty: TypeId, by: Step },
 }
 
-/// What a round adds.
+/// The amount that a round adds.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Step {
     Int(i64),
@@ -29,7 +29,8 @@ pub(super) enum Step {
 pub(super) struct Counters {
     /// By [`VarId::index`](crate::glsl::ir::VarId::index).
     pub vars: Vec<Written>,
-    /// Of counters: how the loop's test compares them with which value for another round.
+    /// The test of each counter's loop: the comparison that holds for another round, and the value that the counter is
+    /// compared with.
     tests: FxHashMap<usize, (Binary, Value)>,
 }
 
@@ -58,7 +59,7 @@ impl Counters {
     }
 }
 
-/// What is seen of a variable.
+/// The uses that are seen of a variable.
 #[derive(Default)]
 struct Var {
     /// It is read where it may not be written yet, or given to a call, or written more than twice.
@@ -171,7 +172,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Whether a value was loaded from a variable in this round of a loop.
+    /// Returns whether a value was loaded from a variable in this round of a loop.
     fn is_loaded(&self, value: Value, var: usize, number: usize) -> bool {
         self.loads.get(&value) == Some(&(var, number))
     }
@@ -195,7 +196,7 @@ impl Walk<'_> {
         self.is_loaded(right, var, number).then_some((mirrored, left))
     }
 
-    /// What a store adds to the variable.
+    /// Returns the amount that a store adds to the variable.
     fn step(&self, start: Value, next: Value, var: usize, number: usize) -> Option<Step> {
         let Op::Binary { op, left, right } = self.f[next] else { return None };
         let (by, sign) = match op {

@@ -40,11 +40,11 @@ pub(super) fn run(module: &mut Module) {
             let mut ranges = Ranges {
                 counters,
                 values: vec![None; f.len()],
-                starts: vec![None; vars],
-                vars: vec![None; vars],
-                all: vec![None; vars],
+                first_stored: vec![None; vars],
+                current: vec![None; vars],
+                from_test: vec![None; vars],
                 loops: Vec::new(),
-                count: 0,
+                begun_loops: 0,
                 tested: None,
             };
             rewrite::function(module, index, &mut ranges);
@@ -62,18 +62,18 @@ fn limits(ty: TypeId) -> Option<Bounds> {
 
 struct Ranges {
     counters: Counters,
-    /// Of ints and uints, by [`Value::index`].
+    /// The bounds of ints and uints, by [`Value::index`].
     values: Vec<Option<Bounds>>,
-    /// What was first stored to a variable, by [`VarId::index`](crate::glsl::ir::VarId::index).
-    starts: Vec<Option<Bounds>>,
-    /// What variables hold where the code at hand stands; of a counted float, the bounds of `int(x)`.
-    vars: Vec<Option<Bounds>>,
-    /// What counters hold from the test of their loop on.
-    all: Vec<Option<Bounds>>,
+    /// The bounds of what was first stored to a variable, by [`VarId::index`](crate::glsl::ir::VarId::index).
+    first_stored: Vec<Option<Bounds>>,
+    /// The bounds of variables at the code at hand; for a counted float, those of `int(x)`.
+    current: Vec<Option<Bounds>>,
+    /// The bounds of counters from the test of their loop on.
+    from_test: Vec<Option<Bounds>>,
     /// Loops around the code at hand, by their numbers.
     loops: Vec<usize>,
-    /// How many loops have begun.
-    count: usize,
+    /// The number of loops that have begun.
+    begun_loops: usize,
     /// A loop whose test comes next.
     tested: Option<usize>,
 }
@@ -91,7 +91,7 @@ impl Ranges {
         }
     }
 
-    /// The range of what an op of an int or uint type computes.
+    /// Returns the range of an op of an int or uint type.
     fn compute(&self, r: &Rewriter<'_>, op: &Op, ty: TypeId) -> Option<Bounds> {
         let limits = limits(ty)?;
         let of = |value: Value| self.of(r, value);
@@ -100,7 +100,7 @@ impl Ranges {
         let fits = |bounds: Bounds| (bounds.0 >= limits.0 && bounds.1 <= limits.1).then_some(bounds);
         match *op {
             Op::Load { place } => match r.f[place] {
-                Op::Var(var) => self.vars[var.index()],
+                Op::Var(var) => self.current[var.index()],
                 _ => None,
             },
             Op::Convert { value, .. } => match r.module.types.scalar(r.f.ty(value))? {
@@ -130,7 +130,7 @@ impl Ranges {
         }
     }
 
-    /// The bounds of `int(x)` for a float.
+    /// Returns the bounds of `int(x)` for a float.
     fn truncated(&self, r: &Rewriter<'_>, value: Value) -> Option<Bounds> {
         let is_resolution = |place: Value| match r.f[place] {
             Op::Global(id) => r.module[id].kind == GlobalKind::Uniform(Uniform::Resolution),
@@ -139,7 +139,7 @@ impl Ranges {
         let canvas = Some((1, LARGEST_CANVAS));
         match r.f[value] {
             Op::Load { place } => match r.f[place] {
-                Op::Var(var) => self.vars[var.index()],
+                Op::Var(var) => self.current[var.index()],
                 Op::Part { base, index: 0 | 1 } if is_resolution(base) => canvas,
                 _ => None,
             },
@@ -173,7 +173,7 @@ fn binary(op: Binary, sides: (Option<Bounds>, Option<Bounds>), limits: Bounds) -
     }
 }
 
-/// The result of a comparison, if it is the same for all numbers of two ranges.
+/// Returns the result of a comparison, if it is the same for all numbers of two ranges.
 fn compared(op: Binary, left: Bounds, right: Bounds) -> Option<bool> {
     let (all, none) = match op {
         Binary::Less => (left.1 < right.0, left.0 >= right.1),
@@ -220,36 +220,36 @@ impl Rule for Ranges {
     fn store(&mut self, r: &Rewriter<'_>, place: Value, value: Value) {
         let Op::Var(var) = r.f[place] else { return };
         let var = var.index();
-        self.vars[var] = match self.counters.vars[var] {
+        self.current[var] = match self.counters.vars[var] {
             Written::Once => self.of(r, value),
-            Written::Counted { number, .. } if self.loops.contains(&number) => self.all[var],
+            Written::Counted { number, .. } if self.loops.contains(&number) => self.from_test[var],
             Written::Counted { .. } => {
-                self.starts[var] = self.of(r, value);
-                self.starts[var]
+                self.first_stored[var] = self.of(r, value);
+                self.first_stored[var]
             }
             Written::Unknown => None,
         };
     }
 
     fn begin_body(&mut self, _: &mut Rewriter<'_>, _: &Block) {
-        self.loops.push(self.count);
-        self.tested = Some(self.count);
+        self.loops.push(self.begun_loops);
+        self.tested = Some(self.begun_loops);
         // Nothing is known of it in later rounds before their test.
-        for (var, written) in self.vars.iter_mut().zip(&self.counters.vars) {
-            if matches!(written, Written::Counted { number, .. } if *number == self.count) {
+        for (var, written) in self.current.iter_mut().zip(&self.counters.vars) {
+            if matches!(written, Written::Counted { number, .. } if *number == self.begun_loops) {
                 *var = None;
             }
         }
-        self.count += 1;
+        self.begun_loops += 1;
     }
 
     fn after_if(&mut self, r: &Rewriter<'_>) {
         let Some(tested) = self.tested.take() else { return };
-        for var in 0..self.vars.len() {
+        for var in 0..self.current.len() {
             if let Written::Counted { number, ty, by } = self.counters.vars[var]
                 && number == tested
             {
-                (self.vars[var], self.all[var]) = self.counted(r, var, ty, by).unzip();
+                (self.current[var], self.from_test[var]) = self.counted(r, var, ty, by).unzip();
             }
         }
     }
@@ -257,22 +257,22 @@ impl Rule for Ranges {
     fn end_body(&mut self) {
         let Some(ended) = self.loops.pop() else { return };
         self.tested = None;
-        for var in 0..self.vars.len() {
+        for var in 0..self.current.len() {
             if matches!(self.counters.vars[var], Written::Counted { number, .. } if number == ended) {
-                self.vars[var] = self.all[var];
+                self.current[var] = self.from_test[var];
             }
         }
     }
 }
 
 impl Ranges {
-    /// What a counter holds behind its loop's test and before its step, and what it holds from the test on, in the loop
-    /// and behind it.
+    /// Returns the bounds of a counter behind its loop's test and before its step, and those from the test on, in the
+    /// loop and behind it.
     fn counted(&self, r: &Rewriter<'_>, var: usize, ty: TypeId, by: Step) -> Option<(Bounds, Bounds)> {
         let (test, bound) = self.counters.test(var)?;
         let (body, all) = match by {
             Step::Int(by) => {
-                let (limits, start, bound) = (limits(ty)?, self.starts[var]?, self.of(r, r.value(bound))?);
+                let (limits, start, bound) = (limits(ty)?, self.first_stored[var]?, self.of(r, r.value(bound))?);
                 match test {
                     Binary::Less | Binary::LessEqual if by >= 0 => {
                         let last = bound.1 - i64::from(test == Binary::Less);
@@ -299,8 +299,8 @@ impl Ranges {
     }
 }
 
-/// Bounds of `int(x)` in the rounds of a loop that counts a float. `int` cuts off towards zero. Sums are rounded, but
-/// never to the other side of where they began.
+/// Returns the bounds of `int(x)` in the rounds of a loop that counts a float. `int` cuts off towards zero. Sums are
+/// rounded, but never to the other side of where they began.
 fn counted_in_floats(test: Binary, start: f32, by: f32, bound: f32) -> Option<Bounds> {
     let (first, last) = (start as i64, bound as i64);
     let before = i64::from(bound.fract() == 0.0);
