@@ -1,4 +1,4 @@
-//! What the device hands an entry point, lane by lane.
+//! Values that the device hands an entry point, lane by lane.
 
 use super::{
     number::{Cell, Real, Shadowed},

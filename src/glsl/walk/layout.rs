@@ -1,4 +1,4 @@
-//! Where the values of a function lie while it runs: cells, one a scalar, without gaps.
+//! The layout of a function's values while it runs: cells, one a scalar, without gaps.
 
 use super::number::{Cell, Real};
 use crate::glsl::{
@@ -35,7 +35,7 @@ pub fn constant<R: Real>(module: &Module, ty: TypeId, words: &mut impl Iterator<
     }
 }
 
-/// Where a value is found.
+/// The place of a value.
 #[derive(Clone, Copy, Debug)]
 pub enum Slot {
     /// Among the function's constants, from a cell on.
@@ -54,7 +54,7 @@ pub struct Layout<R> {
     /// Cells of a frame, of one lane.
     pub registers: usize,
     pub places: usize,
-    /// Of each variable, its first cell behind the base of the frame's memory.
+    /// The first cell of each variable, behind the base of the frame's memory.
     pub vars: Vec<usize>,
     /// Cells of all variables together, of one lane.
     pub memory: usize,

@@ -18,7 +18,7 @@ fn of(lanes: Lanes) -> impl Iterator<Item = usize> {
     (0..LANES).filter(move |lane| lanes & (1 << lane) != 0)
 }
 
-/// Why a walk ended before the program did.
+/// The reason that a walk ended before the program did.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Stop {
     #[error("the program did not end within {0} steps")]
@@ -40,7 +40,7 @@ pub struct Machine<'a, R> {
     inputs: EntryInputs,
     /// Lanes that have drawn, or never will.
     ended: Lanes,
-    /// Of these the ones that never will.
+    /// Those among them that never will.
     discarded: Lanes,
     outputs: Vec<(Output, [Vec<Cell<R>>; LANES])>,
     steps: u64,
@@ -48,10 +48,10 @@ pub struct Machine<'a, R> {
     scratch: Vec<Cell<R>>,
 }
 
-/// What the lanes of a quad drew.
+/// The results that the lanes of a quad drew.
 #[derive(Clone, Debug)]
 pub struct Drawn<R> {
-    /// Of each output, the cells of each lane; empty for lanes that drew nothing.
+    /// The cells of each output and lane; empty for lanes that drew nothing.
     pub outputs: Vec<(Output, [Vec<Cell<R>>; LANES])>,
     /// Lanes that a `discard` ended.
     pub discarded: [bool; LANES],

@@ -1,4 +1,4 @@
-//! Who watches a walk.
+//! Observers of a walk.
 
 use super::{
     layout,
@@ -75,7 +75,7 @@ impl<'v, 'a, R: Real> View<'v, 'a, R> {
         self.state.global(global, self.lane)
     }
 
-    /// What the function gives back, as far as it has.
+    /// Returns the result of the function, as far as it has one.
     pub fn result(&self) -> &[Cell<R>] {
         let size = self.frame.result.len() / LANES;
         &self.frame.result[self.lane * size..][..size]

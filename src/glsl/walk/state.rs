@@ -1,4 +1,4 @@
-//! What a program holds while it runs: values, variables and the way to them.
+//! The state of a program while it runs: values, variables and the way to them.
 
 use super::{
     layout::{self, Layout, Slot},
@@ -15,7 +15,7 @@ pub struct Frame<R> {
     pub function: FuncId,
     /// Lane by lane.
     pub registers: Vec<Cell<R>>,
-    /// Of each place, its cell in the memory of each lane.
+    /// The cell of each place in the memory of each lane.
     pub places: Vec<[u32; LANES]>,
     /// Lane by lane.
     pub result: Vec<Cell<R>>,
@@ -26,7 +26,7 @@ pub struct State<'a, R> {
     pub module: &'a Module,
     pub world: &'a dyn World,
     pub layouts: Vec<Layout<R>>,
-    /// Of each lane: the variables of the module, then those of each activation.
+    /// The memory of each lane: the variables of the module, then those of each activation.
     pub memory: [Vec<Cell<R>>; LANES],
     /// First cell of each variable of the module.
     pub globals: Vec<usize>,
@@ -38,7 +38,7 @@ impl<'a, R: Real> State<'a, R> {
         Self { module, world, layouts, memory: Default::default(), globals: Vec::new() }
     }
 
-    /// Where a value that is computed lies in a lane.
+    /// Returns the cells of a computed value in a lane.
     pub fn register_mut<'f>(&self, frame: &'f mut Frame<R>, value: Value, lane: usize) -> &'f mut [Cell<R>] {
         let layout = &self.layouts[frame.function.index()];
         let Slot::Register { start, size } = layout.slots[value.index()] else { unreachable!("{value:?} is computed") };

@@ -1,4 +1,4 @@
-//! What a program reads beside its own memory.
+//! Everything that a program reads beside its own memory.
 
 use crate::glsl::{
     builtins::Uniform,
@@ -22,7 +22,8 @@ pub enum Lod {
 pub trait World {
     /// The site's uniforms.
     fn uniforms(&self) -> &UniformBlock;
-    /// What a mesh is drawn with; zeros for a pass that draws none, whose program names nothing of it.
+    /// Returns the matrices and the camera that a mesh is drawn with; zeros for a pass that draws none, whose program
+    /// names nothing of it.
     fn geometry(&self) -> GeometryBlock;
     /// The words of the author's own uniform in a slot.
     fn custom_uniform(&self, slot: u16) -> [u32; 4];
