@@ -6,6 +6,7 @@
 //! shown a violation.
 
 mod circles;
+mod docs;
 mod paths;
 mod picture;
 
@@ -230,6 +231,10 @@ fn violations(path: &str, text: &str) -> Vec<String> {
         if word == "begin_render_pass" && !PASSES.contains(&path) {
             report(*line, "a pass is encoded with `Gpu::pass`".into());
         }
+        // Lowering is the language's meaning; a driver's wishes are rules over the IR.
+        if word == "driver" && parts.starts_with(&["glsl", "lower"]) {
+            report(*line, "`glsl/lower` may not ask for a driver".into());
+        }
         if word == "thread_local" {
             report(*line, "process-wide state: hand it down as an argument".into());
         }
@@ -395,6 +400,11 @@ fn planted_violations_are_caught() {
         ("graph/mod.rs", "use naga::Module;", "only glsl, engine, gpu may name `naga`"),
         ("glsl/lower/expr.rs", "use naga::Expression;", "`glsl/lower` may not name `naga`"),
         ("glsl/lower/expr.rs", "use crate::glsl::{hir, opt::PASSES};", "`glsl/lower` may not name `opt`"),
+        (
+            "glsl/lower/expr.rs",
+            "fn f(s: Source) -> bool { s.driver.nan_angle }",
+            "`glsl/lower` may not ask for a driver",
+        ),
         ("glsl/opt/cse.rs", "fn f(id: crate::glsl::hir::ExprId) {}", "`glsl/opt` may not name `hir`"),
         ("glsl/emit/mod.rs", "use super::hir::Module;", "`glsl/emit` may not name `hir`"),
         ("glsl/ir/mod.rs", "use super::emit;", "`glsl/ir` may not name `emit`"),
