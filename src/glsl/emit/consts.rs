@@ -12,7 +12,7 @@ use crate::glsl::{
     types::{Scalar, Type, TypeId},
 };
 
-/// A scalar as naga's literal; `None` for infinities and NaN.
+/// Returns a scalar as naga's literal; `None` for infinities and NaN.
 pub(super) fn literal(scalar: Scalar, bits: u32) -> Option<Literal> {
     Some(match scalar {
         Scalar::Bool => Literal::Bool(bits != 0),
@@ -23,7 +23,7 @@ pub(super) fn literal(scalar: Scalar, bits: u32) -> Option<Literal> {
 }
 
 impl Emitter<'_> {
-    /// A naga constant; `None` if it holds an infinity or NaN, or is long.
+    /// Returns a naga constant; `None` if it holds an infinity or NaN, or is long.
     pub fn constant(&mut self, id: ConstId) -> Option<Handle<naga::Constant>> {
         if let Some(made) = self.consts.constants[id.index()] {
             return Some(made);
@@ -39,7 +39,7 @@ impl Emitter<'_> {
         Some(made)
     }
 
-    /// The same as a module-scope expression.
+    /// Returns a constant as a module-scope expression.
     pub fn constant_init(&mut self, id: ConstId) -> Option<Handle<Expression>> {
         if let Some(init) = self.consts.inits[id.index()] {
             return init;
@@ -100,7 +100,7 @@ impl Emitter<'_> {
         })
     }
 
-    /// A private global that holds a constant, for indexing.
+    /// Returns a private global that holds a constant, for indexing.
     pub(super) fn private_table(&mut self, id: ConstId) -> Handle<GlobalVariable> {
         let ty = self.ty(self.ir[id].ty);
         let init = self.constant_init(id);

@@ -61,7 +61,7 @@ fn interpolation(flat: bool) -> Option<Interpolation> {
 }
 
 impl Builder<'_, '_> {
-    /// The argument that brings an input, which may be there already.
+    /// Returns the argument that brings an input, which may be there already.
     pub fn argument_of(&mut self, input: Input) -> u32 {
         let (ty, binding) = match input {
             Input::Position => (TypeId::VEC4, Binding::BuiltIn(POSITION)),

@@ -25,13 +25,13 @@ enum Slot {
 }
 
 impl Builder<'_, '_> {
-    /// The handle of a module-scope variable, or the pointer to it.
+    /// Returns the handle of a module-scope variable, or the pointer to it.
     pub fn variable(&mut self, variable: Handle<GlobalVariable>) -> Handle<Expression> {
         // naga makes no instruction of it: as many as there are uses do no harm.
         self.add_preemitted(Expression::GlobalVariable(variable))
     }
 
-    /// The variable that a global of the program is by itself; none for a member of a block.
+    /// Returns the variable that a global of the program is by itself; none for a member of a block.
     pub fn global(&mut self, id: GlobalId) -> Option<Handle<GlobalVariable>> {
         match self.cx.ir[id].kind {
             GlobalKind::Private { .. } => Some(self.cx.private_global(id)),
@@ -43,7 +43,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// The pointer to a member of a block or buffer.
+    /// Returns the pointer to a member of a block or buffer.
     pub fn block_member_of(&mut self, id: GlobalId) -> Handle<Expression> {
         let (block, index) = match self.cx.ir[id].kind {
             GlobalKind::Uniform(uniform) => match uniform.geometry_member() {
@@ -82,7 +82,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// The pointer to a part of a place; none where it is an element of which only a part of its slot counts.
+    /// Returns the pointer to a part of a place; none where it is an element of which only a part of its slot counts.
     pub fn part_of_place(&mut self, place: Value) -> Option<Handle<Expression>> {
         let ir = self.ir;
         let (Op::Part { base, .. } | Op::Element { base, .. }) = ir[place] else { unreachable!("it has a base") };
@@ -174,8 +174,8 @@ impl Builder<'_, '_> {
         self.add(Expression::Load { pointer })
     }
 
-    /// The int that is always zero, though the driver cannot know it: a uniform or, where the driver compiles anew for
-    /// each value of those, what the entry point made.
+    /// Returns the int that is always zero, though the driver cannot know it: a uniform or, where the driver compiles
+    /// anew for each value of those, what the entry point made.
     pub fn opaque_zero(&mut self) -> Handle<Expression> {
         let pointer = if self.cx.source.driver.opaque_uniforms {
             let variable = self.cx.opaque_zero();

@@ -13,7 +13,7 @@ use crate::glsl::{
 };
 
 impl Builder<'_, '_> {
-    /// The remainder that has the divisor's sign.
+    /// Returns the remainder that has the divisor's sign.
     pub fn modulo(&mut self, value: Value, left: Value, right: Value) -> Handle<Expression> {
         use BinaryOperator as B;
         let ty = self.ir.ty(value);
@@ -54,7 +54,7 @@ impl Builder<'_, '_> {
         self.add(Expression::Select { condition, accept: moved, reject: rest })
     }
 
-    /// A divisor above zero that is a literal.
+    /// Returns a divisor above zero that is a literal.
     fn known_divisor(&self, value: Value) -> Option<u32> {
         match self.ir[value] {
             Op::Literal(Scalar::Int, bits) => (bits as i32 > 0).then_some(bits),

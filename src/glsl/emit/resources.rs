@@ -56,7 +56,7 @@ const MEMBERS: [(&str, u32, Member); 14] = members! {
     "iChannelLoaded" channel_loaded Int4;
 };
 
-/// Position of a uniform in [`MEMBERS`], and its name in the reflection.
+/// Returns the position of a uniform in [`MEMBERS`], and its name in the reflection.
 pub(super) fn uniform(uniform: Uniform) -> (u32, UniformSet) {
     match uniform {
         Uniform::Resolution => (0, UniformSet::RESOLUTION),
@@ -97,7 +97,7 @@ impl Emitter<'_> {
         self.out.global_variables.append(variable, Span::UNDEFINED)
     }
 
-    /// Memory of one invocation, zero at its start unless `init` says otherwise.
+    /// Returns memory of one invocation, zero at its start unless `init` says otherwise.
     pub fn private(
         &mut self,
         ty: Handle<naga::Type>,
@@ -106,7 +106,7 @@ impl Emitter<'_> {
         self.variable(AddressSpace::Private, ty, None, init)
     }
 
-    /// The uniform block.
+    /// Returns the uniform block.
     pub fn block(&mut self) -> Handle<GlobalVariable> {
         if let Some(block) = self.resources.block {
             return block;
@@ -168,7 +168,7 @@ impl Emitter<'_> {
         self.source.custom_uniforms.iter().map(|k| u32::from(k.slot) + 1).max().unwrap_or(0)
     }
 
-    /// The author's own uniforms: an array of slots, because every backend lays that out alike.
+    /// Returns the author's own uniforms: an array of slots, because every backend lays that out alike.
     pub fn custom_uniform_block(&mut self) -> Handle<GlobalVariable> {
         if let Some(block) = self.resources.custom_uniform_block {
             return block;
@@ -182,7 +182,7 @@ impl Emitter<'_> {
         block
     }
 
-    /// The texture of a channel.
+    /// Returns the texture of a channel.
     pub fn texture(&mut self, channel: u8) -> Handle<GlobalVariable> {
         let i = usize::from(channel);
         if let Some(texture) = self.resources.textures[i] {
@@ -202,7 +202,7 @@ impl Emitter<'_> {
         texture
     }
 
-    /// The sampler of a channel.
+    /// Returns the sampler of a channel.
     pub fn sampler(&mut self, channel: u8) -> Handle<GlobalVariable> {
         let i = usize::from(channel);
         if let Some(sampler) = self.resources.samplers[i] {
@@ -216,7 +216,7 @@ impl Emitter<'_> {
         sampler
     }
 
-    /// Private memory, set to its constant value where it has one.
+    /// Returns private memory, set to its constant value where it has one.
     pub fn private_global(&mut self, id: GlobalId) -> Handle<GlobalVariable> {
         if let Some(&Some(made)) = self.resources.private.get(id.index()) {
             return made;
@@ -238,7 +238,7 @@ impl Emitter<'_> {
         made
     }
 
-    /// The memory that holds the zero which the driver cannot know; the entry point sets it.
+    /// Returns the memory that holds the zero which the driver cannot know; the entry point sets it.
     pub fn opaque_zero(&mut self) -> Handle<GlobalVariable> {
         if self.resources.opaque_zero.is_none() {
             let ty = self.ty(TypeId::INT);

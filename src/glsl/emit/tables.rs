@@ -68,8 +68,9 @@ impl Emitter<'_> {
         place
     }
 
-    /// An array as a uniform buffer has it, and its bytes: its scalars and vectors lie in slots of 16 bytes, in the
-    /// first components of vectors of three or four. `None` for what is no array of these, or too short to be worth it.
+    /// Returns an array as a uniform buffer has it, and its bytes: its scalars and vectors lie in slots of 16 bytes, in
+    /// the first components of vectors of three or four. `None` for what is no array of these, or too short to be worth
+    /// it.
     fn in_slots(&mut self, ty: TypeId) -> Option<(Handle<naga::Type>, u32)> {
         let Type::Array { element, len: len @ LEAST_UNIFORM_TABLE.. } = self.ir.types.get(ty) else { return None };
         let base = match self.ir.types.get(element) {
@@ -96,7 +97,7 @@ impl Emitter<'_> {
         buffer.members.len() as u32 - 1
     }
 
-    /// The member of the storage buffer that holds a constant.
+    /// Returns the member of the storage buffer that holds a constant.
     pub fn storage_index(&mut self, id: ConstId) -> u32 {
         let key = id.index() as u32;
         if let Some(&index) = self.tables.stored.get(&key) {
@@ -184,7 +185,7 @@ impl Emitter<'_> {
         *self.tables.storage.variable.insert(made)
     }
 
-    /// A buffer; its type is not known before the last table is.
+    /// Returns a buffer; its type is not known before the last table is.
     fn table_buffer(&mut self, space: AddressSpace, binding: u32) -> Handle<GlobalVariable> {
         let ty = self.ty(TypeId::UINT);
         self.variable(space, ty, Some(ResourceBinding { group: interface::UNIFORM_GROUP, binding }), None)

@@ -29,12 +29,12 @@ pub(super) fn vector_size(size: usize) -> VectorSize {
 }
 
 impl Emitter<'_> {
-    /// A type of `inner`, made at most once.
+    /// Returns a type of `inner`, made at most once.
     pub fn insert_type(&mut self, inner: TypeInner) -> Handle<naga::Type> {
         self.out.types.insert(naga::Type { name: None, inner }, naga::Span::UNDEFINED)
     }
 
-    /// A pointer to a variable of a function.
+    /// Returns a pointer to a variable of a function.
     pub fn pointer_ty(&mut self, id: TypeId) -> Handle<naga::Type> {
         let base = self.ty(id);
         self.insert_type(TypeInner::Pointer { base, space: AddressSpace::Function })

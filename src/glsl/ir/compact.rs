@@ -27,7 +27,7 @@ struct Compact<'a> {
 }
 
 impl Compact<'_> {
-    /// The new number of a value that is free, or was computed.
+    /// Returns the new number of a value that is free, or was computed.
     fn value(&mut self, old: Value) -> Value {
         if let Some(new) = self.map[old.index()] {
             return new;
@@ -37,7 +37,7 @@ impl Compact<'_> {
         self.append(old, op)
     }
 
-    /// Each is moved once.
+    /// Moves an operation out; each is moved once.
     fn take(&mut self, old: Value) -> Op {
         std::mem::replace(&mut self.old.nodes[old.index()].op, Op::OpaqueZero)
     }

@@ -1,5 +1,5 @@
-//! The layout of values in memory that a device shares: sizes and alignments of WGSL's storage address space (section 14.4.1
-//! of its specification).
+//! The layout of values in memory that a device shares: sizes and alignments of WGSL's storage address space (section
+//! 14.4.1 of its specification).
 
 use super::Module;
 use crate::glsl::types::{Scalar, Type, TypeId};
@@ -12,7 +12,7 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The distance between the elements of an array of these.
+    /// Returns the distance between the elements of an array of these.
     pub fn stride(self) -> u32 {
         round_up(self.align, self.size)
     }
@@ -70,12 +70,12 @@ pub fn round_up(align: u32, size: u32) -> u32 {
     size.div_ceil(align).saturating_mul(align)
 }
 
-/// Bytes of a scalar. No buffer holds bools, so that naga's width will do for them.
+/// Returns the bytes of a scalar. No buffer holds bools, so that naga's width will do for them.
 fn width(scalar: Scalar) -> u32 {
     if scalar == Scalar::Bool { 1 } else { 4 }
 }
 
-/// Alignment of a vector of `size` components, in components.
+/// Returns the alignment of a vector of `size` components, in components.
 fn vector_align(size: u8) -> u32 {
     if size == 2 { 2 } else { 4 }
 }

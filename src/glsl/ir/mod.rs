@@ -1,9 +1,9 @@
 //! The intermediate representation: a program between the checked tree ([`super::hir`]) and the module of a graphics
 //! API.
 //!
-//! Owns its data ([`Module`], [`Function`], [`Op`]), the types of values ([`infer`]), the text form ([`print`]), the walk
-//! that passes rewrite functions by ([`rewrite`]), and [`verify`], which checks the rules that can be read off a program.
-//! Knows neither where programs come from nor what they become.
+//! Owns its data ([`Module`], [`Function`], [`Op`]), the types of values ([`infer`]), the text form ([`print`]), the
+//! walk that passes rewrite functions by ([`rewrite`]), and [`verify`], which checks the rules that can be read off a
+//! program. Knows neither where programs come from nor what they become.
 //!
 //! The form is structured SSA over memory:
 //! - A [`Value`] is computed once, by the [`Op`] that it names, where a [`Stmt::Let`] stands. It may be used wherever
@@ -17,8 +17,8 @@
 //! - Control flow is structured: [`Stmt::If`], [`Stmt::Loop`], [`Stmt::Switch`] hold blocks.
 //!
 //! All integers wrap; a divisor is never zero, nor -1 where the quotient would overflow; an index is always in range.
-//! Lowering sees to that, and each pass keeps it; [`verify`] cannot tell. So a program can be run, by a device or step by step on the
-//! processor.
+//! Lowering sees to that, and each pass keeps it; [`verify`] cannot tell. So a program can be run, by a device or step
+//! by step on the processor.
 
 mod compact;
 mod ids;
@@ -227,7 +227,7 @@ pub enum Output {
 }
 
 impl Function {
-    /// An empty function.
+    /// Returns an empty function.
     pub fn new(result: TypeId) -> Self {
         Self { result, ..Self::default() }
     }
@@ -248,12 +248,12 @@ impl Function {
         std::mem::replace(&mut self.nodes[value.index()].op, op)
     }
 
-    /// The type of a value, or of what a place holds.
+    /// Returns the type of a value, or of what a place holds.
     pub fn ty(&self, value: Value) -> TypeId {
         self.nodes[value.index()].ty
     }
 
-    /// The part of the text that a value is computed for.
+    /// Returns the part of the text that a value is computed for.
     pub fn loc(&self, value: Value) -> Loc {
         self.nodes[value.index()].loc
     }
@@ -263,7 +263,7 @@ impl Function {
         self.nodes.len()
     }
 
-    /// All values, computed or not.
+    /// Returns all values, computed or not.
     pub fn values(&self) -> impl Iterator<Item = (Value, &Op)> {
         self.nodes.iter().enumerate().map(|(i, node)| (Value::new(i), &node.op))
     }
@@ -273,7 +273,7 @@ impl Function {
         VarId::new(self.vars.len() - 1)
     }
 
-    /// The variable, parameter or global that a place is or lies in.
+    /// Returns the variable, parameter or global that a place is or lies in.
     pub fn root(&self, mut place: Value) -> Value {
         while let Op::Part { base, .. } | Op::Element { base, .. } = self[place] {
             place = base;
@@ -317,7 +317,7 @@ impl Module {
         }
     }
 
-    /// The type of a part.
+    /// Returns the type of a part.
     pub fn part(&self, ty: TypeId, index: u32) -> TypeId {
         use super::types::Type;
         match self.types.get(ty) {
@@ -336,7 +336,7 @@ impl Module {
         }
     }
 
-    /// The component type of a scalar, vector or matrix.
+    /// Returns the component type of a scalar, vector or matrix.
     pub fn scalar(&self, ty: TypeId) -> Scalar {
         self.types.scalar(ty).expect("a scalar, vector or matrix")
     }

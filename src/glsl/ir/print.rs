@@ -8,7 +8,7 @@ use std::fmt::Write;
 use super::{Block, Function, GlobalKind, Level, Module, Op, Output, Stmt, Value};
 use crate::glsl::types::{Scalar, Type, TypeId};
 
-/// The text of a program.
+/// Returns the text of a program.
 pub fn print(module: &Module) -> String {
     let mut out = String::new();
     for (index, global) in module.globals.iter().enumerate() {
@@ -152,7 +152,7 @@ impl Printer<'_> {
         }
     }
 
-    /// An operand.
+    /// Returns the text of an operand.
     fn value(&self, value: Value) -> String {
         if let Some(number) = self.numbers[value.index()] {
             return format!("%{number}");

@@ -36,7 +36,8 @@ impl Builder<'_, '_> {
         place
     }
 
-    /// The value of a variable or of a part of one, if it is in memory; else the links from the outermost to the root.
+    /// Returns the value of a variable or of a part of one, if it is in memory; else the links from the outermost to
+    /// the root.
     pub fn read(&mut self, expr: ExprId) -> Result<Value, Vec<ExprId>> {
         let (root, links) = self.chain(expr);
         let Some(mut place) = self.root(root, &links) else { return Err(links) };
@@ -59,7 +60,7 @@ impl Builder<'_, '_> {
         (root, links)
     }
 
-    /// The memory an expression names; `None` if it is a value.
+    /// Returns the memory an expression names; `None` if it is a value.
     fn root(&mut self, root: ExprId, links: &[ExprId]) -> Option<Place> {
         let hir = self.cx.hir;
         let ty = hir[root].ty;
@@ -112,7 +113,7 @@ impl Builder<'_, '_> {
         Some(Place::of(self.global(global), ty))
     }
 
-    /// The value of one of the author's own uniforms: words of its slot, read as what it is.
+    /// Returns the value of one of the author's own uniforms: words of its slot, read as what it is.
     fn custom_uniform(&mut self, index: u16, ty: TypeId) -> Value {
         let slot = self.cx.source.custom_uniforms[usize::from(index)].slot;
         let block = self.cx.custom_uniform(slot);
@@ -131,7 +132,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// The value a root that is not in memory has.
+    /// Returns the value a root that is not in memory has.
     pub fn root_value(&mut self, root: ExprId) -> Value {
         let hir = self.cx.hir;
         let ty = hir[root].ty;
@@ -221,7 +222,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// A part of a value; `link` is the member, swizzle or index whose base has this value.
+    /// Returns a part of a value; `link` is the member, swizzle or index whose base has this value.
     pub fn part_of_value(&mut self, base: Value, link: ExprId) -> Value {
         let hir = self.cx.hir;
         match hir[link].kind {
@@ -267,7 +268,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// An index, clamped to `0..len`: WebGL lets no index stray, and clamping is what its implementations do.
+    /// Returns an index, clamped to `0..len`: WebGL lets no index stray, and clamping is what its implementations do.
     fn index(&mut self, index: ExprId, len: u32) -> Value {
         let value = self.value(index);
         if self.cx.hir[index].ty == TypeId::UINT {
@@ -304,7 +305,7 @@ impl Builder<'_, '_> {
         self.add(Op::Bitcast { value, to })
     }
 
-    /// The variable of this function that an expression names as a whole, if it is memory.
+    /// Returns the variable of this function that an expression names as a whole, if it is memory.
     pub fn whole_local(&self, expr: ExprId) -> Option<(LocalId, Value)> {
         match self.cx.hir[expr].kind {
             ExprKind::Local(local) => match self.slot(local) {

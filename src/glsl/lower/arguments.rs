@@ -160,7 +160,7 @@ impl Arguments {
     }
 }
 
-/// The last argument whose evaluation changes something.
+/// Returns the last argument whose evaluation changes something.
 pub(super) fn last_effect(module: &Module, args: &[ExprId]) -> Option<usize> {
     args.iter().rposition(|&arg| module[arg].flags.contains(ExprFlags::EFFECTS))
 }

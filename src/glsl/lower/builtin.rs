@@ -207,7 +207,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// `isnan` and `isinf` by the bits: a driver that takes all floats for finite folds the tests themselves away.
+    /// Adds `isnan` or `isinf` by the bits: a driver that takes all floats for finite folds the tests themselves away.
     fn exponent_test(&mut self, op: Binary, ty: TypeId, value: Value) -> Value {
         let ty = TypeId::vector(Scalar::Uint, self.extent(ty) as u8);
         let bits = self.bitcast(value, Scalar::Uint);
@@ -226,8 +226,8 @@ impl Builder<'_, '_> {
         self.add(Op::Derivative { axis, value: expr })
     }
 
-    /// Writes out `t = clamp((x - a) / (b - a), 0, 1)`, then `t t (3 - 2 t)` (section 8.3), where the edges are not known
-    /// to differ.
+    /// Writes out `t = clamp((x - a) / (b - a), 0, 1)`, then `t t (3 - 2 t)` (section 8.3), where the edges are not
+    /// known to differ.
     ///
     /// It is undefined for `a == b`, but shaders use it as a step: the quotient is infinite, and is clamped to 0 or 1.
     fn smoothstep(&mut self, ty: TypeId, a: Value, b: Value, x: Value) -> Value {

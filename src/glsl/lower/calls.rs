@@ -100,7 +100,7 @@ impl Builder<'_, '_> {
         (self.cx.hir[instance.func].result != TypeId::VOID).then_some(result)
     }
 
-    /// The channel a sampler argument stands for.
+    /// Returns the channel a sampler argument stands for.
     pub fn channel(&self, arg: ExprId) -> u8 {
         match self.cx.hir[arg].kind {
             ExprKind::Channel(channel) => channel,
@@ -112,7 +112,8 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// The variables that `out` and `inout` parameters of a call are or lie in, in order, and which argument each is.
+    /// Returns the variables that `out` and `inout` parameters of a call are or lie in, in order, and which argument
+    /// each is.
     fn out_locals(&self, params: &[Local], args: &[ExprId]) -> Vec<(LocalId, usize)> {
         let outs = params.iter().zip(args).enumerate().filter(|(_, (param, _))| param.kind.copies_out());
         let mut outs: Vec<_> = outs.filter_map(|(i, (_, &arg))| Some((self.root_local(arg)?, i))).collect();

@@ -7,7 +7,7 @@ use crate::glsl::{
 };
 
 impl Builder<'_, '_> {
-    /// A scalar or vector to the same size of another component type.
+    /// Converts a scalar or vector to the same size of another component type.
     pub fn convert(&mut self, value: Value, to: TypeId) -> Value {
         let to = self.cx.hir.types.scalar(to).expect("a scalar or vector");
         // From float to uint, negative numbers give zero: GLSL leaves it open, Direct3D asks for it, and devices do it.

@@ -80,7 +80,7 @@ impl Builder<'_, '_> {
         if from == ty { value } else { self.splat(value, ty) }
     }
 
-    /// A constant divisor with ones in place of zeros.
+    /// Returns a constant divisor with ones in place of zeros.
     fn without_zeros(&mut self, divisor: Typed, mut numbers: Vec<u32>) -> Value {
         if !numbers.contains(&0) {
             return divisor.1;

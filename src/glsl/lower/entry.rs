@@ -7,7 +7,7 @@ use crate::glsl::{
     ir::{self, Binary, Block, Case, Input, Math, Op, Output, Stmt, Value},
 };
 
-/// The entry point; every function is there already.
+/// Lowers the entry point; every function is there already.
 pub(super) fn lower(cx: &mut Lowering<'_>, reachable: &Reachable) -> ir::Function {
     let entry = reachable.instances.last().expect("the entry point is reached").clone();
     let author = cx.functions[&entry];
@@ -96,8 +96,8 @@ impl Builder<'_, '_> {
         self.compose(TypeId::VEC4, vec![rgb, one])
     }
 
-    /// The direction from the centre to a texel of the face the uniform block names: corners as OpenGL ES 3.0, table
-    /// 3.21, has them, in its order of faces.
+    /// Returns the direction from the centre to a texel of the face the uniform block names: corners as OpenGL ES 3.0,
+    /// table 3.21, has them, in its order of faces.
     fn cube_direction(&mut self, at: Value) -> Value {
         let resolution = self.cx.uniform(Uniform::Resolution);
         let resolution = self.global(resolution);

@@ -7,7 +7,7 @@ use crate::glsl::{
 };
 
 impl Builder<'_, '_> {
-    /// The value of an expression that is not void.
+    /// Returns the value of an expression that is not void.
     pub fn value(&mut self, expr: ExprId) -> Value {
         // What is computed of several values belongs to the whole, not to the last of them.
         let outer = self.loc;
@@ -121,7 +121,7 @@ impl Builder<'_, '_> {
         self.literal(scalar, bits)
     }
 
-    /// A folded value of any type.
+    /// Returns a folded value of any type.
     pub fn folded(&mut self, id: ConstId) -> Value {
         let hir = self.cx.hir;
         match hir.types.get(hir[id].ty) {
@@ -224,7 +224,7 @@ impl Builder<'_, '_> {
         self.add(Op::Binary { op, left, right })
     }
 
-    /// A scalar repeated to a vector of type `ty`; itself if `ty` is a scalar.
+    /// Returns a scalar repeated to a vector of type `ty`; itself if `ty` is a scalar.
     pub fn splat(&mut self, value: Value, ty: TypeId) -> Value {
         match self.cx.hir.types.get(ty) {
             Type::Vector { size, .. } => self.add(Op::Splat { size, value }),
@@ -232,13 +232,13 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// A literal number repeated to the float type `ty`.
+    /// Returns a literal number repeated to the float type `ty`.
     pub fn float_of(&mut self, ty: TypeId, number: f32) -> Value {
         let value = self.float(number);
         self.splat(value, ty)
     }
 
-    /// A literal repeated to the int or uint type `ty`.
+    /// Returns a literal repeated to the int or uint type `ty`.
     pub fn int_of(&mut self, ty: TypeId, bits: u32) -> Value {
         let scalar = self.cx.hir.types.scalar(ty).unwrap_or(Scalar::Int);
         let value = self.literal(scalar, bits);

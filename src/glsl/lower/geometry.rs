@@ -11,8 +11,8 @@ use crate::glsl::{
 };
 
 impl Builder<'_, '_> {
-    /// `((w w' + z z') + y y') + x x'`: the side the sum is on matters to what drivers join it with. What is multiplied
-    /// by a literal zero is left out.
+    /// Adds `((w w' + z z') + y y') + x x'`: the side the sum is on matters to what drivers join it with. Terms
+    /// multiplied by a literal zero are left out.
     pub fn dot(&mut self, ty: TypeId, a: Value, b: Value) -> Value {
         let size = self.extent(ty);
         if size == 1 {

@@ -8,7 +8,7 @@ use crate::glsl::{
 };
 
 impl Builder<'_, '_> {
-    /// The inverse of a square matrix: transposed cofactors over the determinant.
+    /// Returns the inverse of a square matrix: transposed cofactors over the determinant.
     pub fn inverse(&mut self, ty: TypeId, matrix: Value) -> Value {
         let m = self.elements(ty, matrix);
         let n = m.len();
@@ -54,7 +54,7 @@ impl Builder<'_, '_> {
             .collect()
     }
 
-    /// A determinant from its first column and that column's cofactors.
+    /// Returns a determinant from its first column and that column's cofactors.
     fn expand(&mut self, column: &[Value], cofactors: &[Value]) -> Value {
         let terms: Vec<_> = column.iter().zip(cofactors).map(|(&e, &c)| self.op(Binary::Multiply, e, c)).collect();
         match terms[..] {
@@ -79,7 +79,7 @@ impl Builder<'_, '_> {
         self.op(Binary::Multiply, minor, minus)
     }
 
-    /// Determinant of the named columns and rows, expanded along the first of the columns.
+    /// Returns the determinant of the named columns and rows, expanded along the first of the columns.
     fn minor(&mut self, m: &[Vec<Value>], columns: &[usize], rows: &[usize]) -> Value {
         let (&first, rest) = columns.split_first().expect("a minor has a column");
         if rest.is_empty() {

@@ -134,7 +134,7 @@ fn lower_with(
     Lowered { program: cx.out, reflection: cx.reflection, names: cx.names }
 }
 
-/// A program without functions: types and constants.
+/// Returns a program without functions: types and constants.
 fn begin(module: &hir::Module) -> ir::Module {
     let members = |structure: &hir::Struct| module[structure.members].iter().map(|member| member.ty).collect();
     let constant = |constant: &hir::Const| ir::Const { ty: constant.ty, words: module[constant.words].to_vec() };

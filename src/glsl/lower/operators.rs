@@ -220,7 +220,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// The literal an expression is.
+    /// Returns the literal an expression is.
     pub fn literal_bits(&self, expr: ExprId) -> Option<u32> {
         match self.cx.hir[expr].kind {
             ExprKind::Literal(bits) => Some(bits),

@@ -37,7 +37,7 @@ impl Builder<'_, '_> {
         self.store(visits, after);
     }
 
-    /// The first four components of a value: a scalar three times, and what is missing 0, the last 1.
+    /// Returns the first four components of a value: a scalar three times, and what is missing 0, the last 1.
     fn as_vec4(&mut self, value: Value, ty: TypeId) -> Value {
         let mut scalars = Vec::new();
         self.scalars(value, ty, &mut scalars);

@@ -10,7 +10,7 @@ use crate::glsl::{
 };
 
 impl Lowering<'_> {
-    /// Memory of one invocation, zero at its start.
+    /// Returns memory of one invocation, zero at its start.
     fn private(&mut self, ty: TypeId) -> ir::GlobalId {
         self.out.add_global(ty, GlobalKind::Private(None))
     }
@@ -30,7 +30,7 @@ impl Lowering<'_> {
         self.read_only(ty, GlobalKind::Uniform(uniform))
     }
 
-    /// The words of one of the author's own uniforms.
+    /// Returns the words of one of the author's own uniforms.
     pub fn custom_uniform(&mut self, slot: u16) -> ir::GlobalId {
         self.read_only(TypeId::vector(Scalar::Uint, 4), GlobalKind::CustomUniform(slot))
     }
@@ -39,13 +39,13 @@ impl Lowering<'_> {
         self.read_only(TypeId::INT, GlobalKind::CubeFace)
     }
 
-    /// A constant that is indexed.
+    /// Returns a constant that is indexed.
     pub fn table(&mut self, id: ir::ConstId) -> ir::GlobalId {
         let ty = self.out[id].ty;
         self.read_only(ty, GlobalKind::Table(id))
     }
 
-    /// The memory of a built-in variable of a stage.
+    /// Returns the memory of a built-in variable of a stage.
     pub fn stage_variable(&mut self, variable: BuiltinVar) -> ir::GlobalId {
         if let Some(&made) = self.resources.stage.get(&variable) {
             return made;
@@ -55,8 +55,8 @@ impl Lowering<'_> {
         made
     }
 
-    /// The memory of one of the author's globals (storage `Private` or `Out`, in a stage `In` too), set to its constant
-    /// value where it has one. What is not constant the entry point computes.
+    /// Returns the memory of one of the author's globals (storage `Private` or `Out`, in a stage `In` too), set to its
+    /// constant value where it has one. What is not constant the entry point computes.
     pub fn global(&mut self, id: GlobalId) -> ir::GlobalId {
         if let Some(made) = self.resources.globals[id.index()] {
             return made;
@@ -89,13 +89,13 @@ impl Lowering<'_> {
         self.resources.failed_asserts.expect("just set")
     }
 
-    /// The names of the members of each structure.
+    /// Returns the names of the members of each structure.
     pub(super) fn member_names(&self) -> Vec<Vec<Symbol>> {
         let names = |structure: &hir::Struct| self.hir[structure.members].iter().map(|m| m.name.symbol).collect();
         self.hir.structs.iter().map(names).collect()
     }
 
-    /// The author's variables of the module that are reached.
+    /// Returns the author's variables of the module that are reached.
     pub(super) fn named_globals(&self) -> Vec<(Symbol, ir::GlobalId)> {
         let made = self.hir.globals.iter().zip(&self.resources.globals);
         made.filter_map(|(global, made)| Some((global.name.symbol, (*made)?))).collect()

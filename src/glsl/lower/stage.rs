@@ -9,7 +9,7 @@ use crate::glsl::{
     stages::slots,
 };
 
-/// The entry point; every function is there already.
+/// Lowers the entry point; every function is there already.
 pub(super) fn lower(cx: &mut Lowering<'_>, reachable: &Reachable) -> ir::Function {
     let entry = reachable.instances.last().expect("the entry point is reached").clone();
     let author = cx.functions[&entry];

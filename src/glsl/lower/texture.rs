@@ -133,7 +133,7 @@ impl Builder<'_, '_> {
         self.add(Op::Sample { channel, coordinate, level, offset })
     }
 
-    /// A constant offset, in the form naga's validator takes for constant.
+    /// Returns a constant offset, in the form naga's validator takes for constant.
     fn constant_offset(&mut self, offset: ExprId) -> Value {
         debug_assert!(matches!(self.cx.hir[offset].kind, ExprKind::Const(_) | ExprKind::Literal(_)));
         self.value(offset)

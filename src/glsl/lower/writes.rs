@@ -20,7 +20,7 @@ pub(super) fn places(module: &Module, expr: ExprId, mut visit: impl FnMut(ExprId
     }
 }
 
-/// The variable that a place is or lies in.
+/// Returns the variable that a place is or lies in.
 pub(super) fn root(module: &Module, mut place: ExprId) -> ExprId {
     while let ExprKind::Member { base, .. } | ExprKind::Swizzle { base, .. } | ExprKind::Index { base, .. } =
         module[place].kind

@@ -40,7 +40,7 @@ pub struct PassSet(u32);
 const _: () = assert!(PASSES.len() <= u32::BITS as usize);
 
 impl PassSet {
-    /// The pass of this name; an error names those there are.
+    /// Returns the pass of this name; an error names those there are.
     pub fn of(name: &str) -> Result<Self, String> {
         match PASSES.iter().position(|pass| pass.name == name) {
             Some(index) => Ok(Self(1 << index)),
@@ -51,7 +51,7 @@ impl PassSet {
         }
     }
 
-    /// These and those.
+    /// Returns these and those.
     #[must_use]
     pub fn with(self, others: Self) -> Self {
         Self(self.0 | others.0)

@@ -44,7 +44,7 @@ impl Rule for Scalarize {
     }
 }
 
-/// A component of an operand; a scalar meets each.
+/// Returns a component of an operand; a scalar meets each.
 fn component(r: &mut Rewriter<'_>, operand: Value, index: u32) -> Value {
     match r.module.types.get(r.f.ty(operand)) {
         Type::Vector { .. } => match known_part(r, operand, index) {
@@ -55,7 +55,7 @@ fn component(r: &mut Rewriter<'_>, operand: Value, index: u32) -> Value {
     }
 }
 
-/// A part of a value that was put together from as many.
+/// Returns a part of a value that was put together from as many.
 fn known_part(r: &Rewriter<'_>, value: Value, index: u32) -> Option<Value> {
     match r.f[value] {
         Op::Compose { ty, ref parts } if parts.len() == r.module.extent(ty) as usize => Some(parts[index as usize]),

@@ -27,7 +27,7 @@ impl Loads {
         }));
     }
 
-    /// Something is stored by this pointer.
+    /// Forgets the loads of what is stored by this pointer.
     pub fn forget(&mut self, pointer: Value, function: &Function) {
         let written = root(function, pointer);
         self.0.retain(|&(_, read)| are_apart(function, written, read));
@@ -38,7 +38,7 @@ impl Loads {
     }
 }
 
-/// The variable, or the argument, that a pointer leads from.
+/// Returns the variable, or the argument, that a pointer leads from.
 fn root(function: &Function, mut pointer: Value) -> Value {
     while let Expression::Access { base, .. } | Expression::AccessIndex { base, .. } = function.expressions[pointer] {
         pointer = base;
@@ -159,7 +159,7 @@ impl Writer<'_> {
         }
     }
 
-    /// A number that no driver knows, so that none unrolls a loop of so many turns.
+    /// Returns a number that no driver knows, so that none unrolls a loop of so many turns.
     fn unknown(&mut self, number: u32, block: &mut Block) -> Value {
         let number = self.uint(number);
         let Some(opaque) = self.opaque else { return number };
@@ -168,7 +168,7 @@ impl Writer<'_> {
         self.emit(Expression::Binary { op: BinaryOperator::Add, left: number, right }, block)
     }
 
-    /// The type that a pointer leads to; `None` of a component.
+    /// Returns the type that a pointer leads to; `None` of a component.
     fn pointee(&self, pointer: Value) -> Option<Handle<Type>> {
         let part = |base: Value, index: Option<u32>| match &self.types[self.pointee(base)?].inner {
             TypeInner::Array { base, .. } => Some(*base),

@@ -115,8 +115,8 @@ fn drop_zero_initialisers(module: &mut Module) {
     }
 }
 
-/// An argument whose first bit is never set, though no driver knows that: where a pixel lies, or the number of a
-/// vertex.
+/// Returns an argument whose first bit is never set, though no driver knows that: where a pixel lies, or the number of
+/// a vertex.
 fn never_negative(entry: &EntryPoint) -> Option<(u32, BuiltIn)> {
     (0..).zip(&entry.function.arguments).find_map(|(index, argument)| match argument.binding {
         Some(Binding::BuiltIn(built_in @ (BuiltIn::Position { .. } | BuiltIn::VertexIndex))) => Some((index, built_in)),

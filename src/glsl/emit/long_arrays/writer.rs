@@ -56,7 +56,7 @@ impl Writer<'_> {
         self.function.expressions.append(expression, Span::UNDEFINED)
     }
 
-    /// An expression that is computed here.
+    /// Adds an expression that is computed here.
     pub fn emit(&mut self, expression: Expression, block: &mut Block) -> Value {
         let value = self.expression(expression);
         block.push(Statement::Emit(Range::new_from_bounds(value, value)), Span::UNDEFINED);

@@ -45,7 +45,7 @@ impl Rule for Uniforms {
     }
 }
 
-/// Members and constant indices that lead to a place.
+/// Returns the members and constant indices that lead to a place.
 fn constant_path(r: &Rewriter<'_>, mut place: Value) -> Option<Vec<u32>> {
     let mut path = Vec::new();
     loop {

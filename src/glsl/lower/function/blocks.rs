@@ -30,7 +30,7 @@ impl Builder<'_, '_> {
         self.add_typed(Op::Call { function, args: args.into() }, ty)
     }
 
-    /// A nested block, filled by `fill`. Tells also whether its end can not be reached.
+    /// Returns a nested block, filled by `fill`, and whether its end cannot be reached.
     pub fn nested(&mut self, fill: impl FnOnce(&mut Self)) -> (Block, bool) {
         let outer = std::mem::take(&mut self.block);
         let outer_ended = std::mem::take(&mut self.ended);

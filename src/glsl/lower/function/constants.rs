@@ -16,7 +16,7 @@ pub(in crate::glsl::lower) enum Part {
 }
 
 impl Builder<'_, '_> {
-    /// A scalar constant, bit for bit.
+    /// Returns a scalar constant, bit for bit.
     pub fn literal(&mut self, scalar: Scalar, bits: u32) -> Value {
         let key = (scalar as u8, bits);
         if let Some(&value) = self.literals.get(&key) {
@@ -31,7 +31,7 @@ impl Builder<'_, '_> {
         self.literal(Scalar::Float, value.to_bits())
     }
 
-    /// The number that a value is, if it is a literal float.
+    /// Returns the number that a value is, if it is a literal float.
     pub fn number(&self, value: Value) -> Option<f32> {
         match self.f[value] {
             Op::Literal(Scalar::Float, bits) => Some(f32::from_bits(bits)),
@@ -39,7 +39,7 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// The bits of a literal int or uint.
+    /// Returns the bits of a literal int or uint.
     pub fn integer(&self, value: Value) -> Option<u32> {
         match self.f[value] {
             Op::Literal(Scalar::Int | Scalar::Uint, bits) => Some(bits),
@@ -59,8 +59,8 @@ impl Builder<'_, '_> {
         value
     }
 
-    /// The zero that WebGL gives to what GLSL leaves undefined: a variable that nothing was written to, the result of a
-    /// function that ends without one.
+    /// Returns the zero that WebGL gives to what GLSL leaves undefined: a variable that nothing was written to, the
+    /// result of a function that ends without one.
     pub fn undefined(&mut self, ty: TypeId) -> Value {
         if !self.cx.marks.undefined {
             return self.zero(ty);
@@ -70,12 +70,12 @@ impl Builder<'_, '_> {
         value
     }
 
-    /// A folded composite.
+    /// Returns a folded composite.
     pub fn constant(&mut self, id: ConstId) -> Value {
         self.const_value(const_id(id))
     }
 
-    /// A constant of the module.
+    /// Returns a constant of the module.
     pub fn const_value(&mut self, id: ir::ConstId) -> Value {
         let key = id.index() as u32;
         if let Some(&value) = self.constants.get(&key) {
@@ -98,7 +98,7 @@ impl Builder<'_, '_> {
         self.add(Op::Compose { ty, parts: parts.into() })
     }
 
-    /// The place that a variable of the module is.
+    /// Returns the place that a variable of the module is.
     pub fn global(&mut self, global: ir::GlobalId) -> Value {
         if let Some(&value) = self.globals.get(&global) {
             return value;
@@ -108,7 +108,7 @@ impl Builder<'_, '_> {
         value
     }
 
-    /// The components of a float constant; one for a scalar or a repeated one.
+    /// Returns the components of a float constant; one for a scalar or a repeated one.
     pub fn floats(&self, value: Value) -> Option<Vec<f32>> {
         match &self.f[value] {
             Op::Literal(..) => Some(vec![self.number(value)?]),

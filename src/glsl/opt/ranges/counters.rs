@@ -216,7 +216,7 @@ impl Walk<'_> {
     }
 }
 
-/// The comparisons that hold where a loop's body goes on behind the test that it begins with.
+/// Returns the comparisons that hold where a loop's body goes on behind the test that it begins with.
 fn test(f: &Function, body: &Block) -> Vec<(Binary, Value, Value)> {
     let first = body.iter().find(|stmt| match stmt {
         Stmt::Let(value) => matches!(f[*value], Op::Call { .. }),
