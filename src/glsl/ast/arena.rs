@@ -10,7 +10,7 @@ macro_rules! ids {
         pub struct $name(::std::num::NonZeroU32);
 
         impl $name {
-            /// The id of element `index` of its arena.
+            /// Returns the id of element `index` of its arena.
             #[inline]
             pub fn new(index: usize) -> Self {
                 // Arenas stay far below 2^32 elements: sources are bounded by 2^32 bytes, expansion by the
@@ -18,7 +18,7 @@ macro_rules! ids {
                 Self(::std::num::NonZeroU32::new(index as u32 + 1).expect("fewer than 2^32 - 1 nodes"))
             }
 
-            /// Position in the arena, from 0.
+            /// Returns the position in the arena, from 0.
             #[inline]
             pub fn index(self) -> usize {
                 self.0.get() as usize - 1
@@ -59,7 +59,7 @@ impl<T> List<T> {
         self.len == 0
     }
 
-    /// The range in the pool.
+    /// Returns the range in the pool.
     #[inline]
     pub fn range(self) -> std::ops::Range<usize> {
         self.start as usize..self.start as usize + self.len as usize

@@ -56,7 +56,7 @@ impl Interner {
         self.ends.len()
     }
 
-    /// The text of a symbol of this interner.
+    /// Returns the text of a symbol of this interner.
     #[inline]
     pub fn get(&self, symbol: Symbol) -> &str {
         let i = symbol.0 as usize;
@@ -64,7 +64,7 @@ impl Interner {
         &self.text[start as usize..self.ends[i] as usize]
     }
 
-    /// The symbol of a text if it has one already.
+    /// Returns the symbol of a text if it has one already.
     pub fn find(&self, text: &str) -> Option<Symbol> {
         self.table[self.slot(text, head(text))].entry.checked_sub(1).map(Symbol)
     }
@@ -120,7 +120,7 @@ impl Interner {
 /// Bytes in [`Slot::head`].
 const HEAD: usize = 8;
 
-/// The first bytes of a text; the last ones of it are the highest.
+/// Returns the first bytes of a text; the last ones of it are the highest.
 #[inline]
 fn head(text: &str) -> u64 {
     let bytes = text.as_bytes();

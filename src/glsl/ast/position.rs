@@ -163,7 +163,7 @@ impl Origins {
         }
     }
 
-    /// An error at `loc`, with a label at the macro's definition where one is involved. Use this rather than
+    /// Returns an error at `loc`, with a label at the macro's definition where one is involved. Use this rather than
     /// [`Diagnostic::error`], so that every message inside a macro shows use and definition.
     pub fn error(&self, names: &Interner, loc: impl Into<Loc>, message: impl Into<String>) -> Diagnostic {
         let loc = loc.into();

@@ -49,7 +49,7 @@ impl<'a> Lexer<'a> {
         Self { text, source, pos, base, splices, line_start: true, in_directive: false }
     }
 
-    /// The place between what was read and what comes next.
+    /// Returns the place between what was read and what comes next.
     pub fn here(&mut self) -> Span {
         self.span(self.pos, self.pos)
     }
@@ -64,7 +64,7 @@ impl<'a> Lexer<'a> {
         self.in_directive = false;
     }
 
-    /// The rest of the directive's line as it stands, up to where [`Lexer::next`] would give its end.
+    /// Returns the rest of the directive's line as it stands, up to where [`Lexer::next`] would give its end.
     pub fn rest_of_line(&mut self) -> (String, Span) {
         let start = self.pos;
         let text = self.text.as_bytes();
@@ -161,7 +161,7 @@ impl<'a> Lexer<'a> {
         None
     }
 
-    /// The next token; `Eof` again and again at the end.
+    /// Returns the next token; `Eof` again and again at the end.
     #[inline]
     pub fn next(&mut self, names: &mut Interner) -> Token {
         let before = self.pos;

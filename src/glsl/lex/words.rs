@@ -74,12 +74,12 @@ pub(in crate::glsl) fn is_word(name: &str) -> bool {
     interner().find(name).is_some()
 }
 
-/// An interner that knows all words of the language.
-/// Every keyword that is no type.
+/// Returns every keyword that is no type.
 pub(in crate::glsl) fn keywords() -> impl Iterator<Item = &'static str> {
     KEYWORDS.iter().map(|k| k.0)
 }
 
+/// Returns an interner that knows all words of the language.
 pub(in crate::glsl) fn interner() -> Interner {
     static SEEDED: LazyLock<Interner> = LazyLock::new(|| {
         Interner::seeded(
@@ -111,7 +111,7 @@ pub(in crate::glsl) fn kind(symbol: u32) -> Kind {
     }
 }
 
-/// The type of a `Kind::Type` token's symbol.
+/// Returns the type of a `Kind::Type` token's symbol.
 pub(in crate::glsl) fn basic_type(symbol: u32) -> BasicType {
     let i = (symbol - FIRST_TYPE) as usize;
     BasicType::ALL.get(i).copied().unwrap_or_else(|| TYPE_ALIASES[i - BasicType::ALL.len()].1)

@@ -56,7 +56,7 @@ impl Preamble {
         &self.parsed
     }
 
-    /// The checked declarations, if they are the same in this pass.
+    /// Returns the checked declarations, if they are the same in this pass.
     pub(super) fn checked(&self, source: &PassSource<'_>) -> Option<&Begun> {
         let mut uniforms = source.custom_uniforms.iter();
         let is_same = !source.kind.is_stage()

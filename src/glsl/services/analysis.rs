@@ -76,7 +76,7 @@ impl Analysis {
         analysis
     }
 
-    /// The text this was made of.
+    /// Returns the text this was made of.
     pub fn text(&self, source: SourceId) -> Option<&str> {
         Some(&self.sources[self.source_index(source)?].text)
     }
@@ -89,7 +89,7 @@ impl Analysis {
         self.source_index(span.source).and_then(|i| self.sources[i].text.get(span.range())).unwrap_or("")
     }
 
-    /// The word at a place: index of its text, and of the token.
+    /// Returns the word at a place: index of its text, and of the token.
     pub(super) fn word_at(&self, source: SourceId, offset: usize) -> Option<(usize, usize)> {
         let source = self.source_index(source)?;
         Some((source, self.sources[source].word_at(offset)?))

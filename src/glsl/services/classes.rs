@@ -50,7 +50,7 @@ pub struct ClassSpan {
 }
 
 impl Analysis {
-    /// The classes of a text, in order, none overlapping another.
+    /// Returns the classes of a text, in order, none overlapping another.
     pub fn classes(&self, source: SourceId) -> Vec<ClassSpan> {
         let Some(index) = self.source_index(source) else { return Vec::new() };
         let text = &self.sources[index];

@@ -272,7 +272,7 @@ impl Analysis {
         Completion { label: name.to_owned(), kind, detail, doc, order }
     }
 
-    /// The function a pass of this kind must define, as a name to begin with.
+    /// Returns the function a pass of this kind must define, as a name to begin with.
     fn entry_point(&self) -> Completion {
         let entry = env::entry(self.kind);
         Completion {
@@ -355,7 +355,7 @@ fn more_overloads(detail: &mut String, more: usize) {
     }
 }
 
-/// The components worth proposing of a vector; others can be typed.
+/// Returns the components worth proposing of a vector; others can be typed.
 fn swizzles(scalar: Scalar, size: u8, item: impl Fn(&str, String, String, usize) -> Completion) -> Vec<Completion> {
     let names: &[&str] = match size {
         2 => &["x", "y", "xy", "yx", "xyxy", "r", "g", "s", "t"],

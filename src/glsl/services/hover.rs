@@ -70,7 +70,7 @@ impl Analysis {
         }
     }
 
-    /// The name that an unknown one at `offset` was probably meant to be.
+    /// Returns the name that an unknown one at `offset` was probably meant to be.
     pub fn near(&self, source: SourceId, offset: usize) -> Option<String> {
         let (source, token) = self.word_at(source, offset)?;
         let is_unknown = self.sources[source].kind(token) == Token::Ident && self.target_of(source, token).is_none();
@@ -129,7 +129,7 @@ impl Analysis {
         }
     }
 
-    /// The overload that a call of a built-in takes, with its types.
+    /// Returns the overload that a call of a built-in takes, with its types.
     fn exact_builtin(&self, target: Target, span: Span) -> Option<String> {
         let Target::Decl(DeclRef::Builtin(builtin)) = target else { return None };
         let doc = docs::function(builtin);
@@ -150,7 +150,7 @@ impl Analysis {
         Some(super::show::call_text(&format!("{} {}", self.type_name(call.0), builtin.name()), &params).0)
     }
 
-    /// The author's comment that ends in the line above a declaration, or stands behind it in its line.
+    /// Returns the author's comment that ends in the line above a declaration, or stands behind it in its line.
     pub(super) fn comment_above(&self, name: Span) -> String {
         let Some(source) = self.source_index(name.source) else { return String::new() };
         let source = &self.sources[source];
@@ -169,7 +169,7 @@ impl Analysis {
     }
 }
 
-/// The comments whose last line is the one before `line_start`, and those that touch them from above.
+/// Returns the comments whose last line is the one before `line_start`, and those that touch them from above.
 fn comments_before(source: &Source, line_start: usize) -> String {
     let text = &source.text;
     let mut lines = Vec::new();
@@ -191,7 +191,7 @@ fn comments_before(source: &Source, line_start: usize) -> String {
     lines.join("\n")
 }
 
-/// A comment without its signs; rulers of dashes and the like are left out.
+/// Returns a comment without its signs; rulers of dashes and the like are left out.
 fn unwrap(comment: &str) -> String {
     let inner = comment.strip_prefix("/*").map(|c| c.strip_suffix("*/").unwrap_or(c)).unwrap_or(comment);
     let strip = |line: &str| {

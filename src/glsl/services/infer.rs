@@ -212,7 +212,7 @@ impl<'a> Infer<'a> {
         ranges.into_iter().map(|range| deeper.expression(range).unwrap_or(TypeId::ERROR)).collect()
     }
 
-    /// The overload that takes arguments best: the right number, and most of the right types.
+    /// Returns the overload that takes arguments best: the right number, and most of the right types.
     pub fn best(&self, all: &[FuncId], args: &[TypeId]) -> Option<FuncId> {
         all.iter().copied().rev().max_by_key(|&id| {
             let params = self.a.module.params(id);
@@ -240,7 +240,7 @@ impl<'a> Infer<'a> {
     }
 }
 
-/// The arguments between two parentheses, as ranges of tokens; none where there is nothing.
+/// Returns the arguments between two parentheses, as ranges of tokens; none where there is nothing.
 pub(super) fn arguments(text: &Source, open: usize, close: usize) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     let mut start = open + 1;
@@ -324,7 +324,7 @@ impl Analysis {
         }
     }
 
-    /// The struct a type is.
+    /// Returns the structure that a type is.
     pub(super) fn struct_of(&self, ty: TypeId) -> Option<StructId> {
         match self.module.types.get(ty) {
             Type::Struct(id) => Some(id),

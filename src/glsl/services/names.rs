@@ -26,8 +26,8 @@ impl Analysis {
         }
     }
 
-    /// Every place where what the name at `offset` stands for is named, its declaration among them, Common's first.
-    /// Names that only look alike (another scope, another overload) are not among them.
+    /// Returns every place where what the name at `offset` stands for is named, its declaration among them, Common's
+    /// first. Names that only look alike (another scope, another overload) are not among them.
     pub fn uses(&self, source: SourceId, offset: usize) -> Vec<Span> {
         let Some((source, token)) = self.word_at(source, offset) else { return Vec::new() };
         let Some(target) = self.target_of(source, token) else { return Vec::new() };

@@ -26,7 +26,7 @@ pub(super) fn misfit(typed: &str, name: &str) -> Option<u32> {
     follows.then_some(3)
 }
 
-/// A capital behind a small letter, or what follows `_` or a digit.
+/// Returns whether a part of a name begins: a capital behind a small letter, or what follows `_` or a digit.
 fn is_hump(name: &str, at: usize) -> bool {
     let before = name[..at].chars().next_back().unwrap_or(' ');
     let here = name[at..].chars().next().unwrap_or(' ');

@@ -23,7 +23,7 @@ impl Analysis {
         Some((self.source_index(span.source)?, span.start))
     }
 
-    /// The function whose header or body a place is in.
+    /// Returns the function whose header or body a place is in.
     pub(super) fn function_at(&self, at: Place) -> Option<FuncId> {
         let functions = self.module.functions.iter().enumerate().filter(|(_, f)| f.body.is_some());
         let begun = functions.filter_map(|(i, f)| {
@@ -106,8 +106,8 @@ impl Analysis {
             .map(|(i, _)| FuncId::new(i))
     }
 
-    /// The macro of a name that was defined last before a place. An `#undef` in between is passed over: a name that was
-    /// a macro once is more likely meant than none.
+    /// Returns the macro of a name that was defined last before a place. An `#undef` in between is passed over: a name
+    /// that was a macro once is more likely meant than none.
     pub(super) fn macro_at(&self, symbol: Symbol, at: Place) -> Option<crate::glsl::ast::MacroId> {
         let found = self.origins.macros.iter().rposition(|def| {
             def.name == symbol
@@ -178,7 +178,8 @@ fn scope_of(text: &Source, name: usize) -> (u32, u32) {
     (from, end_of_text)
 }
 
-/// A variable is in scope behind its initialiser (section 4.2.2). Where that is not finished, the next line ends it.
+/// Returns the end of a variable's initialiser, behind which it is in scope (section 4.2.2). Where that is not
+/// finished, the next line ends it.
 fn end_of_declarator(text: &Source, name: usize) -> u32 {
     let level = text.around(name);
     for i in name + 1..text.tokens.len() {

@@ -28,7 +28,8 @@ impl Analysis {
         }
     }
 
-    /// The lines a target is declared by, and for a channel, uniform or variable of the language those that would.
+    /// Returns the lines a target is declared by, and for a channel, uniform or variable of the language those that
+    /// would.
     pub(super) fn declared_as(&self, target: Target) -> Vec<String> {
         let one = |line: String| vec![line];
         match target {
@@ -135,7 +136,7 @@ impl Analysis {
         }
     }
 
-    /// A function's header in one line, and where its parameters stand in it.
+    /// Returns a function's header in one line, and where its parameters stand in it.
     pub(super) fn function_text(&self, id: FuncId) -> (String, Vec<Range<usize>>) {
         let function = &self.module[id];
         let params: Vec<String> = (0..function.param_count)
@@ -157,7 +158,7 @@ impl Analysis {
         lines
     }
 
-    /// The `#define` of a macro, blanks and line ends made single spaces.
+    /// Returns the `#define` of a macro, blanks and line ends made single spaces.
     fn macro_text(&self, id: MacroId) -> String {
         let def = self.origins[id];
         let Some(span) = def.defined_at else { return format!("#define {}", self.names.get(def.name)) };
@@ -201,7 +202,7 @@ pub(super) fn call_text(head: &str, params: &[String]) -> (String, Vec<Range<usi
     (text, ranges)
 }
 
-/// Every overload of a built-in, as the specification writes them.
+/// Returns every overload of a built-in, as the specification writes them.
 pub(super) fn builtin_texts(builtin: Builtin) -> Vec<String> {
     overloads::of(builtin).iter().map(|o| overload_text(builtin, o).0).collect()
 }
@@ -218,7 +219,7 @@ pub(super) fn overload_text(builtin: Builtin, overload: &Overload) -> (String, V
     call_text(&format!("{} {}", pattern_name(overload.result), builtin.name()), &params)
 }
 
-/// The specification's name for a set of types (section 8).
+/// Returns the specification's name for a set of types (section 8).
 fn pattern_name(pattern: Pattern) -> String {
     let letter = |scalar| match scalar {
         Scalar::Float => "",

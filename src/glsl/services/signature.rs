@@ -42,7 +42,7 @@ pub struct SignatureHelp {
 }
 
 impl Analysis {
-    /// The innermost call whose parentheses `offset` is in.
+    /// Returns the innermost call whose parentheses `offset` is in.
     pub fn signature_help(&self, source: SourceId, offset: usize) -> Option<SignatureHelp> {
         let source = self.source_index(source)?;
         let text = &self.sources[source];
@@ -68,7 +68,7 @@ impl Analysis {
         }
     }
 
-    /// The call whose parenthesis is token `open`; `stop` is the token behind the caret.
+    /// Returns the call whose parenthesis is token `open`; `stop` is the token behind the caret.
     fn call_at(&self, source: usize, open: usize, parameter: usize, stop: usize) -> Option<SignatureHelp> {
         let text = &self.sources[source];
         let name = open.checked_sub(1)?;
@@ -143,7 +143,7 @@ impl Analysis {
     }
 }
 
-/// The open parenthesis around what stands before token `before`, and how many commas lie between.
+/// Returns the open parenthesis around what stands before token `before`, and how many commas lie between.
 fn enclosing(text: &Source, before: usize) -> Option<(usize, usize)> {
     let mut commas = 0;
     let mut i = before;
@@ -162,7 +162,7 @@ fn enclosing(text: &Source, before: usize) -> Option<(usize, usize)> {
     None
 }
 
-/// The usual ways to make a value of a keyword type.
+/// Returns the usual ways to make a value of a keyword type.
 fn constructors(ty: TypeId, types: &crate::glsl::hir::TypeTable) -> Vec<Signature> {
     let Some(basic) = ty.as_basic() else { return Vec::new() };
     let one = |params: &[&str]| {

@@ -64,7 +64,7 @@ impl Symbols {
         &self.list[first..first + count]
     }
 
-    /// Every occurrence of a text.
+    /// Returns every occurrence of a text.
     pub fn of_source(&self, source: usize) -> &[Occurrence] {
         let source = source as u32;
         let first = self.list.partition_point(|o| o.source < source);

@@ -90,7 +90,7 @@ impl Source {
         self.tokens.partition_point(|t| (t.start as usize) < offset)
     }
 
-    /// The word that `offset` is in, or at either end of.
+    /// Returns the word that `offset` is in, or at either end of.
     pub fn word_at(&self, offset: usize) -> Option<usize> {
         let next = self.first_from(offset + 1);
         let holds = |i: usize| self.tokens.get(i).is_some_and(|t| t.is_word() && t.end as usize >= offset);
@@ -102,7 +102,7 @@ impl Source {
         last.checked_sub(1).filter(|&i| holds(i))
     }
 
-    /// The name that a span covers exactly.
+    /// Returns the name that a span covers exactly.
     pub fn token_of(&self, span: Span) -> Option<usize> {
         let i = self.first_from(span.start as usize);
         self.tokens.get(i).filter(|t| t.start == span.start)?;
@@ -272,7 +272,7 @@ impl Source {
     }
 }
 
-/// A line, without its end, that goes on in the next.
+/// Returns a line, without its end, that goes on in the next.
 fn is_continued(line: &[u8]) -> bool {
     line.strip_suffix(b"\r").unwrap_or(line).ends_with(b"\\")
 }

@@ -16,7 +16,7 @@ pub(super) fn function(builtin: Builtin) -> Function {
     functions::of(builtin)
 }
 
-/// A uniform, channel, `gl_` variable or constant, entry point, or macro of the header.
+/// Returns a uniform, channel, `gl_` variable or constant, entry point, or macro of the header.
 pub(super) fn variable(name: &str) -> Option<&'static str> {
     find(variables::VARIABLES, name)
 }

@@ -47,7 +47,7 @@ impl Marked {
         })
     }
 
-    /// The text of a span's line with the span in brackets.
+    /// Returns the text of a span's line with the span in brackets.
     fn shown(&self, span: Span) -> String {
         let text = if span.source == COMMON { &self.common } else { &self.code };
         let start = text[..span.start as usize].rfind('\n').map_or(0, |i| i + 1);

@@ -2,7 +2,7 @@
 
 use super::Marked;
 
-/// The active signature with the active parameter in brackets, or nothing.
+/// Returns the active signature with the active parameter in brackets, or nothing.
 fn help(code: &str) -> String {
     let m = Marked::code(code);
     let Some(help) = m.analysis().signature_help(m.at.0, m.at.1) else { return String::new() };
