@@ -127,7 +127,7 @@ impl LocalKind {
         matches!(self, LocalKind::In | LocalKind::ConstIn | LocalKind::Out | LocalKind::Inout)
     }
 
-    /// The argument is written at return, and must be a place.
+    /// Returns whether the argument is written at return, and must be a place.
     pub fn copies_out(self) -> bool {
         matches!(self, LocalKind::Out | LocalKind::Inout)
     }

@@ -133,7 +133,7 @@ impl Module {
         ConstId::new(self.consts.len() - 1)
     }
 
-    /// A type as GLSL writes it.
+    /// Returns a type as GLSL writes it.
     pub fn type_text(&self, names: &ast::Interner, ty: TypeId) -> String {
         match self.types.get(ty) {
             Type::Array { element, len } => format!("{}[{len}]", self.type_text(names, element)),

@@ -10,7 +10,7 @@ use crate::glsl::{
 };
 
 impl Parser<'_> {
-    /// The whole text.
+    /// Reads the whole text.
     pub(super) fn file(&mut self) {
         loop {
             let first = self.at;
@@ -54,7 +54,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Something at file scope that is no declaration.
+    /// Reports something at file scope that is no declaration.
     fn outside(&mut self) -> Failed {
         let i = self.at;
         if std::mem::replace(&mut self.adrift, true) {
@@ -106,7 +106,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A declaration to behind its `;` or body.
+    /// Reads a declaration to behind its `;` or body.
     pub(super) fn declaration(&mut self, at_file: bool) -> Parse<DeclId> {
         let first = self.at;
         if self.eat(Kind::Precision) {
@@ -152,8 +152,8 @@ impl Parser<'_> {
         Ok(self.ast.decl(DeclKind::Vars { qualifiers, ty, declarators }, loc))
     }
 
-    /// A name and parameters. A keyword as the name is told when it is read; a number as the first parameter makes it a
-    /// variable of C++.
+    /// Returns whether a name and parameters follow. A keyword as the name is told when it is read; a number as the
+    /// first parameter makes it a variable of C++.
     fn is_function(&self) -> bool {
         (self.kind() == Kind::Ident || self.kind().is_keyword())
             && self.second() == Kind::LParen
@@ -236,7 +236,7 @@ impl Parser<'_> {
         Ok(self.ast.list(&found))
     }
 
-    /// `layout(location = 0, std140)`.
+    /// Reads `layout(location = 0, std140)`.
     fn layout(&mut self) -> Parse<List<LayoutItem>> {
         self.bump();
         let open = self.at;
@@ -256,7 +256,7 @@ impl Parser<'_> {
         Ok(self.ast.list(&items))
     }
 
-    /// `a = .., b[2]`.
+    /// Reads `a = .., b[2]`.
     pub(super) fn declarators(&mut self) -> Parse<List<Declarator>> {
         let mut found = std::mem::take(&mut self.declarators);
         found.clear();

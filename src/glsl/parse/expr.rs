@@ -8,7 +8,7 @@ use crate::glsl::{
     preprocess::Tok,
 };
 
-/// Operator and how tightly it binds; higher is tighter.
+/// Returns an operator and its precedence; a higher one binds tighter.
 #[inline]
 fn binary_op(kind: Kind) -> Option<(BinaryOp, u8)> {
     Some(match kind {
@@ -35,7 +35,7 @@ fn binary_op(kind: Kind) -> Option<(BinaryOp, u8)> {
     })
 }
 
-/// `Some(None)` for `=`, `Some(Some(op))` for `op=`.
+/// Returns `Some(None)` for `=`, `Some(Some(op))` for `op=`.
 #[inline]
 fn assign_op(kind: Kind) -> Option<Option<BinaryOp>> {
     Some(match kind {
@@ -55,12 +55,12 @@ fn assign_op(kind: Kind) -> Option<Option<BinaryOp>> {
 }
 
 impl Parser<'_> {
-    /// A full expression: its nodes are contiguous, and none is left where it fails.
+    /// Reads a full expression: its nodes are contiguous, and none is left where it fails.
     pub(super) fn full_expression(&mut self) -> Parse<ExprId> {
         self.full(Self::expression)
     }
 
-    /// A full expression without the comma operator.
+    /// Reads a full expression without the comma operator.
     pub(super) fn full_assignment(&mut self) -> Parse<ExprId> {
         self.full(Self::assignment)
     }
@@ -97,7 +97,7 @@ impl Parser<'_> {
         heights.last().copied().unwrap_or(0) + 1
     }
 
-    /// `expression`, with commas.
+    /// Reads `expression`, with commas.
     fn expression(&mut self) -> Parse<ExprId> {
         let first = self.at;
         let mut lhs = self.assignment()?;
@@ -132,7 +132,7 @@ impl Parser<'_> {
         Ok(lhs)
     }
 
-    /// `a =+ b` is `a = +b`, which nobody writes on purpose.
+    /// Reports `a =+ b`, which is `a = +b`, which nobody writes on purpose.
     pub(super) fn check_unary_slip(&mut self) {
         let i = self.at;
         if self.kind() == Kind::Plus && self.kind_at(i - 1) == Kind::Equal && self.adjacent(i - 1) && !self.adjacent(i)
@@ -212,7 +212,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A member, swizzle or `length()`; the point was read.
+    /// Reads a member, swizzle or `length()`; the point was read.
     fn after_dot(&mut self, base: ExprId) -> Parse<ExprKind> {
         let name = self.ident("a member or components behind `.`")?;
         if self.kind() != Kind::LParen {
@@ -286,7 +286,7 @@ impl Parser<'_> {
         Ok(self.ast.expr(node, loc))
     }
 
-    /// A name and brackets, followed by `(`: `S[2](..)`.
+    /// Returns whether a name and brackets follow, and then `(`: `S[2](..)`.
     fn is_array_constructor(&self, name: usize) -> bool {
         self.partner(name + 1).is_some_and(|end| self.kind_at(end + 1) == Kind::LParen)
     }
@@ -300,7 +300,7 @@ impl Parser<'_> {
         Ok(self.ast.expr(ExprKind::Call { name, args }, loc))
     }
 
-    /// `vec3(..)`, `float[2](..)`, `S[](..)`.
+    /// Reads `vec3(..)`, `float[2](..)`, `S[](..)`.
     fn constructor(&mut self) -> Parse<ExprId> {
         let first = self.at;
         let kind = match self.kind() {
@@ -319,7 +319,7 @@ impl Parser<'_> {
         Ok(self.ast.expr(ExprKind::Construct { ty, args }, loc))
     }
 
-    /// `(a, b)`; `()` and `(void)` are empty.
+    /// Reads `(a, b)`; `()` and `(void)` are empty.
     fn arguments(&mut self) -> Parse<List<ExprId>> {
         let open = self.at;
         self.bump();

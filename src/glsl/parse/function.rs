@@ -7,7 +7,7 @@ use crate::glsl::{
 };
 
 impl Parser<'_> {
-    /// A prototype or definition; qualifiers and result were read.
+    /// Reads a prototype or definition; qualifiers and result were read.
     pub(super) fn function(
         &mut self,
         first: usize,
@@ -91,7 +91,7 @@ impl Parser<'_> {
         Ok(Param { qualifiers, ty, name, dims, loc })
     }
 
-    /// The body of a function, or a block in one.
+    /// Reads the body of a function, or a block in one.
     pub(super) fn block(&mut self) -> Parse<StmtId> {
         let first = self.at;
         self.enter()?;

@@ -2,7 +2,7 @@
 
 use crate::glsl::ast::BasicType;
 
-/// The mend for a reserved word, where another than a new name.
+/// Returns the mend for a reserved word, where another than a new name.
 pub(super) fn reserved(word: &str) -> Option<&'static str> {
     Some(match word {
         "static" => "leave it out: a `const` is as good",
@@ -23,7 +23,7 @@ pub(super) fn reserved(word: &str) -> Option<&'static str> {
     })
 }
 
-/// Reserved words that stand before a type in other languages.
+/// Returns whether a reserved word stands before a type in other languages.
 pub(super) fn is_qualifier(word: &str) -> bool {
     #[rustfmt::skip]
     let words = [
@@ -33,12 +33,12 @@ pub(super) fn is_qualifier(word: &str) -> bool {
     words.contains(&word)
 }
 
-/// Reserved words that begin a declaration of something GLSL does not have.
+/// Returns whether a reserved word begins a declaration of something GLSL does not have.
 pub(super) fn begins_foreign_declaration(word: &str) -> bool {
     matches!(word, "class" | "enum" | "typedef" | "template" | "using" | "namespace" | "union" | "interface")
 }
 
-/// The type that another language calls so.
+/// Returns the type that another language calls so.
 pub(in crate::glsl) fn foreign_type(word: &str) -> Option<BasicType> {
     use BasicType::*;
     Some(match word {

@@ -69,7 +69,7 @@ impl Clone for Reader {
 }
 
 impl Parsed {
-    /// Nothing, as it is before the first text.
+    /// Returns the state before the first text.
     fn nothing() -> Self {
         Self {
             ast: Ast::default(),
@@ -86,7 +86,7 @@ impl Parsed {
         !self.report.has_errors() && !self.reader.has_line_numbers
     }
 
-    /// By symbol: whether some token is this name.
+    /// Returns, by symbol, whether some token is this name.
     pub fn mentioned(&self) -> Vec<bool> {
         let mut mentioned = vec![false; self.names.len()];
         for token in self.reader.tokens.iter().filter(|token| token.kind == Kind::Ident) {

@@ -62,7 +62,7 @@ impl Parser<'_> {
         self.tokens.get(i).map_or(Kind::Eof, |t| t.kind)
     }
 
-    /// Kind of the token behind the next one.
+    /// Returns the kind of the token behind the next one.
     #[inline]
     pub fn second(&self) -> Kind {
         self.kind_at(self.at + 1)
@@ -90,7 +90,7 @@ impl Parser<'_> {
         found
     }
 
-    /// The partner of a bracket.
+    /// Returns the partner of a bracket.
     #[inline]
     pub fn partner(&self, i: usize) -> Option<usize> {
         let value = self.tokens[i].value;
@@ -102,7 +102,7 @@ impl Parser<'_> {
         TokenId(i as u32)
     }
 
-    /// From a token to the last one read.
+    /// Returns the place from a token to the last one read.
     #[inline]
     pub fn loc(&self, first: usize) -> Loc {
         Loc::new(Self::token(first), Self::token(self.at.saturating_sub(1).max(first)))
@@ -144,7 +144,7 @@ impl Parser<'_> {
         result
     }
 
-    /// A closing bracket for the opening one at `open`.
+    /// Reads a closing bracket for the opening one at `open`.
     pub fn close(&mut self, open: usize, wanted: Kind) -> Parse<()> {
         if self.eat(wanted) {
             return Ok(());
@@ -165,7 +165,7 @@ impl Parser<'_> {
         Err(self.unexpected(&format!("an operator or {closer}")))
     }
 
-    /// `;` behind a statement or declaration. Where a new line follows it is only missing, and all goes on.
+    /// Reads the `;` behind a statement or declaration. Where a new line follows it is only missing, and all goes on.
     pub fn semicolon(&mut self) -> Parse<()> {
         if self.eat(Kind::Semicolon) {
             return Ok(());
@@ -181,7 +181,7 @@ impl Parser<'_> {
         Err(self.unexpected("`;`"))
     }
 
-    /// A token that can begin a statement or declaration.
+    /// Returns whether a token can begin a statement or declaration.
     pub fn begins_anew(&self, i: usize) -> bool {
         !matches!(
             self.kind_at(i),
@@ -205,7 +205,7 @@ impl Parser<'_> {
         )
     }
 
-    /// A name that is being declared.
+    /// Reads a name that is being declared.
     pub fn declared(&mut self, what: &str) -> Parse<Ident> {
         let i = self.at;
         let ident = self.ident(what)?;
@@ -228,7 +228,7 @@ impl Parser<'_> {
         Ok(ident)
     }
 
-    /// A name. A reserved word is reported once and taken for one.
+    /// Reads a name. A reserved word is reported once and taken for one.
     pub fn ident(&mut self, what: &str) -> Parse<Ident> {
         let i = self.at;
         match self.kind() {

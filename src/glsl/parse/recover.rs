@@ -7,7 +7,7 @@ use crate::{
 };
 
 impl Parser<'_> {
-    /// The token as the author wrote it, its beginning if it is long.
+    /// Returns the token as the author wrote it, its beginning if it is long.
     pub(super) fn quoted(&self, i: usize) -> String {
         const MOST: usize = 60;
         let text = self.text(i);
@@ -17,18 +17,19 @@ impl Parser<'_> {
         }
     }
 
-    /// The token as the author wrote it.
+    /// Returns the token as the author wrote it.
     pub(super) fn text(&self, i: usize) -> &str {
         let span = self.origins.tokens[i].spelled;
         self.pieces.iter().find(|p| p.text.id == span.source).and_then(|p| p.text.text.get(span.range())).unwrap_or("")
     }
 
-    /// The token for a message.
+    /// Returns the token for a message.
     pub(super) fn shown(&self, i: usize) -> String {
         if self.kind_at(i) == Kind::Eof { "the end of the text".into() } else { self.quoted(i) }
     }
 
-    /// A token and the one before it stand in different lines (or one of them comes from a macro in a line of its own).
+    /// Returns whether a token and the one before it stand in different lines (or one of them comes from a macro in a
+    /// line of its own).
     pub(super) fn starts_line(&self, i: usize) -> bool {
         if i == 0 || self.kind_at(i) == Kind::Eof {
             return true;
@@ -41,13 +42,13 @@ impl Parser<'_> {
         text.get(before.end as usize..here.start as usize).is_some_and(|between| between.contains(['\n', '\r']))
     }
 
-    /// Two tokens touch each other.
+    /// Returns whether two tokens touch each other.
     pub(super) fn adjacent(&self, i: usize) -> bool {
         let (first, second) = (self.origins.tokens[i].spelled, self.origins.tokens[i + 1].spelled);
         first.source == second.source && first.end == second.start
     }
 
-    /// Nothing is to be said about a token: it was reported, or the message before was about it.
+    /// Returns whether nothing is to be said about a token: it was reported, or the message before was about it.
     pub(super) fn is_told(&self, i: usize) -> bool {
         self.last_error == Some(i) || self.kind_at(i) == Kind::Wrong || (i > 0 && self.kind_at(i - 1) == Kind::Wrong)
     }
@@ -67,14 +68,14 @@ impl Parser<'_> {
         self.report.add_in_macro(definition, diagnostic);
     }
 
-    /// An error at a token that ends the group being read.
+    /// Reports an error at a token that ends the group being read.
     #[cold]
     pub(super) fn fail(&mut self, i: usize, message: impl Into<String>, hint: Option<String>) -> Failed {
         self.error(i, message, hint);
         Failed
     }
 
-    /// The place just behind a token, where something is missing.
+    /// Returns the place just behind a token, where something is missing.
     pub(super) fn behind(&self, i: usize) -> Span {
         let span = self.origins.token_span(Self::token(i));
         Span { start: span.end, ..span }
@@ -123,7 +124,7 @@ impl Parser<'_> {
         }
     }
 
-    /// The next tokens can only be the beginning of a statement or declaration.
+    /// Returns whether the next tokens can only be the beginning of a statement or declaration.
     pub(super) fn plainly_begins(&self) -> bool {
         match self.kind() {
             Kind::Type | Kind::Ident => self.second() == Kind::Ident,

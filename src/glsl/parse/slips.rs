@@ -4,7 +4,7 @@ use super::parser::{Failed, Parser};
 use crate::glsl::lex::Kind;
 
 impl Parser<'_> {
-    /// The next token does not fit; `expected` would.
+    /// Reports that the next token does not fit; `expected` would.
     #[cold]
     pub(super) fn unexpected(&mut self, expected: &str) -> Failed {
         let i = self.at;
@@ -35,7 +35,7 @@ impl Parser<'_> {
         self.fail(i, message, hint)
     }
 
-    /// The next token cannot begin an operand.
+    /// Reports that the next token cannot begin an operand.
     #[cold]
     pub(super) fn no_operand(&mut self) -> Failed {
         let i = self.at;
@@ -89,7 +89,7 @@ impl Parser<'_> {
             .then(|| format!("{} gives no value: write `condition ? a : b`", self.shown(i)))
     }
 
-    /// A type where a value must stand.
+    /// Reports a type where a value must stand.
     #[cold]
     pub(super) fn type_as_operand(&mut self, first: usize) -> Failed {
         let name = self.text(first).to_owned();

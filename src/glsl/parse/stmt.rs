@@ -11,7 +11,7 @@ use crate::{
 };
 
 impl Parser<'_> {
-    /// `{ .. }`: its statements, each mistake left behind in its own.
+    /// Reads `{ .. }`: its statements, each mistake left behind in its own.
     pub(super) fn statements(&mut self) -> Parse<List<StmtId>> {
         let open = self.at;
         self.bump();
@@ -52,7 +52,7 @@ impl Parser<'_> {
         Ok(list)
     }
 
-    /// The text ends in a block.
+    /// Reports that the text ends in a block.
     fn unclosed(&mut self, open: usize) {
         // Of several open braces the outermost is the one without partner; the innermost message counts.
         let (brace, label) = match self.body {
@@ -67,7 +67,7 @@ impl Parser<'_> {
         self.report_at(here, diagnostic);
     }
 
-    /// `type name(..) {`, which stands at file scope only.
+    /// Returns whether `type name(..) {` follows, which stands at file scope only.
     fn begins_function(&self) -> bool {
         let name = self.at + 1;
         matches!(self.kind(), Kind::Type | Kind::Ident)
@@ -183,7 +183,7 @@ impl Parser<'_> {
         })
     }
 
-    /// The semicolon of a statement that is complete without it.
+    /// Reads the semicolon of a statement that is complete without it.
     fn end_statement(&mut self) {
         if self.semicolon().is_err() {
             self.recover();
@@ -196,7 +196,7 @@ impl Parser<'_> {
         kind
     }
 
-    /// Behind `return`: a `;`, or one that was forgotten.
+    /// Returns whether a `;` stands behind `return`, or was forgotten there.
     fn returns_nothing(&self) -> bool {
         match self.kind() {
             Kind::Semicolon | Kind::RBrace => true,
@@ -216,7 +216,7 @@ impl Parser<'_> {
         Err(self.unexpected("`:`"))
     }
 
-    /// `retrun x;` looks like a declaration.
+    /// Reports `retrun x;`, which looks like a declaration.
     fn check_keyword_slip(&mut self) -> Parse<()> {
         if self.kind() != Kind::Ident || self.structs[self.value() as usize] {
             return Ok(());
@@ -252,7 +252,7 @@ impl Parser<'_> {
         Ok(StmtKind::If { cond, then, otherwise })
     }
 
-    /// The statement that `elseif (..)` was to be.
+    /// Reads the statement that `elseif (..)` was to be.
     fn else_if(&mut self) -> Parse<StmtId> {
         self.enter()?;
         let first = self.at;
@@ -262,7 +262,7 @@ impl Parser<'_> {
         Ok(self.ast.stmt(kind, loc))
     }
 
-    /// `( .. )` of a statement. What is wrong inside is left behind with the parentheses.
+    /// Reads `( .. )` of a statement. Mistakes inside are left behind with the parentheses.
     fn in_parentheses(&mut self, part: fn(&mut Self) -> Parse<Condition>) -> Parse<Condition> {
         let open = self.at;
         let keyword = open - 1;
@@ -304,7 +304,7 @@ impl Parser<'_> {
         Ok(Condition::Expr(self.error_expr(open)))
     }
 
-    /// An expression, or a declaration with a value: `bool b = f()`.
+    /// Reads an expression, or a declaration with a value: `bool b = f()`.
     fn condition(&mut self) -> Parse<Condition> {
         if !self.begins_declaration() {
             return self.full_expression().map(Condition::Expr);
@@ -318,7 +318,7 @@ impl Parser<'_> {
         Ok(Condition::Decl(decl))
     }
 
-    /// A declaration of variables up to before its `;` or `)`.
+    /// Reads a declaration of variables up to before its `;` or `)`.
     fn declaration_without_end(&mut self) -> Parse<crate::glsl::ast::DeclId> {
         let first = self.at;
         let qualifiers = self.qualifiers()?;
@@ -369,7 +369,7 @@ impl Parser<'_> {
         Ok(StmtKind::For { init, cond, step, body })
     }
 
-    /// The first part of a `for`, up to before its `;`.
+    /// Reads the first part of a `for`, up to before its `;`.
     fn for_init(&mut self) -> Parse<StmtId> {
         let first = self.at;
         let kind = if self.kind() == Kind::Semicolon {
@@ -383,7 +383,7 @@ impl Parser<'_> {
         Ok(self.ast.stmt(kind, loc))
     }
 
-    /// `;` between the parts of a `for`; false where it is not there, which was reported.
+    /// Reads the `;` between the parts of a `for`; false where it is not there, which was reported.
     fn for_separator(&mut self) -> bool {
         if self.eat(Kind::Semicolon) {
             return true;

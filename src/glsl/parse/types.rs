@@ -10,7 +10,7 @@ use crate::glsl::{
 };
 
 impl Parser<'_> {
-    /// A type with its dimensions, struct definitions included.
+    /// Reads a type with its dimensions, struct definitions included.
     pub(super) fn type_spec(&mut self) -> Parse<TypeSpecId> {
         let first = self.at;
         let value = self.value();
@@ -42,7 +42,7 @@ impl Parser<'_> {
         Ok(self.ast.type_spec(TypeSpec { kind, dims, loc }))
     }
 
-    /// A name as a type. The checker knows which there are; here only what can be no struct's name is caught.
+    /// Returns a name as a type. The checker knows which there are; here only what can be no struct's name is caught.
     fn named_type(&mut self, first: usize, symbol: u32) -> TypeSpecKind {
         if self.structs[symbol as usize] {
             return TypeSpecKind::Named(Symbol(symbol));
@@ -76,7 +76,7 @@ impl Parser<'_> {
         Ok(TypeSpecKind::Struct(self.ast.struct_def(StructDef { name, fields, loc })))
     }
 
-    /// `{ float a, b[2]; vec3 c; }`.
+    /// Reads `{ float a, b[2]; vec3 c; }`.
     pub(super) fn fields(&mut self) -> Parse<List<Field>> {
         let open = self.at;
         if !self.eat(Kind::LBrace) {
@@ -136,7 +136,7 @@ impl Parser<'_> {
         Ok(Some(Field { qualifiers, ty, declarators, loc }))
     }
 
-    /// `[2][]`, none or more.
+    /// Reads `[2][]`, none or more.
     pub(super) fn dims(&mut self, size: fn(&mut Self) -> Parse<ExprId>) -> Parse<List<Dim>> {
         if self.kind() != Kind::LBracket {
             return Ok(List::EMPTY);

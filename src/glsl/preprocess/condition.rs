@@ -29,7 +29,7 @@ impl Preprocessor<'_, '_> {
         value != 0
     }
 
-    /// The one or two numbers of a `#line`; `None`: reported.
+    /// Returns the one or two numbers of a `#line`; `None`: reported.
     pub(super) fn line_numbers(&mut self, directive: &Token, line: &[Token]) -> Option<(i64, Option<i64>)> {
         let mut expanded = Vec::new();
         self.expand_line(line, &mut expanded);
@@ -44,7 +44,7 @@ impl Preprocessor<'_, '_> {
         Some((number, file))
     }
 
-    /// The line with `defined X` and `defined(X)` replaced by 1 or 0, before macros are expanded.
+    /// Returns the line with `defined X` and `defined(X)` replaced by 1 or 0, before macros are expanded.
     fn without_defined(&mut self, line: &[Token]) -> Option<Vec<Token>> {
         let mut tokens = Vec::with_capacity(line.len());
         let mut at = 0;
@@ -232,7 +232,7 @@ impl Evaluation<'_, '_, '_, '_> {
         Some(value)
     }
 
-    /// A name that is no macro.
+    /// Reports a name that is no macro.
     fn name(&mut self, token: &Token) {
         let text = self.all.names.get(Symbol(token.value)).to_owned();
         if let Some(id) = self.all.defined(token.value) {

@@ -33,7 +33,7 @@ impl Preprocessor<'_, '_> {
         MacroId::new(self.table.macros.len() - 1)
     }
 
-    /// The macro's name in a `#define` or `#undef`, if it may be one.
+    /// Returns the macro's name in a `#define` or `#undef`, if it may be one.
     fn macro_name(&mut self, directive: &Token, line: &[Token]) -> Option<Token> {
         let verb = self.text(directive.span).to_owned();
         let Some(&name) = line.first() else {
@@ -201,8 +201,8 @@ impl Preprocessor<'_, '_> {
         }
     }
 
-    /// A second definition is allowed where it is the same as the first; otherwise that is an error, and the new one
-    /// holds.
+    /// Checks a second definition, which is allowed where it is the same as the first; otherwise that is an error, and
+    /// the new one holds.
     fn redefine(&mut self, name: &Token, old: MacroId, function_like: bool, params: (u32, u32), body: (u32, u32)) {
         let def = self.origins[old];
         let before = &self.table.macros[old.index()];

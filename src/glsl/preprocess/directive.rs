@@ -101,7 +101,7 @@ impl Preprocessor<'_, '_> {
         }
     }
 
-    /// The rest of the directive's line.
+    /// Reads the rest of the directive's line.
     fn line_tokens(&mut self) -> Vec<Token> {
         let mut line = self.spare.pop().unwrap_or_default();
         loop {
@@ -122,7 +122,7 @@ impl Preprocessor<'_, '_> {
         self.spare.push(tokens);
     }
 
-    /// A directive is complete: what else stands in its line is an error, as in ANGLE.
+    /// Ends a directive: anything else in its line is an error, as in ANGLE.
     pub(super) fn nothing_more(&mut self, rest: &[Token], directive: &str) {
         if let Some(extra) = rest.first() {
             let text = self.text(extra.span).to_owned();
@@ -130,7 +130,7 @@ impl Preprocessor<'_, '_> {
         }
     }
 
-    /// `#ifdef` and `#ifndef`; `None` where no name follows.
+    /// Evaluates `#ifdef` and `#ifndef`; `None` where no name follows.
     fn is_defined(&mut self, directive: &Token, line: &[Token]) -> Option<bool> {
         let text = self.text(directive.span).to_owned();
         let Some(name) = line.first().filter(|t| t.kind == Kind::Ident) else {
@@ -196,7 +196,8 @@ impl Preprocessor<'_, '_> {
         }
     }
 
-    /// `#elif`, `#else` and `#endif` of the innermost conditional: whether the lines behind are compiled.
+    /// Carries out `#elif`, `#else` and `#endif` of the innermost conditional. Returns whether the lines behind are
+    /// compiled.
     fn next_group(&mut self, name: &Token, line: &[Token]) -> bool {
         let text = self.text(name.span).to_owned();
         if self.conditionals.is_empty() {
@@ -230,7 +231,7 @@ impl Preprocessor<'_, '_> {
         on
     }
 
-    /// The one pragma that means something, and not in a fragment shader.
+    /// Checks a pragma: one means something, and not in a fragment shader.
     fn pragma(&mut self, line: &[Token]) {
         if let [stdgl, word, ..] = line
             && self.text(stdgl.span) == "STDGL"

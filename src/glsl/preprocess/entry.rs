@@ -64,7 +64,7 @@ impl Preprocessor<'_, '_> {
         }
     }
 
-    /// The tokens of a text of ours, all placed at the macro's name.
+    /// Returns the tokens of a text of ours, all placed at the macro's name.
     fn read_at(&mut self, text: &'static str, at: Span) -> Vec<Token> {
         let mut lexer = Lexer::new(at.source, text);
         let mut tokens = Vec::new();

@@ -14,8 +14,8 @@ use crate::{
 };
 
 impl Preprocessor<'_, '_> {
-    /// The next token, not expanded: from the innermost context, else from the running text. `Eof` at the end of an
-    /// argument or directive line that is being expanded.
+    /// Returns the next token, not expanded: from the innermost context, else from the running text. `Eof` at the end
+    /// of an argument or directive line that is being expanded.
     #[inline]
     pub(super) fn read(&mut self) -> Token {
         loop {
@@ -53,7 +53,7 @@ impl Preprocessor<'_, '_> {
         }
     }
 
-    /// The next token that is not a macro to be expanded.
+    /// Returns the next token that is not a macro to be expanded.
     #[inline]
     pub(super) fn next_expanded(&mut self) -> Token {
         loop {

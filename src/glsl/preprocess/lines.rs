@@ -43,7 +43,7 @@ impl Preprocessor<'_, '_> {
         self.line.ends.push((before, ends));
     }
 
-    /// `#line number` or `#line number file`: the line behind the directive has the number (section 3.4).
+    /// Carries out `#line number` or `#line number file`: the line behind the directive has the number (section 3.4).
     pub(super) fn line_directive(&mut self, name: &Token, line: &[Token]) {
         let Some((number, file)) = self.line_numbers(name, line) else { return };
         let here = self.line_number(name.span);

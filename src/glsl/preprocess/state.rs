@@ -171,13 +171,13 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
         self.origins.tokens.push(Origin { spelled: token.span, expansion: token.expansion });
     }
 
-    /// The next token of the current text, with nothing done to it.
+    /// Returns the next token of the current text, with nothing done to it.
     #[inline]
     pub fn raw(&mut self) -> Token {
         self.lexer.next(self.names)
     }
 
-    /// The next token of the running text, directives carried out on the way.
+    /// Returns the next token of the running text, directives carried out on the way.
     #[inline]
     pub fn running(&mut self) -> Token {
         if let Some(token) = self.peeked.take() {
@@ -249,7 +249,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
         self.diagnose(Severity::Warning, token, message.into(), hint);
     }
 
-    /// An error that ends the reading: what follows would make no sense.
+    /// Reports an error that ends the reading: what follows would make no sense.
     pub fn stop(&mut self, token: &Token, message: String, hint: Option<String>) {
         if !self.stopped {
             self.error(token, message, hint);
