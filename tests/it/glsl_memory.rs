@@ -203,50 +203,48 @@ fn arrays_begin_anew_and_keep_what_is_theirs() {
     ]);
 }
 
-/// How often a module takes the greater and the smaller of two.
-fn bounds(compiled: &Compiled) -> (usize, usize) {
-    let functions = compiled.module.functions.iter().map(|(_, f)| f);
-    let functions: Vec<_> = functions.chain(compiled.module.entry_points.iter().map(|e| &e.function)).collect();
-    let count = |wanted| {
-        let all = functions.iter().flat_map(|f| f.expressions.iter());
-        all.filter(|(_, e)| matches!(e, naga::Expression::Math { fun, .. } if *fun == wanted)).count()
+/// The loops of a list, each with the indices that it reads an array of four floats at, behind the optimiser.
+fn indices_in(loops: &[String]) -> String {
+    let each = |text: &String| {
+        let program = optimised(&format!(
+            "void mainImage(out vec4 o, vec2 p) {{ float a[4] = float[](p.x, p.y, 3., 4.); float s;\n\
+             {text} o = vec4(s); }}"
+        ));
+        format!("{text}\n{}", ir::indices(&program))
     };
-    (count(naga::MathFunction::Max), count(naga::MathFunction::Min))
+    loops.iter().map(each).collect::<Vec<_>>().join("\n")
 }
 
 /// `while (n >= 1) { .. n--; }` keeps n between 0 and where it began; one more write anywhere and nothing is known.
 #[test]
 fn what_a_loop_counts_needs_no_clamp() {
-    let code = |before: &str, test: &str, step: &str, index: &str| {
-        format!(
-            "void mainImage(out vec4 o, vec2 p) {{ float a[4] = float[](p.x, p.y, 3., 4.); float s;\n\
-             {before} while ({test}) {{ s += a[{index}]; {step} }} o = vec4(s); }}"
-        )
+    let loops = |parts: &[(&str, &str, &str, &str)]| {
+        let one = |&(before, test, step, index): &(&str, &str, &str, &str)| {
+            format!("{before} while ({test}) {{ s += a[{index}]; {step} }}")
+        };
+        indices_in(&parts.iter().map(one).collect::<Vec<_>>())
     };
-    let known = [
-        ("int n = 4;", "n >= 1", "n--;", "n - 1"),
-        ("int n = 4;", "1 <= n && s < 9.0", "if (p.x > 2.) --n; else s++;", "n - 1"),
-        ("int n;", "n < 4", "n += 2;", "n"),
-        ("uint n = 1u; const int last = 3;", "n <= uint(last)", "n++;", "n & 3u"),
-        ("int n = 3, m = n;", "n > 0", "n--;", "m"),
-    ];
-    for (before, test, step, index) in known {
-        let code = code(before, test, step, index);
-        let clamps = bounds(&compiled(&code));
-        // The last value of a counter lies outside the array: only where the loop's own test keeps it away is that
-        // known.
-        let may = usize::from(index == "n" || index == "n - 1");
-        assert!(clamps.0 <= may && clamps.1 <= may, "{code}: {clamps:?}");
-    }
-    for (before, test, step, index) in [
-        ("int n = 4;", "n >= 1", "n--; if (s > 2.) n = int(p.x);", "n - 1"),
-        ("int n = int(p.x);", "n >= 1", "n--;", "n - 1"),
-        ("int n = 4;", "n >= 1", "for (int i = 0; i < 3; i++) n--;", "n - 1"),
-        ("int n = 3;", "s < 9.0", "n--;", "n"),
-    ] {
-        let code = code(before, test, step, index);
-        assert!(bounds(&compiled(&code)) != (0, 0), "{code}");
-    }
+    // The last value of a counter lies outside the array: only where the loop's own test keeps it away is that known.
+    insta::assert_snapshot!(
+        "known_counters",
+        loops(&[
+            ("int n = 4;", "n >= 1", "n--;", "n - 1"),
+            ("int n;", "n < 4", "n += 2;", "n"),
+            ("uint n = 1u; const int last = 3;", "n <= uint(last)", "n++;", "n & 3u"),
+            ("int n = 3, m = n;", "n > 0", "n--;", "m"),
+        ])
+    );
+    insta::assert_snapshot!(
+        "unknown_counters",
+        loops(&[
+            // Half a test is none: `&&` is a branch.
+            ("int n = 4;", "1 <= n && s < 9.0", "if (p.x > 2.) --n; else s++;", "n - 1"),
+            ("int n = 4;", "n >= 1", "n--; if (s > 2.) n = int(p.x);", "n - 1"),
+            ("int n = int(p.x);", "n >= 1", "n--;", "n - 1"),
+            ("int n = 4;", "n >= 1", "for (int i = 0; i < 3; i++) n--;", "n - 1"),
+            ("int n = 3;", "s < 9.0", "n--;", "n"),
+        ])
+    );
 }
 
 /// An inner loop whose bound the outer one counts: its bound is known to be small.
@@ -266,41 +264,42 @@ fn loops_within_counting_loops() {
 /// `for (float x = 0.; x < 4.; x++)` keeps `int(x)` between the literals.
 #[test]
 fn floats_that_a_loop_counts_need_no_clamp() {
-    let clamps = |head: &str| {
-        bounds(&compiled(&format!(
-            "void mainImage(out vec4 o, vec2 p) {{ float a[4] = float[](p.x, p.y, 3., 4.); float s;\n\
-             for ({head}) s += a[int(x)]; o = vec4(s); }}"
-        )))
+    let loops = |heads: &[&str]| {
+        indices_in(&heads.iter().map(|head| format!("for ({head}) s += a[int(x)];")).collect::<Vec<_>>())
     };
-    for head in [
-        "float x = 0.; x < 4.; x++",
-        "float x = 0.5; x <= 3.9; x += 0.1",
-        "float x = 0.; x < 3.5; x += 1.",
-        "float x = 3.; x > -1.; x -= 1.",
-        "float x = 3.9; x >= 0.; --x",
-    ] {
-        assert_eq!(clamps(head), (0, 0), "{head}");
-    }
-    let named = compiled(
-        "const int order = clamp(9, 1, 30); const float n = float(order - 1); float A[order], B[order];\n\
-         void fill(inout float a[order], inout float b[order], vec2 p) {\n\
-             for (float x = 0.; x <= n; x += 1.) { a[int(x)] = p.x * x; b[int(x)] = a[int(x)] + p.y; }\n\
-         }\n\
-         void mainImage(out vec4 o, vec2 p) { fill(A, B, p); o = vec4(A[0] + B[8]); }",
+    insta::assert_snapshot!(
+        "known_floats",
+        loops(&[
+            "float x = 0.; x < 4.; x++",
+            "float x = 0.5; x <= 3.9; x += 0.1",
+            "float x = 0.; x < 3.5; x += 1.",
+            "float x = 3.; x > -1.; x -= 1.",
+            "float x = 3.9; x >= 0.; --x",
+        ])
     );
-    assert_eq!(bounds(&named), (0, 0));
-    for head in [
-        "float x = 0.; x <= 4.; x++",
-        "float x = -1.; x < 4.; x++",
-        "float x = 0.; x < 4.; x += p.x",
-        "float x = p.x; x < 4.; x++",
-        "float x = 0.; x < p.x; x++",
-        "float x = 0.; x < 4.; x--",
-        "float x = 3.; x > -2.; x--",
-        "float x = 4.; x > 0.; x--",
-    ] {
-        assert_ne!(clamps(head), (0, 0), "{head}");
-    }
+    insta::assert_snapshot!(
+        "known_floats_of_a_function",
+        ir::indices(&optimised(
+            "const int order = clamp(9, 1, 30); const float n = float(order - 1); float A[order], B[order];\n\
+             void fill(inout float a[order], inout float b[order], vec2 p) {\n\
+                 for (float x = 0.; x <= n; x += 1.) { a[int(x)] = p.x * x; b[int(x)] = a[int(x)] + p.y; }\n\
+             }\n\
+             void mainImage(out vec4 o, vec2 p) { fill(A, B, p); o = vec4(A[0] + B[8]); }",
+        ))
+    );
+    insta::assert_snapshot!(
+        "unknown_floats",
+        loops(&[
+            "float x = 0.; x <= 4.; x++",
+            "float x = -1.; x < 4.; x++",
+            "float x = 0.; x < 4.; x += p.x",
+            "float x = p.x; x < 4.; x++",
+            "float x = 0.; x < p.x; x++",
+            "float x = 0.; x < 4.; x--",
+            "float x = 3.; x > -2.; x--",
+            "float x = 4.; x > 0.; x--",
+        ])
+    );
     check(&[case(
         "float a[4] = float[](1.0, 2.0, 4.0, 8.0 + Z); r = vec4(0); for (float x = 0.; x < 4.; x++) r.x += a[int(x)];\n\
          for (float x = 3.; x > -1.; x -= 1.) r.y = r.y * 2.0 + a[int(x)]; for (float x = 0.; x <= 5.; x += 1.) r.z += \

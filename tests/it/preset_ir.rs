@@ -1,4 +1,5 @@
-//! What the compiler makes of the presets: a line for each function of each pass, after the last pass of the optimiser.
+//! The compiler makes these programs of the presets, after the last pass of the optimiser: a line for each function of
+//! each pass, with counts and a hash of its text.
 //!
 //! A change of the compiler shows here what it does to programs of some size. `INSTA_UPDATE=always` takes it over;
 //! `eddy check PRESET --dump-ir` prints the whole.
@@ -10,20 +11,37 @@ use crate::support::{
 use eddy::{engine::Sources, glsl::Driver, project::presets::names};
 use std::{collections::BTreeSet, fmt::Write, fs, path::Path};
 
+/// The programs of a preset, each by these words and behind the name of its pass.
+fn programs(name: &str, words: impl Fn(&str) -> String) -> String {
+    let project = preset(name);
+    let texts = Sources::new(&project);
+    let mut text = String::new();
+    for (index, pass) in project.passes.iter().enumerate() {
+        let dump = texts.dump_ir(index, Driver::default(), None).expect("a preset without errors");
+        for program in final_programs(&dump) {
+            let _ = writeln!(text, "{}\n{}", pass.id.title(), words(program));
+        }
+    }
+    text
+}
+
 #[test]
 fn presets_compile_to_programs_of_this_size() {
     for name in names() {
-        let project = preset(name);
-        let texts = Sources::new(&project);
-        let mut text = String::new();
-        for (index, pass) in project.passes.iter().enumerate() {
-            let dump = texts.dump_ir(index, Driver::default(), None).expect("a preset without errors");
-            for program in final_programs(&dump) {
-                let _ = writeln!(text, "{}\n{DIGEST_HEADER}\n{}", pass.id.title(), digest(program));
-            }
-        }
+        let text = programs(name, |program| format!("{DIGEST_HEADER}\n{}", digest(program)));
         insta::with_settings!({ omit_expression => true }, {
             insta::assert_snapshot!(*name, text);
+        });
+    }
+}
+
+/// Two small presets are shown whole: a change of the compiler is easiest to read here.
+#[test]
+fn small_presets_compile_to_these_programs() {
+    for name in ["feedback", "mouse-state"] {
+        let text = programs(name, str::to_owned);
+        insta::with_settings!({ omit_expression => true, snapshot_path => "snapshots/whole" }, {
+            insta::assert_snapshot!(name, text);
         });
     }
 }
