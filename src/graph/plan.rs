@@ -1,7 +1,7 @@
 //! The plan of a frame.
 
 use super::effective_sampler;
-use crate::project::{Filter, Input, PassFormat, PassId, PassSize, Project, Region, Sampler, Turn, Wrap};
+use crate::project::{Filter, Input, PassFormat, PassId, PassSize, Project, Region, Sampler, Wrap};
 use std::{collections::BTreeSet, ops::Range};
 
 /// The use that a compiled pass makes of one channel.
@@ -327,9 +327,9 @@ fn input_is(input: &Input, id: &PassId, target: usize) -> bool {
 
 /// Buffers in the project's order, then the cubemap, then Image. Sound makes no picture.
 fn drawing_order(project: &Project) -> Vec<usize> {
-    let turn = |i: usize| project.passes[i].id.turn();
-    let mut order: Vec<usize> = (0..project.passes.len()).filter(|&i| turn(i) != Turn::Sound).collect();
-    order.sort_by_key(|&i| turn(i));
+    let id = |i: usize| &project.passes[i].id;
+    let mut order: Vec<usize> = (0..project.passes.len()).filter(|&i| *id(i) != PassId::Sound).collect();
+    order.sort_by(|&a, &b| id(a).drawing_order(id(b)));
     order
 }
 

@@ -20,11 +20,6 @@ use super::{
 };
 use crate::diag::Diagnostic;
 
-/// The order passes lie in: buffers as they come, the cubemap pass, Image, Sound.
-pub(super) fn sort_passes(passes: &mut [Pass]) {
-    passes.sort_by_key(|p| p.id.turn());
-}
-
 /// The facts that a convention makes of texts by file name, besides the texts.
 pub(super) struct ByConvention {
     pub common: Option<Source>,
@@ -54,8 +49,7 @@ pub(super) fn by_convention(files: Vec<Source>) -> ByConvention {
             },
         }
     }
-    found.passes.sort_by(|a, b| a.id.cmp(&b.id));
-    sort_passes(&mut found.passes);
+    found.passes.sort_by(|a, b| a.id.tab_order(&b.id));
     found
 }
 

@@ -67,7 +67,7 @@ pub use manifest::write as write_manifest;
 pub use model::{Channel, Filter, Info, Input, Media, Origin, Pass, Project, Sampler, SamplerRules, Tab, Wrap};
 pub use names::{listed, nearest};
 pub use pass_edits::{PassEdit, PassEditError, PassEdited};
-pub use pass_id::{PassId, Turn};
+pub use pass_id::PassId;
 pub use picked::{at_home, bring_home};
 pub use save::{name_at, remove_renamed, save};
 pub use settings::{Group, PassBody, PassSettings, PassSize, Region};

@@ -1,6 +1,7 @@
-//! The names of passes.
+//! The names of passes, and the two orders that they stand in.
 
 use super::limits;
+use std::cmp::Ordering;
 
 /// Which pass. Buffers are told apart by name: `A`..`D` as on the site, or any further name a project gives.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -11,25 +12,23 @@ pub enum PassId {
     Image,
 }
 
-/// When in a frame passes of a kind are drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Turn {
-    Buffers,
-    Cubemap,
-    Image,
-    /// Makes no picture.
-    Sound,
-}
-
 impl PassId {
-    /// Returns when the pass has its turn. Passes of the same turn are drawn in the project's order.
-    pub fn turn(&self) -> Turn {
-        match self {
-            PassId::Buffer(_) => Turn::Buffers,
-            PassId::Cubemap => Turn::Cubemap,
-            PassId::Image => Turn::Image,
-            PassId::Sound => Turn::Sound,
-        }
+    /// Compares by when in a frame passes are drawn. All buffers are equal: a stable sort leaves them in the project's
+    /// order, which an author chooses.
+    pub fn drawing_order(&self, other: &PassId) -> Ordering {
+        let turn = |id: &PassId| match id {
+            PassId::Buffer(_) => 0,
+            PassId::Cubemap => 1,
+            PassId::Image => 2,
+            // It makes no picture.
+            PassId::Sound => 3,
+        };
+        turn(self).cmp(&turn(other))
+    }
+
+    /// Compares by the places of tabs: as passes are drawn, buffers by name.
+    pub fn tab_order(&self, other: &PassId) -> Ordering {
+        self.drawing_order(other).then_with(|| self.cmp(other))
     }
 
     /// As tabs show it: `Buffer A`, `Cube A`, `Sound`, `Image`.

@@ -12,7 +12,7 @@ use crate::{
     diag::{Diagnostic, SourceMap, Span},
     project::{
         Channel, Filter, Info, Input, Media, Origin, Pass, PassId, Project, ProjectError, Sampler, SamplerRules,
-        Source, Wrap, folder::sort_passes, limits,
+        Source, Wrap, limits,
     },
 };
 use serde_json::{Map, Value};
@@ -190,7 +190,7 @@ fn project(
             .hint("a renderpass of type \"image\" must be there"));
     }
     settle_wraps(&mut passes, &reads);
-    sort_passes(&mut passes);
+    passes.sort_by(|a, b| a.id.drawing_order(&b.id));
     let mut extra = info;
     let mut take = |key: &str| match extra.remove(key) {
         Some(Value::String(text)) => text,

@@ -12,7 +12,7 @@ use crate::{
         ProjectError, SamplerRules, Source, Wrap,
         file_names::{self, Role},
         files::{Files, MANIFEST},
-        folder, includes, limits, listed, nearest,
+        includes, limits, listed, nearest,
     },
 };
 use std::path::PathBuf;
@@ -225,7 +225,7 @@ impl Reader<'_> {
         if !table.iter().any(|(name, _)| file_names::pass_of_stem(name) == Some(PassId::Image)) {
             self.error(item.span(), "there is no Image pass", "add a table [passes.image]");
         }
-        folder::sort_passes(&mut passes);
+        passes.sort_by(|a, b| a.id.drawing_order(&b.id));
         self.check_reads(table, &passes);
         self.check_targets(table, &passes);
         passes

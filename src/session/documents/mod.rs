@@ -266,13 +266,10 @@ fn reinsert(to: &mut Project, from: &Project, tab: &Tab) {
     }
 }
 
-/// Puts a pass where the drawing order wants it: buffers by name, then the cubemap pass, Image, Sound. Passes that are
-/// there keep their order, which an author may have chosen.
+/// Puts a pass where the order of tabs wants it. Passes that are there keep their order, which an author may have
+/// chosen.
 pub(super) fn insert_pass(project: &mut Project, pass: Pass) {
-    let is_before = |other: &Pass| match other.id.turn().cmp(&pass.id.turn()) {
-        std::cmp::Ordering::Equal => other.id < pass.id,
-        order => order.is_lt(),
-    };
+    let is_before = |other: &Pass| other.id.tab_order(&pass.id).is_lt();
     let mut at = project.passes.iter().rposition(is_before).map_or(0, |i| i + 1);
     // Not between the passes of a group, which are drawn one after the other.
     let group_of = |p: Option<&Pass>| project.groups.iter().position(|g| p.is_some_and(|p| g.passes.contains(&p.id)));

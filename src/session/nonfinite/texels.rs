@@ -12,7 +12,7 @@ use crate::{
 /// Texels of a picture of which a stored component is NaN or infinite.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NonfiniteTexels {
-    /// From the bottom left, row by row.
+    /// The first of them, from the bottom left, row by row.
     pub first: (u32, u32),
     pub count: usize,
 }
@@ -31,8 +31,8 @@ impl NonfiniteTexels {
 pub fn drawn(project: &Project) -> Vec<PassId> {
     let mut passes: Vec<PassId> = project.passes.iter().map(|pass| pass.id.clone()).collect();
     passes.retain(|pass| !matches!(pass, PassId::Cubemap | PassId::Sound));
-    // The order of the project within a turn stays.
-    passes.sort_by_key(PassId::turn);
+    // All buffers are equal there: they stay in the order of the project.
+    passes.sort_by(PassId::drawing_order);
     passes
 }
 
