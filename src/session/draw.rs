@@ -5,7 +5,7 @@ use super::{
     clock::FrameTime,
     comparing::Order,
     date,
-    drawing::{Capture, Done, DrawnFrame, Job, Replay, Run, TileLimit},
+    drawing::{Capture, Done, DrawnFrame, Job, Reads, Replay, Run, TileLimit},
     nonfinite::SearchJob,
     tracing::{self, Taken},
     view::Level,
@@ -36,38 +36,11 @@ impl Session {
                 continue;
             }
             let frame = self.next_frame(&mut has_run);
-            let is_frame = frame.is_some();
-            // A picture that is asked for is one of the newest program, after the frame that is due. Another project's
-            // engine says that it has none.
-            let is_there = self.drawing.has_program() && !self.drawing.is_program_coming();
-            let is_current = is_frame || is_there || self.drawing.wanted.restart;
-            let captures = if is_current { std::mem::take(&mut self.drawing.captures) } else { Vec::new() };
-            let is_running = self.run.clock.is_playing() && !self.run.is_covered;
-            let miniatures = if is_current { self.run.miniatures.take_due(self.now, is_running) } else { Vec::new() };
-            let buffers = if is_current { self.run.buffers.take_due(self.now, is_running) } else { None };
-            let is_busy = is_running || self.run.seeking.is_seeking();
-            let measures = if is_current { self.run.measuring.take_due(self.now, is_frame, is_busy) } else { None };
-            let numbers = if is_current { self.probing.take_due(self.now, is_running) } else { None };
-            // Of the newest program, and once nothing more is to be drawn.
-            let is_newest = is_there && !self.is_compile_under_way();
-            let is_settled = is_newest && !is_running && !self.run.is_frame_due && self.run.steps == 0;
-            let traced = if is_settled && self.tracing.is_due { self.tracing.place() } else { None };
-            let traced = traced.map(|place| place.pass.clone());
-            let audited = if is_newest { self.auditing.take_due(&self.run.shown) } else { None };
-            self.tracing.is_due &= traced.is_none() || audited.is_some();
-            let inspect = audited.or(traced);
-            let wants_replay = is_newest && std::mem::take(&mut self.searching.is_due);
-            let wants_run = is_newest && std::mem::take(&mut self.comparing.is_due);
-            let is_seen = !miniatures.is_empty() || numbers.is_some() || buffers.is_some() || measures.is_some();
-            let is_read = !captures.is_empty() || is_seen || inspect.is_some() || wants_replay || wants_run;
-            if !is_frame && !is_read && self.drawing.wanted.is_empty() {
+            let reads = self.due_reads(frame.is_some());
+            if frame.is_none() && reads.is_empty() && self.drawing.wanted.is_empty() {
                 break;
             }
-            self.hand_in(frame, |job| {
-                (job.captures, job.miniatures) = (captures, miniatures);
-                (job.numbers, job.buffers, job.measures) = (numbers, buffers, measures);
-                (job.inspect, job.wants_replay, job.wants_run) = (inspect, wants_replay, wants_run);
-            });
+            self.hand_in(frame, reads);
             is_drawn |= self.take_drawn(true);
         }
         is_drawn
@@ -116,7 +89,7 @@ impl Session {
         inputs
     }
 
-    fn hand_in(&mut self, frame: Option<FrameInputs>, read: impl FnOnce(&mut Job)) {
+    fn hand_in(&mut self, frame: Option<FrameInputs>, reads: Reads) {
         self.note_job(frame.as_ref());
         if let Some(frame) = &frame {
             self.run.measuring.begin_frame(frame.frame);
@@ -127,10 +100,8 @@ impl Session {
             self.mark_new_code();
         }
         self.drawing.submit(self.now, |job: &mut Job| {
-            job.frame = frame;
-            read(job);
-            job.costs_of = costs_of;
-            job.tile_limit = tile_limit;
+            (job.frame, job.reads) = (frame, reads);
+            (job.costs_of, job.tile_limit) = (costs_of, tile_limit);
         });
     }
 
@@ -343,11 +314,6 @@ impl Session {
         }
     }
 
-    /// Grows whenever the texels of [`Session::display`] may have changed.
-    pub fn pictures_shown(&self) -> u64 {
-        self.pictures_shown
-    }
-
     /// Shows the picture on another device of the window's, whose own was lost. What draws is another device still.
     pub fn show_on(&mut self, window: Gpu) -> Result<(), GpuError> {
         self.drawing.show_on(window)?;
@@ -374,7 +340,7 @@ impl Session {
         });
         if !self.drawing.is_apart() {
             let captures = std::mem::take(&mut self.drawing.captures);
-            self.hand_in(None, |job| job.captures = captures);
+            self.hand_in(None, Reads { captures, ..Reads::default() });
             self.take_drawn(false);
         }
     }

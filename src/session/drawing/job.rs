@@ -83,25 +83,39 @@ pub struct Job {
     pub frame: Option<FrameInputs>,
     /// Another frame of the run is to be shown.
     pub travel: Option<Goal>,
+    pub reads: Reads,
+    /// The project whose passes' costs are asked for: somebody looks at them.
+    pub costs_of: Option<Project>,
+    /// Tiles of a new program are tried before it; without, none.
+    pub tile_limit: Option<TileLimit>,
+}
+
+/// The things that are read once the frame is drawn.
+#[derive(Default)]
+pub struct Reads {
     pub captures: Vec<Capture>,
     /// Targets of passes that panels show small.
     pub miniatures: Vec<(PassId, usize)>,
     /// The numbers of the probe that is drawn.
     pub numbers: Option<NumbersWanted>,
-    /// What somebody looks at closely.
+    /// The target and the texels that somebody looks at closely.
     pub buffers: Option<BuffersWanted>,
     /// Numbers of passes.
     pub measures: Option<MeasuresWanted>,
     /// The frames behind the newest are to be handed out.
     pub wants_replay: bool,
-    /// What the frames up to this one were drawn with is to be handed out.
+    /// The inputs of all frames up to this one are to be handed out.
     pub wants_run: bool,
     /// A pass whose inputs, as it was drawn last, and whose picture are asked for.
     pub inspect: Option<PassId>,
-    /// The project whose passes' costs are asked for: somebody looks at them.
-    pub costs_of: Option<Project>,
-    /// Tiles of a new program are tried before it; without, none.
-    pub tile_limit: Option<TileLimit>,
+}
+
+impl Reads {
+    pub fn is_empty(&self) -> bool {
+        let Self { captures, miniatures, numbers, buffers, measures, wants_replay, wants_run, inspect } = self;
+        let is_seen = !miniatures.is_empty() || numbers.is_some() || buffers.is_some() || measures.is_some();
+        captures.is_empty() && !is_seen && inspect.is_none() && !wants_replay && !wants_run
+    }
 }
 
 /// When a program is too slow to be drawn whole unasked.

@@ -13,7 +13,7 @@ mod studio;
 pub(super) use apart::{Open, beside};
 pub(super) use device::Device;
 pub(super) use history::{Frame, Replay, Run, Travelled};
-pub(super) use job::{Capture, Changes, Coming, Done, DrawnFrame, Job, ProgramOrigin, TileLimit};
+pub(super) use job::{Capture, Changes, Coming, Done, DrawnFrame, Job, ProgramOrigin, Reads, TileLimit};
 
 use crate::{
     engine::{CostClock, EngineError, PassCost, Picture},
@@ -228,25 +228,12 @@ impl Drawing {
     /// Hands in a job with everything that is wanted, and what else `fill` puts in. The engine has none.
     pub fn submit(&mut self, now: Instant, fill: impl FnOnce(&mut Job)) {
         let changes = std::mem::take(&mut self.wanted);
-        let mut job = Job {
-            changes,
-            frame: None,
-            travel: None,
-            captures: Vec::new(),
-            miniatures: Vec::new(),
-            numbers: None,
-            buffers: None,
-            measures: None,
-            wants_replay: false,
-            wants_run: false,
-            inspect: None,
-            costs_of: None,
-            tile_limit: None,
-        };
+        let mut job =
+            Job { changes, frame: None, travel: None, reads: Reads::default(), costs_of: None, tile_limit: None };
         fill(&mut job);
         // The program goes on, what the session keeps of it stays.
         let program = job.changes.program.as_mut().and_then(|coming| coming.origin.take());
-        let (size, captures) = (job.changes.size, job.captures.clone());
+        let (size, captures) = (job.changes.size, job.reads.captures.clone());
         self.in_flight = Some(InFlight { since: now, size, program, captures, is_opening: false, is_stale: false });
         match &mut self.place {
             Place::Here { studio, done, .. } => *done = Some(Box::new(studio.work(job))),

@@ -2,7 +2,7 @@
 
 use super::{
     history::History,
-    job::{Capture, Changes, Done, DrawnFrame, Job, TileLimit},
+    job::{Capture, Changes, Done, DrawnFrame, Job, Reads, TileLimit},
 };
 use crate::{
     engine::{BuildOptions, CostClock, Engine, EngineError, FrameInputs, PassTime, Pixels, Program},
@@ -51,8 +51,7 @@ impl Studio {
     }
 
     pub fn work(&mut self, job: Job) -> Done {
-        let Job { changes, frame, travel, captures, miniatures, .. } = job;
-        let Job { numbers, buffers, measures, wants_replay, wants_run, inspect, costs_of, tile_limit, .. } = job;
+        let Job { changes, frame, travel, reads, costs_of, tile_limit } = job;
         let mut done = Done::default();
         let first_inputs = frame.clone().unwrap_or_else(|| FrameInputs::at_fixed_step(0, 60.0));
         self.change(changes, tile_limit, &first_inputs, &mut done);
@@ -80,6 +79,15 @@ impl Studio {
         if self.hands_out && (done.is_display_new || done.frame.is_some() || done.travelled.is_some()) {
             done.picture = Some(self.engine.picture());
         }
+        self.read_behind(reads, &mut done);
+        done.costs = costs_of.map(|project| self.engine.pass_costs(&project));
+        done.clock = Some(self.engine.cost_clock());
+        done
+    }
+
+    /// Reads what is asked for of the targets as they are now.
+    fn read_behind(&mut self, reads: Reads, done: &mut Done) {
+        let Reads { captures, miniatures, numbers, buffers, measures, wants_replay, wants_run, inspect } = reads;
         done.captured = captures.into_iter().map(|capture| self.read(capture)).collect();
         // A pass that nobody reads is not drawn, and has none.
         let began = Instant::now();
@@ -93,9 +101,6 @@ impl Studio {
         done.replay = wants_replay.then(|| self.history.replay());
         done.run = wants_run.then(|| self.history.run());
         done.inspected = inspect.map(|pass| Ok((self.engine.inspect(&pass)?, self.engine.read(&pass)?)));
-        done.costs = costs_of.map(|project| self.engine.pass_costs(&project));
-        done.clock = Some(self.engine.cost_clock());
-        done
     }
 
     fn change(&mut self, changes: Changes, tile_limit: Option<TileLimit>, inputs: &FrameInputs, done: &mut Done) {

@@ -1,0 +1,68 @@
+//! The settings that a session starts with, and the reasons why it may not start.
+
+use super::drawing;
+use crate::engine::EngineError;
+use std::{path::PathBuf, time::Duration};
+
+/// Holds how a session is set up. The defaults are what the window uses, but for recovery files.
+#[derive(Clone, Debug)]
+pub struct SessionOptions {
+    /// The longest quiet time after the last keystroke before a compile. It is shorter where compiling is fast, down to
+    /// none.
+    pub edit_debounce: Duration,
+    /// Quiet time after the last change on disk before a reload.
+    pub watch_debounce: Duration,
+    /// How long files that make no whole project are read again before the user hears of it: an editor may be half way
+    /// through writing them.
+    pub retry_for: Duration,
+    /// The folder for pictures of a project that has none of its own.
+    pub pictures: PathBuf,
+    /// The user's own copies of the site's stock files.
+    pub media_dir: Option<PathBuf>,
+    /// The folder for recovery files; `None`: unsaved work ends with the process. The window's is
+    /// [`recovery_folder`](super::recovery_folder).
+    pub recovery: Option<PathBuf>,
+    /// Draw on a thread and a device of their own, so that no tick waits for a frame. Off, each frame is drawn in the
+    /// tick that it is due in.
+    pub draws_apart: bool,
+    /// A frame that is drawn apart and takes longer pauses the picture.
+    pub frame_limit: Duration,
+    /// The folder for what is remembered between two starts; without, nothing is.
+    pub state_dir: Option<PathBuf>,
+}
+
+impl Default for SessionOptions {
+    fn default() -> Self {
+        Self {
+            edit_debounce: Duration::from_millis(200),
+            watch_debounce: Duration::from_millis(120),
+            retry_for: Duration::from_secs(2),
+            pictures: dirs::picture_dir().or_else(dirs::home_dir).unwrap_or_else(|| PathBuf::from(".")),
+            media_dir: None,
+            recovery: None,
+            draws_apart: false,
+            frame_limit: Duration::from_secs(2),
+            state_dir: None,
+        }
+    }
+}
+
+/// The session cannot start.
+#[derive(Debug, thiserror::Error)]
+pub enum SessionError {
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    #[error("no thread for compiling: {0}")]
+    Thread(std::io::Error),
+    #[error("no thread for drawing: {0}")]
+    DrawingThread(std::io::Error),
+}
+
+impl From<drawing::Error> for SessionError {
+    fn from(error: drawing::Error) -> Self {
+        match error {
+            drawing::Error::Engine(error) => Self::Engine(error),
+            drawing::Error::Thread(error) => Self::DrawingThread(error),
+        }
+    }
+}

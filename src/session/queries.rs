@@ -1,0 +1,224 @@
+//! A front end reads here what it shows of a [`Session`]. Nothing is changed.
+
+use super::{
+    Session, TraceView,
+    buffers::BufferRead,
+    command::Question,
+    comparing::{Compared, ComparisonView},
+    costs::PassCosts,
+    nonfinite::SearchView,
+    probe::ProbeView,
+    recent::RecentProject,
+    view::{CompileState, Halt, Notice, TabDiagnostic, Transport},
+};
+use crate::{
+    engine::{BuildOptions, Miniature, PassTime, TexelAt},
+    gpu::Gpu,
+    project::{CustomUniform, CustomUniformValue, PassId, Project, Tab},
+};
+use std::{sync::Arc, time::Duration};
+
+impl Session {
+    /// The newest picture of the shown pass: rgba8unorm, its first row the top, values as display values. Ask anew
+    /// after each tick: a resize makes another one.
+    pub fn display(&self) -> &wgpu::TextureView {
+        self.drawing.display()
+    }
+
+    /// Grows whenever [`Session::display`] may have become another texture.
+    pub fn display_generation(&self) -> u64 {
+        self.display_generation
+    }
+
+    /// Grows whenever the texels of [`Session::display`] may have changed.
+    pub fn pictures_shown(&self) -> u64 {
+        self.pictures_shown
+    }
+
+    /// The device that shows the picture.
+    pub fn gpu(&self) -> &Gpu {
+        self.drawing.gpu()
+    }
+
+    pub fn project(&self) -> &Project {
+        self.documents.current()
+    }
+
+    /// Every tab in the site's order.
+    pub fn tabs(&self) -> Vec<Tab> {
+        self.project().tabs()
+    }
+
+    /// A tab's text; empty for a tab there is not.
+    pub fn text(&self, tab: &Tab) -> &str {
+        self.project().source(tab).map_or("", |s| &s.text)
+    }
+
+    /// Returns how many programs have drawn a frame so far, each of the text that was the newest: it grows when an edit
+    /// is in the picture.
+    pub fn programs_drawn(&self) -> u64 {
+        self.programs_drawn
+    }
+
+    /// Returns how long typing has to rest before it is compiled.
+    pub fn edit_debounce(&self) -> Duration {
+        self.compile.edits.quiet()
+    }
+
+    /// Returns a number that grows whenever a text was changed by something else than
+    /// [`Command::EditText`](super::Command::EditText) (opened, reloaded, taken from disk): then an editor must take it
+    /// anew.
+    pub fn text_generation(&self) -> u64 {
+        self.text_generation
+    }
+
+    /// The projects that were open before, the newest first; those that are gone meanwhile too.
+    pub fn recent(&self) -> &[RecentProject] {
+        self.recent.list()
+    }
+
+    /// Counts the shaders that were begun by [`Command::New`](super::Command::New).
+    pub fn begun(&self) -> u64 {
+        self.begun
+    }
+
+    /// Counts the times that a project was opened or took a new place.
+    pub fn opened(&self) -> u64 {
+        self.disk.opened
+    }
+
+    /// The author's own uniforms, as the running program declares them.
+    pub fn custom_uniforms(&self) -> &[CustomUniform] {
+        self.drawing.custom_uniforms()
+    }
+
+    /// Returns where one of them stands.
+    pub fn custom_uniform_value(&self, custom_uniform: &CustomUniform) -> CustomUniformValue {
+        custom_uniform.value(&self.project().custom_uniform_values)
+    }
+
+    /// The tab's text differs from the one on disk.
+    pub fn is_tab_dirty(&self, tab: &Tab) -> bool {
+        self.documents.is_tab_dirty(tab)
+    }
+
+    /// Anything at all differs from what is on disk: texts, passes, channels.
+    pub fn is_dirty(&self) -> bool {
+        self.documents.is_dirty()
+    }
+
+    /// Returns the diagnostics of the newest finished compile for all tabs, errors first.
+    pub fn diagnostics(&self) -> &[TabDiagnostic] {
+        &self.compile.diagnostics
+    }
+
+    pub fn compile_state(&self) -> &CompileState {
+        &self.compile.state
+    }
+
+    pub fn transport(&self) -> Transport {
+        let times = self.pass_times();
+        let playing = self.run.clock.is_playing() || self.run.seeking.resumes;
+        Transport {
+            playing,
+            time_secs: self.run.clock.time_secs(),
+            frame: (self.run.clock.next_frame_number() - 1).max(0),
+            fps: Some(self.run.fps.fps).filter(|fps| playing && *fps > 0.0),
+            gpu_millis: (playing && !times.is_empty()).then(|| times.iter().map(|t| t.gpu_millis).sum()),
+            cpu_micros: playing.then_some(self.run.cpu_micros),
+            resolution: self.drawing.size(),
+            scale: self.canvas.scale,
+            fixed_size: self.canvas.fixed,
+            speed: self.run.clock.speed(),
+            fixed_rate: self.run.clock.fixed_rate(),
+            is_seeking: self.run.seeking.is_seeking(),
+        }
+    }
+
+    /// Device time of each pass, of the newest frame the device has finished; empty where it cannot tell.
+    pub fn pass_times(&self) -> &[PassTime] {
+        self.run.costs.newest()
+    }
+
+    /// Returns what each pass of the running program costs, in drawing order, then those that are not drawn. They are
+    /// gathered once [`Command::WatchCosts`](super::Command::WatchCosts) has been given; milliseconds are there when a frame was drawn since.
+    pub fn pass_costs(&self) -> PassCosts {
+        self.run.costs.of(self.drawing.costs().to_vec(), self.drawing.clock())
+    }
+
+    /// Returns a small picture of one of a pass's targets, while it is watched
+    /// ([`Command::WatchTargets`](super::Command::WatchTargets)), and a number that grows with each new one.
+    pub fn miniature(&self, pass: &PassId, index: usize) -> Option<(&Miniature, u64)> {
+        self.run.miniatures.get(pass, index)
+    }
+
+    /// Returns the target that is looked at closely ([`Command::WatchBuffers`](super::Command::WatchBuffers)), and a
+    /// number that grows with each new one.
+    pub fn buffer(&self) -> Option<(&Arc<BufferRead>, u64)> {
+        self.run.buffers.shown()
+    }
+
+    /// Returns the texel of each target at the place that is looked at.
+    pub fn texels_under(&self) -> &[TexelAt] {
+        self.run.buffers.under()
+    }
+
+    /// The search for the first NaN ([`Command::FindNonfinite`](super::Command::FindNonfinite)).
+    pub fn search(&self) -> SearchView<'_> {
+        self.searching.view()
+    }
+
+    /// The comparison with another project ([`Command::Compare`](super::Command::Compare)).
+    pub fn comparison(&self) -> ComparisonView<'_> {
+        self.comparing.view()
+    }
+
+    /// The newest comparison is not of the project as it stands now.
+    pub fn is_comparison_old(&self) -> bool {
+        matches!(self.comparing.view(), Some(Compared::Ended(Ok(done))) if done.revision != self.documents.revision())
+    }
+
+    /// What is drawn instead of the picture, while somebody has asked for it: see
+    /// [`Command::Probe`](super::Command::Probe).
+    pub fn probe(&self) -> Option<ProbeView<'_>> {
+        self.probing.view()
+    }
+
+    /// The pixel that is traced ([`Command::Trace`](super::Command::Trace)).
+    pub fn trace(&self) -> TraceView<'_> {
+        self.tracing.view()
+    }
+
+    /// What the display shows: the shown pass, or a value of the code.
+    pub(super) fn pictured(&self) -> PassId {
+        if self.probing.is_drawn() { BuildOptions::probed() } else { self.run.shown.clone() }
+    }
+
+    pub fn shown_pass(&self) -> &PassId {
+        &self.run.shown
+    }
+
+    pub fn reset_on_reload(&self) -> bool {
+        self.disk.reset_on_reload
+    }
+
+    /// Oldest first; stay until dismissed.
+    pub fn notices(&self) -> &[Notice] {
+        &self.notices
+    }
+
+    /// Returns why the picture stands still though nobody has paused it.
+    pub fn halt(&self) -> Option<&Halt> {
+        self.halting.halt.as_ref()
+    }
+
+    /// Returns whether there is code to go back to.
+    pub fn has_last_good(&self) -> bool {
+        self.halting.good.is_some()
+    }
+
+    /// Returns what must be answered before anything else.
+    pub fn question(&self) -> Option<&Question> {
+        self.dialog.questions.front()
+    }
+}
