@@ -77,8 +77,10 @@ fn measure_long() -> Row {
     let function = |i: usize| {
         let callee = i.saturating_sub(1);
         format!(
-            "// Distance to part {i}.\nfloat part{i}(vec3 p, float r) {{\n    vec3 q = abs(p - vec3({i}.0, 0.5, sin(iTime))) - r;\n    \
-             float d = length(max(q, 0.0)) + min(max(q.x, max(q.y, q.z)), 0.0);\n    for (int i = 0; i < 3; i++) {{\n        \
+            "// Distance to part {i}.\nfloat part{i}(vec3 p, float r) {{\n    \
+             vec3 q = abs(p - vec3({i}.0, 0.5, sin(iTime))) - r;\n    \
+             float d = length(max(q, 0.0)) + min(max(q.x, max(q.y, q.z)), 0.0);\n    \
+             for (int i = 0; i < 3; i++) {{\n        \
              d = min(d, dot(q.xy, q.yz) * float(i));\n    }}\n    return {}d;\n}}\n\n",
             if i == 0 { String::new() } else { format!("part{callee}(q, r) + ") }
         )

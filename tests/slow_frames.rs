@@ -189,7 +189,8 @@ fn goes_on_or_draws_fewer_pixels(gpu: Gpu) {
 }
 
 /// A buffer that is drawn so often a frame that llvmpipe, which ends loops, does not come back from a slow one either.
-const MANY: &str = "[passes.buffer_a]\nchannels.0 = { buffer = \"A\" }\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n\
+const MANY: &str = "[passes.buffer_a]\nchannels.0 = { buffer = \"A\" }\n\
+                    [passes.image]\nchannels.0 = { buffer = \"A\" }\n\
                     [groups.many]\npasses = [\"buffer_a\"]\nsteps = 4000\n";
 const SHOWN: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }\n";
 

@@ -49,7 +49,7 @@ fn check(report: &mut Report, spec: &str, args: &CheckArgs, dumped: &mut String)
     let driver = Driver { without: args.without_pass.set(), ..Driver::default() };
     let (mut found, compiled) = compile(project, driver);
     report.compile_ms = Some(millis_since(began));
-    // What a device would be asked.
+    // A device would be asked this.
     found.extend(compiled.iter().filter_map(|pass| pass.validate().err()));
     if let Some(pass) = &args.dump_ir {
         *dumped = dump_ir(project, driver, Some(pass.as_str()).filter(|pass| !pass.is_empty()));
@@ -60,8 +60,8 @@ fn check(report: &mut Report, spec: &str, args: &CheckArgs, dumped: &mut String)
     media::meshes(project, &mut files);
     found.extend(files.fill_errors(project));
     found.extend(files.mesh_errors(project));
-    // What the reader has said already, with its place in `eddy.toml`.
-    let is_new = |d: &Diagnostic| loaded.warnings.iter().all(|w| w.message != d.message);
+    // The reader has said some of it already, with its place in `eddy.toml`.
+    let is_new = |d: &Diagnostic| !loaded.warnings.iter().any(|known| d.repeats(known));
     found.extend(project::advice(project).into_iter().filter(is_new));
     report.diagnose(&found, &project.sources(), Some(project));
     Ok(())

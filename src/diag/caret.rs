@@ -98,7 +98,19 @@ mod tests {
             .hint("write 2.0");
         assert_eq!(
             render(&d, &sources),
-            "error: cannot convert int to float\n --> image.glsl:2:12\n  |\n2 |     float x = 2;\n  |               ^\n ::: image.glsl:2:2\n  |\n2 |     float x = 2;\n  |     ----- declared float here\n  = help: write 2.0\n"
+            [
+                "error: cannot convert int to float",
+                " --> image.glsl:2:12",
+                "  |",
+                "2 |     float x = 2;",
+                "  |               ^",
+                " ::: image.glsl:2:2",
+                "  |",
+                "2 |     float x = 2;",
+                "  |     ----- declared float here",
+                "  = help: write 2.0\n",
+            ]
+            .join("\n")
         );
     }
 

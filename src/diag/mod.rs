@@ -120,13 +120,19 @@ impl Diagnostic {
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }
+
+    /// Returns whether another diagnostic says the same of the same place. Without a place it says less than one with a
+    /// place.
+    pub fn repeats(&self, other: &Diagnostic) -> bool {
+        self.message == other.message && (self.span.is_none() || self.span == other.span)
+    }
 }
 
-/// Adds what `all` has not yet. A mistake in a text that several passes share is found in each of them, and told of
-/// once.
+/// Adds what repeats nothing in `all`. A mistake in a text that several passes share is found in each of them, and told
+/// of once.
 pub fn append(all: &mut Vec<Diagnostic>, found: impl IntoIterator<Item = Diagnostic>) {
     for diagnostic in found {
-        if !all.contains(&diagnostic) {
+        if !all.iter().any(|known| diagnostic.repeats(known)) {
             all.push(diagnostic);
         }
     }

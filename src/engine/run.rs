@@ -127,8 +127,8 @@ impl Engine {
         Ok((stats, watch.times(&running.program)))
     }
 
-    /// Does the same as [`Engine::draw`], and takes what a pass reads when it is drawn; of a pass of several steps, what
-    /// its last one reads. Waits for the device.
+    /// Does the same as [`Engine::draw`], and takes what a pass reads when it is drawn; of a pass of several steps,
+    /// what its last one reads. Waits for the device.
     pub fn draw_inspected(
         &mut self,
         inputs: &FrameInputs,

@@ -162,7 +162,8 @@ mod tests {
         struct S { a: f32, b: array<vec3<f32>, 8> }
         var<private> long: array<f32, 24>;
         var<private> short: array<f32, 23>;
-        var<private> table: array<f32, 24> = array<f32, 24>(1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,20,21,22,23,24);
+        var<private> table: array<f32, 24> = array<f32, 24>(
+            1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17,18,19,20,21,22,23,24);
         @group(1) @binding(7) var<uniform> block: array<vec4<f32>, 32>;
         @fragment fn main(@builtin(position) p: vec4<f32>) -> @location(0) vec4<f32> {
             var s: S;

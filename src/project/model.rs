@@ -219,8 +219,8 @@ impl Origin {
 }
 
 impl Project {
-    /// Returns the passes of which one reads what the last frame left in them, itself or one that is drawn before it: the
-    /// project's state. A project without any draws the same picture at a time, whatever it drew before.
+    /// Returns the passes of which one reads what the last frame left in them, itself or one that is drawn before it:
+    /// the project's state. A project without any draws the same picture at a time, whatever it drew before.
     pub fn stateful_passes(&self) -> BTreeSet<PassId> {
         let passes = &self.passes;
         let read = |index: usize| {

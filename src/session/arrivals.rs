@@ -132,8 +132,8 @@ impl Session {
                     self.notice(Level::Warning, format!("{name}: Eddy's channels read no sound and no video yet"));
                 }
                 FileKind::Unknown => {
-                    let known = "a project is a folder, a .glsl file or a Shadertoy .json file; a channel reads a picture \
-                                 (png, jpg, webp, bmp, tga, gif, hdr), a pass draws a model (glb, gltf, obj)";
+                    let known = "a project is a folder, a .glsl file or a Shadertoy .json file; a channel reads a \
+                                 picture (png, jpg, webp, bmp, tga, gif, hdr), a pass draws a model (glb, gltf, obj)";
                     self.notice(Level::Warning, format!("{name} is nothing that Eddy opens: {known}"));
                 }
                 FileKind::Project | FileKind::Picture | FileKind::Model => {}

@@ -67,8 +67,8 @@ pub enum Command {
     DrawLastGood,
     /// Draws one frame and pauses: 1/60 s later than the one before.
     Step,
-    /// Draws the frame again that is so many before the newest, with the buffers as they were then, and pauses. One that
-    /// is out of reach is told of in a notice.
+    /// Draws the frame again that is so many before the newest, with the buffers as they were then, and pauses. One
+    /// that is out of reach is told of in a notice.
     StepBack(usize),
     /// Shows the picture at a time, in seconds. A project with a state is drawn again from the inputs that its frames
     /// had, or on at a fixed step up to a later time. Playing or paused stays as it is.

@@ -332,7 +332,7 @@ impl Session {
         let mut project = self.documents.saved().clone();
         let mut again = project::advice(&project);
         again.extend(project::declare_channels(&mut project));
-        let is_new = |d: &&Diagnostic| again.iter().all(|other| other.message != d.message);
+        let is_new = |d: &&Diagnostic| !again.iter().any(|other| other.repeats(d));
         let kept = warnings.iter().filter(is_new).map(|d| TabDiagnostic::new(d, sources, &project)).collect();
         self.compile.read = kept;
     }

@@ -1,8 +1,8 @@
 //! Seeking: to a frame that was drawn before, to a time, round and round a range, and to the same frame by new code.
 //!
 //! A project whose passes read nothing of the last frame has a picture for each time, which is drawn at once. Any other
-//! is where its frames have brought it: one that was drawn is drawn again from the inputs that it had, and a later time is
-//! reached by drawing every frame on the way, at a fixed step.
+//! is where its frames have brought it: one that was drawn is drawn again from the inputs that it had, and a later time
+//! is reached by drawing every frame on the way, at a fixed step.
 
 use super::{
     Session,

@@ -69,7 +69,8 @@ fn json() -> Seed {
     let pass = |kind: &str, name: &str, id: &str| {
         format!(
             r#"{{"inputs":[{{"id":"4dXGR8","src":"/media/previz/buffer00.png","ctype":"buffer","channel":0,
-            "sampler":{{"filter":"linear","wrap":"clamp","vflip":"true","srgb":"false","internal":"byte"}},"published":1}}],
+            "sampler":{{"filter":"linear","wrap":"clamp","vflip":"true","srgb":"false","internal":"byte"}},
+            "published":1}}],
             "outputs":[{{"id":"{id}","channel":0}}],"code":"{}","name":"{name}","description":"","type":"{kind}"}}"#,
             IMAGE.trim_end()
         )
@@ -138,9 +139,11 @@ fn gltf(uri: Option<&str>) -> String {
     let plain = r#"{"POSITION":0,"NORMAL":1,"TEXCOORD_0":2,"COLOR_0":3}"#;
     format!(
         r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0,3]}}],
-"nodes":[{{"children":[1,2],"rotation":[0,0,0,1]}},{{"mesh":0,"scale":[-2,1,1]}},{{"mesh":1,"translation":[0,1,0]}},{{"mesh":0}}],
+"nodes":[{{"children":[1,2],"rotation":[0,0,0,1]}},{{"mesh":0,"scale":[-2,1,1]}},
+ {{"mesh":1,"translation":[0,1,0]}},{{"mesh":0}}],
 "meshes":[{{"primitives":[{{"attributes":{plain},"indices":4}}]}},
- {{"primitives":[{{"attributes":{{"POSITION":5}},"mode":5}},{{"attributes":{{"POSITION":0,"TEXCOORD_0":2}},"mode":6}}]}}],
+ {{"primitives":[{{"attributes":{{"POSITION":5}},"mode":5}},
+  {{"attributes":{{"POSITION":0,"TEXCOORD_0":2}},"mode":6}}]}}],
 "accessors":[
  {{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0.25],"max":[1,1,0.25]}},
  {{"bufferView":1,"componentType":5126,"count":4,"type":"VEC3"}},

@@ -174,7 +174,8 @@ fn the_first_nan_is_named_by_pass_frame_texel_and_line() {
     b.write(
         "p/eddy.toml",
         "eddy = 1\n[passes.buffer_b]\n[passes.buffer_a]\nchannels.0 = { buffer = \"B\" }\n[passes.buffer_c]\n\
-         channels.0 = { buffer = \"A\" }\nchannels.1 = { buffer = \"C\" }\n[passes.image]\nchannels.0 = { buffer = \"C\" }\n",
+         channels.0 = { buffer = \"A\" }\nchannels.1 = { buffer = \"C\" }\n\
+         [passes.image]\nchannels.0 = { buffer = \"C\" }\n",
     );
     b.image("p/buffer_a.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0);");
     b.image(

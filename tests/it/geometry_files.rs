@@ -7,7 +7,8 @@ use eddy::{
 };
 use std::{fs, path::Path};
 
-const TOML: &str = r#"eddy = 1
+const TOML: &str = concat!(
+    r#"eddy = 1
 name = "scene"
 
 [passes.buffer_scene]
@@ -17,13 +18,16 @@ channels.0 = { texture = "noise-rgba-64" }
 camera = { yaw = 45, distance = 6.5, target = [0, 0.5, 0] }
 draw = [
   { mesh = "models/tri.obj", vertex = "scene.vert.glsl", fragment = "scene.frag.glsl", cull = "none" },   # the body
-  { mesh = "builtin:cube", vertex = "hull.vert.glsl", fragment = "scene.frag.glsl", cull = "front", depth = "less_equal", depth_write = false, color_write = false, scale = 2, rotation = [0, 90, 0], position = [0, 1.5, 0] },
+  { mesh = "builtin:cube", vertex = "hull.vert.glsl", fragment = "scene.frag.glsl", cull = "front", "#,
+    r#"depth = "less_equal", depth_write = false, color_write = false, "#,
+    r#"scale = 2, rotation = [0, 90, 0], position = [0, 1.5, 0] },
 ]
 
 [passes.image]
 channels.0 = { buffer = "scene", target = 1, filter = "nearest" }
 channels.1 = { buffer = "scene" }
-"#;
+"#
+);
 
 const VERTEX: &str =
     "in vec3 aPosition;\nout vec3 vAt;\nvoid main() { vAt = aPosition; gl_Position = vec4(aPosition, 1.0); }\n";

@@ -412,8 +412,8 @@ fn what_check_warns_of_is_in_the_list_of_problems() {
         (
             "eddy.toml",
             "[passes.buffer_a]\nchannels.0 = { webcam = true }\n[passes.cube_a]\n[passes.sound]\n[passes.image]\n\
-            channels.0 = { buffer = \"B\" }\nchannels.1 = { buffer = \"A\", wrap = \"repeat\" }\nchannels.2 = { buffer = \"A\" }\n\
-            channels.3 = { file = \"none.png\" }\n",
+            channels.0 = { buffer = \"B\" }\nchannels.1 = { buffer = \"A\", wrap = \"repeat\" }\n\
+            channels.2 = { buffer = \"A\" }\nchannels.3 = { file = \"none.png\" }\n",
         ),
         ("common.glsl", "uniform float speed;\nfloat half_of(float x) { return 0.5 * x; }\n"),
         ("buffer_a.glsl", "void mainImage(out vec4 o, in vec2 p) { float unset; o = vec4(unset); }\n"),

@@ -18,7 +18,8 @@ fn an_edit_is_held_against_its_last_save_and_another_project() {
     let home = tempfile::tempdir().unwrap();
     let folder = home.path().join("project");
     fs::create_dir(&folder).unwrap();
-    let text = "void mainImage(out vec4 o, in vec2 p) {\n    float red = 0.25;\n    o = vec4(red, p / iResolution.xy, 1.0);\n}\n";
+    let text = "void mainImage(out vec4 o, in vec2 p) {\n    float red = 0.25;\n    \
+                o = vec4(red, p / iResolution.xy, 1.0);\n}\n";
     fs::write(folder.join("image.glsl"), text).unwrap();
     let mut window = Window::open_as(&display, home.path(), Some("1280x800"), &[], &[folder.to_str().unwrap()]);
     window.wait_until("a compile", "compiled", |e| e["ok"] == true && e["compiling"] == false);

@@ -7,7 +7,8 @@ use std::{
 };
 
 const BUFFER: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.25, 0.0, 0.0, 1.0); }\n";
-const IMAGE: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(0), 0) + texelFetch(iChannel1, ivec2(0), 0); }\n";
+const IMAGE: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(0), 0) \
+                     + texelFetch(iChannel1, ivec2(0), 0); }\n";
 const MANIFEST: &str = "\
 # What the author wrote.
 [passes.buffer_a]
@@ -158,9 +159,12 @@ fn what_is_on_the_clipboard_is_opened_from_the_gallery() {
     let (here, there) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
     // The clipboard of another window: its text is a shader's JSON.
     let json = r#"{"ver":"0.1","info":{"name":"Rings","description":"","tags":[]},"renderpass":[
-{"type":"buffer","name":"Buffer A","inputs":[],"outputs":[{"id":"4dXGR8","channel":0}],"code":"void mainImage(out vec4 o, vec2 p) { o = vec4(0.5); }"},
-{"type":"image","name":"Image","outputs":[],"code":"void mainImage(out vec4 o, vec2 p) { o = texelFetch(iChannel2, ivec2(0), 0); }",
-"inputs":[{"id":"4dXGR8","channel":2,"type":"buffer","sampler":{"filter":"nearest","wrap":"clamp","vflip":"true"}}]}]}"#;
+{"type":"buffer","name":"Buffer A","inputs":[],"outputs":[{"id":"4dXGR8","channel":0}],
+"code":"void mainImage(out vec4 o, vec2 p) { o = vec4(0.5); }"},
+{"type":"image","name":"Image","outputs":[],
+"code":"void mainImage(out vec4 o, vec2 p) { o = texelFetch(iChannel2, ivec2(0), 0); }",
+"inputs":[{"id":"4dXGR8","channel":2,"type":"buffer",
+"sampler":{"filter":"nearest","wrap":"clamp","vflip":"true"}}]}]}"#;
     let file = there.path().join("copied.glsl");
     fs::write(&file, json).unwrap();
     let mut source = Window::open(&display, there.path(), &[file.to_str().unwrap()]);

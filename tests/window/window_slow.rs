@@ -13,8 +13,8 @@ const GREEN: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.0, 1.0, 
 /// `LP_MAX_TGSI_LOOP_ITERATIONS`: seconds to minutes a frame.)
 const ENDLESS: &str = "void mainImage(out vec4 o, in vec2 p) { float a = p.x; for (;;) { for (int i = 0; i < 60000; \
                        i++) a = fract(sin(a) * 43758.5 + 1.0); if (a > 2.0) break; } o = vec4(a); }\n";
-const SLOW: &str = "void mainImage(out vec4 o, in vec2 p) { float a = p.x; for (int j = 0; j < 1000; j++) for (int i = 0; \
-                    i < 10000; i++) a = fract(sin(a) * 43758.5 + float(i & 1)); o = vec4(a); }\n";
+const SLOW: &str = "void mainImage(out vec4 o, in vec2 p) { float a = p.x; for (int j = 0; j < 1000; j++) for (int \
+                    i = 0; i < 10000; i++) a = fract(sin(a) * 43758.5 + float(i & 1)); o = vec4(a); }\n";
 
 fn halted(window: &mut Window) -> serde_json::Value {
     window.wait_until("the halt", "halt", |e| e["kind"].is_string())

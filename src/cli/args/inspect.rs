@@ -100,7 +100,8 @@ pub struct CompareArgs {
     /// The frame, counted from 0; those before it are drawn first
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..1 << 30))]
     pub frame: u32,
-    /// Which pass to compare: image, buffer_a, a further buffer's name …; scene:1 is target 1 of a pass that has several
+    /// Which pass to compare: image, buffer_a, a further buffer's name …; scene:1 is target 1 of a pass that has
+    /// several
     #[arg(long, value_name = "NAME", default_value = "image", value_parser = picture)]
     pub pass: Picture,
     /// A .png for both pictures

@@ -88,8 +88,8 @@ pub struct RenderArgs {
     #[arg(required = true)]
     pub project: Vec<String>,
     /// Where to: a .png or .npy file, or a folder that gets STEM.png for each project (several --at: STEM_0004.png,
-    /// with more digits if the last one needs them). With --json, --probe or --assert it may be left out: every frame is
-    /// drawn and nothing written
+    /// with more digits if the last one needs them). With --json, --probe or --assert it may be left out: every frame
+    /// is drawn and nothing written
     #[arg(long, value_name = "PATH", required_unless_present_any = ["json", "probe", "assert"])]
     pub out: Option<PathBuf>,
     /// Frames to draw [default: 1, or as many as --at needs; with --replay all that were recorded]
@@ -113,8 +113,8 @@ pub struct RenderArgs {
     /// combination
     #[arg(long, value_name = "NAME=VALUES", value_parser = Sweep::parse)]
     pub sweep: Vec<Sweep>,
-    /// Measure a number of a pass in each frame that --at names: sum, min, max, mean, rms or nonfinite of a component or
-    /// of all, as in sum(buffer_a.x) or max(image). May be repeated; lines `//@probe sum(buffer_a.x)` in the project's
+    /// Measure a number of a pass in each frame that --at names: sum, min, max, mean, rms or nonfinite of a component
+    /// or of all, as in sum(buffer_a.x) or max(image). May be repeated; lines `//@probe sum(buffer_a.x)` in the project's
     /// texts do the same
     #[arg(long, value_name = "QUANTITY", value_parser = Quantity::parse)]
     pub probe: Vec<Quantity>,
@@ -137,7 +137,8 @@ pub struct CheckArgs {
     pub json: bool,
     /// Print the compiler's intermediate representation of each pass, as it is lowered and after each pass of the
     /// optimiser, or before and after that one (docs/compiler.md)
-    #[arg(long, value_name = "PASS", num_args = 0..=1, default_missing_value = "", require_equals = true, conflicts_with = "json", value_parser = dumped_pass)]
+    #[arg(long, value_name = "PASS", num_args = 0..=1, default_missing_value = "", require_equals = true)]
+    #[arg(conflicts_with = "json", value_parser = dumped_pass)]
     pub dump_ir: Option<String>,
     #[command(flatten)]
     pub without_pass: WithoutPass,

@@ -6,8 +6,8 @@ use crate::{
 };
 use std::{fs::File, io::BufReader, sync::Arc, time::Duration};
 
-pub const PROJECT: &str = "A PROJECT is a folder with eddy.toml, a folder of common.glsl, buffer_a.glsl … image.glsl, one \
-    .glsl file, a preset's name (see `eddy list`) or a Shadertoy API .json. One that is called like a command: \
+pub const PROJECT: &str = "A PROJECT is a folder with eddy.toml, a folder of common.glsl, buffer_a.glsl … image.glsl, \
+    one .glsl file, a preset's name (see `eddy list`) or a Shadertoy API .json. One that is called like a command: \
     `eddy ./render`.";
 
 /// A pixel, as in 80,45.

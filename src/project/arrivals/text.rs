@@ -22,8 +22,8 @@ pub enum ArrivalError {
     Empty,
     /// An address of the site, with the shader's id where it has one.
     #[error(
-        "{address} is an address, and Eddy fetches nothing from there. Open the page in a browser, save the shader with \
-         the bookmarklet of docs/bookmarklet.html, and drop or paste the JSON here"
+        "{address} is an address, and Eddy fetches nothing from there. Open the page in a browser, save the shader \
+         with the bookmarklet of docs/bookmarklet.html, and drop or paste the JSON here"
     )]
     Site { address: String },
     #[error("{address} is an address, and Eddy fetches nothing; save the file, and drop it here")]

@@ -36,7 +36,10 @@ pub fn export(project: &Project) -> String {
     let others = project.passes.iter().enumerate().filter(|(_, p)| p.id != PassId::Image);
     let mut passes: Vec<Value> = image.map(pass).collect();
     passes.extend(project.common.iter().map(|_| {
-        json!({ "inputs": [], "outputs": [], "code": text(Project::COMMON_ID), "name": "Common", "description": "", "type": "common" })
+        let code = text(Project::COMMON_ID);
+        json!({
+            "inputs": [], "outputs": [], "code": code, "name": "Common", "description": "", "type": "common"
+        })
     }));
     passes.extend(others.map(pass));
     let shader = json!({ "ver": "0.1", "info": info, "renderpass": passes });

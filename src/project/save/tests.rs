@@ -211,8 +211,8 @@ fn every_project_comes_back_from_eddy_toml_as_it_was() {
 fn saving_keeps_the_authors_comments_order_and_spelling() {
     let dir = tempfile::tempdir().unwrap();
     let toml = "# my shader\nname = 'Ink' # a name\ntags = [ \"a\",\n  \"b\" ]\n\n[passes.image] # last\n\
-    channels = { 0 = { buffer = 'a', \
-                filter=\"linear\" } }\n\n# the flow\n[passes.Buffer_A]\nfile = \"flow.glsl\"\nchannels.1 = { keyboard = true } # keys\n";
+    channels = { 0 = { buffer = 'a', filter=\"linear\" } }\n\n# the flow\n[passes.Buffer_A]\nfile = \"flow.glsl\"\n\
+    channels.1 = { keyboard = true } # keys\n";
     fs::write(dir.path().join("eddy.toml"), toml).unwrap();
     fs::write(dir.path().join("flow.glsl"), "f").unwrap();
     fs::write(dir.path().join("image.glsl"), "i").unwrap();

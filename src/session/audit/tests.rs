@@ -151,7 +151,8 @@ fn a_comparison_that_rounding_decides_is_told() {
 #[test]
 fn what_leans_on_an_order_that_is_undefined_is_told_in_the_pixels_that_come_there() {
     const SEED: &str = "float seed;\nfloat next() { seed = fract(seed * 7.1 + .3); return seed; }\n\
-                        float pure(float x) { return x * seed; }\nvoid pair(out float a, inout float b) { a = 1.; b = 2.; }\n";
+                        float pure(float x) { return x * seed; }\n\
+                        void pair(out float a, inout float b) { a = 1.; b = 2.; }\n";
     for (body, text, pixels) in [
         ("float r = 0.;\nif (p.x < 2.) r = next() - next();\no = vec4(r);", "next() - next()", 8),
         ("o = vec4(next() * 2. + pure(p.x));", "next() * 2. + pure(p.x)", 32),

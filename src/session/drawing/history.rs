@@ -1,6 +1,6 @@
-//! The frames of a run, so that one can go to any of them: what each was drawn with, and every so many frames a snapshot
-//! of the targets. A frame between two snapshots is drawn again from the one before it, or from the reset that the run
-//! began with.
+//! The frames of a run are kept so that one can go to any of them: the inputs of each, and every so many frames a
+//! snapshot of the targets. A frame between two snapshots is drawn again from the one before it, or from the reset that
+//! the run began with.
 
 use crate::{
     engine::{Engine, EngineError, FrameInputs, Snapshot},
@@ -261,8 +261,8 @@ impl History {
         (first..self.end()).contains(&number).then_some(number)
     }
 
-    /// Goes towards a frame of the run and draws for as long as patience lasts, one frame at least where there is one to
-    /// draw. `None`: the goal is out of reach, and nothing is changed.
+    /// Goes towards a frame of the run and draws for as long as patience lasts, one frame at least where there is one
+    /// to draw. `None`: the goal is out of reach, and nothing is changed.
     pub fn travel(
         &mut self,
         engine: &mut Engine,

@@ -40,7 +40,10 @@ pub struct Assertion {
 
 /// A claim that does not hold.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("frame {frame}: {assertion} does not hold: it is {value}{}", first.map_or(String::new(), |x| format!(", and was {x} at first")))]
+#[error(
+    "frame {frame}: {assertion} does not hold: it is {value}{}",
+    first.map_or(String::new(), |x| format!(", and was {x} at first"))
+)]
 pub struct Failure {
     pub assertion: String,
     pub frame: u32,

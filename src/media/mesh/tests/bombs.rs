@@ -36,7 +36,8 @@ const NODE: &str = r#"{"mesh":0}"#;
 fn sparse(count: u64) -> String {
     let lists = r#""indices":{"bufferView":1,"componentType":5121},"values":{"bufferView":0}"#;
     format!(
-        r#"{{"componentType":5126,"count":{count},"type":"VEC3","min":[0,0,0],"max":[1,1,0],"sparse":{{"count":1,{lists}}}}}"#
+        r#"{{"componentType":5126,"count":{count},"type":"VEC3","min":[0,0,0],"max":[1,1,0],
+        "sparse":{{"count":1,{lists}}}}}"#
     )
 }
 

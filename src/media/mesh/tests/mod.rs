@@ -86,7 +86,10 @@ fn triangle(count: usize, indices: [u8; 3], extra: &str) -> String {
           {{"bufferView":0,"componentType":5126,"count":{count},"type":"VEC3","min":[0,0,0],"max":[1,1,0]}},
           {{"bufferView":1,"componentType":5126,"count":3,"type":"VEC2"}},
           {{"bufferView":2,"componentType":5121,"count":3,"type":"SCALAR"}}],
-        "bufferViews":[{{"buffer":0,"byteLength":36}},{{"buffer":0,"byteOffset":36,"byteLength":24}},{{"buffer":0,"byteOffset":60,"byteLength":3}}],
+        "bufferViews":[
+          {{"buffer":0,"byteLength":36}},
+          {{"buffer":0,"byteOffset":36,"byteLength":24}},
+          {{"buffer":0,"byteOffset":60,"byteLength":3}}],
         "buffers":[{{"byteLength":63,"uri":"data:application/octet-stream;base64,{data}"}}]}}"#
     )
 }
