@@ -31,7 +31,7 @@ pub struct Audited {
     pass: String,
     frame: u32,
     pixels: usize,
-    /// Of the pixels' largest difference of a component, device against double precision.
+    /// The median of the pixels' largest difference of a component, device against double precision.
     median: Number,
     largest: Number,
     /// Pixels that a screen of 8 bits would show otherwise.
@@ -80,7 +80,7 @@ struct Found {
     #[serde(flatten)]
     written: Written,
     numbers: String,
-    /// How many of the pixels, and the one that shows it most.
+    /// The number of the pixels that show it, and the one that shows it most.
     pixels: usize,
     pixel: [u32; 2],
     #[serde(skip_serializing_if = "Option::is_none")]

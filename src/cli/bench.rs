@@ -28,7 +28,7 @@ struct Costs {
     cpu_us_per_pass: f64,
     /// The slowest frame.
     worst_ms: f64,
-    /// How the passes' `ms` were taken: `timestamps` of the device, or `waited`: each pass handed in and waited for by
+    /// The clock of the passes' `ms`: `timestamps` of the device, or `waited`: each pass handed in and waited for by
     /// itself.
     clock: &'static str,
     /// In drawing order.
@@ -53,14 +53,14 @@ struct PassCost {
     title: String,
     /// `None` where the device has no timestamps.
     gpu_ms: Option<f64>,
-    /// As `clock` of the project says.
+    /// Milliseconds by the `clock` of the project.
     ms: Option<f64>,
     /// Texels of its targets.
     width: u32,
     height: u32,
     /// The format of each of its targets, as `eddy.toml` spells them.
     formats: Vec<&'static str>,
-    /// How often it is drawn in a frame.
+    /// The number of times that it is drawn in a frame.
     steps: u32,
     /// Bytes its textures take, mip levels, the second one of a pair and the depth buffer among them.
     held_bytes: u64,

@@ -22,18 +22,19 @@ pub struct Measured {
     pub value: Number,
 }
 
-/// What is measured of a project while it is drawn.
+/// Holds the numbers that are measured of a project while it is drawn.
 pub struct Measures<'a> {
     assertions: &'a [Assertion],
     quantities: Vec<Quantity>,
-    /// How many components each of them may take.
+    /// The number of components that each of them may take.
     stored: Vec<usize>,
-    /// What each assertion's quantity was in the first frame.
+    /// The value of each assertion's quantity in the first frame.
     first: Vec<f64>,
     pub taken: Vec<Measured>,
 }
 
-/// What `//@probe` comments of a project ask for, and what is wrong with those that cannot be measured.
+/// Returns the quantities that `//@probe` comments of a project ask for, and what is wrong with those that cannot be
+/// measured.
 pub fn declared(project: &Project) -> (Vec<Quantity>, Vec<Diagnostic>) {
     let (mut quantities, mut diagnostics) = (Vec::new(), Vec::new());
     for comment in reduction::declared(project) {

@@ -18,15 +18,15 @@ use crate::{
 use serde::Serialize;
 use std::fmt::Write;
 
-/// Where it begins.
+/// Names the place where it begins.
 #[derive(Debug, Serialize)]
 pub struct Begin {
     pass: String,
     frame: u32,
     texel: [u32; 2],
-    /// As it is stored; what JSON has no number for is a text.
+    /// The value as it is stored; what JSON has no number for is a text.
     value: [crate::lab::Number; 4],
-    /// How many texels of the pass are so in that frame.
+    /// The number of texels of the pass that are so in that frame.
     texels: usize,
     /// The operation; none where nothing but the storage of the pass or a texel that it reads can have made it.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -1,4 +1,4 @@
-//! What `//@print` comments of a pass ask for, at a pixel.
+//! The values that `//@print` comments of a pass ask for, at a pixel, are walked and printed here.
 
 use crate::{
     engine::{PassInputs, Pixels},
@@ -16,7 +16,7 @@ pub struct Printed {
     expression: String,
     /// The numbers of each value; null where it has none.
     values: Vec<Option<Vec<Number>>>,
-    /// Why it has none, in the words of the compiler.
+    /// The reason why it has none, in the words of the compiler.
     #[serde(skip_serializing_if = "Option::is_none")]
     error: Option<String>,
     /// There were more.

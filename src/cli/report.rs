@@ -7,7 +7,7 @@ use crate::{
 use serde::Serialize;
 use std::io::{self, Write};
 
-/// How a project fared. The order is how bad it is for the exit code.
+/// Says how a project fared. The order is how bad it is for the exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Status {
@@ -34,7 +34,7 @@ impl Status {
 /// One line of `--json`.
 #[derive(Debug, Serialize)]
 pub struct Report {
-    /// As it was named on the command line.
+    /// Its name on the command line.
     pub project: String,
     /// The values that `--sweep` set.
     #[serde(skip_serializing_if = "Vec::is_empty")]

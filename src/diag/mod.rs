@@ -13,7 +13,7 @@ pub use follow::{follow, follow_line};
 
 use std::{ops::Range, sync::Arc};
 
-/// Which text of a [`SourceMap`] a span points into: one per tab, included file or project file.
+/// Names the text of a [`SourceMap`] that a span points into: one per tab, included file or project file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct SourceId(pub u16);
 
@@ -40,7 +40,8 @@ impl Span {
         Self::new(source, offset..offset)
     }
 
-    /// From the start of `self` to the end of `end`; `self` alone where the two lie in different texts.
+    /// Returns the span from the start of `self` to the end of `end`; `self` alone where the two lie in different
+    /// texts.
     pub fn to(self, end: Span) -> Span {
         if self.source != end.source || end.end < self.start {
             return self;
@@ -53,7 +54,7 @@ impl Span {
     }
 }
 
-/// How much a diagnostic matters. Only an error keeps a program from running.
+/// Says how much a diagnostic matters. Only an error keeps a program from running.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Severity {
     Note,
@@ -88,7 +89,7 @@ pub struct Diagnostic {
     pub message: String,
     /// Further places.
     pub labels: Vec<Label>,
-    /// How to mend it, one line each.
+    /// The mends, one line each.
     pub hints: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! From a project to everything a frame needs that does not change from frame to frame.
+//! A project becomes everything a frame needs that does not change from frame to frame.
 
 use super::{
     BuildError, EngineError, Sources,
@@ -148,7 +148,7 @@ impl Builder {
         Ok(Built { program, diagnostics, sources, work: BuildWork::default() })
     }
 
-    /// What the compiler is told of `project.passes[index]` besides its texts.
+    /// Returns what the compiler is told of `project.passes[index]` besides its texts.
     fn options(&self, project: &Project, media: &MediaSet, index: usize, without: PassSet) -> PassOptions {
         let mixing = mixing(&self.gpu, project, media, index);
         let driver = Driver { without, ..driver(&self.gpu, &project.passes[index]) };

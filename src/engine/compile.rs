@@ -1,4 +1,4 @@
-//! From a project's texts to compiled passes.
+//! A project's texts become compiled passes.
 
 use super::{
     Sources,

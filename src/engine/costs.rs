@@ -37,7 +37,7 @@ pub enum PassRole {
 pub struct PassRead {
     pub channel: usize,
     pub pass: PassId,
-    /// Which of that pass's targets.
+    /// The target among those of that pass.
     pub index: usize,
     pub when: When,
     /// The pass is drawn, and its code reads the channel.

@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 /// A mesh, and where it stands.
 pub(super) struct PlacedMesh {
-    /// What the buffers hold, for who asks what a draw read.
+    /// The contents of the buffers, for who asks what a draw read.
     pub mesh: Arc<Mesh>,
     pub buffers: Arc<MeshBuffers>,
     model: Mat4,

@@ -7,7 +7,7 @@ use crate::{
 };
 use std::sync::Arc;
 
-/// What [`Sources`] have read of Common, for later ones with the same.
+/// Keeps what [`Sources`] have read of Common, for later ones with the same.
 #[derive(Default)]
 pub struct KeptPreamble {
     last: Option<(Key, Option<Arc<Preamble>>)>,

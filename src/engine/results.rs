@@ -52,10 +52,10 @@ pub struct Picture {
 /// A small picture of a target.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Miniature {
-    /// Of one size, whatever the target's shape.
+    /// The picture, of one size whatever the target's shape.
     pub picture: Picture,
-    /// Where a texel of the target is NaN or infinite: from one column of the picture to before the other, and the row
-    /// from the top.
+    /// The places where a texel of the target is NaN or infinite: from one column of the picture to before the other,
+    /// and the row from the top.
     pub nonfinite: Vec<(u32, u32, u32)>,
     /// Texels of the target, across and up.
     pub of: (u32, u32),
@@ -83,9 +83,9 @@ impl Miniature {
 #[derive(Clone, Debug, PartialEq)]
 pub struct TexelAt {
     pub pass: PassId,
-    /// Which of the pass's targets.
+    /// The target among those of the pass.
     pub index: usize,
-    /// From the left, from the bottom.
+    /// The place of the texel, from the left and from the bottom.
     pub texel: (u32, u32),
     /// So many of the value's components are stored; what is missing reads as 0, alpha as 1.
     pub components: u8,

@@ -150,7 +150,7 @@ impl Engine {
         Ok(snapshot)
     }
 
-    /// What [`Engine::snapshot`] would take of the device's memory.
+    /// Returns the bytes of the device's memory that [`Engine::snapshot`] would take.
     pub fn snapshot_bytes(&self) -> u64 {
         snapshot::bytes(self.targets())
     }

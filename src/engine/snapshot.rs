@@ -6,7 +6,8 @@ use crate::{
     project::PassId,
 };
 
-/// What a program's targets held between two frames. Belongs to the program and the canvas that it was taken of.
+/// Holds what a program's targets held between two frames. It belongs to the program and the canvas that it was taken
+/// of.
 pub struct Snapshot {
     targets: Vec<KeptTarget>,
     bytes: u64,
@@ -52,7 +53,7 @@ impl Snapshot {
         Ok(Self { targets: kept, bytes: bytes(targets) })
     }
 
-    /// What the copies take.
+    /// Returns the bytes that the copies take.
     pub fn bytes(&self) -> u64 {
         self.bytes
     }
@@ -67,7 +68,7 @@ impl Snapshot {
     }
 }
 
-/// What a snapshot of these targets takes.
+/// Returns the bytes that a snapshot of these targets takes.
 pub(super) fn bytes(targets: &[Target]) -> u64 {
     let of = |texture: &Texture| {
         let texel = u64::from(texture.raw.format().block_copy_size(None).unwrap_or(16));

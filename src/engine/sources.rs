@@ -54,7 +54,7 @@ impl<'p> Sources<'p> {
         Self { project, texts, lines, custom_uniforms, values, preamble: OnceLock::new(), fills, diagnostics }
     }
 
-    /// What the author wrote at a place.
+    /// Returns what the author wrote at a place.
     pub(crate) fn written(&self, span: Span) -> &str {
         let text = self.texts.get(span.source.0 as usize);
         text.and_then(|text| text.get(span.range())).unwrap_or_default()
@@ -212,7 +212,7 @@ impl<'p> Sources<'p> {
         self.with_source(index, self.stage_id(index, stage), kind, make)
     }
 
-    /// What a probe of `project.passes[index]` means; `None` where there is no value.
+    /// Returns what a probe of `project.passes[index]` means; `None` where there is no value.
     ///
     /// # Panics
     /// If there is no such pass.

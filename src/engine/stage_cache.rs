@@ -32,10 +32,10 @@ pub(super) struct Missing {
     ids: Vec<SourceId>,
 }
 
-/// What compiling a stage gives.
+/// The result of compiling a stage.
 pub(super) type Outcome = Result<Compiled, Vec<Diagnostic>>;
 
-/// What the cache has of a stage: itself, or `None` where the diagnostics hold an error. These point into the texts
+/// The cache's answer for a stage: itself, or `None` where the diagnostics hold an error. These point into the texts
 /// that were asked about.
 pub(super) type Found = (Option<Arc<Compiled>>, Vec<Diagnostic>);
 

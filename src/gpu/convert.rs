@@ -30,7 +30,7 @@ impl FloatConverter {
         self.convert_level(gpu, picture, 0)
     }
 
-    /// As [`FloatConverter::convert`], for any level of a texture.
+    /// Does the same as [`FloatConverter::convert`] for any level of a texture.
     pub fn convert_level(&self, gpu: &Gpu, picture: &Texture, level: u32) -> Result<Texture, GpuError> {
         let side = |texels: u32| (texels >> level).max(1);
         let (width, height) = (side(picture.width()), side(picture.height()));

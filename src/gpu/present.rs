@@ -1,4 +1,4 @@
-//! From a float picture whose row 0 is the bottom to 8 bits whose row 0 is the top, for a window.
+//! A float picture whose row 0 is the bottom becomes one of 8 bits whose row 0 is the top, for a window.
 
 use super::{Gpu, GpuError, Texture, TextureDescriptor, full_screen::PictureShader};
 

@@ -1,8 +1,8 @@
-//! From float values to 8 bits for a window: what a number is shown as, whatever its range.
+//! Float values become 8 bits for a window: a number is shown whatever its range.
 
 use super::{Gpu, Texture, full_screen::ValuesShader};
 
-/// How numbers become colours.
+/// Says how numbers become colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Paint {
     /// From black, the range's begin, to white, its end.
@@ -14,7 +14,7 @@ pub enum Paint {
     FalseColour,
 }
 
-/// What of a value is shown, and how.
+/// Says which part of a value is shown, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ValueLook {
     pub low: f32,

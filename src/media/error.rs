@@ -55,7 +55,7 @@ fn reason(error: &ImageError) -> String {
 const KNOWN: [&str; 8] = ["PNG", "JPEG", "WebP", "BMP", "TGA", "GIF", "HDR", "NPY"];
 
 impl MediaError {
-    /// How to mend it.
+    /// Returns how to mend it.
     pub fn hint(&self) -> String {
         match self {
             MediaError::File(error) => error.hint(),

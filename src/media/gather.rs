@@ -8,7 +8,7 @@ use crate::{
 use std::{collections::HashMap, path::Path, sync::Arc};
 
 /// Loads every picture that a drawn pass of the project names. `media_dir` holds the user's own copies of the site's
-/// stock files. What cannot be had is left out, which reads as the site's unloaded channel (black, of size 0), with a
+/// textures. What cannot be had is left out, which reads as the site's unloaded channel (black, of size 0), with a
 /// warning that names pass, channel and mend.
 pub fn gather(project: &Project, media_dir: Option<&Path>) -> (MediaSet, Vec<Diagnostic>) {
     let mut set = MediaSet::new();

@@ -1,29 +1,30 @@
-//! The site's stock pictures, by id: which of Eddy's own stands in for each.
+//! The site's own textures, by id, each with the built-in texture that Eddy falls back to.
 //!
-//! Sizes and channels are facts of the site; the pictures themselves are its own and not here. A stand-in has the same
+//! Sizes and channels are facts of the site; the pictures themselves are its own and not here. A fallback has the same
 //! size and channels and something of the same kind to see, so that a shader looks as meant if not as it was.
 
-/// A stock picture of the site.
+/// A texture of the site.
 #[derive(Clone, Copy, Debug)]
-pub struct Stock {
+pub struct SiteTexture {
     pub id: &'static str,
     /// First characters of the file's name, which is a hash; for JSON without ids.
     pub hash: &'static str,
-    pub stand_in: &'static str,
+    /// The name of the built-in texture.
+    pub fallback: &'static str,
     /// Uploaded as one channel.
     pub is_grey: bool,
 }
 
-const fn rgba(id: &'static str, hash: &'static str, stand_in: &'static str) -> Stock {
-    Stock { id, hash, stand_in, is_grey: false }
+const fn rgba(id: &'static str, hash: &'static str, fallback: &'static str) -> SiteTexture {
+    SiteTexture { id, hash, fallback, is_grey: false }
 }
 
-const fn grey(id: &'static str, hash: &'static str, stand_in: &'static str) -> Stock {
-    Stock { id, hash, stand_in, is_grey: true }
+const fn grey(id: &'static str, hash: &'static str, fallback: &'static str) -> SiteTexture {
+    SiteTexture { id, hash, fallback, is_grey: true }
 }
 
-/// The 22 stock pictures, those read most first.
-pub const STOCK: [Stock; 22] = [
+/// The 22 textures, those read most first.
+pub const SITE_TEXTURES: [SiteTexture; 22] = [
     rgba("4dXGzr", "08b42b43ae9d", "font"),
     rgba("4dfGRn", "8de3a3924cb9", "street"),
     rgba("Xsf3zn", "f735bee5b64e", "noise-rgba-256"),
@@ -48,10 +49,10 @@ pub const STOCK: [Stock; 22] = [
     rgba("XdXGzr", "8979352a182b", "dunes"),
 ];
 
-/// The stock picture of an id, or of a path that ends in its name.
-pub fn stock(id: &str, path: &str) -> Option<&'static Stock> {
+/// Returns the texture of an id, or of a path that ends in its name.
+pub fn site_texture(id: &str, path: &str) -> Option<&'static SiteTexture> {
     let name = path.rsplit('/').next().unwrap_or_default();
-    STOCK.iter().find(|s| s.id == id).or_else(|| STOCK.iter().find(|s| name.starts_with(s.hash)))
+    SITE_TEXTURES.iter().find(|s| s.id == id).or_else(|| SITE_TEXTURES.iter().find(|s| name.starts_with(s.hash)))
 }
 
 #[cfg(test)]
@@ -60,8 +61,8 @@ mod tests {
 
     #[test]
     fn a_picture_is_known_by_id_or_by_path() {
-        assert_eq!(stock("XsfGRn", "").unwrap().stand_in, "wood");
-        assert_eq!(stock("", "/media/a/1f7dca9c22f324751f2a.jpg").unwrap().stand_in, "wood");
-        assert!(stock("", "/media/a/").is_none() && stock("", "").is_none());
+        assert_eq!(site_texture("XsfGRn", "").unwrap().fallback, "wood");
+        assert_eq!(site_texture("", "/media/a/1f7dca9c22f324751f2a.jpg").unwrap().fallback, "wood");
+        assert!(site_texture("", "/media/a/").is_none() && site_texture("", "").is_none());
     }
 }

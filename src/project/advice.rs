@@ -1,5 +1,5 @@
-//! What is legal in a project and more often a slip: channels that read no pass, and channels that the site cannot
-//! have.
+//! Some things are legal in a project and more often a slip: channels that read no pass, and channels that the site
+//! cannot have.
 
 use super::{Filter, Input, PassId, Project, SamplerRules, Wrap, nearest};
 use crate::diag::Diagnostic;
@@ -51,8 +51,8 @@ fn near_buffer<'p>(project: &'p Project, missing: &PassId) -> Option<&'p str> {
     }
 }
 
-/// Where channels with samplers of their own read a buffer differently from each other, which the site cannot: there a
-/// buffer has one wrap, and one filter while a pass draws (`shadertoy.md`, section 7).
+/// Returns a warning where channels with samplers of their own read a buffer differently from each other, which the
+/// site cannot: there a buffer has one wrap, and one filter while a pass draws (`shadertoy.md`, section 7).
 fn shared_samplers(project: &Project) -> Vec<Diagnostic> {
     if project.sampler_rules == SamplerRules::Site {
         return Vec::new();

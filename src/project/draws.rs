@@ -1,4 +1,4 @@
-//! How much a frame draws.
+//! A frame draws so many times in all, which has a limit.
 
 use super::{Group, Pass};
 

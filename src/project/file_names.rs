@@ -1,4 +1,4 @@
-//! Which pass a file is by its name; the convention is in [`super::folder`].
+//! A file is a pass by its name; the convention is in [`super::folder`].
 
 use super::PassId;
 use crate::diag::Diagnostic;
@@ -31,7 +31,7 @@ pub(super) fn misnamed(file: &str) -> Option<Diagnostic> {
     Some(Diagnostic::warning(None, message).hint(PassId::NAMES))
 }
 
-/// Which text of a project a file is by convention.
+/// Says which text of a project a file is by convention.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Role {
     Common,

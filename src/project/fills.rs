@@ -102,7 +102,7 @@ impl Boundary {
     }
 }
 
-/// Which of a pass's fills.
+/// Names one of a pass's fills.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum FillKind {
     Initial,
@@ -112,7 +112,7 @@ pub enum FillKind {
 impl FillKind {
     pub const ALL: [FillKind; 2] = [FillKind::Initial, FillKind::Boundary];
 
-    /// As `eddy.toml` spells it.
+    /// Returns the key in `eddy.toml`.
     pub fn key(self) -> &'static str {
         match self {
             FillKind::Initial => "initial",

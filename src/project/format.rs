@@ -28,7 +28,7 @@ impl PassFormat {
         PassFormat::R8,
     ];
 
-    /// As `eddy.toml` spells it.
+    /// Returns the name in `eddy.toml`.
     pub fn name(self) -> &'static str {
         match self {
             PassFormat::R8 => "r8",

@@ -87,7 +87,7 @@ pub enum MeshSource {
 impl MeshSource {
     const BUILTIN: &'static str = "builtin:";
 
-    /// As `eddy.toml` spells it: `builtin:torus`, or a file's path.
+    /// Reads the spelling of `eddy.toml`: `builtin:torus`, or a file's path.
     pub fn parse(text: &str) -> MeshSource {
         match text.strip_prefix(Self::BUILTIN) {
             Some(name) => MeshSource::Builtin(name.to_owned()),
@@ -109,7 +109,7 @@ impl MeshSource {
     }
 }
 
-/// Which triangles are left out. The front is the side on which a triangle's corners turn counter-clockwise.
+/// Says which triangles are left out. The front is the side on which a triangle's corners turn counter-clockwise.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Cull {
     #[default]
@@ -121,7 +121,7 @@ pub enum Cull {
 impl Cull {
     pub const ALL: [Cull; 3] = [Cull::Back, Cull::Front, Cull::None];
 
-    /// As `eddy.toml` spells it.
+    /// Returns the name in `eddy.toml`.
     pub fn name(self) -> &'static str {
         match self {
             Cull::Back => "back",
@@ -155,7 +155,7 @@ impl DepthTest {
         DepthTest::Always,
     ];
 
-    /// As `eddy.toml` spells it.
+    /// Returns the name in `eddy.toml`.
     pub fn name(self) -> &'static str {
         match self {
             DepthTest::Less => "less",

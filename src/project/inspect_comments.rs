@@ -5,13 +5,13 @@ use std::ops::Range;
 /// A comment that asks for something, as `//@print dist` does.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InspectComment<'t> {
-    /// What is asked for: `print`.
+    /// The word that says what is asked for: `print`.
     pub kind: &'t str,
-    /// What stands behind that word, without blanks around it and without a semicolon.
+    /// The text behind that word, without blanks around it and without a semicolon.
     pub argument: &'t str,
     /// The bytes of the argument.
     pub range: Range<usize>,
-    /// Where the comment begins: what stands before it has happened when it is its turn.
+    /// The place where the comment begins: what stands before it has happened when it is its turn.
     pub at: usize,
     /// The line, from 0.
     pub line: usize,

@@ -1,4 +1,4 @@
-//! From files to a [`Project`].
+//! Files become a [`Project`].
 
 use super::{
     Info, Loaded, Origin, Pass, PassId, Project, ProjectError, SamplerRules, Source,

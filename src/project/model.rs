@@ -105,12 +105,12 @@ pub enum Media {
     /// copies the file into the project's folder and makes a [`Media::File`] of it, and nothing that is read from a
     /// project is one.
     Picked(PathBuf),
-    /// One of the site's stock files. Stands for a built-in of the same size and kind, or a file of that name in
+    /// A texture of the site. Stands for a built-in of the same size and kind, or a file of that name in
     /// `--media`.
     Site { id: String, path: String },
 }
 
-/// How texels are read between and beyond texel centres.
+/// Says how texels are read between and beyond texel centres.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Sampler {
     pub filter: Filter,
@@ -144,7 +144,7 @@ pub enum Wrap {
     Repeat,
 }
 
-/// Whose samplers count when several channels read one buffer.
+/// Says whose samplers count when several channels read one buffer.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum SamplerRules {
     /// Every channel has its own (`eddy.toml`, and GLSL files without one).
@@ -336,7 +336,7 @@ impl Project {
         map
     }
 
-    /// As [`Project::sources`], GLSL alone.
+    /// Returns the same as [`Project::sources`], GLSL alone.
     pub fn texts(&self) -> crate::diag::SourceMap {
         let mut map = crate::diag::SourceMap::default();
         match &self.common {

@@ -3,7 +3,7 @@
 use super::limits;
 use std::cmp::Ordering;
 
-/// Which pass. Buffers are told apart by name: `A`..`D` as on the site, or any further name a project gives.
+/// Names a pass. Buffers are told apart by name: `A`..`D` as on the site, or any further name a project gives.
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum PassId {
     Buffer(String),
@@ -31,7 +31,7 @@ impl PassId {
         self.drawing_order(other).then_with(|| self.cmp(other))
     }
 
-    /// As tabs show it: `Buffer A`, `Cube A`, `Sound`, `Image`.
+    /// Returns the title that tabs show: `Buffer A`, `Cube A`, `Sound`, `Image`.
     pub fn title(&self) -> String {
         match self {
             PassId::Buffer(name) => format!("Buffer {name}"),
@@ -41,7 +41,7 @@ impl PassId {
         }
     }
 
-    /// As file names, `eddy.toml` and `--pass` spell it: `buffer_a`, `cube_a`, `sound`, `image`.
+    /// Returns the spelling of file names, `eddy.toml` and `--pass`: `buffer_a`, `cube_a`, `sound`, `image`.
     pub fn key(&self) -> String {
         match self {
             PassId::Buffer(name) => format!("buffer_{}", name.to_lowercase()),

@@ -3,7 +3,7 @@
 
 use super::{Boundary, Fill, Geometry, PassFormat, PassId};
 
-/// How a pass is drawn. The default is what the site does.
+/// Says how a pass is drawn. The default is what the site does.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PassSettings {
     pub size: PassSize,

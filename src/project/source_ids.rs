@@ -1,6 +1,6 @@
-//! Which text of a project a [`SourceId`] names: Common (an empty text where there is none), then the passes in order,
-//! then the stages of passes that draw meshes in order, then the files they include, then the texts of fills. Nothing
-//! else counts them.
+//! A [`SourceId`] names a text of a project: Common (an empty text where there is none), then the passes in order, then
+//! the stages of passes that draw meshes in order, then the files they include, then the texts of fills. Nothing else
+//! counts them.
 
 use super::{Included, Project, Stage, Tab};
 use crate::diag::SourceId;

@@ -1,7 +1,7 @@
-//! What a person brings: files that are dropped or picked, texts that are pasted.
+//! A person brings files that are dropped or picked, and texts that are pasted.
 //!
-//! What each of them is, is the project's; here it is opened, or put into the open project as one edit that can be
-//! taken back.
+//! The project's layer says what each of them is; here it is opened, or put into the open project as one edit that can
+//! be taken back.
 
 use super::{
     Session,
@@ -157,7 +157,7 @@ fn name(path: &Path) -> String {
     path.file_name().map_or_else(|| path.display().to_string(), |n| n.to_string_lossy().into_owned())
 }
 
-/// Where a model is put, so that the camera sees all of it.
+/// Returns where a model is put, so that the camera sees all of it.
 fn measured(model: &Path) -> Fit {
     let plain = Fit { scale: 1.0, position: [0.0; 3] };
     if std::fs::metadata(model).map_or(u64::MAX, |m| m.len()) > MEASURED {

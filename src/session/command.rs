@@ -145,12 +145,12 @@ pub enum Command {
     /// Begins anew at frame 0 and records the inputs of every frame; the second time, ends that and writes them beside
     /// the pictures, for `eddy render --replay`.
     Record,
-    /// Which pass is shown and captured.
+    /// Shows a pass, which is captured then too.
     ShowPass(PassId),
     /// Draws the value of an expression instead of the picture; `None`: the picture again. See
     /// [`Session::probe`](super::Session::probe).
     Probe(Option<ProbePlace>),
-    /// How it is shown.
+    /// Shows its values in another way.
     LookAtProbe(ProbeLook),
     /// Traces the pixel of the shown pass at a place of its picture, from 0 to 1 across and up, and pauses; `None`:
     /// none any more. See [`Session::trace`](super::Session::trace).
@@ -158,13 +158,13 @@ pub enum Command {
     /// Says whether somebody looks at what each pass costs: only then is it gathered. See
     /// [`Session::pass_costs`](super::Session::pass_costs).
     WatchCosts(bool),
-    /// Which targets of passes somebody sees small: only those are read back. See
+    /// Says which targets of passes somebody sees small: only those are read back. See
     /// [`Session::miniature`](super::Session::miniature).
     WatchTargets(Vec<(PassId, usize)>),
-    /// What somebody looks at closely: only that is read back, and nothing with the default. See
+    /// Says what somebody looks at closely: only that is read back, and nothing with the default. See
     /// [`Session::buffer`](super::Session::buffer) and [`Session::texels_under`](super::Session::texels_under).
     WatchBuffers(BufferWatch),
-    /// Which comments that ask for a number somebody looks at, by their serials: only those are measured. See
+    /// Says which comments that ask for a number somebody looks at, by their serials: only those are measured. See
     /// [`Session::measures`](super::Session::measures).
     WatchMeasures(Vec<u64>),
     /// Forgets what has been measured so far.
@@ -207,7 +207,7 @@ pub enum Question {
         file: PathBuf,
         mine: Arc<str>,
         disk: Arc<str>,
-        /// From `disk` to `mine`, line by line, everything.
+        /// Every line from `disk` to `mine`.
         diff: Vec<DiffLine>,
     },
     /// The folder of a Save As already holds these files, which would be replaced. Answers: Overwrite, Cancel.
@@ -238,7 +238,7 @@ pub struct Recovered {
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecoveredTab {
     pub tab: Tab,
-    /// From the disk's text to the unsaved one, line by line, everything.
+    /// Every line from the disk's text to the unsaved one.
     pub diff: Vec<DiffLine>,
 }
 

@@ -49,14 +49,14 @@ pub(super) struct Done {
 }
 
 pub(super) struct Compiled {
-    /// What was compiled.
+    /// The project that was compiled.
     pub project: Project,
     pub is_fallback: bool,
     /// The program and its compile time, or none if the author has to mend something first.
     pub program: Result<Option<(Program, f64)>, EngineError>,
     /// Errors first.
     pub diagnostics: Vec<TabDiagnostic>,
-    /// From the texts to a program, or to what is wrong in them.
+    /// The time from the texts to a program, or to what is wrong in them.
     pub took: Duration,
     /// The value that the program draws, or why it draws none though one is asked for.
     pub probe: Option<Result<ProbedValue, String>>,
@@ -151,7 +151,7 @@ struct Named {
 /// The pictures of the last compile: reading them anew at each keystroke would take longer than the compile.
 #[derive(Default)]
 struct Media {
-    /// The user's own copies of the site's stock files.
+    /// The user's own copies of the site's textures.
     dir: Option<PathBuf>,
     stamps: Stamps,
     of: Option<Named>,

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 #[derive(Clone, Debug)]
 pub(super) struct Debounce {
     quiet: Duration,
-    /// How long touches that follow each other closely can put it off.
+    /// The longest time that touches which follow each other closely can put it off.
     limit: Option<Duration>,
     /// The first and the last touch.
     touched: Option<(Instant, Instant)>,

@@ -23,7 +23,7 @@ const LOST_AGAIN: Duration = Duration::from_secs(10);
 /// The quiet after the last edit before newer code takes the device of code that does not come back, for each thread
 /// that has been given up already: each may keep a processor busy.
 const QUIET: Duration = Duration::from_millis(1500);
-/// How often to look whether that quiet has come.
+/// The time between two looks at whether that quiet has come.
 const LOOK: Duration = Duration::from_millis(100);
 /// The end waits so long for a frame that is being drawn.
 const FAREWELL: Duration = Duration::from_millis(500);
@@ -82,7 +82,7 @@ impl Session {
         self.halting.limit() * if self.halting.is_new { GIVE_UP_NEW } else { GIVE_UP }
     }
 
-    /// How long the engine has been drawing, if that is too long.
+    /// Returns how long the engine has been drawing, if that is too long.
     fn overdue(&self) -> Option<Duration> {
         let age = self.now.saturating_duration_since(self.drawing.draws_since()?);
         (self.drawing.is_apart() && age >= self.halting.limit()).then_some(age)
@@ -162,7 +162,7 @@ impl Session {
         self.changed = true;
     }
 
-    /// What is drawn from now on may take its time.
+    /// Lets everything that is drawn from now on take its time.
     fn end_halt(&mut self) {
         let Some(halt) = self.halting.halt.take() else { return };
         self.changed = true;

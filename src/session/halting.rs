@@ -1,4 +1,4 @@
-//! What is known of a halt of the picture: why it stands, and what it goes on with. What is done about it is in `halt`.
+//! A halt of the picture is known by why it stands, and by what it goes on with. What is done about it is in `halt`.
 
 use super::{marker::Marker, view::Halt};
 use crate::project::Project;
@@ -14,7 +14,7 @@ pub(super) struct Halting {
     /// The newest code that drew a frame within the limit.
     pub good: Option<Project>,
     pub limit: Duration,
-    /// What the user has let a frame take.
+    /// The time that the user has let a frame take.
     pub allowed: Option<Duration>,
     /// No frame of the newest program that was handed in has been drawn yet.
     pub is_new: bool,

@@ -8,7 +8,7 @@ use std::{
 };
 
 pub(super) struct Marker {
-    /// Where such files lie; without, none is written.
+    /// The folder of such files; without, none is written.
     folder: Option<PathBuf>,
     written: Option<PathBuf>,
 }

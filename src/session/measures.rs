@@ -1,4 +1,4 @@
-//! What a session does with the numbers that `//@probe` comments ask for.
+//! A session measures the numbers that `//@probe` comments ask for.
 
 use super::{
     Session,

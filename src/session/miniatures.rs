@@ -18,10 +18,10 @@ pub(super) struct Miniatures {
     watched: Vec<Target>,
     known: HashMap<Target, (Miniature, u64)>,
     generation: u64,
-    /// What was drawn is newer than they are.
+    /// The frame that was drawn is newer than they are.
     is_due: bool,
     taken_at: Option<Instant>,
-    /// How long the last ones took.
+    /// The time that the last ones took.
     took: Duration,
 }
 

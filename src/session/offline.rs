@@ -79,7 +79,8 @@ impl Offline {
         self.build_millis
     }
 
-    /// What the next frame is drawn with. A recording may give it another canvas and other values of uniforms first.
+    /// Returns what the next frame is drawn with. A recording may give it another canvas and other values of uniforms
+    /// first.
     fn next_inputs(&mut self) -> Result<FrameInputs, EngineError> {
         if let Some(change) = self.inputs.next_change() {
             let engine = self.engine.as_mut().ok_or_else(gone)?;

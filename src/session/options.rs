@@ -12,12 +12,12 @@ pub struct SessionOptions {
     pub edit_debounce: Duration,
     /// Quiet time after the last change on disk before a reload.
     pub watch_debounce: Duration,
-    /// How long files that make no whole project are read again before the user hears of it: an editor may be half way
-    /// through writing them.
+    /// The time for which files that make no whole project are read again before the user hears of it: an editor may be
+    /// half way through writing them.
     pub retry_for: Duration,
     /// The folder for pictures of a project that has none of its own.
     pub pictures: PathBuf,
-    /// The user's own copies of the site's stock files.
+    /// The user's own copies of the site's textures.
     pub media_dir: Option<PathBuf>,
     /// The folder for recovery files; `None`: unsaved work ends with the process. The window's is
     /// [`recovery_folder`](super::recovery_folder).

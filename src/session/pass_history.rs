@@ -20,7 +20,7 @@ pub(super) struct PassHistory {
 #[derive(Clone, Debug)]
 pub(super) struct Step {
     pub serial: u64,
-    /// As a menu says it behind "Undo".
+    /// The title that a menu says behind "Undo".
     pub title: String,
     /// The project on the other side of the step.
     pub project: Project,
@@ -35,7 +35,7 @@ pub(super) struct Step {
 pub struct PassStep<'a> {
     /// Tells it from any other.
     pub serial: u64,
-    /// As a menu says it behind "Undo" or "Redo".
+    /// The title that a menu says behind "Undo" or "Redo".
     pub title: &'a str,
 }
 

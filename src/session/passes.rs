@@ -108,7 +108,7 @@ impl Session {
         Step { project: here, renamed, edit: None, at: Instant::now(), ..step }
     }
 
-    /// What is known of a pass by its name goes on under its new one.
+    /// Lets what is known of a pass by its name go on under its new one.
     fn follow_rename(&mut self, from: &PassId, to: &PassId) {
         self.renamed.push((from.clone(), to.clone()));
         if self.run.shown == *from {

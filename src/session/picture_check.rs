@@ -31,7 +31,7 @@ impl Session {
         self.compile.diagnostics.extend(findings);
     }
 
-    /// What was asked of the device for an audit could not be had.
+    /// Tells that what was asked of the device for an audit could not be had. Returns whether anything was asked.
     pub(super) fn audit_failed(&mut self, why: &str) -> bool {
         let is_ours = self.auditing.taken().is_some();
         if is_ours {

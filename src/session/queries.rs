@@ -178,7 +178,7 @@ impl Session {
         matches!(self.comparing.view(), Some(Compared::Ended(Ok(done))) if done.revision != self.documents.revision())
     }
 
-    /// What is drawn instead of the picture, while somebody has asked for it: see
+    /// Returns what is drawn instead of the picture, while somebody has asked for it: see
     /// [`Command::Probe`](super::Command::Probe).
     pub fn probe(&self) -> Option<ProbeView<'_>> {
         self.probing.view()
@@ -189,7 +189,7 @@ impl Session {
         self.tracing.view()
     }
 
-    /// What the display shows: the shown pass, or a value of the code.
+    /// Returns what the display shows: the shown pass, or a value of the code.
     pub(super) fn pictured(&self) -> PassId {
         if self.probing.is_drawn() { BuildOptions::probed() } else { self.run.shown.clone() }
     }

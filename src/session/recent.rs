@@ -12,7 +12,7 @@ use std::{
 
 /// In the folder for what is remembered between two starts.
 const NAME: &str = "projects.toml";
-/// As many as anybody looks through; the file is read and written whole.
+/// The largest number of them, more than anybody looks through; the file is read and written whole.
 const MOST: usize = 500;
 const HEADER: &str = "# The projects that were open in Eddy, the newest first, and where their time stood.\n\n";
 

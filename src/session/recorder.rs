@@ -9,7 +9,7 @@ use crate::{engine::FrameInputs, project::CustomUniformValues};
 /// Takes down what each frame is drawn with.
 pub(super) struct Recorder {
     pub recording: Recording,
-    /// As the engine has them.
+    /// The values as the engine has them.
     values: CustomUniformValues,
     /// The buffers are cleared before the next frame.
     is_reset: bool,

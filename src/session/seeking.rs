@@ -1,4 +1,4 @@
-//! What is known of a seek: where it leads, and what goes on after it. What is done about it is in `seek`.
+//! A seek is known by where it leads, and by what goes on after it. What is done about it is in `seek`.
 
 /// A frame of the run that is to be shown.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,7 +16,7 @@ pub(super) enum Goal {
 /// The frames that one can go to.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reach {
-    /// How many lie before the one that is shown, and how many behind it.
+    /// The number of frames before the one that is shown, and behind it.
     pub back: u64,
     pub ahead: u64,
     /// `iTime` of the first and the last of them, in seconds.

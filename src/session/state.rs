@@ -78,7 +78,7 @@ pub struct Session {
     pub(super) renamed: Vec<(PassId, PassId)>,
     /// Something a panel shows has changed since the last tick.
     pub(super) changed: bool,
-    /// When the newest tick was: the only time there is between ticks.
+    /// The time of the newest tick: the only time there is between ticks.
     pub(super) now: Instant,
 }
 
@@ -93,7 +93,7 @@ pub(super) struct Canvas {
     pub refused: Option<(u32, u32)>,
 }
 
-/// From texts to the running program.
+/// Keeps the way from texts to the running program.
 pub(super) struct Compile {
     pub edits: Debounce,
     /// A text was edited since the last tick.
@@ -109,9 +109,9 @@ pub(super) struct Compile {
     pub reset_when_built: bool,
     pub state: CompileState,
     pub diagnostics: Vec<TabDiagnostic>,
-    /// What reading the project had to say that no compile says.
+    /// The diagnostics of reading the project that no compile says.
     pub read: Vec<TabDiagnostic>,
-    /// What is to be compiled instead of the newest text.
+    /// The project that is to be compiled instead of the newest text.
     pub fallback: Option<Project>,
     /// Since when the worker compiles the newest text, if it does.
     pub newest_since: Option<Instant>,

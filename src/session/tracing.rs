@@ -1,7 +1,7 @@
 //! A pixel of the picture that is being traced: from the click to the way that led to its value.
 //!
-//! What the pass read is taken after the frame, from textures that still hold it, so that nothing is drawn anew and no
-//! simulation goes on. The walk is done on a thread of its own.
+//! The inputs of the pass are taken after the frame, from textures that still hold them, so that nothing is drawn anew
+//! and no simulation goes on. The walk is done on a thread of its own.
 
 use super::{
     trace::Traced,
@@ -13,7 +13,7 @@ use crate::{
 };
 use std::sync::Arc;
 
-/// What was taken of a pass.
+/// The inputs and the picture that were taken of a pass.
 pub(super) type Taken = (PassInputs, Pixels);
 
 /// A pixel of a pass: where in its picture, from 0 to 1 across and up.
@@ -30,13 +30,13 @@ pub(super) struct Job {
     pub taken: Taken,
 }
 
-/// What a front end shows of a trace.
+/// Holds what a front end shows of a trace.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TraceView<'s> {
     /// The newest, while another one is under way too.
     pub traced: Option<&'s Arc<Traced>>,
     pub is_under_way: bool,
-    /// Why there is none.
+    /// The reason why there is none.
     pub trouble: Option<&'s str>,
 }
 
@@ -44,7 +44,7 @@ pub(super) struct Tracing {
     worker: Worker<Job, Result<Traced, String>>,
     /// The pixel that is traced, again after each change of what it shows.
     place: Option<Place>,
-    /// What it read is to be taken.
+    /// The inputs of its pass are to be taken.
     pub is_due: bool,
     newest: Option<Arc<Traced>>,
     trouble: Option<String>,

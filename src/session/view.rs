@@ -14,8 +14,8 @@ use std::{
 pub struct Tick {
     /// A frame was drawn: the display texture holds a new picture.
     pub frame_drawn: bool,
-    /// When to tick again though nothing is heard of: at once while playing, at the end of a debounce; `None` when only
-    /// an event or the wake callback can change anything.
+    /// The time to tick again though nothing is heard of: at once while playing, at the end of a debounce; `None` when
+    /// only an event or the wake callback can change anything.
     pub wake_at: Option<Instant>,
     /// Something a panel shows has changed (texts, diagnostics, notices, a question, transport).
     pub changed: bool,
@@ -123,7 +123,7 @@ impl TabDiagnostic {
 pub struct CompileState {
     /// A compile is wanted or under way; the picture still shows an older text.
     pub compiling: bool,
-    /// How the last finished one ended; `None` before the first.
+    /// The end of the last finished one; `None` before the first.
     pub last: Option<Outcome>,
 }
 
@@ -146,7 +146,7 @@ pub enum Meanwhile {
     Newest,
 }
 
-/// Why the picture stands still though nobody has paused it. [`Command::GoOn`](super::Command::GoOn),
+/// Says why the picture stands still though nobody has paused it. [`Command::GoOn`](super::Command::GoOn),
 /// [`DrawSmaller`](super::Command::DrawSmaller) and [`DrawLastGood`](super::Command::DrawLastGood) end it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Halt {

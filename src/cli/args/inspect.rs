@@ -15,11 +15,11 @@ use std::path::PathBuf;
 #[command(after_help = PROJECT)]
 pub struct ProbeArgs {
     pub project: String,
-    /// Where the expression stands: a tab, a line and a column, as in image:12:9 or common:3:14. The innermost
+    /// The place of the expression: a tab, a line and a column, as in image:12:9 or common:3:14. The innermost
     /// expression there is meant, and at a variable that is declared its first value
     #[arg(value_name = "TAB:LINE:COLUMN", value_parser = TextPlace::parse)]
     pub at: TextPlace,
-    /// Which pass is drawn [default: that of the tab; of Common: image]
+    /// The pass that is drawn [default: that of the tab; of Common: image]
     #[arg(long, value_name = "NAME", value_parser = picture)]
     pub pass: Option<Picture>,
     /// The value when the expression is evaluated for the time after so many in a pixel
@@ -31,7 +31,7 @@ pub struct ProbeArgs {
     /// The frame, counted from 0; those before it are drawn first
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..1 << 30))]
     pub frame: u32,
-    /// Where the values of all pixels go: a .npy or .png file. Scalars have three equal components, and the fourth is 1
+    /// A file for the values of all pixels: .npy or .png. Scalars have three equal components, and the fourth is 1
     /// where the value has fewer; a pixel in which the expression is not evaluated has NaN
     #[arg(long, value_name = "PATH")]
     pub out: Option<PathBuf>,
@@ -70,7 +70,7 @@ pub struct TraceArgs {
     /// The frame, counted from 0; those before it are drawn first
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..1 << 30))]
     pub frame: u32,
-    /// Which pass to trace: image, buffer_a, a further buffer's name …
+    /// The pass to trace: image, buffer_a, a further buffer's name …
     #[arg(long, value_name = "NAME", default_value = "image", value_parser = picture)]
     pub pass: Picture,
     #[command(flatten)]
@@ -91,7 +91,7 @@ pub struct TraceArgs {
 pub struct CompareArgs {
     /// The project that is judged
     pub project: String,
-    /// What it is held against
+    /// The project that it is held against
     #[arg(required_unless_present = "revision")]
     pub reference: Option<String>,
     /// Hold the project against itself as it was in this revision of its git repository
@@ -100,8 +100,7 @@ pub struct CompareArgs {
     /// The frame, counted from 0; those before it are drawn first
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..1 << 30))]
     pub frame: u32,
-    /// Which pass to compare: image, buffer_a, a further buffer's name …; scene:1 is target 1 of a pass that has
-    /// several
+    /// The pass to compare: image, buffer_a, a further buffer's name …; scene:1 is target 1 of a pass that has several
     #[arg(long, value_name = "NAME", default_value = "image", value_parser = picture)]
     pub pass: Picture,
     /// A .png for both pictures
@@ -121,7 +120,7 @@ pub struct CompareArgs {
     pub json: bool,
 }
 
-/// How two pictures are shown in one.
+/// The ways to show two pictures in one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum CompareView {
     Side,

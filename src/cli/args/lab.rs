@@ -13,7 +13,7 @@ use std::path::PathBuf;
 pub struct LabArgs {
     #[command(subcommand)]
     pub command: Option<LabCommand>,
-    /// Which studies to run [default: all]
+    /// The studies to run [default: all]
     pub study: Vec<String>,
     /// The folder of the results and the report; a run that was stopped goes on there
     #[arg(long, value_name = "DIR", required_unless_present = "list")]
@@ -51,7 +51,7 @@ pub enum LabCommand {
 #[derive(Debug, Args)]
 #[command(after_help = PROJECT)]
 pub struct PrecisionArgs {
-    /// What to compare [default: the study's presets, which need --out]
+    /// The projects to compare [default: the study's presets, which need --out]
     pub project: Vec<String>,
     /// Frames to draw
     #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(1..=1 << 30))]
@@ -59,7 +59,7 @@ pub struct PrecisionArgs {
     /// The pass whose last frame is held against double precision
     #[arg(long, value_name = "NAME", default_value = "image", value_parser = picture)]
     pub pass: Picture,
-    /// How many of its pixels, across and up
+    /// The number of its pixels, across and up
     #[arg(long, value_name = "CxR", default_value = "32x18", value_parser = size, allow_hyphen_values = true)]
     pub pixels: (u32, u32),
     /// A .npy or .png file for the error of each of these pixels, in each component; a .png shows its logarithm, from

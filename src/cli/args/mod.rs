@@ -87,7 +87,7 @@ pub enum Command {
 pub struct RenderArgs {
     #[arg(required = true)]
     pub project: Vec<String>,
-    /// Where to: a .png or .npy file, or a folder that gets STEM.png for each project (several --at: STEM_0004.png,
+    /// The file to write, .png or .npy, or a folder that gets STEM.png for each project (several --at: STEM_0004.png,
     /// with more digits if the last one needs them). With --json, --probe or --assert it may be left out: every frame
     /// is drawn and nothing written
     #[arg(long, value_name = "PATH", required_unless_present_any = ["json", "probe", "assert"])]
@@ -95,11 +95,11 @@ pub struct RenderArgs {
     /// Frames to draw [default: 1, or as many as --at needs; with --replay all that were recorded]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 30))]
     pub frames: Option<u32>,
-    /// Which frames to write, counted from 0 [default: the last]
+    /// The frames to write, counted from 0 [default: the last]
     #[arg(long, value_name = "F[,F...]", value_delimiter = ',')]
     #[arg(value_parser = clap::value_parser!(u32).range(..1 << 30))]
     pub at: Vec<u32>,
-    /// Which pass to write: image, buffer_a, a further buffer's name …; scene:1 is target 1 of a pass that has several
+    /// The pass to write: image, buffer_a, a further buffer's name …; scene:1 is target 1 of a pass that has several
     #[arg(long, value_name = "NAME", default_value = "image", value_parser = picture)]
     pub pass: Picture,
     /// png: 8 bits, as shown on a screen. npy: float32, height x width x 4, row 0 at the bottom

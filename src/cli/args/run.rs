@@ -1,4 +1,4 @@
-//! How frames are drawn, wherever frames are drawn.
+//! The options of drawing frames are the same wherever frames are drawn.
 
 use super::values::{fps, recording, seconds, size};
 use crate::{
@@ -13,7 +13,7 @@ use clap::Args;
 use jiff::civil::DateTime;
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
-/// How frames are drawn, wherever frames are drawn.
+/// Says how frames are drawn, wherever frames are drawn.
 #[derive(Debug, Args)]
 pub struct RunArgs {
     /// Size of the picture in pixels

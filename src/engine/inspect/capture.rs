@@ -80,7 +80,7 @@ impl<'a> Capture<'a> {
         Ok(TextureCopy { levels: levels.collect::<Result<_, _>>()?, filter, wrap })
     }
 
-    /// What a target held when draw `reader` read it, which is done before the target is drawn.
+    /// Returns what a target held when draw `reader` read it, which is done before the target is drawn.
     fn before<'r>(&self, running: &'r Running, reader: usize, target: usize) -> Result<&'r Texture, EngineError> {
         let plan = &running.program.plan;
         let held = &running.targets[target];

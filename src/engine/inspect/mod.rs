@@ -1,4 +1,4 @@
-//! What a draw reads, in memory: the world of [`crate::glsl::walk`].
+//! The inputs of a draw are copied to memory: they are the world of [`crate::glsl::walk`].
 //!
 //! Owns the copies of a draw's uniforms, textures and meshes as they were when it began, and the reference of a
 //! sampler.

@@ -24,7 +24,7 @@ pub struct TextureCopy {
 }
 
 impl TextureCopy {
-    /// What a channel with nothing in it reads: one black texel without alpha.
+    /// Returns what a channel with nothing in it reads: one black texel without alpha.
     pub fn black() -> Self {
         let level = Level { width: 1, height: 1, texels: vec![[0.0; 4]] };
         Self { levels: vec![level], filter: Filter::Nearest, wrap: Wrap::Clamp }

@@ -1,4 +1,4 @@
-//! What one draw of a pass reads.
+//! Holds everything that one draw of a pass reads.
 
 use super::texture::TextureCopy;
 use crate::{
@@ -19,7 +19,7 @@ pub struct PassInputs {
     pub channels: [TextureCopy; 4],
     /// The texels that are drawn, across and up.
     pub size: (u32, u32),
-    /// What each draw of a pass that draws meshes reads besides, in drawing order; empty for any other pass.
+    /// The further inputs of each draw of a pass that draws meshes, in drawing order; empty for any other pass.
     pub meshes: Vec<MeshInputs>,
 }
 
@@ -31,7 +31,7 @@ pub struct MeshInputs {
 }
 
 impl PassInputs {
-    /// What the programs of a draw read; `None` for the one of a pass that draws no meshes.
+    /// Returns what the programs of a draw read; `None` for the one of a pass that draws no meshes.
     pub(crate) fn of_draw(&self, draw: Option<usize>) -> DrawInputs<'_> {
         let mesh = draw.and_then(|draw| self.meshes.get(draw));
         DrawInputs { pass: self, geometry: mesh.map_or_else(GeometryBlock::default, |mesh| mesh.geometry) }

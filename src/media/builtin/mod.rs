@@ -3,7 +3,7 @@
 //! Owns noises, patterns and procedural materials: all made here, none copied. Only whole numbers and the operations
 //! that IEEE 754 rounds correctly (+ - * / and the square root) go into a texel, so every machine makes the same bytes.
 //! Every texture but `gradient`, `font`, `street` and `sprites` is seamless. Sizes and channels are those of the site's
-//! stock pictures that they stand in for.
+//! textures that they stand in for.
 
 mod field;
 mod font;

@@ -103,7 +103,7 @@ fn void_and_cluster() -> Vec<usize> {
     ranks
 }
 
-/// Which places are set, and how crowded every place is by them.
+/// Holds the places that are set, and how crowded every place is by them.
 #[derive(Clone)]
 struct Energy {
     is_set: Vec<bool>,

@@ -1,7 +1,7 @@
 //! Tests of the built-in pictures: sizes, ranges, spectra, and the same bytes each time.
 
 use super::*;
-use crate::media::site::STOCK;
+use crate::media::site::SITE_TEXTURES;
 use std::{collections::BTreeMap, sync::LazyLock};
 
 /// Every texture, made once for all these tests.
@@ -50,12 +50,12 @@ fn every_texture_has_the_same_bytes_on_every_machine() {
 }
 
 #[test]
-fn stand_ins_have_the_sizes_and_channels_of_what_they_stand_for() {
+fn fallbacks_have_the_sizes_and_channels_of_the_sites_textures() {
     let size = |id: &str| {
-        let stock = STOCK.iter().find(|s| s.id == id).unwrap();
-        let texels = &MADE[stock.stand_in];
-        let format = if stock.is_grey { TexelFormat::R8 } else { TexelFormat::Rgba8 };
-        assert_eq!(texels.format, format, "{}", stock.stand_in);
+        let texture = SITE_TEXTURES.iter().find(|s| s.id == id).unwrap();
+        let texels = &MADE[texture.fallback];
+        let format = if texture.is_grey { TexelFormat::R8 } else { TexelFormat::Rgba8 };
+        assert_eq!(texels.format, format, "{}", texture.fallback);
         (texels.width, texels.height)
     };
     for id in ["4dXGzr", "XdX3Rn", "XsBSR3", "XsX3Rn", "XsfGRn", "4sfGRn", "Xsf3Rr", "4df3Rr", "XsXGRn", "XdXGzr"] {

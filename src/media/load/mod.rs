@@ -6,7 +6,7 @@ use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Lim
 use std::{io::Cursor, path::Path};
 
 /// Loads a 2D picture. `vflip`: its top row comes to lie at v = 1. A file lies in the project's folder `base`, see
-/// [`confine`]. For a stock file of the site, a file of the same name in `media_dir` wins over the built-in stand-in.
+/// [`confine`]. For a texture of the site, a file of the same name in `media_dir` wins over the built-in fallback.
 pub fn load(media: &Media, vflip: bool, base: Option<&Path>, media_dir: Option<&Path>) -> Result<Texels, MediaError> {
     load_within(media, vflip, base, media_dir, limits::MEDIA_BYTES)
 }
@@ -34,14 +34,14 @@ pub(super) fn load_within(
         }
         Media::Picked(path) => decoded(confine::read_own(path, limits::MEDIA_FILE)?, path, vflip, room),
         Media::Site { id, path } => {
-            let stock = site::stock(id, path);
+            let texture = site::site_texture(id, path);
             let name = path.rsplit('/').next().unwrap_or_default();
             if let Some(found) = media_dir.map(|d| d.join(name)).filter(|p| !name.is_empty() && p.is_file()) {
                 let texels = decoded(confine::read_own(&found, limits::MEDIA_FILE)?, &found, vflip, room)?;
-                return Ok(if stock.is_some_and(|s| s.is_grey) { red_only(texels) } else { texels });
+                return Ok(if texture.is_some_and(|t| t.is_grey) { red_only(texels) } else { texels });
             }
-            let texels = stock
-                .and_then(|s| builtin::make(s.stand_in))
+            let texels = texture
+                .and_then(|t| builtin::make(t.fallback))
                 .ok_or_else(|| MediaError::NoStandIn { path: path.clone() })?;
             Ok(upright(texels, vflip))
         }
@@ -63,7 +63,7 @@ fn flipped(mut texels: Texels) -> Texels {
     texels
 }
 
-/// As the site uploads its four grey pictures: the red channel alone.
+/// Returns the red channel alone, as the site uploads its four grey pictures.
 fn red_only(texels: Texels) -> Texels {
     match texels.format {
         TexelFormat::Rgba8 => {

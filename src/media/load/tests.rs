@@ -86,11 +86,11 @@ fn crc32(bytes: &[u8]) -> u32 {
 }
 
 #[test]
-fn a_file_of_the_sites_name_wins_over_the_stand_in_and_grey_ids_are_one_channel() {
+fn a_file_of_the_sites_name_wins_over_the_fallback_and_grey_ids_are_one_channel() {
     let dir = tempfile::tempdir().unwrap();
     let grey = Media::Site { id: "4sf3Rn".into(), path: "/media/a/0a40.png".into() };
-    let stand_in = load(&grey, true, None, None).unwrap();
-    assert_eq!((stand_in.width, stand_in.height, stand_in.format), (64, 64, TexelFormat::R8));
+    let fallback = load(&grey, true, None, None).unwrap();
+    assert_eq!((fallback.width, fallback.height, fallback.format), (64, 64, TexelFormat::R8));
     ImageBuffer::<Rgba<u8>, _>::from_pixel(3, 1, Rgba([7u8, 2, 3, 4])).save(dir.path().join("0a40.png")).unwrap();
     let own = load(&grey, true, None, Some(dir.path())).unwrap();
     assert_eq!((own.width, own.height, own.format, own.bytes), (3, 1, TexelFormat::R8, vec![7, 7, 7]));

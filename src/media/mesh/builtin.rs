@@ -34,7 +34,7 @@ pub(super) fn make(name: &str) -> Option<Mesh> {
     })
 }
 
-/// From -1 to 1, each face with the whole texture.
+/// Returns the cube from -1 to 1, each face with the whole texture.
 fn cube() -> Mesh {
     let mut mesh = Mesh { vertices: Vec::new(), indices: Vec::new() };
     let face = Grid { columns: 1, rows: 1, closed: [false; 2] }

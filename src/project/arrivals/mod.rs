@@ -1,4 +1,4 @@
-//! What a person brings from outside: files that are dropped, texts that are pasted.
+//! A person brings things from outside: files that are dropped, texts that are pasted.
 //!
 //! Owns what each of them is: a project, something that a pass reads, or nothing Eddy knows, with the reason. Asks no
 //! network: of an address only the name is read.
@@ -12,7 +12,7 @@ pub use wire::{Fit, new_for};
 use super::{file_names, files::MANIFEST};
 use std::path::Path;
 
-/// What a file is to who brings it.
+/// Says what a file is to who brings it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
     /// A folder, a GLSL file, a Shadertoy JSON file, an `eddy.toml`.

@@ -1,4 +1,4 @@
-//! What a pasted text is: Shadertoy JSON, GLSL, the name of a file, or an address.
+//! A pasted text is Shadertoy JSON, GLSL, the name of a file, or an address.
 
 use crate::{
     diag::Diagnostic,

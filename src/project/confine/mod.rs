@@ -84,7 +84,7 @@ impl FileError {
         }
     }
 
-    /// How to mend it.
+    /// Returns how to mend it.
     pub fn hint(&self) -> String {
         match &self.reason {
             Reason::Empty => "write the file's name, relative to the project's folder".into(),
@@ -191,7 +191,7 @@ pub(super) fn exactly(bytes: usize) -> Limit {
 }
 
 struct Found {
-    /// From the folder as it was given.
+    /// The path from the folder as it was given.
     called: PathBuf,
     /// After links.
     real: PathBuf,

@@ -64,7 +64,7 @@ fn of_type(ty: &str, value: &CustomUniformValue) -> Option<String> {
     })
 }
 
-/// From each word `uniform` to before the end of its declaration; blocks are none.
+/// Returns the ranges from each word `uniform` to before the end of its declaration; blocks are none.
 fn declarations(blank: &str) -> Vec<Range<usize>> {
     let mut all = Vec::new();
     let mut at = 0;

@@ -26,7 +26,7 @@ impl CustomUniformType {
         CustomUniformType::Color3,
     ];
 
-    /// As an `#iUniform` line spells it.
+    /// Returns the name that an `#iUniform` line spells.
     pub fn name(self) -> &'static str {
         match self {
             CustomUniformType::Color3 => "color3",
@@ -34,7 +34,7 @@ impl CustomUniformType {
         }
     }
 
-    /// As GLSL spells it.
+    /// Returns the name in GLSL.
     pub fn glsl_name(self) -> &'static str {
         match self {
             CustomUniformType::Bool => "bool",
@@ -95,7 +95,7 @@ impl CustomUniformValue {
         }
     }
 
-    /// As GLSL writes a constant of type `ty`, which the value must be of.
+    /// Returns the value as GLSL writes a constant of type `ty`, which it must be of.
     pub fn glsl(&self, ty: CustomUniformType) -> String {
         let float = |x: &f64| format!("{:?}", *x as f32);
         match self {

@@ -1,4 +1,4 @@
-//! From what a person names on the command line to a [`Project`](super::Project).
+//! A name that a person gives on the command line leads to a [`Project`](super::Project).
 
 use super::{
     Loaded, PassId, ProjectError,

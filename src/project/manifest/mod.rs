@@ -63,7 +63,7 @@
 //! "greater_equal", "greater", "not_equal", "always"), `depth_write`, `color_write`, `scale`, `rotation` (degrees about
 //! x, y, z), `position`. A channel reads another target than the first by `{ buffer = "scene", target = 1 }`.
 //!
-//! A `file` is a picture unless `kind` says otherwise (`"cubemap"`, `"volume"`, `"video"`, `"music"`); a stock file of
+//! A `file` is a picture unless `kind` says otherwise (`"cubemap"`, `"volume"`, `"video"`, `"music"`); a texture of
 //! the site is `site = "/media/a/…"` with its `site_id`. `[shadertoy]` keeps what the site's JSON said and Eddy has no
 //! use for.
 

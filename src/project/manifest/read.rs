@@ -386,7 +386,7 @@ impl Reader<'_> {
         Some(Channel { input, sampler })
     }
 
-    /// Which target of a buffer a channel reads. `None`: said wrongly.
+    /// Returns the target of a buffer that a channel reads. `None`: said wrongly.
     fn target(&mut self, channel: &dyn TableLike) -> Option<usize> {
         let Some(item) = channel.get("target") else { return Some(0) };
         let index = item.as_integer().and_then(|n| usize::try_from(n).ok()).filter(|n| *n < MAX_TARGETS);

@@ -27,11 +27,11 @@ pub enum PassEdit {
     Size(PassId, PassSize),
     Format(PassId, PassFormat),
     Region(PassId, Option<Region>),
-    /// What a buffer holds before frame 0; `None`: zeros.
+    /// Sets what a buffer holds before frame 0; `None`: zeros.
     Initial(PassId, Option<FillValue>),
     /// The outermost texels of a pass, and how many from each edge; `None`: as drawn.
     Boundary(PassId, Option<(u32, FillValue)>),
-    /// How often a frame a buffer is drawn, with the others of its group.
+    /// Sets how often a frame a buffer is drawn, with the others of its group.
     Steps(PassId, u32),
     /// Draws a buffer in one group with the buffer before it, or begins another group with it.
     WithPrevious(PassId, bool),
@@ -43,7 +43,7 @@ pub enum PassEdit {
     Remove(Tab),
 }
 
-/// What an edit did besides.
+/// Says what an edit did besides.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct PassEdited {
     /// The project is another one now.
@@ -53,7 +53,7 @@ pub struct PassEdited {
 }
 
 impl PassEdit {
-    /// What it is about, as a menu says it behind "Undo".
+    /// Returns what it is about, as a menu says it behind "Undo".
     pub fn title(&self) -> String {
         let of = |what: &str, pass: &PassId| format!("{what} of {}", pass.title());
         match self {

@@ -1,4 +1,4 @@
-//! Why passes cannot be edited.
+//! Edits of passes are refused for these reasons.
 
 use crate::project::{PassId, limits};
 

@@ -31,7 +31,7 @@ struct Form {
     eddy_snapshot: u32,
     name: String,
     origin: Place,
-    /// As `eddy.toml` says the project.
+    /// The project as `eddy.toml` says it.
     manifest: String,
     texts: Vec<Text>,
     /// Channels that read a picture from anywhere on this machine, which no `eddy.toml` names.

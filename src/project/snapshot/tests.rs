@@ -1,4 +1,4 @@
-//! What a snapshot gives back.
+//! The tests hold what a snapshot gives back.
 
 use super::*;
 use crate::project::{self, Sampler, presets};

@@ -14,7 +14,7 @@ use crate::{
 
 /// Errors of a pixel's value that are not looked into, relative to a value of 1: a few roundings.
 const NOTHING: f64 = 1e-5;
-/// How many operations are tried.
+/// The number of operations that are tried.
 const SUSPECTS: usize = 8;
 /// The part of an error that is left at most where the operation that it is born in is exact.
 const MOST: f64 = 0.5;

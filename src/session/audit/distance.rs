@@ -1,8 +1,8 @@
-//! How far the two precisions are apart.
+//! The distance of the two precisions from each other.
 
 use crate::glsl::walk::Shadowed;
 
-/// Of one number; infinite where one of the two alone is a number.
+/// Returns the distance of one number; infinite where one of the two alone is a number.
 pub fn apart(x: Shadowed) -> f64 {
     let single = f64::from(x.single);
     match (single.is_nan(), x.double.is_nan()) {

@@ -1,8 +1,8 @@
-//! What is wrong at a place of the text.
+//! A finding says what is wrong at a place of the text.
 
 use crate::diag::Span;
 
-/// What kind of wrong.
+/// The kinds of findings.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A value that is no finite number, of operands that are.
@@ -44,7 +44,7 @@ impl Kind {
         }
     }
 
-    /// What it is, for a person.
+    /// Returns what it is, for a person.
     pub fn message(&self) -> &'static str {
         match self {
             Kind::Nonfinite(what) | Kind::Undefined(what) | Kind::Rounding(what) => what,
@@ -59,13 +59,13 @@ pub struct Finding {
     pub kind: Kind,
     /// None for what Eddy adds to the author's code.
     pub span: Option<Span>,
-    /// How many of the pixels show it.
+    /// The number of the pixels that show it.
     pub pixels: usize,
     /// The one that shows it most; where that is no question, the first.
     pub pixel: (u32, u32),
     /// The numbers there, as in `pow(-0.5, 2)`.
     pub numbers: String,
-    /// Of rounding: the pixel's error, and what is left of it where the operation is exact.
+    /// For rounding: the pixel's error, and what is left of it where the operation is exact.
     pub error: Option<(f64, f64)>,
 }
 

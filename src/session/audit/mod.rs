@@ -1,4 +1,5 @@
-//! How wrong a pass is at some of its pixels, and why: single against double precision, and what GLSL leaves undefined.
+//! An audit says how wrong a pass is at some of its pixels, and why: single against double precision, and what GLSL
+//! leaves undefined.
 //!
 //! Owns the watch over a walk in both precisions side by side ([`crate::glsl::walk::Shadowed`]). Both take the way of
 //! single precision, and texels are what single precision reads. Where the two part most, the operation in which most

@@ -33,7 +33,7 @@ pub struct AuditedPixel {
 }
 
 impl AuditedPixel {
-    /// How far each component of a device's texel is from double precision; 0 for those that are not stored.
+    /// Returns how far each component of a device's texel is from double precision; 0 for those that are not stored.
     pub fn apart(&self, device: [f32; 4], stored: usize) -> [f64; 4] {
         let one = |i: usize| apart(Shadowed { single: device[i], double: self.double[i] });
         std::array::from_fn(|i| if i < stored { one(i) } else { 0.0 })
@@ -46,7 +46,7 @@ pub fn spread((columns, rows): (u32, u32), (width, height): (u32, u32)) -> Vec<(
     (0..rows).flat_map(|y| (0..columns).map(move |x| (at(x, columns, width), at(y, rows, height)))).collect()
 }
 
-/// What was found.
+/// Holds what was found.
 #[derive(Clone, Debug, Default)]
 pub struct Audit {
     /// In the order in which they were asked for.
@@ -121,7 +121,7 @@ fn audit_pixel(
     Ok((audited, watch.end(pixel, born)))
 }
 
-/// What a pixel draws in both precisions, by the way of the single one; zeros where it draws nothing.
+/// Returns what a pixel draws in both precisions, by the way of the single one; zeros where it draws nothing.
 fn walk(at: &WalkedPixel<'_>, observer: &mut dyn Observer<Shadowed>) -> Result<[Shadowed; 4], TraceError> {
     let drawn = at.machine::<Shadowed>().run(at.lane, observer)?;
     Ok(at.value(&drawn).unwrap_or([Shadowed { single: 0.0, double: 0.0 }; 4]))

@@ -1,4 +1,4 @@
-//! What GLSL ES 3.00 leaves undefined, by the operands of an operation. Sections are those of its specification.
+//! GLSL ES 3.00 leaves results undefined by the operands of an operation. Sections are those of its specification.
 
 use crate::glsl::{
     ir::{Binary, Math, Op, Value},
@@ -6,8 +6,8 @@ use crate::glsl::{
     walk::{Cell, Shadowed, View},
 };
 
-/// Why the result of an operation is undefined, and the numbers that make it so. `text` is what the author wrote there, and `size`
-/// gives the size of a level of a channel's texture.
+/// Returns why the result of an operation is undefined, and the numbers that make it so. `text` is what the author
+/// wrote there, and `size` gives the size of a level of a channel's texture.
 pub fn reason<'t>(
     view: &View<'_, '_, Shadowed>,
     op: &Op,

@@ -23,7 +23,7 @@ const ROUNDING: f64 = 1.0 / (1 << 24) as f64;
 const GROWTH: f64 = 16.0;
 /// A sum is a cancellation where it is smaller than its operands by this.
 const CANCELLED: f64 = 1.0 / 16.0;
-/// Where the distance of single precision's numbers is a thousandth of a turn.
+/// The angle where the distance of single precision's numbers is a thousandth of a turn.
 const LARGE_ANGLE: f32 = 1e4;
 
 /// An operation whose result is much less exact than its operands.
@@ -55,7 +55,7 @@ pub struct Watch<'w> {
     unset: HashSet<usize>,
     /// Cells of variables of the module that something was written to.
     written: HashSet<usize>,
-    /// Of each call under way, the values of which components are undefined.
+    /// The undefined components of values, for each call under way.
     calls: Vec<HashMap<Value, Vec<bool>>>,
     variables: HashMap<FuncId, Vec<Value>>,
 }
@@ -128,7 +128,7 @@ impl<'w> Watch<'w> {
         self.find(Kind::Undefined(what), span, String::new());
     }
 
-    /// Which components of a value nothing was written to, and whether that counts as a use of them.
+    /// Notes which components of a value nothing was written to, and whether that counts as a use of them.
     fn follow(&mut self, view: &View<'_, '_, Shadowed>, value: Value, op: &Op) {
         let mut is_used = false;
         let undefined: Option<Vec<bool>> = match op {

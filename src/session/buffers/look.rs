@@ -1,11 +1,11 @@
-//! How the values of a buffer become colours.
+//! The values of a buffer become colours by a person's choice.
 
 use crate::{
     engine::{Paint, ValueLook},
     session::probe::Statistics,
 };
 
-/// What a person has chosen to see.
+/// Holds what a person has chosen to see.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BufferLook {
     /// `None`: from the least number to the largest.
@@ -18,7 +18,7 @@ pub struct BufferLook {
 }
 
 impl Default for BufferLook {
-    /// As a picture shows it.
+    /// Returns the look of a picture.
     fn default() -> Self {
         Self { range: Some((0.0, 1.0)), paint: Paint::Range, channel: None, exposure: 0.0 }
     }

@@ -1,4 +1,4 @@
-//! Why a pass is not drawn.
+//! A pass is not drawn for one of these reasons.
 
 use crate::{
     engine::{PassCost, PassRole, When},

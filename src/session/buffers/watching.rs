@@ -1,4 +1,4 @@
-//! What is looked at, when it is due, and the newest of it.
+//! Keeps what is looked at, when it is due, and the newest of it.
 
 use super::BufferLook;
 use crate::{
@@ -21,7 +21,7 @@ const SHARE: u32 = 20;
 /// A pass, and which of its targets.
 pub type Target = (PassId, usize);
 
-/// What somebody looks at.
+/// Names what somebody looks at.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BufferWatch {
     /// All texels of this one, so.
@@ -30,7 +30,7 @@ pub struct BufferWatch {
     pub under: Option<[f32; 2]>,
 }
 
-/// What is asked for with a job.
+/// The part of it that is asked for with a job.
 pub type BuffersWanted = BufferWatch;
 
 /// A target at a moment.
@@ -40,34 +40,34 @@ pub struct BufferRead {
     /// So many are stored.
     pub components: u8,
     pub pixels: Pixels,
-    /// Of the target's size.
+    /// The picture, of the target's size.
     pub picture: Picture,
     pub statistics: Statistics,
     /// Texels that are NaN or infinite, if any are.
     pub nonfinite: Option<NonfiniteTexels>,
 }
 
-/// What came back.
+/// Holds what came back.
 #[derive(Clone, Debug, Default)]
 pub struct BuffersRead {
     pub shown: Option<BufferRead>,
     pub under: Option<Vec<TexelAt>>,
 }
 
-/// What is looked at, if anything is.
+/// Keeps what is looked at, if anything is.
 #[derive(Default)]
 pub(in crate::session) struct Watching {
     watch: BufferWatch,
     shown: Option<(Arc<BufferRead>, u64)>,
     under: Vec<TexelAt>,
     generation: u64,
-    /// What was drawn, or asked for, is newer than what is here.
+    /// The picture that was drawn, or asked for, is newer than what is here.
     is_shown_due: bool,
     is_place_due: bool,
-    /// When they were asked for last.
+    /// The time when they were asked for last.
     shown_at: Option<Instant>,
     place_at: Option<Instant>,
-    /// How long that took.
+    /// The time that this took.
     took: Duration,
 }
 

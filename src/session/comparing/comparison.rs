@@ -1,4 +1,4 @@
-//! What is compared, and what came of it.
+//! A comparison has two projects and a result.
 
 use crate::{engine::Pixels, project::PassId};
 use std::sync::{
@@ -6,19 +6,19 @@ use std::sync::{
     atomic::{AtomicBool, AtomicUsize},
 };
 
-/// What the open project is compared with.
+/// Names what the open project is compared with.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Against {
     /// The project as it was last saved, read or begun.
     LastSave,
-    /// What the command line calls PROJECT: a folder, a file, or a preset's name.
+    /// A PROJECT of the command line: a folder, a file, or a preset's name.
     Project(String),
     /// The project in a revision of its git repository.
     Revision(String),
 }
 
 impl Against {
-    /// What the reference is called.
+    /// Returns the name of the reference.
     pub fn name(&self) -> String {
         match self {
             Against::LastSave => "the last save".to_owned(),
@@ -43,7 +43,7 @@ pub struct Comparison {
     pub frames: usize,
     /// The run's first frames are no longer kept: both began later, from empty buffers.
     pub is_cut: bool,
-    /// Of the project that was compared.
+    /// The revision of the project that was compared.
     pub(in crate::session) revision: u64,
 }
 
@@ -58,7 +58,7 @@ pub enum Compared<'s> {
     Ended(Result<&'s Arc<Comparison>, &'s str>),
 }
 
-/// What a front end shows of it; `None` before the first.
+/// The state that a front end shows of it; `None` before the first.
 pub type ComparisonView<'s> = Option<Compared<'s>>;
 
 #[derive(Default)]

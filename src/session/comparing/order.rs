@@ -21,7 +21,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// What is to be compared with what somebody has asked for.
+/// Holds the projects that are to be compared.
 pub(in crate::session) struct Order {
     pub gpu: Gpu,
     pub project: Project,
@@ -41,7 +41,7 @@ pub(in crate::session) struct Comparing {
     /// The frames are to be handed out.
     pub is_due: bool,
     progress: Arc<Progress>,
-    /// How far a front end knows it to be.
+    /// The progress that a front end knows of.
     told: usize,
     end: End,
 }

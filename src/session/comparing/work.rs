@@ -36,11 +36,11 @@ pub struct Job {
     pub run: Run,
 }
 
-/// Where the other project comes from.
+/// Says where the other project comes from.
 pub enum Reference {
     Project(Box<Project>),
     Load(String),
-    /// Where the open one lies, and a revision of it.
+    /// The folder of the open one, and a revision of it.
     Revision(PathBuf, String),
 }
 

@@ -279,7 +279,7 @@ pub(super) fn insert_pass(project: &mut Project, pass: Pass) {
     project.passes.insert(at, pass);
 }
 
-/// From `disk` to `mine`, every line.
+/// Returns every line from `disk` to `mine`.
 pub(super) fn diff(disk: &str, mine: &str) -> Vec<DiffLine> {
     similar::TextDiff::from_lines(disk, mine)
         .iter_all_changes()

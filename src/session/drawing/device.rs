@@ -3,7 +3,7 @@
 use crate::gpu::{Gpu, GpuError};
 use std::sync::{Arc, OnceLock};
 
-/// Where a device will be once it is open. Every clone is the same place.
+/// Holds the place where a device will be once it is open. Every clone is the same place.
 #[derive(Clone, Default)]
 pub struct Device(Arc<OnceLock<Result<Gpu, String>>>);
 

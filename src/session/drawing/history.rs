@@ -28,11 +28,11 @@ const KEPT: usize = 1 << 18;
 /// The way to a goal, or a part of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Travelled {
-    /// What the frame is drawn with that is shown now.
+    /// The inputs of the frame that is shown now.
     pub inputs: FrameInputs,
     /// The number of the frame that is to be shown.
     pub goal: u64,
-    /// How many frames are to be drawn before it is.
+    /// The number of frames to be drawn before it is.
     pub left: u64,
     /// The display is another texture: the canvas had another size on the way.
     pub is_display_new: bool,
@@ -56,22 +56,22 @@ pub struct History {
     is_from_reset: bool,
     /// Each with the number of frames that were drawn before it.
     snapshots: VecDeque<(u64, Arc<Snapshot>)>,
-    /// What the author's own uniforms stand at.
+    /// The values of the author's own uniforms.
     values: Arc<CustomUniformValues>,
     /// The time that a frame takes.
     took: Duration,
 }
 
-/// What a frame was drawn with.
+/// Holds what a frame was drawn with.
 #[derive(Clone)]
 pub struct Frame {
     pub inputs: FrameInputs,
     pub values: Arc<CustomUniformValues>,
-    /// Of the canvas.
+    /// The size of the canvas.
     pub size: (u32, u32),
 }
 
-/// What the frames up to the one that is shown were drawn with.
+/// Holds what the frames up to the one that is shown were drawn with.
 pub struct Run {
     pub frames: Vec<Frame>,
     /// The first of them is the first since a reset.
@@ -206,7 +206,7 @@ impl History {
         Some(Replay { snapshot: snapshot.clone(), frames })
     }
 
-    /// What all frames up to the one that is shown were drawn with, from the oldest that is kept.
+    /// Returns what all frames up to the one that is shown were drawn with, from the oldest that is kept.
     pub fn run(&self) -> Run {
         let count = (self.drawn - self.forgotten) as usize;
         Run { frames: self.frames.iter().take(count).cloned().collect(), is_whole: self.is_whole }

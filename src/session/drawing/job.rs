@@ -1,4 +1,4 @@
-//! What the engine is asked to do at once, and what it answers.
+//! The engine is asked to do a job at once, and gives an answer.
 
 use super::history::{Replay, Run, Travelled};
 use crate::{
@@ -24,7 +24,7 @@ pub struct Changes {
     pub program: Option<Coming>,
     pub custom_uniforms: Option<CustomUniformValues>,
     pub shown: Option<PassId>,
-    /// How the shown pass is shown: as numbers, or as a picture.
+    /// The way in which the shown pass is shown: as numbers, or as a picture.
     pub look: Option<Option<ValueLook>>,
     /// Every buffer as before frame 0.
     pub reset: bool,
@@ -48,7 +48,7 @@ pub struct Coming {
     pub origin: Option<ProgramOrigin>,
 }
 
-/// What the session keeps of a program.
+/// Holds what the session keeps of a program.
 pub struct ProgramOrigin {
     /// The project that it was built of.
     pub project: Project,
@@ -118,7 +118,7 @@ impl Reads {
     }
 }
 
-/// When a program is too slow to be drawn whole unasked.
+/// Says when a program is too slow to be drawn whole unasked.
 #[derive(Clone, Copy, Debug)]
 pub struct TileLimit {
     /// The time that a whole frame may take.
@@ -145,18 +145,18 @@ pub struct Done {
     pub captured: Vec<(Capture, Result<Pixels, EngineError>)>,
     /// One for each that was asked for and is drawn.
     pub miniatures: Vec<((PassId, usize), Miniature)>,
-    /// How long they took together.
+    /// The time that they took together.
     pub miniatures_took: Duration,
     /// The numbers that were asked for, and how long they took.
     pub numbers: Option<(ProbeNumbers, Duration)>,
-    /// What was looked at closely, and how long that took.
+    /// The targets that were looked at closely, and how long that took.
     pub buffers: Option<(BuffersRead, Duration)>,
     /// The numbers of passes that were asked for, and how long they took.
     pub measured: Option<(Measured, Duration)>,
     /// `Some(None)`: none are kept.
     pub replay: Option<Option<Replay>>,
     pub run: Option<Run>,
-    /// What was asked for of a pass.
+    /// The inputs and the picture that were asked for of a pass.
     pub inspected: Option<Result<Taken, EngineError>>,
     /// The display's picture, if it may have changed and is handed out.
     pub picture: Option<Result<Picture, EngineError>>,

@@ -46,7 +46,7 @@ pub(super) struct Drawing {
     left: Vec<JoinHandle<()>>,
 }
 
-/// What is known of the engine since its last answer.
+/// Holds what is known of the engine since its last answer.
 struct Facts {
     size: (u32, u32),
     program: Option<ProgramOrigin>,
@@ -58,7 +58,7 @@ struct Facts {
 struct InFlight {
     since: Instant,
     size: Option<(u32, u32)>,
-    /// Of the program that it sets.
+    /// The origin of the program that it sets.
     program: Option<ProgramOrigin>,
     /// The pictures that it is to read.
     captures: Vec<Capture>,

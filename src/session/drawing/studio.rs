@@ -24,7 +24,8 @@ use std::{
 /// A tile's time tells something where it is at least such a part of a frame's limit; less is lost in what else the
 /// machine does.
 const TELLING: u32 = 20;
-/// How many tiles a graphics device draws at once is not known. A frame takes at least so often the time of one.
+/// The number of tiles that a graphics device draws at once is not known. A frame takes at least so often the time of
+/// one.
 const AT_LEAST: f64 = 4.0;
 /// Frames are drawn again for so long before the picture is shown and something else may be asked.
 const PATIENCE: Duration = Duration::from_millis(150);

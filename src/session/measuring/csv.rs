@@ -1,4 +1,4 @@
-//! What was measured as a table of plain text: a row for each frame, a column for each quantity.
+//! The numbers that were measured make a table of plain text: a row for each frame, a column for each quantity.
 
 use super::Measure;
 use std::{
@@ -37,7 +37,7 @@ pub fn write(out: &mut impl Write, measures: &[Measure]) -> io::Result<()> {
     Ok(())
 }
 
-/// As RFC 4180 has it.
+/// Returns a text quoted by RFC 4180.
 fn quoted(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }

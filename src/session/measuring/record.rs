@@ -19,12 +19,12 @@ pub struct Record {
     cells: Vec<Cell>,
     /// A cell is of two to the power of this many frames.
     power: u32,
-    /// How many samples the cells hold.
+    /// The number of samples that the cells hold.
     held: usize,
     newest: Option<Sample>,
 }
 
-/// What is kept of the frames of a cell.
+/// Holds what is kept of the frames of a cell.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Cell {
     /// The first of the least and the first of the largest, which may be the same one.

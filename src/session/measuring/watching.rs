@@ -18,7 +18,7 @@ const SHARE: u32 = 20;
 pub struct Measure {
     /// Another one for every comment, as long as its text stays.
     pub serial: u64,
-    /// What is asked for, as it was written.
+    /// The quantity that is asked for, as it was written.
     pub text: String,
     pub place: Place,
     pub quantity: Result<Quantity, Unmeasured>,
@@ -34,10 +34,10 @@ impl Measure {
     }
 }
 
-/// What is asked for with a job: quantities by the serial of their comment.
+/// The quantities that are asked for with a job, by the serial of their comment.
 pub type MeasuresWanted = Vec<(u64, Quantity)>;
 
-/// What came back of a frame. A quantity whose target is not drawn has no value.
+/// Holds what came back of a frame. A quantity whose target is not drawn has no value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
     pub frame: i32,
@@ -53,14 +53,14 @@ pub(in crate::session) struct Measuring {
     next_serial: u64,
     /// Those that somebody looks at.
     seen: Vec<u64>,
-    /// What was drawn, or is looked at, is newer than what was measured.
+    /// The frame that was drawn, or what is looked at, is newer than what was measured.
     is_due: bool,
     asked_at: Option<Instant>,
-    /// How long it took.
+    /// The time that it took.
     took: Duration,
     /// The frame that was drawn last, or is being drawn.
     frame: Option<i32>,
-    /// How many frames have been measured.
+    /// The number of frames that have been measured.
     count: u64,
 }
 
@@ -109,7 +109,7 @@ impl Measuring {
         &self.measures
     }
 
-    /// How many frames have been measured.
+    /// Returns how many frames have been measured.
     pub fn count(&self) -> u64 {
         self.count
     }

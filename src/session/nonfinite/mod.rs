@@ -1,4 +1,4 @@
-//! Where NaN and infinities come from: the pass, the frame, the texel and the line that makes the first.
+//! NaN and infinities come from one place: the pass, the frame, the texel and the line that makes the first.
 
 mod search;
 mod texels;

@@ -42,13 +42,13 @@ pub struct BornAt {
     pub message: &'static str,
     /// `None` for what Eddy adds to the author's code.
     pub place: Option<Place>,
-    /// What the author wrote there, its first line.
+    /// The text that the author wrote there, its first line.
     pub text: String,
     /// The numbers there, as in `pow(-0.5, 2)`.
     pub numbers: String,
 }
 
-/// How a search ended.
+/// Says how a search ended.
 #[derive(Clone, Debug, PartialEq)]
 pub enum SearchEnd {
     Found(Box<FirstNonfinite>),
@@ -71,7 +71,7 @@ pub enum Search<'s> {
     Ended(&'s SearchEnd),
 }
 
-/// What a front end shows of it; `None` before the first.
+/// The state that a front end shows of it; `None` before the first.
 pub type SearchView<'s> = Option<Search<'s>>;
 
 /// Frames, and what they are drawn by.
@@ -100,7 +100,7 @@ pub(in crate::session) struct Searching {
     /// Frames of the search under way.
     of: usize,
     progress: Arc<Progress>,
-    /// How far a front end knows it to be.
+    /// The progress that a front end knows of.
     told: usize,
     end: Option<SearchEnd>,
 }

@@ -34,7 +34,7 @@ pub struct ProbePlace {
     pub visit: u32,
 }
 
-/// How the values are shown.
+/// Says how the values are shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ProbeLook {
     /// `None`: from the least number to the largest.
@@ -53,15 +53,15 @@ pub struct ProbedValue {
     pub components: u8,
     /// Its numbers are ints, uints or bools.
     pub is_whole: bool,
-    /// From 1.
+    /// The line, counted from 1.
     pub line: usize,
 }
 
-/// What a front end shows of a probe.
+/// Holds what a front end shows of a probe.
 #[derive(Clone, Copy, Debug)]
 pub struct ProbeView<'s> {
     pub place: &'s ProbePlace,
-    /// What is drawn, or why the picture is; `None` before the first compile.
+    /// The value that is drawn, or why the picture is; `None` before the first compile.
     pub value: Option<Result<&'s ProbedValue, &'s str>>,
     pub look: ProbeLook,
     pub numbers: Option<&'s ProbeNumbers>,
@@ -78,13 +78,13 @@ pub struct ProbeNumbers {
 #[derive(Default)]
 pub(super) struct Probing {
     wanted: Option<Wanted>,
-    /// Of the running program.
+    /// The value of the running program.
     built: Option<Result<ProbedValue, String>>,
     look: ProbeLook,
     numbers: Option<Arc<ProbeNumbers>>,
-    /// What was drawn is newer than they are.
+    /// The frame that was drawn is newer than they are.
     is_due: bool,
-    /// When they came, and how long that took.
+    /// The time when they came, and how long that took.
     taken: Option<(Instant, Duration)>,
     /// The engine was told of it.
     told: Option<ValueLook>,
@@ -142,7 +142,7 @@ impl Probing {
         }
     }
 
-    /// What is to be built: the place, and whether there is nothing any more.
+    /// Returns what is to be built: the place, and whether there is nothing any more.
     pub fn order(&self) -> Option<(ProbePlace, bool)> {
         self.wanted.as_ref().map(|wanted| (wanted.place.clone(), wanted.is_gone))
     }
@@ -166,7 +166,7 @@ impl Probing {
         self.is_due = true;
     }
 
-    /// How the engine is to show what it draws, where that is new to it; always with another program.
+    /// Returns how the engine is to show what it draws, where that is new to it; always with another program.
     pub fn take_look(&mut self, is_other_program: bool) -> Option<Option<ValueLook>> {
         let look = self.engine_look();
         let is_new = std::mem::replace(&mut self.told, look) != look;
@@ -210,8 +210,8 @@ impl Probing {
     }
 }
 
-/// What a build draws besides what it would: the probe, and every buffer that Image may need, as a simulation goes on
-/// whether it is looked at or not.
+/// Returns what a build draws besides what it would: the probe, and every buffer that Image may need, as a simulation
+/// goes on whether it is looked at or not.
 pub(super) fn options(
     project: &Project,
     shown: &PassId,

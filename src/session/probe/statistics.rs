@@ -17,9 +17,9 @@ pub struct Statistics {
     pub means: [Option<f64>; 4],
     /// Numbers that are NaN or infinite.
     pub nonfinite: usize,
-    /// What the bars stand for, from the first one's left edge to the last one's right.
+    /// The range that the bars stand for, from the first one's left edge to the last one's right.
     pub range: (f32, f32),
-    /// How many finite numbers of each component lie in each part of the range; those beside it in none.
+    /// The number of finite numbers of each component in each part of the range; those beside it are in none.
     pub bins: [Vec<u32>; 4],
 }
 

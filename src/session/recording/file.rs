@@ -18,7 +18,7 @@ use crate::{
 use serde::{Deserialize, Serialize};
 use std::io::{self, BufRead, Write};
 
-/// Of the files' names.
+/// The extension of the files' names.
 pub const EXTENSION: &str = "replay";
 const VERSION: u32 = 1;
 

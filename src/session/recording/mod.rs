@@ -9,7 +9,7 @@ pub use file::{EXTENSION, ReadError};
 
 use crate::{engine::FrameInputs, project::CustomUniformValues};
 
-/// What a frame is drawn with.
+/// Holds what a frame is drawn with.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordedFrame {
     pub inputs: FrameInputs,
@@ -29,7 +29,7 @@ pub struct Recording {
     pub frames: Vec<RecordedFrame>,
 }
 
-/// What is new in a frame of a recording.
+/// Holds what is new in a frame of a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
     pub size: Option<(u32, u32)>,
@@ -38,7 +38,7 @@ pub struct Change {
 }
 
 impl Recording {
-    /// What frame `index` changes after the one before it; the first one sets everything.
+    /// Returns what frame `index` changes after the one before it; the first one sets everything.
     pub fn change(&self, index: usize) -> Option<(Change, &FrameInputs)> {
         let frame = self.frames.get(index)?;
         let before = index.checked_sub(1).map(|before| &self.frames[before]);

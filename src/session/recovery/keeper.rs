@@ -17,8 +17,8 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// How long a change waits for others before all are written. Writing takes its own time, and both together stay well
-/// below a second.
+/// The time that a change waits for others before all are written. Writing takes its own time, and both together stay
+/// well below a second.
 const GATHER: Duration = Duration::from_millis(300);
 
 enum Job {

@@ -18,7 +18,7 @@ pub(in crate::session) struct Left {
     pub written: Timestamp,
 }
 
-/// What a recovery file turned out to be.
+/// Says what a recovery file turned out to be.
 pub(super) enum Read {
     Work(Box<Left>),
     /// The disk holds the same by now.

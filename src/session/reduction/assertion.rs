@@ -1,4 +1,4 @@
-//! What is claimed of a quantity.
+//! An assertion claims something of a quantity.
 
 use super::{quantity::Quantity, reader::Reader};
 use std::fmt;
@@ -16,14 +16,14 @@ enum Relation {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Tolerance {
     Absolute(f64),
-    /// Of the value that is expected.
+    /// A part of the value that is expected.
     Percent(f64),
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Expected {
     Value(f64),
-    /// What the quantity was in the first frame that was looked at.
+    /// The value of the quantity in the first frame that was looked at.
     First,
 }
 
@@ -34,7 +34,7 @@ pub struct Assertion {
     pub quantity: Quantity,
     relation: Relation,
     expected: Expected,
-    /// As it was written.
+    /// The assertion as it was written.
     text: String,
 }
 

@@ -1,4 +1,4 @@
-//! What `//@probe` comments of a project ask for.
+//! The comments `//@probe` of a project ask for these quantities.
 
 use super::quantity::Quantity;
 use crate::{
@@ -6,7 +6,7 @@ use crate::{
     project::{self, PassId, Project, inspect_comments},
 };
 
-/// Why a number cannot be had, and what mends that.
+/// Says why a number cannot be had, and what mends that.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Unmeasured {
     pub why: String,
@@ -16,7 +16,7 @@ pub struct Unmeasured {
 /// A comment that asks for a number, as `//@probe sum(buffer_a.x)` does.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Declared {
-    /// What stands behind the word, in the project's texts.
+    /// The place of the text behind the word, in the project's texts.
     pub span: Span,
     pub text: String,
     pub quantity: Result<Quantity, Unmeasured>,
@@ -70,7 +70,7 @@ fn quantity(project: &Project, text: &str) -> Result<Quantity, Unmeasured> {
     }
 }
 
-/// How many components a target of a pass stores.
+/// Returns how many components a target of a pass stores.
 pub fn stored(project: &Project, pass: &PassId, target: usize) -> usize {
     let formats = project.pass(pass).map(|pass| pass.settings.formats()).unwrap_or_default();
     formats.get(target).copied().unwrap_or_default().components()

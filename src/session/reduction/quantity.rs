@@ -7,7 +7,7 @@ use crate::{
 };
 use std::fmt;
 
-/// How numbers become one.
+/// Says how numbers become one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reduction {
     Sum,
@@ -16,7 +16,7 @@ pub enum Reduction {
     Mean,
     /// Square root of the mean of the squares.
     Rms,
-    /// How many are NaN or infinite.
+    /// The number of NaN and infinite ones.
     Nonfinite,
 }
 
@@ -63,7 +63,7 @@ impl Reduction {
 pub struct Quantity {
     pub reduction: Reduction,
     pub pass: PassId,
-    /// Which of the pass's targets.
+    /// The target among those of the pass.
     pub target: usize,
     /// 0 to 3; all that the pass stores where none is named.
     pub component: Option<usize>,

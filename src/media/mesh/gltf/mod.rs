@@ -156,7 +156,7 @@ pub(super) fn triangles(mode: Mode, corners: Vec<u32>) -> Vec<u32> {
     }
 }
 
-/// From normals of the mesh to those of the world.
+/// Returns the matrix from normals of the mesh to those of the world.
 fn normal_matrix(to_world: Mat4) -> Mat3 {
     let m = Mat3::from_mat4(to_world);
     let inverse = m.inverse();
