@@ -56,6 +56,7 @@ mod transport;
 mod uniform_row;
 mod uses;
 mod viewport;
+mod watched_file;
 
 pub use app::run;
 

@@ -160,24 +160,14 @@ impl Input {
     pub fn media(&self) -> Option<&Media> {
         match self {
             Input::Texture(m) | Input::Cubemap(m) | Input::Volume(m) | Input::Video(m) | Input::Music(m) => Some(m),
-            Input::Buffer(_)
-            | Input::Target { .. }
-            | Input::CubemapPass
-            | Input::Keyboard
-            | Input::Microphone
-            | Input::Webcam => None,
+            _ => None,
         }
     }
 
     pub fn media_mut(&mut self) -> Option<&mut Media> {
         match self {
             Input::Texture(m) | Input::Cubemap(m) | Input::Volume(m) | Input::Video(m) | Input::Music(m) => Some(m),
-            Input::Buffer(_)
-            | Input::Target { .. }
-            | Input::CubemapPass
-            | Input::Keyboard
-            | Input::Microphone
-            | Input::Webcam => None,
+            _ => None,
         }
     }
 

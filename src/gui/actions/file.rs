@@ -5,18 +5,9 @@ use super::{
     keymap::level,
     table::{ACTIONS, Entry, Group},
 };
-use crate::project::nearest;
+use crate::{gui::watched_file::Mistake, project::nearest};
 use std::{fmt::Write as _, ops::Range};
 use toml_edit::{Document, Item, Value};
-
-/// Something in the file that cannot be done as it stands.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Mistake {
-    /// From 1.
-    pub line: usize,
-    /// What is wrong and how to mend it.
-    pub text: String,
-}
 
 /// Returns the keys that a file's text gives, and all mistakes in it. What is wrong leaves an action its own keys.
 pub fn read(text: &str) -> (Keymap, Vec<Mistake>) {

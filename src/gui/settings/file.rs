@@ -1,18 +1,9 @@
 //! The text of `settings.toml`: read, made anew, and changed in one line.
 
 use super::keys::{Change, KEYS, Settings};
-use crate::project::nearest;
+use crate::{gui::watched_file::Mistake, project::nearest};
 use std::{fmt::Write as _, ops::Range};
 use toml_edit::{Document, DocumentMut, Item};
-
-/// Something in the file that cannot be done as it stands.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Mistake {
-    /// From 1.
-    pub line: usize,
-    /// What is wrong and how to mend it.
-    pub text: String,
-}
 
 /// Returns the settings that a file's text gives, and all mistakes in it. What is wrong leaves a setting as it is at
 /// first.

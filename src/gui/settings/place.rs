@@ -1,7 +1,9 @@
 //! `window.toml`: where the window was, and its layout, from one start to the next.
 
-use super::watch::write;
-use crate::gui::dock::{Node, Panel};
+use crate::gui::{
+    dock::{Node, Panel},
+    watched_file::write,
+};
 use std::{collections::BTreeSet, fs, io, path::PathBuf};
 use toml_edit::{Array, DocumentMut, Item, Value};
 

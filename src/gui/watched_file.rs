@@ -1,0 +1,120 @@
+//! Files that a person writes and the window follows: each is read when the window opens, and again when the window
+//! gets the keyboard and the file has changed.
+
+use std::{
+    fs,
+    io::{self, Write},
+    path::{Path, PathBuf},
+};
+
+/// Names something in a file that cannot be done as it stands.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mistake {
+    /// The line, counted from 1.
+    pub line: usize,
+    /// Says what is wrong and how to mend it.
+    pub text: String,
+}
+
+/// The meaning of such a file. The default is that of no file.
+pub trait Content: Default {
+    const NAME: &str;
+    /// A sentence behind the error of a file that cannot be read.
+    const STAYS: &str;
+
+    /// Reads a text. Lines with mistakes mean nothing.
+    fn read(text: &str) -> (Self, Vec<Mistake>);
+
+    /// Returns a text that lists everything and changes nothing.
+    fn template() -> String;
+}
+
+/// A file in the folder for settings, and its content as it was read last.
+#[derive(Debug)]
+pub struct WatchedFile<T> {
+    /// `None` where the system has no place for settings.
+    path: Option<PathBuf>,
+    /// The text that was read last.
+    text: Option<String>,
+    content: T,
+}
+
+impl<T: Content> WatchedFile<T> {
+    /// Names the file in the platform's folder for settings. It is not read yet.
+    pub fn new() -> Self {
+        Self::at(dirs::config_dir().map(|folder| folder.join("eddy").join(T::NAME)))
+    }
+
+    pub(super) fn at(path: Option<PathBuf>) -> Self {
+        Self { path, text: None, content: T::default() }
+    }
+
+    pub fn content(&self) -> &T {
+        &self.content
+    }
+
+    pub fn content_mut(&mut self) -> &mut T {
+        &mut self.content
+    }
+
+    /// Reads the file if it is not what it was. What is wrong in it comes back, one line each.
+    pub fn refresh(&mut self) -> Vec<String> {
+        let Some(path) = &self.path else { return Vec::new() };
+        let text = match read(path) {
+            Ok(text) => text,
+            Err(error) => return vec![format!("{}: {error}. {}", path.display(), T::STAYS)],
+        };
+        if text == self.text {
+            return Vec::new();
+        }
+        let (content, mistakes) = text.as_deref().map(T::read).unwrap_or_default();
+        (self.content, self.text) = (content, text);
+        mistakes.iter().map(|mistake| told(path, mistake)).collect()
+    }
+
+    /// Changes the text of the file, or of the template where there is none. Err: why it stays as it was, with a
+    /// sentence behind an error of the disk.
+    pub fn edit(&mut self, edit: impl FnOnce(&str) -> Result<String, Mistake>, otherwise: &str) -> Result<(), String> {
+        let Some(path) = &self.path else { return Ok(()) };
+        let failed = |error: io::Error| format!("{}: {error}. {otherwise}", path.display());
+        let text = read(path).map_err(failed)?.unwrap_or_else(T::template);
+        let text = edit(&text).map_err(|mistake| told(path, &mistake))?;
+        write(path, &text).map_err(failed)?;
+        self.text = Some(text);
+        Ok(())
+    }
+
+    /// Returns where the file is, after writing the template if there is none.
+    pub fn write_if_missing(&self) -> Result<&Path, String> {
+        let Some(path) = &self.path else { return Err("this system names no folder for settings".into()) };
+        if !path.exists() {
+            write(path, &T::template()).map_err(|error| format!("{}: {error}", path.display()))?;
+        }
+        Ok(path)
+    }
+}
+
+/// Reads a file; `None` where there is none.
+fn read(path: &Path) -> io::Result<Option<String>> {
+    match fs::read_to_string(path) {
+        Ok(text) => Ok(Some(text)),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(error),
+    }
+}
+
+fn told(path: &Path, mistake: &Mistake) -> String {
+    format!("{}:{}: {}", path.display(), mistake.line, mistake.text)
+}
+
+/// Writes a file whole or not at all.
+pub fn write(path: &Path, text: &str) -> io::Result<()> {
+    // People keep such files elsewhere: where it is a link, what it leads to is written.
+    let path = &path.canonicalize().unwrap_or_else(|_| path.to_owned());
+    let folder = path.parent().unwrap_or(Path::new("."));
+    fs::create_dir_all(folder)?;
+    let mut new = tempfile::NamedTempFile::new_in(folder)?;
+    new.write_all(text.as_bytes())?;
+    new.persist(path)?;
+    Ok(())
+}
