@@ -2,8 +2,8 @@
 
 use super::{Changes, ChannelFacts, FramePlan, PassFacts, Source, TargetKind, When, effective_sampler};
 use crate::project::{
-    Channel, Filter, Group, Info, Input, Origin, Pass, PassBody, PassFormat, PassId, PassSize, Project, Region,
-    Sampler, SamplerRules, Wrap,
+    Channel, Filter, Group, Input, Origin, Pass, PassBody, PassFormat, PassId, PassSize, Project, Region, Sampler,
+    SamplerRules, Wrap,
 };
 
 const LETTERS: [&str; 4] = ["A", "B", "C", "D"];
@@ -17,7 +17,7 @@ fn buffer(name: &str) -> Option<Channel> {
 }
 
 fn pass(id: PassId, channels: [Option<Channel>; 4]) -> Pass {
-    Pass { source: source(&id), id, channels, settings: Default::default() }
+    Pass { channels, ..Pass::new(id.clone(), source(&id)) }
 }
 
 fn source(id: &PassId) -> crate::project::Source {
@@ -25,17 +25,7 @@ fn source(id: &PassId) -> crate::project::Source {
 }
 
 fn project(passes: Vec<Pass>) -> Project {
-    Project {
-        name: "test".into(),
-        info: Info::default(),
-        common: None,
-        passes,
-        sampler_rules: SamplerRules::PerChannel,
-        custom_uniform_values: Default::default(),
-        groups: Vec::new(),
-        includes: Vec::new(),
-        origin: Origin::Unsaved,
-    }
+    Project::new("test", passes, Origin::Unsaved)
 }
 
 fn reads_all() -> PassFacts {

@@ -131,22 +131,13 @@ fn unsupported(input: &Input) -> (&'static str, String) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::project::{Channel, Info, Origin, Sampler, SamplerRules, Source};
+    use crate::project::{Channel, Origin, Sampler, Source};
 
     fn project(inputs: [Option<Input>; 4]) -> Project {
         let channels = inputs.map(|i| i.map(|input| Channel { input, sampler: Sampler::TEXTURE }));
         let source = Source { name: "image.glsl".into(), path: None, text: "".into() };
-        Project {
-            name: "p".into(),
-            info: Info::default(),
-            common: None,
-            passes: vec![Pass { id: PassId::Image, source, channels, settings: Default::default() }],
-            sampler_rules: SamplerRules::PerChannel,
-            custom_uniform_values: Default::default(),
-            groups: Vec::new(),
-            includes: Vec::new(),
-            origin: Origin::Unsaved,
-        }
+        let image = Pass { channels, ..Pass::new(PassId::Image, source) };
+        Project::new("p", vec![image], Origin::Unsaved)
     }
 
     #[test]

@@ -15,7 +15,7 @@
 //! exist.
 
 use super::{
-    Channel, Info, Input, Origin, Pass, PassId, Project, Sampler, SamplerRules, Source, directives,
+    Channel, Input, Origin, Pass, PassId, Project, Sampler, Source, directives,
     file_names::{Role, role_of_file},
 };
 use crate::diag::Diagnostic;
@@ -43,9 +43,7 @@ pub(super) fn by_convention(files: Vec<Source>) -> ByConvention {
                     let diagnostic = two_files(&id.title(), &first.source.name, &source.name);
                     found.diagnostics.push(diagnostic);
                 }
-                None => {
-                    found.passes.push(Pass { id, source, channels: Default::default(), settings: Default::default() })
-                }
+                None => found.passes.push(Pass::new(id, source)),
             },
         }
     }
@@ -78,17 +76,7 @@ pub fn declare_channels(project: &mut Project) -> Vec<Diagnostic> {
 /// A folder without `eddy.toml`, its texts already read.
 pub(super) fn project(name: String, files: Vec<Source>, origin: Origin) -> (Project, Vec<Diagnostic>) {
     let ByConvention { common, passes, mut diagnostics } = by_convention(files);
-    let mut project = Project {
-        name,
-        info: Info::default(),
-        common,
-        passes,
-        sampler_rules: SamplerRules::PerChannel,
-        custom_uniform_values: Default::default(),
-        groups: Vec::new(),
-        includes: Vec::new(),
-        origin,
-    };
+    let mut project = Project { common, ..Project::new(name, passes, origin) };
     if project.pass(&PassId::Image).is_none() {
         diagnostics
             .push(Diagnostic::error(None, "there is no Image pass").hint("add image.glsl with a mainImage function"));

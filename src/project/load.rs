@@ -1,7 +1,7 @@
 //! Files become a [`Project`].
 
 use super::{
-    Info, Loaded, Origin, Pass, PassId, Project, ProjectError, SamplerRules, Source,
+    Loaded, Origin, Pass, PassId, Project, ProjectError, Source,
     atomic::sweep,
     confine, file_names,
     files::{self, Files, MANIFEST, Read},
@@ -83,22 +83,11 @@ pub(super) fn load_glsl(path: &Path) -> Result<Loaded, ProjectError> {
     let what = path.display().to_string();
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let text = read_text(path, &name, limits::GLSL_TEXT)?;
-    let mut project = Project {
-        name: path.file_stem().unwrap_or_default().to_string_lossy().into_owned(),
-        info: Info::default(),
-        common: None,
-        passes: vec![Pass {
-            id: PassId::Image,
-            source: Source { name, path: Some(path.to_owned()), text: text.into() },
-            channels: Default::default(),
-            settings: Default::default(),
-        }],
-        sampler_rules: SamplerRules::PerChannel,
-        custom_uniform_values: Default::default(),
-        groups: Vec::new(),
-        includes: Vec::new(),
-        origin: Origin::File(path.to_owned()),
-    };
+    let mut project = Project::new(
+        path.file_stem().unwrap_or_default().to_string_lossy(),
+        vec![Pass::new(PassId::Image, Source { name, path: Some(path.to_owned()), text: text.into() })],
+        Origin::File(path.to_owned()),
+    );
     let warnings = folder::declare_channels(&mut project);
     project.read_includes();
     finish(&what, Loaded { sources: project.sources(), project, warnings })

@@ -63,6 +63,13 @@ pub struct Pass {
     pub settings: PassSettings,
 }
 
+impl Pass {
+    /// Returns a pass that reads nothing and is drawn as on the site.
+    pub fn new(id: PassId, source: Source) -> Pass {
+        Pass { id, source, channels: Default::default(), settings: Default::default() }
+    }
+}
+
 /// The input of one `iChannelN`, and how it is sampled.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Channel {
@@ -228,21 +235,26 @@ impl Project {
         pairs.map(|of| passes[of].id.clone()).collect()
     }
 
-    /// A project of one Image pass that is nowhere on disk.
-    pub fn of_image(name: String, text: String) -> Project {
-        let id = PassId::Image;
-        let source = Source { name: id.title(), path: None, text: text.into() };
+    /// Returns a project of these passes alone.
+    pub fn new(name: impl Into<String>, passes: Vec<Pass>, origin: Origin) -> Project {
         Project {
-            name,
+            name: name.into(),
             info: Info::default(),
             common: None,
-            passes: vec![Pass { id, source, channels: Default::default(), settings: Default::default() }],
+            passes,
             sampler_rules: SamplerRules::PerChannel,
             custom_uniform_values: Default::default(),
             groups: Vec::new(),
             includes: Vec::new(),
-            origin: Origin::Unsaved,
+            origin,
         }
+    }
+
+    /// Returns a project of one Image pass that is nowhere on disk.
+    pub fn of_image(name: String, text: String) -> Project {
+        let id = PassId::Image;
+        let source = Source { name: id.title(), path: None, text: text.into() };
+        Project::new(name, vec![Pass::new(id, source)], Origin::Unsaved)
     }
 
     pub fn pass(&self, id: &PassId) -> Option<&Pass> {

@@ -1,7 +1,7 @@
 //! The texts that new projects and new passes begin with. They are Eddy's own.
 
 use super::documents::insert_pass;
-use crate::project::{Info, Origin, Pass, PassId, Project, SamplerRules, Source, Tab, limits};
+use crate::project::{Origin, Pass, PassId, Project, Source, Tab, limits};
 
 const IMAGE: &str = "\
 // fragCoord: pixels from the bottom left.  iResolution, iTime, iMouse, iChannel0 to 3 are there to be read.
@@ -44,17 +44,7 @@ const COMMON: &str = "\
 
 /// A project of one Image pass, nowhere on disk.
 pub(super) fn project() -> Project {
-    let mut project = Project {
-        name: "Untitled".into(),
-        info: Info::default(),
-        common: None,
-        passes: Vec::new(),
-        sampler_rules: SamplerRules::PerChannel,
-        custom_uniform_values: Default::default(),
-        groups: Vec::new(),
-        includes: Vec::new(),
-        origin: Origin::Unsaved,
-    };
+    let mut project = Project::new("Untitled", Vec::new(), Origin::Unsaved);
     add(&mut project, &Tab::Pass(PassId::Image));
     project
 }
@@ -82,10 +72,7 @@ pub(super) fn add(project: &mut Project, tab: &Tab) -> bool {
         Tab::Common => project.common = Some(source),
         // A stage is there because a draw of its pass names it.
         Tab::Stage(..) => return false,
-        Tab::Pass(id) => insert_pass(
-            project,
-            Pass { id: id.clone(), source, channels: Default::default(), settings: Default::default() },
-        ),
+        Tab::Pass(id) => insert_pass(project, Pass::new(id.clone(), source)),
     }
     true
 }

@@ -4,7 +4,7 @@ use crate::support::{presets::*, *};
 use eddy::{
     engine::{BuildOptions, FrameInputs, Pixels},
     media::{Keyboard, MediaSet},
-    project::{PassId, presets},
+    project::{PassId, Project, presets},
 };
 
 const LEFT_ARROW: u8 = 37;
@@ -239,17 +239,23 @@ fn the_paddle_follows_the_mouse_and_the_keys() {
     assert!(texel(&engine.read(&buffer("A")).unwrap(), 0, 0)[3] > 0.0, "Space launches it upwards");
 }
 
+/// Returns Brick Breaker without bricks and paddle, with a floor, and a ball that begins so.
+fn ball_alone(velocity: [f32; 2]) -> Project {
+    let mut project = preset("brick-breaker");
+    let a = buffer("A");
+    patch(&mut project, &a, "SOLID_FLOOR = false", "SOLID_FLOOR = true");
+    patch(&mut project, &a, "if (brickInLevel(c, r, level))", "if (c < 0)");
+    patch(&mut project, &a, "<= PADDLE_HALF.x + BALL_RADIUS", "< -1.0");
+    patch(&mut project, &a, "launch(0.42);", &format!("velocity = vec2({:?}, {:?});", velocity[0], velocity[1]));
+    project
+}
+
 #[test]
 fn the_ball_never_tunnels_and_never_changes_speed() {
     let Some(gpu) = gpu() else { return };
     for speed in [1.0f32, 10.0, 100.0, 1e3, 1e4] {
         let velocity = [0.6 * speed * 60.0, 0.8 * speed * 60.0];
-        let mut project = preset("brick-breaker");
-        let a = buffer("A");
-        patch(&mut project, &a, "SOLID_FLOOR = false", "SOLID_FLOOR = true");
-        patch(&mut project, &a, "if (brickInLevel(c, r, level))", "if (c < 0)");
-        patch(&mut project, &a, "<= PADDLE_HALF.x + BALL_RADIUS", "< -1.0");
-        patch(&mut project, &a, "launch(0.42);", &format!("velocity = vec2({:?}, {:?});", velocity[0], velocity[1]));
+        let (project, a) = (ball_alone(velocity), buffer("A"));
         let mut engine = whole(&gpu, &project, true, (16, 9));
         draw(&mut engine, 0..1, |f| held(f, None));
         let start = texel(&engine.read(&a).unwrap(), 0, 0);
@@ -280,12 +286,7 @@ fn the_ball_follows_the_unfolded_path_for_a_hundred_thousand_bounces() {
     let Some(gpu) = gpu() else { return };
     // 10,000 units a frame meet some 70 walls in each.
     let velocity = [0.6f32 * 6e5, 0.8 * 6e5];
-    let mut project = preset("brick-breaker");
-    let a = buffer("A");
-    patch(&mut project, &a, "SOLID_FLOOR = false", "SOLID_FLOOR = true");
-    patch(&mut project, &a, "if (brickInLevel(c, r, level))", "if (c < 0)");
-    patch(&mut project, &a, "<= PADDLE_HALF.x + BALL_RADIUS", "< -1.0");
-    patch(&mut project, &a, "launch(0.42);", &format!("velocity = vec2({:?}, {:?});", velocity[0], velocity[1]));
+    let (project, a) = (ball_alone(velocity), buffer("A"));
     let mut engine = whole(&gpu, &project, true, (16, 9));
     draw(&mut engine, 0..1, untouched);
     let start = texel(&engine.read(&a).unwrap(), 0, 0);

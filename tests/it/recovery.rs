@@ -24,6 +24,13 @@ fn session(gpu: &Gpu, state: &Path) -> Session {
     Session::with_options(gpu.clone(), Arc::new(|| ()), options).unwrap()
 }
 
+/// A session that has opened the project.
+fn session_of(gpu: &Gpu, state: &Path, project: &Path) -> Session {
+    let mut session = session(gpu, state);
+    session.apply(Command::Open(project.display().to_string()));
+    session
+}
+
 fn recovery_files(state: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(state).into_iter().flatten().flatten();
     entries.map(|e| e.path()).filter(|p| p.extension().is_some_and(|e| e == "json")).collect()
@@ -70,8 +77,7 @@ fn a_crashed_session_is_offered_with_its_difference_and_taken_up() {
     let Some(gpu) = support::gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
     let (state, folder) = (dir.path().join("state"), write_project(dir.path()));
-    let mut first = session(&gpu, &state);
-    first.apply(Command::Open(folder.display().to_string()));
+    let mut first = session_of(&gpu, &state, &folder);
     edit(&mut first, &plain(0.4));
     first.apply(Command::AddTab(Tab::Common));
     crash(first);
@@ -106,8 +112,7 @@ fn nothing_is_kept_after_a_save_a_discard_or_an_undo() {
     let Some(gpu) = support::gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
     let (state, folder) = (dir.path().join("state"), write_project(dir.path()));
-    let mut session = session(&gpu, &state);
-    session.apply(Command::Open(folder.display().to_string()));
+    let mut session = session_of(&gpu, &state, &folder);
     for end in ["undo", "save", "new", "close"] {
         edit(&mut session, &format!("{}// {end}", plain(0.4)));
         until(&mut session, "the file", |_| recovery_files(&state).pop());
@@ -166,8 +171,7 @@ fn recovered_work_does_not_push_unsaved_work_aside() {
     let Some(gpu) = support::gpu() else { return };
     let dir = tempfile::tempdir().unwrap();
     let (state, folder) = (dir.path().join("state"), write_project(dir.path()));
-    let mut first = session(&gpu, &state);
-    first.apply(Command::Open(folder.display().to_string()));
+    let mut first = session_of(&gpu, &state, &folder);
     edit(&mut first, &plain(0.4));
     crash(first);
     let mut next = session(&gpu, &state);

@@ -12,6 +12,11 @@ const SIZE: (u32, u32) = (64, 36);
 /// Targets of 8 bits round, and samplers weigh their texels by 8 bits.
 const LEAST: f32 = 1.01 / 255.0;
 
+/// The inputs of a frame of a drag.
+fn inputs(frame: i32) -> FrameInputs {
+    FrameInputs { mouse: [20.0 + 4.0 * frame as f32, 18.0, 20.0, 18.0], ..FrameInputs::at_fixed_step(frame, 60.0) }
+}
+
 /// Every pass of every preset, walked at a few pixels of the fourth frame of a drag. The last bits
 /// of `sin` and its like differ between a device and the walker, and a loop may then take another turn: of all pixels,
 /// no more than one in fifty may be off by more than a step of 8 bits, and each pass must agree in most.
@@ -35,13 +40,7 @@ fn the_presets_are_walked_to_the_texels_that_the_device_draws() {
                 continue;
             }
             let options = BuildOptions { wanted: vec![pass.id.clone()], skip: false, ..BuildOptions::default() };
-            let built = Program::build(&gpu, &project, &media, &options).unwrap();
-            let mut engine = Engine::new(gpu.clone(), SIZE.0, SIZE.1).unwrap();
-            engine.set_program(built.program).unwrap();
-            let inputs = |frame: i32| FrameInputs {
-                mouse: [20.0 + 4.0 * frame as f32, 18.0, 20.0, 18.0],
-                ..FrameInputs::at_fixed_step(frame, 60.0)
-            };
+            let mut engine = engine_with(&gpu, &project, &media, &options, SIZE);
             let mut drawn_to = 0;
             for &frame in frames {
                 (drawn_to..frame).for_each(|frame| assert!(engine.draw(&inputs(frame)).is_ok()));
@@ -199,13 +198,7 @@ fn what_a_pass_read_is_still_there_after_the_frame() {
         let (media, _) = media::gather(&project, None);
         for pass in &project.passes {
             let options = BuildOptions { wanted: vec![pass.id.clone()], ..BuildOptions::default() };
-            let built = Program::build(&gpu, &project, &media, &options).unwrap();
-            let mut engine = Engine::new(gpu.clone(), SIZE.0, SIZE.1).unwrap();
-            engine.set_program(built.program).unwrap();
-            let inputs = |frame: i32| FrameInputs {
-                mouse: [20.0 + 4.0 * frame as f32, 18.0, 20.0, 18.0],
-                ..FrameInputs::at_fixed_step(frame, 60.0)
-            };
+            let mut engine = engine_with(&gpu, &project, &media, &options, SIZE);
             (0..3).for_each(|frame| assert!(engine.draw(&inputs(frame)).is_ok()));
             let (_, read) = engine.draw_inspected(&inputs(3), &pass.id).unwrap();
             let before = engine.read(&pass.id).unwrap();

@@ -8,7 +8,7 @@
 
 use crate::support::{gpu, meshes::*, program::Bench, *};
 use eddy::{
-    engine::{BuildOptions, Engine, FrameInputs, PassInputs, Pixels, Program, Sources},
+    engine::{BuildOptions, FrameInputs, PassInputs, Pixels, Sources},
     gpu::Gpu,
     media,
     project::{self, Camera, Cull, DepthTest, MeshDraw, PassFormat, PassId, Project, Stage},
@@ -25,9 +25,7 @@ const SIZE: (u32, u32) = (48, 32);
 fn drawn(gpu: &Gpu, project: &Project, pass: &PassId, size: (u32, u32), frame: i32) -> (PassInputs, Pixels) {
     let (media, _) = media::gather(project, None);
     let options = BuildOptions { wanted: vec![pass.clone()], skip: false, ..BuildOptions::default() };
-    let built = Program::build(gpu, project, &media, &options).unwrap_or_else(|e| panic!("{e}: {e:?}"));
-    let mut engine = Engine::new(gpu.clone(), size.0, size.1).unwrap();
-    engine.set_program(built.program).unwrap();
+    let mut engine = engine_with(gpu, project, &media, &options, size);
     let inputs = |frame: i32| {
         let drag = [3.0 * frame as f32, 1.0 * frame as f32];
         FrameInputs { drag, ..FrameInputs::at_fixed_step(frame, 60.0) }

@@ -51,7 +51,7 @@ fn project(home: &Path) -> PathBuf {
 fn open<'a>(display: &'a Display, home: &Path) -> Window<'a> {
     let folder = project(home);
     let mut window = Window::open_as(display, home, Some("1280x800"), &[], &[folder.to_str().unwrap()]);
-    window.wait_until("a compile", "compiled", |e| e["ok"] == true && e["compiling"] == false);
+    window.compiled();
     window.wait_until("some frames", "frame", |e| e["frame"].as_i64() >= Some(8));
     window.keys(&["alt+Up"]);
     window.wait_until("the pause", "frame", |e| e["playing"] == false);

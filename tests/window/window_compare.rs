@@ -22,7 +22,7 @@ fn an_edit_is_held_against_its_last_save_and_another_project() {
                 o = vec4(red, p / iResolution.xy, 1.0);\n}\n";
     fs::write(folder.join("image.glsl"), text).unwrap();
     let mut window = Window::open_as(&display, home.path(), Some("1280x800"), &[], &[folder.to_str().unwrap()]);
-    window.wait_until("a compile", "compiled", |e| e["ok"] == true && e["compiling"] == false);
+    window.compiled();
     window.click_on("editor");
     window.keys(&["ctrl+shift+o"]);
     window.shows("compare:begin");

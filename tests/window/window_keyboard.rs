@@ -33,10 +33,6 @@ fn go_to_part(window: &mut Window, key: &str, names: &[&str]) {
     panic!("{key} never came to {names:?}");
 }
 
-fn compiled(window: &mut Window) {
-    window.wait_until("a compile", "compiled", |e| e["compiling"] == false && e["ok"] == true);
-}
-
 #[test]
 fn the_keyboard_alone_goes_from_the_start_to_a_saved_picture() {
     let Some(display) = Display::open() else { return };
@@ -48,7 +44,7 @@ fn the_keyboard_alone_goes_from_the_start_to_a_saved_picture() {
     let drawn = |e: &serde_json::Value| e["programs"].as_u64().unwrap_or(0);
     let before = window.newest("drawn").as_ref().map_or(0, drawn);
     window.keys(&["Return"]);
-    compiled(&mut window);
+    window.compiled();
     window.wait_until("its picture", "drawn", |e| drawn(e) > before);
     focus(&mut window, "picture");
     // To the code, a line of one's own, saved into a folder whose path is typed.
@@ -90,8 +86,7 @@ fn dialogs_menus_and_the_help_are_worked_by_keys_and_give_the_keyboard_back() {
     let text = "#iUniform float red = 0.5 in { 0.0, 1.0 }\n\
                 void mainImage(out vec4 o, in vec2 p) { o = vec4(red); }\n";
     fs::write(folder.join("image.glsl"), text).unwrap();
-    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
-    compiled(&mut window);
+    let mut window = Window::open_project(&display, home.path(), &folder);
     go_to(&mut window, "F6", "code");
     // The help: searched, scrolled, closed.
     window.keys(&["F1"]);

@@ -4,10 +4,6 @@ use crate::support::window::{Display, Window};
 use serde_json::Value;
 use std::fs;
 
-fn compiled(window: &mut Window) {
-    window.wait_until("a compile", "compiled", |e| e["compiling"] == false && e["ok"] == true);
-}
-
 /// The points that lie in the plot, as `METHOD:SETTING`.
 fn points(layout: &Value) -> Vec<String> {
     let names = layout["rects"].as_object().into_iter().flat_map(|rects| rects.keys());
@@ -21,8 +17,7 @@ fn a_study_runs_behind_the_window_and_a_click_on_a_point_opens_its_project() {
     let folder = home.path().join("project");
     fs::create_dir_all(&folder).unwrap();
     fs::write(folder.join("image.glsl"), "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }\n").unwrap();
-    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
-    compiled(&mut window);
+    let mut window = Window::open_project(&display, home.path(), &folder);
     window.resize(1000, 700);
     window.wait_until("the new size", "layout", |e| e["window"] == serde_json::json!([1000, 700]));
     // One processor draws both.
@@ -57,7 +52,7 @@ fn a_study_runs_behind_the_window_and_a_click_on_a_point_opens_its_project() {
     let name = format!("blur {}", point.replace(':', " "));
     let opened = window.wait_until("the point's project", "opened", |e| e["name"] == name.as_str());
     assert!(opened["origin"].is_null(), "{opened}");
-    compiled(&mut window);
+    window.compiled();
     // On the study's own canvas.
     window.wait_until("the canvas", "layout", |e| e["canvas"] == serde_json::json!([256, 256]));
     display.shot("lab-opened.png");
@@ -84,8 +79,7 @@ fn the_table_of_costs_names_every_pass_and_closes_again() {
     let image = "#iChannel0 \"file://buffer_a.glsl\"\nvoid mainImage(out vec4 o, in vec2 p) { o = \
                  texelFetch(iChannel0, ivec2(p), 0); }\n";
     write("image.glsl", image);
-    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
-    compiled(&mut window);
+    let mut window = Window::open_project(&display, home.path(), &folder);
     assert!(window.newest("costs").is_none(), "nothing is gathered while the table is closed");
 
     window.click_on("button:view");

@@ -28,10 +28,6 @@ fn project(home: &Path) -> PathBuf {
     folder
 }
 
-fn compiled(window: &mut Window<'_>) {
-    window.wait_until("a compile", "compiled", |e| e["compiling"] == false && e["ok"] == true);
-}
-
 fn rect(event: &Value) -> [f64; 4] {
     std::array::from_fn(|i| event[i].as_f64().unwrap_or_else(|| panic!("no place: {event}")))
 }
@@ -52,7 +48,7 @@ fn every_size_has_room_for_the_picture_and_the_code() {
             let environment = [("WINIT_X11_SCALE_FACTOR", factor.as_str())];
             let path = folder.to_str().unwrap();
             let mut window = Window::open_as(&display, home.path(), Some(size), &environment, &[path]);
-            compiled(&mut window);
+            window.compiled();
             window.keys(&["F5"]);
             window.wait_until("the pause", "frame", |e| e["playing"] == false);
             window.centre("channel:0");
@@ -85,8 +81,7 @@ fn presenting_puts_the_code_over_a_picture_that_fills_the_window() {
     let Some(display) = Display::open() else { return };
     let home = tempfile::tempdir().unwrap();
     let folder = project(home.path());
-    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
-    compiled(&mut window);
+    let mut window = Window::open_project(&display, home.path(), &folder);
     window.keys(&["F9"]);
     let fills = |e: &Value| rect(&e["viewport"]) == [0.0, 0.0, 760.0, 440.0] && e["canvas"] == e["window"];
     let layout = window.wait_until("the picture to fill the window", "layout", fills);
@@ -123,7 +118,7 @@ fn the_window_comes_back_as_it_was_closed() {
     let (mut time, mut editor) = (0.0, [0.0; 4]);
     {
         let mut window = Window::open_as(&display, home.path(), None, &[], &[path]);
-        compiled(&mut window);
+        window.compiled();
         window.resize(940, 620);
         window.wait_until("the new size", "layout", |e| size(e) == Some((940, 620)));
         window.wait_for("some time", |e| e["event"] == "frame" && e["time"].as_f64() > Some(0.3));
@@ -151,7 +146,7 @@ fn the_window_comes_back_as_it_was_closed() {
     assert!(recent.contains(&format!("path = \"{path}\"")) && recent.contains("paused = true"), "{recent}");
 
     let mut window = Window::open_as(&display, home.path(), None, &[], &[path]);
-    compiled(&mut window);
+    window.compiled();
     let frame = window.wait_until("the first frame", "frame", |e| e["frame"].as_u64() == Some(0) || e["time"] != 0.0);
     assert_eq!(frame["playing"], false, "{frame}");
     assert!((frame["time"].as_f64().unwrap() - time).abs() < 0.2, "{frame}, closed at {time}");
@@ -196,7 +191,7 @@ fn panels_are_dragged_and_stay() {
     let mut moved = [0.0; 4];
     for turn in 0..2 {
         let mut window = Window::open_as(&display, home.path(), Some("980x640"), &[], &[path]);
-        compiled(&mut window);
+        window.compiled();
         // It is left paused, and opens so the next time.
         if turn == 0 {
             window.keys(&["F5"]);
@@ -240,8 +235,7 @@ fn a_window_at_rest_takes_no_time() {
     let Some(display) = Display::open() else { return };
     let home = tempfile::tempdir().unwrap();
     let folder = project(home.path());
-    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
-    compiled(&mut window);
+    let mut window = Window::open_project(&display, home.path(), &folder);
     let corner = window.picture_point(0.5, 0.5);
     window.click(corner);
     window.keys(&["F5"]);
@@ -271,8 +265,7 @@ fn a_channel_shows_its_buffer_live() {
     fs::write(folder.join("image.glsl"), image).unwrap();
     fs::write(folder.join("eddy.toml"), "[passes.buffer_a]\n\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n")
         .unwrap();
-    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
-    compiled(&mut window);
+    let mut window = Window::open_project(&display, home.path(), &folder);
     window.keys(&["F5"]);
     window.wait_until("the pause", "frame", |e| e["playing"] == false);
     let shows = |window: &mut Window<'_>, color: [u8; 3]| {

@@ -29,10 +29,6 @@ fn project(home: &Path) -> PathBuf {
     folder
 }
 
-fn compiled(window: &mut Window) {
-    window.wait_until("a compile", "compiled", |e| e["ok"] == true && e["compiling"] == false);
-}
-
 /// Opens a popup by its button and clicks on one of its items.
 fn choose(window: &mut Window, button: &str, item: &str) {
     window.click_on(button);
@@ -52,8 +48,7 @@ fn passes_are_renamed_moved_set_removed_and_brought_back() {
     let Some(display) = Display::open() else { return };
     let home = tempfile::tempdir().unwrap();
     let folder = project(home.path());
-    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
-    compiled(&mut window);
+    let mut window = Window::open_project(&display, home.path(), &folder);
     window.resize(1000, 700);
     window.keys(&["ctrl+shift+b"]);
     window.click_on("passes:row:Buffer A");
@@ -105,7 +100,7 @@ fn what_a_pass_begins_with_and_its_edges_are_typed() {
     let home = tempfile::tempdir().unwrap();
     let folder = project(home.path());
     let mut window = Window::open_as(&display, home.path(), Some("1000x700"), &[], &[folder.to_str().unwrap()]);
-    compiled(&mut window);
+    window.compiled();
     window.keys(&["ctrl+shift+b"]);
     window.click_on("passes:row:Buffer A");
     choose(&mut window, "passes:initial", "passes:initial:an expression");
@@ -120,11 +115,11 @@ fn what_a_pass_begins_with_and_its_edges_are_typed() {
     window.keys(&["ctrl+a"]);
     window.type_text("vec4(0.5)");
     window.keys(&["Return"]);
-    compiled(&mut window);
+    window.compiled();
     choose(&mut window, "passes:boundary", "passes:boundary:an expression");
     window.shows("passes:boundary:width");
     display.shot("passes-fills.png");
-    compiled(&mut window);
+    window.compiled();
     window.keys(&["ctrl+s"]);
     window.wait_until("the save", "dirty", |e| e["dirty"] == false);
     let text = fs::read_to_string(folder.join("eddy.toml")).unwrap();
@@ -138,8 +133,7 @@ fn a_pass_of_any_name_is_added_and_typed_into() {
     let Some(display) = Display::open() else { return };
     let home = tempfile::tempdir().unwrap();
     let folder = project(home.path());
-    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
-    compiled(&mut window);
+    let mut window = Window::open_project(&display, home.path(), &folder);
     window.click_on("button:add-tab");
     window.click_on("add:name");
     window.type_text("velocity");
@@ -177,7 +171,7 @@ fn what_is_on_the_clipboard_is_opened_from_the_gallery() {
     window.keys(&["ctrl+v"]);
     let opened = window.wait_until("the pasted shader", "opened", |e| e["name"] == "Rings");
     assert!(opened["origin"].is_null(), "it lies nowhere: {opened}");
-    compiled(&mut window);
+    window.compiled();
     window.shows("tab:Buffer A");
     window.wait_until("its being unsaved", "dirty", |e| e["dirty"] == true);
     // By the button, which asks what becomes of the first.
@@ -193,8 +187,7 @@ fn the_gallery_finds_opens_and_remembers() {
     let Some(display) = Display::open() else { return };
     let home = tempfile::tempdir().unwrap();
     let folder = project(home.path());
-    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
-    compiled(&mut window);
+    let mut window = Window::open_project(&display, home.path(), &folder);
     window.resize(1000, 700);
     window.keys(&["ctrl+shift+g"]);
     window.shows("category:Fluids");

@@ -36,7 +36,7 @@ fn project(home: &Path) -> PathBuf {
 fn open<'a>(display: &'a Display, home: &Path, folder: &Path) -> Window<'a> {
     let mut window = Window::open(display, home, &["--paused", folder.to_str().unwrap()]);
     window.resize(1300, 900);
-    window.wait_until("a compile", "compiled", |e| e["ok"] == true && e["compiling"] == false);
+    window.compiled();
     window
 }
 

@@ -41,10 +41,6 @@ fn project(home: &Path, code: &str) -> PathBuf {
     folder
 }
 
-fn compiled(window: &mut Window) {
-    window.wait_until("a compile", "compiled", |e| e["ok"] == true && e["compiling"] == false);
-}
-
 /// Puts the caret at a line, or a line and a column.
 fn go_to(window: &mut Window, place: &str) {
     window.keys(&["ctrl+g"]);
@@ -67,8 +63,7 @@ fn a_ray_is_followed_to_its_seventeenth_turn_and_back() {
     let Some(display) = Display::of_size(1300, 900) else { return };
     let home = tempfile::tempdir().unwrap();
     let folder = project(home.path(), MARCHER);
-    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
-    compiled(&mut window);
+    let mut window = Window::open_project(&display, home.path(), &folder);
     window.resize(1300, 900);
     window.keys(&["ctrl+shift+d"]);
     window.shows("trace:pick");
@@ -182,8 +177,7 @@ fn a_pixel_of_a_mesh_is_told_with_its_draw_and_triangle() {
     for (name, text) in [("scene.vert.glsl", VERTEX), ("scene.frag.glsl", FRAGMENT), ("eddy.toml", MESHES)] {
         fs::write(folder.join(name), text).unwrap();
     }
-    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
-    compiled(&mut window);
+    let mut window = Window::open_project(&display, home.path(), &folder);
     window.resize(1300, 900);
     window.keys(&["ctrl+shift+d"]);
     window.shows("trace:pick");
@@ -206,8 +200,7 @@ fn a_breakpoint_moves_with_its_line_and_an_edit_is_walked_anew() {
     let Some(display) = Display::of_size(1300, 900) else { return };
     let home = tempfile::tempdir().unwrap();
     let folder = project(home.path(), MARCHER);
-    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
-    compiled(&mut window);
+    let mut window = Window::open_project(&display, home.path(), &folder);
     window.resize(1300, 900);
     // The action, then a click.
     window.keys(&["ctrl+t"]);
@@ -234,8 +227,7 @@ fn a_probe_shows_the_number_under_the_mouse_and_follows_the_text() {
     let Some(display) = Display::open() else { return };
     let home = tempfile::tempdir().unwrap();
     let folder = project(home.path(), PROBED);
-    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
-    compiled(&mut window);
+    let mut window = Window::open_project(&display, home.path(), &folder);
     window.keys(&["alt+Up"]);
     window.wait_until("the pause", "frame", |e| e["playing"] == false);
     window.resize(1000, 700);
@@ -267,7 +259,7 @@ fn a_probe_shows_the_number_under_the_mouse_and_follows_the_text() {
     window.type_text("// more");
     window.keys(&["Return"]);
     window.wait_until("the line below", "probe", |e| e["line"] == 4);
-    compiled(&mut window);
+    window.compiled();
     // Without its line there is no value, and with it again there is.
     go_to(&mut window, "4");
     window.keys(&["ctrl+shift+k"]);
@@ -277,7 +269,7 @@ fn a_probe_shows_the_number_under_the_mouse_and_follows_the_text() {
     window.keys(&["Escape"]);
     window.wait_until("the picture", "probe", |e| e["text"].is_null() && e["trouble"].is_null());
     window.hides("probe");
-    compiled(&mut window);
+    window.compiled();
 
     // With two keys held, what the pointer is over, as long as they are.
     let layout = window.wait_until("the editor", "layout", |e| e["rects"]["editor"].is_array());

@@ -4,7 +4,7 @@ use super::*;
 use crate::project::Project;
 use crate::{
     diag::{SourceMap, render_all},
-    project::{Info, Origin, Pass, PassId, SamplerRules, Source, json},
+    project::{Origin, Pass, PassId, Source, json},
 };
 
 fn read(texts: &[&str]) -> CustomUniforms {
@@ -25,22 +25,8 @@ fn range(min: [f64; 4], max: [f64; 4]) -> Option<CustomUniformRange> {
 
 fn project(common: Option<&str>, image: &str) -> Project {
     let source = |name: &str, text: &str| Source { name: name.into(), path: None, text: text.into() };
-    Project {
-        name: "p".into(),
-        info: Info::default(),
-        common: common.map(|t| source("common.glsl", t)),
-        passes: vec![Pass {
-            id: PassId::Image,
-            source: source("image.glsl", image),
-            channels: Default::default(),
-            settings: Default::default(),
-        }],
-        sampler_rules: SamplerRules::PerChannel,
-        custom_uniform_values: Default::default(),
-        groups: Vec::new(),
-        includes: Vec::new(),
-        origin: Origin::Unsaved,
-    }
+    let image = Pass::new(PassId::Image, source("image.glsl", image));
+    Project { common: common.map(|t| source("common.glsl", t)), ..Project::new("p", vec![image], Origin::Unsaved) }
 }
 
 #[test]

@@ -183,7 +183,7 @@ fn project(
             }
         }
         let source = Source { name: id.title(), path: None, text: pass.code.into() };
-        passes.push(Pass { id, source, channels, settings: Default::default() });
+        passes.push(Pass { channels, ..Pass::new(id, source) });
     }
     if !passes.iter().any(|p| p.id == PassId::Image) {
         return Err(Diagnostic::error(None, "the shader has no Image pass")
@@ -205,17 +205,9 @@ fn project(
         Some(Value::String(tags)) => tags.split(',').map(|t| t.trim().to_owned()).filter(|t| !t.is_empty()).collect(),
         _ => Vec::new(),
     };
-    Ok(Project {
-        name: if name.trim().is_empty() { stem.to_owned() } else { name },
-        info: Info { id, author, description, tags, extra },
-        common,
-        passes,
-        sampler_rules: SamplerRules::Site,
-        custom_uniform_values: Default::default(),
-        groups: Vec::new(),
-        includes: Vec::new(),
-        origin: Origin::Unsaved,
-    })
+    let name = if name.trim().is_empty() { stem.to_owned() } else { name };
+    let info = Info { id, author, description, tags, extra };
+    Ok(Project { info, common, sampler_rules: SamplerRules::Site, ..Project::new(name, passes, Origin::Unsaved) })
 }
 
 /// On the site a buffer has one wrap, that of the channel loaded last in the order of the JSON's list. That order is

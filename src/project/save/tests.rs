@@ -294,10 +294,7 @@ fn what_is_not_the_projects_own_is_not_overwritten_unasked() {
     let mut grown = project.clone();
     fs::write(dir.path().join("mine/buffer_b.glsl"), "precious").unwrap();
     let source = Source { name: "Buffer B".into(), path: None, text: "b".into() };
-    grown.passes.insert(
-        1,
-        Pass { id: PassId::Buffer("B".into()), source, channels: Default::default(), settings: Default::default() },
-    );
+    grown.passes.insert(1, Pass::new(PassId::Buffer("B".into()), source));
     assert!(matches!(
         save(&grown, &dir.path().join("mine"), Overwrite::Refuse),
         Err(ProjectError::WouldOverwrite { .. })

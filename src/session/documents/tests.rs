@@ -1,33 +1,17 @@
 //! Tests of merging what was edited with what changed on disk.
 
 use super::*;
-use crate::project::{Channel, CustomUniformValue, Info, Input, PassBody, PassId, Sampler, SamplerRules, Source};
+use crate::project::{Channel, CustomUniformValue, Input, PassBody, PassId, Sampler, SamplerRules, Source};
 
 fn project(texts: &[(&str, &str)], has_manifest: bool) -> Project {
-    let mut project = Project {
-        name: "p".into(),
-        info: Info::default(),
-        common: None,
-        passes: Vec::new(),
-        sampler_rules: SamplerRules::PerChannel,
-        custom_uniform_values: Default::default(),
-        groups: Vec::new(),
-        includes: Vec::new(),
-        origin: Origin::Folder { path: "/p".into(), has_manifest },
-    };
+    let mut project = Project::new("p", Vec::new(), Origin::Folder { path: "/p".into(), has_manifest });
     for (key, text) in texts {
         let name = format!("{key}.glsl");
         let source = Source { path: Some(PathBuf::from("/p").join(&name)), name, text: (*text).into() };
         match *key {
             "common" => project.common = Some(source),
             key => {
-                let pass = Pass {
-                    id: PassId::parse(key).unwrap(),
-                    source,
-                    channels: Default::default(),
-                    settings: Default::default(),
-                };
-                insert_pass(&mut project, pass);
+                insert_pass(&mut project, Pass::new(PassId::parse(key).unwrap(), source));
             }
         }
     }

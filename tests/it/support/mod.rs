@@ -63,12 +63,8 @@ pub fn nearest(name: &str) -> Option<Channel> {
 }
 
 pub fn pass(id: PassId, code: &str, channels: [Option<Channel>; 4]) -> Pass {
-    Pass {
-        source: Source { name: id.title(), path: None, text: code.into() },
-        id,
-        channels,
-        settings: Default::default(),
-    }
+    let source = Source { name: id.title(), path: None, text: code.into() };
+    Pass { channels, ..Pass::new(id, source) }
 }
 
 pub fn image(code: &str, channels: [Option<Channel>; 4]) -> Pass {
@@ -76,17 +72,7 @@ pub fn image(code: &str, channels: [Option<Channel>; 4]) -> Pass {
 }
 
 pub fn project(passes: Vec<Pass>) -> Project {
-    Project {
-        name: "test".into(),
-        info: Info::default(),
-        common: None,
-        passes,
-        sampler_rules: SamplerRules::PerChannel,
-        custom_uniform_values: Default::default(),
-        groups: Vec::new(),
-        includes: Vec::new(),
-        origin: Origin::Unsaved,
-    }
+    Project::new("test", passes, Origin::Unsaved)
 }
 
 /// An engine at a size with the project's program in it.

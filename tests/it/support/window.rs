@@ -162,6 +162,18 @@ impl<'a> Window<'a> {
         window
     }
 
+    /// Opens a window with a project and waits until that is compiled.
+    pub fn open_project(display: &'a Display, home: &Path, project: &Path) -> Window<'a> {
+        let mut window = Self::open(display, home, &[project.to_str().unwrap()]);
+        window.compiled();
+        window
+    }
+
+    /// Waits until the newest text is compiled without an error.
+    pub fn compiled(&mut self) {
+        self.wait_until("a compile", "compiled", |e| e["compiling"] == false && e["ok"] == true);
+    }
+
     /// The first event from now on that fits; panics with what was said instead when patience ends.
     pub fn wait_for(&mut self, what: &str, fits: impl Fn(&Value) -> bool) -> Value {
         let end = Instant::now() + PATIENCE;
