@@ -5,12 +5,12 @@ use super::{Gpu, Texture, full_screen::ValuesShader};
 /// Says how numbers become colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Paint {
-    /// From black, the range's begin, to white, its end.
+    /// Shades from black, the range's begin, to white, its end.
     #[default]
     Range,
     /// Red above zero, blue below, the brighter the farther.
     Sign,
-    /// From dark blue through green and yellow to red.
+    /// Colours from dark blue through green and yellow to red.
     FalseColour,
 }
 

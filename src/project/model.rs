@@ -157,8 +157,8 @@ pub enum SamplerRules {
     /// Every channel has its own (`eddy.toml`, and GLSL files without one).
     #[default]
     PerChannel,
-    /// As on the site, for projects read from its JSON: the filter belongs to the buffer while a pass draws (the pass's
-    /// last channel wins), the wrap to the buffer for good (the last channel of the whole project wins).
+    /// The site's rules, for projects read from its JSON: the filter belongs to the buffer while a pass draws (the
+    /// pass's last channel wins), the wrap to the buffer for good (the last channel of the whole project wins).
     Site,
 }
 

@@ -141,7 +141,8 @@ impl Session {
     }
 
     /// Returns what each pass of the running program costs, in drawing order, then those that are not drawn. They are
-    /// gathered once [`Command::WatchCosts`](super::Command::WatchCosts) has been given; milliseconds are there when a frame was drawn since.
+    /// gathered once [`Command::WatchCosts`](super::Command::WatchCosts) has been given; milliseconds are there when a
+    /// frame was drawn since.
     pub fn pass_costs(&self) -> PassCosts {
         self.run.costs.of(self.drawing.costs().to_vec(), self.drawing.clock())
     }

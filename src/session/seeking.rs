@@ -9,7 +9,7 @@ pub(super) enum Goal {
     Frame(u64),
     /// The last frame whose `iTime` is not above so many seconds, or the first that can be shown.
     Time(f64),
-    /// As `Frame`, by a new program: every frame is drawn again from the run's beginning.
+    /// The same as `Frame`, by a new program: every frame is drawn again from the run's beginning.
     Anew(u64),
 }
 

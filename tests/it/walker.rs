@@ -164,7 +164,8 @@ fn eddy_probe_draws_the_value_of_an_expression() {
     b.write(
         "p/image.glsl",
         "void mainImage(out vec4 o, in vec2 p) {\n    float s = 0.0;\n    for (int i = 0; i < 4; i++) {\n        \
-         if (p.x > 2.0) s += half_of(p.x) + float(i);\n    }\n    vec2 uv = p / iResolution.xy;\n    o = vec4(uv, s, 0.0);\n}\n",
+         if (p.x > 2.0) s += half_of(p.x) + float(i);\n    }\n    \
+         vec2 uv = p / iResolution.xy;\n    o = vec4(uv, s, 0.0);\n}\n",
     );
     let probe = |at: &str, more: &str| {
         let run = b.line(&format!("probe p {at} --size 4x2 --pixel 3,1 --json {more}")).expect(0);

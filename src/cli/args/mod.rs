@@ -114,8 +114,8 @@ pub struct RenderArgs {
     #[arg(long, value_name = "NAME=VALUES", value_parser = Sweep::parse)]
     pub sweep: Vec<Sweep>,
     /// Measure a number of a pass in each frame that --at names: sum, min, max, mean, rms or nonfinite of a component
-    /// or of all, as in sum(buffer_a.x) or max(image). May be repeated; lines `//@probe sum(buffer_a.x)` in the project's
-    /// texts do the same
+    /// or of all, as in sum(buffer_a.x) or max(image). May be repeated; lines `//@probe sum(buffer_a.x)` in the
+    /// project's texts do the same
     #[arg(long, value_name = "QUANTITY", value_parser = Quantity::parse)]
     pub probe: Vec<Quantity>,
     /// Fail where such a number is not as claimed in one of these frames: "sum(buffer_a.x) within 1e-4 of 1",

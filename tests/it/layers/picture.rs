@@ -17,7 +17,8 @@ pub fn dot(modules: &Modules) -> String {
     let all = modules.all();
     let mut out = String::from(
         "digraph modules {\n  \
-         graph [compound=true, fontname=\"Helvetica\", fontsize=16, nodesep=0.04, ranksep=0.22]\n  node [shape=box, style=\"rounded,filled\", fillcolor=white, color=\"#8090a0\", fontname=\"Helvetica\", \
+         graph [compound=true, fontname=\"Helvetica\", fontsize=16, nodesep=0.04, ranksep=0.22]\n  \
+         node [shape=box, style=\"rounded,filled\", fillcolor=white, color=\"#8090a0\", fontname=\"Helvetica\", \
          fontsize=12, margin=\"0.02,0.01\", width=0.3, height=0.2]\n  edge [color=\"#8090a0\", arrowsize=0.5]\n",
     );
     let root: Vec<String> = Vec::new();
