@@ -107,16 +107,21 @@ pub fn run(
     report.frames = args.frames;
     let device = offline.read(&wanted.pass, 0)?;
     let index = project.passes.iter().position(|pass| pass.id == wanted.pass).unwrap_or_default();
-    let pixels = audit::spread(args.pixels, read.size);
+    let pixels = audit::grid(args.pixels, &project.passes[index].settings, read.size);
     let sources = Sources::new(&project);
     let audit = match audit::audit(&sources, index, &read, &pixels, args.max_statements) {
         Err(TraceError::Diagnostics(found)) => return Err(Trouble::Diagnostics(found, project.sources())),
         other => other.map_err(anyhow::Error::from)?,
     };
-    told(args, &project, &audit, &device)
+    told(args, &project, (&audit, &pixels), &device)
 }
 
-fn told(args: &PrecisionArgs, project: &Project, audit: &Audit, device: &Pixels) -> Result<Audited, Trouble> {
+fn told(
+    args: &PrecisionArgs,
+    project: &Project,
+    (audit, grid): (&Audit, &[(u32, u32)]),
+    device: &Pixels,
+) -> Result<Audited, Trouble> {
     let format = project.pass(&args.pass.pass).map_or_else(PassFormat::default, |pass| pass.settings.format);
     let (stored, is_32_bit) = (format.components(), format.is_32_bit());
     let texel = |(x, y): (u32, u32)| device.texels[(y * device.width + x) as usize];
@@ -131,7 +136,8 @@ fn told(args: &PrecisionArgs, project: &Project, audit: &Audit, device: &Pixels)
             audited.map_or([0.0; 4], |audited| differences(audited).map(|x| x as f32))
         };
         let (width, height) = args.pixels;
-        let texels = audit::spread(args.pixels, (device.width, device.height)).iter().map(each).collect();
+        let mut texels: Vec<_> = grid.iter().map(each).collect();
+        texels.resize((width * height) as usize, [0.0; 4]);
         let map = Pixels { width, height, texels };
         match path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png")) {
             true => targets::write(path, &shown(&map), Format::Png)?,

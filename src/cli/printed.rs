@@ -42,8 +42,8 @@ pub fn printed(
     let (width, height) = inputs.size;
     let place = [(x as f32 + 0.5) / width as f32, (y as f32 + 0.5) / height as f32];
     let traced = match Traced::new(project.clone(), pass, frame as i32, (inputs.clone(), device), place) {
-        // No program runs there, so no comment's turn comes.
-        Err(TraceError::Clear(_)) => return Ok(Vec::new()),
+        // No program of the pass runs there, so no comment's turn comes.
+        Err(TraceError::Clear(_) | TraceError::Kept { .. } | TraceError::Boundary { .. }) => return Ok(Vec::new()),
         other => other?,
     };
     let all = Examiner::new(Arc::new(traced)).printed();

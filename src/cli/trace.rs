@@ -7,10 +7,11 @@ use super::{
     printed::{self, Printed},
     report::{Printer, Report},
 };
+    written::Written,
 use crate::{
     diag::{SourceMap, Span},
     engine,
-    project::{PassFormat, Project},
+    project::{FillKind, PassFormat, Project},
     session::{
         script::ScriptedInputs,
         trace::{self, Event, Extent, Number, Origin, Trace, TraceError, ulps},
@@ -48,6 +49,15 @@ struct Traced {
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     clear: bool,
     /// What the walker found; null where the pass draws nothing.
+    /// The texel lies outside of this region of the pass, x, y, width and height: nothing is drawn there.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    outside: Option<[u32; 4]>,
+    /// What it held before frame 0 then, if that is not zeros.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    initial: Option<Written>,
+    /// The texel lies in the boundary of the pass, which this writes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    boundary: Option<Written>,
     value: Option<[Number; 4]>,
     /// The same way in double precision.
     double: Option<[Number; 4]>,
@@ -170,7 +180,15 @@ fn placed(project: &Project, args: &TraceArgs, device: [f32; 4], trace: Trace, p
             triangle: fragment.triangle,
             front: fragment.is_front,
         }),
-        Origin::Screen | Origin::Clear => None,
+        _ => None,
+    };
+    let fill = |kind: FillKind| {
+        let index = project.passes.iter().position(|pass| pass.id == args.pass.pass)?;
+        Some(Written::at(project, Some(project.fill_span(index, kind)?)))
+    };
+    let outside = match trace.origin {
+        Origin::Outside(region) => Some([region.x, region.y, region.width, region.height]),
+        _ => None,
     };
     Traced {
         mesh,
@@ -190,6 +208,9 @@ fn placed(project: &Project, args: &TraceArgs, device: [f32; 4], trace: Trace, p
     }
 }
 
+        outside,
+        initial: outside.and_then(|_| fill(FillKind::Initial)),
+        boundary: (trace.origin == Origin::Boundary).then(|| fill(FillKind::Boundary)).flatten(),
 fn place(sources: &SourceMap, span: Option<Span>) -> (Option<String>, Option<usize>, Option<usize>) {
     let at = span.and_then(|span| sources.line_column(span));
     let name = span.and_then(|span| sources.get(span.source)).map(|source| source.name.clone());
@@ -230,7 +251,9 @@ fn words(spec: &str, traced: &Traced) -> String {
     }
     let device = format!("{}, stored as {}", vector(&traced.device), traced.format);
     let (Some(value), Some(double)) = (&traced.value, &traced.double) else {
-        let _ = writeln!(out, "  walker  draws nothing\n  device  {device}");
+        let is_unwalked = traced.boundary.is_some();
+        let walker = if is_unwalked { "walks no pictures" } else { "draws nothing" };
+        let _ = writeln!(out, "  walker  {walker}\n  device  {device}");
         return out;
     };
     let _ = writeln!(out, "  walker  {}\n  device  {device}", vector(value));
@@ -241,3 +264,18 @@ fn words(spec: &str, traced: &Traced) -> String {
     let _ = writeln!(out, "  double  {}", vector(double));
     out
 }
+    if let Some([x, y, width, height]) = traced.outside {
+        let held = match traced.initial.as_ref().and_then(|initial| Some((initial.place()?, &initial.text))) {
+            Some((place, text)) => format!("what {place} gave it before frame 0, {text}"),
+            None => "the zeros that it held before frame 0".to_owned(),
+        };
+        let _ = writeln!(
+            out,
+            "  outside of the region of the pass, {width} x {height} texels from {x},{y} on: the texel is not drawn and \
+             keeps {held}"
+        );
+    }
+    if let Some(boundary) = &traced.boundary {
+        let place = boundary.place().unwrap_or_default();
+        let _ = writeln!(out, "  in the boundary of the pass: {place} overwrites the texel: {}", boundary.text);
+    }

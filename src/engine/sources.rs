@@ -1,6 +1,6 @@
 //! A project's texts as the compiler and the editor take them.
 
-use super::custom_uniforms;
+use super::{custom_uniforms, fill_text::FillSource};
 use crate::{
     diag::{Diagnostic, SourceId, Span},
     glsl::{
@@ -202,6 +202,19 @@ impl<'p> Sources<'p> {
             let code = Text { id: source.code.id, text: &text };
             Walkable::new(&PassSource { code, ..*source }, &link, Detail::Values)
         })
+    }
+
+    /// Lowers the expression of the boundary of `project.passes[index]` for the walker; `None` where there is none.
+    ///
+    /// # Panics
+    /// If there is no such pass.
+    pub(crate) fn walkable_boundary(&self, index: usize) -> Option<Result<Walkable, Vec<Diagnostic>>> {
+        let fill = self.pass(index).fill(FillKind::Boundary)?;
+        let text = FillSource::new(&fill.value, self.fill_text(index, FillKind::Boundary)?);
+        let value = text.value()?;
+        let lowered =
+            self.with_fill(text.code(), Some(value), |source| Walkable::new(source, &Link::default(), Detail::Values));
+        Some(lowered.map_err(|said| text.told(said)))
     }
 
     fn own_kind(&self, index: usize) -> PassKind {

@@ -74,7 +74,7 @@ impl Auditing {
 
 fn told(Job { project, pass, taken: (inputs, device) }: Job) -> Result<Told, String> {
     let index = project.passes.iter().position(|p| p.id == pass).ok_or("the pass has gone")?;
-    let pixels = audit::spread(PIXELS, inputs.size);
+    let pixels = audit::grid(PIXELS, &project.passes[index].settings, inputs.size);
     let found = audit::audit(&Sources::new(&project), index, &inputs, &pixels, STEPS).map_err(|e| e.to_string())?;
     let stored = project.passes[index].settings.format.components();
     let texel = |(x, y): (u32, u32)| device.texels.get((y * device.width + x) as usize).copied().unwrap_or_default();

@@ -34,11 +34,6 @@ fn the_presets_are_walked_to_the_texels_that_the_device_draws() {
         let (media, _) = media::gather(&project, None);
         let texts = Sources::new(&project);
         for (index, pass) in project.passes.iter().enumerate() {
-            // Beyond a region, and at a boundary, the texels are not what the pass computes.
-            let is_whole = pass.settings.region.is_none() && pass.settings.boundary.is_none();
-            if !is_whole {
-                continue;
-            }
             let options = BuildOptions { wanted: vec![pass.id.clone()], skip: false, ..BuildOptions::default() };
             let mut engine = engine_with(&gpu, &project, &media, &options, SIZE);
             let mut drawn_to = 0;
@@ -58,7 +53,7 @@ fn the_presets_are_walked_to_the_texels_that_the_device_draws() {
                     let texel = texel(&drawn, pixel.0, pixel.1);
                     walked += 1;
                     let close = |(a, b): (&f32, &f32)| a == b || (a - b).abs() <= LEAST * b.abs().max(1.0);
-                    // What is discarded keeps what it held.
+                    // What is discarded, or lies beyond a region, keeps what it held.
                     let Some(value) = found.value else { continue };
                     if !value.iter().zip(&texel).take(count).all(close) {
                         wrong += 1;
@@ -153,6 +148,59 @@ fn eddy_trace_tells_every_step_and_the_distance_from_the_device() {
     assert!(run.out.contains("fragColor = (1.0, 1.0, 1.0, 1.0)") && run.out.contains("(0, 0, 0, 0)"), "{}", run.out);
     b.line("trace p --pixel 4,0 --size 4x4").expect(2);
     b.line("trace p --pixel nowhere --size 4x4").expect(2);
+}
+
+/// Texels of a boundary, and beyond a region, are not what the pass computes.
+#[test]
+fn eddy_trace_and_the_audit_know_which_texels_a_pass_does_not_draw() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    b.image("p/buffer_a.glsl", "fragColor = vec4(fragCoord, atan(fragCoord.x, fragCoord.y), 1.0);");
+    b.image("p/image.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0);");
+    b.write("p/common.glsl", "float twice(float x) { float y = x + x; return y; }\n");
+    let manifest = "[passes.image]\nchannels.0 = { buffer = \"A\" }\n[passes.buffer_a]\nregion = [2, 2, 6, 6]\n\
+                    initial = \"vec4(7.0)\"\nboundary = { width = 1, value = \"vec4(twice(fragCoord.x), 0.25, iTime, 1.0)\" }\n";
+    b.write("p/eddy.toml", manifest);
+    let trace = |x: u32, y: u32, more: &str| {
+        b.line(&format!("trace p --pass buffer_a --pixel {x},{y} --frame 2 --size 12x10 {more}")).expect(0)
+    };
+    let json = |x, y| trace(x, y, "--json").json()[0].clone();
+    let edge = json(4, 0);
+    assert_eq!((&edge["device"], &edge["ulps"]), (&edge["value"], &serde_json::json!([0, 0, 0, 0])), "{edge}");
+    assert_eq!(edge["device"][0], serde_json::json!(9.0));
+    assert_eq!((&edge["boundary"]["source"], &edge["boundary"]["line"]), (&"eddy.toml".into(), &6.into()), "{edge}");
+    assert!(edge["steps"].as_array().unwrap().iter().any(|step| step["name"] == "y"), "{edge}");
+    let words = trace(11, 9, "").out;
+    assert!(words.contains("in the boundary of the pass: eddy.toml:6:34 overwrites the texel: vec4(twice("), "{words}");
+    let kept = json(1, 1);
+    assert_eq!(
+        (&kept["outside"], &kept["value"]),
+        (&serde_json::json!([2, 2, 6, 6]), &serde_json::Value::Null),
+        "{kept}"
+    );
+    assert_eq!((&kept["device"][0], &kept["initial"]["line"]), (&7.0.into(), &5.into()), "{kept}");
+    assert!(
+        trace(8, 8, "").out.contains("6 x 6 texels from 2,2 on: the texel is not drawn and keeps what eddy.toml:5")
+    );
+    let drawn = json(2, 7);
+    assert!(drawn["boundary"].is_null() && drawn["outside"].is_null(), "{drawn}");
+    assert_eq!((&drawn["value"][0], &drawn["device"][1]), (&2.5.into(), &7.5.into()));
+    // A grid over the texels that the pass draws: the red is exact in each.
+    let run =
+        b.line("lab precision p --pass buffer_a --frames 2 --size 12x10 --pixels 3x3 --map m.npy --json").expect(0);
+    let audited = &run.json()[0]["double"];
+    assert_eq!(audited["pixels"], 9, "{audited}");
+    let map = b.npy("m.npy");
+    assert!(map.texels.iter().all(|texel| texel[0] == 0.0) && map.texels.iter().any(|texel| texel[2] > 0.0));
+    // A region beyond the target.
+    b.image("q/buffer_a.glsl", "fragColor = vec4(1.0);");
+    let manifest = "[passes.image]\nchannels.0 = { buffer = \"A\" }\n[passes.buffer_a]\nregion = [40, 0, 1, 1]\n";
+    b.write("q/eddy.toml", manifest);
+    b.image("q/image.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0);");
+    let run = b.line("lab precision q --pass buffer_a --frames 1 --size 12x10 --json").expect(0);
+    assert_eq!(run.json()[0]["double"]["pixels"], 0, "nothing is drawn");
+    let run = b.line("trace q --pass buffer_a --size 12x10 --pixel 0,0").expect(0);
+    assert!(run.out.contains("keeps the zeros that it held before frame 0"), "{}", run.out);
 }
 
 #[test]

@@ -13,7 +13,7 @@ mod undefined;
 mod watch;
 
 pub use finding::{Class, Finding, Kind};
-pub use run::{Audit, AuditedPixel, audit, spread};
+pub use run::{Audit, AuditedPixel, audit, grid, spread};
 
 #[cfg(test)]
 mod tests;

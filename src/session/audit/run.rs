@@ -12,9 +12,10 @@ use crate::{
         walk::{Observer, Shadowed},
         walkable::Detail,
     },
+    project::PassSettings,
     session::{
         trace::TraceError,
-        walked::{WalkedPass, WalkedPixel},
+        walked::{AtPixel, Origin, WalkedPass, WalkedPixel, own_texels},
     },
 };
 use std::{
@@ -46,6 +47,13 @@ pub fn spread((columns, rows): (u32, u32), (width, height): (u32, u32)) -> Vec<(
     (0..rows).flat_map(|y| (0..columns).map(move |x| (at(x, columns, width), at(y, rows, height)))).collect()
 }
 
+/// Spreads them over the texels that the programs of a pass draw: none of its boundary, and none beyond its region.
+pub fn grid((columns, rows): (u32, u32), settings: &PassSettings, size: (u32, u32)) -> Vec<(u32, u32)> {
+    let Some(own) = own_texels(settings, size) else { return Vec::new() };
+    let pixels = spread((columns, rows), (own.width, own.height));
+    pixels.into_iter().map(|(x, y)| (own.x + x, own.y + y)).collect()
+}
+
 /// Holds what was found.
 #[derive(Clone, Debug, Default)]
 pub struct Audit {
@@ -55,7 +63,8 @@ pub struct Audit {
     pub findings: Vec<Finding>,
 }
 
-/// Audits `project.passes[index]` at some pixels, counted from the bottom left, on all processors.
+/// Audits `project.passes[index]` at some pixels, counted from the bottom left, on all processors. Where no program
+/// draws, outside of its region, there is nothing to audit.
 pub fn audit(
     sources: &Sources<'_>,
     index: usize,
@@ -71,7 +80,7 @@ pub fn audit(
     let work = || {
         let mut done = Vec::new();
         while let Some(&pixel) = pixels.get(next.fetch_add(1, Ordering::Relaxed)) {
-            done.push(audit_pixel(&pass, sources, pixel)?);
+            done.extend(audit_pixel(&pass, sources, pixel)?);
         }
         Ok::<_, TraceError>(done)
     };
@@ -104,10 +113,14 @@ fn audit_pixel(
     pass: &WalkedPass<'_>,
     sources: &Sources<'_>,
     pixel: (u32, u32),
-) -> Result<(AuditedPixel, Vec<Finding>), TraceError> {
-    let Some(at) = pass.at(pixel)? else {
-        let audited = AuditedPixel { pixel, single: [0.0; 4], double: [0.0; 4], error: 0.0 };
-        return Ok((audited, Vec::new()));
+) -> Result<Option<(AuditedPixel, Vec<Finding>)>, TraceError> {
+    let at = match pass.at(pixel)? {
+        AtPixel::Walked(at) => at,
+        AtPixel::Unwalked(Origin::Clear) => {
+            let audited = AuditedPixel { pixel, single: [0.0; 4], double: [0.0; 4], error: 0.0 };
+            return Ok(Some((audited, Vec::new())));
+        }
+        AtPixel::Unwalked(_) => return Ok(None),
     };
     let mut watch = Watch::new(at.walkable, sources, &at.world);
     let drawn = walk(&at, &mut watch)?;
@@ -118,7 +131,7 @@ fn audit_pixel(
         error: error_of(&drawn),
     };
     let born = blame::find(&drawn, &watch, |observer| walk(&at, observer))?;
-    Ok((audited, watch.end(pixel, born)))
+    Ok(Some((audited, watch.end(pixel, born))))
 }
 
 /// Returns what a pixel draws in both precisions, by the way of the single one; zeros where it draws nothing.

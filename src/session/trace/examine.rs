@@ -14,8 +14,8 @@ use crate::{
         walk::{EntryInputs, Nobody, Shadowed, Stop},
         walkable::Detail,
     },
-    project::{PassFormat, PassId, Project, Stage, Tab, inspect_comments},
-    session::walked::{MeshFragment, Origin, WalkedPass},
+    project::{FillKind, PassFormat, PassId, Project, Stage, Tab, inspect_comments},
+    session::walked::{AtPixel, MeshFragment, Origin, WalkedPass, WalkedPixel},
 };
 use std::sync::Arc;
 
@@ -34,7 +34,7 @@ pub struct Traced {
     pub tab: Tab,
     text_id: SourceId,
     index: usize,
-    /// What the value comes from: never what is clear.
+    /// What the value comes from: a program of the pass.
     pub origin: Origin,
     pub pixel: (u32, u32),
     pub size: (u32, u32),
@@ -79,7 +79,7 @@ pub struct Printed {
 
 impl Traced {
     /// Walks through a pass for the pixel at a place of its picture, from 0 to 1 across and up. Fails where the pass
-    /// draws meshes and none of them is drawn at the pixel.
+    /// draws meshes and none of them is drawn at the pixel, and where its boundary or nothing is.
     pub fn new(
         project: Project,
         pass: &PassId,
@@ -93,7 +93,14 @@ impl Traced {
         let sources = Sources::new(&project);
         let walked = WalkedPass::new(&sources, index, &inputs, Detail::Statements, STATEMENTS)?;
         drop(sources);
-        let at = walked.at(pixel)?.ok_or(TraceError::Clear(pixel))?;
+        let at = match walked.at(pixel)? {
+            AtPixel::Unwalked(Origin::Clear) => return Err(TraceError::Clear(pixel)),
+            AtPixel::Unwalked(Origin::Outside(region)) => return Err(TraceError::Kept { pixel, region }),
+            AtPixel::Unwalked(_) | AtPixel::Walked(WalkedPixel { origin: Origin::Boundary, .. }) => {
+                return Err(TraceError::Boundary { pixel, written: boundary(&project, index) });
+            }
+            AtPixel::Walked(at) => at,
+        };
         let mut recorder = HistoryRecorder::new(at.walkable);
         let run = at.machine::<f32>().run(at.lane, &mut recorder);
         let recorded = recorder.end();
@@ -190,6 +197,16 @@ impl Examiner {
     pub fn new(traced: Arc<Traced>) -> Self {
         Self { traced, watches: Watches::default() }
     }
+/// The place of a pass's boundary in its manifest, and its value there.
+fn boundary(project: &Project, index: usize) -> String {
+    let (sources, span) = (project.sources(), project.fill_span(index, FillKind::Boundary));
+    let source = span.and_then(|span| Some((sources.get(span.source)?, sources.line_column(span)?.line, span)));
+    source.map_or_else(String::new, |(source, line, span)| {
+        let text = source.text.get(span.range()).unwrap_or_default();
+        format!("{}:{line}, {},", source.name, text.split_whitespace().collect::<Vec<_>>().join(" "))
+    })
+}
+
 
     /// An expression at a moment.
     pub fn watch(&mut self, at: usize, expression: &str) -> Watched {

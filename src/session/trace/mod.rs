@@ -26,7 +26,8 @@ use crate::{
         walk::{Nobody, Shadowed, Stop},
         walkable::Detail,
     },
-    session::walked::{WalkError, WalkedPass},
+    project::Region,
+    session::walked::{AtPixel, WalkError, WalkedPass},
 };
 use recorder::Recorder;
 
@@ -45,7 +46,7 @@ pub struct Trace {
     pub double: Option<[f64; 4]>,
     /// Statements that were run.
     pub statements: u64,
-    /// What the value comes from. What is clear has no steps.
+    /// What the value comes from. What no program leaves there has no steps, and but for what is clear no value.
     pub origin: Origin,
 }
 
@@ -61,6 +62,14 @@ pub enum TraceError {
         .0.0, .0.1
     )]
     Clear((u32, u32)),
+    #[error(
+        "pixel {},{} lies outside of the region of the pass, {} x {} texels from {},{} on: it is not drawn, and holds \
+             what it held before",
+        pixel.0, pixel.1, region.width, region.height, region.x, region.y
+    )]
+    Kept { pixel: (u32, u32), region: Region },
+    #[error("pixel {},{} lies in the boundary of the pass, which {written} overwrites after each draw", pixel.0, pixel.1)]
+    Boundary { pixel: (u32, u32), written: String },
     #[error("pixel {},{} is outside of the pass, which has {} x {} texels", pixel.0, pixel.1, size.0, size.1)]
     Outside { pixel: (u32, u32), size: (u32, u32) },
     #[error(
@@ -126,9 +135,13 @@ impl<'p> Tracer<'p> {
         if pixel.0 >= self.size.0 || pixel.1 >= self.size.1 {
             return Err(TraceError::Outside { pixel, size: self.size });
         }
-        let Some(at) = self.pass.at(pixel)? else {
-            let (value, double) = (Some([0.0; 4]), Some([0.0; 4]));
-            return Ok(Trace { steps: Vec::new(), left_out: 0, value, double, statements: 0, origin: Origin::Clear });
+        let at = match self.pass.at(pixel)? {
+            AtPixel::Walked(at) => at,
+            AtPixel::Unwalked(origin) => {
+                let is_clear = origin == Origin::Clear;
+                let (value, double) = (is_clear.then_some([0.0; 4]), is_clear.then_some([0.0; 4]));
+                return Ok(Trace { steps: Vec::new(), left_out: 0, value, double, statements: 0, origin });
+            }
         };
         let mut recorder = Recorder::new(at.walkable, self.extent.steps);
         let drawn = at.machine::<f32>().run(at.lane, &mut recorder)?;

@@ -35,15 +35,18 @@ void mainImage(out vec4 o, in vec2 c) {
 fn traced(code: &str) -> Traced {
     let mut project = template::project();
     project.passes[0].source.text = code.into();
-    let inputs = PassInputs {
+    let drawn = Pixels { width: 4, height: 4, texels: vec![[0.0, 0.0, 1.0, 1.0]; 16] };
+    Traced::new(project, &PassId::Image, 3, (inputs(), &drawn), [0.3, 0.3]).unwrap()
+}
+
+fn inputs() -> PassInputs {
+    PassInputs {
         uniforms: bytemuck::Zeroable::zeroed(),
         custom_uniforms: Vec::new(),
         channels: std::array::from_fn(|_| TextureCopy::black()),
         size: (4, 4),
         meshes: Vec::new(),
-    };
-    let drawn = Pixels { width: 4, height: 4, texels: vec![[0.0, 0.0, 1.0, 1.0]; 16] };
-    Traced::new(project, &PassId::Image, 3, (inputs, &drawn), [0.3, 0.3]).unwrap()
+    }
 }
 
 /// The line, from 1, of a moment.
@@ -231,4 +234,29 @@ fn distances_are_counted_in_numbers() {
     assert_eq!([ulps(1.0, 1.0), ulps(1.0, next(1.0)), ulps(next(-1.0), -1.0), ulps(0.0, -0.0)], [0, 1, 1, 0]);
     assert_eq!([ulps(f32::from_bits(1), -f32::from_bits(1)), ulps(f32::NAN, f32::NAN)], [2, 0]);
     assert_eq!([ulps(1.0, f32::NAN), ulps(f32::INFINITY, f32::MAX)], [u32::MAX, 1]);
+}
+
+#[test]
+fn a_texel_that_the_pass_does_not_draw_says_what_is_there() {
+    use crate::project::{Boundary, Fill, Region};
+    let mut project = template::project();
+    project.passes[0].source.text = CODE.into();
+    let settings = &mut project.passes[0].settings;
+    settings.region = Some(Region { x: 1, y: 1, width: 2, height: 3 });
+    let refused = |project: &crate::project::Project, place| {
+        let drawn = Pixels { width: 4, height: 4, texels: vec![[0.0; 4]; 16] };
+        Traced::new(project.clone(), &PassId::Image, 3, (inputs(), &drawn), place)
+            .map(|_| ())
+            .map_err(|e| e.to_string())
+    };
+    let kept = "pixel 0,1 lies outside of the region of the pass, 2 x 3 texels from 1,1 on: it is not drawn, and holds \
+                what it held before";
+    assert_eq!(refused(&project, [0.1, 0.3]), Err(kept.into()));
+    assert_eq!(refused(&project, [0.3, 0.3]), Ok(()));
+    let value = Fill::expression("vec4(fragCoord, 0, 1)");
+    project.passes[0].settings.boundary = Some(Boundary { width: 1, value });
+    let edge = "pixel 0,1 lies in the boundary of the pass, which eddy.toml:1, vec4(fragCoord, 0, 1), overwrites after \
+                each draw";
+    assert_eq!(refused(&project, [0.1, 0.3]), Err(edge.into()));
+    assert_eq!(refused(&project, [0.3, 0.3]), Ok(()));
 }

@@ -1,5 +1,7 @@
 //! What a texel's value comes from.
 
+use crate::project::Region;
+
 /// What leaves its value in a texel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
@@ -9,6 +11,10 @@ pub enum Origin {
     Mesh(MeshFragment),
     /// Nothing: the texel holds the zeros that a pass that draws meshes begins with.
     Clear,
+    /// The value of the pass's boundary, which is drawn over what the pass draws.
+    Boundary,
+    /// Nothing: the texel lies outside of this region of the pass, and holds what it held before.
+    Outside(Region),
 }
 
 /// A fragment of a mesh.
@@ -26,7 +32,7 @@ impl Origin {
     pub fn draw(self) -> Option<usize> {
         match self {
             Origin::Mesh(fragment) => Some(fragment.draw),
-            Origin::Screen | Origin::Clear => None,
+            Origin::Screen | Origin::Clear | Origin::Boundary | Origin::Outside(_) => None,
         }
     }
 }

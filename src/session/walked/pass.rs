@@ -1,18 +1,28 @@
 //! A pass in one frame, ready to be walked at any of its pixels.
 
-use super::{error::WalkError, origin::Origin, pixel::WalkedPixel, raster::Raster};
+use super::{
+    error::WalkError,
+    origin::Origin,
+    pixel::{AtPixel, WalkedPixel},
+    raster::Raster,
+    writer::Writer,
+};
 use crate::{
     engine::{PassInputs, Sources},
     glsl::{
         walk::{EntryInputs, Machine, Stop},
         walkable::{Detail, Walkable},
     },
+    project::PassSettings,
 };
 
 /// The programs of a pass, and for one that draws meshes its triangles in the picture. Made once for all pixels.
 pub struct WalkedPass<'p> {
     inputs: &'p PassInputs,
     body: Body<'p>,
+    settings: PassSettings,
+    /// The expression of the boundary, if it has one.
+    boundary: Option<Box<Walkable>>,
     limit: u64,
 }
 
@@ -34,21 +44,36 @@ impl<'p> WalkedPass<'p> {
         detail: Detail,
         limit: u64,
     ) -> Result<Self, WalkError> {
-        let body = match sources.pass(index).settings.meshes() {
+        let settings = sources.pass(index).settings.clone();
+        let body = match settings.meshes() {
             None => Body::Screen(Box::new(sources.walkable(index, detail)?)),
             Some(geometry) => Body::Meshes(Raster::new(sources, (index, geometry), inputs, detail, limit)?),
         };
-        Ok(Self { inputs, body, limit })
+        let boundary = sources.walkable_boundary(index).transpose()?.map(Box::new);
+        Ok(Self { inputs, body, settings, boundary, limit })
     }
 
-    /// What runs for a pixel, counted from the bottom left; `None` where no triangle leaves a fragment.
-    pub fn at(&self, pixel: (u32, u32)) -> Result<Option<WalkedPixel<'_>>, Stop> {
-        let (walkable, inputs, origin) = match &self.body {
-            Body::Screen(walkable) => (&**walkable, EntryInputs::of_pixel(pixel), Origin::Screen),
-            Body::Meshes(raster) => {
-                let Some(fragment) = raster.shown(pixel)? else { return Ok(None) };
-                (raster.walkable(fragment.draw), raster.entry(fragment, pixel)?, Origin::Mesh(fragment))
+    /// What runs for a pixel, counted from the bottom left.
+    pub fn at(&self, pixel: (u32, u32)) -> Result<AtPixel<'_>, Stop> {
+        let (walkable, inputs, origin) = match Writer::of(&self.settings, self.inputs.size, pixel) {
+            Writer::Boundary => match &self.boundary {
+                Some(walkable) => (&**walkable, EntryInputs::of_pixel(pixel), Origin::Boundary),
+                None => return Ok(AtPixel::Unwalked(Origin::Boundary)),
+            },
+            // Where meshes are drawn all is cleared first, beyond the region too.
+            Writer::Nothing(region)
+                if self.settings.meshes().is_some() && region.within(self.inputs.size).is_some() =>
+            {
+                return Ok(AtPixel::Unwalked(Origin::Clear));
             }
+            Writer::Nothing(region) => return Ok(AtPixel::Unwalked(Origin::Outside(region))),
+            Writer::Programs => match &self.body {
+                Body::Screen(walkable) => (&**walkable, EntryInputs::of_pixel(pixel), Origin::Screen),
+                Body::Meshes(raster) => {
+                    let Some(fragment) = raster.shown(pixel)? else { return Ok(AtPixel::Unwalked(Origin::Clear)) };
+                    (raster.walkable(fragment.draw), raster.entry(fragment, pixel)?, Origin::Mesh(fragment))
+                }
+            },
         };
         let world = self.inputs.of_draw(origin.draw());
         let lane = Machine::<f32>::lane_of(pixel);

@@ -10,6 +10,13 @@ use crate::{
     },
 };
 
+/// What there is to walk at a pixel.
+pub enum AtPixel<'p> {
+    Walked(WalkedPixel<'p>),
+    /// No program leaves its value there, or none that can be walked: the texels of a boundary may be a picture's.
+    Unwalked(Origin),
+}
+
 /// The program that leaves its value in a texel, and what it is handed there.
 pub struct WalkedPixel<'p> {
     pub walkable: &'p Walkable,
