@@ -14,6 +14,7 @@ mod library;
 mod machine;
 mod measured;
 mod nonfinite;
+mod parted;
 mod precision;
 mod printed;
 mod probe;

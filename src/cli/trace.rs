@@ -4,10 +4,11 @@ use super::{
     args::TraceArgs,
     machine::{Machine, Trouble, open},
     nonfinite::{self, Begin},
+    parted::{self, Parted},
     printed::{self, Printed},
     report::{Printer, Report},
-};
     written::Written,
+};
 use crate::{
     diag::{SourceMap, Span},
     engine,
@@ -48,7 +49,6 @@ struct Traced {
     /// No triangle of a pass that draws meshes covers the pixel.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     clear: bool,
-    /// What the walker found; null where the pass draws nothing.
     /// The texel lies outside of this region of the pass, x, y, width and height: nothing is drawn there.
     #[serde(skip_serializing_if = "Option::is_none")]
     outside: Option<[u32; 4]>,
@@ -58,6 +58,7 @@ struct Traced {
     /// The texel lies in the boundary of the pass, which this writes.
     #[serde(skip_serializing_if = "Option::is_none")]
     boundary: Option<Written>,
+    /// What the walker found; null where the pass draws nothing.
     value: Option<[Number; 4]>,
     /// The same way in double precision.
     double: Option<[Number; 4]>,
@@ -68,6 +69,9 @@ struct Traced {
     /// Numbers of single precision between the two, of the components that are stored; null where these are of fewer
     /// bits.
     ulps: Option<Vec<u32>>,
+    /// Where the device parts from the walker, if their values are not the same.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    parted: Option<Parted>,
     statements: u64,
     left_out: u64,
     steps: Vec<PlacedStep>,
@@ -134,10 +138,11 @@ fn traced(
     inputs: ScriptedInputs,
 ) -> Result<Traced, Trouble> {
     let pass = &args.pass.pass;
-    let (project, mut offline) = open(machine, report, spec, &args.run, pass, inputs)?;
+    let (project, mut offline) = open(machine, report, spec, &args.run, pass, inputs.clone())?;
     for _ in 0..args.frame {
         offline.draw()?;
     }
+    let before = (args.probes > 0).then(|| Ok::<_, Trouble>(offline.engine()?.snapshot()?)).transpose()?;
     let read = offline.draw_inspected(pass)?;
     report.frames = args.frame + 1;
     let device = offline.read(pass, 0)?;
@@ -152,7 +157,18 @@ fn traced(
     let (x, y) = pixel;
     let texel = device.texels[(y * device.width + x) as usize];
     let printed = printed::printed(&project, pass, args.frame, (&read, &device), pixel).map_err(anyhow::Error::from)?;
-    Ok(placed(&project, args, texel, trace, printed))
+    let parted = match before.filter(|_| parts(&project, args, texel, &trace)) {
+        Some(before) => Some(parted::find(args, &project, (offline.into_engine()?, before), (index, &read), inputs)?),
+        None => None,
+    };
+    Ok(Traced { parted, ..placed(&project, args, texel, trace, printed) })
+}
+
+/// The walker's value is not the texel that the device has stored, bit for bit.
+fn parts(project: &Project, args: &TraceArgs, device: [f32; 4], trace: &Trace) -> bool {
+    let format = project.pass(&args.pass.pass).map_or_else(PassFormat::default, |pass| pass.settings.format);
+    let is_apart = |value: [f32; 4]| (0..format.components()).any(|i| ulps(value[i], device[i]) > 0);
+    format.is_32_bit() && trace.origin == Origin::Screen && trace.value.is_some_and(is_apart)
 }
 
 fn placed(project: &Project, args: &TraceArgs, device: [f32; 4], trace: Trace, printed: Vec<Printed>) -> Traced {
@@ -192,6 +208,9 @@ fn placed(project: &Project, args: &TraceArgs, device: [f32; 4], trace: Trace, p
     };
     Traced {
         mesh,
+        outside,
+        initial: outside.and_then(|_| fill(FillKind::Initial)),
+        boundary: (trace.origin == Origin::Boundary).then(|| fill(FillKind::Boundary)).flatten(),
         clear: trace.origin == Origin::Clear,
         pass: args.pass.pass.key(),
         pixel: args.pixel.map_or([0, 0], |(x, y)| [x, y]),
@@ -201,6 +220,7 @@ fn placed(project: &Project, args: &TraceArgs, device: [f32; 4], trace: Trace, p
         device: floats(device),
         format: format.name(),
         ulps: trace.value.filter(|_| format.is_32_bit()).map(apart),
+        parted: None,
         statements: trace.statements,
         left_out: trace.left_out,
         steps: steps.collect(),
@@ -208,9 +228,6 @@ fn placed(project: &Project, args: &TraceArgs, device: [f32; 4], trace: Trace, p
     }
 }
 
-        outside,
-        initial: outside.and_then(|_| fill(FillKind::Initial)),
-        boundary: (trace.origin == Origin::Boundary).then(|| fill(FillKind::Boundary)).flatten(),
 fn place(sources: &SourceMap, span: Option<Span>) -> (Option<String>, Option<usize>, Option<usize>) {
     let at = span.and_then(|span| sources.line_column(span));
     let name = span.and_then(|span| sources.get(span.source)).map(|source| source.name.clone());
@@ -249,21 +266,6 @@ fn words(spec: &str, traced: &Traced) -> String {
             "  no triangle of the meshes is drawn here: the texel holds the zeros that the pass begins with\n",
         );
     }
-    let device = format!("{}, stored as {}", vector(&traced.device), traced.format);
-    let (Some(value), Some(double)) = (&traced.value, &traced.double) else {
-        let is_unwalked = traced.boundary.is_some();
-        let walker = if is_unwalked { "walks no pictures" } else { "draws nothing" };
-        let _ = writeln!(out, "  walker  {walker}\n  device  {device}");
-        return out;
-    };
-    let _ = writeln!(out, "  walker  {}\n  device  {device}", vector(value));
-    if let Some(ulps) = &traced.ulps {
-        let ulps: Vec<String> = ulps.iter().map(u32::to_string).collect();
-        let _ = writeln!(out, "  apart   ({}) numbers of single precision", ulps.join(", "));
-    }
-    let _ = writeln!(out, "  double  {}", vector(double));
-    out
-}
     if let Some([x, y, width, height]) = traced.outside {
         let held = match traced.initial.as_ref().and_then(|initial| Some((initial.place()?, &initial.text))) {
             Some((place, text)) => format!("what {place} gave it before frame 0, {text}"),
@@ -279,3 +281,21 @@ fn words(spec: &str, traced: &Traced) -> String {
         let place = boundary.place().unwrap_or_default();
         let _ = writeln!(out, "  in the boundary of the pass: {place} overwrites the texel: {}", boundary.text);
     }
+    let device = format!("{}, stored as {}", vector(&traced.device), traced.format);
+    let (Some(value), Some(double)) = (&traced.value, &traced.double) else {
+        let is_unwalked = traced.boundary.is_some();
+        let walker = if is_unwalked { "walks no pictures" } else { "draws nothing" };
+        let _ = writeln!(out, "  walker  {walker}\n  device  {device}");
+        return out;
+    };
+    let _ = writeln!(out, "  walker  {}\n  device  {device}", vector(value));
+    if let Some(ulps) = &traced.ulps {
+        let ulps: Vec<String> = ulps.iter().map(u32::to_string).collect();
+        let _ = writeln!(out, "  apart   ({}) numbers of single precision", ulps.join(", "));
+    }
+    let _ = writeln!(out, "  double  {}", vector(double));
+    if let Some(parted) = &traced.parted {
+        out.push_str(&parted::words(parted));
+    }
+    out
+}

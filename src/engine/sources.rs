@@ -235,6 +235,19 @@ impl<'p> Sources<'p> {
         is_probed.then(|| self.walked(index, own, |source| glsl::probed(source, probe)))?
     }
 
+    /// Returns for each of these parts of the texts of `project.passes[index]` a byte at which a probe means the
+    /// expression there, and how many numbers its value has; see [`glsl::probe_places`]. A pass that draws meshes has
+    /// none.
+    ///
+    /// # Panics
+    /// If there is no such pass.
+    pub fn probe_places(&self, index: usize, spans: &[Span]) -> Vec<Option<(u32, usize)>> {
+        match self.pass(index).settings.meshes() {
+            Some(_) => vec![None; spans.len()],
+            None => self.walked(index, (Stage::Own, self.own_kind(index)), |s| glsl::probe_places(s, spans)),
+        }
+    }
+
     /// Analyses `project.passes[index]` as an editor understands it, whether it compiles or not.
     ///
     /// # Panics

@@ -43,7 +43,7 @@ pub use compiled::Compiled;
 pub use driver::Driver;
 pub use preamble::Preamble;
 pub use probe::Probe;
-pub use probed::{ProbedExpression, probed};
+pub use probed::{ProbedExpression, probe_places, probed};
 pub use reflection::{ChannelUse, CustomUniformSet, Reflection, UniformSet};
 pub use source::{
     ChannelKind, CustomUniform, CustomUniformKind, Include, PassKind, PassSource, Text, UniformValue, UntypedValue,

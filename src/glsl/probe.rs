@@ -19,36 +19,70 @@ pub struct Probe {
 
 /// The expression that a probe means, and its part of the text.
 pub(super) fn find(module: &Module, origins: &Origins, probe: &Probe) -> Option<(ExprId, Span)> {
-    let covers = |span: &Span| span.source == probe.source && (span.start..=span.end).contains(&probe.at);
-    let mut places = vec![false; module.exprs.len()];
-    for expr in &module.exprs {
-        // What is assigned to is a place; its value is that of the assignment.
-        if let ExprKind::Assign { place, .. } | ExprKind::AssignOp { place, .. } | ExprKind::IncDec { place, .. } =
-            expr.kind
-        {
-            places[place.index()] = true;
+    Places::new(module, origins).find(module, origins, probe)
+}
+
+/// A byte for each of these parts of the texts at which a probe means the one expression that stands there, and how many
+/// numbers its value has; `None` where there is no such expression or several, as in what a macro brings in. What `++`
+/// and `--` leave in a variable is not their value.
+pub(super) fn places(module: &Module, origins: &Origins, spans: &[Span]) -> Vec<Option<(u32, usize)>> {
+    let places = Places::new(module, origins);
+    let place = |span: &Span| {
+        let mut there = places.exprs.iter().filter(|(_, other)| other == span);
+        let (&(expr, _), None) = (there.next()?, there.next()) else { return None };
+        if matches!(module[expr].kind, ExprKind::IncDec { .. } | ExprKind::Literal(_)) {
+            return None;
         }
-    }
-    let mut best: Option<(ExprId, Span)> = None;
-    let mut offer = |id: ExprId, span: Span| {
-        let is_better = best.is_none_or(|(_, other)| span.end - span.start < other.end - other.start);
-        if is_better {
-            best = Some((id, span));
-        }
+        let components = module.types.components(module[expr].ty)? as usize;
+        let is_meant = |at: &u32| {
+            let probe = Probe { source: span.source, at: *at, visit: 0 };
+            places.find(module, origins, &probe).is_some_and(|(found, _)| found == expr)
+        };
+        Some(((span.start..=span.end).find(is_meant)?, components))
     };
-    for (index, expr) in module.exprs.iter().enumerate().filter(|(index, _)| !places[*index]) {
-        let span = origins.span(expr.loc);
-        if covers(&span) {
-            offer(ExprId::new(index), span);
+    spans.iter().map(place).collect()
+}
+
+/// Where the expressions of a module stand that have a value.
+struct Places {
+    exprs: Vec<(ExprId, Span)>,
+}
+
+impl Places {
+    fn new(module: &Module, origins: &Origins) -> Self {
+        let mut places = vec![false; module.exprs.len()];
+        for expr in &module.exprs {
+            // What is assigned to is a place; its value is that of the assignment.
+            if let ExprKind::Assign { place, .. } | ExprKind::AssignOp { place, .. } | ExprKind::IncDec { place, .. } =
+                expr.kind
+            {
+                places[place.index()] = true;
+            }
         }
+        let values = module.exprs.iter().enumerate().filter(|(index, _)| !places[*index]);
+        Self { exprs: values.map(|(index, expr)| (ExprId::new(index), origins.span(expr.loc))).collect() }
     }
-    for stmt in &module.stmts {
-        if let StmtKind::Declare { local, init: Some(init) } = stmt.kind
-            && let Some(name) = module[local].name
-            && covers(&origins.token_span(name.token))
-        {
-            offer(init, origins.token_span(name.token));
+
+    fn find(&self, module: &Module, origins: &Origins, probe: &Probe) -> Option<(ExprId, Span)> {
+        let covers = |span: &Span| span.source == probe.source && (span.start..=span.end).contains(&probe.at);
+        let mut best: Option<(ExprId, Span)> = None;
+        let mut offer = |id: ExprId, span: Span| {
+            let is_better = best.is_none_or(|(_, other)| span.end - span.start < other.end - other.start);
+            if is_better {
+                best = Some((id, span));
+            }
+        };
+        self.exprs.iter().filter(|(_, span)| covers(span)).for_each(|&(id, span)| offer(id, span));
+        for stmt in &module.stmts {
+            if let StmtKind::Declare { local, init: Some(init) } = stmt.kind
+                && let Some(name) = module[local].name
+                && covers(&origins.token_span(name.token))
+            {
+                offer(init, origins.token_span(name.token));
+            }
         }
+        best.map(|(id, span)| {
+            (id, if module[id].loc == Default::default() { span } else { origins.span(module[id].loc) })
+        })
     }
-    best.map(|(id, span)| (id, if module[id].loc == Default::default() { span } else { origins.span(module[id].loc) }))
 }

@@ -2,7 +2,7 @@
 
 use super::{
     check, parse,
-    probe::{Probe, find},
+    probe::{self, Probe, find},
     source::PassSource,
     types::{Scalar, Type},
 };
@@ -36,4 +36,12 @@ pub fn probed(source: &PassSource<'_>, probe: &Probe) -> Option<ProbedExpression
         components: module.types.components(ty).map_or(4, |count| count.min(4) as u8),
         is_whole: scalar.is_some_and(|scalar| scalar != Scalar::Float),
     })
+}
+
+/// Returns for each of these parts of the texts a byte at which a probe means the expression there, and how many numbers
+/// its value has; `None` where no probe can tell it from another.
+pub fn probe_places(source: &PassSource<'_>, spans: &[Span]) -> Vec<Option<(u32, usize)>> {
+    let parsed = parse::parse(source, None);
+    let checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source, None);
+    probe::places(&checked.module, &parsed.origins, spans)
 }

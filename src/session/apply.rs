@@ -105,6 +105,7 @@ impl Session {
             Command::SaveTexels => self.capture(super::capture::Format::Npy),
             Command::Record => self.record(),
             Command::Audit => self.auditing.is_due = true,
+            Command::FindParting => self.tracing.find_parting(),
             Command::ShowPass(pass) => self.show_pass(pass),
             Command::Probe(place) => {
                 if self.probing.want(place, self.documents.current()) {

@@ -155,6 +155,9 @@ pub enum Command {
     /// Traces the pixel of the shown pass at a place of its picture, from 0 to 1 across and up, and pauses; `None`:
     /// none any more. See [`Session::trace`](super::Session::trace).
     Trace(Option<[f32; 2]>),
+    /// Looks for the first assignment of the traced pixel that comes out otherwise on the device, beside the picture. See
+    /// [`Session::parting`](super::Session::parting).
+    FindParting,
     /// Says whether somebody looks at what each pass costs: only then is it gathered. See
     /// [`Session::pass_costs`](super::Session::pass_costs).
     WatchCosts(bool),

@@ -5,8 +5,9 @@ use super::{
     clock::FrameTime,
     comparing::Order,
     date,
-    drawing::{Capture, Done, DrawnFrame, Job, Reads, Replay, Run, TileLimit},
+    drawing::{Capture, Done, DrawnFrame, Job, Reads, Replay, ReplayFrom, Run, TileLimit},
     nonfinite::SearchJob,
+    parting::PartingJob,
     tracing::{self, Taken},
     view::Level,
 };
@@ -132,8 +133,10 @@ impl Session {
         self.run.miniatures.drew(has_frame, done.miniatures, done.miniatures_took);
         self.changed |= self.run.buffers.drew(has_frame, done.buffers);
         self.changed |= self.run.measuring.drew(has_frame, done.measured);
-        if let Some(replay) = done.replay {
-            self.look_through(replay);
+        match done.replay {
+            Some((ReplayFrom::Oldest, replay)) => self.look_through(replay),
+            Some((ReplayFrom::Newest, replay)) => self.find_parting(replay),
+            None => {}
         }
         if let Some(run) = done.run {
             self.compare(run);
@@ -211,6 +214,28 @@ impl Session {
             Ok(gpu) => self.searching.submit(SearchJob {
                 gpu,
                 project,
+                shown: self.run.shown.clone(),
+                size: self.drawing.size(),
+                media_dir: self.options.media_dir.clone(),
+                snapshot: replay.snapshot,
+                frames: replay.frames.into_iter().map(|frame| (frame.inputs, (*frame.values).clone())).collect(),
+            }),
+        }
+    }
+
+    /// Hands on the frames that lead to the traced one.
+    fn find_parting(&mut self, replay: Option<Replay>) {
+        self.changed = true;
+        let Some(traced) = self.tracing.finding.of() else { return };
+        let Some(replay) = replay else {
+            self.tracing.finding.failed("no frames are kept: the buffers are too large for that");
+            return;
+        };
+        match self.drawing.device().wait() {
+            Err(e) => self.tracing.finding.failed(&e.to_string()),
+            Ok(gpu) => self.tracing.finding.submit(PartingJob {
+                gpu,
+                traced,
                 shown: self.run.shown.clone(),
                 size: self.drawing.size(),
                 media_dir: self.options.media_dir.clone(),

@@ -37,6 +37,7 @@ pub mod nonfinite;
 pub mod npy;
 pub mod offline;
 mod options;
+pub mod parting;
 mod pass_history;
 mod passes;
 mod picture_check;

@@ -147,6 +147,11 @@ impl Offline {
     fn within<T: Send + 'static>(
         &mut self,
         frame: i32,
+    /// Gives the engine away. Fails once a frame was given up.
+    pub fn into_engine(self) -> Result<Engine, EngineError> {
+        self.engine.ok_or_else(gone)
+    }
+
         work: impl FnOnce(&mut Engine) -> Result<T, EngineError> + Send + 'static,
     ) -> Result<T, OfflineError> {
         let Some(limit) = self.frame_limit else { return Ok(work(self.engine.as_mut().ok_or_else(gone)?)?) };

@@ -1,8 +1,20 @@
-//! A person asks for an audit of the picture that is shown.
+//! A person asks for an audit of the picture that is shown, and where the device parts from the walker in a pixel.
 
-use super::{Session, auditing::Told, tracing::Taken, view::Level};
+use super::{
+    Session,
+    auditing::Told,
+    parting::PartingView,
+    tracing::Taken,
+    view::Level,
+};
 
 impl Session {
+    /// The search for where the device parts from the walker in the traced pixel
+    /// ([`Command::FindParting`](super::Command::FindParting)); `None`: nobody has asked for it.
+    pub fn parting(&self) -> Option<PartingView<'_>> {
+        self.tracing.finding.view(self.tracing.view().traced?)
+    }
+
     /// Hands on what the audited pass read. What was taken for something else is given back.
     pub(super) fn audit(&mut self, taken: Taken) -> Option<Taken> {
         let Some(pass) = self.auditing.taken() else { return Some(taken) };

@@ -1,6 +1,9 @@
 //! The session decides what is read behind a frame: pictures, numbers, and what a walk or a comparison needs.
 
-use super::{Session, drawing::Reads};
+use super::{
+    Session,
+    drawing::{Reads, ReplayFrom},
+};
 use std::mem::take;
 
 impl Session {
@@ -32,7 +35,12 @@ impl Session {
     /// Adds what the newest program was drawn with. An audit goes before a trace, which waits until nothing more is to
     /// be drawn.
     fn read_inputs(&mut self, is_playing: bool, reads: &mut Reads) {
-        reads.wants_replay = take(&mut self.searching.is_due);
+        // For one at a time.
+        reads.wants_replay = if take(&mut self.searching.is_due) {
+            Some(ReplayFrom::Oldest)
+        } else {
+            self.tracing.finding.take_due().then_some(ReplayFrom::Newest)
+        };
         reads.wants_run = take(&mut self.comparing.is_due);
         reads.inspect = self.auditing.take_due(&self.run.shown);
         let is_settled = !is_playing && !self.run.is_frame_due && self.run.steps == 0;

@@ -4,6 +4,7 @@
 //! and no simulation goes on. The walk is done on a thread of its own.
 
 use super::{
+    parting::Finding,
     trace::Traced,
     worker::{Panicked, Worker},
 };
@@ -48,6 +49,8 @@ pub(super) struct Tracing {
     pub is_due: bool,
     newest: Option<Arc<Traced>>,
     trouble: Option<String>,
+    /// Where the device parts from the walker in it.
+    pub finding: Finding,
 }
 
 impl Tracing {
@@ -56,8 +59,9 @@ impl Tracing {
             let Job { project, place, frame, taken: (inputs, drawn) } = job;
             Traced::new(project, &place.pass, frame, (inputs, &drawn), place.at).map_err(|e| e.to_string())
         };
+        let finding = Finding::new(wake.clone())?;
         let worker = Worker::new("trace", wake, work)?;
-        Ok(Self { worker, place: None, is_due: false, newest: None, trouble: None })
+        Ok(Self { worker, place: None, is_due: false, newest: None, trouble: None, finding })
     }
 
     /// Traces another pixel, or none.
@@ -66,6 +70,7 @@ impl Tracing {
         self.trouble = None;
         if place.is_none() {
             self.newest = None;
+            self.finding.want(None);
         }
         self.place = place;
     }
@@ -88,10 +93,16 @@ impl Tracing {
         self.newest = None;
     }
 
-    /// Takes a walk that has ended. Says whether one has.
+    /// Looks for where the device parts from the walker in the traced pixel.
+    pub fn find_parting(&mut self) {
+        self.finding.want(self.newest.as_ref());
+    }
+
+    /// Takes a walk or a search that has ended. Says whether one has.
     pub fn take(&mut self) -> bool {
+        let has_found = self.finding.take();
         match self.worker.take() {
-            None => return false,
+            None => return has_found,
             Some(_) if self.place.is_none() => {}
             Some(Ok(Ok(traced))) => (self.newest, self.trouble) = (Some(Arc::new(traced)), None),
             Some(Ok(Err(why))) => self.failed(why),

@@ -237,6 +237,47 @@ fn eddy_probe_draws_the_value_of_an_expression() {
     b.line("probe p image:8:1 --size 4x2").expect(1);
 }
 
+/// Drivers make `atan` of a polynomial; the walker's is the nearest number.
+#[test]
+fn eddy_trace_names_the_first_assignment_that_the_device_makes_otherwise() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    let code = |root: &str| {
+        format!(
+            "float grown(float x) {{\n    float y = x + 0.5;\n    return y;\n}}\n\
+             void mainImage(out vec4 o, in vec2 p) {{\n    float s = 0.0;\n    for (int i = 0; i < 3; i++) {{\n        \
+             s += grown(p.x);\n    }}\n    float t = {root};\n    vec2 v = vec2(t, s) * 2.0;\n    \
+             o = vec4(v, texelFetch(iChannel0, ivec2(p), 0).x, 1.0);\n}}\n"
+        )
+    };
+    b.write("p/eddy.toml", "eddy = 1\n[passes.buffer_a]\nchannels.0 = { buffer = \"A\" }\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n");
+    b.image("p/buffer_a.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0) + 1.;");
+    let json =
+        |more: &str| b.line(&format!("trace p --pixel 2,1 --size 4x4 --json {more}")).expect(0).json()[0].clone();
+    b.write("p/image.glsl", code("atan(p.x, p.y)"));
+    let traced = json("--frame 3");
+    assert_eq!((&traced["value"][2], &traced["device"][2]), (&4.0.into(), &4.0.into()), "{traced}");
+    assert!(traced["ulps"][0].as_u64() > Some(0), "take another operation that no device has exactly: {traced}");
+    let parted = &traced["parted"];
+    let first = &parted["first"];
+    assert_eq!(
+        (&first["source"], &first["line"], &first["column"], &first["text"], &first["name"]),
+        (&"image.glsl".into(), &10.into(), &15.into(), &"atan(p.x, p.y)".into(), &"t".into()),
+        "{parted}"
+    );
+    assert!(first["ulps"][0].as_u64() > Some(0) && first["walker"][0] != first["device"][0], "{parted}");
+    let compared = parted["compared"].as_u64().unwrap();
+    assert!(compared >= 4 && Some(compared) < parted["assignments"].as_u64(), "y and s thrice, then t: {parted}");
+    let words = b.line("trace p --pixel 2,1 --size 4x4").expect(0).out;
+    assert!(words.contains("parts   first found at image.glsl:10:15: atan(p.x, p.y)"), "{words}");
+    // Of fewer probes half of the assignments are looked at first, and none is too few.
+    assert_eq!(json("--probes 4")["parted"]["compared"], 4);
+    assert!(json("--probes 0")["parted"].is_null());
+    b.write("p/image.glsl", code("0.25 * p.x"));
+    let agrees = json("--frame 3");
+    assert!(agrees["ulps"] == serde_json::json!([0, 0, 0, 0]) && agrees["parted"].is_null(), "{agrees}");
+}
+
 /// The debugger takes a pass's inputs after the frame: they must be what the pass read while it was drawn.
 #[test]
 fn what_a_pass_read_is_still_there_after_the_frame() {

@@ -282,3 +282,28 @@ fn a_probe_shows_the_number_under_the_mouse_and_follows_the_text() {
     window.let_go(&["ctrl", "alt"]);
     window.wait_until("the picture", "probe", |e| e["text"].is_null());
 }
+
+/// Drivers make `atan` of a polynomial; the walker's is the nearest number.
+#[test]
+fn the_panel_finds_the_assignment_that_the_device_makes_otherwise() {
+    let Some(display) = Display::of_size(1300, 900) else { return };
+    let home = tempfile::tempdir().unwrap();
+    let code = "void mainImage(out vec4 o, in vec2 c) {\n    float s = c.x * 0.5;\n    vec3 t = atan(vec3(0.3, 0.7, 1.9) * c.x / c.y);\n    \
+                o = vec4(t, s);\n}\n";
+    let folder = project(home.path(), code);
+    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
+    compiled(&mut window);
+    window.resize(1300, 900);
+    window.keys(&["ctrl+shift+d"]);
+    window.shows("trace:pick");
+    let middle = window.picture_point(0.5, 0.5);
+    window.click_holding(&["ctrl", "shift"], middle);
+    let begun = traced(&mut window, "the traced pixel", |e| e["pixel"].is_array());
+    let apart = begun["ulps"].as_array().unwrap().iter().any(|ulps| ulps.as_u64() > Some(0));
+    assert!(apart && begun["parted"].is_null(), "{begun}");
+    window.click_on("trace:part");
+    let parted = traced(&mut window, "where they part", |e| e["parted"]["compared"].is_u64());
+    assert_eq!((&parted["parted"]["name"], &parted["parted"]["compared"]), (&"t".into(), &2.into()), "{parted}");
+    window.shows("trace:parted");
+    display.shot("trace-parted.png");
+}

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     cli::text_place::TextPlace,
-    session::{capture::Format, trace::STEPS},
+    session::{capture::Format, parting::MOST, trace::STEPS},
 };
 use clap::Args;
 use std::path::PathBuf;
@@ -78,6 +78,10 @@ pub struct TraceArgs {
     /// Give the pixel up after so many statements
     #[arg(long, value_name = "N", default_value_t = STEPS)]
     pub max_statements: u64,
+    /// Where the value is not the device's, look for the first assignment that the device makes otherwise, by so many
+    /// probes at most, each of which is a program to compile; 0: do not
+    #[arg(long, value_name = "N", default_value_t = MOST)]
+    pub probes: usize,
     /// Print the first so many steps [default: all]
     #[arg(long, value_name = "N")]
     pub max_steps: Option<usize>,

@@ -6,6 +6,7 @@
 mod debugger;
 mod moment;
 mod panel;
+mod parting;
 mod parts;
 mod report;
 mod rows;

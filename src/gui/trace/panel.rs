@@ -3,7 +3,7 @@
 use super::{
     debugger::Debugger,
     moment::words,
-    parts,
+    parting, parts,
     rows::{self, Asked},
     signs,
 };
@@ -17,7 +17,7 @@ use crate::{
     },
     session::{
         Command, Session,
-        trace::{MomentKind, Number, Traced},
+        trace::{MomentKind, Traced},
     },
 };
 use egui::{Label, RichText, ScrollArea, TextEdit, Ui, vec2};
@@ -63,8 +63,7 @@ pub fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut O
         return;
     };
     whereabouts(debugger, &traced, ui, out);
-    let foot = 40.0;
-    let height = (ui.available_height() - foot).max(60.0);
+    let height = (ui.available_height() - parting::height(session)).max(60.0);
     ScrollArea::vertical().id_salt("trace").max_height(height).auto_shrink(false).show(ui, |ui| {
         // Rows of text, one close below the other.
         ui.spacing_mut().interact_size.y = 19.0;
@@ -84,7 +83,7 @@ pub fn show(debugger: &mut Debugger, ui: &mut Ui, session: &Session, out: &mut O
             breakpoints(debugger, ui, out);
         }
     });
-    values(&traced, ui, out);
+    parting::show(&traced, session, ui, out);
 }
 
 /// The pixel, the line, and how far along one is.
@@ -283,28 +282,4 @@ fn breakpoints(debugger: &mut Debugger, ui: &mut Ui, out: &mut Outbox) {
     if is_edited || removed.is_some() {
         debugger.forget();
     }
-}
-
-/// The walker's value, the device's, and how far they are apart.
-fn values(traced: &Traced, ui: &mut Ui, out: &mut Outbox) {
-    let p = theme::of(ui);
-    let list = |values: &[f32]| {
-        let words: Vec<String> = values.iter().map(|x| Number::Float(*x).to_string()).collect();
-        format!("({})", words.join(", "))
-    };
-    let first = ui.horizontal_wrapped(|ui| {
-        ui.colored_label(p.weak, "walker");
-        let value = traced.value.map_or("draws nothing".into(), |value| list(&value));
-        ui.label(RichText::new(value).monospace().size(11.5).color(p.text));
-        ui.colored_label(p.weak, "device");
-        let device = format!("{} as {}", list(&traced.device), traced.format.name());
-        ui.label(RichText::new(device).monospace().size(11.5).color(p.text));
-        if let Some(ulps) = traced.ulps() {
-            let words: Vec<String> = ulps.iter().map(u32::to_string).collect();
-            let color = if ulps.iter().all(|n| *n == 0) { p.good } else { p.warning };
-            let label = ui.colored_label(color, format!("{} ULPs apart", words.join(", ")));
-            label.on_hover_text("Numbers of single precision between the two");
-        }
-    });
-    out.place("trace:values", first.response.rect);
 }

@@ -3,6 +3,7 @@
 use super::{debugger::Debugger, moment::words};
 use crate::session::{
     Session,
+    parting::PartingView,
     trace::{Printed, Watched},
 };
 use serde_json::{Map, Value, json};
@@ -54,7 +55,22 @@ impl Debugger {
             "value": traced.value,
             "device": traced.device,
             "ulps": traced.ulps(),
+            "parted": parted(session),
         })
+    }
+}
+
+/// The search for where the device parts: its name, its line and how far it is apart there.
+fn parted(session: &Session) -> Value {
+    match session.parting() {
+        None => Value::Null,
+        Some(PartingView::UnderWay) => json!("under way"),
+        Some(PartingView::Ended(Err(why))) => json!({ "trouble": why }),
+        Some(PartingView::Ended(Ok(parted))) => json!({
+            "compared": parted.compared,
+            "name": parted.first.as_ref().map(|first| &first.assignment.name),
+            "ulps": parted.first.as_ref().map(|first| &first.ulps),
+        }),
     }
 }
 

@@ -78,6 +78,15 @@ pub struct Run {
     pub is_whole: bool,
 }
 
+/// Where a run of frames begins that is drawn again.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ReplayFrom {
+    /// With the oldest frame that is kept.
+    Oldest,
+    /// With the newest snapshot before the frame that is shown.
+    Newest,
+}
+
 /// A run of frames that can be drawn again elsewhere on the same device.
 pub struct Replay {
     /// The targets before the first of the frames.
@@ -197,9 +206,12 @@ impl History {
         }
     }
 
-    /// The frames up to the one that is shown, from the oldest snapshot on; `None` where there is none.
-    pub fn replay(&self) -> Option<Replay> {
-        let (at, snapshot) = self.snapshots.front().filter(|(at, _)| *at <= self.drawn)?;
+    /// The frames up to the one that is shown, from a snapshot on; `None` where there is none.
+    pub fn replay(&self, from: ReplayFrom) -> Option<Replay> {
+        let (at, snapshot) = match from {
+            ReplayFrom::Oldest => self.snapshots.front().filter(|(at, _)| *at <= self.drawn)?,
+            ReplayFrom::Newest => self.snapshots.iter().rev().find(|(at, _)| *at < self.drawn)?,
+        };
         let first = at.checked_sub(self.forgotten)? as usize;
         let count = (self.drawn - at) as usize;
         let frames = self.frames.iter().skip(first).take(count).cloned().collect();

@@ -1,6 +1,6 @@
 //! The engine is asked to do a job at once, and gives an answer.
 
-use super::history::{Replay, Run, Travelled};
+use super::history::{Replay, ReplayFrom, Run, Travelled};
 use crate::{
     engine::{CostClock, EngineError, FrameInputs, Miniature, PassCost, PassTime, Picture, Pixels, Program, ValueLook},
     project::{CustomUniform, CustomUniformValues, PassId, Project},
@@ -102,8 +102,8 @@ pub struct Reads {
     pub buffers: Option<BuffersWanted>,
     /// Numbers of passes.
     pub measures: Option<MeasuresWanted>,
-    /// The frames behind the newest are to be handed out.
-    pub wants_replay: bool,
+    /// The frames up to the newest are to be handed out.
+    pub wants_replay: Option<ReplayFrom>,
     /// The inputs of all frames up to this one are to be handed out.
     pub wants_run: bool,
     /// A pass whose inputs, as it was drawn last, and whose picture are asked for.
@@ -114,7 +114,7 @@ impl Reads {
     pub fn is_empty(&self) -> bool {
         let Self { captures, miniatures, numbers, buffers, measures, wants_replay, wants_run, inspect } = self;
         let is_seen = !miniatures.is_empty() || numbers.is_some() || buffers.is_some() || measures.is_some();
-        captures.is_empty() && !is_seen && inspect.is_none() && !wants_replay && !wants_run
+        captures.is_empty() && !is_seen && inspect.is_none() && wants_replay.is_none() && !wants_run
     }
 }
 
@@ -153,8 +153,8 @@ pub struct Done {
     pub buffers: Option<(BuffersRead, Duration)>,
     /// The numbers of passes that were asked for, and how long they took.
     pub measured: Option<(Measured, Duration)>,
-    /// `Some(None)`: none are kept.
-    pub replay: Option<Option<Replay>>,
+    /// The frames that were asked for; `None` behind which they are: none are kept.
+    pub replay: Option<(ReplayFrom, Option<Replay>)>,
     pub run: Option<Run>,
     /// The inputs and the picture that were asked for of a pass.
     pub inspected: Option<Result<Taken, EngineError>>,

@@ -99,7 +99,7 @@ impl Studio {
         done.numbers = numbers.and_then(|wanted| self.numbers(wanted));
         done.buffers = buffers.map(|wanted| self.buffers(&wanted));
         done.measured = measures.and_then(|wanted| self.measure(wanted));
-        done.replay = wants_replay.then(|| self.history.replay());
+        done.replay = wants_replay.map(|from| (from, self.history.replay(from)));
         done.run = wants_run.then(|| self.history.run());
         done.inspected = inspect.map(|pass| Ok((self.engine.inspect(&pass)?, self.engine.read(&pass)?)));
     }

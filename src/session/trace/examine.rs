@@ -1,7 +1,7 @@
 //! A traced pixel as a person examines it: watches, breakpoints with conditions, what `//@print` asks for.
 
 use super::{
-    TraceError,
+    Extent, Trace, TraceError,
     history::{History, HistoryRecorder},
     travel::{self, Direction},
     ulps,
@@ -145,6 +145,16 @@ impl Traced {
         Some((0..self.format.components()).map(|i| ulps(value[i], self.device[i])).collect())
     }
 
+    /// The place of the pass in the project.
+    pub fn index(&self) -> usize {
+        self.index
+    }
+
+    /// Walks once more and gives the steps.
+    pub fn trace(&self, extent: Extent) -> Result<Trace, TraceError> {
+        super::trace(&Sources::new(&self.project), self.index, &self.inputs, self.pixel, extent)
+    }
+
     /// The draw of the pass that the value is of, from 0, its mesh, and its triangle; `None` where the pass draws no
     /// meshes.
     pub fn mesh(&self) -> Option<(MeshFragment, String)> {
@@ -187,16 +197,6 @@ impl Traced {
     }
 }
 
-/// A traced pixel with what is asked of it.
-pub struct Examiner {
-    pub traced: Arc<Traced>,
-    watches: Watches,
-}
-
-impl Examiner {
-    pub fn new(traced: Arc<Traced>) -> Self {
-        Self { traced, watches: Watches::default() }
-    }
 /// The place of a pass's boundary in its manifest, and its value there.
 fn boundary(project: &Project, index: usize) -> String {
     let (sources, span) = (project.sources(), project.fill_span(index, FillKind::Boundary));
@@ -207,6 +207,16 @@ fn boundary(project: &Project, index: usize) -> String {
     })
 }
 
+/// A traced pixel with what is asked of it.
+pub struct Examiner {
+    pub traced: Arc<Traced>,
+    watches: Watches,
+}
+
+impl Examiner {
+    pub fn new(traced: Arc<Traced>) -> Self {
+        Self { traced, watches: Watches::default() }
+    }
 
     /// An expression at a moment.
     pub fn watch(&mut self, at: usize, expression: &str) -> Watched {

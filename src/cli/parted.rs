@@ -1,0 +1,117 @@
+//! The first assignment of a traced pixel that the device makes otherwise than the walker.
+
+use super::{args::TraceArgs, machine::Trouble, written::Written};
+use crate::{
+    engine::{BuildOptions, Engine, PassInputs, Snapshot, Sources},
+    media,
+    project::Project,
+    session::{
+        parting::{self, Probes, STEPS_KEPT, assignments},
+        script::ScriptedInputs,
+        trace::{self, Extent, Number, TraceError},
+    },
+};
+use serde::Serialize;
+use std::fmt::Write;
+
+/// What a search has found.
+#[derive(Debug, Serialize)]
+pub struct Parted {
+    /// Assignments that were compared, of so many that the pixel has.
+    compared: usize,
+    assignments: usize,
+    /// Null where all that were compared are the same.
+    first: Option<First>,
+}
+
+/// The first that was found.
+#[derive(Debug, Serialize)]
+struct First {
+    #[serde(flatten)]
+    written: Written,
+    name: String,
+    /// How often the expression had been evaluated before.
+    visit: u32,
+    walker: Vec<Number>,
+    /// Null where the device does not come there so often.
+    device: Option<Vec<Number>>,
+    /// Numbers of single precision between the two.
+    ulps: Vec<u32>,
+}
+
+/// Looks for it in the frame after those that are drawn: `before` is what the engine's targets held then.
+pub fn find(
+    args: &TraceArgs,
+    project: &Project,
+    (engine, before): (Engine, Snapshot),
+    (index, read): (usize, &PassInputs),
+    mut inputs: ScriptedInputs,
+) -> Result<Parted, Trouble> {
+    let (media, _) = media::gather(project, args.run.media.as_deref());
+    let pass = args.pass.pass.clone();
+    let (skip, without) = (!args.run.no_skip, args.run.without_pass.set());
+    let options = BuildOptions { wanted: vec![pass.clone()], skip, without, probe: None };
+    let mut values = project.custom_uniform_values.clone();
+    let mut next = || {
+        if let Some(of_frame) = inputs.next_change().and_then(|change| change.values) {
+            values = of_frame;
+        }
+        inputs.next_frame()
+    };
+    for _ in 0..args.frame {
+        next();
+    }
+    let frame = (next(), values);
+    let pixel = args.pixel.unwrap_or_default();
+    let sources = Sources::new(project);
+    let extent = Extent { statements: args.max_statements, steps: STEPS_KEPT };
+    let trace = match trace::trace(&sources, index, read, pixel, extent) {
+        Err(TraceError::Diagnostics(found)) => return Err(Trouble::Diagnostics(found, project.sources())),
+        other => other.map_err(anyhow::Error::from)?,
+    };
+    let mut probes = Probes::new((engine, before), (project, &media), options, pass, frame);
+    let assignments = assignments(&sources, index, &trace);
+    let found = parting::search(assignments, args.probes, |assignment| probes.value(assignment, pixel));
+    let found = found.map_err(anyhow::Error::from)?;
+    let first = found.first.map(|first| First {
+        written: Written::at(project, Some(first.assignment.span)),
+        name: first.assignment.name,
+        visit: first.assignment.probe.visit,
+        walker: first.assignment.walker,
+        device: first.device.map(|device| device.into_iter().map(Number::Float).collect()),
+        ulps: first.ulps,
+    });
+    Ok(Parted { compared: found.compared, assignments: found.of, first })
+}
+
+pub fn words(parted: &Parted) -> String {
+    let Parted { compared, assignments, first } = parted;
+    let of = format!("of {assignments} assignments, {compared} were compared");
+    let Some(First { written, name, visit, walker, device, ulps }) = first else {
+        return format!("  parts   at none: {of}\n");
+    };
+    let list = |values: &[Number]| match values {
+        [one] => one.to_string(),
+        values => format!("({})", values.iter().map(Number::to_string).collect::<Vec<_>>().join(", ")),
+    };
+    let mut out = String::new();
+    let place = written.place().unwrap_or_default();
+    let _ = writeln!(out, "  parts   first found at {place}: {}    {of}", written.text);
+    let again = if *visit > 0 { format!(", when it was evaluated {visit} times before") } else { String::new() };
+    let _ = match device {
+        Some(device) => {
+            let ulps: Vec<String> = ulps.iter().map(u32::to_string).collect();
+            let ulps = ulps.join(", ");
+            writeln!(
+                out,
+                "          {name} is {} by the walker and {} on the device, {ulps} numbers apart{again}",
+                list(walker),
+                list(device)
+            )
+        }
+        None => {
+            writeln!(out, "          {name} is {} by the walker; the device does not come there{again}", list(walker))
+        }
+    };
+    out
+}

@@ -1,0 +1,99 @@
+//! The walker's value of the pixel and the device's; where they are apart, the first assignment that the device makes
+//! otherwise.
+
+use super::parts;
+use crate::{
+    gui::{
+        outbox::{Outbox, Wish},
+        theme,
+    },
+    session::{
+        Command, Session,
+        parting::{Parted, PartingView},
+        trace::{Number, Traced},
+    },
+};
+use egui::{Label, RichText, Ui};
+
+/// What the foot of the panel takes, and with a search below it.
+pub fn height(session: &Session) -> f32 {
+    if session.parting().is_some() { 86.0 } else { 40.0 }
+}
+
+/// Shows both values and how far they are apart.
+pub fn show(traced: &Traced, session: &Session, ui: &mut Ui, out: &mut Outbox) {
+    let p = theme::of(ui);
+    let ulps = traced.ulps();
+    let is_apart = ulps.iter().flatten().any(|ulps| *ulps > 0);
+    let parting = session.parting();
+    let first = ui.horizontal_wrapped(|ui| {
+        ui.colored_label(p.weak, "walker");
+        let value = traced.value.map_or("draws nothing".into(), |value| list(&value));
+        ui.label(RichText::new(value).monospace().size(11.5).color(p.text));
+        ui.colored_label(p.weak, "device");
+        let device = format!("{} as {}", list(&traced.device), traced.format.name());
+        ui.label(RichText::new(device).monospace().size(11.5).color(p.text));
+        if let Some(ulps) = &ulps {
+            let words: Vec<String> = ulps.iter().map(u32::to_string).collect();
+            let color = if is_apart { p.warning } else { p.good };
+            let label = ui.colored_label(color, format!("{} ULPs apart", words.join(", ")));
+            label.on_hover_text("Numbers of single precision between the two");
+        }
+        let is_searching = parting == Some(PartingView::UnderWay);
+        if is_searching {
+            ui.spinner();
+        } else if is_apart && traced.mesh().is_none() {
+            let tip = "Draw the device's value of each assignment until one is not the walker's";
+            if parts::button(ui, "trace:part", "Find where they part", tip, out) {
+                out.ask(Command::FindParting);
+            }
+        }
+    });
+    out.place("trace:values", first.response.rect);
+    match parting {
+        Some(PartingView::Ended(Ok(parted))) => found(traced, parted, ui, out),
+        Some(PartingView::Ended(Err(why))) => drop(ui.colored_label(p.error, why)),
+        Some(PartingView::UnderWay) => {
+            ui.colored_label(p.weak, "drawing the device's values");
+        }
+        None => {}
+    }
+}
+
+fn found(traced: &Traced, parted: &Parted, ui: &mut Ui, out: &mut Outbox) {
+    let p = theme::of(ui);
+    let of = format!("{} of {} assignments were compared", parted.compared, parted.of);
+    let Some(first) = &parted.first else {
+        let label = ui.colored_label(p.text, format!("They part at none: {of}"));
+        out.place("trace:parted", label.rect);
+        return;
+    };
+    let place = traced.place(first.assignment.span);
+    let walker: Vec<String> = first.assignment.walker.iter().map(Number::to_string).collect();
+    let device = match &first.device {
+        Some(device) => format!("{} on the device", list(device)),
+        None => "the device does not come there".to_owned(),
+    };
+    let ulps: Vec<String> = first.ulps.iter().map(u32::to_string).collect();
+    let apart = if ulps.is_empty() { String::new() } else { format!(", {} ULPs apart", ulps.join(", ")) };
+    let words = format!("{}{apart}: {} by the walker, {device}", first.assignment.name, walker.join(", "));
+    ui.horizontal(|ui| {
+        ui.colored_label(p.weak, "first found at");
+        if let Some((tab, line, range)) = place {
+            let text = traced.text(&tab).get(range).and_then(|text| text.lines().next()).unwrap_or_default();
+            let link = ui.link(RichText::new(format!("{}:{} {text}", tab.title(), line + 1)).monospace().size(11.5));
+            if out.clicked("trace:parted", &link.on_hover_text(of)) {
+                out.wishes.push(Wish::GoTo(tab, Some((line, 0))));
+            }
+        }
+    });
+    let text = RichText::new(&words).monospace().size(11.5).color(p.text);
+    ui.add(Label::new(text).truncate()).on_hover_text(words);
+}
+
+fn list(values: &[f32]) -> String {
+    match values {
+        [one] => Number::Float(*one).to_string(),
+        values => format!("({})", values.iter().map(|x| Number::Float(*x).to_string()).collect::<Vec<_>>().join(", ")),
+    }
+}

@@ -1,0 +1,17 @@
+//! Where a device parts from the walker: the first of a pixel's assignments that comes out otherwise on the device.
+//!
+//! Owns which assignments of a trace can be compared ([`Assignment`]), in which order ([`search`]), the values that the
+//! device has of them, each drawn by a probe ([`Probes`]), and the thread that does so for the window. A device's
+//! compiler makes another program of each probe, and a difference may vanish and come again; so what is named is the
+//! first that was found.
+
+mod assignment;
+mod finding;
+mod probes;
+mod search;
+
+pub use assignment::{Assignment, assignments};
+pub(in crate::session) use finding::{Finding, PartingJob};
+pub use finding::{MOST, PartingView, STEPS_KEPT};
+pub use probes::{ProbeError, Probes};
+pub use search::{Parted, Parting, search};

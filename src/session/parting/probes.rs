@@ -1,0 +1,68 @@
+//! A frame that is drawn again and again, each time with another value beside it.
+
+use super::assignment::Assignment;
+use crate::{
+    engine::{BuildError, BuildOptions, Builder, Engine, EngineError, FrameInputs, Snapshot},
+    media::MediaSet,
+    project::{CustomUniformValues, PassId, Project},
+};
+
+/// A value could not be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum ProbeError {
+    #[error("a probe was not built: {0}")]
+    Build(#[from] BuildError),
+    #[error(transparent)]
+    Engine(#[from] EngineError),
+    #[error("the buffers before the frame do not fit the program any more")]
+    Snapshot,
+}
+
+/// A frame of a project before it is drawn, and what it is drawn with.
+pub struct Probes<'p> {
+    project: &'p Project,
+    media: &'p MediaSet,
+    /// What the program was built with that has drawn the frames before.
+    options: BuildOptions,
+    pass: PassId,
+    engine: Engine,
+    builder: Builder,
+    before: Snapshot,
+    inputs: FrameInputs,
+    values: CustomUniformValues,
+}
+
+impl<'p> Probes<'p> {
+    /// `before` is what the targets of the program that `options` make of the project held before the frame that
+    /// `inputs` and the author's own uniforms belong to. Values are those of `pass`.
+    pub fn new(
+        (engine, before): (Engine, Snapshot),
+        (project, media): (&'p Project, &'p MediaSet),
+        options: BuildOptions,
+        pass: PassId,
+        (inputs, values): (FrameInputs, CustomUniformValues),
+    ) -> Self {
+        let builder = Builder::new(engine.gpu().clone());
+        Self { project, media, options, pass, engine, builder, before, inputs, values }
+    }
+
+    /// Draws the frame with the value of an assignment beside it, and gives that of a pixel from the bottom left;
+    /// `None` where the expression is not evaluated so often.
+    pub fn value(&mut self, of: &Assignment, (x, y): (u32, u32)) -> Result<Option<[f32; 4]>, ProbeError> {
+        // Buffers are put back into the program that they were taken of, and keep their texels in that of the probe.
+        let plain = self.builder.build(self.project, self.media, &self.options)?;
+        self.engine.set_program(plain.program)?;
+        if !self.engine.restore(&self.before) {
+            return Err(ProbeError::Snapshot);
+        }
+        let mut options = BuildOptions { probe: Some((self.pass.clone(), of.probe)), ..self.options.clone() };
+        options.wanted.push(BuildOptions::probed());
+        let probed = self.builder.build(self.project, self.media, &options)?;
+        self.engine.set_program(probed.program)?;
+        self.engine.set_custom_uniforms(&self.values);
+        self.engine.draw(&self.inputs)?;
+        let pixels = self.engine.read(&BuildOptions::probed())?;
+        let texel = pixels.texels.get((y * pixels.width + x) as usize).copied();
+        Ok(texel.filter(|texel| !texel.iter().all(|x| x.is_nan())))
+    }
+}

@@ -1,0 +1,130 @@
+//! Which assignments are compared.
+
+use super::assignment::Assignment;
+use crate::session::trace::{Number, ulps};
+
+/// An assignment that comes out otherwise on the device.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parting {
+    pub assignment: Assignment,
+    /// What the device has; `None`: it does not come there so often.
+    pub device: Option<Vec<f32>>,
+    /// Numbers of single precision between the two; empty where the device does not come there.
+    pub ulps: Vec<u32>,
+}
+
+/// What a search has found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Parted {
+    pub first: Option<Parting>,
+    /// Assignments that were compared, of so many.
+    pub compared: usize,
+    pub of: usize,
+}
+
+/// Finds the first assignment at which the device parts from the walker, with `most` values of the device at most, which
+/// `draw` gives: `None` where the assignment is not reached.
+///
+/// Where there are more assignments than that, halves are taken first: where one agrees the search goes on behind it,
+/// else before it. What is left of `most` goes to the earliest ones.
+pub fn search<E>(
+    assignments: Vec<Assignment>,
+    most: usize,
+    mut draw: impl FnMut(&Assignment) -> Result<Option<[f32; 4]>, E>,
+) -> Result<Parted, E> {
+    let of = assignments.len();
+    let mut compared: Vec<Option<Option<Parting>>> = vec![None; of];
+    let mut count = 0;
+    let mut parts = |at: usize, count: &mut usize, compared: &mut Vec<Option<Option<Parting>>>| {
+        if compared[at].is_none() {
+            *count += 1;
+            compared[at] = Some(parting(&assignments[at], draw(&assignments[at])?));
+        }
+        Ok(compared[at].as_ref().is_some_and(Option::is_some))
+    };
+    let mut end = of;
+    if of > most {
+        let mut begin = 0;
+        while begin < end && count < most {
+            let middle = begin + (end - begin) / 2;
+            if parts(middle, &mut count, &mut compared)? { end = middle } else { begin = middle + 1 }
+        }
+    }
+    for at in 0..end {
+        if count >= most || parts(at, &mut count, &mut compared)? {
+            break;
+        }
+    }
+    let first = compared.into_iter().flatten().flatten().next();
+    Ok(Parted { first, compared: count, of })
+}
+
+/// The difference of an assignment, if there is one.
+fn parting(assignment: &Assignment, device: Option<[f32; 4]>) -> Option<Parting> {
+    let Some(device) = device else {
+        return Some(Parting { assignment: assignment.clone(), device: None, ulps: Vec::new() });
+    };
+    let walker = assignment.walker.iter().map(|number| match *number {
+        Number::Float(value) => value,
+        number => number.as_f64() as f32,
+    });
+    let ulps: Vec<u32> = walker.zip(device).map(|(walker, device)| ulps(walker, device)).collect();
+    let device = Some(device[..ulps.len()].to_vec());
+    ulps.iter().any(|ulps| *ulps > 0).then(|| Parting { assignment: assignment.clone(), device, ulps })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        diag::{SourceId, Span},
+        glsl::Probe,
+    };
+    use std::convert::Infallible;
+
+    fn all(count: usize) -> Vec<Assignment> {
+        let one = |visit: usize| Assignment {
+            name: "x".into(),
+            span: Span::new(SourceId(1), 0..1),
+            probe: Probe { source: SourceId(1), at: 0, visit: visit as u32 },
+            walker: vec![Number::Float(visit as f32)],
+        };
+        (0..count).map(one).collect()
+    }
+
+    /// The visit that is named, and how many were compared, where `is_off` ones differ.
+    fn named(count: usize, most: usize, is_off: impl Fn(u32) -> bool) -> (Option<u32>, usize) {
+        let draw = |assignment: &Assignment| {
+            let visit = assignment.probe.visit;
+            Ok::<_, Infallible>(Some([visit as f32 + if is_off(visit) { 0.5 } else { 0.0 }, 0.0, 0.0, 1.0]))
+        };
+        let Ok(found) = search(all(count), most, draw);
+        assert!(found.compared <= most && found.of == count);
+        (found.first.map(|first| first.assignment.probe.visit), found.compared)
+    }
+
+    #[test]
+    fn few_are_compared_in_their_order() {
+        assert_eq!(named(10, 32, |_| false), (None, 10));
+        assert_eq!(named(10, 32, |visit| visit == 3 || visit > 6), (Some(3), 4));
+    }
+
+    #[test]
+    fn of_many_the_halves_are_taken_first() {
+        let (first, compared) = named(10_000, 32, |visit| visit >= 7_123);
+        assert_eq!((first, compared), (Some(7_123), 32));
+        // One that vanishes again is found where it is early.
+        assert_eq!(named(10_000, 32, |visit| visit == 4 || visit >= 7_123).0, Some(4));
+        assert_eq!(named(10_000, 32, |_| false), (None, 32));
+    }
+
+    #[test]
+    fn an_assignment_that_the_device_does_not_come_to_parts() {
+        let Ok(found) = search(all(3), 9, |_| Ok::<_, Infallible>(None));
+        let first = found.first.unwrap();
+        assert_eq!((first.device, first.ulps.len(), found.compared), (None, 0, 1));
+        // NaN is NaN, and both zeros are zero.
+        let Ok(found) = search(all(1), 9, |_| Ok::<_, Infallible>(Some([-0.0, f32::NAN, 0.0, 1.0])));
+        assert_eq!(found.first, None);
+    }
+}
