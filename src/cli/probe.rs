@@ -69,6 +69,12 @@ fn probed(
         (None, Tab::Pass(pass)) => pass.clone(),
         (None, _) => PassId::Image,
     };
+    let out = args.file();
+    // A file that nobody named is written over nothing.
+    if let Some(path) = out.as_ref().filter(|path| args.out.is_none() && path.exists()) {
+        let path = path.display();
+        return Err(anyhow::anyhow!("{path} is there already: to write over it, name it by --out").into());
+    }
     let probe = |project: &Project| {
         let (source, at) = args.at.find(project).map_err(anyhow::Error::msg)?;
         Ok(Probe { source, at, visit: args.visit })
@@ -83,10 +89,10 @@ fn probed(
         let (width, height) = (pixels.width, pixels.height);
         return Err(anyhow::anyhow!("pixel {x},{y} is outside of the pass, which has {width} x {height} texels").into());
     }
-    if let Some(path) = &args.out {
+    if let Some(path) = &out {
         targets::write(path, &pixels, args.format())?;
     }
-    Ok(summary(args, &pixels))
+    Ok(Probed { written: out, ..summary(args, &pixels) })
 }
 
 fn summary(args: &ProbeArgs, pixels: &Pixels) -> Probed {
@@ -117,7 +123,7 @@ fn summary(args: &ProbeArgs, pixels: &Pixels) -> Probed {
         nonfinite: seen().flatten().filter(|x| !x.is_finite()).count(),
         pixel: args.pixel.map(|(x, y)| [x, y]),
         value: texel.as_ref().filter(is_seen).map(|texel| texel.map(Number::Float)),
-        written: args.out.clone(),
+        written: None,
     }
 }
 
@@ -138,7 +144,7 @@ fn words(project: &str, probed: &Probed) -> String {
         let _ = writeln!(out, "  at {x},{y}  {value}");
     }
     if let Some(path) = &probed.written {
-        let _ = writeln!(out, "  {}", path.display());
+        let _ = writeln!(out, "  written to {}", path.display());
     }
     out
 }

@@ -278,6 +278,29 @@ fn eddy_trace_names_the_first_assignment_that_the_device_makes_otherwise() {
     assert!(agrees["ulps"] == serde_json::json!([0, 0, 0, 0]) && agrees["parted"].is_null(), "{agrees}");
 }
 
+/// Without a file's name the place of the expression makes one.
+#[test]
+fn eddy_probe_writes_the_format_that_is_asked_for() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    b.write("p/common.glsl", "float half_of(float x) { return 0.5 * x; }\n");
+    b.image("p/image.glsl", "fragColor = vec4(half_of(fragCoord.x));");
+    let run = b.line("probe p image:2:18 --size 4x2 --pixel 3,1 --format npy").expect(0);
+    assert!(run.out.contains("written to p_image_2_18.npy"), "{}", run.out);
+    assert_eq!(b.npy("p_image_2_18.npy").at(3, 1)[0], 1.75);
+    let run = b.line("probe p common:1:38 --size 4x2 --format png --json").expect(0);
+    assert_eq!(run.json()[0]["written"], "p_common_1_38.png");
+    assert_eq!(b.png("p_common_1_38.png").dimensions(), (4, 2));
+    // Nothing is written over unasked.
+    b.write("p_image_2_18.npy", "mine");
+    let again = b.line("probe p image:2:18 --size 4x2 --format npy").expect(2);
+    assert!(again.err.contains("p_image_2_18.npy is there already") && again.err.contains("--out"), "{}", again.err);
+    assert_eq!(b.bytes("p_image_2_18.npy"), b"mine");
+    b.line("probe p image:2:18 --size 4x2 --out p_image_2_18.npy").expect(0);
+    assert_eq!(b.npy("p_image_2_18.npy").at(0, 0)[0], 0.25);
+    assert_eq!(b.names("."), ["p", "p_common_1_38.png", "p_image_2_18.npy"]);
+}
+
 /// The debugger takes a pass's inputs after the frame: they must be what the pass read while it was drawn.
 #[test]
 fn what_a_pass_read_is_still_there_after_the_frame() {

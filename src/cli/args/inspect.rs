@@ -6,6 +6,7 @@ use super::{
 };
 use crate::{
     cli::text_place::TextPlace,
+    project::{self, PassId},
     session::{capture::Format, parting::MOST, trace::STEPS},
 };
 use clap::Args;
@@ -31,7 +32,8 @@ pub struct ProbeArgs {
     /// The frame, counted from 0; those before it are drawn first
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u32).range(..1 << 30))]
     pub frame: u32,
-    /// A file for the values of all pixels: .npy or .png. Scalars have three equal components, and the fourth is 1
+    /// Where the values of all pixels go: a .npy or .png file; with --format alone STEM_TAB_LINE_COLUMN.npy in the
+    /// folder of now, unless that is there. Scalars have three equal components, and the fourth is 1
     /// where the value has fewer; a pixel in which the expression is not evaluated has NaN
     #[arg(long, value_name = "PATH")]
     pub out: Option<PathBuf>,
@@ -47,6 +49,17 @@ pub struct ProbeArgs {
 }
 
 impl ProbeArgs {
+    /// The file of the values, if one is asked for.
+    pub fn file(&self) -> Option<PathBuf> {
+        let TextPlace { tab, line, column } = &self.at;
+        let tab = tab.pass().map_or_else(|| "common".to_owned(), PassId::key);
+        let named = |format: Format| {
+            let stem = project::stem(&self.project);
+            PathBuf::from(format!("{stem}_{tab}_{line}_{column}.{}", format.extension()))
+        };
+        self.out.clone().or_else(|| self.format.map(named))
+    }
+
     /// The format of the file.
     pub fn format(&self) -> Format {
         let is_png = self.out.as_ref().and_then(|p| p.extension()).is_some_and(|e| e.eq_ignore_ascii_case("png"));
