@@ -100,11 +100,11 @@ pub fn run(
     let wanted = &args.pass;
     let mut quiet = Report::new(spec);
     let (project, mut offline) = open(machine, &mut quiet, spec, &args.run, &wanted.pass, inputs)?;
-    for _ in 1..args.frames {
+    for _ in 1..args.frames() {
         offline.draw()?;
     }
     let read = offline.draw_inspected(&wanted.pass)?;
-    report.frames = args.frames;
+    report.frames = args.frames();
     let device = offline.read(&wanted.pass, 0)?;
     let index = project.passes.iter().position(|pass| pass.id == wanted.pass).unwrap_or_default();
     let pixels = audit::grid(args.pixels, &project.passes[index].settings, read.size);
@@ -147,7 +147,7 @@ fn told(
     });
     Ok(Audited {
         pass: args.pass.pass.key(),
-        frame: args.frames - 1,
+        frame: args.frames() - 1,
         pixels: audit.pixels.len(),
         median: Number(order.get(order.len() / 2).map_or(0.0, |o| o.0)),
         largest: Number(order.first().map_or(0.0, |o| o.0)),

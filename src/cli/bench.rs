@@ -99,12 +99,17 @@ fn measure(
     inputs: ScriptedInputs,
 ) -> Result<Costs, Trouble> {
     let (project, mut offline) = open(machine, report, spec, &args.run, &PassId::Image, inputs)?;
-    for _ in 0..WARM_UP {
+    // A recording is measured from its first frame on, once for each kind of time.
+    let is_replay = args.run.replay.is_some();
+    for _ in 0..if is_replay { WARM_UP.min(args.frames()) } else { WARM_UP } {
         offline.draw()?;
+    }
+    if is_replay {
+        offline.rewind()?;
     }
     let (mut millis, mut cpu) = (Vec::new(), Vec::new());
     let (mut passes_rested, mut bytes_rested) = (0, 0);
-    for _ in 0..args.frames {
+    for _ in 0..args.frames() {
         let frame = offline.draw()?;
         passes_rested += frame.stats.passes_cached;
         bytes_rested += frame.stats.bytes_cached;
@@ -114,7 +119,10 @@ fn measure(
     }
     // Apart from the others: timestamps cost a little in every frame, and waiting for each pass more.
     let clock = offline.engine()?.cost_clock();
-    let millis_of = pass_times(&mut offline, args.frames)?;
+    if is_replay {
+        offline.rewind()?;
+    }
+    let millis_of = pass_times(&mut offline, args.frames())?;
     let engine = offline.engine()?;
     let worst_ms = millis.iter().copied().fold(0.0, f64::max);
     report.frame_ms = median(millis);
@@ -155,8 +163,8 @@ fn measure(
         passes_skipped: plan.skipped.iter().map(|i| drawable.passes[*i].id.key()).collect(),
         target_bytes,
         target_bytes_saved: everything.target_bytes((width, height)).saturating_sub(target_bytes),
-        passes_rested: passes_rested as f64 / f64::from(args.frames),
-        bytes_rested: bytes_rested as f64 / f64::from(args.frames),
+        passes_rested: passes_rested as f64 / f64::from(args.frames()),
+        bytes_rested: bytes_rested as f64 / f64::from(args.frames()),
     })
 }
 

@@ -167,6 +167,8 @@ fn times(ours: &mut Offline, theirs: &mut Offline, repeats: u32) -> Result<Time,
     let turn = |offline: &mut Offline| -> Result<f64, Trouble> {
         let mut millis = Vec::new();
         for _ in 0..TURN {
+            // Not beyond the end of a recording.
+            offline.rewind_at_end()?;
             millis.push(offline.draw()?.millis);
         }
         Ok(millis.iter().sum::<f64>() / f64::from(TURN))

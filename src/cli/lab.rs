@@ -30,7 +30,7 @@ pub fn run(args: &LabArgs) -> io::Result<u8> {
             return run(&LabArgs { command: None, study, out, list: false, quick: args.quick, repeats, shard });
         }
         Some(LabCommand::Precision(args)) => {
-            return match args.run.inputs() {
+            return match args.run.inputs_of(args.frames()) {
                 Ok(inputs) => precision::run(args, &inputs),
                 Err(usage) => Ok(trouble(usage)),
             };

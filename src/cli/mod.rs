@@ -84,20 +84,20 @@ fn run(command: &Command) -> u8 {
             }
             render::run(args, &targets, &inputs)
         }
-        Command::Probe(args) => match args.run.inputs() {
+        Command::Probe(args) => match args.run.inputs_of(args.frame + 1) {
             Ok(inputs) => probe::run(args, &inputs),
             Err(usage) => return trouble(usage),
         },
-        Command::Trace(args) => match args.run.inputs() {
+        Command::Trace(args) => match args.run.inputs_of(args.frame + 1) {
             Ok(inputs) => trace::run(args, &inputs),
             Err(usage) => return trouble(usage),
         },
-        Command::Compare(args) => match args.run.inputs() {
+        Command::Compare(args) => match args.run.inputs_of(args.frame + 1) {
             Ok(inputs) => compare::run(args, &inputs),
             Err(usage) => return trouble(usage),
         },
         Command::Check(args) => check::run(args),
-        Command::Bench(args) => match args.run.inputs().and_then(|i| Ok((sweep::combinations(&args.sweep)?, i))) {
+        Command::Bench(args) => match args.inputs().and_then(|i| Ok((sweep::combinations(&args.sweep)?, i))) {
             Ok((sweep, inputs)) => bench::run(args, &sweep, &inputs),
             Err(usage) => return trouble(usage),
         },

@@ -8,12 +8,13 @@ use super::{
     report::{Printer, Report},
 };
 use crate::{
+    engine::Engine,
     lab::{
         Rig,
         precision::{self, Comparison, PrecisionError},
     },
     media, project,
-    session::script::ScriptedInputs,
+    session::{offline, script::ScriptedInputs},
 };
 use serde::Serialize;
 use std::{fmt::Write, io};
@@ -83,16 +84,21 @@ fn compare(
     let (media, missing) = media::gather(&project, args.run.media.as_deref());
     report.diagnose(&missing, &loaded.sources, Some(&project));
     let gpu = machine.gpu()?;
-    let (width, height) = args.run.size;
-    let next = || inputs.next_frame();
-    let comparison = match precision::halved(&gpu, &project, &media, (width, height), args.frames, next) {
+    let (width, height) = args.run.canvas();
+    let next = |engines: &mut [Engine; 2]| {
+        if let Some(change) = inputs.next_change() {
+            engines.iter_mut().try_for_each(|engine| offline::change(engine, &change))?;
+        }
+        Ok(inputs.next_frame())
+    };
+    let comparison = match precision::halved_by(&gpu, &project, &media, (width, height), args.frames(), next) {
         Ok(comparison) => comparison,
         Err(PrecisionError::Build(error)) => return Err(error.into()),
         Err(PrecisionError::Engine(error)) => return Err(error.into()),
         // Nothing is stored that could be stored in fewer bits.
         Err(PrecisionError::NoFloats) => return Ok(None),
     };
-    report.frames = args.frames;
+    report.frames = args.frames();
     let cuts_off = precision::cuts_off(&Rig::new(gpu.clone())).map_err(anyhow::Error::from)?;
     Ok(Some(Compared { width, height, device: gpu.describe(), cuts_off, comparison }))
 }

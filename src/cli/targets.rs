@@ -46,8 +46,7 @@ enum Place {
 impl Targets {
     /// Err: what was asked for cannot be meant.
     pub fn of(args: &RenderArgs) -> Result<Targets, String> {
-        let recorded = args.run.replay.as_ref().map(|recording| recording.frames.len());
-        let (at, frames) = frames(args, recorded.map(|count| u32::try_from(count).unwrap_or(u32::MAX)))?;
+        let (at, frames) = frames(args)?;
         let sweep = sweep::combinations(&args.sweep)?;
         let Some(out) = &args.out else {
             let format = args.format.unwrap_or(Format::Png);
@@ -111,16 +110,14 @@ impl Targets {
     }
 }
 
-fn frames(args: &RenderArgs, recorded: Option<u32>) -> Result<(Vec<u32>, u32), String> {
+fn frames(args: &RenderArgs) -> Result<(Vec<u32>, u32), String> {
     let mut at = args.at.clone();
     at.sort_unstable();
     at.dedup();
     let needed = at.last().map_or(1, |last| last + 1);
-    let all = if at.is_empty() { recorded.unwrap_or(needed) } else { needed };
+    let all = if at.is_empty() { args.run.recorded().unwrap_or(needed) } else { needed };
     let frames = args.frames.unwrap_or(all);
-    if let Some(recorded) = recorded.filter(|recorded| *recorded < frames) {
-        return Err(format!("--replay: {frames} frames are asked for, and {recorded} were recorded"));
-    }
+    args.run.within_recording(frames)?;
     if frames < needed {
         return Err(format!("--at {}: with --frames {frames} the last frame is {}", needed - 1, frames - 1));
     }

@@ -90,10 +90,22 @@ pub fn compare(
     (frames, at): (u32, &[u32]),
     mut inputs: impl FnMut() -> FrameInputs,
 ) -> Result<Comparison, PrecisionError> {
+    compare_run(gpu, [project, other], media, size, (frames, at), |_| Ok(inputs()))
+}
+
+/// [`compare`] where `inputs` may change the engines before each frame.
+fn compare_run(
+    gpu: &Gpu,
+    [project, other]: [&Project; 2],
+    media: &MediaSet,
+    size: (u32, u32),
+    (frames, at): (u32, &[u32]),
+    mut inputs: impl FnMut(&mut [Engine; 2]) -> Result<FrameInputs, EngineError>,
+) -> Result<Comparison, PrecisionError> {
     let mut engines = [open(gpu, project, media, size)?, open(gpu, other, media, size)?];
     let mut result = Comparison { frames, rows: Vec::new(), first_visible: None, largest: 0.0 };
     for frame in 0..frames {
-        let inputs = inputs();
+        let inputs = inputs(&mut engines)?;
         for engine in &mut engines {
             engine.draw(&inputs)?;
         }
@@ -128,7 +140,19 @@ pub fn halved(
     media: &MediaSet,
     size: (u32, u32),
     frames: u32,
-    inputs: impl FnMut() -> FrameInputs,
+    mut inputs: impl FnMut() -> FrameInputs,
+) -> Result<Comparison, PrecisionError> {
+    halved_by(gpu, project, media, size, frames, |_| Ok(inputs()))
+}
+
+/// [`halved`] where `inputs` may change the engines before each frame, as a recording does.
+pub fn halved_by(
+    gpu: &Gpu,
+    project: &Project,
+    media: &MediaSet,
+    size: (u32, u32),
+    frames: u32,
+    inputs: impl FnMut(&mut [Engine; 2]) -> Result<FrameInputs, EngineError>,
 ) -> Result<Comparison, PrecisionError> {
     let mut half = project.clone();
     halve(&mut half);
@@ -137,7 +161,7 @@ pub fn halved(
         open(gpu, project, media, size)?;
         return Err(PrecisionError::NoFloats);
     }
-    compare(gpu, [project, &half], media, size, (frames, &moments(frames)), inputs)
+    compare_run(gpu, [project, &half], media, size, (frames, &moments(frames)), inputs)
 }
 
 /// Returns whether the device cuts off what a 16-bit store has no room for, instead of rounding to the nearest.

@@ -3,7 +3,7 @@
 //! Same project, pictures, inputs and size: same bytes. A run of N frames and one of N/2 with N/2 more after it draw
 //! the same.
 
-use super::script::ScriptedInputs;
+use super::{recording::Change, script::ScriptedInputs};
 use crate::{
     diag::{Diagnostic, SourceMap},
     engine::{
@@ -82,19 +82,23 @@ impl Offline {
     /// Returns what the next frame is drawn with. A recording may give it another canvas and other values of uniforms
     /// first.
     fn next_inputs(&mut self) -> Result<FrameInputs, EngineError> {
-        if let Some(change) = self.inputs.next_change() {
-            let engine = self.engine.as_mut().ok_or_else(gone)?;
-            if let Some((width, height)) = change.size {
-                engine.resize(width, height)?;
-            }
-            if let Some(values) = &change.values {
-                engine.set_custom_uniforms(values);
-            }
-            if change.reset {
-                engine.reset();
-            }
+        if let Some(change_of_frame) = self.inputs.next_change() {
+            change(self.engine.as_mut().ok_or_else(gone)?, &change_of_frame)?;
         }
         Ok(self.inputs.next_frame())
+    }
+
+    /// Begins a recording anew once all its frames have been drawn; where none is drawn again, nothing.
+    pub fn rewind_at_end(&mut self) -> Result<(), EngineError> {
+        let is_over = |count: usize| usize::try_from(self.inputs.frame()).is_ok_and(|frame| frame >= count);
+        if self.inputs.recorded_frames().is_some_and(is_over) { self.rewind() } else { Ok(()) }
+    }
+
+    /// Begins anew: with frame 0 and every buffer as before it.
+    pub fn rewind(&mut self) -> Result<(), EngineError> {
+        self.inputs.rewind();
+        self.engine.as_mut().ok_or_else(gone)?.reset();
+        Ok(())
     }
 
     /// Draws the next frame and waits until the device has finished it.
@@ -143,15 +147,15 @@ impl Offline {
         self.engine.as_ref().ok_or_else(gone)
     }
 
-    /// Does a frame's work, on a thread that can be left behind where there is a limit.
-    fn within<T: Send + 'static>(
-        &mut self,
-        frame: i32,
     /// Gives the engine away. Fails once a frame was given up.
     pub fn into_engine(self) -> Result<Engine, EngineError> {
         self.engine.ok_or_else(gone)
     }
 
+    /// Does a frame's work, on a thread that can be left behind where there is a limit.
+    fn within<T: Send + 'static>(
+        &mut self,
+        frame: i32,
         work: impl FnOnce(&mut Engine) -> Result<T, EngineError> + Send + 'static,
     ) -> Result<T, OfflineError> {
         let Some(limit) = self.frame_limit else { return Ok(work(self.engine.as_mut().ok_or_else(gone)?)?) };
@@ -175,6 +179,20 @@ impl Offline {
             },
         }
     }
+}
+
+/// Does what a recording changes of an engine before a frame.
+pub fn change(engine: &mut Engine, change: &Change) -> Result<(), EngineError> {
+    if let Some((width, height)) = change.size {
+        engine.resize(width, height)?;
+    }
+    if let Some(values) = &change.values {
+        engine.set_custom_uniforms(values);
+    }
+    if change.reset {
+        engine.reset();
+    }
+    Ok(())
 }
 
 /// A frame could not be drawn.

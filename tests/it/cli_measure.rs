@@ -165,6 +165,45 @@ fn a_recording_gives_every_frame_what_it_had() {
     }
 }
 
+/// Behind its last frame a recording says nothing.
+#[test]
+fn no_command_draws_more_frames_than_were_recorded() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    b.image("p/buffer_a.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0) + iTime;");
+    b.image("p/image.glsl", "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0) / 3.;");
+    b.write("p/eddy.toml", "eddy = 1\n[passes.buffer_a]\nchannels.0 = { buffer = \"A\" }\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n");
+    let lines = [
+        r#"{"eddy_recording":1,"project":"p"}"#,
+        r#"{"time":0.25,"size":[4,2]}"#,
+        r#"{"time":1.5}"#,
+        r#"{"time":2.0,"size":[6,2]}"#,
+    ];
+    b.write("run.replay", lines.join("\n"));
+    let json = |line: &str| b.line(&format!("{line} --replay run.replay --json")).expect(0).json()[0].clone();
+    let last = json("trace p --pass buffer_a --pixel 0,0 --frame 2");
+    assert_eq!((&last["value"][0], &last["frames"]), (&3.75.into(), &3.into()), "{last}");
+    let probed = json("probe p buffer_a:2:1 --frame 2");
+    assert_eq!((&probed["width"], &probed["max"][0]), (&6.into(), &3.75.into()), "{probed}");
+    let precise = json("lab precision p --pixels 2x1");
+    assert_eq!((&precise["frames"], &precise["width"], &precise["double"]["frame"]), (&3.into(), &4.into(), &2.into()));
+    assert_eq!(precise["rows"].as_array().unwrap().iter().filter(|row| row["frame"] == 2).count(), 2, "{precise}");
+    let bench = json("bench p");
+    assert_eq!((&bench["frames"], &bench["width"]), (&3.into(), &6.into()), "{bench}");
+    assert_eq!(json("compare p p --frame 2 --repeats 3")["time"]["repeats"], 3);
+    for line in [
+        "trace p --pixel 0,0 --frame 3",
+        "trace p --nonfinite --frame 9",
+        "probe p image:2:13 --frame 3",
+        "compare p p --frame 3",
+        "bench p --frames 4",
+        "lab precision p --frames 4",
+    ] {
+        let run = b.line(&format!("{line} --replay run.replay")).expect(2);
+        assert!(run.err.contains("frames are asked for, and 3 were recorded"), "{line}: {}", run.err);
+    }
+}
+
 /// Planted: Buffer B takes the root of a number that falls below 0 in frame 40 at texel (3, 2); Buffer C hands it on a
 /// frame later, and Image shows it where it looks there, from frame 43 on.
 #[test]

@@ -53,9 +53,9 @@ pub enum LabCommand {
 pub struct PrecisionArgs {
     /// The projects to compare [default: the study's presets, which need --out]
     pub project: Vec<String>,
-    /// Frames to draw
-    #[arg(long, value_name = "N", default_value_t = 300, value_parser = clap::value_parser!(u32).range(1..=1 << 30))]
-    pub frames: u32,
+    /// Frames to draw [default: 300; with --replay all that were recorded]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 30))]
+    pub frames: Option<u32>,
     /// The pass whose last frame is held against double precision
     #[arg(long, value_name = "NAME", default_value = "image", value_parser = picture)]
     pub pass: Picture,
@@ -80,6 +80,12 @@ pub struct PrecisionArgs {
     /// Without a PROJECT: a small canvas and few frames
     #[arg(long, conflicts_with = "project")]
     pub quick: bool,
+}
+
+impl PrecisionArgs {
+    pub fn frames(&self) -> u32 {
+        self.frames.or(self.run.recorded()).unwrap_or(300)
+    }
 }
 
 #[derive(Debug, Args)]

@@ -16,6 +16,7 @@ use crate::{
     session::{
         capture::Format,
         reduction::{Assertion, Quantity},
+        script::ScriptedInputs,
     },
 };
 use clap::{Args, Parser, Subcommand};
@@ -157,9 +158,9 @@ fn dumped_pass(name: &str) -> Result<String, String> {
 pub struct BenchArgs {
     #[arg(required = true)]
     pub project: Vec<String>,
-    /// Frames to measure, after the warm-up
-    #[arg(long, value_name = "N", default_value_t = 60, value_parser = clap::value_parser!(u32).range(1..=1 << 30))]
-    pub frames: u32,
+    /// Frames to measure, after the warm-up [default: 60; with --replay all that were recorded]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 30))]
+    pub frames: Option<u32>,
     #[command(flatten)]
     pub run: RunArgs,
     /// Measure once for each value of a uniform, as `eddy render` draws; may be repeated, for every combination
@@ -168,6 +169,17 @@ pub struct BenchArgs {
     /// One JSON object a line instead of a table
     #[arg(long)]
     pub json: bool,
+}
+
+impl BenchArgs {
+    pub fn frames(&self) -> u32 {
+        self.frames.or(self.run.recorded()).unwrap_or(60)
+    }
+
+    /// Returns what the frames are drawn with. Err: what was asked for cannot be meant.
+    pub fn inputs(&self) -> Result<ScriptedInputs, String> {
+        self.run.inputs_of(self.frames())
+    }
 }
 
 #[derive(Debug, Args)]

@@ -53,6 +53,34 @@ pub struct RunArgs {
 }
 
 impl RunArgs {
+    /// Returns how many frames were recorded, where a recording is drawn again.
+    pub fn recorded(&self) -> Option<u32> {
+        let recording = self.replay.as_ref()?;
+        Some(u32::try_from(recording.frames.len()).unwrap_or(u32::MAX))
+    }
+
+    /// Returns the size of the canvas in frame 0.
+    pub fn canvas(&self) -> (u32, u32) {
+        let first = self.replay.as_ref().and_then(|recording| recording.frames.first());
+        first.map_or(self.size, |frame| frame.size)
+    }
+
+    /// Fails where a recording has fewer frames.
+    pub fn within_recording(&self, frames: u32) -> Result<(), String> {
+        match self.recorded() {
+            Some(recorded) if recorded < frames => {
+                Err(format!("--replay: {frames} frames are asked for, and {recorded} were recorded"))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Does the same as [`Self::inputs`] for a run of so many frames, which a recording must have.
+    pub fn inputs_of(&self, frames: u32) -> Result<ScriptedInputs, String> {
+        self.within_recording(frames)?;
+        self.inputs()
+    }
+
     /// Returns what the scripts, the date and the rate make of frame 0, 1, 2 … Err: a script that cannot be read.
     pub fn inputs(&self) -> Result<ScriptedInputs, String> {
         let mouse = parse_mouse(&self.mouse).map_err(|e| format!("--mouse: {e}"))?;

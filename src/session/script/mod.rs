@@ -257,6 +257,11 @@ impl ScriptedInputs {
         inputs
     }
 
+    /// Begins anew with frame 0.
+    pub fn rewind(&mut self) {
+        (self.frame, self.mouse, self.keyboard) = (0, Mouse::default(), Keyboard::default());
+    }
+
     /// Number of the frame that [`ScriptedInputs::next_frame`] gives next.
     pub fn frame(&self) -> i32 {
         self.frame
