@@ -80,6 +80,9 @@ struct Found {
     #[serde(flatten)]
     written: Written,
     numbers: String,
+    /// It is an operation on constants: every pixel that comes there has it.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    constant: bool,
     /// The number of the pixels that show it, and the one that shows it most.
     pixels: usize,
     pixel: [u32; 2],
@@ -205,6 +208,7 @@ fn found(project: &Project, finding: &Finding) -> Found {
         message: finding.kind.message(),
         written: Written::at(project, finding.span),
         numbers: finding.numbers.clone(),
+        constant: finding.is_constant(),
         pixels: finding.pixels,
         pixel: [finding.pixel.0, finding.pixel.1],
         error: finding.error.map(|(error, _)| Number(error)),
@@ -246,7 +250,9 @@ pub fn words(audited: &Audited) -> String {
         if !found.numbers.is_empty() {
             let _ = write!(line, "    {}", found.numbers);
         }
-        let _ = write!(line, "    in {} of {pixels} pixels, as {x},{y}", found.pixels);
+        if !found.constant {
+            let _ = write!(line, "    in {} of {pixels} pixels, as {x},{y}", found.pixels);
+        }
         if let (Some(error), Some(left)) = (&found.error, &found.error_left) {
             let _ = write!(line, "; its error of {:.1e} would be {:.1e} were this exact", error.0, left.0);
         }

@@ -23,6 +23,8 @@ pub(crate) struct Walkable {
     statements: Statements,
     /// Expressions that lean on an order which is undefined, and what is open there.
     unsequenced: Vec<(Loc, &'static str)>,
+    /// Operations on constants whose results are open or no finite numbers.
+    faults: Vec<check::Fault>,
     /// Every type as GLSL writes it, by its id; none where nobody steps through the program.
     type_texts: Vec<String>,
     /// What a stage of vertices hands on.
@@ -70,7 +72,7 @@ impl Walkable {
         if all.diagnostics.iter().any(Diagnostic::is_error) {
             return Err(all.diagnostics);
         }
-        let (module, origins, interner) = (checked.module, parsed.origins, parsed.names);
+        let (module, faults, origins, interner) = (checked.module, checked.faults, parsed.origins, parsed.names);
         let varyings = interface.varyings.clone();
         let marks = lower::Marks { undefined: true, statements: is_marked };
         let options = lower::Options { by_reference: None, table: emit::LEAST_UNIFORM_TABLE as usize };
@@ -83,12 +85,19 @@ impl Walkable {
             type_texts = types.map(|ty| module.type_text(&interner, ty)).collect();
         }
         let unsequenced = unsequenced::find(&module);
-        Ok(Self { program, names, origins, interner, statements, unsequenced, type_texts, varyings })
+        Ok(Self { program, names, origins, interner, statements, unsequenced, faults, type_texts, varyings })
     }
 
     /// What an expression leans on, if that is an order of evaluation which the language leaves open.
     pub fn unsequenced(&self, loc: Loc) -> Option<&'static str> {
         self.unsequenced.iter().find(|(place, _)| *place == loc).map(|(_, what)| *what)
+    }
+
+    /// The operations on constants whose results are undefined, or infinities of finite numbers: the place of each,
+    /// whether it is undefined, and what it is.
+    pub fn faults(&self) -> impl Iterator<Item = (Span, bool, &'static str)> {
+        let span = |fault: &check::Fault| (self.origins.span(fault.loc), fault.is_undefined, fault.what);
+        self.faults.iter().map(span)
     }
 
     /// What the marks of a program that is stepped through stand for.

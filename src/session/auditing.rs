@@ -95,7 +95,9 @@ fn diagnostic(finding: &Finding, audit: &Audit) -> Diagnostic {
     };
     let ((x, y), count) = (finding.pixel, audit.pixels.len());
     let mut hint = format!("in {} of {count} pixels, as {x},{y}", finding.pixels);
-    if !finding.numbers.is_empty() {
+    if finding.is_constant() {
+        hint.clone_from(&finding.numbers);
+    } else if !finding.numbers.is_empty() {
         hint = format!("{}, {hint}", finding.numbers);
     }
     if let Some((error, left)) = finding.error {

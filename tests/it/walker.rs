@@ -278,6 +278,16 @@ fn eddy_trace_names_the_first_assignment_that_the_device_makes_otherwise() {
     assert!(agrees["ulps"] == serde_json::json!([0, 0, 0, 0]) && agrees["parted"].is_null(), "{agrees}");
 }
 
+/// Undefined, but the walker is asked what this device draws.
+#[test]
+fn a_float_beyond_the_range_of_an_int_is_what_the_device_makes_of_it() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    b.image("p.glsl", "vec2 p = fragCoord * 1e20; fragColor = vec4(int(p.x), int(-p.x), uint(p.y), uint(-p.y));");
+    let run = b.line("trace p.glsl --pixel 2,1 --size 4x4 --json").expect(0);
+    assert_eq!(run.json()[0]["ulps"], serde_json::json!([0, 0, 0, 0]), "{}", run.out);
+}
+
 /// Without a file's name the place of the expression makes one.
 #[test]
 fn eddy_probe_writes_the_format_that_is_asked_for() {

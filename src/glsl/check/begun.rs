@@ -5,6 +5,7 @@
 
 use super::{
     facts::{FuncFacts, TypeFacts, basic_facts},
+    fault::Fault,
     scope::Scopes,
 };
 use crate::{
@@ -25,6 +26,7 @@ pub(crate) struct Begun {
     pub(super) items: usize,
     pub(super) module: Module,
     pub(super) diagnostics: Vec<Diagnostic>,
+    pub(super) faults: Vec<Fault>,
     pub(super) scopes: Scopes,
     pub(super) lowered: Vec<Option<hir::ExprId>>,
     pub(super) facts: Vec<TypeFacts>,
@@ -57,6 +59,7 @@ impl Begun {
             items: 0,
             module,
             diagnostics: Vec::new(),
+            faults: Vec::new(),
             scopes: Scopes::default(),
             lowered: Vec::new(),
             facts,

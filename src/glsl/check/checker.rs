@@ -4,6 +4,7 @@ use super::{
     begun::{Begun, Precisions},
     env::Env,
     facts::{FuncFacts, TypeFacts},
+    fault::Fault,
     scope::Scopes,
 };
 use crate::{
@@ -46,6 +47,8 @@ pub(super) struct Checker<'a> {
     pub broken_tree: bool,
     pub module: Module,
     pub diagnostics: Vec<Diagnostic>,
+    /// Operations on constants whose results are open or no finite numbers.
+    pub faults: Vec<Fault>,
     /// The number of errors, those that were not kept among them.
     pub errors: usize,
     pub refused_in_common: Vec<Diagnostic>,
@@ -119,6 +122,7 @@ impl<'a> Checker<'a> {
             broken_tree,
             module: begun.module,
             diagnostics: begun.diagnostics,
+            faults: begun.faults,
             errors: 0,
             refused_in_common: Vec::new(),
             scopes: begun.scopes,
@@ -245,6 +249,7 @@ impl Checker<'_> {
             items: self.items,
             module: self.module,
             diagnostics: self.diagnostics,
+            faults: self.faults,
             scopes: self.scopes,
             lowered: self.lowered,
             facts: self.facts,

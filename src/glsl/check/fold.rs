@@ -28,6 +28,16 @@ pub(super) fn convert(bits: u32, from: Scalar, to: Scalar) -> u32 {
     }
 }
 
+/// The conversion of a float to an int or a uint that has no number for it is undefined.
+pub(super) fn is_out_of_range(bits: u32, from: Scalar, to: Scalar) -> bool {
+    let float = f32::from_bits(bits);
+    match (from, to) {
+        (Scalar::Float, Scalar::Int) => !(-2_147_483_648.0..2_147_483_648.0).contains(&float),
+        (Scalar::Float, Scalar::Uint) => !(float > -1.0 && float < 4_294_967_296.0),
+        _ => false,
+    }
+}
+
 pub(super) fn unary(op: UnaryOp, scalar: Scalar, bits: u32) -> u32 {
     match op {
         UnaryOp::Negate if scalar == Scalar::Float => (-f32::from_bits(bits)).to_bits(),

@@ -3,7 +3,7 @@
 
 use std::f32::consts::{FRAC_PI_2, FRAC_PI_4};
 
-use super::{checker::Checker, words::Words};
+use super::{checker::Checker, fault, words::Words};
 use crate::glsl::{
     ast::Loc,
     hir::{Builtin as X, ExprId, Scalar, Type, TypeId},
@@ -57,8 +57,16 @@ impl Checker<'_> {
         let count = self.module.types.components(result)? as usize;
         let mut undefined = false;
         let words = fold(builtin, &args[..given.len()], count, &mut undefined)?;
+        let (mut is_nan, mut is_infinite) = (false, false);
+        if self.module.types.scalar(result) == Some(Scalar::Float) && !fault::reads_bits(builtin) {
+            let floats = args[..given.len()].iter().filter(|arg| arg.scalar == Scalar::Float);
+            (is_nan, is_infinite) = fault::born(floats.map(|arg| arg.words), words.as_slice());
+        }
         let id = self.constant(result, words.as_slice(), loc);
-        if undefined {
+        if !undefined {
+            self.note_floats(loc, is_nan, is_infinite);
+        } else {
+            self.undefined(loc, fault::domain(builtin));
             self.warning(loc, format!("`{}` is undefined for this value; it counts as 0", builtin.name()));
         }
         Some(id)

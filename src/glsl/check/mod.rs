@@ -20,6 +20,8 @@ mod declare;
 pub(in crate::glsl) mod env;
 mod expr;
 mod facts;
+mod fault;
+mod faults;
 mod fold;
 mod fold_builtin;
 mod function;
@@ -42,6 +44,7 @@ mod tests;
 pub(crate) use begun::Begun;
 pub(crate) use env::custom_uniform_type;
 pub use env::taken;
+pub(crate) use fault::Fault;
 
 use super::{
     ast::{Ast, Interner, Origins},
@@ -58,6 +61,8 @@ pub(crate) struct Checked {
     pub module: Module,
     /// In the order in which they were found, which is text order but for what concerns the whole program.
     pub diagnostics: Vec<Diagnostic>,
+    /// Operations on constants whose results are open or no finite numbers.
+    pub faults: Vec<Fault>,
 }
 
 /// Checks one pass, whose texts `ast` is of; the first of them may have `begun` it.
@@ -72,7 +77,7 @@ pub(crate) fn check(
     let settings = Settings { channels, custom_uniforms, values, common: common.map(|text| text.id) };
     let mut checker = Checker::new(ast, origins, names, Env::Pass(source.kind), settings, begun);
     checker.unit();
-    Checked { module: checker.module, diagnostics: checker.diagnostics }
+    Checked { module: checker.module, diagnostics: checker.diagnostics, faults: checker.faults }
 }
 
 /// Returns what the site would refuse in Common because it compiles it alone, where only `iDate` and `iSampleRate`

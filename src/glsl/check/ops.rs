@@ -2,6 +2,7 @@
 
 use super::{
     checker::Checker,
+    fault,
     fold::{self, Grid, Trouble},
     words::Words,
 };
@@ -222,15 +223,23 @@ impl Checker<'_> {
                 (0..count).map(|i| fold::binary(op, scalar, of(a, i), of(b, i), signed, &mut trouble)).collect()
             }
         };
+        let is_float = self.module.types.scalar(ty) == Some(Scalar::Float);
+        let (is_nan, is_infinite) =
+            if is_float { fault::born([a, b].into_iter(), folded.as_slice()) } else { (false, false) };
         let id = self.constant(ty, folded.as_slice(), loc);
         match trouble {
             Some(Trouble::DivisionByZero) => {
+                self.undefined(loc, "an integer divided by zero is undefined (5.9)");
                 self.warning(loc, "division by zero: the result is undefined");
             }
             Some(Trouble::ShiftRange) => {
+                self.undefined(
+                    loc,
+                    "a shift by as many bits as there are, or by a negative number, is undefined (5.9)",
+                );
                 self.warning(loc, "a shift by less than 0 or more than 31 bits: the result is undefined");
             }
-            None => {}
+            None => self.note_floats(loc, is_nan, is_infinite),
         }
         Some(id)
     }

@@ -86,13 +86,18 @@ fn uint<R>(op: Binary, left: u32, right: u32) -> Cell<R> {
     })
 }
 
-/// A scalar of another type. Floats beyond an int's range give its nearest end, and NaN gives zero.
+/// The ends of an int's range and of a uint's that single precision has: naga clamps floats to them first.
+const INTS: (f64, f64) = (-2_147_483_648.0, 2_147_483_520.0);
+const UINTS: (f64, f64) = (0.0, 4_294_967_040.0);
+
+/// A scalar of another type. Floats beyond an int's range give the nearest number that both types have, and NaN gives
+/// zero.
 pub fn convert<R: Real>(value: Cell<R>, from: Scalar, to: Scalar) -> Cell<R> {
     match (from, to) {
         (Scalar::Float, Scalar::Float) => value,
         (Scalar::Float, Scalar::Bool) => (value.float() != R::from_f64(0.0)).into(),
-        (Scalar::Float, Scalar::Int) => Cell::Bits(value.float().to_f64() as i32 as u32),
-        (Scalar::Float, Scalar::Uint) => Cell::Bits(value.float().to_f64() as u32),
+        (Scalar::Float, Scalar::Int) => Cell::Bits(value.float().to_f64().clamp(INTS.0, INTS.1) as i32 as u32),
+        (Scalar::Float, Scalar::Uint) => Cell::Bits(value.float().to_f64().clamp(UINTS.0, UINTS.1) as u32),
         (Scalar::Int, Scalar::Float) => Cell::Float(R::from_f64((value.bits() as i32).into())),
         (_, Scalar::Float) => Cell::Float(R::from_f64(value.bits().into())),
         (_, Scalar::Bool) => value.is_true().into(),

@@ -112,6 +112,17 @@ fn arithmetic_and_functions() {
     gives("", "float n = sqrt(p.x - 9.0); r = vec4(isnan(n), n == n, n != n, n < 1.0);", [1.0, 0.0, 1.0, 0.0]);
 }
 
+/// What is undefined, as naga's code has it: the nearest number of both types.
+#[test]
+fn floats_beyond_the_range_of_an_int() {
+    gives(
+        "",
+        "r = vec4(int(p.x * 1e20) == 0x7fffff80, int(p.x * -1e20) == int(0x80000000u), \
+         uint(p.x * 1e20) == 0xffffff00u, uint(p.x * -1e20) == 0u);",
+        [1.0; 4],
+    );
+}
+
 #[test]
 fn control_flow() {
     gives(

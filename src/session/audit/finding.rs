@@ -2,6 +2,9 @@
 
 use crate::diag::Span;
 
+/// The numbers of an operation on constants.
+pub(super) const CONSTANT: &str = "constant";
+
 /// The kinds of findings.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -70,6 +73,11 @@ pub struct Finding {
 }
 
 impl Finding {
+    /// It is an operation on constants, which is found in the text: no pixel shows it more than another.
+    pub fn is_constant(&self) -> bool {
+        self.numbers == CONSTANT
+    }
+
     pub(super) fn is_like(&self, other: &Finding) -> bool {
         self.kind == other.kind && self.span == other.span
     }

@@ -3,14 +3,15 @@
 use super::{
     blame,
     distance::{apart, error_of},
-    finding::Finding,
+    finding::{CONSTANT, Finding, Kind},
     watch::Watch,
 };
 use crate::{
+    diag::SourceId,
     engine::{PassInputs, Sources},
     glsl::{
         walk::{Observer, Shadowed},
-        walkable::Detail,
+        walkable::{Detail, Walkable},
     },
     project::PassSettings,
     session::{
@@ -64,7 +65,8 @@ pub struct Audit {
 }
 
 /// Audits `project.passes[index]` at some pixels, counted from the bottom left, on all processors. Where no program
-/// draws, outside of its region, there is nothing to audit.
+/// draws, outside of its region, there is nothing to audit. What is wrong with operations on constants is found in the
+/// text, and counted for every pixel.
 pub fn audit(
     sources: &Sources<'_>,
     index: usize,
@@ -72,15 +74,47 @@ pub fn audit(
     pixels: &[(u32, u32)],
     limit: u64,
 ) -> Result<Audit, TraceError> {
-    if let Some(&pixel) = pixels.iter().find(|p| p.0 >= inputs.size.0 || p.1 >= inputs.size.1) {
-        return Err(TraceError::Outside { pixel, size: inputs.size });
-    }
     let pass = WalkedPass::new(sources, index, inputs, Detail::Values, limit)?;
+    let mut audit = audit_pixels(&pass, sources, inputs.size, pixels)?;
+    let Some(first) = audit.pixels.first().map(|audited| audited.pixel) else { return Ok(audit) };
+    for (span, is_undefined, what) in pass.programs().flat_map(Walkable::faults) {
+        let kind = if is_undefined { Kind::Undefined(what) } else { Kind::Nonfinite(what) };
+        let (span, pixels) = ((span.source != SourceId::NONE).then_some(span), audit.pixels.len());
+        let finding = Finding { kind, span, pixels, pixel: first, numbers: CONSTANT.into(), error: None };
+        if !audit.findings.iter().any(|known| known.is_like(&finding)) {
+            audit.findings.push(finding);
+        }
+    }
+    audit.findings.sort_by_key(|finding| finding.kind.class());
+    Ok(audit)
+}
+
+/// What is found at one pixel by walking through it.
+pub fn audit_pixel(
+    sources: &Sources<'_>,
+    index: usize,
+    inputs: &PassInputs,
+    pixel: (u32, u32),
+    limit: u64,
+) -> Result<Audit, TraceError> {
+    let pass = WalkedPass::new(sources, index, inputs, Detail::Values, limit)?;
+    audit_pixels(&pass, sources, inputs.size, &[pixel])
+}
+
+fn audit_pixels(
+    pass: &WalkedPass<'_>,
+    sources: &Sources<'_>,
+    size: (u32, u32),
+    pixels: &[(u32, u32)],
+) -> Result<Audit, TraceError> {
+    if let Some(&pixel) = pixels.iter().find(|p| p.0 >= size.0 || p.1 >= size.1) {
+        return Err(TraceError::Outside { pixel, size });
+    }
     let next = AtomicUsize::new(0);
     let work = || {
         let mut done = Vec::new();
         while let Some(&pixel) = pixels.get(next.fetch_add(1, Ordering::Relaxed)) {
-            done.extend(audit_pixel(&pass, sources, pixel)?);
+            done.extend(walked(pass, sources, pixel)?);
         }
         Ok::<_, TraceError>(done)
     };
@@ -109,7 +143,7 @@ pub fn audit(
     Ok(audit)
 }
 
-fn audit_pixel(
+fn walked(
     pass: &WalkedPass<'_>,
     sources: &Sources<'_>,
     pixel: (u32, u32),

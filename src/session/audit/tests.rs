@@ -116,7 +116,7 @@ fn results_that_the_language_leaves_open_are_listed_with_their_numbers() {
         ("o = vec4(1 << (int(p.x) + 32));", "1 << (int(p.x) + 32)", "… by 32"),
         ("o = vec4(int(p.x * 1e10));", "int(p.x * 1e10)", "int(5000000000.0)"),
         ("o = vec4(uint(p.x - 9.));", "uint(p.x - 9.)", "uint(-8.5)"),
-        ("o = vec4(1. / (p.x - .5));", "1. / (p.x - .5)", "1.0 / 0.0"),
+        ("o = vec4((p.x - .5) / (p.x - .5));", "(p.x - .5) / (p.x - .5)", "0.0 / 0.0"),
         ("o = vec4(7 / (int(p.x) - 3));", "7 / (int(p.x) - 3)", "… / 0"),
         ("o = vec4(sqrt(p.x - 9.));", "sqrt(p.x - 9.)", "sqrt(-8.5)"),
         ("float a[3] = float[3](1., 2., 3.);\no = vec4(a[int(p.x)]);", "a[int(p.x)]", "[3] of 3"),
@@ -131,6 +131,48 @@ fn results_that_the_language_leaves_open_are_listed_with_their_numbers() {
         assert_eq!(found.span.map(|span| &code[span.range()]), Some(text), "{body}");
         assert!(found.numbers.contains(numbers), "{body}: {}", found.numbers);
     }
+}
+
+/// No pixel comes to what is folded: it is found in the text.
+#[test]
+fn constants_are_listed_too() {
+    for (expression, kind) in [
+        ("int(1e20)", "undefined"),
+        ("uint(-3.0)", "undefined"),
+        ("ivec2(0., 3e9)", "undefined"),
+        ("0.0 / 0.0", "undefined"),
+        ("1.0 / 0.0", "nonfinite"),
+        ("mod(vec2(1), 0.)", "undefined"),
+        ("asin(2.)", "undefined"),
+        ("inversesqrt(0.)", "undefined"),
+        ("atan(0., 0.)", "undefined"),
+        ("normalize(vec3(0))", "undefined"),
+        ("pow(-1., .5)", "undefined"),
+        ("sqrt(-1.)", "undefined"),
+        ("log(0.)", "undefined"),
+        ("clamp(1., 2., 1.)", "undefined"),
+        ("smoothstep(1., 0., .5)", "undefined"),
+        ("1 << 40", "undefined"),
+        ("5 / 0", "undefined"),
+        ("5 % 0", "undefined"),
+    ] {
+        let code =
+            image(&format!("o = vec4({expression});")).replace("vec4(ivec2(0., 3e9))", "vec4(ivec2(0., 3e9), 0, 1)");
+        let code = code.replace("vec4(mod(vec2(1), 0.))", "vec4(mod(vec2(1), 0.), 0, 1)");
+        let code = code.replace("vec4(normalize(vec3(0)))", "vec4(normalize(vec3(0)), 1)");
+        let audit = audited(&code);
+        assert_eq!(named(&code, &audit), [(kind, expression)], "{expression}");
+        assert!(audit.findings[0].is_constant() && audit.findings[0].pixels == 32, "{expression}");
+    }
+    // What is defined: the ends of the ranges, infinities of infinities, NaN of NaN, and bits that stand for one.
+    for expression in
+        ["int(-2147483648.)", "uint(4294967040.)", "uint(-.5)", "uintBitsToFloat(0x7fc00000u)", "uint(-1)"]
+    {
+        let code = image(&format!("o = vec4({expression});"));
+        assert_eq!(named(&code, &audited(&code)), [], "{expression}");
+    }
+    let code = image("const float inf = 1. / 0.;\nconst float nan = inf - inf;\no = vec4(inf * 2., nan + 1., 0., 1.);");
+    assert_eq!(named(&code, &audited(&code)), [("nonfinite", "1. / 0."), ("undefined", "inf - inf")]);
 }
 
 #[test]

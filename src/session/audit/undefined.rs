@@ -67,8 +67,9 @@ pub fn reason<'t>(
             Some((SMOOTHSTEP, format!("smoothstep({a:?}, {b:?}, …)")))
         }
         Op::Binary { op: Binary::Divide, left, right } if is_float(view, right) => {
-            let (x, y) = pairs(&floats(left), &floats(right)).find(|&(_, y)| y == 0.0)?;
-            Some(("a division by zero is undefined (4.5.1)", format!("{x:?} / {y:?}")))
+            // Any other number gives an infinity (4.5.1), which is told as such.
+            let (x, y) = pairs(&floats(left), &floats(right)).find(|&(x, y)| x == 0.0 && y == 0.0)?;
+            Some(("zero divided by zero is undefined (4.5.1)", format!("{x:?} / {y:?}")))
         }
         Op::Binary { op: Binary::Divide | Binary::Modulo, right, .. } => {
             // `lower` keeps every divisor from 0.

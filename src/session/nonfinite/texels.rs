@@ -51,7 +51,7 @@ pub fn born(
     limit: u64,
 ) -> Result<Option<Finding>, TraceError> {
     let Some(index) = project.passes.iter().position(|p| p.id == *pass) else { return Ok(None) };
-    let audit = audit::audit(&Sources::new(project), index, read, &[texel], limit)?;
+    let audit = audit::audit_pixel(&Sources::new(project), index, read, texel, limit)?;
     Ok(audit.findings.into_iter().find(|finding| finding.kind.class() == Class::Nonfinite))
 }
 

@@ -77,7 +77,16 @@ impl<'p> WalkedPass<'p> {
         };
         let world = self.inputs.of_draw(origin.draw());
         let lane = Machine::<f32>::lane_of(pixel);
-        Ok(Some(WalkedPixel { walkable, world, inputs, origin, lane, limit: self.limit }))
+        Ok(AtPixel::Walked(WalkedPixel { walkable, world, inputs, origin, lane, limit: self.limit }))
+    }
+
+    /// Every program of the pass.
+    pub fn programs(&self) -> impl Iterator<Item = &Walkable> {
+        let (screen, meshes) = match &self.body {
+            Body::Screen(walkable) => (Some(&**walkable), None),
+            Body::Meshes(raster) => (None, Some(raster.programs())),
+        };
+        screen.into_iter().chain(meshes.into_iter().flatten()).chain(self.boundary.as_deref())
     }
 
     /// Gives the program of what runs for a pixel away.

@@ -108,6 +108,12 @@ impl<'p> Raster<'p> {
         Ok(raster)
     }
 
+    /// Every stage of the draws.
+    pub fn programs(&self) -> impl Iterator<Item = &Walkable> {
+        let vertices = self.vertices.iter().map(|(_, walkable)| walkable);
+        vertices.chain(self.fragments.iter().map(|stage| &stage.walkable))
+    }
+
     /// The fragment that leaves its colour in the first target's texel; `None` where none does.
     pub fn shown(&self, pixel: (u32, u32)) -> Result<Option<MeshFragment>, Stop> {
         let lane = Machine::<f32>::lane_of(pixel);
