@@ -7,6 +7,7 @@
 mod accessible;
 mod actions;
 mod app;
+mod audited;
 mod back_buffer;
 mod buffers;
 mod channels;

@@ -105,6 +105,7 @@ impl Session {
             Command::SaveTexels => self.capture(super::capture::Format::Npy),
             Command::Record => self.record(),
             Command::Audit => self.auditing.is_due = true,
+            Command::HideAudit => self.auditing.map = None,
             Command::FindParting => self.tracing.find_parting(),
             Command::ShowPass(pass) => self.show_pass(pass),
             Command::Probe(place) => {

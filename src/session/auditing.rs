@@ -2,7 +2,7 @@
 //! its own, told in the list of problems until the next compile.
 
 use super::{
-    audit::{self, Audit, Class, Finding},
+    audit::{self, Audit, AuditedPixel, Class, Finding},
     trace::STEPS,
     tracing::Taken,
     view::TabDiagnostic,
@@ -13,10 +13,12 @@ use crate::{
     engine::Sources,
     project::{PassId, Project},
 };
-use std::sync::Arc;
+use std::{collections::HashMap, sync::Arc};
 
 /// How many pixels are looked at, across and up.
 const PIXELS: (u32, u32) = (32, 18);
+/// Pixels that are listed.
+const WORST: usize = 5;
 
 struct Job {
     project: Project,
@@ -31,6 +33,37 @@ pub(super) struct Told {
     /// The largest difference of a component between the device and double precision.
     pub error: f64,
     pub findings: Vec<TabDiagnostic>,
+    pub map: AuditMap,
+}
+
+/// How far pixels of a pass are off double precision, and where.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AuditMap {
+    pub pass: PassId,
+    /// The pass's picture.
+    pub size: (u32, u32),
+    pub pixels: usize,
+    pub cells: Vec<AuditCell>,
+    /// The largest errors, the largest first; those without any are left out.
+    pub worst: Vec<WorstPixel>,
+}
+
+/// A part of a picture that one pixel stands for: its corners, from 0 to 1 across and up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AuditCell {
+    pub from: [f32; 2],
+    pub to: [f32; 2],
+    /// The largest difference of a component; infinite where the device or double precision alone has a number.
+    pub error: f64,
+}
+
+/// A pixel, what the device has drawn there, and what double precision makes of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WorstPixel {
+    pub pixel: (u32, u32),
+    pub error: f64,
+    pub device: [f32; 4],
+    pub double: [f64; 4],
 }
 
 pub(super) struct Auditing {
@@ -39,11 +72,13 @@ pub(super) struct Auditing {
     pub is_due: bool,
     /// The pass of which it is being taken.
     taking: Option<PassId>,
+    /// What is shown of the newest one.
+    pub map: Option<AuditMap>,
 }
 
 impl Auditing {
     pub fn new(wake: Arc<dyn Fn() + Send + Sync>) -> std::io::Result<Self> {
-        Ok(Self { worker: Worker::new("audit", wake, told)?, is_due: false, taking: None })
+        Ok(Self { worker: Worker::new("audit", wake, told)?, is_due: false, taking: None, map: None })
     }
 
     /// The pass whose inputs are to be taken now, if any are.
@@ -78,14 +113,31 @@ fn told(Job { project, pass, taken: (inputs, device) }: Job) -> Result<Told, Str
     let found = audit::audit(&Sources::new(&project), index, &inputs, &pixels, STEPS).map_err(|e| e.to_string())?;
     let stored = project.passes[index].settings.format.components();
     let texel = |(x, y): (u32, u32)| device.texels.get((y * device.width + x) as usize).copied().unwrap_or_default();
-    let error = |audit: &Audit| {
-        let each = audit.pixels.iter().flat_map(|pixel| pixel.apart(texel(pixel.pixel), stored));
-        each.fold(0.0, f64::max)
-    };
+    let error = |pixel: &AuditedPixel| pixel.apart(texel(pixel.pixel), stored).into_iter().fold(0.0, f64::max);
+    let mut worst: Vec<WorstPixel> = found
+        .pixels
+        .iter()
+        .map(|pixel| WorstPixel {
+            pixel: pixel.pixel,
+            error: error(pixel),
+            device: texel(pixel.pixel),
+            double: pixel.double,
+        })
+        .collect();
+    let known: HashMap<(u32, u32), f64> = worst.iter().map(|worst| (worst.pixel, worst.error)).collect();
+    let size = inputs.size;
+    let cells = audit::cells(PIXELS, &project.passes[index].settings, size).into_iter().zip(&pixels);
+    let cells =
+        cells.filter_map(|((from, to), pixel)| Some(AuditCell { from, to, error: *known.get(pixel)? })).collect();
+    worst.sort_by(|a, b| b.error.total_cmp(&a.error));
+    let largest = worst.first().map_or(0.0, |worst| worst.error);
+    worst.retain(|worst| worst.error > 0.0);
+    worst.truncate(WORST);
+    let map = AuditMap { pass: pass.clone(), size, pixels: found.pixels.len(), cells, worst };
     let sources = project.sources();
     let findings =
         found.findings.iter().map(|finding| TabDiagnostic::new(&diagnostic(finding, &found), &sources, &project));
-    Ok(Told { pass, pixels: found.pixels.len(), error: error(&found), findings: findings.collect() })
+    Ok(Told { pass, pixels: found.pixels.len(), error: largest, findings: findings.collect(), map })
 }
 
 fn diagnostic(finding: &Finding, audit: &Audit) -> Diagnostic {

@@ -155,6 +155,8 @@ pub enum Command {
     /// Traces the pixel of the shown pass at a place of its picture, from 0 to 1 across and up, and pauses; `None`:
     /// none any more. See [`Session::trace`](super::Session::trace).
     Trace(Option<[f32; 2]>),
+    /// Shows the errors of the audited pixels no more.
+    HideAudit,
     /// Looks for the first assignment of the traced pixel that comes out otherwise on the device, beside the picture. See
     /// [`Session::parting`](super::Session::parting).
     FindParting,

@@ -108,6 +108,7 @@ impl Session {
         self.compile.read.clear();
         self.compile.fallback = None;
         self.compile.diagnostics.clear();
+        self.auditing.map = None;
         self.compile.state = super::view::CompileState::default();
         self.disk.opened += 1;
         self.disk.media_files.clear();

@@ -70,6 +70,7 @@ mod watch;
 mod worker;
 
 pub use analysis::TabAnalysis;
+pub use auditing::{AuditMap, WorstPixel};
 pub use command::{Answer, Command, DiffLine, Question, Recovered, RecoveredTab, Request, Then};
 pub use costs::{PassCosts, TimedPass};
 pub use options::{SessionError, SessionOptions};

@@ -2,13 +2,19 @@
 
 use super::{
     Session,
-    auditing::Told,
+    auditing::{AuditMap, Told},
     parting::PartingView,
     tracing::Taken,
     view::Level,
 };
 
 impl Session {
+    /// How far the audited pixels ([`Command::Audit`](super::Command::Audit)) are off double precision, while what was
+    /// found of them is listed.
+    pub fn audit_map(&self) -> Option<&AuditMap> {
+        self.auditing.map.as_ref()
+    }
+
     /// The search for where the device parts from the walker in the traced pixel
     /// ([`Command::FindParting`](super::Command::FindParting)); `None`: nobody has asked for it.
     pub fn parting(&self) -> Option<PartingView<'_>> {
@@ -28,7 +34,7 @@ impl Session {
     pub(super) fn take_audited(&mut self) {
         let Some(told) = self.auditing.take() else { return };
         self.changed = true;
-        let Told { pass, pixels, error, findings } = match told {
+        let Told { pass, pixels, error, findings, map } = match told {
             Ok(told) => told,
             Err(why) => return self.notice(Level::Warning, format!("the picture was not checked: {why}")),
         };
@@ -41,6 +47,7 @@ impl Session {
         let text = format!("{pass} is off double precision by {error:.1e} at most, of {pixels} pixels; {count}");
         self.notice(Level::Info, text);
         self.compile.diagnostics.extend(findings);
+        self.auditing.map = Some(map);
     }
 
     /// Tells that what was asked of the device for an audit could not be had. Returns whether anything was asked.

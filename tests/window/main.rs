@@ -4,6 +4,7 @@
 mod support;
 
 mod window;
+mod window_audit;
 mod window_buffers;
 mod window_compare;
 mod window_editor;

@@ -2,7 +2,7 @@
 
 use super::Shell;
 use crate::{
-    gui::{buffers, compare, costs, dock::Panel, halt, measures, probe, problems, report::Report, theme},
+    gui::{audited, buffers, compare, costs, dock::Panel, halt, measures, probe, problems, report::Report, theme},
     project::{Origin, Tab},
     session::{Outcome, Session},
 };
@@ -78,6 +78,7 @@ impl Shell {
         }
         let under = session.probe().and(self.viewport.under());
         report.say_if_new("probe", probe::report(session, under));
+        report.say_if_new("audit", audited::report(session));
         if self.dock.is_open(Panel::Trace) {
             report.say_if_new("trace", self.debugger.report(session));
         }

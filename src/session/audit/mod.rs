@@ -13,7 +13,7 @@ mod undefined;
 mod watch;
 
 pub use finding::{Class, Finding, Kind};
-pub use run::{Audit, AuditedPixel, audit, audit_pixel, grid, spread};
+pub use run::{Audit, AuditedPixel, audit, audit_pixel, cells, grid, spread};
 
 #[cfg(test)]
 mod tests;

@@ -55,6 +55,23 @@ pub fn grid((columns, rows): (u32, u32), settings: &PassSettings, size: (u32, u3
     pixels.into_iter().map(|(x, y)| (own.x + x, own.y + y)).collect()
 }
 
+/// The parts of a picture that the pixels of [`grid`] stand for, in their order: two corners each, from 0 to 1 across
+/// and up.
+pub fn cells(
+    (columns, rows): (u32, u32),
+    settings: &PassSettings,
+    (width, height): (u32, u32),
+) -> Vec<([f32; 2], [f32; 2])> {
+    let Some(own) = own_texels(settings, (width, height)) else { return Vec::new() };
+    let at = |x: u32, y: u32| {
+        let part = |begin: u32, count: u32, i: u32, n: u32, whole: u32| {
+            (begin as f32 + count as f32 * i as f32 / n as f32) / whole as f32
+        };
+        [part(own.x, own.width, x, columns, width), part(own.y, own.height, y, rows, height)]
+    };
+    (0..rows).flat_map(|y| (0..columns).map(move |x| (at(x, y), at(x + 1, y + 1)))).collect()
+}
+
 /// Holds what was found.
 #[derive(Clone, Debug, Default)]
 pub struct Audit {

@@ -154,6 +154,7 @@ impl Session {
             Err(Panicked(reason)) => {
                 let what = format!("this is a bug in Eddy: the compiler gave up ({reason})");
                 self.compile.diagnostics = vec![TabDiagnostic::nowhere(&what)];
+                self.auditing.map = None;
                 self.compile.state.last = Some(self.failed());
                 let goes_on = if self.drawing.has_program() { "; the last good picture goes on" } else { "" };
                 self.notice(Level::Error, format!("{what}{goes_on}"));
@@ -177,6 +178,7 @@ impl Session {
         // What is said is about the newest text.
         if !is_fallback {
             self.compile.diagnostics = diagnostics;
+            self.auditing.map = None;
             self.compile.diagnostics.extend(self.compile.read.iter().cloned());
             self.compile.diagnostics.sort_by_key(|d| std::cmp::Reverse(d.severity));
             self.compile.edits.set_quiet(compile::quiet_after(took, self.options.edit_debounce));

@@ -1,0 +1,139 @@
+//! How wrong the picture is: a map of the errors over it, and the worst pixels, each of which can be traced.
+
+use super::{
+    icons::{self, Icon},
+    outbox::{Outbox, Wish},
+    theme,
+};
+use crate::session::{AuditMap, Command, Session, WorstPixel};
+use egui::{Area, Color32, Frame, Id, Margin, Order, Pos2, Rect, RichText, Ui, vec2};
+use serde_json::{Value, json};
+
+/// The error that is drawn as nothing; one of 1 is drawn in full.
+const LEAST: f64 = 1e-8;
+/// What a screen of 8 bits shows.
+const VISIBLE: f64 = 1.0 / 255.0;
+
+/// Paints the map over the picture of the pass that it is of.
+pub fn paint(ui: &Ui, session: &Session, picture: Rect) {
+    let Some(map) = session.audit_map().filter(|map| map.pass == *session.shown_pass()) else { return };
+    let painter = ui.painter().with_clip_rect(picture);
+    let at = |[x, y]: [f32; 2]| -> Pos2 { picture.left_bottom() + vec2(x * picture.width(), -y * picture.height()) };
+    for cell in &map.cells {
+        let color = color(cell.error);
+        if color != Color32::TRANSPARENT {
+            painter.rect_filled(Rect::from_two_pos(at(cell.from), at(cell.to)), 0.0, color);
+        }
+    }
+}
+
+/// Lists the worst pixels over the picture's lower edge.
+pub fn show(ui: &Ui, session: &Session, area: Rect, out: &mut Outbox) {
+    let Some(map) = session.audit_map().filter(|map| map.pass == *session.shown_pass()) else { return };
+    let shown = Area::new(Id::unique("audit"))
+        .order(Order::Middle)
+        .pivot(egui::Align2::LEFT_BOTTOM)
+        .fixed_pos(area.left_bottom() + vec2(6.0, -6.0))
+        .constrain_to(area)
+        .show(ui.ctx(), |ui| {
+            theme::put_over_picture(ui);
+            let frame = Frame::NONE.fill(theme::of(ui).panel).corner_radius(6).inner_margin(Margin::symmetric(8, 5));
+            frame.show(ui, |ui| {
+                out.stop("audit", ui);
+                ui.set_max_width((area.width() - 28.0).max(160.0));
+                // Rows close below each other: the picture is what is looked at.
+                let spacing = ui.spacing_mut();
+                (spacing.item_spacing, spacing.button_padding) = (vec2(6.0, 2.0), vec2(4.0, 0.0));
+                spacing.interact_size.y = 16.0;
+                card(ui, map, out);
+            });
+        });
+    out.place("audit", shown.response.rect);
+}
+
+fn card(ui: &mut Ui, map: &AuditMap, out: &mut Outbox) {
+    let p = theme::of(ui);
+    ui.horizontal(|ui| {
+        ui.label(RichText::new(format!("Off double precision, {} pixels", map.pixels)).color(p.strong).size(12.5));
+        let close = icons::flat(ui, Icon::Close, "Hide the map").on_hover_text("Hide the map of errors");
+        if out.clicked("audit:close", &close) {
+            out.ask(Command::HideAudit);
+        }
+    });
+    scale(ui, out);
+    if map.worst.is_empty() {
+        ui.colored_label(p.good, "Every pixel is that of double precision");
+    }
+    for (index, worst) in map.worst.iter().enumerate() {
+        let WorstPixel { pixel: (x, y), error, device, double } = worst;
+        let words = RichText::new(format!("{x},{y}   {error:.1e}")).monospace().size(12.0);
+        let color = if *error > VISIBLE { p.warning } else { p.text };
+        let list = |values: [f64; 4]| values.map(|x| format!("{x:.6}")).join(", ");
+        let tip = format!(
+            "the device ({})\nin double precision ({})\nClick to trace this pixel",
+            list(device.map(f64::from)),
+            list(*double)
+        );
+        let row = ui.selectable_label(false, words.color(color)).on_hover_text(tip);
+        if out.clicked(&format!("audit:worst:{index}"), &row) {
+            let part = |at: u32, of: u32| (at as f32 + 0.5) / of.max(1) as f32;
+            out.wishes.push(Wish::Trace([part(*x, map.size.0), part(*y, map.size.1)]));
+        }
+    }
+}
+
+/// What the colours stand for.
+fn scale(ui: &mut Ui, out: &mut Outbox) {
+    let p = theme::of(ui);
+    let row = ui.horizontal(|ui| {
+        ui.colored_label(p.weak, "1e-8");
+        let (rect, _) = ui.allocate_exact_size(vec2(120.0, 9.0), egui::Sense::hover());
+        const STEPS: u32 = 24;
+        for step in 0..STEPS {
+            let left = rect.left() + rect.width() * step as f32 / STEPS as f32;
+            let part = Rect::from_min_size(Pos2::new(left, rect.top()), vec2(rect.width() / STEPS as f32, 9.0));
+            let error = LEAST.powf(1.0 - f64::from(step + 1) / f64::from(STEPS));
+            ui.painter().rect_filled(part, 0.0, color(error));
+        }
+        ui.colored_label(p.weak, "1");
+    });
+    out.place("audit:scale", row.response.rect);
+}
+
+/// From nothing over blue and red to yellow, by the error's logarithm, so that the picture is seen where it is right.
+fn color(error: f64) -> Color32 {
+    // A NaN on one side alone is no less than the largest error.
+    let part = if error.is_finite() { (1.0 - error.max(LEAST).ln() / LEAST.ln()).clamp(0.0, 1.0) } else { 1.0 };
+    if part <= 0.0 {
+        return Color32::TRANSPARENT;
+    }
+    let stops = [[60.0, 90.0, 255.0], [255.0, 40.0, 90.0], [255.0, 235.0, 60.0]];
+    let (from, weight) = if part < 0.5 { (0, part * 2.0) } else { (1, part * 2.0 - 1.0) };
+    let mixed = |i: usize| (stops[from][i] + weight * (stops[from + 1][i] - stops[from][i])) as u8;
+    Color32::from_rgba_unmultiplied(mixed(0), mixed(1), mixed(2), (60.0 + 150.0 * part) as u8)
+}
+
+/// What scripts are told of it.
+pub fn report(session: &Session) -> Value {
+    let Some(map) = session.audit_map() else { return Value::Null };
+    let worst: Vec<Value> = map
+        .worst
+        .iter()
+        .map(|worst| json!({ "pixel": [worst.pixel.0, worst.pixel.1], "error": worst.error }))
+        .collect();
+    json!({ "pass": map.pass.title(), "pixels": map.pixels, "cells": map.cells.len(), "worst": worst })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_larger_error_is_seen_better() {
+        assert_eq!(color(0.0), Color32::TRANSPARENT);
+        assert_eq!(color(LEAST), Color32::TRANSPARENT);
+        let seen = [1e-7, 1e-5, 1e-3, 1.0].map(|error| color(error).a());
+        assert!(seen.is_sorted_by(|a, b| a < b), "{seen:?}");
+        assert_eq!(color(f64::INFINITY), color(1.0));
+    }
+}
