@@ -1,10 +1,10 @@
 //! `eddy compare`: how far the pictures of two projects are apart, and how their times compare.
 //!
 //! Both get the same inputs and draw the same frames. Their times are taken in turns, so that a machine that is busy
-//! is busy for both.
+//! is busy for both, and as with `--no-skip`, so that a picture at rest costs what it costs to draw.
 
 use super::{
-    args::{CompareArgs, CompareView},
+    args::{CompareArgs, CompareView, RunArgs},
     machine::{Machine, Trouble, open},
     report::{Printer, Report},
     targets,
@@ -95,9 +95,11 @@ fn compare(
         (None, reference) => reference.clone().unwrap_or_default(),
     };
     let pass = &args.pass;
-    let (_, mut ours) = open(machine, report, &args.project, &args.run, &pass.pass, inputs.clone())?;
+    // What is timed is drawn, also where nothing changes; the pictures stay the same.
+    let drawn = RunArgs { no_skip: args.run.no_skip || args.repeats > 0, ..args.run.clone() };
+    let (_, mut ours) = open(machine, report, &args.project, &drawn, &pass.pass, inputs.clone())?;
     let compile_ms = report.compile_ms;
-    let (_, mut theirs) = open(machine, report, &reference, &args.run, &pass.pass, inputs.clone())?;
+    let (_, mut theirs) = open(machine, report, &reference, &drawn, &pass.pass, inputs.clone())?;
     report.compile_ms = compile_ms;
     for _ in 0..=args.frame {
         ours.draw()?;

@@ -107,6 +107,20 @@ fn two_pictures_are_compared_bit_by_bit_and_as_one_sees_them() {
     assert!(missing.err.contains("c.glsl"), "{}", missing.err);
 }
 
+/// A picture that stays the same is left out of a frame, which costs nothing; its time is what drawing it costs.
+#[test]
+fn pictures_at_rest_are_drawn_to_be_timed() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    let sines = "float s = 0.0; for (int i = 0; i < 50000; i++) s += sin(fragCoord.x + float(i) * 0.37);";
+    b.image("long.glsl", &format!("{sines} fragColor = vec4(s);"));
+    b.image("short.glsl", "fragColor = vec4(0.5);");
+    let run = b.line("compare long.glsl short.glsl --size 32x32 --repeats 3 --json").expect(0);
+    let time = &run.json()[0]["time"];
+    // Fifty thousand sines a pixel against one number: a ratio near 1 is of frames in which neither was drawn.
+    assert!(time["ratio"].as_f64().unwrap() > 3.0, "{time}");
+}
+
 #[test]
 fn a_project_is_compared_with_what_it_was_in_a_revision() {
     let Some(_) = gpu() else { return };

@@ -14,7 +14,7 @@ use jiff::civil::DateTime;
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
 /// Says how frames are drawn, wherever frames are drawn.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct RunArgs {
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", default_value = "640x360", value_parser = size, allow_hyphen_values = true)]
@@ -94,7 +94,7 @@ impl RunArgs {
 }
 
 /// Passes of the shader compiler's optimiser that are left out: for who works on it.
-#[derive(Debug, Default, Args)]
+#[derive(Clone, Debug, Default, Args)]
 pub struct WithoutPass {
     /// Leave out a pass of the optimiser; may be repeated
     #[arg(long = "without-pass", value_name = "NAME", value_parser = PassSet::of, hide = true)]
