@@ -7,13 +7,13 @@
 
 mod random;
 
-use crate::support::*;
+use crate::support::{env::number, *};
 use eddy::{
     diag::render_all,
     engine::{BuildError, BuildOptions, Engine, FrameInputs, PassInputs, Program as Built, Sources},
     gpu::Gpu,
     project::Project,
-    session::trace::{self, Extent},
+    session::trace::{Extent, Tracer},
 };
 use random::{
     Program,
@@ -103,12 +103,14 @@ impl Case {
         let mut all = Vec::new();
         for frame in 0..FRAMES {
             let inputs = FrameInputs::at_fixed_step(frame, 60.0);
-            let (_, read) = engine.draw_inspected(&inputs, &wanted[0]).map_err(|e| e.to_string())?;
-            for name in &wanted {
-                all.push(engine.read(name).map_err(|e| e.to_string())?.texels);
-            }
-            if frame + 1 == FRAMES {
-                walk(&project, &read, &all[all.len() - wanted.len()])?;
+            engine.draw(&inputs).map_err(|e| e.to_string())?;
+            for (index, name) in wanted.iter().enumerate() {
+                let texels = engine.read(name).map_err(|e| e.to_string())?.texels;
+                if frame + 1 == FRAMES {
+                    let read = engine.inspect(name).map_err(|e| e.to_string())?;
+                    walk(&project, index, &read, &texels)?;
+                }
+                all.push(texels);
             }
         }
         Ok(all)
@@ -142,15 +144,15 @@ impl Case {
     }
 }
 
-/// Walks through the first buffer of a frame for some of its pixels: a second opinion that owes nothing to a driver.
-fn walk(project: &Project, read: &PassInputs, drawn: &Texels) -> Result<(), String> {
-    let texts = Sources::new(project);
-    for (at, texel) in drawn.iter().enumerate().step_by(9) {
+/// Walks through a buffer of a frame for all of its pixels: a second opinion that owes nothing to a driver.
+fn walk(project: &Project, index: usize, read: &PassInputs, drawn: &Texels) -> Result<(), String> {
+    let extent = Extent { steps: 0, ..Extent::default() };
+    let tracer = Tracer::new(&Sources::new(project), index, read, extent).map_err(|e| e.to_string())?;
+    for (at, texel) in drawn.iter().enumerate() {
         let pixel = ((at % WIDTH) as u32, (at / WIDTH) as u32);
-        let walked = trace::trace(&texts, 0, read, pixel, Extent { steps: 0, ..Extent::default() });
-        let walked = walked.map_err(|e| e.to_string())?.value;
+        let walked = tracer.trace(pixel).map_err(|e| e.to_string())?.value;
         if walked.as_ref() != Some(texel) {
-            return Err(format!("walked, pixel {pixel:?}: {walked:?}, drawn {texel:?}"));
+            return Err(format!("walked, buffer {}, pixel {pixel:?}: {walked:?}, drawn {texel:?}", NAMES[index]));
         }
     }
     Ok(())
@@ -173,10 +175,6 @@ fn difference(drawn: &[Texels], expected: &[Texels]) -> Option<String> {
             expected[at]
         ))
     })
-}
-
-fn number(name: &str, otherwise: u64) -> u64 {
-    std::env::var(name).map_or(otherwise, |text| text.parse().unwrap_or_else(|e| panic!("{name}={text}: {e}")))
 }
 
 #[test]

@@ -4,6 +4,7 @@
 pub mod clock;
 pub mod compiled;
 pub mod compute;
+pub mod env;
 pub mod first_frame;
 pub mod ir;
 pub mod meshes;
