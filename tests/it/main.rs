@@ -58,6 +58,7 @@ mod preset_ssao;
 mod preset_state;
 mod preset_toon;
 mod presets;
+mod random_floats;
 mod random_programs;
 mod recovery;
 mod reload;

@@ -12,6 +12,7 @@ pub mod preset;
 pub mod presets;
 pub mod program;
 pub mod stage;
+pub mod walked;
 pub mod window;
 
 use eddy::{
