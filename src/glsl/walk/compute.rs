@@ -7,7 +7,7 @@ use super::{
     world::Lod,
 };
 use crate::glsl::{
-    ir::{Axis, Level, Math, Op, Value},
+    ir::{Axis, Binary, Level, Math, Op, Value},
     types::Scalar,
 };
 
@@ -58,11 +58,21 @@ impl<R: Real> State<'_, R> {
             Op::Unary { op, operand } => out.extend(cells(operand).iter().map(|&cell| math::unary(op, cell))),
             Op::Binary { op, left, right } => {
                 let scalar = scalar(left);
+                let is_product = op == Binary::Multiply && scalar == Scalar::Float;
+                let [is_left_known, is_right_known] =
+                    [left, right].map(|value| is_product && self.is_constant(frame, value));
                 let (left, right) = (cells(left), cells(right));
                 let size = left.len().max(right.len());
                 // A scalar meets each component of the other side.
                 let at = |cells: &[Cell<R>], i: usize| if cells.len() == 1 { cells[0] } else { cells[i] };
-                out.extend((0..size).map(|i| math::binary(op, scalar, at(left, i), at(right, i))));
+                let zero = R::from_f64(0.0);
+                out.extend((0..size).map(|i| match (at(left, i), at(right, i)) {
+                    // Drivers drop a product with a zero that they see, also one with infinity (`nir_opt_algebraic.py`):
+                    // `mod(x, 0.0)` is x.
+                    (left, _) if is_left_known && left.float() == zero => Cell::Float(zero),
+                    (_, right) if is_right_known && right.float() == zero => Cell::Float(zero),
+                    (left, right) => math::binary(op, scalar, left, right),
+                }));
             }
             Op::Math { fun, arg, arg1, arg2, arg3 } => {
                 let args: Vec<&[Cell<R>]> = [Some(arg), arg1, arg2, arg3].into_iter().flatten().map(cells).collect();

@@ -59,6 +59,11 @@ impl<'a, R: Real> State<'a, R> {
         }
     }
 
+    /// A value is known before the program runs.
+    pub fn is_constant(&self, frame: &Frame<R>, value: Value) -> bool {
+        matches!(self.layouts[frame.function.index()].slots[value.index()], Slot::Constant { .. })
+    }
+
     /// The cells of what a place holds in a lane.
     pub fn memory(&self, frame: &Frame<R>, place: Value, lane: usize) -> &[Cell<R>] {
         let start = self.place(frame, place)[lane] as usize;

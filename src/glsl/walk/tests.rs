@@ -192,6 +192,21 @@ fn what_never_ends_is_stopped_and_what_discards_draws_nothing() {
 }
 
 #[test]
+fn what_the_language_leaves_open_is_as_drivers_have_it() {
+    // A product with a zero that a driver sees is none, and one that it does not see is computed.
+    gives(
+        "",
+        "float z = p.x * 0.0; r = vec4(mod(p.x, 0.0), mod(vec2(p.x), vec2(0.0, 1.0)), isnan(mod(p.x, z)));",
+        [3.5, 3.5, 0.5, 1.0],
+    );
+    gives(
+        "",
+        "float z = p.x * 1e30; r = vec4(int(z) == 2147483520, int(-z) + 2147483647 == -1, uint(z) == 4294967040u, uint(-z));",
+        [1.0, 1.0, 1.0, 0.0],
+    );
+}
+
+#[test]
 fn single_precision_is_a_devices_and_the_shadow_knows_better() {
     let code = "void mainImage(out vec4 r, in vec2 p) { float a = p.x * 0.1; r = vec4((a + 1e8) - 1e8 - a); }";
     assert_eq!(draw::<f32>(code, (3, 2)).unwrap()[0], f64::from((3.5f32 * 0.1 + 1e8) - 1e8 - 3.5 * 0.1));
