@@ -58,6 +58,16 @@ fn no_division_ends_the_process() {
         assert_eq!(run.code, Some(0), "{some:?}: {}", run.err);
     }
     assert_eq!(b.names("pictures").len(), TRAPS.len());
+    for (name, body) in names.iter().zip(TRAPS) {
+        is_walked(&b, &format!("{name} --pixel 3,1"), body);
+    }
+}
+
+/// The walker gives a pixel of a project the value that the device draws.
+fn is_walked(b: &Bench, args: &str, what: &str) {
+    let run = b.line(&format!("trace {args} --size 8x4 --frame 1 --json")).expect(0);
+    let line = &run.json()[0];
+    assert_eq!(line["ulps"], serde_json::json!([0, 0, 0, 0]), "{what}: {} not {}", line["value"], line["device"]);
 }
 
 #[test]
@@ -66,14 +76,14 @@ fn no_vertex_stage_ends_the_process() {
     let b = Bench::new();
     b.write(
         "scene/eddy.toml",
-        "eddy = 1\nname = \"scene\"\n\n[passes.buffer_scene]\ntargets = [\"rgba8\"]\nsize = [8, 4]\n\
+        "eddy = 1\nname = \"scene\"\n\n[passes.buffer_scene]\ntargets = [\"rgba32f\"]\nsize = [8, 4]\n\
          draw = [{ mesh = \"builtin:cube\", vertex = \"v.glsl\", fragment = \"f.glsl\" }]\n\n\
          [passes.image]\nchannels.0 = { buffer = \"scene\", filter = \"nearest\" }\n",
     );
     let vertex = "in vec3 aPosition;\nflat out int vQ;\nvoid main() {\n\
         int z = int(aPosition.x) * 0, least = LEAST + z, q = LEAST / (z - 1);\n\
         q += least % (z - 1); q /= z; q %= z; ivec3 v = ivec3(least) / (z - 1); v %= ivec3(z);\n\
-        vQ = q + v.x;\n gl_Position = vec4(aPosition, 1.0);\n}\n";
+        vQ = q + v.x;\n gl_Position = vec4(0.5 * aPosition, 1.0);\n}\n";
     b.write("scene/v.glsl", vertex.replace("LEAST", LEAST));
     let fragment = "flat in int vQ;\nlayout(location = 0) out vec4 a;\nvoid main() {\n\
         int z = vQ * 0; a = vec4(LEAST / (z - 1) + 3 % z);\n}\n";
@@ -81,6 +91,7 @@ fn no_vertex_stage_ends_the_process() {
     b.write("scene/image.glsl", "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }\n");
     let run = b.line("render scene --size 8x4 --frames 2 --out scene.png");
     assert_eq!(run.code, Some(0), "{}", run.err);
+    is_walked(&b, "scene --pass buffer_scene --pixel 4,2", vertex);
 }
 
 /// Nothing here is known before the program runs; then drivers know all.

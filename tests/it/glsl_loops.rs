@@ -1,7 +1,7 @@
 //! What loops compute: those whose rounds are known beforehand, which drivers write out, and those that read what they
 //! write.
 
-use crate::support::{compute::*, *};
+use crate::support::{compute::*, walked::assert_walked, *};
 
 #[test]
 fn loops_of_known_rounds() {
@@ -156,13 +156,17 @@ fn tests_and_steps_begin_anew() {
     ]);
 }
 
-/// What eight pixels in a row draw, each a `vec4` that `body` gives `o` for `x`, its number; `before` is at file scope.
+/// What eight pixels in a row draw, and the walker too: each a `vec4` that `body` gives `o` for `x`, its number;
+/// `before` is at file scope.
 fn row(before: &str, body: &str) -> Option<Vec<[f32; 4]>> {
     let gpu = gpu()?;
     let code = format!("{before}\nvoid mainImage(out vec4 o, in vec2 p) {{ int x = int(p.x); {body} }}");
-    let mut engine = engine(&gpu, &project(vec![image(&code, Default::default())]), (8, 1));
+    let project = project(vec![image(&code, Default::default())]);
+    let mut engine = engine(&gpu, &project, (8, 1));
     run(&mut engine, 0, 1);
-    let pixels = engine.read(&eddy::project::PassId::Image).unwrap();
+    let id = eddy::project::PassId::Image;
+    assert_walked(&mut engine, &project, &id);
+    let pixels = engine.read(&id).unwrap();
     Some((0..8).map(|x| texel(&pixels, x, 0)).collect())
 }
 

@@ -1,7 +1,14 @@
 //! Long arrays: a driver that takes minutes over stores one by one gets loops, which compute the same.
 
-use crate::support::first_frame::first_frame;
-use eddy::glsl::{self, Driver, PassSource};
+use crate::support::{
+    first_frame::first_frame,
+    image, project,
+    walked::{nothing_read, walk},
+};
+use eddy::{
+    glsl::{self, Driver, PassSource},
+    project::PassId,
+};
 use std::time::Duration;
 
 /// Texels of a picture as NumPy's format has it, rows from the bottom.
@@ -202,6 +209,19 @@ fn constant_arrays() -> Vec<(&'static str, String, Texel)> {
             },
         ),
     ]
+}
+
+/// Some texels of each program, walked.
+#[test]
+fn long_arrays_are_walked() {
+    let long = LONG_ARRAYS.iter().map(|&(name, text, texel)| (name, text.to_owned(), texel));
+    for (name, text, texel) in long.chain(constant_arrays()) {
+        let project = project(vec![image(&text, Default::default())]);
+        let pixels = [(0, 0), (3, 3), (17, 5), (31, 17)];
+        let found = walk(&project, &PassId::Image, &nothing_read((32, 18)), &pixels);
+        let expected = pixels.map(|(x, y)| Some(texel(x as usize, y as usize)));
+        assert_eq!(found, expected, "{name}");
+    }
 }
 
 #[test]

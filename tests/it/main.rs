@@ -73,3 +73,4 @@ mod uniform_values;
 mod uniforms;
 mod walker;
 mod walker_meshes;
+mod walker_textures;

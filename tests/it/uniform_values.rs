@@ -1,6 +1,6 @@
 //! Values in `eddy.toml` for uniforms that a text declares in GLSL's own way.
 
-use crate::support::*;
+use crate::support::{walked::assert_walked, *};
 use eddy::{
     diag::render_all,
     engine::{BuildError, BuildOptions, Program},
@@ -71,6 +71,7 @@ fn every_type_takes_its_values_from_the_file() {
     let options = BuildOptions { wanted: vec![buffer("A")], skip: true, ..BuildOptions::default() };
     let mut engine = engine_with(&gpu, &project, &MediaSet::new(), &options, (6, 1));
     run(&mut engine, 0, 1);
+    assert_walked(&mut engine, &project, &buffer("A"));
     let texels = engine.read(&buffer("A")).unwrap().texels;
     assert_eq!(
         texels[..6],

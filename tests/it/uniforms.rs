@@ -1,6 +1,6 @@
 //! The author's own uniforms, from an `#iUniform` line to the picture.
 
-use crate::support::{stage::*, *};
+use crate::support::{stage::*, walked::assert_walked, *};
 use eddy::{
     diag::render_all,
     engine::{BuildError, BuildOptions, Program},
@@ -38,6 +38,7 @@ fn every_type_reaches_the_shader_and_turning_one_compiles_nothing() {
     let options = BuildOptions { wanted: vec![buffer("A")], skip: true, ..BuildOptions::default() };
     let mut engine = engine_with(&gpu, &project, &MediaSet::new(), &options, (4, 1));
     run(&mut engine, 0, 1);
+    assert_walked(&mut engine, &project, &buffer("A"));
     assert_eq!(
         row(&engine.read(&buffer("A")).unwrap()),
         [[0.25, -3.0, 0.5, 2.5], [1.0, 0.5, 0.125, 1.0], [1.0, 2.0, 3.0, 4.0], [1.0, 0.125, 1.0, 4.0]]
@@ -49,6 +50,7 @@ fn every_type_reaches_the_shader_and_turning_one_compiles_nothing() {
     assert!(engine.set_custom_uniforms(&project.custom_uniform_values));
     assert!(!engine.set_custom_uniforms(&project.custom_uniform_values), "nothing is different");
     run(&mut engine, 1, 2);
+    assert_walked(&mut engine, &project, &buffer("A"));
     let turned = row(&engine.read(&buffer("A")).unwrap());
     assert_eq!(
         turned,
@@ -71,6 +73,8 @@ fn common_declares_for_every_pass_and_a_pass_for_itself() {
     p.common = Some(Source { name: "Common".into(), path: None, text: "#iUniform float shared_one = 0.5".into() });
     let mut engine = engine(&gpu, &p, (1, 1));
     run(&mut engine, 0, 1);
+    assert_walked(&mut engine, &p, &buffer("A"));
+    assert_walked(&mut engine, &p, &PassId::Image);
     assert_eq!(texel(&engine.read(&PassId::Image).unwrap(), 0, 0), [2.5, 1.0, 0.5, 1.0]);
     let mut stranger = p.clone();
     stranger.passes[1].source.text = show.replace("shared_one", "own").into();

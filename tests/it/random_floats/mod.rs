@@ -2,8 +2,8 @@
 //! float holds, and small compositions. Both are held against the exact result in double precision, within the
 //! bounds of [`operations`].
 //!
-//! `EDDY_RANDOM_PROGRAMS` says how many compositions (four a program, and an eighth as many programs), `EDDY_RANDOM_SEED`
-//! which is the first. `cargo test --test it random_floats -- --nocapture` prints what was found.
+//! An eighth of `EDDY_RANDOM_PROGRAMS` programs of four compositions are made; `EDDY_RANDOM_SEED` is the first.
+//! `cargo test --test it random_floats -- --nocapture` prints what was found.
 
 mod operands;
 mod operations;

@@ -1,8 +1,8 @@
 //! The operations, each with what it is exactly and how far a device may be from that.
 //!
 //! Bounds are those of the Vulkan specification, "Precision and Operation of SPIR-V Instructions", which WGSL's
-//! "Floating Point Accuracy" repeats; `lavapipe` is what Mesa's driver on the processor was found to keep to where that is
-//! another bound, nearer or further.
+//! "Floating Point Accuracy" repeats; `lavapipe` is what Mesa's driver on the processor was found to keep to where
+//! that is another bound.
 
 use super::operands::{COUNT, Span};
 
@@ -27,7 +27,7 @@ pub enum Bound {
     Absolute(f64),
     /// An absolute error that follows from the operands and the exact result.
     Each(fn(f64, f64, f64) -> f64),
-    /// So many roundings of a sum of terms, whose magnitudes together are these: for sums that may be taken in any order.
+    /// So many roundings of a sum of terms, whose magnitudes together are these: for sums taken in any order.
     Terms(f64, fn(&Operands) -> Vector),
 }
 

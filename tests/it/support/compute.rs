@@ -27,26 +27,21 @@ pub const fn with(before: &'static str, body: &'static str, expected: [f32; 4]) 
 #[track_caller]
 pub fn check(cases: &[Case]) {
     if let Some(gpu) = gpu() {
-        check_by(&gpu, cases, true);
+        check_on(&gpu, cases, true);
     }
 }
 
-/// Draws each case alone: what the language leaves to the device.
+/// Draws each case alone, and walks through none: what only the optimiser brings about.
 #[track_caller]
-pub fn check_driver(cases: &[Case]) {
+pub fn check_optimised(cases: &[Case]) {
     if let Some(gpu) = gpu() {
-        check_by(&gpu, cases, false);
+        check_on(&gpu, cases, false);
     }
 }
 
-/// As [`check_driver`] on this device.
+/// As [`check`] or [`check_optimised`] on this device.
 #[track_caller]
-pub fn check_on(gpu: &eddy::gpu::Gpu, cases: &[Case]) {
-    check_by(gpu, cases, false);
-}
-
-#[track_caller]
-fn check_by(gpu: &eddy::gpu::Gpu, cases: &[Case], is_walked: bool) {
+pub fn check_on(gpu: &eddy::gpu::Gpu, cases: &[Case], is_walked: bool) {
     let mut wrong = Vec::new();
     for case in cases {
         let code = format!(
