@@ -8,11 +8,13 @@
 mod blame;
 mod distance;
 mod finding;
+mod jitter;
 mod run;
 mod undefined;
 mod watch;
 
 pub use finding::{Class, Finding, Kind};
+pub use jitter::jittered;
 pub use run::{Audit, AuditedPixel, audit, audit_pixel, cells, grid, spread};
 
 #[cfg(test)]

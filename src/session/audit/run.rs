@@ -186,7 +186,7 @@ fn walked(
 }
 
 /// Returns what a pixel draws in both precisions, by the way of the single one; zeros where it draws nothing.
-fn walk(at: &WalkedPixel<'_>, observer: &mut dyn Observer<Shadowed>) -> Result<[Shadowed; 4], TraceError> {
+pub(super) fn walk(at: &WalkedPixel<'_>, observer: &mut dyn Observer<Shadowed>) -> Result<[Shadowed; 4], TraceError> {
     let drawn = at.machine::<Shadowed>().run(at.lane, observer)?;
     Ok(at.value(&drawn).unwrap_or([Shadowed { single: 0.0, double: 0.0 }; 4]))
 }

@@ -57,6 +57,23 @@ fn a_cancellation_is_where_the_error_is_born() {
 }
 
 #[test]
+fn other_roundings_move_what_is_ill_conditioned_and_nothing_that_is_exact() {
+    let moved = |body: &str| {
+        let mut project = template::project();
+        project.passes[0].source.text = image(body).into();
+        let (sources, inputs) = (Sources::new(&project), inputs());
+        let values: Vec<[f32; 4]> =
+            (0..8).map(|seed| jittered(&sources, 0, &inputs, (5, 2), (STEPS, seed)).unwrap()).collect();
+        values.iter().map(|value| (value[0] - values[0][0]).abs()).fold(0.0, f32::max)
+    };
+    assert_eq!(moved("float s = 0.; for (int i = 0; i < 9; i++) s += p.x * float(i); o = vec4(s);"), 0.0);
+    let last_bits = moved("o = vec4(p.x / 3.);");
+    assert!(last_bits > 0.0 && last_bits < 4e-6, "{last_bits}");
+    let hash = moved("float a = fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453); o = vec4(a);");
+    assert!(hash > 1e-3, "{hash}");
+}
+
+#[test]
 fn a_large_angle_is_named() {
     let code = image("o = vec4(sin(p.x * 7e4 / 3.), 0., 0., 1.);");
     let audit = audited(&code);
