@@ -73,4 +73,5 @@ mod uniform_values;
 mod uniforms;
 mod walker;
 mod walker_meshes;
+mod walker_presets;
 mod walker_textures;

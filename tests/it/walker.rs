@@ -9,65 +9,6 @@ use eddy::{
 };
 
 const SIZE: (u32, u32) = (64, 36);
-/// Targets of 8 bits round, and samplers weigh their texels by 8 bits.
-const LEAST: f32 = 1.01 / 255.0;
-
-/// The inputs of a frame of a drag.
-fn inputs(frame: i32) -> FrameInputs {
-    FrameInputs { mouse: [20.0 + 4.0 * frame as f32, 18.0, 20.0, 18.0], ..FrameInputs::at_fixed_step(frame, 60.0) }
-}
-
-/// Every pass of every preset, walked at a few pixels of the fourth frame of a drag. The last bits
-/// of `sin` and its like differ between a device and the walker, and a loop may then take another turn: of all pixels,
-/// no more than one in fifty may be off by more than a step of 8 bits, and each pass must agree in most.
-#[test]
-fn the_presets_are_walked_to_the_texels_that_the_device_draws() {
-    let Some(gpu) = gpu() else { return };
-    let (mut walked, mut off) = (0, Vec::new());
-    // `EDDY_WALK_PIXELS=200`: so many pixels more, at three frames instead of one.
-    let more: u32 = std::env::var("EDDY_WALK_PIXELS").ok().and_then(|count| count.parse().ok()).unwrap_or(0);
-    let frames: &[i32] = if more > 0 { &[3, 30, 120] } else { &[3] };
-    let spread = (0..more).map(|n| n * 1_597 % (SIZE.0 * SIZE.1)).map(|at| (at % SIZE.0, at / SIZE.0));
-    let pixels: Vec<_> = [(0, 0), (63, 35), (31, 17), (32, 20), (9, 30), (50, 6)].into_iter().chain(spread).collect();
-    for name in presets::names() {
-        let project = project::load(&format!("presets/{name}")).unwrap().project;
-        let (media, _) = media::gather(&project, None);
-        let texts = Sources::new(&project);
-        for (index, pass) in project.passes.iter().enumerate() {
-            let options = BuildOptions { wanted: vec![pass.id.clone()], skip: false, ..BuildOptions::default() };
-            let mut engine = engine_with(&gpu, &project, &media, &options, SIZE);
-            let mut drawn_to = 0;
-            for &frame in frames {
-                (drawn_to..frame).for_each(|frame| assert!(engine.draw(&inputs(frame)).is_ok()));
-                drawn_to = frame + 1;
-                let (_, read) = engine.draw_inspected(&inputs(frame), &pass.id).unwrap();
-                let drawn = engine.read(&pass.id).unwrap();
-                let count = pass.settings.format.components();
-                let extent = Extent { steps: 0, ..Extent::default() };
-                let tracer = trace::Tracer::new(&texts, index, &read, extent);
-                let tracer = tracer.unwrap_or_else(|e| panic!("{name}, {}: {e}", pass.id.title()));
-                let mut wrong = 0;
-                for (x, y) in &pixels {
-                    let pixel = (x % read.size.0, y % read.size.1);
-                    let found = tracer.trace(pixel).unwrap_or_else(|e| panic!("{name}, {}: {e}", pass.id.title()));
-                    let texel = texel(&drawn, pixel.0, pixel.1);
-                    walked += 1;
-                    let close = |(a, b): (&f32, &f32)| a == b || (a - b).abs() <= LEAST * b.abs().max(1.0);
-                    // What is discarded, or lies beyond a region, keeps what it held.
-                    let Some(value) = found.value else { continue };
-                    if !value.iter().zip(&texel).take(count).all(close) {
-                        wrong += 1;
-                        let place = format!("{name}, {}, frame {frame} at {pixel:?}", pass.id.title());
-                        off.push(format!("{place}: {value:?}, drawn {texel:?}"));
-                    }
-                }
-                assert!(2 * wrong <= pixels.len(), "{name}, {}:\n{}", pass.id.title(), off.join("\n"));
-            }
-        }
-    }
-    println!("{} of {walked} differ:\n{}", off.len(), off.join("\n"));
-    assert!(walked > 300 && 50 * off.len() <= walked, "{} of {walked}:\n{}", off.len(), off.join("\n"));
-}
 
 #[test]
 fn a_trace_names_what_the_author_named_in_the_order_of_the_program() {

@@ -5,6 +5,7 @@ pub mod clock;
 pub mod compiled;
 pub mod compute;
 pub mod env;
+pub mod explained;
 pub mod first_frame;
 pub mod ir;
 pub mod meshes;
