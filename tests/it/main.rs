@@ -72,6 +72,7 @@ mod time_travel;
 mod uniform_values;
 mod uniforms;
 mod walker;
+mod walker_corpus;
 mod walker_meshes;
 mod walker_presets;
 mod walker_textures;

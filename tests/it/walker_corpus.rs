@@ -1,0 +1,202 @@
+//! Real shaders, walker against device: every pass of every file of a folder of Shadertoy's JSON, at a few pixels.
+//!
+//! `EDDY_CORPUS` names the folder; without it nothing is done. `EDDY_CORPUS_PIXELS` (20) and `EDDY_CORPUS_FRAME` (3)
+//! say where, `EDDY_CORPUS_SECONDS` (30) how long a shader may take, `EDDY_CORPUS_COUNT` how many there are at most.
+//! Each is drawn by a process of its own, as drivers do not come back from all of them.
+//! `EDDY_CORPUS=FOLDER cargo test --test it walker_corpus -- --nocapture` prints a line for each pixel that is visibly
+//! different, and the counts.
+
+use crate::support::{
+    env::number,
+    explained::{Explained, STATEMENTS, VISIBLE},
+    walked::is_same,
+    *,
+};
+use eddy::{
+    engine::{BuildOptions, Engine, FrameInputs, Program, Sources},
+    media,
+    project::{self, PassId, Project},
+    session::{
+        audit::spread,
+        trace::{Extent, TraceError, Tracer, ulps},
+    },
+};
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+    process::{Command, Stdio},
+    time::{Duration, Instant},
+};
+
+const SIZE: (u32, u32) = (64, 36);
+/// Numbers of single precision by which the last bits of functions may be apart.
+const NEAR_ULPS: u32 = 64;
+/// The same as a difference, for values near zero.
+const NEAR: f64 = 4e-6;
+
+/// What a process says of a pixel or of its shader: a line that begins so.
+const SAID: &str = "CORPUS ";
+
+/// How a pixel compares, from best to worst.
+fn class(walked: [f32; 4], drawn: [f32; 4]) -> (&'static str, f64) {
+    let mut most = 0.0f64;
+    let mut is_near = true;
+    for (a, b) in walked.into_iter().zip(drawn) {
+        if is_same(a, b) {
+            continue;
+        }
+        let apart = (f64::from(a) - f64::from(b)).abs();
+        let apart = if apart.is_nan() { f64::INFINITY } else { apart };
+        is_near &= ulps(a, b) <= NEAR_ULPS || apart <= NEAR;
+        // Beyond what a screen shows all is the same.
+        let shown = |x: f32| if x.is_nan() { 0.0 } else { f64::from(x.clamp(0.0, 1.0)) };
+        let is_buffer_like = !(0.0..=1.0).contains(&a) || !(0.0..=1.0).contains(&b);
+        let relative = apart / f64::from(b.abs()).max(1.0);
+        most = most.max(if is_buffer_like { relative } else { (shown(a) - shown(b)).abs() });
+    }
+    match most {
+        0.0 => ("same", 0.0),
+        _ if is_near => ("near", most),
+        most if most < VISIBLE => ("invisible", most),
+        most => ("visible", most),
+    }
+}
+
+/// Draws a shader and walks through its passes; prints what is found.
+fn compare(path: &Path) -> Result<(), String> {
+    let gpu = gpu().ok_or("no device")?;
+    let project = project::load(&path.to_string_lossy()).map_err(|e| e.to_string())?.project;
+    let is_drawn = |id: &&PassId| !matches!(id, PassId::Cubemap | PassId::Sound);
+    let wanted: Vec<PassId> = project.passes.iter().map(|pass| &pass.id).filter(is_drawn).cloned().collect();
+    let (media, _) = media::gather(&project, None);
+    let options = BuildOptions { wanted: wanted.clone(), skip: false, ..BuildOptions::default() };
+    let built = Program::build(&gpu, &project, &media, &options).map_err(|e| format!("not built: {e}"))?;
+    let mut engine = Engine::new(gpu, SIZE.0, SIZE.1).map_err(|e| e.to_string())?;
+    engine.set_program(built.program).map_err(|e| e.to_string())?;
+    let frame = number("EDDY_CORPUS_FRAME", 3) as i32;
+    for frame in 0..=frame {
+        let inputs = FrameInputs { mouse: [20.0, 18.0, 20.0, 18.0], ..FrameInputs::at_fixed_step(frame, 60.0) };
+        engine.draw(&inputs).map_err(|e| e.to_string())?;
+    }
+    // The harness has begun a line.
+    println!("\n{SAID}drawn");
+    let sources = Sources::new(&project);
+    for id in &wanted {
+        walk_pass(&mut engine, (&project, &sources), id, path)?;
+    }
+    Ok(())
+}
+
+fn walk_pass(
+    engine: &mut Engine,
+    (project, sources): (&Project, &Sources<'_>),
+    id: &PassId,
+    path: &Path,
+) -> Result<(), String> {
+    let index = project.passes.iter().position(|pass| pass.id == *id).expect("it is drawn");
+    let (read, drawn) = (engine.inspect(id).map_err(|e| e.to_string())?, engine.read(id).map_err(|e| e.to_string())?);
+    let extent = Extent { statements: STATEMENTS, steps: 0 };
+    let tracer = Tracer::new(sources, index, &read, extent).map_err(|e| e.to_string())?;
+    let pass = Explained { sources, index, read: &read };
+    let count = number("EDDY_CORPUS_PIXELS", 20) as u32;
+    for pixel in spread((count.div_ceil(4), 4), read.size) {
+        let found = match tracer.trace(pixel) {
+            Ok(trace) => trace.value,
+            Err(TraceError::Endless(_)) => {
+                println!("{SAID}long");
+                continue;
+            }
+            Err(error) => return Err(error.to_string()),
+        };
+        let texel = texel(&drawn, pixel.0, pixel.1);
+        let Some(walked) = found else {
+            println!("{SAID}discarded");
+            continue;
+        };
+        let (class, apart) = class(walked, texel);
+        if matches!(class, "same" | "near") {
+            println!("{SAID}{class}");
+            continue;
+        }
+        let why = pass.why(pixel, apart);
+        println!("{SAID}{class}: {why}");
+        if class == "visible" {
+            println!("{}, {} at {pixel:?}: {walked:?}, drawn {texel:?}: {why}", path.display(), id.title());
+        }
+    }
+    Ok(())
+}
+
+/// The work of a process: the one shader that `EDDY_CORPUS_ONE` names.
+#[test]
+fn one_shader_of_the_corpus() {
+    let Some(path) = std::env::var_os("EDDY_CORPUS_ONE") else { return };
+    if let Err(why) = compare(Path::new(&path)) {
+        println!("\n{SAID}failed");
+        println!("{}: {}", path.display(), why.lines().next().unwrap_or_default());
+    }
+}
+
+/// Lets a process of its own do a shader; `None` where it takes too long or ends otherwise.
+fn shader(path: &Path, limit: Duration) -> Option<String> {
+    let mut said = tempfile::tempfile().unwrap();
+    let mut child = Command::new(std::env::current_exe().unwrap())
+        .args(["walker_corpus::one_shader_of_the_corpus", "--exact", "--nocapture", "--test-threads", "1"])
+        .env("EDDY_CORPUS_ONE", path)
+        .stdout(said.try_clone().unwrap())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let began = Instant::now();
+    let status = loop {
+        match child.try_wait().unwrap() {
+            Some(status) => break Some(status),
+            None if began.elapsed() > limit => {
+                child.kill().unwrap();
+                child.wait().unwrap();
+                break None;
+            }
+            None => std::thread::sleep(Duration::from_millis(10)),
+        }
+    };
+    use std::io::{Read, Seek};
+    let mut text = String::new();
+    said.rewind().unwrap();
+    said.read_to_string(&mut text).ok()?;
+    status.filter(std::process::ExitStatus::success).map(|_| text)
+}
+
+#[test]
+fn a_corpus_is_walked_to_what_the_device_draws() {
+    let Ok(folder) = std::env::var("EDDY_CORPUS") else { return };
+    let limit = Duration::from_secs(number("EDDY_CORPUS_SECONDS", 30));
+    let mut files: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.retain(|path| path.extension().is_some_and(|extension| extension == "json"));
+    files.sort();
+    files.truncate(number("EDDY_CORPUS_COUNT", u64::MAX) as usize);
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    let mut add = |what: &str| *counts.entry(what.to_owned()).or_default() += 1;
+    for path in &files {
+        let Some(text) = shader(path, limit) else {
+            add("shaders: given up");
+            println!("{}: given up", path.display());
+            continue;
+        };
+        for line in text.lines() {
+            match line.strip_prefix(SAID) {
+                Some(what @ ("drawn" | "failed")) => add(&format!("shaders: {what}")),
+                Some(what) => add(&format!("pixels: {what}")),
+                None if line.starts_with(&*path.to_string_lossy()) => println!("{line}"),
+                None => {}
+            }
+        }
+    }
+    println!("{} files", files.len());
+    counts.iter().for_each(|(what, count)| println!("{count:>8} {what}"));
+    let of =
+        |what: &str| counts.iter().filter(|(name, _)| name.starts_with(what)).map(|(_, count)| count).sum::<usize>();
+    assert!(of("shaders: drawn") > 0, "no shader is drawn");
+    // Nothing visible is left without a reason.
+    let unexplained = counts.get("pixels: visible: not explained").copied().unwrap_or(0);
+    assert_eq!(unexplained, 0, "of {} pixels", of("pixels"));
+}
