@@ -13,6 +13,7 @@
 
 mod support;
 
+mod bars;
 mod cli;
 mod cli_measure;
 mod cli_render;
@@ -72,7 +73,6 @@ mod time_travel;
 mod uniform_values;
 mod uniforms;
 mod walker;
-mod walker_corpus;
 mod walker_meshes;
 mod walker_presets;
 mod walker_textures;
