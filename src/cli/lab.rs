@@ -7,7 +7,7 @@ use super::{
     precision, stability,
 };
 use crate::lab::{
-    Extent, LabError, Results, Study,
+    Extent, LabError, RESULTS_FILE, Results, Study,
     cost::MIN_REPEATS,
     report,
     run::{self, Options, Step},
@@ -57,8 +57,11 @@ pub fn run(args: &LabArgs) -> io::Result<u8> {
     finish(measured.and_then(|results| report(out, &studies, &results)))
 }
 
+/// What `out` holds of an earlier merge is kept, where `from` has nothing newer.
 fn merge(from: &[PathBuf], out: &Path) -> Result<String, LabError> {
-    let results = Results::merge(from)?;
+    let before = out.join(RESULTS_FILE).exists().then(|| out.to_owned());
+    let folders: Vec<PathBuf> = before.into_iter().chain(from.iter().cloned()).collect();
+    let results = Results::merge(&folders)?;
     results.write(out)?;
     report(out, &studies::all(), &results)
 }

@@ -25,11 +25,17 @@ pub enum LabError {
     #[error("{}:{line}: not a record of the lab ({reason}); remove the line, or choose another --out", path.display())]
     Record { path: PathBuf, line: usize, reason: String },
     #[error(
-        "{} holds results of another run ({what}: {theirs} there, {ours} here); choose another --out, or join them \
-         with eddy lab merge",
+        "{} holds results of another run ({what}: {theirs} there, {ours} here); choose another --out",
         path.display()
     )]
     OtherRun { path: PathBuf, what: &'static str, theirs: String, ours: String },
+    #[error(
+        "{} holds results of another run than {} ({what}: {theirs} against {ours}), and no report has both; merge \
+         folders of one device, driver, version and extent",
+        folder.display(),
+        first.display()
+    )]
+    Mixed { folder: PathBuf, first: PathBuf, what: &'static str, theirs: String, ours: String },
     #[error("there is no study {name}{}; there are {known}", near.as_ref().map(|n| format!(" (did you mean {n}?)")).unwrap_or_default())]
     NoStudy { name: String, near: Option<String>, known: String },
     #[error("--shard {0}")]

@@ -30,6 +30,31 @@ fn is_false(flag: &bool) -> bool {
     !flag
 }
 
+/// What two runs differ in, and what it is in the one and in the other.
+struct Difference {
+    what: &'static str,
+    theirs: String,
+    ours: String,
+}
+
+impl Provenance {
+    /// Returns the first thing that keeps results of the two apart; `None`: they may stand side by side.
+    fn difference(&self, ours: &Provenance) -> Option<Difference> {
+        let extent = |e: Extent| if e == Extent::Quick { "--quick" } else { "a full run" };
+        let beside = |window| if window { "measured beside a window" } else { "measured by eddy lab" };
+        [
+            ("device", self.device.as_str(), ours.device.as_str()),
+            ("driver", &self.driver, &ours.driver),
+            ("version", &self.version, &ours.version),
+            ("extent", extent(self.extent), extent(ours.extent)),
+            ("costs", beside(self.beside_window), beside(ours.beside_window)),
+        ]
+        .into_iter()
+        .find(|(_, theirs, ours)| theirs != ours)
+        .map(|(what, theirs, ours)| Difference { what, theirs: theirs.into(), ours: ours.into() })
+    }
+}
+
 /// How wrong a point is, or why that is not known.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ErrorRecord {
@@ -133,13 +158,23 @@ impl Results {
         Ok(results)
     }
 
-    /// The records of several folders together.
+    /// The records of several folders together, which must be of one device, driver, version and extent: a report has
+    /// the grids of one extent, and puts costs side by side.
     pub fn merge(folders: &[PathBuf]) -> Result<Results, LabError> {
         let mut all = Results::default();
+        let mut first: Option<(&Path, Provenance)> = None;
         for folder in folders {
             let path = folder.join(FILE);
             fs::metadata(&path).map_err(LabError::io("read", &path))?;
-            Self::read(folder)?.records().for_each(|record| all.add(record));
+            let results = Self::read(folder)?;
+            for run in &results.runs {
+                let (before, kept) = first.get_or_insert_with(|| (folder, run.clone()));
+                if let Some(Difference { what, theirs, ours }) = run.difference(kept) {
+                    let (folder, first) = (folder.clone(), before.to_owned());
+                    return Err(LabError::Mixed { folder, first, what, theirs, ours });
+                }
+            }
+            results.records().for_each(|record| all.add(record));
         }
         Ok(all)
     }
@@ -171,21 +206,8 @@ impl Journal {
         fs::create_dir_all(folder).map_err(LabError::io("make", folder))?;
         let path = folder.join(FILE);
         let mut results = Results::read(folder)?;
-        for before in &results.runs {
-            let extent = |e: Extent| if e == Extent::Quick { "--quick" } else { "a full run" };
-            let beside = |window| if window { "measured beside a window" } else { "measured by eddy lab" };
-            for (what, theirs, ours) in [
-                ("device", before.device.as_str(), run.device.as_str()),
-                ("driver", &before.driver, &run.driver),
-                ("version", &before.version, &run.version),
-                ("extent", extent(before.extent), extent(run.extent)),
-                ("costs", beside(before.beside_window), beside(run.beside_window)),
-            ] {
-                if theirs != ours {
-                    let (theirs, ours) = (theirs.to_owned(), ours.to_owned());
-                    return Err(LabError::OtherRun { path, what, theirs, ours });
-                }
-            }
+        if let Some(Difference { what, theirs, ours }) = results.runs.iter().find_map(|r| r.difference(run)) {
+            return Err(LabError::OtherRun { path, what, theirs, ours });
         }
         let file = OpenOptions::new().append(true).create(true).open(&path).map_err(LabError::io("open", &path))?;
         // A line that was cut short, whose record is not among the results, makes way for the next.
@@ -251,16 +273,37 @@ mod tests {
     }
 
     #[test]
-    fn another_devices_results_are_not_mixed_in_but_merged_on_demand() {
+    fn another_runs_results_are_neither_gone_on_with_nor_merged() {
         let (one, two) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
         Journal::open(one.path(), &run()).unwrap().0.append(&error(1.0)).unwrap();
-        let other = Provenance { device: "e".into(), ..run() };
-        let refused = Journal::open(one.path(), &other).err().unwrap().to_string();
-        assert!(refused.contains("another run (device: d there, e here)"), "{refused}");
-        Journal::open(two.path(), &other).unwrap().0.append(&error(2.0)).unwrap();
+        let both = [one.path().to_owned(), two.path().to_owned()];
+        for (other, difference) in [
+            (Provenance { device: "e".into(), ..run() }, "device: e against d"),
+            (Provenance { extent: Extent::Full, ..run() }, "extent: a full run against --quick"),
+            (Provenance { beside_window: true, ..run() }, "measured beside a window against measured by eddy lab"),
+        ] {
+            let _ = fs::remove_file(two.path().join(FILE));
+            Journal::open(two.path(), &other).unwrap().0.append(&error(2.0)).unwrap();
+            let refused = Journal::open(two.path(), &run()).err().unwrap().to_string();
+            let there_and_here = difference.replace("against", "there,") + " here";
+            assert!(refused.contains(&there_and_here), "{refused}");
+            let refused = Results::merge(&both).unwrap_err().to_string();
+            assert!(refused.contains(difference), "{refused}");
+            assert!(both.iter().all(|folder| refused.contains(&*folder.to_string_lossy())), "{refused}");
+            // Neither order hides it.
+            assert!(Results::merge(&[both[1].clone(), both[0].clone()]).is_err());
+        }
+        assert!(Results::merge(&[one.path().join("none")]).is_err());
+    }
+
+    #[test]
+    fn parts_of_a_run_are_merged_whatever_their_turns() {
+        let (one, two) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+        Journal::open(one.path(), &run()).unwrap().0.append(&error(1.0)).unwrap();
+        let more = Provenance { repeats: 9, ..run() };
+        Journal::open(two.path(), &more).unwrap().0.append(&error(2.0)).unwrap();
         let all = Results::merge(&[one.path().into(), two.path().into()]).unwrap();
         assert_eq!((all.runs.len(), all.errors.len()), (2, 2));
-        assert!(Results::merge(&[one.path().join("none")]).is_err());
     }
 
     #[test]

@@ -36,7 +36,7 @@ pub struct LabArgs {
 pub enum LabCommand {
     /// Draw simulations under hard conditions and say which leave their bounds
     Stability(StabilityArgs),
-    /// Make one report of the results of several folders
+    /// Make one report of the results of several folders, which must be of one device, driver, version and extent
     Merge {
         #[arg(required = true, value_name = "DIR")]
         from: Vec<PathBuf>,
