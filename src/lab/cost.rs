@@ -107,14 +107,14 @@ pub struct Care {
 }
 
 /// Measures setups against each other. `size` is that of the studied grid, by whose texels costs are told; a setup's
-/// canvas may be larger, as that of a preset which solves on a coarser grid than it paints. `tell` gets the turns that
-/// each has had, and how many there are.
+/// canvas may be larger, as that of a preset which solves on a coarser grid than it paints. `turned` gets the turns that
+/// each has had, how many there are, and the costs by these: none before the first.
 pub fn interleaved(
     rig: &Rig,
     setups: &[Setup],
     size: (u32, u32),
     care: Care,
-    mut tell: impl FnMut(u32, u32),
+    mut turned: impl FnMut(u32, u32, &[Cost]) -> Result<(), LabError>,
 ) -> Result<Vec<Cost>, LabError> {
     let clock = Clock::of(rig);
     let floor = ["copy", "empty"].map(|name| Setup::new("floor", size).wants(&[name]).steps(name, FLOOR_STEPS));
@@ -123,14 +123,21 @@ pub fn interleaved(
         turns.push(Turn::begin(rig, setup, care.turn_millis, clock)?);
     }
     let repeats = care.repeats.max(MIN_REPEATS);
-    for done in 0..repeats {
-        tell(done, repeats);
+    let mut costs = Vec::new();
+    for done in 1..=repeats {
+        turned(done - 1, repeats, &costs)?;
         for turn in &mut turns {
             let millis = turn.take(clock)?;
             turn.samples.push(millis);
         }
+        costs = so_far(&mut turns, floor.len(), size, clock);
     }
-    let times: Vec<Times> = turns.iter_mut().map(|t| Times::of(std::mem::take(&mut t.samples))).collect();
+    Ok(costs)
+}
+
+/// The costs by the turns that there have been. The first `floor` are the copying pass and the one of a texel.
+fn so_far(turns: &mut [Turn], floor: usize, size: (u32, u32), clock: Clock) -> Vec<Cost> {
+    let times: Vec<Times> = turns.iter().map(|t| Times::of(t.samples.clone())).collect();
     let canvas_texels = f64::from(size.0) * f64::from(size.1);
     let cost = |(turn, frame): (&mut Turn, &Times)| {
         let plan = turn.running.engine().program().map(|p| p.plan().clone()).unwrap_or_default();
@@ -142,12 +149,12 @@ pub fn interleaved(
             bytes_per_texel: traffic.bytes as f64 / canvas_texels,
             texels_per_texel: traffic.texels as f64 / canvas_texels,
             canvas_texels,
-            repeats,
+            repeats: turn.samples.len() as u32,
             batch: turn.batch,
             clock,
         }
     };
-    Ok(turns.iter_mut().zip(&times).skip(floor.len()).map(cost).collect())
+    turns.iter_mut().zip(&times).skip(floor).map(cost).collect()
 }
 
 /// Milliseconds a frame of one setup by itself, in a single turn: what it will cost about, long before all have taken

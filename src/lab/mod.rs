@@ -10,6 +10,7 @@ pub mod apart;
 pub mod background;
 pub mod cost;
 mod error;
+mod fingerprint;
 pub mod flip;
 pub mod metrics;
 mod number;

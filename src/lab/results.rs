@@ -1,5 +1,9 @@
 //! Keeps what was measured, as JSON lines: each record is written when it is known, so that whoever stops a run loses
-//! one point.
+//! one point, or one turn of a study's costs.
+//!
+//! A record has the fingerprint of what was measured. A run measures anew what has another one now. Records of before
+//! there were fingerprints are read, merged and reported as they are; a run of their study measures them anew too, as
+//! nobody can say what they were measured of.
 
 use super::{Extent, LabError, Measured, Point, cost::Cost, stability_record::StabilityRecord};
 use serde::{Deserialize, Serialize};
@@ -60,6 +64,9 @@ impl Provenance {
 pub struct ErrorRecord {
     #[serde(flatten)]
     pub point: Point,
+    /// See [`Setup::fingerprint`](super::Setup::fingerprint); `None`: the record is older than that.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub setup: Option<String>,
     pub measured: Option<Measured>,
     pub trouble: Option<String>,
 }
@@ -68,6 +75,10 @@ pub struct ErrorRecord {
 pub struct CostRecord {
     #[serde(flatten)]
     pub point: Point,
+    /// As an error's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub setup: Option<String>,
+    /// Of fewer than [`MIN_REPEATS`](super::cost::MIN_REPEATS) turns where the run was stopped between them.
     pub cost: Cost,
 }
 
@@ -118,6 +129,12 @@ impl Results {
     pub fn forget(&mut self, study: &str) {
         self.errors.retain(|e| e.point.study != study);
         self.costs.retain(|c| c.point.study != study);
+    }
+
+    /// Leaves out what is known of a point, but of this very setup.
+    pub fn keep_of(&mut self, point: &Point, setup: &str) {
+        self.errors.retain(|e| e.point != *point || e.setup.as_deref() == Some(setup));
+        self.costs.retain(|c| c.point != *point || c.setup.as_deref() == Some(setup));
     }
 
     pub fn error(&self, point: &Point) -> Option<&ErrorRecord> {
@@ -251,7 +268,7 @@ mod tests {
     fn error(setting: f64) -> Record {
         let point = Point { study: "s".into(), method: "m".into(), setting, grid: 64 };
         let measured = Measured::default().value("x", f64::NAN).hard(HardCase::at_most("case", f64::INFINITY, 1.0));
-        Record::Error(ErrorRecord { point, measured: Some(measured), trouble: None })
+        Record::Error(ErrorRecord { point, setup: None, measured: Some(measured), trouble: None })
     }
 
     #[test]
@@ -304,6 +321,30 @@ mod tests {
         Journal::open(two.path(), &more).unwrap().0.append(&error(2.0)).unwrap();
         let all = Results::merge(&[one.path().into(), two.path().into()]).unwrap();
         assert_eq!((all.runs.len(), all.errors.len()), (2, 2));
+    }
+
+    #[test]
+    fn a_record_without_a_fingerprint_is_read_and_gives_way_to_one_with_it() {
+        let dir = tempfile::tempdir().unwrap();
+        let older = "{\"record\":\"error\",\"study\":\"s\",\"method\":\"m\",\"setting\":0.5,\"grid\":64,\
+                     \"measured\":null,\"trouble\":\"none\"}\n";
+        fs::write(dir.path().join(FILE), older).unwrap();
+        let mut results = Results::read(dir.path()).unwrap();
+        let before = results.errors[0].clone();
+        assert_eq!(before.setup, None);
+        let now = ErrorRecord { setup: Some("a".into()), ..before.clone() };
+        results.add(Record::Error(now.clone()));
+        results.keep_of(&now.point, "a");
+        assert_eq!(results.errors, [now.clone()]);
+        results.keep_of(&now.point, "b");
+        assert_eq!(results.errors, []);
+        results.add(Record::Error(before));
+        results.keep_of(&now.point, "a");
+        assert_eq!(results.errors, [], "nobody knows what it was measured of");
+        let other = Point { grid: 32, ..now.point.clone() };
+        results.add(Record::Error(ErrorRecord { point: other, ..now.clone() }));
+        results.keep_of(&now.point, "b");
+        assert_eq!(results.errors.len(), 1, "another point's is left alone");
     }
 
     #[test]

@@ -1,8 +1,9 @@
-//! Measures studies: errors point by point, then the costs of each study's points against each other.
+//! Measures studies: errors point by point, then the costs of each study's points against each other, which are kept
+//! after each turn.
 
 use super::{
     Extent, LabError, Point, Provenance, Rig, Setup, Shard, Stop, Study,
-    cost::{self, Care},
+    cost::{self, Care, Cost},
     results::{CostRecord, ErrorRecord, Journal, Record, Results},
 };
 use crate::gpu::{Gpu, GpuOptions};
@@ -102,13 +103,28 @@ pub fn controlled(
     mut tell: impl FnMut(Step<'_>),
 ) -> Result<Results, LabError> {
     let provenance = Provenance { beside_window: control.beside_window, ..provenance(gpu, options) };
-    let (journal, results) = Journal::open(&options.out, &provenance)?;
+    let (journal, mut results) = Journal::open(&options.out, &provenance)?;
+    // What was measured of another setup is not known any more.
+    for (study, point) in all_points(studies, options.extent) {
+        if let Some(setup) = fingerprint(study, &point) {
+            results.keep_of(&point, &setup);
+        }
+    }
     tell(Step::Known(&results));
     let mut work = Work { rig: Rig::stoppable(gpu.clone(), control.stop.clone()), journal, results, tell };
     match work.all(studies, options, control) {
         Ok(()) | Err(LabError::Stopped) => Ok(work.results),
         Err(error) => Err(error),
     }
+}
+
+fn all_points<'s>(studies: &[&'s dyn Study], extent: Extent) -> Vec<(&'s dyn Study, Point)> {
+    studies.iter().flat_map(|s| s.points(extent).into_iter().map(|p| (*s, p))).collect()
+}
+
+/// `None` where the setup has a fault, which measuring will tell.
+fn fingerprint(study: &dyn Study, point: &Point) -> Option<String> {
+    study.setup(point).fingerprint().ok()
 }
 
 /// A run under way.
@@ -121,8 +137,7 @@ struct Work<T> {
 
 impl<T: FnMut(Step<'_>)> Work<T> {
     fn all(&mut self, studies: &[&dyn Study], options: &Options, control: &Control) -> Result<(), LabError> {
-        let points: Vec<(&dyn Study, Point)> =
-            studies.iter().flat_map(|s| s.points(options.extent).into_iter().map(|p| (*s, p))).collect();
+        let points = all_points(studies, options.extent);
         let own: Vec<_> = points.iter().enumerate().filter(|(n, _)| options.shard.owns(*n)).map(|(_, p)| p).collect();
         self.errors(&own, options, control)?;
         // Costs are comparable only where they were measured in turns: a study's belong to one machine.
@@ -198,18 +213,29 @@ impl<T: FnMut(Step<'_>)> Work<T> {
         let grid = study.main_grid(options.extent);
         let all = study.points(options.extent).into_iter().filter(|p| p.grid == grid);
         let has_failed = |p: &Point| self.results.error(p).is_some_and(|e| e.trouble.is_some());
-        let missing: Vec<Point> = all.filter(|p| self.results.cost(p).is_none() && !has_failed(p)).collect();
+        let is_done = |p: &Point| self.results.cost(p).is_some_and(|c| c.repeats >= cost::MIN_REPEATS);
+        let missing: Vec<Point> = all.filter(|p| !is_done(p) && !has_failed(p)).collect();
         if missing.is_empty() {
             return Ok(());
         }
         (self.tell)(Step::Cost { study: study.about().name, points: missing.len() });
         let setups: Vec<Setup> = missing.iter().map(|point| study.setup(point)).collect();
+        let prints: Vec<Option<String>> = setups.iter().map(|setup| setup.fingerprint().ok()).collect();
+        let record =
+            |n: usize, cost: &Cost| CostRecord { point: missing[n].clone(), setup: prints[n].clone(), cost: *cost };
         let care = Care { repeats: options.repeats, turn_millis: turn_millis(options.extent) };
-        let tell = &mut self.tell;
-        let costs =
-            cost::interleaved(&self.rig, &setups, (grid, grid), care, |done, all| tell(Step::Turn { done, all }))?;
-        for (point, cost) in missing.into_iter().zip(costs) {
-            self.record(Record::Cost(CostRecord { point, cost }))?;
+        let Work { rig, journal, results, tell } = self;
+        let costs = cost::interleaved(rig, &setups, (grid, grid), care, |done, all, costs| {
+            for (n, cost) in costs.iter().enumerate() {
+                let record = Record::Cost(record(n, cost));
+                journal.append(&record)?;
+                results.add(record);
+            }
+            tell(Step::Turn { done, all });
+            Ok(())
+        })?;
+        for (n, cost) in costs.iter().enumerate() {
+            self.record(Record::Cost(record(n, cost)))?;
         }
         Ok(())
     }
@@ -247,7 +273,8 @@ fn measure(
         Some(_) => estimate(rig, study, point, options, control)?,
         None => None,
     };
-    Ok((ErrorRecord { point: point.clone(), measured, trouble }, estimate))
+    let setup = fingerprint(study, point);
+    Ok((ErrorRecord { point: point.clone(), setup, measured, trouble }, estimate))
 }
 
 /// About what a frame of a point costs, if it is one whose cost will be measured and estimates are asked for.

@@ -1,6 +1,6 @@
 //! A method's project, with everything set for one point.
 
-use super::LabError;
+use super::{LabError, fingerprint::Fingerprint};
 use crate::{
     media::{MediaSet, TexelFormat, Texels},
     project::{self, CustomUniformType, CustomUniformValue, Fill, Origin, PassFormat, PassId, Project},
@@ -254,6 +254,19 @@ impl Setup {
         }
         Ok((project, media))
     }
+
+    /// A number for all that decides what is drawn: the texts as they are after all edits, their settings, the initial
+    /// texels, the canvas and what is looked at.
+    pub fn fingerprint(&self) -> Result<String, LabError> {
+        let (project, _) = self.project()?;
+        let mut print = Fingerprint::of(&project);
+        for (path, texels) in &self.states {
+            print.eat(format!("{} {} {}", path.display(), texels.width, texels.height).as_bytes());
+            print.eat(&texels.bytes);
+        }
+        print.eat(format!("{:?} {:?} {}", self.size, self.wanted, self.skip).as_bytes());
+        Ok(print.text())
+    }
 }
 
 /// A buffer by the name its file has, or `image`.
@@ -305,6 +318,34 @@ mod tests {
             assert!(steps <= most.max(1));
         }
         assert_eq!(frames_of(2000, 32), (80, 25));
+    }
+
+    #[test]
+    fn a_fingerprint_is_of_texts_settings_texels_and_size() {
+        let base = || Setup::new("gray_scott_stencil", (8, 8)).define("STENCIL", 5);
+        let print = |setup: Setup| setup.fingerprint().unwrap();
+        assert_eq!(print(base()), print(base()));
+        let texels = [[0.5; 4]; 64];
+        let mut others = vec![
+            base(),
+            base().define("OTHER", 1),
+            base().uniform("feed", 0.03),
+            base().edit("common", "feed", "food"),
+            base().initial("field", "vec4(0.5)"),
+            base().state("field", &texels),
+            base().state("field", &[[0.25; 4]; 64]),
+            base().storage(Storage::Half),
+            base().wants_picture(),
+            base().restless(),
+            Setup::new("gray_scott_stencil", (8, 9)).define("STENCIL", 5),
+        ]
+        .into_iter()
+        .map(print)
+        .collect::<Vec<_>>();
+        let count = others.len();
+        others.sort();
+        others.dedup();
+        assert_eq!(others.len(), count);
     }
 
     #[test]

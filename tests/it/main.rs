@@ -39,6 +39,7 @@ mod lab;
 mod lab_fluid;
 mod lab_open;
 mod lab_pictures;
+mod lab_run;
 mod lab_shapes;
 mod lab_stability;
 mod layers;

@@ -1,7 +1,10 @@
 //! One page of all studies, which needs no other file and no network.
 
 use super::table::{Reach, Row, Table};
-use crate::lab::{Extent, Results, cost::Clock};
+use crate::lab::{
+    Extent, Results,
+    cost::{Clock, MIN_REPEATS},
+};
 use std::fmt::Write;
 
 const STYLE: &str = "
@@ -155,10 +158,15 @@ fn section(out: &mut String, table: &Table, svg: Option<&str>) {
         let _ = writeln!(
             out,
             "<p class=\"quiet\">In the same turns a pass that copies rgba32f took {} ms ({:.2} GB/s), a pass of one \
-             texel {} ms.</p>",
+             texel {} ms.{}</p>",
             number(cost.copy.median),
             32.0 * cost.canvas_texels / cost.copy.median / 1e6,
-            number(cost.empty.median)
+            number(cost.empty.median),
+            if cost.repeats < MIN_REPEATS {
+                format!(" <b>The run was stopped: costs are of {} turns, too few to compare by.</b>", cost.repeats)
+            } else {
+                String::new()
+            }
         );
     }
     out.push_str("\n<details><summary>Every point</summary>\n");

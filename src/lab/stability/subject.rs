@@ -5,7 +5,7 @@ use super::{
     presets,
 };
 use crate::{
-    lab::LabError,
+    lab::{LabError, fingerprint::Fingerprint},
     media::{self, MediaSet},
     project::{self, CustomUniform, CustomUniformValues, Origin, PassId, Project},
 };
@@ -128,27 +128,14 @@ impl Subject {
         Situation { size, longest_step, is_dragged, sliders }
     }
 
-    /// A number for all the texts: what was measured of other texts says nothing about these. FNV-1a (G. Fowler, L.
-    /// Noll, K.-P. Vo).
+    /// A number for all the texts and the ranges at the defaults: what was measured of others says nothing about these.
     pub fn fingerprint(&self) -> String {
-        let mut hash = 0xcbf2_9ce4_8422_2325u64;
-        let mut eat = |bytes: &[u8]| {
-            for byte in bytes.iter().chain(&[0xff]) {
-                hash = (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-            }
-        };
-        for (_, source) in self.project.sources().iter() {
-            eat(source.text.as_bytes());
-        }
-        eat(format!("{:?} {:?}", self.project.groups, self.project.custom_uniform_values).as_bytes());
-        for pass in &self.project.passes {
-            eat(format!("{:?} {:?}", pass.channels, pass.settings).as_bytes());
-        }
+        let mut print = Fingerprint::of(&self.project);
         let usual = self.situation(&CustomUniformValues::new(), (640, 360), 1.0 / 60.0, true);
         for check in &self.checks {
-            eat(format!("{} {:?}", check.name(), check.allowed(&usual)).as_bytes());
+            print.eat(format!("{} {:?}", check.name(), check.allowed(&usual)).as_bytes());
         }
-        format!("{hash:016x}")
+        print.text()
     }
 }
 

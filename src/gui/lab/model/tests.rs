@@ -32,7 +32,7 @@ fn measured(point: &Point, l2: f64, passes: bool) -> Event {
     let norms = Norms { l1: l2, l2, linf: l2 };
     let measured = Measured { norms, frames_per_unit: 10.0, ..Measured::default() };
     let measured = measured.hard(HardCase::at_most("case", if passes { 0.0 } else { 2.0 }, 1.0));
-    Event::Measured(ErrorRecord { point: point.clone(), measured: Some(measured), trouble: None })
+    Event::Measured(ErrorRecord { point: point.clone(), setup: None, measured: Some(measured), trouble: None })
 }
 
 fn costed(point: &Point, millis: f64) -> Event {
@@ -48,7 +48,7 @@ fn costed(point: &Point, millis: f64) -> Event {
         batch: 1,
         clock: Clock::Wall,
     };
-    Event::Costed(CostRecord { point: point.clone(), cost })
+    Event::Costed(CostRecord { point: point.clone(), setup: None, cost })
 }
 
 #[test]

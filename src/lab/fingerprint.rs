@@ -1,0 +1,32 @@
+//! A number for what is measured: what was measured of other texts says nothing about these.
+
+use crate::project::Project;
+
+/// FNV-1a of 64 bits (G. Fowler, L. Noll, K.-P. Vo).
+pub(super) struct Fingerprint(u64);
+
+impl Fingerprint {
+    /// Of a project's texts, groups, slider values, channels and settings.
+    pub fn of(project: &Project) -> Fingerprint {
+        let mut print = Fingerprint(0xcbf2_9ce4_8422_2325);
+        for (_, source) in project.sources().iter() {
+            print.eat(source.text.as_bytes());
+        }
+        print.eat(format!("{:?} {:?}", project.groups, project.custom_uniform_values).as_bytes());
+        for pass in &project.passes {
+            print.eat(format!("{:?} {:?}", pass.channels, pass.settings).as_bytes());
+        }
+        print
+    }
+
+    /// Takes in what else counts, and where it ends.
+    pub fn eat(&mut self, bytes: &[u8]) {
+        for byte in bytes.iter().chain(&[0xff]) {
+            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
+        }
+    }
+
+    pub fn text(&self) -> String {
+        format!("{:016x}", self.0)
+    }
+}

@@ -1,0 +1,136 @@
+//! What a run of studies keeps, and what it measures anew.
+
+use crate::support::gpu;
+use eddy::lab::{
+    About, Extent, LabError, Measured, Method, Point, Results, Rig, Setup, Shard, Stop, Study, Unit,
+    cost::MIN_REPEATS,
+    run::{self, Control, Options, Step},
+};
+use std::path::Path;
+
+/// Heat on a small grid at two rates. `edit`: what its shader says in place of the rate.
+struct Heat {
+    edit: &'static str,
+}
+
+impl Study for Heat {
+    fn about(&self) -> About {
+        About {
+            name: "heat",
+            title: "Heat",
+            text: "A study of the test.",
+            parameter: "rate",
+            unit: Unit::Frame,
+            error: "",
+        }
+    }
+
+    fn methods(&self) -> &'static [Method] {
+        const SETTINGS: &[f64] = &[0.1, 0.2];
+        const METHODS: &[Method] = &[Method { name: "five", title: "Five points", settings: SETTINGS, usual: 0.1 }];
+        METHODS
+    }
+
+    fn grids(&self, _: Extent) -> &'static [u32] {
+        &[16]
+    }
+
+    fn points(&self, _: Extent) -> Vec<Point> {
+        let point = |setting| Point { study: "heat".into(), method: "five".into(), setting, grid: 16 };
+        [0.1, 0.2].map(point).into()
+    }
+
+    fn setup(&self, point: &Point) -> Setup {
+        let setup = Setup::new("diffusion_stencil", (16, 16)).define("STENCIL", 5).uniform("rate", point.setting);
+        setup.edit("common", "rate", self.edit)
+    }
+
+    fn measure(&self, rig: &Rig, point: &Point) -> Result<Measured, LabError> {
+        let corner = rig.after(&self.setup(point), 2, "field")?.component(0)[0];
+        Ok(Measured { frames_per_unit: 1.0, ..Measured::default() }.value("corner", corner))
+    }
+}
+
+const AS_IT_IS: Heat = Heat { edit: "rate" };
+
+/// Points measured, points costed, and what is known in the end.
+fn ran(gpu: &eddy::gpu::Gpu, study: &Heat, out: &Path, stop_at: Option<u32>) -> (usize, usize, Results) {
+    let options = Options { out: out.to_owned(), extent: Extent::Quick, repeats: 0, shard: Shard::WHOLE };
+    let (mut measured, mut costed) = (0, 0);
+    let control = Control { stop: Stop::default(), ..Control::default() };
+    let stop = control.stop.clone();
+    let results = run::controlled(gpu, &[study], &options, &control, |step| match step {
+        Step::Measured(_) => measured += 1,
+        Step::Costed(_) => costed += 1,
+        Step::Turn { done, .. } if Some(done) == stop_at => stop.now(),
+        _ => {}
+    });
+    (measured, costed, results.unwrap())
+}
+
+#[test]
+fn an_edited_shader_is_measured_anew_and_the_same_one_is_not() {
+    let Some(gpu) = gpu() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let (measured, costed, first) = ran(&gpu, &AS_IT_IS, folder.path(), None);
+    assert_eq!((measured, costed), (2, 2));
+    assert!(first.errors.iter().all(|e| e.setup.is_some()) && first.costs.iter().all(|c| c.setup.is_some()));
+    assert_eq!(ran(&gpu, &AS_IT_IS, folder.path(), None), (0, 0, first.clone()), "nothing is measured twice");
+    let (measured, costed, second) = ran(&gpu, &Heat { edit: "rate " }, folder.path(), None);
+    assert_eq!((measured, costed), (2, 2), "as its texts are others");
+    assert_eq!((second.errors.len(), second.costs.len()), (2, 2));
+    assert!(second.errors.iter().all(|e| first.errors.iter().all(|f| f.setup != e.setup)));
+}
+
+#[test]
+fn a_run_that_is_stopped_between_turns_keeps_those_and_the_next_one_ends_them() {
+    let Some(gpu) = gpu() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let (measured, costed, _) = ran(&gpu, &AS_IT_IS, folder.path(), Some(3));
+    assert_eq!((measured, costed), (2, 0));
+    let turns = |results: &Results| results.costs.iter().map(|c| c.cost.repeats).collect::<Vec<_>>();
+    assert_eq!(turns(&Results::read(folder.path()).unwrap()), [3, 3]);
+    let (measured, costed, after) = ran(&gpu, &AS_IT_IS, folder.path(), None);
+    assert_eq!((measured, costed), (0, 2), "errors are known, costs are not yet");
+    assert_eq!(turns(&after), [MIN_REPEATS; 2]);
+    assert_eq!(turns(&Results::read(folder.path()).unwrap()), [MIN_REPEATS; 2]);
+}
+
+#[test]
+fn the_command_that_merges_refuses_what_does_not_go_together_and_keeps_what_was_there() {
+    let line = |device: &str, extent: &str| {
+        format!(
+            "{{\"record\":\"run\",\"device\":\"{device}\",\"driver\":\"r\",\"version\":\"1\",\
+             \"extent\":\"{extent}\",\"repeats\":7,\"seed\":1}}\n"
+        )
+    };
+    let error = |study: &str| {
+        format!(
+            "{{\"record\":\"error\",\"study\":\"{study}\",\"method\":\"m\",\"setting\":1.0,\"grid\":64,\
+             \"measured\":null,\"trouble\":\"t\"}}\n"
+        )
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let kept = |name: &str, text: String| {
+        let path = folder.path().join(name);
+        std::fs::create_dir_all(&path).unwrap();
+        std::fs::write(path.join("results.jsonl"), text).unwrap();
+        path
+    };
+    let (one, two) = (kept("one", line("d", "quick") + &error("s")), kept("two", line("d", "quick") + &error("t")));
+    let other = kept("other", line("e", "full") + &error("u"));
+    let merge = |from: &[&Path]| {
+        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_eddy"));
+        let output =
+            command.args(["lab", "merge", "--out"]).arg(folder.path().join("out")).args(from).output().unwrap();
+        (output.status.code(), String::from_utf8(output.stderr).unwrap())
+    };
+    let (code, said) = merge(&[&one, &other]);
+    assert!(code == Some(2) && said.contains("device: e against d") && said.contains("other"), "{code:?} {said}");
+    assert!(!folder.path().join("out").exists(), "nothing is written");
+    assert_eq!(merge(&[&one]).0, Some(0));
+    assert_eq!(merge(&[&two]).0, Some(0));
+    let studies = Results::read(&folder.path().join("out")).unwrap().errors;
+    assert_eq!(studies.iter().map(|e| e.point.study.as_str()).collect::<Vec<_>>(), ["s", "t"]);
+    assert_eq!(merge(&[&other]).0, Some(2), "what is there already counts");
+}
