@@ -10,21 +10,22 @@ use std::{collections::BTreeMap, fmt::Write, fs, path::Path};
 /// A line for each project and kind, then every case that left what it should keep.
 pub fn table(records: &[StabilityRecord]) -> String {
     let mut out = format!(
-        "{:20} {:30} {:>6} {:>6} {:>10} {:>6}  {}\n",
-        "project", "cases of", "drawn", "held", "as theory", "left", "slowest recovery"
+        "{:20} {:38} {:>6} {:>6} {:>10} {:>6}  {:20} {}\n",
+        "project", "cases of", "drawn", "held", "as theory", "left", "slowest recovery", "cells a step"
     );
     for ((project, kind), rows) in grouped(records) {
         let count = |of: fn(&Outcome) -> bool| rows.iter().filter(|r| r.outcome.as_ref().is_some_and(of)).count();
         let left = rows.iter().filter(|r| !r.is_right()).count();
         let _ = writeln!(
             out,
-            "{project:20} {:30} {:>6} {:>6} {:>10} {:>6}  {}",
+            "{project:20} {:38} {:>6} {:>6} {:>10} {:>6}  {:20} {}",
             kind.title(),
             rows.len(),
             count(|o| matches!(o, Outcome::Held)),
             count(|o| matches!(o, Outcome::LeftAsExpected(_))),
             left,
             slowest(&rows),
+            cells(&rows),
         );
     }
     for record in records.iter().filter(|r| !r.is_right()) {
@@ -62,6 +63,18 @@ fn slowest(rows: &[&StabilityRecord]) -> String {
         Recovery::NotWithin(n) => (true, *n),
     })
     .map_or(String::new(), told)
+}
+
+/// The measured cells a step: of each case that is about them, else the most there were.
+fn cells(rows: &[&StabilityRecord]) -> String {
+    let all = rows.iter().filter_map(|r| Some((r.kind, r.courant?.0)));
+    let (about, others): (Vec<_>, Vec<_>) = all.partition(|(kind, _)| *kind == Kind::Courant);
+    let told = |(_, cells): &(Kind, f64)| format!("{cells:.2}");
+    if about.is_empty() {
+        others.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(String::new(), told)
+    } else {
+        about.iter().map(told).collect::<Vec<_>>().join(", ")
+    }
 }
 
 fn told(recovery: Recovery) -> String {
@@ -153,7 +166,9 @@ fn page(results: &Results) -> String {
          <p>Each case draws a project and looks at its states every few frames, and at each frame while something is done to it. A \
          bound is the range that physics or the method allows, and not the limit of a clamp. Where theory says that a bound is \
          left, the case may leave it, and must stay finite. Frames to recover are counted from the end of what was done until \
-         everything is within its bounds and at most 1.1 times as lively, as a root mean square, as without it.</p>\n"
+         everything is within its bounds and at most 1.1 times as lively, as a root mean square, as without it. Cells a step \
+         are what was measured: how far the fastest texel moved in one, in each of the cases about that, and the furthest in \
+         the others.</p>\n"
     );
     for run in &results.runs {
         let extent = if run.extent == Extent::Quick { "a quick run" } else { "a full run" };
@@ -165,20 +180,21 @@ fn page(results: &Results) -> String {
         );
     }
     let groups = grouped(&results.cases);
-    out.push_str("<table><thead><tr><th>project</th><th>cases of</th><th class=\"n\">drawn</th><th class=\"n\">held</th><th class=\"n\">left, as theory says</th><th class=\"n\">left</th><th>slowest recovery</th></tr></thead><tbody>\n");
+    out.push_str("<table><thead><tr><th>project</th><th>cases of</th><th class=\"n\">drawn</th><th class=\"n\">held</th><th class=\"n\">left, as theory says</th><th class=\"n\">left</th><th>slowest recovery</th><th class=\"n\">cells a step</th></tr></thead><tbody>\n");
     for ((project, kind), rows) in &groups {
         let count = |of: &str| rows.iter().filter(|r| outcome(r) == of).count();
         let left = rows.iter().filter(|r| !r.is_right()).count();
         let _ = writeln!(
             out,
-            "<tr{}><td><a href=\"#{0}\">{project}</a></td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>\
-             <td class=\"n\">{left}</td><td>{}</td></tr>",
+            "<tr{}><td><a href=\"#{project}\">{project}</a></td><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>\
+             <td class=\"n\">{left}</td><td>{}</td><td class=\"n\">{}</td></tr>",
             if left > 0 { " class=\"left\"" } else { "" },
             kind.title(),
             rows.len(),
             count("held"),
             count("left as expected"),
             slowest(rows),
+            cells(rows),
             project = escaped(project),
         );
     }
@@ -243,6 +259,9 @@ fn bounds(out: &mut String, project: &str) {
         );
     }
     out.push_str("</tbody></table></details>\n");
+    if let Some(limit) = subject.courant.and_then(|c| c.limit) {
+        let _ = writeln!(out, "<p class=\"quiet\">Cells a step: {}.</p>", escaped(limit));
+    }
 }
 
 fn escaped(text: &str) -> String {

@@ -16,6 +16,8 @@ pub struct Courant {
     pub speed: usize,
     /// Cells a step at that speed.
     pub cells: fn(speed: f64, situation: &Situation) -> f64,
+    /// Says what keeps it below what the cases ask for, where something does.
+    pub limit: Option<&'static str>,
 }
 
 fn buffer(name: &str) -> PassId {
