@@ -179,15 +179,36 @@ impl Engine {
 
     /// Overwrites a texel of a pass's newest ones by NaN, in a format of floats; in any other by its largest value. For
     /// who asks how a project recovers. A place outside of the pass's texels is held inside.
-    pub fn poison(&mut self, pass: &PassId, (x, y): (u32, u32)) -> Result<(), EngineError> {
+    pub fn poison(&mut self, pass: &PassId, place: (u32, u32)) -> Result<(), EngineError> {
+        // All bits set: an exponent of ones and a mantissa that is not zero.
+        self.overwrite(pass, place, |bytes, _| vec![0xff; bytes])
+    }
+
+    /// As [`Engine::poison`], by infinity.
+    pub fn make_infinite(&mut self, pass: &PassId, place: (u32, u32)) -> Result<(), EngineError> {
+        // An exponent of ones, a mantissa of zeros; the lowest byte comes first.
+        self.overwrite(pass, place, |bytes, components| match bytes / components {
+            4 => [0x00, 0x00, 0x80, 0x7f].repeat(components),
+            2 => [0x00, 0x7c].repeat(components),
+            _ => vec![0xff; bytes],
+        })
+    }
+
+    /// Writes a texel of a pass's newest ones: `texel` gets how many bytes it has, and how many components.
+    fn overwrite(
+        &mut self,
+        pass: &PassId,
+        (x, y): (u32, u32),
+        texel: impl Fn(usize, usize) -> Vec<u8>,
+    ) -> Result<(), EngineError> {
         let (gpu, none) = (&self.shared.gpu, || EngineError::NoSuchPass(pass.title()));
         let running = self.running.as_mut().ok_or_else(none)?;
         let target = running.target(pass, 0)?;
         let texture = target.newest();
         let bytes = texture.raw.format().block_copy_size(None).unwrap_or(4);
-        // All bits set: an exponent of ones and a mantissa that is not zero.
+        let components = texture.raw.format().components();
         let place = (x.min(texture.width() - 1), y.min(texture.height() - 1));
-        texture.write_texel(gpu, place, &vec![0xff; bytes as usize]);
+        texture.write_texel(gpu, place, &texel(bytes as usize, usize::from(components)));
         if let Some(chain) = target.chains.get(target.front) {
             let mut encoder =
                 gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("poison") });

@@ -14,6 +14,8 @@ pub enum Kind {
     Courant,
     /// A slider at an end, all others at their defaults.
     End,
+    /// A slider of few whole values at one between its ends.
+    Inner,
     Drag,
     /// Frames that are long, uneven, or take no time.
     Step,
@@ -26,6 +28,8 @@ pub enum Kind {
     Pairs,
     /// Larger canvases.
     Large,
+    /// Viscosities across their slider on a large canvas, at several speeds.
+    Viscosity,
     /// 100,000 frames.
     Long,
 }
@@ -36,6 +40,7 @@ impl Kind {
             Kind::Untouched => "left alone",
             Kind::Courant => "cells a step",
             Kind::End => "a slider at an end",
+            Kind::Inner => "a whole number between a slider's ends",
             Kind::Drag => "the mouse",
             Kind::Step => "time steps",
             Kind::Resize => "resize",
@@ -43,6 +48,7 @@ impl Kind {
             Kind::Size => "odd sizes",
             Kind::Pairs => "pairs of sliders at their ends",
             Kind::Large => "large canvases",
+            Kind::Viscosity => "viscosities at 1920x1080",
             Kind::Long => "100,000 frames",
         }
     }

@@ -32,14 +32,16 @@ fn hold(names: &[&str]) {
         let subject = Subject::load(name, &[]).unwrap();
         let Some(cases) = measured(&subject, None) else { return };
         assert!(cases.iter().all(StabilityRecord::is_right), "{}", table(&cases));
-        for kind in [Kind::Untouched, Kind::End, Kind::Drag, Kind::Step, Kind::Resize, Kind::Broken, Kind::Size] {
+        let of_states = [Kind::Step, Kind::Resize, Kind::Broken];
+        let of_states = of_states.into_iter().filter(|_| !subject.stateful().is_empty());
+        for kind in [Kind::Untouched, Kind::End, Kind::Drag, Kind::Size].into_iter().chain(of_states) {
             let is_there = cases.iter().any(|c| c.kind == kind) || kind == Kind::End && subject.sliders().is_empty();
             assert!(is_there, "{name} has no {}", kind.title());
         }
     }
 }
 
-/// Halves of the list, so that two cores share them.
+/// Parts of the list, so that two cores share them.
 #[test]
 fn fluids_hold_at_every_slider_drag_step_and_size() {
     hold(&presets::NAMES[..4]);
@@ -47,7 +49,12 @@ fn fluids_hold_at_every_slider_drag_step_and_size() {
 
 #[test]
 fn other_simulations_hold_at_every_slider_drag_step_and_size() {
-    hold(&presets::NAMES[4..]);
+    hold(&presets::NAMES[4..presets::WITH_STATE]);
+}
+
+#[test]
+fn filters_hold_at_every_slider_drag_and_size() {
+    hold(&presets::NAMES[presets::WITH_STATE..]);
 }
 
 /// Heat on a grid by explicit steps: stable to a rate of 1/4.
@@ -157,6 +164,9 @@ fn a_number_that_is_none_spreads_where_nothing_stops_it_and_is_gone_where_someth
     let found = left(&cases[0]);
     assert_eq!((found.frame, found.texel.is_some(), found.value.0.is_nan()), (6, true, true), "{}", found.told());
     assert!(matches!(cases[0].recovery, Some(Recovery::NotWithin(_))));
+    let infinite = measured(&subject, Some("infinity")).unwrap();
+    let found = left(&infinite[0]);
+    assert!(found.frame == 6 && !found.value.0.is_finite(), "{}", found.told());
     let healed = changed_heat("return isnan(texelFetch(iChannel0, p, 0).x) ? 0.0 : 0.0 * float(p.x)");
     let cases = measured(&healed, Some("NaN")).unwrap();
     assert_eq!((&cases[0].outcome, cases[0].recovery), (&Some(Outcome::Held), Some(Recovery::Frames(0))));

@@ -91,7 +91,7 @@ impl PrecisionArgs {
 #[derive(Debug, Args)]
 #[command(after_help = PROJECT)]
 pub struct StabilityArgs {
-    /// [default: every preset that has a state]
+    /// [default: every preset]
     pub project: Vec<String>,
     /// The folder of the results, a CSV and a page; a run that was stopped goes on there
     #[arg(long, value_name = "DIR")]

@@ -14,6 +14,13 @@ use std::collections::BTreeSet;
 /// Seed of the rows of pairs.
 const SEED: u64 = 20_240_501;
 
+/// What a texel is that is no number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Broken {
+    NotANumber,
+    Infinite,
+}
+
 /// One thing that is done.
 #[derive(Clone, Debug)]
 pub struct Case {
@@ -30,8 +37,8 @@ pub struct Case {
     pub steps: Steps,
     /// New sizes, each before a frame.
     pub resizes: Vec<(u32, (u32, u32))>,
-    /// The frame before which a texel of every state becomes NaN.
-    pub poison: Option<u32>,
+    /// The frame before which a texel of every state breaks, and what becomes of it.
+    pub poison: Option<(u32, Broken)>,
     /// Frames in which something is done, from the first to before the last.
     pub disturbed: Option<(u32, u32)>,
 }
@@ -138,21 +145,34 @@ pub fn base(extent: Extent) -> (u32, u32) {
     if extent == Extent::Quick { QUICK.base } else { FULL.base }
 }
 
-/// Everything that is done to a project on a canvas of this size, in the order in which it is done.
+/// Everything that is done to a project on a canvas of this size, in the order in which it is done. A project without a
+/// state has neither recovery nor drift: it is drawn for fewer frames, and left out of what is done to a state.
 pub fn list(subject: &Subject, extent: Extent, base: (u32, u32)) -> Vec<Case> {
-    let m = Measure { base, ..if extent == Extent::Quick { QUICK } else { FULL } };
+    let mut m = Measure { base, ..if extent == Extent::Quick { QUICK } else { FULL } };
+    let has_state = !subject.stateful().is_empty();
+    if !has_state {
+        (m.untouched, m.end, m.recover, m.long) = (m.end, m.end.min(3 * m.every), m.every, None);
+    }
     let m = &m;
     let mut cases = vec![Case::new(Kind::Untouched, "left alone", m.base, m.untouched, m.every)];
     let sliders = subject.sliders();
     courant(subject, &sliders, m, &mut cases);
+    let turned = |kind, values: CustomUniformValues, frames| {
+        let case = Case { values, ..Case::new(kind, "", m.base, frames, m.every) };
+        Case { name: case.settings(), ..case }
+    };
     for slider in &sliders {
         for is_high in [false, true] {
-            let values = CustomUniformValues::from([(slider.name.clone(), end(slider, is_high))]);
-            let case = Case { values, ..Case::new(Kind::End, "", m.base, m.end, m.every) };
-            cases.push(Case { name: case.settings(), ..case });
+            cases.push(turned(Kind::End, [(slider.name.clone(), end(slider, is_high))].into(), m.end));
+        }
+        for value in between(slider) {
+            cases.push(turned(Kind::Inner, [(slider.name.clone(), value)].into(), m.end));
         }
     }
-    disturbances(m, &mut cases);
+    drags(m, &mut cases);
+    if has_state {
+        disturbances(m, &mut cases);
+    }
     for &size in m.sizes {
         let name = format!("{}x{}, dragged", size.0, size.1);
         let (from, to) = (m.size_frames / 4, m.size_frames / 2);
@@ -161,8 +181,22 @@ pub fn list(subject: &Subject, extent: Extent, base: (u32, u32)) -> Vec<Case> {
     }
     for row in pairs::rows(sliders.len(), m.most, SEED).into_iter().filter(|row| row.len() > 1) {
         let values = row.iter().map(|(n, is_high)| (sliders[*n].name.clone(), end(&sliders[*n], *is_high))).collect();
-        let case = Case { values, ..Case::new(Kind::Pairs, "", m.base, m.end / 2, m.every) };
-        cases.push(Case { name: case.settings(), ..case });
+        cases.push(turned(Kind::Pairs, values, m.end / 2));
+    }
+    for extra in &subject.extras {
+        let value = |(name, value): &(&str, f64)| {
+            let slider = sliders.iter().find(|slider| slider.name == *name)?;
+            Some((slider.name.clone(), CustomUniformValue::new(slider.ty, &[*value])))
+        };
+        let case = turned(extra.kind, extra.values.iter().filter_map(value).collect(), m.end / 2);
+        match extra.large {
+            None => cases.push(case),
+            Some((size, frames)) if extent == Extent::Full => {
+                let name = format!("{} on {}x{}", case.name, size.0, size.1);
+                cases.push(Case { name, size, frames, ..case });
+            }
+            Some(_) => {}
+        }
     }
     for &(size, frames) in m.large {
         cases.push(Case::new(Kind::Large, format!("{}x{}", size.0, size.1), size, frames, m.every));
@@ -197,13 +231,23 @@ fn courant(subject: &Subject, sliders: &[CustomUniform], m: &Measure, cases: &mu
     }
 }
 
-fn disturbances(m: &Measure, cases: &mut Vec<Case>) {
-    let case = |kind, name: &str, lasts: u32| {
-        Case::new(kind, name, m.base, m.calm + lasts + m.recover, m.every).disturbed(m.calm, m.calm + lasts)
-    };
-    for (hand, name) in Hand::DRAGS {
-        cases.push(Case { hand, ..case(Kind::Drag, name, m.drag) });
+impl Measure {
+    /// A case in which something is done for so many frames.
+    fn disturbance(&self, kind: Kind, name: &str, lasts: u32) -> Case {
+        let frames = self.calm + lasts + self.recover;
+        Case::new(kind, name, self.base, frames, self.every).disturbed(self.calm, self.calm + lasts)
     }
+}
+
+fn drags(m: &Measure, cases: &mut Vec<Case>) {
+    for (hand, name) in Hand::DRAGS {
+        cases.push(Case { hand, ..m.disturbance(Kind::Drag, name, m.drag) });
+    }
+}
+
+/// What is done to a state.
+fn disturbances(m: &Measure, cases: &mut Vec<Case>) {
+    let case = |kind, name: &str, lasts: u32| m.disturbance(kind, name, lasts);
     for (steps, name, lasts) in [
         (Steps::Times(10.0), "frames ten times as long", m.drag / 2),
         (Steps::Seconds(0.25), "a frame of 250 ms", 1),
@@ -218,7 +262,12 @@ fn disturbances(m: &Measure, cases: &mut Vec<Case>) {
         (0..).map(|n| m.calm + n * apart).zip(m.resized.iter().copied().chain([m.base])).collect();
     let lasts = apart * (resizes.len() as u32 - 1) + 1;
     cases.push(Case { resizes, ..case(Kind::Resize, "resize on the way", lasts) });
-    cases.push(Case { poison: Some(m.calm), ..case(Kind::Broken, "NaN in a texel of every state", 1) });
+    for (broken, name) in [
+        (Broken::NotANumber, "NaN in a texel of every state"),
+        (Broken::Infinite, "infinity in a texel of every state"),
+    ] {
+        cases.push(Case { poison: Some((m.calm, broken)), ..case(Kind::Broken, name, 1) });
+    }
 }
 
 fn end(slider: &CustomUniform, is_high: bool) -> CustomUniformValue {
@@ -226,6 +275,19 @@ fn end(slider: &CustomUniform, is_high: bool) -> CustomUniformValue {
         (None, _) | (_, CustomUniformType::Bool) => CustomUniformValue::Bool(is_high),
         (Some(range), ty) => CustomUniformValue::new(ty, if is_high { &range.max } else { &range.min }),
     }
+}
+
+/// The most whole values of a slider that are all drawn.
+const FEW: i32 = 8;
+
+/// Whole numbers between the ends of a slider that has few of them, its default left out.
+fn between(slider: &CustomUniform) -> Vec<CustomUniformValue> {
+    let (Some(range), CustomUniformType::Int) = (slider.range, slider.ty) else { return Vec::new() };
+    let (low, high) = (range.min[0].round() as i32, range.max[0].round() as i32);
+    if high - low >= FEW {
+        return Vec::new();
+    }
+    (low + 1..high).map(CustomUniformValue::Int).filter(|value| *value != slider.default).collect()
 }
 
 #[cfg(test)]
@@ -249,6 +311,44 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn whole_numbers_between_the_ends_are_drawn_where_they_are_few() {
+        let inner = |name: &str| -> Vec<String> {
+            let subject = Subject::load(name, &[]).unwrap();
+            let cases = list(&subject, Extent::Full, base(Extent::Full));
+            cases.into_iter().filter(|c| c.kind == Kind::Inner).map(|c| c.name).collect()
+        };
+        assert_eq!(inner("fluid-accurate"), ["walls=1"]);
+        assert_eq!(inner("reaction-diffusion"), ["diffusion=2"], "1 is the default");
+        assert_eq!(inner("ssao"), ["method=1"], "64 samples are many");
+        assert_eq!(inner("gaussian-blur"), ["variant=1", "variant=2", "variant=3", "variant=4"]);
+        assert_eq!(inner("mip-fluid"), Vec::<String>::new());
+    }
+
+    #[test]
+    fn the_box_with_its_lid_and_viscosities_of_a_large_canvas_are_drawn() {
+        let subject = Subject::load("fluid-accurate", &[]).unwrap();
+        let cases = list(&subject, Extent::Full, base(Extent::Full));
+        let lids = cases.iter().filter(|c| c.name.contains("lid_speed") && c.name.contains("walls=1"));
+        assert_eq!(lids.count(), 8);
+        let large: Vec<&Case> = cases.iter().filter(|c| c.kind == Kind::Viscosity).collect();
+        assert!(large.len() == 18 && large.iter().all(|c| (c.size, c.frames) == ((1920, 1080), 60)));
+        let quick = list(&subject, Extent::Quick, base(Extent::Quick));
+        assert!(quick.iter().all(|c| !matches!(c.kind, Kind::Viscosity | Kind::Long)));
+        let long: Vec<&Case> = cases.iter().filter(|c| c.kind == Kind::Long).collect();
+        assert!(long.len() == 1 && (long[0].size, long[0].frames) == ((48, 27), 100_000));
+    }
+
+    #[test]
+    fn a_filter_is_not_asked_for_what_only_a_state_can_do() {
+        let subject = Subject::load("gaussian-blur", &[]).unwrap();
+        let cases = list(&subject, Extent::Full, base(Extent::Full));
+        let has = |kind| cases.iter().any(|c| c.kind == kind);
+        assert!(has(Kind::Untouched) && has(Kind::End) && has(Kind::Drag) && has(Kind::Size) && has(Kind::Pairs));
+        assert!(!has(Kind::Step) && !has(Kind::Resize) && !has(Kind::Broken) && !has(Kind::Long));
+        assert!(cases[0].frames < 2000);
     }
 
     #[test]

@@ -3,8 +3,10 @@
 
 use super::{
     Case, Subject,
+    cases::Broken,
     check::{self, Allowed, Area, Check, Found, HARD_LIMIT, Situation},
-    inputs::{Hand, Inputs},
+    inputs::Inputs,
+    judge,
 };
 use crate::{
     engine::{BuildOptions, Engine, Pixels, Program},
@@ -58,11 +60,8 @@ impl<'s> Driver<'s> {
     /// Draws a case and says what came of it. What the device refuses, as a canvas that is too large, is told in the
     /// record.
     pub fn measure(&mut self, case: &Case) -> StabilityRecord {
-        let situation = self.situation(case);
-        let mut excuses: Vec<String> =
-            self.subject.checks.iter().filter_map(|c| c.allowed(&situation).excuse).map(str::to_owned).collect();
-        excuses.sort();
-        excuses.dedup();
+        let situation = judge::situation(self.subject, case);
+        let excuses = self.subject.excuses(&situation);
         let mut record = StabilityRecord {
             project: self.subject.name.clone(),
             texts: self.subject.fingerprint(),
@@ -83,10 +82,6 @@ impl<'s> Driver<'s> {
             record.outcome = None;
         }
         record
-    }
-
-    fn situation(&self, case: &Case) -> Situation {
-        self.subject.situation(&case.values, case.size, case.steps.longest(), case.hand != Hand::Away)
     }
 
     fn fill(&mut self, case: &Case, situation: &Situation, record: &mut StabilityRecord) -> Result<(), LabError> {
@@ -173,7 +168,7 @@ impl<'s> Driver<'s> {
             return Ok(known.clone());
         }
         let twin = Case { disturbed: None, poison: None, resizes: Vec::new(), ..case.clone() };
-        let situation = self.situation(&twin);
+        let situation = judge::situation(self.subject, &twin);
         let mut most = vec![0.0f64; self.subject.checks.len()];
         let mut run = self.begin(&twin)?;
         while run.frame < twin.frames {
@@ -216,11 +211,15 @@ impl Run<'_, '_, '_> {
         for (_, (width, height)) in self.case.resizes.iter().filter(|(at, _)| *at == frame) {
             engine.resize(*width, *height)?;
         }
-        if self.case.poison == Some(frame) {
+        if let Some((_, broken)) = self.case.poison.filter(|(at, _)| *at == frame) {
             for id in &self.driver.state {
                 let size = engine.pass_size(id).unwrap_or((1, 1));
                 let check = self.driver.subject.checks.iter().find(|c| c.pass == *id);
-                engine.poison(id, check.map_or(Area::All, |c| c.area).middle(size))?;
+                let place = check.map_or(Area::All, |c| c.area).middle(size);
+                match broken {
+                    Broken::NotANumber => engine.poison(id, place)?,
+                    Broken::Infinite => engine.make_infinite(id, place)?,
+                }
             }
         }
         let inputs = self.inputs.next(engine.size());

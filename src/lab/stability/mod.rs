@@ -4,7 +4,8 @@
 //! jagged it is) the range that physics or the method's theory allows. The presets' are declared in [`presets`], each
 //! with its reason; any other project is held to be finite and within [`ANY_BOUND`]. [`cases`] lists what is done: left
 //! alone for long, run past its Courant number, every slider at both ends and every pair of sliders at theirs, the
-//! mouse dragged, odd sizes, long and uneven time steps, a resize, a texel that is no number. [`run`] draws each case
+//! mouse dragged, odd sizes, long and uneven time steps, a resize, a texel that is no number. Presets add cases of their
+//! own. [`run`] draws each case
 //! and records what came of it, with the first frame and texel outside of a bound, and how many frames the project
 //! takes to recover. Draws nothing itself and knows no window.
 
@@ -12,6 +13,7 @@ pub mod cases;
 mod check;
 mod drive;
 mod inputs;
+mod judge;
 pub mod pairs;
 pub mod presets;
 mod report;

@@ -49,6 +49,8 @@ pub struct Subject {
     pub checks: Vec<Check>,
     /// How its Courant number is set and measured, where it has one.
     pub courant: Option<presets::Courant>,
+    /// Cases of its own.
+    pub extras: Vec<presets::Extra>,
 }
 
 impl Subject {
@@ -68,8 +70,9 @@ impl Subject {
             Origin::Preset(preset) => presets::declared(preset),
             _ => presets::declared_for_copy(&project),
         };
-        let (checks, courant) = declared.map_or((Vec::new(), None), |d| (d.checks, d.courant));
-        let mut subject = Subject { name: name.into(), project, media, checks, courant };
+        let (checks, courant, extras) =
+            declared.map_or((Vec::new(), None, Vec::new()), |d| (d.checks, d.courant, d.extras));
+        let mut subject = Subject { name: name.into(), project, media, checks, courant, extras };
         for id in subject.stateful() {
             if !subject.checks.iter().any(|c| c.pass == id) {
                 subject.checks.push(any(
@@ -128,14 +131,29 @@ impl Subject {
         Situation { size, longest_step, is_dragged, sliders }
     }
 
-    /// A number for all the texts and the ranges at the defaults: what was measured of others says nothing about these.
+    /// A number for all the texts, what is looked at, and the ranges of states at the defaults: what was measured of
+    /// others says nothing about these. The range of the picture is not in it: as a record has the picture's extremes,
+    /// [`judge`](super::judge) holds it to the range that there is now.
     pub fn fingerprint(&self) -> String {
         let mut print = Fingerprint::of(&self.project);
         let usual = self.situation(&CustomUniformValues::new(), (640, 360), 1.0 / 60.0, true);
         for check in &self.checks {
-            print.eat(format!("{} {:?}", check.name(), check.allowed(&usual)).as_bytes());
+            let allowed = match check.pass {
+                PassId::Image => Allowed::new(-ANY_BOUND, ANY_BOUND),
+                _ => check.allowed(&usual),
+            };
+            print.eat(format!("{} {allowed:?}", check.name()).as_bytes());
         }
         print.text()
+    }
+
+    /// Why theory lets a bound be left in a situation; empty: it does not.
+    pub fn excuses(&self, situation: &Situation) -> Vec<String> {
+        let mut excuses: Vec<String> =
+            self.checks.iter().filter_map(|c| c.allowed(situation).excuse).map(str::to_owned).collect();
+        excuses.sort();
+        excuses.dedup();
+        excuses
     }
 }
 

@@ -1,7 +1,10 @@
 //! The words in which the presets' bounds are declared.
 
 use crate::{
-    lab::stability::check::{Allowed, Area, Check, Quantity, Rule, Situation},
+    lab::{
+        stability::check::{Allowed, Area, Check, Quantity, Rule, Situation},
+        stability_record::Kind,
+    },
     project::PassId,
 };
 
@@ -20,8 +23,36 @@ pub struct Courant {
     pub limit: Option<&'static str>,
 }
 
+/// A case of a preset's own: what the cases that all projects have leave out.
+#[derive(Clone, Debug)]
+pub struct Extra {
+    pub kind: Kind,
+    /// Sliders that are not at their defaults.
+    pub values: Vec<(&'static str, f64)>,
+    /// The canvas and the frames; `None`: those of a slider at an end. Such a case is drawn in a full run alone.
+    pub large: Option<((u32, u32), u32)>,
+}
+
+impl Extra {
+    pub(super) fn new(kind: Kind, values: &[(&'static str, f64)]) -> Extra {
+        Extra { kind, values: values.into(), large: None }
+    }
+}
+
 fn buffer(name: &str) -> PassId {
     PassId::parse(&format!("buffer_{name}")).unwrap_or(PassId::Image)
+}
+
+/// The picture, from black to so much. A screen cuts off at 1; what is drawn has no reason to be more than its lights
+/// add up to.
+pub(super) fn picture(most: f64, reason: &str) -> Check {
+    let allowed = Rule::Always(Allowed::new(0.0, most * 1.0001));
+    Check { pass: PassId::Image, quantity: Quantity::Any, area: Area::All, allowed, reason: reason.into() }
+}
+
+pub(super) fn picture_by(rule: fn(&Situation) -> Allowed, reason: &str) -> Check {
+    let allowed = Rule::Of(rule);
+    Check { pass: PassId::Image, quantity: Quantity::Any, area: Area::All, allowed, reason: reason.into() }
 }
 
 pub(super) fn always(name: &str, quantity: Quantity, area: Area, range: (f64, f64), reason: &str) -> Check {

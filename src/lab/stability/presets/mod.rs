@@ -1,5 +1,5 @@
-//! The presets' bounds, in one place: for every state the range that physics, the method or the picture allows, and
-//! why.
+//! The presets' bounds, in one place: for every state and every picture the range that physics, the method or the light
+//! in it allows, and why.
 //!
 //! A bound is that of the quantity and not of the clamp that would hold it there: a clamp that is reached is a fault
 //! that has been hidden. Where theory says that a slider's end leads out of the range, the rule says so with its
@@ -7,10 +7,11 @@
 //! [`HARD_LIMIT`](super::check::HARD_LIMIT).
 
 mod declare;
+mod filters;
 mod flows;
 mod others;
 
-pub use declare::Courant;
+pub use declare::{Courant, Extra};
 
 use super::check::Check;
 use crate::project::{Project, presets};
@@ -19,9 +20,10 @@ use crate::project::{Project, presets};
 pub struct Declared {
     pub checks: Vec<Check>,
     pub courant: Option<Courant>,
+    pub extras: Vec<Extra>,
 }
 
-/// Returns the bounds of a preset with a state; `None` for the others.
+/// Returns the bounds of a preset.
 pub fn declared(name: &str) -> Option<Declared> {
     let (checks, courant) = match name {
         "fluid" => flows::fluid(),
@@ -39,13 +41,24 @@ pub fn declared(name: &str) -> Option<Declared> {
         "taa" => (others::taa(), None),
         "scene-bloom-taa" => (others::scene_bloom_taa(), None),
         "ssao" => (others::ssao(), None),
+        "bloom" => (filters::bloom(), None),
+        "bloom-sized" => (filters::bloom_sized(), None),
+        "gaussian-blur" => (filters::gaussian_blur(), None),
+        "gbuffer-edges" => (filters::gbuffer_edges(), None),
+        "gbuffer-ssao-ssr" => (filters::gbuffer_ssao_ssr(), None),
+        "toon-outline" => (filters::toon_outline(), None),
         _ => return None,
     };
-    Some(Declared { checks, courant })
+    let extras = match name {
+        "fluid" | "fluid-dye" | "fluid-lit" => vec![flows::stable_classic()],
+        "fluid-accurate" => flows::of_fluid_accurate(),
+        _ => Vec::new(),
+    };
+    Some(Declared { checks, courant, extras })
 }
 
-/// The presets that have a state, in the order in which they are measured.
-pub const NAMES: [&str; 15] = [
+/// All presets in the order in which they are measured: those that have a state, then those that have none.
+pub const NAMES: [&str; 21] = [
     "fluid",
     "fluid-dye",
     "fluid-lit",
@@ -61,7 +74,16 @@ pub const NAMES: [&str; 15] = [
     "taa",
     "scene-bloom-taa",
     "ssao",
+    "bloom",
+    "bloom-sized",
+    "gaussian-blur",
+    "gbuffer-edges",
+    "gbuffer-ssao-ssr",
+    "toon-outline",
 ];
+
+/// How many of them have a state.
+pub const WITH_STATE: usize = 15;
 
 /// For a project on disk that has the name of a preset and the passes of its checks.
 pub fn declared_for_copy(project: &Project) -> Option<Declared> {
@@ -75,15 +97,32 @@ mod tests {
     use super::*;
     use crate::{
         lab::stability::{Quantity, Subject},
-        project::presets as library,
+        project::{PassId, presets as library},
     };
 
     #[test]
-    fn every_preset_with_a_state_is_declared_and_no_other() {
+    fn every_preset_is_declared_with_its_picture_and_those_with_a_state_come_first() {
         for name in library::names() {
+            let Some(place) = NAMES.iter().position(|n| n == name) else { panic!("{name} is not declared") };
             let has_state = !Subject::load(name, &[]).unwrap().stateful().is_empty();
-            assert_eq!(NAMES.contains(name), has_state, "{name}");
-            assert_eq!(declared(name).is_some(), has_state, "{name}");
+            assert_eq!(place < WITH_STATE, has_state, "{name}");
+            let declared = declared(name).unwrap();
+            let pictures: Vec<&Check> = declared.checks.iter().filter(|c| c.pass == PassId::Image).collect();
+            assert_eq!(pictures.len(), 1, "{name}");
+            // The fingerprint takes the checks in their order.
+            assert_eq!(declared.checks.last().unwrap().pass, PassId::Image, "{name}");
+        }
+        assert_eq!(library::names().len(), NAMES.len());
+    }
+
+    #[test]
+    fn extra_cases_turn_sliders_that_are_there_to_values_that_they_have() {
+        for name in NAMES {
+            let project = library::load(name).unwrap().project;
+            for (slider, value) in declared(name).unwrap().extras.iter().flat_map(|e| &e.values) {
+                let mut project = project.clone();
+                project.set_custom_uniform(&format!("{slider}={value}")).unwrap_or_else(|e| panic!("{name}: {e}"));
+            }
         }
     }
 

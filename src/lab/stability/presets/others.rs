@@ -1,6 +1,6 @@
 //! Presets whose state is no flow.
 
-use super::declare::{Courant, always, by, mouse};
+use super::declare::{Courant, always, by, mouse, picture};
 use crate::lab::stability::check::{Allowed, Area, Check, Quantity, Situation};
 
 pub fn reaction_diffusion() -> (Vec<Check>, Option<Courant>) {
@@ -22,6 +22,7 @@ pub fn reaction_diffusion() -> (Vec<Check>, Option<Courant>) {
             "a pattern is ten cells long; one of two is a step too long",
         ),
         mouse(),
+        picture(1.76, "glaze and clay are at most 1.15; light adds 65 % and a gleam of 0.55, to the power 1/1.6"),
     ];
     (checks, None)
 }
@@ -32,11 +33,15 @@ pub fn mouse_state() -> Vec<Check> {
     vec![
         always("a", Quantity::Any, Area::FromRow(1), (0.0, 1.0001), INK),
         always("b", Quantity::Any, Area::ButLast, (0.0, 1.0001), INK),
+        picture(1.0, "film is white at 1"),
     ]
 }
 
 pub fn feedback() -> Vec<Check> {
-    vec![always("a", Quantity::Any, Area::ButFirst, (0.0, 4.0), "a trail begins with 4 and fades")]
+    vec![
+        always("a", Quantity::Any, Area::ButFirst, (0.0, 4.0), "a trail begins with 4 and fades"),
+        picture(2.2, "four ribbons of at most 1.2 each over a ground of 0.024, as a square root"),
+    ]
 }
 
 pub fn brick_breaker() -> Vec<Check> {
@@ -72,6 +77,11 @@ pub fn brick_breaker() -> Vec<Check> {
         by("a", Quantity::Component(3), Area::Texel(2, 0), |s| room(s, 0.0, 3.0), "phases of the game"),
         by("a", Quantity::Component(0), Area::Block(0, 1, 16, 6), |s| room(s, 0.0, 1.0), "a brick is whole or gone"),
         by("a", Quantity::Any, Area::Block(0, 0, 16, 7), |_| Allowed::new(-1e4, 1e7), "seconds, pixels and a score"),
+        picture(
+            9.3,
+            "six bursts of twelve shards of at most 1.07 and a flash of 0.5, all on one pixel, over a picture of at most 6, \
+             as a square root",
+        ),
     ]
 }
 
@@ -114,6 +124,7 @@ pub fn particles() -> Vec<Check> {
             "64 particles at their brightest, for as long as the exposure lasts",
         ),
         mouse(),
+        picture(1.04, "film is white at 1, over a night of 0.06, to the power 1/1.7"),
     ]
 }
 
@@ -140,6 +151,7 @@ pub fn gallery_of_tricks() -> Vec<Check> {
             (0.0, 8.0),
             "octaves that sum to less than 1, and how many of eight there are",
         ),
+        picture(3.61, "24 rings of half a white each, all on one pixel, over a picture of at most 1, as a square root"),
     ]
 }
 
@@ -148,6 +160,7 @@ pub fn taa() -> Vec<Check> {
         always("b", Quantity::Colour, Area::All, (0.0, 1.0001), "a screen has no more than 1"),
         always("b", Quantity::Component(3), Area::All, (0.0, 255.0), "an age in frames"),
         always("c", Quantity::Any, Area::All, (-1e4, 1e5), "an object's number and the time of a frame"),
+        picture(1.0, "a screen has no more than 1"),
     ]
 }
 
@@ -164,9 +177,13 @@ pub fn scene_bloom_taa() -> Vec<Check> {
         always("b", Quantity::Component(3), Area::All, (0.0, 255.0), "an age in frames"),
         always("c", Quantity::Component(0), Area::All, (0.0, 60.0), "a distance; a ray that hits nothing ends at 60"),
         always("c", Quantity::Component(1), Area::All, (0.0, 1e5), "one more than the seconds of a frame"),
+        picture(1.0, "a screen has no more than 1"),
     ]
 }
 
 pub fn ssao() -> Vec<Check> {
-    vec![always("mode", Quantity::Component(0), Area::All, (0.0, 2.0), "which of three pictures is shown")]
+    vec![
+        always("mode", Quantity::Component(0), Area::All, (0.0, 2.0), "which of three pictures is shown"),
+        picture(1.0, "a screen has no more than 1"),
+    ]
 }

@@ -1,0 +1,55 @@
+//! Says whether a record still says what it said, now that ranges may be others: a record has the extremes of every
+//! quantity, so that a case need not be drawn again for a range that has been mended.
+
+use super::{
+    Area, Case, Check, Outcome, Situation, StabilityRecord, Subject,
+    check::{Allowed, HARD_LIMIT},
+    inputs::Hand,
+};
+use crate::lab::Number;
+use std::collections::BTreeMap;
+
+/// What a case is drawn with, as far as bounds depend on it.
+pub fn situation(subject: &Subject, case: &Case) -> Situation {
+    subject.situation(&case.values, case.size, case.steps.longest(), case.hand != Hand::Away)
+}
+
+/// Returns whether today's ranges give the recorded extremes the recorded outcome.
+pub fn still_holds(subject: &Subject, case: &Case, record: &StabilityRecord) -> bool {
+    let Some(outcome) = &record.outcome else { return true };
+    let sizes: Vec<(u32, u32)> = case.resizes.iter().map(|(_, size)| *size).chain([case.size]).collect();
+    let usual = situation(subject, case);
+    let mut ranges: BTreeMap<String, Allowed> = BTreeMap::new();
+    for check in subject.checks.iter().filter(|c| can_be_judged(c, case)) {
+        for &size in &sizes {
+            let allowed = check.allowed(&Situation { size, ..usual.clone() });
+            // Several checks of one name have their extremes together.
+            let range = ranges.entry(check.name()).or_insert(allowed);
+            range.low = range.low.min(allowed.low);
+            range.high = range.high.max(allowed.high);
+            range.excuse = range.excuse.or(allowed.excuse);
+        }
+    }
+    let mut is_left = false;
+    for (name, range) in &ranges {
+        let Some(extremes) = record.extremes.get(name) else { return false };
+        is_left |= leaves(extremes, range);
+    }
+    is_left == matches!(outcome, Outcome::Left(_))
+}
+
+/// On the way through several sizes an area may have no texels for a while, whose extremes are told as 0.
+fn can_be_judged(check: &Check, case: &Case) -> bool {
+    case.resizes.is_empty() || check.area == Area::All
+}
+
+fn leaves((low, high): &(Number, Number), range: &Allowed) -> bool {
+    let (low, high) = (low.0, high.0);
+    // No texel belonged to it.
+    if low == 0.0 && high == 0.0 {
+        return false;
+    }
+    let is_outside = !(low >= range.low && high <= range.high);
+    let is_wild = !(low.is_finite() && high.is_finite()) || low.abs().max(high.abs()) > HARD_LIMIT.max(range.high);
+    is_outside && (range.excuse.is_none() || is_wild)
+}

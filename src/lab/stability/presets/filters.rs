@@ -1,0 +1,132 @@
+//! Presets without a state: what a filter makes of a picture lies in that picture's range, and what a screen shows is no
+//! more than its lights.
+
+use super::declare::{always, by, picture, picture_by};
+use crate::lab::stability::check::{Allowed, Area, Check, Quantity, Situation};
+
+const MEAN: &str = "means of the light, by weights that are positive and sum to 1";
+
+/// The root of Reinhard's curve: what the bloom presets show of a light.
+fn shown(light: f64, s: &Situation) -> Allowed {
+    let (light, white) = (light * s.slider("exposure").exp2(), s.slider("white"));
+    let mapped = light * (1.0 + light / (white * white)) / (1.0 + light);
+    Allowed::new(0.0, mapped.sqrt().max(1.0) * 1.001)
+}
+
+const SHOWN: &str = "the curve's value for the brightest light; above `white` it is more than a screen can show";
+
+/// The brightest light of neon before a brick wall.
+fn neon(s: &Situation) -> f64 {
+    // A lamp half as bright again, and the wall behind it. Where a pixel is as wide as the tubes are apart it may hold a
+    // part of all four.
+    let tubes = if s.size.0.min(s.size.1) < 64 { 5.3 } else { 2.0 };
+    (tubes * s.slider("neon") + 0.05).max(s.slider("constant"))
+}
+
+pub fn bloom() -> Vec<Check> {
+    let light = |s: &Situation| Allowed::new(0.0, neon(s));
+    let spread = |s: &Situation| Allowed::new(0.0, neon(s).min(s.slider("brightest")) * 1.0001);
+    let shines = "a tube's radiance and its core's, half as much again for the lamp, before a lit wall";
+    vec![
+        by("a", Quantity::Colour, Area::All, light, shines),
+        by("b", Quantity::Colour, Area::All, spread, MEAN),
+        by("c", Quantity::Colour, Area::All, spread, MEAN),
+        by("d", Quantity::Colour, Area::All, spread, MEAN),
+        always("d", Quantity::Component(3), Area::All, (0.0, 1.0001), MEAN),
+        picture_by(|s| shown(neon(s), s), SHOWN),
+    ]
+}
+
+/// The brightest light of lanterns over water, stored in 16 bits.
+fn lanterns(s: &Situation) -> f64 {
+    (2.28 * s.slider("flame")).max(1.3).max(s.slider("constant")) * 1.001
+}
+
+pub fn bloom_sized() -> Vec<Check> {
+    let light = |s: &Situation| Allowed::new(0.0, lanterns(s));
+    // Light is scaled so that the brightest that counts fills 15 of the 16 bits' powers of two.
+    let spread = |s: &Situation| {
+        let brightest = s.slider("brightest");
+        let scale = (32_768.0 / brightest).log2().floor().exp2();
+        // A level's light by its weight, each rounded to 11 bits.
+        Allowed::new(0.0, lanterns(s).min(brightest).max(1.0 / scale) * scale * 1.005)
+    };
+    vec![
+        by("a", Quantity::Colour, Area::All, light, "a flame's own light and what its paper lets through"),
+        by("down1", Quantity::Any, Area::All, spread, MEAN),
+        by("down5", Quantity::Any, Area::All, spread, MEAN),
+        by("up4", Quantity::Any, Area::All, spread, MEAN),
+        by("up1", Quantity::Any, Area::All, spread, MEAN),
+        picture_by(|s| shown(lanterns(s) * 1.005, s), SHOWN),
+    ]
+}
+
+pub fn gaussian_blur() -> Vec<Check> {
+    let magnified = |s: &Situation| {
+        // The response to a texel is told in parts of the bell's peak; a narrow card's sparks reach into it.
+        let peak = 1.0 / (std::f64::consts::TAU * s.slider("sigma").powi(2));
+        Allowed::new(0.0, (1.6 / peak.min(1.0) + 0.012).sqrt() * 1.001)
+    };
+    vec![
+        always("a", Quantity::Any, Area::All, (0.0, 1.6001), "a spark is 1.6, paper and ink are less"),
+        always("b", Quantity::Any, Area::All, (0.0, 1.6003), MEAN),
+        always("c", Quantity::Any, Area::All, (0.0, 1.6005), MEAN),
+        always("kernel", Quantity::Component(0), Area::All, (0.0, 1.0001), "weights are positive and sum to 1"),
+        picture_by(magnified, "a card of at most 1.6, below it the response by its peak, as square roots"),
+    ]
+}
+
+/// Normals as a map of the sphere, a depth, and a material with the light as its fraction.
+fn gbuffer(materials: f64) -> Vec<Check> {
+    vec![
+        always("a", Quantity::Length(0, 1), Area::All, (0.0, 0.5001), "Lambert's map of the sphere is a disc of 1/2"),
+        always("a", Quantity::Component(2), Area::All, (0.0, 100.0), "a depth; a ray that hits nothing ends at 100"),
+        always("a", Quantity::Component(3), Area::All, (0.0, materials), "a material's number and the light on it"),
+    ]
+}
+
+pub fn gbuffer_edges() -> Vec<Check> {
+    let mut checks = gbuffer(6.0);
+    checks.push(always("b", Quantity::Any, Area::All, (0.0, 1.0), "how much of a line there is"));
+    checks.push(picture(1.0, "paper is at most 0.97, and pigment and ink only take from it"));
+    checks
+}
+
+pub fn gbuffer_ssao_ssr() -> Vec<Check> {
+    // Paint of at most 0.83 in the sky's light and the sun's, the room it mirrors, and a highlight as high as it is
+    // narrow.
+    fn light(s: &Situation) -> f64 {
+        0.83 * (0.61 + 2.3) + 2.9 + (s.slider("shininess") + 8.0) / 8.0
+    }
+    // Reflections by themselves are shown without a curve.
+    fn screen(s: &Situation) -> Allowed {
+        Allowed::new(0.0, if s.slider("show") == 2.0 { light(s).sqrt() } else { 1.001 })
+    }
+    let mut checks = gbuffer(6.0);
+    // One slice stands for the whole sky: seen along its normal it weighs cos n + n sin n, pi / 2 at most. The mean over
+    // all directions, which the next pass takes, is a part of the sky.
+    checks.push(always("b", Quantity::Component(0), Area::All, (0.0, 1.572), "a slice weighs at most pi / 2"));
+    let hidden = "the part of the sky that is hidden";
+    checks.extend(["soft", "c"].map(|b| always(b, Quantity::Component(0), Area::All, (0.0, 1.001), hidden)));
+    let believed = "places in the picture, and how much they are believed";
+    checks.push(always("d", Quantity::Any, Area::All, (0.0, 1.0001), believed));
+    let lit = "paint in sky and sun, what it mirrors, and a highlight of (n + 8) / 8";
+    checks.push(by("light", Quantity::Colour, Area::All, |s| Allowed::new(0.0, light(s)), lit));
+    checks.push(by("picture", Quantity::Colour, Area::All, screen, "film is white at 1"));
+    checks.push(picture_by(screen, "a mean of the picture along its edges"));
+    checks
+}
+
+pub fn toon_outline() -> Vec<Check> {
+    // The sheet is shaded from its foot to its head by a tenth of its shade a unit, a unit being the height of a
+    // picture that is wide enough.
+    let sheet = |s: &Situation| {
+        let (w, h) = (f64::from(s.size.0), f64::from(s.size.1));
+        let shade = 0.05 * h / h.min(w / 1.5);
+        Allowed::new((1.0 - shade).min(0.0), (1.0 + shade) * 1.001)
+    };
+    vec![
+        always("scene", Quantity::Any, Area::All, (0.0, 1.0), "tones and lines of at most 1"),
+        picture_by(sheet, "paper of at most 1, shaded evenly, with the scene on it"),
+    ]
+}
