@@ -37,6 +37,7 @@ mod hostile_projects;
 mod includes;
 mod lab;
 mod lab_fluid;
+mod lab_hard;
 mod lab_open;
 mod lab_pictures;
 mod lab_run;
