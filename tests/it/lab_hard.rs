@@ -56,7 +56,11 @@ fn a_transposed_beginning_has_the_transposed_end() {
         for size in sizes {
             let setup = |(w, h): (usize, usize), begin: &[Texel]| {
                 let setup = Setup::new(folder, (w as u32, h as u32)).wants(&[name]).state(name, begin);
-                define.map_or(setup.clone(), |(key, value)| setup.define(key, value))
+                match define {
+                    Some((key, value)) => setup.define(key, value),
+                    // One recipe all over, and nobody who sows: neither is symmetric.
+                    None => setup.uniform("sway", 0.0).uniform("map", 0.0).uniform("sower", 0.0),
+                }
             };
             let (begin, swap) = match is_flow {
                 true => (field(size, fluid), velocities),
@@ -69,7 +73,7 @@ fn a_transposed_beginning_has_the_transposed_end() {
             // Sums are taken in another order, which rounds otherwise.
             assert!(error < 2e-5, "{folder} {define:?} at {size:?}: {error}");
             // The measure sees what is not symmetric: components that change places on one side alone.
-            let wrong = transposed(&after(size, &begin), size, |[a, b, c, d]| [b, a, d, c]);
+            let wrong = transposed(&after(size, &begin), size, |[a, b, c, d]| [b, a, c, d]);
             assert!(is_flow || apart(&wrong, &turned) > 1e-3, "{folder} at {size:?}");
             let same = transposed(&after(size, &begin), size, concentrations);
             assert!(!is_flow || apart(&same, &turned) > 1e-3, "{folder} at {size:?}");
