@@ -61,7 +61,7 @@ pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
 }
 
 /// Says at the right end of the panel's row how the times were found.
-pub fn tools(ui: &mut Ui, session: &Session) {
+pub fn tools(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     let (short, long) = match session.pass_costs().clock {
         CostClock::Timestamps => (
             "device timestamps",
@@ -77,6 +77,12 @@ pub fn tools(ui: &mut Ui, session: &Session) {
     };
     let text = RichText::new(short).size(11.5).color(theme::of(ui).weak);
     ui.add(egui::Label::new(text).truncate()).on_hover_text(long);
+    if !session.transport().playing {
+        let text = RichText::new("before the pause").size(11.5).color(theme::of(ui).warning);
+        let label = ui.add(egui::Label::new(text).truncate());
+        out.place("costs:paused", label.rect);
+        label.on_hover_text("The times are of the newest frames that were drawn: while paused no others come");
+    }
 }
 
 /// One row of texts, in the order of the columns.

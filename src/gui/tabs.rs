@@ -117,7 +117,9 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &m
             out.ask(Command::EditPasses(PassEdit::Remove(tab.clone())));
         }
     });
-    let time = session.pass_times().iter().find(|t| *tab == Tab::Pass(t.pass.clone()));
+    // Paused, no frame takes any time.
+    let times = if session.transport().playing { session.pass_times() } else { &[] };
+    let time = times.iter().find(|t| *tab == Tab::Pass(t.pass.clone()));
     let file = session.project().source(tab).and_then(|s| s.path.as_ref());
     response.on_hover_ui(|ui| {
         ui.label(tab.title());

@@ -48,6 +48,10 @@ pub fn run(
 }
 
 #[cfg(test)]
+mod harness;
+#[cfg(test)]
 mod names;
+#[cfg(test)]
+mod paused;
 #[cfg(test)]
 mod tests;

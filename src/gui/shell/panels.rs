@@ -152,7 +152,7 @@ impl Contents for Shown<'_> {
     fn tools(&mut self, ui: &mut Ui, panel: Panel) {
         match panel {
             Panel::Uniforms => custom_uniforms::tools(ui, self.session, self.out),
-            Panel::Costs => costs::tools(ui, self.session),
+            Panel::Costs => costs::tools(ui, self.session, self.out),
             _ => {}
         }
     }

@@ -87,7 +87,7 @@ pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, out: &mut Outbo
             chosen = Some(pass.cost.pass.clone());
         }
     }
-    legend(ui, room.with_min_y(area.bottom()));
+    legend(ui, room.with_min_y(area.bottom()), session.transport().playing, out);
     ui.advance_cursor_after_rect(room);
     if let Some(pass) = chosen {
         state.choose((pass, 0));
@@ -302,7 +302,8 @@ fn rounded(corners: &[Pos2], radius: f32) -> Vec<Pos2> {
     points
 }
 
-fn legend(ui: &Ui, place: Rect) {
+/// Explains the arrows, and says that times are old while nothing plays.
+fn legend(ui: &Ui, place: Rect, is_playing: bool, out: &mut Outbox) {
     let p = theme::of(ui);
     let painter = ui.painter().with_clip_rect(place.intersect(ui.clip_rect()));
     let mut x = place.left() + 4.0;
@@ -321,5 +322,10 @@ fn legend(ui: &Ui, place: Rect) {
         }
         let text = painter.text(pos2(x + 30.0, y), Align2::LEFT_CENTER, words, FontId::proportional(11.0), p.weak);
         x = text.right() + 18.0;
+    }
+    if !is_playing {
+        let words = "times: before the pause";
+        let text = painter.text(pos2(x, y), Align2::LEFT_CENTER, words, FontId::proportional(11.0), p.warning);
+        out.place("buffers:graph:paused", text);
     }
 }

@@ -1,0 +1,128 @@
+//! The window's contents under egui_kittest: frames without a window, judged by what screen readers are told.
+
+use crate::{
+    gui::{shell::Shell, theme},
+    session::{Command, Session, SessionOptions, testing},
+};
+use egui::{
+    Key, Modifiers,
+    accesskit::{self, Action},
+    vec2,
+};
+use egui_kittest::{Harness, kittest::NodeT as _};
+use egui_wgpu::Renderer;
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+/// The window's contents without a window.
+pub struct Contents {
+    pub shell: Shell,
+    pub session: Session,
+    renderer: Renderer,
+    _folder: tempfile::TempDir,
+}
+
+pub type Stage = Harness<'static, Contents>;
+
+/// Uniforms of every type, a warning and a second pass.
+const IMAGE: &str = "#iUniform float red = 0.5 in { 0.0, 1.0 }\n#iUniform int count = 3 in { 1, 9 }\n\
+    #iUniform bool on\n#iUniform vec2 at\n#iUniform vec4 wide in { 0.0, 1.0 }\n\
+    #iUniform color3 tint = color3(1.0, 0.5, 0.0)\n\
+    void mainImage(out vec4 o, in vec2 p) {\n\
+    //@probe mean(image.r)\n\
+    float unused; o = vec4(red * at.x * wide.x, tint.g, on ? 1.0 : 0.0, count); }";
+
+/// `None` where there is no device, after saying so.
+pub fn open(gallery: bool) -> Option<Stage> {
+    let gpu = testing::gpu()?;
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("image.glsl"), IMAGE).unwrap();
+    std::fs::write(folder.path().join("buffer_a.glsl"), "void mainImage(out vec4 o, in vec2 p) { o = vec4(1); }")
+        .unwrap();
+    let mut session = Session::with_options(gpu.clone(), Arc::new(|| ()), SessionOptions::default()).unwrap();
+    session.apply(Command::Pause);
+    if !gallery {
+        session.apply(Command::Open(folder.path().display().to_string()));
+        session.apply(Command::Pause);
+    }
+    let renderer = Renderer::new(&gpu.device, wgpu::TextureFormat::Rgba8Unorm, Default::default());
+    let shell = Shell::new(gpu, Arc::new(|| ()), gallery);
+    let contents = Contents { shell, session, renderer, _folder: folder };
+    let show = |ui: &mut egui::Ui, contents: &mut Contents| {
+        let Contents { shell, session, renderer, .. } = contents;
+        shell.prepare(session, renderer);
+        let commands = shell.show(ui, session);
+        commands.into_iter().for_each(|command| session.apply(command));
+        session.tick(Instant::now());
+        session.gpu().wait().unwrap();
+    };
+    let mut stage = Harness::builder()
+        .with_size(vec2(1100.0, 720.0))
+        .with_context_setup(theme::apply)
+        .build_ui_state(show, contents);
+    let end = Instant::now() + Duration::from_secs(60);
+    while stage.state().session.compile_state().last.is_none() || stage.state().session.compile_state().compiling {
+        stage.step();
+        assert!(Instant::now() < end, "never compiled: {:?}", stage.state().session.diagnostics());
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    stage.run_steps(3);
+    Some(stage)
+}
+
+pub fn press(stage: &mut Stage, modifiers: Modifiers, key: Key) {
+    stage.key_press_modifiers(modifiers, key);
+    stage.run_steps(3);
+}
+
+pub fn click(stage: &mut Stage, widget: &str) {
+    let at = stage.state().shell.place(widget).unwrap_or_else(|| panic!("no {widget}")).center();
+    stage.hover_at(at);
+    stage.drag_at(at);
+    stage.drop_at(at);
+    stage.run_steps(3);
+}
+
+/// Everything that can have the keyboard or be clicked, by its name.
+pub fn named(stage: &Stage, state: &str) -> Vec<String> {
+    let unnamed = stage.unnamed_widgets();
+    assert!(unnamed.is_empty(), "{state}: without a name:\n{}", unnamed.join("\n"));
+    let mut names = Vec::new();
+    for node in stage.root().children_recursive() {
+        let node = node.accesskit_node();
+        let data = node.data();
+        let is_bar = data.role() == accesskit::Role::ScrollBar;
+        if is_bar || data.is_hidden() || !(data.supports_action(Action::Focus) || data.supports_action(Action::Click)) {
+            continue;
+        }
+        // A text that can be selected is its own name.
+        let own = [node.label(), node.value(), data.placeholder().map(str::to_owned)];
+        let name = own.into_iter().flatten().find(|name| !name.trim().is_empty()).unwrap_or_default();
+        assert!(!name.trim().is_empty(), "{state}: {:?} at {:?} has no name", node.role(), node.raw_bounds());
+        names.push(name);
+    }
+    assert!(!names.is_empty(), "{state}: nothing is there");
+    names
+}
+
+pub const CTRL: Modifiers = Modifiers { ctrl: true, command: true, ..Modifiers::NONE };
+pub const CTRL_SHIFT: Modifiers = Modifiers { shift: true, ..CTRL };
+
+/// Lets frames pass until something is so.
+pub fn until(stage: &mut Stage, what: &str, is_so: impl Fn(&Stage) -> bool) {
+    let end = Instant::now() + Duration::from_secs(60);
+    while !is_so(stage) {
+        stage.step();
+        assert!(Instant::now() < end, "never {what}: {:?}", stage.state().session.diagnostics());
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+/// Every text that is shown.
+pub fn texts(stage: &Stage) -> Vec<String> {
+    let nodes = stage.root().children_recursive();
+    let texts = nodes.map(|node| node.accesskit_node()).flat_map(|node| [node.label(), node.value()]);
+    texts.flatten().collect()
+}
