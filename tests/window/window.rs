@@ -138,7 +138,7 @@ fn typing_shows_the_new_colour_and_an_error_keeps_the_old_one() {
     window.keys(&["ctrl+a"]);
     window.drain();
     window.type_text("void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0, 0.0, 0.0, 1.0); }");
-    window.keys(&["ctrl+Return"]);
+    window.keys(&["alt+Return"]);
     turns(&mut window, [255, 0, 0]);
 
     // A second line with a mistake: marked at its line, and the red picture goes on.

@@ -24,7 +24,7 @@ fn a_study_runs_behind_the_window_and_a_click_on_a_point_opens_its_project() {
     window.keys(&["alt+Up"]);
     window.wait_until("the pause", "frame", |e| e["playing"] == false);
 
-    window.keys(&["ctrl+shift+l"]);
+    window.keys(&["ctrl+shift+y"]);
     window.click_on("lab:study");
     window.click_on("lab:study:blur");
     window.wait_until("the study", "lab", |e| e["study"] == "blur" && e["points"] == 0);

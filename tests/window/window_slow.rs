@@ -63,7 +63,7 @@ fn one_goes_on_typing_over_code_that_never_ends_and_the_window_closes() {
         // Mended: the picture comes back.
         window.keys(&["ctrl+a"]);
         window.type_text("void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0, 0.0, 0.0, 1.0); }");
-        window.keys(&["ctrl+Return"]);
+        window.keys(&["alt+Return"]);
         window.wait_until("the picture of the mended code", "compiled", |e| e["ok"] == true && e["compiling"] == false);
         window.wait_until("the end of the halt", "halt", |e| e["kind"].is_null());
         window.keys(&["ctrl+s"]);

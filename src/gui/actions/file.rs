@@ -125,7 +125,7 @@ mod tests {
         ];
         assert_eq!(told, wanted);
         let hints = [Action::Palette, Action::Save, Action::Lab, Action::Quit, Action::New].map(|a| keymap.hint(a));
-        assert_eq!(hints, ["Ctrl+Shift+P", "Ctrl+S", "Ctrl+Shift+L", "F7", "Ctrl+N"]);
+        assert_eq!(hints, ["Ctrl+Shift+P", "Ctrl+S", "Ctrl+Shift+Y", "F7", "Ctrl+N"]);
         let (_, mistakes) = read("save = \"F2\"\nopen = \n");
         assert_eq!(mistakes.len(), 1);
         assert_eq!(mistakes[0].line, 2);

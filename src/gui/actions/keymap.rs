@@ -1,9 +1,6 @@
 //! The keys as they are now: the table's, or those that a person gave.
 
-use super::{
-    Action, Chord,
-    table::{ACTIONS, Entry, Group},
-};
+use super::{Action, Chord, Entry, Group, table::ACTIONS};
 use egui::{Event, Key, Modifiers};
 
 /// What is open and has the keyboard, and so whose keys are listened to.
@@ -151,6 +148,17 @@ mod tests {
         assert_eq!(action(Key::ArrowUp, Modifiers::ALT, true), Some(Action::Code(EditorAction::MoveLines(Way::Up))));
         assert_eq!(action(Key::F12, Modifiers::NONE, true), Some(Action::Code(EditorAction::Definition)));
         assert_eq!(action(Key::F12, Modifiers::NONE, false), Some(Action::Screenshot));
+        // The code's own keys are VS Code's, and the Lab has another one that opens it from there too.
+        assert_eq!(action(Key::L, ctrl_shift, true), Some(Action::Code(EditorAction::AddAll)));
+        assert_eq!(action(Key::L, ctrl_shift, false), Some(Action::Lab));
+        assert_eq!(action(Key::Y, ctrl_shift, true), Some(Action::Lab));
+        assert_eq!(action(Key::OpenBracket, ctrl, true), Some(Action::Code(EditorAction::Unindent)));
+        assert_eq!(action(Key::CloseBracket, ctrl, true), Some(Action::Code(EditorAction::IndentLines)));
+        assert_eq!(action(Key::Enter, ctrl, true), Some(Action::Code(EditorAction::OpenLine(Way::Down))));
+        assert_eq!(action(Key::Enter, ctrl_shift, true), Some(Action::Code(EditorAction::OpenLine(Way::Up))));
+        assert_eq!(action(Key::Enter, ctrl, false), Some(Action::Compile));
+        let shift_alt = Modifiers { shift: true, ..Modifiers::ALT };
+        assert_eq!(action(Key::A, shift_alt, true), Some(Action::Code(EditorAction::ToggleBlockComment)));
         // A US keyboard types { with Shift and [.
         let (key, physical_key) = (Key::OpenCurlyBracket, Some(Key::OpenBracket));
         let event = Event::Key { key, physical_key, pressed: true, repeat: false, modifiers: ctrl_shift };

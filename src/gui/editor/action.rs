@@ -8,9 +8,14 @@ pub enum EditorAction {
     Select(Motion),
     Delete(Motion),
     NewLine,
+    /// A new line above or below that of the caret, wherever in it the caret is.
+    OpenLine(Way),
     Indent,
+    /// The whole lines, also of a caret that selects nothing.
+    IndentLines,
     Unindent,
     ToggleComment,
+    ToggleBlockComment,
     MoveLines(Way),
     CopyLines(Way),
     DeleteLines,

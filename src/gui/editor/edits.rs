@@ -3,7 +3,7 @@
 use super::{
     buffer::{Buffer, Replacement},
     history::Kind,
-    motion::Motion,
+    motion::{Motion, Way},
 };
 use std::ops::Range;
 
@@ -64,6 +64,29 @@ impl Buffer {
                 text.push_str(indent);
             }
             Replacement { anchor: caret, head: caret, ..Replacement::new(range, text) }
+        });
+    }
+
+    /// Ctrl+Enter and Ctrl+Shift+Enter: a new line below the caret's or above it, indented as that one. The line itself
+    /// stays whole.
+    pub fn open_line(&mut self, way: Way) {
+        self.replace_at_carets(Kind::Other, |buffer, s| {
+            let line = buffer.line_range(buffer.line_of(s.head));
+            let text = &buffer.text()[line.clone()];
+            let mut indent = text[..text.len() - text.trim_start().len()].to_owned();
+            let end = buffer.line_end();
+            if way == Way::Up {
+                let caret = indent.len();
+                return Replacement {
+                    anchor: caret,
+                    head: caret,
+                    ..Replacement::new(line.start..line.start, indent + end)
+                };
+            }
+            if text.trim_end().ends_with(['{', '(']) {
+                indent.push_str(unit_of(&indent));
+            }
+            Replacement::new(line.end..line.end, format!("{end}{indent}"))
         });
     }
 
@@ -183,6 +206,22 @@ mod tests {
         assert_eq!(b.line_column(b.selection().head), (1, 8));
         b.insert("}");
         assert_eq!(b.line(1), "    }");
+    }
+
+    #[test]
+    fn lines_are_opened_above_and_below_whole_ones() {
+        let mut b = with("  f() {\r\n  }", 4, 6);
+        b.open_line(Way::Down);
+        assert_eq!((b.text(), b.selection().head), ("  f() {\r\n    \r\n  }", 13));
+        b.undo();
+        b.open_line(Way::Up);
+        assert_eq!((b.text(), b.selection().head), ("  \r\n  f() {\r\n  }", 2));
+        let mut b = with("a", 1, 1);
+        b.open_line(Way::Up);
+        b.insert("b");
+        b.open_line(Way::Down);
+        b.insert("c");
+        assert_eq!(b.text(), "b\nc\na");
     }
 
     #[test]

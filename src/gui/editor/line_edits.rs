@@ -19,9 +19,14 @@ impl Buffer {
                 Replacement::new(s.range(), &INDENT[column % INDENT.len()..])
             });
         } else {
-            let indent = |line: &str| if line.trim().is_empty() { line.into() } else { format!("{INDENT}{line}") };
-            self.edit_lines(|_, line| indent(line));
+            self.indent_lines();
         }
+    }
+
+    /// Ctrl+]: puts one step of indent before every line of the selections.
+    pub fn indent_lines(&mut self) {
+        let indent = |line: &str| if line.trim().is_empty() { line.into() } else { format!("{INDENT}{line}") };
+        self.edit_lines(|_, line| indent(line));
     }
 
     /// Shift+Tab: takes one step of indent from every line of the selections.
@@ -251,6 +256,8 @@ mod tests {
         let mut b = with("ab", 2, 2);
         b.indent();
         assert_eq!(b.text(), "ab  ");
+        b.indent_lines();
+        assert_eq!((b.text(), b.selection().head), ("    ab  ", 8));
     }
 
     #[test]

@@ -10,6 +10,7 @@
 mod accessible;
 mod action;
 mod assist;
+mod block_comments;
 mod brackets;
 mod buffer;
 mod colors;

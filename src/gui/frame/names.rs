@@ -26,13 +26,13 @@ fn everything_that_takes_the_keyboard_has_a_name() {
         ("the palette", CTRL_SHIFT, Key::P, "Save"),
         ("the help", Modifiers::NONE, Key::F1, "Close"),
         ("the passes", CTRL_SHIFT, Key::B, "Add"),
-        ("the lab", CTRL_SHIFT, Key::L, "Start"),
+        ("the lab", CTRL_SHIFT, Key::Y, "Start"),
         ("the gallery", CTRL_SHIFT, Key::G, "New shader"),
     ] {
         press(&mut stage, modifiers, key);
         has(&named(&stage, state), &[wanted]);
         press(&mut stage, Modifiers::NONE, Key::Escape);
-        if matches!(key, Key::M | Key::L | Key::B | Key::T | Key::J) || (key == Key::G && modifiers == CTRL_SHIFT) {
+        if matches!(key, Key::M | Key::Y | Key::B | Key::T | Key::J) || (key == Key::G && modifiers == CTRL_SHIFT) {
             press(&mut stage, modifiers, key);
         }
     }
