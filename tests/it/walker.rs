@@ -1,6 +1,9 @@
 //! The walker against the device, and `eddy trace` and `eddy probe` on the built program.
 
-use crate::support::{gpu, program::Bench, *};
+use crate::{
+    support::{gpu, program::Bench, *},
+    walker_presets::inputs,
+};
 use eddy::{
     engine::{BuildOptions, Engine, FrameInputs, Program, Sources},
     media,

@@ -114,7 +114,7 @@ fn is_computed(pass: &Pass, size: (u32, u32), (x, y): Pixel) -> bool {
     is_inside && is_within(x, size.0) && is_within(y, size.1)
 }
 
-fn inputs(frame: i32) -> FrameInputs {
+pub(crate) fn inputs(frame: i32) -> FrameInputs {
     FrameInputs { mouse: [20.0 + 4.0 * frame as f32, 18.0, 20.0, 18.0], ..FrameInputs::at_fixed_step(frame, 60.0) }
 }
 

@@ -291,8 +291,7 @@ fn the_panel_finds_the_assignment_that_the_device_makes_otherwise() {
     let code = "void mainImage(out vec4 o, in vec2 c) {\n    float s = c.x * 0.5;\n    vec3 t = atan(vec3(0.3, 0.7, 1.9) * c.x / c.y);\n    \
                 o = vec4(t, s);\n}\n";
     let folder = project(home.path(), code);
-    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap()]);
-    compiled(&mut window);
+    let mut window = Window::open_project(&display, home.path(), &folder);
     window.resize(1300, 900);
     window.keys(&["ctrl+shift+d"]);
     window.shows("trace:pick");

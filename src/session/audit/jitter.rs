@@ -1,4 +1,4 @@
-//! How far a pixel's value moves where roundings come out another way: Monte Carlo arithmetic (Stott Parker, "Monte
+//! Measures how far a value moves where roundings come out another way: Monte Carlo arithmetic (Stott Parker, "Monte
 //! Carlo Arithmetic", 1997), with the way of the program left to the numbers that are moved.
 
 use super::run::walk;
@@ -9,7 +9,10 @@ use crate::{
         walk::{Cell, Observer, Shadowed},
         walkable::Detail,
     },
-    session::{trace::TraceError, walked::WalkedPass},
+    session::{
+        trace::TraceError,
+        walked::{AtPixel, WalkedPass},
+    },
 };
 
 /// ULPs that Vulkan lets a device be off in an arc tangent ("Precision and Operation of SPIR-V Instructions"), by which
@@ -60,7 +63,7 @@ pub fn jittered(
     (limit, seed): (u64, u64),
 ) -> Result<[f32; 4], TraceError> {
     let pass = WalkedPass::new(sources, index, inputs, Detail::Values, limit)?;
-    let Some(at) = pass.at(pixel)? else { return Ok([0.0; 4]) };
+    let AtPixel::Walked(at) = pass.at(pixel)? else { return Ok([0.0; 4]) };
     let mut jitter = Jitter { program: &at.walkable.program, state: seed };
     Ok(walk(&at, &mut jitter)?.map(|x| x.single))
 }
