@@ -9,7 +9,7 @@ use super::{
     keys::{HeldKeys, KeyChange},
     report::Report,
     rescue::{self, Losses},
-    settings::{Place, Remembered, SettingsFile, WindowFile},
+    settings::{Place, Remembered, SettingsFile, UsualSizes, WindowFile},
     shell::Shell,
     surface::{Presented, Surface},
     system_theme, theme,
@@ -104,6 +104,7 @@ struct Running {
     window_file: WindowFile,
     /// The window's size is the person's, and not the command line's.
     keeps_size: bool,
+    usual: UsualSizes,
 }
 
 impl ApplicationHandler<Outside> for App {
@@ -260,6 +261,7 @@ impl Running {
             system_theme,
             window_file,
             keeps_size: options.size.is_none(),
+            usual: UsualSizes::default(),
         })
     }
 
@@ -282,6 +284,9 @@ impl Running {
             WindowEvent::Resized(size) => {
                 self.surface.resize(size.width, size.height);
                 self.hidden = size.width == 0 || size.height == 0;
+                if !self.hidden && !self.window.is_maximized() && self.window.fullscreen().is_none() {
+                    self.usual.note(self.place(false));
+                }
             }
             WindowEvent::Occluded(hidden) => self.hidden = *hidden,
             WindowEvent::Focused(focused) => {
@@ -424,15 +429,23 @@ impl Running {
         let known = self.window_file.known().place;
         // Where it goes back to is what it was before it was made larger.
         let is_usual = !is_maximized && window.fullscreen().is_none() && !self.hidden;
-        let place = if is_usual && self.keeps_size {
-            let size = window.inner_size().to_logical::<f64>(window.scale_factor());
-            let corner = window.outer_position().ok().map(|at| (at.x, at.y));
-            Place { size: Some((size.width, size.height)), corner, is_maximized }
-        } else {
-            Place { is_maximized: is_maximized && self.keeps_size || known.is_maximized && !self.keeps_size, ..known }
+        let now = self.place(is_maximized);
+        let place = match (self.keeps_size, is_usual) {
+            (false, _) => known,
+            (true, true) => now,
+            (true, false) => {
+                let usual = now.size.and_then(|size| self.usual.other_than(size));
+                Place { is_maximized, ..usual.unwrap_or(known) }
+            }
         };
         let (open, layout) = (Some(dock.open_panels().clone()), dock.arrangement());
         self.window_file.keep(Remembered { place, open, layout });
+    }
+
+    fn place(&self, is_maximized: bool) -> Place {
+        let size = self.window.inner_size().to_logical::<f64>(self.window.scale_factor());
+        let corner = self.window.outer_position().ok().map(|at| (at.x, at.y));
+        Place { size: Some((size.width, size.height)), corner, is_maximized }
     }
 
     fn screen_interval(&self) -> Duration {

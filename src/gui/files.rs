@@ -4,6 +4,7 @@
 //! says how the dialog ended.
 
 use super::{
+    accessible,
     dialogs::{self, Dialog, Kind, Outcome},
     outbox::{Outbox, Pick},
     theme,
@@ -60,6 +61,12 @@ pub enum Picked {
 impl Files {
     pub fn new(wake: Arc<dyn Fn() + Send + Sync>) -> Self {
         Self { wake, desktop: dialogs::show, asked: None, typing: None, gets_keyboard: None }
+    }
+
+    /// Without the desktop's dialogs, of which tests have none.
+    #[cfg(test)]
+    pub fn without_desktop(wake: Arc<dyn Fn() + Send + Sync>) -> Self {
+        Self { desktop: |_| Outcome::Unavailable, ..Self::new(wake) }
     }
 
     /// Opens a dialog. One at a time: a second is not opened over it.
@@ -139,6 +146,7 @@ impl Files {
             ui.add_space(4.0);
             ui.colored_label(theme::of(ui).weak, help(&typing.pick));
             let field = ui.add(TextEdit::singleline(&mut typing.path).desired_width(f32::INFINITY));
+            accessible::name(&field, egui::Role::TextInput, "Path");
             out.place("field:path", field.rect);
             if std::mem::take(&mut typing.is_new) {
                 field.request_focus();

@@ -83,4 +83,37 @@ mod tests {
             assert_eq!(first(&ctx), CODE_NAME);
         }
     }
+
+    /// Some font of the system's has a letter. `None`: nobody can say.
+    fn is_installed(letter: char) -> Option<bool> {
+        let query = format!(":charset={:x}", u32::from(letter));
+        let listed = std::process::Command::new("fc-list").args([&query, "file"]).output().ok()?;
+        listed.status.success().then(|| !listed.stdout.trim_ascii().is_empty())
+    }
+
+    #[test]
+    fn letters_of_other_scripts_come_from_the_systems_fonts() {
+        let plain = Context::default();
+        let ctx = Context::default();
+        install_system(&ctx);
+        for ctx in [&plain, &ctx] {
+            set(ctx, None).unwrap();
+            frame(ctx);
+        }
+        let has = |ctx: &Context, font: &FontId, c: char| ctx.fonts_mut(|fonts| fonts.has_glyph(font, c));
+        for (script, letters) in
+            [("Chinese and Japanese", "波光日の"), ("Korean", "한글"), ("Arabic", "موجة"), ("emoji", "🌊🎨")]
+        {
+            let own = letters.chars().all(|c| has(&plain, &FontId::monospace(13.0), c));
+            if !own && letters.chars().any(|c| is_installed(c) != Some(true)) {
+                crate::session::testing::skipped(&format!("no font for {script} is known here"));
+                continue;
+            }
+            for c in letters.chars() {
+                for font in [FontId::monospace(13.0), FontId::proportional(13.0)] {
+                    assert!(has(&ctx, &font, c), "{script}: {c} has no glyph in {font:?}");
+                }
+            }
+        }
+    }
 }

@@ -3,7 +3,8 @@
 
 use super::{
     actions::{Action, Keymap},
-    geometry::{Area, Shape},
+    dock::Panel,
+    geometry::Area,
     settings::Change,
 };
 use crate::{project::Tab, session::Command};
@@ -42,8 +43,8 @@ pub enum Wish {
     ChoosePass(Tab),
     /// The project that takes the place of the open one stays paused.
     ShowRecovered,
-    Shape(Shape),
     Set(Change),
+    ClosePanel(Panel),
     /// A breakpoint at a line of a tab, from 0, or none there any more.
     Breakpoint(Tab, usize),
     /// The way of the pixel at a place of the picture, from 0 to 1.

@@ -3,6 +3,8 @@
 use super::{
     accessible,
     actions::Action,
+    dock::Panel,
+    menus,
     outbox::{Outbox, Wish},
     passes, theme,
 };
@@ -101,7 +103,7 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &m
     if out.clicked(&format!("tab:{}", tab.title()), &response) {
         out.wishes.push(Wish::GoTo(tab.clone(), None));
     }
-    response.context_menu(|ui| {
+    menus::context(&response, |ui| {
         if let Tab::Pass(id) = tab
             && ui.button("Show this pass").clicked()
         {
@@ -115,6 +117,11 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &m
         let can_go = *tab != Tab::Pass(PassId::Image);
         if ui.add_enabled(can_go, egui::Button::new(format!("Remove {}", tab.title()))).clicked() {
             out.ask(Command::EditPasses(PassEdit::Remove(tab.clone())));
+        }
+        ui.separator();
+        let close = ui.button("Close the code");
+        if out.clicked("tab:close-code", &close.on_hover_text("\"View\" at the top opens it again")) {
+            out.wishes.push(Wish::ClosePanel(Panel::Code));
         }
     });
     // Paused, no frame takes any time.
@@ -133,7 +140,7 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &m
             ui.colored_label(theme::of(ui).accent, "Not saved yet");
         }
         if *tab != Tab::Pass(PassId::Image) {
-            ui.colored_label(theme::of(ui).weak, "Right click: show, remove");
+            ui.colored_label(theme::of(ui).weak, "Right click or Shift+F10: show, remove");
         }
     });
 }

@@ -2,7 +2,8 @@
 
 use super::{
     accessible,
-    actions::Action,
+    actions::{Action, PictureAction, SCALES, SIZES},
+    dock::Panel,
     geometry::Shape,
     icons::{self, Icon},
     outbox::{Outbox, Wish},
@@ -13,10 +14,6 @@ use crate::{
     session::{Command, Session},
 };
 use egui::{Button, ComboBox, Popup, RichText, Ui, vec2};
-
-const SCALES: [(f32, &str); 6] = [(2.0, "2x"), (1.0, "1x"), (0.75, "3/4"), (0.5, "1/2"), (0.25, "1/4"), (0.125, "1/8")];
-const SIZES: [(u32, u32); 8] =
-    [(256, 144), (640, 360), (800, 450), (1280, 720), (1920, 1080), (3840, 2160), (512, 512), (1024, 1024)];
 
 /// Height of the bar.
 pub const HEIGHT: f32 = 40.0 + timeline::HEIGHT;
@@ -180,17 +177,15 @@ fn size(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
             for (choice, name) in [(Shape::Site, "16:9, as on the site"), (Shape::Fill, "Shape of the view")] {
                 let on = transport.fixed_size.is_none() && shape == choice;
                 if ui.selectable_label(on, name).clicked() {
-                    out.ask(Command::SetFixedSize(None));
-                    out.wishes.push(Wish::Shape(choice));
+                    out.act(Action::Picture(PictureAction::Shape(choice)));
                 }
             }
             ui.separator();
             ui.colored_label(theme::of(ui).weak, "As large as the view, times");
-            for (scale, name) in SCALES {
-                let on = transport.fixed_size.is_none() && (transport.scale - scale).abs() < 1e-3;
-                if ui.selectable_label(on, name).clicked() {
-                    out.ask(Command::SetFixedSize(None));
-                    out.ask(Command::SetScale(scale));
+            for scale in SCALES {
+                let on = transport.fixed_size.is_none() && (transport.scale - scale.factor()).abs() < 1e-3;
+                if ui.selectable_label(on, scale.name()).clicked() {
+                    out.act(Action::Picture(PictureAction::Scale(scale)));
                 }
             }
             ui.separator();
@@ -198,7 +193,7 @@ fn size(ui: &mut Ui, session: &Session, shape: Shape, out: &mut Outbox) {
             for size in SIZES {
                 if ui.selectable_label(transport.fixed_size == Some(size), format!("{} × {}", size.0, size.1)).clicked()
                 {
-                    out.ask(Command::SetFixedSize(Some(size)));
+                    out.act(Action::Picture(PictureAction::Size(size)));
                 }
             }
         })
@@ -257,6 +252,11 @@ fn options(ui: &mut Ui, session: &Session, out: &mut Outbox) {
                 out.act(action);
                 ui.close();
             }
+        }
+        ui.separator();
+        let close = ui.button("Close the picture");
+        if out.clicked("options:close-picture", &close.on_hover_text("\"View\" at the top opens it again")) {
+            out.wishes.push(Wish::ClosePanel(Panel::Picture));
         }
     });
     more.on_hover_text("More");

@@ -3,19 +3,24 @@
 use crate::gpu::{Gpu, GpuOptions};
 use std::{fs::OpenOptions, io::Write};
 
-/// Returns a device, or `None` after saying so: on standard error, past the harness, and in the file that `EDDY_SKIPS`
-/// names, whose lines `scripts/test` counts. Where `EDDY_REQUIRE_GPU` is set a missing device is a failure.
+/// Returns a device, or `None` after saying so. Where `EDDY_REQUIRE_GPU` is set a missing device is a failure.
 pub fn gpu() -> Option<Gpu> {
     let error = match Gpu::new(&GpuOptions::default()) {
         Ok(gpu) => return Some(gpu),
         Err(error) => error,
     };
     assert!(std::env::var_os("EDDY_REQUIRE_GPU").is_none(), "a device is required here: {error}");
-    let line = format!("{}: {error}\n", std::thread::current().name().unwrap_or("a test"));
+    skipped(&error.to_string());
+    None
+}
+
+/// Says that a test, or a part of it, is left out: on standard error, past the harness, and in the file that
+/// `EDDY_SKIPS` names, whose lines `scripts/test` counts.
+pub fn skipped(why: &str) {
+    let line = format!("{}: {why}\n", std::thread::current().name().unwrap_or("a test"));
     let _ = write!(std::io::stderr(), "SKIPPED {line}");
     if let Some(path) = std::env::var_os("EDDY_SKIPS") {
         let mut file = OpenOptions::new().append(true).create(true).open(path).unwrap();
         file.write_all(line.as_bytes()).unwrap();
     }
-    None
 }

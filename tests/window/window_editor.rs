@@ -35,6 +35,36 @@ fn saved(window: &mut Window, home: &Path, file: &str) -> String {
 }
 
 #[test]
+fn lines_are_opened_indented_and_put_into_comments_and_every_use_is_selected() {
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let mut window = open(&display, home.path());
+    // In the middle of the third line: lines come below and above it, and it stays whole.
+    go_to(&mut window, 3, 8);
+    window.keys(&["ctrl+Return"]);
+    window.type_text("float a;");
+    window.keys(&["ctrl+shift+Return"]);
+    window.type_text("float b;");
+    window.keys(&["ctrl+bracketright", "ctrl+bracketright", "ctrl+bracketleft"]);
+    let text = saved(&mut window, home.path(), "image.glsl");
+    let whole = "    vec2 uv = fragCoord / iResolution.xy;\n";
+    assert!(text.contains(&format!("{whole}        float b;\n    float a;\n")), "{text}");
+    window.keys(&["Home", "shift+End", "shift+alt+a"]);
+    let text = saved(&mut window, home.path(), "image.glsl");
+    assert!(text.contains("        /* float b; */\n"), "{text}");
+    // A word and all that are the same.
+    go_to(&mut window, 3, 10);
+    window.keys(&["ctrl+shift+l"]);
+    window.type_text("at");
+    window.keys(&["Escape"]);
+    let text = saved(&mut window, home.path(), "image.glsl");
+    assert!(text.contains("vec2 at = ") && text.contains("brightness(at, 0.1)"), "{text}");
+    // The Lab has another key, which opens it from here.
+    window.keys(&["ctrl+shift+y"]);
+    window.shows("panel:lab");
+}
+
+#[test]
 fn a_proposal_is_taken_by_enter_and_a_call_shows_what_it_takes() {
     let Some(display) = Display::open() else { return };
     let home = tempfile::tempdir().unwrap();

@@ -129,6 +129,83 @@ fn what_a_pass_begins_with_and_its_edges_are_typed() {
 }
 
 #[test]
+fn region_steps_filter_and_wrap_are_set_by_hand() {
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let folder = project(home.path());
+    let mut window = Window::open_as(&display, home.path(), Some("1000x700"), &[], &[folder.to_str().unwrap()]);
+    window.compiled();
+    window.keys(&["ctrl+shift+b"]);
+    window.click_on("passes:row:Buffer A");
+    // A number that is clicked can be typed.
+    let number = |window: &mut Window, name: &str, value: &str| {
+        window.click_on(name);
+        window.keys(&["ctrl+a"]);
+        window.type_text(value);
+        window.keys(&["Return"]);
+        window.drain();
+    };
+    window.click_on("passes:region");
+    window.shows("passes:region:width");
+    number(&mut window, "passes:region:x", "2");
+    number(&mut window, "passes:region:width", "64");
+    number(&mut window, "passes:region:height", "32");
+    number(&mut window, "passes:steps", "3");
+    choose(&mut window, "passes:filter", "passes:filter:linear");
+    choose(&mut window, "passes:wrap", "passes:wrap:repeat");
+    display.shot("passes-numbers.png");
+    window.compiled();
+    window.keys(&["ctrl+s"]);
+    window.wait_until("the save", "dirty", |e| e["dirty"] == false);
+    let text = fs::read_to_string(folder.join("eddy.toml")).unwrap();
+    for part in ["region = [2, 0, 64, 32]", "steps = 3", "filter = \"linear\"", "wrap = \"repeat\""] {
+        assert!(text.contains(part), "no {part} in\n{text}");
+    }
+}
+
+/// Another program takes a pass out of `eddy.toml`: what read it is drawn without it, and says so.
+#[test]
+fn a_pass_that_vanishes_leaves_an_empty_card_a_warning_and_a_redrawn_picture() {
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let folder = project(home.path());
+    let mut window = Window::open_as(&display, home.path(), Some("1000x700"), &[], &[folder.to_str().unwrap()]);
+    window.compiled();
+    window.keys(&["F5"]);
+    window.wait_until("the pause", "frame", |e| e["playing"] == false);
+    window.shows("channel:1");
+    let middle = window.picture_point(0.5, 0.5);
+    let shot = home.path().join("picture.png");
+    let shows = |red: u8| {
+        let end = std::time::Instant::now() + std::time::Duration::from_secs(30);
+        loop {
+            display.photograph(&shot);
+            let pixel = image::open(&shot).unwrap().to_rgb8().get_pixel(middle.0 as u32, middle.1 as u32).0;
+            if pixel[0].abs_diff(red) <= 1 && pixel[1..] == [0, 0] {
+                return;
+            }
+            assert!(std::time::Instant::now() < end, "{pixel:?} instead of {red}");
+            std::thread::sleep(std::time::Duration::from_millis(100));
+        }
+    };
+    shows(128);
+    let without = MANIFEST.replace("[passes.buffer_b]\n", "");
+    assert_ne!(without, MANIFEST);
+    fs::write(folder.join("eddy.toml"), without).unwrap();
+    window.hides("tab:Buffer B");
+    let is_warned = |e: &serde_json::Value| {
+        e["diagnostics"].as_array().is_some_and(|list| {
+            list.iter().any(|d| d["severity"] == "warning" && d["message"].as_str().is_some_and(|m| m.contains('B')))
+        })
+    };
+    let compiled = window.wait_until("a warning", "compiled", |e| e["compiling"] == false && is_warned(e));
+    assert_eq!(compiled["ok"], true, "{compiled}");
+    shows(64);
+    window.shows("channel:1");
+    display.shot("vanished.png");
+}
+
+#[test]
 fn a_pass_of_any_name_is_added_and_typed_into() {
     let Some(display) = Display::open() else { return };
     let home = tempfile::tempdir().unwrap();

@@ -130,3 +130,100 @@ fn a_killed_window_offers_what_was_typed_at_the_next_start() {
         std::thread::sleep(Duration::from_millis(20));
     }
 }
+
+/// What is in the recovery file of the only text.
+fn kept(home: &Path) -> Option<String> {
+    fn texts(value: &serde_json::Value, found: &mut Vec<String>) {
+        match value {
+            serde_json::Value::String(text) => found.push(text.clone()),
+            serde_json::Value::Array(list) => list.iter().for_each(|value| texts(value, found)),
+            serde_json::Value::Object(map) => map.values().for_each(|value| texts(value, found)),
+            _ => {}
+        }
+    }
+    let mut found = Vec::new();
+    for file in recovery_files(home) {
+        // Whole whenever it is read.
+        texts(&serde_json::from_str(&fs::read_to_string(file).ok()?).unwrap(), &mut found);
+    }
+    found.into_iter().filter(|text| text.ends_with(IMAGE)).max_by_key(String::len)
+}
+
+/// Killed in the middle of typing, again and again: each start has what was typed before, and a part of the rest.
+/// `EDDY_KILLS=100` kills as often.
+#[test]
+fn kills_in_the_middle_of_typing_lose_the_last_letters_at_most() {
+    const MORE: &str = "/* and what was being typed */ ";
+    let kills = std::env::var("EDDY_KILLS").ok().and_then(|n| n.parse().ok()).unwrap_or(3);
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("project");
+    fs::create_dir(&folder).unwrap();
+    fs::write(folder.join("image.glsl"), IMAGE).unwrap();
+    let mut expected = IMAGE.to_owned();
+    let recover = |window: &mut Window| {
+        question(window, "recover");
+        window.click_on("answer:recover");
+        window.wait_until("the recovered work", "dirty", |e| e["dirty"] == true);
+    };
+    for n in 0..kills {
+        let mut window = if n == 0 {
+            Window::open(&display, home.path(), &[folder.to_str().unwrap()])
+        } else {
+            let mut window = Window::open(&display, home.path(), &[]);
+            recover(&mut window);
+            window
+        };
+        window.click_on("editor");
+        window.keys(&["ctrl+Home"]);
+        let marker = format!("/*{n}*/ ");
+        window.type_text(&marker);
+        let wanted = format!("{marker}{expected}");
+        let end = Instant::now() + Duration::from_secs(60);
+        while kept(home.path()).is_none_or(|text| text != wanted) {
+            assert!(Instant::now() < end, "kill {n}: {:?} instead of {wanted:?}", kept(home.path()));
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        window.type_text(&MORE[..1 + n * 7 % MORE.len()]);
+        window.kill();
+        let text = kept(home.path()).unwrap();
+        let typed = text.strip_suffix(&expected).unwrap_or_else(|| panic!("kill {n}: {text:?} of {expected:?}"));
+        assert!(typed.starts_with(&marker) && format!("{marker}{MORE}").starts_with(typed), "kill {n}: {typed:?}");
+        assert_eq!(fs::read_to_string(folder.join("image.glsl")).unwrap(), IMAGE);
+        expected = text;
+    }
+    let mut window = Window::open(&display, home.path(), &[]);
+    recover(&mut window);
+    window.keys(&["ctrl+s"]);
+    window.wait_until("the save", "dirty", |e| e["dirty"] == false);
+    assert_eq!(fs::read_to_string(folder.join("image.glsl")).unwrap(), expected);
+}
+
+#[test]
+fn the_copy_of_a_conflict_lies_beside_a_file_that_was_opened_by_a_relative_path() {
+    let Some(display) = Display::open() else { return };
+    let home = tempfile::tempdir().unwrap();
+    let folder = home.path().join("w");
+    fs::create_dir(&folder).unwrap();
+    fs::write(folder.join("edit.glsl"), IMAGE).unwrap();
+    let mut window = Window::open(&display, home.path(), &["w/edit.glsl"]);
+    window.wait_until("the first picture", "compiled", |e| e["compiling"] == false && e["ok"] == true);
+    window.click_on("editor");
+    type_at_start(&mut window, "/* mine */ ");
+    let theirs = format!("/* theirs */ {IMAGE}");
+    fs::write(folder.join("edit.glsl"), &theirs).unwrap();
+    question(&mut window, "conflict");
+    display.shot("conflict.png");
+    window.click_on("answer:keep-mine");
+    let copy = folder.join("edit.glsl.disk-0001");
+    let end = Instant::now() + Duration::from_secs(30);
+    while fs::read_to_string(&copy).ok().as_deref() != Some(theirs.as_str()) {
+        assert!(Instant::now() < end, "no {}", copy.display());
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    assert!(!folder.join("w").exists(), "not in a folder of that name within it");
+    window.click_on("editor");
+    window.keys(&["ctrl+s"]);
+    window.wait_until("the save", "dirty", |e| e["dirty"] == false);
+    assert_eq!(fs::read_to_string(folder.join("edit.glsl")).unwrap(), format!("/* mine */ {IMAGE}"));
+}

@@ -16,6 +16,16 @@ const ENDLESS: &str = "void mainImage(out vec4 o, in vec2 p) { float a = p.x; fo
 const SLOW: &str = "void mainImage(out vec4 o, in vec2 p) { float a = p.x; for (int j = 0; j < 1000; j++) for (int \
                     i = 0; i < 10000; i++) a = fract(sin(a) * 43758.5 + float(i & 1)); o = vec4(a); }\n";
 
+/// A window whose text is on the clipboard as long as the window lives. Nothing of it is drawn.
+fn copied<'a>(display: &'a Display, home: &Path, text: &str) -> Window<'a> {
+    let file = home.join("copied.glsl");
+    fs::write(&file, text).unwrap();
+    let mut window = Window::open(display, home, &[file.to_str().unwrap(), "--paused"]);
+    window.click_on("editor");
+    window.keys(&["ctrl+a", "ctrl+c"]);
+    window
+}
+
 fn halted(window: &mut Window) -> serde_json::Value {
     window.wait_until("the halt", "halt", |e| e["kind"].is_string())
 }
@@ -40,15 +50,16 @@ fn typed_a_second(window: &mut Window, file: &Path) -> f64 {
 fn one_goes_on_typing_over_code_that_never_ends_and_the_window_closes() {
     let Some(display) = Display::open() else { return };
     for code in [ENDLESS, SLOW] {
-        let home = tempfile::tempdir().unwrap();
+        let (home, there) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
         let file = home.path().join("image.glsl");
         fs::write(&file, GREEN).unwrap();
+        let _source = copied(&display, there.path(), code);
         let mut window = Window::open(&display, home.path(), &[file.to_str().unwrap(), "--frame-timeout", "1"]);
         window.wait_until("the first compile", "compiled", |e| e["ok"] == true && e["compiling"] == false);
         window.wait_until("a frame", "frame", |e| e["frame"].as_u64() > Some(3));
 
-        // Another program writes it: the code comes at once, whole.
-        fs::write(&file, code).unwrap();
+        window.click_on("editor");
+        window.keys(&["ctrl+a", "ctrl+v"]);
         halted(&mut window);
         display.shot("halted.png");
         let rate = typed_a_second(&mut window, &file);
@@ -71,6 +82,63 @@ fn one_goes_on_typing_over_code_that_never_ends_and_the_window_closes() {
         window.keys(&["ctrl+q"]);
         assert_eq!(window.ends(), Some(0), "{}", window.complaints());
     }
+}
+
+/// A buffer that is drawn so often a frame that llvmpipe, which ends loops, does not come back from a slow one either.
+const MANY: &str = "[passes.buffer_a]\nsize = [64, 36]\nchannels.0 = { buffer = \"A\" }\n[passes.image]\nchannels.0 = { buffer = \"A\" }\n\
+                    [groups.many]\npasses = [\"buffer_a\"]\nsteps = 4000\n";
+const SHOWN: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(0), 0); }\n";
+
+#[test]
+fn a_device_that_does_not_come_back_is_given_up_for_a_fresh_one() {
+    let Some(display) = Display::open() else { return };
+    let (home, there) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    let folder = home.path().join("many");
+    fs::create_dir(&folder).unwrap();
+    for (name, text) in [("eddy.toml", MANY), ("image.glsl", SHOWN), ("buffer_a.glsl", GREEN)] {
+        fs::write(folder.join(name), text).unwrap();
+    }
+    // What it was before is read, as each of the steps would be the same otherwise.
+    let endless = ENDLESS.replace("float a = p.x;", "float a = p.x + texelFetch(iChannel0, ivec2(p), 0).y;");
+    let _source = copied(&display, there.path(), &endless);
+    let mut window = Window::open(&display, home.path(), &[folder.to_str().unwrap(), "--frame-timeout", "2"]);
+    window.wait_until("the first compile", "compiled", |e| e["ok"] == true && e["compiling"] == false);
+    window.wait_until("a frame", "frame", |e| e["frame"].as_u64() > Some(3));
+    window.click_on("tab:Buffer A");
+    window.click_on("editor");
+    window.keys(&["ctrl+a", "ctrl+v"]);
+    assert_eq!(halted(&mut window)["kind"], "drawing");
+
+    // Five limits later, or fifteen where the driver may still be compiling, nobody waits any more.
+    window.wait_until("the fresh device", "halt", |e| e["kind"].is_null());
+    let is_told = |e: &serde_json::Value| e["event"] == "notice" && e["level"] == "error";
+    if !window.events.iter().any(is_told) {
+        window.wait_for("the word of it", is_told);
+    }
+    let frame = window.newest("frame").and_then(|e| e["frame"].as_u64());
+    window.wait_for("the last good code to play", |e| {
+        e["event"] == "frame" && e["playing"] == true && e["frame"].as_u64() > frame
+    });
+    let failed = window.newest("compiled").unwrap();
+    assert_eq!(failed["ok"], false, "{failed}");
+    let middle = window.picture_point(0.5, 0.5);
+    let shot = home.path().join("good.png");
+    let end = Instant::now() + Duration::from_secs(30);
+    loop {
+        display.photograph(&shot);
+        let pixel = *image::open(&shot).unwrap().to_rgb8().get_pixel(middle.0 as u32, middle.1 as u32);
+        if pixel == image::Rgb([0, 255, 0]) {
+            break;
+        }
+        assert!(Instant::now() < end, "the last good picture is green, not {pixel:?}");
+        std::thread::sleep(Duration::from_millis(200));
+    }
+    display.shot("given-up.png");
+    window.keys(&["ctrl+s"]);
+    window.wait_until("the text to be saved", "dirty", |e| e["dirty"] == false);
+    assert_eq!(fs::read_to_string(folder.join("buffer_a.glsl")).unwrap(), endless, "the text is as it was pasted");
+    window.keys(&["ctrl+q"]);
+    assert_eq!(window.ends(), Some(0), "{}", window.complaints());
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! Everything that a key, a menu or the palette can ask for.
 
-use super::{TimeAction, TraceAction};
-use crate::gui::{dock::Panel, editor::EditorAction};
+use super::{LayoutAction, PictureAction, TimeAction, TraceAction};
+use crate::gui::{dock::Panel, editor::EditorAction, settings::Theme};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
@@ -9,6 +9,12 @@ pub enum Action {
     Save,
     SaveAs,
     Open,
+    OpenFolder,
+    /// A file that another program writes begins time and buffers anew, or no longer.
+    ResetOnReload,
+    AddCommon,
+    /// The next free one.
+    AddBuffer,
     New,
     Gallery,
     TogglePlay,
@@ -34,6 +40,7 @@ pub enum Action {
     /// Every panel where it is at first.
     UsualLayout,
     NextTheme,
+    Theme(Theme),
     ZoomIn,
     ZoomOut,
     ZoomReset,
@@ -67,6 +74,8 @@ pub enum Action {
     FindNonfinite,
     Trace(TraceAction),
     Time(TimeAction),
+    Picture(PictureAction),
+    Layout(LayoutAction),
     Quit,
     /// In the text that has the keyboard, or had it last.
     Code(EditorAction),

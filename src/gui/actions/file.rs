@@ -1,10 +1,6 @@
 //! The file in which a person gives actions other keys.
 
-use super::{
-    Chord, Keymap,
-    keymap::level,
-    table::{ACTIONS, Entry, Group},
-};
+use super::{Chord, Entry, Group, Keymap, keymap::level, table::ACTIONS};
 use crate::{gui::watched_file::Mistake, project::nearest};
 use std::{fmt::Write as _, ops::Range};
 use toml_edit::{Document, Item, Value};

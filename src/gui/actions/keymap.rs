@@ -119,7 +119,7 @@ mod tests {
         let keymap = Keymap::default();
         for (i, entry) in ACTIONS.iter().enumerate() {
             entry.keys.iter().for_each(|key| assert!(Chord::parse(key).is_ok(), "{key} of {}", entry.name));
-            let has_own_name = entry.name.bytes().all(|b| b.is_ascii_lowercase() || b == b'-');
+            let has_own_name = entry.name.bytes().all(|b| b.is_ascii_lowercase() || b.is_ascii_digit() || b == b'-');
             assert!(has_own_name, "{}", entry.name);
             for (j, other) in ACTIONS.iter().enumerate().take(i) {
                 assert!(entry.name != other.name && entry.action != other.action, "{} twice", entry.name);

@@ -6,8 +6,11 @@
 
 mod action;
 mod chord;
+mod entry;
 mod file;
 mod keymap;
+mod layout;
+mod picture;
 mod table;
 mod time;
 mod trace;
@@ -15,8 +18,11 @@ mod watch;
 
 pub use action::Action;
 pub use chord::Chord;
+pub use entry::{Entry, Group};
 pub use keymap::{Keymap, Listening};
-pub use table::{ACTIONS, Entry, Group};
+pub use layout::LayoutAction;
+pub use picture::{PictureAction, SCALES, SIZES};
+pub use table::ACTIONS;
 pub use time::TimeAction;
 pub use trace::TraceAction;
 pub use watch::KeyFile;

@@ -1,10 +1,15 @@
 //! The table of actions.
 
-use super::{Action, TimeAction, TraceAction};
+use super::{
+    Action, Entry, Group, LayoutAction, PictureAction, TimeAction, TraceAction,
+    picture::{SCALES, SIZES},
+};
 use crate::{
     gui::{
-        dock::Panel,
+        dock::{Panel, Side},
         editor::{EditorAction as Code, Motion, Way},
+        geometry::Shape,
+        settings::Theme,
     },
     session::trace::travel::{
         Direction::{self, Back, Forward},
@@ -12,84 +17,10 @@ use crate::{
     },
 };
 
-/// Where an action belongs in the help, and when its keys are listened to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Group {
-    Project,
-    Picture,
-    Window,
-    Search,
-    /// While the bar for finding is open.
-    FindBar,
-    /// While the panel of a traced pixel is open.
-    Trace,
-    /// While the code has the keyboard, where these come before all others.
-    Code,
-    Caret,
-}
-
-impl Group {
-    pub const ALL: [Group; 8] = [
-        Group::Project,
-        Group::Picture,
-        Group::Window,
-        Group::Search,
-        Group::FindBar,
-        Group::Trace,
-        Group::Code,
-        Group::Caret,
-    ];
-
-    pub fn title(self) -> &'static str {
-        match self {
-            Group::Project => "Project",
-            Group::Picture => "Picture",
-            Group::Window => "Window",
-            Group::Search => "Find",
-            Group::FindBar => "While the find bar is open",
-            Group::Trace => "While the panel Trace is open",
-            Group::Code => "While typing code",
-            Group::Caret => "Caret and selection",
-        }
-    }
-}
-
-/// An action, what it is called, and the keys it has unless a person gives it others.
-#[derive(Clone, Copy, Debug)]
-pub struct Entry {
-    pub action: Action,
-    /// In the file of keys.
-    pub name: &'static str,
-    /// In the palette and in the help.
-    pub title: &'static str,
-    pub keys: &'static [&'static str],
-    pub group: Group,
-}
-
 impl Action {
     /// Returns what the palette, the help and menus call it.
     pub fn title(self) -> &'static str {
         ACTIONS.iter().find(|e| e.action == self).map_or("", |e| e.title)
-    }
-}
-
-impl Entry {
-    /// Returns whether a key that is held down does it again and again.
-    pub fn repeats(&self) -> bool {
-        use Action as A;
-        let again = [
-            A::Step,
-            A::StepBack,
-            A::FontLarger,
-            A::FontSmaller,
-            A::ZoomIn,
-            A::ZoomOut,
-            A::FindNext,
-            A::FindPrevious,
-            A::NextProblem,
-            A::NextPanel,
-        ];
-        matches!(self.action, A::Code(_) | A::Trace(TraceAction::Go(..))) || again.contains(&self.action)
     }
 }
 
@@ -125,6 +56,14 @@ const fn time(action: TimeAction, name: &'static str, title: &'static str, keys:
     row(Action::Time(action), name, title, keys, Group::Picture)
 }
 
+const fn picture(action: PictureAction, name: &'static str, title: &'static str) -> Entry {
+    row(Action::Picture(action), name, title, &[], Group::Picture)
+}
+
+const fn layout(action: LayoutAction, name: &'static str, title: &'static str, keys: &'static [&'static str]) -> Entry {
+    row(Action::Layout(action), name, title, keys, Group::Window)
+}
+
 /// A motion of the caret, and the same with Shift, which selects.
 const fn go(motion: Motion, name: &'static str, title: &'static str, keys: &'static [&'static str]) -> Entry {
     row(Action::Code(Code::Go(motion)), name, title, keys, Group::Caret)
@@ -148,10 +87,14 @@ const fn or_mac(keys: &'static [&'static str], mac: &'static [&'static str]) -> 
 pub const ACTIONS: &[Entry] = &[
     row(Action::Save, "save", "Save", &["Ctrl+S"], Group::Project),
     row(Action::SaveAs, "save-as", "Save as a new folder", &["Ctrl+Shift+S"], Group::Project),
-    row(Action::Open, "open", "Open a project", &["Ctrl+O"], Group::Project),
+    row(Action::Open, "open", "Open a project: a file", &["Ctrl+O"], Group::Project),
+    row(Action::OpenFolder, "open-folder", "Open a folder", &[], Group::Project),
     row(Action::New, "new", "New shader", &["Ctrl+N"], Group::Project),
     row(Action::Paste, "paste", "Open what is on the clipboard: Shadertoy JSON, GLSL or a path", &[], Group::Project),
     row(Action::Gallery, "gallery", "Gallery of presets", &["Ctrl+Shift+G"], Group::Project),
+    row(Action::ResetOnReload, "reset-on-reload", "Reset when a file is reloaded, or no longer", &[], Group::Project),
+    row(Action::AddCommon, "add-common", "Add Common, the text before every pass's", &[], Group::Project),
+    row(Action::AddBuffer, "add-buffer", "Add a buffer", &[], Group::Project),
     row(Action::Quit, "quit", "Quit", &["Ctrl+Q"], Group::Project),
     row(Action::TogglePlay, "play", "Play or pause", &["Alt+Up", "F5"], Group::Picture),
     row(Action::Reset, "reset", "Reset time and buffers", &["Alt+Down", "Ctrl+Shift+F5"], Group::Picture),
@@ -218,6 +161,26 @@ pub const ACTIONS: &[Entry] = &[
         &["Ctrl+T"],
         Group::Picture,
     ),
+    picture(PictureAction::Shape(Shape::Site), "picture-wide", "Picture shape: 16:9, as on the site"),
+    picture(PictureAction::Shape(Shape::Fill), "picture-fill", "Picture shape: the view's"),
+    picture(PictureAction::Scale(SCALES[0]), "picture-2x", "Picture size: twice the view's"),
+    picture(PictureAction::Scale(SCALES[1]), "picture-usual", "Picture size: the view's"),
+    picture(PictureAction::Scale(SCALES[2]), "picture-three-quarters", "Picture size: 3/4 of the view's"),
+    picture(PictureAction::Scale(SCALES[3]), "picture-half", "Picture size: 1/2 of the view's"),
+    picture(PictureAction::Scale(SCALES[4]), "picture-quarter", "Picture size: 1/4 of the view's"),
+    picture(PictureAction::Scale(SCALES[5]), "picture-eighth", "Picture size: 1/8 of the view's"),
+    picture(PictureAction::Size(SIZES[0]), "picture-256x144", "Picture size: always 256 × 144"),
+    picture(PictureAction::Size(SIZES[1]), "picture-640x360", "Picture size: always 640 × 360"),
+    picture(PictureAction::Size(SIZES[2]), "picture-800x450", "Picture size: always 800 × 450"),
+    picture(PictureAction::Size(SIZES[3]), "picture-1280x720", "Picture size: always 1280 × 720"),
+    picture(PictureAction::Size(SIZES[4]), "picture-1920x1080", "Picture size: always 1920 × 1080"),
+    picture(PictureAction::Size(SIZES[5]), "picture-3840x2160", "Picture size: always 3840 × 2160"),
+    picture(PictureAction::Size(SIZES[6]), "picture-512x512", "Picture size: always 512 × 512"),
+    picture(PictureAction::Size(SIZES[7]), "picture-1024x1024", "Picture size: always 1024 × 1024"),
+    picture(PictureAction::ResetUniforms, "reset-uniforms", "Uniforms: all back to their defaults"),
+    picture(PictureAction::GoOn, "go-on", "A slow frame: go on drawing it"),
+    picture(PictureAction::Smaller, "draw-smaller", "A slow frame: draw fewer pixels"),
+    picture(PictureAction::LastGood, "last-good-code", "A slow frame: back to the last good code"),
     row(Action::Palette, "palette", "Command palette: every action by its name", &["Ctrl+Shift+P"], Group::Window),
     row(Action::Help, "help", "Help: all keys", &["F1"], Group::Window),
     row(Action::KeyFile, "keys", "Give actions other keys: the file for it", &[], Group::Window),
@@ -269,7 +232,20 @@ pub const ACTIONS: &[Entry] = &[
         Group::Window,
     ),
     row(Action::UsualLayout, "usual-layout", "Every panel in its usual place", &[], Group::Window),
+    layout(LayoutAction::Resize(Side::Left), "panel-narrower", "This panel: narrower", &["Ctrl+Shift+Alt+Left"]),
+    layout(LayoutAction::Resize(Side::Right), "panel-wider", "This panel: wider", &["Ctrl+Shift+Alt+Right"]),
+    layout(LayoutAction::Resize(Side::Up), "panel-lower", "This panel: lower", &["Ctrl+Shift+Alt+Up"]),
+    layout(LayoutAction::Resize(Side::Down), "panel-higher", "This panel: higher", &["Ctrl+Shift+Alt+Down"]),
+    layout(LayoutAction::Move(Side::Left), "panel-to-left", "This panel: to the left edge of the window", &[]),
+    layout(LayoutAction::Move(Side::Right), "panel-to-right", "This panel: to the right edge of the window", &[]),
+    layout(LayoutAction::Move(Side::Up), "panel-to-top", "This panel: to the top of the window", &[]),
+    layout(LayoutAction::Move(Side::Down), "panel-to-bottom", "This panel: to the bottom of the window", &[]),
+    layout(LayoutAction::Share, "panel-share", "This panel: into the place of the next one, as its tab", &[]),
+    layout(LayoutAction::Close, "panel-close", "This panel: close", &[]),
     row(Action::NextTheme, "theme", "Dark, light, or what the system prefers", &[], Group::Window),
+    row(Action::Theme(Theme::Dark), "theme-dark", "Theme: dark", &[], Group::Window),
+    row(Action::Theme(Theme::Light), "theme-light", "Theme: light", &[], Group::Window),
+    row(Action::Theme(Theme::System), "theme-system", "Theme: the system's", &[], Group::Window),
     row(Action::ZoomIn, "zoom-in", "Everything larger", &["Ctrl+Alt+=", "Ctrl+Alt++"], Group::Window),
     row(Action::ZoomOut, "zoom-out", "Everything smaller", &["Ctrl+Alt+-"], Group::Window),
     row(Action::ZoomReset, "zoom-usual", "Everything in its usual size", &["Ctrl+Alt+0"], Group::Window),

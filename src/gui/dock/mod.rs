@@ -6,6 +6,7 @@
 
 mod automatic;
 mod bars;
+mod by_keys;
 mod node;
 mod panel;
 mod separators;
@@ -14,7 +15,7 @@ mod tree;
 pub use automatic::Heights;
 pub use bars::Contents;
 pub use node::Node;
-pub use panel::{BAR, Panel};
+pub use panel::{BAR, Panel, Side};
 
 use bars::Bars;
 use egui::Ui;

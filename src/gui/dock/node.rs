@@ -55,6 +55,50 @@ impl Node {
         }
     }
 
+    /// An arrangement without a panel; none where there is no other.
+    pub(super) fn without(self, panel: Panel) -> Option<Node> {
+        let parts = |parts: Vec<(Node, f32)>| -> Vec<(Node, f32)> {
+            parts.into_iter().filter_map(|(node, share)| Some((node.without(panel)?, share))).collect()
+        };
+        let one_or = |mut parts: Vec<(Node, f32)>, all: fn(Vec<(Node, f32)>) -> Node| match parts.len() {
+            0 => None,
+            1 => parts.pop().map(|(node, _)| node),
+            _ => Some(all(parts)),
+        };
+        match self {
+            Node::Panel(there) => (there != panel).then_some(Node::Panel(there)),
+            Node::Row(list) => one_or(parts(list), Node::Row),
+            Node::Column(list) => one_or(parts(list), Node::Column),
+            Node::Tabs(nodes, front) => {
+                let mut nodes: Vec<Node> = nodes.into_iter().filter_map(|node| node.without(panel)).collect();
+                match nodes.len() {
+                    0 | 1 => nodes.pop(),
+                    n => Some(Node::Tabs(nodes, front.min(n - 1))),
+                }
+            }
+        }
+    }
+
+    /// Puts a panel into the place of another, in front of it. False where that one is not there.
+    pub(super) fn share(&mut self, place: Panel, panel: Panel) -> bool {
+        match self {
+            Node::Panel(there) if *there == place => {
+                *self = Node::Tabs(vec![Node::Panel(place), Node::Panel(panel)], 1);
+                true
+            }
+            Node::Panel(_) => false,
+            Node::Row(parts) | Node::Column(parts) => parts.iter_mut().any(|(node, _)| node.share(place, panel)),
+            Node::Tabs(nodes, front) => {
+                let is_here = nodes.contains(&Node::Panel(place));
+                if is_here {
+                    *front = nodes.len();
+                    nodes.push(Node::Panel(panel));
+                }
+                is_here
+            }
+        }
+    }
+
     pub fn to_value(&self) -> Value {
         let mut table = InlineTable::new();
         match self {

@@ -5,6 +5,15 @@ use egui_tiles::TileId;
 /// Height of a panel's title row.
 pub const BAR: f32 = 27.0;
 
+/// A direction in the window.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    Left,
+    Right,
+    Up,
+    Down,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Panel {
     Picture,

@@ -2,7 +2,7 @@
 //!
 //! `egui_tiles` has such lines too; those take the keyboard, and have no name for who does not see them.
 
-use super::Panel;
+use super::{Panel, tree::line_of};
 use crate::gui::theme;
 use egui::{CursorIcon, Id, Rect, Sense, Stroke, Ui};
 use egui_tiles::{Container, Linear, LinearDir, Tile, TileId, Tree};
@@ -34,6 +34,29 @@ pub fn show(ui: &Ui, tree: &mut Tree<Panel>) -> bool {
     is_moved
 }
 
+/// Makes a tile longer or shorter at the cost of the one behind it, or before it where it is the last. True: it is so.
+pub fn nudge(tree: &mut Tree<Panel>, tile: TileId, dir: LinearDir, by: f32) -> bool {
+    let Some((id, at)) = line_of(&tree.tiles, tile, dir) else { return false };
+    let Some(Tile::Container(Container::Linear(linear))) = tree.tiles.get(id) else { return false };
+    let seen = |child: &&TileId| tree.tiles.is_visible_in_layout(**child) && tree.tiles.rect(**child).is_some();
+    let behind = linear.children[at + 1..].iter().find(seen);
+    let Some(other) = behind.or_else(|| linear.children[..at].iter().rev().find(seen)).copied() else { return false };
+    let this = linear.children[at];
+    let (Some(a), Some(b)) = (tree.tiles.rect(this), tree.tiles.rect(other)) else { return false };
+    let (a, b) = (length(dir, a), length(dir, b));
+    let to = within(dir, a + by, a + b);
+    if let Some(Tile::Container(Container::Linear(linear))) = tree.tiles.get_mut(id) {
+        share(linear, (this, a), (other, b), to);
+    }
+    true
+}
+
+/// Keeps both of two panels large enough: the first's length, of that of both.
+fn within(dir: LinearDir, wanted: f32, both: f32) -> f32 {
+    let least = if dir == LinearDir::Horizontal { LEAST_WIDTH } else { LEAST_HEIGHT }.min(both / 2.0);
+    wanted.clamp(least, both - least)
+}
+
 fn length(dir: LinearDir, rect: Rect) -> f32 {
     if dir == LinearDir::Horizontal { rect.width() } else { rect.height() }
 }
@@ -61,8 +84,7 @@ fn drag(ui: &Ui, dir: LinearDir, (first, a): (TileId, Rect), (second, b): (TileI
     let at = response.interact_pointer_pos().filter(|_| is_moving)?;
     let both = length(dir, a) + length(dir, b);
     let wanted = if dir == LinearDir::Horizontal { at.x - a.left() } else { at.y - a.top() };
-    let least = if dir == LinearDir::Horizontal { LEAST_WIDTH } else { LEAST_HEIGHT }.min(both / 2.0);
-    Some(wanted.clamp(least, both - least))
+    Some(within(dir, wanted, both))
 }
 
 /// Gives the first of two a length, and the second what is left of both.

@@ -187,3 +187,44 @@ fn an_arrangement_of_nonsense_is_refused() {
     let odd = read("{ row = [\"code\", \"picture\"], shares = [0, \"x\"] }").unwrap();
     assert_eq!(odd, Node::Row(vec![(Node::Panel(Panel::Code), 1.0), (Node::Panel(Panel::Picture), 1.0)]));
 }
+
+#[test]
+fn keys_size_and_move_a_panel() {
+    let mut stage = Stage::new(1280.0, 722.0);
+    let (code, channels) = (stage.place("code"), stage.place("channels"));
+    assert_eq!(stage.dock.panel_at(code.center()), Some(Panel::Code));
+    assert_eq!(stage.dock.panel_at(stage.place("panel:channels").center()), Some(Panel::Channels));
+    for (panel, side, by) in [
+        (Panel::Code, Side::Left, vec2(-24.0, 0.0)),
+        (Panel::Code, Side::Right, vec2(24.0, 0.0)),
+        (Panel::Channels, Side::Down, vec2(0.0, 24.0)),
+        (Panel::Channels, Side::Up, vec2(0.0, -24.0)),
+        (Panel::Picture, Side::Right, vec2(24.0, 0.0)),
+        // It has the whole height.
+        (Panel::Code, Side::Down, vec2(0.0, 0.0)),
+    ] {
+        let before = stage.place(panel.name()).size();
+        stage.dock.resize(panel, side);
+        stage.frame(vec![]);
+        let after = stage.place(panel.name()).size();
+        assert!((after - before - by).length() < 2.0, "{panel:?} {side:?}: {before} {after}");
+    }
+    for _ in 0..100 {
+        stage.dock.resize(Panel::Code, Side::Left);
+        stage.frame(vec![]);
+    }
+    assert!((stage.place("code").width() - 140.0).abs() < 3.0, "it can still be used");
+
+    stage.dock.move_to_edge(Panel::Channels, Side::Right);
+    stage.frame(vec![]);
+    let moved = stage.place("channels");
+    assert!(moved.right() > 1278.0 && moved.height() > 650.0 && moved.width() > channels.width() * 0.3, "{moved:?}");
+    stage.dock.share_place(Panel::Channels);
+    stage.frame(vec![]);
+    // The next one round is the picture.
+    assert!(stage.dock.is_seen(Panel::Channels) && !stage.dock.is_seen(Panel::Picture));
+    stage.click("panel:picture");
+    assert!(stage.dock.is_seen(Panel::Picture) && !stage.dock.is_seen(Panel::Channels));
+    let kept = stage.dock.arrangement().unwrap();
+    assert_eq!(kept.panels().len(), 4, "none is lost: {}", kept.to_value());
+}

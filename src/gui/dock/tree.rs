@@ -59,6 +59,22 @@ fn insert(tiles: &mut Tiles<Panel>, next: &mut u64, node: &Node, needs_tabs: boo
     }
 }
 
+/// Returns the container with others beside a tile in a direction, the innermost one, and which of its children the
+/// tile is in.
+pub fn line_of(tiles: &Tiles<Panel>, tile: TileId, dir: LinearDir) -> Option<(TileId, usize)> {
+    let mut at = tile;
+    loop {
+        let parent = tiles.parent_of(at)?;
+        if let Some(Tile::Container(Container::Linear(linear))) = tiles.get(parent)
+            && linear.dir == dir
+            && linear.children.iter().filter(|child| tiles.is_visible_in_layout(**child)).count() > 1
+        {
+            return Some((parent, linear.children.iter().position(|child| *child == at)?));
+        }
+        at = parent;
+    }
+}
+
 pub fn node(tree: &Tree<Panel>) -> Option<Node> {
     node_of(&tree.tiles, tree.root()?)
 }

@@ -4,24 +4,29 @@
 
 use super::{
     EditorAction, Motion,
-    look::{Look, NO_DEBUG},
+    look::{Help, Look, Mark, NO_DEBUG},
     selection::{Carets, Selection},
     view::CodeEditor,
+};
+use crate::{
+    diag::SourceId,
+    glsl::{PassKind, PassSource, Text, services::Analysis},
 };
 use egui::{Event, Id, RawInput, Rect, pos2, vec2};
 use std::time::Instant;
 
 fn frame(ctx: &egui::Context, editor: &mut CodeEditor, wraps: bool, events: Vec<Event>) -> f64 {
-    let look = Look {
-        name: "Code",
-        font_size: 13.0,
-        wraps,
-        marks: &[],
-        matches: &[],
-        shared: "",
-        help: None,
-        debug: &NO_DEBUG,
-    };
+    frame_with(ctx, editor, (wraps, &[], None), events)
+}
+
+/// With the messages beside its lines, and what is known of the text.
+fn frame_with(
+    ctx: &egui::Context,
+    editor: &mut CodeEditor,
+    (wraps, marks, help): (bool, &[Mark], Option<Help<'_>>),
+    events: Vec<Event>,
+) -> f64 {
+    let look = Look { name: "Code", font_size: 13.0, wraps, marks, matches: &[], shared: "", help, debug: &NO_DEBUG };
     let screen_rect = Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(700.0, 700.0)));
     let input = RawInput { screen_rect, events, focused: true, ..Default::default() };
     let began = Instant::now();
@@ -80,6 +85,49 @@ fn a_frame_idle_and_typing() {
         assert_ne!(editor.buffer.text(), text, "the letters arrived");
         let name = format!("{name}{}", if wraps { ", wrapped" } else { "" });
         println!("{name:28}: opened in {opened:7.1} ms, idle {idle:6.2} ms, typing {typing:6.2} ms a frame");
+    }
+}
+
+/// As in the window: a whole shader of 17,000 lines, coloured and explained by its analysis, with messages.
+#[test]
+#[ignore = "prints times; they mean something on a quiet machine only"]
+fn a_frame_typing_in_a_text_that_is_known() {
+    let text = format!(
+        "void mainImage(out vec4 o, in vec2 p) {{\n{}o = vec4(1.0);\n}}\n",
+        lines(17_000).replace(
+            "vec3 c = mix(iResolution, vec3(0.5), sin(iTime));",
+            "{ vec3 c = mix(iResolution, vec3(0.5), sin(iTime)); }",
+        )
+    );
+    let id = SourceId(0);
+    let began = Instant::now();
+    let analysis = Analysis::new(&PassSource::new(PassKind::Image, Text { id, text: &text }));
+    let analysed = began.elapsed().as_secs_f64() * 1000.0;
+    let classes = analysis.classes(id);
+    let mark = |line: usize| Mark {
+        line,
+        range: 0..0,
+        severity: crate::diag::Severity::Warning,
+        message: "what is wrong in this line, and how to mend it".into(),
+        hints: Vec::new(),
+    };
+    for step in [17_000, 170, 17] {
+        let marks: Vec<Mark> = (0..17_000).step_by(step).map(mark).collect();
+        let ctx = egui::Context::default();
+        let mut editor = CodeEditor::new(&text);
+        editor.go_to(8_500, 4);
+        let known = |editor: &mut CodeEditor, n: usize, events: &[Event]| -> Vec<f64> {
+            let help = || Some(Help { analysis: &analysis, source: id, classes: &classes, text: &text });
+            (0..n).map(|_| frame_with(&ctx, editor, (false, &marks, help()), events.to_vec())).collect()
+        };
+        known(&mut editor, 8, &[]);
+        let idle = median(known(&mut editor, 20, &[]));
+        let typing = median(known(&mut editor, 20, &[Event::Text("x".into())]));
+        assert_ne!(editor.buffer.text(), text, "the letters arrived");
+        println!(
+            "17,000 lines, analysed in {analysed:.0} ms, {} messages: idle {idle:6.2} ms, typing {typing:6.2} ms a frame",
+            marks.len()
+        );
     }
 }
 

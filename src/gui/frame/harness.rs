@@ -21,7 +21,7 @@ pub struct Contents {
     pub shell: Shell,
     pub session: Session,
     renderer: Renderer,
-    _folder: tempfile::TempDir,
+    pub folder: tempfile::TempDir,
 }
 
 pub type Stage = Harness<'static, Contents>;
@@ -36,20 +36,26 @@ const IMAGE: &str = "#iUniform float red = 0.5 in { 0.0, 1.0 }\n#iUniform int co
 
 /// `None` where there is no device, after saying so.
 pub fn open(gallery: bool) -> Option<Stage> {
+    open_with(gallery, SessionOptions::default())
+}
+
+/// The same, and for instance a place where unsaved work is kept.
+pub fn open_with(gallery: bool, options: SessionOptions) -> Option<Stage> {
     let gpu = testing::gpu()?;
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("image.glsl"), IMAGE).unwrap();
     std::fs::write(folder.path().join("buffer_a.glsl"), "void mainImage(out vec4 o, in vec2 p) { o = vec4(1); }")
         .unwrap();
-    let mut session = Session::with_options(gpu.clone(), Arc::new(|| ()), SessionOptions::default()).unwrap();
+    let mut session = Session::with_options(gpu.clone(), Arc::new(|| ()), options).unwrap();
     session.apply(Command::Pause);
     if !gallery {
         session.apply(Command::Open(folder.path().display().to_string()));
         session.apply(Command::Pause);
     }
     let renderer = Renderer::new(&gpu.device, wgpu::TextureFormat::Rgba8Unorm, Default::default());
-    let shell = Shell::new(gpu, Arc::new(|| ()), gallery);
-    let contents = Contents { shell, session, renderer, _folder: folder };
+    let mut shell = Shell::new(gpu, Arc::new(|| ()), gallery);
+    shell.type_paths();
+    let contents = Contents { shell, session, renderer, folder };
     let show = |ui: &mut egui::Ui, contents: &mut Contents| {
         let Contents { shell, session, renderer, .. } = contents;
         shell.prepare(session, renderer);
@@ -125,4 +131,19 @@ pub fn texts(stage: &Stage) -> Vec<String> {
     let nodes = stage.root().children_recursive();
     let texts = nodes.map(|node| node.accesskit_node()).flat_map(|node| [node.label(), node.value()]);
     texts.flatten().collect()
+}
+
+/// Chooses what the palette finds by some letters.
+pub fn choose(stage: &mut Stage, letters: &str) {
+    press(stage, CTRL_SHIFT, Key::P);
+    stage.event(egui::Event::Text(letters.to_owned()));
+    stage.run_steps(2);
+    press(stage, Modifiers::NONE, Key::Enter);
+}
+
+/// Asserts that there are things of these names.
+pub fn has(names: &[String], wanted: &[&str]) {
+    for name in wanted {
+        assert!(names.iter().any(|n| n == name), "no {name:?} among {names:?}");
+    }
 }

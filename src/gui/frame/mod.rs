@@ -54,4 +54,6 @@ mod names;
 #[cfg(test)]
 mod paused;
 #[cfg(test)]
+mod reach;
+#[cfg(test)]
 mod tests;

@@ -1,19 +1,21 @@
 //! What is told to screen readers: in each state of the window, everything that the keyboard can be given to has a
 //! name.
 
-use super::harness::{CTRL, CTRL_SHIFT, click, named, open, press};
-use crate::session::Command;
+use super::harness::{CTRL, CTRL_SHIFT, click, has, named, open, open_with, press, until};
+use crate::{
+    gui::dock::Panel,
+    session::{
+        Command, Level, Question, SessionOptions,
+        comparing::{Against, Compared},
+        probe::ProbePlace,
+    },
+};
 use egui::{Key, Modifiers};
 use std::time::{Duration, Instant};
 
 #[test]
 fn everything_that_takes_the_keyboard_has_a_name() {
     let Some(mut stage) = open(false) else { return };
-    let has = |names: &[String], wanted: &[&str]| {
-        for name in wanted {
-            assert!(names.iter().any(|n| n == name), "no {name:?} among {names:?}");
-        }
-    };
     let names = named(&stage, "the editor");
     has(&names, &["Code of Image", "Picture of Image", "Image", "Buffer A", "Play", "red", "red, number", "wide.w"]);
     has(&names, &["on", "tint, colour", "tint.g", "tint, hex", "iChannel1: none"]);
@@ -79,4 +81,135 @@ fn the_gallery_has_names() {
     let Some(stage) = open(true) else { return };
     let names = named(&stage, "the gallery");
     assert!(names.iter().any(|n| n == "New shader"), "{names:?}");
+}
+
+/// Each panel there is, with a pixel that is traced and a comparison that has ended.
+#[test]
+fn every_panel_has_names() {
+    let Some(mut stage) = open(false) else { return };
+    stage.state_mut().shell.set_open(Panel::Trace, true);
+    stage.run_steps(2);
+    stage.state_mut().session.apply(Command::Trace(Some([0.5, 0.5])));
+    until(&mut stage, "a traced pixel", |stage| stage.state().session.trace().traced.is_some());
+    stage.state_mut().session.apply(Command::Compare(Some(Against::LastSave)));
+    until(&mut stage, "a comparison", |stage| {
+        matches!(stage.state().session.comparison(), Some(Compared::Ended(Ok(_))))
+    });
+    for panel in Panel::ALL {
+        stage.state_mut().shell.set_open(panel, true);
+        stage.run_steps(4);
+        assert!(stage.state().shell.dock().is_seen(panel), "{panel:?}");
+        let names = named(&stage, panel.title());
+        match panel {
+            Panel::Trace => {
+                assert!(stage.state().shell.place("trace:where").is_some(), "the pixel's way is shown");
+                has(&names, &["Close Trace"]);
+            }
+            Panel::Compare => {
+                assert!(stage.state().shell.place("compare:begin").is_some());
+                has(&names, &["Close Compare"]);
+            }
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn what_is_open_for_moments_has_names() {
+    let Some(mut stage) = open(false) else { return };
+    for (widget, wanted) in [
+        ("button:view", "All in their usual places"),
+        ("button:time", "Time to go to"),
+        ("button:options", "Close the picture"),
+    ] {
+        click(&mut stage, widget);
+        has(&named(&stage, widget), &[wanted]);
+        press(&mut stage, Modifiers::NONE, Key::Escape);
+    }
+    stage.state_mut().session.apply(Command::Notify {
+        level: Level::Warning,
+        text: "Something is so.".into(),
+        path: Some("/somewhere".into()),
+    });
+    stage.run_steps(3);
+    has(&named(&stage, "a notice"), &["Close this notice", "Copy path"]);
+    press(&mut stage, CTRL_SHIFT, Key::S);
+    until(&mut stage, "the field for a path", |stage| stage.state().shell.place("field:path").is_some());
+    has(&named(&stage, "a path"), &["Path", "Save", "Cancel"]);
+    press(&mut stage, Modifiers::NONE, Key::Escape);
+    until(&mut stage, "no field", |stage| stage.state().shell.place("field:path").is_none());
+
+    press(&mut stage, CTRL_SHIFT, Key::B);
+    click(&mut stage, "passes:row:Buffer A");
+    for (widget, wanted) in [("passes:size", "fixed"), ("passes:format", "rgba32f   four floats, as on the site")] {
+        click(&mut stage, widget);
+        has(&named(&stage, widget), &[wanted]);
+        press(&mut stage, Modifiers::NONE, Key::Escape);
+    }
+    click(&mut stage, "passes:region");
+    has(&named(&stage, "the window of passes"), &["region width", "steps", "Name"]);
+    press(&mut stage, CTRL_SHIFT, Key::B);
+
+    let tab = stage.state().session.tabs().into_iter().find(|tab| tab.title() == "Image").unwrap();
+    let at = stage.state().session.text(&tab).find("red * at").unwrap();
+    stage.state_mut().session.apply(Command::Probe(Some(ProbePlace { tab, at, visit: 0 })));
+    until(&mut stage, "a probe", |stage| stage.state().shell.place("probe:close").is_some());
+    named(&stage, "a probe");
+    stage.state_mut().session.apply(Command::Probe(None));
+
+    press(&mut stage, Modifiers::NONE, Key::F9);
+    has(&named(&stage, "presenting"), &["Code of Image", "Picture of Image"]);
+    press(&mut stage, Modifiers::NONE, Key::F9);
+    press(&mut stage, CTRL_SHIFT, Key::G);
+    stage.run_steps(2);
+    let recent = format!("recent:{}", stage.state().session.recent()[0].path.display());
+    assert!(stage.state().shell.place(&recent).is_some(), "the gallery has what was open");
+    named(&stage, "the gallery with recent projects");
+    press(&mut stage, CTRL_SHIFT, Key::G);
+
+    stage.state_mut().session.apply(Command::Hold);
+    stage.run_steps(3);
+    has(&named(&stage, "a halt"), &["Play", "Smaller resolution"]);
+}
+
+#[test]
+fn every_question_has_names() {
+    let kept = tempfile::tempdir().unwrap();
+    let options = || SessionOptions { recovery: Some(kept.path().to_owned()), ..SessionOptions::default() };
+    let Some(mut stage) = open_with(false, options()) else { return };
+    let folder = stage.state().folder.path().to_owned();
+    let other = folder.join("other");
+    std::fs::create_dir(&other).unwrap();
+    std::fs::copy(folder.join("image.glsl"), other.join("image.glsl")).unwrap();
+    stage.state_mut().session.apply(Command::SaveAs(other));
+    stage.run_steps(3);
+    assert!(matches!(stage.state().session.question(), Some(Question::Overwrite { .. })));
+    has(&named(&stage, "overwriting"), &["Overwrite", "Cancel"]);
+    stage.run_steps(4);
+    press(&mut stage, Modifiers::NONE, Key::Escape);
+    assert!(stage.state().session.question().is_none());
+
+    let tab = stage.state().session.tabs().into_iter().find(|tab| tab.title() == "Image").unwrap();
+    let mine = format!("// mine\n{}", stage.state().session.text(&tab));
+    stage.state_mut().session.apply(Command::EditText { tab, text: mine });
+    stage.run_steps(3);
+    std::fs::write(folder.join("image.glsl"), "// of another program\n").unwrap();
+    until(&mut stage, "a conflict", |stage| {
+        matches!(stage.state().session.question(), Some(Question::Conflict { .. }))
+    });
+    stage.run_steps(3);
+    assert!(named(&stage, "a conflict").iter().any(|name| name.starts_with("Keep")), "it can be answered");
+    stage.run_steps(4);
+    click(&mut stage, "answer:keep-mine");
+    assert!(stage.state().session.question().is_none());
+
+    let is_kept = |entry: std::fs::DirEntry| entry.path().extension().is_some_and(|e| e == "json");
+    until(&mut stage, "unsaved work on disk", |_| std::fs::read_dir(kept.path()).unwrap().flatten().any(is_kept));
+    // It ends without being closed.
+    drop(stage);
+    let Some(mut stage) = open_with(true, options()) else { return };
+    until(&mut stage, "what was left behind", |stage| stage.state().session.question().is_some());
+    stage.run_steps(3);
+    assert!(matches!(stage.state().session.question(), Some(Question::Recover(_))));
+    assert!(named(&stage, "unsaved work").iter().any(|name| name.starts_with("Recover")));
 }

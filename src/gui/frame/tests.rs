@@ -314,6 +314,34 @@ fn what_cannot_be_used_is_told_and_a_project_is_opened() {
     assert_eq!(stage.session.project().name, "lone");
 }
 
+/// Two passes, one of which reads the other.
+const RINGS: &str = r#"{"ver":"0.1","info":{"name":"Rings","description":"","tags":[]},"renderpass":[
+{"type":"buffer","name":"Buffer A","inputs":[],"outputs":[{"id":"4dXGR8","channel":0}],"code":"void mainImage(out vec4 o, vec2 p) { o = vec4(0.5); }"},
+{"type":"image","name":"Image","outputs":[],"code":"void mainImage(out vec4 o, vec2 p) { o = texelFetch(iChannel2, ivec2(0), 0); }",
+"inputs":[{"id":"4dXGR8","channel":2,"type":"buffer","sampler":{"filter":"nearest","wrap":"clamp","vflip":"true"}}]}]}"#;
+
+#[test]
+fn a_dropped_json_and_a_dropped_folder_are_opened_with_their_channels() {
+    let Some(mut stage) = Stage::open(&[("image.glsl", MOUSE), ("rings.json", RINGS)]) else { return };
+    stage.drop_files(&["rings.json"], None);
+    assert_eq!(stage.session.project().name, "Rings");
+    assert_eq!(reads(&stage, 2), Some(Input::Buffer("A".into())));
+    stage.until("its picture", |stage| {
+        let state = stage.session.compile_state();
+        state.last.is_some() && !state.compiling && stage.session.diagnostics().is_empty()
+    });
+
+    let waves = stage.folder.path().join("waves");
+    std::fs::create_dir(&waves).unwrap();
+    let manifest = "name = \"Waves\"\n[passes.buffer_a]\n[passes.image]\nchannels.1 = { buffer = \"A\" }\n";
+    for (name, text) in [("eddy.toml", manifest), ("image.glsl", MOUSE), ("buffer_a.glsl", MOUSE)] {
+        std::fs::write(waves.join(name), text).unwrap();
+    }
+    stage.drop_files(&["waves"], None);
+    assert_eq!(stage.session.project().name, "Waves");
+    assert_eq!(reads(&stage, 1), Some(Input::Buffer("A".into())));
+}
+
 #[test]
 fn a_text_that_is_pasted_beside_the_code_is_opened() {
     let Some(mut stage) = Stage::open(&[("image.glsl", MOUSE)]) else { return };

@@ -5,12 +5,11 @@ use crate::{
         accessible,
         actions::Action,
         outbox::{Outbox, Pick, Wish},
-        theme,
+        recent, theme,
     },
     session::{Command, RecentProject, Session},
 };
 use egui::{FontId, Rect, Response, RichText, Sense, Stroke, StrokeKind, Ui, pos2, text::LayoutJob, vec2};
-use std::path::Path;
 
 const HEIGHT: f32 = 54.0;
 const GAP: f32 = 10.0;
@@ -43,10 +42,10 @@ pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
         Some(_) => out.wishes.push(Wish::Pick(Pick::OpenFolder)),
         None => {}
     }
-    recent(ui, session.recent(), out);
+    recent_row(ui, session.recent(), out);
 }
 
-fn recent(ui: &mut Ui, list: &[RecentProject], out: &mut Outbox) {
+fn recent_row(ui: &mut Ui, list: &[RecentProject], out: &mut Outbox) {
     if list.is_empty() {
         return;
     }
@@ -56,7 +55,7 @@ fn recent(ui: &mut Ui, list: &[RecentProject], out: &mut Outbox) {
     let shown: Vec<&RecentProject> = list.iter().take(RECENT).collect();
     rows(ui, &shown, |ui, rect, project| {
         let path = &project.path;
-        let (title, about) = (title(path), parent(path));
+        let (title, about) = (recent::title(path), recent::parent(path));
         let response = tile(ui, rect, &path.display().to_string(), &title, &about, false);
         if out.clicked(&format!("recent:{}", path.display()), &response) {
             out.ask(Command::Open(path.display().to_string()));
@@ -106,21 +105,4 @@ fn tile(ui: &Ui, rect: Rect, id: &str, title: &str, about: &str, is_first: bool)
         painter.galley(rect.min + vec2(12.0, y), galley, color);
     }
     response.on_hover_cursor(egui::CursorIcon::PointingHand)
-}
-
-/// The name that a project on disk goes by.
-fn title(path: &Path) -> String {
-    let name = path.file_name().map(|n| n.to_string_lossy().into_owned());
-    name.filter(|n| !n.is_empty()).unwrap_or_else(|| path.display().to_string())
-}
-
-/// Where it lies, from the home folder if it is there.
-fn parent(path: &Path) -> String {
-    let Some(parent) = path.parent() else { return String::new() };
-    let home = std::env::home_dir().filter(|home| !home.as_os_str().is_empty());
-    match home.and_then(|home| Some(parent.strip_prefix(home).ok()?.to_owned())) {
-        Some(rest) if rest.as_os_str().is_empty() => "~".into(),
-        Some(rest) => format!("~{}{}", std::path::MAIN_SEPARATOR, rest.display()),
-        None => parent.display().to_string(),
-    }
 }

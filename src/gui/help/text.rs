@@ -25,6 +25,8 @@ pub(super) const SECTIONS: &[Section] = &[
             "F6 goes to the next part of the window, Shift+F6 to the one before. Tab goes from one control to the next \
              within it, Space or Enter presses it, the arrow keys turn a slider. Escape gives the keyboard back to the \
              code or to the picture, whichever had it last.",
+            "Shift+F10, or the menu key, opens the menu of a tab. The command palette has \"This panel\" for what a hand \
+             drags: it makes the panel that has the keyboard wider, narrower, higher or lower, and moves or closes it.",
             "In a dialog Enter presses the coloured button, Escape cancels. The command palette finds every action by \
              a few letters of its name.",
         ],

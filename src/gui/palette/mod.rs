@@ -4,10 +4,11 @@ mod fuzzy;
 
 use super::{
     accessible,
-    actions::{ACTIONS, Action, Entry},
+    actions::{ACTIONS, Action},
     outbox::Outbox,
     theme,
 };
+use crate::session::Command;
 use egui::{
     Align2, Area, FontId, Frame, Id, Key, Margin, Modifiers, Order, Rect, Sense, TextEdit, Ui, pos2, text::LayoutJob,
     vec2,
@@ -46,9 +47,25 @@ struct Keys {
     escape: bool,
 }
 
-/// An action that fits, and the letters of its title that do.
-struct Fit {
-    entry: &'static Entry,
+/// Something that only the open project has to offer, or only this machine.
+pub struct Offer {
+    /// For scripts that click on it.
+    pub name: String,
+    pub title: String,
+    pub command: Command,
+}
+
+#[derive(Clone, Copy)]
+enum Choice<'a> {
+    Action(Action),
+    Offer(&'a Offer),
+}
+
+/// What fits, and the letters of its title that do.
+struct Fit<'a> {
+    name: &'a str,
+    title: &'a str,
+    choice: Choice<'a>,
     letters: Vec<usize>,
 }
 
@@ -81,10 +98,11 @@ impl Palette {
         };
     }
 
-    /// Shows it while it is open. The action that was chosen comes back, and the palette closes.
-    pub fn show(&mut self, ui: &Ui, out: &mut Outbox) -> Option<Action> {
+    /// Shows it while it is open, with `offers` behind the actions. The action that was chosen comes back, or what was
+    /// offered is asked for, and the palette closes.
+    pub fn show(&mut self, ui: &Ui, offers: &[Offer], out: &mut Outbox) -> Option<Action> {
         let open = self.open.as_mut()?;
-        let fits = fits(&open.typed, &self.recent);
+        let fits = fits(&open.typed, &self.recent, offers);
         let window = ui.ctx().content_rect();
         let width = WIDTH.min(window.width() - 24.0);
         let rows = (((window.height() - 110.0) / ROW) as usize).clamp(1, ROWS);
@@ -117,16 +135,19 @@ impl Palette {
                     }
                     for (i, fit) in fits.iter().enumerate().skip(open.top).take(rows) {
                         let (rect, response) = ui.allocate_exact_size(vec2(width, ROW), Sense::click());
-                        let name = fit.entry.title;
                         let is_selected = i == open.selected;
-                        accessible::choice(&response, egui::Role::ListBoxOption, is_selected, name);
+                        accessible::choice(&response, egui::Role::ListBoxOption, is_selected, fit.title);
                         if i == open.selected {
                             ui.painter().rect_filled(rect, 4.0, theme::of(ui).accent_fill);
                         } else if response.hovered() {
                             ui.painter().rect_filled(rect, 4.0, theme::of(ui).button);
                         }
-                        row(ui, rect, fit, &out.keys.hint(fit.entry.action), i == open.selected);
-                        out.place(format!("palette:{}", fit.entry.name), rect);
+                        let key = match fit.choice {
+                            Choice::Action(action) => out.keys.hint(action),
+                            Choice::Offer(_) => String::new(),
+                        };
+                        row(ui, rect, fit, &key, is_selected);
+                        out.place(format!("palette:{}", fit.name), rect);
                         // A press takes the keyboard from the field, which must not close before the row is clicked.
                         if response.is_pointer_button_down_on() || response.clicked() {
                             closes = false;
@@ -139,15 +160,22 @@ impl Palette {
                 });
             });
         out.place("palette", area.response.rect);
-        let action = chosen.and_then(|i| fits.get(i)).map(|fit| fit.entry.action);
-        if let Some(action) = action {
-            self.recent.retain(|a| *a != action);
-            self.recent.insert(0, action);
+        let choice = chosen.and_then(|i| fits.get(i)).map(|fit| fit.choice);
+        match choice {
+            Some(Choice::Action(action)) => {
+                self.recent.retain(|a| *a != action);
+                self.recent.insert(0, action);
+            }
+            Some(Choice::Offer(offer)) => out.ask(offer.command.clone()),
+            None => {}
         }
-        if closes || action.is_some() {
+        if closes || choice.is_some() {
             self.close(ui);
         }
-        action
+        match choice {
+            Some(Choice::Action(action)) => Some(action),
+            _ => None,
+        }
     }
 }
 
@@ -172,26 +200,34 @@ impl Open {
     }
 }
 
-/// Actions that fit, best first; all of them before anything is typed.
-fn fits(typed: &str, recent: &[Action]) -> Vec<Fit> {
-    let age = |action: Action| recent.iter().position(|a| *a == action).unwrap_or(usize::MAX);
-    let mut found: Vec<_> = ACTIONS
-        .iter()
-        .filter(|entry| entry.action != Action::Palette)
-        .filter_map(|entry| Some((fuzzy::fit(typed, entry.title)?, age(entry.action), entry)))
+/// What fits, best first; everything before anything is typed, the actions first.
+fn fits<'a>(typed: &str, recent: &[Action], offers: &'a [Offer]) -> Vec<Fit<'a>> {
+    let age = |choice: Choice<'_>| match choice {
+        Choice::Action(action) => recent.iter().position(|a| *a == action).unwrap_or(usize::MAX),
+        Choice::Offer(_) => usize::MAX,
+    };
+    let actions = ACTIONS.iter().filter(|entry| entry.action != Action::Palette);
+    let actions = actions.map(|entry| (entry.name, entry.title, Choice::Action(entry.action)));
+    let offers = offers.iter().map(|offer| (offer.name.as_str(), offer.title.as_str(), Choice::Offer(offer)));
+    let mut found: Vec<_> = actions
+        .chain(offers)
+        .filter_map(|(name, title, choice)| {
+            let (cost, letters) = fuzzy::fit(typed, title)?;
+            Some((cost, age(choice), Fit { name, title, choice, letters }))
+        })
         .collect();
     // Equal ones stay in the table's order.
-    found.sort_by_key(|((cost, _), age, _)| (*cost, *age));
-    found.into_iter().map(|((_, letters), _, entry)| Fit { entry, letters }).collect()
+    found.sort_by_key(|(cost, age, _)| (*cost, *age));
+    found.into_iter().map(|(_, _, fit)| fit).collect()
 }
 
 /// A title with the letters that fit set off, and the key.
-fn row(ui: &Ui, rect: Rect, fit: &Fit, key: &str, is_selected: bool) {
+fn row(ui: &Ui, rect: Rect, fit: &Fit<'_>, key: &str, is_selected: bool) {
     let painter = ui.painter().with_clip_rect(rect);
     let weak = if is_selected { theme::of(ui).text } else { theme::of(ui).weak };
     let key = painter.layout_no_wrap(key.to_owned(), FontId::proportional(12.0), weak);
     let mut job = LayoutJob::default();
-    for (i, letter) in fit.entry.title.char_indices() {
+    for (i, letter) in fit.title.char_indices() {
         let color = match (fit.letters.contains(&i), is_selected) {
             (true, true) => theme::of(ui).strong,
             (true, false) => theme::of(ui).accent,
@@ -211,8 +247,15 @@ fn row(ui: &Ui, rect: Rect, fit: &Fit, key: &str, is_selected: bool) {
 mod tests {
     use super::*;
 
+    fn action(fit: &Fit<'_>) -> Option<Action> {
+        match fit.choice {
+            Choice::Action(action) => Some(action),
+            Choice::Offer(_) => None,
+        }
+    }
+
     fn first(typed: &str) -> Action {
-        fits(typed, &[])[0].entry.action
+        action(&fits(typed, &[], &[])[0]).unwrap()
     }
 
     #[test]
@@ -223,15 +266,28 @@ mod tests {
         assert_eq!(first("gtl"), Action::GoToLine);
         assert_eq!(first("full"), Action::Fullscreen);
         assert_eq!(first("FIND REPL"), Action::Replace);
-        assert!(fits("qqq", &[]).is_empty());
+        assert_eq!(first("open folder"), Action::OpenFolder);
+        assert_eq!(first("light"), Action::Theme(crate::gui::settings::Theme::Light));
+        assert!(fits("qqq", &[], &[]).is_empty());
     }
 
     #[test]
     fn every_action_but_the_palette_itself_is_in_it() {
-        assert_eq!(fits("", &[]).len(), ACTIONS.len() - 1);
-        assert_eq!(fits("", &[Action::Lab, Action::Help])[0].entry.action, Action::Lab);
+        assert_eq!(fits("", &[], &[]).len(), ACTIONS.len() - 1);
+        assert_eq!(action(&fits("", &[Action::Lab, Action::Help], &[])[0]), Some(Action::Lab));
         for entry in ACTIONS.iter().filter(|e| e.action != Action::Palette) {
             assert_eq!(first(entry.title), entry.action, "{} is not first by its own title", entry.title);
         }
+    }
+
+    #[test]
+    fn what_the_project_offers_is_found_behind_the_actions() {
+        let offer = |name: &str, title: &str| Offer { name: name.into(), title: title.into(), command: Command::Play };
+        let offers = [offer("show:Image", "Show pass: Image"), offer("recent:/x/waves", "Open recent: waves (/x)")];
+        let all = fits("", &[], &offers);
+        assert_eq!(all.len(), ACTIONS.len() + 1);
+        assert_eq!(all.last().unwrap().name, "recent:/x/waves");
+        assert_eq!(fits("waves", &[], &offers)[0].name, "recent:/x/waves");
+        assert_eq!(fits("show image", &[], &offers)[0].name, "show:Image");
     }
 }

@@ -210,6 +210,11 @@ fn addable(tabs: &[Tab]) -> Vec<Tab> {
     std::iter::once(Tab::Common).filter(is_free).chain(buffers).chain(rest).collect()
 }
 
+/// Returns the buffer that comes next: the site's four, then further letters.
+pub fn next_buffer(tabs: &[Tab]) -> Option<Tab> {
+    addable(tabs).into_iter().find(|tab| matches!(tab, Tab::Pass(PassId::Buffer(_))))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -10,5 +10,5 @@ mod place;
 mod watch;
 
 pub use keys::{Change, Settings, Theme};
-pub use place::{Place, Remembered, WindowFile};
+pub use place::{Place, Remembered, UsualSizes, WindowFile};
 pub use watch::SettingsFile;

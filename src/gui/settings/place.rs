@@ -21,6 +21,30 @@ pub struct Place {
     pub is_maximized: bool,
 }
 
+/// The sizes that the window had while it was as large as people made it, with its corner then.
+///
+/// A window system says that a window is as large as the screen after it has made it so, or before: the newest size may
+/// be the screen's.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct UsualSizes {
+    newest: Option<Place>,
+    before: Option<Place>,
+}
+
+impl UsualSizes {
+    pub fn note(&mut self, place: Place) {
+        if self.newest.is_none_or(|newest| newest.size != place.size) {
+            self.before = self.newest;
+        }
+        self.newest = Some(place);
+    }
+
+    /// Returns the newest that is not of a size.
+    pub fn other_than(&self, size: (f64, f64)) -> Option<Place> {
+        [self.newest, self.before].into_iter().flatten().find(|place| place.size != Some(size))
+    }
+}
+
 /// What is remembered of the window.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Remembered {
@@ -157,6 +181,20 @@ mod tests {
             open: Some(BTreeSet::from([Panel::Picture, Panel::Code, Panel::Costs])),
             layout: Some(Node::Row(vec![(Node::Column(left), 0.5), (Node::Panel(Panel::Code), 0.5)])),
         }
+    }
+
+    #[test]
+    fn a_window_as_large_as_the_screen_goes_back_to_the_size_before() {
+        let place = |width: f64, x| Place { size: Some((width, 600.0)), corner: Some((x, 0)), is_maximized: false };
+        let mut sizes = UsualSizes::default();
+        assert_eq!(sizes.other_than((1920.0, 600.0)), None);
+        sizes.note(place(900.0, 5));
+        sizes.note(place(940.0, 6));
+        sizes.note(place(940.0, 7));
+        assert_eq!(sizes.other_than((1920.0, 600.0)), Some(place(940.0, 7)));
+        // The screen's size came before the word that it is that.
+        sizes.note(place(1920.0, 0));
+        assert_eq!(sizes.other_than((1920.0, 600.0)), Some(place(940.0, 7)));
     }
 
     #[test]

@@ -3,17 +3,23 @@
 use super::{Shell, start_folder};
 use crate::{
     gui::{
-        actions::Action,
+        actions::{Action, LayoutAction, PictureAction},
         dock::Panel,
         help::Help,
-        outbox::{Outbox, Pick},
+        outbox::{Outbox, Pick, Wish},
+        palette::Offer,
+        passes, recent,
         settings::{Change, Settings},
         timeline,
     },
+    project::{PassId, Tab},
     session::{Command, Level, Session, probe::ProbePlace},
 };
 use egui::Ui;
 use std::path::Path;
+
+/// So many recent projects are offered: one finds more by the gallery, or by the system.
+const RECENT: usize = 30;
 
 impl Shell {
     pub(super) fn act(&mut self, ui: &Ui, session: &Session, action: Action, out: &mut Outbox) {
@@ -24,6 +30,14 @@ impl Shell {
                 self.files.ask(Pick::SaveAs(session.project().name.clone()), start_folder(session));
             }
             Action::Open => self.files.ask(Pick::OpenFile, start_folder(session)),
+            Action::OpenFolder => self.files.ask(Pick::OpenFolder, start_folder(session)),
+            Action::ResetOnReload => out.ask(Command::SetResetOnReload(!session.reset_on_reload())),
+            Action::AddCommon => self.add_pass(Tab::Common, out),
+            Action::AddBuffer => {
+                if let Some(tab) = passes::next_buffer(&session.tabs()) {
+                    self.add_pass(tab, out);
+                }
+            }
             Action::New => {
                 out.ask(Command::New);
                 self.uncover(out);
@@ -65,6 +79,7 @@ impl Shell {
                 let theme = self.settings.settings().theme.next();
                 self.change(Change::Theme(theme), out);
             }
+            Action::Theme(theme) => self.change(Change::Theme(theme), out),
             Action::Passes => self.passes.toggle(None),
             Action::UndoPasses => out.ask(Command::UndoPassEdit),
             Action::RedoPasses => out.ask(Command::RedoPassEdit),
@@ -111,9 +126,72 @@ impl Shell {
                 self.debugger.act(session, action, caret);
             }
             Action::Time(action) => timeline::act(ui.ctx(), session, action, out),
+            Action::Picture(action) => self.act_on_picture(session, action, out),
+            Action::Layout(action) => self.act_on_panel(ui, action),
             Action::Quit => out.ask(Command::Close),
         }
         ui.ctx().request_repaint();
+    }
+
+    fn act_on_picture(&mut self, session: &Session, action: PictureAction, out: &mut Outbox) {
+        let is_halted = session.halt().is_some();
+        match action {
+            PictureAction::Shape(shape) => {
+                out.ask(Command::SetFixedSize(None));
+                self.viewport.set_shape(shape);
+            }
+            PictureAction::Scale(scale) => {
+                out.ask(Command::SetFixedSize(None));
+                out.ask(Command::SetScale(scale.factor()));
+            }
+            PictureAction::Size(size) => out.ask(Command::SetFixedSize(Some(size))),
+            PictureAction::ResetUniforms => out.ask(Command::ResetCustomUniforms),
+            PictureAction::GoOn if is_halted => out.ask(Command::GoOn),
+            PictureAction::Smaller if is_halted => out.ask(Command::DrawSmaller),
+            PictureAction::LastGood if is_halted => out.ask(Command::DrawLastGood),
+            PictureAction::GoOn | PictureAction::Smaller | PictureAction::LastGood => {
+                out.ask(Command::Notify { level: Level::Info, text: "No frame has taken too long.".into(), path: None })
+            }
+        }
+    }
+
+    /// Does it to the panel in which the keyboard is.
+    fn act_on_panel(&mut self, ui: &Ui, action: LayoutAction) {
+        let focused = ui.memory(|m| m.focused()).and_then(|id| ui.ctx().read_response(id));
+        let at = focused.and_then(|widget| self.dock.panel_at(widget.rect.center()));
+        let Some(panel) = at.filter(|_| !self.gallery && !self.presents && !self.fullscreen) else { return };
+        match action {
+            LayoutAction::Resize(side) => self.dock.resize(panel, side),
+            LayoutAction::Move(side) => self.dock.move_to_edge(panel, side),
+            LayoutAction::Share => self.dock.share_place(panel),
+            LayoutAction::Close => self.dock.set_open(panel, false),
+        }
+    }
+
+    fn add_pass(&mut self, tab: Tab, out: &mut Outbox) {
+        out.ask(Command::AddTab(tab.clone()));
+        // It is there in the next frame.
+        self.wishes.push(Wish::GoTo(tab, None));
+        self.uncover(out);
+    }
+
+    /// Returns what only the open project and this machine have to offer: passes to show, and recent projects.
+    pub(super) fn offers(session: &Session) -> Vec<Offer> {
+        let passes = session.tabs().into_iter().filter_map(|tab| match tab {
+            Tab::Pass(id) if id != PassId::Sound => Some(id),
+            _ => None,
+        });
+        let shows = passes.map(|id| Offer {
+            name: format!("show:{}", id.title()),
+            title: format!("Show pass: {}", id.title()),
+            command: Command::ShowPass(id),
+        });
+        let opens = session.recent().iter().take(RECENT).map(|project| Offer {
+            name: format!("recent:{}", project.path.display()),
+            title: format!("Open recent: {} ({})", recent::title(&project.path), recent::parent(&project.path)),
+            command: Command::Open(project.path.display().to_string()),
+        });
+        shows.chain(opens).collect()
     }
 
     /// Draws the value of the expression at the caret, or the picture again where that is what is drawn.

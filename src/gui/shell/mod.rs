@@ -230,7 +230,8 @@ impl Shell {
         if self.help.as_mut().is_some_and(|help| !help.show(ui, &mut out)) {
             self.help = None;
         }
-        if let Some(action) = self.palette.show(ui, &mut out) {
+        let offers = if self.palette.is_open() { Self::offers(session) } else { Vec::new() };
+        if let Some(action) = self.palette.show(ui, &offers, &mut out) {
             out.act(action);
         }
         match self.files.show(ui, &mut out) {
@@ -347,6 +348,24 @@ impl Shell {
         self.places.places.get(name).copied()
     }
 
+    /// Has no dialogs of the desktop's.
+    #[cfg(test)]
+    pub fn type_paths(&mut self) {
+        self.files = Files::without_desktop(Arc::new(|| ()));
+    }
+
+    /// The code has the keyboard.
+    #[cfg(test)]
+    pub fn has_keys(&self, ctx: &egui::Context) -> bool {
+        self.code.has_keys(ctx)
+    }
+
+    /// Opens a panel, in front of those that it shares a place with, or closes it.
+    #[cfg(test)]
+    pub fn set_open(&mut self, panel: Panel, is_open: bool) {
+        self.dock.set_open(panel, is_open);
+    }
+
     /// The tab in front, and the line of its caret from 0.
     #[cfg(test)]
     pub fn caret(&self) -> (crate::project::Tab, usize) {
@@ -356,7 +375,7 @@ impl Shell {
     fn grant(&mut self, ui: &Ui, session: &Session, wish: Wish, out: &mut Outbox) {
         match wish {
             Wish::Act(action) => self.act(ui, session, action, out),
-            Wish::Shape(shape) => self.viewport.set_shape(shape),
+            Wish::ClosePanel(panel) => self.dock.set_open(panel, false),
             Wish::Set(change) => self.change(change, out),
             Wish::Breakpoint(tab, line) => self.debugger.toggle(session, &tab, line),
             Wish::Trace(at) => {

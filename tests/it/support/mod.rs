@@ -6,6 +6,7 @@ pub mod compiled;
 pub mod compute;
 pub mod env;
 pub mod explained;
+pub mod display;
 pub mod first_frame;
 pub mod ir;
 pub mod meshes;

@@ -1,6 +1,6 @@
 //! The real window on a display of its own: Xvfb, the `eddy` binary with `--json`, xdotool for hands.
 
-use super::skipped;
+pub use super::display::Display;
 use serde_json::Value;
 use std::{
     io::{BufRead, BufReader},
@@ -21,70 +21,6 @@ const BEGINS: Duration = Duration::from_secs(4);
 
 /// The file in the home folder that a window's standard error goes to.
 pub const STANDARD_ERROR: &str = "stderr.txt";
-
-/// A display that nobody sees. Ends with the value.
-pub struct Display {
-    server: Child,
-    name: String,
-}
-
-impl Display {
-    /// `None` after saying so where the machine has no Xvfb or xdotool; with `EDDY_REQUIRE_GPU=1` that is a failure.
-    pub fn open() -> Option<Display> {
-        Self::of_size(1000, 700)
-    }
-
-    /// The same with a screen of so many pixels.
-    pub fn of_size(width: u32, height: u32) -> Option<Display> {
-        let missing = ["Xvfb", "xdotool"].into_iter().find(|tool| {
-            !Command::new("sh")
-                .args(["-c", &format!("command -v {tool} >/dev/null")])
-                .status()
-                .is_ok_and(|s| s.success())
-        });
-        if let Some(tool) = missing {
-            assert!(std::env::var_os("EDDY_REQUIRE_GPU").is_none(), "{tool} is required here");
-            skipped(&format!("no {tool}"));
-            return None;
-        }
-        // The server picks a free number and says which.
-        let mut server = Command::new("Xvfb")
-            .args(["-displayfd", "1", "-noreset", "-screen", "0", &format!("{width}x{height}x24"), "-nolisten", "tcp"])
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        let mut line = String::new();
-        BufReader::new(server.stdout.take().unwrap()).read_line(&mut line).unwrap();
-        Some(Display { server, name: format!(":{}", line.trim()) })
-    }
-
-    fn tool(&self, arguments: &[&str]) -> String {
-        let output = Command::new("xdotool").env("DISPLAY", &self.name).args(arguments).output().unwrap();
-        String::from_utf8_lossy(&output.stdout).trim().to_owned()
-    }
-
-    /// A picture of the whole display, for a person to look at when something is wrong.
-    pub fn photograph(&self, path: &Path) {
-        let _ = Command::new("import").env("DISPLAY", &self.name).args(["-window", "root"]).arg(path).status();
-    }
-
-    /// A picture of the whole display in the folder that `EDDY_SHOTS` names, for a person to look at.
-    pub fn shot(&self, name: &str) {
-        if let Some(folder) = std::env::var_os("EDDY_SHOTS") {
-            // Popups fade in.
-            std::thread::sleep(Duration::from_millis(600));
-            self.photograph(&Path::new(&folder).join(name));
-        }
-    }
-}
-
-impl Drop for Display {
-    fn drop(&mut self) {
-        let _ = self.server.kill();
-        let _ = self.server.wait();
-    }
-}
 
 /// A running `eddy` window.
 pub struct Window<'a> {
@@ -121,7 +57,7 @@ impl<'a> Window<'a> {
             .args(size.into_iter().flat_map(|size| ["--size", size]))
             .args(patient)
             .args(arguments)
-            .env("DISPLAY", &display.name)
+            .env("DISPLAY", display.name())
             .env_remove("WAYLAND_DISPLAY")
             .env("HOME", home)
             .env("XDG_RUNTIME_DIR", runtime)

@@ -1,0 +1,78 @@
+//! A row of the table of actions.
+
+use super::{Action, LayoutAction, TraceAction};
+
+/// Where an action belongs in the help, and when its keys are listened to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    Project,
+    Picture,
+    Window,
+    Search,
+    /// While the bar for finding is open.
+    FindBar,
+    /// While the panel of a traced pixel is open.
+    Trace,
+    /// While the code has the keyboard, where these come before all others.
+    Code,
+    Caret,
+}
+
+impl Group {
+    pub const ALL: [Group; 8] = [
+        Group::Project,
+        Group::Picture,
+        Group::Window,
+        Group::Search,
+        Group::FindBar,
+        Group::Trace,
+        Group::Code,
+        Group::Caret,
+    ];
+
+    pub fn title(self) -> &'static str {
+        match self {
+            Group::Project => "Project",
+            Group::Picture => "Picture",
+            Group::Window => "Window",
+            Group::Search => "Find",
+            Group::FindBar => "While the find bar is open",
+            Group::Trace => "While the panel Trace is open",
+            Group::Code => "While typing code",
+            Group::Caret => "Caret and selection",
+        }
+    }
+}
+
+/// An action, what it is called, and the keys it has unless a person gives it others.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    pub action: Action,
+    /// In the file of keys.
+    pub name: &'static str,
+    /// In the palette and in the help.
+    pub title: &'static str,
+    pub keys: &'static [&'static str],
+    pub group: Group,
+}
+
+impl Entry {
+    /// Returns whether a key that is held down does it again and again.
+    pub fn repeats(&self) -> bool {
+        use Action as A;
+        let again = [
+            A::Step,
+            A::StepBack,
+            A::FontLarger,
+            A::FontSmaller,
+            A::ZoomIn,
+            A::ZoomOut,
+            A::FindNext,
+            A::FindPrevious,
+            A::NextProblem,
+            A::NextPanel,
+        ];
+        matches!(self.action, A::Code(_) | A::Trace(TraceAction::Go(..)) | A::Layout(LayoutAction::Resize(_)))
+            || again.contains(&self.action)
+    }
+}

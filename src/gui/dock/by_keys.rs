@@ -1,0 +1,69 @@
+//! What a hand does to panels, done by keys: one is made larger or smaller, put elsewhere, or shown behind another.
+
+use super::{BAR, Dock, Node, Panel, Side, separators, tree};
+use egui::{Pos2, Rect};
+use egui_tiles::LinearDir;
+
+/// Points by which a key moves a line between panels.
+const STEP: f32 = 24.0;
+/// What a panel has of the window at whose edge it is put.
+const EDGE: f32 = 0.33;
+
+impl Dock {
+    /// Returns the panel that a point is in, its title's row included.
+    pub fn panel_at(&self, at: Pos2) -> Option<Panel> {
+        let place = |panel: &Panel| self.tree.tiles.rect(panel.tile());
+        let is_in = |rect: Rect, panel: &Panel| {
+            let row = if panel.has_own_row() { 0.0 } else { BAR };
+            rect.with_min_y(rect.top() - row).contains(at)
+        };
+        self.seen.iter().find(|panel| place(panel).is_some_and(|rect| is_in(rect, panel))).copied()
+    }
+
+    /// Makes a panel narrower or wider, lower or higher. Nothing where it has the whole width, or height.
+    pub fn resize(&mut self, panel: Panel, side: Side) {
+        let (dir, by) = match side {
+            Side::Left => (LinearDir::Horizontal, -STEP),
+            Side::Right => (LinearDir::Horizontal, STEP),
+            Side::Up => (LinearDir::Vertical, -STEP),
+            Side::Down => (LinearDir::Vertical, STEP),
+        };
+        self.is_manual |= separators::nudge(&mut self.tree, panel.tile(), dir, by);
+    }
+
+    /// Puts a panel along an edge of the window, beside all others.
+    pub fn move_to_edge(&mut self, panel: Panel, side: Side) {
+        let Some(rest) = tree::node(&self.tree).and_then(|node| node.without(panel)) else { return };
+        let (moved, rest) = ((Node::Panel(panel), EDGE), (rest, 1.0 - EDGE));
+        self.arrange(match side {
+            Side::Left => Node::Row(vec![moved, rest]),
+            Side::Right => Node::Row(vec![rest, moved]),
+            Side::Up => Node::Column(vec![moved, rest]),
+            Side::Down => Node::Column(vec![rest, moved]),
+        });
+    }
+
+    /// Puts a panel into the place of the one that comes next from left to right and from top to bottom, in front of
+    /// it.
+    pub fn share_place(&mut self, panel: Panel) {
+        let place = |panel: &Panel| self.tree.tiles.rect(panel.tile()).map_or((0.0, 0.0), |r| (r.left(), r.top()));
+        let mut seen: Vec<Panel> = self.seen.iter().copied().collect();
+        seen.sort_by(|a, b| place(a).partial_cmp(&place(b)).unwrap_or(std::cmp::Ordering::Equal));
+        let at = seen.iter().position(|other| *other == panel);
+        let next = at.and_then(|at| seen.get((at + 1) % seen.len())).filter(|next| **next != panel);
+        let rest = tree::node(&self.tree).and_then(|node| node.without(panel));
+        let (Some(next), Some(mut rest)) = (next.copied(), rest) else { return };
+        rest.share(next, panel);
+        self.arrange(rest);
+        self.bring_to_front([panel]);
+    }
+
+    /// Makes an arrangement a person's own.
+    fn arrange(&mut self, node: Node) {
+        self.tree = tree::of(&node);
+        self.is_manual = true;
+        for panel in Panel::ALL {
+            self.tree.tiles.set_visible(panel.tile(), self.open.contains(&panel));
+        }
+    }
+}

@@ -1,0 +1,176 @@
+//! A display of its own for each test: Xvfb, with a window manager where the machine has one.
+
+use super::skipped;
+use std::{
+    io::{BufRead, BufReader},
+    path::Path,
+    process::{Child, Command, Stdio},
+    time::{Duration, Instant},
+};
+
+/// A display that nobody sees. Ends with the value.
+pub struct Display {
+    server: Child,
+    name: String,
+    manager: Option<Manager>,
+}
+
+impl Display {
+    /// `None` after saying so where the machine has no Xvfb or xdotool; with `EDDY_REQUIRE_GPU=1` that is a failure.
+    pub fn open() -> Option<Display> {
+        Self::of_size(1000, 700)
+    }
+
+    /// The same with a screen of so many pixels.
+    pub fn of_size(width: u32, height: u32) -> Option<Display> {
+        Self::with(width, height, false)
+    }
+
+    /// The same with frames round windows, by which they have a place that people gave them. `None` without a window
+    /// manager.
+    pub fn with_frames(width: u32, height: u32) -> Option<Display> {
+        let display = Self::with(width, height, true)?;
+        if display.manager.is_none() {
+            skipped("no openbox");
+            return None;
+        }
+        Some(display)
+    }
+
+    fn with(width: u32, height: u32, has_frames: bool) -> Option<Display> {
+        let missing = ["Xvfb", "xdotool"].into_iter().find(|tool| !is_there(tool));
+        if let Some(tool) = missing {
+            assert!(std::env::var_os("EDDY_REQUIRE_GPU").is_none(), "{tool} is required here");
+            skipped(&format!("no {tool}"));
+            return None;
+        }
+        // The server picks a free number and says which.
+        let mut server = Command::new("Xvfb")
+            .args(["-displayfd", "1", "-noreset", "-screen", "0", &format!("{width}x{height}x24"), "-nolisten", "tcp"])
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let mut line = String::new();
+        BufReader::new(server.stdout.take().unwrap()).read_line(&mut line).unwrap();
+        let name = format!(":{}", line.trim());
+        let manager = Manager::start(&name, has_frames);
+        Some(Display { server, name, manager })
+    }
+
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Windows are managed: they can fill the screen, and are maximised by Super+M and closed by Alt+F4.
+    pub fn is_managed(&self) -> bool {
+        self.manager.is_some()
+    }
+
+    pub fn tool(&self, arguments: &[&str]) -> String {
+        let output = Command::new("xdotool").env("DISPLAY", &self.name).args(arguments).output().unwrap();
+        String::from_utf8_lossy(&output.stdout).trim().to_owned()
+    }
+
+    /// A picture of the whole display, for a person to look at when something is wrong.
+    pub fn photograph(&self, path: &Path) {
+        let _ = Command::new("import").env("DISPLAY", &self.name).args(["-window", "root"]).arg(path).status();
+    }
+
+    /// A picture of the whole display in the folder that `EDDY_SHOTS` names, for a person to look at.
+    pub fn shot(&self, name: &str) {
+        if let Some(folder) = std::env::var_os("EDDY_SHOTS") {
+            // Popups fade in.
+            std::thread::sleep(Duration::from_millis(600));
+            self.photograph(&Path::new(&folder).join(name));
+        }
+    }
+}
+
+impl Drop for Display {
+    fn drop(&mut self) {
+        self.manager = None;
+        let _ = self.server.kill();
+        let _ = self.server.wait();
+    }
+}
+
+fn is_there(tool: &str) -> bool {
+    let sought = Command::new("sh").args(["-c", &format!("command -v {tool} >/dev/null")]).status();
+    sought.is_ok_and(|status| status.success())
+}
+
+/// A window manager. Ends with the value, and before its display.
+struct Manager {
+    process: Child,
+    /// Its settings.
+    _home: tempfile::TempDir,
+}
+
+impl Manager {
+    /// `None` where the machine has none: windows then lie on the bare screen.
+    fn start(display: &str, has_frames: bool) -> Option<Manager> {
+        if !is_there("openbox") {
+            return None;
+        }
+        let home = tempfile::tempdir().unwrap();
+        let file = home.path().join("rc.xml");
+        // Without frames a window lies in the screen's corner, so that its pixels are the screen's.
+        let every = if has_frames {
+            ""
+        } else {
+            "<application class=\"*\"><decor>no</decor><position force=\"yes\"><x>0</x><y>0</y></position></application>"
+        };
+        std::fs::write(&file, SETTINGS.replace("EVERY", every)).unwrap();
+        let process = Command::new("openbox")
+            .args(["--sm-disable", "--config-file"])
+            .arg(&file)
+            .env("DISPLAY", display)
+            .env("HOME", home.path())
+            .env_remove("WAYLAND_DISPLAY")
+            .env_remove("XDG_CONFIG_HOME")
+            .env_remove("XDG_CACHE_HOME")
+            .stdout(Stdio::null())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let manager = Manager { process, _home: home };
+        // It manages windows once it says how many desktops there are.
+        let end = Instant::now() + Duration::from_secs(20);
+        let asks = || Command::new("xdotool").env("DISPLAY", display).arg("get_num_desktops").output().unwrap();
+        while asks().stdout.trim_ascii() != b"1" {
+            assert!(Instant::now() < end, "openbox does not begin");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        Some(manager)
+    }
+}
+
+impl Drop for Manager {
+    fn drop(&mut self) {
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
+
+/// Openbox without keys of its own, which would be taken from the window: but for two, by which tests do what people
+/// do with a frame.
+const SETTINGS: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
+<openbox_config xmlns="http://openbox.org/3.4/rc">
+  <focus><focusNew>yes</focusNew><followMouse>no</followMouse></focus>
+  <placement><policy>Smart</policy></placement>
+  <theme><keepBorder>no</keepBorder></theme>
+  <desktops><number>1</number><popupTime>0</popupTime></desktops>
+  <resize><drawContents>yes</drawContents><popupShow>Never</popupShow></resize>
+  <keyboard>
+    <keybind key="W-m"><action name="ToggleMaximize"/></keybind>
+    <keybind key="A-F4"><action name="Close"/></keybind>
+  </keyboard>
+  <mouse>
+    <context name="Client">
+      <mousebind button="Left" action="Press"><action name="Focus"/><action name="Raise"/></mousebind>
+    </context>
+  </mouse>
+  <applications>EVERY</applications>
+</openbox_config>
+"#;
