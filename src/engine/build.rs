@@ -13,7 +13,7 @@ use super::{
     uploads::Uploads,
 };
 use crate::{
-    diag::{self, Diagnostic, SourceMap},
+    diag::{self, Diagnostic, SourceId, SourceMap},
     glsl::{Driver, Probe, opt::PassSet},
     gpu::Gpu,
     graph::{ChannelFacts, FramePlan, PassFacts},
@@ -39,6 +39,14 @@ impl BuildOptions {
     /// the pass that is probed, and reads what that reads.
     pub fn probed() -> PassId {
         PassId::Buffer("probe of a value".into())
+    }
+
+    /// Draws beside a pass the first value of the innermost expression at a byte of a text, or of the variable whose
+    /// name is declared there, and nothing else that it does not need.
+    #[must_use]
+    pub fn probing(self, pass: PassId, source: SourceId, at: u32) -> Self {
+        let probe = Some((pass, Probe { source, at, visit: 0 }));
+        Self { wanted: vec![BuildOptions::probed()], probe, ..self }
     }
 }
 

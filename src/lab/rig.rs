@@ -45,7 +45,11 @@ impl Rig {
         let (project, media) = setup.project()?;
         let (width, height) = setup.size();
         let mut engine = Engine::new(self.gpu.clone(), width, height)?;
-        let options = BuildOptions { wanted: setup.wanted().to_vec(), skip: setup.skips(), ..BuildOptions::default() };
+        let mut options =
+            BuildOptions { wanted: setup.wanted().to_vec(), skip: setup.skips(), ..BuildOptions::default() };
+        if let Some((pass, source, at)) = setup.value_at(&project)? {
+            options = options.probing(pass, source, at);
+        }
         let built = Program::build(&self.gpu, &project, &media, &options);
         engine.set_program(built.map_err(|e| LabError::build(setup.folder(), e))?.program)?;
         Ok(Running { engine, name: setup.folder().into(), frame: 0, stop: self.stop.clone() })
@@ -77,6 +81,12 @@ impl Running {
         self.engine.draw(&FrameInputs::at_fixed_step(self.frame, 60.0))?;
         self.frame += 1;
         Ok(())
+    }
+
+    /// The value that the setup looks at ([`Setup::wants_value`]), NaN where it never was.
+    pub fn read_value(&mut self) -> Result<Field, LabError> {
+        let lacks = |_| LabError::Setup { method: self.name.clone(), what: "value that is looked at".into() };
+        self.engine.read_target(&BuildOptions::probed(), 0).map(Field).map_err(lacks)
     }
 
     pub fn read(&mut self, name: &str) -> Result<Field, LabError> {

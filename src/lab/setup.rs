@@ -2,8 +2,13 @@
 
 use super::{LabError, fingerprint::Fingerprint};
 use crate::{
+    diag::SourceId,
+    engine::BuildOptions,
     media::{MediaSet, TexelFormat, Texels},
-    project::{self, CustomUniformType, CustomUniformValue, Fill, Origin, PassFormat, PassId, Project},
+    project::{
+        self, Channel, CustomUniformType, CustomUniformValue, Fill, Filter, Input, Origin, PassFormat, PassId, Project,
+        Sampler, Wrap,
+    },
 };
 use include_dir::{Dir, include_dir};
 use std::{path::PathBuf, sync::Arc};
@@ -45,6 +50,8 @@ pub struct Setup {
     storage: Storage,
     wanted: Vec<PassId>,
     skip: bool,
+    given: Vec<PassId>,
+    value: Option<(PassId, &'static str)>,
     built: Option<Build>,
 }
 
@@ -65,6 +72,8 @@ impl Setup {
             storage: Storage::AsWritten,
             wanted: vec![pass("field")],
             skip: true,
+            given: Vec::new(),
+            value: None,
             built: None,
         }
     }
@@ -137,7 +146,7 @@ impl Setup {
     }
 
     /// Puts `new` in place of `old` in a pass's text or in `common`, which must have it. For what a preset gives no
-    /// custom uniform: its scene, or the light before the curve that a screen needs.
+    /// custom uniform: its scene.
     #[must_use]
     pub fn edit(mut self, name: &str, old: &str, new: impl Into<String>) -> Self {
         let pass = (name != "common").then(|| pass(name));
@@ -166,6 +175,24 @@ impl Setup {
         let bytes = bytemuck::cast_slice(texels).to_vec();
         self.states.push((path.clone(), Arc::new(Texels { width, height, format: TexelFormat::Rgba32Float, bytes })));
         self.initial.push((pass(name), Fill::file(path)));
+        self
+    }
+
+    /// A pass of the canvas's size gives these texels in every frame, from the bottom left, whatever its text says: what
+    /// a filter is held against. It is drawn in every frame, as a scene is.
+    #[must_use]
+    pub fn given(mut self, name: &str, texels: &[[f32; 4]]) -> Self {
+        self.given.push(pass(name));
+        self.state(name, texels)
+    }
+
+    /// Looks at a value of a pass instead of at its picture: the first that the variable gets which the pass declares
+    /// by the words `declaration`, as in `vec3 light`. So what a preset makes is seen before the curve that a screen
+    /// needs, and its text stays as it is; `eddy probe` does the same for any project.
+    #[must_use]
+    pub fn wants_value(mut self, name: &str, declaration: &'static str) -> Self {
+        self.value = Some((pass(name), declaration));
+        self.wanted = vec![BuildOptions::probed()];
         self
     }
 
@@ -208,6 +235,13 @@ impl Setup {
         }
         for (id, text) in &self.texts {
             project.pass_mut(id).ok_or_else(|| lacks(id.title()))?.source.text = text.as_str().into();
+        }
+        for id in &self.given {
+            let pass = project.pass_mut(id).ok_or_else(|| lacks(id.title()))?;
+            let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: true };
+            let PassId::Buffer(name) = id else { return Err(lacks("a buffer to be given".into())) };
+            pass.source.text = GIVEN.into();
+            pass.channels = [Some(Channel { input: Input::Buffer(name.clone()), sampler }), None, None, None];
         }
         for Edit { pass, old, new } in &self.edits {
             let source = match pass {
@@ -265,9 +299,31 @@ impl Setup {
             print.eat(&texels.bytes);
         }
         print.eat(format!("{:?} {:?} {}", self.size, self.wanted, self.skip).as_bytes());
+        print.eat(format!("{:?}", self.value).as_bytes());
         Ok(print.text())
     }
+
+    /// The value that is looked at, in this setup's project: its pass and its place in a text. `None` where a picture
+    /// is.
+    pub(super) fn value_at(&self, project: &Project) -> Result<Option<(PassId, SourceId, u32)>, LabError> {
+        let Some((id, declaration)) = &self.value else { return Ok(None) };
+        let lacks = || LabError::Setup { method: self.folder.into(), what: format!("declaration `{declaration}`") };
+        let index = project.passes.iter().position(|p| p.id == *id).ok_or_else(lacks)?;
+        let text = &project.passes[index].source.text;
+        let is_word = |c: char| c.is_alphanumeric() || c == '_';
+        let ends = text.match_indices(*declaration).map(|(at, found)| at + found.len());
+        let mut ends = ends.filter(|end| !text[*end..].starts_with(is_word));
+        // The last letter of the variable's name.
+        let at = ends.next().ok_or_else(lacks)? - 1;
+        Ok(Some((id.clone(), Project::pass_id(index), at as u32)))
+    }
 }
+
+/// Text of a pass that gives what it is given.
+const GIVEN: &str = "void mainImage(out vec4 texel, in vec2 fragCoord) {
+    texel = texelFetch(iChannel0, ivec2(fragCoord), 0);
+}
+";
 
 /// A buffer by the name its file has, or `image`.
 pub fn pass(name: &str) -> PassId {
@@ -309,6 +365,50 @@ pub fn frames_of(total: u32, most: u32) -> (u32, u32) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Functions of a text by their first line, each to its closing brace.
+    fn functions(text: &str) -> Vec<(&str, &str)> {
+        let begins = text.match_indices(") {\n").filter_map(|(at, _)| {
+            let line = text[..at].rfind('\n').map_or(0, |n| n + 1);
+            let is_function =
+                text[line..].starts_with(|c: char| c.is_ascii_lowercase()) && !text[line..at].contains('=');
+            is_function.then_some(line)
+        });
+        begins
+            .filter_map(|from| {
+                let body = &text[from..];
+                let body = &body[..body.find("\n}\n")? + 3];
+                Some((body.split('\n').next()?, body))
+            })
+            .collect()
+    }
+
+    /// Projects of methods stand by themselves, as they are opened and saved; what they have in common is copied.
+    #[test]
+    fn what_methods_have_in_common_is_the_same() {
+        let mut compared = 0;
+        for family in [
+            &["diffusion_stencil/common.glsl", "diffusion_blur/common.glsl"][..],
+            &["gray_scott_stencil/common.glsl", "gray_scott_blur/common.glsl"],
+            &["poisson_jacobi/common.glsl", "poisson_sor/common.glsl", "poisson_cycle/common.glsl"],
+            &["blur_taps/buffer_source.glsl", "blur_pyramid/buffer_source.glsl"],
+        ] {
+            let text = |name: &str| METHODS.get_file(name).and_then(|f| f.contents_utf8()).unwrap();
+            let first = functions(text(family[0]));
+            assert!(!first.is_empty(), "{}", family[0]);
+            for other in &family[1..] {
+                let others = functions(text(other));
+                let both = first.iter().filter_map(|(head, body)| {
+                    others.iter().find(|(other, _)| other == head).map(|(_, other)| (head, body, other))
+                });
+                for (head, one, another) in both {
+                    assert_eq!(one, another, "`{head}` of {} and {other}", family[0]);
+                    compared += 1;
+                }
+            }
+        }
+        assert!(compared >= 10, "{compared}");
+    }
 
     #[test]
     fn steps_are_shared_out_exactly() {
@@ -361,5 +461,9 @@ mod tests {
         assert!(said(Setup::new("floor", (8, 8)).text("nope", "")).contains("has no Buffer nope"));
         assert!(said(Setup::new("floor", (8, 8)).edit("copy", "nope", "")).contains("has no text `nope`"));
         assert!(said(Setup::new("floor", (8, 8)).edit("common", "nope", "")).contains("has no text `nope`"));
+        assert!(said(Setup::new("floor", (8, 8)).given("nope", &[])).contains("has no Buffer nope"));
+        let setup = Setup::new("floor", (8, 8)).wants_value("copy", "vec3 nope");
+        let said = setup.value_at(&setup.project().unwrap().0).unwrap_err().to_string();
+        assert!(said.contains("has no declaration `vec3 nope`"), "{said}");
     }
 }

@@ -40,6 +40,14 @@ impl Unit {
     }
 }
 
+/// Four grids, each twice the one before: a quick run measures on the first three, a full run on the last three.
+pub fn three_of(extent: Extent, grids: &'static [u32; 4]) -> &'static [u32] {
+    match extent {
+        Extent::Quick => &grids[..3],
+        Extent::Full => &grids[1..],
+    }
+}
+
 /// How much to measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -151,6 +159,13 @@ pub trait Study: Sync {
     /// A finer grid is a finer answer to the same question, so that an order can be observed.
     fn has_order(&self) -> bool {
         true
+    }
+
+    /// Names a further figure whose sign tells on which side of the truth a method is, where a smaller setting is a
+    /// finer answer: where it turns from one setting to the next, two errors cancel between them, and the report takes
+    /// for the best error what finer settings keep.
+    fn signed(&self) -> Option<&'static str> {
+        None
     }
 
     /// Returns what the report compares by the time to an error of 1 %.

@@ -4,10 +4,13 @@
 use crate::support::gpu;
 use eddy::lab::{
     Point, Rig, Study,
-    metrics::{Norms, order, square_drift},
-    reference::cavity::{REYNOLDS, extrema},
+    metrics::{Norms, order, square_drift, viscosity_ratio},
+    reference::{
+        cavity::{REYNOLDS, extrema},
+        spectral::{Spectral, shear_layers},
+    },
     studies::{
-        cavity,
+        self, cavity,
         flow::{Flow, STIFFNESS},
         fluid, rest,
         torus::{Torus, energy_kept},
@@ -17,6 +20,38 @@ use std::f64::consts::TAU;
 
 fn rig() -> Option<Rig> {
     gpu().map(Rig::new)
+}
+
+/// Relative L2 errors after one turn on 64 x 64 and 128 x 128 texels that an independent f64 program finds: of a
+/// Gaussian, and of Zalesak's disk.
+const TURNED: [(&str, [f64; 2], [f64; 2]); 5] = [
+    ("bilinear", [0.769, 0.627], [0.703, 0.649]),
+    ("maccormack", [0.473, 0.163], [0.703, 0.494]),
+    ("maccormack-clamped", [0.452, 0.160], [0.649, 0.531]),
+    ("bfecc", [0.2505, 0.0744], [0.485, 0.388]),
+    ("catmull-rom", [0.2503, 0.0741], [0.488, 0.392]),
+];
+
+#[test]
+fn advection_errs_and_converges_as_is_known() {
+    let Some(rig) = rig() else { return };
+    let study = studies::named(&["advection".into()]).unwrap()[0];
+    for (method, gaussian, disk) in TURNED {
+        let measured = [64, 128].map(|grid| {
+            let point = Point { study: "advection".into(), method: method.into(), setting: 1.0, grid };
+            let measured = study.measure(&rig, &point).unwrap();
+            (measured.norms.l2, measured.values["zalesak_l2"].0)
+        });
+        let observed = order(measured[0].0, measured[1].0, 2.0);
+        println!("{method}: {measured:.4?}, order {observed:.2}");
+        for (n, (of_gaussian, of_disk)) in measured.into_iter().enumerate() {
+            assert!((of_gaussian / gaussian[n] - 1.0).abs() < 0.01, "{method}: {of_gaussian} for {}", gaussian[n]);
+            assert!((of_disk / disk[n] - 1.0).abs() < 0.02, "{method}: {of_disk} for {}", disk[n]);
+        }
+        // On grids this coarse no method has come to its order yet: 1.9 to 2.0 between 128 and 256.
+        let wanted = order(gaussian[0], gaussian[1], 2.0);
+        assert!((observed - wanted).abs() < 0.03, "{method}: {observed}, not {wanted}");
+    }
 }
 
 /// Relative L2 error of a method at half a texel a step, on a grid of n.
@@ -52,6 +87,11 @@ fn the_accurate_fluid_rolls_shear_layers_up_as_a_spectral_method_does() {
     assert!((energy_kept() - 0.982_792).abs() < 1e-5, "{}", energy_kept());
     assert!((kept - energy_kept()).abs() < 0.001, "{kept}");
     assert!(error < 0.03, "{error}");
+    // The figure that is found elsewhere, .9797, is that of t = 1.2.
+    let mut later = Spectral::new(64, |x, y| shear_layers(30.0, x, y));
+    let first = later.energy();
+    later.run(1e-4, 1.2, 192);
+    assert!((later.energy() / first - 0.97973).abs() < 1e-4, "{}", later.energy() / first);
     let (_, [before, after], _) = Torus::ShearLayer.run(&rig, "bilinear-jacobi-20", 64, 0.5).unwrap();
     let lost = energy_kept() - 1.0 - square_drift(&before, &after);
     assert!(lost > 0.01, "advection by lines loses energy: {lost}");
@@ -121,6 +161,20 @@ fn the_cavity_of_re_1000_on_a_coarse_grid_is_four_times_as_far_off() {
     assert!(u < 0.035 && v < 0.035, "{u} {v}");
 }
 
+/// The like at Re = 400, where 128 x 128 texels come within .0019 in u and .0039 in v: .0086 and .0056. This grid takes
+/// seconds where the gates above take a minute.
+#[test]
+fn the_cavity_of_re_400_on_a_coarse_grid_is_four_times_as_far_off() {
+    let Some(rig) = rig() else { return };
+    let (lines, _) = cavity::lines(&rig, "fluid-accurate", 64, 2.0, 400.0, 30.0).unwrap();
+    let (u, v) = lines.off_tables(1);
+    println!("{u} {v}, noise {}", lines.noise);
+    assert!(u < 0.012 && v < 0.009, "{u} {v}");
+    // Another Reynolds number's lines are not these.
+    let (u, v) = lines.off_tables(2);
+    assert!(u.max(v) > 0.05, "{u} {v}");
+}
+
 /// A flow that is far from having come to rest is not that of the tables.
 #[test]
 fn the_cavity_is_not_that_of_the_tables_too_early_or_at_another_reynolds_number() {
@@ -178,6 +232,33 @@ fn a_checkerboard_in_the_pressure_goes() {
         let left = left(name, 0.15);
         assert!(left > 0.9, "{name}: {left}");
     }
+}
+
+/// On 64 x 64 texels, speed 1, until it has halved: the preset errs by less than 2 %, and by how its energy falls its
+/// viscosity is the one that was asked for.
+#[test]
+fn the_accurate_fluid_keeps_the_vortex_and_its_viscosity() {
+    let Some(rig) = rig() else { return };
+    let (n, nu, k) = (64, fluid::Begin::USUAL.viscosity, TAU / 64.0);
+    let kept = |name: &str, dt: f64| {
+        let solver = fluid::solver(name, n, dt, fluid::Begin { speed: 1.0, ..fluid::Begin::USUAL });
+        let (frames, time) = solver.frames(2f64.ln() / (2.0 * nu * k * k));
+        let mut running = rig.open(&solver.setup).unwrap();
+        let before = solver.velocity(&mut running).unwrap();
+        running.frames(frames).unwrap();
+        let after = solver.velocity(&mut running).unwrap();
+        let decay = (-2.0 * nu * k * k * time).exp();
+        let exact: Vec<f64> = before.iter().map(|u| decay * u).collect();
+        let energy = |v: &[f64]| v.iter().map(|u| u * u).sum::<f64>();
+        (Norms::of(&after, &exact).l2, viscosity_ratio(energy(&before), energy(&after), nu, k, time))
+    };
+    for dt in [0.6, 2.4] {
+        let (error, ratio) = kept("fluid-accurate", dt);
+        println!("dt {dt}: {error:.5}, nu_eff / nu {ratio:.4}");
+        assert!(error < 0.02 && (0.98..=1.03).contains(&ratio), "dt {dt}: {error}, {ratio}");
+    }
+    let (error, ratio) = kept("bilinear-jacobi-20", 0.15);
+    assert!(error > 0.1 && ratio > 1.2, "{error} {ratio}");
 }
 
 /// The one-pass fluid's errors that others found, on 64 x 64 texels at dt = .15: .036, .159, .248 at speeds of .1, .5

@@ -7,7 +7,7 @@ use eddy::lab::{
     picture::{psnr, ssim},
     reference::{rays::Errors, star::Star},
     studies::{
-        ao,
+        ao, ao_closed,
         bloom::{self, PERIOD, Worst},
         ssr, taa,
     },
@@ -28,7 +28,7 @@ fn worst(rig: &Rig, method: &str, setting: f64, size: (u32, u32), phases: u32) -
 #[test]
 fn a_bloom_keeps_light_and_place_at_every_phase() {
     let Some(rig) = rig() else { return };
-    // Within 1 % of the total and .25 pixels of the centroid, at every phase, even and odd: the gate.
+    // Within 1 % of the total and .25 pixels of the centroid, at every phase, even and odd.
     for (size, phases) in [((256, 256), PERIOD * PERIOD), ((333, 187), 2 * PERIOD), ((187, 333), PERIOD)] {
         let found = worst(&rig, "bloom", 1.15, size, phases);
         println!("bloom at {size:?}: {found:?}");
@@ -48,6 +48,26 @@ fn a_bloom_keeps_light_and_place_at_every_phase() {
 }
 
 #[test]
+fn a_bloom_keeps_light_and_place_along_a_row_and_a_column_of_odd_canvases() {
+    let Some(rig) = rig() else { return };
+    for (method, setting, size) in [
+        ("bloom", 1.15, (333, 187)),
+        ("bloom", 1.15, (187, 333)),
+        ("bloom-sized", 0.62, (333, 187)),
+        ("bloom-sized", 0.62, (349, 201)),
+    ] {
+        let middle = [size.0 / 2 - PERIOD / 2, size.1 / 2 - PERIOD / 2];
+        let row = (0..PERIOD).map(|n| [middle[0] + n, size.1 / 2]);
+        let column = (0..PERIOD).map(|n| [size.0 / 2, middle[1] + n]);
+        let places: Vec<[u32; 2]> = row.chain(column).collect();
+        let mut found = Worst::NONE;
+        bloom::spots(&rig, &bloom::setup(method, setting, size), &places, |spot| found.add(&spot)).unwrap();
+        println!("{method} at {size:?}: {found:?}");
+        assert!(found.gain() < 0.01 && found.shift < 0.25, "{method} at {size:?}: {found:?}");
+    }
+}
+
+#[test]
 fn light_comes_back_at_the_edges_of_every_size() {
     let Some(rig) = rig() else { return };
     for (method, setting) in [("bloom", 1.15), ("bloom-sized", 0.62), ("bloom-sized", 0.3)] {
@@ -61,26 +81,29 @@ fn light_comes_back_at_the_edges_of_every_size() {
 }
 
 #[test]
-fn the_classic_clamp_resolves_what_the_sheet_says() {
+fn the_classic_clamp_resolves_as_much_as_is_known() {
     let Some(rig) = rig() else { return };
     let still = Star { frame: None }.picture();
     let found = |method, setting| {
         let rest = taa::rest(&rig, method, setting).unwrap();
         (psnr(&rest.picture, &still), ssim(&rest.picture, &still))
     };
-    // Section (d) of the sheet: a star and a hairline at frame 64, alpha .1, mean +- gamma sigma: 35.0 dB at .75, 38.4
-    // at 1, 39.4 at 1.25, 39.6 without a clamp, 25.9 with one sample. Its star's rays and contrast are not said; with
-    // 72 and .28 an f64 model of the method comes to 35.5, 38.1, 38.9, 39.5 and 25.8.
-    for (method, gamma, sheet) in [
-        ("taa-blind", 0.75, 35.0),
-        ("taa-blind", 1.0, 38.4),
-        ("taa-blind", 1.25, 39.4),
-        ("taa-blind", 4.0, 39.6),
-        ("one-sample", 1.0, 25.9),
+    // A star and a hairline at frame 64, alpha .1, mean +- gamma sigma. Known is 35.0 dB at .75, 38.4 at 1, 39.4 at
+    // 1.25, 39.6 without a clamp, 25.9 with one sample; of a star whose rays and contrast are not said. With ours, 72
+    // and .28, an f64 model of the method comes to 35.6, 38.1, 39.0, 39.6 and 25.8 dB and to the similarities below.
+    // The known similarity, .995, belongs to a star of fewer rays and more contrast: of 16 rays and .6 the model has
+    // 36.2 dB and .9951.
+    for (method, gamma, known, model) in [
+        ("taa-blind", 0.75, 35.0, 0.9761),
+        ("taa-blind", 1.0, 38.4, 0.9846),
+        ("taa-blind", 1.25, 39.4, 0.9864),
+        ("taa-blind", 4.0, 39.6, 0.9896),
+        ("one-sample", 1.0, 25.9, 0.8990),
     ] {
         let (decibel, similarity) = found(method, gamma);
-        println!("{method} at {gamma}: {decibel:.2} dB (sheet {sheet}), SSIM {similarity:.4}");
-        assert!((decibel - sheet).abs() < 0.8, "{method} at {gamma}: {decibel} dB, {sheet} in the sheet");
+        println!("{method} at {gamma}: {decibel:.2} dB ({known} known), SSIM {similarity:.4} ({model} of the model)");
+        assert!((decibel - known).abs() < 0.8, "{method} at {gamma}: {decibel} dB, {known} known");
+        assert!((similarity - model).abs() < 0.004, "{method} at {gamma}: SSIM {similarity}, {model} of the model");
     }
 }
 
@@ -97,7 +120,6 @@ fn the_preset_keeps_detail_at_rest_without_more_ghost() {
     for (name, moving) in [("preset", &wide), ("narrow", &narrow), ("blind", &blind)] {
         println!("{name}: ghost {:.4}, tail {:.1} px, {:.3?}", moving.beside, moving.tail(), &moving.ghost[..8]);
     }
-    // The gate.
     assert!(decibel >= 31.0, "{decibel} dB at rest");
     assert!(wide.beside <= narrow.beside * 1.05 + 1e-3, "ghost {} and {}", wide.beside, narrow.beside);
     // What has left leaves no tail, however wide the box is: where it was there is no history. It was 71 pixels and
@@ -115,7 +137,7 @@ fn the_preset_keeps_detail_at_rest_without_more_ghost() {
 #[test]
 fn occlusion_is_that_of_rays() {
     let Some(rig) = rig() else { return };
-    // The gate: a root mean square of .05, and less than .01 on what is open.
+    // A root mean square of .05, and less than .01 on what is open.
     for (method, samples) in [("horizons", 24.0), ("rays", 64.0)] {
         let found = ao::occlusion(&rig, method, samples, (320, 320)).unwrap();
         let off = Errors::of(found.iter().map(|o| (o.measured, o.expected)));
@@ -131,13 +153,24 @@ fn occlusion_is_that_of_rays() {
 #[test]
 fn occlusion_beside_a_wall_and_below_a_sphere_is_the_closed_form() {
     let Some(rig) = rig() else { return };
-    let found = ao::closed(&rig, 64.0, 320).unwrap();
+    let found = ao_closed::closed(&rig, 64.0, 320).unwrap();
     println!("{found:?}");
     assert!(found.open < 0.01, "{found:?}");
     // The presets' stated biases: too little beside a wall, whose edge the march finds only nearly, and too much below
     // a sphere, which is thinner at its rim than things are taken to be. Directions without the cosine would be .1 off
     // beside a wall.
     assert!(found.wall.abs() < 0.07 && found.sphere.abs() < 0.12, "{found:?}");
+}
+
+#[test]
+fn occlusion_of_meshes_beside_a_wall_and_below_a_sphere_is_that_of_geometry() {
+    let Some(rig) = rig() else { return };
+    let found = |method| ao_closed::closed_of_meshes(&rig, method, 64.0, 320).unwrap();
+    let [rays, points, sphere] = ["rays", "points", "sphere"].map(found);
+    println!("{rays:?}, {points:?}, {sphere:?}");
+    assert!(rays.open < 0.01 && rays.wall.abs() < 0.03 && rays.sphere.abs() < 0.05, "{rays:?}");
+    // The gate shuts out what it should: points of the whole sphere, without the cosine.
+    assert!(sphere.wall.abs().max(sphere.sphere.abs()) > 0.05, "{sphere:?}");
 }
 
 #[test]

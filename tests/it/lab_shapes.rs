@@ -66,7 +66,7 @@ fn the_ball_breaks_the_bricks_that_the_exact_ball_breaks() {
     assert!(peer.bricks_wrong > 0 && peer.off > 1.0, "{peer:?}");
 }
 
-/// The sheet's gate is less than .001 px after 1e5 bounces, which `tests/it/presets.rs` has as an equality; this is its
+/// Known of it is less than .001 px after 1e5 bounces, which `tests/it/presets.rs` has as an equality; this is its
 /// study.
 #[test]
 fn the_ball_is_on_the_unfolded_path_after_a_thousand_bounces() {
@@ -170,7 +170,7 @@ fn is_whole(engine: &mut Engine, project: &Project) -> bool {
     project.passes.iter().all(|p| engine.read(&p.id).map_or(true, |pixels| all_finite(&pixels)))
 }
 
-/// Sheet, 6.7 and section 4: left alone, a NaN spreads by a texel a step until nothing else is left.
+/// Left alone, a NaN spreads by a texel a step until nothing else is left.
 #[test]
 fn a_nan_in_the_middle_of_a_simulation_is_gone_within_its_frames() {
     let Some(gpu) = gpu() else { return };

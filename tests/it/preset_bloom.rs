@@ -1,30 +1,37 @@
 //! What the presets that bloom promise: a spot keeps its light and its place wherever it is, at every size.
 
 use crate::support::{preset::*, *};
-use eddy::{engine::Engine, gpu::Gpu, project::PassId};
+use eddy::{
+    engine::{BuildOptions, Engine, Program},
+    gpu::Gpu,
+    media::MediaSet,
+    project::{PassId, Project},
+};
 
 /// A lit texel where the mouse is.
 const SPOT: &str = "void mainImage(out vec4 o, in vec2 p) { o = vec4(ivec2(p) == ivec2(iMouse.xy) ? 1.0 : 0.0); }";
 
-/// An engine whose Buffer A is the spot and whose picture is the bloom alone, in linear light.
+/// An engine whose Buffer A is the spot, and that looks at the light that Image has before its curve: the first value of
+/// a variable there.
 fn bloom_of_a_spot(gpu: &Gpu, name: &str, size: (u32, u32)) -> Engine {
     let custom_uniforms = if name == "bloom" { &["strength=1"][..] } else { &["strength=1", "calm=false"] };
     let mut project = preset(name, custom_uniforms);
     replace(&mut project, "A", SPOT);
-    let source = &mut project.pass_mut(&PassId::Image).unwrap().source;
-    let (curve, light) = match name {
-        "bloom" => ("sqrt(reinhard(light * exp2(exposure)))", "light"),
-        _ => ("sqrt(reinhard(mix(sharp, wide, strength) * exp2(exposure)))", "mix(sharp, wide, strength)"),
-    };
-    assert!(source.text.contains(curve), "{name}: the picture no longer says `{curve}`");
-    source.text = source.text.replace(curve, light).into();
-    engine(gpu, &project, size)
+    let index = project.passes.iter().position(|p| p.id == PassId::Image).unwrap();
+    let declaration = if name == "bloom" { "vec3 light" } else { "vec3 wide" };
+    let begin = project.passes[index].source.text.find(declaration).expect(declaration);
+    let at = (begin + declaration.len() - 1) as u32;
+    let options = BuildOptions::default().probing(PassId::Image, Project::pass_id(index), at);
+    let program = Program::build(gpu, &project, &MediaSet::new(), &options).unwrap().program;
+    let mut engine = Engine::new(gpu.clone(), size.0, size.1).unwrap();
+    engine.set_program(program).unwrap();
+    engine
 }
 
-/// The sum of the picture, and how far its centroid is from the spot, in pixels.
+/// The sum of the light, and how far its centroid is from the spot, in pixels.
 fn total_and_shift(engine: &mut Engine, at: [u32; 2]) -> (f64, f64) {
     engine.draw(&at_frame(0, Some(at.map(|v| v as f32)))).unwrap();
-    let pixels = picture(engine);
+    let pixels = engine.read(&BuildOptions::probed()).unwrap();
     let mut moments = [0.0; 3];
     for (i, t) in pixels.texels.iter().enumerate() {
         let (x, y, light) = (i as u32 % pixels.width, i as u32 / pixels.width, f64::from(t[0]));

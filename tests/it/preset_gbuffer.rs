@@ -159,6 +159,62 @@ fn beside_a_wall_the_hidden_part_of_the_sky_is_the_analytic_one() {
     }
 }
 
+/// Columns in the middle, where the wall's ends are far, and rows of the floor that are hidden by some and not by most.
+const COLUMNS: std::ops::Range<u32> = 96..224;
+
+fn hidden_rows(surfaces: &Pixels, hidden: &Pixels) -> Vec<u32> {
+    let mean = |y: u32| COLUMNS.map(|x| texel(hidden, x, y)[0]).sum::<f32>() / COLUMNS.len() as f32;
+    let is_floor = |y: &u32| (texel(surfaces, 160, *y)[3] - 1.5).abs() < 0.1 && (0.03..0.4).contains(&mean(*y));
+    (0..surfaces.height).filter(is_floor).collect()
+}
+
+/// What is left of the square of 4 x 4 texels of half the size by which directions are turned, beside a wall along
+/// which nothing changes: the most by which columns differ that are at other places in it. And how much of what changes
+/// from row to row changes at one place of it, of 8 rows: 1 of a slope that is even.
+fn pattern(gpu: &eddy::gpu::Gpu, planted: Option<(&str, &str)>) -> (f32, f32) {
+    let mut project = preset("gbuffer-ssao-ssr", &[]);
+    corner(&mut project, 0.8);
+    if let Some((pass, text)) = planted {
+        replace(&mut project, pass, text);
+    }
+    let mut engine = whole(gpu, &project, (320, 180));
+    draw(&mut engine, 0..1);
+    let (surfaces, hidden) = (read(&mut engine, "A"), read(&mut engine, "C"));
+    let rows = hidden_rows(&surfaces, &hidden);
+    assert!(rows.len() > 8, "{rows:?}");
+    let along = |y: u32| {
+        let phase = |k: u32| COLUMNS.skip(k as usize).step_by(8).map(|x| texel(&hidden, x, y)[0]).sum::<f32>() / 16.0;
+        let (low, high) = (0..8).map(phase).fold((f32::MAX, 0.0f32), |(a, b), v| (a.min(v), b.max(v)));
+        high - low
+    };
+    let step = |y: u32| COLUMNS.map(|x| (texel(&hidden, x, y + 1)[0] - texel(&hidden, x, y)[0]).abs()).sum::<f32>();
+    let steps: Vec<f32> = (0..8)
+        .map(|k| {
+            let of_phase: Vec<f32> = rows.iter().filter(|y| **y % 8 == k).map(|y| step(*y)).collect();
+            of_phase.iter().sum::<f32>() / of_phase.len().max(1) as f32
+        })
+        .collect();
+    let mean = steps.iter().sum::<f32>() / 8.0;
+    (rows.iter().map(|y| along(*y)).fold(0.0, f32::max), steps.iter().fold(0.0f32, |a, b| a.max(b / mean)))
+}
+
+#[test]
+fn no_square_of_texels_is_seen_in_the_occlusion() {
+    let Some(gpu) = gpu() else { return };
+    let (across, steps) = pattern(&gpu, None);
+    println!("columns differ by {across:.5}, a row's share of the steps {steps:.2}");
+    assert!(across < 0.002 && steps < 2.0, "{across} {steps}");
+    // Both see what they should: noise that is not averaged, and blocks of four texels.
+    let raw = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
+    let noisy = pattern(&gpu, Some(("soft", raw))).0;
+    let blocks = "void mainImage(out vec4 o, in vec2 p) {
+        ivec2 last = ivec2(iChannelResolution[0].xy) - 1;
+        o = texelFetch(iChannel0, min(ivec2(p) / 8 * 4 + 2, last), 0);
+    }";
+    let blocky = pattern(&gpu, Some(("C", blocks))).1;
+    assert!(noisy > 0.01 && blocky > 4.0, "{noisy} {blocky}");
+}
+
 // --------------------------------------------------------------------------------------------------------- reflections
 
 #[test]
@@ -205,4 +261,82 @@ fn a_mirrored_point_is_where_geometry_says() {
     println!("reflections: {found} of {wanted} found, at most {furthest:.2} px off");
     assert!(wanted > 500 && found as f64 > 0.97 * wanted as f64, "{found} of {wanted}");
     assert!(furthest < 1.5, "a mirrored point is {furthest} px off");
+}
+
+/// The share of columns whose reflection is found, row by row from a wall's foot on: beside it lies its mirror image.
+fn found_from_the_foot(gpu: &eddy::gpu::Gpu, planted: &[(&str, &str)]) -> Vec<f64> {
+    let mut project = preset("gbuffer-ssao-ssr", &[]);
+    corner(&mut project, 2.5);
+    let text = &mut project.pass_mut(&buffer("D")).unwrap().source.text;
+    for (old, new) in planted {
+        assert!(text.contains(old), "the pass no longer says `{old}`");
+        *text = text.replace(old, new).into();
+    }
+    let mut engine = whole(gpu, &project, (160, 90));
+    draw(&mut engine, 0..1);
+    let (surfaces, hits) = (read(&mut engine, "A"), read(&mut engine, "D"));
+    let is_floor = |x: u32, y: u32| (texel(&surfaces, x, y)[3] - 1.5).abs() < 0.1;
+    let foot = |x: u32| (0..90).rev().find(|y| is_floor(x, *y)).unwrap();
+    let is_found = |x: u32, row: u32| {
+        let hit = texel(&hits, x, foot(x) - row);
+        hit[3] > 0.5 && hit[2] > 0.0
+    };
+    (0..8).map(|row| (20..140).filter(|x| is_found(*x, row)).count() as f64 / 120.0).collect()
+}
+
+#[test]
+fn a_mirror_image_begins_at_the_foot_of_what_is_mirrored_without_gaps() {
+    let Some(gpu) = gpu() else { return };
+    let found = found_from_the_foot(&gpu, &[]);
+    println!("found from the foot on: {found:?}");
+    assert!(found.iter().all(|share| *share == 1.0), "{found:?}");
+    // Strides that are long from the beginning, and a depth of things that does not grow with them, leave dashes.
+    let dashed = found_from_the_foot(
+        &gpu,
+        &[
+            ("max(most * part * sqrt(part), min(least * float(i + 1), most))", "most * part"),
+            ("thickness + max(depth - 1.0 / mix(k0, k1, before), 0.0)", "0.1"),
+        ],
+    );
+    assert!(dashed.iter().any(|share| *share < 0.95), "{dashed:?}");
+}
+
+// ------------------------------------------------------------------------------------------------------------ the edges
+
+/// Root mean square distance of the picture from the part of a pixel that a slanted edge covers, along the edge.
+fn off_coverage(gpu: &eddy::gpu::Gpu, image: Option<&str>) -> f64 {
+    let mut project = preset("gbuffer-ssao-ssr", &[]);
+    replace(
+        &mut project,
+        "picture",
+        "void mainImage(out vec4 o, in vec2 p) { o = vec4(vec3(p.y - 0.37 * p.x > 20.0 ? 0.8 : 0.1), 1.0); }",
+    );
+    if let Some(text) = image {
+        project.pass_mut(&eddy::project::PassId::Image).unwrap().source.text = text.into();
+    }
+    let mut engine = engine(gpu, &project, (160, 90));
+    draw(&mut engine, 0..1);
+    let pixels = picture(&mut engine);
+    let (mut sum, mut count) = (0.0, 0);
+    for i in 0..160 * 90u32 {
+        let (x, y) = (f64::from(i % 160), f64::from(i / 160));
+        let part = |k: u32| (f64::from(k) + 0.5) / 8.0;
+        let is_above = |k: u32| y + part(k / 8) - 0.37 * (x + part(k % 8)) > 20.0;
+        let covered = (0..64).filter(|k| is_above(*k)).count() as f64 / 64.0;
+        if covered > 0.0 && covered < 1.0 {
+            sum += (f64::from(texel(&pixels, i % 160, i / 160)[0]) - 0.1 - 0.7 * covered).powi(2);
+            count += 1;
+        }
+    }
+    (sum / f64::from(count)).sqrt()
+}
+
+#[test]
+fn edges_are_smooth() {
+    let Some(gpu) = gpu() else { return };
+    let smoothed = off_coverage(&gpu, None);
+    let raw = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
+    let jagged = off_coverage(&gpu, Some(raw));
+    println!("off the covered part: {smoothed:.3}, without anti-aliasing {jagged:.3}");
+    assert!(smoothed < 0.1 && smoothed < 0.5 * jagged, "{smoothed} {jagged}");
 }

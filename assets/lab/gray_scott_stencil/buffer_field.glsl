@@ -1,6 +1,10 @@
 vec2 at(ivec2 p) {
     ivec2 size = ivec2(iResolution.xy);
-    return texelFetch(iChannel0, (p + size) % size, 0).xy;
+    vec2 w = texelFetch(iChannel0, (p + size) % size, 0).xy;
+#if SPLIT == 1
+    w = reacted(w);
+#endif
+    return w;
 }
 
 void mainImage(out vec4 field, in vec2 fragCoord) {
@@ -13,5 +17,9 @@ void mainImage(out vec4 field, in vec2 fragCoord) {
 #else
     vec2 laplacian = beside - 4.0 * w;
 #endif
+#if SPLIT == 1
+    field = vec4(reacted(w + dt * DIFFUSION * laplacian), 0.0, 1.0);
+#else
     field = vec4(w + dt * (DIFFUSION * laplacian + reaction(w)), 0.0, 1.0);
+#endif
 }

@@ -51,6 +51,16 @@ pub fn behind_wall(height: f64, distance: f64) -> f64 {
     0.5 * (1.0 - (height / distance).atan().cos())
 }
 
+/// Returns what a wall higher than the samples reach hides, where samples have the lengths radius (.1 + .9 u u), u
+/// uniform, and directions weighted by the cosine: the mean over them of the segment of a disc, (acos c - c sqrt(1 - c
+/// c)) / pi, c = distance / length.
+pub fn behind_high_wall(radius: f64, distance: f64) -> f64 {
+    const N: u32 = 1000;
+    let segment = |c: f64| if c < 1.0 { (c.acos() - c * (1.0 - c * c).sqrt()) / std::f64::consts::PI } else { 0.0 };
+    let length = |i: u32| radius * (0.1 + 0.9 * ((f64::from(i) + 0.5) / f64::from(N)).powi(2));
+    (0..N).map(|i| segment(distance / length(i))).sum::<f64>() / f64::from(N)
+}
+
 /// Returns what a sphere hides of a floor's cosine-weighted sky, where its middle is `height` above the floor, at least
 /// a radius, and `beside` to the side: R^2 h / (r^2 + h^2)^(3/2).
 pub fn under_sphere(radius: f64, height: f64, beside: f64) -> f64 {
@@ -218,6 +228,13 @@ mod tests {
             let found = hidden([0.0; 3], UP, 64, |from, ray| meets_sphere(centre, 0.8, from, ray), |_| 1.0);
             assert!((found - under_sphere(0.8, height, beside)).abs() < 4e-3, "{height}, {beside}: {found}");
         }
+        // Of a short reach, by the falloff that its lengths make: a ray that meets something at d is blocked for those
+        // that are longer.
+        let (radius, distance) = (0.6, 0.2);
+        let wall = |from: V, ray: V| Some((distance - from[0]) / ray[0]).filter(|t| *t > 0.0);
+        let falloff = |d: f64| 1.0 - ((d / radius - 0.1).max(0.0) / 0.9).sqrt().min(1.0);
+        let found = hidden([0.0; 3], UP, 64, wall, falloff);
+        assert!((found - behind_high_wall(radius, distance)).abs() < 4e-3, "{found}");
         // The uniform hemisphere, which a wrong kernel would measure, is t / pi: far off.
         assert!((std::f64::consts::FRAC_1_PI * 0.25f64.atan() - behind_wall(1.0, 4.0)).abs() > 0.05);
     }

@@ -4,7 +4,7 @@ use super::table::Table;
 use std::fmt::Write;
 
 const COLUMNS: &str = "study,method,setting,grid,ms,ms_min,ms_max,mtexel_per_s,roofline,bytes_per_texel,l1,l2,linf,order,\
-                       ms_to_1_percent,hard_passed,hard_cases,frontier,dominated";
+                       ms_to_1_percent,best_error,ms_to_best,hard_passed,hard_cases,frontier,dominated";
 
 pub fn text(table: &Table) -> String {
     let values = table.values();
@@ -19,6 +19,7 @@ pub fn text(table: &Table) -> String {
         let (norms, cost) = (row.measured.as_ref().map(|m| m.norms), row.cost);
         let is_usual = row.point.setting == row.method.usual;
         let (passed, all) = row.hard();
+        let best = table.best(row.method);
         let mut cells = vec![
             table.about.name.to_owned(),
             row.method.name.to_owned(),
@@ -35,6 +36,8 @@ pub fn text(table: &Table) -> String {
             number(norms.map(|n| n.linf)),
             number(table.order(row.method).filter(|_| is_usual)),
             number(table.millis_to_target(row.method)),
+            number(best.map(|b| b.error)),
+            number(best.map(|b| b.millis)),
             passed.to_string(),
             all.to_string(),
             row.is_frontier.to_string(),

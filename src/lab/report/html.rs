@@ -80,9 +80,9 @@ const COLUMNS: [&str; 11] = [
     "hard cases",
 ];
 
-fn heading(out: &mut String, last: &str) {
+fn heading(out: &mut String, last: &[&str]) {
     out.push_str("<table><thead><tr>");
-    for column in COLUMNS.iter().chain(&[last]).filter(|c| !c.is_empty()) {
+    for column in COLUMNS.iter().chain(last) {
         let _ = write!(out, "<th>{column}</th>");
     }
     out.push_str("</tr></thead><tbody>\n");
@@ -91,13 +91,14 @@ fn heading(out: &mut String, last: &str) {
 fn headline(out: &mut String, sections: &[(Table, Option<String>)]) {
     out.push_str(
         "<p>Each method at its usual setting, and the time in which it reaches an error of 1 %, between its settings; \
-         (fails): only where it fails a hard case.</p>\n",
+         (fails): only where it fails a hard case. The best error is the least of the settings that pass their hard cases; \
+         where two errors cancel at the least, what finer settings keep.</p>\n",
     );
-    heading(out, "ms to 1 %");
+    heading(out, &["ms to 1 %", "best error"]);
     for (table, _) in sections {
         let _ = writeln!(
             out,
-            "<tr class=\"study\"><td colspan=\"12\"><a href=\"#{}\">{}</a> <small>{}, {} x {} texels</small></td></tr>",
+            "<tr class=\"study\"><td colspan=\"13\"><a href=\"#{}\">{}</a> <small>{}, {} x {} texels</small></td></tr>",
             table.about.name,
             escaped(table.about.title),
             table.about.unit.label(),
@@ -113,7 +114,11 @@ fn headline(out: &mut String, sections: &[(Table, Option<String>)]) {
                 Reach::Failing(millis) => (" class=\"bad\"", format!("{} (fails)", number(millis))),
                 Reach::Never => ("", "never".into()),
             };
-            cells(out, table, row, &format!("<td{class}>{reach}</td>"));
+            let best = table.best(method).map_or("<td>&ndash;</td>".into(), |best| {
+                let title = format!("{} = {}, {} ms", table.about.parameter, best.setting, number(best.millis));
+                format!("<td title=\"{}\">{}</td>", escaped(&title), number(best.error))
+            });
+            cells(out, table, row, &format!("<td{class}>{reach}</td>{best}"));
         }
     }
     out.push_str("</tbody></table>\n");
@@ -154,6 +159,18 @@ fn section(out: &mut String, table: &Table, svg: Option<&str>) {
     if let Some(verdict) = table.verdict() {
         let _ = writeln!(out, "<p><strong>{}</strong></p>", escaped(&verdict));
     }
+    for method in table.methods() {
+        let Some((best, [coarse, fine])) = table.best(method).and_then(|b| Some((b, b.turn?))) else { continue };
+        let _ = writeln!(
+            out,
+            "<p>Between {} = {coarse} and {fine} {} passes from one side of the truth to the other: there an error of \
+             time and one of space cancel, and shorter steps give back what is left of the second. Its best error is \
+             what they keep, {}, not the least of the plot.</p>",
+            escaped(table.about.parameter),
+            escaped(method.title),
+            number(best.error)
+        );
+    }
     if let Some(cost) = table.rows.iter().find_map(|r| r.cost) {
         let _ = writeln!(
             out,
@@ -170,7 +187,7 @@ fn section(out: &mut String, table: &Table, svg: Option<&str>) {
         );
     }
     out.push_str("\n<details><summary>Every point</summary>\n");
-    heading(out, "");
+    heading(out, &[]);
     for row in &table.rows {
         cells(out, table, row, "");
     }

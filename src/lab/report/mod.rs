@@ -3,13 +3,14 @@
 mod axis;
 mod csv;
 mod html;
+mod labels;
 mod plot;
 mod table;
 
 use super::{LabError, Results, Study};
 pub use axis::{decades, tick};
 use std::{fs, path::Path};
-pub use table::{COLOURS, Look, Row, TARGET, Table, sign};
+pub use table::{Best, COLOURS, Look, Row, TARGET, Table, sign};
 
 /// Writes `index.html` and, of each study with any result, `NAME.csv`, `NAME.svg` and `NAME.png`. Gives the names of
 /// the files.

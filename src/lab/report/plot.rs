@@ -2,6 +2,7 @@
 
 use super::{
     axis::{Marks, decades, label, marks},
+    labels,
     table::{Look, Row, TARGET, Table, sign},
 };
 use crate::lab::LabError;
@@ -134,6 +135,7 @@ fn draw<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<bool, LabErr
     }
     let gold = RGBColor(255, 205, 60).mix(0.65).stroke_width(9);
     chart.draw_series([PathElement::new(steps, gold)]).map_err(trouble)?;
+    let (mut signs, mut ends) = (Vec::new(), Vec::new());
     for (n, method) in table.methods().into_iter().enumerate() {
         let colour = COLOURS[n % COLOURS.len()];
         let rows: Vec<(&Row, (f64, f64))> = table.of(method).filter_map(|r| Some((r, place_of(r)?))).collect();
@@ -148,17 +150,35 @@ fn draw<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<bool, LabErr
             let edge = PathElement::new(corners(n), colour.stroke_width(2));
             chart.draw_series([EmptyElement::at((*x, *y)) + body + edge]).map_err(trouble)?;
         }
-        if let Some((_, (x, y))) = rows.last() {
-            // To either side in turn: lines that end together are still told apart.
-            let beside = if n % 2 == 0 { (9, -20) } else { (-18, -20) };
-            let at = EmptyElement::at((*x, *y))
-                + Text::new((n + 1).to_string(), beside, (FONT, 16, &colour).into_text_style(area));
-            chart.draw_series([at]).map_err(trouble)?;
+        signs.extend(rows.iter().map(|(_, place)| chart.backend_coord(place)));
+        if let Some((_, place)) = rows.last() {
+            ends.push((n, chart.backend_coord(place)));
         }
     }
+    let corners = [(x0, y1), (x1, y0)].map(|corner| chart.backend_coord(&corner));
+    numbers(area, &ends, &signs, corners).map_err(trouble)?;
     self::legend(&legend, table, is_cut.then_some(y1)).map_err(trouble)?;
     area.present().map_err(trouble)?;
     Ok(true)
+}
+
+/// The numbers of methods beside the ends of their lines, after all signs: `ends` are methods and places in pixels.
+fn numbers<B: DrawingBackend>(
+    area: &Area<B>,
+    ends: &[(usize, (i32, i32))],
+    signs: &[(i32, i32)],
+    [low, high]: [(i32, i32); 2],
+) -> Result<(), DrawingAreaErrorKind<B::ErrorType>> {
+    let places: Vec<(i32, i32)> = ends.iter().map(|(_, place)| *place).collect();
+    for (label, (n, end)) in labels::placed(&places, signs, low, high).into_iter().zip(ends) {
+        let colour = COLOURS[n % COLOURS.len()];
+        if label.is_led {
+            let line = vec![*end, labels::nearest_side(label, *end)];
+            area.draw(&PathElement::new(line, colour.mix(0.7).stroke_width(1)))?;
+        }
+        area.draw(&Text::new((n + 1).to_string(), label.at, (FONT, 16).into_font().color(&colour)))?;
+    }
+    Ok(())
 }
 
 impl Look {

@@ -107,6 +107,7 @@ pub struct Table {
     pub rows: Vec<Row>,
     pub convergence: Vec<Convergence>,
     race: Option<Race>,
+    signed: Option<&'static str>,
 }
 
 /// How a method comes to an error of 1 %.
@@ -117,6 +118,18 @@ pub enum Reach {
     /// As `In`, but only with settings that fail a hard case.
     Failing(f64),
     Never,
+}
+
+/// The least error that a method is sure of, of settings that pass their hard cases.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Best {
+    pub error: f64,
+    /// The cheapest setting from which on no finer one has more.
+    pub setting: f64,
+    pub millis: f64,
+    /// Two neighbouring settings, the coarser first, between which the method goes from one side of the truth to the
+    /// other: what is less than `error` there is an accident.
+    pub turn: Option<[f64; 2]>,
 }
 
 impl Table {
@@ -175,8 +188,9 @@ impl Table {
             let order = order(a, b, f64::from(fine) / f64::from(coarse));
             (errors.len() >= 3).then_some(Convergence { method, errors, order })
         });
-        let (error_label, race) = (study.error_label(), study.race());
-        Some(Table { about, error_label, grid, convergence: convergence.collect(), rows, race })
+        let convergence = convergence.collect();
+        let (error_label, race, signed) = (study.error_label(), study.race(), study.signed());
+        Some(Table { about, error_label, grid, convergence, rows, race, signed })
     }
 
     pub fn methods(&self) -> Vec<&'static Method> {
@@ -221,6 +235,32 @@ impl Table {
     /// Milliseconds to the target, of settings that fail hard cases too.
     fn millis_of_any(&self, method: &Method) -> Option<f64> {
         first_reach(&self.of(method).filter_map(Row::place).collect::<Vec<_>>(), TARGET)
+    }
+
+    /// A method's best error. In a study with a figure that has a sign ([`Study::signed`]) the least error may lie
+    /// where that turns: there an error of time and one of space cancel, and a shorter step, which makes the one
+    /// smaller, gives the other back. So where the sign turns beside the least error and a finer setting has a larger
+    /// one, the best is the largest from the turn on.
+    pub fn best(&self, method: &Method) -> Option<Best> {
+        let mut rows: Vec<(&Row, (f64, f64))> =
+            self.of(method).filter(|r| r.passes()).filter_map(|r| Some((r, r.place()?))).collect();
+        rows.sort_by(|a, b| b.0.point.setting.total_cmp(&a.0.point.setting));
+        let error = |i: usize| rows[i].1.1;
+        let least = (0..rows.len()).min_by(|a, b| error(*a).total_cmp(&error(*b)))?;
+        let best = |from: usize, error: f64, turn| {
+            let (row, (millis, _)) = rows[from];
+            Some(Best { error, setting: row.point.setting, millis, turn })
+        };
+        let sign = |i: usize| self.signed.and_then(|name| rows.get(i)?.0.value(name)).map(f64::signum);
+        let turns = |i: usize| sign(i).zip(sign(i + 1)).is_some_and(|(a, b)| a != b);
+        // The first setting on the finer side of a turn beside the least error.
+        let beyond = [least.checked_sub(1), Some(least)].into_iter().flatten().find(|i| turns(*i)).map(|i| i + 1);
+        let Some(beyond) = beyond.filter(|_| (least + 1..rows.len()).any(|i| error(i) > error(least))) else {
+            return best(least, error(least), None);
+        };
+        let kept = (beyond..rows.len()).map(error).fold(0.0, f64::max);
+        let from = (0..=beyond).rev().take_while(|i| error(*i) <= kept).last().unwrap_or(beyond);
+        best(from, kept, Some([beyond - 1, beyond].map(|i| rows[i].0.point.setting)))
     }
 
     /// The study's [`Race`] in a sentence: `None` where it has none, or its costs are not known. Peers are not asked to
@@ -316,7 +356,50 @@ mod tests {
     fn table(rows: Vec<Row>, peers: &'static [&'static str]) -> Table {
         let about = About { name: "s", title: "S", text: "", parameter: "dt", unit: Unit::Frame, error: "of it" };
         let race = Some(Race { method: "own", peers, peers_are: "one-pass settings" });
-        Table { about, error_label: about.error.into(), grid: 1, rows, convergence: Vec::new(), race }
+        let error_label = about.error.into();
+        Table { about, error_label, grid: 1, rows, convergence: Vec::new(), race, signed: Some("energy_error") }
+    }
+
+    /// The errors of the fluid's best method at steps from long to short, and whether too much energy is left.
+    const CANCELS: [(f64, f64, f64); 6] = [
+        (9.6, 6.1e-3, -1.0),
+        (4.8, 1.4e-3, -1.0),
+        (2.4, 2.0e-4, -1.0),
+        (1.2, 1.3e-5, 1.0),
+        (0.6, 1.4e-4, 1.0),
+        (0.3, 5.9e-5, 1.0),
+    ];
+
+    fn best_of(points: &[(f64, f64, f64)]) -> Option<Best> {
+        let [own, ..] = &METHODS;
+        let rows = points.iter().map(|&(setting, error, sign)| {
+            // Half the step is twice the cost.
+            let mut row = row(own, setting, 12.0 / setting, error, true);
+            let values = &mut row.measured.as_mut().unwrap().values;
+            values.insert("energy_error".into(), Number(sign * error));
+            row
+        });
+        table(rows.collect(), &[]).best(own)
+    }
+
+    #[test]
+    fn an_error_that_is_two_which_cancel_is_not_the_best() {
+        let best = best_of(&CANCELS).unwrap();
+        assert_eq!(best, Best { error: 1.4e-4, setting: 1.2, millis: 10.0, turn: Some([2.4, 1.2]) });
+        // In whatever order they were measured, and where the least lies before the turn.
+        let mut other = CANCELS;
+        other.reverse();
+        assert_eq!(best_of(&other), Some(best));
+        (other[2].1, other[3].1) = (9e-5, 1e-5);
+        let before = best_of(&other).unwrap();
+        assert_eq!((before.error, before.setting, before.turn), (1.4e-4, 2.4, Some([2.4, 1.2])));
+        // A method that goes on falling beyond the turn, one that never turns, and one that is best at a step in the
+        // middle without a turn, are as good as their least error.
+        let falls = best_of(&[CANCELS[0], CANCELS[1], CANCELS[2], CANCELS[3]]).unwrap();
+        assert_eq!((falls.error, falls.setting, falls.turn), (1.3e-5, 1.2, None));
+        let middle = best_of(&CANCELS.map(|(setting, error, _)| (setting, error, 1.0))).unwrap();
+        assert_eq!((middle.error, middle.setting, middle.turn), (1.3e-5, 1.2, None));
+        assert_eq!(best_of(&[]), None);
     }
 
     #[test]

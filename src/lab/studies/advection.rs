@@ -5,12 +5,13 @@ use crate::lab::{
     metrics::{Norms, area_above, drift, overshoot},
     reference::{gaussian_spot, zalesak_disk},
     setup::frames_of,
+    three_of,
 };
 use std::f64::consts::TAU;
 
 pub struct Advection;
 
-/// Texels a step at .25 of the width from the centre, over the .25 N texels there: the sheet's steps are at 1.
+/// Texels a step at .25 of the width from the centre, over the .25 N texels there: published errors are at 1.
 const COURANT: &[f64] = &[1.0, 2.0, 4.0, 8.0];
 
 const METHODS: &[Method] = &[
@@ -46,10 +47,7 @@ impl Study for Advection {
     }
 
     fn grids(&self, extent: Extent) -> &'static [u32] {
-        match extent {
-            Extent::Quick => &[32, 64, 128],
-            Extent::Full => &[64, 128, 256],
-        }
+        three_of(extent, &[32, 64, 128, 256])
     }
 
     fn setup(&self, point: &Point) -> Setup {

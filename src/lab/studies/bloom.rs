@@ -2,8 +2,9 @@
 
 use super::blur::pyramid;
 use crate::lab::{
-    About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
+    About, Extent, Field, HardCase, LabError, Measured, Method, Point, Rig, Running, Setup, Study, Unit,
     metrics::{Norms, mean},
+    three_of,
 };
 
 pub struct Bloom;
@@ -25,27 +26,38 @@ const METHODS: &[Method] = &[
     Method { name: "tent-pyramid", title: "13 reads down, tent up", settings: LEVELS, usual: 4.0 },
 ];
 
-/// The picture of the light that is spread, without what stays sharp and before any curve, of a method at a setting and
-/// a size.
-pub fn setup(method: &str, setting: f64, size: (u32, u32)) -> Setup {
-    let preset = |name| Setup::new(name, size).wants(&["image"]).uniform("strength", 1.0).uniform("spread", setting);
+/// A method at a setting and a size, as it ships.
+fn whole(method: &str, setting: f64, size: (u32, u32)) -> Setup {
+    let preset = |name| Setup::new(name, size).wants_picture().uniform("strength", 1.0).uniform("spread", setting);
     let levels = setting as u32;
     let peer = |form| Setup::new("blur_pyramid", size).define("METHOD", form).built(move |p| pyramid(p, levels));
     match method {
-        "bloom" => preset("bloom").edit("image", "sqrt(reinhard(light * exp2(exposure)))", "light"),
-        "bloom-sized" => {
-            let curve = "sqrt(reinhard(mix(sharp, wide, strength) * exp2(exposure)))";
-            preset("bloom-sized").edit("image", curve, "wide")
-        }
+        "bloom" => preset("bloom"),
+        "bloom-sized" => preset("bloom-sized"),
         "box-pyramid" => peer("BOX"),
         "dual-pyramid" => peer("DUAL"),
         _ => peer("TENT"),
     }
 }
 
-/// The pass that a method reads its picture from, and the one that has the result.
-fn ends(setup: &Setup) -> (&'static str, &'static str) {
-    if setup.folder() == "blur_pyramid" { ("source", "field") } else { ("a", "image") }
+/// The same, of which the light that is spread is looked at, without what stays sharp and before any curve.
+pub fn setup(method: &str, setting: f64, size: (u32, u32)) -> Setup {
+    let setup = whole(method, setting, size);
+    match method {
+        "bloom" => setup.wants_value("image", "vec3 light"),
+        "bloom-sized" => setup.wants_value("image", "vec3 wide"),
+        _ => setup,
+    }
+}
+
+/// The pass that a method reads its picture from.
+fn source(setup: &Setup) -> &'static str {
+    if setup.folder() == "blur_pyramid" { "source" } else { "a" }
+}
+
+/// The light that is spread.
+fn light(setup: &Setup, running: &mut Running) -> Result<Field, LabError> {
+    if setup.folder() == "blur_pyramid" { running.read("field") } else { running.read_value() }
 }
 
 /// Holds what became of a bright texel of 1.
@@ -84,7 +96,6 @@ pub fn phase(n: u32, (width, height): (u32, u32)) -> [u32; 2] {
 
 /// Draws a bright texel at each place, each in a component of its own, three in a frame.
 pub fn spots(rig: &Rig, setup: &Setup, places: &[[u32; 2]], mut each: impl FnMut(Spot)) -> Result<(), LabError> {
-    let (source, result) = ends(setup);
     for part in places.chunks(96) {
         let list: Vec<String> = part.iter().map(|[x, y]| format!("ivec2({x}, {y})")).collect();
         let scene = format!(
@@ -99,10 +110,10 @@ pub fn spots(rig: &Rig, setup: &Setup, places: &[[u32; 2]], mut each: impl FnMut
             n = part.len(),
             list = list.join(", "),
         );
-        let mut running = rig.open(&setup.clone().text(source, scene))?;
+        let mut running = rig.open(&setup.clone().text(source(setup), scene))?;
         for three in part.chunks(3) {
             running.frames(1)?;
-            let field = running.read(result)?;
+            let field = light(setup, &mut running)?;
             for (c, at) in three.iter().enumerate() {
                 each(Spot::of(*at, field.width(), field.component(c)));
             }
@@ -177,7 +188,6 @@ fn moved_to_the_middle(spots: &[Spot], n: usize) -> (Vec<f64>, Vec<f64>) {
 
 /// How much brighter a wall of 0.05 is in the mean for a texel of a million in it.
 fn firefly(rig: &Rig, setup: &Setup) -> Result<f64, LabError> {
-    let (source, result) = ends(setup);
     let wall = |hot: &str| {
         let (width, height) = setup.size();
         let middle = format!("ivec2({}, {})", width / 2, height / 2);
@@ -186,7 +196,9 @@ fn firefly(rig: &Rig, setup: &Setup) -> Result<f64, LabError> {
                  light = vec4(vec3(ivec2(fragCoord) == {middle} ? {hot} : 0.05), 1.0);
              }}"
         );
-        Ok::<_, LabError>(mean(&rig.after(&setup.clone().text(source, scene), 1, result)?.component(0)))
+        let mut running = rig.open(&setup.clone().text(source(setup), scene))?;
+        running.frames(1)?;
+        Ok::<_, LabError>(mean(&light(setup, &mut running)?.component(0)))
     };
     Ok(wall("1e6")? - wall("0.05")?)
 }
@@ -214,10 +226,7 @@ impl Study for Bloom {
     }
 
     fn grids(&self, extent: Extent) -> &'static [u32] {
-        match extent {
-            Extent::Quick => &[64, 128, 256],
-            Extent::Full => &[128, 256, 512],
-        }
+        three_of(extent, &[64, 128, 256, 512])
     }
 
     /// A pyramid's kernel is as wide in texels on every canvas.
@@ -226,8 +235,8 @@ impl Study for Bloom {
     }
 
     fn setup(&self, point: &Point) -> Setup {
-        let setup = setup(&point.method, point.setting, (point.grid, point.grid));
-        let (source, _) = ends(&setup);
+        let setup = whole(&point.method, point.setting, (point.grid, point.grid));
+        let source = source(&setup);
         // Something to draw in every frame, as a scene has.
         let scene = "void mainImage(out vec4 light, in vec2 fragCoord) {
             light = vec4(vec3(fract(sin(dot(floor(fragCoord / 8.0), vec2(12.9898, 78.233)) + iTime) * 43758.5453)), 1.0);

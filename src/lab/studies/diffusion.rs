@@ -6,6 +6,7 @@ use crate::lab::{
     metrics::{Norms, checkerboard, drift},
     reference::gaussian_on_torus,
     setup::{Storage, frames_of},
+    three_of,
 };
 
 pub struct Diffusion;
@@ -54,10 +55,7 @@ impl Study for Diffusion {
     }
 
     fn grids(&self, extent: Extent) -> &'static [u32] {
-        match extent {
-            Extent::Quick => &[32, 64, 128],
-            Extent::Full => &[64, 128, 256],
-        }
+        three_of(extent, &[32, 64, 128, 256])
     }
 
     fn setup(&self, point: &Point) -> Setup {

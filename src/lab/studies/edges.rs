@@ -1,12 +1,10 @@
 //! Lines found in a G-buffer, against the silhouettes and creases of what is in it.
 
 use super::silhouettes::Found;
-use crate::{
-    lab::{
-        About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
-        reference::shapes::{Placed, Shape, V, along, dot, first_hit, is_seen, turned},
-    },
-    project::{Channel, Filter, Input, Project, Sampler, Wrap},
+use crate::lab::{
+    About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
+    reference::shapes::{Placed, Shape, V, along, dot, first_hit, is_seen, turned},
+    three_of,
 };
 
 pub struct Edges;
@@ -95,14 +93,6 @@ fn packed([x, y, z]: V) -> [f64; 2] {
     [x * by, y * by]
 }
 
-/// Buffer A gives what it holds, with the text `keep`.
-fn keep_state(project: &mut Project, keep: &str) {
-    let pass = project.pass_mut(&super::super::setup::pass("a")).expect("the preset has a Buffer A");
-    let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::Clamp, vflip: true };
-    pass.source.text = keep.into();
-    pass.channels[0] = Some(Channel { input: Input::Buffer("A".into()), sampler });
-}
-
 fn setup(name: &str, n: u32, sensitivity: f64) -> Setup {
     let state = |texel: &dyn Fn(&(V, f64)) -> [f64; 4]| -> Vec<[f32; 4]> {
         surfaces(n).iter().map(|s| texel(s).map(|x| x as f32)).collect()
@@ -110,13 +100,11 @@ fn setup(name: &str, n: u32, sensitivity: f64) -> Setup {
     let method = match name {
         "preset" => {
             let texels = state(&|(normal, depth)| [packed(*normal)[0], packed(*normal)[1], *depth, 1.5]);
-            let keep = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
             return Setup::new("gbuffer-edges", (n, n))
                 .wants(&["b"])
-                .built(move |project| keep_state(project, keep))
                 .uniform("depthSensitivity", sensitivity)
                 .uniform("normalSensitivity", sensitivity)
-                .state("a", &texels);
+                .given("a", &texels);
         }
         "roberts" => "ROBERTS",
         "sobel" => "SOBEL",
@@ -180,10 +168,7 @@ impl Study for Edges {
     }
 
     fn grids(&self, extent: Extent) -> &'static [u32] {
-        match extent {
-            Extent::Quick => &[64, 128, 256],
-            Extent::Full => &[128, 256, 512],
-        }
+        three_of(extent, &[64, 128, 256, 512])
     }
 
     /// A line is as many texels wide on each.

@@ -3,7 +3,7 @@
 
 use super::cycle::{self, Component};
 use crate::{
-    lab::{LabError, Running, Setup, metrics::mean, setup::Storage},
+    lab::{LabError, Measured, Running, Setup, metrics::mean, setup::Storage},
     project::{PassFormat, PassId, Project},
 };
 use std::f64::consts::TAU;
@@ -55,9 +55,8 @@ impl Solver {
     /// A solver by the name that the studies call it.
     pub fn new(name: &str, flow: Flow) -> Solver {
         let Flow { n, dt, viscosity } = flow;
-        let storage = if name.ends_with("16f") { Storage::Half } else { Storage::AsWritten };
         let plain = |setup: Setup, steps, kind| {
-            let setup = setup.storage(storage).uniform("dt", dt).uniform("viscosity", viscosity);
+            let setup = setup.uniform("dt", dt).uniform("viscosity", viscosity);
             Solver { setup, steps, flow, kind, scale: 1.0, stiffness: STIFFNESS }
         };
         let size = (n, n);
@@ -69,7 +68,7 @@ impl Solver {
             let setup = Setup::new("fluid_projection", size).define("METHOD", which).steps("solver", sweeps);
             plain(setup, 1, Kind::Centred { is_compressible: false })
         };
-        match name.trim_end_matches("-16f").trim_end_matches("-rgba16f") {
+        let solver = match without_format(name) {
             "fluid-accurate" => accurate(flow),
             "mip-fluid" => mips(flow),
             "guay" => guay("ONE_PASS", 1),
@@ -92,7 +91,9 @@ impl Solver {
                 plain(setup, 1, Kind::Centred { is_compressible: false })
             }
             _ => plain(Setup::new("fluid_lattice", size).wants(&["axes", "corners", "rest"]), 2, Kind::Lattice),
-        }
+        };
+        let storage = if name.ends_with("16f") { Storage::Half } else { Storage::AsWritten };
+        Solver { setup: solver.setup.storage(storage), ..solver }
     }
 
     /// Value of an `#iUniform` of the project.
@@ -246,12 +247,31 @@ impl Solver {
         self
     }
 
-    /// Mean density less 1, of Guay's fluid.
+    /// Mean density less 1, which it is at first, of a fluid that has one.
     pub fn mass_drift(&self, running: &mut Running) -> Result<Option<f64>, LabError> {
         match self.kind {
             Kind::Centred { is_compressible: true } => Ok(Some(mean(&running.read("field")?.component(2)) - 1.0)),
+            Kind::Lattice => Ok(Some(mean(&density(running)?) - 1.0)),
             _ => Ok(None),
         }
+    }
+
+    /// Draws so many frames and gives what is seen on the way.
+    pub fn watched(&self, running: &mut Running, frames: u32) -> Result<Watched, LabError> {
+        let Some(sound) = self.sound() else {
+            running.frames(frames)?;
+            return Ok(Watched { velocity: self.velocity(running)?, mach: None, mass_drift: None });
+        };
+        let (mut velocity, mut done) = (self.velocity(running)?, 0);
+        let mut speed = greatest_speed(&velocity);
+        for moment in 1..=MOMENTS {
+            let until = frames * moment / MOMENTS;
+            running.frames(until - done)?;
+            done = until;
+            velocity = self.velocity(running)?;
+            speed = speed.max(greatest_speed(&velocity));
+        }
+        Ok(Watched { velocity, mach: Some(speed / sound), mass_drift: self.mass_drift(running)? })
     }
 
     /// The velocity in texels for a unit of time: all of u, then all of v.
@@ -272,6 +292,43 @@ impl Solver {
         let frames = (time / frame).round().max(1.0);
         (frames as u32, frames * frame)
     }
+}
+
+/// Moments of a run at which the speed of a fluid with sound is looked at.
+const MOMENTS: u32 = 8;
+
+/// Holds what a run of a fluid comes to.
+#[derive(Clone, Debug)]
+pub struct Watched {
+    /// At the end.
+    pub velocity: Vec<f64>,
+    /// The greatest speed that was met over that of sound, and the mean density less 1 at the end; `None` without
+    /// sound.
+    pub mach: Option<f64>,
+    pub mass_drift: Option<f64>,
+}
+
+impl Watched {
+    /// Adds what it has to a point's figures.
+    pub fn told(&self, mut measured: Measured) -> Measured {
+        for (name, value) in [("mach", self.mach), ("mass_drift", self.mass_drift)] {
+            if let Some(value) = value {
+                measured = measured.value(name, value);
+            }
+        }
+        measured
+    }
+}
+
+/// The greatest length of a velocity of texels; infinite where one is no number.
+fn greatest_speed(velocity: &[f64]) -> f64 {
+    let (u, v) = velocity.split_at(velocity.len() / 2);
+    largest(&u.iter().zip(v).map(|(u, v)| u.hypot(*v)).collect::<Vec<_>>())
+}
+
+/// A method's name less the format that its texels have.
+pub fn without_format(name: &str) -> &str {
+    name.trim_end_matches("-16f").trim_end_matches("-rgba16f")
 }
 
 /// The preset, whose unit of length is the height of the canvas and whose grid has half of the canvas's texels each

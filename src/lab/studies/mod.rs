@@ -2,6 +2,8 @@
 
 mod advection;
 pub mod ao;
+pub mod ao_closed;
+mod ao_setup;
 pub mod bloom;
 mod blur;
 pub mod brick_breaker;

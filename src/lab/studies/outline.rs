@@ -5,6 +5,7 @@ use crate::{
     lab::{
         About, Extent, HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
         reference::shapes::{Placed, Shape, V, along, dot, first_hit, length, turned},
+        three_of,
     },
     project::{Camera, MeshDraw, MeshSource, Project},
 };
@@ -205,10 +206,7 @@ impl Study for Outline {
     }
 
     fn grids(&self, extent: Extent) -> &'static [u32] {
-        match extent {
-            Extent::Quick => &[48, 96, 192],
-            Extent::Full => &[96, 192, 384],
-        }
+        three_of(extent, &[48, 96, 192, 384])
     }
 
     /// More texels are another picture of the same lines.

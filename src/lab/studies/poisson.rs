@@ -7,6 +7,7 @@ use crate::lab::{
     reference::poisson::{residual, solution, source},
     run::SEED,
     setup::frames_of,
+    three_of,
 };
 use std::f64::consts::PI;
 
@@ -75,10 +76,7 @@ impl Study for Poisson {
     }
 
     fn grids(&self, extent: Extent) -> &'static [u32] {
-        match extent {
-            Extent::Quick => &[32, 64, 128],
-            Extent::Full => &[64, 128, 256],
-        }
+        three_of(extent, &[32, 64, 128, 256])
     }
 
     /// The equation is solved as it stands on a grid.

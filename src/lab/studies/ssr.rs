@@ -7,6 +7,7 @@ use crate::lab::{
         rays::{V, add, on_all_cores},
         still_life::{FAR, View, first, is_table, march},
     },
+    three_of,
 };
 
 pub struct Ssr;
@@ -143,10 +144,7 @@ impl Study for Ssr {
     }
 
     fn grids(&self, extent: Extent) -> &'static [u32] {
-        match extent {
-            Extent::Quick => &[80, 160, 320],
-            Extent::Full => &[160, 320, 640],
-        }
+        three_of(extent, &[80, 160, 320, 640])
     }
 
     /// Steps are a part of the ray, whatever the grid.

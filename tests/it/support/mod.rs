@@ -4,9 +4,9 @@
 pub mod clock;
 pub mod compiled;
 pub mod compute;
+pub mod display;
 pub mod env;
 pub mod explained;
-pub mod display;
 pub mod first_frame;
 pub mod ir;
 pub mod meshes;
