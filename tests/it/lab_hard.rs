@@ -1,9 +1,9 @@
-//! Hard cases of which theory says more than a range: symmetry, mass, limits of the device, and what sampling and mip
+//! Hard cases of which theory says more than a range: symmetry, limits of the device, and what sampling and mip
 //! levels reproduce.
 
 use crate::support::{buffer, engine, gpu, image, nearest, pass, program::Bench, project, reads, run};
 use eddy::{
-    engine::{Engine, FrameInputs},
+    engine::Engine,
     lab::{
         Extent, Rig, Setup, Shard,
         stability::{
@@ -11,7 +11,7 @@ use eddy::{
             run::{self as stability, Options},
         },
     },
-    project::{Filter, PassId, Project, Wrap, presets},
+    project::{Filter, PassId, Project, Wrap},
 };
 
 /// A number between 0 and 1 for a place, which no symmetry relates to its neighbours'.
@@ -101,35 +101,6 @@ fn a_canvas_beyond_what_the_device_draws_is_refused_in_words() {
     assert!(run.err.contains(&words), "{}", run.err);
     // As large as may be is drawn.
     assert!(Engine::new(gpu, limit, 1).is_ok());
-}
-
-/// The mean density of a fluid whose row 0 is the mouse's memory.
-fn density(engine: &mut Engine, pass: &PassId) -> f64 {
-    let pixels = engine.read(pass).unwrap();
-    let fluid = &pixels.texels[pixels.width as usize..];
-    fluid.iter().map(|t| f64::from(t[2])).sum::<f64>() / fluid.len() as f64
-}
-
-#[test]
-fn no_mass_is_made_or_lost_by_a_resize() {
-    let Some(gpu) = gpu() else { return };
-    for (name, fluid) in [("fluid", "C"), ("fluid-dye", "A"), ("fluid-lit", "A")] {
-        let project = presets::load(name).unwrap().project;
-        let fluid = buffer(fluid);
-        let mut engine = engine(&gpu, &project, (96, 54));
-        run(&mut engine, 0, 40);
-        let mut frame = 40;
-        let before = density(&mut engine, &fluid);
-        for size in [(141, 79), (60, 90), (96, 54)] {
-            engine.resize(size.0, size.1).unwrap();
-            for _ in 0..3 {
-                engine.draw(&FrameInputs::at_fixed_step(frame, 60.0)).unwrap();
-                frame += 1;
-                let after = density(&mut engine, &fluid);
-                assert!((after - before).abs() < 2e-3, "{name} at {size:?}: {before}, then {after}");
-            }
-        }
-    }
 }
 
 #[test]
