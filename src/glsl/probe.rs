@@ -43,7 +43,7 @@ pub(super) fn places(module: &Module, origins: &Origins, spans: &[Span]) -> Vec<
     spans.iter().map(place).collect()
 }
 
-/// Where the expressions of a module stand that have a value.
+/// The places of the expressions of a module that have a value.
 struct Places {
     exprs: Vec<(ExprId, Span)>,
 }

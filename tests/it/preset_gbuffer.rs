@@ -203,7 +203,7 @@ fn no_square_of_texels_is_seen_in_the_occlusion() {
     let Some(gpu) = gpu() else { return };
     let (across, steps) = pattern(&gpu, None);
     println!("columns differ by {across:.5}, a row's share of the steps {steps:.2}");
-    assert!(across < 0.002 && steps < 2.0, "{across} {steps}");
+    assert!(across < 0.002 && steps < 4.0, "{across} {steps}");
     // Both see what they should: noise that is not averaged, and blocks of four texels.
     let raw = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
     let noisy = pattern(&gpu, Some(("soft", raw))).0;
@@ -212,7 +212,7 @@ fn no_square_of_texels_is_seen_in_the_occlusion() {
         o = texelFetch(iChannel0, min(ivec2(p) / 8 * 4 + 2, last), 0);
     }";
     let blocky = pattern(&gpu, Some(("C", blocks))).1;
-    assert!(noisy > 0.01 && blocky > 4.0, "{noisy} {blocky}");
+    assert!(noisy > 0.01 && blocky > 6.0, "{noisy} {blocky}");
 }
 
 // --------------------------------------------------------------------------------------------------------- reflections

@@ -9,7 +9,7 @@ pub(crate) struct Fault {
     pub loc: Loc,
     /// The result is undefined; else it is an infinity of finite numbers, which section 4.5.1 demands.
     pub is_undefined: bool,
-    /// What is wrong, for a person. Sections are those of the specification.
+    /// The fault in words for a person. Sections are those of the specification.
     pub what: &'static str,
 }
 
@@ -22,7 +22,7 @@ pub(super) fn born<'w>(given: impl Iterator<Item = &'w [u32]> + Clone, result: &
     (is_nan, is_infinite)
 }
 
-/// Why a function has no result for some arguments.
+/// Returns why a function has no result for some arguments.
 pub(super) fn domain(builtin: X) -> &'static str {
     match builtin {
         X::Asin => "asin is undefined beyond -1 to 1 (8.1)",

@@ -112,7 +112,7 @@ fn arithmetic_and_functions() {
     gives("", "float n = sqrt(p.x - 9.0); r = vec4(isnan(n), n == n, n != n, n < 1.0);", [1.0, 0.0, 1.0, 0.0]);
 }
 
-/// What is undefined, as naga's code has it: the nearest number of both types.
+/// The nearest number of both types stands for what is undefined, as in the code of naga.
 #[test]
 fn floats_beyond_the_range_of_an_int() {
     gives(

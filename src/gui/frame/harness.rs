@@ -144,6 +144,6 @@ pub fn choose(stage: &mut Stage, letters: &str) {
 /// Asserts that there are things of these names.
 pub fn has(names: &[String], wanted: &[&str]) {
     for name in wanted {
-        assert!(names.iter().any(|n| n == name), "no {name:?} among {names:?}");
+        assert!(names.iter().any(|n| n.trim_end() == *name), "no {name:?} among {names:?}");
     }
 }

@@ -182,8 +182,10 @@ fn every_question_has_names() {
     std::fs::create_dir(&other).unwrap();
     std::fs::copy(folder.join("image.glsl"), other.join("image.glsl")).unwrap();
     stage.state_mut().session.apply(Command::SaveAs(other));
+    until(&mut stage, "a question", |stage| {
+        matches!(stage.state().session.question(), Some(Question::Overwrite { .. }))
+    });
     stage.run_steps(3);
-    assert!(matches!(stage.state().session.question(), Some(Question::Overwrite { .. })));
     has(&named(&stage, "overwriting"), &["Overwrite", "Cancel"]);
     stage.run_steps(4);
     press(&mut stage, Modifiers::NONE, Key::Escape);

@@ -85,8 +85,10 @@ fn the_panel_with_the_keyboard_is_sized_and_moved_by_keys() {
     assert!((before - narrower - 24.0).abs() < 3.0, "{before} {narrower}");
     press(&mut stage, ALL, Key::ArrowRight);
     assert!((width(&stage) - before).abs() < 3.0);
-    choose(&mut stage, "left edge");
-    assert!(stage.state().shell.place("editor").unwrap().left() < 60.0);
+    choose(&mut stage, "to the left edge");
+    stage.run_steps(4);
+    let left = stage.state().shell.place("editor").unwrap().left();
+    assert!(left < 60.0, "{left}");
     choose(&mut stage, "this panel: close");
     assert!(!stage.state().shell.dock().is_open(Panel::Code));
 }

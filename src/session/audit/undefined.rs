@@ -61,8 +61,8 @@ pub fn reason<'t>(
             _ => None,
         },
         // The width of `smoothstep` whose edges are not known, see `lower`.
-        Op::Bitcast { value, to: Scalar::Int } if text().starts_with("smoothstep") => {
-            let Op::Binary { op: Binary::Subtract, left, right } = *view.op(value) else { return None };
+        Op::Binary { op: Binary::Divide, right, .. } if is_float(view, right) && text().starts_with("smoothstep") => {
+            let Op::Binary { op: Binary::Subtract, left, right } = *view.op(right) else { return None };
             let (b, a) = pairs(&floats(left), &floats(right)).find(|(b, a)| a >= b)?;
             Some((SMOOTHSTEP, format!("smoothstep({a:?}, {b:?}, …)")))
         }

@@ -90,7 +90,10 @@ impl Explained<'_> {
     fn is_touchy(&self, pixel: (u32, u32), apart: f64) -> bool {
         let Some(own) = self.value(self.read, pixel) else { return false };
         let is_far = |other: [f32; 4]| {
-            own.iter().zip(other).any(|(&a, b)| !is_same(a, b) && !(f64::from(a - b).abs() < apart / 4.0))
+            own.iter().zip(other).any(|(&a, b)| {
+                let distance = f64::from(a - b).abs();
+                !is_same(a, b) && (distance >= apart / 4.0 || distance.is_nan())
+            })
         };
         let jittered = |seed| jittered(self.sources, self.index, self.read, pixel, (STATEMENTS, seed)).ok();
         let moved = |by: i32| {

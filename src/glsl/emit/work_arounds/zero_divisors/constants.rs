@@ -1,4 +1,4 @@
-//! What a driver's constant propagation may know of values, once it has inlined functions and unrolled loops.
+//! Finds what a driver's constant propagation may know of values, once it has inlined functions and unrolled loops.
 //!
 //! A variable is followed through its function in the order of the statements. Where two ways meet that an unknown
 //! condition parts, only a number that both bring is known. A loop is taken to be unrolled, so that a variable that it
@@ -6,13 +6,13 @@
 //! parameter has the numbers of all calls that pass known ones. Vectors, arrays and structures have one interval, that
 //! of all their parts. Nothing is known of what lies in variables of the module, but in tables.
 
-use super::{MOST_ROUNDS, known::Known};
+use super::{known::Known, zeros::MOST_ROUNDS};
 use crate::glsl::{
     ir::{Block, ConstId, FuncId, Function, GlobalKind, Math, Module, Op, Stmt, Value},
     types::{Scalar, Type},
 };
 
-/// What is known of a value.
+/// The knowledge of a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum State {
     /// No statement that computes it has been looked at yet.
@@ -26,7 +26,7 @@ enum State {
 use State::{Unknown, Unseen};
 
 impl State {
-    /// What holds of both, where a driver knows which of the two it is.
+    /// Returns what holds of both, where a driver knows which of the two it is.
     fn or(self, other: State) -> State {
         match (self, other) {
             (Unseen, state) | (state, Unseen) => state,
@@ -35,7 +35,7 @@ impl State {
         }
     }
 
-    /// What is known where an unknown condition has chosen between both.
+    /// Returns what is known where an unknown condition has chosen between both.
     fn met(self, other: State) -> State {
         match (self, other) {
             (Unseen, state) | (state, Unseen) => state,
@@ -60,16 +60,16 @@ impl State {
     }
 }
 
-/// What is known of something that is written in several places.
+/// The knowledge of something that is written in several places.
 #[derive(Clone, Copy, Default)]
 struct Held {
     state: State,
-    /// How often its interval has grown.
+    /// The number of times that its interval has grown.
     grown: u8,
 }
 
 impl Held {
-    /// How often an interval grows by as much as it must. A counter without an end would grow for ever.
+    /// The number of times that an interval grows by as much as it must. A counter without an end would grow for ever.
     const MOST_GROWN: u8 = 3;
 
     /// Adds what is stored; says whether that is new.
@@ -90,11 +90,11 @@ impl Held {
     }
 }
 
-/// What may be known of every value of a program.
+/// The knowledge of every value of a program.
 pub(super) struct Constants {
     /// By function and [`Value::index`].
     values: Vec<Vec<State>>,
-    /// Of all calls that pass known arguments.
+    /// The arguments of all calls that pass known ones.
     params: Vec<Vec<Held>>,
     results: Vec<State>,
     /// By function: something that its values follow from has changed since they were found.
@@ -175,7 +175,7 @@ struct Walk<'a> {
     f: &'a Function,
     index: usize,
     values: Vec<State>,
-    /// What each variable holds where the way is.
+    /// The knowledge of each variable where the way is.
     held: Vec<State>,
     /// All that is stored to a variable in loops.
     stored: Vec<Held>,

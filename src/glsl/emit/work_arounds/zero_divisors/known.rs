@@ -70,7 +70,7 @@ impl Known {
         Known::between(all.into_iter().fold(f64::INFINITY, f64::min), all.into_iter().fold(f64::NEG_INFINITY, f64::max))
     }
 
-    /// What the device computes in this type: floats are rounded, and integers wrap.
+    /// Returns what the device computes in this type: floats are rounded, and integers wrap.
     fn as_type(self, scalar: Scalar) -> Known {
         let (least, most) = match scalar {
             // The same as a single rounding: a double has more than twice the bits of a float.

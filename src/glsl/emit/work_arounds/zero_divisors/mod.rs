@@ -12,18 +12,14 @@ mod constants;
 mod known;
 mod zeros;
 
-use self::{constants::Constants, zeros::Zeros};
-use crate::glsl::{
-    ir::{
-        Binary, Function, Module, Op, Value,
-        rewrite::{self, Rewriter, Rule},
-    },
-    types::Scalar,
+use self::{
+    constants::Constants,
+    zeros::{Zeros, is_of_floats},
 };
-
-/// How often all values are looked at. One time more is needed for each step by which a constant gets from variable to
-/// variable against the order of the program, so that a chain of ten thousand would take as many.
-const MOST_ROUNDS: usize = 64;
+use crate::glsl::ir::{
+    Binary, Module, Op, Value,
+    rewrite::{self, Rewriter, Rule},
+};
 
 pub(super) fn run(program: &mut Module) {
     let Some(zeros) = Zeros::of(program) else { return };
@@ -41,10 +37,6 @@ pub(super) fn run(program: &mut Module) {
             rewrite::function(program, index, &mut HiddenDivisors(divisions));
         }
     }
-}
-
-fn is_of_floats(program: &Module, f: &Function, value: Value) -> bool {
-    program.types.scalar(f.ty(value)) == Some(Scalar::Float)
 }
 
 /// Divisions whose divisor is hidden, by [`Value::index`].

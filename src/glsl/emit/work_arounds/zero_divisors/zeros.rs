@@ -1,15 +1,18 @@
 //! Zeros that are written in a program, and where they get to.
 
-use super::{MOST_ROUNDS, is_of_floats};
 use crate::glsl::{
     ir::{Binary, Block, ConstId, Function, Global, GlobalKind, Module, Op, Stmt, Value},
-    types::Type,
+    types::{Scalar, Type},
 };
 
-/// How deep two expressions are compared.
+/// The most times that all values are looked at. One time more is needed for each step by which a constant gets from
+/// variable to variable against the order of the program, so that a chain of ten thousand would take as many.
+pub(super) const MOST_ROUNDS: usize = 64;
+
+/// The levels to which two expressions are compared.
 const MOST_LEVELS: u32 = 8;
 
-/// Which values are, or hold, a number that may be a zero known without running anything. Neither the order of
+/// The values that are, or hold, a number that may be a zero known without running anything. Neither the order of
 /// statements nor the parts of a variable are told apart: too many found cost an instruction each.
 pub(super) struct Zeros {
     /// By function and [`Value::index`].
@@ -192,6 +195,10 @@ fn set_of_all(flag: &mut bool, stale: &mut [bool]) {
         stale.fill(true);
     }
     *flag = true;
+}
+
+pub(super) fn is_of_floats(program: &Module, f: &Function, value: Value) -> bool {
+    program.types.scalar(f.ty(value)) == Some(Scalar::Float)
 }
 
 /// Says whether two values are the same expression of the same variables, so that a driver may take their difference

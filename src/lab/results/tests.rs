@@ -1,0 +1,105 @@
+use super::*;
+use crate::lab::HardCase;
+
+fn run() -> Provenance {
+    let text = |t: &str| t.to_owned();
+    Provenance {
+        device: text("d"),
+        driver: text("r"),
+        version: text("1"),
+        extent: Extent::Quick,
+        repeats: 7,
+        seed: 1,
+        beside_window: false,
+    }
+}
+
+fn error(setting: f64) -> Record {
+    let point = Point { study: "s".into(), method: "m".into(), setting, grid: 64 };
+    let measured = Measured::default().value("x", f64::NAN).hard(HardCase::at_most("case", f64::INFINITY, 1.0));
+    Record::Error(ErrorRecord { point, setup: None, measured: Some(measured), trouble: None })
+}
+
+#[test]
+fn a_run_that_was_cut_short_goes_on() {
+    let dir = tempfile::tempdir().unwrap();
+    let (mut journal, none) = Journal::open(dir.path(), &run()).unwrap();
+    assert_eq!(none.errors.len(), 0);
+    journal.append(&error(0.1)).unwrap();
+    journal.append(&error(0.2)).unwrap();
+    let path = dir.path().join(FILE);
+    let whole = fs::read(&path).unwrap();
+    fs::write(&path, &whole[..whole.len() - 9]).unwrap();
+    let (mut journal, results) = Journal::open(dir.path(), &run()).unwrap();
+    assert_eq!(results.errors.len(), 1);
+    assert!(results.errors[0].measured.as_ref().unwrap().values["x"].0.is_nan());
+    assert!(!results.errors[0].measured.as_ref().unwrap().hard[0].passed);
+    journal.append(&error(0.2)).unwrap();
+    assert_eq!(Results::read(dir.path()).unwrap().errors.len(), 2);
+}
+
+#[test]
+fn another_runs_results_are_neither_gone_on_with_nor_merged() {
+    let (one, two) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    Journal::open(one.path(), &run()).unwrap().0.append(&error(1.0)).unwrap();
+    let both = [one.path().to_owned(), two.path().to_owned()];
+    for (other, difference) in [
+        (Provenance { device: "e".into(), ..run() }, "device: e against d"),
+        (Provenance { extent: Extent::Full, ..run() }, "extent: a full run against --quick"),
+        (Provenance { beside_window: true, ..run() }, "measured beside a window against measured by eddy lab"),
+    ] {
+        let _ = fs::remove_file(two.path().join(FILE));
+        Journal::open(two.path(), &other).unwrap().0.append(&error(2.0)).unwrap();
+        let refused = Journal::open(two.path(), &run()).err().unwrap().to_string();
+        let there_and_here = difference.replace("against", "there,") + " here";
+        assert!(refused.contains(&there_and_here), "{refused}");
+        let refused = Results::merge(&both).unwrap_err().to_string();
+        assert!(refused.contains(difference), "{refused}");
+        assert!(both.iter().all(|folder| refused.contains(&*folder.to_string_lossy())), "{refused}");
+        // Neither order hides it.
+        assert!(Results::merge(&[both[1].clone(), both[0].clone()]).is_err());
+    }
+    assert!(Results::merge(&[one.path().join("none")]).is_err());
+}
+
+#[test]
+fn parts_of_a_run_are_merged_whatever_their_turns() {
+    let (one, two) = (tempfile::tempdir().unwrap(), tempfile::tempdir().unwrap());
+    Journal::open(one.path(), &run()).unwrap().0.append(&error(1.0)).unwrap();
+    let more = Provenance { repeats: 9, ..run() };
+    Journal::open(two.path(), &more).unwrap().0.append(&error(2.0)).unwrap();
+    let all = Results::merge(&[one.path().into(), two.path().into()]).unwrap();
+    assert_eq!((all.runs.len(), all.errors.len()), (2, 2));
+}
+
+#[test]
+fn a_record_without_a_fingerprint_is_read_and_gives_way_to_one_with_it() {
+    let dir = tempfile::tempdir().unwrap();
+    let older = "{\"record\":\"error\",\"study\":\"s\",\"method\":\"m\",\"setting\":0.5,\"grid\":64,\
+                 \"measured\":null,\"trouble\":\"none\"}\n";
+    fs::write(dir.path().join(FILE), older).unwrap();
+    let mut results = Results::read(dir.path()).unwrap();
+    let before = results.errors[0].clone();
+    assert_eq!(before.setup, None);
+    let now = ErrorRecord { setup: Some("a".into()), ..before.clone() };
+    results.add(Record::Error(now.clone()));
+    results.keep_of(&now.point, "a");
+    assert_eq!(results.errors, std::slice::from_ref(&now));
+    results.keep_of(&now.point, "b");
+    assert_eq!(results.errors, []);
+    results.add(Record::Error(before));
+    results.keep_of(&now.point, "a");
+    assert_eq!(results.errors, [], "nobody knows what it was measured of");
+    let other = Point { grid: 32, ..now.point.clone() };
+    results.add(Record::Error(ErrorRecord { point: other, ..now.clone() }));
+    results.keep_of(&now.point, "b");
+    assert_eq!(results.errors.len(), 1, "another point's is left alone");
+}
+
+#[test]
+fn a_line_that_is_no_record_is_named() {
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join(FILE), "{}\nnonsense\n").unwrap();
+    let said = Results::read(dir.path()).unwrap_err().to_string();
+    assert!(said.contains("results.jsonl:1:"), "{said}");
+}
