@@ -98,7 +98,7 @@ impl Random {
 }
 
 /// Everything but what ends the window or leaves the project by a person's own will, as the palette can.
-const KEYS: [&str; 61] = [
+const KEYS: [&str; 57] = [
     "a",
     "e",
     "x",
@@ -155,10 +155,6 @@ const KEYS: [&str; 61] = [
     "F8",
     "F11",
     "ctrl+Return",
-    "ctrl+shift+Return",
-    "alt+Return",
-    "ctrl+bracketright",
-    "shift+alt+a",
     "ctrl+space",
 ];
 const WORDS: [&str; 6] = ["vec3 ", "o.x = uv.y;", "float f(", "// ", "#define A ", "for (int i"];

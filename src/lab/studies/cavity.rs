@@ -171,7 +171,7 @@ impl Study for Cavity {
     fn grids(&self, extent: Extent) -> &'static [u32] {
         match extent {
             // Two texels a step on fewer would be beyond the slider of `fluid-accurate`.
-            Extent::Quick => &[12, 16, 32],
+            Extent::Quick => &[12, 24, 48],
             Extent::Full => &[32, 64, 128],
         }
     }
