@@ -21,7 +21,7 @@ pub struct LabArgs {
     /// Print the studies and their methods, and measure nothing
     #[arg(long)]
     pub list: bool,
-    /// Small grids, each method's usual setting and every second other one: a minute and a half on two cores
+    /// Small grids, each method's usual setting and every second other one
     #[arg(long)]
     pub quick: bool,
     /// Turns that methods take while costs are measured, at least 7
