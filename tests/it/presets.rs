@@ -22,7 +22,6 @@ fn what_projects_share_is_the_same_in_each() {
     const LAB: &str = "assets/lab";
     for (folder, projects, files) in [
         ("presets", &["fluid", "fluid-lit", "fluid-dye"][..], &["solver.glsl", "step.glsl"][..]),
-        ("presets", &["fluid-lit", "fluid-dye"], &["buffer_a.glsl"]),
         ("presets", &["bloom", "bloom-sized"], &["buffer_a.glsl"]),
         ("presets", &["gbuffer-edges", "gbuffer-ssao-ssr"], &["scene.glsl", "gbuffer.glsl", "buffer_a.glsl"]),
         (

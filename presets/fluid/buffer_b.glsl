@@ -1,2 +1,0 @@
-// Second of three sub-steps: channel 0 is this frame's Buffer A.
-#include "step.glsl"
