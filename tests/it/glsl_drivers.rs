@@ -47,6 +47,20 @@ fn a_constant_zero_divides() {
              r = vec4(s, t, over(2.0, 2.0), min((Z + 1.0) / (u - u), 7.0));",
             [3., 5.5, 1., 7.],
         ),
+        // Zeros that functions leave in what they are handed and in variables of the module, and what they multiply.
+        with(
+            "float kept = 1.0; void set() { kept = 0.0; } void clear(out float v) { v = 0.0; }\n\
+             float within(out float v) { v = 0.0; return (Z + 1.0) / v; }",
+            "float k; clear(k); float u; float w = within(u); set();\n\
+             r = vec4(min((Z + 1.0) / k, 5.0), min(w, 6.0), min((Z + 1.0) / kept, 7.0), min((Z + 1.0) / (k * Z), 8.0));",
+            [5., 6., 7., 8.],
+        ),
+        with(
+            "const vec2 none = vec2(0.0);",
+            "float one = 1.0; r = vec4(min((Z + 1.0) / abs(mix(none.x, 0.0, Z)), 5.0), min((Z + 2.0) / (one * 0.0), 6.0),\n\
+             max((Z - 1.0) / abs(min(one, 0.0)), -7.0), min((Z + 3.0) / dot(none, vec2(1.0 + Z)), 8.0));",
+            [5., 6., -7., 8.],
+        ),
         // Space is repeated along some axes alone by this.
         case("r = vec4(mod(Z + 5.5, 0.0), mod(vec2(Z + 5.5), vec2(0.0, 2.0)), 0);", [5.5, 5.5, 1.5, 0.]),
     ]);

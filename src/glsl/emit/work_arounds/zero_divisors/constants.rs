@@ -3,14 +3,20 @@
 //! A variable is followed through its function in the order of the statements. Where two ways meet that an unknown
 //! condition parts, only a number that both bring is known. A loop is taken to be unrolled, so that a variable that it
 //! counts has all numbers that are stored to it; if an unknown condition leaves the loop, none is known behind it. A
-//! parameter has the numbers of all calls that pass known ones. Vectors, arrays and structures have one interval, that
-//! of all their parts. Nothing is known of what lies in variables of the module, but in tables.
+//! parameter has the numbers of all calls that pass known ones. What a parameter refers to, and a variable of the
+//! module, have all known numbers that are stored to them anywhere. Vectors, arrays and structures have one interval,
+//! that of all their parts.
 
-use super::{known::Known, zeros::MOST_ROUNDS};
+use super::{known::Known, same::is_same};
 use crate::glsl::{
-    ir::{Block, ConstId, FuncId, Function, GlobalKind, Math, Module, Op, Stmt, Value},
+    ir::{Binary, Block, ConstId, FuncId, Function, Global, GlobalId, GlobalKind, Math, Module, Op, Stmt, Value},
     types::{Scalar, Type},
 };
+
+/// The most times that all functions are looked at, and the statements of one. One time more is needed for each step by
+/// which a constant gets from variable to variable against the order of the program, so that a chain of ten thousand
+/// would take as many.
+const MOST_ROUNDS: usize = 64;
 
 /// The knowledge of a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -26,6 +32,8 @@ enum State {
 use State::{Unknown, Unseen};
 
 impl State {
+    const ZERO: State = State::Known(Known::ZERO);
+
     /// Returns what holds of both, where a driver knows which of the two it is.
     fn or(self, other: State) -> State {
         match (self, other) {
@@ -42,6 +50,11 @@ impl State {
             (State::Known(a), State::Known(b)) if a == b && a.is_exact() => self,
             _ => Unknown,
         }
+    }
+
+    /// Returns what is known where two ways meet; a driver knows which it is if `is_known`.
+    fn join(self, other: State, is_known: bool) -> State {
+        if is_known { self.or(other) } else { self.met(other) }
     }
 
     fn map(self, f: impl FnOnce(Known) -> Known) -> State {
@@ -69,11 +82,28 @@ struct Held {
 }
 
 impl Held {
-    /// The number of times that an interval grows by as much as it must. A counter without an end would grow for ever.
+    /// The number of times that an interval grows by as much as it must. What calls count up would grow for ever.
     const MOST_GROWN: u8 = 3;
+
+    /// Returns what is known where it is read.
+    fn state(&self) -> State {
+        match self.state {
+            Unseen => Unknown,
+            state => state,
+        }
+    }
 
     /// Adds what is stored; says whether that is new.
     fn add(&mut self, state: State) -> bool {
+        self.add_growing(state, Self::MOST_GROWN)
+    }
+
+    /// Adds what a round of a loop stores. What grows in one most likely grows in each: it is taken to grow without end.
+    fn add_in_loop(&mut self, state: State) -> bool {
+        self.add_growing(state, 0)
+    }
+
+    fn add_growing(&mut self, state: State, most_grown: u8) -> bool {
         let before = self.state;
         let mut after = before.or(state);
         if after == before {
@@ -81,7 +111,7 @@ impl Held {
         }
         if let (State::Known(old), State::Known(new)) = (before, after) {
             self.grown = self.grown.saturating_add(1);
-            if self.grown > Self::MOST_GROWN {
+            if self.grown > most_grown {
                 after = State::Known(new.widened(old));
             }
         }
@@ -94,9 +124,14 @@ impl Held {
 pub(super) struct Constants {
     /// By function and [`Value::index`].
     values: Vec<Vec<State>>,
-    /// The arguments of all calls that pass known ones.
+    /// The arguments of all calls that pass known ones, and what is stored to those that refer to variables.
     params: Vec<Vec<Held>>,
+    globals: Vec<Held>,
     results: Vec<State>,
+    /// By function: those that call it.
+    callers: Vec<Vec<usize>>,
+    /// By variable of the module: the functions that name it.
+    users: Vec<Vec<usize>>,
     /// By function: something that its values follow from has changed since they were found.
     stale: Vec<bool>,
 }
@@ -107,12 +142,16 @@ impl Constants {
         let mut constants = Constants {
             values: program.functions.iter().map(|f| vec![Unseen; f.len()]).collect(),
             params: program.functions.iter().map(|f| vec![Held::default(); f.params.len()]).collect(),
+            globals: program.globals.iter().map(|global| Held { state: begin(program, global), grown: 0 }).collect(),
             results: vec![Unknown; count],
+            callers: vec![Vec::new(); count],
+            users: vec![Vec::new(); program.globals.len()],
             stale: vec![true; count],
         };
+        constants.find_users(program);
         for _ in 0..MOST_ROUNDS {
             if !constants.stale.contains(&true) {
-                break;
+                return constants;
             }
             // Callers come behind their callees, and hand them what they know.
             for index in (0..count).rev() {
@@ -121,7 +160,24 @@ impl Constants {
                 }
             }
         }
+        // Any value may be a zero: that costs an instruction a division.
+        constants.values.iter_mut().for_each(|values| values.fill(State::Known(Known::ANY)));
         constants
+    }
+
+    fn find_users(&mut self, program: &Module) {
+        for (index, f) in program.functions.iter().enumerate() {
+            for (_, op) in f.values() {
+                let users = match op {
+                    Op::Call { function, .. } => &mut self.callers[function.index()],
+                    Op::Global(global) => &mut self.users[global.index()],
+                    _ => continue,
+                };
+                if users.last() != Some(&index) {
+                    users.push(index);
+                }
+            }
+        }
     }
 
     pub(super) fn may_be_zero(&self, program: &Module, function: usize, value: Value) -> bool {
@@ -129,9 +185,27 @@ impl Constants {
             Op::Literal(scalar, bits) => State::Known(Known::literal(scalar, bits)),
             Op::Zero(_) => State::Known(Known::literal(Scalar::Int, 0)),
             Op::Const(id) => of_const(program, id),
+            Op::Param(param) => self.params[function][param as usize].state(),
             _ => self.values[function][value.index()],
         };
         matches!(state, State::Known(known) if known.zero)
+    }
+
+    /// Adds a known number to those that a parameter has, or that are where it refers to.
+    fn pass(&mut self, program: &Module, function: usize, param: usize, state: State) {
+        if matches!(state, State::Known(_)) && self.params[function][param].add(state) {
+            self.stale[function] = true;
+            // Callers read what it has left there.
+            if program.functions[function].params[param].by_reference {
+                mark(&self.callers[function], &mut self.stale);
+            }
+        }
+    }
+
+    fn store(&mut self, global: GlobalId, state: State) {
+        if matches!(state, State::Known(_)) && self.globals[global.index()].add(state) {
+            mark(&self.users[global.index()], &mut self.stale);
+        }
     }
 
     fn function(&mut self, program: &Module, index: usize) {
@@ -143,7 +217,9 @@ impl Constants {
             stored: vec![Held::default(); f.vars.len()],
             is_new: true,
             held: Vec::new(),
+            trail: Vec::new(),
             result: Unseen,
+            loops: 0,
             uncertain: 0,
             leaves: false,
             constants: self,
@@ -155,6 +231,7 @@ impl Constants {
                 break;
             }
             walk.held = f.vars.iter().map(|var| var.init.map_or(Unseen, |init| walk.state(init))).collect();
+            walk.trail.clear();
             (walk.result, walk.uncertain) = (Unseen, 0);
             walk.block(&f.body);
         }
@@ -163,11 +240,13 @@ impl Constants {
         let result = if result == Unseen { Unknown } else { result };
         if result != self.results[index] {
             self.results[index] = result;
-            // Its callers come behind it.
-            self.stale[index + 1..].fill(true);
+            mark(&self.callers[index], &mut self.stale);
         }
     }
 }
+
+/// The variables that a block changes, by rising index, and what is known of them behind it.
+type Changes = Vec<(usize, State)>;
 
 /// A way through the statements of a function.
 struct Walk<'a> {
@@ -177,11 +256,15 @@ struct Walk<'a> {
     values: Vec<State>,
     /// The knowledge of each variable where the way is.
     held: Vec<State>,
+    /// The variables that have been set on the way, and what was known of them before.
+    trail: Vec<(usize, State)>,
     /// All that is stored to a variable in loops.
     stored: Vec<Held>,
     /// `stored` has grown.
     is_new: bool,
     result: State,
+    /// Loops around the statement.
+    loops: u32,
     /// Unknown conditions around the statement, within the innermost loop.
     uncertain: u32,
     /// An unknown condition leaves the innermost loop.
@@ -195,14 +278,8 @@ impl Walk<'_> {
             Op::Literal(scalar, bits) => State::Known(Known::literal(scalar, bits)),
             Op::Zero(_) => State::Known(Known::literal(Scalar::Int, 0)),
             Op::Const(id) => of_const(self.program, id),
-            Op::Param(param) => match self.constants.params[self.index][param as usize].state {
-                Unseen => Unknown,
-                state => state,
-            },
-            Op::Global(id) => match self.program[id].kind {
-                GlobalKind::Table(table) => of_const(self.program, table),
-                _ => Unknown,
-            },
+            Op::Param(param) => self.constants.params[self.index][param as usize].state(),
+            Op::Global(global) => self.constants.globals[global.index()].state(),
             Op::Var(var) => self.held[var.index()],
             Op::Input(_) => Unknown,
             // Places are named by no statement.
@@ -227,34 +304,31 @@ impl Walk<'_> {
             Stmt::Store { place, value } => self.store(*place, self.state(*value)),
             Stmt::If { condition, accept, reject } => {
                 let is_known = matches!(self.state(*condition), State::Known(_));
-                let before = self.held.clone();
                 self.uncertain += u32::from(!is_known);
-                self.block(accept);
-                let accepted = std::mem::replace(&mut self.held, before);
-                self.block(reject);
+                let accepted = self.branch(&Changes::new(), is_known, accept);
+                let rejected = self.branch(&Changes::new(), is_known, reject);
                 self.uncertain -= u32::from(!is_known);
-                if leaves(reject) {
-                    self.held = accepted;
-                } else if !leaves(accept) {
-                    self.meet(&accepted, is_known);
-                }
+                let changes = match (leaves(accept), leaves(reject)) {
+                    (_, true) => accepted,
+                    (true, false) => rejected,
+                    (false, false) => self.joined(accepted, &rejected, is_known),
+                };
+                changes.into_iter().for_each(|(var, state)| self.set(var, state));
             }
             Stmt::Switch { selector, cases } => {
                 let is_known = matches!(self.state(*selector), State::Known(_));
-                let before = self.held.clone();
                 self.uncertain += u32::from(!is_known);
-                let mut met: Option<Vec<State>> = None;
+                let mut changes = Changes::new();
                 for case in cases {
                     // A case may begin where the one before it ends.
-                    self.meet(&before, is_known);
-                    self.block(&case.body);
-                    if let Some(met) = &met {
-                        self.meet(met, is_known);
-                    }
-                    met = Some(self.held.clone());
+                    let after = self.branch(&changes, is_known, &case.body);
+                    changes = self.joined(after, &changes, is_known);
                 }
-                self.meet(&before, is_known);
                 self.uncertain -= u32::from(!is_known);
+                // No case may be chosen.
+                for (var, state) in changes {
+                    self.set(var, state.join(self.held[var], is_known));
+                }
             }
             Stmt::Loop { body, continuing, break_if } => {
                 let around = (std::mem::take(&mut self.uncertain), std::mem::take(&mut self.leaves));
@@ -263,14 +337,16 @@ impl Walk<'_> {
                 collect(self.f, continuing, &mut written);
                 for &var in &written {
                     self.note(var, self.held[var]);
-                    self.held[var] = self.stored[var].state;
+                    self.set(var, self.stored[var].state);
                 }
+                self.loops += 1;
                 self.block(body);
                 self.block(continuing);
+                self.loops -= 1;
                 let is_left =
                     self.leaves || break_if.is_some_and(|condition| !matches!(self.state(condition), State::Known(_)));
                 for &var in &written {
-                    self.held[var] = if is_left { Unknown } else { self.stored[var].state };
+                    self.set(var, if is_left { Unknown } else { self.stored[var].state });
                 }
                 (self.uncertain, self.leaves) = around;
             }
@@ -289,23 +365,62 @@ impl Walk<'_> {
         }
     }
 
-    /// Two ways meet here; a driver knows which it is if `is_known`.
-    fn meet(&mut self, other: &[State], is_known: bool) {
-        for (held, &other) in self.held.iter_mut().zip(other) {
-            *held = if is_known { held.or(other) } else { held.met(other) };
+    fn set(&mut self, var: usize, state: State) {
+        let before = std::mem::replace(&mut self.held[var], state);
+        self.trail.push((var, before));
+    }
+
+    /// Goes through a block that may also begin behind others, which have made `changes`. Returns what it changes, and
+    /// takes that back.
+    fn branch(&mut self, changes: &Changes, is_known: bool, block: &Block) -> Changes {
+        let begin = self.trail.len();
+        for &(var, state) in changes {
+            self.set(var, state.join(self.held[var], is_known));
         }
+        self.block(block);
+        let trail: Vec<_> = self.trail.drain(begin..).rev().collect();
+        let mut changes: Changes =
+            trail.into_iter().map(|(var, before)| (var, std::mem::replace(&mut self.held[var], before))).collect();
+        // The first of a variable is its newest.
+        changes.sort_by_key(|&(var, _)| var);
+        changes.dedup_by_key(|&mut (var, _)| var);
+        changes
+    }
+
+    /// Returns what is changed where two ways meet; a driver knows which it is if `is_known`.
+    fn joined(&self, mut one: Changes, other: &Changes, is_known: bool) -> Changes {
+        let known = one.len();
+        for &(var, state) in other {
+            match one[..known].binary_search_by_key(&var, |&(var, _)| var) {
+                Ok(at) => one[at].1 = state.join(one[at].1, is_known),
+                Err(_) => one.push((var, state.join(self.held[var], is_known))),
+            }
+        }
+        for (var, state) in &mut one[..known] {
+            if other.binary_search_by_key(var, |&(var, _)| var).is_err() {
+                *state = state.join(self.held[*var], is_known);
+            }
+        }
+        one.sort_by_key(|&(var, _)| var);
+        one
     }
 
     fn note(&mut self, var: usize, state: State) {
-        self.is_new |= self.stored[var].add(state);
+        self.is_new |= self.stored[var].add_in_loop(state);
     }
 
     fn store(&mut self, place: Value, state: State) {
-        let Op::Var(var) = self.f[self.f.root(place)] else { return };
-        let var = var.index();
-        self.held[var] = if matches!(self.f[place], Op::Var(_)) { state } else { self.held[var].or(state) };
-        let held = if self.uncertain > 0 { Unknown } else { self.held[var] };
-        self.note(var, held);
+        let var = match self.f[self.f.root(place)] {
+            Op::Var(var) => var.index(),
+            Op::Param(param) => return self.constants.pass(self.program, self.index, param as usize, state),
+            Op::Global(global) => return self.constants.store(global, state),
+            _ => return,
+        };
+        self.set(var, if matches!(self.f[place], Op::Var(_)) { state } else { self.held[var].or(state) });
+        if self.loops > 0 {
+            let held = if self.uncertain > 0 { Unknown } else { self.held[var] };
+            self.note(var, held);
+        }
     }
 
     fn compute(&mut self, value: Value) -> State {
@@ -326,9 +441,16 @@ impl Walk<'_> {
             Op::Unary { op, operand } => self.state(operand).map(|known| known.unary(op, scalar(value))),
             Op::Convert { value: of, to } => self.state(of).map(|known| known.converted(to)),
             Op::Bitcast { value: of, .. } | Op::All(of) | Op::Any(of) => self.state(of).map(|_| Known::ANY),
+            // Of the same expression, though it is not known.
+            Op::Binary { op: Binary::Subtract, left, right } if is_same(f, left, right) => State::ZERO,
             Op::Binary { op, left, right } => {
                 let scalar = scalar(left);
-                self.state(left).zip(self.state(right), |l, r| l.binary(op, r, scalar))
+                match (self.state(left), self.state(right)) {
+                    // What a zero is multiplied or divided by need not be known.
+                    (Unknown, State::Known(known)) if known.zero && is_zero_of_zero(op).1 => State::ZERO,
+                    (State::Known(known), Unknown) if known.zero && is_zero_of_zero(op).0 => State::ZERO,
+                    (left, right) => left.zip(right, |l, r| l.binary(op, r, scalar)),
+                }
             }
             Op::Math { fun, arg, arg1, arg2, arg3 } => {
                 let scalar = scalar(value);
@@ -339,13 +461,15 @@ impl Walk<'_> {
                     [Some(low), Some(high), None] if fun == Math::Clamp => first
                         .zip(low, |x, y| x.function(Math::Max, Some(y), scalar))
                         .zip(high, |x, y| x.function(Math::Min, Some(y), scalar)),
+                    // Which mix of both it is need not be known where they are one number.
+                    [Some(second), Some(Unknown), None] if fun == Math::Mix => first.met(second),
                     others => others.into_iter().flatten().fold(first, |all, other| all.zip(other, |_, _| Known::ANY)),
                 }
             }
-            Op::Select { condition, accept, reject } => match self.state(condition) {
-                State::Known(_) => self.state(accept).or(self.state(reject)),
-                _ => self.state(accept).met(self.state(reject)),
-            },
+            Op::Select { condition, accept, reject } => {
+                let is_known = matches!(self.state(condition), State::Known(_));
+                self.state(accept).join(self.state(reject), is_known)
+            }
             Op::Call { function, ref args } => self.call(function, args),
             _ => Unknown,
         }
@@ -354,16 +478,25 @@ impl Walk<'_> {
     fn call(&mut self, function: FuncId, args: &[Value]) -> State {
         let callee = function.index();
         for (param, &arg) in args.iter().enumerate() {
-            let state = self.state(arg);
+            self.constants.pass(self.program, callee, param, self.state(arg));
             if self.f.is_place(arg) {
-                // What it leaves there is not followed.
-                self.store(arg, Unknown);
-            }
-            if matches!(state, State::Known(_)) && self.constants.params[callee][param].add(state) {
-                self.constants.stale[callee] = true;
+                self.store(arg, self.constants.params[callee][param].state());
             }
         }
         self.constants.results[callee]
+    }
+}
+
+fn mark(functions: &[usize], stale: &mut [bool]) {
+    functions.iter().for_each(|&function| stale[function] = true);
+}
+
+/// Returns what a variable of the module holds at first.
+fn begin(program: &Module, global: &Global) -> State {
+    match global.kind {
+        GlobalKind::Private(Some(init)) | GlobalKind::Table(init) => of_const(program, init),
+        GlobalKind::Private(None) => State::ZERO,
+        GlobalKind::Uniform(_) | GlobalKind::CustomUniform(_) | GlobalKind::CubeFace => Unknown,
     }
 }
 
@@ -374,6 +507,15 @@ fn of_const(program: &Module, id: ConstId) -> State {
         None => Some(Known::any_but(words.iter().any(|word| word << 1 == 0))),
     };
     known.map_or(Unknown, State::Known)
+}
+
+/// Says whether an operation is 0 where its left side is, and where its right side is.
+fn is_zero_of_zero(op: Binary) -> (bool, bool) {
+    match op {
+        Binary::Multiply | Binary::And => (true, true),
+        Binary::Divide | Binary::Modulo | Binary::ShiftLeft | Binary::ShiftRight => (true, false),
+        _ => (false, false),
+    }
 }
 
 /// Says whether no way leads behind a block.

@@ -17,6 +17,7 @@ pub(super) struct Known {
 impl Known {
     /// Any number.
     pub(super) const ANY: Known = Known { least: f64::NEG_INFINITY, most: f64::INFINITY, zero: true };
+    pub(super) const ZERO: Known = Known { least: 0.0, most: 0.0, zero: true };
     const BOOL: Known = Known { least: 0.0, most: 1.0, zero: true };
 
     fn exact(number: f64) -> Known {

@@ -3,40 +3,46 @@
 //! `x / 0.0` is infinite or NaN on every device, and shaders rely on it: `clamp(0.5 + (b - a) / k, 0.0, 1.0)` with `k =
 //! 0.0` chooses a side. Mesa's llvmpipe takes a quotient for undefined once it sees that the divisor is zero
 //! (`lp_build_div` in `gallivm/lp_bld_arit.c`), after it has inlined functions, unrolled loops, and folded and spread
-//! constants. So what may be such a zero is kept out of its sight: zeros that are written somewhere ([`zeros`]), and
-//! those that come of other constants ([`constants`]), as `1.0 - k` with `k = 1.0`, or `float(i)` in a loop that counts
-//! through zero. What is hidden is not folded into its quotient any more, which may change a last bit: so no more is
-//! hidden than may be a zero.
+//! constants. So what may be such a zero is kept out of its sight: one that is written, or that comes of other constants
+//! ([`constants`]), as `1.0 - k` with `k = 1.0`, or `float(i)` in a loop that counts through zero. What is hidden is not
+//! folded into its quotient any more, which may change a last bit: so no more is hidden than may be a zero.
 
 mod constants;
 mod known;
-mod zeros;
+mod same;
 
-use self::{
-    constants::Constants,
-    zeros::{Zeros, is_of_floats},
-};
-use crate::glsl::ir::{
-    Binary, Module, Op, Value,
-    rewrite::{self, Rewriter, Rule},
+use self::constants::Constants;
+use crate::glsl::{
+    ir::{
+        Binary, Function, Module, Op, Value,
+        rewrite::{self, Rewriter, Rule},
+    },
+    types::Scalar,
 };
 
 pub(super) fn run(program: &mut Module) {
-    let Some(zeros) = Zeros::of(program) else { return };
+    let divides = |f: &Function| f.values().any(|division| divisor(program, f, division).is_some());
+    if !program.functions.iter().any(divides) {
+        return;
+    }
     let constants = Constants::of(program);
     for index in 0..program.functions.len() {
         let f = &program.functions[index];
-        let may_be_zero =
-            |value: Value| zeros.values[index][value.index()] || constants.may_be_zero(program, index, value);
-        let hides = |(value, op): (Value, &Op)| match *op {
-            Op::Binary { op: Binary::Divide, right, .. } => is_of_floats(program, f, value) && may_be_zero(right),
-            _ => false,
-        };
+        let hides =
+            |division| divisor(program, f, division).is_some_and(|it| constants.may_be_zero(program, index, it));
         let divisions: Vec<bool> = f.values().map(hides).collect();
         if divisions.contains(&true) {
             rewrite::function(program, index, &mut HiddenDivisors(divisions));
         }
     }
+}
+
+/// Returns what a division of floats divides by, unless it is a number that is no zero.
+fn divisor(program: &Module, f: &Function, (value, op): (Value, &Op)) -> Option<Value> {
+    let Op::Binary { op: Binary::Divide, right, .. } = *op else { return None };
+    let is_of_floats = program.types.scalar(f.ty(value)) == Some(Scalar::Float);
+    let is_number = matches!(f[right], Op::Literal(_, bits) if bits << 1 != 0);
+    (is_of_floats && !is_number).then_some(right)
 }
 
 /// Divisions whose divisor is hidden, by [`Value::index`].
