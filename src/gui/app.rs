@@ -241,6 +241,10 @@ impl Running {
         }
         report.say(json!({ "event": "started", "device": surface.gpu().describe(), "pid": std::process::id() }));
         window.set_visible(true);
+        // Under X11 the window manager is asked for it, and knows a window only once that is to be seen.
+        if options.size.is_none() && remembered.place.is_maximized {
+            window.set_maximized(true);
+        }
         let now = Instant::now();
         Ok(Running {
             window,

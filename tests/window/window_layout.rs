@@ -295,3 +295,36 @@ fn a_channel_shows_its_buffer_live() {
     window.wait_for("a reload", |e| e["event"] == "reloaded");
     shows(&mut window, [0, 0, 255]);
 }
+
+/// By its frame: made as large as the screen, closed so, opened so, and back at the size and place it had before.
+#[test]
+fn a_window_that_was_closed_as_large_as_the_screen_opens_so() {
+    let Some(display) = Display::with_frames(1300, 820) else { return };
+    let home = tempfile::tempdir().unwrap();
+    let folder = project(home.path());
+    let path = folder.to_str().unwrap();
+    let size = |e: &Value| e["window"].as_array().map(|s| (s[0].as_u64().unwrap(), s[1].as_u64().unwrap()));
+    let is_large = |e: &Value| size(e).is_some_and(|(width, height)| width > 1280 && height > 760);
+    for turn in 0..2 {
+        let mut window = Window::open_as(&display, home.path(), None, &[], &[path]);
+        window.compiled();
+        if turn == 0 {
+            window.keys(&["F5"]);
+            window.resize(940, 620);
+            window.wait_until("a size of one's own", "layout", |e| size(e) == Some((940, 620)));
+            window.keys(&["super+m"]);
+        }
+        window.wait_until("the screen's size", "layout", is_large);
+        display.shot(&format!("maximized-{turn}.png"));
+        if turn == 1 {
+            window.keys(&["super+m"]);
+            window.wait_until("the size before", "layout", |e| size(e) == Some((940, 620)));
+            window.keys(&["super+m"]);
+            window.wait_until("the screen's size", "layout", is_large);
+        }
+        window.keys(&["alt+F4"]);
+        assert_eq!(window.ends(), Some(0), "{}", window.complaints());
+    }
+    let kept = fs::read_to_string(home.path().join(".local/state/eddy/window.toml")).unwrap();
+    assert!(kept.contains("maximized = true"), "{kept}");
+}
