@@ -129,7 +129,7 @@ fn what_a_pass_begins_with_and_its_edges_are_typed() {
 }
 
 #[test]
-fn region_and_steps_are_set_by_hand() {
+fn region_steps_filter_and_wrap_are_set_by_hand() {
     let Some(display) = Display::open() else { return };
     let home = tempfile::tempdir().unwrap();
     let folder = project(home.path());
@@ -151,12 +151,15 @@ fn region_and_steps_are_set_by_hand() {
     number(&mut window, "passes:region:width", "64");
     number(&mut window, "passes:region:height", "32");
     number(&mut window, "passes:steps", "3");
+    // The channel of Image that reads it. Buffers are read linearly and clamped where the file says nothing.
+    choose(&mut window, "passes:filter", "passes:filter:nearest");
+    choose(&mut window, "passes:wrap", "passes:wrap:repeat");
     display.shot("passes-numbers.png");
     window.compiled();
     window.keys(&["ctrl+s"]);
     window.wait_until("the save", "dirty", |e| e["dirty"] == false);
     let text = fs::read_to_string(folder.join("eddy.toml")).unwrap();
-    for part in ["region = [2, 0, 64, 32]", "steps = 3"] {
+    for part in ["region = [2, 0, 64, 32]", "steps = 3", "filter = \"nearest\"", "wrap = \"repeat\""] {
         assert!(text.contains(part), "no {part} in\n{text}");
     }
 }
