@@ -179,7 +179,7 @@ pub fn open_measured(
 /// Says which value of a project is probed.
 pub type FindProbe<'a> = &'a dyn Fn(&Project) -> anyhow::Result<Probe>;
 
-/// Does the same as [`open`] for a project of which a value of a pass is drawn beside it.
+/// Does the same as [`open`] for a project of which a value of a pass is drawn.
 pub fn open_probed(
     machine: &mut Machine,
     report: &mut Report,
@@ -215,8 +215,9 @@ fn open_with(
     let mut offline = Offline::new(&gpu, run.size, inputs)?;
     offline.set_frame_limit(run.frame_timeout);
     let probe = probe.map(|probe| anyhow::Ok((wanted.clone(), probe(&project)?))).transpose()?;
-    let probed = probe.iter().map(|_| BuildOptions::probed());
-    let wanted = [wanted.clone()].into_iter().chain(beside).chain(probed).collect();
+    // Nobody looks at the picture of a pass of which a value is asked for.
+    let wanted = if probe.is_some() { BuildOptions::probed() } else { wanted.clone() };
+    let wanted = [wanted].into_iter().chain(beside).collect();
     let options = BuildOptions { wanted, skip: !run.no_skip, without: run.without_pass.set(), probe };
     let built = offline.build(&project, &media, &options);
     report.compile_ms = offline.build_millis();

@@ -18,7 +18,7 @@ use crate::{
     gpu::Gpu,
     graph::{ChannelFacts, FramePlan, PassFacts},
     media::MediaSet,
-    project::{FillKind, Group, Input, Media, Pass, PassFormat, PassId, PassSettings, Project},
+    project::{FillKind, Input, Media, Pass, PassFormat, PassId, PassSettings, Project},
 };
 
 /// The pictures that are wanted, and whether the others may be left out.
@@ -30,23 +30,29 @@ pub struct BuildOptions {
     pub skip: bool,
     /// Passes of the shader compiler's optimiser that are left out: for who works on it.
     pub without: PassSet,
-    /// A value of a pass that is drawn beside it, into [`BuildOptions::probed`].
+    /// A value of a pass that is drawn into [`BuildOptions::probed`].
     pub probe: Option<(PassId, Probe)>,
 }
 
 impl BuildOptions {
-    /// The pass that the probed value is drawn into: 32-bit floats, NaN where the probe never was. It is drawn before
-    /// the pass that is probed, and reads what that reads.
+    /// What the probed value is drawn into: 32-bit floats, NaN where the probe never was. A buffer draws it beside its
+    /// picture, as others read that, so both take one evaluation. Of Image it is drawn by a pass of its own, behind all
+    /// buffers: its picture is drawn only where it is wanted too.
     pub fn probed() -> PassId {
         PassId::Buffer("probe of a value".into())
     }
 
-    /// Draws beside a pass the first value of the innermost expression at a byte of a text, or of the variable whose
-    /// name is declared there, and nothing else that it does not need.
+    /// Draws the first value of the innermost expression at a byte of a text, as a pass evaluates it, or of the variable
+    /// whose name is declared there, and nothing else that it does not need.
     #[must_use]
     pub fn probing(self, pass: PassId, source: SourceId, at: u32) -> Self {
         let probe = Some((pass, Probe { source, at, visit: 0 }));
         Self { wanted: vec![BuildOptions::probed()], probe, ..self }
+    }
+
+    /// The buffer that draws a probed value beside its picture.
+    fn probed_buffer(&self) -> Option<(&PassId, Probe)> {
+        self.probe.as_ref().filter(|(pass, _)| *pass != PassId::Image).map(|(pass, probe)| (pass, *probe))
     }
 }
 
@@ -129,13 +135,19 @@ impl Builder {
             Ok(done) => done,
             Err(diagnostics) => return Err(BuildError::Diagnostics { diagnostics, sources }),
         };
-        for id in &options.wanted {
+        let beside = options.probed_buffer().map(|(pass, _)| pass);
+        let drawn_by = |id: &PassId| beside.filter(|_| *id == BuildOptions::probed()).unwrap_or(id).clone();
+        let wanted: Vec<PassId> = options.wanted.iter().map(drawn_by).collect();
+        for id in &wanted {
             if drawable.pass(id).is_none() {
                 return Err(EngineError::NoSuchPass(id.title()).into());
             }
         }
         let facts: Vec<PassFacts> = passes.iter().map(|p| facts(&p.compiled)).collect();
-        let plan = FramePlan::new(&drawable, &facts, &options.wanted, options.skip);
+        let mut plan = FramePlan::new(&drawable, &facts, &wanted, options.skip);
+        if let Some(pass) = drawable.passes.iter().position(|pass| Some(&pass.id) == beside) {
+            plan.draw_beside(pass, BuildOptions::probed());
+        }
         let mut passes: Vec<Option<CompiledParts>> = passes.into_iter().map(Some).collect();
         let mut drafts = Vec::with_capacity(plan.draws.len());
         let binder = ChannelBinder { gpu: &self.gpu, project: &drawable, media };
@@ -157,10 +169,11 @@ impl Builder {
     }
 
     /// Returns what the compiler is told of `project.passes[index]` besides its texts.
-    fn options(&self, project: &Project, media: &MediaSet, index: usize, without: PassSet) -> PassOptions {
+    fn options(&self, project: &Project, media: &MediaSet, index: usize, build: &BuildOptions) -> PassOptions {
         let mixing = mixing(&self.gpu, project, media, index);
-        let driver = Driver { without, ..driver(&self.gpu, &project.passes[index]) };
-        PassOptions { bilinear_by_hand: mixing.map(|m| m == Mixing::ByHand), driver, probe: None }
+        let driver = Driver { without: build.without, ..driver(&self.gpu, &project.passes[index]) };
+        let probe = build.probed_buffer().filter(|(id, _)| **id == project.passes[index].id).map(|(_, probe)| probe);
+        PassOptions { bilinear_by_hand: mixing.map(|m| m == Mixing::ByHand), driver, probe }
     }
 
     /// Compiles every pass that can be drawn, and its fills.
@@ -178,8 +191,7 @@ impl Builder {
         diagnostics.extend(media.mesh_errors(project));
         diagnostics.extend(media.fill_errors(project));
         let drawn = project.passes.iter().enumerate().filter(|(_, pass)| is_drawn(pass));
-        let options: Vec<_> =
-            drawn.map(|(index, _)| (index, self.options(project, media, index, build.without))).collect();
+        let options: Vec<_> = drawn.map(|(index, _)| (index, self.options(project, media, index, build))).collect();
         texts.compile_ahead(&mut self.stages, options);
         // Image is drawn last, wherever it stands in the project: its probe is drawn after all buffers.
         let mut probe_of_image = None;
@@ -192,12 +204,12 @@ impl Builder {
                 ));
                 continue;
             }
-            let options = self.options(project, media, index, build.without);
+            let options = self.options(project, media, index, build);
             let mut said = Vec::new();
             let fills = FillKind::ALL.map(|kind| {
                 let texels = pass.fill(kind).and_then(|fill| media.fill(fill.value.path()?));
                 let by_hand = texels.is_some_and(|t| mixing_of_fill(&self.gpu, t) == Mixing::ByHand);
-                let options = PassOptions { bilinear_by_hand: [by_hand, false, false, false], ..options };
+                let options = PassOptions { bilinear_by_hand: [by_hand, false, false, false], probe: None, ..options };
                 match texts.compile_fill_with(&mut self.stages, index, kind, options)? {
                     Ok(mut fill) => {
                         said.append(&mut fill.diagnostics);
@@ -209,19 +221,15 @@ impl Builder {
                     }
                 }
             });
-            if let Some((_, probe)) = build.probe.as_ref().filter(|(id, _)| *id == pass.id) {
+            if build.probe.as_ref().is_some_and(|(id, _)| *id == pass.id) && pass.settings.meshes().is_some() {
+                said.push(Diagnostic::error(None, "a pass of meshes cannot be probed: put the probe into another"));
+            }
+            if let Some((PassId::Image, probe)) = build.probe.as_ref().filter(|(id, _)| *id == pass.id) {
                 match texts.compile_pass_with(&mut self.stages, index, PassOptions { probe: Some(*probe), ..options }) {
                     Ok(compiled) => {
                         let mixing = mixing(&self.gpu, project, media, index);
                         let parts = CompiledParts { compiled, fills: [None, None], mixing };
-                        let probe = without_cubemap_passes(probed(pass));
-                        if pass.id == PassId::Image {
-                            probe_of_image = Some((probe, parts));
-                        } else {
-                            join_group(&mut drawable.groups, &pass.id);
-                            drawable.passes.push(probe);
-                            passes.push(parts);
-                        }
+                        probe_of_image = Some((without_cubemap_passes(probed(pass)), parts));
                     }
                     Err(errors) => said.extend(errors),
                 }
@@ -277,20 +285,11 @@ fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
     }
 }
 
-/// The pass that a value of a pass is drawn into.
+/// The pass that a value of Image is drawn by.
 fn probed(pass: &Pass) -> Pass {
     let PassSettings { size, region, .. } = pass.settings.clone();
     let settings = PassSettings { size, region, format: PassFormat::Rgba32f, ..PassSettings::default() };
     Pass { id: BuildOptions::probed(), settings, ..pass.clone() }
-}
-
-/// A probe of a pass in a group is drawn with it, step by step: between two passes of a group it would part them.
-fn join_group(groups: &mut [Group], pass: &PassId) {
-    for group in groups {
-        if let Some(at) = group.passes.iter().position(|id| id == pass) {
-            group.passes.insert(at, BuildOptions::probed());
-        }
-    }
 }
 
 /// A cubemap pass is not drawn, so a channel that reads it is as one whose file is missing.

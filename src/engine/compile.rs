@@ -20,7 +20,7 @@ type Result<T> = std::result::Result<T, Vec<Diagnostic>>;
 pub(super) struct PassOptions {
     pub bilinear_by_hand: [bool; 4],
     pub driver: Driver,
-    /// A value that the pass draws instead of its picture.
+    /// A value that the pass draws too.
     pub probe: Option<Probe>,
 }
 

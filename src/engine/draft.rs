@@ -55,7 +55,7 @@ impl DrawDraft {
                 placed: uploads.placed(binder.gpu, binder.media, geometry)?,
             },
         };
-        let formats: Vec<PassFormat> = plan.targets[draw.targets.clone()].iter().map(|t| t.format).collect();
+        let formats: Vec<PassFormat> = draw.all_targets().map(|target| plan.targets[target].format).collect();
         let program = ProgramDraft::new(pass, compiled, channels, draw, &formats, body);
         let mut drafted = [None, None];
         for ((drafted, compiled), kind) in drafted.iter_mut().zip(fills).zip(FillKind::ALL) {
@@ -66,7 +66,9 @@ impl DrawDraft {
                 channels[0] = binder.bind_fill(uploads, texels, compiled.reflection.channels[0])?;
             }
             let draw = draw.of_fill(texels.is_some());
-            let program = ProgramDraft::new(pass, compiled, channels, &draw, &formats[..1], BodyDraft::Screen);
+            // Boundaries are drawn with the pass. What is drawn before frame 0 has the pass's own target only.
+            let formats = if kind == FillKind::Boundary { &formats[..] } else { &formats[..1] };
+            let program = ProgramDraft::new(pass, compiled, channels, &draw, formats, BodyDraft::Screen);
             *drafted = Some((program, draw));
         }
         Ok(Self { program, fills: drafted })

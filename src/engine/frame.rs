@@ -12,6 +12,9 @@ use crate::{
     project::Boundary,
 };
 
+/// The value of a probe that never was there.
+const NO_VALUE: wgpu::Color = wgpu::Color { r: f64::NAN, g: f64::NAN, b: f64::NAN, a: f64::NAN };
+
 /// Hands in what is encoded, and waits for it.
 fn flush(gpu: &Gpu, encoder: &mut wgpu::CommandEncoder) -> Result<(), EngineError> {
     let descriptor = wgpu::CommandEncoderDescriptor { label: Some("a pass of a frame") };
@@ -128,22 +131,27 @@ impl Running {
         };
         if !changes.must_draw(index, draw, inputs) {
             stats.passes_cached += 1;
-            let bytes = program.plan.targets[draw.targets.clone()].iter().map(|t| t.format.bytes());
+            let bytes = draw.all_targets().map(|target| program.plan.targets[target].format.bytes());
             stats.bytes_cached += texels * bytes.sum::<u64>();
             return false;
         }
         stats.passes_drawn += 1;
         let (uniforms, channels) = bindings.draws[index].groups(shared, compiled, draw, targets);
-        let own = &targets[draw.targets.clone()];
-        for target in own {
+        for target in &targets[draw.targets.clone()] {
             if draw.region.is_some() && target.back() != target.front {
                 target.newest().copy_overlap(encoder, &target.textures[target.back()]);
             }
         }
-        let attachments: Vec<_> = own
-            .iter()
-            .map(|target| Some(target.textures[target.back()].attachment(load_op(&shared.gpu, draw, &compiled.body))))
-            .collect();
+        let attach = |index: usize| {
+            let load = match draw.beside {
+                // What is discarded has no value, nor what lies outside of the region.
+                Some(beside) if beside == index && draw.keeps_content => wgpu::LoadOp::Clear(NO_VALUE),
+                Some(beside) if beside == index => shared.gpu.load_what_is_overwritten(),
+                _ => load_op(&shared.gpu, draw, &compiled.body),
+            };
+            Some(targets[index].textures[targets[index].back()].attachment(load))
+        };
+        let attachments: Vec<_> = draw.all_targets().map(attach).collect();
         let depth = depths.get(index).and_then(Option::as_ref);
         let descriptor = wgpu::RenderPassDescriptor {
             label: None,

@@ -141,6 +141,13 @@ impl PipelineOrder {
         }
     }
 
+    /// Returns the format of each target, and whether a fragment has an output for it.
+    fn targets(&self, gpu: &Gpu) -> Result<Vec<(wgpu::TextureFormat, bool)>, GpuError> {
+        let formats: Vec<_> = self.formats.iter().map(|format| texture_format(*format)).collect();
+        check_targets(gpu, &self.label, &formats)?;
+        Ok(formats.into_iter().zip(self.program.fragment.reflection.outputs).collect())
+    }
+
     fn make(&self, gpu: &Gpu) -> Result<StagePipeline, GpuError> {
         let table = |(number, bytes): (u32, &[u8])| {
             let is_storage = number == interface::TABLE_BINDING;
@@ -157,7 +164,7 @@ impl PipelineOrder {
                     shader: shader(&self.program.fragment),
                     entry_point: interface::ENTRY_POINT,
                     groups: &self.groups,
-                    target: texture_format(self.formats[0]),
+                    targets: &self.targets(gpu)?,
                 },
             )?,
         };
@@ -166,11 +173,8 @@ impl PipelineOrder {
 
     fn mesh_pipeline(&self, gpu: &Gpu, vertex: &Compiled, mesh: &MeshState) -> Result<Pipeline, GpuError> {
         let attributes: Vec<(u32, u8, u64)> = vertex.reflection.attributes.iter().map(|a| attribute(*a)).collect();
-        let outputs = self.program.fragment.reflection.outputs;
-        let formats: Vec<_> = self.formats.iter().map(|format| texture_format(*format)).collect();
-        check_targets(gpu, &self.label, &formats)?;
-        let written = outputs.iter().map(|has_output| mesh.color_write && *has_output);
-        let targets: Vec<_> = formats.into_iter().zip(written).collect();
+        let mut targets = self.targets(gpu)?;
+        targets.iter_mut().for_each(|(_, is_written)| *is_written &= mesh.color_write);
         let descriptor = MeshPipelineDescriptor {
             label: &self.label,
             vertex: shader(vertex),

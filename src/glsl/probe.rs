@@ -6,7 +6,7 @@ use super::{
 };
 use crate::diag::{SourceId, Span};
 
-/// A value that is drawn instead of what the pass draws.
+/// A value that Image draws instead of its picture, and a buffer beside its own, into its second target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Probe {
     pub source: SourceId,

@@ -77,6 +77,6 @@ pub struct Reflection {
     pub attributes: Vec<super::Attribute>,
     /// The values that a vertex stage hands on.
     pub varyings: Vec<super::Varying>,
-    /// The targets that a fragment stage of a mesh has an output for.
+    /// The targets that a fragment has an output for.
     pub outputs: [bool; super::interface::MAX_TARGETS],
 }

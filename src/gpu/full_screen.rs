@@ -10,14 +10,24 @@ const TRIANGLE: &str = "
 }
 ";
 
+/// Targets without blending, and whether a fragment's colours reach each.
+pub(super) fn color_targets(targets: &[(wgpu::TextureFormat, bool)]) -> Vec<Option<wgpu::ColorTargetState>> {
+    let state = |&(format, is_written): &(wgpu::TextureFormat, bool)| {
+        let write_mask = if is_written { wgpu::ColorWrites::ALL } else { wgpu::ColorWrites::empty() };
+        Some(wgpu::ColorTargetState { format, blend: None, write_mask })
+    };
+    targets.iter().map(state).collect()
+}
+
 /// Makes a pipeline that draws the triangle with the entry point of a fragment shader; no blending, no depth.
 pub(super) fn pipeline(
     gpu: &Gpu,
     label: &str,
     layout: &wgpu::PipelineLayout,
     (fragment, entry_point): (&wgpu::ShaderModule, &str),
-    target: wgpu::TextureFormat,
+    targets: &[(wgpu::TextureFormat, bool)],
 ) -> wgpu::RenderPipeline {
+    let targets = color_targets(targets);
     let vertex = gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("full-screen triangle"),
         source: wgpu::ShaderSource::Wgsl(TRIANGLE.into()),
@@ -39,11 +49,7 @@ pub(super) fn pipeline(
             entry_point: Some(entry_point),
             // Textures and private variables start as zeros without this; workgroup memory there is none.
             compilation_options: Default::default(),
-            targets: &[Some(wgpu::ColorTargetState {
-                format: target,
-                blend: None,
-                write_mask: wgpu::ColorWrites::ALL,
-            })],
+            targets: &targets,
         }),
         multiview_mask: None,
         cache: None,
@@ -70,7 +76,7 @@ impl ValuesShader {
         let groups = [vec![(0, values), (1, Binding::Uniform { bytes: 32 })]];
         let layout = bindings::layouts(gpu, label, &groups, wgpu::ShaderStages::FRAGMENT).remove(0);
         let pipeline_layout = pipeline_layout(gpu, label, std::slice::from_ref(&layout));
-        let pipeline = pipeline(gpu, label, &pipeline_layout, (&fragment, "fragment"), target);
+        let pipeline = pipeline(gpu, label, &pipeline_layout, (&fragment, "fragment"), &[(target, true)]);
         let uniform = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some(label),
             size: 32,
@@ -151,7 +157,7 @@ impl PictureShader {
 
     /// Makes the pipeline that draws into targets of a format.
     pub fn pipeline(&self, gpu: &Gpu, target: wgpu::TextureFormat) -> wgpu::RenderPipeline {
-        pipeline(gpu, self.label, &self.pipeline_layout, (&self.fragment, "fragment"), target)
+        pipeline(gpu, self.label, &self.pipeline_layout, (&self.fragment, "fragment"), &[(target, true)])
     }
 
     /// Binds the picture that is read.

@@ -3,6 +3,7 @@
 use super::{
     Binding, Gpu, GpuError, Pipeline, Shader,
     bindings::{layouts, pipeline_layout},
+    full_screen::color_targets,
     pipeline::shader_module,
 };
 
@@ -45,14 +46,7 @@ impl Pipeline {
                 wgpu::VertexAttribute { format, offset, shader_location }
             })
             .collect();
-        let targets: Vec<_> = d
-            .targets
-            .iter()
-            .map(|&(format, is_written)| {
-                let write_mask = if is_written { wgpu::ColorWrites::ALL } else { wgpu::ColorWrites::empty() };
-                Some(wgpu::ColorTargetState { format, blend: None, write_mask })
-            })
-            .collect();
+        let targets = color_targets(d.targets);
         let raw = gpu.guarded(d.label, || {
             let vertex = shader_module(gpu, d.label, d.vertex, d.groups);
             let fragment = shader_module(gpu, d.label, d.fragment, d.groups);

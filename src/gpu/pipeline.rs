@@ -22,7 +22,8 @@ pub struct FragmentPipelineDescriptor<'a> {
     pub entry_point: &'a str,
     /// Bind groups from 0 on: binding number and what lies there.
     pub groups: &'a [Vec<(u32, Binding)>],
-    pub target: wgpu::TextureFormat,
+    /// The format of each target, and whether the shader has an output for it.
+    pub targets: &'a [(wgpu::TextureFormat, bool)],
 }
 
 /// A compiled pipeline and the layouts its bind groups are made with.
@@ -35,12 +36,12 @@ impl Pipeline {
     /// Compiles. The module must be valid and clamp its indices itself; what the graphics layer refuses all the same is
     /// Eddy's bug and comes back as [`GpuError::Refused`].
     pub fn new(gpu: &Gpu, descriptor: FragmentPipelineDescriptor<'_>) -> Result<Pipeline, GpuError> {
-        let FragmentPipelineDescriptor { label, shader, entry_point, groups, target } = descriptor;
+        let FragmentPipelineDescriptor { label, shader, entry_point, groups, targets } = descriptor;
         let layouts = layouts(gpu, label, groups, wgpu::ShaderStages::FRAGMENT);
         let raw = gpu.guarded(label, || {
             let layout = pipeline_layout(gpu, label, &layouts);
             let fragment = shader_module(gpu, label, shader, groups);
-            full_screen::pipeline(gpu, label, &layout, (&fragment, entry_point), target)
+            full_screen::pipeline(gpu, label, &layout, (&fragment, entry_point), targets)
         })?;
         Ok(Pipeline { raw, layouts })
     }

@@ -92,6 +92,8 @@ pub struct Draw {
     pub pass: usize,
     /// Indices into [`FramePlan::targets`]; several only where meshes are drawn.
     pub targets: Range<usize>,
+    /// The index of one more, behind these, for what [`FramePlan::draw_beside`] asks for.
+    pub beside: Option<usize>,
     /// `None` where the compiled pass does not read the channel.
     pub reads: [Option<Read>; 4],
     /// The pass begins with the texels that the target held.
@@ -111,6 +113,11 @@ pub struct Draw {
 const FILL_SAMPLER: Sampler = Sampler { filter: Filter::Linear, wrap: Wrap::Clamp, vflip: true };
 
 impl Draw {
+    /// Indices into [`FramePlan::targets`] of all that is drawn into, in the order of the locations of a fragment.
+    pub fn all_targets(&self) -> impl Iterator<Item = usize> + use<> {
+        self.targets.clone().chain(self.beside)
+    }
+
     /// Returns what a fill of the pass is drawn as. It reads nothing of what the pass reads, but its own picture if it
     /// is one.
     pub fn of_fill(&self, is_picture: bool) -> Draw {
@@ -143,7 +150,18 @@ pub struct FramePlan {
 impl FramePlan {
     /// Returns whether a pass draws the target. One that none draws stands for a pass that the project does not have.
     pub fn is_drawn(&self, target: usize) -> bool {
-        self.draws.iter().any(|draw| draw.targets.contains(&target))
+        self.draws.iter().any(|draw| draw.all_targets().any(|drawn| drawn == target))
+    }
+
+    /// Adds a target of 32-bit floats, with a name of its own, for a value that the pass of a draw gives beside its
+    /// picture. Nobody reads it, and what the pass reads and draws is as before.
+    pub fn draw_beside(&mut self, pass: usize, id: PassId) {
+        let Some(draw) = self.draws.iter_mut().find(|draw| draw.pass == pass) else { return };
+        draw.beside = Some(self.targets.len());
+        let own = &self.targets[draw.targets.start];
+        let (kind, size) = (own.kind, own.size);
+        let format = PassFormat::Rgba32f;
+        self.targets.push(Target { id, index: 0, kind, size, format, doubled: false, mips: false });
     }
 
     /// Plans a frame of `project`. `facts[i]` belongs to `project.passes[i]`. `wanted` are the passes whose pictures
@@ -176,6 +194,7 @@ impl FramePlan {
             plan.draws.push(Draw {
                 pass,
                 targets,
+                beside: None,
                 reads,
                 keeps_content: !is_cleared && (facts[pass].discards || region.is_some() || !skip),
                 region,

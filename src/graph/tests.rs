@@ -351,3 +351,22 @@ fn a_frame_moves_at_least_what_it_writes_and_each_source_once_a_draw() {
     let part = Region { x: 0, y: 0, width: 4, height: 4 };
     assert_eq!(frame(&|p| p.passes[1].settings.region = Some(part)), (16 * 3 + 16, 48));
 }
+
+#[test]
+fn what_is_drawn_beside_a_picture_changes_no_other_target() {
+    let project = project(vec![
+        pass(PassId::Buffer("A".into()), [buffer("A"), None, None, None]),
+        pass(PassId::Image, [buffer("A"), None, None, None]),
+    ]);
+    let plain = plan(&project);
+    let mut plan = plan(&project);
+    let value = PassId::Buffer("a value".into());
+    plan.draw_beside(0, value.clone());
+    assert_eq!(plan.targets[..plain.targets.len()], plain.targets);
+    let [more] = &plan.targets[plain.targets.len()..] else { panic!("one more target") };
+    assert_eq!((&more.id, more.index, more.format, more.doubled), (&value, 0, PassFormat::Rgba32f, false));
+    assert!(plan.is_drawn(plain.targets.len()));
+    let drawn: Vec<Vec<usize>> = plan.draws.iter().map(|draw| draw.all_targets().collect()).collect();
+    assert_eq!((drawn, plan.draws_a_frame()), (vec![vec![0, 2], vec![1]], 2));
+    assert_eq!(plan.draws[0].reads, plain.draws[0].reads);
+}

@@ -7,7 +7,8 @@
 
 use crate::support::*;
 use eddy::{
-    engine::{FrameInputs, Sources},
+    engine::{BuildOptions, FrameInputs, Sources},
+    glsl::Probe,
     gpu::GpuOptions,
     project::{self, PassId},
     session::{
@@ -91,4 +92,82 @@ fn three_hundred_frames_back_are_there_within_a_second() {
     times.sort_by(f64::total_cmp);
     println!("300 frames back: {times:.0?} ms");
     assert!(times[4] < 1000.0, "{times:.0?} ms");
+}
+
+/// A frame with a probe takes a tenth more than without at most: of Image, whose picture nobody looks at meanwhile, and
+/// of buffers that the rest of the frame needs. Medians of frames that are drawn in turns.
+#[test]
+fn a_probe_costs_a_tenth_of_a_frame_at_most() {
+    let Some(gpu) = is_asked().then(gpu).flatten() else { return };
+    let marcher = project::load(concat!(env!("CARGO_MANIFEST_DIR"), "/benches/marcher.glsl")).unwrap().project;
+    let text = marcher.passes[0].source.text.clone();
+    let show = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
+    let buffered =
+        project(vec![pass(buffer("A"), &text, Default::default()), image(show, [nearest("A"), None, None, None])]);
+    let fluid = project::load(concat!(env!("CARGO_MANIFEST_DIR"), "/presets/fluid")).unwrap().project;
+    let of = |name: &str| buffer(name);
+    let mut late = Vec::new();
+    for (what, project, pass, size, expression) in [
+        ("marcher, Image, along", &marcher, PassId::Image, (320, 180), "along = normalize(uv.x"),
+        ("marcher, Image, normal", &marcher, PassId::Image, (320, 180), "n = normal_at"),
+        ("marcher, Image, in the loop", &marcher, PassId::Image, (320, 180), "hit = map(from"),
+        ("marcher, Image, in the map", &marcher, PassId::Image, (320, 180), "q = abs(p) - size"),
+        ("marcher, buffer, along", &buffered, of("A"), (320, 180), "along = normalize(uv.x"),
+        ("marcher, buffer, normal", &buffered, of("A"), (320, 180), "n = normal_at"),
+        ("marcher, buffer, in the loop", &buffered, of("A"), (320, 180), "hit = map(from"),
+        ("marcher, buffer, in the map", &buffered, of("A"), (320, 180), "q = abs(p) - size"),
+    ] {
+        late.extend(probe_ratio(&gpu, what, project, pass, size, expression).filter(|(_, ratio)| *ratio > 1.1));
+    }
+    for pass in &fluid.passes {
+        let Some((at, _)) = pass.source.text.match_indices(" = ").last() else { continue };
+        let expression = &pass.source.text[at + 1..];
+        let what = format!("fluid, {}", pass.id.title());
+        late.extend(
+            probe_ratio(&gpu, &what, &fluid, pass.id.clone(), (480, 270), expression).filter(|(_, ratio)| *ratio > 1.1),
+        );
+    }
+    assert!(late.is_empty(), "{late:?}");
+}
+
+/// The time of a frame with a probe over that of one without; `None` where there is no value at the place.
+fn probe_ratio(
+    gpu: &eddy::gpu::Gpu,
+    what: &str,
+    project: &project::Project,
+    pass: PassId,
+    size: (u32, u32),
+    expression: &str,
+) -> Option<(String, f64)> {
+    let index = project.passes.iter().position(|p| p.id == pass)?;
+    let at = project.passes[index].source.text.find(expression)? as u32;
+    let probe = Probe { source: project::Project::pass_id(index), at, visit: 0 };
+    Sources::new(project).probed(index, &probe)?;
+    let (media, _) = eddy::media::gather(project, None);
+    let all = || project.passes.iter().map(|p| p.id.clone());
+    // What a session draws: all that the picture needs, and of Image the value in its place.
+    let wanted = [BuildOptions::probed()].into_iter().chain(all().filter(|id| *id != PassId::Image)).collect();
+    let with = |options: &BuildOptions| engine_with(gpu, project, &media, options, size);
+    let (mut plain, mut probed) = (
+        with(&BuildOptions { wanted: all().collect(), ..BuildOptions::default() }),
+        with(&BuildOptions { wanted, probe: Some((pass, probe)), ..BuildOptions::default() }),
+    );
+    let (mut plain_times, mut probed_times) = (Vec::new(), Vec::new());
+    for frame in 0..33 {
+        for (engine, times) in [(&mut plain, &mut plain_times), (&mut probed, &mut probed_times)] {
+            let began = Instant::now();
+            engine.draw(&FrameInputs::at_fixed_step(frame, 60.0)).unwrap();
+            gpu.wait().unwrap();
+            times.push(millis_since(began));
+        }
+    }
+    let median = |times: &[f64]| {
+        // Not the frames in which a driver compiles.
+        let mut times = times[2..].to_vec();
+        times.sort_by(f64::total_cmp);
+        times[times.len() / 2]
+    };
+    let (plain, probed) = (median(&plain_times), median(&probed_times));
+    println!("{what}: {plain:.2} ms, probed {probed:.2} ms, x {:.3}", probed / plain);
+    Some((what.to_owned(), probed / plain))
 }

@@ -7,7 +7,7 @@ use crate::{
 use eddy::{
     engine::{BuildOptions, Engine, FrameInputs, Program, Sources},
     media,
-    project::{self, Group, PassId, Project, presets},
+    project::{self, PassId, Project, presets},
     session::trace::{self, Event, Extent},
 };
 
@@ -276,62 +276,6 @@ fn what_a_pass_read_is_still_there_after_the_frame() {
         }
     }
     assert!(seen > 60, "{seen} passes");
-}
-
-/// While a value is probed the buffers go on as if nobody looked, also those of a group, and those that the value does
-/// not need; and the value is this frame's, wherever its pass stands in the project.
-#[test]
-fn a_probe_disturbs_no_buffer_and_is_of_this_frame() {
-    let Some(gpu) = gpu() else { return };
-    let step = "void mainImage(out vec4 o, vec2 p) { vec4 s = texelFetch(iChannel0, ivec2(p), 0); vec4 t = \
-                texelFetch(iChannel1, ivec2(p), 0); o = s * 0.5 + t + vec4(1.0, p, 0.0); }\n";
-    let reads = |names: [&str; 2]| [nearest(names[0]), nearest(names[1]), None, None];
-    let image_code = "void mainImage(out vec4 o, vec2 p) {\n float one = float(iFrame);\n vec4 a = \
-                      texelFetch(iChannel0, ivec2(p), 0);\n o = a + texelFetch(iChannel1, ivec2(p), 0); }\n";
-    let mut project = project(vec![
-        image(image_code, reads(["a", "b"])),
-        pass(buffer("a"), step, reads(["a", "b"])),
-        pass(buffer("b"), step, reads(["b", "a"])),
-    ]);
-    let group = Group { name: "both".into(), passes: vec![buffer("a"), buffer("b")], steps: 3 };
-    project.groups.push(group);
-    let run = |probe: Option<(PassId, &str)>| {
-        let probe = probe.map(|(id, text)| {
-            let index = project.passes.iter().position(|p| p.id == id).unwrap();
-            let at = project.passes[index].source.text.find(text).unwrap() as u32;
-            (id, eddy::glsl::Probe { source: Project::pass_id(index), at, visit: 0 })
-        });
-        let image = || PassId::Image;
-        let wanted = if probe.is_some() {
-            vec![BuildOptions::probed(), buffer("a"), buffer("b")]
-        } else {
-            vec![image(), buffer("a"), buffer("b")]
-        };
-        let options = BuildOptions { wanted, probe, ..BuildOptions::default() };
-        let built = Program::build(&gpu, &project, &Default::default(), &options).unwrap();
-        let mut engine = Engine::new(gpu.clone(), 8, 4).unwrap();
-        engine.set_program(built.program).unwrap();
-        (0..5).for_each(|frame| assert!(engine.draw(&FrameInputs::at_fixed_step(frame, 60.0)).is_ok()));
-        let read = |engine: &mut Engine, id| engine.read(&id).unwrap().texels;
-        let probed = options.probe.is_some().then(|| read(&mut engine, BuildOptions::probed()));
-        (read(&mut engine, buffer("a")), read(&mut engine, buffer("b")), probed)
-    };
-    let (a, b, _) = run(None);
-    for (id, text) in
-        [(PassId::Image, "a = "), (PassId::Image, "one = "), (buffer("a"), "s * 0.5"), (buffer("b"), "t + vec4")]
-    {
-        let (probed_a, probed_b, value) = run(Some((id.clone(), text)));
-        assert!(probed_a == a && probed_b == b, "{text} of {}", id.title());
-        let value = value.unwrap();
-        match text {
-            // What Image reads has been drawn before it, though Image stands first.
-            "a = " => assert!(value == a),
-            "one = " => assert!(value.iter().all(|v| v[0] == 4.0)),
-            // In the last step of the group, where a has been drawn already.
-            "t + vec4" => assert!(value == a),
-            _ => assert!(value.iter().all(|v| v[0] > 0.0)),
-        }
-    }
 }
 
 /// A ray marcher of some 500 lines: a sphere a line.

@@ -28,7 +28,7 @@ pub(super) struct Lowering<'a> {
     pub functions: HashMap<Instance, ir::FuncId>,
     pub reflection: Reflection,
     pub names: Names,
-    /// The value that is drawn instead of the picture.
+    /// The value that is probed.
     pub probed: Option<Probed>,
     pub marks: Marks,
 }
@@ -81,16 +81,20 @@ pub(super) type Map<K, V> = rustc_hash::FxHashMap<K, V>;
 pub(super) struct Probed {
     pub expr: hir::ExprId,
     pub visit: u32,
-    /// A `vec4`; not known before the probe has been at the value.
+    /// Its first components, four at most, as floats; not known before the probe has been at the value. No more than it
+    /// has: a loop that carries more along may be compiled another way, which gives its other values other last bits.
     pub value: ir::GlobalId,
+    pub components: u8,
     /// The number of times that the expression has been evaluated: an `int`.
     pub visits: ir::GlobalId,
 }
 
 impl Probed {
-    pub fn new(out: &mut ir::Module, expr: hir::ExprId, visit: u32) -> Self {
-        let value = out.add_global(hir::TypeId::VEC4, GlobalKind::Private(None));
+    pub fn new(out: &mut ir::Module, (expr, ty): (hir::ExprId, hir::TypeId), visit: u32) -> Self {
+        let components = out.types.components(ty).map_or(4, |count| count.min(4) as u8);
+        let kept = hir::TypeId::vector(hir::Scalar::Float, components);
+        let value = out.add_global(kept, GlobalKind::Private(None));
         let visits = out.add_global(hir::TypeId::INT, GlobalKind::Private(None));
-        Self { expr, visit, value, visits }
+        Self { expr, visit, value, components, visits }
     }
 }

@@ -18,14 +18,18 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reachable: &Reachable) -> ir::Functio
     let position = b.free(Op::Input(Input::Position));
     b.set_frag_coord(position);
     b.splice(initialisers);
+    let mut beside = None;
     let result = match kind {
         PassKind::Image | PassKind::Buffer => {
             let at = b.swizzle(position, TypeId::VEC4, Swizzle::new(&[0, 1]));
             let colour = b.call_with_colour(author, vec![at]);
-            match b.probed_value() {
-                Some(value) => value,
-                None if kind == PassKind::Image => b.finish_image(colour),
-                None => colour,
+            match (kind, b.probed_value()) {
+                (PassKind::Image, Some(value)) => value,
+                (PassKind::Image, None) => b.finish_image(colour),
+                (_, value) => {
+                    beside = value;
+                    colour
+                }
             }
         }
         PassKind::Cubemap => {
@@ -37,7 +41,10 @@ pub(super) fn lower(cx: &mut Lowering<'_>, reachable: &Reachable) -> ir::Functio
         PassKind::Sound => b.sound(author, position),
         PassKind::Vertex | PassKind::Fragment => unreachable!("stages have an entry point of their own"),
     };
-    b.push(Stmt::Output(vec![(Output::Target(0), result)]));
+    let results = [result].into_iter().chain(beside);
+    let parts: Vec<_> = results.zip(0..).map(|(result, location)| (Output::Target(location), result)).collect();
+    parts.iter().zip(&mut b.cx.reflection.outputs).for_each(|(_, has_output)| *has_output = true);
+    b.push(Stmt::Output(parts));
     b.finish()
 }
 

@@ -68,7 +68,7 @@ pub(crate) struct Lowered {
 }
 
 /// Lowers a program without errors. The result keeps the rules of [`ir::verify`]; what does not is a bug of this
-/// module. With a probe the pass draws the value of an expression, when it is evaluated for the time after so many.
+/// module. With a probe the pass draws the value of an expression too, when it is evaluated for the time after so many.
 ///
 /// # Panics
 /// If `module` breaks the promises of [`hir`], such as having no entry point.
@@ -103,7 +103,7 @@ fn lower_with(
 ) -> Lowered {
     let (reachable, arguments) = Reachable::new(module, options.table);
     let mut out = begin(module);
-    let probed = probe.map(|(expr, visit)| Probed::new(&mut out, expr, visit));
+    let probed = probe.map(|(expr, visit)| Probed::new(&mut out, (expr, module[expr].ty), visit));
     let mut cx = Lowering {
         hir: module,
         source,

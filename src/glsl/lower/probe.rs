@@ -1,4 +1,4 @@
-//! A probe: a value of the program is drawn instead of the picture.
+//! A probe: a value of the program is drawn instead of the picture of Image, and beside that of a buffer.
 
 use super::{
     context::{Lowering, Probed},
@@ -21,34 +21,30 @@ impl Builder<'_, '_> {
         if !self.cx.is_probed(expr) {
             return;
         }
-        let Some(Probed { visit, value: kept, visits, .. }) = self.cx.probed else { return };
+        let Some(Probed { visit, value: kept, components, visits, .. }) = self.cx.probed else { return };
         let ty = self.f.ty(value);
         let (kept, visits) = (self.global(kept), self.global(visits));
         let before = self.load(visits);
         let wanted = self.literal(Scalar::Int, visit);
         let is_it = self.op(Binary::Equal, before, wanted);
         let (accept, _) = self.nested(|b| {
-            let shown = b.as_vec4(value, ty);
-            b.store(kept, shown);
+            let mut scalars = Vec::new();
+            b.scalars(value, ty, &mut scalars);
+            // An array or a structure may have fewer.
+            while scalars.len() < usize::from(components) {
+                scalars.push(b.float(if scalars.len() == 3 { 1.0 } else { 0.0 }));
+            }
+            scalars.truncate(components.into());
+            let first = match scalars[..] {
+                [single] => single,
+                _ => b.compose(TypeId::vector(Scalar::Float, components), scalars),
+            };
+            b.store(kept, first);
         });
         self.push(Stmt::If { condition: is_it, accept, reject: Block::new() });
         let one = self.literal(Scalar::Int, 1);
         let after = self.op(Binary::Add, before, one);
         self.store(visits, after);
-    }
-
-    /// Returns the first four components of a value: a scalar three times, and what is missing 0, the last 1.
-    fn as_vec4(&mut self, value: Value, ty: TypeId) -> Value {
-        let mut scalars = Vec::new();
-        self.scalars(value, ty, &mut scalars);
-        let mut parts: Vec<Value> = scalars.into_iter().take(4).collect();
-        if let [single] = parts[..] {
-            parts.extend([single; 2]);
-        }
-        for index in parts.len()..4 {
-            parts.push(self.float(if index == 3 { 1.0 } else { 0.0 }));
-        }
-        self.compose(TypeId::VEC4, parts)
     }
 
     /// Every scalar of a value as a float.
@@ -66,17 +62,21 @@ impl Builder<'_, '_> {
         }
     }
 
-    /// Loads the value that the pass draws instead of its picture: the probed one, or four NaN where the probe never
-    /// was.
+    /// Loads the value that the pass draws: the probed one, a scalar three times, and what is missing 0, the last 1; or
+    /// four NaN where the probe never was.
     pub fn probed_value(&mut self) -> Option<Value> {
-        let Probed { visit, value, visits, .. } = self.cx.probed?;
+        let Probed { visit, value, components, visits, .. } = self.cx.probed?;
         let (value, visits) = (self.global(value), self.global(visits));
         let (value, visits) = (self.load(value), self.load(visits));
         let wanted = self.literal(Scalar::Int, visit);
         let was_there = self.op(Binary::Greater, visits, wanted);
         let nan = self.literal(Scalar::Float, f32::NAN.to_bits());
-        let parts = (0..4).map(|index| {
-            let seen = self.add(Op::Part { base: value, index });
+        let parts = (0..4u32).map(|index| {
+            let seen = match components {
+                1 if index < 3 => value,
+                count if index < u32::from(count) => self.add(Op::Part { base: value, index }),
+                _ => self.float(if index == 3 { 1.0 } else { 0.0 }),
+            };
             self.select(was_there, seen, nan)
         });
         let parts = parts.collect();

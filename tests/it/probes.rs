@@ -1,0 +1,174 @@
+//! Probes: a value of the code that is drawn, and what is drawn besides.
+
+use crate::{
+    support::{
+        presets::{bits, buffers},
+        *,
+    },
+    walker_presets::inputs,
+};
+use eddy::{
+    engine::{BuildError, BuildOptions, Builder, Engine, FrameInputs, Program, Sources},
+    glsl::Probe,
+    media,
+    project::{Boundary, Fill, Group, PassBody, PassFormat, PassId, Project, Region, presets as all_presets},
+};
+
+const SHOW: &str = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0); }";
+
+/// The probe of the first value of the expression at a part of a pass's text.
+fn probe_of(project: &Project, id: &PassId, text: &str) -> Option<(PassId, Probe)> {
+    let index = project.passes.iter().position(|p| p.id == *id).unwrap();
+    let at = project.passes[index].source.text.find(text).unwrap() as u32;
+    Some((id.clone(), Probe { source: Project::pass_id(index), at, visit: 0 }))
+}
+
+/// While a value is probed the buffers go on as if nobody looked, also those of a group, and those that the value does
+/// not need; and the value is this frame's, wherever its pass stands in the project.
+#[test]
+fn a_probe_disturbs_no_buffer_and_is_of_this_frame() {
+    let Some(gpu) = gpu() else { return };
+    let step = "void mainImage(out vec4 o, vec2 p) { vec4 s = texelFetch(iChannel0, ivec2(p), 0); vec4 t = \
+                texelFetch(iChannel1, ivec2(p), 0); o = s * 0.5 + t + vec4(1.0, p, 0.0); }\n";
+    let reads = |names: [&str; 2]| [nearest(names[0]), nearest(names[1]), None, None];
+    let image_code = "void mainImage(out vec4 o, vec2 p) {\n float one = float(iFrame);\n vec4 a = \
+                      texelFetch(iChannel0, ivec2(p), 0);\n o = a + texelFetch(iChannel1, ivec2(p), 0); }\n";
+    let mut project = project(vec![
+        image(image_code, reads(["a", "b"])),
+        pass(buffer("a"), step, reads(["a", "b"])),
+        pass(buffer("b"), step, reads(["b", "a"])),
+    ]);
+    let group = Group { name: "both".into(), passes: vec![buffer("a"), buffer("b")], steps: 3 };
+    project.groups.push(group);
+    let run = |probe: Option<(PassId, &str)>| {
+        let probe = probe.and_then(|(id, text)| probe_of(&project, &id, text));
+        let image = || PassId::Image;
+        let wanted = if probe.is_some() {
+            vec![BuildOptions::probed(), buffer("a"), buffer("b")]
+        } else {
+            vec![image(), buffer("a"), buffer("b")]
+        };
+        let options = BuildOptions { wanted, probe, ..BuildOptions::default() };
+        let built = Program::build(&gpu, &project, &Default::default(), &options).unwrap();
+        let mut engine = Engine::new(gpu.clone(), 8, 4).unwrap();
+        engine.set_program(built.program).unwrap();
+        (0..5).for_each(|frame| assert!(engine.draw(&FrameInputs::at_fixed_step(frame, 60.0)).is_ok()));
+        let read = |engine: &mut Engine, id| engine.read(&id).unwrap().texels;
+        let probed = options.probe.is_some().then(|| read(&mut engine, BuildOptions::probed()));
+        (read(&mut engine, buffer("a")), read(&mut engine, buffer("b")), probed)
+    };
+    let (a, b, _) = run(None);
+    for (id, text) in
+        [(PassId::Image, "a = "), (PassId::Image, "one = "), (buffer("a"), "s * 0.5"), (buffer("b"), "t + vec4")]
+    {
+        let (probed_a, probed_b, value) = run(Some((id.clone(), text)));
+        assert!(probed_a == a && probed_b == b, "{text} of {}", id.title());
+        let value = value.unwrap();
+        match text {
+            // What Image reads has been drawn before it, though Image stands first.
+            "a = " => assert!(value == a),
+            "one = " => assert!(value.iter().all(|v| v[0] == 4.0)),
+            // In the last step of the group, where a has been drawn already.
+            "t + vec4" => assert!(value == a),
+            _ => assert!(value.iter().all(|v| v[0] > 0.0)),
+        }
+    }
+}
+
+/// A buffer draws a probed value beside its picture, in the same pass: the frame has no pass more, and every texel of
+/// every pass is the same, bit for bit.
+#[test]
+fn a_probe_of_any_buffer_of_the_presets_changes_no_texel() {
+    let Some(gpu) = gpu() else { return };
+    let mut seen = 0;
+    for name in all_presets::names() {
+        let project = all_presets::load(name).unwrap().project;
+        let (media, _) = media::gather(&project, None);
+        let all: Vec<PassId> = buffers(&project).cloned().collect();
+        let mut builder = Builder::new(gpu.clone());
+        let mut drawn = |probe: Option<(PassId, Probe)>| {
+            let probed = probe.iter().map(|_| BuildOptions::probed());
+            let wanted = all.iter().cloned().chain(probed).collect();
+            let options = BuildOptions { wanted, probe, ..BuildOptions::default() };
+            let built = builder.build(&project, &media, &options).unwrap_or_else(|e| panic!("{name}: {e}"));
+            let passes = built.program.plan().draws_a_frame();
+            let mut engine = Engine::new(gpu.clone(), 64, 36).unwrap();
+            engine.set_program(built.program).unwrap();
+            (0..3).for_each(|frame| drop(engine.draw(&inputs(frame)).unwrap()));
+            let texels: Vec<_> = all.iter().map(|id| bits(&engine.read(id).unwrap())).collect();
+            let value = options.probe.map(|_| engine.read(&BuildOptions::probed()).unwrap());
+            (passes, texels, value)
+        };
+        let (passes, texels, _) = drawn(None);
+        let mut texts: Vec<&str> = Vec::new();
+        for (index, pass) in project.passes.iter().enumerate() {
+            let text = &*pass.source.text;
+            if pass.id == PassId::Image || pass.settings.meshes().is_some() || texts.contains(&text) {
+                continue;
+            }
+            texts.push(text);
+            let places: Vec<usize> = text.match_indices(" = ").map(|(at, _)| at + 3).collect();
+            let sources = Sources::new(&project);
+            let is_value = |at: &usize| {
+                let probe = Probe { source: Project::pass_id(index), at: *at as u32, visit: 0 };
+                sources.probed(index, &probe).map(|_| probe)
+            };
+            // One in the midst of its text.
+            let Some(probe) = places[places.len() / 2..].iter().find_map(is_value) else { continue };
+            let (passes_probed, texels_probed, value) = drawn(Some((pass.id.clone(), probe)));
+            assert_eq!(passes_probed, passes, "{name}, {}", pass.id.title());
+            let others: Vec<String> =
+                (0..all.len()).filter(|&i| texels_probed[i] != texels[i]).map(|i| all[i].title()).collect();
+            assert_eq!(others, [""; 0], "{name}, {} probed at {}", pass.id.title(), probe.at);
+            assert!(value.is_some_and(|v| !v.texels.is_empty()));
+            seen += 1;
+        }
+    }
+    assert!(seen > 40, "{seen} passes");
+}
+
+/// Where a pass discards, and outside of its region, nothing was evaluated last, so there is no value; its boundary
+/// holds the author's texels and the probe what the pass evaluated there.
+#[test]
+fn no_value_where_nothing_is_drawn() {
+    let Some(gpu) = gpu() else { return };
+    let code = "void mainImage(out vec4 o, vec2 p) { float x = p.x + float(iFrame); if (p.y > 3.0) discard; \
+                o = texelFetch(iChannel0, ivec2(p), 0) + x; }\n";
+    for format in [PassFormat::Rgba8, PassFormat::R16f, PassFormat::Rgba32f] {
+        let mut a = pass(buffer("A"), code, [nearest("A"), None, None, None]);
+        a.settings.format = format;
+        a.settings.initial = Some(Fill::expression("vec4(0.5)"));
+        a.settings.boundary = Some(Boundary { width: 1, value: Fill::expression("vec4(0.25)") });
+        a.settings.region = Some(Region { x: 0, y: 0, width: 5, height: 8 });
+        let project = project(vec![a, image(SHOW, [nearest("A"), None, None, None])]);
+        let drawn = |probe| {
+            let probed = (probe == None).then_some(PassId::Image).unwrap_or_else(BuildOptions::probed);
+            let options = BuildOptions { wanted: vec![buffer("A"), probed.clone()], probe, ..Default::default() };
+            let mut engine = engine_with(&gpu, &project, &Default::default(), &options, (6, 4));
+            run(&mut engine, 0, 3);
+            (bits(&engine.read(&buffer("A")).unwrap()), engine.read(&probed).unwrap())
+        };
+        let (plain, _) = drawn(None);
+        let (texels, value) = drawn(probe_of(&project, &buffer("A"), "x = "));
+        assert_eq!(texels, plain, "{format:?}");
+        for (x, y) in (0..4).flat_map(|y| (0..6).map(move |x| (x, y))) {
+            let [first, ..] = texel(&value, x, y);
+            let expected = x as f32 + 2.5;
+            assert!(if x < 5 && y < 3 { first == expected } else { first.is_nan() }, "{format:?} {x} {y}: {first}");
+        }
+    }
+}
+
+#[test]
+fn a_pass_of_meshes_is_not_probed() {
+    let Some(gpu) = gpu() else { return };
+    let project = all_presets::load("ssao").unwrap().project;
+    let pass = project.passes.iter().find(|p| matches!(p.settings.body, PassBody::Meshes(_))).unwrap().id.clone();
+    let probe = Some((pass, Probe { source: Project::COMMON_ID, at: 0, visit: 0 }));
+    let options = BuildOptions { wanted: vec![BuildOptions::probed()], probe, ..Default::default() };
+    let (media, _) = media::gather(&project, None);
+    let Err(BuildError::Diagnostics { diagnostics, .. }) = Program::build(&gpu, &project, &media, &options) else {
+        panic!("it is");
+    };
+    assert!(diagnostics.iter().any(|d| d.message.contains("cannot be probed")), "{diagnostics:?}");
+}
