@@ -6,7 +6,6 @@ use super::{
 };
 use crate::{
     gui::{
-        actions::Action,
         icons::{self, Icon},
         outbox::{Outbox, Pick},
         theme,
@@ -23,11 +22,6 @@ pub fn show(ui: &mut Ui, lab: &mut Lab, out: &mut Outbox) {
         extent(ui, lab, out);
         start(ui, lab, out);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let close = icons::button(ui, Icon::Close, "Close the lab");
-            let close = close.on_hover_text(out.keys.tip("Close the lab", Action::Lab));
-            if out.clicked("lab:close", &close) {
-                out.act(Action::Lab);
-            }
             more(ui, lab, out);
             let is_known = !lab.known(lab.extent).results.errors.is_empty();
             let save = ui.add_enabled(is_known && lab.saving.is_none(), Button::new("Save report…"));
