@@ -15,6 +15,8 @@ use text::SECTIONS;
 
 /// As wide as lines are read well.
 const WIDTH: f32 = 700.0;
+/// What the keys have of it.
+const KEYS: f32 = 190.0;
 
 /// The page while it is open.
 #[derive(Default)]
@@ -36,6 +38,8 @@ impl Help {
         let by = scrolled_by_keys(ui, height);
         let modal = Modal::new(Id::unique("help")).frame(theme::dialog(ui.style())).show(ui.ctx(), |ui| {
             ui.set_width((window.width() - 60.0).min(WIDTH));
+            // Without it a page is at most as high as egui makes windows of which it knows nothing.
+            ui.set_max_height(window.height() - 80.0);
             self.header(ui, &mut is_open, out);
             ui.add_space(6.0);
             let list = ScrollArea::vertical().id_salt("help").max_height(height).auto_shrink([false, false]);
@@ -99,16 +103,15 @@ impl Help {
             }
             is_empty = false;
             title(ui, &format!("Keys: {}", group.title()));
-            Grid::new(group.title()).num_columns(2).min_col_width(190.0).spacing([20.0, 5.0]).striped(true).show(
-                ui,
-                |ui| {
-                    for entry in list {
-                        ui.label(RichText::new(keys(entry)).color(theme::of(ui).strong));
-                        ui.label(entry.title);
-                        ui.end_row();
-                    }
-                },
-            );
+            let grid = Grid::new(group.title()).num_columns(2).min_col_width(KEYS).spacing([20.0, 5.0]).striped(true);
+            // Titles wrap: a long one would make the page wider than its header.
+            grid.max_col_width((ui.available_width() - KEYS - 20.0).max(KEYS)).show(ui, |ui| {
+                for entry in list {
+                    ui.label(RichText::new(keys(entry)).color(theme::of(ui).strong));
+                    ui.label(entry.title);
+                    ui.end_row();
+                }
+            });
         }
         if is_empty {
             ui.add_space(20.0);
