@@ -10,7 +10,7 @@ use super::{
     theme,
 };
 use crate::project::PICTURES;
-use egui::{Align2, Area, Frame, Id, Key, Modal, Order, TextEdit, Ui, vec2};
+use egui::{Align2, Area, Button, Frame, Id, Key, Modal, Order, RichText, TextEdit, Ui, Vec2, vec2};
 use std::{
     panic::catch_unwind,
     path::{MAIN_SEPARATOR, PathBuf},
@@ -23,6 +23,8 @@ use std::{
 
 /// How long a dialog may take to come before a way around it is offered.
 const PATIENCE: Duration = Duration::from_secs(1);
+/// A dialog's buttons are at least so large.
+const BUTTON: Vec2 = vec2(84.0, 28.0);
 
 pub struct Files {
     wake: Arc<dyn Fn() + Send + Sync>,
@@ -162,9 +164,13 @@ impl Files {
             done |= field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
             ui.add_space(8.0);
             ui.horizontal(|ui| {
-                let ok = ui.add_enabled(!typing.path.trim().is_empty(), egui::Button::new(action));
+                // The colour says which one Enter presses, as in every dialog.
+                let p = theme::of(ui);
+                let ok = Button::new(RichText::new(action).color(p.strong)).fill(p.accent_fill).min_size(BUTTON);
+                let ok = ui.add_enabled(!typing.path.trim().is_empty(), ok);
                 done |= out.clicked("button:path-ok", &ok);
-                cancelled |= out.clicked("button:path-cancel", &ui.button("Cancel"));
+                let cancel = ui.add(Button::new("Cancel").min_size(BUTTON));
+                cancelled |= out.clicked("button:path-cancel", &cancel);
             });
         });
         let is_done = done && !typing.path.trim().is_empty();
