@@ -128,6 +128,10 @@ fn show_card(ui: &Ui, card: Rect, index: usize, channel: &Channel, swatches: &mu
         }
         text = if is_upright { text.with_min_y(place.bottom() + 2.0) } else { text.with_min_x(place.right() + 8.0) };
     }
+    let has_room = |text_: &str, size: f32| {
+        let galley = painter.layout_no_wrap(text_.to_owned(), FontId::proportional(size), p.weak);
+        galley.size().x <= card.right() - text.left() - 5.0
+    };
     let line = |y: f32, text_: &str, size: f32, color: Color32| {
         let mut job = egui::text::LayoutJob::simple_singleline(text_.to_owned(), FontId::proportional(size), color);
         job.wrap = egui::text::TextWrapping::truncate_at_width((card.right() - text.left() - 5.0).max(8.0));
@@ -146,7 +150,10 @@ fn show_card(ui: &Ui, card: Rect, index: usize, channel: &Channel, swatches: &mu
         let middle = card.center().y;
         line(middle - 17.0, &format!("iChannel{index}"), 11.0, p.weak);
         line(middle, &name, 12.5, tint);
-        line(middle + 17.0, &how, 11.0, of_how);
+        // The tip has it too: where it would be cut it is left out.
+        if missing.is_some() || has_room(&how, 11.0) {
+            line(middle + 17.0, &how, 11.0, of_how);
+        }
     } else {
         line(card.center().y, &format!("{index}  {name}"), 12.0, tint);
     }
