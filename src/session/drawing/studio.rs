@@ -77,7 +77,10 @@ impl Studio {
             done.frame = Some(drawn);
         }
         done.reach = self.history.reach();
-        if self.hands_out && (done.is_display_new || done.frame.is_some() || done.travelled.is_some()) {
+        let has_drawn = done.frame.is_some() || done.travelled.is_some();
+        // What a resize leaves of the canvas before it is no picture: the frame that follows is.
+        let is_between = !has_drawn && matches!(done.resized, Some((_, Ok(())))) && self.engine.program().is_some();
+        if self.hands_out && (done.is_display_new || has_drawn) && !is_between {
             done.picture = Some(self.engine.picture());
         }
         self.read_behind(reads, &mut done);
@@ -268,6 +271,34 @@ fn frames_a_tile(tile: (u32, u32), canvas: (u32, u32), is_cpu: bool) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{
+        media,
+        project::presets,
+        session::{drawing::job::Coming, testing},
+    };
+
+    #[test]
+    fn a_resize_is_shown_with_the_frame_that_follows_it() {
+        let Some(gpu) = testing::gpu() else { return };
+        let project = presets::load("feedback").unwrap().project;
+        let (media, _) = media::gather(&project, None);
+        let program = Program::build(&gpu, &project, &media, &BuildOptions::default()).unwrap().program;
+        let mut studio = Studio::new(gpu, (16, 9), true).unwrap();
+        let mut sizes = |changes: Changes, frame: Option<i32>| {
+            let frame = frame.map(|frame| FrameInputs::at_fixed_step(frame, 60.0));
+            let (reads, costs_of) = (Reads::default(), None);
+            let done = studio.work(Job { changes, frame, travel: None, reads, costs_of, tile_limit: None });
+            done.picture.map(|picture| picture.unwrap()).map(|picture| (picture.width, picture.height))
+        };
+        let resize = |size| Changes { size: Some(size), ..Changes::default() };
+        assert_eq!(sizes(resize((32, 18)), None), Some((32, 18)), "without a program it is black");
+        let program = Some(Coming { program, origin: None });
+        let shown = Some(PassId::Image);
+        assert_eq!(sizes(Changes { program, shown, ..Changes::default() }, Some(0)), Some((32, 18)));
+        assert_eq!(sizes(resize((64, 36)), None), None);
+        assert_eq!(sizes(Changes::default(), Some(1)), Some((64, 36)));
+        assert_eq!(sizes(resize((32, 18)), Some(2)), Some((32, 18)));
+    }
 
     #[test]
     fn tiles_are_far_smaller_than_the_canvas_and_of_its_kind() {
