@@ -163,6 +163,9 @@ fn kills_in_the_middle_of_typing_lose_the_last_letters_at_most() {
     let mut expected = IMAGE.to_owned();
     let recover = |window: &mut Window| {
         question(window, "recover");
+        // A dialog finds its place in its second frame, which on a busy machine may be long after the first. The button
+        // gets the keyboard later than that.
+        window.wait_until("the button with the keyboard", "focus", |e| e["widget"] == "answer:recover");
         window.click_on("answer:recover");
         window.wait_until("the recovered work", "dirty", |e| e["dirty"] == true);
     };
