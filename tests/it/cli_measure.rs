@@ -241,6 +241,9 @@ fn the_first_nan_is_named_by_pass_frame_texel_and_line() {
         "fragColor = texelFetch(iChannel0, ivec2(fragCoord), 0) + 0. * texelFetch(iChannel1, ivec2(fragCoord), 0);",
     );
     b.image("p/image.glsl", "fragColor = iFrame < 43 ? vec4(0.) : texelFetch(iChannel0, ivec2(fragCoord), 0);");
+    b.line("render p --size 8x6 --at 42,43 --format npy --out seen").expect(0);
+    let is_seen = |frame: u32| b.npy(&format!("seen/p_{frame:04}.npy")).at(3, 2)[0].is_nan();
+    assert_eq!([42, 43].map(is_seen), [false, true]);
     let run = b.line("trace p --nonfinite --frame 60 --size 8x6 --json").expect(0);
     let found = &run.json()[0]["nonfinite"];
     assert_eq!(

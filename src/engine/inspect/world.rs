@@ -7,6 +7,7 @@ use crate::{
         walk::{Lod, World},
     },
     media::mesh::Mesh,
+    project::Filter,
 };
 use std::sync::Arc;
 
@@ -43,6 +44,14 @@ impl PassInputs {
 pub(crate) struct DrawInputs<'i> {
     pass: &'i PassInputs,
     geometry: GeometryBlock,
+}
+
+impl DrawInputs<'_> {
+    /// Returns whether it matters for a channel which level of its texture a read asks for.
+    pub fn is_of_levels(&self, channel: u8) -> bool {
+        let texture = &self.pass.channels[usize::from(channel)];
+        texture.filter == Filter::Mipmap && texture.levels.len() > 1
+    }
 }
 
 impl World for DrawInputs<'_> {

@@ -8,7 +8,7 @@ use super::{
     state::{Frame, LANES, State},
     world::{World, uniform_words},
 };
-use crate::glsl::ir::{Block, Case, FuncId, GlobalId, GlobalKind, Input, Module, Op, Output, Stmt, Value};
+use crate::glsl::ir::{Block, Case, FuncId, GlobalId, GlobalKind, Input, Level, Module, Op, Output, Stmt, Value};
 
 /// A set of lanes.
 type Lanes = u8;
@@ -23,6 +23,11 @@ fn of(lanes: Lanes) -> impl Iterator<Item = usize> {
 pub enum Stop {
     #[error("the program did not end within {0} steps")]
     Steps(u64),
+}
+
+/// Derivatives, and textures whose level follows from them.
+fn is_of_neighbours(op: &Op) -> bool {
+    matches!(op, Op::Derivative { .. } | Op::Sample { level: Level::Auto | Level::Bias(_), .. })
 }
 
 /// Lanes that have left a block for where a loop or switch says.
@@ -238,6 +243,9 @@ impl<'a, R: Real> Machine<'a, R> {
             match stmt {
                 Stmt::Let(value) => {
                     self.compute(frame, *value, active, lane, observer)?;
+                    if is_seen && active != ALL && is_of_neighbours(&self.state.module[frame.function][*value]) {
+                        observer.parted(&View::new(&self.state, frame, lane), *value);
+                    }
                     active &= !self.ended;
                     if is_seen {
                         observer.value(&View::new(&self.state, frame, lane), *value);

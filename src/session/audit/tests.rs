@@ -2,8 +2,9 @@
 
 use super::*;
 use crate::{
-    engine::{PassInputs, Sources, TextureCopy},
+    engine::{Level as TextureLevel, PassInputs, Sources, TextureCopy},
     glsl::interface::UniformBlock,
+    project::Filter,
     session::{template, trace::STEPS},
 };
 use bytemuck::Zeroable;
@@ -147,6 +148,46 @@ fn results_that_the_language_leaves_open_are_listed_with_their_numbers() {
         let found = found.unwrap_or_else(|| panic!("{body}: {:?}", named(&code, &audit)));
         assert_eq!(found.span.map(|span| &code[span.range()]), Some(text), "{body}");
         assert!(found.numbers.contains(numbers), "{body}: {}", found.numbers);
+    }
+}
+
+/// GLSL ES 3.00, sections 8.8 and 8.9: within non-uniform control flow. Neighbours part by columns of two, or not at
+/// all where the edge lies between blocks of two by two.
+#[test]
+fn derivatives_where_neighbours_part_are_listed() {
+    let read = "texture(iChannel0, p / 8.)";
+    let listed = |code: &str, filter: Filter| {
+        let mut project = template::project();
+        project.passes[0].source.text = code.into();
+        let mut inputs = inputs();
+        let level = |width| TextureLevel { width, height: width, texels: vec![[0.5; 4]; (width * width) as usize] };
+        (inputs.channels[0].levels, inputs.channels[0].filter) = (vec![level(2), level(1)], filter);
+        let pixels: Vec<(u32, u32)> = (0..8).map(|x| (x, 1)).collect();
+        let audit = audit(&Sources::new(&project), 0, &inputs, &pixels, STEPS).unwrap();
+        let findings = audit.findings.iter().filter(|f| f.kind.message().contains("neighbours go other ways"));
+        findings.map(|f| (code[f.span.unwrap().range()].to_owned(), f.pixels)).collect::<Vec<_>>()
+    };
+    let image = |condition: &str, value: &str| image(&format!("o = vec4(0.);\nif ({condition}) o += {value};"));
+    for (condition, value, pixels) in [
+        ("p.x < 3.", "dFdx(p.x)", 1),
+        ("p.x > 3.", "fwidth(p.y)", 1),
+        ("p.x < 3.", read, 1),
+        ("p.x < 3.", "texture(iChannel0, p / 8., 1.)", 1),
+        ("p.y < 1.", read, 0),
+        ("p.y > 1.", read, 8),
+    ] {
+        let expected: Vec<(String, usize)> = (pixels > 0).then(|| (value.to_owned(), pixels)).into_iter().collect();
+        assert_eq!(listed(&image(condition, value), Filter::Mipmap), expected, "{condition} {value}");
+    }
+    for (condition, value, filter) in [
+        ("p.x < 4.", "dFdx(p.x)", Filter::Mipmap),
+        ("iTime > 0.", read, Filter::Mipmap),
+        ("p.x < 3.", "textureLod(iChannel0, p / 8., 0.)", Filter::Mipmap),
+        ("p.x < 3.", "textureGrad(iChannel0, p / 8., p, p)", Filter::Mipmap),
+        // There is one level that is read.
+        ("p.x < 3.", read, Filter::Linear),
+    ] {
+        assert_eq!(listed(&image(condition, value), filter), [], "{condition} {value}");
     }
 }
 

@@ -208,6 +208,18 @@ impl Observer<Shadowed> for Watch<'_> {
         self.calls.pop();
     }
 
+    fn parted(&mut self, view: &View<'_, '_, Shadowed>, value: Value) {
+        let what = match *view.op(value) {
+            Op::Sample { channel, .. } if !self.inputs.is_of_levels(channel) => return,
+            Op::Sample { .. } => {
+                "a texture's level follows from derivatives where neighbours go other ways (8.8: it is undefined)"
+            }
+            _ => "a derivative is undefined where neighbours go other ways (8.9)",
+        };
+        let span = self.span(view.function().loc(value));
+        self.find(Kind::Undefined(what), span, String::new());
+    }
+
     fn decide(&mut self, view: &View<'_, '_, Shadowed>, value: Value) {
         if self.undefined_components(view, value).is_some() {
             self.used(view, value);

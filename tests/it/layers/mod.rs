@@ -287,6 +287,27 @@ fn every_file_keeps_to_its_layer() {
     assert!(found.is_empty(), "{} violations:\n{}", found.len(), found.join("\n"));
 }
 
+/// Files of a folder of tests that its `main.rs` does not declare, so that nothing runs them.
+fn undeclared(main: &str, files: &[String]) -> Vec<String> {
+    let is_declared = |name: &str| main.lines().any(|line| line.trim() == format!("mod {name};"));
+    let names = files.iter().filter_map(|file| file.strip_suffix(".rs"));
+    names.filter(|name| *name != "main" && !is_declared(name)).map(str::to_owned).collect()
+}
+
+#[test]
+fn every_file_of_tests_is_run() {
+    for folder in ["tests/it", "tests/window"] {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
+        let names = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().file_name().into_string().unwrap());
+        let main = fs::read_to_string(folder.join("main.rs")).unwrap();
+        let names: Vec<String> = names.collect();
+        assert_eq!(undeclared(&main, &names), [""; 0], "{}", folder.display());
+        // The control: a declaration that is lost.
+        let lost = names.iter().find_map(|name| name.strip_suffix(".rs").filter(|name| *name != "main")).unwrap();
+        assert_eq!(undeclared(&main.replace(&format!("mod {lost};"), ""), &names), [lost]);
+    }
+}
+
 /// What is wrong with where modules lie; `paths` are relative to `src/`.
 fn misplaced(paths: &[&str]) -> Vec<String> {
     let holds = |folder: &str| paths.iter().any(|p| p.strip_prefix(folder).is_some_and(|rest| rest.starts_with('/')));
