@@ -57,7 +57,7 @@ fn a_constant_zero_divides() {
         ),
         with(
             "const vec2 none = vec2(0.0);",
-            "float one = 1.0; r = vec4(min((Z + 1.0) / abs(mix(none.x, 0.0, Z)), 5.0), min((Z + 2.0) / (one * 0.0), 6.0),\n\
+            "float one = 1.0; r = vec4(min(abs((Z + 1.0) / mix(none.x, 0.0, Z)), 5.0), min((Z + 2.0) / (one * 0.0), 6.0),\n\
              max((Z - 1.0) / abs(min(one, 0.0)), -7.0), min((Z + 3.0) / dot(none, vec2(1.0 + Z)), 8.0));",
             [5., 6., -7., 8.],
         ),

@@ -233,16 +233,6 @@ fn a_density_that_alternates_from_cell_to_cell_dies() {
     }
 }
 
-#[test]
-fn the_three_fluids_are_one_solver() {
-    // A preset is a folder that can be taken away, so each has the texts; they must not drift apart.
-    for file in ["solver.glsl", "step.glsl"] {
-        let [fluid, dye, lit] = ["fluid", "fluid-dye", "fluid-lit"]
-            .map(|name| preset(name).includes.iter().find(|i| i.source.name == file).unwrap().source.text.clone());
-        assert!(fluid == dye && fluid == lit, "{file}");
-    }
-}
-
 // --------------------------------------------------------------------------------------------------- fluid-dye, -lit
 
 #[test]
