@@ -42,8 +42,8 @@ impl BuildOptions {
         PassId::Buffer("probe of a value".into())
     }
 
-    /// Draws the first value of the innermost expression at a byte of a text, as a pass evaluates it, or of the variable
-    /// whose name is declared there, and nothing else that it does not need.
+    /// Draws the first value that the innermost expression at a byte of a text has in a pass, or the variable whose name
+    /// is declared there, and nothing else that it does not need.
     #[must_use]
     pub fn probing(self, pass: PassId, source: SourceId, at: u32) -> Self {
         let probe = Some((pass, Probe { source, at, visit: 0 }));
