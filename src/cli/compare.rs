@@ -43,7 +43,7 @@ struct Compared {
     largest: Number,
     /// Root of the mean square of the components' differences; 1 is the range of a screen.
     rmse: Number,
-    /// Of the components as a screen shows them, in dB.
+    /// The ratio of the components as a screen shows them, in dB.
     psnr: Number,
     /// Structural similarity of luma; null for pictures of less than 11 pixels a side.
     ssim: Option<f64>,

@@ -57,7 +57,7 @@ pub fn run(args: &LabArgs) -> io::Result<u8> {
     finish(measured.and_then(|results| report(out, &studies, &results)))
 }
 
-/// What `out` holds of an earlier merge is kept, where `from` has nothing newer.
+/// Keeps what `out` holds of an earlier merge where `from` has nothing newer.
 fn merge(from: &[PathBuf], out: &Path) -> Result<String, LabError> {
     let before = out.join(RESULTS_FILE).exists().then(|| out.to_owned());
     let folders: Vec<PathBuf> = before.into_iter().chain(from.iter().cloned()).collect();

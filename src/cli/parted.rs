@@ -14,7 +14,7 @@ use crate::{
 use serde::Serialize;
 use std::fmt::Write;
 
-/// What a search has found.
+/// Holds what a search has found.
 #[derive(Debug, Serialize)]
 pub struct Parted {
     /// Assignments that were compared, of so many that the pixel has.
@@ -30,7 +30,7 @@ struct First {
     #[serde(flatten)]
     written: Written,
     name: String,
-    /// How often the expression had been evaluated before.
+    /// Says how often the expression had been evaluated before.
     visit: u32,
     walker: Vec<Number>,
     /// Null where the device does not come there so often.

@@ -34,7 +34,7 @@ struct Probed {
     height: u32,
     /// Pixels in which the expression was evaluated so often.
     visited: usize,
-    /// Of each component, over these pixels, without what is no number.
+    /// The least of each component over these pixels, without what is no number.
     min: [Number; 4],
     max: [Number; 4],
     mean: [Number; 4],

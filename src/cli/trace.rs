@@ -52,30 +52,30 @@ struct Traced {
     /// The texel lies outside of this region of the pass, x, y, width and height: nothing is drawn there.
     #[serde(skip_serializing_if = "Option::is_none")]
     outside: Option<[u32; 4]>,
-    /// What it held before frame 0 then, if that is not zeros.
+    /// Holds what it held before frame 0 then, if that is not zeros.
     #[serde(skip_serializing_if = "Option::is_none")]
     initial: Option<Written>,
     /// The texel lies in the boundary of the pass, which this writes.
     #[serde(skip_serializing_if = "Option::is_none")]
     boundary: Option<Written>,
-    /// What the walker found; null where the pass draws nothing.
+    /// Holds what the walker found; null where the pass draws nothing.
     value: Option<[Number; 4]>,
     /// The same way in double precision.
     double: Option<[Number; 4]>,
     /// The texel that the device drew, as it is stored.
     device: [Number; 4],
-    /// How it is stored.
+    /// Says how it is stored.
     format: &'static str,
     /// Numbers of single precision between the two, of the components that are stored; null where these are of fewer
     /// bits.
     ulps: Option<Vec<u32>>,
-    /// Where the device parts from the walker, if their values are not the same.
+    /// Says where the device parts from the walker, if their values are not the same.
     #[serde(skip_serializing_if = "Option::is_none")]
     parted: Option<Parted>,
     statements: u64,
     left_out: u64,
     steps: Vec<PlacedStep>,
-    /// What `//@print` comments ask for.
+    /// Holds what `//@print` comments ask for.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     printed: Vec<Printed>,
 }

@@ -35,9 +35,9 @@ pub struct BuildOptions {
 }
 
 impl BuildOptions {
-    /// What the probed value is drawn into: 32-bit floats, NaN where the probe never was. A buffer draws it beside its
-    /// picture, as others read that, so both take one evaluation. Of Image it is drawn by a pass of its own, behind all
-    /// buffers: its picture is drawn only where it is wanted too.
+    /// Returns what the probed value is drawn into: 32-bit floats, NaN where the probe never was. A buffer draws it
+    /// beside its picture, as others read that, so both take one evaluation. Of Image it is drawn by a pass of its own,
+    /// behind all buffers: its picture is drawn only where it is wanted too.
     pub fn probed() -> PassId {
         PassId::Buffer("probe of a value".into())
     }

@@ -27,11 +27,11 @@ pub(crate) struct Walkable {
     faults: Vec<check::Fault>,
     /// Every type as GLSL writes it, by its id; none where nobody steps through the program.
     type_texts: Vec<String>,
-    /// What a stage of vertices hands on.
+    /// Holds what a stage of vertices hands on.
     pub varyings: Vec<Varying>,
 }
 
-/// What a program is lowered for.
+/// Says what a program is lowered for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Detail {
     /// Somebody looks at its values.
@@ -88,7 +88,7 @@ impl Walkable {
         Ok(Self { program, names, origins, interner, statements, unsequenced, faults, type_texts, varyings })
     }
 
-    /// What an expression leans on, if that is an order of evaluation which the language leaves open.
+    /// Returns what an expression leans on, if that is an order of evaluation which the language leaves open.
     pub fn unsequenced(&self, loc: Loc) -> Option<&'static str> {
         self.unsequenced.iter().find(|(place, _)| *place == loc).map(|(_, what)| *what)
     }
@@ -100,7 +100,7 @@ impl Walkable {
         self.faults.iter().map(span)
     }
 
-    /// What the marks of a program that is stepped through stand for.
+    /// Returns what the marks of a program that is stepped through stand for.
     pub fn statements(&self) -> &Statements {
         &self.statements
     }
@@ -150,7 +150,7 @@ impl Walkable {
         self.type_texts.get(ty.0 as usize).map_or("", String::as_str)
     }
 
-    /// Where a value is written: for what a macro brought in, the use of the macro.
+    /// Returns where a value is written: for what a macro brought in, the use of the macro.
     pub fn span(&self, loc: Loc) -> Span {
         self.origins.span(loc)
     }

@@ -94,12 +94,12 @@ struct Running {
     shell: Shell,
     held: HeldKeys,
     report: Report,
-    /// When to paint next if nothing happens before.
+    /// Says when to paint next if nothing happens before.
     paint_at: Option<Instant>,
     painted_at: Instant,
     hidden: bool,
     title: String,
-    /// What the system prefers, where the window system does not say.
+    /// Holds what the system prefers, where the window system does not say.
     system_theme: Receiver<egui::Theme>,
     window_file: WindowFile,
     /// The window's size is the person's, and not the command line's.
@@ -323,7 +323,7 @@ impl Running {
         }
     }
 
-    /// What is shown is told to others only while they ask for it.
+    /// Tells others what is shown, only while they ask for it.
     fn assist(&mut self, event: accesskit_winit::WindowEvent) {
         match event {
             accesskit_winit::WindowEvent::InitialTreeRequested => self.ctx.enable_accesskit(),
@@ -472,7 +472,7 @@ impl Running {
     }
 }
 
-/// Where and how large the window opens: as the command line says, else as it was, else as suits the screen.
+/// Returns where and how large the window opens: as the command line says, else as it was, else as suits the screen.
 fn attributes(event_loop: &ActiveEventLoop, options: &Options, place: &Place) -> WindowAttributes {
     let attributes = Window::default_attributes()
         .with_title("Eddy")

@@ -1,4 +1,4 @@
-//! How wrong the picture is: a map of the errors over it, and the worst pixels, each of which can be traced.
+//! Says how wrong the picture is: a map of the errors over it, and the worst pixels, each of which can be traced.
 
 use super::{
     icons::{self, Icon},
@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 /// The error that is drawn as nothing; one of 1 is drawn in full.
 const LEAST: f64 = 1e-8;
-/// What a screen of 8 bits shows.
+/// The least step that a screen of 8 bits shows.
 const VISIBLE: f64 = 1.0 / 255.0;
 
 /// Paints the map over the picture of the pass that it is of.
@@ -82,7 +82,7 @@ fn card(ui: &mut Ui, map: &AuditMap, out: &mut Outbox) {
     }
 }
 
-/// What the colours stand for.
+/// Shows what the colours stand for.
 fn scale(ui: &mut Ui, out: &mut Outbox) {
     let p = theme::of(ui);
     let row = ui.horizontal(|ui| {
@@ -113,7 +113,7 @@ fn color(error: f64) -> Color32 {
     Color32::from_rgba_unmultiplied(mixed(0), mixed(1), mixed(2), (60.0 + 150.0 * part) as u8)
 }
 
-/// What scripts are told of it.
+/// Returns what scripts are told of it.
 pub fn report(session: &Session) -> Value {
     let Some(map) = session.audit_map() else { return Value::Null };
     let worst: Vec<Value> = map

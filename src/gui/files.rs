@@ -21,7 +21,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// How long a dialog may take to come before a way around it is offered.
+/// Says how long a dialog may take to come before a way around it is offered.
 const PATIENCE: Duration = Duration::from_secs(1);
 /// A dialog's buttons are at least so large.
 const BUTTON: Vec2 = vec2(84.0, 28.0);
@@ -32,7 +32,8 @@ pub struct Files {
     desktop: fn(&Dialog) -> Outcome,
     asked: Option<Asked>,
     typing: Option<Typing>,
-    /// What gets the keyboard in the next frame: a modal that closes still takes it from all below in its last one.
+    /// Holds what gets the keyboard in the next frame: a modal that closes still takes it from all below in its last
+    /// one.
     gets_keyboard: Option<Id>,
 }
 
@@ -49,7 +50,7 @@ struct Typing {
     pick: Pick,
     path: String,
     is_new: bool,
-    /// What had the keyboard before, and gets it back.
+    /// Holds what had the keyboard before, and gets it back.
     before: Option<Id>,
 }
 

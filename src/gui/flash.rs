@@ -1,4 +1,4 @@
-//! What flashes to be seen: texels that are NaN or infinite.
+//! Owns what flashes to be seen: texels that are NaN or infinite.
 
 use egui::{Color32, Ui};
 use std::time::Duration;

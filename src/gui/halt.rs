@@ -5,7 +5,7 @@ use crate::session::{Command, Halt, Session};
 use egui::{Align, Area, Button, Frame, Id, Layout, Margin, Order, Rect, RichText, Stroke, Ui, vec2};
 use std::time::Duration;
 
-/// What is offered, by the name that scripts click on.
+/// Is what is offered, by the name that scripts click on.
 const GO_ON: &str = "halt:go-on";
 const SMALLER: &str = "halt:smaller";
 const LAST_GOOD: &str = "halt:last-good";

@@ -4,7 +4,7 @@ use super::{accessible, outbox::Outbox, theme};
 use crate::session::probe::{BINS, Statistics};
 use egui::{Color32, Sense, Stroke, Ui, pos2, vec2};
 
-/// Of the components, on dark and on light ground.
+/// The colours of the components, on dark and on light ground.
 const INKS: [[Color32; 4]; 2] = [
     [
         Color32::from_rgb(255, 110, 100),

@@ -68,7 +68,7 @@ pub struct Outbox {
     pub wishes: Vec<Wish>,
     /// Named places, in points.
     pub places: BTreeMap<String, Rect>,
-    /// Where F6 takes the keyboard.
+    /// Says where F6 takes the keyboard.
     pub stops: Vec<Stop>,
     /// The keys of actions, for tips and menus.
     pub keys: Arc<Keymap>,

@@ -83,7 +83,7 @@ fn visit(ui: &mut Ui, place: &ProbePlace, out: &mut Outbox) {
     }
 }
 
-/// How it is shown: colours, one component or all, and the range.
+/// Offers how it is shown: colours, one component or all, and the range.
 fn look(ui: &mut Ui, view: &ProbeView<'_>, value: &ProbedValue, out: &mut Outbox) {
     let mut look = view.look;
     ui.horizontal_wrapped(|ui| {
@@ -164,7 +164,7 @@ pub fn number_at(pixels: &Pixels, at: [f32; 2], value: &ProbedValue) -> Option<(
     Some(((x, y), if numbers.len() == 1 { numbers.concat() } else { format!("({})", numbers.join(", ")) }))
 }
 
-/// What scripts are told.
+/// Returns what scripts are told.
 pub fn report(session: &Session, under: Option<[f32; 2]>) -> serde_json::Value {
     let Some(view) = session.probe() else { return serde_json::json!({ "text": null }) };
     let (value, trouble) = match view.value {

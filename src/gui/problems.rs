@@ -132,7 +132,7 @@ fn rows_of(index: usize, problem: &TabDiagnostic) -> impl Iterator<Item = Row<'_
 }
 
 impl Row<'_> {
-    /// What it says to those who do not see it.
+    /// Returns what it says to those who do not see it.
     fn name_of(&self) -> String {
         let place = self.place.map(|p| format!("{} line {}: ", p.title(), p.line)).unwrap_or_default();
         let kind = if self.is_label { "see also" } else { self.problem.severity.name() };

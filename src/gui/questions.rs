@@ -59,7 +59,7 @@ fn answers(ui: &mut Ui, list: &[(&str, Answer)], out: &mut Outbox) {
     }
 }
 
-/// How long a question stands before a key answers it: what was being typed when it came is no answer.
+/// Says how long a question stands before a key answers it: what was being typed when it came is no answer.
 const DEAF_SECS: f64 = 0.7;
 
 fn takes_keys(ui: &Ui) -> bool {

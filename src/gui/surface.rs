@@ -89,7 +89,7 @@ pub struct Surface {
     back_buffer: BackBuffer,
     gpu: Gpu,
     needs_configure: bool,
-    /// How often in a row the surface did not take its size.
+    /// Says how often in a row the surface did not take its size.
     refusals: u32,
 }
 

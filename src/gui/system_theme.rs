@@ -1,4 +1,4 @@
-//! Whether the system prefers dark or light windows, where the window system does not say so itself.
+//! Says whether the system prefers dark or light windows, where the window system does not say so itself.
 //!
 //! On Linux the desktop portal knows, over D-Bus; on other systems `winit` tells.
 

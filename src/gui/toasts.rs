@@ -13,7 +13,7 @@ use egui::{
 };
 use std::time::{Duration, Instant};
 
-/// How long one stays that is only good news; trouble stays until it is closed.
+/// Says how long one stays that is only good news; trouble stays until it is closed.
 const STAYS: Duration = Duration::from_secs(8);
 /// More than these would take the code's room; the newest are shown.
 const SHOWN: usize = 4;

@@ -15,14 +15,14 @@ use egui::{
 };
 use std::collections::BTreeSet;
 
-/// What the bar shows of the window's state.
+/// Holds what the bar shows of the window's state.
 pub struct State<'a> {
     pub is_gallery: bool,
     pub open: &'a BTreeSet<Panel>,
     pub settings: &'a Settings,
 }
 
-/// Where there is less room, what can be done elsewhere is left out.
+/// Less room than this leaves out what can be done elsewhere.
 const ROOMY: f32 = 640.0;
 
 pub fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut Outbox) {
@@ -85,7 +85,7 @@ pub fn show(ui: &mut Ui, session: &Session, state: &State<'_>, out: &mut Outbox)
     });
 }
 
-/// What of the window is shown, and how.
+/// Offers what of the window is shown, and how.
 fn view_menu(ui: &mut Ui, state: &State<'_>, out: &mut Outbox) {
     // Several things are changed one after the other.
     let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);

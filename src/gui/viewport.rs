@@ -17,7 +17,7 @@ use egui_wgpu::Renderer;
 /// Left free round the picture, so that the frame of what has the keyboard covers none of it. Physical pixels.
 const RIM: f32 = 3.0;
 
-/// What is around the picture.
+/// Says what is around the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Around {
     /// Other panels, one of which may have the keyboard.

@@ -1,4 +1,4 @@
-//! How far two pictures are apart, and how the times of what draws them compare.
+//! Says how far two pictures are apart, and how the times of what draws them compare.
 
 use super::{
     flip,
@@ -9,7 +9,7 @@ use crate::engine::Pixels;
 /// The least side that the window of structural similarity fits into.
 const SSIM_SIDE: u32 = 11;
 
-/// How far a picture is from a reference.
+/// Says how far a picture is from a reference.
 #[derive(Clone, Debug)]
 pub struct Apart {
     /// Texels that differ in any bit.
@@ -18,7 +18,7 @@ pub struct Apart {
     pub largest: f64,
     /// Root of the mean square of the components' differences; 1 is the range of a screen.
     pub rmse: f64,
-    /// Of the components as a screen shows them, in dB.
+    /// The ratio of the components as a screen shows them, in dB.
     pub psnr: f64,
     /// Structural similarity of luma; `None` for pictures of less than 11 pixels a side.
     pub ssim: Option<f64>,
@@ -84,7 +84,7 @@ pub struct Times {
 }
 
 impl Times {
-    /// Of turns that two programs took one after the other, in milliseconds a frame. `None` for none.
+    /// Returns the times of turns that two programs took one after the other, in milliseconds a frame. `None` for none.
     pub fn new(turns: &[(f64, f64)]) -> Option<Times> {
         let sorted = |values: Vec<f64>| {
             let mut values = values;

@@ -15,7 +15,7 @@ use std::{
     time::Duration,
 };
 
-/// How long a run that is dropped may take to its next frame. One that computes a reference longer is left behind.
+/// Says how long a run that is dropped may take to its next frame. One that computes a reference longer is left behind.
 const PATIENCE: Duration = Duration::from_secs(3);
 
 /// Steps that the thread takes back behind others (`nice`), where a thread can: what a processor draws for a window

@@ -23,7 +23,7 @@ const FLOOR_STEPS: u32 = 16;
 /// Bytes a texel that the copying pass moves: it reads and writes rgba32f.
 const COPY_BYTES: f64 = 32.0;
 
-/// How a time was taken.
+/// Says how a time was taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Clock {
@@ -97,7 +97,7 @@ impl Cost {
     }
 }
 
-/// How carefully to measure.
+/// Says how carefully to measure.
 #[derive(Clone, Copy, Debug)]
 pub struct Care {
     /// At least [`MIN_REPEATS`].

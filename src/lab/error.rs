@@ -1,4 +1,4 @@
-//! Why the lab could not measure or report.
+//! Says why the lab could not measure or report.
 
 use crate::{
     diag::render_all,

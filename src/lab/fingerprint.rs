@@ -6,7 +6,7 @@ use crate::project::Project;
 pub(super) struct Fingerprint(u64);
 
 impl Fingerprint {
-    /// Of a project's texts, groups, slider values, channels and settings.
+    /// Returns that of a project's texts, groups, slider values, channels and settings.
     pub fn of(project: &Project) -> Fingerprint {
         let mut print = Fingerprint(0xcbf2_9ce4_8422_2325);
         for (_, source) in project.sources().iter() {

@@ -1,4 +1,4 @@
-//! How wrong a field is. Every measure is over f64 values; fields of one study have the same number of texels.
+//! Says how wrong a field is. Every measure is over f64 values; fields of one study have the same number of texels.
 
 use serde::{Deserialize, Serialize};
 
@@ -66,8 +66,8 @@ pub fn square_drift(before: &[f64], after: &[f64]) -> f64 {
     squares(after) / squares(before) - 1.0
 }
 
-/// How far values go above and below the range of the reference, relative to that range. Infinite for what is no
-/// number.
+/// Returns how far values go above and below the range of the reference, relative to that range. Infinite for what is
+/// no number.
 pub fn overshoot(values: &[f64], reference: &[f64]) -> (f64, f64) {
     let range = |v: &[f64]| v.iter().fold((f64::MAX, f64::MIN), |(lo, hi), &x| (lo.min(x), hi.max(x)));
     if values.iter().any(|v| !v.is_finite()) {

@@ -1,4 +1,4 @@
-//! How far a picture is from another, as a screen shows them: colours in sRGB's own values, 0 to 1.
+//! Says how far a picture is from another, as a screen shows them: colours in sRGB's own values, 0 to 1.
 
 /// Colours from the bottom left, row 0 first.
 #[derive(Clone, Debug, PartialEq)]

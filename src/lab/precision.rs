@@ -60,7 +60,7 @@ impl Comparison {
     }
 }
 
-/// Why a project could not be compared.
+/// Says why a project could not be compared.
 #[derive(Debug, thiserror::Error)]
 pub enum PrecisionError {
     /// The author's to mend, or the machine's.

@@ -31,7 +31,7 @@ impl Rig {
         Rig::stoppable(gpu, Stop::default())
     }
 
-    /// What it draws ends with [`LabError::Stopped`] once `stop` is given.
+    /// Returns a rig whose drawing ends with [`LabError::Stopped`] once `stop` is given.
     pub fn stoppable(gpu: Gpu, stop: Stop) -> Rig {
         Rig { gpu, stop }
     }

@@ -18,7 +18,7 @@ use std::{
 /// Seed of every random field.
 pub const SEED: u64 = 20_240_501;
 
-/// How to run.
+/// Says how to run.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// The folder of the results.
@@ -60,7 +60,7 @@ pub enum Step<'a> {
     Costed(&'a CostRecord),
 }
 
-/// How a run is looked at and ended.
+/// Says how a run is looked at and ended.
 #[derive(Clone, Debug, Default)]
 pub struct Control {
     pub stop: Stop,
@@ -70,7 +70,7 @@ pub struct Control {
     pub beside_window: bool,
 }
 
-/// Who measures, and with what care.
+/// Returns who measures, and with what care.
 pub fn provenance(gpu: &Gpu, options: &Options) -> Provenance {
     Provenance {
         device: gpu.info.name.clone(),

@@ -1,4 +1,4 @@
-//! Which part of the work is this machine's, where several share it.
+//! Says which part of the work is this machine's, where several share it.
 
 use super::LabError;
 

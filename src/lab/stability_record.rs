@@ -4,7 +4,7 @@ use super::Number;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Why a case is there.
+/// Says why a case is there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Kind {
@@ -67,7 +67,7 @@ pub struct Offence {
     pub value: Number,
     pub low: Number,
     pub high: Number,
-    /// How many values of that frame are outside.
+    /// Says how many values of that frame are outside.
     pub count: u64,
 }
 
@@ -82,8 +82,8 @@ pub enum Outcome {
     Left(Offence),
 }
 
-/// How long it took, after what was done had ended, until everything was within its bounds and no livelier than it is
-/// without.
+/// Says how long it took, after what was done had ended, until everything was within its bounds and no livelier than it
+/// is without.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Recovery {
@@ -104,7 +104,7 @@ pub struct StabilityRecord {
     pub frames: u32,
     /// The sliders that were turned.
     pub settings: String,
-    /// Why a bound may be left; empty: none may.
+    /// Says why a bound may be left; empty: none may.
     pub excuses: Vec<String>,
     /// `None`: it could not be drawn.
     pub outcome: Option<Outcome>,

@@ -48,7 +48,7 @@ pub fn three_of(extent: Extent, grids: &'static [u32; 4]) -> &'static [u32] {
     }
 }
 
-/// How much to measure.
+/// Says how much to measure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Extent {

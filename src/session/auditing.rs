@@ -15,7 +15,7 @@ use crate::{
 };
 use std::{collections::HashMap, sync::Arc};
 
-/// How many pixels are looked at, across and up.
+/// Says how many pixels are looked at, across and up.
 const PIXELS: (u32, u32) = (32, 18);
 /// Pixels that are listed.
 const WORST: usize = 5;
@@ -26,7 +26,7 @@ struct Job {
     taken: Taken,
 }
 
-/// What came of it.
+/// Holds what came of it.
 pub(super) struct Told {
     pub pass: PassId,
     pub pixels: usize,
@@ -36,7 +36,7 @@ pub(super) struct Told {
     pub map: AuditMap,
 }
 
-/// How far pixels of a pass are off double precision, and where.
+/// Says how far pixels of a pass are off double precision, and where.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AuditMap {
     pub pass: PassId,
@@ -68,11 +68,11 @@ pub struct WorstPixel {
 
 pub(super) struct Auditing {
     worker: Worker<Job, Result<Told, String>>,
-    /// What the shown pass read is to be taken.
+    /// Says whether what the shown pass read is to be taken.
     pub is_due: bool,
     /// The pass of which it is being taken.
     taking: Option<PassId>,
-    /// What is shown of the newest one.
+    /// Holds what is shown of the newest one.
     pub map: Option<AuditMap>,
 }
 

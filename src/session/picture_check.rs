@@ -9,8 +9,8 @@ use super::{
 };
 
 impl Session {
-    /// How far the audited pixels ([`Command::Audit`](super::Command::Audit)) are off double precision, while what was
-    /// found of them is listed.
+    /// Returns how far the audited pixels ([`Command::Audit`](super::Command::Audit)) are off double precision, while
+    /// what was found of them is listed.
     pub fn audit_map(&self) -> Option<&AuditMap> {
         self.auditing.map.as_ref()
     }

@@ -49,7 +49,7 @@ pub(super) struct Tracing {
     pub is_due: bool,
     newest: Option<Arc<Traced>>,
     trouble: Option<String>,
-    /// Where the device parts from the walker in it.
+    /// Says where the device parts from the walker in it.
     pub finding: Finding,
 }
 

@@ -70,7 +70,7 @@ pub enum Action {
     Probe,
     /// The next click on the picture says which pixel is traced.
     TracePixel,
-    /// Where the first NaN comes from.
+    /// Says where the first NaN comes from.
     FindNonfinite,
     Trace(TraceAction),
     Time(TimeAction),

@@ -2,7 +2,7 @@
 
 use super::{Action, LayoutAction, TraceAction};
 
-/// Where an action belongs in the help, and when its keys are listened to.
+/// Says where an action belongs in the help, and when its keys are listened to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
     Project,

@@ -128,7 +128,7 @@ mod tests {
         assert!(mistakes[0].text.ends_with("write lines such as: palette = \"Ctrl+Shift+P\""), "{mistakes:?}");
     }
 
-    /// What the new file says is what holds without it.
+    /// The new file says what holds without it.
     #[test]
     fn the_new_file_says_what_holds() {
         let is_row = |line: &&str| line.contains(" = ") && !line.starts_with("# name");

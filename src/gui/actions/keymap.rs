@@ -3,7 +3,7 @@
 use super::{Action, Chord, Entry, Group, table::ACTIONS};
 use egui::{Event, Key, Modifiers};
 
-/// What is open and has the keyboard, and so whose keys are listened to.
+/// Holds what is open and has the keyboard, and so whose keys are listened to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Listening {
     pub code: bool,

@@ -1,4 +1,4 @@
-//! What keys and the palette can ask of the panel that has the keyboard.
+//! Owns what keys and the palette can ask of the panel that has the keyboard.
 
 use crate::gui::dock::Side;
 

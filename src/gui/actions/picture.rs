@@ -1,4 +1,4 @@
-//! What keys and the palette can ask of the picture: its size, its shape, and ways on where a frame took too long.
+//! Owns what keys and the palette can ask of the picture: its size, its shape, and ways on where a frame took too long.
 
 use crate::gui::geometry::Shape;
 
@@ -14,7 +14,7 @@ pub enum PictureAction {
     LastGood,
 }
 
-/// How large the picture is to the view's size, in eighths.
+/// Says how large the picture is to the view's size, in eighths.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scale(u8);
 

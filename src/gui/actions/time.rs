@@ -1,6 +1,6 @@
 //! Actions of time.
 
-/// What can be asked of time by a key or by the palette.
+/// Says what can be asked of time by a key or by the palette.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TimeAction {
     /// Opens the menu with the time that is typed.

@@ -1,4 +1,4 @@
-//! What keys and the palette can ask of the debugger.
+//! Owns what keys and the palette can ask of the debugger.
 
 use crate::session::trace::travel::{Direction, Stride};
 

@@ -1,4 +1,4 @@
-//! What a picture covers is not painted under it.
+//! Leaves out what a picture covers: nothing is painted under it.
 
 use crate::gui::damage::Area;
 use egui::{

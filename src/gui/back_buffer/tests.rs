@@ -82,7 +82,7 @@ impl Painter {
     }
 }
 
-/// What a hand does in one frame.
+/// Returns what a hand does in one frame.
 fn events(random: &mut Random, size: [f32; 2], places: &[Pos2]) -> Vec<Event> {
     let button = |pos, pressed| Event::PointerButton {
         pos,

@@ -146,7 +146,7 @@ fn keys(state: &mut Buffers, ui: &Ui, session: &Session, response: &Response, pl
     }
 }
 
-/// What is seen of the picture.
+/// Draws what is seen of the picture.
 fn picture(painter: &Painter, seen: &Seen, placed: &Placed) {
     let [(left, right), (bottom, top)] = placed.seen();
     if left >= right || bottom >= top {

@@ -11,7 +11,7 @@ use egui::{Color32, FontId, Pos2, Rect, ScrollArea, Sense, Stroke, StrokeKind, U
 const ROW: f32 = 50.0;
 const PICTURE: f32 = 60.0;
 const NUMBERS: f32 = 10.5;
-/// What flashes on a small picture is so large at least.
+/// The least size of what flashes on a small picture.
 const FLASHED: f32 = 3.0;
 
 pub fn show(state: &mut Buffers, ui: &mut Ui, session: &Session, live: &mut Live, out: &mut Outbox) {

@@ -1,6 +1,6 @@
 //! Numbers in as many letters as there is room for.
 
-/// What the components of a texel are called.
+/// Is what the components of a texel are called.
 pub const COMPONENTS: [&str; 4] = ["r", "g", "b", "a"];
 
 /// A number as exactly as so many letters allow; what is not finite in words.

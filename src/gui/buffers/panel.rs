@@ -10,7 +10,7 @@ use crate::{
 };
 use egui::{Align2, FontId, Rect, Ui, UiBuilder, pos2, vec2};
 
-/// What the panel needs from beside it.
+/// Holds what the panel needs from beside it.
 pub struct Around<'a> {
     /// Small pictures of passes.
     pub live: &'a mut Live,

@@ -1,4 +1,4 @@
-//! What scripts are told.
+//! Owns what scripts are told.
 
 use super::{
     numbers::fitted,

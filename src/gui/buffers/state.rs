@@ -1,4 +1,4 @@
-//! What the panel knows from frame to frame.
+//! Owns what the panel knows from frame to frame.
 
 use super::{
     numbers::COMPONENTS,
@@ -16,7 +16,7 @@ use crate::{
 use egui::TextureHandle;
 use std::sync::Arc;
 
-/// What the panel shows.
+/// Says what the panel shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Page {
     Texels,
@@ -42,7 +42,7 @@ pub struct Buffers {
     chosen: Option<Target>,
     pub(super) look: BufferLook,
     pub(super) zoom: Zoom,
-    /// Of the graph.
+    /// The zoom of the graph.
     pub(super) sheet: Zoom,
     /// The sheet that was placed last, by its texels.
     pub(super) sheet_of: (u32, u32),
@@ -59,9 +59,9 @@ pub struct Buffers {
     pub(super) reveals: Option<(u32, u32)>,
     /// Looked at in this frame.
     is_shown: bool,
-    /// What passes cost is to be gathered.
+    /// Says whether what passes cost is to be gathered.
     pub(super) wants_costs: bool,
-    /// What the session was told of.
+    /// Holds what the session was told of.
     told: BufferWatch,
 }
 
@@ -154,7 +154,7 @@ impl Buffers {
         }
     }
 
-    /// What passes cost is looked at.
+    /// Returns whether what passes cost is looked at.
     pub fn wants_costs(&self) -> bool {
         self.is_shown && self.wants_costs
     }
@@ -177,7 +177,7 @@ impl Buffers {
     }
 }
 
-/// What a target is called.
+/// Returns what a target is called.
 pub(super) fn title(project: &Project, (pass, index): &Target) -> String {
     let count = project.pass(pass).map_or(1, |p| p.settings.formats().len());
     if count > 1 { format!("{} · {index}", pass.title()) } else { pass.title() }

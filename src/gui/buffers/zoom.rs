@@ -1,4 +1,4 @@
-//! Which part of a picture is seen, and how large: from all of it down to single texels.
+//! Says which part of a picture is seen, and how large: from all of it down to single texels.
 
 use egui::{Pos2, Rect, Vec2, pos2, vec2};
 
@@ -79,7 +79,7 @@ impl Zoom {
 }
 
 impl Placed {
-    /// Where a place of the picture is on the screen.
+    /// Returns where a place of the picture is on the screen.
     pub fn point(&self, texel: Pos2) -> Pos2 {
         let offset = (texel.to_vec2() - self.center) * self.scale;
         self.area.center() + vec2(offset.x, -offset.y)
@@ -105,7 +105,7 @@ impl Placed {
         (at(self.center.x, self.size.0), at(self.center.y, self.size.1))
     }
 
-    /// Where a texel is on the screen; several of a row from one to before the other.
+    /// Returns where a texel is on the screen; several of a row from one to before the other.
     pub fn rect(&self, columns: (u32, u32), row: u32) -> Rect {
         let (left, right) = (columns.0 as f32, columns.1 as f32);
         Rect::from_two_pos(self.point(pos2(left, row as f32)), self.point(pos2(right, row as f32 + 1.0)))

@@ -1,4 +1,4 @@
-//! What a channel shall read, and how: the popup of its card.
+//! Owns what a channel shall read, and how: the popup of its card.
 
 use super::{
     names::{filter_name, input_name, wrap_name},

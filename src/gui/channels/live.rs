@@ -14,7 +14,7 @@ pub struct Live {
     textures: HashMap<Target, (TextureHandle, u64)>,
     /// Looked at in this frame.
     wanted: Vec<Target>,
-    /// What the session was told of.
+    /// Holds what the session was told of.
     told: Vec<Target>,
 }
 

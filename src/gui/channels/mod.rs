@@ -18,7 +18,7 @@ use egui::{
 use names::{input_name, sampler_name};
 use swatch::Swatches;
 
-/// What the cards would like to be high, with the room around them.
+/// Is what the cards would like to be high, with the room around them.
 pub const HEIGHT: f32 = 92.0;
 /// Higher, they grow no more.
 const MOST: f32 = 128.0;

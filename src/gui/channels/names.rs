@@ -1,4 +1,4 @@
-//! What inputs and samplers are called.
+//! Owns what inputs and samplers are called.
 
 use crate::project::{Channel, Filter, Input, Media, Wrap};
 

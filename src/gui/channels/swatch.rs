@@ -15,7 +15,7 @@ use std::path::PathBuf;
 /// Points of the smallest letters of a buffer's name.
 const SMALL: f32 = 9.0;
 
-/// What small pictures are made of.
+/// Holds what small pictures are made of.
 pub struct Swatches<'a> {
     pub session: &'a Session,
     pub thumbnails: &'a mut Thumbnails,

@@ -24,7 +24,7 @@ pub struct CodePanel {
     current: Tab,
     /// The session's text generation that the editors hold.
     generation: Option<u64>,
-    /// Which project they are of: another one's undo must not lead back here.
+    /// Says which project they are of: another one's undo must not lead back here.
     project: (String, Origin),
     font_size: f32,
     wraps: bool,
@@ -35,14 +35,14 @@ pub struct CodePanel {
     takes_focus: bool,
     /// The shaders begun so far, each of which takes the keyboard once.
     begun: u64,
-    /// Which problem was jumped to last.
+    /// Says which problem was jumped to last.
     problem: Option<usize>,
     uses: Option<Uses>,
     /// The tab the session was told is in front.
     told_front: Option<Tab>,
-    /// How many of the session's renamed passes have been followed.
+    /// Says how many of the session's renamed passes have been followed.
     followed: usize,
-    /// What the debugger shows in the tab in front.
+    /// Holds what the debugger shows in the tab in front.
     debug: Debug,
     /// The word that is probed while the pointer is over it and Ctrl and Alt are held, by its first byte.
     pointed: Option<usize>,
@@ -83,7 +83,7 @@ impl CodePanel {
         (self.current.clone(), before.matches('\n').count())
     }
 
-    /// What the debugger shows in the tab in front.
+    /// Takes what the debugger shows in the tab in front.
     pub fn set_debug(&mut self, debug: Debug) {
         self.debug = debug;
     }
@@ -449,7 +449,7 @@ fn same_place(a: &Origin, b: &Origin) -> bool {
     }
 }
 
-/// What a key asks of the code while it has the keyboard.
+/// Returns what a key asks of the code while it has the keyboard.
 fn of_code(keymap: &Keymap, event: &egui::Event) -> Option<EditorAction> {
     match keymap.pressed(event, Listening { code: true, ..Listening::default() })?.action {
         Action::Code(action) => Some(action),

@@ -53,7 +53,7 @@ pub fn show(state: &mut Compare, ui: &mut Ui, session: &Session, out: &mut Outbo
     ui.advance_cursor_after_rect(room);
 }
 
-/// What the project is held against.
+/// Offers what the project is held against.
 fn reference(state: &mut Compare, ui: &mut Ui, out: &mut Outbox) {
     ui.label("Against");
     let choices = [

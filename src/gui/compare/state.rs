@@ -1,4 +1,4 @@
-//! What the panel knows from frame to frame.
+//! Owns what the panel knows from frame to frame.
 
 use super::figures::{self, Figures};
 use crate::{
@@ -14,7 +14,7 @@ use std::{
     sync::{Arc, mpsc::Receiver},
 };
 
-/// What the project is held against.
+/// Says what the project is held against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Choice {
     LastSave,
@@ -22,7 +22,7 @@ pub(super) enum Choice {
     Revision,
 }
 
-/// How the two pictures are shown.
+/// Says how the two pictures are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum View {
     Side,
@@ -98,7 +98,7 @@ impl Compare {
         self.project = path.display().to_string();
     }
 
-    /// What is asked for; `None` where its name is not yet typed.
+    /// Returns what is asked for; `None` where its name is not yet typed.
     pub(super) fn against(&self) -> Option<Against> {
         let typed = |text: &str| Some(text.trim().to_owned()).filter(|text| !text.is_empty());
         match self.choice {

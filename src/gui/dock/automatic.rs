@@ -4,7 +4,7 @@ use super::{BAR, Node, Panel};
 use egui::Vec2;
 use std::collections::BTreeSet;
 
-/// What panels would like to be high, without their titles.
+/// Holds what panels would like to be high, without their titles.
 #[derive(Clone, Copy, Debug)]
 pub struct Heights {
     /// The bar below the picture.
@@ -15,7 +15,7 @@ pub struct Heights {
 
 /// Lines of code are this wide at least, where the window has room for more.
 const CODE_WIDTH: f32 = 700.0;
-/// What the panels below the picture have, where there is room to choose.
+/// Is what the panels below the picture have, where there is room to choose.
 const BELOW: f32 = 250.0;
 /// Channels shrink to so much where others want the room.
 const LEAST_CHANNELS: f32 = 44.0;
@@ -64,8 +64,8 @@ fn two_columns(size: Vec2, (open, fronts): Opened<'_>, aside: Option<Node>, heig
     }
 }
 
-/// What shows the code at work is below it: the way of a pixel, what passes have drawn, two pictures, and numbers over
-/// time.
+/// Puts what shows the code at work below it: the way of a pixel, what passes have drawn, two pictures, and numbers
+/// over time.
 fn code_and_below(open: &BTreeSet<Panel>, fronts: &[Panel]) -> Option<Node> {
     let is_open = |panel: &Panel| open.contains(panel);
     let code = is_open(&Panel::Code).then_some(Node::Panel(Panel::Code));

@@ -12,7 +12,7 @@ use egui_tiles::{
 };
 use std::collections::BTreeSet;
 
-/// What is in the panels.
+/// Says what is in the panels.
 pub trait Contents {
     /// Shows a panel. True: a hand begins to move it by its own row.
     fn show(&mut self, ui: &mut Ui, panel: Panel) -> bool;
@@ -91,7 +91,7 @@ impl Behavior<Panel> for Bars<'_> {
         response.on_hover_cursor(egui::CursorIcon::Grab).on_hover_text("Drag to move")
     }
 
-    /// What is free of the row, by which the panel in front is moved too.
+    /// Shows what is free of the row, by which the panel in front is moved too.
     fn tab_bar_left_ui(&mut self, _: &Tiles<Panel>, ui: &mut Ui, group: TileId, tabs: &Tabs) {
         let free = ui.available_rect_before_wrap();
         let handle = ui.interact(free, Id::unique(("dock row", group)), Sense::CLICK | Sense::DRAG);

@@ -1,4 +1,5 @@
-//! What a hand does to panels, done by keys: one is made larger or smaller, put elsewhere, or shown behind another.
+//! Owns what a hand does to panels, done by keys: one is made larger or smaller, put elsewhere, or shown behind
+//! another.
 
 use super::{BAR, Dock, Node, Panel, Side, separators, tree};
 use egui::{Pos2, Rect};
@@ -6,7 +7,7 @@ use egui_tiles::LinearDir;
 
 /// Points by which a key moves a line between panels.
 const STEP: f32 = 24.0;
-/// What a panel has of the window at whose edge it is put.
+/// Is what a panel has of the window at whose edge it is put.
 const EDGE: f32 = 0.33;
 
 impl Dock {

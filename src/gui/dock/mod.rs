@@ -25,7 +25,7 @@ use std::collections::BTreeSet;
 /// The arrangement.
 pub struct Dock {
     tree: Tree<Panel>,
-    /// What a person has moved or resized; else the arrangement is made anew for each frame.
+    /// Says whether a person has moved or resized any; else the arrangement is made anew for each frame.
     is_manual: bool,
     open: BTreeSet<Panel>,
     /// In front of those that they share a place with, the newest last.

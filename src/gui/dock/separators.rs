@@ -10,7 +10,7 @@ use egui_tiles::{Container, Linear, LinearDir, Tile, TileId, Tree};
 /// No panel is made narrower or lower: what is in it could not be used.
 const LEAST_WIDTH: f32 = 140.0;
 const LEAST_HEIGHT: f32 = 60.0;
-/// How near to a line a hand has to be.
+/// Says how near to a line a hand has to be.
 const REACH: f32 = 4.0;
 
 /// Shows the lines over the panels, and moves what is dragged. True: something was moved.

@@ -1,4 +1,4 @@
-//! What keys and the palette can ask of the code that is shown.
+//! Owns what keys and the palette can ask of the code that is shown.
 
 use super::motion::{Motion, Way};
 

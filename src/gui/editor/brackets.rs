@@ -1,4 +1,4 @@
-//! Which bracket belongs to which.
+//! Says which bracket belongs to which.
 
 use super::{
     buffer::Buffer,

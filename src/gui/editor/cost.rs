@@ -188,7 +188,7 @@ fn a_letter_lays_out_what_is_in_sight_and_looks_at_what_is_around_it() {
     }
 }
 
-/// What is typed at many carets costs what their lines are long, not what lies between them.
+/// Typing at many carets costs what their lines are long, not what lies between them.
 #[test]
 fn a_letter_at_many_carets_looks_at_their_lines_alone() {
     let ctx = egui::Context::default();

@@ -24,7 +24,7 @@ impl Buffer {
         });
     }
 
-    /// How many bytes a closing brace goes back that is typed alone on its line: one step of its indent.
+    /// Returns how many bytes a closing brace goes back that is typed alone on its line: one step of its indent.
     fn dedent_at(&self, at: usize) -> usize {
         let before = &self.text()[self.line_range(self.line_of(at)).start..at];
         if !before.is_empty() && before.trim().is_empty() { unit_at_end(before) } else { 0 }
@@ -100,7 +100,7 @@ impl Buffer {
         });
     }
 
-    /// What Backspace or Delete takes at a caret.
+    /// Returns what Backspace or Delete takes at a caret.
     fn passed_over(&self, motion: Motion, at: usize) -> Range<usize> {
         let to = self.target(motion, at);
         let mut range = at.min(to)..at.max(to);

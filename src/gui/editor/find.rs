@@ -58,7 +58,7 @@ impl Finder {
         self.regex.iter().flat_map(|regex| regex.find_iter(text)).map(|m| m.range()).collect()
     }
 
-    /// What takes the place of a match.
+    /// Returns what takes the place of a match.
     fn replacement(&self, text: &str, found: &Range<usize>, with: &str) -> String {
         let captures = self.regex.as_ref().and_then(|regex| regex.captures_at(text, found.start));
         match captures.filter(|_| self.expands) {

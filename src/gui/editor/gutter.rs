@@ -10,12 +10,12 @@ use super::{
 use crate::gui::theme::{self, Palette};
 use egui::{Align2, Color32, FontId, Id, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2};
 
-/// How wide it is beside its digits.
+/// Says how wide it is beside its digits.
 pub(super) const BESIDE: f32 = 34.0;
 
 pub(super) struct Gutter<'a> {
     pub rect: Rect,
-    /// Where the first row is, which may be out of sight.
+    /// Says where the first row is, which may be out of sight.
     pub top: f32,
     pub row_height: f32,
     pub index: &'a Highlight,

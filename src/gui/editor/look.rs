@@ -1,4 +1,4 @@
-//! How a text is shown besides what it says: its size, marks, places found, and what is known of it.
+//! Says how a text is shown besides what it says: its size, marks, places found, and what is known of it.
 
 use crate::{
     diag::{Severity, SourceId},
@@ -18,10 +18,10 @@ pub struct Mark {
     pub hints: Vec<String>,
 }
 
-/// How a text is shown; not a part of it.
+/// Says how a text is shown; not a part of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Look<'a> {
-    /// What it is called to those who do not see it.
+    /// Holds what it is called to those who do not see it.
     pub name: &'a str,
     pub font_size: f32,
     /// Lines go on in the next row where they are too long.
@@ -36,7 +36,7 @@ pub struct Look<'a> {
     pub debug: &'a Debug,
 }
 
-/// What a debugger has to show in a text.
+/// Holds what a debugger has to show in a text.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Debug {
     /// The line, from 0, that is about to run.

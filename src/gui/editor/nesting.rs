@@ -1,9 +1,9 @@
-//! How deep brackets are nested, told of a stretch of code so that a search can step over it.
+//! Says how deep brackets are nested, told of a stretch of code so that a search can step over it.
 
-/// What a stretch of code does to the depth of one kind of bracket.
+/// Holds what a stretch of code does to the depth of one kind of bracket.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Depth {
-    /// How far below its beginning it goes: 0 or less.
+    /// Says how far below its beginning it goes: 0 or less.
     low: i32,
     /// Its end against its beginning.
     net: i32,
@@ -53,7 +53,7 @@ impl Bracket {
     }
 }
 
-/// What a stretch of code does to the depths of all kinds.
+/// Holds what a stretch of code does to the depths of all kinds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Nesting([Depth; 3]);
 

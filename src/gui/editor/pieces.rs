@@ -18,9 +18,9 @@ pub struct Piece {
     pub len: usize,
     /// The state at its beginning.
     pub state: LexState,
-    /// How wide it is, in widths of a digit.
+    /// Says how wide it is, in widths of a digit.
     pub columns: f32,
-    /// What its brackets open and close.
+    /// Holds what its brackets open and close.
     pub nesting: Nesting,
     /// In how many rows it is shown; 0 until it is counted.
     pub rows: u32,
@@ -128,7 +128,7 @@ fn is_between_tokens(byte: u8) -> bool {
     byte.is_ascii_whitespace() || b";,(){}[]".contains(&byte)
 }
 
-/// How wide a text is, in widths of a digit: a tab is as wide as four.
+/// Returns how wide a text is, in widths of a digit: a tab is as wide as four.
 pub fn columns(text: &str, width: &mut dyn FnMut(char) -> f32) -> f32 {
     let mut plain = 0;
     let mut other = 0.0;

@@ -8,7 +8,7 @@ use super::{
 };
 use std::ops::Range;
 
-/// Which row shows what.
+/// Says which row shows what.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Rows {
     /// Rows above each line, and last the number of all; empty while every line is one row.
@@ -23,7 +23,7 @@ pub(super) struct Part {
     pub line: usize,
     /// Bytes of the text.
     pub bytes: Range<usize>,
-    /// How far it is indented because it goes on with a line, in widths of a digit.
+    /// Says how far it is indented because it goes on with a line, in widths of a digit.
     pub indent: f32,
     pub is_first: bool,
     pub is_last: bool,

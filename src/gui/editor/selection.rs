@@ -97,7 +97,8 @@ impl Carets {
     }
 }
 
-/// Whether two selections cannot both be: the second begins inside the first, or where it ends and one is a caret.
+/// Returns whether two selections cannot both be: the second begins inside the first, or where it ends and one is a
+/// caret.
 fn overlap(a: Range<usize>, b: Range<usize>) -> bool {
     b.start < a.end || (b.start == a.end && (a.is_empty() || b.is_empty()))
 }

@@ -66,13 +66,13 @@ impl<'a> Semantic<'a> {
 /// Bytes compared at once: byte by byte, ten million take longer than a frame.
 const BLOCK: usize = 4096;
 
-/// How many bytes two texts begin alike with.
+/// Returns how many bytes two texts begin alike with.
 fn equal_at_start(a: &[u8], b: &[u8]) -> usize {
     let blocks = a.chunks_exact(BLOCK).zip(b.chunks_exact(BLOCK)).take_while(|(a, b)| a == b).count() * BLOCK;
     blocks + a[blocks..].iter().zip(&b[blocks..]).take_while(|(a, b)| a == b).count()
 }
 
-/// How many bytes two texts end alike with.
+/// Returns how many bytes two texts end alike with.
 fn equal_at_end(a: &[u8], b: &[u8]) -> usize {
     let blocks = a.rchunks_exact(BLOCK).zip(b.rchunks_exact(BLOCK)).take_while(|(a, b)| a == b).count() * BLOCK;
     let (a, b) = (&a[..a.len() - blocks], &b[..b.len() - blocks]);

@@ -53,7 +53,7 @@ pub struct CodeEditor {
     preedit: String,
     pub(super) follow_caret: bool,
     take_focus: bool,
-    /// When the caret last moved, in seconds: it blinks from there.
+    /// Says when the caret last moved, in seconds: it blinks from there.
     pub(super) moved_at: f64,
     pub(super) drag: Option<Drag>,
     pub(super) page: usize,
@@ -68,7 +68,7 @@ pub struct CodeEditor {
     /// The revision of the text that others have.
     told: u64,
     pub(super) work: Work,
-    /// How high the text was in the frame before, and whether the caret could be seen.
+    /// Says how high the text was in the frame before, and whether the caret could be seen.
     sight: (f32, bool),
     /// A line from 0 that is to be brought into sight.
     sought_line: Option<usize>,

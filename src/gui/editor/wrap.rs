@@ -1,4 +1,4 @@
-//! Where a long piece of a line goes on in the next row.
+//! Says where a long piece of a line goes on in the next row.
 
 use super::pieces;
 

@@ -1,5 +1,5 @@
-//! Who has the keyboard: the way from panel to panel and within one by keys, the frame round what has it, and who gets
-//! it back.
+//! Says who has the keyboard: the way from panel to panel and within one by keys, the frame round what has it, and who
+//! gets it back.
 //!
 //! Owns no widget. A part of the window says by [`Outbox::stop`] that F6 stops there, and everything inside it is found
 //! by egui's own record of which widget lies in which. Two widgets are home: the picture and the code. They take every
@@ -19,7 +19,7 @@ use std::collections::HashMap;
 pub struct Focus {
     /// Those of the frame before, in reading order.
     stops: Vec<Stop>,
-    /// What had the keyboard last in each of them.
+    /// Holds what had the keyboard last in each of them.
     visited: HashMap<&'static str, Id>,
     /// The home that had the keyboard last.
     home: Option<Id>,
@@ -31,7 +31,7 @@ pub struct Focus {
     /// The last press was of a key and not of the mouse: then people want to see who has the keyboard.
     by_key: bool,
     brings_into_sight: Option<Id>,
-    /// Where what has the keyboard is, for scripts.
+    /// Says where what has the keyboard is, for scripts.
     place: Option<[Rect; 2]>,
 }
 
@@ -124,7 +124,7 @@ impl Focus {
         }
     }
 
-    /// Where the keyboard goes in a panel: to its home, to what had it there last, or to the first that can.
+    /// Returns where the keyboard goes in a panel: to its home, to what had it there last, or to the first that can.
     fn entry(&self, widgets: &WidgetRects, stop: &Stop) -> Option<Id> {
         let inside = self.inside(widgets, stop);
         let visited = self.visited.get(stop.name).filter(|id| inside.contains(id));
@@ -207,7 +207,7 @@ impl Focus {
         }
     }
 
-    /// What can have the keyboard in a panel, in the order in which it was shown.
+    /// Returns what can have the keyboard in a panel, in the order in which it was shown.
     fn inside(&self, widgets: &WidgetRects, stop: &Stop) -> Vec<Id> {
         let Some(layer) = widgets.get(stop.ui).map(|w| w.layer_id) else { return Vec::new() };
         let is_inside = |w: &&WidgetRect| self.stop_of(widgets, w.id).is_some_and(|p| p.ui == stop.ui);

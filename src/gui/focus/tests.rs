@@ -13,7 +13,7 @@ struct Stage {
     has_second: bool,
 }
 
-/// What a frame does besides showing.
+/// Says what a frame does besides showing.
 #[derive(Clone, Copy, PartialEq)]
 enum Step {
     None,

@@ -1,4 +1,4 @@
-//! What is told to screen readers: in each state of the window, everything that the keyboard can be given to has a
+//! Owns what is told to screen readers: in each state of the window, everything that the keyboard can be given to has a
 //! name.
 
 use super::harness::{CTRL, CTRL_SHIFT, click, has, named, open, open_with, press, until};

@@ -17,7 +17,7 @@ use std::sync::{Arc, LazyLock};
 const MARGIN: f32 = 12.0;
 const TITLE: f32 = 22.0;
 
-/// What a card says of a preset.
+/// Holds what a card says of a preset.
 #[derive(Debug)]
 pub struct Card {
     /// The preset.

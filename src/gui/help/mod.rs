@@ -15,7 +15,7 @@ use text::SECTIONS;
 
 /// As wide as lines are read well.
 const WIDTH: f32 = 700.0;
-/// What the keys have of it.
+/// Is what the keys have of it.
 const KEYS: f32 = 190.0;
 
 /// The page while it is open.
@@ -122,7 +122,7 @@ impl Help {
     }
 }
 
-/// How far keys scroll the page, in points: all but the letters of a search are for it.
+/// Returns how far keys scroll the page, in points: all but the letters of a search are for it.
 fn scrolled_by_keys(ui: &Ui, height: f32) -> f32 {
     let count = |key| {
         let times = ui.input_mut(|i| i.count_and_consume_key(Modifiers::NONE, key));

@@ -1,4 +1,4 @@
-//! What the help says besides the keys.
+//! Owns what the help says besides the keys.
 
 /// A part of the help: a title, and paragraphs. What stands behind a tab is code.
 pub(super) struct Section {

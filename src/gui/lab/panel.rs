@@ -4,7 +4,7 @@ use super::{header, legend, plot, state::Lab};
 use crate::gui::{outbox::Outbox, theme};
 use egui::{Align, Layout, RichText, Ui, vec2};
 
-/// How wide the panel has to be to have a list of methods.
+/// Says how wide the panel has to be to have a list of methods.
 const ROOM_FOR_LEGEND: f32 = 640.0;
 
 impl Lab {

@@ -19,7 +19,7 @@ use crate::{
 use egui::{Color32, CursorIcon, Painter, Pos2, Rangef, Rect, RichText, Shape, Stroke, Ui, vec2};
 use egui_plot::{AxisHints, Plot, PlotPoint, PlotTransform};
 
-/// How near the pointer has to be to a point, in points of the screen.
+/// Says how near the pointer has to be to a point, in points of the screen.
 const REACH: f32 = 13.0;
 
 /// Holds what the panel knows besides.

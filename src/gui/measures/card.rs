@@ -16,12 +16,12 @@ use egui::{Align, Frame, Label, Layout, Link, Margin, Rect, RichText, Ui};
 /// Letters of a comment that are shown.
 const LONGEST: usize = 40;
 
-/// What a card shows it in.
+/// Holds what a card shows it in.
 pub struct View {
     /// From the top of the panel, for scripts.
     pub index: usize,
     pub axis: Axis,
-    /// What the plots of all cards go over.
+    /// Holds what the plots of all cards go over.
     pub range: (f64, f64),
 }
 

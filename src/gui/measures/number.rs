@@ -20,7 +20,7 @@ pub fn words(x: f64) -> String {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
-/// What stands at a mark of an axis whose marks are so far apart.
+/// Returns what stands at a mark of an axis whose marks are so far apart.
 pub fn tick(x: f64, step: f64) -> String {
     if x.abs() < step * 1e-3 {
         return "0".into();

@@ -114,7 +114,7 @@ impl Pen<'_> {
         }
     }
 
-    /// What is NaN or infinite has no place on the axis: a line across, with a sign at its top.
+    /// Draws what is NaN or infinite, which has no place on the axis: a line across, with a sign at its top.
     fn nonfinite(&self, record: &Record) {
         let color = self.palette.error;
         let mut before = f32::NEG_INFINITY;

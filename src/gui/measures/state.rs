@@ -1,8 +1,8 @@
-//! What the panel knows from frame to frame.
+//! Owns what the panel knows from frame to frame.
 
 use crate::session::{Command, measuring::Sample};
 
-/// What a plot goes over.
+/// Says what a plot goes over.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Axis {
     #[default]
@@ -32,14 +32,14 @@ pub struct Measurements {
     pub(super) axis: Axis,
     /// The cards in sight in this frame, by the serials of their comments.
     pub(super) seen: Vec<u64>,
-    /// What passes cost is to be gathered: it says why one is not drawn.
+    /// Says whether what passes cost is to be gathered: it says why one is not drawn.
     pub(super) wants_costs: bool,
-    /// What the session was told of.
+    /// Holds what the session was told of.
     told: Vec<u64>,
 }
 
 impl Measurements {
-    /// What passes cost was looked at in the newest frame. Asked once for each.
+    /// Returns whether what passes cost was looked at in the newest frame. Asked once for each.
     pub fn take_costs_wish(&mut self) -> bool {
         std::mem::take(&mut self.wants_costs)
     }

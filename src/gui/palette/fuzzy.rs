@@ -1,4 +1,4 @@
-//! How well a few letters fit a title.
+//! Says how well a few letters fit a title.
 
 /// Costs of a letter of a title: it goes on from the one before, begins a word, or stands anywhere.
 const GOES_ON: u32 = 0;

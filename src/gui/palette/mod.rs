@@ -22,7 +22,7 @@ const ROWS: usize = 12;
 #[derive(Default)]
 pub struct Palette {
     open: Option<Open>,
-    /// What had the keyboard before, and gets it back.
+    /// Holds what had the keyboard before, and gets it back.
     before: Option<Id>,
     /// Newest first: they lead the list before anything is typed.
     recent: Vec<Action>,
@@ -61,7 +61,7 @@ enum Choice<'a> {
     Offer(&'a Offer),
 }
 
-/// What fits, and the letters of its title that do.
+/// Holds what fits, and the letters of its title that do.
 struct Fit<'a> {
     name: &'a str,
     title: &'a str,
@@ -200,7 +200,7 @@ impl Open {
     }
 }
 
-/// What fits, best first; everything before anything is typed, the actions first.
+/// Returns what fits, best first; everything before anything is typed, the actions first.
 fn fits<'a>(typed: &str, recent: &[Action], offers: &'a [Offer]) -> Vec<Fit<'a>> {
     let age = |choice: Choice<'_>| match choice {
         Choice::Action(action) => recent.iter().position(|a| *a == action).unwrap_or(usize::MAX),

@@ -1,4 +1,4 @@
-//! How the chosen pass is called, drawn and read.
+//! Says how the chosen pass is called, drawn and read.
 
 use super::fills::{self, Filling};
 use crate::{

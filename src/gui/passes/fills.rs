@@ -1,4 +1,4 @@
-//! What a pass holds before its first frame, and what its outermost texels are.
+//! Owns what a pass holds before its first frame, and what its outermost texels are.
 
 use crate::{
     gui::{accessible, outbox::Outbox, theme},
@@ -8,7 +8,7 @@ use crate::{
 use egui::{ComboBox, DragValue, Key, RichText, Role, TextEdit, Ui, vec2};
 use std::{path::Path, sync::Arc};
 
-/// What a new expression says.
+/// Is what a new expression says.
 const FIRST: &str = "vec4(0.0)";
 
 /// A value that is being typed.

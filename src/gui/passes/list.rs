@@ -130,7 +130,7 @@ fn steps(ui: &Ui, rect: Rect, group: &Group, pass: &Pass, right: f32) -> f32 {
     ui.painter().text(at, Align2::RIGHT_CENTER, text, font, theme::of(ui).accent).left() - 6.0
 }
 
-/// What is not as on the site, in a few letters.
+/// Returns what is not as on the site, in a few letters.
 fn note(pass: &Pass) -> String {
     let mut parts = Vec::new();
     match pass.settings.size {

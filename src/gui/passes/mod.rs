@@ -28,7 +28,7 @@ pub struct Passes {
     open: bool,
     chosen: Option<Tab>,
     typed: Typed,
-    /// How many of the session's renamed passes have been followed.
+    /// Says how many of the session's renamed passes have been followed.
     followed: usize,
 }
 

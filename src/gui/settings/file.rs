@@ -129,7 +129,7 @@ mod tests {
         assert!(read(&fresh).0.word_wrap && fresh.contains("# theme = "), "{fresh}");
     }
 
-    /// What the new file says is what holds without it.
+    /// The new file says what holds without it.
     #[test]
     fn the_new_file_says_what_holds() {
         assert_eq!(read(&template()), (Settings::default(), vec![]));

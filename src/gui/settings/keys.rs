@@ -6,7 +6,7 @@ use toml_edit::Value;
 /// The window's colours.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Theme {
-    /// What the system prefers.
+    /// Holds what the system prefers.
     #[default]
     System,
     Dark,
@@ -100,7 +100,7 @@ impl Change {
 /// A line of the file.
 pub(super) struct Key {
     pub name: &'static str,
-    /// What it is, for the file's comments.
+    /// Holds what it is, for the file's comments.
     pub about: &'static str,
     /// As the file writes what holds without it.
     pub usual: &'static str,

@@ -1,4 +1,4 @@
-//! What a person has chosen for the window, and what the window remembers by itself.
+//! Owns what a person has chosen for the window, and what the window remembers by itself.
 //!
 //! Owns two files that people can read. `settings.toml` in the folder for settings is written by people and by the
 //! window's menus, which change one line and leave the rest; `window.toml` in the folder for what is remembered has the

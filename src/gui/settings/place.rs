@@ -12,7 +12,7 @@ const HEADER: &str =
     "# The window of Eddy when it was closed last. Without this file everything is where it is at first.\n";
 const KEYS: [&str; 7] = ["width", "height", "x", "y", "maximized", "open", "layout"];
 
-/// Where the window is, in points of the system.
+/// Says where the window is, in points of the system.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Place {
     pub size: Option<(f64, f64)>,
@@ -45,7 +45,7 @@ impl UsualSizes {
     }
 }
 
-/// What is remembered of the window.
+/// Holds what is remembered of the window.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Remembered {
     pub place: Place,

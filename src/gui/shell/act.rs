@@ -1,4 +1,4 @@
-//! What each action of a key, a menu or the palette does.
+//! Owns what each action of a key, a menu or the palette does.
 
 use super::{Shell, start_folder};
 use crate::{

@@ -1,4 +1,4 @@
-//! What comes in from outside: dropped files, a pasted text, what is on the clipboard.
+//! Owns what comes in from outside: dropped files, a pasted text, what is on the clipboard.
 
 use super::Shell;
 use crate::{
@@ -55,7 +55,7 @@ impl Shell {
         out.ask(Command::Bring { paths, to });
     }
 
-    /// Which channel's card a point is on.
+    /// Returns which channel's card a point is on.
     fn channel_at(&self, at: egui::Pos2) -> Option<usize> {
         (0..4).find(|i| self.places.places.get(&format!("channel:{i}")).is_some_and(|r| r.contains(at)))
     }

@@ -1,4 +1,4 @@
-//! Where the panels are, and what is in each.
+//! Says where the panels are, and what is in each.
 
 use super::Shell;
 use crate::{
@@ -67,7 +67,7 @@ impl Shell {
         self.watch_costs(sees_costs, out);
     }
 
-    /// What is not looked at is not gathered.
+    /// Gathers only what is looked at.
     fn watch_costs(&mut self, is_seen: bool, out: &mut Outbox) {
         if std::mem::replace(&mut self.sees_costs, is_seen) != is_seen {
             out.ask(Command::WatchCosts(is_seen));
@@ -108,7 +108,7 @@ struct Panels<'a> {
     measurements: &'a mut Measurements,
 }
 
-/// What is in the panels, while they are shown.
+/// Holds what is in the panels, while they are shown.
 struct Shown<'a> {
     panels: Panels<'a>,
     /// The place of the picture under the pointer, as the newest frame had it.

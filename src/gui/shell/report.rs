@@ -1,4 +1,4 @@
-//! What the window tells the scripts that drive it.
+//! Owns what the window tells the scripts that drive it.
 
 use super::Shell;
 use crate::{
@@ -102,7 +102,7 @@ impl Shell {
     }
 }
 
-/// How the newest finished compile ended, with every diagnostic.
+/// Returns how the newest finished compile ended, with every diagnostic.
 fn compiled(session: &Session) -> Value {
     let state = session.compile_state();
     let diagnostics: Vec<Value> = session

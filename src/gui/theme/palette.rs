@@ -34,7 +34,7 @@ pub struct Palette {
     pub code: CodeFills,
 }
 
-/// What is drawn behind code.
+/// Holds what is drawn behind code.
 #[derive(Clone, Debug)]
 pub struct CodeFills {
     pub selection: Color32,

@@ -37,7 +37,7 @@ pub struct Live {
     shown: Option<(String, TextureHandle)>,
 }
 
-/// What the thread shall draw.
+/// Holds what the thread shall draw.
 #[derive(Default)]
 struct Wanted {
     state: Mutex<State>,

@@ -29,9 +29,9 @@ pub struct Debugger {
     pub(super) new_watch: String,
     /// The variable that is plotted; none: the first that changes.
     pub(super) plotted: Option<String>,
-    /// What there is to see at the moment.
+    /// Holds what there is to see at the moment.
     pub(super) seen: Option<AtMoment>,
-    /// Of the moment before: most moments are in the loop of the one before.
+    /// The rows of the moment before: most moments are in its loop.
     rows: Option<Rows>,
     pub(super) printed: Option<Vec<Printed>>,
     /// Said of the newest step.
@@ -77,7 +77,7 @@ impl Debugger {
         self.seen.as_ref()
     }
 
-    /// What there is to see is to be found anew.
+    /// Forgets what there is to see: it is found anew.
     pub(super) fn forget(&mut self) {
         if let Some(seen) = self.seen.take() {
             self.rows = Some(seen.rows);
@@ -175,7 +175,7 @@ impl Debugger {
         Some((tab, line, None))
     }
 
-    /// What the editor shows in a tab.
+    /// Returns what the editor shows in a tab.
     pub fn marks(&self, session: &Session, tab: &Tab) -> Debug {
         let place = self.place(session).filter(|(of, ..)| of == tab);
         let of = self.breakpoints.iter().filter(|breakpoint| breakpoint.tab == *tab);
@@ -193,7 +193,7 @@ impl Debugger {
     }
 }
 
-/// Whether a place in the one's way is the same in the other's: the same pixel and the same texts.
+/// Returns whether a place in the one's way is the same in the other's: the same pixel and the same texts.
 fn is_like(new: &Traced, known: &Traced) -> bool {
     let texts = |traced: &Traced| [Tab::Common, traced.tab.clone()].map(|tab| traced.text(&tab).to_owned());
     is_of_pixel(new, known) && new.tab == known.tab && texts(new) == texts(known)

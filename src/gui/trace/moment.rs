@@ -1,4 +1,4 @@
-//! What there is to see at a moment, found once for it.
+//! Owns what there is to see at a moment, found once for it.
 
 use crate::{
     project::Tab,
@@ -18,9 +18,9 @@ pub struct AtMoment {
     /// The calls that it lies in, with moments to go to.
     pub stack: Vec<(String, usize)>,
     pub rows: Rows,
-    /// What the function gives back.
+    /// Holds what the function gives back.
     pub result: Option<Value>,
-    /// Of each breakpoint, what is wrong with its condition here.
+    /// Holds for each breakpoint what is wrong with its condition here.
     pub conditions: Vec<Option<String>>,
     /// The line, from 0.
     pub place: Option<(Tab, usize)>,
@@ -54,7 +54,7 @@ impl Rows {
 }
 
 impl AtMoment {
-    /// What there is to see at a moment, and what has changed since the one that was shown before.
+    /// Returns what there is to see at a moment, and what has changed since the one that was shown before.
     pub fn new(
         examiner: &mut Examiner,
         at: usize,

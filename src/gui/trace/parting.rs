@@ -15,7 +15,7 @@ use crate::{
 };
 use egui::{Label, RichText, Ui};
 
-/// What the foot of the panel takes, and with a search below it.
+/// Returns what the foot of the panel takes, and with a search below it.
 pub fn height(session: &Session) -> f32 {
     if session.parting().is_some() { 86.0 } else { 40.0 }
 }

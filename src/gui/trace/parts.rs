@@ -1,4 +1,4 @@
-//! What the panel's parts share: titles, names with values, colours of vectors.
+//! Owns what the panel's parts share: titles, names with values, colours of vectors.
 
 use super::moment::words;
 use crate::{

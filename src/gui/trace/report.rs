@@ -1,4 +1,4 @@
-//! What scripts are told of the debugger.
+//! Owns what scripts are told of the debugger.
 
 use super::{debugger::Debugger, moment::words};
 use crate::session::{

@@ -12,7 +12,7 @@ const ROW: f32 = 18.0;
 const FIRST: f32 = 40.0;
 const PLOT: f32 = 64.0;
 
-/// What was asked for in the table.
+/// Says what was asked for in the table.
 pub enum Asked {
     /// A moment to go to.
     GoTo(usize),

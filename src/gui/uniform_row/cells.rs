@@ -33,7 +33,7 @@ pub(super) fn show(ui: &mut Ui, custom_uniform: &CustomUniform, all: &mut [f64],
     }
 }
 
-/// How far the number lies in its range.
+/// Shows how far the number lies in its range.
 fn fill(ui: &Ui, place: Rect, custom_uniform: &CustomUniform, x: f64, i: usize) {
     let radius = 4.0;
     ui.painter().rect_filled(place, radius, theme::of(ui).button);
@@ -95,7 +95,7 @@ mod tests {
     };
     use egui::{Context, RawInput, Shape};
 
-    /// What is written where the cells have so much room.
+    /// Returns what is written where the cells have so much room.
     fn written(width: f32) -> Vec<String> {
         let uniform = CustomUniform {
             name: "tint".into(),

@@ -1,4 +1,4 @@
-//! What the rows' files share: places, and names of numbers.
+//! Owns what the rows' files share: places, and names of numbers.
 
 use crate::project::CustomUniformType;
 use egui::{Align, Layout, Rect, Ui, UiBuilder, pos2};

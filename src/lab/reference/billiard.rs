@@ -93,7 +93,7 @@ impl Billiard {
         first.1.map(|hit| (first.0, hit))
     }
 
-    /// When and across which axis the straight path enters a brick.
+    /// Returns when and across which axis the straight path enters a brick.
     fn entry(&self, from: [i64; 2], centre: [i64; 2]) -> Option<(Moment, usize)> {
         let mut enters: Option<(Moment, usize)> = None;
         let mut leaves: Option<Moment> = None;

@@ -162,7 +162,7 @@ impl Meshes {
         self.split(range.start + half..range.end);
     }
 
-    /// How far along a ray of length 1 the first triangle is, if it is nearer than `limit`.
+    /// Returns how far along a ray of length 1 the first triangle is, if it is nearer than `limit`.
     pub fn hit(&self, from: V, ray: V, limit: f64) -> Option<f64> {
         let mut nearest = limit;
         let inverse = ray.map(|x| 1.0 / x);

@@ -9,7 +9,7 @@ use super::rays::{V, add, cross, dot, unit};
 pub const TABLE: u32 = 1;
 pub const DIE: u32 = 3;
 
-/// How far the table goes.
+/// Says how far the table goes.
 pub const FAR: f64 = 14.0;
 
 /// As near as this to a surface a ray has met it.
@@ -37,7 +37,7 @@ pub fn things(p: V) -> f64 {
     mug.min(die).min(ball).min(ring)
 }
 
-/// How far along a ray of length 1 the first of the things is, if it is nearer than `limit`.
+/// Returns how far along a ray of length 1 the first of the things is, if it is nearer than `limit`.
 pub fn march(from: V, ray: V, limit: f64) -> Option<f64> {
     let mut t = 0.0;
     while t < limit {

@@ -34,7 +34,7 @@ fn is_false(flag: &bool) -> bool {
     !flag
 }
 
-/// What two runs differ in, and what it is in the one and in the other.
+/// Holds what two runs differ in, and what it is in the one and in the other.
 struct Difference {
     what: &'static str,
     theirs: String,
@@ -59,7 +59,7 @@ impl Provenance {
     }
 }
 
-/// How wrong a point is, or why that is not known.
+/// Says how wrong a point is, or why that is not known.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ErrorRecord {
     #[serde(flatten)]
@@ -78,7 +78,7 @@ pub struct CostRecord {
     /// As an error's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub setup: Option<String>,
-    /// Of fewer than [`MIN_REPEATS`](super::cost::MIN_REPEATS) turns where the run was stopped between them.
+    /// Has fewer than [`MIN_REPEATS`](super::cost::MIN_REPEATS) turns where the run was stopped between them.
     pub cost: Cost,
 }
 

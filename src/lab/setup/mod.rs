@@ -15,7 +15,7 @@ use std::{path::PathBuf, sync::Arc};
 
 static METHODS: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/assets/lab");
 
-/// How the texels of all passes are to be stored, where that is asked.
+/// Says how the texels of all passes are to be stored, where that is asked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Storage {
     AsWritten,

@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 /// Seed of the rows of pairs.
 const SEED: u64 = 20_240_501;
 
-/// What a texel is that is no number.
+/// Says what a texel is that is no number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Broken {
     NotANumber,
@@ -86,7 +86,7 @@ fn written(value: &CustomUniformValue) -> String {
     }
 }
 
-/// How long and how large cases are.
+/// Says how long and how large cases are.
 struct Measure {
     base: (u32, u32),
     untouched: u32,
@@ -245,7 +245,7 @@ fn drags(m: &Measure, cases: &mut Vec<Case>) {
     }
 }
 
-/// What is done to a state.
+/// Adds what is done to a state.
 fn disturbances(m: &Measure, cases: &mut Vec<Case>) {
     let case = |kind, name: &str, lasts: u32| m.disturbance(kind, name, lasts);
     for (steps, name, lasts) in [

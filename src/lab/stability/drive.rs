@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 /// Frames that may wait on the device at once.
 const FRAMES_IN_FLIGHT: u32 = 8;
 
-/// How much livelier than undisturbed (as a root mean square) a project may be that has recovered.
+/// Says how much livelier than undisturbed (as a root mean square) a project may be that has recovered.
 const RECOVERED: f64 = 1.1;
 
 /// A subject that is compiled once, and drawn case by case.

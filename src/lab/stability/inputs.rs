@@ -53,7 +53,7 @@ impl Hand {
     }
 }
 
-/// How long frames are.
+/// Says how long frames are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Steps {
     /// A sixtieth of a second.

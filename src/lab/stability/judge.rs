@@ -9,7 +9,7 @@ use super::{
 use crate::lab::Number;
 use std::collections::BTreeMap;
 
-/// What a case is drawn with, as far as bounds depend on it.
+/// Returns what a case is drawn with, as far as bounds depend on it.
 pub fn situation(subject: &Subject, case: &Case) -> Situation {
     subject.situation(&case.values, case.size, case.steps.longest(), case.hand != Hand::Away)
 }

@@ -11,7 +11,7 @@ use crate::{
 };
 use std::path::PathBuf;
 
-/// How to run.
+/// Says how to run.
 #[derive(Clone, Debug)]
 pub struct Options {
     /// The folder of the results; `None`: they are kept in memory alone.
@@ -133,8 +133,8 @@ mod tests {
     };
     use std::path::Path;
 
-    /// What has been drawn of the present texts, in docs/stability, is accepted as it is: a bound or a list that has
-    /// been changed must not cost hours.
+    /// Cases that have been drawn of the present texts, in docs/stability, are accepted as they are: a bound or a list
+    /// that has been changed must not cost hours.
     #[test]
     fn recorded_cases_of_the_present_texts_are_accepted() {
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/stability");

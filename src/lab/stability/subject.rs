@@ -47,7 +47,7 @@ pub struct Subject {
     pub project: Project,
     pub media: MediaSet,
     pub checks: Vec<Check>,
-    /// How its Courant number is set and measured, where it has one.
+    /// Says how its Courant number is set and measured, where it has one.
     pub courant: Option<presets::Courant>,
     /// Cases of its own.
     pub extras: Vec<presets::Extra>,
@@ -115,8 +115,8 @@ impl Subject {
             .collect()
     }
 
-    /// What a case is drawn with: sliders that are not at their defaults, canvas, longest step in seconds, and whether a
-    /// hand drags.
+    /// Returns what a case is drawn with: sliders that are not at their defaults, canvas, longest step in seconds, and
+    /// whether a hand drags.
     pub fn situation(
         &self,
         values: &CustomUniformValues,
@@ -147,7 +147,7 @@ impl Subject {
         print.text()
     }
 
-    /// Why theory lets a bound be left in a situation; empty: it does not.
+    /// Returns why theory lets a bound be left in a situation; empty: it does not.
     pub fn excuses(&self, situation: &Situation) -> Vec<String> {
         let mut excuses: Vec<String> =
             self.checks.iter().filter_map(|c| c.allowed(situation).excuse).map(str::to_owned).collect();

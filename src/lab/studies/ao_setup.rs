@@ -1,4 +1,4 @@
-//! What measures of ambient occlusion share: the two presets at so many samples, and their radii and falloff.
+//! Owns what measures of ambient occlusion share: the two presets at so many samples, and their radii and falloff.
 
 use crate::lab::{Field, Setup};
 

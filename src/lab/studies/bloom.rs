@@ -186,7 +186,7 @@ fn moved_to_the_middle(spots: &[Spot], n: usize) -> (Vec<f64>, Vec<f64>) {
     (all, repeated)
 }
 
-/// How much brighter a wall of 0.05 is in the mean for a texel of a million in it.
+/// Returns how much brighter a wall of 0.05 is in the mean for a texel of a million in it.
 fn firefly(rig: &Rig, setup: &Setup) -> Result<f64, LabError> {
     let wall = |hot: &str| {
         let (width, height) = setup.size();

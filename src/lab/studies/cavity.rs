@@ -45,7 +45,7 @@ pub struct Lines {
     v: Vec<(f64, f64)>,
     /// Largest fourth difference of u along x, in the middle three quarters of it: what alternates from texel to texel.
     pub noise: f64,
-    /// What else was seen of the run.
+    /// Holds what else was seen of the run.
     pub watched: Watched,
 }
 

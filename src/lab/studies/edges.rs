@@ -114,14 +114,14 @@ fn setup(name: &str, n: u32, sensitivity: f64) -> Setup {
     Setup::new("edges", (n, n)).define("METHOD", method).uniform("sensitivity", sensitivity).state("source", &texels)
 }
 
-/// Which texels a method calls a line.
+/// Returns which texels a method calls a line.
 pub fn found(rig: &Rig, name: &str, n: u32, sensitivity: f64) -> Result<Vec<bool>, LabError> {
     let pass = if name == "preset" { "b" } else { "field" };
     let field = rig.after(&setup(name, n, sensitivity), 1, pass)?;
     Ok(field.texels().iter().map(|t| t[0].max(if name == "preset" { t[1] } else { 0.0 }) > 0.5).collect())
 }
 
-/// How right a method is, and the part of the open floor that it calls a line.
+/// Returns how right a method is, and the part of the open floor that it calls a line.
 pub fn judged(found: &[bool], n: u32) -> (Found, f64) {
     let lines = lines(n);
     let all = Found::of_lines(found, n as usize, &lines, REACH, BORDER);

@@ -64,7 +64,7 @@ const FAST_TIME: f64 = 54.0;
 /// For which a shear wave decays.
 const WAVE_TIME: f64 = 19.2;
 
-/// How the vortex begins.
+/// Says how the vortex begins.
 #[derive(Clone, Copy, Debug)]
 pub struct Begin {
     pub speed: f64,

@@ -86,7 +86,7 @@ fn ray(n: usize, i: usize) -> V {
     along([at(i % n), c * at(i / n), -s * at(i / n)], back(), -1.0)
 }
 
-/// Which texels are a line: those of which a hull's far side is seen, of each thing.
+/// Returns which texels are a line: those of which a hull's far side is seen, of each thing.
 fn exact(n: usize, method: &str, width: f64) -> [Vec<bool>; 3] {
     let shapes: Vec<Placed> = THINGS.iter().map(|t| t.placed(t.shape)).collect();
     let hulls = THINGS.each_ref().map(|t| t.hull(method, width));

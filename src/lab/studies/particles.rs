@@ -78,7 +78,7 @@ fn flying(name: &str, side: u32, dt: f64) -> Setup {
     peer(name, side, "FLIGHT", dt)
 }
 
-/// How far the particles have gone, and how far they should have: all of x, then all of y.
+/// Returns how far the particles have gone, and how far they should have: all of x, then all of y.
 fn displaced(starts: &[Particle], ends: &[Particle]) -> (Vec<f64>, Vec<f64>) {
     let exact: Vec<Particle> = starts.iter().map(|q| flight(*q, GRAVITY, DRAG, FLIGHT)).collect();
     let along = |of: &[Particle]| (0..2).flat_map(|i| starts.iter().zip(of).map(move |(a, b)| b[i] - a[i])).collect();

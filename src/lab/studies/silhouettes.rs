@@ -2,7 +2,7 @@
 
 use crate::lab::metrics::Norms;
 
-/// How many found texels are right, and how much of what there is was found, each from 0 to 1.
+/// Says how many found texels are right, and how much of what there is was found, each from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Found {
     pub precision: f64,

@@ -12,7 +12,7 @@ use crate::lab::{
 
 pub struct Ssr;
 
-/// How far a reflected ray goes, in units of the scene.
+/// Says how far a reflected ray goes, in units of the scene.
 const REACH: f64 = 7.0;
 
 /// A hit that the preset believes in by less than this is as good as none.
@@ -45,7 +45,7 @@ struct Reflection {
     found: Option<[f64; 2]>,
 }
 
-/// How well reflections are found.
+/// Says how well reflections are found.
 #[derive(Clone, Debug)]
 pub struct Hits {
     /// Distances from the exact place in pixels, from the least.

@@ -28,7 +28,7 @@ static PASSING: LazyLock<Vec<Picture>> = LazyLock::new(|| {
     on_all_cores(&frames, |frame| Star { frame: Some(*frame) }.picture())
 });
 
-/// What leaves less of the disc than this is no ghost.
+/// Less of the disc than this is no ghost.
 const FAINT: f64 = 0.01;
 
 const METHODS: &[Method] = &[
@@ -135,8 +135,8 @@ pub struct Moving {
 }
 
 impl Moving {
-    /// How long the tail is in pixels: what lies before the first place with less than [`FAINT`] of the disc's colour.
-    /// At most as long as what is looked at.
+    /// Returns how long the tail is in pixels: what lies before the first place with less than [`FAINT`] of the disc's
+    /// colour. At most as long as what is looked at.
     pub fn tail(&self) -> f64 {
         let end = self.ghost.iter().position(|g| g.abs() < FAINT).unwrap_or(self.ghost.len());
         end as f64 * SPEED

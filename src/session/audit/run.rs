@@ -106,7 +106,7 @@ pub fn audit(
     Ok(audit)
 }
 
-/// What is found at one pixel by walking through it.
+/// Returns what is found at one pixel by walking through it.
 pub fn audit_pixel(
     sources: &Sources<'_>,
     index: usize,

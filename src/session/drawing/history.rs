@@ -78,7 +78,7 @@ pub struct Run {
     pub is_whole: bool,
 }
 
-/// Where a run of frames begins that is drawn again.
+/// Says where a run of frames begins that is drawn again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReplayFrom {
     /// With the oldest frame that is kept.

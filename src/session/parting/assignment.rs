@@ -17,7 +17,7 @@ pub struct Assignment {
     pub span: Span,
     /// Draws that value.
     pub probe: Probe,
-    /// What the walker has, one to four numbers.
+    /// Holds what the walker has, one to four numbers.
     pub walker: Vec<Number>,
 }
 

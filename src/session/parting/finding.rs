@@ -23,7 +23,7 @@ pub const MOST: usize = 48;
 /// Steps of the walk that are looked at: half a minute of a person's time is not enough for more.
 pub const STEPS_KEPT: usize = 200_000;
 
-/// How a search for the place where the device parts stands.
+/// Says how a search for the place where the device parts stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PartingView<'s> {
     UnderWay,
@@ -48,7 +48,7 @@ pub(in crate::session) struct Finding {
     worker: Worker<PartingJob, (Arc<Traced>, Result<Parted, String>)>,
     /// The frames are to be handed out.
     is_due: bool,
-    /// What the search is of.
+    /// Holds what the search is of.
     of: Option<Arc<Traced>>,
     end: Option<Result<Parted, String>>,
 }

@@ -1,4 +1,5 @@
-//! Where a device parts from the walker: the first of a pixel's assignments that comes out otherwise on the device.
+//! Says where a device parts from the walker: the first of a pixel's assignments that comes out otherwise on the
+//! device.
 //!
 //! Owns which assignments of a trace can be compared ([`Assignment`]), in which order ([`search`]), the values that the
 //! device has of them, each drawn by a probe ([`Probes`]), and the thread that does so for the window. A device's

@@ -22,7 +22,7 @@ pub enum ProbeError {
 pub struct Probes<'p> {
     project: &'p Project,
     media: &'p MediaSet,
-    /// What the program was built with that has drawn the frames before.
+    /// Holds what the program was built with that has drawn the frames before.
     options: BuildOptions,
     pass: PassId,
     engine: Engine,

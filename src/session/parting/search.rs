@@ -1,4 +1,4 @@
-//! Which assignments are compared.
+//! Says which assignments are compared.
 
 use super::assignment::Assignment;
 use crate::session::trace::{Number, ulps};
@@ -7,13 +7,13 @@ use crate::session::trace::{Number, ulps};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parting {
     pub assignment: Assignment,
-    /// What the device has; `None`: it does not come there so often.
+    /// Holds what the device has; `None`: it does not come there so often.
     pub device: Option<Vec<f32>>,
     /// Numbers of single precision between the two; empty where the device does not come there.
     pub ulps: Vec<u32>,
 }
 
-/// What a search has found.
+/// Holds what a search has found.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Parted {
     pub first: Option<Parting>,
@@ -25,7 +25,7 @@ pub struct Parted {
 /// Finds the first assignment at which the device parts from the walker, with `most` values of the device at most, which
 /// `draw` gives: `None` where the assignment is not reached.
 ///
-/// Where there are more assignments than that, halves are taken first: where one agrees the search goes on behind it,
+/// Takes halves first where there are more assignments than that: where one agrees the search goes on behind it,
 /// else before it. What is left of `most` goes to the earliest ones.
 pub fn search<E>(
     assignments: Vec<Assignment>,

@@ -34,13 +34,13 @@ pub struct Traced {
     pub tab: Tab,
     text_id: SourceId,
     index: usize,
-    /// What the value comes from: a program of the pass.
+    /// Holds what the value comes from: a program of the pass.
     pub origin: Origin,
     pub pixel: (u32, u32),
     pub size: (u32, u32),
     pub frame: i32,
     pub history: History,
-    /// What the walker found; `None` where the pass draws nothing there.
+    /// Holds what the walker found; `None` where the pass draws nothing there.
     pub value: Option<[f32; 4]>,
     /// The same way in double precision.
     pub double: Option<[f64; 4]>,
@@ -64,7 +64,7 @@ pub struct Breakpoint {
     pub is_on: bool,
 }
 
-/// What a comment asked for, each time that its turn came.
+/// Holds what a comment asked for, each time that its turn came.
 #[derive(Clone, Debug)]
 pub struct Printed {
     pub tab: Tab,
@@ -243,7 +243,7 @@ impl Examiner {
         travel::run(&traced.history, at, is_there, accepts, direction)
     }
 
-    /// Whether a condition holds at a moment.
+    /// Returns whether a condition holds at a moment.
     pub fn holds(&mut self, at: usize, condition: &str) -> Result<bool, String> {
         match &self.watch(at, condition)?.numbers[..] {
             [number] => Ok(number.as_f64() != 0.0),
@@ -257,7 +257,7 @@ impl Examiner {
         travel::run(&self.traced.history, at, |other| other == statement, |_| true, direction)
     }
 
-    /// What the comments of the texts ask for.
+    /// Returns what the comments of the texts ask for.
     pub fn printed(&mut self) -> Vec<Printed> {
         let traced = self.traced.clone();
         let tabs = [Tab::Common, traced.tab.clone()];

@@ -1,4 +1,4 @@
-//! What a pass does for one pixel, step by step.
+//! Owns what a pass does for one pixel, step by step.
 //!
 //! Owns the record of a walk: calls, turns of loops, and every value that one of the author's names takes, each with
 //! its place in the text; and the history that a person goes forwards and backwards in, with expressions over it. The
@@ -40,13 +40,13 @@ pub struct Trace {
     pub steps: Vec<Step>,
     /// Steps that were left out, as there were more than wanted.
     pub left_out: u64,
-    /// What the pass draws into its first target, in single precision; none where it draws nothing.
+    /// Holds what the pass draws into its first target, in single precision; none where it draws nothing.
     pub value: Option<[f32; 4]>,
     /// The same along the same way in double precision.
     pub double: Option<[f64; 4]>,
     /// Statements that were run.
     pub statements: u64,
-    /// What the value comes from. What no program leaves there has no steps, and but for what is clear no value.
+    /// Holds what the value comes from. What no program leaves there has no steps, and but for what is clear no value.
     pub origin: Origin,
 }
 
@@ -96,7 +96,7 @@ impl From<WalkError> for TraceError {
     }
 }
 
-/// How much is recorded.
+/// Says how much is recorded.
 #[derive(Clone, Copy, Debug)]
 pub struct Extent {
     /// Statements after which the walk is given up.
@@ -163,8 +163,8 @@ pub fn trace(
     Tracer::new(sources, index, inputs, extent)?.trace(pixel)
 }
 
-/// How many numbers of single precision lie between two: 0 for equal ones and for two NaN, `u32::MAX` where only one is
-/// NaN.
+/// Returns how many numbers of single precision lie between two: 0 for equal ones and for two NaN, `u32::MAX` where
+/// only one is NaN.
 pub fn ulps(a: f32, b: f32) -> u32 {
     // The order of the numbers is that of these integers.
     let rank = |x: f32| {

@@ -24,7 +24,7 @@ pub struct Recorder<'w> {
     most: usize,
     left_out: u64,
     depth: u32,
-    /// Of each call under way, the turns of its loops so far.
+    /// The turns of the loops so far, of each call under way.
     turns: Vec<u64>,
 }
 

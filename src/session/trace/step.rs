@@ -3,7 +3,7 @@
 use super::number::Number;
 use crate::diag::Span;
 
-/// What happened in a step.
+/// Says what happened in a step.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Event {
     /// A function of this name begins.

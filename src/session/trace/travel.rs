@@ -13,7 +13,7 @@ pub enum Stride {
     Out,
 }
 
-/// Which way time goes.
+/// Says which way time goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     Forward,

@@ -29,7 +29,7 @@ const TYPES: [&str; 25] = [
 /// Statements after which an expression is given up.
 const MOST: u64 = 10_000_000;
 
-/// What an expression is at a moment, or why it is nothing.
+/// Says what an expression is at a moment, or why it is nothing.
 pub type Watched = Result<Value, String>;
 
 /// Expressions over one history that were compiled, each by the variables that it names.
@@ -41,7 +41,7 @@ pub struct Watches {
 /// An expression behind the text of its pass.
 struct Compiled {
     walkable: Walkable,
-    /// Where each variable that it names begins.
+    /// Says where each variable that it names begins.
     inputs: Vec<Option<GlobalId>>,
     kind: Option<GlobalId>,
     results: Vec<(usize, GlobalId)>,
@@ -122,8 +122,8 @@ fn words(expression: &str) -> impl Iterator<Item = &str> {
     expression.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).filter(|word| !word.is_empty())
 }
 
-/// What stands behind the pass: variables as parameters, and a function for each type that gives the result away; and
-/// what the entry point does there.
+/// Returns what stands behind the pass: variables as parameters, and a function for each type that gives the result
+/// away; and what the entry point does there.
 fn text(named: &[&(String, String)], globals: &[(&str, &str)], expression: &str) -> (String, String) {
     let mut out = String::from("int eddy_kind;\n");
     for (index, ty) in TYPES.iter().enumerate() {

@@ -11,7 +11,7 @@ pub struct Corner {
     pub varyings: Vec<CornerVarying>,
 }
 
-/// What a vertex hands on at one location.
+/// Holds what a vertex hands on at one location.
 #[derive(Clone, Debug)]
 pub struct CornerVarying {
     pub location: u32,

@@ -1,4 +1,4 @@
-//! Which pixel centres a triangle covers, and which side of it is seen: section 3.6.1 of the OpenGL ES 3.0
+//! Says which pixel centres a triangle covers, and which side of it is seen: section 3.6.1 of the OpenGL ES 3.0
 //! specification, "Basic Polygon Rasterization".
 //!
 //! Corners are rounded to 1/256 of a pixel first, as devices do (Vulkan's `subPixelPrecisionBits` is 8 with most, and

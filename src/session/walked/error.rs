@@ -1,4 +1,4 @@
-//! Why a pass cannot be walked.
+//! Says why a pass cannot be walked.
 
 use crate::{diag::Diagnostic, glsl::walk::Stop};
 

@@ -1,8 +1,8 @@
-//! What a fragment stage may do besides colouring its texel.
+//! Owns what a fragment stage may do besides colouring its texel.
 
 use crate::glsl::ir::{Module, Output, Stmt};
 
-/// What has to be known of a fragment stage before it runs.
+/// Holds what has to be known of a fragment stage before it runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FragmentFacts {
     /// Some way through it ends in `discard`.

@@ -1,4 +1,4 @@
-//! What a pass runs for a pixel: which program, and what it is handed.
+//! Owns what a pass runs for a pixel: which program, and what it is handed.
 //!
 //! Owns the rasterizer of passes that draw meshes: the vertex stage by the walker, clipping, culling, the fill rule,
 //! the depth test and the interpolation of varyings, as chapters 2 to 4 of the OpenGL ES 3.0 specification have them

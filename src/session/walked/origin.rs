@@ -1,8 +1,8 @@
-//! What a texel's value comes from.
+//! Owns what a texel's value comes from.
 
 use crate::project::Region;
 
-/// What leaves its value in a texel.
+/// Says what leaves its value in a texel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
     /// The one program of a pass that draws no meshes.

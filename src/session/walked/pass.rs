@@ -53,7 +53,7 @@ impl<'p> WalkedPass<'p> {
         Ok(Self { inputs, body, settings, boundary, limit })
     }
 
-    /// What runs for a pixel, counted from the bottom left.
+    /// Returns what runs for a pixel, counted from the bottom left.
     pub fn at(&self, pixel: (u32, u32)) -> Result<AtPixel<'_>, Stop> {
         let (walkable, inputs, origin) = match Writer::of(&self.settings, self.inputs.size, pixel) {
             Writer::Boundary => match &self.boundary {

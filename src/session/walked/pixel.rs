@@ -10,7 +10,7 @@ use crate::{
     },
 };
 
-/// What there is to walk at a pixel.
+/// Says what there is to walk at a pixel.
 #[expect(clippy::large_enum_variant, reason = "there is one at a time, and nearly all are walked")]
 pub enum AtPixel<'p> {
     Walked(WalkedPixel<'p>),
@@ -36,7 +36,7 @@ impl WalkedPixel<'_> {
         Machine::new(&self.walkable.program, &self.world, self.inputs.clone(), self.limit)
     }
 
-    /// What the pixel draws into the first target; `None` where it draws nothing.
+    /// Returns what the pixel draws into the first target; `None` where it draws nothing.
     pub fn value<R: Real>(&self, drawn: &Drawn<R>) -> Option<[R; 4]> {
         let cells = drawn.output(Output::Target(0), self.lane)?;
         (cells.len() == 4).then(|| std::array::from_fn(|i| cells[i].float()))

@@ -152,8 +152,8 @@ impl<'p> Raster<'p> {
         Ok(shown)
     }
 
-    /// What the quad of a pixel is handed where it shows a fragment. Its other pixels may lie beyond the triangle, and
-    /// are handed what its plane has there.
+    /// Returns what the quad of a pixel is handed where it shows a fragment. Its other pixels may lie beyond the
+    /// triangle, and are handed what its plane has there.
     pub fn entry(&self, fragment: MeshFragment, pixel: (u32, u32)) -> Result<EntryInputs, Stop> {
         let draw = &self.draws[fragment.draw];
         let corners = self.stage(fragment.draw, draw.vertices).corners(fragment.triangle)?;

@@ -1,4 +1,4 @@
-//! What each corner of a triangle weighs at a place of the picture: perspective-correct interpolation, section
+//! Owns what each corner of a triangle weighs at a place of the picture: perspective-correct interpolation, section
 //! 3.6.1 of the OpenGL ES 3.0 specification.
 //!
 //! The weights are those of the triangle before it was clipped: clipping moves no value. They come from the corners'
@@ -8,7 +8,7 @@
 /// The weights of a triangle's corners as functions of the place.
 #[derive(Clone, Copy, Debug)]
 pub struct Weights {
-    /// Of each corner what x, y and 1 are multiplied by, from -1 to 1 across and down.
+    /// Holds for each corner what x, y and 1 are multiplied by, from -1 to 1 across and down.
     factors: [[f64; 3]; 3],
     size: (f64, f64),
 }

@@ -1,4 +1,4 @@
-//! What writes a texel of a pass: its own programs, its boundary, or nothing.
+//! Owns what writes a texel of a pass: its own programs, its boundary, or nothing.
 
 use crate::project::{PassSettings, Region};
 
@@ -13,8 +13,8 @@ pub enum Writer {
 }
 
 impl Writer {
-    /// What writes a texel of a target of a size. A pass whose region has no texel of it is not drawn at all, and its
-    /// boundary with it.
+    /// Returns what writes a texel of a target of a size. A pass whose region has no texel of it is not drawn at all,
+    /// and its boundary with it.
     pub fn of(settings: &PassSettings, size: (u32, u32), (x, y): (u32, u32)) -> Self {
         let region = settings.region.unwrap_or(whole(size));
         let Some(drawn) = region.within(size) else { return Writer::Nothing(region) };

@@ -133,7 +133,7 @@ fn placed(
     Sheet { placed: state.sheet.place(area, size), height: size.1 as f32 }
 }
 
-/// Where the sheet of the layout is on the screen.
+/// Says where the sheet of the layout is on the screen.
 struct Sheet {
     placed: Placed,
     height: f32,
@@ -154,7 +154,7 @@ impl Sheet {
     }
 }
 
-/// What a node says.
+/// Holds what a node says.
 struct Words {
     name: String,
     shape: String,

@@ -100,7 +100,7 @@ impl Layers {
         places
     }
 
-    /// How many pairs of edges cross.
+    /// Returns how many pairs of edges cross.
     pub fn crossings(&self) -> usize {
         let place = self.places();
         let steps = self.steps();

@@ -1,4 +1,4 @@
-//! Where the nodes of a layered graph are, and the ways of its edges.
+//! Says where the nodes of a layered graph are, and the ways of its edges.
 
 use super::layers::{Edge, Layers};
 use egui::{Pos2, Rect, Vec2, pos2, vec2};
@@ -9,7 +9,7 @@ const BETWEEN_LAYERS: f32 = 46.0;
 const BETWEEN_NODES: f32 = 26.0;
 /// Between a node and an edge that passes it.
 const BESIDE: f32 = 10.0;
-/// What an edge that passes a layer takes of its height.
+/// Is what an edge that passes a layer takes of its height.
 const PASSING: f32 = 14.0;
 /// Between the ways of edges that go back.
 const LANE: f32 = 9.0;
@@ -80,7 +80,7 @@ fn left_of(layer: usize) -> f32 {
     MARGIN + 34.0 + layer as f32 * (NODE.x + BETWEEN_LAYERS)
 }
 
-/// Where each edge comes in, below the top of its reader: from the top, by where it comes from.
+/// Returns where each edge comes in, below the top of its reader: from the top, by where it comes from.
 fn ports(nodes: usize, forth: &[Edge], back: &[Edge], middles: &[f32]) -> Vec<f32> {
     let mut ports = vec![0.0; forth.len() + back.len()];
     for node in 0..nodes {

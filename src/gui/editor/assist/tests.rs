@@ -1,4 +1,4 @@
-//! Which keys go to what is open, and when it opens.
+//! Says which keys go to what is open, and when it opens.
 
 use super::*;
 use crate::{

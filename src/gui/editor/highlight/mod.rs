@@ -24,7 +24,7 @@ pub struct Highlight {
     shared_text: String,
     /// The width of the widest line, in widths of a digit.
     columns: f32,
-    /// Where lines wrap, in widths of a digit.
+    /// Says where lines wrap, in widths of a digit.
     wrap: Option<f32>,
     /// Widths of the characters that are not printable ASCII.
     widths: HashMap<char, f32>,

@@ -71,7 +71,7 @@ pub struct Token {
     pub kind: TokenKind,
 }
 
-/// How far behind a name a `(` is looked for: a lexer of pieces must not read the rest of the line.
+/// Says how far behind a name a `(` is looked for: a lexer of pieces must not read the rest of the line.
 const LOOK_AHEAD: usize = 256;
 
 /// Tokens that together cover `range` of a line (without its end). `state` is that of the range's first byte, and the

@@ -25,7 +25,7 @@ pub(super) const MARGIN: f32 = 6.0;
 
 pub(super) struct Lines<'a> {
     pub index: &'a Highlight,
-    /// Which row shows what.
+    /// Says which row shows what.
     pub folding: &'a Rows,
     /// The top left corner of the text, which may be far out of the window.
     pub origin: Pos2,
@@ -45,7 +45,7 @@ pub(super) struct Row {
     pub part: Part,
     /// The runs of it that are laid out, from left to right without a gap.
     pub runs: Vec<Run>,
-    /// Where the row ends, in points from where lines begin.
+    /// Says where the row ends, in points from where lines begin.
     pub width: f64,
 }
 

@@ -61,7 +61,7 @@ impl Row {
     }
 }
 
-/// How a point's sign is filled.
+/// Says how a point's sign is filled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Look {
     /// Nothing is cheaper and closer.
@@ -110,7 +110,7 @@ pub struct Table {
     signed: Option<&'static str>,
 }
 
-/// How a method comes to an error of 1 %.
+/// Says how a method comes to an error of 1 %.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Reach {
     /// In so many milliseconds, interpolated between settings that pass their hard cases.

@@ -21,9 +21,9 @@ pub enum Quantity {
     Mean(usize),
     /// Half of the mean square of two components.
     Energy(usize, usize),
-    /// How much of a component's variance alternates from texel to texel: the mean square of a - 2 b + c over 16, along
-    /// x and along y together, by twice the variance. 1 for a checkerboard, 0.375 for noise, 0.02 for waves 8 texels
-    /// long, below 0.01 for longer ones. 0 where the component hardly varies (see [`FLAT`]).
+    /// Says how much of a component's variance alternates from texel to texel: the mean square of a - 2 b + c over 16,
+    /// along x and along y together, by twice the variance. 1 for a checkerboard, 0.375 for noise, 0.02 for waves 8
+    /// texels long, below 0.01 for longer ones. 0 where the component hardly varies (see [`FLAT`]).
     Roughness(usize),
 }
 
@@ -88,8 +88,8 @@ impl Area {
 pub struct Allowed {
     pub low: f64,
     pub high: f64,
-    /// Why theory expects the range to be left in this situation. Then all must be finite and within [`HARD_LIMIT`]
-    /// still.
+    /// Says why theory expects the range to be left in this situation. Then all must be finite and within
+    /// [`HARD_LIMIT`] still.
     pub excuse: Option<&'static str>,
 }
 
@@ -114,7 +114,7 @@ pub struct Situation {
     pub size: (u32, u32),
     /// The longest `iTimeDelta` of the case, in seconds.
     pub longest_step: f64,
-    /// Whether a hand drags at some time of the case.
+    /// Says whether a hand drags at some time of the case.
     pub is_dragged: bool,
     /// Components of each slider's value.
     pub sliders: std::collections::BTreeMap<String, Vec<f64>>,

@@ -8,7 +8,7 @@ use crate::{
     project::PassId,
 };
 
-/// How a project is made to move by so many cells a step.
+/// Says how a project is made to move by so many cells a step.
 #[derive(Clone, Copy, Debug)]
 pub struct Courant {
     /// The slider that sets it.

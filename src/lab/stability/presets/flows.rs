@@ -205,8 +205,8 @@ pub fn fluid_accurate() -> Bounds {
     (checks, Some(courant))
 }
 
-/// What a covering array of ends cannot have: the box to whose walls the fluid sticks, with its lid, is between the ends
-/// of `walls`; and viscosities that a splitting is known to explode at are between those of `viscosity`.
+/// Returns what a covering array of ends cannot have: the box to whose walls the fluid sticks, with its lid, is between
+/// the ends of `walls`; and viscosities that a splitting is known to explode at are between those of `viscosity`.
 pub fn of_fluid_accurate() -> Vec<Extra> {
     let mut all = Vec::new();
     for lid in [-2.0, 2.0] {

@@ -82,7 +82,7 @@ pub const NAMES: [&str; 21] = [
     "toon-outline",
 ];
 
-/// How many of them have a state.
+/// Says how many of them have a state.
 pub const WITH_STATE: usize = 15;
 
 /// For a project on disk that has the name of a preset and the passes of its checks.

@@ -1,4 +1,4 @@
-//! Where moments are in the texts, and which moments a place of a text has.
+//! Says where moments are in the texts, and which moments a place of a text has.
 
 use super::record::{History, Moment, MomentKind};
 use crate::{

@@ -1,4 +1,4 @@
-//! What is kept of a walk.
+//! Owns what is kept of a walk.
 
 use super::super::number::Number;
 use crate::glsl::{types::TypeId, walkable::Walkable};
@@ -45,7 +45,7 @@ pub struct Call {
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Write {
-    /// Where the words begin.
+    /// Says where the words begin.
     pub words: u32,
     /// Words of the variable before those that are written, and how many are.
     pub offset: u32,
@@ -64,7 +64,7 @@ pub(super) struct Variable {
     pub ty: TypeId,
     /// The local variable that it is, by its place among the program's.
     pub local: Option<u32>,
-    /// What it always holds.
+    /// Holds what it always holds.
     pub constant: Option<Vec<u32>>,
 }
 
@@ -78,7 +78,7 @@ pub struct Turn {
     pub end: usize,
 }
 
-/// What a name stands for at a moment.
+/// Holds what a name stands for at a moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Shown {
     pub name: String,
@@ -108,7 +108,7 @@ pub struct History {
     /// The newest write to each variable of each call; first those of the module.
     pub(super) slots: Vec<u32>,
     pub(super) globals: Vec<Variable>,
-    /// Of each function its variables.
+    /// The variables of each function.
     pub(super) variables: Vec<Vec<Variable>>,
 }
 

@@ -13,10 +13,10 @@ use std::collections::HashMap;
 const MOST_MOMENTS: usize = 2_000_000;
 const MOST_SLOTS: usize = 8_000_000;
 const MOST_WORDS: usize = 6_000_000;
-/// What is passed by reference is noted at the call where it is no longer than this.
+/// The most numbers of a value passed by reference that is noted at the call.
 const MOST_PASSED: usize = 64;
 
-/// What a value of a function means to who records.
+/// Holds what a value of a function means to who records.
 #[derive(Clone, Debug, Default)]
 struct Role {
     coming: Option<Coming>,
@@ -146,7 +146,7 @@ impl<'w> HistoryRecorder<'w> {
         self.variables.push(variables);
     }
 
-    /// Which parameters a function writes, itself or by what it calls: callees come before their callers.
+    /// Notes which parameters a function writes, itself or by what it calls: callees come before their callers.
     fn note_writes(&self, id: FuncId, block: &Block, writes: &mut [bool]) {
         let function = &self.walkable.program[id];
         let mut note = |place: Value| {

@@ -56,7 +56,7 @@ impl History {
         found
     }
 
-    /// What the function's variables hold at the end of a turn, those of the loop's body too.
+    /// Returns what the function's variables hold at the end of a turn, those of the loop's body too.
     pub fn turn_values(&self, turn: &Turn) -> Vec<Shown> {
         let moment = &self.moments[turn.last];
         let slots = self.calls[moment.call as usize].slots as usize;

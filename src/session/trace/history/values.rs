@@ -1,4 +1,4 @@
-//! What variables hold at a moment, and which can be named there.
+//! Owns what variables hold at a moment, and which can be named there.
 
 use super::{
     super::number::Number,
@@ -24,7 +24,7 @@ impl History {
         found
     }
 
-    /// What can be named at a moment, the function's own first, each by its name once.
+    /// Returns what can be named at a moment, the function's own first, each by its name once.
     pub fn visible(&self, at: usize) -> Vec<Shown> {
         let names = self.names(at);
         names.into_iter().filter_map(|(name, _)| self.value(at, &name).map(|value| Shown { name, value })).collect()
@@ -79,7 +79,7 @@ impl History {
         statements.visible(moment.statement, when).into_iter().filter_map(find).collect()
     }
 
-    /// What a name stands for; `None` for one that nothing of the program's stands for.
+    /// Returns what a name stands for; `None` for one that nothing of the program's stands for.
     pub fn value(&self, at: usize, name: &str) -> Option<Value> {
         let local = self.locals(at).into_iter().rev().find(|(variable, _)| variable.name == name);
         let (variable, slot) = match local {
@@ -100,7 +100,7 @@ impl History {
         Some((&self.globals[slot], slot))
     }
 
-    /// What the function gives back, at its end.
+    /// Returns what the function gives back, at its end.
     pub fn result(&self, at: usize) -> Option<Value> {
         let moment = self.moments.get(at).filter(|moment| moment.kind == MomentKind::Return)?;
         let call = &self.calls[moment.call as usize];
