@@ -145,12 +145,14 @@ fn probe_ratio(
     let probe = Probe { source: project::Project::pass_id(index), at, visit: 0 };
     Sources::new(project).probed(index, &probe)?;
     let (media, _) = eddy::media::gather(project, None);
-    let all = || project.passes.iter().map(|p| p.id.clone());
     // What a session draws: all that the picture needs, and of Image the value in its place.
-    let wanted = [BuildOptions::probed()].into_iter().chain(all().filter(|id| *id != PassId::Image)).collect();
+    let own = if pass == PassId::Image { vec![PassId::Image] } else { Vec::new() };
+    let buffers = || project.passes.iter().map(|p| p.id.clone()).filter(|id| *id != PassId::Image);
+    let plain: Vec<PassId> = own.into_iter().chain(buffers()).collect();
+    let wanted = [BuildOptions::probed()].into_iter().chain(buffers()).collect();
     let with = |options: &BuildOptions| engine_with(gpu, project, &media, options, size);
     let (mut plain, mut probed) = (
-        with(&BuildOptions { wanted: all().collect(), ..BuildOptions::default() }),
+        with(&BuildOptions { wanted: plain, ..BuildOptions::default() }),
         with(&BuildOptions { wanted, probe: Some((pass, probe)), ..BuildOptions::default() }),
     );
     let (mut plain_times, mut probed_times) = (Vec::new(), Vec::new());
