@@ -141,6 +141,8 @@ fn goes_back_to_the_last_good_code(gpu: Gpu) {
     let text = format!("{}// {}", slow(1.0), edits - 1);
     assert_eq!(stage.session.text(&IMAGE), text);
 
+    // An edit that was compiled meanwhile is being tried: it halts, too.
+    stage.until("the halt of the newest edit", |s| !s.compile_state().compiling && halted(s));
     stage.session.apply(Command::DrawLastGood);
     let frame = stage.session.transport().frame;
     stage.until("the last good picture", |s| is_last_good(s) && s.transport().frame > frame + 1);
