@@ -1,7 +1,7 @@
 //! How long one waits for an earlier frame. `cargo bench --bench step_back [PRESET]`.
 //!
 //! Draws 1,000 frames, goes back 300, on again by as many, and so on; prints the median and the slowest. What snapshots
-//! take of the device is bounded by `session/drawing/history.rs`, 256 MiB.
+//! take of the device is bounded by `session/drawing/history`, 256 MiB.
 
 use eddy::{
     gpu::{Gpu, GpuOptions},

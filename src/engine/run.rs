@@ -7,7 +7,7 @@ use super::{
 use super::{
     inspect::{Capture, PassInputs},
     shared::Shared,
-    snapshot::{self, Snapshot},
+    snapshot::{self, Extent, Snapshot},
     targets::Target,
     viewer::Viewer,
     watch::Watch,
@@ -145,17 +145,27 @@ impl Engine {
 
     /// Copies what every target holds.
     pub fn snapshot(&self) -> Result<Snapshot, EngineError> {
-        let snapshot = Snapshot::take(&self.shared.gpu, self.targets())?;
+        self.take_snapshot(Extent::Everything)
+    }
+
+    /// Copies what the frames to come read of the targets, and no more: a frame that is drawn after
+    /// [`Engine::restore`] is what it would have been, and until then targets hold anything.
+    pub fn checkpoint(&self) -> Result<Snapshot, EngineError> {
+        self.take_snapshot(Extent::Carried)
+    }
+
+    fn take_snapshot(&self, extent: Extent) -> Result<Snapshot, EngineError> {
+        let snapshot = Snapshot::take(&self.shared.gpu, self.running.as_ref(), extent)?;
         self.shared.gpu.take_trouble("a snapshot")?;
         Ok(snapshot)
     }
 
-    /// Returns the bytes of the device's memory that [`Engine::snapshot`] would take.
-    pub fn snapshot_bytes(&self) -> u64 {
-        snapshot::bytes(self.targets())
+    /// Returns the bytes of the device's memory that [`Engine::checkpoint`] would take.
+    pub fn checkpoint_bytes(&self) -> u64 {
+        snapshot::bytes(self.running.as_ref(), Extent::Carried)
     }
 
-    /// Puts back what every target held. False, and nothing is changed, if the snapshot is one of another program's
+    /// Puts back what a snapshot holds. False, and nothing is changed, if the snapshot is one of another program's
     /// targets or of another canvas.
     pub fn restore(&mut self, snapshot: &Snapshot) -> bool {
         self.running.as_mut().is_some_and(|running| running.restore(&self.shared, snapshot))

@@ -1,8 +1,9 @@
-//! The texels of every target at one moment, to go back to.
+//! The texels of targets at one moment, to go back to.
 
 use super::{running::Running, shared::Shared, targets::Target};
 use crate::{
     gpu::{Gpu, GpuError, Texture, TextureDescriptor},
+    graph::{Carried, FramePlan},
     project::PassId,
 };
 
@@ -16,18 +17,56 @@ pub struct Snapshot {
 struct KeptTarget {
     id: PassId,
     index: usize,
-    /// Copies of its textures' first levels: both of two, as `discard` leaves a texel as it was two frames before.
-    textures: Vec<Texture>,
+    /// The kinds of all its textures, and copies of the first levels of those that were asked for.
+    textures: Vec<(Kind, Option<Texture>)>,
     front: usize,
 }
 
+/// Texels fit into a texture of the same kind.
+type Kind = (u32, u32, wgpu::TextureFormat);
+
+fn kind(texture: &Texture) -> Kind {
+    (texture.width(), texture.height(), texture.raw.format())
+}
+
+/// Says how much of the targets is copied.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Extent {
+    Everything,
+    /// The texels that the frames to come read.
+    Carried,
+}
+
+impl Extent {
+    /// Returns what is copied of the target at a place of the plan.
+    fn of(self, plan: &FramePlan, target: usize) -> Carried {
+        match self {
+            Extent::Everything => Carried::All,
+            Extent::Carried => plan.carried(target),
+        }
+    }
+}
+
+fn takes(carried: Carried, target: &Target, texture: usize) -> bool {
+    match carried {
+        Carried::Nothing => false,
+        Carried::Newest => texture == target.front,
+        Carried::All => true,
+    }
+}
+
 impl Snapshot {
-    pub(super) fn take(gpu: &Gpu, targets: &[Target]) -> Result<Self, GpuError> {
+    pub(super) fn take(gpu: &Gpu, running: Option<&Running>, extent: Extent) -> Result<Self, GpuError> {
+        let Some(running) = running else { return Ok(Self { targets: Vec::new(), bytes: 0 }) };
         let mut encoder =
             gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("snapshot") });
-        let mut kept = Vec::with_capacity(targets.len());
-        for target in targets {
-            let copy = |texture: &Texture| {
+        let mut kept = Vec::with_capacity(running.targets.len());
+        for (index, target) in running.targets.iter().enumerate() {
+            let carried = extent.of(&running.program.plan, index);
+            let mut copy = |(index, texture): (usize, &Texture)| {
+                if !takes(carried, target, index) {
+                    return Ok((kind(texture), None));
+                }
                 let copy = Texture::new(
                     gpu,
                     &TextureDescriptor {
@@ -40,17 +79,17 @@ impl Snapshot {
                     },
                 )?;
                 texture.copy_overlap(&mut encoder, &copy);
-                Ok(copy)
+                Ok((kind(texture), Some(copy)))
             };
             kept.push(KeptTarget {
                 id: target.id.clone(),
                 index: target.index,
-                textures: target.textures.iter().map(copy).collect::<Result<_, GpuError>>()?,
+                textures: target.textures.iter().enumerate().map(&mut copy).collect::<Result<_, GpuError>>()?,
                 front: target.front,
             });
         }
         gpu.queue.submit([encoder.finish()]);
-        Ok(Self { targets: kept, bytes: bytes(targets) })
+        Ok(Self { targets: kept, bytes: bytes(Some(running), extent) })
     }
 
     /// Returns the bytes that the copies take.
@@ -58,40 +97,53 @@ impl Snapshot {
         self.bytes
     }
 
-    fn is_of(&self, targets: &[Target]) -> bool {
-        let is_same = |(kept, target): (&KeptTarget, &Target)| {
-            let kind = |t: &Texture| (t.width(), t.height(), t.raw.format());
-            let same_textures = || kept.textures.iter().map(kind).eq(target.textures.iter().map(kind));
-            kept.id == target.id && kept.index == target.index && same_textures()
+    /// It was taken of targets like these, and has what the frames to come read of them.
+    fn is_of(&self, running: &Running) -> bool {
+        let fits = |(index, (kept, target)): (usize, (&KeptTarget, &Target))| {
+            let kinds = || kept.textures.iter().map(|(kind, _)| *kind).eq(target.textures.iter().map(kind));
+            let is_there = |texture: usize| match running.program.plan.carried(index) {
+                Carried::Nothing => true,
+                Carried::Newest => texture != kept.front || kept.textures[texture].1.is_some(),
+                Carried::All => kept.textures[texture].1.is_some(),
+            };
+            kept.id == target.id && kept.index == target.index && kinds() && (0..kept.textures.len()).all(is_there)
         };
-        self.targets.len() == targets.len() && self.targets.iter().zip(targets).all(is_same)
+        let targets = &running.targets;
+        self.targets.len() == targets.len() && self.targets.iter().zip(targets).enumerate().all(fits)
     }
 }
 
-/// Returns the bytes that a snapshot of these targets takes.
-pub(super) fn bytes(targets: &[Target]) -> u64 {
+/// Returns the bytes that a snapshot takes.
+pub(super) fn bytes(running: Option<&Running>, extent: Extent) -> u64 {
+    let Some(running) = running else { return 0 };
     let of = |texture: &Texture| {
         let texel = u64::from(texture.raw.format().block_copy_size(None).unwrap_or(16));
         u64::from(texture.width()) * u64::from(texture.height()) * texel
     };
-    targets.iter().flat_map(|target| &target.textures).map(of).sum()
+    let taken = |(index, target): (usize, &Target)| -> u64 {
+        let carried = extent.of(&running.program.plan, index);
+        let textures = target.textures.iter().enumerate();
+        textures.filter(|(texture, _)| takes(carried, target, *texture)).map(|(_, texture)| of(texture)).sum()
+    };
+    running.targets.iter().enumerate().map(taken).sum()
 }
 
 impl Running {
     /// Puts the texels of a snapshot back. False, and nothing is changed, if it is one of other targets.
     pub(super) fn restore(&mut self, shared: &Shared, snapshot: &Snapshot) -> bool {
-        if !snapshot.is_of(&self.targets) {
+        if !snapshot.is_of(self) {
             return false;
         }
         let gpu = &shared.gpu;
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("restore") });
         for (kept, target) in snapshot.targets.iter().zip(&mut self.targets) {
             target.front = kept.front;
-            for (copy, texture) in kept.textures.iter().zip(&target.textures) {
+            for (index, ((_, copy), texture)) in kept.textures.iter().zip(&target.textures).enumerate() {
+                let Some(copy) = copy else { continue };
                 copy.copy_overlap(&mut encoder, texture);
-            }
-            for chain in &target.chains {
-                shared.mips.build(gpu, &mut encoder, chain);
+                if let Some(chain) = target.chains.get(index) {
+                    shared.mips.build(gpu, &mut encoder, chain);
+                }
             }
         }
         gpu.queue.submit([encoder.finish()]);

@@ -1,10 +1,11 @@
 //! The plan of a frame: what it draws, reads and keeps, decided without a device.
 //!
 //! Owns [`FramePlan`]: which passes are drawn and in what order, whether a read sees this frame or the last, which
-//! buffers are doubled, where mips exist, which sampler counts, how often a pass is drawn, and when its picture of
-//! before will do ([`Changes`]). Knows neither GLSL nor wgpu: what a pass really reads comes in as [`PassFacts`], and a
-//! plan is data that an engine executes in a loop.
+//! buffers are doubled, where mips exist, which sampler counts, how often a pass is drawn, when its picture of before
+//! will do ([`Changes`]), and what a frame leaves to the next ([`Carried`]). Knows neither GLSL nor wgpu: what a pass
+//! really reads comes in as [`PassFacts`], and a plan is data that an engine executes in a loop.
 
+mod carried;
 mod changes;
 mod plan;
 mod samplers;
@@ -12,6 +13,7 @@ mod samplers;
 mod tests;
 mod traffic;
 
+pub use carried::Carried;
 pub use changes::Changes;
 pub use plan::{ChannelFacts, Draw, FramePlan, PassFacts, Read, Run, Source, Target, TargetKind, When};
 pub use samplers::effective_sampler;

@@ -1,6 +1,8 @@
 //! The plan's rules, with no device.
 
-use super::{Changes, ChannelFacts, FramePlan, PassFacts, Source, TargetKind, When, effective_sampler};
+use super::{
+    Carried, Changes, ChannelFacts, FramePlan, PassFacts, Source, Target, TargetKind, When, effective_sampler,
+};
 use crate::project::{
     Channel, Filter, Group, Input, Origin, Pass, PassBody, PassFormat, PassId, PassSize, Project, Region, Sampler,
     SamplerRules, Wrap,
@@ -369,4 +371,39 @@ fn what_is_drawn_beside_a_picture_changes_no_other_target() {
     let drawn: Vec<Vec<usize>> = plan.draws.iter().map(|draw| draw.all_targets().collect()).collect();
     assert_eq!((drawn, plan.draws_a_frame()), (vec![vec![0, 2], vec![1]], 2));
     assert_eq!(plan.draws[0].reads, plain.draws[0].reads);
+}
+
+#[test]
+fn a_frame_leaves_to_the_next_what_is_read_before_it_is_overwritten() {
+    // A reads C of the frame before, B reads A, C reads B and what it drew itself; D shows what it drew before.
+    let project = project(vec![
+        pass(id("A"), [buffer("C"), None, None, None]),
+        pass(id("B"), [buffer("A"), None, None, None]),
+        pass(id("C"), [buffer("B"), buffer("C"), None, None]),
+        pass(id("D"), [buffer("E"), None, None, None]),
+        pass(PassId::Image, [buffer("C"), buffer("D"), None, None]),
+    ]);
+    let mut facts = vec![reads_all(); 5];
+    facts[3].discards = true;
+    let carried = |project: &Project, facts: &[PassFacts], skip| {
+        let plan = FramePlan::new(project, facts, &[], skip);
+        let of = |(index, target): (usize, &Target)| (target.id.title(), plan.carried(index));
+        plan.targets.iter().enumerate().map(of).collect::<std::collections::BTreeMap<_, _>>()
+    };
+    let expect = |entries: [Carried; 6]| {
+        let ids = ["A", "B", "C", "D", "E"].map(id).into_iter().chain([PassId::Image]);
+        ids.map(|id| id.title()).zip(entries).collect::<std::collections::BTreeMap<_, _>>()
+    };
+    let (nothing, newest, all) = (Carried::Nothing, Carried::Newest, Carried::All);
+    // Nobody draws E.
+    assert_eq!(carried(&project, &facts, true), expect([nothing, nothing, newest, all, nothing, nothing]));
+    assert_eq!(carried(&project, &facts, false), expect([all, all, all, all, nothing, newest]));
+    // Image has one texture, which a `discard` shows.
+    facts[4].discards = true;
+    assert_eq!(carried(&project, &facts, true)[&PassId::Image.title()], newest);
+    // What lies around a region is the same for good.
+    let mut project = project;
+    project.passes[0].settings.region = Some(Region { x: 0, y: 0, width: 3, height: 3 });
+    project.passes[3].settings.region = project.passes[0].settings.region;
+    assert_eq!(carried(&project, &facts, true), expect([newest, nothing, newest, newest, nothing, newest]));
 }

@@ -2,7 +2,7 @@
 
 use crate::support::{self, stage::*};
 use eddy::{
-    engine::{BuildOptions, Pixels},
+    engine::{BuildOptions, Engine, Pixels},
     media,
     project::{self, PassId, Tab},
     session::{
@@ -103,6 +103,36 @@ fn what_is_out_of_reach_is_told_and_changes_nothing() {
     stage.session.apply(Command::StepBack(1));
     stage.tick();
     assert!(stage.notices(Level::Warning)[1].contains("begins anew"), "{:?}", stage.notices(Level::Warning));
+}
+
+/// A checkpoint is put into an engine that has drawn nothing, so what it lacks is zeros there.
+#[test]
+fn a_checkpoint_holds_all_that_later_frames_read() {
+    let Some(gpu) = support::gpu() else { return };
+    for preset in project::presets::names() {
+        let project = support::presets::preset(preset);
+        let (media, _) = media::gather(&project, None);
+        for skip in [true, false] {
+            let options = BuildOptions { skip, ..BuildOptions::default() };
+            let engine = || support::engine_with(&gpu, &project, &media, &options, (48, 27));
+            let all = |engine: &mut Engine| -> Vec<_> {
+                let read = |id| Some(support::presets::bits(&engine.read(id).ok()?));
+                support::presets::buffers(&project).map(read).collect()
+            };
+            let mut ran = engine();
+            support::run(&mut ran, 0, 5);
+            let checkpoint = ran.checkpoint().unwrap();
+            let (kept, whole) = (checkpoint.bytes(), ran.snapshot().unwrap().bytes());
+            assert!(kept == ran.checkpoint_bytes() && kept < whole + u64::from(!skip), "{preset}: {kept} of {whole}");
+            let mut restored = engine();
+            assert!(restored.restore(&checkpoint), "{preset}");
+            for frame in 5..8 {
+                support::run(&mut ran, frame, frame + 1);
+                support::run(&mut restored, frame, frame + 1);
+                assert!(all(&mut ran) == all(&mut restored), "{preset}, frame {frame}, skip: {skip}");
+            }
+        }
+    }
 }
 
 /// Time and number of the frame that is shown.

@@ -77,7 +77,9 @@ fn first(state: &mut Buffers, ui: &mut Ui, found: &FirstNonfinite, out: &mut Out
     let p = theme::of(ui);
     let (pass, (x, y)) = (found.pass.title(), found.texel);
     let head = match found.is_older {
-        true => format!("{pass} has it at {x},{y} before the oldest frame that is kept: reset, and look again."),
+        true => {
+            format!("{pass} has it at {x},{y} before the frames that were looked through: go back, and look again.")
+        }
         false => format!("First NaN: {pass}, frame {}, texel {x},{y} ({} in that frame).", found.frame, found.texels),
     };
     let label = ui.add(Label::new(RichText::new(head).color(p.error)).wrap());

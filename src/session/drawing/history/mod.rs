@@ -1,6 +1,8 @@
 //! The frames of a run are kept so that one can go to any of them: the inputs of each, and every so many frames a
-//! snapshot of the targets. A frame between two snapshots is drawn again from the one before it, or from the reset that
-//! the run began with.
+//! snapshot of what the frames to come read of the targets. A frame between two snapshots is drawn again from the one
+//! before it, or from the reset that the run began with. Far back snapshots are few (`thinning`).
+
+mod thinning;
 
 use crate::{
     engine::{Engine, EngineError, FrameInputs, Snapshot},
@@ -13,15 +15,18 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// Bytes of the device that snapshots may take, and how many there may be: half a minute is enough of what is small.
+/// Bytes of the device that snapshots may take, and how many there may be: of what is small so many are enough for the
+/// last minute of drawing and for any length before it.
 const BUDGET: u64 = 256 << 20;
-const MOST: usize = 16;
+const MOST: usize = 128;
 /// To draw the frames behind a snapshot again takes about so long at most.
 const REDRAWN: Duration = Duration::from_millis(600);
 /// Frames between two snapshots.
 const INTERVAL: std::ops::RangeInclusive<u64> = 1..=120;
 /// A way of fewer frames needs no snapshot before the frame that it leads to.
 const SHORT: u64 = 8;
+/// So many intervals are looked through frame by frame: to read the texels back takes longer than to draw.
+const LOOKED_THROUGH: u64 = 16;
 /// Frames whose inputs are kept: 73 minutes at 60 a second, 40 MiB.
 const KEPT: usize = 1 << 18;
 
@@ -60,6 +65,7 @@ pub struct History {
     values: Arc<CustomUniformValues>,
     /// The time that a frame takes.
     took: Duration,
+    budget: u64,
 }
 
 /// Holds what a frame was drawn with.
@@ -81,9 +87,10 @@ pub struct Run {
 /// Says where a run of frames begins that is drawn again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ReplayFrom {
-    /// With the oldest frame that is kept.
+    /// With a snapshot of some ten seconds of drawing ago, or the oldest after it.
     Oldest,
-    /// With the newest snapshot before the frame that is shown.
+    /// With the newest snapshot that lies more than a frame before the one that is shown, where there is one: after a
+    /// frame the targets hold also what later frames do not read.
     Newest,
 }
 
@@ -107,6 +114,7 @@ impl Default for History {
             snapshots: VecDeque::new(),
             values: Arc::default(),
             took: Duration::ZERO,
+            budget: BUDGET,
         }
     }
 }
@@ -167,6 +175,9 @@ impl History {
             return;
         }
         (self.is_whole, self.is_from_reset) = (false, false);
+        while self.snapshots.front().is_some_and(|(at, _)| *at <= self.forgotten) {
+            self.snapshots.pop_front();
+        }
         let first = self.first().max(self.forgotten + 1);
         let count = ((first - self.forgotten) as usize).min(self.frames.len());
         self.frames.drain(..count);
@@ -185,32 +196,38 @@ impl History {
     fn keep(&mut self, engine: &Engine, least: u64) {
         let place = self.snapshots.partition_point(|(at, _)| *at <= self.drawn);
         let before = place.checked_sub(1).map(|n| self.snapshots[n].0);
-        let bytes = engine.snapshot_bytes();
-        if self.drawn < self.floor || before.is_some_and(|at| self.drawn - at < least) || bytes > BUDGET / 2 {
+        let most = (self.budget / engine.checkpoint_bytes().max(1)).min(MOST as u64) as usize;
+        if self.drawn < self.floor || before.is_some_and(|at| self.drawn - at < least) || most < 2 {
             return;
         }
-        match engine.snapshot() {
-            Ok(snapshot) => self.snapshots.insert(place, (self.drawn, Arc::new(snapshot))),
-            Err(_) => return self.snapshots.clear(),
+        // There is room before it is filled.
+        let mut kept: Vec<u64> = self.snapshots.iter().map(|(at, _)| *at).collect();
+        kept.insert(place, self.drawn);
+        while let Some(index) = thinning::surplus(&kept, self.drawn, most) {
+            let at = kept.remove(index);
+            self.snapshots.retain(|(kept, _)| *kept != at);
         }
-        let held =
-            |snapshots: &VecDeque<(u64, Arc<Snapshot>)>| snapshots.iter().map(|(_, kept)| kept.bytes()).sum::<u64>();
-        // Those far from here go first.
-        let away = |at: Option<&(u64, Arc<Snapshot>)>| at.map_or(0, |(at, _)| at.abs_diff(self.drawn));
-        while self.snapshots.len() > MOST || held(&self.snapshots) > BUDGET {
-            if away(self.snapshots.front()) >= away(self.snapshots.back()) {
-                self.snapshots.pop_front();
-            } else {
-                self.snapshots.pop_back();
+        match engine.checkpoint() {
+            Ok(snapshot) => {
+                let place = self.snapshots.partition_point(|(at, _)| *at <= self.drawn);
+                self.snapshots.insert(place, (self.drawn, Arc::new(snapshot)));
             }
+            Err(_) => self.snapshots.clear(),
         }
     }
 
     /// The frames up to the one that is shown, from a snapshot on; `None` where there is none.
     pub fn replay(&self, from: ReplayFrom) -> Option<Replay> {
         let (at, snapshot) = match from {
-            ReplayFrom::Oldest => self.snapshots.front().filter(|(at, _)| *at <= self.drawn)?,
-            ReplayFrom::Newest => self.snapshots.iter().rev().find(|(at, _)| *at < self.drawn)?,
+            ReplayFrom::Oldest => {
+                let first = self.drawn.saturating_sub(LOOKED_THROUGH * self.interval());
+                let before = || self.snapshots.iter().rev().find(|(at, _)| *at <= self.drawn);
+                self.snapshots.iter().find(|(at, _)| (first..=self.drawn).contains(at)).or_else(before)?
+            }
+            ReplayFrom::Newest => {
+                let before = |frame: u64| self.snapshots.iter().rev().find(move |(at, _)| *at < frame);
+                before(self.drawn.saturating_sub(1)).or_else(|| before(self.drawn))?
+            }
         };
         let first = at.checked_sub(self.forgotten)? as usize;
         let count = (self.drawn - at) as usize;
@@ -351,82 +368,4 @@ impl History {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{
-        engine::{BuildOptions, Program},
-        media,
-        project::presets,
-        session::testing,
-    };
-
-    const SIZE: (u32, u32) = (32, 18);
-
-    #[test]
-    fn of_a_long_run_the_newest_frames_are_kept() {
-        let mut history = History::default();
-        for frame in 0..1000 {
-            history.forget(100);
-            history.drew(FrameInputs::at_fixed_step(frame, 60.0), SIZE, Duration::from_millis(1));
-            let reach = history.reach();
-            assert_eq!((reach.shown, reach.ahead), (frame as u64, 0));
-            assert_eq!(reach.is_whole, frame < 100);
-            assert_eq!(reach.last_secs, f64::from(frame) / 60.0);
-            assert!(history.frames.len() <= 100 && history.number(Goal::By(0)) == Some(frame as u64));
-        }
-        // Without a snapshot nothing before the frame that is shown can be.
-        assert_eq!(
-            (history.reach().back, history.number(Goal::By(-1)), history.number(Goal::Anew(5))),
-            (0, None, None)
-        );
-    }
-
-    #[test]
-    fn a_time_is_that_of_the_last_frame_which_is_not_later() {
-        let mut history = History::default();
-        for frame in 0..100 {
-            history.drew(FrameInputs::at_fixed_step(frame, 10.0), SIZE, Duration::from_millis(1));
-        }
-        let number = |secs| history.number(Goal::Time(secs));
-        assert_eq!([number(0.0), number(2.05), number(2.1), number(99.0)], [0, 20, 21, 99].map(Some));
-        assert_eq!(
-            [history.number(Goal::By(-99)), history.number(Goal::By(-100)), history.number(Goal::By(1))],
-            [Some(0), None, None]
-        );
-    }
-
-    #[test]
-    fn new_code_draws_each_frame_on_the_canvas_that_it_had() {
-        let Some(gpu) = testing::gpu() else { return };
-        let project = presets::load("feedback").unwrap().project;
-        let (media, _) = media::gather(&project, None);
-        let program = Program::build(&gpu, &project, &media, &BuildOptions::default()).unwrap().program;
-        let (small, large) = ((16, 9), (32, 18));
-        let mut engine = Engine::new(gpu, small.0, small.1).unwrap();
-        engine.set_program(program).unwrap();
-        let mut history = History::default();
-        let step = |history: &mut History, engine: &mut Engine, frame: i32| {
-            let inputs = FrameInputs::at_fixed_step(frame, 60.0);
-            history.before_frame(engine).unwrap();
-            engine.draw(&inputs).unwrap();
-            history.drew(inputs, engine.size(), Duration::from_millis(1));
-        };
-        (0..5).for_each(|frame| step(&mut history, &mut engine, frame));
-        engine.resize(large.0, large.1).unwrap();
-        history.resize();
-        (5..10).for_each(|frame| step(&mut history, &mut engine, frame));
-        let travel = |history: &mut History, engine: &mut Engine, goal: Goal, secs: u64| {
-            let travelled = history.travel(engine, goal, Duration::from_secs(secs)).unwrap().unwrap();
-            (travelled.left, travelled.is_display_new, engine.size())
-        };
-        assert_eq!(travel(&mut history, &mut engine, Goal::Anew(9), 0), (9, true, small));
-        assert_eq!(travel(&mut history, &mut engine, Goal::Frame(9), 60), (0, true, large));
-        assert_eq!(travel(&mut history, &mut engine, Goal::By(-4), 60), (0, false, large));
-        assert_eq!(history.number(Goal::By(-1)), None, "that one is on the small canvas");
-        // Something else is drawn before it is there.
-        assert_eq!(travel(&mut history, &mut engine, Goal::Anew(9), 0), (9, true, small));
-        step(&mut history, &mut engine, 1);
-        assert_eq!((engine.size(), history.reach().shown, history.reach().ahead), (large, 1, 0));
-        assert_eq!(travel(&mut history, &mut engine, Goal::Anew(1), 60), (0, true, large));
-    }
-}
+mod tests;
