@@ -1,9 +1,10 @@
-//! Operations: what a value is computed from, in one lane.
+//! Operations: what a value is computed from, in those lanes that come there.
 
 use super::{
-    layout, math,
+    layout::{Slot, SlotKind},
+    math,
     number::{Cell, Real},
-    state::{Frame, LANES, State},
+    state::{Frame, Lanes, State, of},
     world::Lod,
 };
 use crate::glsl::{
@@ -11,85 +12,220 @@ use crate::glsl::{
     types::Scalar,
 };
 
+/// Puts a function of each component of one operand into the cells of the result.
+fn map<R: Real>(cells: &mut [Cell<R>], lanes: Lanes, out: Slot, arg: Slot, f: impl Fn(Cell<R>) -> Cell<R>) {
+    for lane in of(lanes) {
+        let (to, from) = (out.first(lane), arg.first(lane));
+        for i in 0..out.size as usize {
+            cells[to + i] = f(cells[from + i]);
+        }
+    }
+}
+
+/// The same of two operands. A scalar meets each component of the other side.
+fn zip<R: Real>(
+    cells: &mut [Cell<R>],
+    lanes: Lanes,
+    out: Slot,
+    (left, right): (Slot, Slot),
+    f: impl Fn(Cell<R>, Cell<R>) -> Cell<R>,
+) {
+    let (by_left, by_right) = (usize::from(left.size > 1), usize::from(right.size > 1));
+    for lane in of(lanes) {
+        let (to, left, right) = (out.first(lane), left.first(lane), right.first(lane));
+        for i in 0..out.size as usize {
+            cells[to + i] = f(cells[left + i * by_left], cells[right + i * by_right]);
+        }
+    }
+}
+
+/// Few cells, which are copied faster one by one.
+fn copy<R: Real>(cells: &mut [Cell<R>], to: usize, from: usize, count: u32) {
+    for i in 0..count as usize {
+        cells[to + i] = cells[from + i];
+    }
+}
+
+/// A product with a factor that is known before the program runs. Drivers drop a product with a zero that they see,
+/// also one with infinity (`nir_opt_algebraic.py`): `mod(x, 0.0)` is x.
+fn product<R: Real>(left: (Cell<R>, bool), right: (Cell<R>, bool)) -> Cell<R> {
+    let zero = R::from_f64(0.0);
+    let is_dropped = |(factor, is_known): (Cell<R>, bool)| is_known && factor.float() == zero;
+    if is_dropped(left) || is_dropped(right) {
+        return Cell::Float(zero);
+    }
+    Cell::Float(left.0.float() * right.0.float())
+}
+
 impl<R: Real> State<'_, R> {
-    /// The address of a part of a place in each lane.
-    pub fn part_of_place(&self, frame: &Frame<R>, op: &Op) -> [u32; LANES] {
-        let function = &self.module[frame.function];
-        match *op {
-            Op::Part { base, index } => {
-                let offset = layout::offset(self.module, function.ty(base), index) as u32;
-                self.place(frame, base).map(|start| start + offset)
+    /// Computes the address of a part of a place in some lanes.
+    pub fn part_of_place(&self, frame: &mut Frame<R>, value: Value, lanes: Lanes) {
+        let layout = self.layout(frame);
+        let (out, offset) = (layout.slots[value.index()].start as usize, layout.offsets[value.index()]);
+        match self.module[frame.function][value] {
+            Op::Part { base, .. } => {
+                let base = layout.slots[base.index()].start as usize;
+                of(lanes).for_each(|lane| frame.places[out][lane] = frame.places[base][lane] + offset);
             }
             Op::Element { base, index } => {
-                let size = layout::cells(self.module, self.module.part(function.ty(base), 0)) as u32;
-                let count = self.module.extent(function.ty(base));
-                let starts = self.place(frame, base);
-                std::array::from_fn(|lane| {
-                    let index = self.value(frame, index, lane)[0].bits().min(count - 1);
-                    starts[lane] + index * size
-                })
+                let (base, index) = (layout.slots[base.index()], layout.slots[index.index()]);
+                let last = (base.size / offset.max(1)).max(1) - 1;
+                for lane in of(lanes) {
+                    let index = frame.cells[index.first(lane)].bits().min(last);
+                    frame.places[out][lane] = frame.places[base.start as usize][lane] + index * offset;
+                }
             }
             ref other => unreachable!("{other:?} is no part of a place"),
         }
     }
 
-    /// An operation on values of one lane.
-    pub fn pure(&self, frame: &Frame<R>, value: Value, op: &Op, lane: usize, out: &mut Vec<Cell<R>>) {
-        let function = &self.module[frame.function];
-        let cells = |value: Value| self.value(frame, value, lane);
-        let ty = |value: Value| function.ty(value);
-        let scalar = |value: Value| self.module.types.scalar(function.ty(value)).unwrap_or(Scalar::Float);
-        let int = |value: Value| cells(value)[0].bits() as i32;
-        match *op {
-            Op::Part { base, index } => {
-                let start = layout::offset(self.module, ty(base), index);
-                let size = layout::cells(self.module, ty(value));
-                out.extend_from_slice(&cells(base)[start..start + size]);
+    /// Computes a value in some lanes.
+    pub fn compute(&self, frame: &mut Frame<R>, value: Value, lanes: Lanes, scratch: &mut Vec<Cell<R>>) {
+        let layout = self.layout(frame);
+        let slot = |value: Value| layout.slots[value.index()];
+        let out = slot(value);
+        let Frame { function, cells, places, .. } = frame;
+        match self.module[*function][value] {
+            Op::Part { base, .. } => {
+                let (base, before) = (slot(base), layout.offsets[value.index()] as usize);
+                of(lanes).for_each(|lane| copy(cells, out.first(lane), base.first(lane) + before, out.size));
             }
             Op::Element { base, index } => {
-                let size = layout::cells(self.module, ty(value));
-                let last = cells(base).len() / size - 1;
-                let start = size * (cells(index)[0].bits() as usize).min(last);
-                out.extend_from_slice(&cells(base)[start..start + size]);
+                let (base, index) = (slot(base), slot(index));
+                let last = (base.size / out.size) as usize - 1;
+                for lane in of(lanes) {
+                    let index = (cells[index.first(lane)].bits() as usize).min(last);
+                    copy(cells, out.first(lane), base.first(lane) + index * out.size as usize, out.size);
+                }
             }
-            Op::Swizzle { vector, swizzle } => out.extend(swizzle.iter().map(|i| cells(vector)[i])),
-            Op::Splat { size, value } => out.resize(size.into(), cells(value)[0]),
-            Op::Compose { ref parts, .. } => parts.iter().for_each(|&part| out.extend_from_slice(cells(part))),
-            Op::Unary { op, operand } => out.extend(cells(operand).iter().map(|&cell| math::unary(op, cell))),
+            Op::Swizzle { vector, swizzle } => {
+                let vector = slot(vector);
+                for lane in of(lanes) {
+                    for (i, component) in swizzle.iter().enumerate() {
+                        cells[out.first(lane) + i] = cells[vector.first(lane) + component];
+                    }
+                }
+            }
+            Op::Splat { value, .. } => {
+                let value = slot(value);
+                for lane in of(lanes) {
+                    let cell = cells[value.first(lane)];
+                    cells[out.cells(lane)].fill(cell);
+                }
+            }
+            Op::Compose { ref parts, .. } => {
+                let mut before = 0;
+                for part in parts {
+                    let part = slot(*part);
+                    of(lanes).for_each(|lane| copy(cells, out.first(lane) + before, part.first(lane), part.size));
+                    before += part.size as usize;
+                }
+            }
+            Op::Unary { op, operand } => map(cells, lanes, out, slot(operand), |cell| math::unary(op, cell)),
             Op::Binary { op, left, right } => {
-                let scalar = scalar(left);
-                let is_product = op == Binary::Multiply && scalar == Scalar::Float;
-                let [is_left_known, is_right_known] =
-                    [left, right].map(|value| is_product && self.is_constant(frame, value));
-                let (left, right) = (cells(left), cells(right));
-                let size = left.len().max(right.len());
-                // A scalar meets each component of the other side.
-                let at = |cells: &[Cell<R>], i: usize| if cells.len() == 1 { cells[0] } else { cells[i] };
-                let zero = R::from_f64(0.0);
-                out.extend((0..size).map(|i| match (at(left, i), at(right, i)) {
-                    // Drivers drop a product with a zero that they see, also one with infinity (`nir_opt_algebraic.py`):
-                    // `mod(x, 0.0)` is x.
-                    (left, _) if is_left_known && left.float() == zero => Cell::Float(zero),
-                    (_, right) if is_right_known && right.float() == zero => Cell::Float(zero),
-                    (left, right) => math::binary(op, scalar, left, right),
-                }));
+                let scalar = layout.scalars[left.index()];
+                let (is_float, operands) = (scalar == Scalar::Float, (slot(left), slot(right)));
+                let is_known = |slot: Slot| slot.kind == SlotKind::Constant;
+                match op {
+                    Binary::Add if is_float => {
+                        zip(cells, lanes, out, operands, |a, b| Cell::Float(a.float() + b.float()));
+                    }
+                    Binary::Subtract if is_float => {
+                        zip(cells, lanes, out, operands, |a, b| Cell::Float(a.float() - b.float()));
+                    }
+                    Binary::Multiply if is_float && (is_known(operands.0) || is_known(operands.1)) => {
+                        let known = (is_known(operands.0), is_known(operands.1));
+                        zip(cells, lanes, out, operands, |a, b| product((a, known.0), (b, known.1)));
+                    }
+                    Binary::Multiply if is_float => {
+                        zip(cells, lanes, out, operands, |a, b| Cell::Float(a.float() * b.float()));
+                    }
+                    _ => zip(cells, lanes, out, operands, |a, b| math::binary(op, scalar, a, b)),
+                }
             }
             Op::Math { fun, arg, arg1, arg2, arg3 } => {
-                let args: Vec<&[Cell<R>]> = [Some(arg), arg1, arg2, arg3].into_iter().flatten().map(cells).collect();
-                math::function(fun, self.module.types.get(ty(arg)), scalar(arg), &args, out);
+                let (scalar, first) = (layout.scalars[arg.index()], slot(arg));
+                match (fun, arg1) {
+                    (Math::Min, Some(other)) if scalar == Scalar::Float => {
+                        let least = |a: Cell<R>, b: Cell<R>| Cell::Float(a.float().binary(Math::Min, b.float()));
+                        zip(cells, lanes, out, (first, slot(other)), least);
+                    }
+                    (Math::Max, Some(other)) if scalar == Scalar::Float => {
+                        let largest = |a: Cell<R>, b: Cell<R>| Cell::Float(a.float().binary(Math::Max, b.float()));
+                        zip(cells, lanes, out, (first, slot(other)), largest);
+                    }
+                    (_, None) if scalar == Scalar::Float && math::is_of_each_component(fun) => {
+                        map(cells, lanes, out, first, |cell| Cell::Float(cell.float().unary(fun)));
+                    }
+                    _ => {
+                        let ty = self.module.types.get(self.module[*function].ty(arg));
+                        for lane in of(lanes) {
+                            let (mut args, mut count): ([&[Cell<R>]; 4], usize) = ([&[]; 4], 0);
+                            for arg in [Some(arg), arg1, arg2, arg3].into_iter().flatten() {
+                                args[count] = &cells[slot(arg).cells(lane)];
+                                count += 1;
+                            }
+                            scratch.clear();
+                            math::function(fun, ty, scalar, &args[..count], scratch);
+                            cells[out.cells(lane)].copy_from_slice(scratch);
+                        }
+                    }
+                }
             }
             Op::Select { condition, accept, reject } => {
-                let (condition, accept, reject) = (cells(condition), cells(accept), cells(reject));
-                let is_true = |i: usize| condition[if condition.len() == 1 { 0 } else { i }].is_true();
-                out.extend((0..accept.len()).map(|i| if is_true(i) { accept[i] } else { reject[i] }));
+                let (condition, accept, reject) = (slot(condition), slot(accept), slot(reject));
+                let by = usize::from(condition.size > 1);
+                for lane in of(lanes) {
+                    for i in 0..out.size as usize {
+                        let is_true = cells[condition.first(lane) + i * by].is_true();
+                        let chosen = if is_true { accept } else { reject };
+                        cells[out.first(lane) + i] = cells[chosen.first(lane) + i];
+                    }
+                }
             }
             Op::Convert { value, to } => {
-                let from = scalar(value);
-                out.extend(cells(value).iter().map(|&cell| math::convert(cell, from, to)));
+                let from = layout.scalars[value.index()];
+                map(cells, lanes, out, slot(value), |cell| math::convert(cell, from, to));
             }
-            Op::Bitcast { value, to } => out.extend(cells(value).iter().map(|&cell| math::bitcast(cell, to))),
-            Op::All(value) => out.push(cells(value).iter().all(|cell| cell.is_true()).into()),
-            Op::Any(value) => out.push(cells(value).iter().any(|cell| cell.is_true()).into()),
+            Op::Bitcast { value, to } => map(cells, lanes, out, slot(value), |cell| math::bitcast(cell, to)),
+            Op::All(value) => {
+                let value = slot(value);
+                for lane in of(lanes) {
+                    cells[out.first(lane)] = cells[value.cells(lane)].iter().all(|cell| cell.is_true()).into();
+                }
+            }
+            Op::Any(value) => {
+                let value = slot(value);
+                for lane in of(lanes) {
+                    cells[out.first(lane)] = cells[value.cells(lane)].iter().any(|cell| cell.is_true()).into();
+                }
+            }
+            Op::Load { place } => {
+                let place = places[slot(place).start as usize];
+                for lane in of(lanes) {
+                    let start = place[lane] as usize;
+                    cells[out.cells(lane)].copy_from_slice(&self.memory[lane][start..start + out.size as usize]);
+                }
+            }
+            _ => {
+                for lane in of(lanes) {
+                    scratch.clear();
+                    self.read(frame, value, lane, scratch);
+                    frame.cells[out.cells(lane)].copy_from_slice(scratch);
+                }
+            }
+        }
+    }
+
+    /// Computes a value of one lane that is read of textures, or of its neighbours.
+    fn read(&self, frame: &Frame<R>, value: Value, lane: usize, out: &mut Vec<Cell<R>>) {
+        let cells = |value: Value| self.value(frame, value, lane);
+        let int = |value: Value| cells(value)[0].bits() as i32;
+        match self.module[frame.function][value] {
+            Op::Derivative { axis, value } => self.derivative(frame, axis, value, lane, out),
+            Op::Sample { channel, coordinate, level, offset } => {
+                self.sample(frame, (channel, coordinate, level, offset), lane, out);
+            }
             Op::Fetch { channel, coordinate, level } => {
                 let mut at = [0; 3];
                 at.iter_mut().zip(cells(coordinate)).for_each(|(at, cell)| *at = cell.bits() as i32);
@@ -98,11 +234,10 @@ impl<R: Real> State<'_, R> {
             }
             Op::TextureSize { channel, level } => {
                 let size = self.world.size(channel, level.map_or(0, int));
-                let count = layout::cells(self.module, ty(value));
+                let count = self.layout(frame).slots[value.index()].size as usize;
                 out.extend(size[..count].iter().map(|&n| Cell::Bits(n as u32)));
             }
             Op::TextureLevels { channel } => out.push(Cell::Bits(self.world.levels(channel))),
-            Op::Load { place } => out.extend_from_slice(self.memory(frame, place, lane)),
             Op::OpaqueZero => out.push(Cell::Bits(0)),
             ref other => unreachable!("{other:?} is computed elsewhere"),
         }
@@ -122,7 +257,7 @@ impl<R: Real> State<'_, R> {
         to.iter().zip(from).map(|(to, from)| to.float() - from.float()).collect()
     }
 
-    pub fn derivative(&self, frame: &Frame<R>, axis: Axis, value: Value, lane: usize, out: &mut Vec<Cell<R>>) {
+    fn derivative(&self, frame: &Frame<R>, axis: Axis, value: Value, lane: usize, out: &mut Vec<Cell<R>>) {
         match axis {
             Axis::X | Axis::Y => {
                 out.extend(self.difference(frame, axis, value, lane).into_iter().map(Cell::Float));
@@ -135,7 +270,7 @@ impl<R: Real> State<'_, R> {
         }
     }
 
-    pub fn sample(
+    fn sample(
         &self,
         frame: &Frame<R>,
         (channel, coordinate, level, offset): (u8, Value, Level, Option<Value>),

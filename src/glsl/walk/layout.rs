@@ -2,7 +2,7 @@
 
 use super::number::{Cell, Real};
 use crate::glsl::{
-    ir::{Function, Module, Op, Value},
+    ir::{Function, GlobalId, Module, Op, Value},
     types::{Scalar, Type, TypeId},
 };
 
@@ -37,49 +37,126 @@ pub fn constant<R: Real>(module: &Module, ty: TypeId, words: &mut impl Iterator<
 
 /// The place of a value.
 #[derive(Clone, Copy, Debug)]
-pub enum Slot {
-    /// Among the function's constants, from a cell on.
-    Constant { start: u32, size: u32 },
-    /// In the frame of each lane, from a cell on.
-    Register { start: u32, size: u32 },
-    /// Among the frame's places: a value that is an address.
-    Place(u32),
+pub struct Slot {
+    pub kind: SlotKind,
+    /// The first cell in the frame, of the first lane; of an address the index among the frame's places.
+    pub start: u32,
+    /// The cells between two lanes: a constant is the same in all.
+    pub stride: u32,
+    /// The cells of the value; of an address of what it leads to.
+    pub size: u32,
 }
 
-/// The layout of one function.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SlotKind {
+    /// Known before the program runs.
+    Constant,
+    Register,
+    /// An address.
+    Place,
+}
+
+impl Slot {
+    /// The first cell of a value in a lane.
+    pub fn first(self, lane: usize) -> usize {
+        self.start as usize + lane * self.stride as usize
+    }
+
+    pub fn cells(self, lane: usize) -> std::ops::Range<usize> {
+        let first = self.first(lane);
+        first..first + self.size as usize
+    }
+}
+
+/// The variable that a place is.
+#[derive(Clone, Copy, Debug)]
+pub enum Root {
+    /// A variable of the function, from a cell on behind the base of its memory.
+    Var(usize),
+    Global(GlobalId),
+}
+
+/// The layout of one function: what a step would otherwise ask of the program each time.
 pub struct Layout<R> {
     /// By [`Value::index`].
     pub slots: Vec<Slot>,
+    /// By [`Value::index`]: the cells before a part, and the cells of one element.
+    pub offsets: Vec<u32>,
+    /// By [`Value::index`]: the type of the components of a scalar, vector or matrix; floats for anything else.
+    pub scalars: Vec<Scalar>,
+    /// The constants, which a frame begins with.
     pub constants: Vec<Cell<R>>,
-    /// Cells of a frame, of one lane.
+    /// Cells of a frame, of one lane, without constants.
     pub registers: usize,
     pub places: usize,
-    /// The first cell of each variable, behind the base of the frame's memory.
-    pub vars: Vec<usize>,
+    /// The parameters.
+    pub params: Vec<(u32, Slot)>,
+    /// Places that are variables.
+    pub roots: Vec<(u32, Root)>,
+    /// Variables that begin with a constant: the first cell behind the base of the memory, and the constant.
+    pub inits: Vec<(usize, Slot)>,
     /// Cells of all variables together, of one lane.
     pub memory: usize,
+    /// Cells of the result.
+    pub result: usize,
 }
 
 impl<R: Real> Layout<R> {
     pub fn new(module: &Module, function: &Function) -> Self {
-        let mut layout =
-            Self { slots: Vec::new(), constants: Vec::new(), registers: 0, places: 0, vars: Vec::new(), memory: 0 };
+        let mut layout = Self {
+            slots: Vec::with_capacity(function.len()),
+            offsets: Vec::with_capacity(function.len()),
+            scalars: Vec::with_capacity(function.len()),
+            constants: Vec::new(),
+            registers: 0,
+            places: 0,
+            params: Vec::new(),
+            roots: Vec::new(),
+            inits: Vec::new(),
+            memory: 0,
+            result: cells(module, function.result),
+        };
+        let mut vars = Vec::new();
         for var in &function.vars {
-            layout.vars.push(layout.memory);
+            vars.push(layout.memory);
             layout.memory += cells(module, var.ty);
         }
         for (value, op) in function.values() {
             let slot = layout.slot(module, function, value, op);
             layout.slots.push(slot);
+            layout.scalars.push(module.types.scalar(function.ty(value)).unwrap_or(Scalar::Float));
+            layout.offsets.push(match *op {
+                Op::Part { base, index } => offset(module, function.ty(base), index) as u32,
+                Op::Element { base, .. } => cells(module, module.part(function.ty(base), 0)) as u32,
+                _ => 0,
+            });
+            match *op {
+                Op::Param(index) => layout.params.push((index, slot)),
+                Op::Var(var) => layout.roots.push((slot.start, Root::Var(vars[var.index()]))),
+                Op::Global(global) => layout.roots.push((slot.start, Root::Global(global))),
+                _ => {}
+            }
+        }
+        for (var, start) in function.vars.iter().zip(vars) {
+            let init = var.init.map(|init| layout.slots[init.index()]);
+            layout.inits.extend(init.filter(|slot| slot.kind == SlotKind::Constant).map(|slot| (start, slot)));
+        }
+        // Constants come first, the registers of all lanes behind them.
+        let (count, stride) = (layout.constants.len() as u32, layout.registers as u32);
+        let params = layout.params.iter_mut().map(|(_, slot)| slot);
+        for slot in layout.slots.iter_mut().chain(params).filter(|slot| slot.kind == SlotKind::Register) {
+            (slot.start, slot.stride) = (slot.start + count, stride);
         }
         layout
     }
 
+    /// The slot of a value, of a register among the registers.
     fn slot(&mut self, module: &Module, function: &Function, value: Value, op: &Op) -> Slot {
         let ty = function.ty(value);
         if function.is_place(value) {
             self.places += 1;
-            return Slot::Place(self.places as u32 - 1);
+            let size = cells(module, ty) as u32;
+            return Slot { kind: SlotKind::Place, start: self.places as u32 - 1, stride: 0, size };
         }
         let start = self.constants.len();
         match *op {
@@ -89,9 +166,10 @@ impl<R: Real> Layout<R> {
             _ => {
                 let (start, size) = (self.registers as u32, cells(module, ty) as u32);
                 self.registers += size as usize;
-                return Slot::Register { start, size };
+                return Slot { kind: SlotKind::Register, start, stride: 0, size };
             }
         }
-        Slot::Constant { start: start as u32, size: (self.constants.len() - start) as u32 }
+        let size = (self.constants.len() - start) as u32;
+        Slot { kind: SlotKind::Constant, start: start as u32, stride: 0, size }
     }
 }

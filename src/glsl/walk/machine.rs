@@ -2,21 +2,13 @@
 
 use super::{
     inputs::EntryInputs,
-    layout::{self, Slot},
+    layout::{self, Root, SlotKind},
     number::{Cell, Real},
     observer::{Observer, View},
-    state::{Frame, LANES, State},
+    state::{ALL, Frame, LANES, Lanes, State, of},
     world::{World, uniform_words},
 };
 use crate::glsl::ir::{Block, Case, FuncId, GlobalId, GlobalKind, Input, Level, Module, Op, Output, Stmt, Value};
-
-/// A set of lanes.
-type Lanes = u8;
-const ALL: Lanes = 0b1111;
-
-fn of(lanes: Lanes) -> impl Iterator<Item = usize> {
-    (0..LANES).filter(move |lane| lanes & (1 << lane) != 0)
-}
 
 /// The reason that a walk ended before the program did.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -51,6 +43,8 @@ pub struct Machine<'a, R> {
     steps: u64,
     limit: u64,
     scratch: Vec<Cell<R>>,
+    /// Frames of calls that have ended, by their functions.
+    spare: Vec<Vec<Frame<R>>>,
 }
 
 /// The results that the lanes of a quad drew.
@@ -85,6 +79,7 @@ impl<'a, R: Real> Machine<'a, R> {
             steps: 0,
             limit,
             scratch: Vec::new(),
+            spare: module.functions.iter().map(|_| Vec::new()).collect(),
         };
         machine.fill_globals();
         machine
@@ -110,7 +105,7 @@ impl<'a, R: Real> Machine<'a, R> {
     }
 
     /// Runs the entry point from its beginning. `observer` sees what the lane of one pixel does.
-    pub fn run(&mut self, lane: usize, observer: &mut dyn Observer<R>) -> Result<Drawn<R>, Stop> {
+    pub fn run<O: Observer<R> + ?Sized>(&mut self, lane: usize, observer: &mut O) -> Result<Drawn<R>, Stop> {
         for memory in &mut self.state.memory {
             memory.clear();
             memory.extend_from_slice(&self.initial);
@@ -147,14 +142,15 @@ impl<'a, R: Real> Machine<'a, R> {
         }
     }
 
-    fn frame(&self, function: FuncId) -> Frame<R> {
+    /// A frame in which nothing is computed yet.
+    fn frame(&mut self, function: FuncId) -> Frame<R> {
         let layout = &self.state.layouts[function.index()];
-        let result = layout::cells(self.state.module, self.state.module[function].result);
-        Frame {
-            function,
-            registers: vec![Cell::Bits(0); layout.registers * LANES],
-            places: vec![[0; LANES]; layout.places],
-            result: vec![Cell::Bits(0); result * LANES],
+        match self.spare[function.index()].pop() {
+            Some(mut frame) => {
+                frame.clear(layout);
+                frame
+            }
+            None => Frame::new(function, layout),
         }
     }
 
@@ -179,34 +175,30 @@ impl<'a, R: Real> Machine<'a, R> {
     }
 
     /// Runs a function whose arguments are in its frame.
-    fn body(
+    fn body<O: Observer<R> + ?Sized>(
         &mut self,
         frame: &mut Frame<R>,
         lanes: Lanes,
         lane: usize,
-        observer: &mut dyn Observer<R>,
+        observer: &mut O,
     ) -> Result<(), Stop> {
         let module = self.state.module;
         let function = &module[frame.function];
         let base = self.state.memory[0].len();
-        let layout = &self.state.layouts[frame.function.index()];
+        let State { layouts, memory, globals, .. } = &mut self.state;
+        let layout = &layouts[frame.function.index()];
         let size = base + layout.memory;
-        self.state.memory.iter_mut().for_each(|memory| memory.resize(size, Cell::Bits(0)));
-        for (value, op) in function.values() {
-            let Slot::Place(place) = layout.slots[value.index()] else { continue };
-            let start = match *op {
-                Op::Var(var) => base + layout.vars[var.index()],
-                Op::Global(global) => self.state.globals[global.index()],
-                _ => continue,
+        memory.iter_mut().for_each(|memory| memory.resize(size, Cell::Bits(0)));
+        for &(place, root) in &layout.roots {
+            let start = match root {
+                Root::Var(start) => base + start,
+                Root::Global(global) => globals[global.index()],
             };
             frame.places[place as usize] = [start as u32; LANES];
         }
-        for (var, start) in function.vars.iter().zip(&layout.vars) {
-            let Some(init) = var.init else { continue };
-            let Slot::Constant { start: from, size } = layout.slots[init.index()] else { continue };
-            let init = &layout.constants[from as usize..(from + size) as usize];
-            for memory in &mut self.state.memory {
-                memory[base + start..base + start + init.len()].copy_from_slice(init);
+        for &(start, init) in &layout.inits {
+            for memory in memory.iter_mut() {
+                memory[base + start..][..init.size as usize].copy_from_slice(&layout.constants[init.cells(0)]);
             }
         }
         let has_lane = lanes & (1 << lane) != 0;
@@ -222,14 +214,14 @@ impl<'a, R: Real> Machine<'a, R> {
     }
 
     /// Runs a block. Returns the lanes that reach its end.
-    fn block(
+    fn block<O: Observer<R> + ?Sized>(
         &mut self,
         frame: &mut Frame<R>,
         block: &'a Block,
         mut active: Lanes,
         jumps: &mut Jumps,
         lane: usize,
-        observer: &mut dyn Observer<R>,
+        observer: &mut O,
     ) -> Result<Lanes, Stop> {
         for stmt in block {
             if active == 0 {
@@ -252,13 +244,13 @@ impl<'a, R: Real> Machine<'a, R> {
                     }
                 }
                 Stmt::Store { place, value } => {
+                    let State { layouts, memory, .. } = &mut self.state;
+                    let slots = &layouts[frame.function.index()].slots;
+                    let (to, from) = (slots[place.index()].start as usize, slots[value.index()]);
                     for lane in of(active) {
-                        let start = self.state.place(frame, *place)[lane] as usize;
-                        let mut scratch = std::mem::take(&mut self.scratch);
-                        scratch.clear();
-                        scratch.extend_from_slice(self.state.value(frame, *value, lane));
-                        self.state.memory[lane][start..start + scratch.len()].copy_from_slice(&scratch);
-                        self.scratch = scratch;
+                        let start = frame.places[to][lane] as usize;
+                        let cells = &frame.cells[from.cells(lane)];
+                        memory[lane][start..start + cells.len()].copy_from_slice(cells);
                     }
                     if is_seen {
                         observer.store(&View::new(&self.state, frame, lane), *place, *value);
@@ -296,12 +288,9 @@ impl<'a, R: Real> Machine<'a, R> {
                 Stmt::Return(value) => {
                     if let Some(value) = *value {
                         let size = frame.result.len() / LANES;
+                        let from = self.state.layout(frame).slots[value.index()];
                         for lane in of(active) {
-                            let mut scratch = std::mem::take(&mut self.scratch);
-                            scratch.clear();
-                            scratch.extend_from_slice(self.state.value(frame, value, lane));
-                            frame.result[lane * size..][..size].copy_from_slice(&scratch);
-                            self.scratch = scratch;
+                            frame.result[lane * size..][..size].copy_from_slice(&frame.cells[from.cells(lane)]);
                         }
                     }
                     active = 0;
@@ -339,13 +328,13 @@ impl<'a, R: Real> Machine<'a, R> {
         of(active).filter(|&lane| self.state.value(frame, condition, lane)[0].is_true()).map(|lane| 1 << lane).sum()
     }
 
-    fn turns(
+    fn turns<O: Observer<R> + ?Sized>(
         &mut self,
         frame: &mut Frame<R>,
         (body, continuing, break_if): (&'a Block, &'a Block, Option<Value>),
         mut active: Lanes,
         lane: usize,
-        observer: &mut dyn Observer<R>,
+        observer: &mut O,
     ) -> Result<Lanes, Stop> {
         let mut left = 0;
         while active != 0 {
@@ -375,7 +364,7 @@ impl<'a, R: Real> Machine<'a, R> {
     }
 
     #[allow(clippy::too_many_arguments)]
-    fn cases(
+    fn cases<O: Observer<R> + ?Sized>(
         &mut self,
         frame: &mut Frame<R>,
         selector: Value,
@@ -383,7 +372,7 @@ impl<'a, R: Real> Machine<'a, R> {
         active: Lanes,
         jumps: &mut Jumps,
         lane: usize,
-        observer: &mut dyn Observer<R>,
+        observer: &mut O,
     ) -> Result<Lanes, Stop> {
         let default = cases.iter().position(|case| case.label.is_none());
         let chosen: [Option<usize>; LANES] = std::array::from_fn(|lane| {
@@ -402,13 +391,13 @@ impl<'a, R: Real> Machine<'a, R> {
     }
 
     /// Computes a value in the lanes that are active.
-    fn compute(
+    fn compute<O: Observer<R> + ?Sized>(
         &mut self,
         frame: &mut Frame<R>,
         value: Value,
         active: Lanes,
         lane: usize,
-        observer: &mut dyn Observer<R>,
+        observer: &mut O,
     ) -> Result<(), Stop> {
         let module = self.state.module;
         let function = &module[frame.function];
@@ -416,50 +405,36 @@ impl<'a, R: Real> Machine<'a, R> {
         if let Op::Call { function, args } = op {
             return self.call(frame, value, (*function, args), active, lane, observer);
         }
-        if let Slot::Place(index) = self.state.layouts[frame.function.index()].slots[value.index()] {
-            let place = self.state.part_of_place(frame, op);
-            for lane in of(active) {
-                frame.places[index as usize][lane] = place[lane];
-            }
+        let slot = self.state.layout(frame).slots[value.index()];
+        if slot.kind == SlotKind::Place {
+            self.state.part_of_place(frame, value, active);
             return Ok(());
         }
-        let mut scratch = std::mem::take(&mut self.scratch);
+        self.state.compute(frame, value, active, &mut self.scratch);
         for lane in of(active) {
-            scratch.clear();
-            match *op {
-                Op::Derivative { axis, value } => self.state.derivative(frame, axis, value, lane, &mut scratch),
-                Op::Sample { channel, coordinate, level, offset } => {
-                    self.state.sample(frame, (channel, coordinate, level, offset), lane, &mut scratch);
-                }
-                _ => self.state.pure(frame, value, op, lane, &mut scratch),
-            }
-            observer.correct(frame.function, value, &mut scratch);
-            self.state.register_mut(frame, value, lane).copy_from_slice(&scratch);
+            observer.correct(frame.function, value, &mut frame.cells[slot.cells(lane)]);
         }
-        self.scratch = scratch;
         Ok(())
     }
 
-    fn call(
+    fn call<O: Observer<R> + ?Sized>(
         &mut self,
         frame: &mut Frame<R>,
         value: Value,
         (callee, args): (FuncId, &[Value]),
         active: Lanes,
         lane: usize,
-        observer: &mut dyn Observer<R>,
+        observer: &mut O,
     ) -> Result<(), Stop> {
-        let module = self.state.module;
         let mut inner = self.frame(callee);
-        for (param, op) in module[callee].values() {
-            let Op::Param(index) = *op else { continue };
-            let arg = args[index as usize];
-            match self.state.layouts[callee.index()].slots[param.index()] {
-                Slot::Place(place) => inner.places[place as usize] = self.state.place(frame, arg),
+        let slots = &self.state.layout(frame).slots;
+        for &(index, param) in &self.state.layouts[callee.index()].params {
+            let arg = slots[args[index as usize].index()];
+            match param.kind {
+                SlotKind::Place => inner.places[param.start as usize] = frame.places[arg.start as usize],
                 _ => {
                     for lane in 0..LANES {
-                        let cells = self.state.value(frame, arg, lane).to_vec();
-                        self.state.register_mut(&mut inner, param, lane).copy_from_slice(&cells);
+                        inner.cells[param.cells(lane)].copy_from_slice(&frame.cells[arg.cells(lane)]);
                     }
                 }
             }
@@ -467,10 +442,12 @@ impl<'a, R: Real> Machine<'a, R> {
         self.body(&mut inner, active, lane, observer)?;
         let size = inner.result.len() / LANES;
         if size > 0 {
+            let out = self.state.layout(frame).slots[value.index()];
             for lane in of(active) {
-                self.state.register_mut(frame, value, lane).copy_from_slice(&inner.result[lane * size..][..size]);
+                frame.cells[out.cells(lane)].copy_from_slice(&inner.result[lane * size..][..size]);
             }
         }
+        self.spare[callee.index()].push(inner);
         Ok(())
     }
 }

@@ -1,7 +1,7 @@
 //! The state of a program while it runs: values, variables and the way to them.
 
 use super::{
-    layout::{self, Layout, Slot},
+    layout::{self, Layout, SlotKind},
     number::{Cell, Real},
     world::World,
 };
@@ -10,15 +10,39 @@ use crate::glsl::ir::{FuncId, GlobalId, Module, Value};
 /// Pixels that run together: at (0, 0), (1, 0), (0, 1) and (1, 1) of a block of two by two.
 pub const LANES: usize = 4;
 
+/// A set of lanes.
+pub type Lanes = u8;
+pub const ALL: Lanes = 0b1111;
+
+pub fn of(lanes: Lanes) -> impl Iterator<Item = usize> {
+    (0..LANES).filter(move |lane| lanes & (1 << lane) != 0)
+}
+
 /// One activation of a function.
 pub struct Frame<R> {
     pub function: FuncId,
-    /// Lane by lane.
-    pub registers: Vec<Cell<R>>,
+    /// The function's constants, and behind them what is computed, lane by lane: all that an operand may be.
+    pub cells: Vec<Cell<R>>,
     /// The cell of each place in the memory of each lane.
     pub places: Vec<[u32; LANES]>,
     /// Lane by lane.
     pub result: Vec<Cell<R>>,
+}
+
+impl<R: Real> Frame<R> {
+    pub fn new(function: FuncId, layout: &Layout<R>) -> Self {
+        let mut cells = layout.constants.clone();
+        cells.resize(layout.constants.len() + layout.registers * LANES, Cell::Bits(0));
+        let (places, result) = (vec![[0; LANES]; layout.places], vec![Cell::Bits(0); layout.result * LANES]);
+        Self { function, cells, places, result }
+    }
+
+    /// Makes the frame what it was at first.
+    pub fn clear(&mut self, layout: &Layout<R>) {
+        self.cells[layout.constants.len()..].fill(Cell::Bits(0));
+        self.places.fill([0; LANES]);
+        self.result.fill(Cell::Bits(0));
+    }
 }
 
 /// The program, and its memory.
@@ -38,37 +62,29 @@ impl<'a, R: Real> State<'a, R> {
         Self { module, world, layouts, memory: Default::default(), globals: Vec::new() }
     }
 
+    pub fn layout(&self, frame: &Frame<R>) -> &Layout<R> {
+        &self.layouts[frame.function.index()]
+    }
+
     /// Returns the cells of a computed value in a lane.
     pub fn register_mut<'f>(&self, frame: &'f mut Frame<R>, value: Value, lane: usize) -> &'f mut [Cell<R>] {
-        let layout = &self.layouts[frame.function.index()];
-        let Slot::Register { start, size } = layout.slots[value.index()] else { unreachable!("{value:?} is computed") };
-        let start = lane * layout.registers + start as usize;
-        &mut frame.registers[start..start + size as usize]
+        let slot = self.layout(frame).slots[value.index()];
+        debug_assert!(slot.kind == SlotKind::Register, "{value:?} is computed");
+        &mut frame.cells[slot.cells(lane)]
     }
 
     /// The cells of a value in a lane.
     pub fn value<'f>(&'f self, frame: &'f Frame<R>, value: Value, lane: usize) -> &'f [Cell<R>] {
-        let layout = &self.layouts[frame.function.index()];
-        match layout.slots[value.index()] {
-            Slot::Constant { start, size } => &layout.constants[start as usize..(start + size) as usize],
-            Slot::Register { start, size } => {
-                let start = lane * layout.registers + start as usize;
-                &frame.registers[start..start + size as usize]
-            }
-            Slot::Place(_) => unreachable!("{value:?} is an address"),
-        }
-    }
-
-    /// A value is known before the program runs.
-    pub fn is_constant(&self, frame: &Frame<R>, value: Value) -> bool {
-        matches!(self.layouts[frame.function.index()].slots[value.index()], Slot::Constant { .. })
+        let slot = self.layout(frame).slots[value.index()];
+        debug_assert!(slot.kind != SlotKind::Place, "{value:?} is an address");
+        &frame.cells[slot.cells(lane)]
     }
 
     /// The cells of what a place holds in a lane.
     pub fn memory(&self, frame: &Frame<R>, place: Value, lane: usize) -> &[Cell<R>] {
-        let start = self.place(frame, place)[lane] as usize;
-        let size = layout::cells(self.module, self.module[frame.function].ty(place));
-        &self.memory[lane][start..start + size]
+        let slot = self.layout(frame).slots[place.index()];
+        let start = frame.places[slot.start as usize][lane] as usize;
+        &self.memory[lane][start..start + slot.size as usize]
     }
 
     /// The cells of a variable of the module in a lane.
@@ -78,9 +94,8 @@ impl<'a, R: Real> State<'a, R> {
     }
 
     pub fn place(&self, frame: &Frame<R>, place: Value) -> [u32; LANES] {
-        match self.layouts[frame.function.index()].slots[place.index()] {
-            Slot::Place(index) => frame.places[index as usize],
-            _ => unreachable!("{place:?} is a value"),
-        }
+        let slot = self.layout(frame).slots[place.index()];
+        debug_assert!(slot.kind == SlotKind::Place, "{place:?} is a value");
+        frame.places[slot.start as usize]
     }
 }

@@ -11,7 +11,7 @@ use crate::{
     diag::{SourceId, Span},
     engine::{PassInputs, Pixels, Sources},
     glsl::{
-        walk::{EntryInputs, Nobody, Shadowed, Stop},
+        walk::{EntryInputs, Shadowed, Stop},
         walkable::Detail,
     },
     project::{FillKind, PassFormat, PassId, Project, Stage, Tab, inspect_comments},
@@ -102,15 +102,13 @@ impl Traced {
             AtPixel::Walked(at) => at,
         };
         let mut recorder = HistoryRecorder::new(at.walkable);
-        let run = at.machine::<f32>().run(at.lane, &mut recorder);
+        // One walk gives both: the numbers of single precision know nothing of those beside them.
+        let run = at.machine::<Shadowed>().run(at.lane, &mut recorder);
         let recorded = recorder.end();
         let is_endless = matches!(run, Err(Stop::Steps(_)));
-        let value = run.ok().and_then(|drawn| at.value(&drawn));
-        let mut double = None;
-        if value.is_some() {
-            let drawn = at.machine::<Shadowed>().run(at.lane, &mut Nobody)?;
-            double = at.value(&drawn).map(|value| value.map(|number| number.double));
-        }
+        let numbers = run.ok().and_then(|drawn| at.value(&drawn));
+        let value = numbers.map(|numbers| numbers.map(|number| number.single));
+        let double = numbers.map(|numbers| numbers.map(|number| number.double));
         let (origin, entry) = (at.origin, at.inputs);
         let history = recorded.of(walked.into_walkable(origin));
         let device = drawn.texels.get((pixel.1 * drawn.width + pixel.0) as usize).copied().unwrap_or_default();

@@ -23,7 +23,7 @@ use crate::{
     diag::Diagnostic,
     engine::{PassInputs, Sources},
     glsl::{
-        walk::{Nobody, Shadowed, Stop},
+        walk::{Shadowed, Stop},
         walkable::Detail,
     },
     project::Region,
@@ -144,11 +144,13 @@ impl<'p> Tracer<'p> {
             }
         };
         let mut recorder = Recorder::new(at.walkable, self.extent.steps);
-        let drawn = at.machine::<f32>().run(at.lane, &mut recorder)?;
+        // One walk gives both: the numbers of single precision know nothing of those beside them.
+        let drawn = at.machine::<Shadowed>().run(at.lane, &mut recorder)?;
         let (steps, left_out) = recorder.end();
-        let shadowed = at.machine::<Shadowed>().run(at.lane, &mut Nobody)?;
-        let double = at.value(&shadowed).map(|value| value.map(|number| number.double));
-        Ok(Trace { steps, left_out, value: at.value(&drawn), double, statements: drawn.steps, origin: at.origin })
+        let numbers = at.value(&drawn);
+        let value = numbers.map(|numbers| numbers.map(|number| number.single));
+        let double = numbers.map(|numbers| numbers.map(|number| number.double));
+        Ok(Trace { steps, left_out, value, double, statements: drawn.steps, origin: at.origin })
     }
 }
 

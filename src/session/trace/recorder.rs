@@ -10,16 +10,15 @@ use crate::{
         ast::Loc,
         ir::{FuncId, GlobalKind, Op, Value},
         types::{Scalar, Type, TypeId},
-        walk::{Cell, Observer, View},
+        walk::{Cell, Observer, Real, View},
         walkable::Walkable,
     },
 };
-use std::collections::HashMap;
 
 pub struct Recorder<'w> {
     walkable: &'w Walkable,
-    /// The names of each function's values and variables.
-    names: HashMap<FuncId, HashMap<Value, &'w str>>,
+    /// The names of each function's values and variables, by [`Value::index`].
+    names: Vec<Vec<Option<&'w str>>>,
     steps: Vec<Step>,
     most: usize,
     left_out: u64,
@@ -30,7 +29,13 @@ pub struct Recorder<'w> {
 
 impl<'w> Recorder<'w> {
     pub fn new(walkable: &'w Walkable, most: usize) -> Self {
-        Self { walkable, names: HashMap::new(), steps: Vec::new(), most, left_out: 0, depth: 0, turns: Vec::new() }
+        let names = walkable.program.functions.iter().enumerate().map(|(index, function)| {
+            let mut names = vec![None; function.len()];
+            walkable.locals(FuncId::new(index)).for_each(|(name, value)| names[value.index()] = Some(name));
+            names
+        });
+        let names = names.collect();
+        Self { walkable, names, steps: Vec::new(), most, left_out: 0, depth: 0, turns: Vec::new() }
     }
 
     /// The steps, and how many more there were.
@@ -50,26 +55,30 @@ impl<'w> Recorder<'w> {
         (loc != Loc::default()).then(|| self.walkable.span(loc))
     }
 
-    fn name(&mut self, function: FuncId, value: Value) -> Option<&'w str> {
-        let walkable = self.walkable;
-        let names =
-            self.names.entry(function).or_insert_with(|| walkable.locals(function).map(|(n, v)| (v, n)).collect());
-        names.get(&value).copied()
+    fn name(&self, function: FuncId, value: Value) -> Option<&'w str> {
+        self.names[function.index()][value.index()]
+    }
+
+    fn set<R: Real>(&mut self, view: &View<'_, '_, R>, name: String, (ty, cells): (TypeId, &[Cell<R>]), loc: Loc) {
+        let mut value = Vec::with_capacity(cells.len());
+        numbers(view, ty, &mut cells.iter(), &mut value);
+        let span = self.span(loc);
+        self.push(Event::Set { name, value }, span);
     }
 
     /// A place as GLSL spells it, if it is or lies in one of the author's variables.
-    fn place(&mut self, view: &View<'_, '_, f32>, place: Value) -> Option<String> {
+    fn place<R: Real>(&self, view: &View<'_, '_, R>, place: Value) -> Option<String> {
         if let Some(name) = self.name(view.function_id(), place) {
             return Some(name.to_owned());
         }
-        let part = |base: Value, index: u32, recorder: &mut Self| {
-            let whole = recorder.place(view, base)?;
+        let part = |base: Value, index: u32| {
+            let whole = self.place(view, base)?;
             let ty = view.function().ty(base);
-            Some(whole + &recorder.part(view, ty, index))
+            Some(whole + &self.part(view, ty, index))
         };
         match *view.op(place) {
-            Op::Part { base, index } => part(base, index, self),
-            Op::Element { base, index } => part(base, view.value(index)[0].bits(), self),
+            Op::Part { base, index } => part(base, index),
+            Op::Element { base, index } => part(base, view.value(index)[0].bits()),
             Op::Global(global) => match view.module()[global].kind {
                 GlobalKind::Private(_) => self.walkable.global_name(global).map(str::to_owned),
                 _ => None,
@@ -78,7 +87,7 @@ impl<'w> Recorder<'w> {
         }
     }
 
-    fn part(&self, view: &View<'_, '_, f32>, ty: TypeId, index: u32) -> String {
+    fn part<R: Real>(&self, view: &View<'_, '_, R>, ty: TypeId, index: u32) -> String {
         match view.module().types.get(ty) {
             Type::Vector { .. } => format!(".{}", ["x", "y", "z", "w"][index.min(3) as usize]),
             Type::Struct(id) => format!(".{}", self.walkable.member_name(id, index)),
@@ -88,24 +97,29 @@ impl<'w> Recorder<'w> {
 }
 
 /// The scalars of a value.
-fn numbers(view: &View<'_, '_, f32>, ty: TypeId, cells: &mut dyn Iterator<Item = Cell<f32>>, out: &mut Vec<Number>) {
+fn numbers<R: Real>(
+    view: &View<'_, '_, R>,
+    ty: TypeId,
+    cells: &mut std::slice::Iter<'_, Cell<R>>,
+    out: &mut Vec<Number>,
+) {
     let module = view.module();
-    match module.types.get(ty) {
-        Type::Scalar(scalar) => {
-            let Some(cell) = cells.next() else { return };
-            out.push(match scalar {
+    match module.types.scalar(ty) {
+        Some(scalar) => {
+            let count = module.types.components(ty).unwrap_or(1) as usize;
+            out.extend(cells.take(count).map(|cell| match scalar {
                 Scalar::Bool => Number::Bool(cell.is_true()),
                 Scalar::Int => Number::Int(cell.bits() as i32),
                 Scalar::Uint => Number::Uint(cell.bits()),
-                Scalar::Float => Number::Float(cell.float()),
-            });
+                Scalar::Float => Number::Float(cell.float().to_f32()),
+            }));
         }
-        _ => (0..module.extent(ty)).for_each(|i| numbers(view, module.part(ty, i), cells, out)),
+        None => (0..module.extent(ty)).for_each(|i| numbers(view, module.part(ty, i), cells, out)),
     }
 }
 
-impl Observer<f32> for Recorder<'_> {
-    fn enter(&mut self, view: &View<'_, '_, f32>) {
+impl<R: Real> Observer<R> for Recorder<'_> {
+    fn enter(&mut self, view: &View<'_, '_, R>) {
         self.turns.push(0);
         let Some(name) = self.walkable.function_name(view.function_id()) else { return };
         self.push(Event::Enter(name.to_owned()), None);
@@ -116,15 +130,12 @@ impl Observer<f32> for Recorder<'_> {
             if let (Op::Param(_), false, Some(name)) =
                 (op, function.is_place(value), self.name(view.function_id(), value))
             {
-                let mut all = Vec::new();
-                numbers(view, function.ty(value), &mut view.value(value).iter().copied(), &mut all);
-                let span = self.span(function.loc(value));
-                self.push(Event::Set { name: name.to_owned(), value: all }, span);
+                self.set(view, name.to_owned(), (function.ty(value), view.value(value)), function.loc(value));
             }
         }
     }
 
-    fn leave(&mut self, view: &View<'_, '_, f32>) {
+    fn leave(&mut self, view: &View<'_, '_, R>) {
         self.turns.pop();
         if self.walkable.function_name(view.function_id()).is_some() {
             self.depth -= 1;
@@ -132,33 +143,26 @@ impl Observer<f32> for Recorder<'_> {
         }
     }
 
-    fn turn(&mut self, _: &View<'_, '_, f32>) {
+    fn turn(&mut self, _: &View<'_, '_, R>) {
         let Some(turns) = self.turns.last_mut() else { return };
         *turns += 1;
         let turn = *turns;
         self.push(Event::Turn(turn), None);
     }
 
-    fn value(&mut self, view: &View<'_, '_, f32>, value: Value) {
-        let function = view.function();
-        if function.is_place(value) {
-            return;
-        }
+    fn value(&mut self, view: &View<'_, '_, R>, value: Value) {
         let Some(name) = self.name(view.function_id(), value) else { return };
-        let mut all = Vec::new();
-        numbers(view, function.ty(value), &mut view.value(value).iter().copied(), &mut all);
-        let span = self.span(function.loc(value));
-        self.push(Event::Set { name: name.to_owned(), value: all }, span);
+        let function = view.function();
+        if !function.is_place(value) {
+            self.set(view, name.to_owned(), (function.ty(value), view.value(value)), function.loc(value));
+        }
     }
 
-    fn store(&mut self, view: &View<'_, '_, f32>, place: Value, value: Value) {
+    fn store(&mut self, view: &View<'_, '_, R>, place: Value, value: Value) {
         let Some(name) = self.place(view, place) else { return };
         let function = view.function();
-        let mut all = Vec::new();
-        numbers(view, function.ty(place), &mut view.memory(place).iter().copied(), &mut all);
         // A literal is made once, where it is met first: the place of what it is written to is nearer.
         let loc = if view.op(value).is_free() { function.loc(place) } else { function.loc(value) };
-        let span = self.span(loc);
-        self.push(Event::Set { name, value: all }, span);
+        self.set(view, name, (function.ty(place), view.memory(place)), loc);
     }
 }

@@ -4,7 +4,7 @@ use super::record::{Call, History, Moment, MomentKind, NONE, Variable, Write};
 use crate::glsl::{
     ir::{Block, FuncId, GlobalId, GlobalKind, Op, Stmt, Value},
     types::TypeId,
-    walk::{Cell, Observer, View},
+    walk::{Cell, Observer, Real, View},
     walkable::{Coming, Walkable},
 };
 use std::collections::HashMap;
@@ -200,7 +200,7 @@ impl<'w> HistoryRecorder<'w> {
         self.moments.push(Moment { kind, statement, call, writes: self.writes.len() as u32 });
     }
 
-    fn write(&mut self, slot: usize, offset: usize, cells: &[Cell<f32>]) {
+    fn write<R: Real>(&mut self, slot: usize, offset: usize, cells: &[Cell<R>]) {
         if self.is_cut {
             return;
         }
@@ -237,7 +237,7 @@ impl<'w> HistoryRecorder<'w> {
     }
 
     /// Notes what a place of the function at hand holds, by the variable that it lies in.
-    fn note(&mut self, view: &View<'_, '_, f32>, place: Value) {
+    fn note<R: Real>(&mut self, view: &View<'_, '_, R>, place: Value) {
         let (root, offset) = view.root(place);
         let Some(role) = self.role(view.function_id(), root) else { return };
         let (variable, global) = (role.variables.first().copied(), role.global);
@@ -282,8 +282,8 @@ impl Recorded {
     }
 }
 
-impl Observer<f32> for HistoryRecorder<'_> {
-    fn enter(&mut self, view: &View<'_, '_, f32>) {
+impl<R: Real> Observer<R> for HistoryRecorder<'_> {
+    fn enter(&mut self, view: &View<'_, '_, R>) {
         if !std::mem::replace(&mut self.has_begun, true) {
             for slot in 0..self.ids.len() {
                 self.write(slot, 0, view.global(self.ids[slot]));
@@ -320,7 +320,7 @@ impl Observer<f32> for HistoryRecorder<'_> {
         }
     }
 
-    fn leave(&mut self, view: &View<'_, '_, f32>) {
+    fn leave(&mut self, view: &View<'_, '_, R>) {
         if let (Some(call), Some(last)) = (self.call(), self.active.last().and_then(|active| active.last)) {
             let function = &self.functions[view.function_id().index()];
             let slot = self.calls[call as usize].slots + function.slots - 1;
@@ -332,7 +332,7 @@ impl Observer<f32> for HistoryRecorder<'_> {
         self.active.pop();
     }
 
-    fn value(&mut self, view: &View<'_, '_, f32>, value: Value) {
+    fn value(&mut self, view: &View<'_, '_, R>, value: Value) {
         let id = view.function_id();
         if let Some(role) = self.role(id, value) {
             if let Some(coming) = role.coming {
@@ -355,7 +355,7 @@ impl Observer<f32> for HistoryRecorder<'_> {
         }
     }
 
-    fn store(&mut self, view: &View<'_, '_, f32>, place: Value, _: Value) {
+    fn store(&mut self, view: &View<'_, '_, R>, place: Value, _: Value) {
         self.note(view, place);
     }
 }
