@@ -1,8 +1,8 @@
 //! How long the walker takes for a pixel. `cargo bench --bench walk PROJECT...`, else of `marcher.glsl`, a ray marcher
 //! of some 500 lines.
 //!
-//! For each project's Image at 640x360, in its second frame: the walk alone in single precision, with every value
-//! written down (`eddy trace`), and the way that the window's panel steps through, compiled, walked in both precisions
+//! For each project's Image at 640x360, in its second frame: the walk alone, in both precisions, with every value written
+//! down (`eddy trace`), and the way that the window's panel steps through, compiled, walked in both precisions
 //! and recorded; medians over a few pixels.
 
 use eddy::{

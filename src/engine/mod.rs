@@ -48,7 +48,7 @@ pub use costs::{CostClock, PassCost, PassRead, PassRole};
 pub use error::{BuildError, EngineError};
 pub use inputs::FrameInputs;
 pub(crate) use inspect::DrawInputs;
-pub use inspect::{Level, MeshInputs, PassInputs, TextureCopy};
+pub use inspect::{Level, LevelBy, MeshInputs, PassInputs, TextureCopy};
 pub use preamble::KeptPreamble;
 pub use program::Program;
 pub use results::{FrameStats, Miniature, PassTime, Picture, Pixels, TexelAt};

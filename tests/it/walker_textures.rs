@@ -6,6 +6,7 @@ use crate::support::{
     *,
 };
 use eddy::{
+    engine::LevelBy,
     gpu::Gpu,
     project::{Filter, PassFormat, PassSize, Project, Wrap},
 };
@@ -64,6 +65,20 @@ const CHOSEN: &[&str] = &[
     "textureGrad(iChannel0, uv, vec2(0.0), vec2(0.0))",
 ];
 
+/// Levels whose fraction follows from derivatives.
+const BETWEEN: &[&str] = &[
+    "texture(iChannel0, p / 21.0 + 0.0171)",
+    "texture(iChannel0, vec2(p.x / 50.0 + 0.0077, p.y / 5.0 + 0.0191))",
+    "texture(iChannel0, p / 13.0 + 0.0137, 0.5)",
+    "textureGrad(iChannel0, uv, vec2(0.3, 0.0), vec2(0.0, 0.45))",
+];
+
+/// Levels that another pixel of the quad would have otherwise: an edge goes through some quads.
+const OF_QUADS: &[&str] = &[
+    "texture(iChannel0, fract((p + p.yx * 0.3) / 9.0 + 0.03))",
+    "texture(iChannel0, fract((p - p.yx * 0.7) / 17.0 + 0.11), -1.0)",
+];
+
 /// Differences of numbers that both have without rounding.
 const DERIVATIVES: &[&str] = &[
     "vec4(dFdx(p.x * p.x * p.y), dFdy(p.x * p.x * p.y), fwidth(p.x * p.y), fwidth(p.x))",
@@ -89,9 +104,15 @@ fn reading((filter, wrap): (Filter, Wrap), expression: &str) -> Project {
 /// The largest difference of a component over 16 x 16 pixels, between what is drawn of one project and what is walked
 /// of another.
 fn apart(gpu: &Gpu, drawn: &Project, walked: &Project) -> f64 {
+    apart_by(gpu, drawn, walked, LevelBy::Pixel)
+}
+
+/// The same, with levels as some device takes them.
+fn apart_by(gpu: &Gpu, drawn: &Project, walked: &Project, level_by: LevelBy) -> f64 {
     let (mut engine, own) = (engine(gpu, drawn, (16, 16)), buffer("B"));
     run(&mut engine, 0, 1);
-    let (read, texels) = (engine.inspect(&own).unwrap(), engine.read(&own).unwrap());
+    let (mut read, texels) = (engine.inspect(&own).unwrap(), engine.read(&own).unwrap());
+    read.channels.iter_mut().for_each(|texture| texture.level_by = level_by);
     let pixels = all_pixels(read.size);
     let mut most = 0.0f64;
     for (&(x, y), value) in pixels.iter().zip(walk(walked, &own, &read, &pixels)) {
@@ -150,6 +171,22 @@ fn levels_are_within_the_precision_of_weights() {
     let Some(gpu) = gpu() else { return };
     check(&gpu, &ALL[2..], LEVELS, bound(&gpu, 3.0));
     check(&gpu, &ALL[2..], CHOSEN, bound(&gpu, 3.0));
+}
+
+/// llvmpipe's levels are those of whole quads, and its logarithm is made of lines.
+#[test]
+fn levels_between_two_are_as_the_device_takes_them() {
+    let Some(gpu) = gpu() else { return };
+    let is_cpu = gpu.info.device_type == wgpu::DeviceType::Cpu;
+    let mut apart_otherwise = 0.0f64;
+    for expression in BETWEEN.iter().chain(OF_QUADS.iter().filter(|_| is_cpu)) {
+        let project = reading((Filter::Mipmap, Wrap::Repeat), expression);
+        let [pixel, quad] = [LevelBy::Pixel, LevelBy::Quad].map(|by| apart_by(&gpu, &project, &project, by));
+        let (own, most) = if is_cpu { (quad, 4e-6) } else { (pixel, 3.0 / 256.0) };
+        assert!(own <= most, "{own}: {expression}");
+        apart_otherwise = apart_otherwise.max(pixel);
+    }
+    assert!(!is_cpu || apart_otherwise > 1e-3, "{apart_otherwise}: the two are not told apart");
 }
 
 /// Of textures of 8 bits llvmpipe, which lavapipe draws by, gives filtered values of 8 bits: weights and the results of

@@ -1,6 +1,6 @@
 //! Reads back what a draw is about to read.
 
-use super::{MeshInputs, PassInputs, TextureCopy, texture::Level};
+use super::{LevelBy, MeshInputs, PassInputs, TextureCopy, texture::Level};
 use crate::{
     engine::{EngineError, placed::PlacedMesh, program::CompiledDraw, running::Running, shared::Shared},
     gpu::{FloatConverter, Gpu, Readback, Texture},
@@ -77,7 +77,7 @@ impl<'a> Capture<'a> {
         let Some(texture) = texture else { return Ok(TextureCopy::black()) };
         let (filter, wrap) = read.map_or((Filter::Nearest, Wrap::Clamp), |r| (r.sampler.filter, r.sampler.wrap));
         let levels = (0..texture.levels()).map(|level| self.level(&shared.gpu, texture, level));
-        Ok(TextureCopy { levels: levels.collect::<Result<_, _>>()?, filter, wrap })
+        Ok(TextureCopy { levels: levels.collect::<Result<_, _>>()?, filter, wrap, level_by: LevelBy::Pixel })
     }
 
     /// Returns what a target held when draw `reader` read it, which is done before the target is drawn.

@@ -8,6 +8,6 @@ mod texture;
 mod world;
 
 pub(super) use capture::Capture;
-pub use texture::{Level, TextureCopy};
+pub use texture::{Level, LevelBy, TextureCopy};
 pub(crate) use world::DrawInputs;
 pub use world::{MeshInputs, PassInputs};

@@ -14,6 +14,18 @@ pub struct Level {
     pub texels: Vec<[f32; 4]>,
 }
 
+/// Says what the level of a read follows from, where the read says none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LevelBy {
+    /// The specification has each pixel's own differences, and the logarithm to base 2.
+    #[default]
+    Pixel,
+    /// llvmpipe has those of a quad's first row and column (`lp_bld_sample.c`, `lp_build_rho`), and half the logarithm
+    /// of the squared length, which between two powers of two is taken for a line: up to 0.043 less
+    /// (`lp_build_lod_selector`).
+    Quad,
+}
+
 /// A two-dimensional texture, and how a channel reads it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TextureCopy {
@@ -21,13 +33,28 @@ pub struct TextureCopy {
     pub levels: Vec<Level>,
     pub filter: Filter,
     pub wrap: Wrap,
+    pub level_by: LevelBy,
+}
+
+impl LevelBy {
+    /// The level at which texels are as far apart as pixels, which are so many texels of the finest level apart.
+    fn level(self, texels: f64) -> f64 {
+        let square = texels * texels;
+        match self {
+            LevelBy::Pixel => texels.log2(),
+            LevelBy::Quad => {
+                let whole = square.log2().floor();
+                0.5 * (whole + square / whole.exp2() - 1.0)
+            }
+        }
+    }
 }
 
 impl TextureCopy {
     /// Returns what a channel with nothing in it reads: one black texel without alpha.
     pub fn black() -> Self {
         let level = Level { width: 1, height: 1, texels: vec![[0.0; 4]] };
-        Self { levels: vec![level], filter: Filter::Nearest, wrap: Wrap::Clamp }
+        Self { levels: vec![level], filter: Filter::Nearest, wrap: Wrap::Clamp, level_by: LevelBy::Pixel }
     }
 
     /// A texel; zeros outside of the texture.
@@ -59,7 +86,7 @@ impl TextureCopy {
             Lod::Exact(level) => level,
             Lod::Derivatives { x, y, bias } => {
                 let length = |d: [f64; 3]| (d[0] * width).hypot(d[1] * height);
-                length(x).max(length(y)).log2() + bias
+                self.level_by.level(length(x).max(length(y))) + bias
             }
         };
         let last = (self.levels.len() - 1) as f64;
@@ -110,7 +137,8 @@ mod tests {
     fn texture(filter: Filter, wrap: Wrap) -> TextureCopy {
         let texels = (0..4).map(|i| [i as f32, 0.0, 0.0, 1.0]).collect();
         let coarse = Level { width: 1, height: 1, texels: vec![[10.0, 0.0, 0.0, 1.0]] };
-        TextureCopy { levels: vec![Level { width: 2, height: 2, texels }, coarse], filter, wrap }
+        let levels = vec![Level { width: 2, height: 2, texels }, coarse];
+        TextureCopy { levels, filter, wrap, level_by: LevelBy::Pixel }
     }
 
     fn red(texture: &TextureCopy, at: [f64; 2], lod: f64) -> f64 {
@@ -142,6 +170,19 @@ mod tests {
             [0.0, 10.0, 5.0, 0.0, 10.0]
         );
         assert_eq!([red(&mipmap, [0.25, 0.25], 0.25), red(&mipmap, [0.25, 0.25], -1.0)], [2.5, 0.0]);
+    }
+
+    #[test]
+    fn a_level_by_lines_is_exact_at_powers_of_two_of_the_square() {
+        let levels = |by: LevelBy| [1.0, 2.0, 8.0, 0.5, 2.0f64.sqrt()].map(|texels| by.level(texels));
+        assert!(levels(LevelBy::Quad).iter().zip(levels(LevelBy::Pixel)).all(|(a, b)| (a - b).abs() < 1e-12));
+        let apart = |texels: f64| LevelBy::Pixel.level(texels) - LevelBy::Quad.level(texels);
+        let most = (0..1000).map(|i| apart(2.0 + f64::from(i) / 100.0)).fold(0.0, f64::max);
+        assert!((most - 0.043).abs() < 1e-4, "{most}");
+        // Of a coordinate that does not change, the finest.
+        let mipmap = TextureCopy { level_by: LevelBy::Quad, ..texture(Filter::Mipmap, Wrap::Clamp) };
+        let still = Lod::Derivatives { x: [0.0; 3], y: [0.0; 3], bias: 0.0 };
+        assert_eq!(mipmap.sample([0.25, 0.25], still, [0, 0])[0], 0.0);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Holds everything that one draw of a pass reads.
 
-use super::texture::TextureCopy;
+use super::texture::{LevelBy, TextureCopy};
 use crate::{
     glsl::{
         interface::{GeometryBlock, UniformBlock},
@@ -83,6 +83,10 @@ impl World for DrawInputs<'_> {
 
     fn fetch(&self, channel: u8, at: [i32; 3], level: i32) -> [f32; 4] {
         self.pass.channels[usize::from(channel)].fetch([at[0], at[1]], level)
+    }
+
+    fn has_one_level_a_quad(&self, channel: u8) -> bool {
+        self.pass.channels[usize::from(channel)].level_by == LevelBy::Quad
     }
 
     fn sample(&self, channel: u8, at: [f64; 3], lod: Lod, offset: [i32; 3]) -> [f64; 4] {

@@ -291,7 +291,8 @@ impl<R: Real> State<'_, R> {
             };
             let difference = |axis| {
                 let mut at = [0.0; 3];
-                let changes = self.difference(frame, axis, coordinate, lane);
+                let of = if self.world.has_one_level_a_quad(channel) { 0 } else { lane };
+                let changes = self.difference(frame, axis, coordinate, of);
                 at.iter_mut().zip(changes).for_each(|(at, change)| *at = number(change));
                 at
             };

@@ -34,6 +34,11 @@ pub trait World {
     fn levels(&self, channel: u8) -> u32;
     /// A texel of a level; zeros outside of the texture.
     fn fetch(&self, channel: u8, at: [i32; 3], level: i32) -> [f32; 4];
+    /// The level of a read that says none follows, for all four pixels of a quad, from the differences along its first
+    /// row and its first column. GLSL ES 3.00 leaves that open (section 8.8); each pixel has its own otherwise.
+    fn has_one_level_a_quad(&self, _channel: u8) -> bool {
+        false
+    }
     /// A filtered read. `offset` is in texels.
     fn sample(&self, channel: u8, at: [f64; 3], lod: Lod, offset: [i32; 3]) -> [f64; 4];
 }

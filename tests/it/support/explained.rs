@@ -2,7 +2,7 @@
 
 use super::walked::{all_pixels, is_same};
 use eddy::{
-    engine::{PassInputs, Sources, TextureCopy},
+    engine::{LevelBy, PassInputs, Sources, TextureCopy},
     project::Filter,
     session::{
         audit::{Class, audit, jittered},
@@ -14,6 +14,9 @@ use eddy::{
 pub const STATEMENTS: u64 = 3_000_000;
 /// A step of 8 bits: what a screen shows.
 pub const VISIBLE: f64 = 1.0 / 255.0;
+
+/// Ways to move texels by steps of 8 bits.
+const PATTERNS: u64 = 8;
 
 /// A pass of a frame that has been drawn, whose pixels are asked for reasons.
 pub struct Explained<'p> {
@@ -61,16 +64,26 @@ impl Explained<'_> {
         if self.moves_by(&read, pixel)? >= apart {
             return Some("filtered: it is of texels that differ as much");
         }
-        // llvmpipe filters textures of 8 bits in numbers of 8 bits, so that each of three steps rounds.
-        let mut by = [1.0f32, -1.0, -1.0, 1.0, 1.0, 1.0, -1.0].into_iter().cycle();
-        let mut moved = self.read.clone();
-        for texture in moved.channels.iter_mut().filter(|texture| has_8_bits(texture)) {
-            for x in texture.levels.iter_mut().flat_map(|level| &mut level.texels).flatten() {
-                *x += by.next().unwrap_or_default() / 255.0;
-            }
+        let mut by_quads = self.read.clone();
+        by_quads.channels.iter_mut().for_each(|texture| texture.level_by = LevelBy::Quad);
+        if self.moves_by(&by_quads, pixel)? >= apart / 2.0 {
+            return Some("filtered: the level of a quad, taken by lines, moves it as far");
         }
-        if self.moves_by(&moved, pixel)? >= apart / 2.0 {
-            return Some("filtered in 8 bits: a step of them moves it as far");
+        // llvmpipe filters textures of 8 bits in numbers of 8 bits, so that each of three steps rounds: what is read may
+        // be off by as many steps, each time otherwise (`walker_textures::texels_of_8_bits_are_mixed_in_8_bits`).
+        for pattern in 0..PATTERNS {
+            let mut moved = by_quads.clone();
+            let mut random = pattern;
+            for texture in moved.channels.iter_mut().filter(|texture| has_8_bits(texture)) {
+                for x in texture.levels.iter_mut().flat_map(|level| &mut level.texels).flatten() {
+                    // The generator of Knuth's MMIX.
+                    random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                    *x += ((random >> 33) % 7) as f32 / 255.0 - 3.0 / 255.0;
+                }
+            }
+            if self.moves_by(&moved, pixel)? >= apart / 2.0 {
+                return Some("filtered in 8 bits: three steps of them move it as far");
+            }
         }
         // Which level is read follows from derivatives, which are undefined where neighbours go other ways (8.8).
         let mut coarser = self.read.clone();
