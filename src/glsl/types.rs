@@ -1,7 +1,7 @@
 //! Types of the language, interned: the vocabulary that the checked program and the intermediate representation share.
 
 use super::ast::{self, BasicType};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 ast::ids! {
     /// A struct type: an index into its module's structs.
@@ -119,7 +119,7 @@ pub enum Type {
 #[derive(Clone, Debug)]
 pub struct TypeTable {
     types: Vec<Type>,
-    arrays: HashMap<(TypeId, u32), TypeId>,
+    arrays: FxHashMap<(TypeId, u32), TypeId>,
 }
 
 impl Default for TypeTable {
@@ -127,7 +127,7 @@ impl Default for TypeTable {
         let mut types = Vec::with_capacity(64);
         types.push(Type::Error);
         types.extend(BasicType::ALL.iter().map(|&basic| basic_type(basic)));
-        Self { types, arrays: HashMap::new() }
+        Self { types, arrays: FxHashMap::default() }
     }
 }
 

@@ -15,7 +15,7 @@ use crate::{
         hir::{self, ConstId, FuncId, Module, StructId, TypeId},
     },
 };
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// The precisions in force, by [`BasicType`].
 pub(super) type Precisions = [Option<Precision>; BasicType::ALL.len()];
@@ -30,9 +30,9 @@ pub(crate) struct Begun {
     pub(super) scopes: Scopes,
     pub(super) lowered: Vec<Option<hir::ExprId>>,
     pub(super) facts: Vec<TypeFacts>,
-    pub(super) members: HashMap<(StructId, Symbol), (usize, usize)>,
+    pub(super) members: FxHashMap<(StructId, Symbol), (usize, usize)>,
     pub(super) funcs: Vec<FuncFacts>,
-    pub(super) overloads: HashMap<(FuncId, Vec<TypeId>), FuncId>,
+    pub(super) overloads: FxHashMap<(FuncId, Vec<TypeId>), FuncId>,
     pub(super) folded_words: usize,
     pub(super) precisions: Precisions,
     pub(super) global_calls: Vec<FuncId>,
@@ -63,9 +63,9 @@ impl Begun {
             scopes: Scopes::default(),
             lowered: Vec::new(),
             facts,
-            members: HashMap::default(),
+            members: FxHashMap::default(),
             funcs: Vec::new(),
-            overloads: HashMap::default(),
+            overloads: FxHashMap::default(),
             folded_words: 0,
             precisions,
             global_calls: Vec::new(),

@@ -16,14 +16,14 @@ use crate::{
         source::{ChannelKind, CustomUniform, UniformValue},
     },
 };
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// A switch whose body is being checked.
 pub(super) struct Switch {
     /// The type of its value; the error type silences its labels.
     pub ty: TypeId,
     /// Labels so far, and where they stand.
-    pub values: HashMap<u32, Loc>,
+    pub values: FxHashMap<u32, Loc>,
     pub default: Option<Loc>,
 }
 
@@ -59,10 +59,10 @@ pub(super) struct Checker<'a> {
     pub full_expr: usize,
     pub facts: Vec<TypeFacts>,
     /// Position of each member of structs with many, and how many words precede it.
-    pub members: HashMap<(hir::StructId, Symbol), (usize, usize)>,
+    pub members: FxHashMap<(hir::StructId, Symbol), (usize, usize)>,
     pub funcs: Vec<FuncFacts>,
     /// The overload that takes these types, by the first one of its name; of names with several alone.
-    pub overloads: HashMap<(FuncId, Vec<TypeId>), FuncId>,
+    pub overloads: FxHashMap<(FuncId, Vec<TypeId>), FuncId>,
     /// Scalars that folded constants hold, and that were compared.
     pub folded_words: usize,
     /// `precision` statements in force, by [`ast::BasicType`]; changed seldom, so scopes save the whole.

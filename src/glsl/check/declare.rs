@@ -1,7 +1,7 @@
 //! Declarations of variables (section 4.3) at file scope and in functions, uniform blocks, and what else a declaration
 //! can be.
 
-use std::collections::HashSet;
+use rustc_hash::FxHashSet;
 
 use super::{
     checker::Checker,
@@ -371,7 +371,7 @@ impl Checker<'_> {
         self.check_layout(&quals, LayoutOf::Block);
         self.declare(name, Binding::Block(name));
         let mut members: Vec<StructMember> = Vec::new();
-        let mut seen = HashSet::new();
+        let mut seen = FxHashSet::default();
         for field in &ast[fields] {
             let base = self.base_type(field.ty);
             let spec = ast[field.ty];

@@ -1,6 +1,6 @@
 //! Statements (section 6): scopes, placement, and the rules of switch.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::checker::{Checker, Switch};
 use crate::glsl::{
@@ -289,7 +289,7 @@ impl Checker<'_> {
             ty = TypeId::ERROR;
         }
         self.scopes.push();
-        self.switches.push(Switch { ty, values: HashMap::new(), default: None });
+        self.switches.push(Switch { ty, values: FxHashMap::default(), default: None });
         let mut cases: Vec<Case> = Vec::new();
         // The labels that stand together, and where the statements after them begin on the stack.
         let mut labels: Option<Case> = None;

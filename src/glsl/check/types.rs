@@ -1,6 +1,6 @@
 //! Types as written to [`TypeId`]s: names, dimensions, struct definitions; and types as messages spell them.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::{
     checker::Checker,
@@ -163,7 +163,7 @@ impl<'a> Checker<'a> {
         let ast = self.ast;
         let def = ast[def];
         let mut members: Vec<StructMember> = Vec::new();
-        let mut seen: HashMap<ast::Symbol, usize> = HashMap::new();
+        let mut seen: FxHashMap<ast::Symbol, usize> = FxHashMap::default();
         let mut facts = NOTHING;
         for field in &ast[def.fields] {
             let spec = ast[field.ty];

@@ -1,6 +1,6 @@
 //! State of emitting one module.
 
-use std::collections::HashSet;
+use rustc_hash::FxHashSet;
 
 use naga::{Expression, FastHashMap, GlobalVariable, Handle, StructMember};
 
@@ -24,10 +24,10 @@ pub(super) struct Emitter<'a> {
     /// By [`ir::FuncId`].
     pub functions: Vec<Handle<naga::Function>>,
     /// Private memory that is stored as a whole before anything reads it.
-    pub overwritten: HashSet<Handle<GlobalVariable>>,
+    pub overwritten: FxHashSet<Handle<GlobalVariable>>,
     /// Variables of each function that are written before they are read, in the order of emission: the entry point
     /// last.
-    pub written_first: Vec<HashSet<Handle<naga::LocalVariable>>>,
+    pub written_first: Vec<FxHashSet<Handle<naga::LocalVariable>>>,
 }
 
 /// Constants made so far.

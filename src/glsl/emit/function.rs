@@ -1,6 +1,6 @@
 //! One function: its variables, its statements, and the values they compute.
 
-use std::collections::HashSet;
+use rustc_hash::FxHashSet;
 
 use naga::{
     Block, Expression, FunctionArgument, FunctionResult, Handle, LocalVariable, Range, ScalarKind, Span, Statement,
@@ -32,7 +32,7 @@ pub(super) struct Builder<'m, 'a> {
     /// By [`ir::VarId`].
     vars: Vec<Handle<LocalVariable>>,
     /// Variables that are written before they are read, and so need no zeros.
-    written_first: HashSet<Handle<LocalVariable>>,
+    written_first: FxHashSet<Handle<LocalVariable>>,
 }
 
 /// Emits a function that is called.
@@ -75,7 +75,7 @@ impl<'m, 'a> Builder<'m, 'a> {
             literals: Map::default(),
             long_result: None,
             vars,
-            written_first: HashSet::new(),
+            written_first: FxHashSet::default(),
         };
         for (index, var) in function.vars.iter().enumerate() {
             if var.init.is_none() {

@@ -21,7 +21,7 @@ mod tables;
 mod types;
 pub(crate) mod work_arounds;
 
-use std::collections::HashSet;
+use rustc_hash::FxHashSet;
 
 use self::context::{Constants, Emitter, Resources, Tables};
 pub(crate) use self::tables::TableBytes;
@@ -59,7 +59,7 @@ pub(in crate::glsl) fn emit(program: &ir::Module, source: &PassSource<'_>, refle
         tables: Tables::default(),
         resources: Resources::default(),
         functions: Vec::with_capacity(program.functions.len()),
-        overwritten: HashSet::new(),
+        overwritten: FxHashSet::default(),
         written_first: Vec::new(),
     };
     let (entry, functions) = program.functions.split_last().expect("a program has an entry point");

@@ -1,7 +1,7 @@
 //! Calling conventions: parameters that a copy of a function is specialized for, and those that it reads where they
 //! are.
 
-use std::collections::HashSet;
+use rustc_hash::FxHashSet;
 
 use crate::glsl::{
     ast::List,
@@ -47,7 +47,7 @@ pub(super) struct Arguments {
     /// are.
     pub handed_on: Vec<bool>,
     /// Globals that a function or what it calls writes, by [`FuncId::index`]; `None`: too many to tell, so any of them.
-    written: Vec<Option<HashSet<GlobalId>>>,
+    written: Vec<Option<FxHashSet<GlobalId>>>,
     /// Parameters of each function that a copy of it can have something in place of, in order.
     specializable: Vec<Vec<LocalId>>,
     /// The number of expressions that name each constant, by [`ConstId::index`].
@@ -58,14 +58,14 @@ pub(super) struct Arguments {
 
 impl Arguments {
     /// `writes` has the globals that each function itself writes, by [`FuncId::index`].
-    pub fn new(module: &Module, writes: Vec<HashSet<GlobalId>>, table: usize) -> Self {
+    pub fn new(module: &Module, writes: Vec<FxHashSet<GlobalId>>, table: usize) -> Self {
         let mut written: Vec<_> = writes.into_iter().map(Some).collect();
         let mut work = 0;
         for &func in &module.call_order {
             let mut all = written[func.index()].take();
             for callee in &module[func].calls {
                 let of_callee = written[callee.index()].as_ref();
-                work += of_callee.map_or(0, HashSet::len);
+                work += of_callee.map_or(0, FxHashSet::len);
                 match (&mut all, of_callee.filter(|_| work <= MOST_WRITES)) {
                     (Some(all), Some(of_callee)) => all.extend(of_callee),
                     _ => all = None,

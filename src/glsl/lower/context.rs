@@ -1,6 +1,6 @@
 //! State of lowering one module.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::{
     arguments::{Arguments, Instance},
@@ -25,7 +25,7 @@ pub(super) struct Lowering<'a> {
     pub layouts: Layouts,
     pub resources: Resources,
     pub arguments: Arguments,
-    pub functions: HashMap<Instance, ir::FuncId>,
+    pub functions: FxHashMap<Instance, ir::FuncId>,
     pub reflection: Reflection,
     pub names: Names,
     /// The value that is probed.
@@ -43,14 +43,14 @@ impl Lowering<'_> {
 
 /// Variables declared so far.
 pub(super) struct Resources {
-    pub read_only: HashMap<GlobalKind, ir::GlobalId>,
+    pub read_only: FxHashMap<GlobalKind, ir::GlobalId>,
     /// By [`hir::GlobalId::index`].
     pub globals: Vec<Option<ir::GlobalId>>,
     /// `gl_FragCoord`, where something other than the entry point reads it.
     pub frag_coord: Option<ir::GlobalId>,
     pub frag_depth: Option<ir::GlobalId>,
     /// Built-in variables of stages, besides those two.
-    pub stage: HashMap<BuiltinVar, ir::GlobalId>,
+    pub stage: FxHashMap<BuiltinVar, ir::GlobalId>,
     /// Bit i: an `st_assert(.., i)` failed.
     pub failed_asserts: Option<ir::GlobalId>,
 }
@@ -58,11 +58,11 @@ pub(super) struct Resources {
 impl Resources {
     pub fn new(globals: usize) -> Self {
         Self {
-            read_only: HashMap::new(),
+            read_only: FxHashMap::default(),
             globals: vec![None; globals],
             frag_coord: None,
             frag_depth: None,
-            stage: HashMap::new(),
+            stage: FxHashMap::default(),
             failed_asserts: None,
         }
     }
@@ -72,9 +72,6 @@ impl Resources {
 pub(super) fn const_id(id: hir::ConstId) -> ir::ConstId {
     ir::ConstId::new(id.index())
 }
-
-/// By 32-bit keys, with a quick hash.
-pub(super) type Map<K, V> = rustc_hash::FxHashMap<K, V>;
 
 /// The expression that is probed, and where its value is kept.
 #[derive(Clone, Copy)]

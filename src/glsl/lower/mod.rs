@@ -42,7 +42,7 @@ mod texture;
 mod walk;
 mod writes;
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 pub(in crate::glsl) use self::{
     constant_arrays::arrays_to_constants,
@@ -113,7 +113,7 @@ fn lower_with(
         layouts: Layouts::default(),
         resources: Resources::new(module.globals.len()),
         arguments,
-        functions: HashMap::with_capacity(reachable.instances.len()),
+        functions: FxHashMap::with_capacity_and_hasher(reachable.instances.len(), Default::default()),
         reflection: Reflection::default(),
         names: Names::default(),
         marks,

@@ -4,7 +4,7 @@
 //! A branch whose condition is a literal counts as not there; [`super::flow`] and [`super::expr`] leave out the same
 //! ones. Reads of uniforms and textures are noted while lowering, which visits exactly what is found here.
 
-use std::collections::HashSet;
+use rustc_hash::FxHashSet;
 
 use super::{
     arguments::{Arguments, Instance, Passed, Specialization},
@@ -33,7 +33,7 @@ struct Facts {
     calls: Vec<(FuncId, List<ExprId>)>,
     globals: Vec<GlobalId>,
     /// Globals that are written, in whole or in part.
-    writes: HashSet<GlobalId>,
+    writes: FxHashSet<GlobalId>,
     /// Expressions and statements.
     nodes: usize,
 }
@@ -62,7 +62,7 @@ impl Reachable {
 
         let mut globals = vec![false; module.globals.len()];
         let mut calls: Vec<Option<Calls>> = module.functions.iter().map(|_| None).collect();
-        let mut found: HashSet<Instance> = HashSet::new();
+        let mut found: FxHashSet<Instance> = FxHashSet::default();
         let mut pending = vec![Instance { func: entry, specializations: Box::default() }];
         found.insert(pending[0].clone());
         while let Some(instance) = pending.pop() {

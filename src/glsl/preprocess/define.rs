@@ -12,7 +12,7 @@ use crate::{
         lex::{Kind, SPACE, Token},
     },
 };
-use std::collections::{HashMap, HashSet};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 impl Preprocessor<'_, '_> {
     /// Enters a macro under its name.
@@ -146,7 +146,7 @@ impl Preprocessor<'_, '_> {
     /// Reads `(a, b)` behind a macro's name; gives the position behind it.
     fn parameters(&mut self, name: &Token, line: &[Token]) -> Option<usize> {
         let first = self.table.params.len();
-        let mut seen = HashSet::new();
+        let mut seen = FxHashSet::default();
         let mut at = 2;
         if line.get(at).is_some_and(|t| t.kind == Kind::RParen) {
             return Some(at + 1);
@@ -244,7 +244,7 @@ impl Preprocessor<'_, '_> {
 enum Numbers {
     /// Few enough to be looked through.
     Few,
-    Many(HashMap<u32, u32>),
+    Many(FxHashMap<u32, u32>),
 }
 
 impl Numbers {

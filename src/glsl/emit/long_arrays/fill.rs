@@ -1,6 +1,6 @@
 //! A walk over one function that gives its long arrays their forms; zeros, written by loops.
 
-use std::collections::HashSet;
+use rustc_hash::FxHashSet;
 
 use naga::{
     ArraySize, BinaryOperator, Block, BuiltIn, Expression, GlobalVariable, Handle, Literal, LocalVariable, ScalarKind,
@@ -35,7 +35,7 @@ impl Writer<'_> {
     pub fn rewrite(
         mut self,
         globals: &[(Handle<GlobalVariable>, Handle<Type>)],
-        written_first: &HashSet<Handle<LocalVariable>>,
+        written_first: &FxHashSet<Handle<LocalVariable>>,
         mut block: Block,
     ) {
         let locals = self.function.local_variables.iter();

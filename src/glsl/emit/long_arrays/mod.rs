@@ -14,7 +14,7 @@ mod fill;
 mod sizes;
 mod writer;
 
-use std::collections::HashSet;
+use rustc_hash::FxHashSet;
 
 use naga::{
     AddressSpace, Binding, Block, BuiltIn, EntryPoint, Expression, GlobalVariable, Handle, LocalVariable,
@@ -41,8 +41,8 @@ const MOST_IN_BLOCKS: u32 = 512;
 /// though its variable had no initialiser; `None` if the program has few and was left as it is.
 pub(super) fn write(
     module: &mut Module,
-    filled: &HashSet<Handle<GlobalVariable>>,
-    written_first: &[HashSet<Handle<LocalVariable>>],
+    filled: &FxHashSet<Handle<GlobalVariable>>,
+    written_first: &[FxHashSet<Handle<LocalVariable>>],
 ) -> Option<u32> {
     let sizes = Sizes::new(&module.types);
     drop_zero_initialisers(module);

@@ -9,7 +9,7 @@ pub(super) use constants::Part as PartOf;
 
 use super::{
     arguments::{Instance, Specialization},
-    context::{Lowering, Map, const_id},
+    context::{Lowering, const_id},
     names::{FunctionNames, Mark},
 };
 use crate::glsl::{
@@ -17,6 +17,7 @@ use crate::glsl::{
     hir::{FuncId, LocalId, LocalKind, TypeId},
     ir::{self, Block, Op, Param, Stmt, Value},
 };
+use rustc_hash::FxHashMap;
 
 /// The form of a parameter or local variable in the generated code.
 #[derive(Clone, Copy, Debug)]
@@ -45,10 +46,10 @@ pub(super) struct Builder<'m, 'a> {
     slots: Vec<Slot>,
     /// Locals that are memory though nobody writes them: their uses are not dominated by their declaration.
     forced: Vec<bool>,
-    literals: Map<(u8, u32), Value>,
-    zeros: Map<TypeId, Value>,
-    constants: Map<u32, Value>,
-    globals: Map<ir::GlobalId, Value>,
+    literals: FxHashMap<(u8, u32), Value>,
+    zeros: FxHashMap<TypeId, Value>,
+    constants: FxHashMap<u32, Value>,
+    globals: FxHashMap<ir::GlobalId, Value>,
     /// The number of loops that the code at hand lies in.
     pub loops: usize,
     pub result: TypeId,
@@ -100,10 +101,10 @@ impl<'m, 'a> Builder<'m, 'a> {
             first_local,
             slots: vec![Slot::Unset; count],
             forced: vec![false; count],
-            literals: Map::default(),
-            zeros: Map::default(),
-            constants: Map::default(),
-            globals: Map::default(),
+            literals: FxHashMap::default(),
+            zeros: FxHashMap::default(),
+            constants: FxHashMap::default(),
+            globals: FxHashMap::default(),
             loops: 0,
             result: TypeId::VOID,
             func: None,

@@ -13,9 +13,9 @@ use crate::glsl::{
     types::{Scalar, Type},
 };
 
-/// The most times that all functions are looked at, and the statements of one. One time more is needed for each step by
-/// which a constant gets from variable to variable against the order of the program, so that a chain of ten thousand
-/// would take as many.
+/// The most times that the functions are looked at, as a mean, and that the statements of a loop are. One time more is
+/// needed for each step by which a constant gets from variable to variable against the order of the program, so that a
+/// chain of ten thousand would take as many.
 const MOST_ROUNDS: usize = 64;
 
 /// The knowledge of a value.
@@ -130,10 +130,12 @@ pub(super) struct Constants {
     results: Vec<State>,
     /// By function: those that call it.
     callers: Vec<Vec<usize>>,
-    /// By variable of the module: the functions that name it.
-    users: Vec<Vec<usize>>,
+    /// By variable of the module: the functions that read it.
+    readers: Vec<Vec<usize>>,
     /// By function: something that its values follow from has changed since they were found.
     stale: Vec<bool>,
+    /// `MOST_ROUNDS` through a loop were not enough.
+    gave_up: bool,
 }
 
 impl Constants {
@@ -145,38 +147,46 @@ impl Constants {
             globals: program.globals.iter().map(|global| Held { state: begin(program, global), grown: 0 }).collect(),
             results: vec![Unknown; count],
             callers: vec![Vec::new(); count],
-            users: vec![Vec::new(); program.globals.len()],
-            stale: vec![true; count],
+            readers: vec![Vec::new(); program.globals.len()],
+            stale: vec![false; count],
+            gave_up: false,
         };
-        constants.find_users(program);
-        for _ in 0..MOST_ROUNDS {
-            if !constants.stale.contains(&true) {
-                return constants;
-            }
-            // Callers come behind their callees, and hand them what they know.
-            for index in (0..count).rev() {
-                if std::mem::take(&mut constants.stale[index]) {
-                    constants.function(program, index);
-                }
+        constants.find_readers(program);
+        // Callers come behind their callees, and hand them what they know.
+        (0..count).rev().for_each(|index| constants.function(program, index));
+        // A caller that reads several results is looked at again when all of them are there.
+        for _ in 0..MOST_ROUNDS * count {
+            match constants.stale.iter().position(|&is_stale| is_stale) {
+                _ if constants.gave_up => break,
+                Some(index) => constants.function(program, index),
+                None => return constants,
             }
         }
         // Any value may be a zero: that costs an instruction a division.
         constants.values.iter_mut().for_each(|values| values.fill(State::Known(Known::ANY)));
+        let any = Held { state: State::Known(Known::ANY), grown: 0 };
+        constants.params.iter_mut().for_each(|params| params.fill(any));
         constants
     }
 
-    fn find_users(&mut self, program: &Module) {
+    fn find_readers(&mut self, program: &Module) {
         for (index, f) in program.functions.iter().enumerate() {
             for (_, op) in f.values() {
-                let users = match op {
-                    Op::Call { function, .. } => &mut self.callers[function.index()],
-                    Op::Global(global) => &mut self.users[global.index()],
-                    _ => continue,
-                };
-                if users.last() != Some(&index) {
-                    users.push(index);
+                match op {
+                    Op::Load { place } => self.add_reader(f, *place, index),
+                    Op::Call { function, args } => {
+                        add_once(&mut self.callers[function.index()], index);
+                        args.iter().filter(|&&arg| f.is_place(arg)).for_each(|&arg| self.add_reader(f, arg, index));
+                    }
+                    _ => {}
                 }
             }
+        }
+    }
+
+    fn add_reader(&mut self, f: &Function, place: Value, reader: usize) {
+        if let Op::Global(global) = f[f.root(place)] {
+            add_once(&mut self.readers[global.index()], reader);
         }
     }
 
@@ -204,18 +214,19 @@ impl Constants {
 
     fn store(&mut self, global: GlobalId, state: State) {
         if matches!(state, State::Known(_)) && self.globals[global.index()].add(state) {
-            mark(&self.users[global.index()], &mut self.stale);
+            mark(&self.readers[global.index()], &mut self.stale);
         }
     }
 
     fn function(&mut self, program: &Module, index: usize) {
+        self.stale[index] = false;
         let f = &program.functions[index];
         let mut walk = Walk {
             program,
             f,
             values: std::mem::take(&mut self.values[index]),
             stored: vec![Held::default(); f.vars.len()],
-            is_new: true,
+            growths: 0,
             held: Vec::new(),
             trail: Vec::new(),
             result: Unseen,
@@ -225,16 +236,8 @@ impl Constants {
             constants: self,
             index,
         };
-        // What loops store is found by going through them again.
-        for _ in 0..MOST_ROUNDS {
-            if !std::mem::take(&mut walk.is_new) {
-                break;
-            }
-            walk.held = f.vars.iter().map(|var| var.init.map_or(Unseen, |init| walk.state(init))).collect();
-            walk.trail.clear();
-            (walk.result, walk.uncertain) = (Unseen, 0);
-            walk.block(&f.body);
-        }
+        walk.held = f.vars.iter().map(|var| var.init.map_or(Unseen, |init| walk.state(init))).collect();
+        walk.block(&f.body);
         let (values, result) = (walk.values, walk.result);
         self.values[index] = values;
         let result = if result == Unseen { Unknown } else { result };
@@ -260,8 +263,8 @@ struct Walk<'a> {
     trail: Vec<(usize, State)>,
     /// All that is stored to a variable in loops.
     stored: Vec<Held>,
-    /// `stored` has grown.
-    is_new: bool,
+    /// The number of times that `stored` has grown.
+    growths: usize,
     result: State,
     /// Loops around the statement.
     loops: u32,
@@ -331,17 +334,31 @@ impl Walk<'_> {
                 }
             }
             Stmt::Loop { body, continuing, break_if } => {
-                let around = (std::mem::take(&mut self.uncertain), std::mem::take(&mut self.leaves));
+                let around = (self.uncertain, self.leaves);
                 let mut written = Vec::new();
                 collect(self.f, body, &mut written);
                 collect(self.f, continuing, &mut written);
                 for &var in &written {
                     self.note(var, self.held[var]);
-                    self.set(var, self.stored[var].state);
                 }
                 self.loops += 1;
-                self.block(body);
-                self.block(continuing);
+                // What it stores is found by going through it again.
+                for round in 0.. {
+                    let growths = self.growths;
+                    (self.uncertain, self.leaves) = (0, false);
+                    for &var in &written {
+                        self.set(var, self.stored[var].state);
+                    }
+                    self.block(body);
+                    self.block(continuing);
+                    if self.growths == growths {
+                        break;
+                    }
+                    if round == MOST_ROUNDS {
+                        self.constants.gave_up = true;
+                        break;
+                    }
+                }
                 self.loops -= 1;
                 let is_left =
                     self.leaves || break_if.is_some_and(|condition| !matches!(self.state(condition), State::Known(_)));
@@ -406,7 +423,7 @@ impl Walk<'_> {
     }
 
     fn note(&mut self, var: usize, state: State) {
-        self.is_new |= self.stored[var].add_in_loop(state);
+        self.growths += usize::from(self.stored[var].add_in_loop(state));
     }
 
     fn store(&mut self, place: Value, state: State) {
@@ -484,6 +501,13 @@ impl Walk<'_> {
             }
         }
         self.constants.results[callee]
+    }
+}
+
+/// Adds a function to a list of functions that is made in their order.
+fn add_once(functions: &mut Vec<usize>, function: usize) {
+    if functions.last() != Some(&function) {
+        functions.push(function);
     }
 }
 
