@@ -25,7 +25,7 @@ use std::{
 use winit::{
     application::ApplicationHandler,
     dpi::{LogicalSize, PhysicalPosition, PhysicalSize},
-    event::{StartCause, WindowEvent},
+    event::{ElementState, StartCause, WindowEvent},
     event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy},
     window::{Fullscreen, Window, WindowAttributes, WindowId},
 };
@@ -35,6 +35,8 @@ use winit::{
 pub enum Outside {
     /// There is something to show.
     Wake,
+    /// A frame has been painted, and what happened meanwhile has been told of.
+    Painted,
     /// A screen reader, or another program of the kind.
     Assistive(accesskit_winit::Event),
 }
@@ -71,7 +73,7 @@ fn no_display(error: impl std::fmt::Display) -> GuiError {
 }
 
 /// The first frame of a new program is waited for so long before the window is painted without it.
-const FIRST_FRAME: Duration = Duration::from_millis(100);
+const FIRST_FRAME: Duration = Duration::from_millis(250);
 
 struct App {
     proxy: EventLoopProxy<Outside>,
@@ -89,6 +91,7 @@ struct Running {
     losses: Losses,
     /// A file that makes the device one that was lost, when it appears.
     lose_device: Option<PathBuf>,
+    proxy: EventLoopProxy<Outside>,
     wake: Arc<dyn Fn() + Send + Sync>,
     session: Session,
     shell: Shell,
@@ -128,10 +131,11 @@ impl ApplicationHandler<Outside> for App {
             Outside::Wake => {
                 let now = Instant::now();
                 running.session.attend(now);
-                // The first frame of what was typed wakes the loop again: to paint before it would hold it up.
-                let wait = if running.session.is_first_frame_coming() { FIRST_FRAME } else { Duration::ZERO };
-                running.paint_by(running.paced(now + wait));
+                running.paint_by(running.paced(running.after_first_frame(now)));
             }
+            // What a hand has done goes before the next frame of the picture.
+            Outside::Painted if running.is_due() => {}
+            Outside::Painted => running.session.painted(Instant::now()),
             Outside::Assistive(event) => running.assist(event.window_event),
         }
     }
@@ -160,7 +164,7 @@ impl ApplicationHandler<Outside> for App {
             // Nobody can see it; the window system tells when that changes.
             _ if running.hidden => ControlFlow::Wait,
             None => ControlFlow::Wait,
-            Some(at) if at <= Instant::now() => {
+            Some(_) if running.is_due() => {
                 running.paint_at = None;
                 running.window.request_redraw();
                 ControlFlow::Wait
@@ -253,6 +257,7 @@ impl Running {
             surface,
             losses: Losses::default(),
             lose_device: options.lose_device.clone(),
+            proxy: proxy.clone(),
             wake,
             session,
             shell,
@@ -304,8 +309,13 @@ impl Running {
             WindowEvent::Destroyed => return Ok(Next::Exit),
             _ => {}
         }
-        if response.repaint || !matches!(event, WindowEvent::CursorMoved { .. } | WindowEvent::Moved(_)) {
-            self.paint_soon();
+        match &event {
+            // What a released key changes may wait for what the pressed one did.
+            WindowEvent::KeyboardInput { event, .. } if event.state == ElementState::Released => {
+                self.paint_by(self.after_first_frame(Instant::now()));
+            }
+            WindowEvent::CursorMoved { .. } | WindowEvent::Moved(_) if !response.repaint => {}
+            _ => self.paint_soon(),
         }
         Ok(Next::Go)
     }
@@ -333,12 +343,23 @@ impl Running {
         self.paint_soon();
     }
 
+    /// The window is to be painted now.
+    fn is_due(&self) -> bool {
+        self.paint_at.is_some_and(|at| at <= Instant::now())
+    }
+
     fn paint_soon(&mut self) {
         self.paint_by(Instant::now());
     }
 
     fn paint_by(&mut self, at: Instant) {
         self.paint_at = Some(self.paint_at.map_or(at, |earlier| earlier.min(at)));
+    }
+
+    /// Returns when to paint what can wait for the first frame of what was typed. That wakes the loop: to paint before it
+    /// would hold it up where a processor does both.
+    fn after_first_frame(&self, at: Instant) -> Instant {
+        if self.session.is_first_frame_coming() { at + FIRST_FRAME } else { at }
     }
 
     /// Returns when to paint what is ready at a moment. The screen's own rhythm holds the loop back; where it does not
@@ -376,13 +397,16 @@ impl Running {
             self.surface.touch(texture);
         }
         let presented = self.surface.paint(&self.window, output, &self.ctx);
+        // Events of the window go before it.
+        let _ = self.proxy.send_event(Outside::Painted);
         self.shell.report(&self.session, &mut self.report, self.surface.size(), &self.ctx, began);
         self.watch_device(began)?;
         self.follow_shell();
         if let Next::Exit = self.take_requests() {
             return Ok(Next::Exit);
         }
-        let mut next = began.checked_add(delay);
+        // What egui asks for of its own accord can wait.
+        let mut next = began.checked_add(delay).map(|at| at.max(self.after_first_frame(began)));
         if wants_next || presented == Presented::Again {
             next = Some(began);
         }

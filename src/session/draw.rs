@@ -121,6 +121,7 @@ impl Session {
         self.display_generation += u64::from(done.is_display_new && !self.drawing.is_apart());
         // An engine on the session's own thread draws into the display itself.
         self.pictures_shown += u64::from(done.picture.is_some() || !self.drawing.is_apart());
+        self.run.is_picture_new |= done.picture.is_some();
         if let Some(Err(e)) = done.restarted {
             self.stop_drawing(&e);
             return false;

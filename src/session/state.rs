@@ -156,6 +156,10 @@ pub(super) struct Run {
     pub is_frame_due: bool,
     /// The newest program has not drawn a frame.
     pub is_program_new: bool,
+    /// There is a new picture, to be painted before another is drawn.
+    pub is_picture_new: bool,
+    /// The next frame is handed in when that has been painted.
+    pub waits_for_painting: bool,
     pub steps: u32,
     pub seeking: Seeking,
     /// Nobody sees the picture.
@@ -243,6 +247,8 @@ impl Session {
                 shown: PassId::Image,
                 is_frame_due: false,
                 is_program_new: false,
+                is_picture_new: false,
+                waits_for_painting: false,
                 steps: 0,
                 seeking: Seeking::default(),
                 is_covered: false,

@@ -3,7 +3,10 @@
 //!
 //! `EDDY_ENDURANCE_SECS=600 cargo test --test window endurance` works it for ten minutes, `EDDY_SEED` in another way.
 
-use crate::support::window::{Display, Window};
+use crate::support::{
+    keyboard::Keyboard,
+    window::{Display, Window},
+};
 use serde_json::Value;
 use std::{
     fs,
@@ -324,14 +327,15 @@ fn a_key_is_seen_in_the_picture_of_a_hundred_lines() {
     window.click_on("editor");
     // In the number of the fourth line, 40.0.
     window.keys(&["ctrl+Home", "Down", "Down", "Down", "End", "Left", "Left"]);
+    let keyboard = Keyboard::of(&display);
     let (mut millis, mut behind) = (Vec::new(), Vec::new());
-    for digit in ["1", "2", "3", "4", "5", "6", "7", "8", "9", "1", "2", "3", "4", "5", "6"] {
+    for digit in "123456789123456".chars() {
         // The quiet that is waited for is as long as the compile before took.
         window.drain();
         let before = window.wait_until("a picture", "drawn", |e| e["programs"].as_u64() > Some(0));
         let debounce = before["debounce_ms"].as_f64().unwrap();
         let began = Instant::now();
-        window.keys(&[digit]);
+        keyboard.tap(digit);
         window.wait_until("the picture", "drawn", |e| e["programs"].as_u64() > before["programs"].as_u64());
         let took = began.elapsed().as_secs_f64() * 1000.0;
         millis.push(took);

@@ -116,6 +116,11 @@ impl Drawing {
         }
     }
 
+    /// Frames are drawn by the processor that paints the window, too.
+    pub fn shares_processor(&self) -> bool {
+        matches!(&self.place, Place::Apart(remote) if remote.window.is_cpu())
+    }
+
     pub fn is_apart(&self) -> bool {
         matches!(self.place, Place::Apart(_))
     }

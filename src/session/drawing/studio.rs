@@ -78,8 +78,9 @@ impl Studio {
         }
         done.reach = self.history.reach();
         let has_drawn = done.frame.is_some() || done.travelled.is_some();
-        // What a resize leaves of the canvas before it is no picture: the frame that follows is.
-        let is_between = !has_drawn && matches!(done.resized, Some((_, Ok(())))) && self.engine.program().is_some();
+        // What a resize or another program leaves of the canvas before it is no picture: the frame that follows is.
+        let is_other = matches!(done.resized, Some((_, Ok(())))) || matches!(done.program, Some(Ok(())));
+        let is_between = !has_drawn && is_other && done.restarted.is_none() && self.engine.program().is_some();
         if self.hands_out && (done.is_display_new || has_drawn) && !is_between {
             done.picture = Some(self.engine.picture());
         }
@@ -278,11 +279,12 @@ mod tests {
     };
 
     #[test]
-    fn a_resize_is_shown_with_the_frame_that_follows_it() {
+    fn a_resize_or_a_program_is_shown_with_the_frame_that_follows_it() {
         let Some(gpu) = testing::gpu() else { return };
         let project = presets::load("feedback").unwrap().project;
         let (media, _) = media::gather(&project, None);
-        let program = Program::build(&gpu, &project, &media, &BuildOptions::default()).unwrap().program;
+        let build = |gpu: &Gpu| Program::build(gpu, &project, &media, &BuildOptions::default()).unwrap().program;
+        let (program, other) = (build(&gpu), build(&gpu));
         let mut studio = Studio::new(gpu, (16, 9), true).unwrap();
         let mut sizes = |changes: Changes, frame: Option<i32>| {
             let frame = frame.map(|frame| FrameInputs::at_fixed_step(frame, 60.0));
@@ -298,6 +300,9 @@ mod tests {
         assert_eq!(sizes(resize((64, 36)), None), None);
         assert_eq!(sizes(Changes::default(), Some(1)), Some((64, 36)));
         assert_eq!(sizes(resize((32, 18)), Some(2)), Some((32, 18)));
+        let program = Some(Coming { program: other, origin: None });
+        assert_eq!(sizes(Changes { program, ..Changes::default() }, None), None);
+        assert_eq!(sizes(Changes::default(), Some(3)), Some((32, 18)));
     }
 
     #[test]

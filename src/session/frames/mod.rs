@@ -34,7 +34,13 @@ impl Session {
         self.fit_canvas();
         self.keep_unsaved();
         self.follow_measures();
-        frame_drawn |= self.draw_due_frames(true) | std::mem::take(&mut self.has_drawn);
+        // Beside another frame, painting the picture would take longer where a processor does both.
+        let is_picture_new = std::mem::take(&mut self.run.is_picture_new);
+        self.run.waits_for_painting = is_picture_new && self.drawing.shares_processor();
+        if !self.run.waits_for_painting {
+            frame_drawn |= self.draw_due_frames(true);
+        }
+        frame_drawn |= std::mem::take(&mut self.has_drawn);
         Tick { frame_drawn, wake_at: self.wake_at(), changed: std::mem::take(&mut self.changed) }
     }
 
@@ -51,10 +57,19 @@ impl Session {
         }
     }
 
-    /// A new program, or its first frame, is with the engine.
+    /// What the last tick gave has been painted: begins with a frame that waited for it.
+    pub fn painted(&mut self, now: Instant) {
+        if std::mem::take(&mut self.run.waits_for_painting) {
+            self.now = now;
+            self.has_drawn |= self.draw_due_frames(true);
+        }
+    }
+
+    /// The newest text is with the compiler, and will be a program soon if it takes as long as the one before, or its
+    /// first frame is with the engine.
     pub fn is_first_frame_coming(&self) -> bool {
         let is_drawn = self.drawing.is_busy() && !self.halting.is_held();
-        is_drawn && (self.drawing.is_program_coming() || self.run.is_program_new)
+        self.gives_way() || (is_drawn && (self.drawing.is_program_coming() || self.run.is_program_new))
     }
 
     /// The newest text is being compiled, and will be soon if it takes as long as the one before.
@@ -75,7 +90,8 @@ impl Session {
             && self.drawing.has_program()
             && !self.run.is_device_lost;
         // The end of a frame that is being drawn wakes.
-        let is_held = self.halting.halt.is_some() || self.drawing.is_busy() || self.gives_way();
+        let is_busy = self.drawing.is_busy() || self.run.waits_for_painting;
+        let is_held = self.halting.halt.is_some() || is_busy || self.gives_way();
         let is_next_due = is_running && !is_held;
         let resumes = self.gives_way_until().filter(|_| is_running);
         let deadlines = [self.compile.edits.deadline(), self.disk.changes.deadline(), self.drawing_deadline(), resumes];

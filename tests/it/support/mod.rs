@@ -9,6 +9,7 @@ pub mod env;
 pub mod explained;
 pub mod first_frame;
 pub mod ir;
+pub mod keyboard;
 pub mod meshes;
 pub mod preset;
 pub mod presets;
