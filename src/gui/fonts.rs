@@ -1,9 +1,11 @@
-//! The fonts of the window: Eddy's own for code, egui's for the rest, and the system's for scripts that these lack.
+//! The fonts of the window: Eddy's own for code, egui's for the rest and for emoji, and the system's for scripts that
+//! these lack.
 
 use egui::{Context, FontData, FontDefinitions, FontFamily};
 use std::{fs, sync::Arc};
 
-/// Noto Sans Mono: its zero has a thin stroke, which small letters leave room for.
+/// Noto Sans Mono: its zero has a thin stroke, which small letters leave room for. What no font has is the box that its
+/// glyph `.notdef` draws.
 const CODE: &[u8] = include_bytes!("../../assets/fonts/NotoSansMono-Regular.ttf");
 const CODE_NAME: &str = "Noto Sans Mono";
 const OWN_NAME: &str = "code-font";
@@ -82,6 +84,23 @@ mod tests {
             frame(&ctx);
             assert_eq!(first(&ctx), CODE_NAME);
         }
+    }
+
+    #[test]
+    fn emoji_need_no_font_of_the_systems_and_what_no_font_has_is_a_box() {
+        let ctx = Context::default();
+        set(&ctx, None).unwrap();
+        frame(&ctx);
+        for (font, text) in [FontId::monospace(13.0), FontId::proportional(13.0)]
+            .into_iter()
+            .flat_map(|font| ["🌊", "🔥", "\u{10FFFD}"].map(|text| (font.clone(), text)))
+        {
+            let galley = ctx.fonts_mut(|fonts| fonts.layout_no_wrap(text.into(), font.clone(), egui::Color32::WHITE));
+            let drawn = galley.rows[0].row.glyphs[0].uv_rect;
+            assert!(drawn.size.x > 4.0 && drawn.size.y > 4.0, "{text} in {font:?}: {drawn:?}");
+        }
+        let has = |c| ctx.fonts_mut(|fonts| fonts.has_glyph(&FontId::monospace(13.0), c));
+        assert!(has('🌊') && !has('\u{10FFFD}'));
     }
 
     /// Some font of the system's has a letter. `None`: nobody can say.

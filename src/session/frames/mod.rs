@@ -57,7 +57,7 @@ impl Session {
         }
     }
 
-    /// What the last tick gave has been painted: begins with a frame that waited for it.
+    /// Begins with a frame that waited until the picture of the last tick was painted, as it is now.
     pub fn painted(&mut self, now: Instant) {
         if std::mem::take(&mut self.run.waits_for_painting) {
             self.now = now;
