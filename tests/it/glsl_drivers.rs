@@ -138,3 +138,19 @@ fn the_angle_of_nowhere() {
     );
     check_on(&gpu, &[known], true);
 }
+
+/// A zero that goes from variable to variable against the order of a loop reaches the divisor after as many rounds; where
+/// these are more than are followed, any divisor may be a zero.
+#[test]
+fn a_zero_that_comes_by_a_long_way_is_hidden() {
+    let program = |count: usize, last: f32| {
+        let declared: String = (0..count).map(|i| format!("float v{i} = 1.0; ")).collect();
+        let handed_on: String = (1..count).rev().map(|i| format!("v{i} = v{}; ", i - 1)).collect();
+        let divided = format!("s += p.x / v{}; {handed_on}v0 = {last:?};", count - 1);
+        let looped = format!("{declared}float s = 0.0; for (int i = 0; i < 200; i++) {{ {divided} }}");
+        ir::optimised(&format!("void mainImage(out vec4 o, in vec2 p) {{ {looped} o = vec4(s); }}"), Driver::default())
+    };
+    for (count, last, is_hidden) in [(20, 0.0, true), (80, 0.0, true), (20, 2.0, false)] {
+        assert_eq!(program(count, last).contains("opaque_zero"), is_hidden, "{count} variables, {last}");
+    }
+}
