@@ -151,3 +151,23 @@ fn a_device_that_does_not_open_at_first_is_opened_again() {
     tick_until(&mut session, "the failure to be told of", |s| s.notices().iter().any(|n| n.text.contains("planted")));
     tick_until(&mut session, "frames", |s| s.drawing.has_program() && s.transport().frame > 2);
 }
+
+#[test]
+fn where_a_processor_draws_the_next_frame_begins_when_the_last_one_is_painted() {
+    let Some(gpu) = testing::gpu() else { return };
+    let is_cpu = gpu.is_cpu();
+    let mut session = open_apart(gpu);
+    assert_eq!(session.drawing.shares_processor(), is_cpu);
+    if !is_cpu {
+        return;
+    }
+    for _ in 0..3 {
+        tick_until(&mut session, "a new picture", |s| s.run.waits_for_painting);
+        assert!(!session.drawing.is_busy(), "nothing is drawn before it is painted");
+        assert!(session.wake_at().is_none_or(|at| at > session.now), "nor is a frame of the window asked for");
+        let before = session.transport().frame;
+        session.painted(Instant::now());
+        assert!(session.drawing.is_busy() || session.transport().frame > before);
+        assert!(!session.run.waits_for_painting);
+    }
+}
