@@ -15,6 +15,26 @@ use crate::{
 /// The value of a probe that never was there.
 const NO_VALUE: wgpu::Color = wgpu::Color { r: f64::NAN, g: f64::NAN, b: f64::NAN, a: f64::NAN };
 
+/// The way in which a frame is handed to the device.
+pub(super) enum Manner<'a, 'b> {
+    /// All of it at once.
+    Whole,
+    /// Each draw by itself, and timed.
+    Watched(&'a mut Watch<'b>),
+    /// All of it, and what one pass reads is taken before it is drawn.
+    Inspected(&'a mut Capture<'b>),
+    /// All but a last draw that can be done in pieces, which [`Running::draw_rest`] does.
+    Divided,
+}
+
+/// A last draw of a frame that is not done yet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rest {
+    draw: usize,
+    /// The first row that is not drawn.
+    row: u32,
+}
+
 /// Hands in what is encoded, and waits for it.
 fn flush(gpu: &Gpu, encoder: &mut wgpu::CommandEncoder) -> Result<(), EngineError> {
     let descriptor = wgpu::CommandEncoderDescriptor { label: Some("a pass of a frame") };
@@ -30,9 +50,9 @@ impl Running {
         shared: &mut Shared,
         display: Option<&Display>,
         inputs: &FrameInputs,
-        mut watch: Option<&mut Watch<'_>>,
-        mut capture: Option<&mut Capture<'_>>,
+        mut manner: Manner<'_, '_>,
     ) -> Result<FrameStats, EngineError> {
+        self.drop_rest();
         shared.keyboard.show(&shared.gpu, &inputs.keyboard);
         let shared = &*shared;
         let gpu = &shared.gpu;
@@ -41,10 +61,12 @@ impl Running {
         let reads: Vec<Vec<u8>> = (0..self.program.draws.len()).map(|index| self.inputs_of(shared, index)).collect();
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("frame") });
         // Stamps of a frame in pieces would not be of one submission.
-        if let Some(timer) = self.timer.as_mut().filter(|_| watch.is_none()) {
+        let is_in_pieces = matches!(manner, Manner::Watched(_) | Manner::Divided);
+        if let Some(timer) = self.timer.as_mut().filter(|_| !is_in_pieces) {
             timer.begin();
         }
-        if let Some(watch) = &mut watch {
+        let left_over = if matches!(manner, Manner::Divided) { self.divisible_draw() } else { None };
+        if let Manner::Watched(watch) = &mut manner {
             // What was handed in before is not this frame's.
             flush(gpu, &mut encoder)?;
             let began = watch.now();
@@ -57,17 +79,29 @@ impl Running {
         for run in 0..self.program.plan.runs.len() {
             for _ in 0..self.program.plan.runs[run].steps {
                 for index in self.program.plan.runs[run].draws.clone() {
-                    if let Some(capture) = capture.as_mut().filter(|c| c.wants(&self.program.draws[index])) {
+                    if let Manner::Inspected(capture) = &mut manner
+                        && capture.wants(&self.program.draws[index])
+                    {
                         flush(gpu, &mut encoder)?;
                         capture.take(self, shared, index)?;
                     }
-                    let began = watch.as_mut().map(|watch| watch.now());
-                    let is_drawn = self.step(shared, &mut encoder, index, &reads[index], &mut stats);
-                    self.steps_drawn[index] += u32::from(is_drawn);
-                    if let (Some(watch), Some(began), true) = (&mut watch, began, is_drawn) {
-                        flush(gpu, &mut encoder)?;
-                        watch.add(index, began);
+                    if !self.is_due(index, &reads[index], &mut stats) {
+                        continue;
                     }
+                    self.steps_drawn[index] += 1;
+                    if left_over == Some(index) {
+                        self.rest = Some(Rest { draw: index, row: 0 });
+                        gpu.queue.submit([encoder.finish()]);
+                        return Ok(stats);
+                    }
+                    let Manner::Watched(watch) = &mut manner else {
+                        self.encode(shared, &mut encoder, index, None);
+                        continue;
+                    };
+                    let began = watch.now();
+                    self.encode(shared, &mut encoder, index, None);
+                    flush(gpu, &mut encoder)?;
+                    watch.add(index, began);
                 }
             }
         }
@@ -82,6 +116,47 @@ impl Running {
             timer.submitted();
         }
         Ok(stats)
+    }
+
+    /// Does the draw that [`Manner::Divided`] has left over, so many rows at a time, and waits for each. Before each,
+    /// `goes_on` is asked. Says whether all is drawn; if not, another call draws what is left.
+    pub fn draw_rest(
+        &mut self,
+        shared: &Shared,
+        display: &Display,
+        rows: u32,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<bool, EngineError> {
+        let gpu = &shared.gpu;
+        while let Some(Rest { draw, row }) = self.rest {
+            if !goes_on() {
+                return Ok(false);
+            }
+            let height = self.targets[self.program.plan.draws[draw].targets.start].size().1;
+            let end = row.saturating_add(rows.max(1)).min(height);
+            let descriptor = wgpu::CommandEncoderDescriptor { label: Some("rows of a frame") };
+            let mut encoder = gpu.device.create_command_encoder(&descriptor);
+            self.encode(shared, &mut encoder, draw, Some(row..end));
+            self.rest = (end < height).then_some(Rest { draw, row: end });
+            if self.rest.is_none() {
+                display.present(gpu, &mut encoder, &self.targets);
+            }
+            gpu.queue.submit([encoder.finish()]);
+            gpu.wait()?;
+        }
+        Ok(true)
+    }
+
+    /// Leaves a draw undone that was begun. The next frame does it.
+    pub fn drop_rest(&mut self) {
+        if self.rest.take().is_some() {
+            self.changes.invalidate();
+        }
+    }
+
+    fn divisible_draw(&self) -> Option<usize> {
+        let is_screen = |index: &usize| matches!(self.program.draws[*index].body, DrawBody::Screen(_));
+        self.program.plan.divisible_draw().filter(is_screen)
     }
 
     /// Writes the uniforms of every draw.
@@ -110,17 +185,11 @@ impl Running {
         read
     }
 
-    /// Does one draw unless nothing that it reads has changed. Says whether it was done.
-    fn step(
-        &mut self,
-        shared: &Shared,
-        encoder: &mut wgpu::CommandEncoder,
-        index: usize,
-        inputs: &[u8],
-        stats: &mut FrameStats,
-    ) -> bool {
-        let Self { program, targets, depths, bindings, changes, timer, .. } = self;
-        let (compiled, draw) = (&program.draws[index], &program.plan.draws[index]);
+    /// Says whether a draw is to be done: it is of some texels, and something that it reads has changed. The answer yes
+    /// counts as done.
+    fn is_due(&mut self, index: usize, inputs: &[u8], stats: &mut FrameStats) -> bool {
+        let Self { program, targets, changes, .. } = self;
+        let draw = &program.plan.draws[index];
         let size = targets[draw.targets.start].size();
         let texels = match draw.region {
             None => u64::from(size.0) * u64::from(size.1),
@@ -136,6 +205,20 @@ impl Running {
             return false;
         }
         stats.passes_drawn += 1;
+        true
+    }
+
+    /// Encodes one draw, of all rows or of some.
+    fn encode(
+        &mut self,
+        shared: &Shared,
+        encoder: &mut wgpu::CommandEncoder,
+        index: usize,
+        rows: Option<std::ops::Range<u32>>,
+    ) {
+        let Self { program, targets, depths, bindings, timer, .. } = self;
+        let (compiled, draw) = (&program.draws[index], &program.plan.draws[index]);
+        let size = targets[draw.targets.start].size();
         let (uniforms, channels) = bindings.draws[index].groups(shared, compiled, draw, targets);
         for target in &targets[draw.targets.clone()] {
             if draw.region.is_some() && target.back() != target.front {
@@ -147,6 +230,7 @@ impl Running {
                 // What is discarded has no value, nor what lies outside of the region.
                 Some(beside) if beside == index && draw.keeps_content => wgpu::LoadOp::Clear(NO_VALUE),
                 Some(beside) if beside == index => shared.gpu.load_what_is_overwritten(),
+                _ if rows.is_some() => wgpu::LoadOp::Load,
                 _ => load_op(&shared.gpu, draw, &compiled.body),
             };
             Some(targets[index].textures[targets[index].back()].attachment(load))
@@ -169,6 +253,9 @@ impl Running {
             // Row 0 is the bottom, for a scissor too.
             if let Some(region) = draw.region.and_then(|r| r.within(size)) {
                 pass.set_scissor_rect(region.x, region.y, region.width, region.height);
+            }
+            if let Some(rows) = rows {
+                pass.set_scissor_rect(0, rows.start, size.0, rows.end - rows.start);
             }
             pass.set_bind_group(CHANNEL_GROUP, channels, &[]);
             let begin = |pass: &mut wgpu::RenderPass<'_>, program: &StagePipeline, n: usize| {
@@ -202,7 +289,6 @@ impl Running {
                 shared.mips.build(&shared.gpu, encoder, chain);
             }
         }
-        true
     }
 }
 

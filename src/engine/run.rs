@@ -2,7 +2,7 @@
 
 use super::{
     EngineError, FrameInputs, FrameStats, Miniature, PassTime, Picture, Pixels, Program, TexelAt, display::Display,
-    running::Running,
+    frame::Manner, running::Running,
 };
 use super::{
     inspect::{Capture, PassInputs},
@@ -69,7 +69,7 @@ impl Engine {
         inputs: &FrameInputs,
     ) -> Result<Program, EngineError> {
         let mut running = Running::start(&mut self.shared, program, canvas, &mut None)?;
-        running.draw(&mut self.shared, None, inputs, None, None)?;
+        running.draw(&mut self.shared, None, inputs, Manner::Whole)?;
         self.shared.gpu.wait()?;
         Ok(running.program)
     }
@@ -107,9 +107,31 @@ impl Engine {
     /// Draws one frame. Does not wait for the device.
     pub fn draw(&mut self, inputs: &FrameInputs) -> Result<FrameStats, EngineError> {
         let Some(running) = &mut self.running else { return Ok(FrameStats::default()) };
-        let stats = running.draw(&mut self.shared, Some(&self.display), inputs, None, None)?;
+        let stats = running.draw(&mut self.shared, Some(&self.display), inputs, Manner::Whole)?;
         self.shared.gpu.take_trouble("a frame")?;
         Ok(stats)
+    }
+
+    /// Does the same as [`Engine::draw`], with the same picture, but waits for the device, and draws a last pass that
+    /// nobody reads so many rows at a time. Before each, `goes_on` is asked. Where it says no, the picture stays the one
+    /// before, though everything that frames to come read is drawn; [`Engine::finish`] draws the rest. Says whether all
+    /// is drawn.
+    pub fn draw_in_bands(
+        &mut self,
+        inputs: &FrameInputs,
+        rows: u32,
+        goes_on: &mut dyn FnMut() -> bool,
+    ) -> Result<bool, EngineError> {
+        let Some(running) = &mut self.running else { return Ok(true) };
+        running.draw(&mut self.shared, Some(&self.display), inputs, Manner::Divided)?;
+        self.shared.gpu.wait()?;
+        running.draw_rest(&self.shared, &self.display, rows, goes_on)
+    }
+
+    /// Draws what [`Engine::draw_in_bands`] left over. Says whether that was anything.
+    pub fn finish(&mut self) -> Result<bool, EngineError> {
+        let Some(running) = self.running.as_mut().filter(|running| running.rest.is_some()) else { return Ok(false) };
+        running.draw_rest(&self.shared, &self.display, u32::MAX, &mut || true)
     }
 
     /// Does the same as [`Engine::draw`], with the same picture, but hands in each pass by itself and waits for it: how
@@ -122,7 +144,7 @@ impl Engine {
     ) -> Result<(FrameStats, Vec<PassTime>), EngineError> {
         let Some(running) = &mut self.running else { return Ok(Default::default()) };
         let mut watch = Watch::new(now, &running.program);
-        let stats = running.draw(&mut self.shared, Some(&self.display), inputs, Some(&mut watch), None)?;
+        let stats = running.draw(&mut self.shared, Some(&self.display), inputs, Manner::Watched(&mut watch))?;
         self.shared.gpu.take_trouble("a frame")?;
         Ok((stats, watch.times(&running.program)))
     }
@@ -138,7 +160,7 @@ impl Engine {
         let running = self.running.as_mut().ok_or_else(none)?;
         let converter = self.converter.get_or_insert_with(|| FloatConverter::new(&self.shared.gpu));
         let mut capture = Capture::new(pass, converter);
-        let stats = running.draw(&mut self.shared, Some(&self.display), inputs, None, Some(&mut capture))?;
+        let stats = running.draw(&mut self.shared, Some(&self.display), inputs, Manner::Inspected(&mut capture))?;
         self.shared.gpu.take_trouble("a frame")?;
         Ok((stats, capture.taken.ok_or_else(none)?))
     }

@@ -5,6 +5,7 @@ use super::{
     EngineError, FrameInputs,
     bind::{Bindings, draw_fill},
     custom_uniforms,
+    frame::Rest,
     program::{Meshes, Program},
     shared::Shared,
     targets::{NewTargets, Target},
@@ -30,6 +31,8 @@ pub(super) struct Running {
     pub timer: Option<PassTimer>,
     /// The number of times that each draw was done in the newest frame.
     pub steps_drawn: Vec<u32>,
+    /// The draw of the newest frame that is not done yet.
+    pub rest: Option<Rest>,
 }
 
 /// Textures that a program needs besides those that are there.
@@ -79,6 +82,7 @@ impl Running {
             changes: Changes::new(&program.plan),
             timer: None,
             steps_drawn: Vec::new(),
+            rest: None,
             program,
         };
         running.uniforms.set_custom_uniforms(
@@ -94,6 +98,7 @@ impl Running {
     pub fn resize(&mut self, shared: &mut Shared, canvas: (u32, u32)) -> Result<(), EngineError> {
         let new = NewTextures::make(shared, &self.program, canvas, &self.targets)?;
         self.canvas = canvas;
+        self.drop_rest();
         self.changes.invalidate();
         self.take(shared, new);
         Ok(())
@@ -121,6 +126,7 @@ impl Running {
 
     /// Sets every target to its state before frame 0.
     pub fn reset(&mut self, shared: &Shared) {
+        self.drop_rest();
         let descriptor = wgpu::CommandEncoderDescriptor { label: Some("reset") };
         let mut encoder = shared.gpu.device.create_command_encoder(&descriptor);
         for target in &self.targets {

@@ -2,11 +2,13 @@
 //!
 //! Owns [`FramePlan`]: which passes are drawn and in what order, whether a read sees this frame or the last, which
 //! buffers are doubled, where mips exist, which sampler counts, how often a pass is drawn, when its picture of before
-//! will do ([`Changes`]), and what a frame leaves to the next ([`Carried`]). Knows neither GLSL nor wgpu: what a pass
-//! really reads comes in as [`PassFacts`], and a plan is data that an engine executes in a loop.
+//! will do ([`Changes`]), what a frame leaves to the next ([`Carried`]), and whether its last draw may be done in pieces.
+//! Knows neither GLSL nor wgpu: what a pass really reads comes in as [`PassFacts`], and a plan is data that an engine
+//! executes in a loop.
 
 mod carried;
 mod changes;
+mod divisible;
 mod plan;
 mod samplers;
 #[cfg(test)]

@@ -407,3 +407,31 @@ fn a_frame_leaves_to_the_next_what_is_read_before_it_is_overwritten() {
     project.passes[3].settings.region = project.passes[0].settings.region;
     assert_eq!(carried(&project, &facts, true), expect([newest, nothing, newest, newest, nothing, newest]));
 }
+
+#[test]
+fn a_last_draw_may_be_done_in_pieces_where_nobody_can_tell() {
+    let mut project = project(vec![
+        pass(id("A"), [buffer("B"), None, None, None]),
+        pass(id("B"), [buffer("A"), None, None, None]),
+        pass(PassId::Image, [buffer("A"), None, None, None]),
+    ]);
+    let facts = [reads_all(); 3];
+    let plan = |project: &Project, facts: &[PassFacts], wanted: &[PassId]| FramePlan::new(project, facts, wanted, true);
+    let divisible = |project: &Project, facts: &[PassFacts]| plan(project, facts, &[]).divisible_draw();
+    assert_eq!(divisible(&project, &facts), Some(2));
+    assert_eq!(plan(&project, &facts, &[id("B")]).divisible_draw(), None, "A reads the B of the frame before");
+    assert_eq!(
+        divisible(&project, &[facts[0], facts[1], PassFacts::ANYTHING]),
+        None,
+        "a `discard` shows what was there"
+    );
+    let mut probed = plan(&project, &facts, &[]);
+    probed.draw_beside(2, id("probe"));
+    assert_eq!(probed.divisible_draw(), None, "a probe is read back");
+    project.groups = vec![Group { name: "g".into(), passes: vec![PassId::Image], steps: 2 }];
+    assert_eq!(divisible(&project, &facts), None, "it is drawn twice");
+    project.groups.clear();
+    project.passes[2].settings.region = Some(Region { x: 0, y: 0, width: 3, height: 3 });
+    assert_eq!(divisible(&project, &facts), None, "the rest is as it was drawn last");
+    assert_eq!(FramePlan::default().divisible_draw(), None);
+}

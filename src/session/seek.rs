@@ -94,7 +94,7 @@ impl Session {
         }
         self.end_recording();
         self.run.seeking.is_under_way = true;
-        self.drawing.submit(self.now, |job: &mut Job| job.travel = goal);
+        self.drawing.submit(self.now, false, |job: &mut Job| job.travel = goal);
         true
     }
 

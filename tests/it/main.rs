@@ -20,6 +20,7 @@ mod cli_render;
 mod compile_budget;
 mod engine;
 mod fills;
+mod frame_bands;
 mod geometry;
 mod geometry_files;
 mod glsl_bounds;

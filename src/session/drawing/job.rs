@@ -1,5 +1,6 @@
 //! The engine is asked to do a job at once, and gives an answer.
 
+use super::gate::Gate;
 use super::history::{Replay, ReplayFrom, Run, Travelled};
 use crate::{
     engine::{CostClock, EngineError, FrameInputs, Miniature, PassCost, PassTime, Picture, Pixels, Program, ValueLook},
@@ -78,6 +79,7 @@ pub struct Capture {
 }
 
 /// One turn of the engine: first the changes in the order of their fields, then the frame, then what is read.
+#[derive(Default)]
 pub struct Job {
     pub changes: Changes,
     pub frame: Option<FrameInputs>,
@@ -88,6 +90,8 @@ pub struct Job {
     pub costs_of: Option<Project>,
     /// Tiles of a new program are tried before it; without, none.
     pub tile_limit: Option<TileLimit>,
+    /// The frame may wait, or be given up; without, it is drawn at once.
+    pub gate: Option<Gate>,
 }
 
 /// The things that are read once the frame is drawn.

@@ -6,12 +6,14 @@
 
 mod apart;
 mod device;
+mod gate;
 mod history;
 mod job;
 mod studio;
 
 pub(super) use apart::{Open, beside};
 pub(super) use device::Device;
+pub(super) use gate::Way;
 pub(super) use history::{Frame, Replay, ReplayFrom, Run, Travelled};
 pub(super) use job::{Capture, Changes, Coming, Done, DrawnFrame, Job, ProgramOrigin, Reads, TileLimit};
 
@@ -22,6 +24,7 @@ use crate::{
     session::seeking::Reach,
 };
 use apart::Apart;
+use gate::Gate;
 use std::{
     sync::Arc,
     thread::JoinHandle,
@@ -77,6 +80,8 @@ enum Place {
 struct Remote {
     thread: Apart,
     device: Device,
+    /// Says what a frame does that may wait.
+    gate: Gate,
     open: Open,
     wake: Arc<dyn Fn() + Send + Sync>,
     window: Gpu,
@@ -99,7 +104,8 @@ impl Drawing {
         let device = Device::default();
         let thread = Apart::start(open.clone(), device.clone(), size, window.is_cpu(), wake.clone())?;
         let display = Presenter::texture(&window, size.0, size.1).map_err(EngineError::from)?;
-        let remote = Remote { thread, device, open, wake, window, display, took: Duration::MAX };
+        let gate = Gate::default();
+        let remote = Remote { thread, device, gate, open, wake, window, display, took: Duration::MAX };
         let mut drawing = Self::new(Place::Apart(Box::new(remote)), size, clock);
         drawing.in_flight = Some(InFlight::opening(Instant::now()));
         Ok(drawing)
@@ -230,12 +236,31 @@ impl Drawing {
         }
     }
 
-    /// Hands in a job with everything that is wanted, and what else `fill` puts in. The engine has none.
-    pub fn submit(&mut self, now: Instant, fill: impl FnOnce(&mut Job)) {
-        let changes = std::mem::take(&mut self.wanted);
-        let mut job =
-            Job { changes, frame: None, travel: None, reads: Reads::default(), costs_of: None, tile_limit: None };
+    /// Says what the frame that is being drawn does, if it may wait.
+    pub fn steer(&self, way: Way) {
+        if let Place::Apart(remote) = &self.place {
+            remote.gate.set(way);
+        }
+    }
+
+    /// What the frame does that is being drawn.
+    #[cfg(test)]
+    pub fn way(&self) -> Option<Way> {
+        match &self.place {
+            Place::Here { .. } => None,
+            Place::Apart(remote) => Some(remote.gate.get()),
+        }
+    }
+
+    /// Hands in a job with everything that is wanted, and what else `fill` puts in. The engine has none. With
+    /// `may_wait` its frame follows [`Drawing::steer`].
+    pub fn submit(&mut self, now: Instant, may_wait: bool, fill: impl FnOnce(&mut Job)) {
+        let mut job = Job { changes: std::mem::take(&mut self.wanted), ..Job::default() };
         fill(&mut job);
+        if let Place::Apart(remote) = &self.place {
+            remote.gate.set(Way::GoOn);
+            job.gate = may_wait.then(|| remote.gate.clone());
+        }
         // The program goes on, what the session keeps of it stays.
         let program = job.changes.program.as_mut().and_then(|coming| coming.origin.take());
         let (size, captures) = (job.changes.size, job.reads.captures.clone());
@@ -321,7 +346,7 @@ impl Drawing {
         let device = Device::default();
         let Remote { open, wake, window, .. } = &**remote;
         let thread = Apart::start(open.clone(), device.clone(), self.facts.size, window.is_cpu(), wake.clone())?;
-        (remote.device, remote.took) = (device, Duration::MAX);
+        (remote.device, remote.gate, remote.took) = (device, Gate::default(), Duration::MAX);
         self.left.extend(std::mem::replace(&mut remote.thread, thread).leave());
         self.facts.program = None;
         self.wanted = Changes::default();

@@ -1,6 +1,7 @@
 //! An engine at work: does one job after the other.
 
 use super::{
+    gate::Gate,
     history::History,
     job::{Capture, Changes, Done, DrawnFrame, Job, Reads, TileLimit},
 };
@@ -27,6 +28,10 @@ const TELLING: u32 = 20;
 /// The number of tiles that a graphics device draws at once is not known. A frame takes at least so often the time of
 /// one.
 const AT_LEAST: f64 = 4.0;
+/// A band of a frame takes about so long: what is typed waits no longer for the frame before it.
+const BAND: Duration = Duration::from_millis(12);
+/// A processor's driver draws squares of so many pixels a side, each on one core.
+const SQUARE: u32 = 64;
 /// Frames are drawn again for so long before the picture is shown and something else may be asked.
 const PATIENCE: Duration = Duration::from_millis(150);
 
@@ -37,6 +42,10 @@ pub struct Studio {
     history: History,
     /// `iFrame` and `iTime` of what the targets hold.
     shown: Option<(i32, f64)>,
+    /// The time that the newest frame took that was drawn whole.
+    whole_took: Duration,
+    /// The newest frame was not drawn whole.
+    is_given_up: bool,
 }
 
 impl Studio {
@@ -44,7 +53,8 @@ impl Studio {
     pub fn new(gpu: Gpu, (width, height): (u32, u32), hands_out: bool) -> Result<Self, EngineError> {
         let mut engine = Engine::new(gpu, width, height)?;
         engine.set_timing(true);
-        Ok(Self { engine, hands_out, history: History::default(), shown: None })
+        let history = History::default();
+        Ok(Self { engine, hands_out, history, shown: None, whole_took: Duration::ZERO, is_given_up: false })
     }
 
     pub fn engine(&self) -> &Engine {
@@ -52,8 +62,12 @@ impl Studio {
     }
 
     pub fn work(&mut self, job: Job) -> Done {
-        let Job { changes, frame, travel, reads, costs_of, tile_limit } = job;
+        let Job { changes, frame, travel, reads, costs_of, tile_limit, gate } = job;
         let mut done = Done::default();
+        // Another program draws its own frame.
+        if changes.program.is_none() || !reads.is_empty() {
+            done.is_display_new |= self.finish();
+        }
         let first_inputs = frame.clone().unwrap_or_else(|| FrameInputs::at_fixed_step(0, 60.0));
         self.change(changes, tile_limit, &first_inputs, &mut done);
         if let Some(goal) = travel {
@@ -69,7 +83,7 @@ impl Studio {
             self.shown = Some((inputs.frame, inputs.time_secs));
             let is_ready = self.history.before_frame(&mut self.engine);
             done.is_display_new |= self.engine.size() != size;
-            let drawn = is_ready.and_then(|()| self.draw(&inputs, costs_of.is_some()));
+            let drawn = is_ready.and_then(|()| self.draw(&inputs, costs_of.is_some(), gate.as_ref()));
             match &drawn {
                 Ok(drawn) => self.history.drew(inputs, self.engine.size(), drawn.took),
                 Err(_) => self.history.begin(false),
@@ -81,7 +95,8 @@ impl Studio {
         // What a resize or another program leaves of the canvas before it is no picture: the frame that follows is.
         let is_other = matches!(done.resized, Some((_, Ok(())))) || matches!(done.program, Some(Ok(())));
         let is_between = !has_drawn && is_other && done.restarted.is_none() && self.engine.program().is_some();
-        if self.hands_out && (done.is_display_new || has_drawn) && !is_between {
+        let is_whole = !self.is_given_up;
+        if self.hands_out && (done.is_display_new || has_drawn) && is_whole && !is_between {
             done.picture = Some(self.engine.picture());
         }
         self.read_behind(reads, &mut done);
@@ -126,7 +141,12 @@ impl Studio {
                 Some(limit) => self.try_tiles(coming.program, limit, inputs, done),
                 None => Ok(coming.program),
             };
+            if done.forecast.is_some() {
+                // It is not drawn for now: what one sees until then is a whole picture.
+                self.finish();
+            }
             done.program = Some(tried.and_then(|program| self.engine.set_program(program)));
+            self.is_given_up &= !matches!(done.program, Some(Ok(())));
             self.history.change_program();
             done.is_display_new = true;
         }
@@ -180,11 +200,36 @@ impl Studio {
         Ok(program)
     }
 
+    /// Draws what is left of a frame that was given up. Says whether that was anything.
+    fn finish(&mut self) -> bool {
+        if !std::mem::take(&mut self.is_given_up) {
+            return false;
+        }
+        // A device that is lost is told of by what is asked of it next.
+        self.engine.finish().inspect_err(|e| log::error!("a frame was not finished: {e}")).unwrap_or(false)
+    }
+
     /// Draws a frame. On a device without timestamps each pass is waited for while somebody looks at the costs.
-    fn draw(&mut self, inputs: &FrameInputs, is_watched: bool) -> Result<DrawnFrame, EngineError> {
+    fn draw(&mut self, inputs: &FrameInputs, is_watched: bool, gate: Option<&Gate>) -> Result<DrawnFrame, EngineError> {
         let began = Instant::now();
         let micros = || began.elapsed().as_secs_f64() * 1e6;
         let (cpu_micros, times): (f64, Option<Vec<PassTime>>);
+        let rows = if self.engine.gpu().is_cpu() { band_rows(self.engine.size().1, self.whole_took) } else { None };
+        if let (Some(gate), Some(rows), false) = (gate, rows, is_watched) {
+            let mut waited = Duration::ZERO;
+            let is_whole = self.engine.draw_in_bands(inputs, rows, &mut || {
+                let asked = Instant::now();
+                let goes_on = gate.pass();
+                waited += asked.elapsed();
+                goes_on
+            })?;
+            self.is_given_up = !is_whole;
+            let took = began.elapsed().saturating_sub(waited);
+            if is_whole {
+                self.whole_took = took;
+            }
+            return Ok(DrawnFrame { cpu_micros: took.as_secs_f64() * 1e6, times: None, took });
+        }
         if is_watched && self.engine.cost_clock() == CostClock::Waited {
             let (_, waited) = self.engine.draw_waited(inputs, &mut || micros() / 1e3)?;
             (cpu_micros, times) = (micros(), Some(waited));
@@ -196,7 +241,8 @@ impl Studio {
             }
             times = self.engine.pass_times();
         }
-        Ok(DrawnFrame { cpu_micros, times, took: began.elapsed() })
+        self.whole_took = began.elapsed();
+        Ok(DrawnFrame { cpu_micros, times, took: self.whole_took })
     }
 
     /// Reads the values of the probe back, with their figures. A program without a probe has none.
@@ -256,14 +302,20 @@ fn tiles(canvas: (u32, u32)) -> impl Iterator<Item = (u32, u32)> {
     sizes.take_while(move |tile| 2 * tile.0 <= canvas.0 && 2 * tile.1 <= canvas.1).take(6)
 }
 
+/// Returns the rows of a band of a frame that takes so long; none where it is drawn at once.
+fn band_rows(height: u32, took: Duration) -> Option<u32> {
+    let bands = (took.as_secs_f64() / BAND.as_secs_f64()).round().clamp(1.0, f64::from(height.max(1)));
+    let rows = height.div_ceil(bands as u32).next_multiple_of(SQUARE);
+    (rows < height).then_some(rows)
+}
+
 /// Returns how often a frame takes the time of a tile.
 fn frames_a_tile(tile: (u32, u32), canvas: (u32, u32), is_cpu: bool) -> f64 {
     if !is_cpu {
         return AT_LEAST;
     }
     let pixels = |(width, height): (u32, u32)| f64::from(width) * f64::from(height);
-    // A processor's driver gives each core a square of so many pixels a side.
-    let squares = |(width, height): (u32, u32)| f64::from(width.div_ceil(64)) * f64::from(height.div_ceil(64));
+    let squares = |(width, height): (u32, u32)| f64::from(width.div_ceil(SQUARE)) * f64::from(height.div_ceil(SQUARE));
     let cores = std::thread::available_parallelism().map_or(1.0, |n| n.get() as f64);
     let at_once = |size| cores.min(squares(size));
     ((pixels(canvas) / at_once(canvas)) / (pixels(tile) / at_once(tile))).max(1.0)
@@ -275,7 +327,10 @@ mod tests {
     use crate::{
         media,
         project::presets,
-        session::{drawing::job::Coming, testing},
+        session::{
+            drawing::{gate::Way, job::Coming},
+            testing,
+        },
     };
 
     #[test]
@@ -288,8 +343,7 @@ mod tests {
         let mut studio = Studio::new(gpu, (16, 9), true).unwrap();
         let mut sizes = |changes: Changes, frame: Option<i32>| {
             let frame = frame.map(|frame| FrameInputs::at_fixed_step(frame, 60.0));
-            let (reads, costs_of) = (Reads::default(), None);
-            let done = studio.work(Job { changes, frame, travel: None, reads, costs_of, tile_limit: None });
+            let done = studio.work(Job { changes, frame, ..Job::default() });
             done.picture.map(|picture| picture.unwrap()).map(|picture| (picture.width, picture.height))
         };
         let resize = |size| Changes { size: Some(size), ..Changes::default() };
@@ -303,6 +357,89 @@ mod tests {
         let program = Some(Coming { program: other, origin: None });
         assert_eq!(sizes(Changes { program, ..Changes::default() }, None), None);
         assert_eq!(sizes(Changes::default(), Some(3)), Some((32, 18)));
+    }
+
+    /// Draws a frame that may wait, with what else is asked.
+    fn frame(studio: &mut Studio, n: i32, gate: Option<Gate>, job: Job) -> Done {
+        // The last frame took long enough for three bands.
+        studio.whole_took = BAND * 3;
+        studio.work(Job { frame: Some(FrameInputs::at_fixed_step(n, 60.0)), gate, ..job })
+    }
+
+    #[test]
+    fn a_frame_that_is_given_up_is_handed_out_by_nobody_and_read_whole() {
+        let Some(gpu) = testing::gpu() else { return };
+        if !gpu.is_cpu() {
+            return;
+        }
+        let project = presets::load("feedback").unwrap().project;
+        let (media, _) = media::gather(&project, None);
+        let build = || Program::build(&gpu, &project, &media, &BuildOptions::default()).unwrap().program;
+        let start = || {
+            let mut studio = Studio::new(gpu.clone(), (64, 192), true).unwrap();
+            let program = Some(Coming { program: build(), origin: None });
+            let shown = Some(PassId::Image);
+            studio.work(Job { changes: Changes { program, shown, ..Changes::default() }, ..Job::default() });
+            studio
+        };
+        let picture = |done: Done| done.picture.map(|picture| picture.unwrap().bytes);
+        let (gate, other) = (Gate::default(), Gate::default());
+        gate.set(Way::GiveUp);
+        let (mut whole, mut given_up) = (start(), start());
+        for n in 0..3 {
+            let expected = picture(frame(&mut whole, n, Some(other.clone()), Job::default()));
+            let done = frame(&mut given_up, n, Some(gate.clone()), Job::default());
+            assert!(matches!(done.frame, Some(Ok(_))) && done.picture.is_none(), "frame {n} counts, and is not shown");
+            let expected = expected.unwrap();
+            match n {
+                // Something else is asked: the frame is finished first.
+                0 => assert_eq!(picture(given_up.work(Job::default())), Some(expected)),
+                1 => {
+                    let capture = Capture {
+                        pass: PassId::Image,
+                        format: crate::session::capture::Format::Npy,
+                        folder: "".into(),
+                        stem: "".into(),
+                    };
+                    let reads = || Reads { captures: vec![capture.clone()], ..Reads::default() };
+                    let read = |studio: &mut Studio, program: Option<Program>| {
+                        let program = program.map(|program| Coming { program, origin: None });
+                        let changes = Changes { program, ..Changes::default() };
+                        let done = studio.work(Job { changes, reads: reads(), ..Job::default() });
+                        done.captured.into_iter().next().unwrap().1.unwrap().texels
+                    };
+                    assert_eq!(read(&mut given_up, Some(build())), read(&mut whole, None), "also beside a program");
+                }
+                // A program that is too slow to be drawn.
+                _ => {
+                    let program = Some(Coming { program: build(), origin: None });
+                    let changes = Changes { program, ..Changes::default() };
+                    let tile_limit = Some(TileLimit { frame: Duration::from_nanos(20) });
+                    let done = given_up.work(Job { changes, tile_limit, ..Job::default() });
+                    assert!(done.forecast.is_some() && done.picture.is_none());
+                    assert_eq!(given_up.engine.picture().unwrap().bytes, expected);
+                }
+            }
+        }
+        // What comes after is as it would have been.
+        let next = picture(frame(&mut whole, 3, None, Job::default()));
+        assert_eq!(picture(frame(&mut given_up, 3, None, Job::default())), next);
+        // Another program's frame is the one that is drawn.
+        frame(&mut given_up, 4, Some(gate), Job::default());
+        let program = Some(Coming { program: build(), origin: None });
+        let changes = Changes { program, ..Changes::default() };
+        let done = frame(&mut given_up, 5, None, Job { changes, ..Job::default() });
+        frame(&mut whole, 4, None, Job::default());
+        assert_eq!(picture(done), picture(frame(&mut whole, 5, None, Job::default())));
+    }
+
+    #[test]
+    fn a_frame_is_drawn_in_bands_of_whole_squares_where_it_takes_long() {
+        let rows = |height, millis| band_rows(height, Duration::from_millis(millis));
+        assert_eq!([0, 12, 17].map(|millis| rows(400, millis)), [None; 3]);
+        assert_eq!([24, 48, 5_000].map(|millis| rows(400, millis)), [Some(256), Some(128), Some(64)]);
+        assert_eq!([rows(64, 5_000), rows(1, 5_000), rows(0, 5_000)], [None; 3]);
+        assert_eq!(rows(16_384, u64::from(u32::MAX)), Some(64));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::{
     Session,
     compile::{self, Compiled, Done, Job},
-    drawing::Coming,
+    drawing::{Coming, Way},
     view::{Level, Meanwhile, Outcome, TabDiagnostic, Tick},
     worker::Panicked,
 };
@@ -34,6 +34,7 @@ impl Session {
         self.fit_canvas();
         self.keep_unsaved();
         self.follow_measures();
+        self.steer_frame();
         // Beside another frame, painting the picture would take longer where a processor does both.
         let is_picture_new = std::mem::take(&mut self.run.is_picture_new);
         self.run.waits_for_painting = is_picture_new && self.drawing.shares_processor();
@@ -51,6 +52,7 @@ impl Session {
         self.now = now;
         self.has_drawn |= self.take_drawn(false);
         self.take_compiled();
+        self.steer_frame();
         if self.drawing.wanted.program.is_some() || self.run.is_program_new {
             self.fit_canvas();
             self.has_drawn |= self.draw_due_frames(false);
@@ -63,6 +65,15 @@ impl Session {
             self.now = now;
             self.has_drawn |= self.draw_due_frames(true);
         }
+    }
+
+    /// Lets the frame that is being drawn wait for the newest text, and gives it up for that text's program.
+    fn steer_frame(&self) {
+        self.drawing.steer(match self.gives_way_until() {
+            _ if self.drawing.wanted.program.is_some() => Way::GiveUp,
+            Some(until) => Way::WaitUntil(until),
+            None => Way::GoOn,
+        });
     }
 
     /// The newest text is with the compiler, and will be a program soon if it takes as long as the one before, or its

@@ -171,3 +171,37 @@ fn where_a_processor_draws_the_next_frame_begins_when_the_last_one_is_painted() 
         assert!(!session.run.waits_for_painting);
     }
 }
+
+#[test]
+fn a_frame_waits_for_the_newest_text_and_is_given_up_for_its_program() {
+    let Some(gpu) = testing::gpu() else { return };
+    let mut session = open_apart(gpu);
+    let now = Instant::now();
+    (session.now, session.compile.newest_since) = (now, None);
+    session.compile.edits.set_quiet(Duration::ZERO);
+    let way = |session: &Session| {
+        session.steer_frame();
+        session.drawing.way().unwrap()
+    };
+    assert_eq!(way(&session), Way::GoOn);
+    session.compile.newest_since = Some(now);
+    assert_eq!(way(&session), Way::WaitUntil(now + BRIEF));
+    session.now = now + BRIEF;
+    assert_eq!(way(&session), Way::GoOn, "it is no longer a compile that is not felt");
+    session.compile.newest_since = None;
+    // A text that gives a program: as soon as that is there, the frame before it is not finished.
+    let tab = Tab::Pass(PassId::Image);
+    let text = "void mainImage(out vec4 o, in vec2 p) { o = vec4(0.5); }";
+    session.apply(Command::EditText { tab, text: text.into() });
+    let end = now + Duration::from_secs(120);
+    while session.drawing.wanted.program.is_none() {
+        assert!(Instant::now() < end, "there is no program");
+        session.now = Instant::now();
+        session.start_compile();
+        session.take_compiled();
+    }
+    assert_eq!(way(&session), Way::GiveUp);
+    let before = session.programs_drawn;
+    tick_until(&mut session, "the program's first frame", |s| s.programs_drawn > before);
+    assert_eq!(session.drawing.way(), Some(Way::GoOn), "what comes after it is drawn");
+}

@@ -1,0 +1,94 @@
+//! The way between a frame that is being drawn in pieces and those who may not want it any more.
+
+use std::{
+    sync::{Arc, Condvar, Mutex, MutexGuard},
+    time::Instant,
+};
+
+/// What a frame that is being drawn does next.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Way {
+    #[default]
+    GoOn,
+    /// It waits, but not for longer.
+    WaitUntil(Instant),
+    /// It is not finished.
+    GiveUp,
+}
+
+/// Holds the way of the frame that is being drawn. Every clone is the same gate.
+#[derive(Clone, Default)]
+pub struct Gate(Arc<Shared>);
+
+#[derive(Default)]
+struct Shared {
+    way: Mutex<Way>,
+    changed: Condvar,
+}
+
+impl Gate {
+    pub fn set(&self, way: Way) {
+        let mut held = self.way();
+        if *held != way {
+            *held = way;
+            self.0.changed.notify_all();
+        }
+    }
+
+    #[cfg(test)]
+    pub fn get(&self) -> Way {
+        *self.way()
+    }
+
+    /// Waits as long as the frame is to wait. Says whether it goes on.
+    pub fn pass(&self) -> bool {
+        let mut way = self.way();
+        loop {
+            let left = match *way {
+                Way::GoOn => return true,
+                Way::GiveUp => return false,
+                Way::WaitUntil(until) => until.saturating_duration_since(Instant::now()),
+            };
+            if left.is_zero() {
+                return true;
+            }
+            way = self.0.changed.wait_timeout(way, left).unwrap_or_else(|e| e.into_inner()).0;
+        }
+    }
+
+    fn way(&self) -> MutexGuard<'_, Way> {
+        // A thread that panicked has left one of the three behind.
+        self.0.way.lock().unwrap_or_else(|e| e.into_inner())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn a_frame_waits_until_it_is_wanted_or_not_or_for_long_enough() {
+        let gate = Gate::default();
+        assert!(gate.pass());
+        gate.set(Way::GiveUp);
+        assert!(!gate.pass());
+        let after = |way: Way| {
+            let (gate, end) = (Gate::default(), Instant::now() + Duration::from_secs(60));
+            gate.set(Way::WaitUntil(end));
+            let other = gate.clone();
+            let passes = std::thread::spawn(move || other.pass());
+            std::thread::sleep(Duration::from_millis(20));
+            assert!(!passes.is_finished());
+            gate.set(way);
+            let passes = passes.join().unwrap();
+            assert!(Instant::now() < end, "it was told");
+            passes
+        };
+        assert!(after(Way::GoOn));
+        assert!(!after(Way::GiveUp));
+        let until = Instant::now() + Duration::from_millis(30);
+        gate.set(Way::WaitUntil(until));
+        assert!(gate.pass() && Instant::now() >= until);
+    }
+}

@@ -1,0 +1,101 @@
+//! A frame that is drawn in bands is the frame that is drawn at once, also one that was given up in between.
+
+use crate::support::*;
+use eddy::{
+    engine::{BuildOptions, Engine, FrameInputs},
+    gpu::Gpu,
+    media,
+    project::{PassId, presets},
+};
+
+const SIZE: (u32, u32) = (96, 150);
+
+fn preset(gpu: &Gpu, name: &str) -> Engine {
+    let loaded = presets::load(name).unwrap();
+    let (media, _) = media::gather(&loaded.project, None);
+    let mut engine = engine_with(gpu, &loaded.project, &media, &BuildOptions::default(), SIZE);
+    engine.show(PassId::Image);
+    engine
+}
+
+fn inputs(frame: i32) -> FrameInputs {
+    FrameInputs { mouse: [20.0 + frame as f32, 70.0, 20.0, 70.0], ..FrameInputs::at_fixed_step(frame, 60.0) }
+}
+
+#[test]
+fn bands_draw_what_one_piece_draws() {
+    let Some(gpu) = gpu() else { return };
+    // Steps, buffers that are read back, meshes, several targets, a picture whose pixels are not drawn each alone.
+    for name in ["fluid-accurate", "feedback", "particles", "ssao", "gbuffer-edges", "toon-outline", "taa"] {
+        let (mut whole, mut banded) = (preset(&gpu, name), preset(&gpu, name));
+        for (frame, rows) in [1, 64, 0, u32::MAX, 37].into_iter().enumerate() {
+            whole.draw(&inputs(frame as i32)).unwrap();
+            assert!(banded.draw_in_bands(&inputs(frame as i32), rows, &mut || true).unwrap());
+            assert!(whole.picture().unwrap().bytes == banded.picture().unwrap().bytes, "{name}, {rows} rows");
+        }
+    }
+}
+
+#[test]
+fn a_frame_that_is_given_up_shows_the_picture_before_and_changes_none_after_it() {
+    let Some(gpu) = gpu() else { return };
+    let bands = SIZE.1.div_ceil(64);
+    for name in ["fluid-accurate", "feedback", "brick-breaker"] {
+        let (mut whole, mut banded) = (preset(&gpu, name), preset(&gpu, name));
+        for frame in 0..12 {
+            let before = banded.picture().unwrap().bytes;
+            whole.draw(&inputs(frame)).unwrap();
+            let drawn = whole.picture().unwrap().bytes;
+            // After none, one or two of three bands, or not at all.
+            let mut left = (0..frame as u32 % (bands + 1));
+            let is_whole = banded.draw_in_bands(&inputs(frame), 64, &mut || left.next().is_some()).unwrap();
+            assert_eq!(is_whole, frame as u32 % (bands + 1) == bands, "{name}, frame {frame}");
+            if is_whole {
+                assert!(banded.picture().unwrap().bytes == drawn, "{name}, frame {frame}");
+                continue;
+            }
+            assert!(banded.picture().unwrap().bytes == before, "{name}, frame {frame}: it is not finished");
+            if frame % 2 == 0 {
+                assert!(banded.finish().unwrap());
+                assert!(banded.picture().unwrap().bytes == drawn, "{name}, frame {frame}, finished");
+                assert!(!banded.finish().unwrap(), "once");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_picture_that_depends_on_nothing_new_is_drawn_after_it_was_given_up() {
+    let Some(gpu) = gpu() else { return };
+    let still = project(vec![image(
+        "void mainImage(out vec4 o, in vec2 p) { o = vec4(p / iResolution.xy, .5, 1.); }",
+        Default::default(),
+    )]);
+    let picture = |engine: &mut Engine| engine.read(&PassId::Image).unwrap().texels;
+    let mut whole = engine(&gpu, &still, SIZE);
+    run(&mut whole, 0, 1);
+    let expected = picture(&mut whole);
+    let given_up = || {
+        let mut engine = engine(&gpu, &still, SIZE);
+        let mut left = 1;
+        let goes_on = &mut || std::mem::replace(&mut left, 0) > 0;
+        assert!(!engine.draw_in_bands(&FrameInputs::at_fixed_step(0, 60.0), 64, goes_on).unwrap());
+        engine
+    };
+    let mut next = given_up();
+    assert!(picture(&mut next) != expected, "rows are missing");
+    assert_eq!(next.draw(&FrameInputs::at_fixed_step(1, 60.0)).unwrap().passes_drawn, 1);
+    assert!(picture(&mut next) == expected);
+    assert_eq!(next.draw(&FrameInputs::at_fixed_step(2, 60.0)).unwrap().passes_drawn, 0, "and rests from then on");
+    for change in
+        [|engine: &mut Engine| engine.reset(), |engine: &mut Engine| engine.resize(SIZE.0, SIZE.1 - 1).unwrap()]
+    {
+        let mut changed = given_up();
+        change(&mut changed);
+        assert!(!changed.finish().unwrap(), "nothing is left of it");
+        run(&mut changed, 1, 2);
+        let mut fresh = engine(&gpu, &still, changed.size());
+        run(&mut fresh, 1, 2);
+        assert!(picture(&mut changed) == picture(&mut fresh));
+    }
+}
