@@ -1,6 +1,10 @@
 //! A frame: the loop that executes a plan. The only place where passes are encoded.
 
-use super::{EngineError, FrameInputs, FrameStats, display::Display, running::Running};
+use super::{
+    EngineError, FrameInputs, FrameStats,
+    display::Display,
+    running::{Rest, Running},
+};
 use super::{
     bind::draw_fill, inspect::Capture, pipelines::StagePipeline, program::DrawBody, shared::Shared, uniforms,
     watch::Watch,
@@ -25,14 +29,6 @@ pub(super) enum Manner<'a, 'b> {
     Inspected(&'a mut Capture<'b>),
     /// All but a last draw that can be done in pieces, which [`Running::draw_rest`] does.
     Divided,
-}
-
-/// A last draw of a frame that is not done yet.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Rest {
-    draw: usize,
-    /// The first row that is not drawn.
-    row: u32,
 }
 
 /// Hands in what is encoded, and waits for it.
@@ -145,13 +141,6 @@ impl Running {
             gpu.wait()?;
         }
         Ok(true)
-    }
-
-    /// Leaves a draw undone that was begun. The next frame does it.
-    pub fn drop_rest(&mut self) {
-        if self.rest.take().is_some() {
-            self.changes.invalidate();
-        }
     }
 
     fn divisible_draw(&self) -> Option<usize> {

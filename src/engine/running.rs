@@ -5,7 +5,6 @@ use super::{
     EngineError, FrameInputs,
     bind::{Bindings, draw_fill},
     custom_uniforms,
-    frame::Rest,
     program::{Meshes, Program},
     shared::Shared,
     targets::{NewTargets, Target},
@@ -33,6 +32,14 @@ pub(super) struct Running {
     pub steps_drawn: Vec<u32>,
     /// The draw of the newest frame that is not done yet.
     pub rest: Option<Rest>,
+}
+
+/// A last draw of a frame that is not done yet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rest {
+    pub draw: usize,
+    /// The first row that is not drawn.
+    pub row: u32,
 }
 
 /// Textures that a program needs besides those that are there.
@@ -122,6 +129,13 @@ impl Running {
     /// Sets values of the author's own uniforms. Says whether anything is different now.
     pub fn set_custom_uniforms(&mut self, shared: &Shared, values: &CustomUniformValues) -> bool {
         self.uniforms.set_custom_uniforms(&shared.gpu, custom_uniforms::block(&self.program.custom_uniforms, values))
+    }
+
+    /// Leaves a draw undone that was begun. The next frame does it.
+    pub fn drop_rest(&mut self) {
+        if self.rest.take().is_some() {
+            self.changes.invalidate();
+        }
     }
 
     /// Sets every target to its state before frame 0.

@@ -47,7 +47,7 @@ fn a_frame_that_is_given_up_shows_the_picture_before_and_changes_none_after_it()
             whole.draw(&inputs(frame)).unwrap();
             let drawn = whole.picture().unwrap().bytes;
             // After none, one or two of three bands, or not at all.
-            let mut left = (0..frame as u32 % (bands + 1));
+            let mut left = 0..frame as u32 % (bands + 1);
             let is_whole = banded.draw_in_bands(&inputs(frame), 64, &mut || left.next().is_some()).unwrap();
             assert_eq!(is_whole, frame as u32 % (bands + 1) == bands, "{name}, frame {frame}");
             if is_whole {

@@ -5,7 +5,7 @@ use std::{
     time::Instant,
 };
 
-/// What a frame that is being drawn does next.
+/// The next thing that a frame does that is being drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Way {
     #[default]

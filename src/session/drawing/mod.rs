@@ -243,7 +243,7 @@ impl Drawing {
         }
     }
 
-    /// What the frame does that is being drawn.
+    /// Returns what the frame does that is being drawn.
     #[cfg(test)]
     pub fn way(&self) -> Option<Way> {
         match &self.place {

@@ -1,0 +1,129 @@
+//! Tests of what an engine does for a job.
+
+use super::*;
+use crate::{
+    media,
+    project::presets,
+    session::{
+        drawing::{gate::Way, job::Coming},
+        testing,
+    },
+};
+
+#[test]
+fn a_resize_or_a_program_is_shown_with_the_frame_that_follows_it() {
+    let Some(gpu) = testing::gpu() else { return };
+    let project = presets::load("feedback").unwrap().project;
+    let (media, _) = media::gather(&project, None);
+    let build = |gpu: &Gpu| Program::build(gpu, &project, &media, &BuildOptions::default()).unwrap().program;
+    let (program, other) = (build(&gpu), build(&gpu));
+    let mut studio = Studio::new(gpu, (16, 9), true).unwrap();
+    let mut sizes = |changes: Changes, frame: Option<i32>| {
+        let frame = frame.map(|frame| FrameInputs::at_fixed_step(frame, 60.0));
+        let done = studio.work(Job { changes, frame, ..Job::default() });
+        done.picture.map(|picture| picture.unwrap()).map(|picture| (picture.width, picture.height))
+    };
+    let resize = |size| Changes { size: Some(size), ..Changes::default() };
+    assert_eq!(sizes(resize((32, 18)), None), Some((32, 18)), "without a program it is black");
+    let program = Some(Coming { program, origin: None });
+    let shown = Some(PassId::Image);
+    assert_eq!(sizes(Changes { program, shown, ..Changes::default() }, Some(0)), Some((32, 18)));
+    assert_eq!(sizes(resize((64, 36)), None), None);
+    assert_eq!(sizes(Changes::default(), Some(1)), Some((64, 36)));
+    assert_eq!(sizes(resize((32, 18)), Some(2)), Some((32, 18)));
+    let program = Some(Coming { program: other, origin: None });
+    assert_eq!(sizes(Changes { program, ..Changes::default() }, None), None);
+    assert_eq!(sizes(Changes::default(), Some(3)), Some((32, 18)));
+}
+
+/// Draws a frame that may wait, with what else is asked.
+fn frame(studio: &mut Studio, n: i32, gate: Option<Gate>, job: Job) -> Done {
+    // The last frame took long enough for three bands.
+    studio.whole_took = BAND * 3;
+    studio.work(Job { frame: Some(FrameInputs::at_fixed_step(n, 60.0)), gate, ..job })
+}
+
+#[test]
+fn a_frame_that_is_given_up_is_handed_out_by_nobody_and_read_whole() {
+    let Some(gpu) = testing::gpu() else { return };
+    if !gpu.is_cpu() {
+        return;
+    }
+    let project = presets::load("feedback").unwrap().project;
+    let (media, _) = media::gather(&project, None);
+    let build = || Program::build(&gpu, &project, &media, &BuildOptions::default()).unwrap().program;
+    let start = || {
+        let mut studio = Studio::new(gpu.clone(), (64, 192), true).unwrap();
+        let program = Some(Coming { program: build(), origin: None });
+        let shown = Some(PassId::Image);
+        studio.work(Job { changes: Changes { program, shown, ..Changes::default() }, ..Job::default() });
+        studio
+    };
+    let picture = |done: Done| done.picture.map(|picture| picture.unwrap().bytes);
+    let (gate, other) = (Gate::default(), Gate::default());
+    gate.set(Way::GiveUp);
+    let (mut whole, mut given_up) = (start(), start());
+    for n in 0..3 {
+        let expected = picture(frame(&mut whole, n, Some(other.clone()), Job::default()));
+        let done = frame(&mut given_up, n, Some(gate.clone()), Job::default());
+        assert!(matches!(done.frame, Some(Ok(_))) && done.picture.is_none(), "frame {n} counts, and is not shown");
+        let expected = expected.unwrap();
+        match n {
+            // Something else is asked: the frame is finished first.
+            0 => assert_eq!(picture(given_up.work(Job::default())), Some(expected)),
+            1 => {
+                let capture = Capture {
+                    pass: PassId::Image,
+                    format: crate::session::capture::Format::Npy,
+                    folder: "".into(),
+                    stem: "".into(),
+                };
+                let reads = || Reads { captures: vec![capture.clone()], ..Reads::default() };
+                let read = |studio: &mut Studio, program: Option<Program>| {
+                    let program = program.map(|program| Coming { program, origin: None });
+                    let changes = Changes { program, ..Changes::default() };
+                    let done = studio.work(Job { changes, reads: reads(), ..Job::default() });
+                    done.captured.into_iter().next().unwrap().1.unwrap().texels
+                };
+                assert_eq!(read(&mut given_up, Some(build())), read(&mut whole, None), "also beside a program");
+            }
+            // A program that is too slow to be drawn.
+            _ => {
+                let program = Some(Coming { program: build(), origin: None });
+                let changes = Changes { program, ..Changes::default() };
+                let tile_limit = Some(TileLimit { frame: Duration::from_nanos(20) });
+                let done = given_up.work(Job { changes, tile_limit, ..Job::default() });
+                assert!(done.forecast.is_some() && done.picture.is_none());
+                assert_eq!(given_up.engine.picture().unwrap().bytes, expected);
+            }
+        }
+    }
+    // What comes after is as it would have been.
+    let next = picture(frame(&mut whole, 3, None, Job::default()));
+    assert_eq!(picture(frame(&mut given_up, 3, None, Job::default())), next);
+    // Another program's frame is the one that is drawn.
+    frame(&mut given_up, 4, Some(gate), Job::default());
+    let program = Some(Coming { program: build(), origin: None });
+    let changes = Changes { program, ..Changes::default() };
+    let done = frame(&mut given_up, 5, None, Job { changes, ..Job::default() });
+    frame(&mut whole, 4, None, Job::default());
+    assert_eq!(picture(done), picture(frame(&mut whole, 5, None, Job::default())));
+}
+
+#[test]
+fn a_frame_is_drawn_in_bands_of_whole_squares_where_it_takes_long() {
+    let rows = |height, millis| band_rows(height, Duration::from_millis(millis));
+    assert_eq!([0, 12, 17].map(|millis| rows(400, millis)), [None; 3]);
+    assert_eq!([24, 48, 5_000].map(|millis| rows(400, millis)), [Some(256), Some(128), Some(64)]);
+    assert_eq!([rows(64, 5_000), rows(1, 5_000), rows(0, 5_000)], [None; 3]);
+    assert_eq!(rows(16_384, u64::from(u32::MAX)), Some(64));
+}
+
+#[test]
+fn tiles_are_far_smaller_than_the_canvas_and_of_its_kind() {
+    let of = |canvas| tiles(canvas).collect::<Vec<_>>();
+    assert_eq!(of((640, 360)), [(24, 12), (96, 48)]);
+    assert_eq!(of((1024, 1024)), [(16, 16), (64, 64), (256, 256)]);
+    assert_eq!(of((8, 4)), []);
+    assert!(of((u32::MAX, u32::MAX)).len() <= 6);
+}
