@@ -1,6 +1,9 @@
 // Paint carried by the fluid: rgb its colour times its thickness, a the thickness.
 // Channel 0 is this frame's Buffer C (velocity), channel 1 this buffer in the last frame.
 
+// Paint that is thinner has no colour that could be told.
+const float NO_PAINT = 1e-4;
+
 vec4 paint(ivec2 p) {
     vec4 q = texelFetch(iChannel1, nearestCell(p, ivec2(iResolution.xy)), 0);
     return isFinite(q) ? q : vec4(0.0);
@@ -20,25 +23,33 @@ vec4 cubic(float f) {
     return 0.5 * vec4(-f + 2.0 * f2 - f3, 2.0 - 5.0 * f2 + 3.0 * f3, f + 4.0 * f2 - 3.0 * f3, f3 - f2);
 }
 
-// Bicubic keeps filaments sharp where bilinear would blur them away in seconds. Its overshoot is cut to the range of
-// the four nearest texels, so no colour appears that was not there.
+// Bicubic keeps filaments sharp where bilinear would blur them away in seconds. The overshoot of the thickness is cut to
+// the range of the four nearest texels, and that of the colour to the range of their colours: cut by themselves, the
+// products of the two would give colours that were not there, some brighter than white.
 vec4 paintAt(vec2 at) {
     ivec2 i = ivec2(floor(at));
     vec4 wx = cubic(at.x - float(i.x)), wy = cubic(at.y - float(i.y));
-    vec4 sum = vec4(0.0), low = vec4(1e9), high = vec4(-1e9);
+    vec4 sum = vec4(0.0);
+    vec2 thick = vec2(1e9, -1e9);
+    vec3 low = vec3(1e9), high = vec3(-1e9);
     for (int y = 0; y < 4; y++) {
         for (int x = 0; x < 4; x++) {
             vec4 q = paint(i + ivec2(x - 1, y - 1));
             sum += wx[x] * wy[y] * q;
             if (x == 1 || x == 2) {
                 if (y == 1 || y == 2) {
-                    low = min(low, q);
-                    high = max(high, q);
+                    thick = vec2(min(thick.x, q.a), max(thick.y, q.a));
+                    if (q.a > NO_PAINT) {
+                        low = min(low, q.rgb / q.a);
+                        high = max(high, q.rgb / q.a);
+                    }
                 }
             }
         }
     }
-    return clamp(sum, low, high);
+    float thickness = clamp(sum.a, thick.x, thick.y);
+    if (thick.y <= NO_PAINT) return vec4(0.0);
+    return thickness * vec4(clamp(sum.rgb / max(sum.a, NO_PAINT), low, high), 1.0);
 }
 
 const int PIGMENTS = 5;

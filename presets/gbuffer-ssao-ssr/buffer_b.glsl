@@ -49,6 +49,9 @@ void mainImage(out vec4 occluded, in vec2 fragCoord) {
     occluded = vec4(0.0, 0.0, 0.0, 1.0);
     if (isNothing(g)) return;
     vec3 at = viewFromPixel(pixel, g.z, canvas), normal = unpackNormal(g.xy), view = normalize(-at);
+    // A mesh's normals are means over its faces, and some at the rim of a shape look away from the camera, which sees
+    // the surface nevertheless. A slice has no part of the sky on that side.
+    normal = normalize(normal - min(dot(normal, view), 0.0) * view);
     float perUnit = FOCAL * unit(canvas) / g.z, pixels = min(radius * perUnit, canvas.y);
     if (pixels < 2.0) return; // the radius is smaller than what a pixel shows
 

@@ -8,6 +8,7 @@ use eddy::{
         rays::{Errors, Meshes, add, hidden, on_all_cores, unit},
         still_life::{DIE, FAR, TABLE, View, first, normal},
     },
+    project::Project,
 };
 
 #[test]
@@ -49,6 +50,32 @@ fn occlusion_on_the_still_life_is_that_of_rays() {
     assert!(all.count > 1500 && all.rms < 0.05, "{} off", all.rms);
     assert!(sides.count > 30 && sides.mean > -0.05, "the die's upright faces are {} too bright", -sides.mean);
     assert!(open.len() > 500 && most < 0.01, "the open table is hidden by {most}");
+}
+
+/// Normals at the rim of a shape look away from the camera from some sides: no part of the sky is less than none.
+#[test]
+fn no_surface_is_hidden_by_less_than_nothing_from_any_side() {
+    let Some(gpu) = gpu() else { return };
+    let range = |project: &Project| {
+        let mut engine = whole(&gpu, project, (640, 360));
+        let mut range = (f32::MAX, f32::MIN);
+        for frame in 0..16 {
+            // Round the still life, and up and down.
+            let turn = f64::from(frame);
+            let at = [320.0 + 300.0 * (0.11 * turn).sin(), 180.0 + 150.0 * (0.173 * turn).sin()];
+            engine.draw(&at_frame(frame, Some(at.map(|v| v.trunc() as f32)))).unwrap();
+            let hidden = read(&mut engine, "B");
+            range = hidden.texels.iter().fold(range, |(least, most), t| (least.min(t[0]), most.max(t[0])));
+        }
+        range
+    };
+    let mut project = preset("gbuffer-ssao-ssr", &[]);
+    let (least, most) = range(&project);
+    // A slice weighs pi / 2 at most.
+    assert!(least == 0.0 && most > 0.3 && most <= 1.572, "{least} to {most}");
+    let turned = "normal = normalize(normal - min(dot(normal, view), 0.0) * view);";
+    presets::patch(&mut project, &buffer("B"), turned, "");
+    assert!(range(&project).0 < -0.01, "the test sees nothing");
 }
 
 // --------------------------------------------------------------------------------------------------- the meshes

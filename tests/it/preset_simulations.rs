@@ -6,7 +6,7 @@ use crate::support::{presets::*, *};
 use eddy::{
     engine::{BuildOptions, Engine, FrameInputs},
     media::MediaSet,
-    project::{CustomUniformType, CustomUniformValue, PassId},
+    project::{CustomUniformType, CustomUniformValue, PassId, Project},
 };
 
 /// A simulation: the buffer that is its state, the largest number that may ever stand in one of its buffers, and how
@@ -99,6 +99,39 @@ fn a_violent_hand_on_a_large_canvas_keeps_the_density_in_the_corners() {
         assert!(least > 0.6 && most < 1.6, "{name}: density from {least} to {most}");
         assert!(least < 0.9, "{name} was not pressed: the test sees nothing");
     }
+}
+
+#[test]
+fn the_fluids_paint_has_no_colour_that_was_not_poured() {
+    let Some(gpu) = gpu() else { return };
+    // The least and the most of each component of the five pigments.
+    let (least, most) = ([0.05, 0.12, 0.10], [0.98, 0.62, 0.62]);
+    let is_poured = |colour: [f32; 3]| (0..3).all(|i| colour[i] > least[i] - 0.001 && colour[i] < most[i] + 0.001);
+    // Colours of paint that is thick enough to have one, frames apart.
+    let colours = |project: &Project| {
+        let mut engine = whole(&gpu, project, true, (48, 27));
+        let mut seen = Vec::new();
+        for part in 0..6 {
+            draw(&mut engine, 100 * part..100 * part + 100, untouched);
+            let paint = engine.read(&buffer("D")).unwrap();
+            // Row 0 is the mouse's memory.
+            let painted = paint.texels[paint.width as usize..].iter().filter(|t| t[3] > 1e-3);
+            seen.extend(painted.map(|t| [0, 1, 2].map(|i| t[i] / t[3])));
+        }
+        seen
+    };
+    let mut project = preset("fluid");
+    let seen = colours(&project);
+    assert!(seen.len() > 500, "only {} painted texels were seen", seen.len());
+    let strange: Vec<_> = seen.into_iter().filter(|colour| !is_poured(*colour)).collect();
+    assert!(strange.is_empty(), "{strange:?}");
+    patch(
+        &mut project,
+        &buffer("D"),
+        "clamp(sum.rgb / max(sum.a, NO_PAINT), low, high)",
+        "sum.rgb / max(sum.a, NO_PAINT)",
+    );
+    assert!(!colours(&project).into_iter().all(is_poured), "the test sees nothing");
 }
 
 #[test]
