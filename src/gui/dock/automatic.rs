@@ -25,10 +25,13 @@ const MOST_CHANNELS: f32 = 150.0;
 const COSTS: f32 = 170.0;
 /// The part of the code's height that the way of a pixel has.
 const TRACE: f32 = 0.42;
-/// And what passes have drawn, or two pictures.
+/// And what passes have drawn, two pictures, or the lab.
 const BUFFERS: f32 = 0.56;
 /// The lab's part of the height.
 const LAB: f32 = 0.48;
+/// A plot with its legend is so wide at least. Where the code is, the lab has its place below that and leaves the
+/// picture as it is; else it lies below all.
+const LAB_WIDTH: f32 = 660.0;
 
 /// The panels that are open, and those in front of others, the newest last.
 type Opened<'a> = (&'a BTreeSet<Panel>, &'a [Panel]);
@@ -36,14 +39,19 @@ type Opened<'a> = (&'a BTreeSet<Panel>, &'a [Panel]);
 /// Returns where each open panel is.
 pub fn arrange(size: Vec2, open: &BTreeSet<Panel>, fronts: &[Panel], heights: Heights) -> Node {
     let has_lab = open.contains(&Panel::Lab);
-    let rest = open.iter().any(|panel| *panel != Panel::Lab);
-    let upper = Vec2::new(size.x, if has_lab && rest { size.y * (1.0 - LAB) } else { size.y });
     let aside = in_one_place(open.iter().copied().filter(|panel| panel.is_aside()), fronts);
-    let tall = upper.y > upper.x * 1.1;
-    let whole = if tall {
-        one_column(upper, (open, fronts), aside, heights)
+    let is_tall = |size: Vec2| size.y > size.x * 1.1;
+    let above: BTreeSet<Panel> = open.iter().copied().filter(|panel| *panel != Panel::Lab).collect();
+    let has_right = code_and_below(&above, fronts).is_some();
+    if has_lab && has_right && !is_tall(size) && size.x - least_left(size) >= LAB_WIDTH {
+        return two_columns(size, (open, fronts), aside, heights).unwrap_or(Node::Panel(Panel::Lab));
+    }
+    let is_alone = above.is_empty();
+    let upper = Vec2::new(size.x, if has_lab && !is_alone { size.y * (1.0 - LAB) } else { size.y });
+    let whole = if is_tall(upper) {
+        one_column(upper, (&above, fronts), aside, heights)
     } else {
-        two_columns(upper, (open, fronts), aside, heights)
+        two_columns(upper, (&above, fronts), aside, heights)
     };
     match (whole, has_lab) {
         (Some(node), true) => Node::Column(vec![(node, 1.0 - LAB), (Node::Panel(Panel::Lab), LAB)]),
@@ -55,7 +63,8 @@ pub fn arrange(size: Vec2, open: &BTreeSet<Panel>, fronts: &[Panel], heights: He
 /// The picture with everything about it on the left, the code on the right.
 fn two_columns(size: Vec2, (open, fronts): Opened<'_>, aside: Option<Node>, heights: Heights) -> Option<Node> {
     let right = code_and_below(open, fronts);
-    let left_width = if right.is_some() { left_width(size, heights) } else { size.x };
+    let most = if open.contains(&Panel::Lab) { size.x - LAB_WIDTH } else { size.x };
+    let left_width = if right.is_some() { left_width(size, heights).min(most) } else { size.x };
     let left = below_each_other(Vec2::new(left_width, size.y), open, aside, heights);
     match (left, right) {
         (Some(left), Some(right)) => Some(Node::Row(vec![(left, left_width), (right, size.x - left_width)])),
@@ -64,13 +73,14 @@ fn two_columns(size: Vec2, (open, fronts): Opened<'_>, aside: Option<Node>, heig
     }
 }
 
-/// Puts what shows the code at work below it: the way of a pixel, what passes have drawn, two pictures, and numbers
-/// over time.
+/// Puts what shows the code at work below it: the way of a pixel, what passes have drawn, two pictures, numbers over
+/// time, and the lab where it is wide enough.
 fn code_and_below(open: &BTreeSet<Panel>, fronts: &[Panel]) -> Option<Node> {
     let is_open = |panel: &Panel| open.contains(panel);
     let code = is_open(&Panel::Code).then_some(Node::Panel(Panel::Code));
-    let part = if is_open(&Panel::Buffers) || is_open(&Panel::Compare) { BUFFERS } else { TRACE };
-    let shared = [Panel::Trace, Panel::Buffers, Panel::Compare, Panel::Measurements];
+    let is_large = [Panel::Buffers, Panel::Compare, Panel::Lab].iter().any(is_open);
+    let part = if is_large { BUFFERS } else { TRACE };
+    let shared = [Panel::Trace, Panel::Buffers, Panel::Compare, Panel::Measurements, Panel::Lab];
     let below = in_one_place(shared.into_iter().filter(is_open), fronts);
     match (code, below) {
         (Some(code), Some(below)) => Some(Node::Column(vec![(code, 1.0 - part), (below, part)])),
@@ -94,8 +104,12 @@ fn in_one_place(panels: impl Iterator<Item = Panel>, fronts: &[Panel]) -> Option
 /// As wide as makes a picture of 16:9 fill the height that the panels below it leave.
 fn left_width(size: Vec2, heights: Heights) -> f32 {
     let fitting = (size.y - heights.transport - BELOW) * 16.0 / 9.0;
-    let least = if size.x < 1000.0 { 0.5 } else { 0.44 };
-    fitting.clamp(size.x * least, (size.x * 0.5).max(size.x - CODE_WIDTH))
+    fitting.clamp(least_left(size), (size.x * 0.5).max(size.x - CODE_WIDTH))
+}
+
+/// The picture is so wide at least.
+fn least_left(size: Vec2) -> f32 {
+    size.x * if size.x < 1000.0 { 0.5 } else { 0.44 }
 }
 
 fn below_each_other(size: Vec2, open: &BTreeSet<Panel>, aside: Option<Node>, heights: Heights) -> Option<Node> {

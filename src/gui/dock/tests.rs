@@ -228,3 +228,38 @@ fn keys_size_and_move_a_panel() {
     let kept = stage.dock.arrangement().unwrap();
     assert_eq!(kept.panels().len(), 4, "none is lost: {}", kept.to_value());
 }
+
+#[test]
+fn the_lab_leaves_the_picture_its_room_where_the_code_is_wide_enough() {
+    let opened = |width: f32, height: f32| {
+        let mut stage = Stage::new(width, height);
+        let before = stage.place("picture");
+        stage.dock.set_open(Panel::Lab, true);
+        stage.frame(vec![]);
+        (before, stage)
+    };
+    for (width, height) in [(1280.0, 722.0), (1280.0, 800.0), (1920.0, 1080.0)] {
+        let (before, stage) = opened(width, height);
+        let (lab, code) = (stage.place("lab"), stage.place("code"));
+        let picture = stage.place("picture");
+        assert!(picture.width() > 0.95 * before.width() && picture.height() > 0.95 * before.height(), "{picture:?}");
+        assert!(lab.width() >= 640.0 && lab.height() >= 300.0 && code.height() >= 250.0, "{lab:?} {code:?}");
+        assert!(lab.top() > code.top() && lab.left() > before.left(), "{lab:?}");
+    }
+    // Narrower ones have it below all, and so have tall ones.
+    for (width, height) in [(1000.0, 700.0), (900.0, 600.0), (800.0, 1200.0)] {
+        let (_, stage) = opened(width, height);
+        let lab = stage.place("lab");
+        assert!(lab.width() > 0.95 * width && lab.height() > 0.4 * height, "{width} x {height}: {lab:?}");
+    }
+    // Without code there is nothing to be below.
+    let (_, mut stage) = opened(1280.0, 722.0);
+    stage.dock.set_open(Panel::Code, false);
+    stage.frame(vec![]);
+    assert!(stage.place("lab").width() > 0.4 * 1280.0);
+    for panel in [Panel::Picture, Panel::Uniforms, Panel::Channels] {
+        stage.dock.set_open(panel, false);
+    }
+    stage.frame(vec![]);
+    assert!(stage.place("lab").height() > 650.0);
+}
