@@ -57,3 +57,5 @@ mod paused;
 mod reach;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod widths;

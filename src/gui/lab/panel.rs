@@ -46,7 +46,7 @@ impl Lab {
         let (study, about) = (self.study(), self.study().about());
         egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.add_space(6.0);
-            ui.set_max_width(760.0);
+            ui.set_max_width(ui.available_width().min(760.0));
             ui.label(RichText::new(about.title).size(17.0).color(theme::of(ui).strong));
             ui.label(about.text);
             ui.add_space(4.0);
