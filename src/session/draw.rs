@@ -97,9 +97,7 @@ impl Session {
         }
         let costs_of = self.run.costs.is_watched().then(|| self.documents.current().clone());
         let tile_limit = self.tile_limit();
-        // The first frame of a program is seen however fast another follows.
-        let is_one_of_many = self.run.clock.is_playing() && !self.run.is_program_new && self.drawing.wanted.is_empty();
-        let may_wait = is_one_of_many && reads.is_empty() && costs_of.is_none();
+        let may_wait = self.is_one_of_many() && reads.is_empty() && costs_of.is_none();
         if self.drawing.wanted.program.is_some() {
             self.mark_new_code();
         }
@@ -107,6 +105,12 @@ impl Session {
             (job.frame, job.reads) = (frame, reads);
             (job.costs_of, job.tile_limit) = (costs_of, tile_limit);
         });
+    }
+
+    /// The next frame is followed by others like it. The first one of a program is seen however fast another follows, and
+    /// so is one that is drawn while time stands.
+    pub(super) fn is_one_of_many(&self) -> bool {
+        self.run.clock.is_playing() && !self.run.is_program_new && self.drawing.wanted.is_empty()
     }
 
     fn tile_limit(&self) -> Option<TileLimit> {

@@ -30,7 +30,7 @@ const BUFFERS: f32 = 0.56;
 /// The lab's part of the height.
 const LAB: f32 = 0.48;
 /// A plot with its legend is so wide at least. Where the code is, the lab has its place below that and leaves the
-/// picture as it is; else it lies below all.
+/// picture its room; else it lies below all.
 const LAB_WIDTH: f32 = 660.0;
 
 /// The panels that are open, and those in front of others, the newest last.

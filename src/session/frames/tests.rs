@@ -205,3 +205,19 @@ fn a_frame_waits_for_the_newest_text_and_is_given_up_for_its_program() {
     tick_until(&mut session, "the program's first frame", |s| s.programs_drawn > before);
     assert_eq!(session.drawing.way(), Some(Way::GoOn), "what comes after it is drawn");
 }
+
+#[test]
+fn the_first_frame_of_a_program_and_one_that_is_drawn_while_time_stands_do_not_wait() {
+    let Some(gpu) = testing::gpu() else { return };
+    let mut session = open_apart(gpu);
+    tick_until(&mut session, "a frame that nothing else goes with", |s| s.is_one_of_many());
+    session.run.is_program_new = true;
+    assert!(!session.is_one_of_many(), "the first one");
+    session.run.is_program_new = false;
+    assert!(session.is_one_of_many());
+    session.drawing.wanted.reset = true;
+    assert!(!session.is_one_of_many(), "a change goes with it");
+    session.drawing.wanted.reset = false;
+    session.apply(Command::Pause);
+    assert!(!session.is_one_of_many(), "time stands");
+}

@@ -241,7 +241,7 @@ impl Studio {
             }
             times = self.engine.pass_times();
         }
-        self.whole_took = began.elapsed();
+        (self.whole_took, self.is_given_up) = (began.elapsed(), false);
         Ok(DrawnFrame { cpu_micros, times, took: self.whole_took })
     }
 
