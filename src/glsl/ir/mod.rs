@@ -305,6 +305,57 @@ impl Module {
         GlobalId::new(self.globals.len() - 1)
     }
 
+    /// Returns the number of statements of each function with all calls written out, by [`FuncId::index`].
+    pub fn inlined_sizes(&self) -> Vec<u64> {
+        fn add(f: &Function, block: &Block, sizes: &[u64]) -> u64 {
+            let mut sum = block.len() as u64;
+            for stmt in block {
+                if let Stmt::Let(value) = stmt
+                    && let Op::Call { function, .. } = f[*value]
+                {
+                    sum = sum.saturating_add(sizes[function.index()]);
+                }
+                stmt.blocks(|block| sum = sum.saturating_add(add(f, block, sizes)));
+            }
+            sum
+        }
+        let mut sizes = Vec::with_capacity(self.functions.len());
+        for function in &self.functions {
+            sizes.push(add(function, &function.body, &sizes));
+        }
+        sizes
+    }
+
+    /// Drops functions that nothing calls any more.
+    pub fn drop_uncalled(&mut self) {
+        let mut called = vec![false; self.functions.len()];
+        let Some(entry) = called.last_mut() else { return };
+        *entry = true;
+        for (index, function) in self.functions.iter().enumerate().rev() {
+            let nodes = if called[index] { &function.nodes[..] } else { &[] };
+            for Node { op, .. } in nodes {
+                if let Op::Call { function, .. } = op {
+                    called[function.index()] = true;
+                }
+            }
+        }
+        let mut kept = 0;
+        let number = |&called: &bool| {
+            kept += usize::from(called);
+            called.then(|| FuncId::new(kept - 1))
+        };
+        let new: Vec<_> = called.iter().map(number).collect();
+        let mut called = called.into_iter();
+        self.functions.retain(|_| called.next() == Some(true));
+        for function in &mut self.functions {
+            for Node { op, .. } in &mut function.nodes {
+                if let Op::Call { function, .. } = op {
+                    *function = new[function.index()].expect("a called function is kept");
+                }
+            }
+        }
+    }
+
     /// Returns the number of parts of a type: components, columns, elements, members. A scalar has none.
     pub fn extent(&self, ty: TypeId) -> u32 {
         use super::types::Type;

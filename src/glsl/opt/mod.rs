@@ -7,6 +7,7 @@
 mod dce;
 #[cfg(test)]
 mod identity;
+mod inline;
 mod ranges;
 mod scalarize;
 #[cfg(test)]
@@ -31,6 +32,11 @@ pub const PASSES: &[Pass] = &[
     },
     Pass { name: "scalarize", purpose: "writes arithmetic on vectors out by component", run: scalarize::run },
     Pass { name: "dce", purpose: "drops what nothing uses (dead code elimination)", run: dce::run },
+    Pass {
+        name: "inline",
+        purpose: "joins long chains of calls, which a driver copies once for each function in them",
+        run: inline::run,
+    },
 ];
 
 /// Some of the passes, by their places in [`PASSES`].

@@ -1,0 +1,321 @@
+//! Inlining of long chains of calls: a call is replaced by what the function does.
+//!
+//! Drivers inline everything in any case, callees first, and keep each function with all that became part of it until
+//! the last one is done: `nir_inline_functions` of Mesa. Of a chain, where each function calls the one before, that is
+//! half the square of its length. Here such functions become one, as long as they are called at one place, which makes
+//! the program no larger. Programs without such chains are left alone: for them inlining saves nothing.
+//!
+//! Control flow is structured, so that a `Return` in the middle of a function becomes a branch: what follows it moves
+//! into the other branch, or is skipped where a flag says that the function has returned. In a loop a `Return` is a
+//! `Break`.
+
+mod choose;
+mod returns;
+
+use crate::glsl::{
+    ast::Loc,
+    ir::{Block, Case, Function, Module, Op, Stmt, Value, Var, VarId},
+    types::{Scalar, TypeId},
+};
+use returns::{always_leaves, needs_flag, returns};
+
+pub(super) fn run(module: &mut Module) {
+    let inlined = choose::inlined(module);
+    if !inlined.contains(&true) {
+        return;
+    }
+    for index in 0..module.functions.len() {
+        let (callees, rest) = module.functions.split_at_mut(index);
+        let caller = &mut rest[0];
+        let calls = |(_, op): (Value, &Op)| matches!(op, Op::Call { function, .. } if inlined[function.index()]);
+        if caller.values().any(calls) {
+            inline_calls(caller, callees, &inlined);
+        }
+    }
+    module.drop_uncalled();
+}
+
+/// Replaces calls in one function, whose callees have been through this. What is inlined is taken out of `callees`.
+fn inline_calls(caller: &mut Function, callees: &mut [Function], inlined: &[bool]) {
+    let body = std::mem::take(&mut caller.body);
+    let map = (0..caller.len()).map(Value::new).collect();
+    let mut inliner = Inliner { f: caller, callees, inlined, map, out: Block::new(), loops: 0 };
+    inliner.block(body);
+    let body = std::mem::take(&mut inliner.out);
+    caller.body = body;
+    caller.compact();
+}
+
+struct Inliner<'a> {
+    f: &'a mut Function,
+    callees: &'a mut [Function],
+    inlined: &'a [bool],
+    /// The value that stands for each one that the caller had: the results of calls change.
+    map: Vec<Value>,
+    out: Block,
+    /// Loops around the code at hand.
+    loops: usize,
+}
+
+/// A call that is being replaced.
+struct Site<'a> {
+    callee: &'a Function,
+    args: Box<[Value]>,
+    /// The caller has the callee's values from this number on, and its variables from that.
+    first_value: usize,
+    first_var: usize,
+    /// The place of the result.
+    result: Option<Value>,
+    /// The place that says whether the function has returned.
+    flag: Option<Value>,
+    /// Loops and switches of the callee around the code at hand.
+    breakable: usize,
+}
+
+impl Site<'_> {
+    /// Returns the value that one of the callee became.
+    fn value(&self, old: Value) -> Value {
+        match self.callee[old] {
+            Op::Param(index) => self.args[index as usize],
+            _ => Value::new(self.first_value + old.index()),
+        }
+    }
+}
+
+impl Inliner<'_> {
+    fn value(&self, old: Value) -> Value {
+        self.map[old.index()]
+    }
+
+    fn nested(&mut self, fill: impl FnOnce(&mut Self)) -> Block {
+        let outer = std::mem::take(&mut self.out);
+        fill(self);
+        std::mem::replace(&mut self.out, outer)
+    }
+
+    fn flag_literal(&mut self, is_set: bool) -> Value {
+        self.f.append(Op::Literal(Scalar::Bool, is_set.into()), TypeId::BOOL, Loc::default())
+    }
+
+    fn temporary(&mut self, ty: TypeId, loc: Loc) -> Value {
+        let var = self.f.add_var(ty);
+        self.f.append(Op::Var(var), ty, loc)
+    }
+
+    fn add(&mut self, op: Op, ty: TypeId, loc: Loc) -> Value {
+        let value = self.f.append(op, ty, loc);
+        self.out.push(Stmt::Let(value));
+        value
+    }
+
+    /// Rewrites statements of the caller.
+    fn block(&mut self, block: Block) {
+        self.out.reserve(block.len());
+        for mut stmt in block {
+            match &mut stmt {
+                Stmt::Let(value) => {
+                    let value = *value;
+                    let mut op = self.f.replace(value, Op::OpaqueZero);
+                    op.operands_mut(|operand| *operand = self.value(*operand));
+                    if let Op::Call { function, args } = op {
+                        if self.inlined[function.index()] {
+                            self.inline(function.index(), args, value);
+                            continue;
+                        }
+                        op = Op::Call { function, args };
+                    }
+                    self.f.replace(value, op);
+                }
+                Stmt::If { condition, accept, reject } => {
+                    *condition = self.value(*condition);
+                    for block in [accept, reject] {
+                        let old = std::mem::take(block);
+                        *block = self.nested(|s| s.block(old));
+                    }
+                }
+                Stmt::Loop { body, continuing, break_if } => {
+                    self.loops += 1;
+                    for block in [body, continuing] {
+                        let old = std::mem::take(block);
+                        *block = self.nested(|s| s.block(old));
+                    }
+                    self.loops -= 1;
+                    *break_if = break_if.map(|value| self.value(value));
+                }
+                Stmt::Switch { selector, cases } => {
+                    *selector = self.value(*selector);
+                    for case in cases {
+                        let old = std::mem::take(&mut case.body);
+                        case.body = self.nested(|s| s.block(old));
+                    }
+                }
+                other => other.operands_mut(|operand| *operand = self.value(*operand)),
+            }
+            self.out.push(stmt);
+        }
+    }
+
+    /// Puts a function here; `call` is the value that the caller had of it.
+    fn inline(&mut self, function: usize, args: Box<[Value]>, call: Value) {
+        let callee = &std::mem::take(&mut self.callees[function]);
+        let (first_value, first_var) = (self.f.len(), self.f.vars.len());
+        let mut site = Site { callee, args, first_value, first_var, result: None, flag: None, breakable: 0 };
+        self.values(&site);
+        self.variables(&site);
+        let (last, before) = match callee.body.split_last() {
+            Some((Stmt::Return(Some(last)), before)) => (Some(*last), before),
+            _ => (None, &callee.body[..]),
+        };
+        let is_straight = !before.iter().any(returns);
+        if let (Some(last), true) = (last, is_straight) {
+            before.iter().for_each(|stmt| self.statement(&mut site, stmt));
+            self.map[call.index()] = site.value(last);
+            return;
+        }
+        let loc = self.f.loc(call);
+        site.result = (callee.result != TypeId::VOID).then(|| self.temporary(callee.result, loc));
+        site.flag = needs_flag(&callee.body).then(|| self.temporary(TypeId::BOOL, loc));
+        if let Some(flag) = site.flag {
+            let value = self.flag_literal(false);
+            self.out.push(Stmt::Store { place: flag, value });
+        }
+        self.body(&mut site, callee.body.iter().collect());
+        if let Some(result) = site.result {
+            self.map[call.index()] = self.add(Op::Load { place: result }, callee.result, loc);
+        }
+    }
+
+    /// Appends the callee's values, in their order.
+    fn values(&mut self, site: &Site<'_>) {
+        for (value, op) in site.callee.values() {
+            let op = match *op {
+                // An argument stands for it.
+                Op::Param(_) => Op::OpaqueZero,
+                Op::Var(id) => Op::Var(VarId::new(site.first_var + id.index())),
+                ref op => {
+                    let mut op = op.clone();
+                    op.operands_mut(|operand| *operand = site.value(*operand));
+                    op
+                }
+            };
+            self.f.append(op, site.callee.ty(value), site.callee.loc(value));
+        }
+    }
+
+    /// Adds the callee's variables. In a loop they begin anew in each round.
+    fn variables(&mut self, site: &Site<'_>) {
+        let first = self.f.vars.len();
+        let is_repeated = self.loops > 0;
+        self.f.vars.extend(site.callee.vars.iter().map(|var| {
+            let init = var.init.filter(|_| !is_repeated).map(|init| site.value(init));
+            Var { init, ..*var }
+        }));
+        if is_repeated {
+            for (index, var) in site.callee.vars.iter().enumerate() {
+                if let Some(init) = var.init {
+                    let id = VarId::new(first + index);
+                    let place = self.f.append(Op::Var(id), var.ty, Loc::default());
+                    self.out.push(Stmt::Store { place, value: site.value(init) });
+                }
+            }
+        }
+    }
+
+    /// Writes statements of the callee outside of its loops and switches: what follows one that may return becomes part
+    /// of a branch.
+    fn body<'a>(&mut self, site: &mut Site<'_>, mut list: Vec<&'a Stmt>) {
+        let Some(at) = list.iter().position(|stmt| returns(stmt)) else {
+            return list.into_iter().for_each(|stmt| self.statement(site, stmt));
+        };
+        let mut rest = list.split_off(at + 1);
+        let stmt = list.pop().expect("it was found");
+        list.into_iter().for_each(|stmt| self.statement(site, stmt));
+        match stmt {
+            Stmt::If { condition, accept, reject } => {
+                let condition = site.value(*condition);
+                let with = |block: &'a Block, rest: &mut Vec<&'a Stmt>| -> Vec<&'a Stmt> {
+                    block.iter().chain(rest.drain(..)).collect()
+                };
+                let mut nothing = Vec::new();
+                let (accept, reject) = if always_leaves(accept) {
+                    (with(accept, &mut nothing), with(reject, &mut rest))
+                } else if always_leaves(reject) {
+                    (with(accept, &mut rest), with(reject, &mut nothing))
+                } else {
+                    (with(accept, &mut nothing), with(reject, &mut nothing))
+                };
+                let accept = self.nested(|s| s.body(site, accept));
+                let reject = self.nested(|s| s.body(site, reject));
+                self.out.push(Stmt::If { condition, accept, reject });
+            }
+            Stmt::Return(_) => return self.statement(site, stmt),
+            _ => self.statement(site, stmt),
+        }
+        if !rest.is_empty() {
+            let flag = site.flag.expect("a function that may return before its end has a flag");
+            let condition = self.add(Op::Load { place: flag }, TypeId::BOOL, Loc::default());
+            let reject = self.nested(|s| s.body(site, rest));
+            self.out.push(Stmt::If { condition, accept: Block::new(), reject });
+        }
+    }
+
+    fn copy(&mut self, site: &mut Site<'_>, block: &Block) -> Block {
+        self.nested(|s| block.iter().for_each(|stmt| s.statement(site, stmt)))
+    }
+
+    /// Writes a statement of the callee. A `Return` in it stands at the end, or in a loop or switch.
+    fn statement(&mut self, site: &mut Site<'_>, stmt: &Stmt) {
+        let copy = match stmt {
+            Stmt::Let(value) => Stmt::Let(site.value(*value)),
+            Stmt::If { condition, accept, reject } => {
+                let condition = site.value(*condition);
+                Stmt::If { condition, accept: self.copy(site, accept), reject: self.copy(site, reject) }
+            }
+            Stmt::Loop { body, continuing, break_if } => {
+                site.breakable += 1;
+                self.loops += 1;
+                let (body, continuing) = (self.copy(site, body), self.copy(site, continuing));
+                self.loops -= 1;
+                site.breakable -= 1;
+                Stmt::Loop { body, continuing, break_if: break_if.map(|value| site.value(value)) }
+            }
+            Stmt::Switch { selector, cases } => {
+                let selector = site.value(*selector);
+                site.breakable += 1;
+                let cases = cases.iter().map(|case| Case { body: self.copy(site, &case.body), ..*case }).collect();
+                site.breakable -= 1;
+                Stmt::Switch { selector, cases }
+            }
+            Stmt::Return(value) => return self.leave(site, *value),
+            other => {
+                let mut copy = other.clone();
+                copy.operands_mut(|operand| *operand = site.value(*operand));
+                copy
+            }
+        };
+        self.out.push(copy);
+        // A loop or switch within another one: that too is left.
+        if let (Some(flag), true) = (site.flag, site.breakable > 0)
+            && matches!(stmt, Stmt::Loop { .. } | Stmt::Switch { .. })
+            && returns(stmt)
+        {
+            let condition = self.add(Op::Load { place: flag }, TypeId::BOOL, Loc::default());
+            self.out.push(Stmt::If { condition, accept: vec![Stmt::Break], reject: Block::new() });
+        }
+    }
+
+    /// Leaves the callee.
+    fn leave(&mut self, site: &mut Site<'_>, value: Option<Value>) {
+        if let (Some(value), Some(place)) = (value, site.result) {
+            let value = site.value(value);
+            self.out.push(Stmt::Store { place, value });
+        }
+        if let Some(place) = site.flag {
+            let value = self.flag_literal(true);
+            self.out.push(Stmt::Store { place, value });
+        }
+        if site.breakable > 0 {
+            self.out.push(Stmt::Break);
+        }
+    }
+}
