@@ -24,8 +24,17 @@ fn main() -> ExitCode {
 
 #[cfg(feature = "gui")]
 fn open(window: Window) -> anyhow::Result<()> {
-    let Window { project, size, set, paused, frame_timeout: frame_limit, json, lose_device } = window;
-    Ok(eddy::gui::run(eddy::gui::Options { project, size, set, paused, frame_limit, json, lose_device })?)
+    let Window { project, size, set, paused, frame_timeout: frame_limit, compile_timeout, json, lose_device } = window;
+    Ok(eddy::gui::run(eddy::gui::Options {
+        project,
+        size,
+        set,
+        paused,
+        frame_limit,
+        compile_timeout,
+        json,
+        lose_device,
+    })?)
 }
 
 #[cfg(not(feature = "gui"))]

@@ -17,11 +17,13 @@ use crate::{
     session::{
         offline::{Offline, OfflineError},
         script::ScriptedInputs,
+        trial::TrialSettings,
     },
 };
 use std::{
     env,
     panic::{AssertUnwindSafe, catch_unwind},
+    sync::Arc,
     time::Instant,
 };
 
@@ -218,7 +220,9 @@ fn open_with(
     // Nobody looks at the picture of a pass of which a value is asked for.
     let wanted = if probe.is_some() { BuildOptions::probed() } else { wanted.clone() };
     let wanted = [wanted].into_iter().chain(beside).collect();
-    let options = BuildOptions { wanted, skip: !run.no_skip, without: run.without_pass.set(), probe };
+    let trials = TrialSettings::of_this_program(run.compile_timeout);
+    let trial = trials.map(|trials| trials.trial(run.media.clone(), Arc::default()));
+    let options = BuildOptions { wanted, skip: !run.no_skip, without: run.without_pass.set(), probe, trial };
     let built = offline.build(&project, &media, &options);
     report.compile_ms = offline.build_millis();
     let (diagnostics, sources) = match built {

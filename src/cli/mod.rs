@@ -28,6 +28,7 @@ mod text_place;
 mod trace;
 mod written;
 
+use crate::session::trial;
 pub use args::Window;
 use args::{Cli, Command};
 use clap::Parser;
@@ -58,6 +59,7 @@ pub fn main() -> Next {
             | Command::Compare(_)
             | Command::Bench(_)
             | Command::Lab(_)
+            | Command::TryCompile
     ) {
         quiet::ask_for_no_wayland();
     }
@@ -105,6 +107,7 @@ fn run(command: &Command) -> u8 {
         Command::List => library::list(),
         Command::Import(args) => library::import(args),
         Command::Export(args) => library::export(args),
+        Command::TryCompile => return u8::from(trial::serve(io::stdin()).is_err()),
     };
     match printed {
         Ok(code) => code,

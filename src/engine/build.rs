@@ -10,6 +10,7 @@ use super::{
     preamble::KeptPreamble,
     program::{Mixing, Program},
     stage_cache::StageCache,
+    trial::Trial,
     uploads::Uploads,
 };
 use crate::{
@@ -32,6 +33,9 @@ pub struct BuildOptions {
     pub without: PassSet,
     /// A value of a pass that is drawn into [`BuildOptions::probed`].
     pub probe: Option<(PassId, Probe)>,
+    /// Compiles large programs elsewhere first, where the driver compiles on the processor. A program whose value is
+    /// probed is not tried.
+    pub trial: Option<Trial>,
 }
 
 impl BuildOptions {
@@ -58,7 +62,7 @@ impl BuildOptions {
 
 impl Default for BuildOptions {
     fn default() -> Self {
-        Self { wanted: Vec::new(), skip: true, without: PassSet::default(), probe: None }
+        Self { wanted: Vec::new(), skip: true, without: PassSet::default(), probe: None, trial: None }
     }
 }
 
@@ -155,7 +159,14 @@ impl Builder {
             let Some(parts) = passes[draw.pass].take() else { continue };
             drafts.push(DrawDraft::new(&binder, &mut self.uploads, &plan, draw, parts)?);
         }
-        let orders = drafts.iter_mut().flat_map(DrawDraft::take_orders).collect();
+        let orders: Vec<_> = drafts.iter_mut().flat_map(DrawDraft::take_orders).collect();
+        if let Some(trial) = options.trial.as_ref().filter(|_| self.gpu.compiles_here && options.probe.is_none()) {
+            let tried = trial.of(project, options, &self.pipelines.missing(&orders));
+            if let Err(error) = tried {
+                let diagnostics = diagnostics.into_iter().chain([error]).collect();
+                return Err(BuildError::Diagnostics { diagnostics, sources });
+            }
+        }
         let mut made = self.pipelines.make(&self.gpu, orders)?.into_iter();
         let mut meshes = 0;
         let draws = drafts.into_iter().map(|draft| draft.finish(&mut made, &mut meshes)).collect();

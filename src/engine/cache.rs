@@ -35,6 +35,11 @@ impl<K: Eq + Hash, V> Cache<K, V> {
         Some(&entry.value)
     }
 
+    /// Returns whether a value is there, which nothing uses by that.
+    pub fn holds(&self, key: &K) -> bool {
+        self.entries.contains_key(key)
+    }
+
     /// Adds a value that this build uses.
     pub fn insert(&mut self, key: K, value: V) {
         self.entries.insert(key, Entry { value, used_by: self.build, is_of_whole: false });

@@ -34,6 +34,11 @@ impl CompiledProgram {
         fragment.into_iter().chain(vertex).filter(|(_, bytes)| !bytes.is_empty())
     }
 
+    /// Returns its stages.
+    pub fn stages(&self) -> impl Iterator<Item = &Compiled> {
+        self.vertex.iter().chain([&self.fragment]).map(|stage| &**stage)
+    }
+
     /// Returns the number of bytes of the author's own uniforms that it reads.
     pub fn custom_uniform_bytes(&self) -> u64 {
         self.vertex.as_ref().map_or(0, |v| v.custom_uniform_bytes).max(self.fragment.custom_uniform_bytes)

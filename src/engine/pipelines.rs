@@ -100,6 +100,11 @@ impl PipelineCache {
         Ok(keys.iter().filter_map(|key| self.made.get(key).cloned()).collect())
     }
 
+    /// Returns the orders whose pipelines are not there yet.
+    pub fn missing<'a>(&self, orders: &'a [PipelineOrder]) -> Vec<&'a PipelineOrder> {
+        orders.iter().filter(|order| !self.made.holds(&order.key())).collect()
+    }
+
     /// Ends a build; see [`Cache::end_build`]. Returns the number of pipelines that it made.
     pub fn end_build(&mut self, is_whole: bool) -> usize {
         self.made.end_build(is_whole);

@@ -9,19 +9,15 @@ use super::{
     source::{CustomUniform, Include, PassSource, Text},
     stages::{self, Interface, Link},
 };
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Span};
 
 /// Returns what is wrong with a pass, without making a program of it: what an editor asks after each pause in typing.
 /// Holds errors exactly where [`compile`] would fail.
 pub fn diagnose(source: &PassSource<'_>) -> Vec<Diagnostic> {
-    check_pass(source, &Link::default(), None).0.1
+    check_pass(source, &Link::default(), None).0.diagnostics
 }
 
-fn check_pass(
-    source: &PassSource<'_>,
-    link: &Link<'_>,
-    preamble: Option<&Preamble>,
-) -> ((hir::Module, Vec<Diagnostic>), Interface, Probed) {
+fn check_pass(source: &PassSource<'_>, link: &Link<'_>, preamble: Option<&Preamble>) -> (Judged, Interface, Probed) {
     let parsed = parse::parse(source, preamble.map(Preamble::parsed));
     let begun = preamble.and_then(|preamble| preamble.checked(source));
     let mut checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source, begun);
@@ -36,7 +32,15 @@ fn check_pass(
         all.diagnostics
             .push(Diagnostic::error(None, "there is no value at the probe's place: put it on an expression"));
     }
-    ((checked.module, all.diagnostics), interface, probed.and_then(|(found, visit)| Some((found?.0, visit))))
+    let judged = Judged { module: checked.module, diagnostics: all.diagnostics, bulk: checked.bulk };
+    (judged, interface, probed.and_then(|(found, visit)| Some((found?.0, visit))))
+}
+
+/// A checked program, with everything that is wrong with it.
+struct Judged {
+    module: hir::Module,
+    diagnostics: Vec<Diagnostic>,
+    bulk: Option<Span>,
 }
 
 /// The expression that is probed, and the visit.
@@ -92,7 +96,8 @@ pub(super) fn compile_seen(
     preamble: Option<&Preamble>,
     mut seen: impl FnMut(&str, &ir::Module),
 ) -> Result<Compiled, Vec<Diagnostic>> {
-    let ((mut checked, diagnostics), interface, probed) = check_pass(source, link, preamble);
+    let (judged, interface, probed) = check_pass(source, link, preamble);
+    let Judged { module: mut checked, diagnostics, bulk } = judged;
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(diagnostics);
     }
@@ -107,11 +112,21 @@ pub(super) fn compile_seen(
     emit::work_arounds::apply(&mut program, source);
     ir::verify::assert_kept(&program, "work-arounds");
     seen("work-arounds", &program);
+    let inlined_size = program.inlined_sizes().pop().unwrap_or(0);
     let emit::Emitted { module, tables, custom_uniform_bytes, initialized_arrays } =
         emit::emit(&program, source, &mut reflection);
     let emit::TableBytes { uniform: uniform_tables, storage: tables } = tables;
-    let compiled =
-        Compiled { module, reflection, tables, uniform_tables, custom_uniform_bytes, initialized_arrays, diagnostics };
+    let compiled = Compiled {
+        module,
+        reflection,
+        tables,
+        uniform_tables,
+        custom_uniform_bytes,
+        initialized_arrays,
+        inlined_size,
+        bulk,
+        diagnostics,
+    };
     // wgpu validates each module that it is given.
     if cfg!(debug_assertions)
         && let Err(bug) = compiled.validate()

@@ -84,6 +84,9 @@ pub struct Gpu {
     pub misjudges_limits: bool,
     /// A loop over an array by its counter is written out whatever it costs: Mesa's compiler does so.
     pub unrolls_whole_arrays: bool,
+    /// Shaders are compiled on the processor by a compiler that takes time and memory out of proportion for large ones,
+    /// in this process: LLVM, in lavapipe.
+    pub compiles_here: bool,
     /// Timestamps can be written between passes.
     pub has_timestamps: bool,
     pub(super) runtime_checks: bool,
@@ -199,6 +202,7 @@ impl Gpu {
             filters_float32: features.contains(wgpu::Features::FLOAT32_FILTERABLE),
             recompiles_for_uniforms: is_lavapipe,
             keeps_denormals: is_lavapipe,
+            compiles_here: is_lavapipe,
             wants_array_loops: features.contains(wgpu::Features::PASSTHROUGH_SHADERS),
             misjudges_limits: info.driver_info.contains("Mesa"),
             unrolls_whole_arrays: info.driver_info.contains("Mesa"),

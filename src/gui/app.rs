@@ -14,7 +14,7 @@ use super::{
     surface::{Presented, Surface},
     system_theme, theme,
 };
-use crate::session::{self, Command, Level, Request, Session, SessionOptions};
+use crate::session::{self, Command, Level, Request, Session, SessionOptions, trial::TrialSettings};
 use egui_winit::accesskit_winit;
 use serde_json::json;
 use std::{
@@ -220,6 +220,7 @@ impl Running {
             frame_limit: options.frame_limit.unwrap_or(defaults.frame_limit),
             state_dir,
             recovery: session::recovery_folder(),
+            trials: TrialSettings::of_this_program(options.compile_timeout),
             ..defaults
         };
         let mut session = Session::with_options(surface.gpu().clone(), wake.clone(), session_options)?;

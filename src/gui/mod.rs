@@ -79,6 +79,8 @@ pub struct Options {
     pub paused: bool,
     /// A frame that takes longer pauses the picture; none: the session's own limit.
     pub frame_limit: Option<Duration>,
+    /// The processor time that a driver may take for a large pass; none: the session's own limit.
+    pub compile_timeout: Option<Duration>,
     /// Say on standard output what happens, one JSON object a line, for scripts that drive the window.
     pub json: bool,
     /// The window's device is lost when this file appears: for tests.

@@ -65,6 +65,9 @@ pub const GLTF_OBJECTS: u64 = 1 << 20;
 /// Values in the JSON text of a glTF file.
 pub const GLTF_VALUES: u64 = 8 << 20;
 
+/// Memory of the process in which a driver that compiles on the processor tries a large shader.
+pub const DRIVER_BYTES: u64 = 3 << 29;
+
 /// Passes of a project.
 pub const PASSES: usize = 1_000;
 /// Files with a text of their own: passes, stages, Common and included files.

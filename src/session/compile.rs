@@ -2,6 +2,7 @@
 
 use super::{
     drawing::Device,
+    options::SessionOptions,
     probe::{self, ProbePlace, ProbedValue},
     stamps::{Stamp, Stamps},
     view::TabDiagnostic,
@@ -16,6 +17,7 @@ use crate::{
 use std::{
     cmp::Reverse,
     path::PathBuf,
+    sync::{Arc, atomic::AtomicU64},
     time::{Duration, Instant},
 };
 
@@ -71,8 +73,15 @@ pub(super) fn quiet_after(took: Duration, longest: Duration) -> Duration {
     if took < UNFELT { Duration::ZERO } else { took.min(longest) }
 }
 
-/// The worker's work, with the pictures it has read so far. The first job waits for the device.
-pub(super) fn work(device: Device, media_dir: Option<PathBuf>) -> impl FnMut(Job) -> Done + Send {
+/// The worker's work, with the pictures it has read so far. The first job waits for the device. `jobs` counts what was
+/// submitted: a trial compile that a newer job has overtaken is given up.
+pub(super) fn work(
+    device: Device,
+    options: &SessionOptions,
+    jobs: Arc<AtomicU64>,
+) -> impl FnMut(Job) -> Done + Send + use<> {
+    let media_dir = options.media_dir.clone();
+    let trial = options.trials.as_ref().map(|trials| trials.trial(media_dir.clone(), jobs));
     let mut media = Media { dir: media_dir, ..Media::default() };
     let mut builder: Option<Builder> = None;
     let mut build = move |project: &Project, media: &MediaSet, options: &BuildOptions| {
@@ -92,7 +101,8 @@ pub(super) fn work(device: Device, media_dir: Option<PathBuf>) -> impl FnMut(Job
             return Done { files, is_changed: media.of != Some(named), includes: None, compiled: None };
         }
         let mut found = media.update(&job, named);
-        let mut options = BuildOptions { wanted: wanted(&job), skip: true, ..BuildOptions::default() };
+        let trial = trial.clone();
+        let mut options = BuildOptions { wanted: wanted(&job), skip: true, trial, ..BuildOptions::default() };
         let asked = job.probe.as_ref().map(|order| probe::options(&job.project, &job.shown, order));
         let probe = asked.map(|asked| asked.map(|(probing, value)| (options = probing, value).1));
         if job.project.origin.has_channels_in_texts() {

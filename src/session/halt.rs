@@ -112,7 +112,7 @@ impl Session {
             self.notice(Level::Error, format!("no thread for drawing: {e}. Save your texts and start Eddy again"));
             return;
         }
-        let work = compile::work(self.drawing.device(), self.options.media_dir.clone());
+        let work = compile::work(self.drawing.device(), &self.options, self.compile.jobs.clone());
         match Worker::new("compile", self.wake.clone(), work) {
             // The old one may wait for the device.
             Ok(worker) => std::mem::replace(&mut self.compiler, worker).leave(),

@@ -64,6 +64,7 @@ mod template;
 pub(crate) mod testing;
 pub mod trace;
 mod tracing;
+pub mod trial;
 pub mod view;
 mod walked;
 mod watch;

@@ -1,6 +1,6 @@
 //! The settings that a session starts with, and the reasons why it may not start.
 
-use super::drawing;
+use super::{drawing, trial::TrialSettings};
 use crate::engine::EngineError;
 use std::{path::PathBuf, time::Duration};
 
@@ -27,6 +27,9 @@ pub struct SessionOptions {
     pub draws_apart: bool,
     /// A frame that is drawn apart and takes longer pauses the picture.
     pub frame_limit: Duration,
+    /// How large programs are tried in a process of their own, where the driver compiles on the processor; without, they
+    /// are not.
+    pub trials: Option<TrialSettings>,
     /// The folder for what is remembered between two starts; without, nothing is.
     pub state_dir: Option<PathBuf>,
 }
@@ -42,6 +45,7 @@ impl Default for SessionOptions {
             recovery: None,
             draws_apart: false,
             frame_limit: Duration::from_secs(2),
+            trials: None,
             state_dir: None,
         }
     }

@@ -36,7 +36,12 @@ use crate::{
     media::Keyboard,
     project::{PassId, Project},
 };
-use std::{collections::VecDeque, path::PathBuf, sync::Arc, time::Instant};
+use std::{
+    collections::VecDeque,
+    path::PathBuf,
+    sync::{Arc, atomic::AtomicU64},
+    time::Instant,
+};
 
 /// An open project over time.
 pub struct Session {
@@ -96,6 +101,8 @@ pub(super) struct Canvas {
 /// Keeps the way from texts to the running program.
 pub(super) struct Compile {
     pub edits: Debounce,
+    /// Jobs that the compiler was given.
+    pub jobs: Arc<AtomicU64>,
     /// A text was edited since the last tick.
     pub edited: bool,
     /// Counts the edits after which the texts include other files, and how many of them have been followed by reading.
@@ -195,7 +202,8 @@ impl Session {
         } else {
             Drawing::here(gpu, size)?
         };
-        let work = compile::work(drawing.device(), options.media_dir.clone());
+        let jobs = Arc::new(AtomicU64::new(0));
+        let work = compile::work(drawing.device(), &options, jobs.clone());
         let compiler = Worker::new("compile", wake.clone(), work).map_err(SessionError::Thread)?;
         let analyst = Analyst::new(wake.clone()).map_err(SessionError::Thread)?;
         let tracing = Tracing::new(wake.clone()).map_err(SessionError::Thread)?;
@@ -213,6 +221,7 @@ impl Session {
             canvas: Canvas { viewport: None, scale: 1.0, fixed: None, is_fixed_by_project: false, refused: None },
             compile: Compile {
                 edits: Debounce::new(options.edit_debounce),
+                jobs,
                 edited: false,
                 include_edits: 0,
                 includes_read: 0,

@@ -17,6 +17,7 @@ use crate::{
         capture::Format,
         reduction::{Assertion, Quantity},
         script::ScriptedInputs,
+        trial::COMMAND,
     },
 };
 use clap::{Args, Parser, Subcommand};
@@ -51,6 +52,9 @@ pub struct Window {
     /// A frame that takes longer pauses the picture [default: 2]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     pub frame_timeout: Option<Duration>,
+    /// Processor time that a driver which compiles on the processor may take for a large pass [default: 8]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
+    pub compile_timeout: Option<Duration>,
     /// Tell on standard output what happens in the window, one JSON object a line
     #[arg(long)]
     pub json: bool,
@@ -81,6 +85,9 @@ pub enum Command {
     Import(ImportArgs),
     /// Write a project as a Shadertoy JSON file
     Export(ExportArgs),
+    /// Compile the project on standard input by the graphics driver: what Eddy starts itself for, see session/trial.rs
+    #[command(hide = true, name = COMMAND)]
+    TryCompile,
 }
 
 #[derive(Debug, Args)]

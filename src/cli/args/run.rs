@@ -48,6 +48,9 @@ pub struct RunArgs {
     /// Give a project up when a frame of it takes longer [default: wait]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     pub frame_timeout: Option<Duration>,
+    /// Processor time that a driver which compiles on the processor may take for a large pass [default: 8]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
+    pub compile_timeout: Option<Duration>,
     #[command(flatten)]
     pub without_pass: WithoutPass,
 }

@@ -77,6 +77,8 @@ pub(super) struct Checker<'a> {
     pub switches: Vec<Switch>,
     /// Functions that initialisers of globals call.
     pub global_calls: Vec<FuncId>,
+    /// The name of the function that most of a program without errors lies in.
+    pub bulk: Option<Loc>,
     /// Scratch stacks: lists nest, and live above the length at which their owner found them.
     pub expr_stack: Vec<hir::ExprId>,
     pub stmt_stack: Vec<hir::StmtId>,
@@ -140,6 +142,7 @@ impl<'a> Checker<'a> {
             loops: 0,
             switches: Vec::new(),
             global_calls: begun.global_calls,
+            bulk: None,
             expr_stack: Vec::new(),
             stmt_stack: Vec::new(),
             word_stack: Vec::new(),

@@ -51,7 +51,7 @@ use super::{
     hir::Module,
     source::{CustomUniform, PassSource, UniformValue},
 };
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Span};
 use checker::{Checker, Settings};
 use env::Env;
 
@@ -63,6 +63,8 @@ pub(crate) struct Checked {
     pub diagnostics: Vec<Diagnostic>,
     /// Operations on constants whose results are open or no finite numbers.
     pub faults: Vec<Fault>,
+    /// The name of the function that most of the program lies in, of a program without errors.
+    pub bulk: Option<Span>,
 }
 
 /// Checks one pass, whose texts `ast` is of; the first of them may have `begun` it.
@@ -77,7 +79,8 @@ pub(crate) fn check(
     let settings = Settings { channels, custom_uniforms, values, common: common.map(|text| text.id) };
     let mut checker = Checker::new(ast, origins, names, Env::Pass(source.kind), settings, begun);
     checker.unit();
-    Checked { module: checker.module, diagnostics: checker.diagnostics, faults: checker.faults }
+    let bulk = checker.bulk.map(|name| origins.span(name));
+    Checked { module: checker.module, diagnostics: checker.diagnostics, faults: checker.faults, bulk }
 }
 
 /// Returns what the site would refuse in Common because it compiles it alone, where only `iDate` and `iSampleRate`

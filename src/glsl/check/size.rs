@@ -6,7 +6,7 @@
 
 use super::checker::Checker;
 use crate::glsl::{
-    ast::List,
+    ast::{List, Loc},
     hir::{ExprId, ExprKind, FuncId, Module},
     lower::reached,
 };
@@ -17,7 +17,11 @@ pub(super) const MAX_PROGRAM: u64 = 1 << 20;
 impl Checker<'_> {
     /// Judges a program without errors.
     pub(super) fn finish_size(&mut self) {
-        let Some(func) = too_large(&self.module, &self.global_calls) else { return };
+        let quick = quick_sizes(&self.module);
+        let Some(func) = too_large(&self.module, &self.global_calls, &quick) else {
+            self.bulk = bulk(&self.module, &quick);
+            return;
+        };
         let name = self.module[func].name;
         let text = self.name(name.symbol);
         let message = format!("with all calls written out `{text}` has more than {MAX_PROGRAM} operations");
@@ -31,18 +35,7 @@ impl Checker<'_> {
 
 /// The innermost function that is too large with what it calls, of those that are reached from the entry point or, by
 /// these calls, from what globals begin with.
-fn too_large(module: &Module, of_globals: &[FuncId]) -> Option<FuncId> {
-    // By what stands in the text, which is quick: what is left out, and what folding left behind, counts too.
-    let quick = sizes(module, |func, sizes| {
-        let function = &module[func];
-        let mut size = u64::from(function.exprs.end - function.exprs.start);
-        for expr in function.exprs.clone() {
-            if let ExprKind::Call { func, .. } = module[ExprId::new(expr as usize)].kind {
-                size = size.saturating_add(sizes[func.index()]);
-            }
-        }
-        size
-    });
+fn too_large(module: &Module, of_globals: &[FuncId], quick: &[u64]) -> Option<FuncId> {
     quick.iter().find(|&&size| size > MAX_PROGRAM)?;
     let of = |func: FuncId| reached(module, module[func].body.unwrap_or(List::EMPTY));
     let exact = sizes(module, |func, sizes| {
@@ -55,6 +48,33 @@ fn too_large(module: &Module, of_globals: &[FuncId]) -> Option<FuncId> {
         found = callee;
     }
     Some(found)
+}
+
+/// Returns the name of the innermost function that holds half of a program with what it calls.
+fn bulk(module: &Module, sizes: &[u64]) -> Option<Loc> {
+    let mut found = module.entry?;
+    let half = sizes[found.index()] / 2;
+    while let Some(callee) = calls(module, found).find(|callee| sizes[callee.index()] > half) {
+        found = callee;
+    }
+    Some(module[found].name.into())
+}
+
+/// Returns the size of each function that is called by what stands in the text, which is quick: what is left out, and
+/// what folding left behind, counts too.
+fn quick_sizes(module: &Module) -> Vec<u64> {
+    sizes(module, |func, sizes| {
+        let own = u64::from(module[func].exprs.end - module[func].exprs.start);
+        calls(module, func).fold(own, |size, callee| size.saturating_add(sizes[callee.index()]))
+    })
+}
+
+/// Returns what a function calls, as often as it does.
+fn calls(module: &Module, func: FuncId) -> impl Iterator<Item = FuncId> {
+    module[func].exprs.clone().filter_map(|expr| match module[ExprId::new(expr as usize)].kind {
+        ExprKind::Call { func, .. } => Some(func),
+        _ => None,
+    })
 }
 
 /// The size of each function that is called, by [`FuncId::index`], from those of what it calls.

@@ -8,7 +8,10 @@ use super::{
     worker::Panicked,
 };
 use crate::{diag::Severity, engine::EngineError, gpu::GpuError};
-use std::time::{Duration, Instant};
+use std::{
+    sync::atomic::Ordering,
+    time::{Duration, Instant},
+};
 
 /// A compile of so long goes before frames of the program that it takes the place of: they would take its processors,
 /// and nobody sees a pause of so long.
@@ -132,6 +135,7 @@ impl Session {
             self.compile.newest_since = (!is_fallback).then_some(self.now);
             self.changed = true;
         }
+        self.compile.jobs.fetch_add(1, Ordering::Relaxed);
         self.compiler.submit(Job {
             is_fallback,
             project: fallback.unwrap_or_else(|| self.documents.current().clone()),
