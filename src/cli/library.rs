@@ -5,7 +5,12 @@ use super::{
     machine::{Machine, Trouble},
     report::{Printer, Report},
 };
-use crate::project::{self, Origin, Overwrite, Project, ProjectError};
+use crate::{
+    diag::{self, Diagnostic, SourceMap},
+    engine,
+    glsl::Driver,
+    project::{self, Origin, Overwrite, Project, ProjectError},
+};
 use std::{
     io::{self, Write},
     path::Path,
@@ -43,6 +48,7 @@ pub fn export(args: &ExportArgs) -> io::Result<u8> {
             return Err(anyhow::anyhow!("--out {to}: a project is exported as a file that ends in .json").into());
         }
         let project = read(report, &args.project)?;
+        check_directives(&project)?;
         // A JSON file may be saved over itself in an editor; nobody who exports it means that.
         if !args.force && args.out.symlink_metadata().is_ok() {
             return Err(mend(ProjectError::WouldOverwrite { path: args.out.clone() }.into()));
@@ -64,6 +70,33 @@ pub fn export(args: &ExportArgs) -> io::Result<u8> {
         };
         Ok(format!("{}: exported to {to}{note}{lost}", args.project))
     })
+}
+
+/// Refuses a project with a directive that cannot be obeyed: what it asks for would be missing in the export. Other
+/// mistakes of its texts are exported as they are.
+fn check_directives(project: &Project) -> Result<(), Trouble> {
+    let texts = engine::Sources::new(project);
+    let sources = project.sources();
+    let mut found = texts.diagnostics.clone();
+    for outcome in texts.compile_all(Driver::default()) {
+        let said = outcome.map_or_else(|errors| errors, |_| Vec::new());
+        diag::append(&mut found, said.into_iter().filter(|d| is_of_directive(d, &sources)));
+    }
+    found.retain(Diagnostic::is_error);
+    if found.is_empty() { Ok(()) } else { Err(Trouble::Diagnostics(found, sources)) }
+}
+
+/// Returns whether a message is about a directive that GLSL itself does not have.
+fn is_of_directive(diagnostic: &Diagnostic, sources: &SourceMap) -> bool {
+    const GLSL: [&str; 12] =
+        ["define", "undef", "if", "ifdef", "ifndef", "elif", "else", "endif", "error", "line", "version", "extension"];
+    let line = diagnostic.span.and_then(|span| {
+        let text = &sources.get(span.source)?.text;
+        let begin = text.get(..span.start as usize)?.rfind('\n').map_or(0, |i| i + 1);
+        text[begin..].lines().next().map(str::trim_start)
+    });
+    let word = line.and_then(|line| line.strip_prefix('#')).map(str::trim_start);
+    word.is_some_and(|rest| !GLSL.contains(&rest.split(|c: char| !c.is_alphanumeric()).next().unwrap_or_default()))
 }
 
 /// Does the work of one project and prints what became of it.

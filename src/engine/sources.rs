@@ -11,7 +11,7 @@ use crate::{
     },
     project::{
         Channel, CustomUniforms, FillKind, FillText, Geometry, IncludeLines, Input, Pass, PassBody, PassId, Project,
-        Source, Stage,
+        Source, Stage, lines_not_obeyed,
     },
 };
 use std::{
@@ -49,7 +49,9 @@ impl<'p> Sources<'p> {
         let texts = [common].into_iter().chain(passes).chain(stages).chain(included).collect();
         let (lines, custom_uniforms) = (project.include_lines(), custom_uniforms::custom_uniforms(project));
         let fills = project.fills().filter_map(|(p, kind, _)| Some((p, kind, project.fill_text(p, kind)?))).collect();
-        let diagnostics = lines.diagnostics.iter().chain(&custom_uniforms.diagnostics).cloned().collect();
+        let mut diagnostics: Vec<Diagnostic> =
+            lines.diagnostics.iter().chain(&custom_uniforms.diagnostics).cloned().collect();
+        diagnostics.extend(lines_not_obeyed(project));
         let values = custom_uniforms::uniform_values(&custom_uniforms, &project.custom_uniform_values);
         Self { project, texts, lines, custom_uniforms, values, preamble: OnceLock::new(), fills, diagnostics }
     }

@@ -3,10 +3,11 @@
 use super::{
     check,
     compiled::Compiled,
-    emit, hir, ir, lower, opt, parse, pieces,
+    dialects, emit, hir, ir, lower, opt, parse, pieces,
     preamble::Preamble,
     probe, report,
     source::{CustomUniform, Include, PassSource, Text},
+    stack::on_deep_stack,
     stages::{self, Interface, Link},
 };
 use crate::diag::{Diagnostic, Span};
@@ -28,6 +29,11 @@ fn check_pass(source: &PassSource<'_>, link: &Link<'_>, preamble: Option<&Preamb
     parsed.report.diagnostics.into_iter().chain(checked.diagnostics).for_each(|d| all.add(d));
     // As the author reads the text.
     all.diagnostics.sort_by_key(|d| d.span.map(|s| (s.source, s.start)));
+    if all.has_errors()
+        && let Some(named) = dialects::name(source, &all.diagnostics)
+    {
+        all.diagnostics = vec![named];
+    }
     if let Some((None, _)) = probed {
         all.diagnostics
             .push(Diagnostic::error(None, "there is no value at the probe's place: put it on an expression"));
@@ -59,7 +65,7 @@ pub fn compile_linked(
     link: &Link<'_>,
     preamble: Option<&Preamble>,
 ) -> Result<Compiled, Vec<Diagnostic>> {
-    compile_seen(source, link, preamble, |_, _| {})
+    on_deep_stack(|| compile_seen(source, link, preamble, |_, _| {}))
 }
 
 /// The text of the intermediate representation of a pass, as lowering made it and after each pass of the optimiser; or
@@ -72,7 +78,7 @@ pub fn dump_ir(
 ) -> Result<String, Vec<Diagnostic>> {
     let mut out = String::new();
     let mut before: Option<(String, String)> = None;
-    compile_seen(source, link, preamble, |name, program| {
+    let seen = |name: &str, program: &ir::Module| {
         let mut write = |name: &str, text: &str| out.push_str(&format!("; after {name}\n{text}\n"));
         let text = ir::print::print(program);
         match pass {
@@ -85,7 +91,8 @@ pub fn dump_ir(
             }
             Some(_) => before = Some((name.to_owned(), text)),
         }
-    })?;
+    };
+    on_deep_stack(|| compile_seen(source, link, preamble, seen))?;
     Ok(out)
 }
 
@@ -140,7 +147,7 @@ impl Compiled {
     /// Asks naga whether the module is valid, as wgpu does where a device gets it. An error is a bug of this compiler,
     /// never the author's.
     pub fn validate(&self) -> Result<(), Diagnostic> {
-        emit::validate(&self.module).map(drop).map_err(|reason| {
+        on_deep_stack(|| emit::validate(&self.module)).map(drop).map_err(|reason| {
             let bug = format!("this is a bug in Eddy: the generated program is not valid: {reason}");
             Diagnostic::error(None, bug).hint("the program itself is right; please report it with this text")
         })

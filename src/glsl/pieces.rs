@@ -1,6 +1,9 @@
 //! A pass's texts in the order they are read: what stands before an include, the included text, what stands behind.
 
-use super::{Include, Text};
+use super::{
+    Include, Text,
+    stack::{STACK_LEFT, STACK_MORE},
+};
 use std::ops::Range;
 
 /// A stretch of a text.
@@ -30,7 +33,8 @@ fn add<'a>(text: Text<'a>, lines: &[&Include<'a>], pieces: &mut Vec<Piece<'a>>) 
     let mut done = 0;
     for include in lines[begin..].iter().take_while(|i| i.line.source == text.id) {
         pieces.push(Piece { text, range: done..include.line.range().start, begins_text: false });
-        add(include.text, lines, pieces);
+        // Files include files as far as their number goes.
+        stacker::maybe_grow(STACK_LEFT, STACK_MORE, || add(include.text, lines, pieces));
         done = include.line.range().end;
     }
     pieces.push(Piece { text, range: done..text.text.len(), begins_text: false });

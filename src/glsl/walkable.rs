@@ -7,6 +7,7 @@ use super::{
     check, emit, ir,
     lower::{self, Mark},
     parse, report,
+    stack::on_deep_stack,
     stages::{self, Link, Varying},
     statements::Statements,
     types::{StructId, TypeId},
@@ -56,6 +57,10 @@ pub(crate) enum Coming {
 impl Walkable {
     /// Lowers a pass, or a stage of a program that draws meshes. On failure the list holds at least one error.
     pub fn new(source: &PassSource<'_>, link: &Link<'_>, detail: Detail) -> Result<Self, Vec<Diagnostic>> {
+        on_deep_stack(|| Self::lowered(source, link, detail))
+    }
+
+    fn lowered(source: &PassSource<'_>, link: &Link<'_>, detail: Detail) -> Result<Self, Vec<Diagnostic>> {
         let is_marked = detail == Detail::Statements;
         let parsed = parse::parse(source, None);
         let mut checked = check::check(&parsed.ast, &parsed.origins, &parsed.names, source, None);

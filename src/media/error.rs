@@ -1,6 +1,6 @@
 //! Errors of loading a picture, with how to mend them.
 
-use super::builtin;
+use super::{builtin, played::Played};
 use crate::project::{FileError, limits, listed};
 use image::ImageError;
 use std::{io, path::PathBuf};
@@ -12,6 +12,8 @@ pub enum MediaError {
     File(#[from] FileError),
     #[error("{}: {}", path.display(), reason(source))]
     Decode { path: PathBuf, source: ImageError },
+    #[error("{} is {played}", path.display())]
+    NotPlayed { path: PathBuf, played: Played },
     #[error("{}: {reason}", path.display())]
     Npy { path: PathBuf, reason: String },
     #[error("{}: the picture has no texels", path.display())]
@@ -63,6 +65,9 @@ impl MediaError {
             MediaError::TooLarge { excess: Excess::Project, .. } => "use fewer or smaller pictures".into(),
             MediaError::TooLarge { .. } => "scale the picture down".into(),
             MediaError::Decode { .. } | MediaError::Empty { .. } => "save the picture anew, for instance as PNG".into(),
+            MediaError::NotPlayed { .. } => {
+                "until then the channel reads black; let it read a picture or a buffer".into()
+            }
             MediaError::Npy { .. } => {
                 "write it with numpy.save: float32, float64 or uint8, shape (height, width) or (height, width, 1 to 4)"
                     .into()

@@ -10,6 +10,7 @@ pub mod keyboard;
 mod load;
 pub mod mesh;
 mod npy;
+mod played;
 mod site;
 
 pub use error::MediaError;

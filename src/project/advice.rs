@@ -2,12 +2,12 @@
 //! cannot have.
 
 use super::{Filter, Input, PassId, Project, SamplerRules, Wrap, nearest};
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Span};
 use std::{collections::BTreeMap, fmt::Debug};
 
 /// Returns a warning for each. They are about no text.
 pub fn advice(project: &Project) -> Vec<Diagnostic> {
-    let mut warnings = unread(project);
+    let mut warnings = unread(project, |_, _| None);
     warnings.extend(shared_samplers(project));
     warnings
 }
@@ -21,16 +21,18 @@ pub fn missing_pass(project: &Project, input: &Input) -> Option<PassId> {
     project.pass(&id).is_none().then_some(id)
 }
 
-fn unread(project: &Project) -> Vec<Diagnostic> {
+/// Returns a warning for each channel that reads a pass which is not there. `place`: where it is said what a channel
+/// of a pass reads, if in a text.
+pub(super) fn unread(project: &Project, place: impl Fn(usize, usize) -> Option<Span>) -> Vec<Diagnostic> {
     let mut warnings = Vec::new();
-    for pass in &project.passes {
+    for (index, pass) in project.passes.iter().enumerate() {
         for (n, channel) in pass.channels.iter().enumerate() {
             let Some(missing) = channel.as_ref().and_then(|c| missing_pass(project, &c.input)) else { continue };
             let near = near_buffer(project, &missing);
             let near = near.map(|near| format!("; did you mean Buffer {near}?")).unwrap_or_default();
             let reads = format!("iChannel{n} of {} reads {}, which has no pass", pass.id.title(), missing.title());
             warnings.push(
-                Diagnostic::warning(None, reads)
+                Diagnostic::warning(place(index, n), reads)
                     .hint(format!("it reads zeros; add {} or let the channel read another{near}", missing.title())),
             );
         }

@@ -25,8 +25,9 @@ pub enum ProjectError {
     NotFound { spec: String, near: Option<String>, presets: Vec<String> },
     /// A file that is there, of a kind no project comes in.
     #[error(
-        "{}: not a project file; a project is a folder, a .glsl file, a Shadertoy .json file or a preset's name",
-        path.display()
+        "{}: {}not a project file; a project is a folder, a .glsl file, a Shadertoy .json file or a preset's name",
+        path.display(),
+        foreign(path)
     )]
     UnknownKind { path: PathBuf },
     /// A file that may not be read: it lies outside the folder, is no regular file, or is too large.
@@ -69,4 +70,26 @@ impl ProjectError {
             _ => None,
         }
     }
+}
+
+/// Returns what a file of another tool is, by its ending.
+fn foreign(path: &Path) -> String {
+    let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+    let is = match ending.as_str() {
+        "wgsl" => "a text in WGSL",
+        "hlsl" | "hlsli" | "cginc" | "usf" | "ush" => "a text in HLSL",
+        "fx" | "fxh" => "an effect in HLSL",
+        "metal" | "msl" => "a text in Metal",
+        "gdshader" | "gdshaderinc" => "a shader of Godot",
+        "shader" => "a shader of Unity or OBS Studio",
+        "slang" | "slangp" | "glslp" | "cgp" => "a shader of RetroArch, or a text in Slang",
+        "osl" => "a text in OSL",
+        "isf" => "an ISF shader",
+        "kodeproj" => "a project of KodeLife",
+        "sprj" => "a project of SHADERed",
+        "toe" | "tox" => "a file of TouchDesigner",
+        "spv" => "a compiled shader",
+        _ => return String::new(),
+    };
+    format!("{is}, ")
 }

@@ -12,13 +12,16 @@
 //!
 //! Case does not matter, and `.frag` is as good as `.glsl`. A pass whose text has `#iChannel` lines reads what they say
 //! (see [`super::directives`]); any other pass reads Buffer A, B, C and D in iChannel0, 1, 2 and 3, as far as these
-//! exist.
+//! exist. A GLSL file of another name is a buffer where such a line names it.
 
 use super::{
-    Channel, Input, Origin, Pass, PassId, Project, Sampler, Source, directives,
+    Channel, Input, Origin, Pass, PassId, Project, Sampler, Source,
+    advice::unread,
+    directives::{self, Around},
     file_names::{Role, role_of_file},
+    files::Files,
 };
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Span};
 
 /// The facts that a convention makes of texts by file name, besides the texts.
 pub(super) struct ByConvention {
@@ -58,30 +61,50 @@ fn two_files(title: &str, first: &str, second: &str) -> Diagnostic {
 /// Gives every pass the channels its text declares, or the default ones. The spans point into [`Project::sources`].
 pub fn declare_channels(project: &mut Project) -> Vec<Diagnostic> {
     let mut diagnostics = Vec::new();
-    let buffers: Vec<PassId> = project.passes.iter().map(|p| p.id.clone()).collect();
+    let passes = directives::files_of_passes(project);
+    let buffers: [Option<Channel>; 4] = ["A", "B", "C", "D"].map(|name| {
+        let input = Input::Buffer(name.into());
+        project.pass(&PassId::Buffer(name.into())).map(|_| Channel { input, sampler: Sampler::BUFFER })
+    });
+    let mut places = Vec::new();
     for (i, pass) in project.passes.iter_mut().enumerate() {
-        let declared = directives::read(&pass.source.text, Project::pass_id(i), &pass.id);
+        let default = if pass.id == PassId::Sound { Default::default() } else { buffers.clone() };
+        let around = Around { id: &pass.id, file: &pass.source.name, passes: &passes };
+        let declared = directives::read(&pass.source.text, Project::pass_id(i), around, &default);
         diagnostics.extend(declared.diagnostics);
-        pass.channels = declared.channels.unwrap_or_else(|| match pass.id {
-            PassId::Sound => Default::default(),
-            _ => ["A", "B", "C", "D"].map(|name| {
-                let input = Input::Buffer(name.into());
-                buffers.contains(&PassId::Buffer(name.into())).then_some(Channel { input, sampler: Sampler::BUFFER })
-            }),
-        });
+        pass.channels = declared.channels.unwrap_or(default);
+        places.push(declared.places);
     }
+    diagnostics.extend(unread(project, |pass, n| places[pass][n]));
+    diagnostics
+}
+
+/// Reads the passes that texts name by their files, then does the same as [`declare_channels`].
+pub(super) fn channels(project: &mut Project, files: &Files<'_>) -> Vec<Diagnostic> {
+    let mut diagnostics = directives::passes_beside(project, files);
+    // A file that cannot be had was told of, with the reason.
+    let told: Vec<Option<Span>> = diagnostics.iter().map(|d| d.span).collect();
+    diagnostics.extend(declare_channels(project).into_iter().filter(|d| d.span.is_none() || !told.contains(&d.span)));
     diagnostics
 }
 
 /// A folder without `eddy.toml`, its texts already read.
-pub(super) fn project(name: String, files: Vec<Source>, origin: Origin) -> (Project, Vec<Diagnostic>) {
-    let ByConvention { common, passes, mut diagnostics } = by_convention(files);
+pub(super) fn project(
+    name: String,
+    texts: Vec<Source>,
+    origin: Origin,
+    files: Option<&Files<'_>>,
+) -> (Project, Vec<Diagnostic>) {
+    let ByConvention { common, passes, mut diagnostics } = by_convention(texts);
     let mut project = Project { common, ..Project::new(name, passes, origin) };
     if project.pass(&PassId::Image).is_none() {
         diagnostics
             .push(Diagnostic::error(None, "there is no Image pass").hint("add image.glsl with a mainImage function"));
     }
-    diagnostics.extend(declare_channels(&mut project));
+    diagnostics.extend(match files {
+        Some(files) => channels(&mut project, files),
+        None => declare_channels(&mut project),
+    });
     (project, diagnostics)
 }
 
@@ -112,7 +135,7 @@ mod tests {
     fn buffers_are_drawn_in_the_order_of_their_names_and_read_by_letter() {
         let files =
             ["buffer_zoom.glsl", "image.glsl", "buffer_c.glsl", "buffer_a.glsl", "sound.glsl"].map(|n| source(n, ""));
-        let (project, diagnostics) = project("p".into(), files.into(), Origin::Unsaved);
+        let (project, diagnostics) = project("p".into(), files.into(), Origin::Unsaved, None);
         assert_eq!(diagnostics, []);
         let keys: Vec<String> = project.passes.iter().map(|p| p.id.key()).collect();
         assert_eq!(keys, ["buffer_a", "buffer_c", "buffer_zoom", "image", "sound"]);
@@ -126,7 +149,7 @@ mod tests {
     #[test]
     fn two_files_for_one_pass_and_a_missing_image_are_errors() {
         let files = ["buffer_a.glsl", "Buffer A.glsl"].map(|n| source(n, "")).into();
-        let (_, diagnostics) = project("p".into(), files, Origin::Unsaved);
+        let (_, diagnostics) = project("p".into(), files, Origin::Unsaved, None);
         let messages: Vec<&str> = diagnostics.iter().map(|d| d.message.as_str()).collect();
         assert_eq!(messages, ["buffer_a.glsl and Buffer A.glsl are both Buffer A", "there is no Image pass"]);
         assert!(diagnostics.iter().all(|d| !d.hints.is_empty()));

@@ -1,11 +1,11 @@
-//! Lines of a GLSL text that begin with `#`, as Eddy's own directives do. Knows comments, and neither macros nor
-//! conditionals.
+//! Lines of a GLSL text that begin with `#`, as Eddy's own directives do. Knows comments and lines that a backslash
+//! joins, and neither macros nor conditionals.
 
 use std::ops::Range;
 
 /// One line that begins with `#`, outside comments.
 pub(super) struct HashLine<'a> {
-    /// The whole line without its line break.
+    /// The whole line without its line break. With a `\` at its end, it goes on in the next one.
     pub range: Range<usize>,
     /// The text behind `#`, without blanks around it.
     pub body: &'a str,
@@ -29,8 +29,8 @@ pub(super) fn hash_lines(text: &str) -> Vec<HashLine<'_>> {
             false => hash.from(start).map(|hash| comment_begin.from(start).map_or(hash, |begin| begin.min(hash))),
         };
         let Some(next) = next else { break };
-        start += text[start..next].rfind('\n').map_or(0, |i| i + 1);
-        let line = text[start..].split_inclusive('\n').next().unwrap_or_default();
+        start = line_begin(text, start, next);
+        let line = &text[start..start + line_len(&text[start..])];
         let content = line.trim_end_matches(['\n', '\r']);
         let mut first = None;
         let mut rest = 0;
@@ -45,7 +45,8 @@ pub(super) fn hash_lines(text: &str) -> Vec<HashLine<'_>> {
             } else if content[rest..].starts_with("/*") {
                 (in_comment, rest) = (true, rest + 2);
             } else {
-                if first.is_none() && !c.is_whitespace() && c != '\u{feff}' {
+                let is_joint = c == '\\' && after_joint(&content[rest..]).is_some();
+                if first.is_none() && !c.is_whitespace() && c != '\u{feff}' && !is_joint {
                     first = Some((rest, c));
                 }
                 // A quoted "file://…" is no comment. GLSL proper has no strings, so this touches directives only.
@@ -62,6 +63,48 @@ pub(super) fn hash_lines(text: &str) -> Vec<HashLine<'_>> {
         start += line.len();
     }
     lines
+}
+
+/// Returns what follows a `\` at the end of a line, which the text begins with (section 3.1: the two lines are one).
+fn after_joint(text: &str) -> Option<&str> {
+    let rest = text.strip_prefix('\\')?;
+    rest.strip_prefix('\n').or_else(|| rest.strip_prefix("\r\n"))
+}
+
+/// Returns a text without the blanks that it begins with; a `\` at the end of a line is one.
+pub(super) fn trim_start(text: &str) -> &str {
+    let mut rest = text.trim_start();
+    while let Some(after) = after_joint(rest) {
+        rest = after.trim_start();
+    }
+    rest
+}
+
+/// Returns where the line begins in which `at` lies, with the lines that are joined to it. It is not before `least`,
+/// where a line begins.
+fn line_begin(text: &str, least: usize, at: usize) -> usize {
+    let mut begin = at;
+    loop {
+        begin = text[least..begin].rfind('\n').map_or(least, |i| least + i + 1);
+        let before = &text[least..begin];
+        let Some(before) = before.strip_suffix('\n') else { return begin };
+        if !before.strip_suffix('\r').unwrap_or(before).ends_with('\\') {
+            return begin;
+        }
+        begin -= 1;
+    }
+}
+
+/// Returns the length of the line that a text begins with, its line break counted, and of those that are joined to it.
+fn line_len(text: &str) -> usize {
+    let mut len = 0;
+    for line in text.split_inclusive('\n') {
+        len += line.len();
+        if !line.trim_end_matches(['\n', '\r']).ends_with('\\') {
+            break;
+        }
+    }
+    len
 }
 
 /// The next place of a word in a text that is read from its begin to its end.
@@ -103,6 +146,17 @@ mod tests {
         assert_eq!(bodies("/*\n#a\n*/\n#b\n// #c\n/* */ /*\n#d */ #e\n#f"), ["b", "e", "f"]);
         assert_eq!(bodies("#a /* b\n#c\n*/ #d\n#e \"/*\"\n#f"), ["a /* b", "d", "e \"/*\"", "f"]);
         assert_eq!(bodies("x /* a\n\n\n b */ x\n\n#c\n/*"), ["c"]);
+    }
+
+    #[test]
+    fn a_backslash_joins_a_line_to_the_next() {
+        assert_eq!(bodies("// note \\\n#a\n#b"), ["b"], "the comment goes on");
+        assert_eq!(bodies("// note \\\r\n /* #a\r\n#b"), ["b"], "and hides what would open another");
+        assert_eq!(bodies("#define A \\\n#a\n#b"), ["define A \\\n#a", "b"]);
+        assert_eq!(bodies("x + \\\n# a\n#b"), ["b"]);
+        assert_eq!(bodies("\\\n  #a\n"), ["a"]);
+        assert_eq!(bodies("#a \\\r\n \"b\"\r\n#c \\"), ["a \\\r\n \"b\"", "c \\"]);
+        assert_eq!(trim_start(" \\\n \\\r\n\tx \\"), "x \\");
     }
 
     #[test]

@@ -73,7 +73,7 @@ fn by_convention(what: &str, name: String, files: &Files<'_>, origin: Origin) ->
     if !diagnostics.is_empty() {
         return Err(ProjectError::Invalid { what: what.to_owned(), diagnostics, sources });
     }
-    let (mut project, mut warnings) = folder::project(name, texts, origin);
+    let (mut project, mut warnings) = folder::project(name, texts, origin, Some(files));
     warnings.extend(said);
     includes::read(&mut project, Some(files));
     Ok(Loaded { sources: project.sources(), project, warnings })
@@ -88,19 +88,30 @@ pub(super) fn load_glsl(path: &Path) -> Result<Loaded, ProjectError> {
         vec![Pass::new(PassId::Image, Source { name, path: Some(path.to_owned()), text: text.into() })],
         Origin::File(path.to_owned()),
     );
-    let warnings = folder::declare_channels(&mut project);
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let warnings = folder::channels(&mut project, &Files::on_disk(folder));
     project.read_includes();
     finish(&what, Loaded { sources: project.sources(), project, warnings })
 }
 
-pub(super) fn load_json(path: &Path) -> Result<Loaded, ProjectError> {
+/// A file of the site's JSON. `wanted`: which shader of several, as [`json::import_one`] takes it.
+pub(super) fn load_json(path: &Path, wanted: Option<&str>) -> Result<Loaded, ProjectError> {
     let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let text = read_text(path, &name, limits::JSON)?;
-    let (mut project, warnings) = json::import(&text, &name)?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let bytes = confine::read(folder, &name, limits::JSON)?;
+    let text = match json::utf16(&bytes) {
+        Some(text) => text,
+        None => text_of(path, &name, bytes)?,
+    };
+    let (mut project, warnings) = json::import_one(&text, &name, wanted)?;
     if project.name.is_empty() {
         project.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     }
-    project.origin = Origin::Json(path.to_owned());
+    project.origin = Origin::Json(match wanted {
+        // So it is found again.
+        Some(wanted) => json::one_of(path, wanted),
+        None => path.to_owned(),
+    });
     project.read_includes();
     Ok(Loaded { sources: project.sources(), project, warnings })
 }
@@ -108,7 +119,11 @@ pub(super) fn load_json(path: &Path) -> Result<Loaded, ProjectError> {
 /// The text of a project that is one file. Its folder is the file's own.
 fn read_text(path: &Path, name: &str, limit: Limit) -> Result<String, ProjectError> {
     let folder = path.parent().unwrap_or(Path::new(""));
-    match files::decode(confine::read(folder, name, limit)?) {
+    text_of(path, name, confine::read(folder, name, limit)?)
+}
+
+fn text_of(path: &Path, name: &str, bytes: Vec<u8>) -> Result<String, ProjectError> {
+    match files::decode(bytes) {
         Read::Text(text) => Ok(text),
         Read::NotUtf8(at, lossy) => {
             let mut sources = SourceMap::default();

@@ -51,6 +51,7 @@ pub use confine::FileError;
 pub use custom_uniforms::{
     CustomUniform, CustomUniformRange, CustomUniformType, CustomUniformValue, CustomUniformValues, CustomUniforms,
 };
+pub use directives::lines_not_obeyed;
 pub use error::ProjectError;
 pub use fill_texts::FillText;
 pub use fills::{Boundary, Fill, FillKind, FillValue, Written};

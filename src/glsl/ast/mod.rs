@@ -18,6 +18,7 @@
 mod arena;
 mod names;
 mod position;
+mod rank;
 
 pub use arena::{List, Pooled};
 pub(in crate::glsl) use arena::{arenas, ids, with_room};
@@ -28,7 +29,7 @@ use std::num::NonZeroU32;
 
 /// The depth to which statements and expressions together may nest (ANGLE's limit in WebGL, too); the parser's error
 /// names it.
-pub const MAX_NESTING: u32 = 256;
+pub const MAX_NESTING: u32 = 300;
 
 ids! {
     /// An expression of [`Ast::exprs`].

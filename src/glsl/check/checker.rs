@@ -87,6 +87,10 @@ pub(super) struct Checker<'a> {
     pub pending_channels: Vec<(hir::ExprId, u8)>,
     /// By symbol: 1 + index of the function in which it was reported as unknown, so that it is said once.
     pub unknown_said: Vec<u32>,
+    /// An expression was refused because its tree is too deep.
+    pub too_deep_told: bool,
+    /// Outputs at file scope of a pass that is no stage.
+    pub outputs: Vec<hir::GlobalId>,
     /// Struct of `gl_DepthRange` once it was named.
     pub depth_range: Option<hir::ConstId>,
     pub entry_symbol: Option<Symbol>,
@@ -148,6 +152,8 @@ impl<'a> Checker<'a> {
             word_stack: Vec::new(),
             pending_channels: Vec::new(),
             unknown_said: Vec::new(),
+            outputs: Vec::new(),
+            too_deep_told: false,
             depth_range: begun.depth_range,
             entry_symbol: None,
             header_entry: None,
@@ -169,6 +175,7 @@ impl<'a> Checker<'a> {
     pub fn unit(&mut self) {
         self.declare_pass();
         self.declarations();
+        self.finish_outputs();
         self.finish_entry();
         self.finish_calls();
         if self.errors == 0 && !self.broken_tree && self.module.entry.is_some() {
@@ -248,7 +255,8 @@ impl<'a> Checker<'a> {
 impl Checker<'_> {
     /// Ends behind the declarations that were checked; `None` where one of them has an error.
     pub(super) fn into_begun(self) -> Option<Begun> {
-        (self.errors == 0 && !self.broken_tree).then_some(Begun {
+        // Whether an output does harm is known at the end of the pass.
+        (self.errors == 0 && !self.broken_tree && self.outputs.is_empty()).then_some(Begun {
             items: self.items,
             module: self.module,
             diagnostics: self.diagnostics,

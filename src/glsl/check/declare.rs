@@ -78,7 +78,12 @@ impl Checker<'_> {
     }
 
     /// Type of a variable, with its checked initialiser, which `[]` takes its size from.
-    fn variable_type(&mut self, base: TypeId, spec: TypeSpecId, declarator: Declarator) -> (TypeId, Option<ExprId>) {
+    pub(super) fn variable_type(
+        &mut self,
+        base: TypeId,
+        spec: TypeSpecId,
+        declarator: Declarator,
+    ) -> (TypeId, Option<ExprId>) {
         let spec = self.ast[spec];
         let sizes = self.sizes(spec.dims, declarator.dims);
         let init = declarator.init.map(|init| self.expr(init));
@@ -209,6 +214,9 @@ impl Checker<'_> {
     ) {
         let name = declarator.name;
         let text = self.name(name.symbol);
+        if self.uniform_again(quals, base, spec, declarator) || quals.storage.is_some() && self.is_taken(name) {
+            return;
+        }
         let (ty, init) = self.variable_type(base, spec, declarator);
         self.check_interface(quals, ty, self.ast[spec].loc);
         let init = init.zip(declarator.init);
@@ -216,11 +224,8 @@ impl Checker<'_> {
             Some((Q::Uniform, _)) => GlobalStorage::Uniform,
             Some((Q::In, _)) => GlobalStorage::In,
             Some((Q::Out, _)) if self.env.is_stage() => GlobalStorage::Out,
-            Some((Q::Out, token)) => {
-                self.error(token, format!("`{text}` cannot be an output: the pass has one already, its colour"));
-                self.hint("write the colour to the `out` parameter of the entry point");
-                GlobalStorage::Out
-            }
+            // The pass has an output already: a variable like any other, of which more is said at the end.
+            Some((Q::Out, _)) => GlobalStorage::Private,
             _ if quals.constant.is_some() => GlobalStorage::Const,
             _ => GlobalStorage::Private,
         };
@@ -230,7 +235,9 @@ impl Checker<'_> {
             self.declare(name, Binding::Poison);
             return;
         }
-        if let (Some((value, _)), GlobalStorage::Uniform | GlobalStorage::In | GlobalStorage::Out) = (init, storage) {
+        if let Some((value, _)) = init
+            && quals.storage.is_some()
+        {
             let at = self.loc(value);
             self.error(at, format!("`{text}` is an interface variable and cannot have an initialiser"));
         }
@@ -257,7 +264,7 @@ impl Checker<'_> {
                 }
             }
             GlobalStorage::Private => {
-                if let Some((init, written)) = init
+                if let Some((init, written)) = init.filter(|_| quals.storage.is_none())
                     && self.check_init(name, ty, init, written)
                 {
                     if self.is_constant(init) {
@@ -271,6 +278,9 @@ impl Checker<'_> {
             GlobalStorage::Uniform | GlobalStorage::In | GlobalStorage::Out => {}
         }
         let id = self.add_global(name, ty, storage, kept, value, loc);
+        if quals.is(Q::Out) && !self.env.is_stage() {
+            self.outputs.push(id);
+        }
         let location = self.location(quals);
         let global = &mut self.module[id];
         (global.flat, global.location) = (quals.flat, location);
@@ -393,6 +403,13 @@ impl Checker<'_> {
                     continue;
                 }
                 members.push(StructMember { name: declarator.name, ty });
+            }
+        }
+        if instance.is_none() {
+            let count = members.len();
+            members.retain(|member| !self.member_again(member.name, member.ty));
+            if members.is_empty() && count > 0 {
+                return;
             }
         }
         let text = self.name(name.symbol);

@@ -2,7 +2,7 @@
 
 use super::{checker::Checker, scope::Binding};
 use crate::glsl::{
-    ast::{self, ExprKind as A, Loc, Symbol, TokenId},
+    ast::{self, ExprKind as A, List, Loc, MAX_NESTING, Symbol, TokenId},
     hir::{self, DeclRef, ExprFlags, ExprId, ExprKind, GlobalStorage, IncDec, LocalKind, Type, TypeId, VarFlags},
 };
 
@@ -24,7 +24,50 @@ impl<'a> Checker<'a> {
         if !self.pending_channels.is_empty() {
             self.report_pending_channels();
         }
+        // A node a level at least: most expressions need no look.
+        if root.index() - first >= MAX_NESTING as usize && self.height(first, root) > MAX_NESTING {
+            return self.too_deep(root);
+        }
         self.lowered[root.index()].expect("the root is in the range")
+    }
+
+    /// Levels of the tree under `root`, left spines not counted, nor what was folded to a constant.
+    fn height(&self, first: usize, root: ast::ExprId) -> u32 {
+        let ast = self.ast;
+        let mut heights: Vec<u32> = Vec::with_capacity(root.index() + 1 - first);
+        for (expr, lowered) in ast.exprs[first..=root.index()].iter().zip(&self.lowered[first..]) {
+            let of = |id: ast::ExprId| id.index().checked_sub(first).map_or(0, |i| heights[i]);
+            let list = |args: List<ast::ExprId>| ast[args].iter().map(|&a| of(a) + 1).max().unwrap_or(0);
+            let is_constant =
+                lowered.is_none_or(|id| matches!(self.module[id].kind, ExprKind::Literal(_) | ExprKind::Const(_)));
+            heights.push(match expr.kind {
+                _ if is_constant => 0,
+                A::Call { args, .. } | A::Construct { args, .. } => list(args),
+                A::Method { base, .. } | A::Member { base, .. } => of(base),
+                A::Index { base, index } => of(base).max(of(index) + 1),
+                A::Unary { operand, .. } => of(operand) + 1,
+                A::Postfix { operand, .. } => of(operand),
+                A::Binary { lhs, rhs, .. } | A::Comma { lhs, rhs } => of(lhs).max(of(rhs) + 1),
+                A::Assign { place, value, .. } => of(place).max(of(value)) + 1,
+                A::Ternary { cond, then, otherwise } => of(cond).max(of(then)).max(of(otherwise)) + 1,
+                _ => 0,
+            });
+        }
+        heights.last().copied().unwrap_or(0) + 1
+    }
+
+    /// Refuses an expression whose tree is too deep. Nothing reaches the tree afterwards: what reads programs recurses
+    /// as deep as their trees.
+    #[cold]
+    fn too_deep(&mut self, root: ast::ExprId) -> ExprId {
+        let loc = self.ast[root].loc;
+        if !std::mem::replace(&mut self.too_deep_told, true) {
+            self.error(loc, format!("this nests more than {MAX_NESTING} deep"));
+            self.hint("give a part of it a name or a function of its own");
+        }
+        let id = self.error_expr(loc);
+        self.lowered[root.index()] = Some(id);
+        id
     }
 
     /// Post-order, so the first node of an expression is its leftmost leaf.
@@ -237,13 +280,18 @@ impl<'a> Checker<'a> {
             self.uses(token, DeclRef::Uniform(uniform));
             self.note_in_common(token, DeclRef::Uniform(uniform));
         }
-        let ty = match uniform {
+        let ty = self.uniform_type(uniform, loc);
+        self.push(ExprKind::Uniform(uniform), ty, ExprFlags::default(), loc)
+    }
+
+    /// Type of a uniform of the site's that is named at `loc`.
+    pub(super) fn uniform_type(&mut self, uniform: hir::Uniform, loc: Loc) -> TypeId {
+        match uniform {
             hir::Uniform::ChannelTime => self.array_type(TypeId::FLOAT, 4, loc),
             hir::Uniform::ChannelResolution => self.array_type(TypeId::VEC3, 4, loc),
             hir::Uniform::ChannelLoaded => self.array_type(TypeId::INT, 4, loc),
             _ => uniform.ty(&mut self.module.types),
-        };
-        self.push(ExprKind::Uniform(uniform), ty, ExprFlags::default(), loc)
+        }
     }
 
     /// `gl_DepthRange`, whose window is always 0 to 1 here.

@@ -109,7 +109,11 @@ impl Checker<'_> {
         } else if text == "main" && matches!(self.env, Env::Pass(kind) if !kind.is_stage()) {
             self.error(name, "Shadertoy's header has `main` already; a pass defines its own entry point");
             if let Env::Pass(kind) = self.env {
-                self.hint(format!("write `{}`", env::entry(kind).usage));
+                let entry = env::entry(kind);
+                self.hint(match self.header_entry.is_some_and(|id| self.module[id].body.is_some()) {
+                    true => format!("remove it: `{}` is called without it", entry.name),
+                    false => format!("write `{}`", entry.usage),
+                });
             }
             self.add_unnamed_function(&sign, decl.header, loc)
         } else {

@@ -25,6 +25,7 @@ mod faults;
 mod fold;
 mod fold_builtin;
 mod function;
+mod given;
 mod graph;
 mod header;
 mod ops;
@@ -50,6 +51,7 @@ use super::{
     ast::{Ast, Interner, Origins},
     hir::Module,
     source::{CustomUniform, PassSource, UniformValue},
+    stack::on_deep_stack,
 };
 use crate::diag::{Diagnostic, Span};
 use checker::{Checker, Settings};
@@ -78,7 +80,7 @@ pub(crate) fn check(
     let &PassSource { channels, custom_uniforms, values, common, .. } = source;
     let settings = Settings { channels, custom_uniforms, values, common: common.map(|text| text.id) };
     let mut checker = Checker::new(ast, origins, names, Env::Pass(source.kind), settings, begun);
-    checker.unit();
+    on_deep_stack(|| checker.unit());
     let bulk = checker.bulk.map(|name| origins.span(name));
     Checked { module: checker.module, diagnostics: checker.diagnostics, faults: checker.faults, bulk }
 }
@@ -94,7 +96,7 @@ pub(crate) fn check_common(
 ) -> Vec<Diagnostic> {
     let settings = Settings { custom_uniforms, ..Settings::default() };
     let mut checker = Checker::new(ast, origins, names, Env::Common, settings, None);
-    checker.unit();
+    on_deep_stack(|| checker.unit());
     checker.refused_in_common
 }
 
@@ -112,6 +114,6 @@ pub(crate) fn begin(
     }
     let settings = Settings { values, ..Settings::default() };
     let mut checker = Checker::new(ast, origins, names, Env::Common, settings, None);
-    checker.declarations();
+    on_deep_stack(|| checker.declarations());
     checker.into_begun()
 }

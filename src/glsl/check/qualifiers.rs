@@ -62,19 +62,6 @@ impl Qualifiers {
     }
 }
 
-/// Position in the order that section 4.7 and the grammar demand.
-fn rank(kind: Q) -> u8 {
-    match kind {
-        Q::Layout(_) => 0,
-        Q::Invariant => 1,
-        Q::Flat | Q::Smooth => 2,
-        Q::Centroid => 3,
-        Q::Const => 4,
-        Q::In | Q::Out | Q::Inout | Q::Uniform => 5,
-        Q::Precision(_) => 6,
-    }
-}
-
 fn text(kind: Q) -> &'static str {
     match kind {
         Q::Const => "const",
@@ -116,12 +103,12 @@ impl Checker<'_> {
                 continue;
             }
             if let Some(before) = last
-                && rank(before.kind) >= rank(kind)
+                && before.kind.rank() >= kind.rank()
             {
                 let (a, b) = (text(kind), text(before.kind));
                 if a == b {
                     self.error(token, format!("`{a}` stands here twice"));
-                } else if rank(before.kind) == rank(kind) {
+                } else if before.kind.rank() == kind.rank() {
                     self.error(token, format!("`{b}` and `{a}` exclude each other"));
                 } else {
                     self.error(token, format!("`{a}` must stand before `{b}`"));

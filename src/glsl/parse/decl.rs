@@ -5,7 +5,10 @@ use super::{
     parser::{Failed, Parse, Parser},
 };
 use crate::glsl::{
-    ast::{DeclId, DeclKind, Declarator, ExprId, LayoutItem, List, Precision, Qualifier, QualifierKind, TypeSpecKind},
+    ast::{
+        DeclId, DeclKind, Declarator, ExprId, LayoutItem, List, Precision, Qualifier, QualifierKind, TypeSpecId,
+        TypeSpecKind,
+    },
     lex::Kind,
 };
 
@@ -94,6 +97,7 @@ impl Parser<'_> {
             Kind::Ident => match self.second() {
                 Kind::Ident => true,
                 Kind::Type | Kind::Reserved => !self.starts_line(self.at + 1),
+                kind if kind.is_qualifier() => !self.starts_line(self.at + 1),
                 Kind::LBracket => self.partner(self.at + 1).is_some_and(|end| self.kind_at(end + 1) == Kind::Ident),
                 _ => false,
             },
@@ -126,13 +130,13 @@ impl Parser<'_> {
             self.reserved(first);
             return Err(Failed);
         }
-        let qualifiers = self.qualifiers()?;
+        let mut qualifiers = self.qualifiers()?;
         if !qualifiers.is_empty()
             && let Some(decl) = self.without_type(first, qualifiers)?
         {
             return Ok(decl);
         }
-        let ty = self.type_spec()?;
+        let ty = self.qualified_type(&mut qualifiers)?;
         if matches!(self.ast[ty].kind, TypeSpecKind::Struct(_)) && self.starts_line(self.at) && self.plainly_begins() {
             self.missing("`;`", None, None);
             let loc = self.loc(first);
@@ -234,6 +238,47 @@ impl Parser<'_> {
             found.push(Qualifier { kind, token });
         }
         Ok(self.ast.list(&found))
+    }
+
+    /// Reads a type behind its qualifiers. Those behind the type, where C++ lets them stand, are reported once and taken
+    /// for what they are.
+    pub(super) fn qualified_type(&mut self, qualifiers: &mut List<Qualifier>) -> Parse<TypeSpecId> {
+        let begin = self.at;
+        let ty = self.type_spec()?;
+        if !self.kind().is_qualifier() {
+            return Ok(ty);
+        }
+        let (first, end) = (self.at, self.at - 1);
+        let late = self.qualifiers()?;
+        let mut all: Vec<Qualifier> = self.ast[*qualifiers].to_vec();
+        all.extend_from_slice(&self.ast[late]);
+        // An order that is wrong besides is told of by the checker.
+        all.sort_by_key(|qualifier| qualifier.kind.rank());
+        // A struct that is defined here is not written out again.
+        let is_short = end - begin < 4;
+        let shown = self.text(first).to_owned();
+        let name = if self.kind() == Kind::Ident { format!(" {}", self.text(self.at)) } else { String::new() };
+        let hint = match is_short && matches!(self.kind_at(begin), Kind::Type | Kind::Ident) {
+            true => {
+                format!("write `{} {}{name}`", self.written(first..self.at), self.written(begin..end + 1))
+            }
+            false => format!("write `{shown}` before the type"),
+        };
+        self.error(first, format!("`{shown}` stands before the type, not behind it"), Some(hint));
+        *qualifiers = self.ast.list(&all);
+        Ok(ty)
+    }
+
+    /// Returns tokens as the author wrote them, in one line.
+    fn written(&self, tokens: std::ops::Range<usize>) -> String {
+        let mut out = String::new();
+        for i in tokens.clone() {
+            if i > tokens.start && !self.adjacent(i - 1) {
+                out.push(' ');
+            }
+            out.push_str(self.text(i));
+        }
+        out
     }
 
     /// Reads `layout(location = 0, std140)`.

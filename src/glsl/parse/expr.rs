@@ -1,11 +1,12 @@
 //! Expressions (section 5.1): precedence climbing with a loop for the left sides, so that chains of any length take no
 //! stack.
 
-use super::parser::{Parse, Parser, SAFE_DEPTH};
+use super::parser::{MAX_LEVELS, Parse, Parser};
 use crate::glsl::{
-    ast::{BinaryOp, ExprId, ExprKind, List, MAX_NESTING, PostfixOp, Symbol, TypeSpec, TypeSpecKind, UnaryOp},
+    ast::{BinaryOp, ExprId, ExprKind, List, PostfixOp, Symbol, TypeSpec, TypeSpecKind, UnaryOp},
     lex::{Kind, words},
     preprocess::Tok,
+    stack::{STACK_LEFT, STACK_MORE},
 };
 
 /// Returns an operator and its precedence; a higher one binds tighter.
@@ -65,36 +66,22 @@ impl Parser<'_> {
         self.full(Self::assignment)
     }
 
-    fn full(&mut self, part: fn(&mut Self) -> Parse<ExprId>) -> Parse<ExprId> {
-        let (first, start) = (self.at, self.ast.exprs.len());
-        self.deepest = self.depth;
-        let id = self.attempt(part)?;
-        if self.deepest > SAFE_DEPTH && self.depth + self.height(start, id) > MAX_NESTING {
-            self.ast.exprs.truncate(start);
-            return Err(self.too_deep(first));
+    /// Reads an expression within another. Parentheses and operators may nest deeper than a thread's stack reaches.
+    fn level(&mut self, part: fn(&mut Self) -> Parse<ExprId>) -> Parse<ExprId> {
+        self.levels += 1;
+        if self.levels > MAX_LEVELS {
+            return Err(self.too_deep(self.at, MAX_LEVELS));
         }
-        Ok(id)
+        let read = stacker::maybe_grow(STACK_LEFT, STACK_MORE, || part(self))?;
+        self.levels -= 1;
+        Ok(read)
     }
 
-    /// Levels of the tree under `root`, left spines not counted.
-    fn height(&self, start: usize, root: ExprId) -> u32 {
-        let mut heights: Vec<u32> = Vec::with_capacity(root.index() - start + 1);
-        for expr in &self.ast.exprs[start..=root.index()] {
-            let of = |id: ExprId| heights[id.index() - start];
-            let list = |args: List<ExprId>| self.ast[args].iter().map(|&a| of(a) + 1).max().unwrap_or(0);
-            heights.push(match expr.kind {
-                ExprKind::Call { args, .. } | ExprKind::Construct { args, .. } => list(args),
-                ExprKind::Method { base, .. } | ExprKind::Member { base, .. } => of(base),
-                ExprKind::Index { base, index } => of(base).max(of(index) + 1),
-                ExprKind::Unary { operand, .. } => of(operand) + 1,
-                ExprKind::Postfix { operand, .. } => of(operand),
-                ExprKind::Binary { lhs, rhs, .. } | ExprKind::Comma { lhs, rhs } => of(lhs).max(of(rhs) + 1),
-                ExprKind::Assign { place, value, .. } => of(place).max(of(value)) + 1,
-                ExprKind::Ternary { cond, then, otherwise } => of(cond).max(of(then)).max(of(otherwise)) + 1,
-                _ => 0,
-            });
-        }
-        heights.last().copied().unwrap_or(0) + 1
+    fn full(&mut self, part: fn(&mut Self) -> Parse<ExprId>) -> Parse<ExprId> {
+        let within = std::mem::take(&mut self.levels);
+        let read = self.attempt(part);
+        self.levels = within;
+        read
     }
 
     /// Reads `expression`, with commas.
@@ -110,7 +97,10 @@ impl Parser<'_> {
     }
 
     fn assignment(&mut self) -> Parse<ExprId> {
-        self.enter()?;
+        self.level(Self::assignment_here)
+    }
+
+    fn assignment_here(&mut self) -> Parse<ExprId> {
         let first = self.at;
         let mut lhs = self.binary(1)?;
         if self.eat(Kind::Question) {
@@ -128,7 +118,6 @@ impl Parser<'_> {
             let loc = self.loc(first);
             lhs = self.ast.expr(ExprKind::Assign { op, place: lhs, value }, loc);
         }
-        self.leave();
         Ok(lhs)
     }
 
@@ -150,9 +139,8 @@ impl Parser<'_> {
                 break;
             }
             self.bump();
-            self.enter()?;
+            // No more than one for each precedence.
             let rhs = self.binary(level + 1)?;
-            self.leave();
             let loc = self.loc(first);
             lhs = self.ast.expr(ExprKind::Binary { op, lhs, rhs }, loc);
         }
@@ -171,9 +159,7 @@ impl Parser<'_> {
         };
         let first = self.at;
         self.bump();
-        self.enter()?;
-        let operand = self.unary()?;
-        self.leave();
+        let operand = self.level(Self::unary)?;
         let loc = self.loc(first);
         Ok(self.ast.expr(ExprKind::Unary { op, operand }, loc))
     }

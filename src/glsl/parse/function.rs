@@ -73,8 +73,8 @@ impl Parser<'_> {
 
     fn parameter(&mut self) -> Parse<Param> {
         let first = self.at;
-        let qualifiers = self.qualifiers()?;
-        let ty = self.type_spec()?;
+        let mut qualifiers = self.qualifiers()?;
+        let ty = self.qualified_type(&mut qualifiers)?;
         if matches!(self.kind(), Kind::And | Kind::Star) {
             let hint = "a parameter that the function may change is `inout`";
             self.error(self.at, "GLSL has no pointers and references", Some(hint.into()));

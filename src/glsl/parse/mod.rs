@@ -23,12 +23,13 @@ mod types;
 pub(super) use hint::foreign_type;
 
 use super::{
-    ast::{Ast, Interner, Origins, with_room},
+    ast::{Ast, DeclKind, Interner, Origins, with_room},
     lex::{Kind, words},
     pieces::{self, Piece},
     preprocess::{MacroTable, Preprocessed, Tok, Unit, preprocess},
     report::Report,
     source::PassSource,
+    stack::on_deep_stack,
 };
 use parser::Parser;
 
@@ -110,11 +111,16 @@ pub(super) fn parse_common(pieces: &[Piece<'_>]) -> Parsed {
 
 /// Preprocesses and parses the pieces behind what is `done`.
 fn read(pieces: &[Piece<'_>], unit: Unit, done: Parsed) -> Parsed {
+    on_deep_stack(|| read_here(pieces, unit, done))
+}
+
+fn read_here(pieces: &[Piece<'_>], unit: Unit, done: Parsed) -> Parsed {
     let Parsed { ast, origins, mut names, mut report, reader } = done;
     let Reader { tokens, macros, pieces: count, has_line_numbers, mut structs } = reader;
     let begin = tokens.len().saturating_sub(1);
-    let done = Preprocessed { tokens, origins, macros, pieces: count, is_cut: false, has_line_numbers };
-    let Preprocessed { mut tokens, origins, macros, pieces: count, is_cut, has_line_numbers } =
+    let done =
+        Preprocessed { tokens, origins, macros, pieces: count, is_cut: false, has_line_numbers, is_stopped: false };
+    let Preprocessed { mut tokens, origins, macros, pieces: count, is_cut, has_line_numbers, is_stopped } =
         preprocess(pieces, unit, done, &mut names, &mut report);
     brackets::pair(&mut tokens, begin);
     let end = tokens.len() - 1;
@@ -128,7 +134,7 @@ fn read(pieces: &[Piece<'_>], unit: Unit, done: Parsed) -> Parsed {
         report: &mut report,
         pieces,
         depth: 0,
-        deepest: 0,
+        levels: 0,
         expr_stack: Vec::new(),
         stmt_stack: Vec::new(),
         declarators: Vec::new(),
@@ -141,6 +147,12 @@ fn read(pieces: &[Piece<'_>], unit: Unit, done: Parsed) -> Parsed {
     };
     parser.ast.exprs.reserve((end - begin) / 2);
     parser.file();
+    if is_stopped {
+        // Nothing is said to be missing.
+        let nothing = parser.loc(begin);
+        let item = parser.ast.decl(DeclKind::Error, nothing);
+        parser.ast.items.push(item);
+    }
     let Parser { ast, origins, tokens, structs, .. } = parser;
     let reader = Reader { tokens, macros, pieces: count, has_line_numbers, structs };
     Parsed { ast, origins, names, report, reader }

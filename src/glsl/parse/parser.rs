@@ -23,10 +23,10 @@ pub(super) struct Parser<'p> {
     pub names: &'p Interner,
     pub report: &'p mut Report,
     pub pieces: &'p [Piece<'p>],
-    /// Statements and expressions around the next token.
+    /// Statements around the next token.
     pub depth: u32,
-    /// The greatest `depth` since it was last looked at.
-    pub deepest: u32,
+    /// Parentheses, operators and calls around it in its expression.
+    pub levels: u32,
     /// Children of lists that are being read, of all that are open.
     pub expr_stack: Vec<ExprId>,
     pub stmt_stack: Vec<StmtId>,
@@ -48,8 +48,9 @@ pub(super) struct Parser<'p> {
 /// Section 3.9 leaves the limit open; WebGL 2 has this one.
 const MAX_NAME: usize = 1024;
 
-/// The depth to which calls may nest before exact heights of trees are looked at: each call adds at most two levels.
-pub(super) const SAFE_DEPTH: u32 = 100;
+/// The depth to which an expression may nest as it is written, parentheses counted. ANGLE's parser keeps at most 10,000
+/// symbols, of which each level takes one or more. How deep its tree may be is the checker's matter.
+pub(super) const MAX_LEVELS: u32 = 10_000;
 
 impl Parser<'_> {
     #[inline]
@@ -111,8 +112,7 @@ impl Parser<'_> {
     #[inline]
     pub fn enter(&mut self) -> Parse<()> {
         self.depth += 1;
-        self.deepest = self.deepest.max(self.depth);
-        if self.depth > MAX_NESTING { Err(self.too_deep(self.at)) } else { Ok(()) }
+        if self.depth > MAX_NESTING { Err(self.too_deep(self.at, MAX_NESTING)) } else { Ok(()) }
     }
 
     #[inline]
@@ -121,9 +121,9 @@ impl Parser<'_> {
     }
 
     #[cold]
-    pub fn too_deep(&mut self, i: usize) -> Failed {
+    pub fn too_deep(&mut self, i: usize, most: u32) -> Failed {
         if !std::mem::replace(&mut self.too_deep_told, true) {
-            let message = format!("this nests more than {MAX_NESTING} deep");
+            let message = format!("this nests more than {most} deep");
             self.error(i, message, Some("give a part of it a name or a function of its own".into()));
         }
         self.last_error = Some(i);
@@ -132,11 +132,11 @@ impl Parser<'_> {
 
     /// Runs a part that may fail. Where it does, what it began is taken back, so that no half tree is left.
     pub fn attempt<T>(&mut self, part: impl FnOnce(&mut Self) -> Parse<T>) -> Parse<T> {
-        let (depth, exprs) = (self.depth, self.ast.exprs.len());
+        let (depth, levels, exprs) = (self.depth, self.levels, self.ast.exprs.len());
         let (expr_stack, stmt_stack) = (self.expr_stack.len(), self.stmt_stack.len());
         let result = part(self);
         if result.is_err() {
-            self.depth = depth;
+            (self.depth, self.levels) = (depth, levels);
             self.ast.exprs.truncate(exprs);
             self.expr_stack.truncate(expr_stack);
             self.stmt_stack.truncate(stmt_stack);

@@ -321,8 +321,8 @@ impl Parser<'_> {
     /// Reads a declaration of variables up to before its `;` or `)`.
     fn declaration_without_end(&mut self) -> Parse<crate::glsl::ast::DeclId> {
         let first = self.at;
-        let qualifiers = self.qualifiers()?;
-        let ty = self.type_spec()?;
+        let mut qualifiers = self.qualifiers()?;
+        let ty = self.qualified_type(&mut qualifiers)?;
         self.eat(Kind::Comma);
         let declarators = self.declarators()?;
         let loc = self.loc(first);

@@ -105,8 +105,8 @@ impl Parser<'_> {
         if self.kind() == Kind::Semicolon {
             return Err(self.fail(first, "a struct has no empty members", Some("delete this `;`".into())));
         }
-        let qualifiers = self.qualifiers()?;
-        let ty = self.type_spec()?;
+        let mut qualifiers = self.qualifiers()?;
+        let ty = self.qualified_type(&mut qualifiers)?;
         if self.kind() == Kind::Ident && self.second() == Kind::LParen {
             let hint = "write a function beside the struct, with the struct as a parameter";
             return Err(self.fail(self.at, "a struct of GLSL has no functions", Some(hint.into())));

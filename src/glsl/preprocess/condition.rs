@@ -5,10 +5,11 @@ use super::state::Preprocessor;
 use crate::glsl::{
     ast::Symbol,
     lex::{Kind, Token},
+    stack::{STACK_LEFT, STACK_MORE},
 };
 
 /// Parentheses and signs within each other.
-const MAX_DEPTH: u32 = 200;
+const MAX_DEPTH: u32 = 10_000;
 
 impl Preprocessor<'_, '_> {
     /// Returns whether the condition holds. A condition that is wrong was reported and does not.
@@ -173,6 +174,10 @@ impl Evaluation<'_, '_, '_, '_> {
     }
 
     fn unary(&mut self) -> Option<i64> {
+        stacker::maybe_grow(STACK_LEFT, STACK_MORE, || self.unary_here())
+    }
+
+    fn unary_here(&mut self) -> Option<i64> {
         let Some(token) = self.peek() else {
             let last = self.tokens.last().copied().unwrap_or(self.end);
             let message = if self.tokens.is_empty() { "a value is missing here" } else { "this is not complete" };

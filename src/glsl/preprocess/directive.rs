@@ -7,7 +7,6 @@ use crate::{
     glsl::{
         ast::Symbol,
         lex::{Kind, Token},
-        near::nearest_identifier,
     },
 };
 
@@ -85,18 +84,10 @@ impl Preprocessor<'_, '_> {
                 Some("delete the line: what it asks for is in GLSL ES 3.00 or cannot be had".into()),
             ),
             "pragma" => self.pragma(line),
-            "include" => self.error(
-                name,
-                "an #include line names one file in double quotes",
-                Some("the form is #include \"noise.glsl\"".into()),
-            ),
+            "include" => self.include(name, line),
             other => {
-                let message = format!("there is no directive `#{other}`");
-                let hint = match other {
-                    "elseif" | "elsif" | "elsei" => Some("elif"),
-                    _ => nearest_identifier(other, DIRECTIVES),
-                };
-                self.error(name, message, hint.map(|near| format!("did you mean `#{near}`?")));
+                let other = other.to_owned();
+                self.unknown_directive(name, &other, line);
             }
         }
     }
@@ -239,5 +230,6 @@ impl Preprocessor<'_, '_> {
         {
             self.error(word, "a fragment shader has no `invariant(all)`", Some("delete the line".into()));
         }
+        self.foreign_pragma(line);
     }
 }

@@ -10,6 +10,7 @@ use crate::{
     glsl::{
         ast::{Expansion, ExpansionId, MacroId},
         lex::{Kind, PAINTED, Token},
+        stack::{STACK_LEFT, STACK_MORE},
     },
 };
 
@@ -200,7 +201,7 @@ impl Preprocessor<'_, '_> {
             let message = format!("macro calls stand in each other's arguments more than {MAX_CALL_DEPTH} deep");
             self.stop(&argument[0], message, None);
         }
-        self.expand_line(argument, out);
+        stacker::maybe_grow(STACK_LEFT, STACK_MORE, || self.expand_line(argument, out));
         self.call_depth -= 1;
     }
 

@@ -14,6 +14,7 @@ mod define;
 mod directive;
 mod entry;
 mod expand;
+mod foreign;
 mod lines;
 mod macros;
 mod preprocessed;
@@ -53,5 +54,6 @@ pub(super) fn preprocess(
         pieces: pieces.len(),
         is_cut: all.is_cut,
         has_line_numbers: all.line.was_asked,
+        is_stopped: all.stopped,
     }
 }

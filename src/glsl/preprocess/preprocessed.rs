@@ -16,6 +16,8 @@ pub(in crate::glsl) struct Preprocessed {
     pub is_cut: bool,
     /// Numbers of lines were asked for, which depend on the unit.
     pub has_line_numbers: bool,
+    /// The reading ended at what makes no sense of the rest, which was reported: there are no tokens.
+    pub is_stopped: bool,
 }
 
 impl Preprocessed {

@@ -19,8 +19,8 @@ use crate::{
 /// Tokens that macros may produce, those that are read again and again counted each time. Ten times what the largest
 /// known shader needs; a bomb reaches it in a fraction of a second.
 pub(super) const MAX_MACRO_TOKENS: u32 = 2_000_000;
-/// The depth to which macro calls may stand in each other's arguments.
-pub(super) const MAX_CALL_DEPTH: u32 = 200;
+/// The depth to which macro calls may stand in each other's arguments: somewhat more than ANGLE's 1,000.
+pub(super) const MAX_CALL_DEPTH: u32 = 1024;
 
 /// An `#if` that is open.
 pub(super) struct Conditional {
@@ -49,6 +49,8 @@ pub(super) struct Preprocessor<'a, 'r> {
     pub report: &'r mut Report,
     pub origins: Origins,
     pub tokens: Vec<Tok>,
+    /// Tokens of texts that were read before.
+    pub earlier: usize,
     pub table: MacroTable,
     pub contexts: Vec<Context>,
     /// Tokens of the contexts, in the same order.
@@ -90,6 +92,7 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
             names,
             report,
             origins,
+            earlier: tokens.len(),
             tokens,
             table,
             contexts: Vec::new(),
@@ -140,8 +143,8 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
         }
         if self.stopped {
             // Half a text would only give messages about its other half.
-            self.tokens.clear();
-            self.origins.tokens.clear();
+            self.tokens.truncate(self.earlier);
+            self.origins.tokens.truncate(self.earlier);
         }
         let last = self.pieces.last().map_or(Span::at(SourceId(0), 0), |p| Span::at(p.text.id, p.text.text.len()));
         self.tokens.push(Tok { kind: Kind::Eof, value: 0 });

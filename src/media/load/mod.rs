@@ -1,6 +1,6 @@
 //! One picture, from its file or its generator to texels.
 
-use super::{MediaError, TexelFormat, Texels, builtin, error::Excess, npy, site};
+use super::{MediaError, TexelFormat, Texels, builtin, error::Excess, npy, played::Played, site};
 use crate::project::{Media, confine, limits, nearest};
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::{io::Cursor, path::Path};
@@ -77,6 +77,9 @@ fn red_only(texels: Texels) -> Texels {
 fn decoded(bytes: Vec<u8>, path: &Path, vflip: bool, room: u64) -> Result<Texels, MediaError> {
     if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("npy")) {
         return npy::read(&bytes, path, room);
+    }
+    if let Some(played) = Played::of(&bytes, path) {
+        return Err(MediaError::NotPlayed { path: path.to_owned(), played });
     }
     let failed = |source| MediaError::Decode { path: path.to_owned(), source };
     let mut reader = ImageReader::new(Cursor::new(bytes));

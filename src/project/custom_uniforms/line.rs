@@ -14,7 +14,10 @@
 use super::types::{CustomUniform, CustomUniformRange, CustomUniformType, CustomUniformValue};
 use crate::{
     diag::{Diagnostic, SourceId, Span},
-    project::{lines::HashLine, listed, nearest},
+    project::{
+        lines::{HashLine, trim_start},
+        listed, nearest,
+    },
 };
 use std::ops::Range;
 
@@ -195,7 +198,7 @@ impl<'a> Words<'a> {
     fn look(&self) -> (Word<'a>, Range<usize>) {
         let mut at = self.at;
         loop {
-            at += self.text[at..].len() - self.text[at..].trim_start().len();
+            at += self.text[at..].len() - trim_start(&self.text[at..]).len();
             let rest = &self.text[at..];
             if rest.starts_with("//") {
                 return (Word::End, at..at);

@@ -30,6 +30,16 @@ fn project(common: Option<&str>, image: &str) -> Project {
 }
 
 #[test]
+fn a_line_goes_on_behind_a_backslash() {
+    let k = one("#iUniform float speed = 1.5 \\\r\n  in { 0.0, \\\n 5.0 }\n");
+    assert_eq!((k.default, k.range), (CustomUniformValue::Float(1.5), range([0.0; 4], [5.0, 0.0, 0.0, 0.0])));
+    let text = "#iUniform float speed = 1.5 \\\n in { 0.0, 5.0 }\nfloat f;";
+    let blank = crate::project::directives::blank(text).into_owned();
+    assert_eq!((blank.trim(), blank.find("float f")), ("float f;", text.find("float f")));
+    assert_eq!(blank.matches('\n').count(), 2);
+}
+
+#[test]
 fn lines_as_the_extension_has_them() {
     let k = one("  #iUniform float speed = 1.5 in { 0.0, 5.0 } step 0.25 // note");
     assert_eq!((k.name.as_str(), k.ty, k.default), ("speed", CustomUniformType::Float, CustomUniformValue::Float(1.5)));

@@ -43,8 +43,14 @@ pub struct IncludeLines {
     pub diagnostics: Vec<Diagnostic>,
 }
 
-pub(super) fn is_include(line: &HashLine<'_>) -> bool {
+fn is_include(line: &HashLine<'_>) -> bool {
     line.body.strip_prefix("include").is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
+}
+
+/// Returns whether a line names a file, as it must. Any other form is left to the compiler, which skips it where another
+/// language's text stands in a group that is not compiled.
+pub(super) fn is_named(line: &HashLine<'_>) -> bool {
+    is_include(line) && named(line).is_some()
 }
 
 /// The path a line names.
@@ -163,8 +169,6 @@ impl Project {
         for (id, source) in sources.iter() {
             for line in hash_lines(&source.text).iter().filter(|l| is_include(l)) {
                 let span = Span::new(id, line.range.clone());
-                // Any other form is left to the compiler, which skips it where another language's text stands in a
-                // group that is not compiled.
                 let Some(path) = named(line) else { continue };
                 let name = match confine::relative(&source.name, path.trim()) {
                     Ok(name) => name,

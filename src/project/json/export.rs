@@ -3,7 +3,10 @@
 use super::ids;
 use crate::{
     diag::SourceId,
-    project::{Channel, CustomUniform, Filter, Input, Media, Pass, PassId, Project, Wrap, custom_uniforms::constants},
+    project::{
+        Channel, CustomUniform, Filter, Input, Media, Pass, PassId, Project, Wrap, custom_uniforms::constants,
+        directives,
+    },
 };
 use serde_json::{Map, Value, json};
 use std::collections::BTreeSet;
@@ -28,7 +31,8 @@ pub fn export(project: &Project) -> String {
             .list
             .iter()
             .filter(|k| declared(k, &own) && (id == Project::COMMON_ID || !declared(k, &common)));
-        constants::text(&project.inlined(id, &includes), here, &project.custom_uniform_values)
+        let text = project.inlined(id, &includes);
+        constants::text(&directives::commented(&text), here, &project.custom_uniform_values)
     };
     let pass = |(index, pass): (usize, &Pass)| self::pass(pass, text(Project::pass_id(index)));
     // Image first, as the site writes it.

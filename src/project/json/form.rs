@@ -9,61 +9,147 @@ use serde::{
     de::{Error, IgnoredAny, MapAccess, SeqAccess, Visitor},
 };
 use serde_json::value::RawValue;
-use std::{fmt, marker::PhantomData};
+use std::{borrow::Cow, fmt, marker::PhantomData};
 
 /// Inputs and outputs that a pass may list; it has four of the one and one of the other.
 const INPUTS: usize = 64;
 /// Passes and Common.
 const PASSES: usize = limits::PASSES + 1;
+/// Shaders of a list among which one can be named.
+const SHADERS: usize = 100_000;
 
-#[derive(Deserialize)]
-pub struct Shader<'t> {
-    pub ver: Option<Scalar>,
-    #[serde(borrow)]
-    pub info: Option<&'t RawValue>,
-    pub renderpass: Few<RenderPass, PASSES>,
+/// Reads an object member by member. `JSON.parse` lets the last of several members of one name count, and takes `null`
+/// for nothing here.
+macro_rules! object {
+    ($(#[$doc:meta])* $name:ident $(<$life:lifetime>)? { $($field:ident: $ty:ty = $key:literal,)* }) => {
+        $(#[$doc])*
+        #[derive(Default)]
+        pub struct $name $(<$life>)? {
+            $(pub $field: Option<$ty>,)*
+        }
+
+        impl<'de $(: $life, $life)?> Deserialize<'de> for $name $(<$life>)? {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                struct Members $(<$life>(PhantomData<&$life ()>))?;
+                impl<'de $(: $life, $life)?> Visitor<'de> for Members $(<$life>)? {
+                    type Value = $name $(<$life>)?;
+
+                    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                        f.write_str("an object")
+                    }
+
+                    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+                        let mut read = $name::default();
+                        while let Some(key) = map.next_key::<Cow<'_, str>>()? {
+                            match &*key {
+                                $($key => read.$field = map.next_value()?,)*
+                                _ => {
+                                    map.next_value::<IgnoredAny>()?;
+                                }
+                            }
+                        }
+                        Ok(read)
+                    }
+                }
+                deserializer.deserialize_map(object!(@members $($life)?))
+            }
+        }
+    };
+    (@members) => { Members };
+    (@members $life:lifetime) => { Members(PhantomData) };
 }
 
-#[derive(Deserialize)]
-pub struct RenderPass {
-    pub inputs: Option<Few<RenderInput, INPUTS>>,
-    pub outputs: Option<Few<Output, INPUTS>>,
-    pub code: String,
-    #[serde(default)]
-    pub name: String,
-    pub r#type: String,
+object! {
+    Shader<'t> {
+        ver: Scalar = "ver",
+        info: &'t RawValue = "info",
+        renderpass: Few<RenderPass, PASSES> = "renderpass",
+    }
 }
 
-#[derive(Deserialize)]
-pub struct RenderInput {
-    pub id: Option<Scalar>,
-    pub filepath: Option<String>,
-    pub src: Option<String>,
-    pub r#type: Option<String>,
-    pub ctype: Option<String>,
-    pub channel: Scalar,
-    pub sampler: Option<RenderSampler>,
+object! {
+    RenderPass {
+        inputs: Few<RenderInput, INPUTS> = "inputs",
+        outputs: Few<Output, INPUTS> = "outputs",
+        code: String = "code",
+        name: Scalar = "name",
+        r#type: String = "type",
+    }
 }
 
-#[derive(Deserialize)]
-pub struct Output {
-    pub id: Option<Scalar>,
+object! {
+    RenderInput {
+        id: Scalar = "id",
+        filepath: String = "filepath",
+        src: String = "src",
+        r#type: String = "type",
+        ctype: String = "ctype",
+        channel: Scalar = "channel",
+        sampler: RenderSampler = "sampler",
+    }
 }
 
-#[derive(Deserialize)]
-pub struct RenderSampler {
-    pub filter: Option<String>,
-    pub wrap: Option<String>,
-    pub vflip: Option<Scalar>,
+object! {
+    Output {
+        id: Scalar = "id",
+    }
+}
+
+object! {
+    RenderSampler {
+        filter: String = "filter",
+        wrap: String = "wrap",
+        vflip: Scalar = "vflip",
+    }
+}
+
+object! {
+    /// By what one of several shaders is told from the others.
+    Head {
+        info: HeadInfo = "info",
+    }
+}
+
+object! {
+    HeadInfo {
+        id: Scalar = "id",
+        name: Scalar = "name",
+    }
 }
 
 /// Ids, numbers and truths come as texts from the site and bare from others.
-#[derive(Deserialize)]
-#[serde(untagged)]
 pub enum Scalar {
     Text(String),
     Number(serde_json::Number),
     Bool(bool),
+}
+
+impl<'de> Deserialize<'de> for Scalar {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Any;
+        impl Visitor<'_> for Any {
+            type Value = Scalar;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a text or a number")
+            }
+            fn visit_str<E: Error>(self, text: &str) -> Result<Scalar, E> {
+                Ok(Scalar::Text(text.to_owned()))
+            }
+            fn visit_bool<E: Error>(self, on: bool) -> Result<Scalar, E> {
+                Ok(Scalar::Bool(on))
+            }
+            fn visit_i64<E: Error>(self, n: i64) -> Result<Scalar, E> {
+                Ok(Scalar::Number(n.into()))
+            }
+            fn visit_u64<E: Error>(self, n: u64) -> Result<Scalar, E> {
+                Ok(Scalar::Number(n.into()))
+            }
+            fn visit_f64<E: Error>(self, x: f64) -> Result<Scalar, E> {
+                Ok(serde_json::Number::from_f64(x).map_or(Scalar::Text(x.to_string()), Scalar::Number))
+            }
+        }
+        deserializer.deserialize_any(Any)
+    }
 }
 
 impl Scalar {
@@ -107,9 +193,46 @@ impl<'de, T: Deserialize<'de>, const MAX: usize> Deserialize<'de> for Few<T, MAX
 /// The content of a file before it is known to be a shader.
 pub enum Top<'t> {
     Object(Object<'t>),
-    /// The first entry, and how many there are.
-    List(Option<&'t RawValue>, usize),
+    List(Shaders<'t>),
     Bare,
+}
+
+/// The entries of a list, the first [`SHADERS`] of them, and how many there are.
+#[derive(Default)]
+pub struct Shaders<'t> {
+    pub first: Vec<&'t RawValue>,
+    pub count: usize,
+}
+
+impl<'t> Shaders<'t> {
+    fn read<A: SeqAccess<'t>>(mut seq: A) -> Result<Self, A::Error> {
+        let mut all = Shaders::default();
+        while all.first.len() < SHADERS {
+            let Some(one) = seq.next_element::<&RawValue>()? else { break };
+            all.first.push(one);
+        }
+        all.count = all.first.len();
+        while seq.next_element::<IgnoredAny>()?.is_some() {
+            all.count += 1;
+        }
+        Ok(all)
+    }
+}
+
+impl<'t> Deserialize<'t> for Shaders<'t> {
+    fn deserialize<D: Deserializer<'t>>(deserializer: D) -> Result<Self, D::Error> {
+        struct List;
+        impl<'t> Visitor<'t> for List {
+            type Value = Shaders<'t>;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a list of shaders")
+            }
+            fn visit_seq<A: SeqAccess<'t>>(self, seq: A) -> Result<Shaders<'t>, A::Error> {
+                Shaders::read(seq)
+            }
+        }
+        deserializer.deserialize_seq(List)
+    }
 }
 
 /// The members by which the shapes are told apart.
@@ -117,6 +240,8 @@ pub enum Top<'t> {
 pub struct Object<'t> {
     pub renderpass: bool,
     pub shader: Option<&'t RawValue>,
+    /// The list of the file that a profile's page exports.
+    pub shaders: Option<&'t RawValue>,
     pub error: Option<&'t RawValue>,
     /// The first members' names.
     pub keys: Vec<String>,
@@ -142,6 +267,7 @@ impl<'t> Visitor<'t> for Shape {
         while let Some(key) = map.next_key::<String>()? {
             match key.as_str() {
                 "Shader" => object.shader = Some(map.next_value()?),
+                "shaders" => object.shaders = Some(map.next_value()?),
                 "Error" => object.error = Some(map.next_value()?),
                 _ => {
                     map.next_value::<IgnoredAny>()?;
@@ -155,13 +281,8 @@ impl<'t> Visitor<'t> for Shape {
         Ok(Top::Object(object))
     }
 
-    fn visit_seq<A: SeqAccess<'t>>(self, mut seq: A) -> Result<Top<'t>, A::Error> {
-        let first = seq.next_element::<&RawValue>()?;
-        let mut count = usize::from(first.is_some());
-        while seq.next_element::<IgnoredAny>()?.is_some() {
-            count += 1;
-        }
-        Ok(Top::List(first, count))
+    fn visit_seq<A: SeqAccess<'t>>(self, seq: A) -> Result<Top<'t>, A::Error> {
+        Shaders::read(seq).map(Top::List)
     }
 
     fn visit_bool<E>(self, _: bool) -> Result<Top<'t>, E> {
@@ -187,4 +308,9 @@ impl<'t> Visitor<'t> for Shape {
     fn visit_unit<E>(self) -> Result<Top<'t>, E> {
         Ok(Top::Bare)
     }
+}
+
+/// A text of the file's in a message: not too long, and in one line.
+pub fn shown(text: &str) -> String {
+    text.chars().take(80).collect::<String>().escape_debug().to_string()
 }

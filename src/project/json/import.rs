@@ -1,12 +1,14 @@
 //! Shadertoy JSON to [`Project`].
 //!
-//! Three shapes come by: the site's own (`ver`, `info`, `renderpass`), the API's (that, wrapped in `Shader`), and a
-//! list of the first. Spellings of both are read everywhere. A pass is known by its type and its output's id, never by
+//! Four shapes come by: the site's own (`ver`, `info`, `renderpass`), the API's (that, wrapped in `Shader`), a list of
+//! either, and the file that a profile's page exports (`shaders`, a list). Spellings of all are read everywhere. A pass is known by its type and its output's id, never by
 //! its name, which is free text.
 
 use super::{
-    form::{Object, RenderInput, RenderPass, RenderSampler, Scalar, Shader, Top},
+    form::{Few, Object, RenderInput, RenderPass, RenderSampler, Scalar, Shader, Shaders, Top, shown},
     ids,
+    parsed::readable,
+    several,
 };
 use crate::{
     diag::{Diagnostic, SourceMap, Span},
@@ -15,9 +17,9 @@ use crate::{
         Source, Wrap, limits,
     },
 };
-use serde_json::{Map, Value};
+use serde_json::{Map, Value, value::RawValue};
 use std::{
-    collections::{HashMap, HashSet, VecDeque},
+    collections::{BTreeMap, HashMap, HashSet, VecDeque},
     path::PathBuf,
 };
 
@@ -25,98 +27,149 @@ use std::{
 const VERSION: &str = "0.1";
 
 /// A project from `text`, whose file is called `name` in messages. The project's origin is [`Origin::Unsaved`].
-/// Fails with [`ProjectError::Invalid`] for anything that is none of the three shapes.
+/// Fails with [`ProjectError::Invalid`] for anything that is none of the four shapes. Of several shaders the first is
+/// read.
 pub fn import(text: &str, name: &str) -> Result<(Project, Vec<Diagnostic>), ProjectError> {
-    read(text, name).map_err(|diagnostics| {
+    import_one(text, name, None)
+}
+
+/// Does the same as [`import`], with the shader of several that a person asked for, by its id, its number from 1 or
+/// its name.
+pub fn import_one(text: &str, name: &str, wanted: Option<&str>) -> Result<(Project, Vec<Diagnostic>), ProjectError> {
+    read(text, name, wanted).map_err(|diagnostics| {
         let mut sources = SourceMap::default();
         sources.add(name, text);
         ProjectError::Invalid { what: name.to_owned(), diagnostics, sources }
     })
 }
 
-const EXPECTED: &str = "expected is a Shadertoy shader: an object with \"ver\", \"info\" and \"renderpass\", the \
-    same inside \"Shader\", or a list of such objects";
+/// Returns whether a file holds more shaders than one.
+pub fn holds_several(text: &str) -> bool {
+    let body = readable(text.strip_prefix('\u{feff}').unwrap_or(text));
+    match serde_json::from_str(&body) {
+        Ok(Top::List(shaders)) => shaders.count > 1,
+        Ok(Top::Object(Object { renderpass: false, shader: None, shaders: Some(list), .. })) => {
+            serde_json::from_str::<Shaders<'_>>(list.get()).is_ok_and(|shaders| shaders.count > 1)
+        }
+        _ => false,
+    }
+}
 
-fn read(text: &str, name: &str) -> Result<(Project, Vec<Diagnostic>), Vec<Diagnostic>> {
+const EXPECTED: &str = "expected is a Shadertoy shader: an object with \"ver\", \"info\" and \"renderpass\", the \
+    same inside \"Shader\", or a list of such objects, also inside \"shaders\"";
+const NO_SHADER: &str = "not a Shadertoy shader";
+
+fn read(text: &str, name: &str, wanted: Option<&str>) -> Result<(Project, Vec<Diagnostic>), Vec<Diagnostic>> {
     let body = text.strip_prefix('\u{feff}').unwrap_or(text);
     let skipped = text.len() - body.len();
+    let body = &*readable(body);
     let at =
         |offset: usize, length: usize| Span::new(crate::diag::SourceId(0), skipped + offset..skipped + offset + length);
-    // The key's place where it is found; the file's start where it is not.
-    let at_key = |key: &str| body.find(&format!("\"{key}\"")).map_or(at(0, 0), |i| at(i, key.len() + 2));
     // `part` is a slice of `body`.
+    let begin_of = |part: &str| part.as_ptr() as usize - body.as_ptr() as usize;
+    // The key's place where it is found; the part's start where it is not.
+    let at_key = |part: &str, key: &str| {
+        let begin = begin_of(part);
+        part.find(&format!("\"{key}\"")).map_or(at(begin, 0), |i| at(begin + i, key.len() + 2))
+    };
     let failed = |part: &str, what: &str, e: &serde_json::Error| {
-        let begin = part.as_ptr() as usize - body.as_ptr() as usize;
         let message = e.to_string();
         let message = message.rsplit_once(" at line ").map_or(message.as_str(), |(m, _)| m);
-        let place = at(begin + offset_of(part, e.line(), e.column()), 0);
-        vec![Diagnostic::error(place, format!("{what}: {message}")).hint(EXPECTED)]
+        let place = at(begin_of(part) + offset_of(part, e.line(), e.column()), 0);
+        let hint = if body.trim_start().starts_with('<') {
+            "this is a web page; save what the site exports, or what its API answers"
+        } else {
+            EXPECTED
+        };
+        vec![Diagnostic::error(place, format!("{what}: {message}")).hint(hint)]
     };
-    const NO_SHADER: &str = "not a Shadertoy shader";
+    let refuse = |place: Span, message: String, hint: &str| Err(vec![Diagnostic::error(place, message).hint(hint)]);
     let mut warnings = Vec::new();
-    let part: &str = match serde_json::from_str::<Top<'_>>(body).map_err(|e| failed(body, "not JSON", &e))? {
-        Top::Object(object) if object.renderpass => body,
-        Top::Object(Object { shader: Some(shader), .. }) => shader.get(),
-        Top::Object(Object { error: Some(error), .. }) => {
-            let said: Option<String> = serde_json::from_str(error.get()).ok();
-            let said = said.as_deref().unwrap_or("no reason given");
-            return Err(vec![
-                Diagnostic::error(at_key("Error"), format!("this is the API's refusal, not a shader: {said}"))
-                    .hint("ask the API again; a shader must be public + API to be had"),
-            ]);
-        }
-        Top::Object(Object { keys, .. }) => {
-            let keys: Vec<String> = keys.iter().map(|k| format!("\"{k}\"")).collect();
-            let has =
-                if keys.is_empty() { "is empty".into() } else { format!("has {}", crate::project::listed(&keys)) };
-            return Err(vec![
-                Diagnostic::error(at(0, 0), format!("{NO_SHADER}: the object {has}, and no \"renderpass\""))
-                    .hint(EXPECTED),
-            ]);
-        }
-        Top::List(None, _) => {
-            return Err(vec![Diagnostic::error(at(0, 0), format!("{NO_SHADER}: the list is empty")).hint(EXPECTED)]);
-        }
-        Top::List(Some(first), count) => {
-            if count > 1 {
-                warnings.push(Diagnostic::warning(
-                    at(0, 0),
-                    format!("the file holds {count} shaders; the first one is read"),
-                ));
+    let mut part: &str = body;
+    let mut is_chosen = false;
+    // A list may hold what the API answers, each in its own wrapping.
+    let shader = loop {
+        let list = match serde_json::from_str::<Top<'_>>(part).map_err(|e| failed(part, "not JSON", &e))? {
+            Top::Object(object) if object.renderpass => {
+                break serde_json::from_str::<Shader<'_>>(part).map_err(|e| failed(part, NO_SHADER, &e))?;
             }
-            first.get()
-        }
-        Top::Bare => {
-            return Err(vec![Diagnostic::error(at(0, 0), format!("{NO_SHADER}: a bare value")).hint(EXPECTED)]);
-        }
+            Top::Object(Object { shader: Some(shader), .. }) => {
+                part = shader.get();
+                break serde_json::from_str::<Shader<'_>>(part).map_err(|e| failed(part, NO_SHADER, &e))?;
+            }
+            Top::Object(Object { shaders: Some(list), .. }) if !is_chosen => {
+                part = list.get();
+                serde_json::from_str::<Shaders<'_>>(part).map_err(|e| failed(part, NO_SHADER, &e))?
+            }
+            Top::List(list) if !is_chosen => list,
+            Top::Object(Object { error: Some(error), .. }) => {
+                let said = serde_json::from_str(error.get()).unwrap_or_else(|_| shown(error.get()));
+                let said = if said.trim().is_empty() || said == "null" { "no reason given".to_owned() } else { said };
+                let message = format!("this is the API's refusal, not a shader: {}", shown(&said));
+                return refuse(
+                    at_key(part, "Error"),
+                    message,
+                    "ask the API again; a shader must be public + API to be had",
+                );
+            }
+            Top::Object(Object { keys, .. }) if keys.iter().any(|k| k == "Results") => {
+                let message = "this is the API's list of ids, not a shader".to_owned();
+                return refuse(at_key(part, "Results"), message, "ask the API for one of them");
+            }
+            Top::Object(Object { keys, .. }) => {
+                let keys: Vec<String> = keys.iter().map(|k| format!("\"{}\"", shown(k))).collect();
+                let has =
+                    if keys.is_empty() { "is empty".into() } else { format!("has {}", crate::project::listed(&keys)) };
+                let message = format!("{NO_SHADER}: the object {has}, and no \"renderpass\"");
+                return refuse(at(begin_of(part), 0), message, EXPECTED);
+            }
+            Top::List(_) => {
+                return refuse(at(begin_of(part), 0), format!("{NO_SHADER}: a list within a list"), EXPECTED);
+            }
+            Top::Bare => {
+                return refuse(at(begin_of(part), 0), format!("{NO_SHADER}: a bare value"), EXPECTED);
+            }
+        };
+        part = match several::choose(&list, name, wanted, &mut warnings) {
+            Ok(one) => one.get(),
+            Err((message, hint)) => return refuse(at(begin_of(part), 0), message, &hint),
+        };
+        is_chosen = true;
     };
-    let shader: Shader<'_> = serde_json::from_str(part).map_err(|e| failed(part, NO_SHADER, &e))?;
     match shader.ver.as_ref().map(Scalar::text).as_deref() {
         Some(VERSION) => {}
         Some(other) => {
-            return Err(vec![
-                Diagnostic::error(at_key("ver"), format!("version \"{other}\" of the form is not known"))
-                    .hint(format!("expected is \"ver\": \"{VERSION}\"")),
-            ]);
+            return refuse(
+                at_key(part, "ver"),
+                format!("version \"{}\" of the form is not known", shown(other)),
+                &format!("expected is \"ver\": \"{VERSION}\""),
+            );
         }
-        None => {
-            return Err(vec![
-                Diagnostic::error(at(0, 0), "the shader has no \"ver\"")
-                    .hint(format!("expected is \"ver\": \"{VERSION}\"")),
-            ]);
-        }
+        None => warnings.push(
+            Diagnostic::warning(None, format!("the shader has no \"ver\"; it is read as version {VERSION}"))
+                .hint(format!("the site itself wants \"ver\": \"{VERSION}\"")),
+        ),
+    }
+    if let (Some(wanted), false) = (wanted, is_chosen)
+        && !several::is_called(part, 1, wanted)
+    {
+        let message = format!("the file holds one shader, and none that is called {}", shown(wanted));
+        return refuse(at(0, 0), message, &format!("name the file alone: {name}"));
     }
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
-    let info = match shader.info.map(serde_json::value::RawValue::get) {
+    let info = match shader.info.map(RawValue::get) {
         None => Map::new(),
         Some(text) if text.len() as u64 > limits::JSON_INFO.bytes => {
             let message = format!("\"info\" is larger than {}", limits::JSON_INFO);
-            return Err(vec![Diagnostic::error(at_key("info"), message).hint("take out what is not of the shader")]);
+            return refuse(at_key(part, "info"), message, "take out what is not of the shader");
         }
-        Some(text) => serde_json::from_str(text).map_err(|e| failed(text, NO_SHADER, &e))?,
+        Some(text) => members(text, &mut warnings).map_err(|e| failed(text, NO_SHADER, &e))?,
     };
-    let project = project(shader.renderpass.0, info, stem, &mut warnings).map_err(|mut d| {
-        d.span = Some(at_key("renderpass"));
+    let Some(Few(passes)) = shader.renderpass else {
+        return refuse(at_key(part, "renderpass"), format!("{NO_SHADER}: \"renderpass\" is null"), EXPECTED);
+    };
+    let project = project(passes, info, stem, &mut warnings).map_err(|mut d| {
+        d.span = Some(at_key(part, "renderpass"));
         vec![d]
     })?;
     // Warnings point into the JSON, which is none of the project's own texts: keep the words, drop the place.
@@ -124,6 +177,22 @@ fn read(text: &str, name: &str) -> Result<(Project, Vec<Diagnostic>), Vec<Diagno
         warning.span = None;
     }
     Ok((project, warnings))
+}
+
+/// The members of `info`, which is what a shader says besides its passes. A member that nests deeper than serde_json reads is left out.
+fn members(text: &str, warnings: &mut Vec<Diagnostic>) -> Result<Map<String, Value>, serde_json::Error> {
+    let raw: BTreeMap<String, &RawValue> = serde_json::from_str(text)?;
+    let mut all = Map::new();
+    for (key, value) in raw {
+        match serde_json::from_str(value.get()) {
+            Ok(value) => drop(all.insert(key, value)),
+            Err(_) => warnings.push(
+                Diagnostic::warning(None, format!("\"{}\" of \"info\" nests too deep and is left out", shown(&key)))
+                    .hint("nothing of the picture depends on it"),
+            ),
+        }
+    }
+    Ok(all)
 }
 
 /// Byte offset of serde_json's line and column: both from 1, columns in bytes.
@@ -148,16 +217,21 @@ fn project(
     // Reads of buffers in the order the site loads them, as (place in `passes`, channel).
     let mut reads: Vec<(usize, usize)> = Vec::new();
     for pass in passes_read {
-        if pass.code.len() as u64 > limits::GLSL_TEXT.bytes {
+        let kind = kind(&pass)?;
+        let Some(code) = pass.code else {
+            return Err(Diagnostic::error(None, format!("a pass of type \"{kind}\" has no \"code\""))
+                .hint("\"code\" is the GLSL text of the pass"));
+        };
+        if code.len() as u64 > limits::GLSL_TEXT.bytes {
             let message = format!("the code of a pass is larger than {}", limits::GLSL_TEXT);
             return Err(Diagnostic::error(None, message).hint("make it smaller"));
         }
-        let id = match pass.r#type.as_str() {
+        let id = match &*kind {
             "common" => {
                 if common.is_some() {
                     return Err(Diagnostic::error(None, "the shader has two Common passes").hint("remove one of them"));
                 }
-                common = Some(Source { name: "Common".into(), path: None, text: pass.code.into() });
+                common = Some(Source { name: "Common".into(), path: None, text: code.into() });
                 continue;
             }
             "image" => PassId::Image,
@@ -165,7 +239,7 @@ fn project(
             "cubemap" => PassId::Cubemap,
             "buffer" => PassId::Buffer(names.of_passes.pop_front().unwrap_or_default()),
             other => {
-                return Err(Diagnostic::error(None, format!("a pass is of the unknown type \"{other}\""))
+                return Err(Diagnostic::error(None, format!("a pass is of the unknown type \"{}\"", shown(other)))
                     .hint("known are common, buffer, cubemap, sound and image"));
             }
         };
@@ -182,7 +256,7 @@ fn project(
                 channels[n] = Some(channel);
             }
         }
-        let source = Source { name: id.title(), path: None, text: pass.code.into() };
+        let source = Source { name: id.title(), path: None, text: code.into() };
         passes.push(Pass { channels, ..Pass::new(id, source) });
     }
     if !passes.iter().any(|p| p.id == PassId::Image) {
@@ -208,6 +282,26 @@ fn project(
     let name = if name.trim().is_empty() { stem.to_owned() } else { name };
     let info = Info { id, author, description, tags, extra };
     Ok(Project { info, common, sampler_rules: SamplerRules::Site, ..Project::new(name, passes, Origin::Unsaved) })
+}
+
+/// The type of a pass, in lower case. Where there is none, the name says it as far as the site gives it: "Buf A".
+fn kind(pass: &RenderPass) -> Result<String, Diagnostic> {
+    if let Some(kind) = &pass.r#type {
+        return Ok(kind.trim().to_lowercase());
+    }
+    let name = pass.name.as_ref().map(Scalar::text).unwrap_or_default();
+    let kind = match PassId::parse(&name) {
+        _ if name.trim().eq_ignore_ascii_case("common") => "common",
+        Some(PassId::Image) => "image",
+        Some(PassId::Sound) => "sound",
+        Some(PassId::Cubemap) => "cubemap",
+        Some(PassId::Buffer(_)) if name.trim().to_lowercase().starts_with("buf") => "buffer",
+        _ => {
+            return Err(Diagnostic::error(None, format!("the pass \"{}\" has no \"type\"", shown(&name)))
+                .hint("known are common, buffer, cubemap, sound and image"));
+        }
+    };
+    Ok(kind.to_owned())
 }
 
 /// On the site a buffer has one wrap, that of the channel loaded last in the order of the JSON's list. That order is
@@ -245,7 +339,7 @@ impl BufferNames {
             p.outputs.iter().flat_map(|o| &o.0).filter_map(|o| o.id.as_ref().map(Scalar::text)).collect()
         };
         let buffers: Vec<(&RenderPass, Vec<String>)> =
-            passes.iter().filter(|p| p.r#type == "buffer").map(|p| (p, outputs(p))).collect();
+            passes.iter().filter(|p| kind(p).is_ok_and(|kind| kind == "buffer")).map(|p| (p, outputs(p))).collect();
         let claims: Vec<Option<String>> =
             buffers.iter().map(|(_, ids)| ids.iter().find_map(|i| ids::buffer(i))).collect();
         let claimed: HashSet<&String> = claims.iter().flatten().collect();
@@ -264,7 +358,10 @@ impl BufferNames {
                         (None, Some(id)) if !id.is_empty() => format!("writes the unknown id \"{}\"", shown(id)),
                         (None, _) => "does not say which buffer it writes".into(),
                     };
-                    let message = format!("the pass \"{}\" {said}; it is read as Buffer {name}", shown(&pass.name));
+                    let message = format!(
+                        "the pass \"{}\" {said}; it is read as Buffer {name}",
+                        shown(&pass.name.as_ref().map(Scalar::text).unwrap_or_default())
+                    );
                     let hint = "give every buffer pass an output id of its own";
                     warnings.push(Diagnostic::warning(None, message).hint(hint));
                     if other.is_none() {
@@ -282,25 +379,23 @@ impl BufferNames {
     }
 }
 
-/// A text of the file's in a message: not too long, and in one line.
-fn shown(text: &str) -> String {
-    text.chars().take(80).collect::<String>().escape_debug().to_string()
-}
-
 fn channel(
     input: &RenderInput,
     id: &PassId,
     names: &BufferNames,
     warnings: &mut Vec<Diagnostic>,
 ) -> Option<(usize, Channel)> {
-    let number = input.channel.text();
-    let Some(n) = number.parse::<usize>().ok().filter(|n| *n < 4) else {
-        warnings.push(
-            Diagnostic::warning(None, format!("{} has an input for iChannel{number}, which there is not", id.title()))
-                .hint("a pass has iChannel0 to iChannel3; the input is left out"),
-        );
+    let number = input.channel.as_ref().map(Scalar::text).unwrap_or_default();
+    let Some(n) = number.parse::<f64>().ok().filter(|n| n.fract() == 0.0 && (0.0..4.0).contains(n)) else {
+        let message = match &*number {
+            "" => format!("{} has an input without a \"channel\"", id.title()),
+            _ => format!("{} has an input for iChannel{}, which there is not", id.title(), shown(&number)),
+        };
+        warnings
+            .push(Diagnostic::warning(None, message).hint("a pass has iChannel0 to iChannel3; the input is left out"));
         return None;
     };
+    let n = n as usize;
     let kind = input.r#type.as_deref().or(input.ctype.as_deref()).unwrap_or_default();
     let path = input.filepath.as_deref().or(input.src.as_deref()).unwrap_or_default();
     let input_id = input.id.as_ref().map(Scalar::text).unwrap_or_default();
@@ -337,8 +432,11 @@ fn channel(
         "webcam" => Input::Webcam,
         other => {
             warnings.push(
-                Diagnostic::warning(None, format!("iChannel{n} of {} is of the unknown type \"{other}\"", id.title()))
-                    .hint("the channel is left empty and reads black"),
+                Diagnostic::warning(
+                    None,
+                    format!("iChannel{n} of {} is of the unknown type \"{}\"", id.title(), shown(other)),
+                )
+                .hint("the channel is left empty and reads black"),
             );
             return None;
         }

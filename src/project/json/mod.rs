@@ -7,9 +7,13 @@ mod export;
 mod form;
 mod ids;
 mod import;
+mod parsed;
+mod several;
 
 pub use export::export;
-pub use import::import;
+pub use import::{holds_several, import, import_one};
+pub(super) use parsed::utf16;
+pub(super) use several::{of_several, one_of};
 
 #[cfg(test)]
 mod tests;

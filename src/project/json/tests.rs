@@ -1,6 +1,6 @@
 //! Tests of the site's JSON: what is read, what is written, and that nothing is lost on the way there and back.
 
-use super::{export, import};
+use super::{export, holds_several, import, import_one};
 use crate::project::{
     Channel, Filter, Info, Input, Media, Origin, Pass, PassId, Project, Sampler, SamplerRules, Source, Wrap,
 };
@@ -124,15 +124,23 @@ fn what_is_no_shader_is_refused_with_place_and_expectation() {
         ("", vec!["x.json:1:1", "not JSON", "expected is a Shadertoy shader"]),
         ("{\n  \"ver\": \"0.1\",\n  oops }", vec!["x.json:3:3", "not JSON"]),
         ("{\n  \"ver\": \"0.1\", \"renderpass\": [\n    { \"type\": 3 } ] }", vec!["x.json:3:", "invalid type"]),
-        ("{ \"ver\": \"0.1\", \"renderpass\": [{ \"type\": \"image\" }] }", vec!["missing field `code`"]),
+        ("{ \"ver\": \"0.1\", \"renderpass\": [{ \"type\": \"image\" }] }", vec!["has no \"code\"", "x.json:1:17"]),
+        ("{ \"ver\": \"0.1\", \"renderpass\": [{ \"code\": \"\" }] }", vec!["has no \"type\"", "known are common"]),
+        ("{ \"ver\": \"0.1\", \"renderpass\": null }", vec!["\"renderpass\" is null"]),
+        ("<!DOCTYPE html>\n<html>", vec!["not JSON", "this is a web page"]),
+        ("{ \"Shaders\": 2, \"Results\": [\"a\", \"b\"] }", vec!["list of ids"]),
+        ("{ \"Error\": { \"code\": 7 } }", vec!["API's refusal", "code"]),
+        ("{ \"shaders\": [] }", vec!["list is empty"]),
+        ("{ \"shaders\": {} }", vec!["expected a list of shaders"]),
+        ("[[{}]]", vec!["a list within a list"]),
         ("{ \"a\": 1, \"b\": 2 }", vec!["has \"a\" and \"b\", and no \"renderpass\"", "\"Shader\""]),
         ("{}", vec!["is empty"]),
         ("[]", vec!["list is empty"]),
-        ("[1]", vec!["x.json:1:", "invalid type"]),
+        ("[1]", vec!["x.json:1:2", "a bare value"]),
         ("\"text\"", vec!["a bare value"]),
         ("{ \"Error\": \"Shader not found\" }", vec!["x.json:1:3", "API's refusal", "Shader not found"]),
         (version.as_str(), vec!["version \"0.2\"", "\"ver\": \"0.1\""]),
-        ("{ \"renderpass\": [] }", vec!["no \"ver\""]),
+        ("{ \"renderpass\": [] }", vec!["no Image pass"]),
         (no_image.as_str(), vec!["no Image pass"]),
         (two_images.as_str(), vec!["two passes named Image"]),
         (unknown.as_str(), vec!["unknown type \"vertex\""]),
@@ -211,4 +219,97 @@ fn an_export_reads_back_as_the_same_project() {
     assert_eq!(warnings, []);
     assert_eq!(back, project);
     assert_eq!(export(&back), text);
+}
+
+/// The file that a profile's page exports.
+fn exported(shaders: &[Value]) -> Value {
+    json!({ "userName": "me", "date": "2026-01-01T00:00:00.000Z", "numShaders": shaders.len(), "shaders": shaders })
+}
+
+fn called(id: Value, name: &str, code: &str) -> Value {
+    let mut one = shader(&[pass("image", None, &[])]);
+    (one["info"]["id"], one["info"]["name"], one["renderpass"][0]["code"]) = (id, json!(name), json!(code));
+    one
+}
+
+#[test]
+fn one_of_several_shaders_is_read_by_id_number_or_name() {
+    let list = [
+        called(json!("aaaaaa"), "first", "1"),
+        called(json!(42), "second", "2"),
+        called(json!("aaaaaa"), "third", "3"),
+    ];
+    for file in [exported(&list), json!(list), json!([{ "Shader": list[0] }, { "Shader": list[1] }, list[2]])] {
+        let text = file.to_string();
+        assert!(holds_several(&text));
+        let (project, warnings) = import(&text, "x.json").unwrap();
+        assert_eq!(&*project.passes[0].source.text, "1");
+        let said = format!("{warnings:?}");
+        assert_eq!(warnings.len(), 1, "{said}");
+        assert!(
+            said.contains("holds 3 shaders") && said.contains("x.json#aaaaaa (first), x.json#42 (second)"),
+            "{said}"
+        );
+        assert!(said.contains("x.json#3 (third)"), "an id that another has is none: {said}");
+        for (wanted, code) in [("aaaaaa", "1"), ("2", "2"), ("42", "2"), ("3", "3"), ("Third", "3")] {
+            let (project, warnings) = import_one(&text, "x.json", Some(wanted)).unwrap();
+            assert_eq!((&*project.passes[0].source.text, warnings), (code, Vec::new()), "{wanted}");
+        }
+        let refused = import_one(&text, "x.json", Some("nobody")).unwrap_err().to_string();
+        assert!(refused.contains("none of the 3 shaders") && refused.contains("x.json#42"), "{refused}");
+    }
+    let one = list[0].to_string();
+    assert!(!holds_several(&one) && !holds_several(&exported(&list[..1]).to_string()) && !holds_several("{"));
+    assert_eq!(import(&exported(&list[..1]).to_string(), "x.json").unwrap().1, []);
+    assert!(import_one(&one, "x.json", Some("aaaaaa")).is_ok());
+    assert!(import_one(&one, "x.json", Some("b")).unwrap_err().to_string().contains("holds one shader"));
+}
+
+#[test]
+fn what_other_tools_write_is_read() {
+    let bare = json!({ "renderpass": [{ "code": "x\r\n", "name": "Image" }, { "code": "", "name": "Buf A", "inputs": null,
+        "outputs": null, "type": null }, { "code": "", "type": "Common ", "name": 7 }], "info": null, "extra": [1] });
+    let (project, warnings) = import(&bare.to_string(), "x.json").unwrap();
+    let said: Vec<&str> = warnings.iter().map(|w| w.message.as_str()).collect();
+    assert!(said.len() == 2 && said[0].contains("no \"ver\"") && said[1].contains("Buf A"), "{said:?}");
+    let ids: Vec<String> = project.passes.iter().map(|p| p.id.key()).collect();
+    assert_eq!((ids.join(" "), &*project.passes[1].source.text), ("buffer_a image".to_owned(), "x\r\n"));
+    let read = |text: &str| import(text, "x.json").unwrap().0;
+    // As `JSON.parse`: the last member counts, half a pair of surrogates is a letter, and a number may be infinite.
+    let twice = r#"{ "ver": 0.1, "ver": "0.1", "renderpass": [], "renderpass": [ { "type": "image", "code": "a",
+        "code": "\/\/ \ud83d \ud83d\ude00", "inputs": [ { "channel": 2.0, "ctype": "keyboard", "type": null, "id": 33 } ] } ],
+        "info": { "name": "n", "viewed": 1e999, "likes": 4 } }"#;
+    let project = read(twice);
+    assert_eq!(&*project.passes[0].source.text, "// \u{fffd} \u{1f600}");
+    assert_eq!(project.passes[0].channels[2].as_ref().unwrap().input, Input::Keyboard);
+    assert_eq!((&project.info.extra["viewed"], &project.info.extra["likes"]), (&Value::Null, &json!(4)));
+    let deep = format!("{}{}", "[".repeat(5000), "]".repeat(5000));
+    let text = format!(
+        r#"{{ "other": {deep}, "ver": "0.1", "info": {{ "deep": {deep}, "name": "n" }}, "renderpass": [ {{ "type": "image", "code": "" }} ] }}"#
+    );
+    let (project, warnings) = import(&text, "x.json").unwrap();
+    assert_eq!((project.name.as_str(), warnings.len()), ("n", 1), "{warnings:?}");
+}
+
+#[test]
+fn files_in_utf_16_and_one_shader_of_a_file_are_opened() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("all.json");
+    let text = exported(&[called(json!("a"), "first", "1"), called(json!("b"), "second", "2")]).to_string();
+    let bytes: Vec<u8> = format!("\u{feff}{text}").encode_utf16().flat_map(u16::to_le_bytes).collect();
+    std::fs::write(&file, bytes).unwrap();
+    let open = |name: &str| crate::project::load(&format!("{}{name}", file.display()));
+    let first = open("").unwrap();
+    assert_eq!((first.project.name.as_str(), first.warnings.len()), ("first", 1));
+    let second = open("#b").unwrap();
+    assert_eq!((second.project.name.as_str(), second.warnings.len()), ("second", 0));
+    let Origin::Json(path) = &second.project.origin else { panic!("{:?}", second.project.origin) };
+    assert_eq!(crate::project::load(path.to_str().unwrap()).unwrap().project, second.project, "it is found again");
+    assert_eq!(crate::project::stem(path.to_str().unwrap()), "all_b");
+    assert!(open("#c").unwrap_err().to_string().contains("none of the 2 shaders"));
+    // The other shader would be lost.
+    for project in [&first.project, &second.project] {
+        let refused = crate::project::save(project, &file, crate::project::Overwrite::Refuse);
+        assert!(matches!(refused, Err(crate::project::ProjectError::WouldOverwrite { .. })), "{refused:?}");
+    }
 }

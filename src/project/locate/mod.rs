@@ -4,6 +4,7 @@ use super::{
     Loaded, PassId, ProjectError,
     file_names::{self, Role},
     files::{Files, MANIFEST},
+    json,
     load::{folder_name, load_folder, load_glsl, load_json},
     nearest, presets,
 };
@@ -14,13 +15,14 @@ use std::{
 
 /// Reads a project by what a person calls it: a folder with `eddy.toml`, a folder of GLSL files (or one of these named
 /// directly: `eddy.toml`), one GLSL file, a Shadertoy JSON file, a preset's name. A path wins over a preset, except
-/// that a bare preset's name is not taken for a folder of that name that holds no project.
+/// that a bare preset's name is not taken for a folder of that name that holds no project. Of a JSON file that holds
+/// several shaders, `FILE.json#ID` is one, by its id, its number from 1 or its name.
 pub fn load(spec: &str) -> Result<Loaded, ProjectError> {
     match locate(spec)? {
         Place::Preset(name) => presets::load(name),
         Place::Folder(path) => load_folder(&path),
         Place::Glsl(path) => load_glsl(&path),
-        Place::Json(path) => load_json(&path),
+        Place::Json(path, wanted) => load_json(&path, wanted.as_deref()),
     }
 }
 
@@ -30,7 +32,12 @@ pub fn stem(spec: &str) -> String {
     let path = match locate(spec) {
         Ok(Place::Preset(name)) => return name.to_owned(),
         Ok(Place::Folder(path)) => return folder_name(&path),
-        Ok(Place::Glsl(path) | Place::Json(path)) => path,
+        Ok(Place::Glsl(path) | Place::Json(path, None)) => path,
+        Ok(Place::Json(path, Some(wanted))) => {
+            let letters = wanted.chars().map(|c| if c.is_alphanumeric() || c == '-' { c } else { '_' }).take(64);
+            let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            return format!("{stem}_{}", letters.collect::<String>());
+        }
         Err(_) => PathBuf::from(spec),
     };
     path.file_stem().map_or_else(|| "project".into(), |s| s.to_string_lossy().into_owned())
@@ -40,13 +47,20 @@ enum Place {
     Preset(&'static str),
     Folder(PathBuf),
     Glsl(PathBuf),
-    Json(PathBuf),
+    /// And which of its shaders, if one is asked for.
+    Json(PathBuf, Option<String>),
 }
 
 fn locate(spec: &str) -> Result<Place, ProjectError> {
     let path = Path::new(spec);
     let preset = presets::names().iter().copied().find(|n| *n == spec);
-    let metadata = match fs::metadata(path) {
+    let metadata = fs::metadata(path);
+    if metadata.is_err()
+        && let Some((path, wanted)) = json::of_several(spec)
+    {
+        return Ok(Place::Json(path, Some(wanted)));
+    }
+    let metadata = match metadata {
         Ok(metadata) => metadata,
         Err(e) if preset.is_none() && e.kind() != std::io::ErrorKind::NotFound && !spec.is_empty() => {
             return Err(ProjectError::Io { action: "read", path: path.to_owned(), source: e });
@@ -70,7 +84,7 @@ fn locate(spec: &str) -> Result<Place, ProjectError> {
         let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
         Ok(Place::Folder(folder.to_owned()))
     } else if extension.eq_ignore_ascii_case("json") {
-        Ok(Place::Json(path.to_owned()))
+        Ok(Place::Json(path.to_owned(), None))
     } else if file_names::is_glsl_extension(extension) {
         Ok(Place::Glsl(path.to_owned()))
     } else {

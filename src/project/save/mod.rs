@@ -3,7 +3,7 @@
 //! Owns what goes into which file. The writing itself, which never leaves half a file behind, is in `atomic`.
 
 use super::{
-    FillValue, Media, MeshSource, Origin, PassId, Project, ProjectError, SamplerRules, Source,
+    FillValue, Media, MeshSource, Origin, Pass, PassId, Project, ProjectError, SamplerRules, Source,
     atomic::Content,
     confine, file_names,
     files::{Files, MANIFEST},
@@ -52,6 +52,8 @@ pub fn name_at(target: &Path) -> String {
 
 fn save_json(project: &Project, target: &Path, overwrite: Overwrite) -> Result<Project, ProjectError> {
     let own = matches!(&project.origin, Origin::Json(path) if is_same(path, target));
+    // The others of several shaders are not here, and would be lost.
+    let own = own && !confine::read_own(target, limits::JSON).is_ok_and(|bytes| is_of_several(&bytes));
     if let Some(pass) = project.passes.iter().find(|p| p.settings.meshes().is_some()) {
         let what = format!("{}, which draws meshes: the site has no such pass", pass.id.title());
         return Err(ProjectError::CannotHold { path: target.to_owned(), what });
@@ -67,10 +69,25 @@ fn save_json(project: &Project, target: &Path, overwrite: Overwrite) -> Result<P
     Ok(saved)
 }
 
+fn is_of_several(bytes: &[u8]) -> bool {
+    match json::utf16(bytes) {
+        Some(text) => json::holds_several(&text),
+        None => json::holds_several(&String::from_utf8_lossy(bytes)),
+    }
+}
+
 fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite) -> Result<Project, ProjectError> {
     let cannot = |what: &str| Err(ProjectError::CannotHold { path: target.to_owned(), what: what.into() });
-    let [image] = project.passes.as_slice() else { return cannot("more passes than Image") };
-    if image.id != PassId::Image || project.common.is_some() {
+    let own = matches!(&project.origin, Origin::File(path) if is_same(path, target));
+    let base = target.parent().unwrap_or(Path::new(""));
+    // Buffers that its lines name have files of their own, which stay where they are.
+    let is_beside = |p: &&Pass| own && p.source.path.as_deref() == Some(&*base.join(&p.source.name));
+    let (images, others): (Vec<&Pass>, Vec<&Pass>) = project.passes.iter().partition(|p| p.id == PassId::Image);
+    if !others.iter().all(is_beside) {
+        return cannot("more passes than Image");
+    }
+    let [image] = images.as_slice() else { return cannot("anything but Image") };
+    if project.common.is_some() {
         return cannot("anything but Image");
     }
     if project.info != super::Info::default() {
@@ -78,10 +95,10 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite) -> Result<P
     }
     let mut saved = project.clone();
     folder::declare_channels(&mut saved);
-    if saved.passes[0].channels != image.channels {
+    if saved.passes.iter().zip(&project.passes).any(|(read, pass)| read.channels != pass.channels) {
         return cannot("channels that its text does not declare in #iChannel lines");
     }
-    if image.settings != Default::default() {
+    if project.passes.iter().any(|p| p.settings != Default::default()) {
         return cannot("how its pass is drawn");
     }
     if !project.custom_uniform_values.is_empty() {
@@ -91,14 +108,22 @@ fn save_glsl(project: &Project, target: &Path, overwrite: Overwrite) -> Result<P
     if has_moved && !project.includes.is_empty() {
         return cannot("the files that its text includes");
     }
-    let own = matches!(&project.origin, Origin::File(path) if is_same(path, target));
-    write_one(target, image.source.text.as_bytes().to_vec(), own, overwrite)?;
+    let name = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let mut owned: BTreeSet<String> = others.iter().map(|p| p.source.name.clone()).collect();
+    owned.extend(own.then(|| name.clone()));
+    let mut writes = Writes::into(base, owned);
+    writes.add_named(name.clone(), Content::Bytes(image.source.text.as_bytes().to_vec()));
+    for other in others {
+        writes.add(&other.source.name, Content::Bytes(other.source.text.as_bytes().to_vec()))?;
+    }
+    writes.write(overwrite)?;
     saved.name = target.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     saved.sampler_rules = SamplerRules::PerChannel;
     saved.origin = Origin::File(target.to_owned());
-    let source = &mut saved.passes[0].source;
-    source.name = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    source.path = Some(target.to_owned());
+    if let Some(image) = saved.pass_mut(&PassId::Image) {
+        image.source.name = name;
+        image.source.path = Some(target.to_owned());
+    }
     Ok(saved)
 }
 
@@ -275,7 +300,7 @@ fn says_the_same(project: &Project, folder_name: &str, files: &BTreeMap<String, 
         .filter_map(|(name, bytes)| Some((name, String::from_utf8(bytes.clone()).ok()?)))
         .map(|(name, text)| Source { name: name.clone(), path: None, text: text.into() })
         .collect();
-    let (read, diagnostics) = folder::project(folder_name.to_owned(), texts, Origin::Unsaved);
+    let (read, diagnostics) = folder::project(folder_name.to_owned(), texts, Origin::Unsaved, None);
     !diagnostics.iter().any(Diagnostic::is_error) && is_equal_but_for_places(&read, project)
 }
 

@@ -1,7 +1,9 @@
 //! The checker against tables of small programs, by section of the specification, and against folders of real ones.
 
 mod corpus;
+mod given;
 mod names;
+mod nesting;
 mod promises;
 mod robust;
 mod spec;

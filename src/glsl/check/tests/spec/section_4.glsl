@@ -223,12 +223,16 @@ uniform float zoom = 1.0;
 uniform float zoom; void f() { zoom = 1.0; }
 //error 4.3.5 the site's uniform assigned | `iTime` is a uniform
 void f() { iTime = 1.0; }
-//error 4.3.5 the site's uniform declared again | Shadertoy's header gives it
+//ok 4.3.5 the site's uniform declared again
 uniform float iTime;
+//error 4.3.5 the site's uniform declared again with another type | `iTime` is a `float`, and this declares a `vec2`
+uniform vec2 iTime;
 //ok 4.3.5 the site's uniform hidden by a local
 float f() { float iTime = 2.0; return iTime; }
-//error 4.3.6 output of one's own | cannot be an output
+//ok 4.3.6 output of one's own that nothing names
 out vec4 colour;
+//error 4.3.6 output of one's own | cannot be an output
+out vec4 colour; void f() { colour = vec4(1); }
 //ok 4.3.7 uniform block
 uniform Block { float a; vec3 b[2]; }; float f() { return a + b[1].x; }
 //ok 4.3.7 uniform block with a name

@@ -1,0 +1,100 @@
+//! Declarations of what is there already: the site's uniforms, which GLSL of other tools declares itself, and the
+//! pass's output.
+
+use super::{checker::Checker, qualifiers::Qualifiers, scope::Binding};
+use crate::glsl::{
+    ast::{Declarator, Ident, Loc, QualifierKind as Q, TypeSpecId},
+    hir::{DeclRef, TypeId, Uniform, VarFlags},
+};
+
+impl Checker<'_> {
+    /// Type of what the header declares by this name, and what uses of it refer to.
+    fn given(&mut self, name: Ident) -> Option<(TypeId, DeclRef)> {
+        let loc = Loc::from(name);
+        Some(match self.scopes.get(name.symbol) {
+            Binding::Uniform(uniform) => (self.uniform_type(uniform, loc), DeclRef::Uniform(uniform)),
+            Binding::OldTime => (TypeId::FLOAT, DeclRef::Uniform(Uniform::Time)),
+            Binding::Channel(channel) => (self.channel_type(channel), DeclRef::Channel(channel)),
+            _ => return None,
+        })
+    }
+
+    /// Takes a declaration of a uniform that is there already: with its own type it changes nothing. Returns whether it
+    /// was one.
+    pub(super) fn uniform_again(
+        &mut self,
+        quals: &Qualifiers,
+        base: TypeId,
+        spec: TypeSpecId,
+        declarator: Declarator,
+    ) -> bool {
+        let name = declarator.name;
+        if !quals.is(Q::Uniform) {
+            return false;
+        }
+        let Some((given, target)) = self.given(name) else { return false };
+        let (ty, init) = self.variable_type(base, spec, declarator);
+        let text = self.name(name.symbol);
+        if let Some(init) = init {
+            let at = self.loc(init);
+            self.error(at, format!("`{text}` is an interface variable and cannot have an initialiser"));
+            return true;
+        }
+        self.uses(name.token, target);
+        self.take_again(name, ty, given);
+        true
+    }
+
+    /// Says what to make of a uniform that is there with the type `given`.
+    fn take_again(&mut self, name: Ident, ty: TypeId, given: TypeId) {
+        let text = self.name(name.symbol);
+        if ty == given {
+            self.warning(name, format!("`{text}` is there already: the site refuses to have it declared again"));
+            self.hint("remove the declaration, which changes nothing here");
+        } else if ty != TypeId::ERROR {
+            let (wrong, right) = (self.a(ty), self.a(given));
+            let is_channel = matches!(self.scopes.get(name.symbol), Binding::Channel(_));
+            let here = if is_channel { ", by what the channel reads" } else { "" };
+            self.error(name, format!("`{text}` is {right}{here}, and this declares {wrong}"));
+            self.hint(format!("remove the declaration: `{text}` is there without it"));
+            self.scopes.declare(name.symbol, Binding::Poison);
+        } else {
+            self.scopes.declare(name.symbol, Binding::Poison);
+        }
+    }
+
+    /// Does the same as [`Checker::uniform_again`] for a member of a block without a name, which is a uniform of its
+    /// own.
+    pub(super) fn member_again(&mut self, name: Ident, ty: TypeId) -> bool {
+        let Some((given, target)) = self.given(name) else { return false };
+        self.uses(name.token, target);
+        self.take_again(name, ty, given);
+        true
+    }
+
+    /// Reports an interface variable whose name is taken, before more is said of it. Returns whether it is.
+    pub(super) fn is_taken(&mut self, name: Ident) -> bool {
+        let is_taken = self.scopes.here(name.symbol).is_some_and(|previous| previous != Binding::Poison);
+        if is_taken {
+            self.declare(name, Binding::Poison);
+        }
+        is_taken
+    }
+
+    /// Says what to make of outputs at file scope, of which a pass has one already, its colour: those that nothing
+    /// names do no harm.
+    pub(super) fn finish_outputs(&mut self) {
+        for id in std::mem::take(&mut self.outputs) {
+            let (name, is_used) = (self.module[id].name, self.module[id].flags.contains(VarFlags::USED));
+            let text = self.name(name.symbol);
+            let message = format!("`{text}` cannot be an output: the pass has one already, its colour");
+            if is_used {
+                self.error(name, message);
+            } else {
+                self.warning(name, format!("{message}, and the site refuses the line"));
+                self.hint("remove it");
+            }
+            self.hint("write the colour to the `out` parameter of the entry point");
+        }
+    }
+}

@@ -1,0 +1,48 @@
+//! Expressions may nest as deep as browsers read them, and what is deeper is refused by name.
+
+use super::checked;
+use crate::glsl::{ChannelKind, PassKind};
+
+fn image(body: &str) -> (bool, String) {
+    let code = format!("float g(float x) {{ return x; }}\nvoid mainImage(out vec4 o, in vec2 p) {{ {body} }}");
+    let (_, failed, messages) = checked(PassKind::Image, [ChannelKind::Sampler2D; 4], None, &code);
+    (failed, messages)
+}
+
+/// A value in so many pairs.
+fn within(open: &str, value: &str, close: &str, depth: usize) -> String {
+    format!("o = vec4({}{value}{});", open.repeat(depth), close.repeat(depth))
+}
+
+#[test]
+fn parentheses_and_constants_nest_as_deep_as_the_parser_reads() {
+    for (open, value, close) in [
+        ("(", "p.x", ")"),
+        ("- ", "1.0", ""),
+        ("abs(", "1.0", ")"),
+        ("float(", "1.0", ")"),
+        ("(0.0 + ", "1.0", ")"),
+        ("(true ? ", "1.0", " : 0.0)"),
+    ] {
+        let (failed, messages) = image(&within(open, value, close, 4_000));
+        assert!(!failed, "{open}: {messages}");
+    }
+}
+
+#[test]
+fn a_tree_that_is_too_deep_is_refused_once() {
+    for (open, close) in
+        [("- ", ""), ("g(", ")"), ("(p.y + ", ")"), ("(p.x > 0.0 ? ", " : 0.0)"), ("float(", ")"), ("sin(", ")")]
+    {
+        // ANGLE refuses 256 levels.
+        let (failed, messages) = image(&within(open, "p.x", close, 255));
+        assert!(!failed, "{open}: {messages}");
+        for depth in [400, 9_000, 100_000] {
+            let (failed, messages) = image(&within(open, "p.x", close, depth));
+            assert!(failed && messages.contains("deep"), "{open} {depth}: {messages}");
+            assert_eq!(messages.matches("error: ").count(), 1, "{open} {depth}: {messages}");
+        }
+    }
+    let (failed, messages) = image(&format!("{} o = vec4(1.0); {}", "{".repeat(255), "}".repeat(255)));
+    assert!(!failed, "{messages}");
+}

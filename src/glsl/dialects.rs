@@ -1,0 +1,404 @@
+//! Shaders of other tools, known by what only they have, so that one message says what a text is in place of many
+//! about its words.
+//!
+//! Owns the table of tools and [`name`], which is asked of texts that do not compile alone: what compiles is right,
+//! whoever wrote it. A text that defines the entry point of its pass is the site's, whatever else it names.
+
+use super::{
+    PassKind,
+    source::{PassSource, Text},
+};
+use crate::diag::{Diagnostic, Span};
+
+/// A tool, the words by which its texts are known, and what to do with one.
+struct Dialect {
+    /// Completes "this is ...".
+    is: &'static str,
+    /// Any of these words of the text, outside of comments.
+    any: &'static [&'static str],
+    /// All of these as well.
+    all: &'static [&'static str],
+    mends: &'static [&'static str],
+}
+
+const ENTRY: &str = "write `void mainImage(out vec4 fragColor, in vec2 fragCoord)` in place of `void main()`, with \
+    fragColor for gl_FragColor and fragCoord for gl_FragCoord.xy";
+const NOT_GLSL: &str = "write the shader in GLSL ES 3.00, with \
+    `void mainImage(out vec4 fragColor, in vec2 fragCoord)` as its entry point";
+const SLIDER: &str = "another input is a slider: `#iUniform float level = 0.5 in { 0.0, 1.0 }`";
+
+/// The more certain first. A word with other signs than letters is looked for as it stands.
+const DIALECTS: &[Dialect] = &[
+    Dialect {
+        is: "an ISF shader: its inputs are in the JSON at its head, which Eddy does not read",
+        any: &["isf_FragNormCoord", "IMG_NORM_PIXEL", "IMG_THIS_PIXEL", "IMG_THIS_NORM_PIXEL", "IMG_PIXEL", "IMG_SIZE"],
+        all: &[],
+        mends: ISF,
+    },
+    Dialect {
+        is: "WGSL, not GLSL",
+        any: &["@fragment", "@vertex", "@compute", "@group(", "var<uniform>", "-> @location", "vec4<f32>", "vec2<f32>"],
+        all: &[],
+        mends: &[NOT_GLSL],
+    },
+    Dialect { is: "a shader of Godot", any: &["shader_type"], all: &[], mends: &[NOT_GLSL, GODOT] },
+    Dialect {
+        is: "Metal, not GLSL",
+        any: &["metal_stdlib", "[[stage_in]]", "[[position]]", "[[buffer("],
+        all: &[],
+        mends: &[NOT_GLSL],
+    },
+    Dialect {
+        is: "an effect of ReShade, in HLSL",
+        any: &["ReShade.fxh", "ReShade::BackBuffer", "ReShade::GetLinearizedDepth"],
+        all: &[],
+        mends: &[NOT_GLSL],
+    },
+    Dialect {
+        is: "a shader of Unity, in HLSL",
+        any: &[
+            "CGPROGRAM",
+            "HLSLPROGRAM",
+            "CGINCLUDE",
+            "HLSLINCLUDE",
+            "UnityCG.cginc",
+            "SubShader",
+            "UnityObjectToClipPos",
+        ],
+        all: &[],
+        mends: &[NOT_GLSL],
+    },
+    Dialect {
+        is: "HLSL, not GLSL",
+        any: &[
+            "SV_Target",
+            "SV_Target0",
+            "SV_TARGET",
+            "SV_TARGET0",
+            "SV_Position",
+            "SV_POSITION",
+            "cbuffer",
+            "SamplerState",
+            "Texture2D",
+        ],
+        all: &[],
+        mends: &[NOT_GLSL],
+    },
+    Dialect {
+        is: "a shader of RetroArch",
+        any: &[
+            "#pragma stage",
+            "#pragma parameter",
+            "#pragma format",
+            "#pragma name",
+            "COMPAT_TEXTURE",
+            "COMPAT_VARYING",
+            "OriginalSize",
+            "SourceSize",
+            "push_constant",
+        ],
+        all: &[],
+        mends: &[ENTRY, "its Source is a picture: `#iChannel0 \"file://pic.png\"`, read by texture(iChannel0, uv)"],
+    },
+    Dialect {
+        is: "a shader of mpv",
+        any: &["HOOKED_tex", "HOOKED_pos", "HOOKED_texOff", "HOOKED_raw"],
+        all: &[],
+        mends: &[ENTRY, PICTURE],
+    },
+    Dialect {
+        is: "a shader of TouchDesigner",
+        any: &["sTD2DInputs", "TDOutputSwizzle", "TDInstanceID", "uTD2DInfos"],
+        all: &[],
+        mends: &[ENTRY, PICTURE],
+    },
+    Dialect { is: "a shader of OBS Studio, in HLSL", any: &["ViewProj"], all: &["technique"], mends: &[NOT_GLSL] },
+    Dialect {
+        is: "a shader of Bonzomatic",
+        any: &["v2Resolution", "fGlobalTime", "texFFTSmoothed", "texFFTIntegrated", "texPreviousFrame"],
+        all: &[],
+        mends: &[ENTRY, "fGlobalTime is iTime, v2Resolution is iResolution.xy; there is no FFT of a sound yet"],
+    },
+    Dialect {
+        is: "a shader of KodeLife",
+        any: &["VertexData", "inData", "v_texcoord"],
+        all: &["spectrum"],
+        mends: &[ENTRY, "time is iTime, resolution is iResolution.xy, mouse is iMouse; there is no spectrum yet"],
+    },
+    Dialect {
+        is: "a shader of Kodi's interface",
+        any: &["m_unicol", "m_cord0", "m_samp0", "m_attrpos"],
+        all: &[],
+        mends: &[ENTRY, PICTURE],
+    },
+    Dialect {
+        is: "a window shader of picom",
+        any: &["window_shader"],
+        all: &[],
+        mends: &[
+            "write `void mainImage(out vec4 fragColor, in vec2 fragCoord)` in place of `vec4 window_shader()`",
+            PICTURE,
+        ],
+    },
+    Dialect {
+        is: "a shader of LÖVE",
+        any: &["texture_coords", "screen_coords", "love_ScreenSize", "VaryingTexCoord"],
+        all: &["effect"],
+        mends: &[
+            "write `void mainImage(out vec4 fragColor, in vec2 fragCoord)` in place of `vec4 effect(..)`",
+            PICTURE,
+        ],
+    },
+    Dialect {
+        is: "a shader of GameMaker",
+        any: &["gm_BaseTexture", "v_vTexcoord", "v_vColour"],
+        all: &[],
+        mends: &[ENTRY, PICTURE],
+    },
+    Dialect {
+        is: "a shader of three.js",
+        any: &[
+            "vUv",
+            "modelViewMatrix",
+            "projectionMatrix",
+            "cameraPosition",
+            "viewMatrix",
+            "normalMatrix",
+            "tDiffuse",
+            "vNormal",
+            "vPosition",
+            "diffuseColor",
+        ],
+        all: &["main"],
+        mends: &[
+            ENTRY,
+            "vUv is fragCoord / iResolution.xy, its time iTime; what a mesh hands over needs a pass that draws one",
+        ],
+    },
+    Dialect {
+        is: "a shader of glslViewer or The Book of Shaders",
+        any: &["u_resolution", "u_time", "u_mouse"],
+        all: &[],
+        mends: &[ENTRY, "u_time is iTime, u_resolution is iResolution.xy, u_mouse is iMouse.xy"],
+    },
+    Dialect {
+        is: "a shader of GLSL Sandbox",
+        any: &["resolution", "surfacePosition", "backbuffer"],
+        all: &["main", "time"],
+        mends: &[ENTRY, "time is iTime, resolution is iResolution.xy, mouse is iMouse.xy / iResolution.xy"],
+    },
+    Dialect {
+        is: "a shader of twigl",
+        any: &["FC"],
+        all: &["r", "t"],
+        mends: &[
+            "put it into `void mainImage(out vec4 o, in vec2 fragCoord) { .. }`, with fragCoord for FC, iTime for t and \
+             iResolution.xy for r",
+        ],
+    },
+];
+
+const ISF: &[&str] = &[
+    ENTRY,
+    "isf_FragNormCoord is fragCoord / iResolution.xy, TIME is iTime, RENDERSIZE is iResolution.xy",
+    "an input becomes a slider: `#iUniform float level = 0.5 in { 0.0, 1.0 }`",
+];
+const GODOT: &str = "UV is fragCoord / iResolution.xy, TIME is iTime, COLOR is fragColor";
+const PICTURE: &str = "its input is a picture: `#iChannel0 \"file://pic.png\"`, read by texture(iChannel0, uv)";
+
+/// Uniforms of Ghostty's custom shaders, which are the site's programs but for these.
+const GHOSTTY: [&str; 20] = [
+    "iCurrentCursor",
+    "iPreviousCursor",
+    "iCurrentCursorColor",
+    "iPreviousCursorColor",
+    "iCurrentCursorStyle",
+    "iPreviousCursorStyle",
+    "iCursorVisible",
+    "iTimeCursorChange",
+    "iTimeFocus",
+    "iFocus",
+    "iPalette",
+    "iBackgroundColor",
+    "iForegroundColor",
+    "iCursorColor",
+    "iCursorText",
+    "iSelectionForegroundColor",
+    "iSelectionBackgroundColor",
+    "CURSORSTYLE_BLOCK",
+    "CURSORSTYLE_BAR",
+    "CURSORSTYLE_UNDERLINE",
+];
+
+/// Returns one message for a text that did not compile because it is another tool's; `None` for any other.
+pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diagnostic> {
+    let entry = match source.kind {
+        PassKind::Image | PassKind::Buffer => "mainImage",
+        PassKind::Cubemap => "mainCubemap",
+        PassKind::Sound => "mainSound",
+        PassKind::Vertex | PassKind::Fragment => return None,
+    };
+    let first = found.iter().find(|d| d.is_error())?;
+    let words = Words::of(source.code.text);
+    let span = |at: usize, len: usize| Span::new(source.code.id, at..at + len);
+    let named = |is: &str, span: Span, mends: &[&str]| {
+        let mut diagnostic = Diagnostic::error(span, format!("this is {is}"));
+        diagnostic.hints.extend(mends.iter().map(|&mend| mend.to_owned()));
+        // What the compiler stumbled on first.
+        if let Some(at) = first.span.filter(|at| at.range() != span.range()) {
+            diagnostic = diagnostic.label(at, first.message.clone());
+        }
+        diagnostic
+    };
+    if words.place(entry).is_some() {
+        let unknown = |name: &&str| found.iter().any(|d| d.is_error() && d.message.contains(&format!("`{name}`")));
+        let name = GHOSTTY.iter().copied().filter(unknown).min_by_key(|name| words.place(name))?;
+        let place = words.place(name)?;
+        let mends = ["give it a value: `#iUniform vec4 iCurrentCursor = vec4(200.0, 200.0, 10.0, 20.0)` is one, and \
+             `#iUniform float iTimeCursorChange = 0.0` another"];
+        let is = format!("a custom shader of Ghostty: `{name}` is a uniform that its terminal gives");
+        return Some(named(&is, span(place, name.len()), &mends));
+    }
+    if let Some(range) = isf_header(source.code) {
+        let is = DIALECTS.first().map_or("an ISF shader", |isf| isf.is);
+        return Some(named(is, span(range.start, range.len()), ISF));
+    }
+    let dialect = DIALECTS.iter().find_map(|dialect| {
+        let at = dialect.any.iter().filter_map(|word| Some((words.place(word)?, word.len()))).min()?;
+        dialect.all.iter().all(|word| words.place(word).is_some()).then_some((dialect, at))
+    });
+    let (dialect, (at, len)) = dialect?;
+    // WGSL and the like are known by one word, and so is what needs a slider.
+    let mut named = named(dialect.is, span(at, len), dialect.mends);
+    if dialect.mends.contains(&ENTRY) {
+        named = named.hint(SLIDER);
+    }
+    Some(named)
+}
+
+/// The first line of the JSON of an ISF shader, the comment that its text begins with.
+fn isf_header(code: Text<'_>) -> Option<std::ops::Range<usize>> {
+    let text = code.text.trim_start_matches('\u{feff}').trim_start();
+    let json = text.strip_prefix("/*")?;
+    let json = &json[..json.find("*/")?];
+    let keys = ["\"ISFVSN\"", "\"INPUTS\"", "\"PASSES\"", "\"IMPORTED\"", "\"CATEGORIES\""];
+    let is_isf = json.trim_start().starts_with('{') && keys.iter().any(|key| json.contains(key));
+    let begin = code.text.len() - text.len();
+    is_isf.then(|| begin..begin + text.lines().next().map_or(0, str::len))
+}
+
+/// A text without its comments.
+struct Words {
+    text: String,
+}
+
+impl Words {
+    /// Comments become blanks, so that places stay.
+    fn of(text: &str) -> Words {
+        let mut out = text.as_bytes().to_vec();
+        let mut at = 0;
+        while at < out.len() {
+            let rest = &out[at..];
+            let len = if rest.starts_with(b"//") {
+                memchr::memchr(b'\n', rest).unwrap_or(rest.len())
+            } else if rest.starts_with(b"/*") {
+                memchr::memmem::find(&rest[2..], b"*/").map_or(rest.len(), |end| end + 4)
+            } else {
+                at += 1;
+                continue;
+            };
+            out[at..at + len].fill(b' ');
+            at += len;
+        }
+        Words { text: String::from_utf8(out).unwrap_or_default() }
+    }
+
+    /// Returns where a word stands first, or a part of the text that is no word.
+    fn place(&self, word: &str) -> Option<usize> {
+        let is_letter = |byte: Option<&u8>| byte.is_some_and(|b| b.is_ascii_alphanumeric() || *b == b'_');
+        let bytes = self.text.as_bytes();
+        memchr::memmem::find_iter(bytes, word).find(|&at| {
+            let (before, behind) = (at.checked_sub(1).and_then(|i| bytes.get(i)), bytes.get(at + word.len()));
+            let begins = !is_letter(word.as_bytes().first()) || !is_letter(before);
+            let ends = !is_letter(word.as_bytes().last()) || !is_letter(behind);
+            begins && ends
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::diag::SourceId;
+    use crate::glsl::{self, PassKind, PassSource, Text};
+
+    fn said(code: &str) -> Vec<String> {
+        let source = PassSource::new(PassKind::Image, Text { id: SourceId(0), text: code });
+        glsl::diagnose(&source).into_iter().map(|d| format!("{}: {}", d.severity.name(), d.message)).collect()
+    }
+
+    const OTHERS: [(&str, &str); 22] = [
+        ("an ISF shader", "/*{ \"ISFVSN\": \"2\", \"INPUTS\": [] }*/\nvoid main() { gl_FragColor = vec4(level); }"),
+        ("an ISF shader", "void main() { gl_FragColor = IMG_NORM_PIXEL(inputImage, isf_FragNormCoord); }"),
+        ("WGSL", "@fragment\nfn main(@location(0) uv: vec2<f32>) -> @location(0) vec4<f32> { return vec4<f32>(1.0); }"),
+        ("Godot", "shader_type canvas_item;\nvoid fragment() { COLOR = vec4(UV, 0.0, 1.0); }"),
+        ("Metal", "using namespace metal;\nfragment float4 f(V in [[stage_in]]) { return float4(1); }"),
+        ("Unity", "Shader \"A\" { SubShader { Pass { CGPROGRAM\n#pragma fragment frag\nENDCG } } }"),
+        ("HLSL", "float4 main(float2 uv : TEXCOORD0) : SV_Target { return float4(uv, 0, 1); }"),
+        ("HLSL", "cbuffer A : register(b0) { float4 c; };\nTexture2D t;"),
+        ("ReShade", "#include \"ReShade.fxh\"\nfloat4 f() { return tex2D(ReShade::BackBuffer, 0); }"),
+        (
+            "RetroArch",
+            "#pragma stage fragment\nlayout(location = 0) in vec2 vTexCoord;\nvoid main() { FragColor = x; }",
+        ),
+        (
+            "RetroArch",
+            "#if defined(VERTEX)\nCOMPAT_ATTRIBUTE vec4 a;\n#else\nCOMPAT_VARYING vec2 b;\n#endif\nvoid main(){}",
+        ),
+        ("mpv", "//!HOOK LUMA\nvec4 hook() { return HOOKED_tex(HOOKED_pos); }"),
+        ("TouchDesigner", "out vec4 c;\nvoid main() { c = TDOutputSwizzle(texture(sTD2DInputs[0], vUV.st)); }"),
+        ("Bonzomatic", "uniform float fGlobalTime;\nuniform vec2 v2Resolution;\nvoid main(void) { }"),
+        ("KodeLife", "uniform vec3 spectrum;\nin VertexData { vec4 v_position; } inData;\nvoid main(void) { }"),
+        ("Kodi", "uniform vec4 m_unicol;\nvoid main() { gl_FragColor = m_unicol; }"),
+        ("picom", "in vec2 texcoord;\nvec4 window_shader() { return default_post_processing(vec4(1.0)); }"),
+        ("three.js", "varying vec2 vUv;\nvoid main() { gl_FragColor = vec4(vUv, 0.0, 1.0); }"),
+        ("Book of Shaders", "uniform vec2 u_resolution;\nvoid main() { gl_FragColor = vec4(u_resolution, 0., 1.); }"),
+        ("GLSL Sandbox", "uniform float time;\nuniform vec2 resolution;\nvoid main() { gl_FragColor = vec4(time); }"),
+        ("twigl", "vec2 p=(FC.xy*2.-r)/r.y;o.rgb+=vec3(length(p)-t);"),
+        (
+            "GameMaker",
+            "varying vec2 v_vTexcoord;\nvoid main() { gl_FragColor = texture2D(gm_BaseTexture, v_vTexcoord); }",
+        ),
+    ];
+
+    #[test]
+    fn a_text_of_another_tool_is_named_in_one_message() {
+        for (tool, code) in OTHERS {
+            let found = said(code);
+            assert_eq!(found.len(), 1, "{tool}: {found:?}");
+            assert!(found[0].starts_with("error: this is ") && found[0].contains(tool), "{tool}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn what_compiles_or_is_the_sites_is_left_alone() {
+        let main = "void mainImage(out vec4 o, in vec2 p) { o = vec4(p, 0.0, 1.0); }\n";
+        for (_, code) in OTHERS {
+            let commented = format!("/* {} */\n{main}", code.replace("*/", ""));
+            assert_eq!(said(&commented), [""; 0], "{code}");
+        }
+        let typo = "uniform vec2 u_resolution;\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(qq); }";
+        assert!(said(typo).iter().any(|d| d.contains("`qq`")), "{:?}", said(typo));
+        assert!(said("void main() { gl_FragColor = vec4(1.0); }").len() > 1);
+    }
+
+    #[test]
+    fn ghostty_is_named_where_its_uniforms_are_missing() {
+        let code = "void mainImage(out vec4 o, in vec2 p) { o = iCurrentCursor + iPreviousCursor; }";
+        let found = said(code);
+        assert!(found.len() == 1 && found[0].contains("Ghostty") && found[0].contains("iCurrentCursor"), "{found:?}");
+        let given = format!("uniform vec4 iCurrentCursor, iPreviousCursor;\n{code}");
+        assert!(!said(&given).iter().any(|d| d.contains("Ghostty")));
+        let typo = format!("uniform vec4 iCurrentCursor, iPreviousCursor;\nfloat f() {{ return qq; }}\n{code}");
+        assert!(said(&typo).iter().any(|d| d.contains("`qq`")));
+    }
+}

@@ -1,0 +1,190 @@
+//! Directives that GLSL ES does not have: `#include` lines that name no file, and what other tools know.
+//!
+//! A text that asks for something by one of them is not whole. What is said of the rest would be a consequence, so the
+//! reading ends there.
+
+use super::{directive::DIRECTIVES, state::Preprocessor};
+use crate::glsl::{lex::Token, near::nearest_identifier};
+
+/// Directives of Eddy's, which lie in the texts that it reads and are gone where the compiler sees them in their form.
+const OWN: [&str; 6] = ["include", "iUniform", "iChannel0", "iChannel1", "iChannel2", "iChannel3"];
+
+const CHANNEL_FORM: &str = "the form is #iChannel0 \"buffer_a\", or #iChannel0::WrapMode \"Repeat\"";
+
+impl Preprocessor<'_, '_> {
+    /// Says what is wrong with an `#include` line that is not of the form that names a file.
+    pub(super) fn include(&mut self, name: &Token, line: &[Token]) {
+        let rest = self.rest_of(line);
+        let (message, hint) = include_mistake(&rest);
+        self.stop(name, message, Some(hint));
+    }
+
+    /// Carries out or refuses a directive that is none of GLSL's.
+    pub(super) fn unknown_directive(&mut self, name: &Token, other: &str, line: &[Token]) {
+        let rest = self.rest_of(line);
+        let stop = match other {
+            // It asks for `mainImage` alone to be the entry point, which it is.
+            "StrictCompatibility" => return,
+            "iKeyboard" => Some((
+                "Eddy has no `#iKeyboard`, a directive of the VS Code extension \"Shader Toy\"".to_owned(),
+                "read the keyboard by a channel, as the site does: #iChannel0 \"keyboard\", and \
+                 texelFetch(iChannel0, ivec2(65, 0), 0).x is 1 while A is down"
+                    .to_owned(),
+            )),
+            "iVertex" => Some((
+                "Eddy has no `#iVertex`, a directive of the VS Code extension \"Shader Toy\"".to_owned(),
+                "a pass with a vertex stage draws meshes: `draws` in eddy.toml names its stages".to_owned(),
+            )),
+            "iFirstPersonControls" => Some((
+                "Eddy has no `#iFirstPersonControls`, a directive of the VS Code extension \"Shader Toy\"".to_owned(),
+                "turn the view by iMouse, or by an #iUniform".to_owned(),
+            )),
+            "import" | "include_next" | "inject" | "use" | "require" | "pragma_include" => {
+                let path = quoted(&rest).filter(|path| !path.is_empty()).unwrap_or("noise.glsl");
+                Some((format!("there is no directive `#{other}`"), format!("write #include \"{path}\"")))
+            }
+            _ if other.eq_ignore_ascii_case("include") => {
+                let path = quoted(&rest).filter(|path| !path.is_empty()).unwrap_or("noise.glsl");
+                let message = format!("there is no directive `#{other}`: letter case counts");
+                Some((message, format!("write #include \"{path}\"")))
+            }
+            _ => None,
+        };
+        if let Some((message, hint)) = stop {
+            self.stop(name, message, Some(hint));
+            return;
+        }
+        let message = format!("there is no directive `#{other}`");
+        let hint = match other {
+            "elseif" | "elsif" | "elsei" => Some("did you mean `#elif`?".to_owned()),
+            _ if other.to_ascii_lowercase().starts_with("ichannel") => Some(CHANNEL_FORM.to_owned()),
+            _ => {
+                let near = nearest_identifier(other, DIRECTIVES.into_iter().chain(OWN));
+                near.map(|near| format!("did you mean `#{near}`?"))
+            }
+        };
+        self.error(name, message, hint);
+    }
+
+    /// Refuses a pragma that asks for another text. Any other means nothing here, as the specification has it.
+    pub(super) fn foreign_pragma(&mut self, line: &[Token]) {
+        let Some(first) = line.first() else { return };
+        let rest = self.rest_of(line);
+        match self.text(first.span) {
+            "include" => {
+                let path = quoted(&rest).filter(|path| !path.is_empty()).unwrap_or("noise.glsl").to_owned();
+                self.stop(
+                    first,
+                    "`#pragma include` includes nothing".into(),
+                    Some(format!("write #include \"{path}\"")),
+                );
+            }
+            "glslify" if rest.contains("require") => self.stop(
+                first,
+                "Eddy has no glslify, whose module this line asks for".into(),
+                Some(
+                    "run glslify first, or save the module's text beside this one and write #include \"noise.glsl\""
+                        .into(),
+                ),
+            ),
+            _ => {}
+        }
+    }
+
+    /// Returns a directive's words as they are written.
+    fn rest_of(&self, line: &[Token]) -> String {
+        match (line.first(), line.last()) {
+            (Some(first), Some(last)) => self.text(first.span.to(last.span)).to_owned(),
+            _ => String::new(),
+        }
+    }
+}
+
+/// Returns the text between the quotes or angle brackets of a line.
+fn quoted(rest: &str) -> Option<&str> {
+    let begin = rest.find(['"', '\'', '<'])?;
+    let close = if rest[begin..].starts_with('<') { '>' } else { rest[begin..].chars().next()? };
+    let inner = &rest[begin + 1..];
+    Some(inner.split_once(close).map_or(inner, |(inner, _)| inner).trim())
+}
+
+/// Returns what is wrong with an `#include` line, and the mend.
+fn include_mistake(rest: &str) -> (String, String) {
+    let form = || "the form is #include \"noise.glsl\"".to_owned();
+    let write = |path: &str| format!("write #include \"{path}\"");
+    let path = quoted(rest);
+    match rest.chars().next() {
+        None => ("this #include names no file".into(), form()),
+        Some('"' | '\'' | '<') if path.is_some_and(str::is_empty) => ("this #include names no file".into(), form()),
+        Some('<') => {
+            let path = path.unwrap_or_default();
+            if is_chunk(path) {
+                let message = format!("`{path}` is a chunk of three.js, which Eddy does not have");
+                (message, format!("save the chunk's text in a file beside this one: #include \"{path}.glsl\""))
+            } else if path == "metal_stdlib" {
+                ("this text is Metal, not GLSL".into(), "write the shader in GLSL ES 3.00".into())
+            } else {
+                ("an #include line names its file in double quotes, not in angle brackets".into(), write(path))
+            }
+        }
+        Some('\'') => {
+            let message = "an #include line names its file in double quotes, not in single ones".into();
+            (message, write(path.unwrap_or_default()))
+        }
+        Some('"') => {
+            let inner = &rest[1..];
+            match inner.split_once('"') {
+                None => ("the closing quote behind the file's name is missing".into(), write(inner.trim())),
+                Some((path, more)) => {
+                    let message = format!("`{}` is too much behind the file of an #include", more.trim());
+                    (message, write(path))
+                }
+            }
+        }
+        Some(_) => {
+            let path = rest.split_whitespace().next().unwrap_or_default();
+            let path = path.trim_end_matches([';', ',', '"', '\'', '>']);
+            match rest.split_once(['"', '<']) {
+                // `#include "a.glsl"` with something else before it.
+                Some(_) => ("an #include line names one file in double quotes".into(), form()),
+                None => ("an #include line names its file in double quotes".into(), write(path)),
+            }
+        }
+    }
+}
+
+/// Returns whether a name in angle brackets is one of three.js's, whose chunks are called without an ending.
+fn is_chunk(name: &str) -> bool {
+    let known = ["common", "packing", "clipping_planes_pars", "cube_uv_reflection_fragment", "bsdfs", "defaultnormal"];
+    let ends = ["_fragment", "_vertex", "_pars", "_begin", "_maps", "_end", "_physical"];
+    known.contains(&name)
+        || name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_') && ends.iter().any(|e| name.ends_with(e))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::include_mistake;
+
+    #[test]
+    fn each_form_has_its_mend() {
+        for (rest, message, hint) in [
+            ("", "names no file", "the form is"),
+            ("\"\"", "names no file", "the form is"),
+            ("< >", "names no file", "the form is"),
+            ("<lib.glsl>", "not in angle brackets", "write #include \"lib.glsl\""),
+            ("<lib/a b.glsl", "not in angle brackets", "write #include \"lib/a b.glsl\""),
+            ("<common>", "chunk of three.js", "#include \"common.glsl\""),
+            ("<fog_pars_fragment>", "chunk of three.js", "save the chunk's text"),
+            ("<metal_stdlib>", "Metal", "GLSL ES 3.00"),
+            ("'lib.glsl'", "not in single ones", "write #include \"lib.glsl\""),
+            ("\"lib.glsl", "closing quote", "write #include \"lib.glsl\""),
+            ("\"lib.glsl\" ; x", "`; x` is too much", "write #include \"lib.glsl\""),
+            ("lib.glsl", "in double quotes", "write #include \"lib.glsl\""),
+            ("lib/noise.glsl;", "in double quotes", "write #include \"lib/noise.glsl\""),
+            ("FILE \"a\"", "one file in double quotes", "the form is"),
+        ] {
+            let (said, mend) = include_mistake(rest);
+            assert!(said.contains(message) && mend.contains(hint), "{rest}: {said}; {mend}");
+        }
+    }
+}

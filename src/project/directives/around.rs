@@ -1,0 +1,34 @@
+//! Tells which lines are directives, and which passes they may name.
+
+use crate::project::{PassId, Project, confine, lines::HashLine};
+
+pub(super) fn is_channel(line: &HashLine<'_>) -> bool {
+    line.body.strip_prefix("iChannel").is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
+}
+
+/// The passes that a text's directives may name.
+#[derive(Clone, Copy)]
+pub(in crate::project) struct Around<'p> {
+    /// The pass whose text it is.
+    pub id: &'p PassId,
+    /// The text's own file.
+    pub file: &'p str,
+    /// All passes, by file.
+    pub passes: &'p [(String, PassId)],
+}
+
+impl Around<'_> {
+    /// Returns the pass whose file a path leads to.
+    pub fn pass_of(&self, path: &str) -> Option<&PassId> {
+        let name = confine::relative(self.file, path).ok()?;
+        // A file may be the text of two passes: of these a pass means itself.
+        let mut found = self.passes.iter().filter(|(file, _)| *file == name).map(|(_, id)| id);
+        let first = found.next()?;
+        Some(if first == self.id || found.any(|id| id == self.id) { self.id } else { first })
+    }
+}
+
+/// The passes of a project, by the files of their texts.
+pub(in crate::project) fn files_of_passes(project: &Project) -> Vec<(String, PassId)> {
+    project.passes.iter().map(|p| (p.source.name.clone(), p.id.clone())).collect()
+}

@@ -1,0 +1,202 @@
+//! One `#iChannel` line: its parts, the input that it names, and the setting that it gives.
+
+use super::around::Around;
+use crate::{
+    diag::{Diagnostic, Span},
+    project::{
+        Channel, Filter, Input, Media, PassId, Sampler, Wrap, file_names,
+        lines::{HashLine, trim_start},
+        listed, nearest,
+    },
+};
+use std::path::{Path, PathBuf};
+
+/// The channel, the setting if it gives one, and the quoted text.
+type Parsed<'a> = (usize, Option<&'a str>, &'a str);
+
+pub(super) fn parse<'a>(line: &HashLine<'a>) -> Result<Parsed<'a>, impl FnOnce(Span) -> Diagnostic + use<>> {
+    let error = |message: String| {
+        Err(move |span: Span| {
+            Diagnostic::error(span, message)
+                .hint("the form is #iChannel0 \"buffer_a\", or #iChannel0::WrapMode \"Repeat\"")
+        })
+    };
+    let rest = line.body.strip_prefix("iChannel").unwrap_or_default();
+    let digits = rest.len() - rest.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+    let (number, rest) = rest.split_at(digits);
+    let Some(n) = number.parse::<usize>().ok().filter(|n| *n < 4) else {
+        return error(format!("there is no iChannel{number}: a pass has iChannel0 to iChannel3"));
+    };
+    let (setting, rest) = match rest.strip_prefix("::") {
+        Some(after) => {
+            let end = after.find(|c: char| !c.is_alphanumeric()).unwrap_or(after.len());
+            (Some(&after[..end]), &after[end..])
+        }
+        None => (None, rest),
+    };
+    let quoted = trim_start(rest).strip_prefix('"').and_then(|r| r.split_once('"'));
+    match quoted {
+        Some((value, after)) if is_end(after) => Ok((n, setting, value.trim())),
+        _ => error("a channel directive needs one text in double quotes".into()),
+    }
+}
+
+/// Returns whether nothing but a comment follows.
+fn is_end(after: &str) -> bool {
+    let after = trim_start(after);
+    after.is_empty() || after.starts_with("//") || after.starts_with("/*")
+}
+
+/// Returns the path of a text that names a GLSL file, as `"file://noise.glsl"` and `"noise.glsl"` do.
+pub(super) fn glsl_path(value: &str) -> Option<&str> {
+    let path = value.strip_prefix("file://").unwrap_or(value);
+    let is_url = path.contains("://");
+    (!is_url && is_glsl(path)).then_some(path)
+}
+
+fn is_glsl(path: &str) -> bool {
+    Path::new(path).extension().is_some_and(file_names::is_glsl_extension)
+}
+
+/// Returns what a channel reads that a text names so; `None` for nothing, which was reported.
+pub(super) fn input(value: &str, around: Around<'_>, span: Span, diagnostics: &mut Vec<Diagnostic>) -> Option<Channel> {
+    let with = |input, sampler| Some(Channel { input, sampler });
+    let picture = |path: &str| with(Input::Texture(Media::File(PathBuf::from(path))), Sampler::TEXTURE);
+    if let Some(name) = value.strip_prefix("builtin://") {
+        return with(Input::Texture(Media::Builtin(name.to_owned())), Sampler::TEXTURE);
+    }
+    if value.starts_with("http://") || value.starts_with("https://") {
+        diagnostics.push(
+            Diagnostic::warning(span, "a picture from the network is not fetched; the channel reads black")
+                .hint("save the picture beside the shader and name it: \"file://pic.png\""),
+        );
+        return None;
+    }
+    let (path, is_file) = match value.strip_prefix("file://") {
+        Some(path) => (path.trim(), true),
+        None => (value, false),
+    };
+    let is_glsl = is_glsl(path);
+    let file = Path::new(path);
+    let word = if is_glsl { file.file_stem().and_then(|s| s.to_str()).unwrap_or_default() } else { path };
+    // The extension's older spelling of "self".
+    if path.eq_ignore_ascii_case("self") {
+        return pass(around.id, around, span, diagnostics);
+    }
+    if let Some(id) = around.pass_of(path) {
+        return pass(id, around, span, diagnostics);
+    }
+    if is_glsl && word.eq_ignore_ascii_case("self") {
+        return pass(around.id, around, span, diagnostics);
+    }
+    if is_file && !is_glsl && !path.is_empty() {
+        return picture(path);
+    }
+    if word.eq_ignore_ascii_case("keyboard") {
+        return with(Input::Keyboard, Sampler::KEYBOARD);
+    }
+    match file_names::pass_of_stem(word) {
+        Some(id) if is_glsl && !around.passes.iter().any(|(_, known)| *known == id) => {
+            let files = around.passes.iter().map(|(file, _)| file.as_str());
+            let mut diagnostic = Diagnostic::error(span, format!("{path} is no pass of this project"));
+            if let Some(near) = nearest(path, files) {
+                diagnostic = diagnostic.hint(format!("did you mean \"{near}\"?"));
+            }
+            diagnostics.push(diagnostic.hint("put the file there, and open the project anew"));
+            return None;
+        }
+        Some(id) => return pass(&id, around, span, diagnostics),
+        None => {}
+    }
+    if !is_glsl && file.extension().is_some() {
+        return picture(path);
+    }
+    let known = ["self", "keyboard", "cube_a", "buffer_a", "buffer_b", "buffer_c", "buffer_d"];
+    let mut diagnostic = Diagnostic::error(span, format!("\"{value}\" is nothing a channel can read"));
+    if let Some(near) = nearest(word, known) {
+        diagnostic = diagnostic.hint(format!("did you mean \"{near}\"?"));
+    }
+    diagnostics.push(diagnostic.hint(
+        "a channel reads \"buffer_a\", \"self\", \"cube_a\", \"keyboard\", \"file://pic.png\" or \
+        \"builtin://noise-rgba-256\"",
+    ));
+    None
+}
+
+/// The channel that reads a pass.
+fn pass(id: &PassId, around: Around<'_>, span: Span, diagnostics: &mut Vec<Diagnostic>) -> Option<Channel> {
+    let input = match id {
+        PassId::Buffer(name) => Input::Buffer(name.clone()),
+        PassId::Cubemap => Input::CubemapPass,
+        PassId::Image | PassId::Sound if id == around.id => {
+            diagnostics.push(
+                Diagnostic::error(span, format!("{} cannot read itself", id.title()))
+                    .hint("move the feedback into buffer_a.glsl and read \"buffer_a\""),
+            );
+            return None;
+        }
+        PassId::Image | PassId::Sound => {
+            diagnostics.push(
+                Diagnostic::error(span, format!("a channel cannot read {}", id.title()))
+                    .hint("only buffers, the cubemap pass, pictures and the keyboard can be read"),
+            );
+            return None;
+        }
+    };
+    Some(Channel { input, sampler: Sampler::BUFFER })
+}
+
+pub(super) fn set(sampler: &mut Sampler, setting: &str, value: &str, span: Span, diagnostics: &mut Vec<Diagnostic>) {
+    let mut unknown = |what: &str, got: &str, known: &[&'static str]| {
+        let mut d = Diagnostic::error(span, format!("unknown {what} {got}"));
+        if let Some(near) = nearest(got, known.iter().copied()) {
+            d = d.hint(format!("did you mean {near}?"));
+        }
+        diagnostics.push(d.hint(format!("known are {}", listed(known))));
+    };
+    let folded = value.to_lowercase();
+    match setting.to_lowercase().as_str() {
+        // Min decides between mipmap and not; Mag says no more than nearest or linear.
+        "minfilter" => match folded.as_str() {
+            f if f.contains("mipmap") => sampler.filter = Filter::Mipmap,
+            "nearest" => sampler.filter = Filter::Nearest,
+            "linear" => sampler.filter = Filter::Linear,
+            _ => unknown(
+                "filter",
+                value,
+                &[
+                    "Nearest",
+                    "Linear",
+                    "NearestMipMapNearest",
+                    "LinearMipMapNearest",
+                    "NearestMipMapLinear",
+                    "LinearMipMapLinear",
+                ],
+            ),
+        },
+        "magfilter" | "maxfilter" => match folded.as_str() {
+            "nearest" if sampler.filter != Filter::Mipmap => sampler.filter = Filter::Nearest,
+            "nearest" | "linear" => {}
+            _ => unknown("filter", value, &["Nearest", "Linear"]),
+        },
+        "wrapmode" => match folded.as_str() {
+            "clamp" => sampler.wrap = Wrap::Clamp,
+            "repeat" => sampler.wrap = Wrap::Repeat,
+            _ => unknown("wrap mode", value, &["Clamp", "Repeat"]),
+        },
+        "vflip" => match folded.as_str() {
+            "true" => sampler.vflip = true,
+            "false" => sampler.vflip = false,
+            _ => unknown("vertical flip", value, &["true", "false"]),
+        },
+        "type" => match folded.as_str() {
+            "texture2d" => {}
+            "cubemap" => diagnostics
+                .push(Diagnostic::error(span, "a channel directive reads no cubemap of six pictures").hint(
+                    "the cubemap pass is #iChannel0 \"cube_a\"; a picture is read as it lies, without this line",
+                )),
+            _ => unknown("type", value, &["Texture2D"]),
+        },
+        _ => unknown("setting", setting, &["MinFilter", "MagFilter", "WrapMode", "VFlip", "Type"]),
+    }
+}

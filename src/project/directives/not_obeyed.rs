@@ -1,0 +1,69 @@
+//! Lines that count for nothing where they stand.
+
+use super::{
+    around::{Around, files_of_passes, is_channel},
+    read::read,
+};
+use crate::{
+    diag::{Diagnostic, Severity, SourceId, Span},
+    project::{Channel, Origin, Project, lines::hash_lines},
+};
+
+/// Returns what to say of `#iChannel` lines that are not obeyed: those in texts that are no pass, which have no
+/// channels, and those that say something else than what the project is read from. Spans are of [`Project::sources`].
+pub fn lines_not_obeyed(project: &Project) -> Vec<Diagnostic> {
+    let mut found = Vec::new();
+    let counts = project.origin.has_channels_in_texts();
+    let (severity, who) = match &project.origin {
+        Origin::Json(_) => (Severity::Warning, "the JSON file"),
+        Origin::Folder { has_manifest: true, .. } | Origin::Preset(_) => (Severity::Warning, "eddy.toml"),
+        Origin::Unsaved => (Severity::Warning, "the project"),
+        Origin::File(_) | Origin::Folder { .. } => (Severity::Error, "the text of a pass"),
+    };
+    if !counts {
+        let passes = files_of_passes(project);
+        for (i, pass) in project.passes.iter().enumerate() {
+            if !pass.source.text.contains("iChannel") {
+                continue;
+            }
+            let around = Around { id: &pass.id, file: &pass.source.name, passes: &passes };
+            let declared = read(&pass.source.text, Project::pass_id(i), around, &pass.channels);
+            for mut diagnostic in declared.diagnostics {
+                diagnostic.severity = Severity::Warning;
+                found.push(diagnostic);
+            }
+            let channels = declared.channels.unwrap_or_default();
+            for (n, (place, channel)) in declared.places.iter().zip(channels).enumerate() {
+                let is_same = |c: &Channel| pass.channels[n].as_ref().is_some_and(|p| p.input == c.input);
+                if let (Some(place), Some(channel)) = (place, channel)
+                    && !is_same(&channel)
+                {
+                    let message = format!("{who} says what iChannel{n} reads, so this line counts for nothing");
+                    found.push(
+                        Diagnostic::warning(*place, message).hint("remove the line, or change the channel there"),
+                    );
+                }
+            }
+        }
+    }
+    let first_stage = 1 + project.passes.len();
+    for (id, source) in project.texts().iter() {
+        let is_pass = (1..first_stage).contains(&usize::from(id.0));
+        if is_pass || !source.text.contains("iChannel") {
+            continue;
+        }
+        found.extend(lines_of(&source.text, id).map(|span| {
+            let message = format!("this line counts for nothing in {}: a channel belongs to a pass", source.name);
+            let mend = match counts {
+                true => "move the line into the text of the pass that reads the channel",
+                false => "remove the line",
+            };
+            Diagnostic::new(severity, span, message).hint(mend)
+        }));
+    }
+    found
+}
+
+fn lines_of(text: &str, id: SourceId) -> impl Iterator<Item = Span> {
+    hash_lines(text).into_iter().filter(is_channel).map(move |line| Span::new(id, line.range))
+}

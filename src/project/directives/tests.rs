@@ -1,0 +1,141 @@
+//! Tests of `#iChannel` lines.
+
+use super::{read::Declared, *};
+use crate::project::{Filter, Input, Media, Sampler, Wrap};
+use crate::{
+    diag::SourceId,
+    project::{Channel, PassId},
+};
+
+/// Reads a text of Buffer A, beside which Buffer B and Image are.
+fn of_a(text: &str) -> Declared {
+    let id = PassId::Buffer("A".into());
+    let passes = [("buffer_a.glsl", id.clone()), ("buffer_b.glsl", PassId::Buffer("B".into()))];
+    let passes: Vec<(String, PassId)> = passes.into_iter().map(|(file, id)| (file.to_owned(), id)).collect();
+    read(text, SourceId(3), Around { id: &id, file: "buffer_a.glsl", passes: &passes }, &Default::default())
+}
+
+fn channels(text: &str) -> [Option<Channel>; 4] {
+    let d = of_a(text);
+    assert_eq!(d.diagnostics, []);
+    d.channels.unwrap()
+}
+
+#[test]
+fn directives_name_inputs_and_samplers() {
+    let c = channels(
+        "#iChannel0::WrapMode \"Repeat\"\n#iChannel0 \"self\"\n#iChannel1 \"file://sub/pic.png\" // note\n\
+         #iChannel1::MinFilter \"Nearest\"\r\n#iChannel2 \"keyboard\"\n#iChannel3 \"file://Buffer_B.glsl\"\n",
+    );
+    assert_eq!(
+        c[0],
+        Some(Channel { input: Input::Buffer("A".into()), sampler: Sampler { wrap: Wrap::Repeat, ..Sampler::BUFFER } })
+    );
+    assert_eq!(
+        c[1],
+        Some(Channel {
+            input: Input::Texture(Media::File("sub/pic.png".into())),
+            sampler: Sampler { filter: Filter::Nearest, ..Sampler::TEXTURE }
+        })
+    );
+    assert_eq!(c[2].as_ref().unwrap().input, Input::Keyboard);
+    assert_eq!(c[3].as_ref().unwrap().input, Input::Buffer("B".into()));
+}
+
+#[test]
+fn a_text_without_directives_declares_nothing() {
+    let d = of_a("/*\n#iChannel0 \"self\"\n*/ // #iChannel1 \"self\"\nvoid f(){}");
+    assert!(d.channels.is_none() && d.diagnostics.is_empty());
+}
+
+#[test]
+fn blanking_keeps_every_other_byte_where_it_was() {
+    let text = "\u{feff}a\n#iChannel0 \"file://é.png\"\r\nb // #iChannel0\n#define iChannel0 x\n";
+    let out = blank(text);
+    assert_eq!(out.len(), text.len());
+    assert_eq!(out.find("\r\nb // #iChannel0\n#define"), text.find("\r\nb // #iChannel0\n#define"));
+    assert!(!out.contains(".png") && !out.contains('\u{feff}'));
+    assert!(matches!(blank("plain\n#define X\n"), Cow::Borrowed(_)));
+    assert_eq!(blank("\u{feff}#iChannel0 \"self\"").trim(), "");
+}
+
+#[test]
+fn a_wrong_directive_says_where_and_how_to_mend_it() {
+    for (line, message, hint) in [
+        ("#iChannel4 \"self\"", "there is no iChannel4", "the form is"),
+        ("#iChannel0 self", "double quotes", "the form is"),
+        ("#iChannel0 \"self", "double quotes", "the form is"),
+        ("#iChannel0 \"keybord\"", "nothing a channel can read", "keyboard"),
+        ("#iChannel0 \"image\"", "cannot read Image", "only buffers"),
+        ("#iChannel0 \"https://x/y.png\"", "not fetched", "file://pic.png"),
+        ("#iChannel0 \"self\"\n#iChannel0::WrapMode \"Mirror\"", "unknown wrap mode", "Clamp and Repeat"),
+        ("#iChannel0 \"self\"\n#iChannel0::WrapMod \"Clamp\"", "unknown setting", "WrapMode"),
+        ("#iChannel0::WrapMode \"Clamp\"", "reads nothing", "name what it reads"),
+        ("#iChannel0 'self'", "double quotes", "the form is"),
+        ("#iChannel0 <self>", "double quotes", "the form is"),
+        ("#iChannel0", "double quotes", "the form is"),
+        ("#iChannel0 \"\"", "nothing a channel can read", "\"self\""),
+        ("#iChannel0 \"file://\"", "nothing a channel can read", "\"self\""),
+        ("#iChannel0 \"self\" \"self\"", "double quotes", "the form is"),
+        ("#iChannel10 \"self\"", "there is no iChannel10", "the form is"),
+        ("#iChannel0 \"file://buffer_c.glsl\"", "no pass of this project", "put the file there"),
+        ("#iChannel0 \"buffer_z.glsl\"", "no pass of this project", "did you mean \"buffer_a.glsl\"?"),
+        ("#iChannel0 \"self\"\n#iChannel0::Type \"CubeMap\"", "no cubemap", "cube_a"),
+        ("#iChannel0 \"self\"\n#iChannel0::MinFilter \"Nearer\"", "unknown filter", "Nearest"),
+    ] {
+        let text = format!("\n{line}");
+        let d = of_a(&text).diagnostics;
+        assert_eq!(d.len(), 1, "{line}: {d:?}");
+        assert!(d[0].message.contains(message), "{line}: {}", d[0].message);
+        assert!(d[0].hints.iter().any(|h| h.contains(hint)), "{line}: {:?}", d[0].hints);
+        let span = d[0].span.unwrap();
+        assert!(text[span.range()].starts_with("#iChannel") && span.source == SourceId(3));
+    }
+}
+
+#[test]
+fn every_spelling_of_a_pass_means_it() {
+    for (value, buffer) in [
+        ("self", "A"),
+        ("Self", "A"),
+        ("file://self", "A"),
+        ("self.glsl", "A"),
+        ("buffer_a.glsl", "A"),
+        ("file://./buffer_a.glsl", "A"),
+        ("sub/../buffer_a.glsl", "A"),
+        ("buffer_b", "B"),
+        ("./buffer_b.glsl", "B"),
+        ("file://Buffer_B.glsl", "B"),
+        ("file://other/buffer_b.glsl", "B"),
+    ] {
+        let read = channels(&format!("#iChannel2 \"{value}\"\n"));
+        assert_eq!(read[2].as_ref().map(|c| &c.input), Some(&Input::Buffer(buffer.into())), "{value}");
+    }
+}
+
+#[test]
+fn a_setting_alone_is_one_of_the_usual_channels() {
+    let id = PassId::Image;
+    let around = Around { id: &id, file: "image.glsl", passes: &[] };
+    let usual = [Some(Channel { input: Input::Buffer("A".into()), sampler: Sampler::BUFFER }), None, None, None];
+    let found = read("#iChannel0::WrapMode \"Repeat\"\n", SourceId(1), around, &usual);
+    assert_eq!(found.diagnostics, []);
+    let first = found.channels.unwrap()[0].clone().unwrap();
+    assert_eq!((first.input, first.sampler.wrap), (Input::Buffer("A".into()), Wrap::Repeat));
+}
+
+#[test]
+fn a_channel_that_is_said_twice_is_told_of() {
+    let said = of_a("#iChannel0 \"self\"\n#iChannel0 \"buffer_b\"\n#iChannel1 \"self\"\n#iChannel1 \"buffer_a\"\n");
+    assert_eq!(said.diagnostics.len(), 1, "two lines that say the same do no harm: {:?}", said.diagnostics);
+    assert!(said.diagnostics[0].message.contains("iChannel0") && said.diagnostics[0].labels.len() == 1);
+    assert_eq!(said.channels.unwrap()[0].as_ref().unwrap().input, Input::Buffer("B".into()));
+}
+
+#[test]
+fn channel_lines_are_comments_where_they_mean_nothing() {
+    let text = "/* a */ #iChannel0 \"self\"\n // #iChannel1 \"self\"\n#define A\n";
+    let said = "/* a */ // #iChannel0 \"self\"\n // #iChannel1 \"self\"\n#define A\n";
+    assert_eq!(commented(text), said);
+    assert!(matches!(commented(said), Cow::Borrowed(_)));
+}
