@@ -24,7 +24,7 @@ use std::io::{self, BufRead, Write};
 /// The extension of the files' names.
 pub const EXTENSION: &str = "replay";
 const VERSION: u32 = 1;
-/// What the keys of a frame take, which frames of the same keys share.
+/// Bytes of a frame's keys, which frames of the same keys share.
 const KEYS: u64 = 3 * Keyboard::WIDTH as u64;
 
 #[derive(Serialize, Deserialize)]

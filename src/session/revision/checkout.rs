@@ -28,7 +28,7 @@ use tempfile::TempDir;
 const LINK: Limit = Limit { bytes: 4 << 10, of: "a link in git" };
 /// Links that lead to links.
 const LINKS: usize = 8;
-/// What is left out and named.
+/// Names of the left out that are said.
 const NOTES: usize = 8;
 /// Bytes of a name, and of one with its folders, that disks take.
 const NAME: usize = 255;
@@ -39,7 +39,7 @@ const PATH: usize = 1024;
 pub struct Checkout {
     /// The folder or file that opens the project.
     pub project: PathBuf,
-    /// What the revision has in the project's folder and the checkout has not.
+    /// Names that the revision has in the project's folder and the checkout has not.
     pub left_out: Vec<LeftOut>,
     files: usize,
     _folder: TempDir,
@@ -126,7 +126,7 @@ pub fn write(objects: &Objects, tree: ObjectId, revision: &str) -> Result<Checko
     Ok(Checkout { project: folder.path().to_owned(), left_out, files: files.len(), _folder: folder })
 }
 
-/// What a tree holds, by the name from its folder with `/`.
+/// Entries of a tree, by the name from its folder with `/`.
 #[derive(Default)]
 struct Found {
     /// Each behind the one that it is in.

@@ -1,7 +1,7 @@
 //! The objects of a repository, loose and packed.
 //!
-//! What an object announces is checked before memory is taken for it, and what was read must have the hash by which it
-//! was named: so no tree holds itself. Objects of other repositories ("alternates") are not read.
+//! The size that an object announces is checked before memory is taken for it, and its content must have the hash by
+//! which it was named: so no tree holds itself. Objects of other repositories ("alternates") are not read.
 
 use super::{error::RevisionError, repository};
 use crate::project::{
@@ -24,7 +24,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-/// What looking at a delta costs, in bytes of making one.
+/// The cost of looking at a delta, in bytes of making one.
 const LOOK: u64 = 4 << 10;
 
 /// The hash of the repositories that are read.
@@ -57,7 +57,7 @@ enum Place<'a> {
     Packed(&'a Pack, data::Entry),
 }
 
-/// What an object announces.
+/// The size that an object announces, and its kind.
 struct Announced {
     kind: Kind,
     size: u64,

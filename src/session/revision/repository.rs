@@ -15,11 +15,11 @@ use std::{
 /// A file with a path in it.
 const PATH: Limit = Limit { bytes: 16 << 10, of: "a path that git keeps" };
 
-/// Where a repository lies, after links.
+/// The place of a repository, after links.
 pub struct Repository {
     /// The working tree.
     pub root: PathBuf,
-    /// What is of this working tree alone: `HEAD`.
+    /// The folder of this working tree alone: of `HEAD`.
     pub own: PathBuf,
     /// Objects and refs.
     pub common: PathBuf,

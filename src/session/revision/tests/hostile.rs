@@ -248,7 +248,7 @@ fn links_out_of_the_repository_and_pipes_in_it_are_refused() {
     }
 }
 
-/// What is announced is refused for what it announces, before there is memory for it.
+/// An object is refused for what it announces, before there is memory for it.
 #[test]
 fn objects_that_announce_too_much_are_refused_by_their_headers() {
     let fake: ObjectId = "00112233445566778899aabbccddeeff00112233".parse().unwrap();

@@ -152,7 +152,7 @@ pub fn entry(kind: u8, size: u64, base: &[u8], bytes: &[u8]) -> Vec<u8> {
     out
 }
 
-/// How far before a delta its base is, as packs write it.
+/// The bytes that say how far before a delta its base is.
 pub fn distance(mut by: u64) -> Vec<u8> {
     let mut out = vec![(by & 127) as u8];
     while by > 127 {
