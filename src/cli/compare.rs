@@ -10,9 +10,16 @@ use super::{
     targets,
 };
 use crate::{
+    diag::{Diagnostic, SourceMap},
     engine::Pixels,
     lab::apart::{self, Apart, Times},
-    session::{capture::Format, offline::Offline, revision, script::ScriptedInputs, trace::Number},
+    session::{
+        capture::Format,
+        offline::Offline,
+        revision::{self, Checkout},
+        script::ScriptedInputs,
+        trace::Number,
+    },
 };
 use anyhow::anyhow;
 use serde::Serialize;
@@ -90,8 +97,11 @@ fn compare(
 ) -> Result<Compared, Trouble> {
     let copy = args.revision.as_ref().map(|revision| revision::at(&args.project, revision));
     let copy = copy.transpose().map_err(anyhow::Error::from)?;
+    for note in copy.iter().flat_map(Checkout::notes) {
+        report.diagnose(&[Diagnostic::warning(None, note)], &SourceMap::default(), None);
+    }
     let reference = match (&copy, &args.reference) {
-        (Some((_, path)), _) => path.to_string_lossy().into_owned(),
+        (Some(copy), _) => copy.project.to_string_lossy().into_owned(),
         (None, reference) => reference.clone().unwrap_or_default(),
     };
     let pass = &args.pass;

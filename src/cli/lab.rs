@@ -74,7 +74,7 @@ fn report(out: &Path, studies: &[&dyn Study], results: &Results) -> Result<Strin
         studies.iter().any(|s| s.about().name == name) || results.errors.iter().any(|e| e.point.study == name)
     });
     let mut files = report::write(out, &known.copied().collect::<Vec<_>>(), results)?;
-    files.extend(stability::files(out, results)?);
+    files.extend(stability::files(out, results, &[])?);
     let failed: Vec<String> = results
         .errors
         .iter()

@@ -5,7 +5,7 @@ use super::{
     machine::{Machine, Trouble, median, open_measured},
     measured::{self, Measured, Measures},
     report::{Printer, Report},
-    targets::{self, Targets},
+    targets::Targets,
 };
 use crate::{project::Project, session::script::ScriptedInputs};
 use serde::Serialize;
@@ -69,7 +69,7 @@ fn draw<'a>(
         }
         measures.take(&project, &mut offline, frame, report)?;
         if let Some(path) = targets.path(index, &report.sweep, frame) {
-            targets::write(&path, &offline.read(&wanted.pass, wanted.target)?, targets.format)?;
+            targets.write(&path, &offline.read(&wanted.pass, wanted.target)?)?;
             written.push(path);
         }
     }

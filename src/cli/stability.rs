@@ -50,7 +50,7 @@ pub fn run(args: &StabilityArgs) -> io::Result<u8> {
     write!(out, "{}", stability::table(&of_these))?;
     write!(out, "\n{}", run::coverage(&subjects, &options, &results))?;
     if let Some(folder) = &args.out {
-        match files(folder, &results) {
+        match files(folder, &results, &subjects) {
             Ok(_) => writeln!(out, "\n{}", folder.join("stability.html").display())?,
             Err(error) => return Ok(trouble(error)),
         }
@@ -60,8 +60,8 @@ pub fn run(args: &StabilityArgs) -> io::Result<u8> {
 }
 
 /// The report of what stability there is among results.
-pub fn files(out: &Path, results: &Results) -> Result<Vec<String>, LabError> {
-    stability::write(out, results)
+pub fn files(out: &Path, results: &Results, subjects: &[Subject]) -> Result<Vec<String>, LabError> {
+    stability::write_of(out, results, subjects)
 }
 
 /// Says on standard error what is drawn: on a terminal in one line that is written over, else a line a case.

@@ -93,6 +93,16 @@ impl Targets {
         self.at.last().map_or(0, |last| last.to_string().len()).max(LEAST_DIGITS)
     }
 
+    /// Writes a picture to where [`Targets::path`] says. In a folder, nothing is written through a link that leads out of
+    /// it.
+    pub fn write(&self, path: &Path, pixels: &Pixels) -> anyhow::Result<()> {
+        if let (Place::Folder(folder, _), Some(name)) = (&self.place, path.file_name()) {
+            let within = project::check_within(folder, &name.to_string_lossy());
+            within.with_context(|| format!("cannot write {}", path.display()))?;
+        }
+        write(path, pixels, self.format)
+    }
+
     /// The file for a frame of a project, counted as on the command line, where `swept` is set.
     pub fn path(&self, project: usize, swept: &[String], frame: u32) -> Option<PathBuf> {
         match &self.place {

@@ -82,3 +82,29 @@ pub const DRAWS: u64 = 20_000;
 pub const UNIFORMS: usize = 1_000;
 /// Letters of a buffer's or a group's name.
 pub const NAME: usize = 64;
+
+/// The file of a recording.
+pub const RECORDING: Limit = Limit { bytes: 1 << 30, of: "a recording" };
+/// A line of a recording, which is a frame.
+pub const RECORDING_LINE: Limit = Limit { bytes: 16 << 20, of: "a line of a recording" };
+/// The frames of a recording together, as Eddy holds them. A frame takes some hundred bytes, and its values.
+pub const RECORDING_BYTES: u64 = 2 << 30;
+/// The file with the results of the lab.
+pub const LAB_RESULTS: Limit = Limit { bytes: 256 << 20, of: "the lab's results" };
+
+/// Files and folders in a project's folder of a git revision, with those in folders below it.
+pub const REVISION_ENTRIES: usize = 50_000;
+/// Folders in one another, below a project's folder of a git revision.
+pub const REVISION_DEPTH: usize = 64;
+/// All files of a project's folder in a git revision together.
+pub const REVISION_BYTES: Limit = Limit { bytes: 2 << 30, of: "a project's folder in a git revision" };
+/// One commit, tag or tree of git.
+pub const GIT_OBJECT: Limit = Limit { bytes: 16 << 20, of: "a commit, a tag or a tree of git" };
+/// The file of a git repository that has its packed refs, or a ref's log.
+pub const GIT_REFS: Limit = Limit { bytes: 64 << 20, of: "git's packed refs or a ref's log" };
+/// Packs of a git repository.
+pub const GIT_PACKS: usize = 10_000;
+/// Deltas that an object of git is made of: git makes no longer chains (`pack.depth`).
+pub const GIT_DELTAS: usize = 4_095;
+/// Bytes that the deltas of one revision make, with those that others are made of.
+pub const GIT_REBUILT_BYTES: u64 = 32 << 30;

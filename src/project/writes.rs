@@ -14,6 +14,7 @@ use super::{
 };
 use std::{
     collections::{BTreeMap, BTreeSet},
+    fs, io,
     path::{Path, PathBuf},
 };
 
@@ -131,6 +132,30 @@ impl Writes {
             }
         }
         atomic::write_all(changed)
+    }
+}
+
+/// Writes one file into a folder that the person at the machine named, whole or not at all. What lies in the folder
+/// already may be a stranger's: see [`check_within`]. An error does not name the file.
+pub fn write_into(folder: &Path, name: &str, write: impl FnOnce(&mut fs::File) -> io::Result<()>) -> io::Result<()> {
+    check_within(folder, name)?;
+    atomic::write_with(&folder.join(name), write)
+}
+
+/// Checks that a file of a folder, where it is there, is a regular one, and that no link leads from the folder to a file
+/// elsewhere, which would be read or written in its place.
+pub fn check_within(folder: &Path, name: &str) -> io::Result<()> {
+    let path = folder.join(name);
+    stays_within(folder, &path).map_err(|e| match e {
+        ProjectError::Unwritable { why, .. } => io::Error::new(io::ErrorKind::PermissionDenied, why),
+        other => io::Error::other(other),
+    })?;
+    match fs::metadata(&path) {
+        Ok(there) if !there.is_file() => Err(io::Error::new(
+            io::ErrorKind::InvalidInput,
+            format!("{name} is there and is no regular file; remove it, or choose another folder"),
+        )),
+        _ => Ok(()),
     }
 }
 

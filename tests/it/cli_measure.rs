@@ -1,7 +1,7 @@
 //! `--probe`, `--assert`, `--replay` and `eddy compare` on the built program.
 
-use crate::support::{gpu, program::Bench};
-use std::process::Command;
+use crate::support::{git, gpu, program::Bench};
+use gix_object::Kind;
 
 /// A buffer that grows by 1 in red each frame from frame 3 on, and a NaN in green from frame 5 on.
 const GROWING: &str = "fragColor = vec4(max(iFrame - 2, 0), iFrame > 4 ? sqrt(float(-iFrame)) : 0., 0., 1.);";
@@ -125,16 +125,9 @@ fn pictures_at_rest_are_drawn_to_be_timed() {
 fn a_project_is_compared_with_what_it_was_in_a_revision() {
     let Some(_) = gpu() else { return };
     let b = Bench::new();
-    let git = |arguments: &[&str]| {
-        let mut command = Command::new("git");
-        command.arg("-C").arg(b.path(".")).args(["-c", "user.name=a", "-c", "user.email=a@b"]).args(arguments);
-        assert!(command.output().unwrap().status.success(), "{arguments:?}");
-    };
     b.image("p/image.glsl", "fragColor = vec4(0.25);");
     b.image("one.glsl", "fragColor = vec4(0.25);");
-    git(&["init", "-q"]);
-    git(&["add", "."]);
-    git(&["commit", "-qm", "first"]);
+    git::commit_all(&b.path("."));
     b.image("p/image.glsl", "fragColor = vec4(0.75);");
     b.image("p/new.glsl", "fragColor = vec4(0.75);");
     for (project, largest) in [("p", 0.5), ("one.glsl", 0.0)] {
@@ -143,6 +136,39 @@ fn a_project_is_compared_with_what_it_was_in_a_revision() {
     }
     let wrong = b.line("compare p --revision v9 --size 16x16").expect(2);
     assert!(wrong.err.contains("no such revision"), "{}", wrong.err);
+}
+
+/// What a stranger's repository names is not run, and its trees are not written outside.
+#[test]
+fn a_strangers_repository_is_refused_by_what_it_asks_for() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    b.image("p/image.glsl", "fragColor = vec4(0.25);");
+    let root = b.path("p");
+    git::commit_all(&root);
+    let (ran, evil) = (b.path("ran"), b.path("evil.glsl"));
+    let run = format!("touch {}", ran.display());
+    let config = format!(
+        "[core]\n\trepositoryformatversion = 1\n\tsshCommand = {run} #\n\tfsmonitor = {run} #\n[extensions]\n\t\
+         partialClone = origin\n[remote \"origin\"]\n\turl = ssh://nowhere.invalid/x\n\tpromisor = true\n\t\
+         uploadpack = {run} #\n"
+    );
+    b.write("p/.git/config", &config);
+    let compare = "compare p --revision HEAD --size 16x16 --repeats 0";
+    b.line(compare).expect(0);
+    let blob = git::object(&root, Kind::Blob, b"payload");
+    let gone = "0123456789012345678901234567890123456789".parse().unwrap();
+    for (name, id, says) in [
+        (evil.to_str().unwrap(), blob, "which no file of a project has"),
+        ("../../evil.glsl", blob, "which no file of a project has"),
+        ("gone.glsl", gone, "the clone is partial, and Eddy fetches nothing"),
+    ] {
+        let tree = git::object(&root, Kind::Tree, &git::entry("100644", name, id));
+        git::commit(&root, tree);
+        let refused = b.line(compare).expect(2);
+        assert!(refused.err.contains(says), "{name}: {}", refused.err);
+    }
+    assert!(!ran.exists() && !evil.exists());
 }
 
 #[test]

@@ -36,6 +36,7 @@ mod glsl_mutations;
 mod glsl_variables;
 mod golden;
 mod hostile_projects;
+mod hostile_results;
 mod includes;
 mod lab;
 mod lab_fluid;

@@ -8,7 +8,7 @@ use eddy::{
         comparing::{Against, Compared, Comparison},
     },
 };
-use std::{fs, path::Path, process, sync::Arc};
+use std::{fs, sync::Arc};
 
 /// Sums what it saw of time and of the hand, so that any input that differs shows.
 const HISTORY: &str = "void mainImage(out vec4 o, in vec2 p) {
@@ -110,12 +110,6 @@ fn without_a_state_only_the_newest_frame_is_drawn() {
     assert_eq!((found.ours.texels[10][2], found.theirs.texels[10][2]), (2.5, 1.5));
 }
 
-fn git(folder: &Path, arguments: &[&str]) {
-    let who = ["-c", "user.name=a", "-c", "user.email=a@b.c", "-c", "commit.gpgsign=false"];
-    let status = process::Command::new("git").arg("-C").arg(folder).args(who).args(arguments).output().unwrap().status;
-    assert!(status.success(), "{arguments:?}");
-}
-
 #[test]
 fn a_revision_is_drawn_as_it_was_and_what_is_not_there_is_said() {
     let Some(gpu) = support::gpu() else { return };
@@ -123,9 +117,7 @@ fn a_revision_is_drawn_as_it_was_and_what_is_not_there_is_said() {
     let folder = stage.folder();
     let wrong = compare(&mut stage, Against::Revision("HEAD".into())).unwrap_err();
     assert!(wrong.contains("git has no such revision"), "{wrong}");
-    git(&folder, &["init", "-q"]);
-    git(&folder, &["add", "."]);
-    git(&folder, &["commit", "-q", "-m", "first"]);
+    support::git::commit_all(&folder);
     stage.edit(&plain(0.5));
     stage.until_compiled();
     stage.session.apply(Command::Save);

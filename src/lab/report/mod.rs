@@ -8,8 +8,9 @@ mod plot;
 mod table;
 
 use super::{LabError, Results, Study};
+use crate::project;
 pub use axis::{decades, tick};
-use std::{fs, path::Path};
+use std::{fs, io::Write, path::Path};
 pub use table::{Best, COLOURS, Look, Row, TARGET, Table, sign};
 
 /// Writes `index.html` and, of each study with any result, `NAME.csv`, `NAME.svg` and `NAME.png`. Gives the names of
@@ -19,7 +20,7 @@ pub fn write(out: &Path, studies: &[&dyn Study], results: &Results) -> Result<Ve
     let mut written = Vec::new();
     let mut save = |name: String, bytes: &[u8]| {
         let path = out.join(&name);
-        fs::write(&path, bytes).map_err(LabError::io("write", &path))?;
+        project::write_into(out, &name, |file| file.write_all(bytes)).map_err(LabError::io("write", &path))?;
         written.push(name);
         Ok::<(), LabError>(())
     };

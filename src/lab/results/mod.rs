@@ -6,10 +6,11 @@
 //! nobody can say what they were measured of.
 
 use super::{Extent, LabError, Measured, Point, cost::Cost, stability_record::StabilityRecord};
+use crate::project::{self, ProjectError, confine, limits};
 use serde::{Deserialize, Serialize};
 use std::{
     fs::{self, File, OpenOptions},
-    io::Write,
+    io::{self, Write},
     path::{Path, PathBuf},
 };
 
@@ -159,11 +160,12 @@ impl Results {
     /// The records of a folder; none where there is no file yet. A last line that was cut short is left out.
     pub fn read(folder: &Path) -> Result<Results, LabError> {
         let path = folder.join(FILE);
-        let text = match fs::read_to_string(&path) {
-            Ok(text) => text,
-            Err(e) if e.kind() == std::io::ErrorKind::NotFound => return Ok(Results::default()),
-            Err(e) => return Err(LabError::io("read", &path)(e)),
-        };
+        if path.symlink_metadata().is_err_and(|e| e.kind() == io::ErrorKind::NotFound) {
+            return Ok(Results::default());
+        }
+        project::check_within(folder, FILE).map_err(LabError::io("read", &path))?;
+        let bytes = confine::read_own(&path, limits::LAB_RESULTS).map_err(ProjectError::from)?;
+        let text = String::from_utf8(bytes).map_err(|e| LabError::io("read", &path)(io::Error::other(e)))?;
         let mut results = Results::default();
         for (n, line) in text.lines().enumerate().filter(|(_, l)| !l.trim().is_empty()) {
             match serde_json::from_str(line) {
@@ -201,7 +203,7 @@ impl Results {
         let path = folder.join(FILE);
         let lines: String = self.records().map(|r| line(&r)).collect();
         fs::create_dir_all(folder).map_err(LabError::io("make", folder))?;
-        fs::write(&path, lines).map_err(LabError::io("write", &path))
+        project::write_into(folder, FILE, |file| file.write_all(lines.as_bytes())).map_err(LabError::io("write", &path))
     }
 }
 
@@ -226,6 +228,7 @@ impl Journal {
         if let Some(Difference { what, theirs, ours }) = results.runs.iter().find_map(|r| r.difference(run)) {
             return Err(LabError::OtherRun { path, what, theirs, ours });
         }
+        project::check_within(folder, FILE).map_err(LabError::io("open", &path))?;
         let file = OpenOptions::new().append(true).create(true).open(&path).map_err(LabError::io("open", &path))?;
         // A line that was cut short, whose record is not among the results, makes way for the next.
         let bytes = fs::read(&path).map_err(LabError::io("read", &path))?;

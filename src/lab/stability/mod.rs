@@ -24,5 +24,5 @@ pub use crate::lab::stability_record::{Kind, Offence, Outcome, Recovery, Stabili
 pub use cases::Case;
 pub use check::{Allowed, Area, Check, Found, Quantity, Situation};
 pub use drive::Driver;
-pub use report::{table, write};
+pub use report::{table, write, write_of};
 pub use subject::{ANY_BOUND, BoundArgument, Subject};

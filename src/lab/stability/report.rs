@@ -1,11 +1,14 @@
 //! Writes what came of the cases, for people: a table for the terminal, a CSV, a page.
 
 use super::{Subject, check::Rule};
-use crate::lab::{
-    Extent, LabError, Results,
-    stability_record::{Kind, Outcome, Recovery, StabilityRecord, short},
+use crate::{
+    lab::{
+        Extent, LabError, Results,
+        stability_record::{Kind, Outcome, Recovery, StabilityRecord, short},
+    },
+    project,
 };
-use std::{collections::BTreeMap, fmt::Write, fs, path::Path};
+use std::{collections::BTreeMap, fmt::Write, fs, io::Write as _, path::Path};
 
 /// A line for each project and kind, then every case that left what it should keep.
 pub fn table(records: &[StabilityRecord]) -> String {
@@ -34,16 +37,23 @@ pub fn table(records: &[StabilityRecord]) -> String {
     out
 }
 
-/// Writes `stability.csv` and `stability.html`; nothing where no case has been drawn. Gives the names of the files.
+/// Writes `stability.csv` and `stability.html`; nothing where no case has been drawn. Gives the names of the files. The
+/// page has the bounds of presets: see [`write_of`].
 pub fn write(out: &Path, results: &Results) -> Result<Vec<String>, LabError> {
+    write_of(out, results, &[])
+}
+
+/// As [`write`]. The page also has the bounds of `subjects`. Other projects are named by the results alone, which may be a
+/// stranger's, and are not opened.
+pub fn write_of(out: &Path, results: &Results, subjects: &[Subject]) -> Result<Vec<String>, LabError> {
     if results.cases.is_empty() {
         return Ok(Vec::new());
     }
     fs::create_dir_all(out).map_err(LabError::io("make", out))?;
-    let files = [("stability.csv", csv(&results.cases)), ("stability.html", page(results))];
+    let files = [("stability.csv", csv(&results.cases)), ("stability.html", page(results, subjects))];
     for (name, text) in &files {
         let path = out.join(name);
-        fs::write(&path, text).map_err(LabError::io("write", &path))?;
+        project::write_into(out, name, |file| file.write_all(text.as_bytes())).map_err(LabError::io("write", &path))?;
     }
     Ok(files.map(|(name, _)| name.to_owned()).into())
 }
@@ -159,7 +169,7 @@ th { font-weight: 600; background: #f4f5f7 } td.n, th.n { text-align: right; whi
 tr.left td { background: #fdecee } tr.excused td { color: #646a75 } .quiet { color: #646a75 } summary { cursor: pointer }
 ";
 
-fn page(results: &Results) -> String {
+fn page(results: &Results, subjects: &[Subject]) -> String {
     let mut out = format!(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Stability</title>\
          <meta name=\"viewport\" content=\"width=device-width\"><style>{STYLE}</style></head><body>\n<h1>Stability</h1>\n\
@@ -202,15 +212,25 @@ fn page(results: &Results) -> String {
     let mut projects: Vec<&str> = groups.keys().map(|(project, _)| *project).collect();
     projects.dedup();
     for project in projects {
-        section(&mut out, project, &results.cases);
+        section(&mut out, project, &results.cases, subjects);
     }
     out.push_str("</body></html>\n");
     out
 }
 
-fn section(out: &mut String, project: &str, records: &[StabilityRecord]) {
+fn section(out: &mut String, project: &str, records: &[StabilityRecord], subjects: &[Subject]) {
     let _ = writeln!(out, "<h2 id=\"{0}\">{0}</h2>", escaped(project));
-    bounds(out, project);
+    let preset;
+    let subject = match subjects.iter().find(|subject| subject.name == project) {
+        Some(subject) => Some(subject),
+        None => {
+            preset = Subject::preset(project).ok();
+            preset.as_ref()
+        }
+    };
+    if let Some(subject) = subject {
+        bounds(out, subject);
+    }
     out.push_str("<table><thead><tr><th>case</th><th class=\"n\">canvas</th><th class=\"n\">frames</th><th>expected</th><th>measured</th><th class=\"n\">recovery</th><th class=\"n\">cells a step</th></tr></thead><tbody>\n");
     for r in records.iter().filter(|r| r.project == project) {
         let class = match outcome(r) {
@@ -242,8 +262,7 @@ fn section(out: &mut String, project: &str, records: &[StabilityRecord]) {
 }
 
 /// The ranges at the sliders' defaults, and their reasons.
-fn bounds(out: &mut String, project: &str) {
-    let Ok(subject) = Subject::load(project, &[]) else { return };
+fn bounds(out: &mut String, subject: &Subject) {
     let usual = subject.situation(&Default::default(), (640, 360), 1.0 / 60.0, true);
     out.push_str("<details><summary>Bounds</summary><table><thead><tr><th>quantity</th><th class=\"n\">from</th><th class=\"n\">to</th><th>reason</th></tr></thead><tbody>\n");
     for check in &subject.checks {

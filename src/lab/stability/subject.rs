@@ -63,6 +63,13 @@ impl Subject {
         Ok(subject)
     }
 
+    /// Reads a preset of this build, and nothing of the disk.
+    pub fn preset(name: &str) -> Result<Subject, LabError> {
+        let loaded = project::presets::load(name)?;
+        let (media, _) = media::gather(&loaded.project, None);
+        Ok(Subject::of(name, loaded.project, media))
+    }
+
     /// A project as it is. A preset has its checks, and so has a copy of it on disk that still has its name and its
     /// passes.
     pub fn of(name: &str, project: Project, media: MediaSet) -> Subject {

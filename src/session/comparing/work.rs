@@ -56,7 +56,8 @@ pub fn compare(job: Job, progress: &Progress, tell: &dyn Fn()) -> Result<Option<
         Reference::Load(spec) => load(&spec, &spec)?,
         Reference::Revision(path, name) => {
             copy = revision::at(&path.to_string_lossy(), &name).map_err(|e| e.to_string())?;
-            load(&copy.1.to_string_lossy(), &against.name())?
+            let loaded = load(&copy.project.to_string_lossy(), &against.name());
+            loaded.map_err(|why| [vec![why], copy.notes()].concat().join("\n"))?
         }
     };
     let pass = if project.pass(&shown).is_some() && other.pass(&shown).is_some() { shown } else { PassId::Image };

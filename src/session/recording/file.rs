@@ -13,7 +13,10 @@ use super::{RecordedFrame, Recording};
 use crate::{
     engine::FrameInputs,
     media::Keyboard,
-    project::{CustomUniformValue, CustomUniformValues},
+    project::{
+        CustomUniformValue, CustomUniformValues,
+        limits::{self, Limit, in_bytes},
+    },
 };
 use serde::{Deserialize, Serialize};
 use std::io::{self, BufRead, Write};
@@ -21,6 +24,8 @@ use std::io::{self, BufRead, Write};
 /// The extension of the files' names.
 pub const EXTENSION: &str = "replay";
 const VERSION: u32 = 1;
+/// Bytes of a frame's keys, which frames of the same keys share.
+const KEYS: u64 = 3 * Keyboard::WIDTH as u64;
 
 #[derive(Serialize, Deserialize)]
 struct Head {
@@ -75,6 +80,13 @@ pub enum ReadError {
     Line { line: usize, what: String },
     #[error("it holds no frame")]
     Empty,
+    #[error("it is larger than {0}; record fewer frames")]
+    TooLarge(Limit),
+    #[error(
+        "line {line}: with this frame it takes more than {}, the most that Eddy holds of a recording; record fewer frames",
+        in_bytes(*most)
+    )]
+    TooMany { line: usize, most: u64 },
 }
 
 impl Recording {
@@ -92,6 +104,17 @@ impl Recording {
 
     /// Reads a whole file. Errors name the line.
     pub fn read(text: impl BufRead) -> Result<Self, ReadError> {
+        Self::read_within(text, limits::RECORDING, limits::RECORDING_BYTES)
+    }
+
+    /// Reads at most `limit` of a file, into frames of at most `most` bytes.
+    pub(super) fn read_within(text: impl BufRead, limit: Limit, most: u64) -> Result<Self, ReadError> {
+        let mut text = text.take(limit.bytes + 1);
+        let read = Self::read_lines(&mut text, most);
+        if text.limit() == 0 { Err(ReadError::TooLarge(limit)) } else { read }
+    }
+
+    fn read_lines(text: impl BufRead, most: u64) -> Result<Self, ReadError> {
         let mut lines = text.lines();
         let head: Head = match lines.next().transpose()? {
             Some(line) => serde_json::from_str(&line).map_err(|_| ReadError::NoRecording)?,
@@ -101,14 +124,25 @@ impl Recording {
             return Err(ReadError::Later(head.eddy_recording));
         }
         let mut frames: Vec<RecordedFrame> = Vec::new();
+        let mut held = 0;
         for (index, line) in lines.enumerate() {
             let line = line?;
             if line.trim().is_empty() {
                 continue;
             }
             let wrong = |what: String| ReadError::Line { line: index + 2, what };
+            if line.len() as u64 > limits::RECORDING_LINE.bytes {
+                return Err(wrong(format!("it is larger than {}", limits::RECORDING_LINE)));
+            }
             let read: Line = serde_json::from_str(&line).map_err(|e| wrong(e.to_string()))?;
-            frames.push(read.onto(frames.last()).map_err(wrong)?);
+            let has_keys = [&read.held, &read.pressed, &read.toggled].iter().any(|keys| keys.is_some());
+            let frame = read.onto(frames.last()).map_err(wrong)?;
+            // A line says what is new, and a frame holds everything: few bytes of a file can be very many here.
+            held += bytes_of(&frame) + if has_keys { KEYS } else { 0 };
+            if held > most {
+                return Err(ReadError::TooMany { line: index + 2, most });
+            }
+            frames.push(frame);
         }
         if frames.is_empty() {
             return Err(ReadError::Empty);
@@ -190,6 +224,20 @@ impl Line {
         }
         Ok(frame)
     }
+}
+
+/// Returns the bytes that a frame takes, about.
+fn bytes_of(frame: &RecordedFrame) -> u64 {
+    fn of(value: &CustomUniformValue) -> usize {
+        let within = match value {
+            CustomUniformValue::Vector(all) => size_of_val(all.as_slice()),
+            CustomUniformValue::List(all) => all.iter().map(of).sum(),
+            _ => 0,
+        };
+        size_of::<CustomUniformValue>() + within
+    }
+    let values = frame.values.iter().map(|(name, value)| size_of::<String>() + name.len() + of(value));
+    (size_of::<RecordedFrame>() + values.sum::<usize>()) as u64
 }
 
 fn written(value: &CustomUniformValue) -> serde_json::Value {

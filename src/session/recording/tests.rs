@@ -1,7 +1,7 @@
 use super::*;
 use crate::{
     media::Keyboard,
-    project::{CustomUniformValue, CustomUniformValues},
+    project::{CustomUniformValue, CustomUniformValues, limits::Limit},
 };
 
 fn frame(number: i32, change: impl FnOnce(&mut RecordedFrame)) -> RecordedFrame {
@@ -98,4 +98,25 @@ fn a_file_that_is_no_recording_says_why_and_where() {
     }
     let later = Recording::read(format!("{head}{{\"time\":1.5,\"size\":[4,4],\"gamepad\":[1]}}").as_bytes());
     assert_eq!(later.unwrap().frames[0].inputs.time_secs, 1.5, "a member of a later version is passed over");
+}
+
+/// A line that says nothing new is a frame with everything that was said before.
+#[test]
+fn few_bytes_that_become_very_many_frames_are_refused() {
+    let head = "{\"eddy_recording\":1}\n";
+    let values: Vec<String> = (0..100).map(|n| format!("\"value_{n}\":{n}")).collect();
+    let first = format!("{{\"time\":0,\"size\":[1,1],\"set\":{{{}}}}}\n", values.join(","));
+    let limit = Limit { bytes: 20 << 20, of: "a test" };
+    let refused = |text: &str, most| Recording::read_within(text.as_bytes(), limit, most).unwrap_err().to_string();
+    let many = format!("{head}{first}{}", "{}\n".repeat(300));
+    assert_eq!(Recording::read(many.as_bytes()).unwrap().frames.len(), 301);
+    let said = refused(&many, 1 << 20);
+    assert!(said.contains("it takes more than 1 MiB") && said.starts_with("line "), "{said}");
+    let long = format!("{head}{first}{{\"x\":\"{}\"}}\n", "y".repeat(17 << 20));
+    let said = refused(&long, 1 << 20);
+    assert!(said.contains("line 3: it is larger than 16 MiB, the most that Eddy reads of a line"), "{said}");
+    // One that never ends.
+    let endless = std::io::BufReader::new(std::io::repeat(b' '));
+    let said = Recording::read_within(endless, limit, 1 << 20).unwrap_err().to_string();
+    assert!(said.contains("it is larger than 20 MiB"), "{said}");
 }

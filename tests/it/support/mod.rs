@@ -8,6 +8,7 @@ pub mod display;
 pub mod env;
 pub mod explained;
 pub mod first_frame;
+pub mod git;
 pub mod ir;
 pub mod keyboard;
 pub mod meshes;

@@ -1,0 +1,129 @@
+//! The folders of the repository that a project lies in.
+//!
+//! A `.git` file or link names another folder, and so does `commondir`. A stranger's could name any folder of the
+//! machine, so one is followed only where that folder agrees: it lies in the same working tree, or it is the repository
+//! around it, as of a submodule, or it is a working tree's entry that names this `.git` file, as `git worktree` writes
+//! it. Which user owns a folder decides nothing, as nothing of it is run.
+
+use super::error::{RevisionError, WITH_GIT};
+use crate::project::{confine, limits::Limit};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+/// A file with a path in it.
+const PATH: Limit = Limit { bytes: 16 << 10, of: "a path that git keeps" };
+
+/// The place of a repository, after links.
+pub struct Repository {
+    /// The working tree.
+    pub root: PathBuf,
+    /// The folder of this working tree alone: of `HEAD`.
+    pub own: PathBuf,
+    /// Objects and refs.
+    pub common: PathBuf,
+}
+
+impl Repository {
+    /// Returns the repository whose working tree a folder, after links, lies in: the nearest `.git` from there up.
+    pub fn of(folder: &Path) -> Result<Self, RevisionError> {
+        for root in folder.ancestors() {
+            let dot_git = root.join(".git");
+            let Ok(metadata) = dot_git.symlink_metadata() else { continue };
+            let is_led = !metadata.is_dir();
+            let own = if is_led { led(root, &dot_git)? } else { dot_git.clone() };
+            let common = common(&own)?;
+            if own.join("HEAD").symlink_metadata().is_ok() && common.join("objects").is_dir() {
+                return Ok(Self { root: root.to_owned(), own, common });
+            }
+            if is_led {
+                let said = format!("{} leads to {}, which is no git repository", dot_git.display(), own.display());
+                return Err(RevisionError::refused(said, "`git worktree repair` or a new clone mends it"));
+            }
+        }
+        let said = format!("no folder from {} up is a git repository", folder.display());
+        Err(RevisionError::no_such(said, "`git init` makes one, and `git commit` a revision"))
+    }
+}
+
+/// Returns the folder that a `.git` file or link of a working tree leads to.
+fn led(root: &Path, dot_git: &Path) -> Result<PathBuf, RevisionError> {
+    let name = dot_git.display();
+    let target = if dot_git.is_symlink() {
+        dot_git.to_owned()
+    } else {
+        let text = text(root, ".git")?;
+        let Some(target) = text.strip_prefix("gitdir:").map(str::trim).filter(|target| !target.is_empty()) else {
+            return Err(RevisionError::damaged(name, "it does not say \"gitdir: FOLDER\""));
+        };
+        joined(root, target, dot_git)?
+    };
+    let Ok(target) = target.canonicalize() else {
+        let said = format!("{name} leads to {}, which is not there", target.display());
+        return Err(RevisionError::refused(said, "`git worktree repair` or a new clone mends it"));
+    };
+    let is_around = || {
+        let outer = root.ancestors().skip(1).map(|outer| outer.join(".git"));
+        outer.filter(|git| !git.is_symlink()).any(|git| target.starts_with(git))
+    };
+    let is_registered = || {
+        let named = text(&target, "gitdir").ok().map(|named| target.join(named.trim()));
+        named.and_then(|named| named.canonicalize().ok()).is_some_and(|named| named == dot_git)
+    };
+    if target.is_dir() && (target.starts_with(root) || is_around() || !dot_git.is_symlink() && is_registered()) {
+        return Ok(target);
+    }
+    let said = format!("{name} leads to {}, which does not name this working tree", target.display());
+    Err(RevisionError::refused(said, "`git worktree repair` mends a working tree that was moved; otherwise clone anew"))
+}
+
+/// Returns the folder with the objects and refs of one that may be a working tree's entry.
+fn common(own: &Path) -> Result<PathBuf, RevisionError> {
+    if own.join("commondir").symlink_metadata().is_err() {
+        return Ok(own.to_owned());
+    }
+    let named = text(own, "commondir")?;
+    let common = joined(own, named.trim(), &own.join("commondir"))?.canonicalize().ok();
+    common.filter(|common| own.parent() == Some(&common.join("worktrees"))).ok_or_else(|| {
+        let said = format!("{} leads to another repository", own.join("commondir").display());
+        RevisionError::refused(said, "clone the repository anew")
+    })
+}
+
+fn text(folder: &Path, name: &str) -> Result<String, RevisionError> {
+    let bytes = confine::read(folder, name, PATH).map_err(|e| RevisionError::file(folder, &e))?;
+    String::from_utf8(bytes).map_err(|_| RevisionError::damaged(folder.join(name).display(), "it is not Unicode"))
+}
+
+/// Returns where a path leads that the file `from` in `folder` says.
+fn joined(folder: &Path, path: &str, from: &Path) -> Result<PathBuf, RevisionError> {
+    // Windows would ask that machine, with the person's name and password.
+    if cfg!(windows) && path.starts_with(['/', '\\']) && path[1..].starts_with(['/', '\\']) {
+        let said = format!("{} leads to another machine", from.display());
+        return Err(RevisionError::refused(said, "clone the repository to this one"));
+    }
+    Ok(folder.join(path))
+}
+
+/// Returns why the repository may lack an object, with the mend, where it says that it lacks some.
+pub fn why_missing(common: &Path) -> Option<String> {
+    let is_there = |name: &str| common.join(name).symlink_metadata().is_ok();
+    let has_alternates = ["objects/info/alternates", "objects/info/http-alternates"].into_iter().any(is_there);
+    if has_alternates {
+        let hint = "objects/info/alternates names another folder for it, and Eddy reads a repository's own folder \
+                    alone; if you trust the repository, `git repack -a -d` copies such objects into it";
+        return Some(hint.into());
+    }
+    if is_there("shallow") {
+        let hint = "the clone is shallow; if you trust the repository, `git fetch --unshallow` gets the rest";
+        return Some(hint.into());
+    }
+    let is_partial = fs::read_dir(common.join("objects/pack"))
+        .is_ok_and(|names| names.flatten().any(|n| n.path().extension().is_some_and(|e| e == "promisor")));
+    // The configuration is looked into for the words of this message alone.
+    let config = confine::read(common, "config", Limit { bytes: 1 << 20, of: "git's configuration" });
+    let config = String::from_utf8_lossy(&config.unwrap_or_default()).to_lowercase();
+    let is_partial = is_partial || config.contains("partialclone") || config.contains("promisor");
+    is_partial.then(|| format!("the clone is partial, and Eddy fetches nothing; {WITH_GIT}"))
+}

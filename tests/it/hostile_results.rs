@@ -1,0 +1,98 @@
+//! Results of the lab, and folders for pictures, that a stranger prepared: nothing outside of the folder is written, and
+//! no project is opened because a result names it.
+
+use crate::support::{gpu, program::Bench};
+use eddy::lab::{
+    RESULTS_FILE, Results,
+    stability::{self, Kind, Outcome, StabilityRecord, Subject},
+};
+use std::fs;
+
+fn case(project: &str) -> StabilityRecord {
+    StabilityRecord {
+        project: project.into(),
+        texts: String::new(),
+        kind: Kind::Untouched,
+        case: "untouched".into(),
+        size: (64, 64),
+        frames: 1,
+        settings: String::new(),
+        excuses: Vec::new(),
+        outcome: Some(Outcome::Held),
+        trouble: None,
+        recovery: None,
+        extremes: Default::default(),
+        courant: None,
+    }
+}
+
+#[test]
+fn a_report_opens_no_project_that_only_a_result_names() {
+    let b = Bench::new();
+    // Opening a folder sweeps what a killed save left there, so that it shows.
+    let left = "own/.eddy-save-aB3xYz.tmp";
+    b.image("own/image.glsl", "fragColor = vec4(1.0);");
+    b.write(left, "half");
+    let own = b.path("own").to_str().unwrap().to_owned();
+    let results = Results { cases: vec![case(&own), case("fluid")], ..Results::default() };
+    results.write(&b.path("theirs")).unwrap();
+    b.line("lab merge theirs --out merged").expect(0);
+    let page = fs::read_to_string(b.path("merged/stability.html")).unwrap();
+    assert!(page.contains(&own) && b.path(left).exists());
+    assert_eq!(page.matches("<summary>Bounds</summary>").count(), 1, "the preset's");
+    // A project that the person named has its bounds as well.
+    let subject = Subject::load(&own, &[]).unwrap();
+    stability::write_of(&b.path("merged"), &results, &[subject]).unwrap();
+    let page = fs::read_to_string(b.path("merged/stability.html")).unwrap();
+    assert_eq!(page.matches("<summary>Bounds</summary>").count(), 2);
+}
+
+#[cfg(unix)]
+#[test]
+fn results_and_reports_are_not_written_through_links() {
+    use std::os::unix::fs::symlink;
+    let b = Bench::new();
+    Results { cases: vec![case("fluid")], ..Results::default() }.write(&b.path("from")).unwrap();
+    b.write("mine.txt", "mine");
+    for name in [RESULTS_FILE, "index.html", "stability.html", "stability.csv"] {
+        for target in ["../mine.txt", "../not there"] {
+            let out = b.path("out");
+            fs::create_dir_all(&out).unwrap();
+            symlink(target, out.join(name)).unwrap();
+            let run = b.line("lab merge from --out out").expect(2);
+            let says = if target == "../mine.txt" { "a link leads out of" } else { "a link that leads nowhere" };
+            assert!(run.err.contains(says) && run.err.contains(name), "{}", run.err);
+            assert_eq!(fs::read_to_string(b.path("mine.txt")).unwrap(), "mine");
+            assert!(!b.path("not there").exists());
+            fs::remove_dir_all(out).unwrap();
+        }
+    }
+    // A link to a file of the same folder, as a person may have made it, is followed.
+    b.write("out/kept.html", "before");
+    symlink("kept.html", b.path("out/index.html")).unwrap();
+    b.line("lab merge from --out out").expect(0);
+    assert!(fs::read_to_string(b.path("out/kept.html")).unwrap().contains("Speed against error"));
+    // What never ends and what never begins.
+    fs::create_dir(b.path("pipe")).unwrap();
+    let pipe = b.path("pipe").join(RESULTS_FILE);
+    assert!(std::process::Command::new("mkfifo").arg(pipe).status().unwrap().success());
+    let run = b.line("lab merge pipe --out other").expect(2);
+    assert!(run.err.contains("is no regular file"), "{}", run.err);
+}
+
+#[cfg(unix)]
+#[test]
+fn pictures_are_not_written_into_a_folder_through_links() {
+    let Some(_) = gpu() else { return };
+    let b = Bench::new();
+    b.image("p/image.glsl", "fragColor = vec4(1.0);");
+    b.write("mine.txt", "mine");
+    fs::create_dir(b.path("p/pictures")).unwrap();
+    std::os::unix::fs::symlink("../../mine.txt", b.path("p/pictures/p.png")).unwrap();
+    let run = b.line("render p --size 4x4 --out p/pictures").expect(2);
+    assert!(run.err.contains("a link leads out of p/pictures"), "{}", run.err);
+    assert_eq!(fs::read_to_string(b.path("mine.txt")).unwrap(), "mine");
+    // A file that the person named is the person's, also where it is a link.
+    b.line("render p --size 4x4 --out p/pictures/p.png").expect(0);
+    assert_ne!(fs::read(b.path("mine.txt")).unwrap(), b"mine");
+}
