@@ -249,3 +249,50 @@ fn page_size() -> u64 {
 fn page_size() -> u64 {
     0
 }
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use std::os::unix::fs::PermissionsExt;
+
+    /// What a trial says whose child is this script.
+    fn tried(script: &str, jobs: &AtomicU64) -> Result<(), TrialError> {
+        let folder = tempfile::tempdir().expect("a folder");
+        let program = folder.path().join("child");
+        std::fs::write(&program, format!("#!/bin/sh\ncat > /dev/null\n{script}\n")).expect("a script");
+        std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o700)).expect("it may run");
+        let settings = TrialSettings { program, limit: Duration::from_secs(60) };
+        settings.run(&super::super::template::project(), &BuildOptions::default(), None, jobs)
+    }
+
+    #[test]
+    fn the_child_says_why_it_ended() {
+        let jobs = AtomicU64::new(0);
+        assert_eq!(tried("exit 0", &jobs), Ok(()));
+        assert_eq!(tried("echo time; kill -ABRT $$", &jobs), Err(TrialError::Time(Duration::from_secs(60))));
+        assert_eq!(tried("echo memory; kill -ABRT $$", &jobs), Err(TrialError::Memory));
+        assert_eq!(tried("kill -SEGV $$", &jobs), Err(TrialError::Crash));
+    }
+
+    /// Its errors are not the shader's: the parent will see them itself.
+    #[test]
+    fn a_child_that_fails_or_does_not_start_refuses_nothing() {
+        assert_eq!(tried("exit 1", &AtomicU64::new(0)), Ok(()));
+        let settings = TrialSettings { program: "/nonexistent/eddy".into(), limit: Duration::from_secs(60) };
+        let project = super::super::template::project();
+        assert_eq!(settings.run(&project, &BuildOptions::default(), None, &AtomicU64::new(0)), Ok(()));
+    }
+
+    #[test]
+    fn a_newer_job_ends_the_trial_of_the_one_before() {
+        let jobs = AtomicU64::new(0);
+        thread::scope(|scope| {
+            let trial = scope.spawn(|| tried("exec sleep 600", &jobs));
+            while !trial.is_finished() {
+                jobs.fetch_add(1, Ordering::Relaxed);
+                thread::sleep(LOOK);
+            }
+            assert_eq!(trial.join().expect("no panic"), Ok(()));
+        });
+    }
+}

@@ -367,3 +367,30 @@ fn a_sweep_draws_once_for_each_value() {
     let run = b.line("render p --size 2x2 --out o/x.png --sweep gain=0;1").expect(2);
     assert!(run.err.contains("2 pictures"), "{}", run.err);
 }
+
+/// A pass that a driver on the processor takes too long for is refused at the function that holds most of it, and what
+/// the driver compiles in time is drawn.
+#[test]
+fn a_pass_that_takes_the_driver_too_long_is_refused() {
+    let Some(gpu) = gpu() else { return };
+    if !gpu.compiles_here {
+        return;
+    }
+    let b = Bench::new();
+    let sines = |count: usize| {
+        let lines: String = (0..count).map(|i| format!("a = a * 1.{} + sin(a);\n", i % 7 + 1)).collect();
+        let main = "void mainImage(out vec4 c, vec2 p) { c = vec4(much(p.x)); }";
+        format!("float little(float a) {{ return a; }}\nfloat much(float a) {{\n{lines}return little(a); }}\n{main}\n")
+    };
+    b.write("long.glsl", sines(2_000));
+    let run = b.line("render long.glsl --size 8x8 --compile-timeout 0.2 --out long.png --json").expect(1);
+    let said = &run.json()[0];
+    assert_eq!(said["status"], "diagnostics");
+    let error = &said["diagnostics"][0];
+    let message = error["message"].as_str().expect("a message");
+    assert!(message.contains("Image") && message.contains("more than 0.2 s of processor time"), "{message}");
+    assert_eq!(error["line"], 2, "{error}");
+    assert!(b.names(".").iter().all(|name| name != "long.png"));
+    b.write("short.glsl", sines(600));
+    b.line("render short.glsl --size 8x8 --compile-timeout 100 --out short.png").expect(0);
+}

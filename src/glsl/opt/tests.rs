@@ -57,3 +57,46 @@ fn every_pass_can_be_left_out() {
     }
     assert!(PassSet::of("nonesuch").is_err());
 }
+
+/// Returns the functions of a program after the last pass, and the statements of all of them, each with those of what
+/// it calls.
+fn inlined(code: &str) -> (usize, u64) {
+    let mut last = None;
+    compile_seen(&PassSource::image(code), &Link::default(), None, |_, seen| last = Some(seen.clone()))
+        .expect("no errors");
+    let last = last.expect("it was seen");
+    (last.functions.len(), last.inlined_sizes().iter().sum())
+}
+
+/// A driver that inlines everything holds all of these statements: of a chain half the square of its length.
+#[test]
+fn what_drivers_copy_of_a_chain_grows_as_its_length() {
+    let chain = |length: usize, link: &str| {
+        let links: String = (1..length)
+            .map(|i| format!("float f{i}(float x) {{ {} }}", link.replace("f(", &format!("f{}(", i - 1))))
+            .collect();
+        let entry = format!("void mainImage(out vec4 o, vec2 p) {{ o = vec4(f{}(p.x)); }}", length - 1);
+        inlined(&format!("float f0(float x) {{ return x; }} {links} {entry}"))
+    };
+    for link in [
+        "return f(x) + 1.0;",
+        "float y = f(x); if (y > 3.0) y -= sin(x); return y;",
+        "if (x > 9.0) return x; return f(x + 1.0);",
+        "if (x > 9.0) discard; for (int i = 0; i < 3; i++) if (float(i) > x) return 1.0; return f(x);",
+    ] {
+        let [one, four] = [1_000, 4_000].map(|length| chain(length, link));
+        assert!(four.0 < 4_000 / 32, "{link}: {four:?}");
+        // Groups of bounded length become one, and their number grows.
+        assert!(four.1 < 16 * one.1 && four.1 < 2_500_000, "{link}: {one:?}, {four:?}");
+    }
+}
+
+/// What a driver copies seldom stays as it is written: inlining it saves nothing.
+#[test]
+fn programs_without_long_chains_are_not_inlined() {
+    let calls: String = (0..50).map(|i| format!("float f{i}(float x) {{ return sin(x) * {i}.5; }}")).collect();
+    let sum: String = (0..50).map(|i| format!("a += f{i}(a);")).collect();
+    let (functions, _) =
+        inlined(&format!("{calls} void mainImage(out vec4 o, vec2 p) {{ float a = p.x; {sum} o = vec4(a); }}"));
+    assert_eq!(functions, 51);
+}
