@@ -12,6 +12,10 @@ pub enum MediaError {
     File(#[from] FileError),
     #[error("{}: {}", path.display(), reason(source))]
     Decode { path: PathBuf, source: ImageError },
+    #[error("{} is a picture of the kind {kind}, which is not read; known are {}", path.display(), listed(&KNOWN))]
+    Unread { path: PathBuf, kind: &'static str },
+    #[error("{}: {reason}", path.display())]
+    Radiance { path: PathBuf, reason: String },
     #[error("{}: {reason}", path.display())]
     Npy { path: PathBuf, reason: String },
     #[error("{}: the picture has no texels", path.display())]
@@ -62,7 +66,10 @@ impl MediaError {
             MediaError::Decode { source: ImageError::Limits(_), .. } => "scale the picture down".into(),
             MediaError::TooLarge { excess: Excess::Project, .. } => "use fewer or smaller pictures".into(),
             MediaError::TooLarge { .. } => "scale the picture down".into(),
-            MediaError::Decode { .. } | MediaError::Empty { .. } => "save the picture anew, for instance as PNG".into(),
+            MediaError::Radiance { .. } => "save the picture anew, as HDR in RGB, or as NPY of float32".into(),
+            MediaError::Decode { .. } | MediaError::Empty { .. } | MediaError::Unread { .. } => {
+                "save the picture anew, for instance as PNG".into()
+            }
             MediaError::Npy { .. } => {
                 "write it with numpy.save: float32, float64 or uint8, shape (height, width) or (height, width, 1 to 4)"
                     .into()
