@@ -26,28 +26,34 @@ impl Shared {
     }
 }
 
-/// One black texel without alpha in each dimension: what a channel with nothing in it reads.
+/// One opaque black texel in each dimension: what a channel with nothing in it reads, as OpenGL ES 3.0 has it for an
+/// incomplete texture (section 3.8.13). A buffer without a pass is no such channel: it is there, and its texels are zeros.
 pub(super) struct FallbackTextures {
     pub flat: wgpu::TextureView,
     pub volume: wgpu::TextureView,
     pub cube: wgpu::TextureView,
 }
 
+const OPAQUE_BLACK: [u8; 4] = [0, 0, 0, 255];
+
 impl FallbackTextures {
     fn new(gpu: &Gpu) -> Result<Self, GpuError> {
         let view = |dimension, layers, view_dimension| {
-            gpu.device
-                .create_texture(&wgpu::TextureDescriptor {
-                    label: Some("fallback"),
-                    size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: layers },
-                    mip_level_count: 1,
-                    sample_count: 1,
-                    dimension,
-                    format: wgpu::TextureFormat::Rgba8Unorm,
-                    usage: wgpu::TextureUsages::TEXTURE_BINDING,
-                    view_formats: &[],
-                })
-                .create_view(&wgpu::TextureViewDescriptor { dimension: Some(view_dimension), ..Default::default() })
+            let size = wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: layers };
+            let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+                label: Some("fallback"),
+                size,
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension,
+                format: wgpu::TextureFormat::Rgba8Unorm,
+                usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+                view_formats: &[],
+            });
+            let texels = OPAQUE_BLACK.repeat(layers as usize);
+            let rows = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4), rows_per_image: Some(1) };
+            gpu.queue.write_texture(texture.as_image_copy(), &texels, rows, size);
+            texture.create_view(&wgpu::TextureViewDescriptor { dimension: Some(view_dimension), ..Default::default() })
         };
         Ok(Self {
             flat: view(wgpu::TextureDimension::D2, 1, wgpu::TextureViewDimension::D2),

@@ -48,7 +48,7 @@ pub enum Source {
     Keyboard,
     /// The media the project names for this channel.
     Media,
-    /// No input, or one that no texture can be had for: black, of size 0.
+    /// No input, or one that no texture can be had for: opaque black, of size 0.
     Nothing,
 }
 

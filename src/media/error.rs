@@ -14,6 +14,10 @@ pub enum MediaError {
     Decode { path: PathBuf, source: ImageError },
     #[error("{} is {played}", path.display())]
     NotPlayed { path: PathBuf, played: Played },
+    #[error("{} is a picture of the kind {kind}, which is not read; known are {}", path.display(), listed(&KNOWN))]
+    Unread { path: PathBuf, kind: &'static str },
+    #[error("{}: {reason}", path.display())]
+    Radiance { path: PathBuf, reason: String },
     #[error("{}: {reason}", path.display())]
     Npy { path: PathBuf, reason: String },
     #[error("{}: the picture has no texels", path.display())]
@@ -64,9 +68,12 @@ impl MediaError {
             MediaError::Decode { source: ImageError::Limits(_), .. } => "scale the picture down".into(),
             MediaError::TooLarge { excess: Excess::Project, .. } => "use fewer or smaller pictures".into(),
             MediaError::TooLarge { .. } => "scale the picture down".into(),
-            MediaError::Decode { .. } | MediaError::Empty { .. } => "save the picture anew, for instance as PNG".into(),
             MediaError::NotPlayed { .. } => {
                 "until then the channel reads black; let it read a picture or a buffer".into()
+            }
+            MediaError::Radiance { .. } => "save the picture anew, as HDR in RGB, or as NPY of float32".into(),
+            MediaError::Decode { .. } | MediaError::Empty { .. } | MediaError::Unread { .. } => {
+                "save the picture anew, for instance as PNG".into()
             }
             MediaError::Npy { .. } => {
                 "write it with numpy.save: float32, float64 or uint8, shape (height, width) or (height, width, 1 to 4)"

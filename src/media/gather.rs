@@ -8,8 +8,8 @@ use crate::{
 use std::{collections::HashMap, path::Path, sync::Arc};
 
 /// Loads every picture that a drawn pass of the project names. `media_dir` holds the user's own copies of the site's
-/// textures. What cannot be had is left out, which reads as the site's unloaded channel (black, of size 0), with a
-/// warning that names pass, channel and mend.
+/// textures. What cannot be had is left out, which reads as the site's unloaded channel (opaque black, of size 0), with
+/// a warning that names pass, channel and mend.
 pub fn gather(project: &Project, media_dir: Option<&Path>) -> (MediaSet, Vec<Diagnostic>) {
     let mut set = MediaSet::new();
     let warnings = pictures(project, media_dir, &mut set, |_| true);
@@ -90,7 +90,12 @@ pub fn meshes(project: &Project, set: &mut MediaSet) {
     let base = project.origin.base_dir();
     for draw in project.passes.iter().filter_map(|p| p.settings.meshes()).flat_map(|g| &g.draws) {
         if !set.meshes.contains_key(&draw.mesh) {
-            set.insert_mesh(draw.mesh.clone(), super::mesh::load_within(&draw.mesh, base, set.room()).map(Arc::new));
+            let loaded = super::mesh::load_within(&draw.mesh, base, set.room());
+            let mesh = loaded.map(|(mesh, warnings)| {
+                set.mesh_warnings.insert(draw.mesh.clone(), warnings);
+                Arc::new(mesh)
+            });
+            set.insert_mesh(draw.mesh.clone(), mesh);
         }
     }
 }

@@ -23,7 +23,7 @@ use crate::{
     diag::Diagnostic,
     project::{Fill, FillKind, Media, MeshSource, Project},
 };
-use mesh::{Mesh, MeshError};
+use mesh::{Mesh, MeshError, MeshWarning};
 use std::{
     collections::HashMap,
     path::{Path, PathBuf},
@@ -68,6 +68,7 @@ pub struct MediaSet {
     /// The reason why the picture that a fill names is not there, and how to mend it.
     missing_fills: HashMap<PathBuf, (String, String)>,
     meshes: HashMap<MeshSource, Result<Arc<Mesh>, MeshError>>,
+    mesh_warnings: HashMap<MeshSource, Vec<MeshWarning>>,
 }
 
 impl MediaSet {
@@ -129,22 +130,39 @@ impl MediaSet {
 
     /// One error for each model of the project that cannot be drawn.
     pub fn mesh_errors(&self, project: &Project) -> Vec<Diagnostic> {
-        let mut told: Vec<&MeshSource> = Vec::new();
-        let mut errors = Vec::new();
-        for pass in &project.passes {
-            for (n, draw) in pass.settings.meshes().into_iter().flat_map(|g| g.draws.iter().enumerate()) {
-                if told.contains(&&draw.mesh) {
-                    continue;
-                }
-                if let Err(error) = self.mesh(&draw.mesh) {
-                    let message = format!("draw {n} of {}: {error}", pass.id.title());
-                    errors.push(Diagnostic::error(None, message).hint(error.hint()));
-                }
-                told.push(&draw.mesh);
-            }
-        }
-        errors
+        let error = |(place, source): (String, &MeshSource)| {
+            let error = self.mesh(source).err()?;
+            Some(Diagnostic::error(None, format!("{place}: {error}")).hint(error.hint()))
+        };
+        first_draws(project).filter_map(error).collect()
     }
+
+    /// One warning for each thing that a model of the project holds and that is not drawn as its author may think.
+    pub fn mesh_warnings(&self, project: &Project) -> Vec<Diagnostic> {
+        let warnings = |(place, source): (String, &MeshSource)| {
+            let said = self.mesh_warnings.get(source).into_iter().flatten();
+            let warning = |MeshWarning { message, hint }: &MeshWarning| {
+                let message = format!("{place}: {}: {message}", source.name());
+                Diagnostic::warning(None, message).hint(hint.clone())
+            };
+            said.map(warning).collect::<Vec<_>>()
+        };
+        first_draws(project).flat_map(warnings).collect()
+    }
+}
+
+/// Returns each mesh of the project, and the words for the draw that names it first.
+fn first_draws(project: &Project) -> impl Iterator<Item = (String, &MeshSource)> {
+    let mut told: Vec<&MeshSource> = Vec::new();
+    let draws = project.passes.iter().flat_map(|pass| {
+        let draws = pass.settings.meshes().into_iter().flat_map(|g| g.draws.iter().enumerate());
+        draws.map(move |(n, draw)| (pass, n, &draw.mesh))
+    });
+    draws.filter_map(move |(pass, n, mesh)| {
+        let is_new = !told.contains(&mesh);
+        told.push(mesh);
+        is_new.then(|| (format!("draw {n} of {}", pass.id.title()), mesh))
+    })
 }
 
 /// The key that tells one loaded picture from another.

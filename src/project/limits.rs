@@ -60,6 +60,8 @@ pub const MODEL_TRIANGLES: u64 = 16 << 20;
 pub const MODEL_PARTS: u64 = 1 << 20;
 /// Pairs of triangle corners that meet at a place, all places together, in a part of a model whose tangents Eddy makes.
 pub const TANGENT_PAIRS: u64 = 4 << 30;
+/// Corners that are looked at to cut faces of an OBJ file that are not convex, all faces together: a matter of time.
+pub const CONCAVE_STEPS: u64 = 1 << 30;
 /// Objects in the JSON text of a glTF file: nodes, accessors and the like.
 pub const GLTF_OBJECTS: u64 = 1 << 20;
 /// Values in the JSON text of a glTF file.

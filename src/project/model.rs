@@ -58,7 +58,7 @@ pub enum Origin {
 pub struct Pass {
     pub id: PassId,
     pub source: Source,
-    /// `iChannel0..3`; `None` reads as a 2D texture that is black and of size 0.
+    /// `iChannel0..3`; `None` reads as a 2D texture that is opaque black and of size 0.
     pub channels: [Option<Channel>; 4],
     pub settings: PassSettings,
 }

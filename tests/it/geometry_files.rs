@@ -200,6 +200,35 @@ fn check_tells_of_both_stages_and_the_model_by_file_and_line() {
     assert!(all.contains("cannot read p/models/tri.obj"), "{all}");
 }
 
+/// What is said of a model that is loaded, but not as its author may think.
+#[test]
+fn a_model_that_leaves_something_out_is_drawn_with_a_warning() {
+    let Some(_) = support::gpu() else { return };
+    let b = Bench::new();
+    let folder = b.path("p");
+    write(&folder, &[]);
+    let red = |model: &[u8], warning: Option<&str>| {
+        fs::write(folder.join("models/tri.obj"), model).unwrap();
+        for command in ["check p --json", "render p --size 8x4 --out p.png --json"] {
+            let line = b.line(command).expect(0).json().remove(0);
+            let said = line["diagnostics"].as_array().unwrap();
+            assert_eq!((&line["status"], said.len()), (&"ok".into(), usize::from(warning.is_some())), "{line}");
+            if let Some(words) = warning {
+                let message = said[0]["message"].as_str().unwrap();
+                assert!(said[0]["severity"] == "warning" && message.contains(words), "{line}");
+            }
+        }
+        b.png("p.png").get_pixel(0, 3).0[0]
+    };
+    assert_eq!(red(TRIANGLE.as_bytes(), None), 51);
+    let marked = format!("\u{feff}{TRIANGLE}");
+    assert_eq!(red(marked.as_bytes(), None), 51, "a byte order mark is no part of the text");
+    let points = "draw 0 of Buffer scene: models/tri.obj: it holds no triangles";
+    assert_eq!(red(b"v 0 0 0\np 1\n", Some(points)), 0);
+    let broken = format!("{TRIANGLE}v nan 0 0\nf 1 2 4\n");
+    assert_eq!(red(broken.as_bytes(), Some("models/tri.obj: line 5: nan is not a number; faces")), 51);
+}
+
 #[test]
 fn the_sites_json_cannot_hold_a_scene() {
     let b = Bench::new();

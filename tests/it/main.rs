@@ -78,6 +78,7 @@ mod thumbnails;
 mod time_travel;
 mod uniform_values;
 mod uniforms;
+mod unloaded_channels;
 mod walker;
 mod walker_corpus;
 mod walker_meshes;

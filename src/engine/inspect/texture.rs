@@ -51,9 +51,9 @@ impl LevelBy {
 }
 
 impl TextureCopy {
-    /// Returns what a channel with nothing in it reads: one black texel without alpha.
+    /// Returns what a channel with nothing in it reads: one opaque black texel.
     pub fn black() -> Self {
-        let level = Level { width: 1, height: 1, texels: vec![[0.0; 4]] };
+        let level = Level { width: 1, height: 1, texels: vec![[0.0, 0.0, 0.0, 1.0]] };
         Self { levels: vec![level], filter: Filter::Nearest, wrap: Wrap::Clamp, level_by: LevelBy::Pixel }
     }
 

@@ -1,8 +1,14 @@
 //! One picture, from its file or its generator to texels.
 
+mod apng;
+mod kinds;
+mod radiance;
+#[cfg(test)]
+mod tests;
+
 use super::{MediaError, TexelFormat, Texels, builtin, error::Excess, npy, played::Played, site};
 use crate::project::{Media, confine, limits, nearest};
-use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
+use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits, metadata::Orientation};
 use std::{io::Cursor, path::Path};
 
 /// Loads a 2D picture. `vflip`: its top row comes to lie at v = 1. A file lies in the project's folder `base`, see
@@ -82,7 +88,13 @@ fn decoded(bytes: Vec<u8>, path: &Path, vflip: bool, room: u64) -> Result<Texels
         return Err(MediaError::NotPlayed { path: path.to_owned(), played });
     }
     let failed = |source| MediaError::Decode { path: path.to_owned(), source };
-    let mut reader = ImageReader::new(Cursor::new(bytes));
+    if let Some(kind) = kinds::unread(&bytes) {
+        return Err(MediaError::Unread { path: path.to_owned(), kind });
+    }
+    let radiance = radiance::header(&bytes).transpose();
+    let radiance = radiance.map_err(|reason| MediaError::Radiance { path: path.to_owned(), reason })?;
+    let bytes = radiance.as_ref().map(|header| header.plain(&bytes)).unwrap_or(bytes);
+    let mut reader = ImageReader::new(Cursor::new(&*bytes));
     // The ending counts where the content says nothing, as with TGA.
     if let Ok(format) = ImageFormat::from_path(path) {
         reader.set_format(format);
@@ -90,25 +102,37 @@ fn decoded(bytes: Vec<u8>, path: &Path, vflip: bool, room: u64) -> Result<Texels
     let mut reader = reader.with_guessed_format().map_err(|e| failed(e.into()))?;
     let mut allowed = Limits::no_limits();
     allowed.max_alloc = Some(limits::PICTURE_BYTES);
-    reader.limits(allowed);
-    let decoder = reader.into_decoder().map_err(failed)?;
+    reader.limits(allowed.clone());
+    let format = reader.format();
+    let mut decoder = reader.into_decoder().map_err(failed)?;
+    let orientation = match (radiance, format) {
+        (Some(header), _) => header.orientation,
+        // As Chromium has it, which leaves that of a WebP aside.
+        (None, Some(ImageFormat::Jpeg | ImageFormat::Png)) => decoder.orientation().map_err(failed)?,
+        (None, _) => Orientation::NoTransforms,
+    };
     let (width, height) = decoder.dimensions();
     if width == 0 || height == 0 {
         return Err(MediaError::Empty { path: path.to_owned() });
     }
+    let is_other_animation = format == Some(ImageFormat::Png) && apng::begins_behind(&bytes);
     let is_float = matches!(decoder.color_type(), ColorType::Rgb32F | ColorType::Rgba32F);
-    let format = if is_float { TexelFormat::Rgba32Float } else { TexelFormat::Rgba8 };
+    let texel_format = if is_float { TexelFormat::Rgba32Float } else { TexelFormat::Rgba8 };
     // A decoded texel of 16 bits a channel takes more than the one that Eddy keeps.
-    let bytes = decoder.total_bytes().max(u64::from(width) * u64::from(height) * format.bytes() as u64);
+    let needed = decoder.total_bytes().max(u64::from(width) * u64::from(height) * texel_format.bytes() as u64);
     let too_large = |excess| Err(MediaError::TooLarge { path: path.to_owned(), width, height, excess });
     if width.max(height) > limits::PICTURE_SIDE {
         return too_large(Excess::Side);
-    } else if bytes > limits::PICTURE_BYTES {
-        return too_large(Excess::Bytes { bytes });
-    } else if bytes > room {
+    } else if needed > limits::PICTURE_BYTES {
+        return too_large(Excess::Bytes { bytes: needed });
+    } else if needed > room {
         return too_large(Excess::Project);
     }
-    let texels = texels(DynamicImage::from_decoder(decoder).map_err(failed)?);
+    let image =
+        if is_other_animation { apng::first_frame(&bytes, allowed) } else { DynamicImage::from_decoder(decoder) };
+    let mut image = image.map_err(failed)?;
+    image.apply_orientation(orientation);
+    let texels = texels(image);
     // A picture's first row is its top.
     Ok(if vflip { flipped(texels) } else { texels })
 }
@@ -132,6 +156,3 @@ fn texels(image: DynamicImage) -> Texels {
         _ => Texels { width, height, format: TexelFormat::Rgba8, bytes: image.into_rgba8().into_raw() },
     }
 }
-
-#[cfg(test)]
-mod tests;

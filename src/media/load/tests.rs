@@ -104,3 +104,203 @@ fn an_unknown_built_in_names_the_nearest() {
     assert!(error.to_string().contains("noise-rgba-256"), "{error}");
     assert!(matches!(load(&Media::File("a.png".into()), true, None, None), Err(MediaError::NoFolder { .. })));
 }
+
+/// Red, green, blue and white at the corners, in reading order.
+fn corners(texels: &Texels) -> String {
+    let (w, h) = (texels.width as usize, texels.height as usize);
+    let name = |[x, y]: [usize; 2]| {
+        let at = (y * w + x) * 4;
+        match texels.bytes[at..at + 3].iter().map(|c| *c > 127).collect::<Vec<_>>()[..] {
+            [true, false, false] => 'r',
+            [false, true, false] => 'g',
+            [false, false, true] => 'b',
+            [true, true, true] => 'w',
+            _ => '?',
+        }
+    };
+    [[0, 0], [w - 1, 0], [0, h - 1], [w - 1, h - 1]].map(name).iter().collect()
+}
+
+/// A picture of 32 x 16 texels of these corners.
+fn quarters() -> image::RgbImage {
+    ImageBuffer::from_fn(32, 16, |x, y| match (x < 16, y < 8) {
+        (true, true) => Rgb([255, 0, 0]),
+        (false, true) => Rgb([0, 255, 0]),
+        (true, false) => Rgb([0, 0, 255]),
+        (false, false) => Rgb([255, 255, 255]),
+    })
+}
+
+/// EXIF data with an orientation, as TIFF of either order of bytes.
+fn exif(orientation: u16, big_end_first: bool) -> Vec<u8> {
+    let short = |n: u16| if big_end_first { n.to_be_bytes() } else { n.to_le_bytes() };
+    let long = |n: u32| if big_end_first { n.to_be_bytes() } else { n.to_le_bytes() };
+    let head = if big_end_first { *b"MM" } else { *b"II" };
+    let tag = [&short(0x112)[..], &short(3), &long(1), &short(orientation), &short(0)].concat();
+    [&head[..], &short(42), &long(8), &short(1), &tag, &long(0)].concat()
+}
+
+fn encoded(format: ImageFormat) -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    quarters().write_to(&mut bytes, format).unwrap();
+    bytes.into_inner()
+}
+
+/// A JPEG with an APP1 segment behind its first marker.
+fn jpeg_with(segment: &[u8]) -> Vec<u8> {
+    let plain = encoded(ImageFormat::Jpeg);
+    let length = (segment.len() as u16 + 2).to_be_bytes();
+    [&plain[..2], b"\xff\xe1", &length, segment, &plain[2..]].concat()
+}
+
+fn png_with(exif: &[u8]) -> Vec<u8> {
+    let plain = encoded(ImageFormat::Png);
+    let chunk = [b"eXIf", exif].concat();
+    let length = (exif.len() as u32).to_be_bytes();
+    [&plain[..33], &length, &chunk, &crc32(&chunk).to_be_bytes(), &plain[33..]].concat()
+}
+
+/// Chromium 156 uploads each kind to a texture of WebGL 2 like that.
+#[test]
+fn a_picture_is_turned_by_its_exif_orientation_where_a_browser_does_so() {
+    let dir = tempfile::tempdir().unwrap();
+    let read = |name: &str, bytes: Vec<u8>| {
+        let path = dir.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        let texels = load_file(&path, false).unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(corners(&load_file(&path, true).unwrap()), {
+            let c = corners(&texels);
+            format!("{}{}", &c[2..], &c[..2])
+        });
+        (texels.width, texels.height, corners(&texels))
+    };
+    let as_stored = (32, 16, "rgbw".to_owned());
+    let turned = ["rgbw", "grwb", "wbgr", "bwrg", "rbgw", "brwg", "wgbr", "gwrb"];
+    for (orientation, corners) in (1..).zip(turned) {
+        let size = if orientation < 5 { (32, 16) } else { (16, 32) };
+        let expected = (size.0, size.1, corners.to_owned());
+        for big in [false, true] {
+            let exif = exif(orientation, big);
+            assert_eq!(read("a.jpg", jpeg_with(&[b"Exif\0\0", &exif[..]].concat())), expected, "JPEG {orientation}");
+            assert_eq!(read("a.png", png_with(&exif)), expected, "PNG {orientation}");
+            let mut webp = Vec::new();
+            let mut encoder = image::codecs::webp::WebPEncoder::new_lossless(&mut webp);
+            image::ImageEncoder::set_exif_metadata(&mut encoder, exif).unwrap();
+            encoder.encode(&quarters(), 32, 16, image::ExtendedColorType::Rgb8).unwrap();
+            assert_eq!(read("a.webp", webp), as_stored, "WebP {orientation}");
+        }
+    }
+    // What says nothing changes nothing: no orientation, one that there is not, one that is cut short, other data.
+    for segment in [
+        &b"Exif\0\0"[..],
+        &[b"Exif\0\0", &exif(9, true)[..]].concat(),
+        &b"Exif\0\0II*\0\x08\0\0\0\x01\0\x12"[..],
+        b"http://ns.adobe.com/xap/1.0/\0<x/>",
+    ] {
+        assert_eq!(read("a.jpg", jpeg_with(segment)), as_stored);
+    }
+    assert_eq!(read("a.png", png_with(&exif(0, false))), as_stored);
+    // The content counts, and not the ending.
+    assert_eq!(read("a.gif", jpeg_with(&[b"Exif\0\0", &exif(3, true)[..]].concat())).2, "wbgr");
+}
+
+#[test]
+fn a_radiance_picture_is_upright_however_its_scanlines_run() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("a.hdr");
+    let read = |bytes: &[u8]| {
+        std::fs::write(&path, bytes).unwrap();
+        load_file(&path, false)
+    };
+    // Red of upright texel (x, y), from the top, is 10 y + x.
+    let (width, height) = (3usize, 2usize);
+    for (axes, place) in [
+        ("-Y 2 +X 3", (&|line, along| [along, line]) as &dyn Fn(usize, usize) -> [usize; 2]),
+        ("-Y 2 -X 3", &|line, along| [2 - along, line]),
+        ("+Y 2 +X 3", &|line, along| [along, 1 - line]),
+        ("+Y 2 -X 3", &|line, along| [2 - along, 1 - line]),
+        ("+X 3 -Y 2", &|line, along| [line, along]),
+        ("-X 3 -Y 2", &|line, along| [2 - line, along]),
+        ("+X 3 +Y 2", &|line, along| [line, 1 - along]),
+        ("-X 3 +Y 2", &|line, along| [2 - line, 1 - along]),
+    ] {
+        let (lines, texels) = if axes.as_bytes()[1] == b'Y' { (height, width) } else { (width, height) };
+        let mut bytes = format!("#?RGBE\n# made by a test\nEXPOSURE=2 and more\n\n{axes}\n").into_bytes();
+        for (line, along) in (0..lines).flat_map(|line| (0..texels).map(move |along| (line, along))) {
+            let [x, y] = place(line, along);
+            bytes.extend([(10 * y + x) as u8, 64, 0, 128 + 8]);
+        }
+        let texels = read(&bytes).unwrap_or_else(|e| panic!("{axes}: {e}"));
+        assert_eq!((texels.width, texels.height), (3, 2), "{axes}");
+        let numbers: Vec<f32> = bytemuck::pod_collect_to_vec(&texels.bytes);
+        let reds: Vec<f32> = numbers.iter().copied().step_by(4).collect();
+        assert_eq!(reds, [0.0, 1.0, 2.0, 10.0, 11.0, 12.0], "{axes}");
+        assert_eq!(numbers[1..4], [64.0, 0.0, 1.0], "{axes}");
+    }
+    // The three ways in which a scanline is stored: texels, runs of texels, and runs of each component.
+    let head = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 8\n".as_bytes();
+    let flat = [1, 2, 3, 136].repeat(8);
+    let old = [1, 2, 3, 136, 1, 1, 1, 7];
+    let new = [2, 2, 0, 8, 136, 1, 136, 2, 136, 3, 136, 136];
+    let first = read(&[head, &flat].concat()).unwrap();
+    assert!(first.bytes == read(&[head, &old].concat()).unwrap().bytes);
+    assert!(first.bytes == read(&[head, &new].concat()).unwrap().bytes);
+    let xyz = read(b"#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\n\0\0\0\0").unwrap_err();
+    assert!(xyz.to_string().ends_with("a.hdr: its colours are CIE XYZ, and Eddy reads RGB: ra_xyze -r converts them"));
+    let long = read(b"#?RGBE\n\n+X 40000 +Y 1\n").unwrap_err().to_string();
+    assert!(long.contains("a side may have 32768"), "{long}");
+}
+
+#[test]
+fn a_kind_of_picture_that_is_not_read_is_named() {
+    let dir = tempfile::tempdir().unwrap();
+    for (name, bytes, kind) in [
+        ("a.tif", &b"II*\0\x08\0\0\0"[..], "TIFF"),
+        ("a.png", b"8BPS\0\x01", "PSD"),
+        ("a", b"<svg xmlns='http://www.w3.org/2000/svg'/>", "SVG"),
+        ("a.AVIF", b"\0\0\0\x1cftypavif\0\0\0\0", "AVIF"),
+    ] {
+        let path = dir.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        let error = load_file(&path, true).unwrap_err();
+        let says = format!("{name} is a picture of the kind {kind}, which is not read; known are PNG, JPEG");
+        assert!(error.to_string().contains(&says) && error.hint().contains("PNG"), "{error}");
+    }
+}
+
+#[test]
+fn of_an_animated_picture_the_first_frame_is_read() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("a.png");
+    let chunk = |kind: &[u8; 4], data: &[u8]| {
+        let body = [kind, data].concat();
+        [&(data.len() as u32).to_be_bytes()[..], &body, &crc32(&body).to_be_bytes()].concat()
+    };
+    let plain = encoded(ImageFormat::Png);
+    let find = |kind: &[u8]| plain.windows(4).position(|w| w == kind).unwrap() - 4;
+    let (data, end) = (find(b"IDAT"), find(b"IEND"));
+    let control = chunk(b"acTL", &[0, 0, 0, 1, 0, 0, 0, 0]);
+    let [w, h] = [32u32, 16].map(u32::to_be_bytes);
+    let frame = chunk(b"fcTL", &[&[0; 4][..], &w, &h, &[0; 8], &[0, 1, 0, 1, 0, 0]].concat());
+    // The picture as the frame, and the frame behind another picture, all black.
+    let whole = [&plain[..data], &control, &frame, &plain[data..]].concat();
+    let mut black = Cursor::new(Vec::new());
+    image::RgbImage::new(32, 16).write_to(&mut black, ImageFormat::Png).unwrap();
+    let black = black.into_inner();
+    let behind = black.len() - 12;
+    let first_data = &plain[data + 8..end - 4];
+    let moved = chunk(b"fdAT", &[&1u32.to_be_bytes()[..], first_data].concat());
+    let other = [&black[..33], &control, &black[33..behind], &frame, &moved, &black[behind..]].concat();
+    for bytes in [whole, other] {
+        std::fs::write(&path, bytes).unwrap();
+        assert_eq!(corners(&load_file(&path, false).unwrap()), "rgbw");
+    }
+    let mut gif = Vec::new();
+    let mut encoder = image::codecs::gif::GifEncoder::new(&mut gif);
+    for picture in [quarters(), image::RgbImage::new(32, 16)] {
+        encoder.encode_frame(image::Frame::new(DynamicImage::from(picture).into_rgba8())).unwrap();
+    }
+    drop(encoder);
+    std::fs::write(&path, gif).unwrap();
+    assert_eq!(corners(&load_file(&path, false).unwrap()), "rgbw");
+}

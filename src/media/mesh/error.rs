@@ -17,10 +17,20 @@ pub enum MeshError {
     UnknownKind(PathBuf),
     #[error("{} is broken: {reason}", path.display())]
     Broken { path: PathBuf, reason: String },
+    #[error("{} is broken: line {line}: {reason}", path.display())]
+    Line { path: PathBuf, line: usize, reason: String, mend: String },
     #[error("{} is too large: {excess}", path.display())]
     TooLarge { path: PathBuf, excess: String },
     #[error("{} names a file: {error}", path.display())]
     Named { path: PathBuf, error: FileError },
+}
+
+/// A word about a model that is loaded, but not as its author may think. The model's name is not in it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MeshWarning {
+    pub message: String,
+    /// The way to mend it.
+    pub hint: String,
 }
 
 impl MeshError {
@@ -35,6 +45,7 @@ impl MeshError {
             MeshError::NoFolder(_) => "save the project first, and put the model into its folder".into(),
             MeshError::TooLarge { .. } => "simplify the model before it is exported".into(),
             MeshError::UnknownKind(_) => "name a .glb, .gltf or .obj file".into(),
+            MeshError::Line { mend, .. } => mend.clone(),
             MeshError::Broken { .. } => "export the model anew".into(),
         }
     }
@@ -43,6 +54,7 @@ impl MeshError {
     pub(super) fn of(trouble: Trouble, path: PathBuf) -> MeshError {
         match trouble {
             Trouble::Broken(reason) => MeshError::Broken { path, reason },
+            Trouble::Line { line, reason, mend } => MeshError::Line { path, line, reason, mend },
             Trouble::TooLarge(excess) => MeshError::TooLarge { path, excess },
             Trouble::Named(error) => MeshError::Named { path, error },
         }

@@ -2,7 +2,7 @@
 
 use super::{
     builtin,
-    error::MeshError,
+    error::{MeshError, MeshWarning},
     finish::finished,
     gltf,
     model::{Mesh, Raw},
@@ -14,14 +14,19 @@ use std::path::Path;
 
 /// Loads a mesh. A file lies in the project's folder `base`, see [`confine`].
 pub fn load(source: &MeshSource, base: Option<&Path>) -> Result<Mesh, MeshError> {
-    load_within(source, base, limits::MEDIA_BYTES)
+    load_within(source, base, limits::MEDIA_BYTES).map(|(mesh, _)| mesh)
 }
 
-/// The same where pictures and models may take `room` bytes more.
-pub(in crate::media) fn load_within(source: &MeshSource, base: Option<&Path>, room: u64) -> Result<Mesh, MeshError> {
+/// The same where pictures and models may take `room` bytes more, with what is to be said of the mesh.
+pub(in crate::media) fn load_within(
+    source: &MeshSource,
+    base: Option<&Path>,
+    room: u64,
+) -> Result<(Mesh, Vec<MeshWarning>), MeshError> {
     let (name, base) = match source {
         MeshSource::Builtin(name) => {
-            return builtin::make(name).ok_or_else(|| MeshError::UnknownBuiltin(name.clone()));
+            let mesh = builtin::make(name).ok_or_else(|| MeshError::UnknownBuiltin(name.clone()))?;
+            return Ok((mesh, Vec::new()));
         }
         MeshSource::File(path) => (path.as_path(), base),
         // What it names lies beside it.
@@ -42,13 +47,13 @@ pub(in crate::media) fn load_within(source: &MeshSource, base: Option<&Path>, ro
     let done = if is_gltf {
         // What a model names is relative to it.
         let named = |uri: &str, limit| confine::read(folder, confine::relative(&name.to_string_lossy(), uri)?, limit);
-        gltf::load(bytes, &named, room, &mut take)
+        gltf::load(bytes, &named, room, &mut take).map(|()| Vec::new())
     } else {
         obj::load(&bytes, room, &mut take)
     };
     let empty = |mesh: &Mesh| mesh.indices.is_empty().then(|| Trouble::broken("it holds no triangles"));
-    match done.err().or_else(|| empty(&mesh)) {
-        Some(trouble) => Err(MeshError::of(trouble, folder.join(name))),
-        None => Ok(mesh),
+    match done.and_then(|warnings| empty(&mesh).map_or(Ok(warnings), Err)) {
+        Ok(warnings) => Ok((mesh, warnings)),
+        Err(trouble) => Err(MeshError::of(trouble, folder.join(name))),
     }
 }

@@ -19,7 +19,7 @@ mod tests;
 mod trouble;
 
 pub use builtin::NAMES;
-pub use error::MeshError;
+pub use error::{MeshError, MeshWarning};
 pub use load::load;
 pub(super) use load::load_within;
 pub use model::{Mesh, Vertex};

@@ -7,6 +7,12 @@ use crate::project::{confine::FileError, limits};
 #[derive(Debug)]
 pub(super) enum Trouble {
     Broken(String),
+    /// An error in a line of a text, counted from 1, and how to mend it.
+    Line {
+        line: usize,
+        reason: String,
+        mend: String,
+    },
     TooLarge(String),
     /// An error of a file that the model names.
     Named(FileError),
@@ -55,7 +61,7 @@ impl Counts {
     }
 }
 
-fn at_most(count: u64, limit: u64, what: &str) -> Result<(), Trouble> {
+pub(super) fn at_most(count: u64, limit: u64, what: &str) -> Result<(), Trouble> {
     if count <= limit {
         return Ok(());
     }

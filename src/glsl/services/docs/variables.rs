@@ -24,13 +24,13 @@ pub(super) const VARIABLES: &[(&str, &str)] = &[
     ("iSampleOffset", "Number of the first sample of the block being computed. Sound passes only."),
     ("iGlobalTime", "The old name of `iTime`."),
     ("iChannel0", "What is bound to channel 0: a picture, a buffer, the keyboard. Read it by `texture` or \
-                   `texelFetch`. Black, and of size 0, where nothing is."),
+                   `texelFetch`. Opaque black, and of size 0, where nothing is."),
     ("iChannel1", "What is bound to channel 1: a picture, a buffer, the keyboard. Read it by `texture` or \
-                   `texelFetch`. Black, and of size 0, where nothing is."),
+                   `texelFetch`. Opaque black, and of size 0, where nothing is."),
     ("iChannel2", "What is bound to channel 2: a picture, a buffer, the keyboard. Read it by `texture` or \
-                   `texelFetch`. Black, and of size 0, where nothing is."),
+                   `texelFetch`. Opaque black, and of size 0, where nothing is."),
     ("iChannel3", "What is bound to channel 3: a picture, a buffer, the keyboard. Read it by `texture` or \
-                   `texelFetch`. Black, and of size 0, where nothing is."),
+                   `texelFetch`. Opaque black, and of size 0, where nothing is."),
     ("iCh0", "Channel 0 as a struct, in Image only: `sampler`, `size`, `time` and `loaded`."),
     ("iCh1", "Channel 1 as a struct, in Image only: `sampler`, `size`, `time` and `loaded`."),
     ("iCh2", "Channel 2 as a struct, in Image only: `sampler`, `size`, `time` and `loaded`."),

@@ -141,15 +141,17 @@ fn what_a_parser_quotes_is_cut_short() {
 fn an_obj_is_counted_and_its_numbers_are_looked_at() {
     let points = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n";
     for far in ["9223372036854775807", "-9223372036854775808", "6148914691236517206"] {
-        for corner in [far.to_owned(), format!("1/{far}"), format!("1//{far}")] {
-            let what = format!("line 6 names element {far}, which is not there");
+        for (corner, element) in
+            [(far.to_owned(), "vertex"), (format!("1/{far}"), "texture coordinate"), (format!("1//{far}"), "normal")]
+        {
+            let what = format!("line 6: {corner} names {element} {far}, and ");
             says(&error("m.obj", format!("{points}f {corner} 2 3\n")), "m.obj is broken", &what);
         }
     }
     let dots = "v 0 0 0\n".repeat((8 << 20) + 1);
     says(&error("m.obj", dots), "m.obj is too large", "it has more than 8388608 vertices");
     let infinite = format!("{points}v 1e39 0 0\nf 1 2 4\n");
-    says(&error("m.obj", infinite), "m.obj is broken", "the position of vertex");
+    says(&error("m.obj", infinite), "m.obj is broken", "line 6: the position of a vertex is not a number (1e39)");
 }
 
 #[test]

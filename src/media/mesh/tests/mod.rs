@@ -131,9 +131,9 @@ fn a_broken_file_is_one_clear_error() {
         ("gone.gltf", whole.replace("data:application/octet-stream;base64,", "x/").into(), "names a file: "),
         ("empty.gltf", r#"{"asset":{"version":"2.0"}}"#.into(), "no triangles"),
         ("empty.obj", Vec::new(), "no triangles"),
-        ("word.obj", b"v 0 zero 0\n".to_vec(), "position"),
-        ("face.obj", b"v 0 0 0\nf 1 2 3\n".to_vec(), "broken"),
-        ("nan.obj", b"v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n".to_vec(), "vertex 1 is not a number"),
+        ("word.obj", b"v 0 zero 0\n".to_vec(), "line 1: zero is not a number"),
+        ("face.obj", b"v 0 0 0\nf 1 2 3\n".to_vec(), "line 2: 2 names vertex 2, and the file has 1"),
+        ("nan.obj", b"v 0 0 0\nv nan 0 0\nv 0 1 0\nf 1 2 3\n".to_vec(), "line 2: the position of a vertex is"),
         ("a.fbx", Vec::new(), "no model Eddy knows"),
     ];
     for (name, bytes, says) in cases {

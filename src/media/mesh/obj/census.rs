@@ -1,0 +1,108 @@
+//! Counts what a file comes to before any of it is kept.
+
+use super::{
+    numbers::whole,
+    text::{Statement, statements},
+};
+use crate::media::mesh::{
+    error::MeshWarning,
+    trouble::{Counts, Trouble},
+};
+
+/// The sizes of a file, and the first of its oddities.
+#[derive(Debug, Default)]
+pub(super) struct Census {
+    /// Its positions, its triangles and its parts.
+    pub counts: Counts,
+    pub uvs: usize,
+    pub normals: usize,
+    lines: u64,
+    points: u64,
+    /// The first line with a curve or a surface.
+    free_form: Option<usize>,
+    /// The first line with a face that names vertex 0, which OBJ does not have.
+    zero: Option<usize>,
+    /// The highest number of a vertex in a face.
+    highest: i64,
+    /// A face counts back from where it stands.
+    is_relative: bool,
+    /// It holds something that OBJ has a word for.
+    is_obj: bool,
+}
+
+impl Census {
+    pub fn of(text: &[u8]) -> Result<Census, Trouble> {
+        let mut census = Census::default();
+        for statement in statements(text) {
+            if let Some(keyword) = statement.words().next() {
+                census.add(keyword, statement)?;
+            }
+        }
+        Ok(census)
+    }
+
+    fn add(&mut self, keyword: &[u8], statement: Statement<'_>) -> Result<(), Trouble> {
+        match keyword {
+            b"v" => self.counts.add(1, 0)?,
+            b"vt" => self.uvs += 1,
+            b"vn" => self.normals += 1,
+            b"l" => self.lines += 1,
+            b"p" => self.points += 1,
+            b"f" | b"fo" => self.add_face(statement)?,
+            b"o" | b"g" => self.counts.add_part()?,
+            b"curv" | b"curv2" | b"surf" => drop(self.free_form.get_or_insert(statement.line_of(keyword))),
+            b"mtllib" | b"usemtl" | b"s" | b"vp" => {}
+            _ => return Ok(()),
+        }
+        self.is_obj = true;
+        Ok(())
+    }
+
+    fn add_face(&mut self, statement: Statement<'_>) -> Result<(), Trouble> {
+        let mut corners: u64 = 0;
+        for corner in statement.words().skip(1) {
+            corners += 1;
+            let vertex = corner.split(|b| *b == b'/').next().and_then(whole);
+            self.highest = self.highest.max(vertex.unwrap_or_default());
+            self.is_relative |= vertex.is_some_and(|n| n < 0);
+            if vertex == Some(0) {
+                self.zero.get_or_insert(statement.line_of(corner));
+            }
+        }
+        self.counts.add(0, corners.saturating_sub(2))
+    }
+
+    /// Returns the number of the first element: 1, but 0 where a face names vertex 0, and no face a vertex that is not
+    /// there if one counts so.
+    pub fn first(&self) -> i64 {
+        let counts_from_zero = self.zero.is_some() && !self.is_relative && self.highest < self.counts.vertices as i64;
+        i64::from(!counts_from_zero)
+    }
+
+    pub fn warnings(&self) -> Vec<MeshWarning> {
+        let zero = self.zero.filter(|_| self.first() == 0).map(|line| MeshWarning {
+            message: format!("line {line}: a face names vertex 0, so the faces are read as counting from 0"),
+            hint: "OBJ counts from 1: add 1 to every number of a face".into(),
+        });
+        let free_form = self.free_form.map(|line| MeshWarning {
+            message: format!("line {line}: its curves and surfaces are not drawn"),
+            hint: "export them as triangles".into(),
+        });
+        zero.into_iter().chain(free_form).collect()
+    }
+
+    /// Returns what is to be said of a file without triangles, which is an error where it is no OBJ file at all.
+    pub fn no_triangles(&self) -> Result<MeshWarning, Trouble> {
+        if !self.is_obj {
+            return Err(Trouble::broken("it holds no triangles"));
+        }
+        let (vertices, lines, points) = (self.counts.vertices, self.lines, self.points);
+        Ok(MeshWarning {
+            message: format!(
+                "it holds no triangles, so that nothing of it is seen (vertices: {vertices}, lines: {lines}, points: \
+                 {points})"
+            ),
+            hint: "export the model with its faces".into(),
+        })
+    }
+}

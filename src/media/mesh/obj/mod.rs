@@ -1,0 +1,51 @@
+//! Wavefront OBJ. Materials are left aside: a draw has its own program and channels. So are lines, points, curves and
+//! surfaces, and the weight of a vertex, which is for these (appendix B1 of the manual of Wavefront's Advanced
+//! Visualizer).
+//!
+//! Read here and not by a crate: those that there are name no line of what is wrong, want UTF-8, and cut faces as if all
+//! were convex. The text is gone through three times: for what it comes to, for its numbers, and for its faces, which may
+//! stand before their vertices. So no face is kept.
+
+mod census;
+mod elements;
+mod faces;
+mod numbers;
+mod polygon;
+#[cfg(test)]
+mod tests;
+mod text;
+
+use super::{
+    error::MeshWarning,
+    model::{Raw, Vertex},
+    trouble::Trouble,
+};
+use census::Census;
+use elements::Elements;
+use faces::Faces;
+
+/// Reads the bytes of an `.obj` file, and hands every part of it to `take`. Returns what is to be said of what is left
+/// out.
+pub(super) fn load(
+    bytes: &[u8],
+    room: u64,
+    take: &mut dyn FnMut(Raw) -> Result<(), Trouble>,
+) -> Result<Vec<MeshWarning>, Trouble> {
+    let text = text::decoded(bytes);
+    let census = Census::of(&text)?;
+    census.counts.fit(room)?;
+    let elements = Elements::of(&text, &census)?;
+    let drawn = Faces::new(&elements, &census, room).hand_over(&text, take)?;
+    let mut warnings = census.warnings();
+    warnings.extend(elements.warnings());
+    if drawn == 0 {
+        if census.counts.triangles > 0 {
+            return Err(elements.no_places());
+        }
+        warnings.push(census.no_triangles()?);
+        // A mesh has one triangle at least; this one has no area.
+        let vertex = Vertex { position: elements.somewhere(), ..Vertex::PLAIN };
+        take(Raw { vertices: vec![vertex], indices: vec![0; 3], ..Raw::default() })?;
+    }
+    Ok(warnings)
+}
