@@ -60,6 +60,7 @@ fn check(report: &mut Report, spec: &str, args: &CheckArgs, dumped: &mut String)
     media::meshes(project, &mut files);
     found.extend(files.fill_errors(project));
     found.extend(files.mesh_errors(project));
+    found.extend(files.mesh_warnings(project));
     // The reader has said some of it already, with its place in `eddy.toml`.
     let is_new = |d: &Diagnostic| !loaded.warnings.iter().any(|known| d.repeats(known));
     found.extend(project::advice(project).into_iter().filter(is_new));

@@ -20,11 +20,11 @@ pub use npy::{bytes as npy_bytes, header as npy_header};
 
 use crate::{
     diag::Diagnostic,
-    project::{Fill, FillKind, Media, MeshSource, Project},
+    project::{Fill, FillKind, Media, MeshDraw, MeshSource, Normals, Pass, Project},
 };
-use mesh::{Mesh, MeshError};
+use mesh::{Loaded, Mesh, MeshError};
 use std::{
-    collections::HashMap,
+    collections::{HashMap, HashSet},
     path::{Path, PathBuf},
     sync::Arc,
 };
@@ -66,7 +66,9 @@ pub struct MediaSet {
     pictures: HashMap<MediaKey, Arc<Texels>>,
     /// The reason why the picture that a fill names is not there, and how to mend it.
     missing_fills: HashMap<PathBuf, (String, String)>,
-    meshes: HashMap<MeshSource, Result<Arc<Mesh>, MeshError>>,
+    meshes: HashMap<MeshKey, Result<Arc<Mesh>, MeshError>>,
+    /// The part of a model that is not drawn.
+    mesh_warnings: HashMap<MeshKey, String>,
 }
 
 impl MediaSet {
@@ -118,31 +120,59 @@ impl MediaSet {
     }
 
     /// A mesh that was gathered, or one of Eddy's own; else why there is none.
-    pub fn mesh(&self, source: &MeshSource) -> Result<Arc<Mesh>, MeshError> {
-        self.meshes.get(source).cloned().unwrap_or_else(|| mesh::load(source, None).map(Arc::new))
+    pub fn mesh(&self, draw: &MeshDraw) -> Result<Arc<Mesh>, MeshError> {
+        let load = || mesh::load(&draw.mesh, draw.normals, None).map(Arc::new);
+        self.meshes.get(&MeshKey::of(draw)).cloned().unwrap_or_else(load)
     }
 
-    pub fn insert_mesh(&mut self, source: MeshSource, mesh: Result<Arc<Mesh>, MeshError>) {
-        self.meshes.insert(source, mesh);
+    fn insert_mesh(&mut self, key: MeshKey, loaded: Result<Loaded, MeshError>) {
+        let mesh = loaded.map(|Loaded { mesh, warning }| {
+            warning.map(|warning| self.mesh_warnings.insert(key.clone(), warning));
+            Arc::new(mesh)
+        });
+        self.meshes.insert(key, mesh);
     }
 
     /// One error for each model of the project that cannot be drawn.
     pub fn mesh_errors(&self, project: &Project) -> Vec<Diagnostic> {
-        let mut told: Vec<&MeshSource> = Vec::new();
-        let mut errors = Vec::new();
-        for pass in &project.passes {
-            for (n, draw) in pass.settings.meshes().into_iter().flat_map(|g| g.draws.iter().enumerate()) {
-                if told.contains(&&draw.mesh) {
-                    continue;
-                }
-                if let Err(error) = self.mesh(&draw.mesh) {
-                    let message = format!("draw {n} of {}: {error}", pass.id.title());
-                    errors.push(Diagnostic::error(None, message).hint(error.hint()));
-                }
-                told.push(&draw.mesh);
-            }
-        }
-        errors
+        let error = |(pass, n, draw): (&Pass, usize, &MeshDraw)| {
+            let error = self.mesh(draw).err()?;
+            let message = format!("draw {n} of {}: {error}", pass.id.title());
+            Some(Diagnostic::error(None, message).hint(error.hint()))
+        };
+        first_draws(project).filter_map(error).collect()
+    }
+
+    /// One warning for each model of the project of which a part is not drawn.
+    pub fn mesh_warnings(&self, project: &Project) -> Vec<Diagnostic> {
+        let warning = |(pass, n, draw): (&Pass, usize, &MeshDraw)| {
+            let warning = self.mesh_warnings.get(&MeshKey::of(draw))?;
+            let message = format!("draw {n} of {}: {warning}", pass.id.title());
+            Some(Diagnostic::warning(None, message).hint("a pass draws triangles: export the rest as triangles, too"))
+        };
+        first_draws(project).filter_map(warning).collect()
+    }
+}
+
+/// The first draw of each model of the project, with its pass and its number there.
+fn first_draws(project: &Project) -> impl Iterator<Item = (&Pass, usize, &MeshDraw)> {
+    let draws = |pass: &'_ Pass| pass.settings.meshes().map_or(&[][..], |g| &g.draws);
+    let mut told: HashSet<&MeshSource> = HashSet::new();
+    let all =
+        project.passes.iter().flat_map(move |pass| draws(pass).iter().enumerate().map(move |(n, d)| (pass, n, d)));
+    all.filter(move |(.., draw)| told.insert(&draw.mesh))
+}
+
+/// The key that tells one loaded mesh from another.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct MeshKey {
+    source: MeshSource,
+    normals: Option<Normals>,
+}
+
+impl MeshKey {
+    fn of(draw: &MeshDraw) -> MeshKey {
+        MeshKey { source: draw.mesh.clone(), normals: draw.normals }
     }
 }
 

@@ -58,6 +58,8 @@ pub enum Stage {
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshDraw {
     pub mesh: MeshSource,
+    /// `None`: flat for glTF, as its specification wants them (section 3.7.2.1), and smooth for OBJ.
+    pub normals: Option<Normals>,
     pub vertex: Stage,
     pub fragment: Stage,
     pub cull: Cull,
@@ -105,6 +107,27 @@ impl MeshSource {
             }
             // As saving calls the copy, unless that name is taken.
             MeshSource::Picked(path) => path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+        }
+    }
+}
+
+/// The normals that are made where a model file has none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Normals {
+    /// Each triangle's own: its edges show.
+    Flat,
+    /// The mean of those of the triangles around a place: edges do not show.
+    Smooth,
+}
+
+impl Normals {
+    pub const ALL: [Normals; 2] = [Normals::Flat, Normals::Smooth];
+
+    /// Returns the name in `eddy.toml`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Normals::Flat => "flat",
+            Normals::Smooth => "smooth",
         }
     }
 }

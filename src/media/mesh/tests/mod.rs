@@ -151,11 +151,3 @@ fn a_broken_file_is_one_clear_error() {
         ("there is no mesh builtin:spere".into(), "did you mean builtin:sphere?".into())
     );
 }
-
-#[test]
-fn the_parts_of_a_strip_and_a_fan_all_face_one_way() {
-    // Checked by hand with the figures of section 3.7.2.1 of the glTF specification.
-    let corners = vec![0, 1, 2, 3, 4];
-    assert_eq!(super::gltf::triangles(::gltf::mesh::Mode::TriangleStrip, corners.clone()), [0, 1, 2, 2, 1, 3, 2, 3, 4]);
-    assert_eq!(super::gltf::triangles(::gltf::mesh::Mode::TriangleFan, corners), [0, 1, 2, 0, 2, 3, 0, 3, 4]);
-}
