@@ -127,7 +127,9 @@ impl MediaSet {
 
     fn insert_mesh(&mut self, key: MeshKey, loaded: Result<Loaded, MeshError>) {
         let mesh = loaded.map(|Loaded { mesh, warning }| {
-            warning.map(|warning| self.mesh_warnings.insert(key.clone(), warning));
+            if let Some(warning) = warning {
+                self.mesh_warnings.insert(key.clone(), warning);
+            }
             Arc::new(mesh)
         });
         self.meshes.insert(key, mesh);
@@ -156,10 +158,11 @@ impl MediaSet {
 
 /// The first draw of each model of the project, with its pass and its number there.
 fn first_draws(project: &Project) -> impl Iterator<Item = (&Pass, usize, &MeshDraw)> {
-    let draws = |pass: &'_ Pass| pass.settings.meshes().map_or(&[][..], |g| &g.draws);
     let mut told: HashSet<&MeshSource> = HashSet::new();
-    let all =
-        project.passes.iter().flat_map(move |pass| draws(pass).iter().enumerate().map(move |(n, d)| (pass, n, d)));
+    let all = project.passes.iter().flat_map(|pass| {
+        let draws = pass.settings.meshes().into_iter().flat_map(|g| g.draws.iter().enumerate());
+        draws.map(move |(n, draw)| (pass, n, draw))
+    });
     all.filter(move |(.., draw)| told.insert(&draw.mesh))
 }
 

@@ -37,7 +37,7 @@ impl<'a> Buffers<'a> {
         let mut buffers = Vec::with_capacity(root.buffers.len());
         for (n, buffer) in root.buffers.iter().enumerate() {
             let uri = buffer.uri.as_ref().map(|uri| &*uri.0);
-            let bytes: Cow<'a, [u8]> = match uri {
+            let mut bytes: Cow<'a, [u8]> = match uri {
                 // The binary chunk is the first buffer's (section 3.6.1.2).
                 None => match binary.take().filter(|_| n == 0) {
                     Some(binary) => binary.into(),
@@ -64,7 +64,7 @@ impl<'a> Buffers<'a> {
                     bytes.into()
                 }
             };
-            // A chunk's length is a multiple of 4, and files are often cut to the last byte.
+            // Lengths are often rounded up, and files cut to the last byte.
             if (bytes.len().next_multiple_of(4) as u64) < buffer.byte_length {
                 let whose = match uri {
                     None => "the binary chunk".into(),
@@ -75,6 +75,10 @@ impl<'a> Buffers<'a> {
                 return Err(Trouble::broken(format!(
                     "buffer {n} has {said} bytes by its byteLength, and {whose} {there}"
                 )));
+            }
+            if !bytes.len().is_multiple_of(4) {
+                let whole = bytes.len().next_multiple_of(4);
+                bytes.to_mut().resize(whole, 0);
             }
             buffers.push(Some(bytes));
         }
