@@ -424,7 +424,9 @@ fn what_holds_no_triangles_says_what_it_holds() {
 fn nodes_say_what_is_shown_how_often_and_where() {
     // A library of meshes is drawn as it is.
     let mut library = Model::triangle();
-    ["nodes", "scenes", "scene"].map(|key| library.root.as_object_mut().unwrap().remove(key));
+    for key in ["nodes", "scenes", "scene"] {
+        library.root.as_object_mut().unwrap().remove(key);
+    }
     assert_eq!(library.positions(), CORNERS);
     // What is hidden hides what is below it.
     let hidden = json!({ "children": [1], "extensions": { "KHR_node_visibility": { "visible": false } } });
