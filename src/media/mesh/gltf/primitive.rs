@@ -100,7 +100,6 @@ impl<'a> Part<'a> {
         }
         raw.indices = self.corners(raw.vertices.len())?;
         raw.has_normals = attributes.normal.is_some();
-        // Tangents go with the normals they were made for.
         raw.has_tangents = attributes.tangent.is_some() && raw.has_normals;
         raw.has_uv = attributes.uv.is_some();
         match pose {
@@ -144,7 +143,8 @@ impl<'a> Part<'a> {
             let values = self.values(index, Elements::NORMALS, "normals", count)?;
             vertices.iter_mut().zip(values.floats([0.0; 3])).for_each(|(vertex, v)| vertex.normal = v);
         }
-        if let Some(index) = attributes.tangent {
+        // Tangents go with the normals they were made for.
+        if let Some(index) = attributes.tangent.filter(|_| attributes.normal.is_some()) {
             let values = self.values(index, Elements::TANGENTS, "tangents", count)?;
             vertices.iter_mut().zip(values.floats([0.0; 4])).for_each(|(vertex, v)| vertex.tangent = v);
         }

@@ -392,7 +392,7 @@ fn a_file_is_what_is_in_it_whatever_its_name() {
         (&glb[..40], "the file has 40"),
         (b"", "it is empty"),
         (b"\xff\xfe{\0", "UTF-16"),
-        (b"{\n  \"asset\": oops }", "line 2 column 13"),
+        (b"{\n  \"asset\": oops }", "line 2 column 12"),
     ] {
         let error = open("m.gltf", bytes, None).unwrap_err();
         assert!(error.to_string().contains(words), "{error}");
