@@ -41,8 +41,11 @@ pub(super) fn split(bytes: &[u8]) -> Result<Chunks<'_>, Trouble> {
     Ok(Chunks { json, binary })
 }
 
-/// The next chunk and its type; `None` where too little is left for the head of one.
-fn chunk<'a>(rest: &mut &'a [u8]) -> Result<Option<(&'a [u8; 4], &'a [u8])>, Trouble> {
+/// A chunk's type and its bytes.
+type Chunk<'a> = (&'a [u8; 4], &'a [u8]);
+
+/// The next chunk; `None` where too little is left for the head of one.
+fn chunk<'a>(rest: &mut &'a [u8]) -> Result<Option<Chunk<'a>>, Trouble> {
     let (Some(length), Some(kind)) = (number(rest, 0), rest.get(4..8).and_then(|kind| kind.first_chunk())) else {
         return Ok(None);
     };

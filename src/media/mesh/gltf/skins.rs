@@ -66,7 +66,7 @@ fn joints(source: Source<'_>, index: Index, stage: &Stage) -> Result<Vec<DAffine
         return Err(Trouble::broken(format!("skin {index} has {joints} joints and {there} inverseBindMatrices")));
     }
     for (joint, bind) in posed.iter_mut().zip(bind.floats([0.0; 16])) {
-        *joint = *joint * DAffine3::from_mat4(DMat4::from_cols_array(&bind.map(f64::from)));
+        *joint *= DAffine3::from_mat4(DMat4::from_cols_array(&bind.map(f64::from)));
     }
     Ok(posed)
 }
