@@ -201,7 +201,8 @@ fn weights_are_shares_of_their_sum_over_all_sets() {
 fn joints_turn_normals_and_a_mirror_keeps_fronts_in_front() {
     let mut model = Model::triangle().skinned([0; 12], FIRST);
     model.attribute("NORMAL", FLOAT, "VEC3", &floats(&[0.0, 0.0, 1.0].repeat(3)));
-    let turned = model.set("/nodes/1", json!({ "rotation": [0, 0.70710678, 0, 0.70710678] }));
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let turned = model.set("/nodes/1", json!({ "rotation": [0, half, 0, half] }));
     let mesh = turned.load().unwrap();
     assert!((Vec3::from(mesh.vertices[0].normal) - Vec3::X).length() < 1e-6, "{:?}", mesh.vertices[0]);
     let mirrored = turned.set("/nodes/1", json!({ "scale": [-1, 1, 1] }));
