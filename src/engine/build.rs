@@ -200,7 +200,6 @@ impl Builder {
         let mut passes = Vec::new();
         let mut diagnostics: Vec<Diagnostic> = texts.diagnostics.clone();
         diagnostics.extend(media.mesh_errors(project));
-        diagnostics.extend(media.mesh_warnings(project));
         diagnostics.extend(media.fill_errors(project));
         let drawn = project.passes.iter().enumerate().filter(|(_, pass)| is_drawn(pass));
         let options: Vec<_> = drawn.map(|(index, _)| (index, self.options(project, media, index, build))).collect();

@@ -86,6 +86,7 @@ mod tests {
     fn a_mesh_is_scaled_turned_and_moved_in_this_order() {
         let draw = MeshDraw {
             mesh: MeshSource::Builtin("cube".into()),
+            normals: None,
             vertex: crate::project::Stage::Own,
             fragment: crate::project::Stage::Own,
             cull: Cull::Back,

@@ -61,7 +61,7 @@ impl Uploads {
     /// Returns the mesh of each draw of a pass, in order.
     pub fn placed(&mut self, gpu: &Gpu, media: &MediaSet, geometry: &Geometry) -> Result<Vec<PlacedMesh>, EngineError> {
         let placed = |draw: &crate::project::MeshDraw| {
-            let mesh = media.mesh(&draw.mesh).map_err(|error: MeshError| EngineError::from(error))?;
+            let mesh = media.mesh(draw).map_err(|error: MeshError| EngineError::from(error))?;
             let buffers = self.mesh(gpu, &draw.mesh.name(), &mesh)?;
             Ok(PlacedMesh::new(mesh, buffers, draw))
         };

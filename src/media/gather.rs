@@ -1,6 +1,6 @@
 //! All the pictures of a project at once.
 
-use super::{MediaKey, MediaSet, load::load_within};
+use super::{MediaKey, MediaSet, MeshKey, load::load_within};
 use crate::{
     diag::Diagnostic,
     project::{FillValue, Input, Media, Pass, PassId, Project, limits},
@@ -12,9 +12,10 @@ use std::{collections::HashMap, path::Path, sync::Arc};
 /// a warning that names pass, channel and mend.
 pub fn gather(project: &Project, media_dir: Option<&Path>) -> (MediaSet, Vec<Diagnostic>) {
     let mut set = MediaSet::new();
-    let warnings = pictures(project, media_dir, &mut set, |_| true);
+    let mut warnings = pictures(project, media_dir, &mut set, |_| true);
     fills(project, &mut set);
     meshes(project, &mut set);
+    warnings.extend(set.mesh_warnings(project));
     (set, warnings)
 }
 
@@ -85,17 +86,14 @@ pub fn fills(project: &Project, set: &mut MediaSet) {
 }
 
 /// Loads every mesh that a pass of the project draws. What is wrong with one is kept in its place: see
-/// [`MediaSet::mesh_errors`].
+/// [`MediaSet::mesh_errors`]. What of one is not drawn: see [`MediaSet::mesh_warnings`].
 pub fn meshes(project: &Project, set: &mut MediaSet) {
     let base = project.origin.base_dir();
     for draw in project.passes.iter().filter_map(|p| p.settings.meshes()).flat_map(|g| &g.draws) {
-        if !set.meshes.contains_key(&draw.mesh) {
-            let loaded = super::mesh::load_within(&draw.mesh, base, set.room());
-            let mesh = loaded.map(|(mesh, warnings)| {
-                set.mesh_warnings.insert(draw.mesh.clone(), warnings);
-                Arc::new(mesh)
-            });
-            set.insert_mesh(draw.mesh.clone(), mesh);
+        let key = MeshKey::of(draw);
+        if !set.meshes.contains_key(&key) {
+            let loaded = super::mesh::load_within(&draw.mesh, draw.normals, base, set.room());
+            set.insert_mesh(key, loaded);
         }
     }
 }

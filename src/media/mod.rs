@@ -21,11 +21,11 @@ pub use npy::{bytes as npy_bytes, header as npy_header};
 
 use crate::{
     diag::Diagnostic,
-    project::{Fill, FillKind, Media, MeshSource, Project},
+    project::{Fill, FillKind, Media, MeshDraw, MeshSource, Normals, Pass, Project},
 };
-use mesh::{Mesh, MeshError, MeshWarning};
+use mesh::{Loaded, Mesh, MeshError, MeshWarning};
 use std::{
-    collections::HashMap,
+    collections::{HashMap, HashSet},
     path::{Path, PathBuf},
     sync::Arc,
 };
@@ -67,8 +67,8 @@ pub struct MediaSet {
     pictures: HashMap<MediaKey, Arc<Texels>>,
     /// The reason why the picture that a fill names is not there, and how to mend it.
     missing_fills: HashMap<PathBuf, (String, String)>,
-    meshes: HashMap<MeshSource, Result<Arc<Mesh>, MeshError>>,
-    mesh_warnings: HashMap<MeshSource, Vec<MeshWarning>>,
+    meshes: HashMap<MeshKey, Result<Arc<Mesh>, MeshError>>,
+    mesh_warnings: HashMap<MeshKey, Vec<MeshWarning>>,
 }
 
 impl MediaSet {
@@ -120,30 +120,36 @@ impl MediaSet {
     }
 
     /// A mesh that was gathered, or one of Eddy's own; else why there is none.
-    pub fn mesh(&self, source: &MeshSource) -> Result<Arc<Mesh>, MeshError> {
-        self.meshes.get(source).cloned().unwrap_or_else(|| mesh::load(source, None).map(Arc::new))
+    pub fn mesh(&self, draw: &MeshDraw) -> Result<Arc<Mesh>, MeshError> {
+        let load = || mesh::load(&draw.mesh, draw.normals, None).map(Arc::new);
+        self.meshes.get(&MeshKey::of(draw)).cloned().unwrap_or_else(load)
     }
 
-    pub fn insert_mesh(&mut self, source: MeshSource, mesh: Result<Arc<Mesh>, MeshError>) {
-        self.meshes.insert(source, mesh);
+    fn insert_mesh(&mut self, key: MeshKey, loaded: Result<Loaded, MeshError>) {
+        let mesh = loaded.map(|Loaded { mesh, warnings }| {
+            self.mesh_warnings.insert(key.clone(), warnings);
+            Arc::new(mesh)
+        });
+        self.meshes.insert(key, mesh);
     }
 
     /// One error for each model of the project that cannot be drawn.
     pub fn mesh_errors(&self, project: &Project) -> Vec<Diagnostic> {
-        let error = |(place, source): (String, &MeshSource)| {
-            let error = self.mesh(source).err()?;
-            Some(Diagnostic::error(None, format!("{place}: {error}")).hint(error.hint()))
+        let error = |(pass, n, draw): (&Pass, usize, &MeshDraw)| {
+            let error = self.mesh(draw).err()?;
+            let message = format!("draw {n} of {}: {error}", pass.id.title());
+            Some(Diagnostic::error(None, message).hint(error.hint()))
         };
         first_draws(project).filter_map(error).collect()
     }
 
     /// One warning for each thing that a model of the project holds and that is not drawn as its author may think.
     pub fn mesh_warnings(&self, project: &Project) -> Vec<Diagnostic> {
-        let warnings = |(place, source): (String, &MeshSource)| {
-            let said = self.mesh_warnings.get(source).into_iter().flatten();
-            let warning = |MeshWarning { message, hint }: &MeshWarning| {
-                let message = format!("{place}: {}: {message}", source.name());
-                Diagnostic::warning(None, message).hint(hint.clone())
+        let warnings = |(pass, n, draw): (&Pass, usize, &MeshDraw)| {
+            let place = format!("draw {n} of {}: {}", pass.id.title(), draw.mesh.name());
+            let said = self.mesh_warnings.get(&MeshKey::of(draw)).into_iter().flatten();
+            let warning = |said: &MeshWarning| {
+                Diagnostic::warning(None, format!("{place}: {}", said.message)).hint(said.hint.clone())
             };
             said.map(warning).collect::<Vec<_>>()
         };
@@ -151,18 +157,27 @@ impl MediaSet {
     }
 }
 
-/// Returns each mesh of the project, and the words for the draw that names it first.
-fn first_draws(project: &Project) -> impl Iterator<Item = (String, &MeshSource)> {
-    let mut told: Vec<&MeshSource> = Vec::new();
-    let draws = project.passes.iter().flat_map(|pass| {
+/// The first draw of each model of the project, with its pass and its number there.
+fn first_draws(project: &Project) -> impl Iterator<Item = (&Pass, usize, &MeshDraw)> {
+    let mut told: HashSet<&MeshSource> = HashSet::new();
+    let all = project.passes.iter().flat_map(|pass| {
         let draws = pass.settings.meshes().into_iter().flat_map(|g| g.draws.iter().enumerate());
-        draws.map(move |(n, draw)| (pass, n, &draw.mesh))
+        draws.map(move |(n, draw)| (pass, n, draw))
     });
-    draws.filter_map(move |(pass, n, mesh)| {
-        let is_new = !told.contains(&mesh);
-        told.push(mesh);
-        is_new.then(|| (format!("draw {n} of {}", pass.id.title()), mesh))
-    })
+    all.filter(move |(.., draw)| told.insert(&draw.mesh))
+}
+
+/// The key that tells one loaded mesh from another.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct MeshKey {
+    source: MeshSource,
+    normals: Option<Normals>,
+}
+
+impl MeshKey {
+    fn of(draw: &MeshDraw) -> MeshKey {
+        MeshKey { source: draw.mesh.clone(), normals: draw.normals }
+    }
 }
 
 /// The key that tells one loaded picture from another.

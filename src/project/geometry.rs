@@ -58,6 +58,8 @@ pub enum Stage {
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeshDraw {
     pub mesh: MeshSource,
+    /// `None`: flat for glTF, as its specification wants them (section 3.7.2.1), and smooth for OBJ.
+    pub normals: Option<Normals>,
     pub vertex: Stage,
     pub fragment: Stage,
     pub cull: Cull,
@@ -105,6 +107,27 @@ impl MeshSource {
             }
             // As saving calls the copy, unless that name is taken.
             MeshSource::Picked(path) => path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+        }
+    }
+}
+
+/// The normals that are made where a model file has none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Normals {
+    /// Each triangle's own: its edges show.
+    Flat,
+    /// The mean of those of the triangles around a place: edges do not show.
+    Smooth,
+}
+
+impl Normals {
+    pub const ALL: [Normals; 2] = [Normals::Flat, Normals::Smooth];
+
+    /// Returns the name in `eddy.toml`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Normals::Flat => "flat",
+            Normals::Smooth => "smooth",
         }
     }
 }
@@ -203,17 +226,28 @@ impl Default for Camera {
     }
 }
 
-/// Files that a model needs besides itself: the buffers and pictures a `.gltf` names, by their names from the project's
+/// Files that a model needs besides itself: the buffers and pictures a glTF file names, by their names from the project's
 /// `folder`, as `model` is. None for a file that cannot be read, and no name that leads out of the folder; whoever
 /// loads the model says why.
 pub fn files_beside(folder: &Path, model: &str) -> Vec<String> {
-    if !Path::new(model).extension().is_some_and(|e| e.eq_ignore_ascii_case("gltf")) {
+    let is = |ending: &str| Path::new(model).extension().is_some_and(|e| e.eq_ignore_ascii_case(ending));
+    if !is("gltf") && !is("glb") {
         return Vec::new();
     }
     let bytes = confine::read(folder, model, limits::MEDIA_FILE).unwrap_or_default();
-    let named: Named = serde_json::from_slice(&bytes).unwrap_or_default();
+    let named: Named = serde_json::from_slice(gltf_text(&bytes)).unwrap_or_default();
     let files = named.buffers.0.iter().chain(&named.images.0).map(|uri| unescaped(uri));
     files.filter_map(|file| confine::relative(model, &file).ok()).collect()
+}
+
+/// The JSON text of a glTF file: its first chunk where it is binary (glTF 2.0, section 4.4), whatever its name.
+fn gltf_text(bytes: &[u8]) -> &[u8] {
+    const TEXT: usize = 20;
+    if !bytes.starts_with(b"glTF") {
+        return bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    }
+    let length = bytes.get(12..16).and_then(|length| length.try_into().ok()).map_or(0, u32::from_le_bytes);
+    bytes.get(TEXT..).and_then(|text| text.get(..length as usize)).unwrap_or_default()
 }
 
 /// The addresses in a `.gltf`: the rest may be large.
@@ -282,6 +316,12 @@ mod tests {
                 "images":[{"uri":"../tex/é.png"},{"uri":"%2e%2e/%2e%2e/x.png"}]}"#,
         );
         assert_eq!(files_beside(dir.path(), "m/a.gltf"), ["m/a b.bin", "tex/é.png"]);
+        let text = "{\"buffers\":[{\"uri\":\"x.bin\"}]}";
+        write(&format!("\u{feff}{text}"));
+        assert_eq!(files_beside(dir.path(), "m/a.gltf"), ["m/x.bin"]);
+        let header = [b"glTF\x02\0\0\0\0\0\0\0", &[text.len() as u8, 0, 0, 0][..], b"JSON", text.as_bytes()].concat();
+        std::fs::write(dir.path().join("m/a.glb"), header).unwrap();
+        assert_eq!(files_beside(dir.path(), "m/a.glb"), ["m/x.bin"]);
         write("{");
         assert!(files_beside(dir.path(), "m/a.gltf").is_empty());
         assert!(files_beside(dir.path(), "none.glb").is_empty());

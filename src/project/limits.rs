@@ -58,6 +58,11 @@ pub const MODEL_VERTICES: u64 = 8 << 20;
 pub const MODEL_TRIANGLES: u64 = 16 << 20;
 /// Primitives of a glTF file, counted likewise; objects and groups of an OBJ file.
 pub const MODEL_PARTS: u64 = 1 << 20;
+/// Joints of a model's skins.
+pub const MODEL_JOINTS: u64 = 1 << 20;
+/// Vertices of a model that morph targets and joints move, counted for each target that has a weight and for each set
+/// of four joints.
+pub const MODEL_MOVED: u64 = 256 << 20;
 /// Pairs of triangle corners that meet at a place, all places together, in a part of a model whose tangents Eddy makes.
 pub const TANGENT_PAIRS: u64 = 4 << 30;
 /// Corners that are looked at to cut faces of an OBJ file that are not convex, all faces together: a matter of time.

@@ -58,7 +58,7 @@ pub use fills::{Boundary, Fill, FillKind, FillValue, Written};
 pub use folder::declare_channels;
 pub use format::PassFormat;
 pub use geometry::{
-    Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Stage, files_beside, unescaped,
+    Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Normals, Stage, files_beside, unescaped,
 };
 pub use includes::{IncludeLines, include_names};
 pub use inspect_comments::{InspectComment, inspect_comments};

@@ -164,7 +164,7 @@ fn measured(model: &Path) -> Fit {
         return plain;
     }
     // What is wrong with it is told when it is drawn.
-    let Ok(mesh) = mesh::load(&MeshSource::Picked(model.to_owned()), None) else { return plain };
+    let Ok(mesh) = mesh::load(&MeshSource::Picked(model.to_owned()), None, None) else { return plain };
     let bound = |pick: fn(f32, f32) -> f32, from: f32| {
         mesh.vertices.iter().fold([from; 3], |b, v| [0, 1, 2].map(|i| pick(b[i], v.position[i])))
     };

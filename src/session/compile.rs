@@ -12,7 +12,7 @@ use crate::{
     engine::{BuildError, BuildOptions, Builder, EngineError, Program, Sources},
     glsl::Driver,
     media::{self, MediaSet},
-    project::{self, Channel, Included, MeshSource, Pass, PassId, Project},
+    project::{self, Channel, Included, MeshSource, Normals, Pass, PassId, Project},
 };
 use std::{
     cmp::Reverse,
@@ -154,7 +154,7 @@ struct Named {
     opened: u64,
     /// The folder that the names start from.
     base: PathBuf,
-    channels: Vec<(PassId, [Option<Channel>; 4], Vec<MeshSource>)>,
+    channels: Vec<(PassId, [Option<Channel>; 4], Vec<(MeshSource, Option<Normals>)>)>,
     stamps: Vec<Stamp>,
 }
 
@@ -171,8 +171,9 @@ struct Media {
 
 impl Media {
     fn named(&mut self, job: &Job) -> Named {
-        let meshes =
-            |p: &Pass| p.settings.meshes().into_iter().flat_map(|g| &g.draws).map(|d| d.mesh.clone()).collect();
+        let meshes = |p: &Pass| {
+            p.settings.meshes().into_iter().flat_map(|g| &g.draws).map(|d| (d.mesh.clone(), d.normals)).collect()
+        };
         let channels = job.project.passes.iter().map(|p| (p.id.clone(), p.channels.clone(), meshes(p))).collect();
         let base = super::capture::base_folder(&job.project).unwrap_or_default();
         Named { opened: job.opened, base, channels, stamps: self.stamps.take(&job.project) }

@@ -97,12 +97,14 @@ fn a_folder_is_read_and_written_back_as_it_was() {
     assert_eq!(fs::read_to_string(home.join("hull.vert.glsl")).unwrap(), "// hull\n");
 
     // Elsewhere: stages, models, all of it.
+    p.passes[0].settings.meshes_mut().unwrap().draws[0].normals = Some(project::Normals::Flat);
     p.passes[0].settings.meshes_mut().unwrap().draws[0].cull = project::Cull::Front;
     let away = dir.path().join("away");
     let saved = project::save(&p, &away, Overwrite::Refuse).unwrap();
     assert_eq!(fs::read_to_string(away.join("models/tri.obj")).unwrap(), TRIANGLE);
     let read = project::load(away.to_str().unwrap()).unwrap().project;
     assert_eq!(read.passes, saved.passes);
+    assert!(fs::read_to_string(away.join("eddy.toml")).unwrap().contains("normals = \"flat\", cull = \"front\""));
     let bare = |p: &project::Project| {
         let mut p = p.clone();
         p.tab_sources_mut().into_iter().for_each(|s| (s.name, s.path) = (String::new(), None));
@@ -118,6 +120,8 @@ fn mistakes_in_the_file_are_told_at_their_place() {
     for (from, to, says) in [
         ("cull = \"none\"", "cul = \"none\"", "draw 0 has no key cul\n  --> eddy.toml:10:"),
         ("cull = \"none\"", "cull = \"bac\"", "unknown cull \"bac\""),
+        ("cull = \"none\"", "normals = \"smoth\"", "unknown normals \"smoth\""),
+        ("cull = \"front\"", "normals = \"flat\"", "a mesh made by code has normals of its own"),
         ("cull = \"none\"", "depth = \"closer\"", "unknown depth \"closer\""),
         ("mesh = \"models/tri.obj\", ", "", "draw 0 names no mesh"),
         ("vertex = \"scene.vert.glsl\", ", "", "draw 0 names no vertex"),

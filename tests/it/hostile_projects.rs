@@ -219,6 +219,7 @@ fn with_stage(name: &str) -> Project {
     let mut scene = support::pass(PassId::Buffer("scene".into()), "", Default::default());
     let draw = MeshDraw {
         mesh: MeshSource::Builtin("cube".into()),
+        normals: None,
         vertex: Stage::File(0),
         fragment: Stage::Own,
         cull: Default::default(),

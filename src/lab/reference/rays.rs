@@ -125,7 +125,7 @@ impl Meshes {
     pub fn of(draws: &[MeshDraw]) -> Result<Meshes, MeshError> {
         let mut triangles = Vec::new();
         for draw in draws {
-            let mesh = mesh::load(&draw.mesh, None)?;
+            let mesh = mesh::load(&draw.mesh, draw.normals, None)?;
             let [x, y, z] = draw.rotation.map(f64::to_radians);
             let turned = |[a, b, c]: V| {
                 let [b, c] = [b * x.cos() - c * x.sin(), b * x.sin() + c * x.cos()];

@@ -5,6 +5,7 @@ use super::{
     model::{Mesh, Raw, Vertex},
     shape::{Grid, lathe, round_profile, tube},
 };
+use crate::project::Normals;
 use glam::{Mat3, Mat4, Vec3};
 use std::{collections::HashMap, f32::consts::TAU};
 
@@ -119,7 +120,7 @@ fn icosphere(times: u32) -> Mesh {
         indices = finer;
     }
     let vertices = places.into_iter().map(|p| Vertex { position: p.to_array(), ..Vertex::PLAIN }).collect();
-    on_ball(finished(Raw { vertices, indices, ..Raw::default() }).expect("an icosahedron is whole"))
+    on_ball(finished(Raw { vertices, indices, ..Raw::default() }, Normals::Smooth).expect("an icosahedron is whole"))
 }
 
 /// A figure on a stand, its parts in colours of their own: something with creases, thin parts and parts before others.

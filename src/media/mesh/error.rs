@@ -23,6 +23,12 @@ pub enum MeshError {
     TooLarge { path: PathBuf, excess: String },
     #[error("{} names a file: {error}", path.display())]
     Named { path: PathBuf, error: FileError },
+    #[error("{}: this is glTF {version}; Eddy reads 2.0", path.display())]
+    Version { path: PathBuf, version: String },
+    #[error("{} needs {what}, which Eddy cannot read{because}", path.display())]
+    Needs { path: PathBuf, what: String, because: String, mend: String },
+    #[error("{} holds no triangles{but}", path.display())]
+    Empty { path: PathBuf, but: String },
 }
 
 /// A word about a model that is loaded, but not as its author may think. The model's name is not in it.
@@ -47,6 +53,12 @@ impl MeshError {
             MeshError::UnknownKind(_) => "name a .glb, .gltf or .obj file".into(),
             MeshError::Line { mend, .. } => mend.clone(),
             MeshError::Broken { .. } => "export the model anew".into(),
+            MeshError::Version { version, .. } if version.starts_with("1.") || version.starts_with("0.") => {
+                "export the model anew as glTF 2.0, or convert it: gltf-pipeline -i IN.gltf -o OUT.glb".into()
+            }
+            MeshError::Version { .. } => "export the model anew as glTF 2.0".into(),
+            MeshError::Needs { mend, .. } => mend.clone(),
+            MeshError::Empty { .. } => "export the model's surface as triangles".into(),
         }
     }
 
@@ -57,6 +69,12 @@ impl MeshError {
             Trouble::Line { line, reason, mend } => MeshError::Line { path, line, reason, mend },
             Trouble::TooLarge(excess) => MeshError::TooLarge { path, excess },
             Trouble::Named(error) => MeshError::Named { path, error },
+            Trouble::Version(version) => MeshError::Version { path, version },
+            Trouble::Needs { what, because, mend } => {
+                let because = if because.is_empty() { because } else { format!(": {because}") };
+                MeshError::Needs { path, what, because, mend }
+            }
+            Trouble::Empty(but) => MeshError::Empty { path, but },
         }
     }
 }

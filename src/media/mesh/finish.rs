@@ -5,9 +5,10 @@ use super::{
     normals, tangents,
     trouble::Trouble,
 };
+use crate::project::Normals;
 
-/// A mesh with everything a vertex has.
-pub(super) fn finished(mut raw: Raw) -> Result<Mesh, Trouble> {
+/// A mesh with everything a vertex has. `normals`: which are made where there are none.
+pub(super) fn finished(mut raw: Raw, normals: Normals) -> Result<Mesh, Trouble> {
     if !raw.indices.len().is_multiple_of(3) {
         return Err(Trouble::broken(format!("{} corners make no whole number of triangles", raw.indices.len())));
     }
@@ -28,8 +29,10 @@ pub(super) fn finished(mut raw: Raw) -> Result<Mesh, Trouble> {
             return Err(Trouble::broken(format!("the {what} of vertex {at} is not a number")));
         }
     }
-    if !raw.has_normals {
-        normals::smooth(&mut raw);
+    match normals {
+        _ if raw.has_normals => {}
+        Normals::Smooth => normals::smooth(&mut raw),
+        Normals::Flat => normals::flat(&mut raw),
     }
     let needs_tangents = raw.has_uv && !raw.has_tangents;
     if needs_tangents {

@@ -7,26 +7,35 @@ use super::{
     gltf,
     model::{Mesh, Raw},
     obj,
-    trouble::Trouble,
+    trouble::{Counts, Trouble},
 };
-use crate::project::{MeshSource, confine, limits};
+use crate::project::{MeshSource, Normals, confine, limits};
 use std::path::Path;
 
-/// Loads a mesh. A file lies in the project's folder `base`, see [`confine`].
-pub fn load(source: &MeshSource, base: Option<&Path>) -> Result<Mesh, MeshError> {
-    load_within(source, base, limits::MEDIA_BYTES).map(|(mesh, _)| mesh)
+/// Loads a mesh. A file lies in the project's folder `base`, see [`confine`]. `normals` says which are made where a file
+/// has none; unsaid they are as the kind of file wants them: see [`crate::project::MeshDraw::normals`].
+pub fn load(source: &MeshSource, normals: Option<Normals>, base: Option<&Path>) -> Result<Mesh, MeshError> {
+    load_within(source, normals, base, limits::MEDIA_BYTES).map(|loaded| loaded.mesh)
 }
 
-/// The same where pictures and models may take `room` bytes more, with what is to be said of the mesh.
+/// A mesh, and what is to be said of it.
+pub(in crate::media) struct Loaded {
+    pub mesh: Mesh,
+    /// What is not drawn as the file's author may think.
+    pub warnings: Vec<MeshWarning>,
+}
+
+/// The same where pictures and models may take `room` bytes more.
 pub(in crate::media) fn load_within(
     source: &MeshSource,
+    normals: Option<Normals>,
     base: Option<&Path>,
     room: u64,
-) -> Result<(Mesh, Vec<MeshWarning>), MeshError> {
+) -> Result<Loaded, MeshError> {
     let (name, base) = match source {
         MeshSource::Builtin(name) => {
             let mesh = builtin::make(name).ok_or_else(|| MeshError::UnknownBuiltin(name.clone()))?;
-            return Ok((mesh, Vec::new()));
+            return Ok(Loaded { mesh, warnings: Vec::new() });
         }
         MeshSource::File(path) => (path.as_path(), base),
         // What it names lies beside it.
@@ -39,21 +48,43 @@ pub(in crate::media) fn load_within(
     }
     let Some(folder) = base else { return Err(MeshError::NoFolder(name.to_owned())) };
     let bytes = confine::read(folder, name, limits::MEDIA_FILE)?;
+    let normals = normals.unwrap_or(if is_gltf { Normals::Flat } else { Normals::Smooth });
     let mut mesh = Mesh { vertices: Vec::new(), indices: Vec::new() };
+    let mut made = Counts::default();
     let mut take = |raw: Raw| -> Result<(), Trouble> {
-        mesh.append(finished(raw)?);
+        // What was counted before is what the file has; flat normals take three vertices a triangle.
+        let parts_corners = normals == Normals::Flat && !raw.has_normals;
+        let vertices = if parts_corners { raw.indices.len() } else { raw.vertices.len() };
+        made.add(vertices as u64, raw.indices.len() as u64 / 3).and_then(|()| made.fit(room)).map_err(|trouble| {
+            match trouble {
+                Trouble::TooLarge(excess) if parts_corners => Trouble::TooLarge(format!(
+                    "{excess}. It has no normals, and flat ones take three vertices a triangle: normals = \"smooth\" \
+                     in its draw takes fewer"
+                )),
+                other => other,
+            }
+        })?;
+        mesh.append(finished(raw, normals)?);
         Ok(())
     };
     let done = if is_gltf {
         // What a model names is relative to it.
         let named = |uri: &str, limit| confine::read(folder, confine::relative(&name.to_string_lossy(), uri)?, limit);
-        gltf::load(bytes, &named, room, &mut take).map(|()| Vec::new())
+        gltf::load(&bytes, &named, room, &mut take).map(|left_out| (left_out, Vec::new()))
     } else {
-        obj::load(&bytes, room, &mut take)
+        obj::load(&bytes, room, &mut take).map(|warnings| (gltf::LeftOut::default(), warnings))
     };
-    let empty = |mesh: &Mesh| mesh.indices.is_empty().then(|| Trouble::broken("it holds no triangles"));
-    match done.and_then(|warnings| empty(&mesh).map_or(Ok(warnings), Err)) {
-        Ok(warnings) => Ok((mesh, warnings)),
+    match done {
+        Ok((left_out, _)) if mesh.indices.is_empty() => {
+            Err(MeshError::of(Trouble::Empty(left_out.only()), folder.join(name)))
+        }
+        Ok((left_out, mut warnings)) => {
+            warnings.extend(left_out.beside().map(|what| MeshWarning {
+                message: format!("{what} are not drawn"),
+                hint: "a pass draws triangles: export the rest as triangles, too".into(),
+            }));
+            Ok(Loaded { mesh, warnings })
+        }
         Err(trouble) => Err(MeshError::of(trouble, folder.join(name))),
     }
 }

@@ -1,7 +1,26 @@
 //! Normals where a model brings none.
 
-use super::model::Raw;
+use super::model::{Raw, Vertex};
 use glam::{DVec3, Vec3};
+
+/// Normals of the triangles: each has corners of its own.
+pub(super) fn flat(raw: &mut Raw) {
+    let mut vertices: Vec<Vertex> = Vec::with_capacity(raw.indices.len());
+    for corners in raw.indices.chunks_exact(3) {
+        let mut own = [0, 1, 2].map(|n| raw.vertices[corners[n] as usize]);
+        let [a, b, c] = own.map(|vertex| Vec3::from(vertex.position).as_dvec3());
+        let normal = face(a, b, c).try_normalize().unwrap_or(DVec3::Y).as_vec3().to_array();
+        own.iter_mut().for_each(|vertex| vertex.normal = normal);
+        vertices.extend(own);
+    }
+    raw.indices = (0..vertices.len() as u32).collect();
+    raw.vertices = vertices;
+}
+
+/// The normal of a triangle, as long as twice its area.
+fn face(a: DVec3, b: DVec3, c: DVec3) -> DVec3 {
+    (b - a).cross(c - a)
+}
 
 /// Normals that are the mean of those of the triangles around a place, by their areas: seams of the texture do not
 /// show.
@@ -11,7 +30,7 @@ pub(super) fn smooth(raw: &mut Raw) {
     let place = |i: u32| Vec3::from(raw.vertices[i as usize].position).as_dvec3();
     for corners in raw.indices.chunks_exact(3) {
         let [a, b, c] = [place(corners[0]), place(corners[1]), place(corners[2])];
-        let normal = (b - a).cross(c - a);
+        let normal = face(a, b, c);
         for &corner in corners {
             sums[group[corner as usize] as usize] += normal;
         }

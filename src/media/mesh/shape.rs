@@ -4,6 +4,7 @@ use super::{
     finish::finished,
     model::{Mesh, Raw, Vertex},
 };
+use crate::project::Normals;
 use glam::Vec3;
 use std::f32::consts::TAU;
 
@@ -46,7 +47,7 @@ impl Grid {
                 }
             }
         }
-        finished(raw).expect("a grid is whole")
+        finished(raw, Normals::Smooth).expect("a grid is whole")
     }
 }
 

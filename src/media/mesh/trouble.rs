@@ -16,17 +16,39 @@ pub(super) enum Trouble {
     TooLarge(String),
     /// An error of a file that the model names.
     Named(FileError),
+    /// It is glTF of a version that is not read.
+    Version(String),
+    /// It needs what is not read. `because` says why it is needed, and may be empty; `mend` what to do.
+    Needs {
+        what: String,
+        because: String,
+        mend: String,
+    },
+    /// It holds no triangles; the words behind that say what else.
+    Empty(String),
 }
 
 impl Trouble {
     /// Cut short where a parser quotes a whole file.
     pub fn broken(reason: impl std::fmt::Display) -> Trouble {
+        Trouble::Broken(Self::short(&reason.to_string()))
+    }
+
+    /// A text of the file's, cut short where it is long.
+    pub fn short(text: &str) -> String {
         const LONGEST: usize = 400;
-        let reason = reason.to_string();
-        Trouble::Broken(match reason.char_indices().nth(LONGEST) {
-            Some((end, _)) => format!("{}…", &reason[..end]),
-            None => reason,
-        })
+        match text.char_indices().nth(LONGEST) {
+            Some((end, _)) => format!("{}…", &text[..end]),
+            None => text.to_owned(),
+        }
+    }
+
+    /// Adds where in the file something is broken.
+    pub fn at(self, place: impl FnOnce() -> String) -> Trouble {
+        match self {
+            Trouble::Broken(reason) => Trouble::Broken(format!("{}: {reason}", place())),
+            other => other,
+        }
     }
 }
 
@@ -35,7 +57,9 @@ impl Trouble {
 pub(super) struct Counts {
     pub vertices: u64,
     pub triangles: u64,
-    pub parts: u64,
+    parts: u64,
+    joints: u64,
+    moved: u64,
 }
 
 impl Counts {
@@ -46,9 +70,24 @@ impl Counts {
         at_most(self.triangles, limits::MODEL_TRIANGLES, "triangles")
     }
 
-    pub fn add_part(&mut self) -> Result<(), Trouble> {
-        self.parts += 1;
+    pub fn add_parts(&mut self, parts: u64) -> Result<(), Trouble> {
+        self.parts = self.parts.saturating_add(parts);
         at_most(self.parts, limits::MODEL_PARTS, "parts")
+    }
+
+    pub fn add_part(&mut self) -> Result<(), Trouble> {
+        self.add_parts(1)
+    }
+
+    pub fn add_joints(&mut self, joints: u64) -> Result<(), Trouble> {
+        self.joints = self.joints.saturating_add(joints);
+        at_most(self.joints, limits::MODEL_JOINTS, "joints")
+    }
+
+    /// Vertices that morph targets and joints move, counted for each of these.
+    pub fn add_moved(&mut self, vertices: u64) -> Result<(), Trouble> {
+        self.moved = self.moved.saturating_add(vertices);
+        at_most(self.moved, limits::MODEL_MOVED, "vertices of morph targets and sets of joints")
     }
 
     /// Returns whether there is room for them.

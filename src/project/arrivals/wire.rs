@@ -115,6 +115,7 @@ impl Project {
         let id = PassId::Buffer(name.clone());
         let draw = MeshDraw {
             mesh: MeshSource::Picked(model.to_owned()),
+            normals: None,
             vertex: Stage::File(0),
             fragment: Stage::Own,
             // Models of unknown make are often seen from inside, too.

@@ -5,8 +5,8 @@ use super::{
     reader::Reader,
 };
 use crate::project::{
-    Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, PassFormat, PassId, PassSettings, Source,
-    Stage,
+    Camera, Cull, DepthTest, Geometry, MAX_TARGETS, MeshDraw, MeshSource, Normals, PassFormat, PassId, PassSettings,
+    Source, Stage,
 };
 use std::ops::Range;
 use toml_edit::{Array, InlineTable, Item, TableLike, Value};
@@ -14,8 +14,19 @@ use toml_edit::{Array, InlineTable, Item, TableLike, Value};
 /// The keys of a pass's table that this module reads.
 pub(super) const KEYS: [&str; 3] = ["draw", "targets", "camera"];
 
-const DRAW: [&str; 10] =
-    ["mesh", "vertex", "fragment", "cull", "depth", "depth_write", "color_write", "scale", "rotation", "position"];
+const DRAW: [&str; 11] = [
+    "mesh",
+    "normals",
+    "vertex",
+    "fragment",
+    "cull",
+    "depth",
+    "depth_write",
+    "color_write",
+    "scale",
+    "rotation",
+    "position",
+];
 const CAMERA: [&str; 8] = ["yaw", "pitch", "distance", "target", "fov", "near", "far", "orbit"];
 
 /// An entry of `draw` as it is written: stages by the names of their files.
@@ -145,8 +156,15 @@ impl Reader<'_> {
             let fragment = self.string(table, "fragment");
             let cull = self.one_of(table, "cull", &Cull::ALL.map(Cull::name));
             let depth = self.one_of(table, "depth", &DepthTest::ALL.map(DepthTest::name));
+            let normals = self.one_of(table, "normals", &Normals::ALL.map(Normals::name));
+            let source = MeshSource::parse(mesh.as_deref().unwrap_or_default());
+            if let (Some(_), MeshSource::Builtin(_)) = (normals, &source) {
+                let span = table.get("normals").and_then(Item::span);
+                self.error(span, "a mesh made by code has normals of its own", "remove normals");
+            }
             let draw = MeshDraw {
-                mesh: MeshSource::parse(mesh.as_deref().unwrap_or_default()),
+                mesh: source,
+                normals: Normals::ALL.into_iter().find(|n| Some(n.name()) == normals),
                 vertex: Stage::Own,
                 fragment: Stage::Own,
                 cull: Cull::ALL.into_iter().find(|c| Some(c.name()) == cull).unwrap_or_default(),
@@ -302,6 +320,9 @@ fn inline(entry: &Entry) -> InlineTable {
     table.insert("vertex", entry.vertex.as_str().into());
     if let Some(fragment) = &entry.fragment {
         table.insert("fragment", fragment.as_str().into());
+    }
+    if let Some(normals) = d.normals.filter(|_| !matches!(d.mesh, MeshSource::Builtin(_))) {
+        table.insert("normals", normals.name().into());
     }
     if d.cull != Cull::default() {
         table.insert("cull", d.cull.name().into());

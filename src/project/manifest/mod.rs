@@ -59,7 +59,8 @@
 //! ```
 //!
 //! A mesh is `builtin:NAME` or a glTF (`.glb`, `.gltf`) or OBJ file. `fragment` may be left out: then it is the pass's
-//! `file`. Further keys of a draw: `cull` ("back", "front", "none"), `depth` ("less", "less_equal", "equal",
+//! `file`. Further keys of a draw: `normals` ("flat", "smooth": those that are made where a model file has none, flat
+//! by default for glTF and smooth for OBJ), `cull` ("back", "front", "none"), `depth` ("less", "less_equal", "equal",
 //! "greater_equal", "greater", "not_equal", "always"), `depth_write`, `color_write`, `scale`, `rotation` (degrees about
 //! x, y, z), `position`. A channel reads another target than the first by `{ buffer = "scene", target = 1 }`.
 //!

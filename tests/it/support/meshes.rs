@@ -10,6 +10,7 @@ use eddy::project::{
 pub fn draw(mesh: &str) -> MeshDraw {
     MeshDraw {
         mesh: MeshSource::parse(mesh),
+        normals: None,
         vertex: Stage::File(0),
         fragment: Stage::Own,
         cull: Cull::Back,

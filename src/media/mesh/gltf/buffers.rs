@@ -1,5 +1,9 @@
 //! The bytes of a glTF file's buffers, wherever they are.
 
+use super::{
+    document::{Index, Root},
+    extensions,
+};
 use crate::{
     media::mesh::trouble::Trouble,
     project::{
@@ -8,10 +12,7 @@ use crate::{
         unescaped,
     },
 };
-use gltf::{
-    Document,
-    buffer::{Data, Source},
-};
+use data_url::DataUrl;
 use std::borrow::Cow;
 
 /// Reads a file that the model names.
@@ -20,50 +21,95 @@ pub(super) type Named<'a> = &'a dyn Fn(&str, Limit) -> Result<Vec<u8>, FileError
 /// The longest file name that any system takes is shorter.
 const LONGEST_NAME: usize = 4096;
 
-/// The bytes of every buffer. `taken`: bytes of the model file itself.
-pub(super) fn load<'a>(
-    document: &Document,
-    mut blob: Option<Cow<'a, [u8]>>,
-    named: Named<'_>,
-    taken: u64,
-) -> Result<Vec<Cow<'a, [u8]>>, Trouble> {
-    let mut left = limits::MODEL_FILES.bytes.saturating_sub(taken);
-    let mut buffers = Vec::new();
-    for buffer in document.buffers() {
-        let n = buffer.index();
-        let is_in_file = matches!(buffer.source(), Source::Bin);
-        let bytes = match buffer.source() {
-            Source::Bin => match blob.take() {
-                Some(blob) => blob,
-                None => return Err(Trouble::broken(format!("buffer {n} names no file, and there is no binary chunk"))),
-            },
-            // Its length is bounded by that of the file, which holds it in 4 bytes for 3.
-            Source::Uri(uri) if uri.starts_with("data:") => {
-                let data = Data::from_source(Source::Uri(uri), None);
-                data.map_err(|e| Trouble::broken(format!("the data: address of buffer {n}: {e}")))?.0.into()
+/// The bytes of every buffer; `None` where the file names none. That is no mistake until something lies there: a buffer
+/// may stand for what an extension compresses.
+pub(super) struct Buffers<'a>(Vec<Option<Cow<'a, [u8]>>>);
+
+impl<'a> Buffers<'a> {
+    /// Reads them. `taken`: bytes of the model file itself.
+    pub fn load(
+        root: &Root<'_>,
+        mut binary: Option<&'a [u8]>,
+        named: Named<'_>,
+        taken: u64,
+    ) -> Result<Buffers<'a>, Trouble> {
+        let mut left = limits::MODEL_FILES.bytes.saturating_sub(taken);
+        let mut buffers = Vec::with_capacity(root.buffers.len());
+        for (n, buffer) in root.buffers.iter().enumerate() {
+            let uri = buffer.uri.as_ref().map(|uri| &*uri.0);
+            let mut bytes: Cow<'a, [u8]> = match uri {
+                // The binary chunk is the first buffer's (section 3.6.1.2).
+                None => match binary.take().filter(|_| n == 0) {
+                    Some(binary) => binary.into(),
+                    None => {
+                        buffers.push(None);
+                        continue;
+                    }
+                },
+                // Its length is bounded by that of the file, which holds it in 4 bytes for 3, or in one for one.
+                Some(uri) if is_data(uri) => match data(uri) {
+                    Ok(bytes) => bytes.into(),
+                    Err(why) => return Err(Trouble::broken(format!("the data: address of buffer {n} {why}"))),
+                },
+                Some(uri) if uri.len() > LONGEST_NAME => {
+                    return Err(Trouble::broken(format!("the file of buffer {n} has a name of {} bytes", uri.len())));
+                }
+                Some(uri) if uri.contains(':') => {
+                    return Err(Trouble::broken(format!("buffer {n} names {uri}, which is neither a file nor data")));
+                }
+                Some(uri) => {
+                    let limit = Limit { bytes: left, ..limits::MODEL_FILES };
+                    let bytes = named(&unescaped(uri), limit).map_err(Trouble::Named)?;
+                    left -= bytes.len() as u64;
+                    bytes.into()
+                }
+            };
+            // Lengths are often rounded up, and files cut to the last byte.
+            if (bytes.len().next_multiple_of(4) as u64) < buffer.byte_length {
+                let whose = match uri {
+                    None => "the binary chunk".into(),
+                    Some(uri) if is_data(uri) => "its data: address".into(),
+                    Some(uri) => format!("its file {}", Trouble::short(&unescaped(uri))),
+                };
+                let (said, there) = (buffer.byte_length, bytes.len());
+                return Err(Trouble::broken(format!(
+                    "buffer {n} has {said} bytes by its byteLength, and {whose} {there}"
+                )));
             }
-            Source::Uri(uri) if uri.len() > LONGEST_NAME => {
-                return Err(Trouble::broken(format!("the file of buffer {n} has a name of {} bytes", uri.len())));
+            if !bytes.len().is_multiple_of(4) {
+                let whole = bytes.len().next_multiple_of(4);
+                bytes.to_mut().resize(whole, 0);
             }
-            Source::Uri(uri) if uri.contains(':') => {
-                return Err(Trouble::broken(format!("buffer {n} names {uri}, which is neither a file nor data")));
-            }
-            Source::Uri(uri) => {
-                let mut bytes =
-                    named(&unescaped(uri), Limit { bytes: left, ..limits::MODEL_FILES }).map_err(Trouble::Named)?;
-                left -= bytes.len() as u64;
-                // As the crate does: a length is often rounded up.
-                bytes.resize(bytes.len().next_multiple_of(4), 0);
-                bytes.into()
-            }
-        };
-        if bytes.len() < buffer.length() {
-            let there = bytes.len();
-            let whose = if is_in_file { "the binary chunk" } else { "its file" };
-            let said = buffer.length();
-            return Err(Trouble::broken(format!("buffer {n} has {said} bytes by its byteLength, and {whose} {there}")));
+            buffers.push(Some(bytes));
         }
-        buffers.push(bytes);
+        Ok(Buffers(buffers))
     }
-    Ok(buffers)
+
+    /// The bytes of a buffer view, whose index is in range.
+    pub fn view(&self, root: &Root<'_>, view: Index) -> Result<&[u8], Trouble> {
+        let described = &root.buffer_views[view as usize];
+        let buffer = described.buffer;
+        let Some(whole) = &self.0[buffer as usize] else {
+            return Err(match (&described.extensions.ext_meshopt, &described.extensions.khr_meshopt) {
+                (Some(_), _) => extensions::meshopt("EXT_meshopt_compression"),
+                (_, Some(_)) => extensions::meshopt("KHR_meshopt_compression"),
+                _ => Trouble::broken(format!("buffer {buffer} names no file, and there is no binary chunk for it")),
+            });
+        };
+        let range = || {
+            let start = usize::try_from(described.byte_offset).ok()?;
+            whole.get(start..start.checked_add(usize::try_from(described.byte_length).ok()?)?)
+        };
+        range().ok_or_else(|| Trouble::broken(format!("bufferView {view} reaches beyond buffer {buffer}")))
+    }
+}
+
+/// Returns whether an address holds its data itself. Schemes are of either case (RFC 3986, section 3.1).
+fn is_data(uri: &str) -> bool {
+    uri.get(..5).is_some_and(|scheme| scheme.eq_ignore_ascii_case("data:"))
+}
+
+fn data(uri: &str) -> Result<Vec<u8>, &'static str> {
+    let url = DataUrl::process(uri).map_err(|_| "has no comma before its data")?;
+    url.decode_to_vec().map(|(bytes, _)| bytes).map_err(|_| "is not the base64 that it says it is")
 }

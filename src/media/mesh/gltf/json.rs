@@ -1,26 +1,36 @@
-//! The JSON text of a glTF file, checked as far as the crate takes it for granted.
+//! The JSON text of a glTF file: its version, its extensions, and every index in it, checked before they are used.
 
-use crate::{media::mesh::trouble::Trouble, project::limits};
-use gltf::{
-    Document,
-    json::{Path, Root, Value, deserialize, validation::Checked, validation::Validate},
+use super::{
+    document::{Asset, Attributes, Head, Index, Root},
+    extensions,
 };
+use crate::{media::mesh::trouble::Trouble, project::limits};
+use serde_json::value::RawValue;
 
-/// Reads and validates the text. After this every index of the document is in range.
-pub(super) fn document(text: &[u8]) -> Result<Document, Trouble> {
+/// Reads and checks the text. After this every index that Eddy follows is in range.
+pub(super) fn document(text: &[u8]) -> Result<Root<'_>, Trouble> {
+    let text = plain(text)?;
     measure(text)?;
-    let root: Root = deserialize::from_slice(text).map_err(Trouble::broken)?;
-    before_validation(&root)?;
-    let (mut first, mut more) = (None, 0);
-    root.validate(&root, Path::new, &mut |path, error| match first {
-        None => first = Some(format!("{}: {error}", path())),
-        Some(_) => more += 1,
-    });
-    match (first, more) {
-        (None, _) => Ok(Document::from_json_without_validation(root)),
-        (Some(first), 0) => Err(Trouble::broken(first)),
-        (Some(first), more) => Err(Trouble::broken(format!("{first}, and {more} mistakes more"))),
+    let head: Head<'_> = serde_json::from_slice(text).map_err(Trouble::broken)?;
+    check_version(&head)?;
+    let root: Root<'_> = serde_json::from_slice(text).map_err(Trouble::broken)?;
+    extensions::check(&root)?;
+    check_indices(&root).map_err(Trouble::broken)?;
+    Ok(root)
+}
+
+/// The text without the mark that some editors begin it with (section 2.3 forbids it, and readers may skip it), and
+/// without the zeros that some programs fill a chunk up with.
+fn plain(text: &[u8]) -> Result<&[u8], Trouble> {
+    if text.starts_with(b"\xff\xfe") || text.starts_with(b"\xfe\xff") {
+        return Err(Trouble::broken("its JSON is UTF-16 text, and glTF's is UTF-8"));
     }
+    let text = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text);
+    let end = text.iter().rposition(|byte| *byte != 0).map_or(0, |last| last + 1);
+    if text[..end].iter().all(u8::is_ascii_whitespace) {
+        return Err(Trouble::broken("it is empty"));
+    }
+    Ok(&text[..end])
 }
 
 /// Counts objects and values before they are made: an empty object is two bytes of text and hundreds in memory.
@@ -47,27 +57,94 @@ fn measure(text: &[u8]) -> Result<(), Trouble> {
     Ok(())
 }
 
-/// Returns what `Root::validate` itself stumbles over: it looks at the accessor of a primitive's positions whether
-/// there is one or not (gltf-json 1.4), and copies its bounds for each primitive.
-fn before_validation(root: &Root) -> Result<(), Trouble> {
-    use gltf::json::mesh::Semantic::Positions;
-    for (m, mesh) in root.meshes.iter().enumerate() {
-        for (p, primitive) in mesh.primitives.iter().enumerate() {
-            let Some(index) = primitive.attributes.get(&Checked::Valid(Positions)) else { continue };
-            if index.value() >= root.accessors.len() {
-                let (accessor, there) = (index.value(), root.accessors.len());
-                return Err(Trouble::broken(format!(
-                    "primitive {p} of mesh {m} has its positions in accessor {accessor}, and there are {there}"
-                )));
-            }
+/// As the note of section 3.2 has it: `minVersion` where it is there, else the major version.
+fn check_version(head: &Head<'_>) -> Result<(), Trouble> {
+    const NONE: Asset<'_> = Asset { version: None, min_version: None };
+    let asset = head.asset.as_ref().unwrap_or(&NONE);
+    let Some(version) = asset.version.map(words) else {
+        return Err(match head.nodes {
+            // glTF 1.0 had objects for lists, and its asset might be left out.
+            Some(nodes) if nodes.get().starts_with('{') => Trouble::Version("1.0".into()),
+            _ => Trouble::broken("it says no asset.version, which every glTF file has"),
+        });
+    };
+    let numbers = |text: &str| {
+        let (major, minor) = text.split_once('.')?;
+        Some((major.parse::<u32>().ok()?, minor.parse::<u32>().ok()?))
+    };
+    let major = version.split('.').next().unwrap_or_default().parse::<u32>();
+    match asset.min_version.map(words) {
+        Some(least) if numbers(least).is_some_and(|least| least > (2, 0)) => Err(Trouble::Version(least.into())),
+        _ if major == Ok(2) => Ok(()),
+        _ if major.is_ok() => {
+            let minor = if version.contains('.') { "" } else { ".0" };
+            Err(Trouble::Version(format!("{version}{minor}")))
         }
+        _ => Err(Trouble::broken(format!("its asset.version is {version:?}, not \"2.0\""))),
+    }
+}
+
+/// A text of the file without its quotes.
+fn words(value: &RawValue) -> &str {
+    value.get().trim_matches('"')
+}
+
+/// Checks that every index names something that is there.
+fn check_indices(root: &Root<'_>) -> Result<(), String> {
+    let within = |index: Index, count: usize, what: &dyn Fn() -> String| {
+        if (index as usize) < count {
+            return Ok(());
+        }
+        Err(format!("{} {index}, and there are {count}", what()))
+    };
+    let (accessors, views, nodes) = (root.accessors.len(), root.buffer_views.len(), root.nodes.len());
+    for (v, view) in root.buffer_views.iter().enumerate() {
+        within(view.buffer, root.buffers.len(), &|| format!("bufferView {v} lies in buffer"))?;
     }
     for (a, accessor) in root.accessors.iter().enumerate() {
-        // As many numbers as the largest element has, a 4x4 matrix.
-        let is_bound = |v: &Value| v.as_array().is_some_and(|v| v.len() <= 16 && v.iter().all(Value::is_number));
-        if !accessor.min.iter().chain(&accessor.max).all(is_bound) {
-            return Err(Trouble::broken(format!("min and max of accessor {a} are not lists of at most 16 numbers")));
+        let sparse = accessor.sparse.iter().flat_map(|s| [s.indices.buffer_view, s.values.buffer_view]);
+        for view in accessor.buffer_view.into_iter().chain(sparse) {
+            within(view, views, &|| format!("accessor {a} reads bufferView"))?;
         }
     }
-    Ok(())
+    for (m, mesh) in root.meshes.iter().enumerate() {
+        for (p, primitive) in mesh.primitives.iter().enumerate() {
+            let has = |attributes: &Attributes, whose: &str| {
+                attributes.all().try_for_each(|(name, index)| {
+                    within(index, accessors, &|| {
+                        format!("primitive {p} of mesh {m} has {} {whose}in accessor", owned(&name))
+                    })
+                })
+            };
+            has(&primitive.attributes, "")?;
+            primitive.targets.iter().try_for_each(|target| has(target, "of a morph target "))?;
+            let indices = primitive.indices.map_or(Ok(()), |index| {
+                within(index, accessors, &|| format!("primitive {p} of mesh {m} has its indices in accessor"))
+            });
+            indices?;
+        }
+    }
+    for (n, node) in root.nodes.iter().enumerate() {
+        node.children.iter().try_for_each(|i| within(*i, nodes, &|| format!("node {n} has for a child node")))?;
+        node.mesh.map_or(Ok(()), |i| within(i, root.meshes.len(), &|| format!("node {n} shows mesh")))?;
+        node.skin.map_or(Ok(()), |i| within(i, root.skins.len(), &|| format!("node {n} wears skin")))?;
+        let instances = node.extensions.instancing.iter().flat_map(|one| one.attributes.all());
+        for (name, index) in instances {
+            within(index, accessors, &|| format!("node {n} has the {name} of its instances in accessor"))?;
+        }
+    }
+    for (s, scene) in root.scenes.iter().enumerate() {
+        scene.nodes.iter().try_for_each(|i| within(*i, nodes, &|| format!("scene {s} holds node")))?;
+    }
+    for (s, skin) in root.skins.iter().enumerate() {
+        skin.joints.iter().try_for_each(|i| within(*i, nodes, &|| format!("skin {s} has for a joint node")))?;
+        let bind = skin.inverse_bind_matrices;
+        bind.map_or(Ok(()), |i| within(i, accessors, &|| format!("skin {s} has its inverseBindMatrices in accessor")))?;
+    }
+    root.scene.map_or(Ok(()), |i| within(i, root.scenes.len(), &|| "the scene to show is".into()))
+}
+
+/// The words for what a primitive has.
+fn owned(semantic: &str) -> String {
+    if semantic == "POSITION" { "its positions".into() } else { format!("its {semantic}") }
 }

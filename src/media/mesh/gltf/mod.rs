@@ -1,164 +1,177 @@
-//! glTF 2.0: every triangle of the scene, with the transforms of its nodes applied. Materials, skins and animations are
-//! left aside.
+//! glTF 2.0: every triangle of the scene, with the transforms of its nodes applied, the joints of its skins in the pose
+//! that the nodes have and its morph targets at the weights that the file gives them. Materials and animations are left
+//! aside.
+//!
+//! The sections that comments name are those of the glTF 2.0 specification. What the text says is read into
+//! `document` by serde, and elements of accessors by `accessors`, as the crate `gltf` (1.4.1) refuses files that are
+//! valid: it knows no extension that does not change the shape, no attribute of an application's own, no scene without
+//! nodes, no accessor of zeros, and its readers take quantised attributes for floats.
 //!
 //! The file may be damaged or made to do harm, so all of it is checked before it is used, and what it comes to is
-//! counted before memory is taken: in `json` what its text says, in `nodes` the hierarchy, in `buffers` the bytes, in
-//! `accessors` what is read of them.
+//! counted before memory is taken: in `container` the chunks, in `json` what its text says, in `nodes` the hierarchy,
+//! in `buffers` the bytes, in `accessors` what is read of them.
 
 mod accessors;
 mod buffers;
+mod container;
+mod document;
+mod extensions;
+mod instances;
 mod json;
 mod nodes;
+mod primitive;
+mod skins;
+mod texture;
 
 use super::{
-    model::{Raw, Vertex},
+    model::Raw,
     trouble::{Counts, Trouble},
 };
-use accessors::{Elements, check};
-use buffers::Named;
-use glam::{Mat3, Mat4, Vec3};
-use gltf::{Glb, Primitive, mesh::Mode};
-use std::borrow::Cow;
+use accessors::Source;
+use buffers::{Buffers, Named};
+use document::{Index, Root};
+use nodes::{Placed, Stage};
+use primitive::{Mode, Part, Pose};
+use skins::{Bound, Skins, skin_of};
+use texture::Transform;
 
-/// Reads the bytes of a `.gltf` or `.glb` file, and hands every part of it to `take`.
+/// Reads the bytes of a `.gltf` or `.glb` file, and hands every part of it to `take`. Returns what of the scene is no
+/// triangle and was left out.
 pub(super) fn load(
-    bytes: Vec<u8>,
+    bytes: &[u8],
     named: Named<'_>,
     room: u64,
     take: &mut dyn FnMut(Raw) -> Result<(), Trouble>,
-) -> Result<(), Trouble> {
-    let (text, blob) = split(&bytes)?;
-    let document = json::document(&text)?;
-    let placed = nodes::placed(&document)?;
+) -> Result<LeftOut, Trouble> {
+    let chunks = container::split(bytes)?;
+    let root = json::document(chunks.json)?;
+    let stage = Stage::of(&root)?;
+    let is_quantized = extensions::is_quantized(&root);
+    let textures = if is_quantized { texture::transforms(&root) } else { Vec::new() };
+    let buffers = Buffers::load(&root, chunks.binary, named, bytes.len() as u64)?;
+    let model = Model { source: Source { root: &root, buffers: &buffers, is_quantized }, textures: &textures };
     let mut counts = Counts::default();
-    for (node, _) in &placed {
-        for primitive in node.mesh().iter().flat_map(|m| m.primitives()) {
-            let (vertices, triangles) = size(&primitive);
-            counts.add_part()?;
-            counts.add(vertices, triangles)?;
-        }
-    }
+    let left_out = model.count(&stage, &mut counts)?;
     counts.fit(room)?;
-    let buffers = buffers::load(&document, blob, named, bytes.len() as u64)?;
-    let buffers: Vec<&[u8]> = buffers.iter().map(|b| &**b).collect();
-    for (node, to_world) in &placed {
-        for (n, primitive) in node.mesh().iter().flat_map(|m| m.primitives()).enumerate() {
-            let part = part(&primitive, *to_world, &buffers);
-            let part = part.map_err(|why| Trouble::broken(format!("primitive {n} of node {}: {why}", node.index())))?;
-            part.map_or(Ok(()), &mut *take)?;
+    let skins = Skins::load(model.source, &stage)?;
+    for placed in &stage.placed {
+        for (n, part) in model.parts(placed) {
+            model.take(placed, part, &skins, take).map_err(|trouble| trouble.at(|| place(n, placed)))?;
         }
     }
-    Ok(())
+    Ok(left_out)
 }
 
-/// The JSON text of a file, and the binary chunk of a `.glb`.
-type Chunks<'a> = (Cow<'a, [u8]>, Option<Cow<'a, [u8]>>);
-
-fn split(bytes: &[u8]) -> Result<Chunks<'_>, Trouble> {
-    if !bytes.starts_with(b"glTF") {
-        return Ok((bytes.into(), None));
-    }
-    // The crate subtracts the header's length from this without a look.
-    let length = bytes.get(8..12).and_then(|b| b.try_into().ok()).map_or(0, u32::from_le_bytes);
-    if length < 12 {
-        return Err(Trouble::broken("its header says a length shorter than the header"));
-    }
-    let glb = Glb::from_slice(bytes).map_err(Trouble::broken)?;
-    Ok((glb.json, glb.bin))
+/// What a file shows that is no triangle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct LeftOut {
+    pub points: bool,
+    pub lines: bool,
+    /// Triangles without positions, which section 3.7.2.1 lets readers skip.
+    pub unplaced: bool,
+    /// Meshes of nodes that are hidden or stand outside the scene.
+    pub unseen: bool,
 }
 
-/// Vertices and triangles of a primitive, as its accessors say; none for points and lines.
-fn size(primitive: &Primitive<'_>) -> (u64, u64) {
-    let vertices = primitive.get(&gltf::Semantic::Positions).map_or(0, |a| a.count() as u64);
-    let corners = primitive.indices().map_or(vertices, |a| a.count() as u64);
-    match primitive.mode() {
-        Mode::Triangles => (vertices, corners / 3),
-        Mode::TriangleStrip | Mode::TriangleFan => (vertices, corners.saturating_sub(2)),
-        Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip => (0, 0),
-    }
-}
-
-/// `None` for points and lines.
-fn part(primitive: &Primitive<'_>, to_world: Mat4, buffers: &[&[u8]]) -> Result<Option<Raw>, String> {
-    use gltf::Semantic::{Colors, Normals, Positions, Tangents, TexCoords};
-    if !matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
-        return Ok(None);
-    }
-    let positions = primitive.get(&Positions).ok_or("it has no positions")?;
-    let count = positions.count();
-    for (semantic, elements, what) in [
-        (Positions, Elements::FLOATS_3, "positions"),
-        (Normals, Elements::FLOATS_3, "normals"),
-        (Tangents, Elements::FLOATS_4, "tangents"),
-        (TexCoords(0), Elements::COORDINATES, "texture coordinates"),
-        (Colors(0), Elements::COLORS, "colours"),
-    ] {
-        let Some(accessor) = primitive.get(&semantic) else { continue };
-        check(&accessor, elements, what, buffers)?;
-        if accessor.count() != count {
-            return Err(format!("it has {count} positions and {} {what}", accessor.count()));
+impl LeftOut {
+    /// The words for what a file without triangles holds, behind "holds no triangles".
+    pub fn only(self) -> String {
+        match self.beside() {
+            Some(what) => format!(", only {what}"),
+            None if self.unplaced => ": its meshes have no positions".into(),
+            None if self.unseen => ": its meshes are in no node of its scene that is visible".into(),
+            None => String::new(),
         }
     }
-    if let Some(accessor) = primitive.indices() {
-        check(&accessor, Elements::INDICES, "indices", buffers)?;
-    }
-    let reader = primitive.reader(|buffer| buffers.get(buffer.index()).copied());
-    let positions = reader.read_positions().ok_or("it has no positions")?;
-    let mut vertices: Vec<Vertex> = Vec::with_capacity(count);
-    vertices.extend(
-        positions.map(|p| Vertex { position: to_world.transform_point3(Vec3::from(p)).to_array(), ..Vertex::PLAIN }),
-    );
-    let of_normals = normal_matrix(to_world);
-    let normals = reader.read_normals();
-    let has_normals = normals.is_some();
-    for (vertex, normal) in vertices.iter_mut().zip(normals.into_iter().flatten()) {
-        vertex.normal = (of_normals * Vec3::from(normal)).normalize_or(Vec3::Y).to_array();
-    }
-    let uv = reader.read_tex_coords(0);
-    let has_uv = uv.is_some();
-    if let Some(uv) = uv {
-        // glTF has v run downward.
-        vertices.iter_mut().zip(uv.into_f32()).for_each(|(vertex, uv)| vertex.uv = [uv[0], 1.0 - uv[1]]);
-    }
-    // Tangents go with the normals they were made for.
-    let tangents = reader.read_tangents().filter(|_| has_normals);
-    let has_tangents = tangents.is_some();
-    let mirrored = if to_world.determinant() < 0.0 { -1.0 } else { 1.0 };
-    for (vertex, t) in vertices.iter_mut().zip(tangents.into_iter().flatten()) {
-        let along = to_world.transform_vector3(Vec3::new(t[0], t[1], t[2])).normalize_or_zero();
-        vertex.tangent = [along.x, along.y, along.z, t[3] * mirrored];
-    }
-    if let Some(colors) = reader.read_colors(0) {
-        vertices.iter_mut().zip(colors.into_rgba_f32()).for_each(|(vertex, color)| vertex.color = color);
-    }
-    let corners: Vec<u32> = match reader.read_indices() {
-        Some(indices) => indices.into_u32().collect(),
-        None => (0..count as u32).collect(),
-    };
-    let mut indices = triangles(primitive.mode(), corners);
-    if to_world.determinant() < 0.0 {
-        // A mirror turns the fronts away.
-        indices.chunks_exact_mut(3).for_each(|corners| corners.swap(1, 2));
-    }
-    Ok(Some(Raw { vertices, indices, has_normals, has_tangents, has_uv }))
-}
 
-/// Corners three by three.
-pub(super) fn triangles(mode: Mode, corners: Vec<u32>) -> Vec<u32> {
-    match mode {
-        Mode::TriangleStrip => corners
-            .windows(3)
-            .enumerate()
-            .flat_map(|(i, w)| if i % 2 == 0 { [w[0], w[1], w[2]] } else { [w[1], w[0], w[2]] })
-            .collect(),
-        Mode::TriangleFan => corners.windows(2).skip(1).flat_map(|w| [corners[0], w[0], w[1]]).collect(),
-        _ => corners,
+    /// What there is beside triangles.
+    pub fn beside(self) -> Option<&'static str> {
+        match (self.points, self.lines) {
+            (true, true) => Some("points and lines"),
+            (true, false) => Some("points"),
+            (false, true) => Some("lines"),
+            (false, false) => None,
+        }
     }
 }
 
-/// Returns the matrix from normals of the mesh to those of the world.
-fn normal_matrix(to_world: Mat4) -> Mat3 {
-    let m = Mat3::from_mat4(to_world);
-    let inverse = m.inverse();
-    if inverse.is_finite() { inverse.transpose() } else { m }
+/// The words for where a primitive is.
+fn place(primitive: usize, placed: &Placed) -> String {
+    match placed.node {
+        Some(node) => format!("primitive {primitive} of node {node}"),
+        None => format!("primitive {primitive} of mesh {}", placed.mesh),
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Model<'a> {
+    source: Source<'a>,
+    textures: &'a [Option<Transform>],
+}
+
+impl<'a> Model<'a> {
+    /// The primitives of a placed mesh by their numbers.
+    fn parts(self, placed: &Placed) -> impl Iterator<Item = (usize, Result<Part<'a>, Trouble>)> {
+        let root: &'a Root<'a> = self.source.root;
+        let mesh = &root.meshes[placed.mesh as usize];
+        let of_node = placed.node.and_then(|node| root.nodes[node as usize].weights.as_deref());
+        let weights = of_node.or(mesh.weights.as_deref()).unwrap_or_default();
+        mesh.primitives.iter().enumerate().map(move |(n, primitive)| {
+            let part = |mode| Part { source: self.source, primitive, mode, weights, textures: self.textures };
+            (n, Mode::of(primitive).map(part))
+        })
+    }
+
+    /// Counts what all parts come to, by what accessors say.
+    fn count(self, stage: &Stage, counts: &mut Counts) -> Result<LeftOut, Trouble> {
+        let root: &Root<'_> = self.source.root;
+        let count = |index: Index| root.accessors[index as usize].count;
+        let mut left_out = LeftOut::default();
+        for placed in &stage.placed {
+            let instances = instances::count(self.source, placed.node)?;
+            for (n, part) in self.parts(placed) {
+                let part = part.map_err(|trouble| trouble.at(|| place(n, placed)))?;
+                // Also what is not drawn is looked at once for each node.
+                counts.add_part()?;
+                counts.add_moved(part.primitive.targets.len() as u64)?;
+                match (part.mode, part.attributes().position) {
+                    (Mode::Points, _) => left_out.points = true,
+                    (Mode::Lines, _) => left_out.lines = true,
+                    (_, None) => left_out.unplaced = true,
+                    (mode, Some(positions)) => {
+                        let vertices = count(positions);
+                        let triangles = mode.triangles(part.primitive.indices.map_or(vertices, count));
+                        let sets = part.attributes().joints.len().max(part.attributes().weights.len());
+                        let times = (part.targets().count() + sets) as u64;
+                        counts.add_parts(instances.saturating_sub(1))?;
+                        counts.add(vertices.saturating_mul(instances), triangles.saturating_mul(instances))?;
+                        counts.add_moved(vertices.saturating_mul(instances).saturating_mul(times))?;
+                    }
+                }
+            }
+        }
+        Skins::count(self.source, stage, counts)?;
+        left_out.unseen = counts.triangles == 0 && stage.placed.len() < root.meshes.len();
+        Ok(left_out)
+    }
+
+    /// Hands a part to `take`, wherever its mesh is placed.
+    fn take(
+        self,
+        placed: &Placed,
+        part: Result<Part<'a>, Trouble>,
+        skins: &'a Skins,
+        take: &mut dyn FnMut(Raw) -> Result<(), Trouble>,
+    ) -> Result<(), Trouble> {
+        let part = part?;
+        if matches!(part.mode, Mode::Points | Mode::Lines) || part.attributes().position.is_none() {
+            return Ok(());
+        }
+        if let Some(skin) = skin_of(self.source, placed)
+            && let Some(bound) = Bound::of(self.source, part.attributes(), skin, skins.joints(skin))?
+        {
+            return take(part.raw(&Pose::Bound(bound))?);
+        }
+        instances::each(self.source, placed, |to_world| take(part.raw(&Pose::Placed(to_world))?))
+    }
 }

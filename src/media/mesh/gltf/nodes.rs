@@ -1,55 +1,139 @@
-//! The node hierarchy: a set of strict trees (glTF 2.0, section 3.5.2), which a file may not keep to.
+//! The node hierarchy: a set of strict trees (section 3.5.2), which a file may not keep to.
 
+use super::document::{Index, Node, Root};
 use crate::media::mesh::trouble::Trouble;
-use glam::Mat4;
-use gltf::{Document, Node};
+use glam::{DAffine3, DMat4, DQuat, DVec3};
 
-/// The nodes of the scene that show a mesh, parents before children, each with its transform to the world.
-pub(super) fn placed(document: &Document) -> Result<Vec<(Node<'_>, Mat4)>, Trouble> {
-    // By node: reached, and from where.
-    let mut reached: Vec<Option<Option<usize>>> = vec![None; document.nodes().len()];
-    let mut placed = Vec::new();
-    // Not by recursion, as a chain of nodes may be longer than the stack is deep.
-    let mut open: Vec<(Node<'_>, Option<usize>, Mat4)> =
-        roots(document).into_iter().rev().map(|node| (node, None, Mat4::IDENTITY)).collect();
-    while let Some((node, parent, parent_to_world)) = open.pop() {
-        let index = node.index();
-        if let Some(earlier) = reached[index] {
-            return Err(Trouble::broken(twice(index, earlier, parent, &reached)));
-        }
-        reached[index] = Some(parent);
-        let to_world = parent_to_world * Mat4::from_cols_array_2d(&node.transform().matrix());
-        let first = open.len();
-        open.extend(node.children().map(|child| (child, Some(index), to_world)));
-        open[first..].reverse();
-        if node.mesh().is_some() {
-            placed.push((node, to_world));
-        }
-    }
-    Ok(placed)
+/// A mesh in its place.
+pub(super) struct Placed {
+    pub mesh: Index,
+    /// `None` where a file has meshes and no nodes.
+    pub node: Option<Index>,
+    pub to_world: DAffine3,
 }
 
-/// Returns the roots of the default scene, else of the first scene, else every node that is nobody's child.
-fn roots(document: &Document) -> Vec<Node<'_>> {
-    if let Some(scene) = document.default_scene().or_else(|| document.scenes().next()) {
-        return scene.nodes().collect();
+/// The nodes that are drawn, and where every node stands.
+pub(super) struct Stage {
+    /// Parents before children.
+    pub placed: Vec<Placed>,
+    /// By node; `None` for those that are their own ancestors.
+    pub worlds: Vec<Option<DAffine3>>,
+}
+
+impl Stage {
+    pub fn of(root: &Root<'_>) -> Result<Stage, Trouble> {
+        let nodes = &root.nodes;
+        let mut walk = Walk { nodes, reached: vec![None; nodes.len()], worlds: vec![None; nodes.len()] };
+        let mut placed = Vec::new();
+        let scene = scene(root);
+        walk.from(&scene.map_or_else(|| roots(nodes), |scene| root.scenes[scene].nodes.clone()), &mut placed)?;
+        // Joints may stand outside the scene, where nothing else is drawn of what they hang from.
+        if !root.skins.is_empty() {
+            walk.beside();
+        }
+        if nodes.is_empty() {
+            // A library of meshes (section 3.5.1), all of which are wanted by whoever draws the file.
+            let mesh = |mesh| Placed { mesh, node: None, to_world: DAffine3::IDENTITY };
+            placed.extend((0..root.meshes.len() as Index).map(mesh));
+        }
+        Ok(Stage { placed, worlds: walk.worlds })
     }
-    let mut is_child = vec![false; document.nodes().len()];
-    for child in document.nodes().flat_map(|node| node.children().map(|c| c.index()).collect::<Vec<_>>()) {
-        is_child[child] = true;
+}
+
+/// The default scene, else the first.
+fn scene(root: &Root<'_>) -> Option<usize> {
+    root.scene.map(|scene| scene as usize).or_else(|| (!root.scenes.is_empty()).then_some(0))
+}
+
+/// The nodes that are nobody's child.
+fn roots(nodes: &[Node]) -> Vec<Index> {
+    let mut is_child = vec![false; nodes.len()];
+    nodes.iter().flat_map(|node| &node.children).for_each(|child| is_child[*child as usize] = true);
+    (0..nodes.len() as Index).filter(|node| !is_child[*node as usize]).collect()
+}
+
+struct Walk<'a> {
+    nodes: &'a [Node],
+    /// By node: reached, and from where.
+    reached: Vec<Option<Option<Index>>>,
+    worlds: Vec<Option<DAffine3>>,
+}
+
+impl Walk<'_> {
+    fn from(&mut self, roots: &[Index], placed: &mut Vec<Placed>) -> Result<(), Trouble> {
+        struct Open {
+            node: Index,
+            parent: Option<Index>,
+            parent_to_world: DAffine3,
+            is_shown: bool,
+        }
+        // Not by recursion, as a chain of nodes may be longer than the stack is deep.
+        let open =
+            |node: &Index| Open { node: *node, parent: None, parent_to_world: DAffine3::IDENTITY, is_shown: true };
+        let mut stack: Vec<Open> = roots.iter().rev().map(open).collect();
+        while let Some(Open { node: index, parent, parent_to_world, is_shown }) = stack.pop() {
+            let n = index as usize;
+            if let Some(earlier) = self.reached[n] {
+                return Err(Trouble::broken(twice(index, earlier, parent, &self.reached)));
+            }
+            self.reached[n] = Some(parent);
+            let node = &self.nodes[n];
+            let to_world = parent_to_world * local(node);
+            self.worlds[n] = Some(to_world);
+            // What is not visible hides all below it (KHR_node_visibility).
+            let is_shown = is_shown && node.extensions.visibility.as_ref().is_none_or(|v| v.visible);
+            let parent = Some(index);
+            let child = |node: &Index| Open { node: *node, parent, parent_to_world: to_world, is_shown };
+            stack.extend(node.children.iter().rev().map(child));
+            if let Some(mesh) = node.mesh.filter(|_| is_shown) {
+                placed.push(Placed { mesh, node: Some(index), to_world });
+            }
+        }
+        Ok(())
     }
-    document.nodes().filter(|node| !is_child[node.index()]).collect()
+
+    /// Says of nodes beside the scene where they stand, as far as they make trees.
+    fn beside(&mut self) {
+        let open = |node: Index| (node, DAffine3::IDENTITY);
+        let mut stack: Vec<(Index, DAffine3)> = roots(self.nodes).into_iter().map(open).collect();
+        while let Some((index, parent_to_world)) = stack.pop() {
+            let n = index as usize;
+            // Those of the scene have been walked with all below them.
+            if self.worlds[n].is_none() {
+                let to_world = parent_to_world * local(&self.nodes[n]);
+                self.worlds[n] = Some(to_world);
+                stack.extend(self.nodes[n].children.iter().map(|child| (*child, to_world)));
+            }
+        }
+    }
+}
+
+/// Returns a node's transform to its parent (section 3.5.3).
+fn local(node: &Node) -> DAffine3 {
+    if let Some(matrix) = &node.matrix {
+        return DAffine3::from_mat4(DMat4::from_cols_array(matrix));
+    }
+    let vector = |v: Option<[f64; 3]>, default| v.map_or(default, DVec3::from);
+    placement(vector(node.translation, DVec3::ZERO), node.rotation, vector(node.scale, DVec3::ONE))
+}
+
+/// Scaled, then turned, then moved. A quaternion of no length turns nothing.
+pub(super) fn placement(translation: DVec3, rotation: Option<[f64; 4]>, scale: DVec3) -> DAffine3 {
+    let turn = rotation.map_or(DQuat::IDENTITY, DQuat::from_array);
+    let length = turn.length();
+    let turn = if length.is_finite() && length > 0.0 { turn / length } else { DQuat::IDENTITY };
+    DAffine3::from_scale_rotation_translation(scale, turn, translation)
 }
 
 /// Returns what is wrong with a node that is reached a second time.
-fn twice(node: usize, earlier: Option<usize>, now: Option<usize>, reached: &[Option<Option<usize>>]) -> String {
+fn twice(node: Index, earlier: Option<Index>, now: Option<Index>, reached: &[Option<Option<Index>>]) -> String {
     // Parents of nodes that were reached make no circle, so this ends.
     let mut above = now;
     while let Some(n) = above {
         if n == node {
             return format!("node {node} is a child of itself");
         }
-        above = reached[n].flatten();
+        above = reached[n as usize].flatten();
     }
     let rule = "in glTF a node has at most one parent, and stands in a scene once";
     match (earlier, now) {

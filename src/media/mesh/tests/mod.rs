@@ -1,6 +1,7 @@
 //! Tests of meshes: what the built-in ones promise, what is read of model files, and what is said of broken ones.
 
 mod bombs;
+mod gltf;
 
 use super::{Mesh, MeshError, NAMES, Vertex, load};
 use crate::project::MeshSource;
@@ -17,7 +18,7 @@ fn volume(mesh: &Mesh) -> f32 {
 }
 
 fn builtin(name: &str) -> Mesh {
-    load(&MeshSource::Builtin(name.into()), None).unwrap()
+    load(&MeshSource::Builtin(name.into()), None, None).unwrap()
 }
 
 #[test]
@@ -59,7 +60,7 @@ fn an_obj_gives_what_it_says_and_the_rest_is_made() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("quad.obj");
     fs_write(&path, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
-    let mesh = load(&MeshSource::File("quad.obj".into()), Some(dir.path())).unwrap();
+    let mesh = load(&MeshSource::File("quad.obj".into()), None, Some(dir.path())).unwrap();
     assert_eq!((mesh.vertices.len(), mesh.indices.len()), (4, 6));
     for v in &mesh.vertices {
         assert_eq!((v.normal, v.tangent, v.color), ([0.0, 0.0, 1.0], [1.0, 0.0, 0.0, 1.0], [1.0; 4]));
@@ -108,7 +109,7 @@ fn base64(bytes: &[u8]) -> String {
 fn a_gltf_has_its_nodes_transforms_applied() {
     let dir = tempfile::tempdir().unwrap();
     fs_write(&dir.path().join("t.gltf"), triangle(3, [0, 1, 2], ""));
-    let mesh = load(&MeshSource::File("t.gltf".into()), Some(dir.path())).unwrap();
+    let mesh = load(&MeshSource::File("t.gltf".into()), None, Some(dir.path())).unwrap();
     let [a, b, c] = corners(&mesh).next().unwrap();
     // Mirrored, so that the corners turn the other way round for the front to stay in front.
     assert_eq!([a.position, b.position, c.position], [[0.0, 0.0, 5.0], [0.0, 1.0, 5.0], [-2.0, 0.0, 5.0]]);
@@ -138,24 +139,16 @@ fn a_broken_file_is_one_clear_error() {
     ];
     for (name, bytes, says) in cases {
         fs_write(&dir.path().join(name), bytes);
-        let error = load(&MeshSource::File(name.into()), Some(dir.path())).expect_err(name);
+        let error = load(&MeshSource::File(name.into()), None, Some(dir.path())).expect_err(name);
         let text = error.to_string();
         assert!(text.contains(name) && text.contains(says), "{text}");
         assert!(!error.hint().is_empty());
     }
-    let error = load(&MeshSource::File("nowhere.glb".into()), Some(dir.path())).unwrap_err();
+    let error = load(&MeshSource::File("nowhere.glb".into()), None, Some(dir.path())).unwrap_err();
     assert!(error.to_string().starts_with("cannot read ") && error.to_string().contains("nowhere.glb"), "{error}");
-    let error = load(&MeshSource::Builtin("spere".into()), None).unwrap_err();
+    let error = load(&MeshSource::Builtin("spere".into()), None, None).unwrap_err();
     assert_eq!(
         (error.to_string(), error.hint()),
         ("there is no mesh builtin:spere".into(), "did you mean builtin:sphere?".into())
     );
-}
-
-#[test]
-fn the_parts_of_a_strip_and_a_fan_all_face_one_way() {
-    // Checked by hand with the figures of section 3.7.2.1 of the glTF specification.
-    let corners = vec![0, 1, 2, 3, 4];
-    assert_eq!(super::gltf::triangles(::gltf::mesh::Mode::TriangleStrip, corners.clone()), [0, 1, 2, 2, 1, 3, 2, 3, 4]);
-    assert_eq!(super::gltf::triangles(::gltf::mesh::Mode::TriangleFan, corners), [0, 1, 2, 0, 2, 3, 0, 3, 4]);
 }
