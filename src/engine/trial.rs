@@ -15,9 +15,11 @@ use std::{fmt, sync::Arc, time::Duration};
 /// processor take up to half a second for so many.
 const UNTRIED: u64 = 1 << 12;
 
+type Run = dyn Fn(&Project, &BuildOptions) -> Result<(), TrialError> + Send + Sync;
+
 /// A trial: compiles a project and draws a frame of it, elsewhere.
 #[derive(Clone)]
-pub struct Trial(Arc<dyn Fn(&Project, &BuildOptions) -> Result<(), TrialError> + Send + Sync>);
+pub struct Trial(Arc<Run>);
 
 impl Trial {
     pub fn new(run: impl Fn(&Project, &BuildOptions) -> Result<(), TrialError> + Send + Sync + 'static) -> Self {

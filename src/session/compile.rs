@@ -147,6 +147,9 @@ fn not_built(project: &Project) -> Vec<Diagnostic> {
     found
 }
 
+/// A pass, its channels and its meshes.
+type NamedByPass = (PassId, [Option<Channel>; 4], Vec<(MeshSource, Option<Normals>)>);
+
 /// The names of pictures and models, and how these are on disk. They are always taken before they are read: then a
 /// change in between shows as one more reading, and never as none.
 #[derive(PartialEq)]
@@ -154,7 +157,7 @@ struct Named {
     opened: u64,
     /// The folder that the names start from.
     base: PathBuf,
-    channels: Vec<(PassId, [Option<Channel>; 4], Vec<(MeshSource, Option<Normals>)>)>,
+    channels: Vec<NamedByPass>,
     stamps: Vec<Stamp>,
 }
 
