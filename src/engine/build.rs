@@ -10,7 +10,7 @@ use super::{
     preamble::KeptPreamble,
     program::{Mixing, Program},
     stage_cache::StageCache,
-    trial::Trial,
+    trial::{Trial, TrialOrder},
     uploads::Uploads,
 };
 use crate::{
@@ -161,7 +161,8 @@ impl Builder {
         }
         let orders: Vec<_> = drafts.iter_mut().flat_map(DrawDraft::take_orders).collect();
         if let Some(trial) = options.trial.as_ref().filter(|_| self.gpu.compiles_here && options.probe.is_none()) {
-            let tried = trial.of(project, options, &self.pipelines.missing(&orders));
+            let order = TrialOrder { project, wanted: &options.wanted, skip: options.skip };
+            let tried = trial.of(order, &texts, &self.pipelines.missing(&orders));
             if let Err(error) = tried {
                 let diagnostics = diagnostics.into_iter().chain([error]).collect();
                 return Err(BuildError::Diagnostics { diagnostics, sources });

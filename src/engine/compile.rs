@@ -7,8 +7,8 @@ use super::{
     stage_cache::{self, StageCache},
 };
 use crate::{
-    diag::Diagnostic,
-    glsl::{Compiled, Driver, Link, PassKind, PassSource, Probe, Reflection},
+    diag::{Diagnostic, Span},
+    glsl::{self, Compiled, Driver, Link, PassKind, PassSource, Probe, Reflection},
     project::{FillKind, Geometry, PassBody, PassId, Stage},
 };
 use std::sync::Arc;
@@ -91,6 +91,17 @@ impl Sources<'_> {
             Some(fragment) => Ok(CompiledPass::screen(fragment, said)),
             None => Err(said),
         }
+    }
+
+    /// Returns the name of the function that most of `project.passes[index]` lies in; of a pass of meshes, of its first
+    /// fragment stage.
+    pub(super) fn bulk(&self, index: usize) -> Option<Span> {
+        let pass = &self.project.passes[index];
+        let (stage, kind) = match &pass.settings.body {
+            PassBody::Screen => (Stage::Own, sources::pass_kind(&pass.id)),
+            PassBody::Meshes(geometry) => (geometry.draws.first()?.fragment, PassKind::Fragment),
+        };
+        self.with_source(index, self.stage_id(index, stage), kind, glsl::bulk)
     }
 
     /// Does the same as [`Self::compile_fill`], with the stages of earlier builds.

@@ -56,4 +56,4 @@ pub use results::{FrameStats, Miniature, PassTime, Picture, Pixels, TexelAt};
 pub use run::Engine;
 pub use snapshot::Snapshot;
 pub use sources::{Sources, channel_kinds, pass_kind, stage_kind};
-pub use trial::{Trial, TrialError};
+pub use trial::{Trial, TrialError, TrialOrder};

@@ -4,10 +4,10 @@
 //! this process, can neither be stopped nor made to give its memory back. How a trial is made, in another process, is
 //! the caller's.
 
-use super::{build::BuildOptions, pipelines::PipelineOrder};
+use super::{pipelines::PipelineOrder, sources::Sources};
 use crate::{
     diag::Diagnostic,
-    project::{Project, limits},
+    project::{PassId, Project, limits},
 };
 use std::{fmt, sync::Arc, time::Duration};
 
@@ -15,30 +15,40 @@ use std::{fmt, sync::Arc, time::Duration};
 /// processor take up to half a second for so many.
 const UNTRIED: u64 = 1 << 12;
 
-type Run = dyn Fn(&Project, &BuildOptions) -> Result<(), TrialError> + Send + Sync;
+/// A build that is to be tried.
+#[derive(Clone, Copy, Debug)]
+pub struct TrialOrder<'a> {
+    pub project: &'a Project,
+    /// As in [`super::BuildOptions`].
+    pub wanted: &'a [PassId],
+    pub skip: bool,
+}
+
+type Run = dyn Fn(TrialOrder<'_>) -> Result<(), TrialError> + Send + Sync;
 
 /// A trial: compiles a project and draws a frame of it, elsewhere.
 #[derive(Clone)]
 pub struct Trial(Arc<Run>);
 
 impl Trial {
-    pub fn new(run: impl Fn(&Project, &BuildOptions) -> Result<(), TrialError> + Send + Sync + 'static) -> Self {
+    pub fn new(run: impl Fn(TrialOrder<'_>) -> Result<(), TrialError> + Send + Sync + 'static) -> Self {
         Self(Arc::new(run))
     }
 
-    /// Tries a project whose build needs these pipelines made. The error is the author's to mend.
+    /// Tries a project with these texts whose build needs these pipelines made. The error is the author's to mend.
     pub(super) fn of(
         &self,
-        project: &Project,
-        options: &BuildOptions,
+        order: TrialOrder<'_>,
+        texts: &Sources<'_>,
         missing: &[&PipelineOrder],
     ) -> Result<(), Diagnostic> {
         let size = |order: &PipelineOrder| order.program.stages().map(|stage| stage.inlined_size).sum::<u64>();
         let Some(largest) = missing.iter().max_by_key(|order| size(order)).filter(|order| size(order) > UNTRIED) else {
             return Ok(());
         };
-        (self.0)(project, options).map_err(|error| {
-            let of = largest.program.stages().max_by_key(|stage| stage.inlined_size).and_then(|stage| stage.bulk);
+        (self.0)(order).map_err(|error| {
+            let of = order.project.passes.iter().position(|pass| pass.id.title() == largest.label);
+            let of = of.and_then(|index| texts.bulk(index));
             let what = format!("the graphics driver cannot compile {}: {error}", largest.label);
             Diagnostic::error(of, what).hint(error.hint(size(largest)))
         })

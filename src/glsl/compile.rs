@@ -18,6 +18,11 @@ pub fn diagnose(source: &PassSource<'_>) -> Vec<Diagnostic> {
     check_pass(source, &Link::default(), None).0.diagnostics
 }
 
+/// Returns the name of the function that most of a pass without errors lies in, with all calls written out.
+pub fn bulk(source: &PassSource<'_>) -> Option<Span> {
+    check_pass(source, &Link::default(), None).0.bulk
+}
+
 fn check_pass(source: &PassSource<'_>, link: &Link<'_>, preamble: Option<&Preamble>) -> (Judged, Interface, Probed) {
     let parsed = parse::parse(source, preamble.map(Preamble::parsed));
     let begun = preamble.and_then(|preamble| preamble.checked(source));
@@ -104,7 +109,7 @@ pub(super) fn compile_seen(
     mut seen: impl FnMut(&str, &ir::Module),
 ) -> Result<Compiled, Vec<Diagnostic>> {
     let (judged, interface, probed) = check_pass(source, link, preamble);
-    let Judged { module: mut checked, diagnostics, bulk } = judged;
+    let Judged { module: mut checked, diagnostics, .. } = judged;
     if diagnostics.iter().any(Diagnostic::is_error) {
         return Err(diagnostics);
     }
@@ -131,7 +136,6 @@ pub(super) fn compile_seen(
         custom_uniform_bytes,
         initialized_arrays,
         inlined_size,
-        bulk,
         diagnostics,
     };
     // wgpu validates each module that it is given.

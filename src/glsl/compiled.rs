@@ -1,7 +1,7 @@
 //! Holds what comes of a pass that compiles.
 
 use super::reflection::Reflection;
-use crate::diag::{Diagnostic, Span};
+use crate::diag::Diagnostic;
 
 /// A pass that compiled.
 #[derive(Clone, Debug)]
@@ -23,8 +23,6 @@ pub struct Compiled {
     pub initialized_arrays: Option<u32>,
     /// Statements of the program with all calls written out, as drivers compile it.
     pub inlined_size: u64,
-    /// The name of the function that most of them lie in.
-    pub bulk: Option<Span>,
     /// Warnings and notes; never an error.
     pub diagnostics: Vec<Diagnostic>,
 }

@@ -40,7 +40,7 @@ pub(crate) mod walk;
 pub(crate) mod walkable;
 
 pub use check::taken;
-pub use compile::{check_common, compile, compile_linked, diagnose, dump_ir};
+pub use compile::{bulk, check_common, compile, compile_linked, diagnose, dump_ir};
 pub use compiled::Compiled;
 pub use driver::Driver;
 pub use preamble::Preamble;

@@ -121,8 +121,8 @@ impl MediaSet {
 
     /// A mesh that was gathered, or one of Eddy's own; else why there is none.
     pub fn mesh(&self, draw: &MeshDraw) -> Result<Arc<Mesh>, MeshError> {
-        let load = || mesh::load(&draw.mesh, draw.normals, None).map(Arc::new);
-        self.meshes.get(&MeshKey::of(draw)).cloned().unwrap_or_else(load)
+        let make = || mesh::load(&draw.mesh, draw.normals, None).map(Arc::new);
+        self.meshes.get(&MeshKey::of(draw)).cloned().unwrap_or_else(make)
     }
 
     fn insert_mesh(&mut self, key: MeshKey, loaded: Result<Loaded, MeshError>) {

@@ -27,8 +27,8 @@ pub struct SessionOptions {
     pub draws_apart: bool,
     /// A frame that is drawn apart and takes longer pauses the picture.
     pub frame_limit: Duration,
-    /// How large programs are tried in a process of their own, where the driver compiles on the processor; without, they
-    /// are not.
+    /// The settings of trials of large programs in a process of their own, where the driver compiles on the processor;
+    /// without, there are none.
     pub trials: Option<TrialSettings>,
     /// The folder for what is remembered between two starts; without, nothing is.
     pub state_dir: Option<PathBuf>,

@@ -5,10 +5,10 @@
 //! compiled in a cache on disk, so that the parent does not compile it a second time.
 
 use crate::{
-    engine::{BuildOptions, FrameInputs, Trial, TrialError},
+    engine::{BuildOptions, FrameInputs, Trial, TrialError, TrialOrder},
     gpu::{Gpu, GpuOptions},
     media,
-    project::{self, PassId, Project, limits},
+    project::{self, PassId, limits},
 };
 use serde::{Deserialize, Serialize};
 use std::{
@@ -41,7 +41,7 @@ const LOOK: Duration = Duration::from_millis(4);
 const OVER_TIME: &str = "time";
 const OVER_MEMORY: &str = "memory";
 
-/// How large programs are tried before the driver gets them in this process.
+/// The settings of trials of large programs, before the driver gets them in this process.
 #[derive(Clone, Debug)]
 pub struct TrialSettings {
     /// An Eddy.
@@ -61,22 +61,21 @@ impl TrialSettings {
     /// is given up: its result is not wanted any more.
     pub fn trial(&self, media: Option<PathBuf>, jobs: Arc<AtomicU64>) -> Trial {
         let settings = self.clone();
-        Trial::new(move |project, options| settings.run(project, options, media.clone(), &jobs))
+        Trial::new(move |order| settings.run(order, media.clone(), &jobs))
     }
 
     /// A project that cannot be handed over, and a machine that starts no process, are no reasons to refuse a program.
     fn run(
         &self,
-        project: &Project,
-        options: &BuildOptions,
+        TrialOrder { project, wanted, skip }: TrialOrder<'_>,
         media: Option<PathBuf>,
         jobs: &AtomicU64,
     ) -> Result<(), TrialError> {
         let Ok(snapshot) = project::write_snapshot(project) else { return Ok(()) };
         let request = Request {
             snapshot,
-            wanted: options.wanted.iter().map(PassId::key).collect(),
-            skip: options.skip,
+            wanted: wanted.iter().map(PassId::key).collect(),
+            skip,
             media,
             limit_secs: self.limit.as_secs_f64(),
         };
@@ -138,7 +137,7 @@ fn crashed(_: ExitStatus) -> bool {
     false
 }
 
-/// What the child is told.
+/// The project and the settings that the child is handed.
 #[derive(Serialize, Deserialize)]
 struct Request {
     snapshot: String,
@@ -255,14 +254,15 @@ mod tests {
     use super::*;
     use std::os::unix::fs::PermissionsExt;
 
-    /// What a trial says whose child is this script.
+    /// Runs a trial whose child is this script.
     fn tried(script: &str, jobs: &AtomicU64) -> Result<(), TrialError> {
         let folder = tempfile::tempdir().expect("a folder");
         let program = folder.path().join("child");
         std::fs::write(&program, format!("#!/bin/sh\ncat > /dev/null\n{script}\n")).expect("a script");
         std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o700)).expect("it may run");
         let settings = TrialSettings { program, limit: Duration::from_secs(60) };
-        settings.run(&super::super::template::project(), &BuildOptions::default(), None, jobs)
+        let project = super::super::template::project();
+        settings.run(TrialOrder { project: &project, wanted: &[], skip: true }, None, jobs)
     }
 
     #[test]
@@ -280,7 +280,8 @@ mod tests {
         assert_eq!(tried("exit 1", &AtomicU64::new(0)), Ok(()));
         let settings = TrialSettings { program: "/nonexistent/eddy".into(), limit: Duration::from_secs(60) };
         let project = super::super::template::project();
-        assert_eq!(settings.run(&project, &BuildOptions::default(), None, &AtomicU64::new(0)), Ok(()));
+        let order = TrialOrder { project: &project, wanted: &[], skip: true };
+        assert_eq!(settings.run(order, None, &AtomicU64::new(0)), Ok(()));
     }
 
     #[test]

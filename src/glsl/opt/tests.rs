@@ -91,12 +91,12 @@ fn what_drivers_copy_of_a_chain_grows_as_its_length() {
     }
 }
 
-/// What a driver copies seldom stays as it is written: inlining it saves nothing.
+/// A function that a driver copies seldom stays as it is written: inlining it saves nothing.
 #[test]
 fn programs_without_long_chains_are_not_inlined() {
     let calls: String = (0..50).map(|i| format!("float f{i}(float x) {{ return sin(x) * {i}.5; }}")).collect();
     let sum: String = (0..50).map(|i| format!("a += f{i}(a);")).collect();
     let (functions, _) =
         inlined(&format!("{calls} void mainImage(out vec4 o, vec2 p) {{ float a = p.x; {sum} o = vec4(a); }}"));
-    assert_eq!(functions, 51);
+    assert!(functions > 50, "{functions}");
 }

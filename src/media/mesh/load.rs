@@ -21,7 +21,7 @@ pub fn load(source: &MeshSource, normals: Option<Normals>, base: Option<&Path>) 
 /// A mesh, and what is to be said of it.
 pub(in crate::media) struct Loaded {
     pub mesh: Mesh,
-    /// What is not drawn as the file's author may think.
+    /// Parts that are not drawn as the file's author may think.
     pub warnings: Vec<MeshWarning>,
 }
 

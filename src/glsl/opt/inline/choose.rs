@@ -1,5 +1,5 @@
-//! Which functions become part of their callers: those that are called at one place, in programs whose chains of calls
-//! a driver would copy too often.
+//! The choice of the functions that become part of their callers: those that are called at one place, in programs whose
+//! chains of calls a driver would copy too often.
 
 use super::returns::returns;
 use crate::glsl::{
@@ -17,7 +17,7 @@ const LONGEST_CHAIN: usize = 128;
 /// Blocks that may come to lie in one another. Mesa's compilers for the processor count to 80 (`LP_MAX_TGSI_NESTING`).
 const DEEPEST: usize = 64;
 
-/// What counts of a function's body.
+/// Facts of a function's body.
 #[derive(Default)]
 struct Facts {
     /// Called functions, each as often as it is called, with how deep the call nests.

@@ -1,4 +1,4 @@
-//! How control leaves a function.
+//! The ways in which control leaves a function.
 
 use crate::glsl::ir::{Block, Stmt};
 

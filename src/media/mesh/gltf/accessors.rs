@@ -73,7 +73,7 @@ enum Integers {
 pub(super) struct Elements {
     dimensions: &'static [Dimensions],
     components: &'static [Component],
-    /// What else `KHR_mesh_quantization` lets them be.
+    /// The further components that `KHR_mesh_quantization` allows.
     quantized: &'static [Component],
     integers: Integers,
 }

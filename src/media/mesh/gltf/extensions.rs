@@ -37,8 +37,8 @@ const BESIDE: [&str; 18] = [
     "VRMC_vrm",
 ];
 
-/// What an extension is about, as its name says behind the vendor: `VENDOR_AREA_feature`. All of these are left aside
-/// with what they extend.
+/// Areas of extensions, as their names say behind the vendor: `VENDOR_AREA_feature`. All of these are left aside with
+/// what they extend.
 const AREAS: [&str; 12] = [
     "animation",
     "audio",

@@ -62,7 +62,7 @@ pub(super) fn load(
     Ok(left_out)
 }
 
-/// What a file shows that is no triangle.
+/// The kinds of things in a file that are no triangles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct LeftOut {
     pub points: bool,
@@ -84,7 +84,7 @@ impl LeftOut {
         }
     }
 
-    /// What there is beside triangles.
+    /// Returns the name of what there is beside triangles.
     pub fn beside(self) -> Option<&'static str> {
         match (self.points, self.lines) {
             (true, true) => Some("points and lines"),

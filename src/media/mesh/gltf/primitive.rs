@@ -46,7 +46,7 @@ impl Mode {
     }
 }
 
-/// Where a primitive stands.
+/// The place where a primitive stands.
 pub(super) enum Pose<'a> {
     /// At its node, or at each of that node's instances.
     Placed(DAffine3),

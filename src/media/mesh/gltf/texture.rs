@@ -1,5 +1,5 @@
-//! What `KHR_texture_transform` makes of texture coordinates that are quantised to integers: the transform of their
-//! material is what brings them back.
+//! Texture coordinates that are quantised to integers, and the `KHR_texture_transform` of their material, which brings
+//! them back.
 
 use super::document::Root;
 use serde::Deserialize;
