@@ -62,7 +62,7 @@ fn string(bytes: &[u8], mut at: usize, changes: &mut Vec<(usize, usize, &'static
     at
 }
 
-/// The unit of UTF-16 that stands there as `\uXXXX`.
+/// Returns the unit of UTF-16 that an escape of `\u` and four hexadecimal digits there stands for.
 fn escaped(bytes: &[u8], at: usize) -> Option<u16> {
     let digits = bytes.get(at..at + 6)?.strip_prefix(b"\\u")?;
     let digits = std::str::from_utf8(digits).ok().filter(|d| d.bytes().all(|b| b.is_ascii_hexdigit()))?;
