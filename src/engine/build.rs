@@ -291,6 +291,8 @@ fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
         nan_angle: gpu.nan_angle,
         array_loops: gpu.wants_array_loops,
         loop_closing_exits: gpu.keeps_loops_open,
+        discard_exits: gpu.runs_discarded,
+        small_arrays: gpu.scatters_arrays,
         opaque_limits: gpu.misjudges_limits,
         opaque_counters: gpu.unrolls_whole_arrays,
         without: PassSet::default(),

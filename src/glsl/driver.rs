@@ -26,6 +26,11 @@ pub struct Driver {
     /// (`nir_to_lcssa.c`): a value that all exits agree on, and which needs no phi for that, is computed anew for
     /// pixels that have left.
     pub loop_closing_exits: bool,
+    /// Loops end where a fragment is discarded: Mesa's gallivm goes on with it (`lp_bld_nir_soa.c`).
+    pub discard_exits: bool,
+    /// Reads of small arrays choose among the elements: Mesa's gallivm stores to an array pixel by pixel
+    /// (`lp_bld_nir_soa.c`).
+    pub small_arrays: bool,
     /// Limits that loops count down to are hidden: Mesa takes `min(c, x)` for at least `c` there
     /// (`nir_loop_analyze.c`).
     pub opaque_limits: bool,

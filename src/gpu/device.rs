@@ -80,6 +80,10 @@ pub struct Gpu {
     /// A value that a loop computes before its first exit may be wrong after it, for pixels that leave before others
     /// do: gallivm, the compiler of llvmpipe and lavapipe, does not bring loops into loop-closed SSA form.
     pub keeps_loops_open: bool,
+    /// A fragment that is discarded runs on to the end of the program: gallivm only keeps it from being written.
+    pub runs_discarded: bool,
+    /// Arrays that are indexed lie in memory, and are stored to pixel by pixel: gallivm does so.
+    pub scatters_arrays: bool,
     /// A loop that counts down to `min(c, x)` ends at `c`: Mesa's compiler takes the one for the other.
     pub misjudges_limits: bool,
     /// A loop over an array by its counter is written out whatever it costs: Mesa's compiler does so.
@@ -204,6 +208,8 @@ impl Gpu {
             keeps_denormals: is_lavapipe,
             compiles_here: is_lavapipe,
             wants_array_loops: features.contains(wgpu::Features::PASSTHROUGH_SHADERS),
+            runs_discarded: info.name.starts_with("llvmpipe"),
+            scatters_arrays: info.name.starts_with("llvmpipe"),
             misjudges_limits: info.driver_info.contains("Mesa"),
             unrolls_whole_arrays: info.driver_info.contains("Mesa"),
             keeps_loops_open: info.name.starts_with("llvmpipe"),

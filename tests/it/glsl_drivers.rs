@@ -154,3 +154,172 @@ fn a_zero_that_comes_by_a_long_way_is_hidden() {
         assert_eq!(program(count, last).contains("opaque_zero"), is_hidden, "{count} variables, {last}");
     }
 }
+
+/// Numbers that come together are told apart from those of another call, and the zero that a variable of the module
+/// begins with counts only where something may read it.
+#[test]
+fn only_divisors_that_may_be_zero_are_hidden() {
+    let hides = |declared: &str, body: &str| {
+        let code = format!("{declared} void mainImage(out vec4 o, in vec2 p) {{ {body} }}");
+        ir::optimised(&code, Driver::default()).contains("opaque_zero")
+    };
+    let capsule = "float along(vec3 p, vec3 a, vec3 b) { vec3 ab = b - a; return dot(p - a, ab) / dot(ab, ab); }";
+    let of = |calls: &str| hides(capsule, &format!("vec3 q = p.xyx; o = vec4({calls});"));
+    let three =
+        "along(q, vec3(0), vec3(1, 0, 0)) + along(q, vec3(0), vec3(0, 1, 0)) + along(q, vec3(2), vec3(0, 0, 1))";
+    assert!(!of(three));
+    assert!(of(&format!("{three} + along(q, vec3(1, 2, 3), vec3(1, 2, 3))")));
+    let scale = "float k; void set() { k = iResolution.y; } float over(float x) { return x / k; }";
+    let of = |body: &str| hides(scale, body);
+    assert!(!of("k = iResolution.x; o = vec4(over(p.x));"));
+    assert!(!of("set(); o = vec4(over(p.x));"));
+    assert!(!of("if (p.x > 3.0) set(); else k = p.y; for (int i = 0; i < 3; i++) o += over(p.x);"));
+    for may_be_first in [
+        "o = vec4(over(p.x)); set();",
+        "if (p.x > 3.0) set(); o = vec4(over(p.x));",
+        "for (int i = 0; i < int(p.x); i++) set(); o = vec4(over(p.x));",
+        "if (p.x > 3.0) { k = p.y; o = vec4(1); return; } o = vec4(over(p.x));",
+    ] {
+        assert!(of(may_be_first), "{may_be_first}");
+    }
+    check(&[
+        with(
+            "float along(vec2 q, vec2 a, vec2 b) { vec2 ab = b - a; return dot(q - a, ab) / dot(ab, ab); }",
+            "vec2 q = vec2(Z + 3.0, Z + 4.0);\n\
+             r = vec4(along(q, vec2(0), vec2(2, 0)), along(q, vec2(0, 2), vec2(0, 4)), min(abs(Z + 1.0) / along(q, vec2(0), vec2(2, 0)), 9.0), 0);\n\
+             r.w = clamp(0.5 + 1.0 / (along(q, vec2(3, 4), vec2(5, 6)) * 0.0 + Z), 0.0, 2.0);",
+            [1.5, 1., 1. / 1.5, 2.],
+        ),
+        with(
+            "float k; float over(float x) { return min(x / k, 7.0); }",
+            "float early = over(Z + 1.0); k = Z + 2.0; r = vec4(early, over(Z + 6.0), 0, 0);",
+            [7., 3., 0., 0.],
+        ),
+    ]);
+}
+
+/// `discard` ends the shader (section 6.4), and so every loop that runs then or comes later.
+#[test]
+fn loops_end_where_a_fragment_is_discarded() {
+    let driver = Driver { discard_exits: true, ..Driver::default() };
+    let exits = |declared: &str, body: &str| {
+        let code = format!("{declared} void mainImage(out vec4 o, in vec2 p) {{ o = vec4(0); {body} }}");
+        ir::optimised(&code, driver).matches("bool = load @").count()
+    };
+    let (test, sum) = ("if (p.x > 9.0) discard;", "for (int i = 0; i < 99; i++) o += sin(p.x * float(i));");
+    assert_eq!(exits("", sum), 0);
+    assert_eq!(exits("", &format!("{test} {sum}")), 1);
+    assert_eq!(exits("", &format!("{sum} {test}")), 0, "a loop before it is as it was");
+    assert_eq!(exits("", &format!("{sum} {test} {sum} {sum}")), 2);
+    assert_eq!(exits("", &format!("for (int j = 0; j < 50; j++) {{ {sum} if (o.x > 2.0) discard; }}")), 2);
+    assert_eq!(exits("", &format!("if (p.y > 2.0) {{ {sum} }} else {{ {test} {sum} }} {sum}")), 2);
+    let functions = format!("void leave(vec2 p) {{ {test} }} vec4 far(vec2 p) {{ vec4 o = vec4(0); {sum} return o; }}");
+    assert_eq!(exits(&functions, "leave(p); o = far(p);"), 1);
+    assert_eq!(exits(&functions, "o = far(p); leave(p);"), 0);
+    assert_eq!(exits("", &format!("{test} if (p.y > 2.0) discard; o = vec4(1);")), 0, "there is no loop");
+    // The pixel that is drawn has all rounds; no other one stands in for it.
+    check(&[
+        case(
+            "r = vec4(0); if (Z > 0.0) discard; for (int i = 0; i < 9; i++) r += vec4(i, 1, 0, 0);",
+            [36., 9., 0., 0.],
+        ),
+        case(
+            "r = vec4(0); for (int i = 0; i < 9; i++) { if (Z + float(i) > 8.5) discard; r.x += 2.0; }",
+            [18., 0., 0., 0.],
+        ),
+    ]);
+}
+
+/// Small arrays that are made at once are read by choices among their elements, where that is quicker.
+#[test]
+fn small_arrays_are_chosen_from() {
+    let driver = Driver { small_arrays: true, ..Driver::default() };
+    let indexes = |body: &str| {
+        let code = format!(
+            "void change(inout vec2 a[3]) {{ a[1] = vec2(0); }} void mainImage(out vec4 o, in vec2 p) {{ o = vec4(0); int n = int(p.y); {body} }}"
+        );
+        ir::indices(&ir::optimised(&code, driver)).lines().count()
+    };
+    let three = "vec2 a[3] = vec2[](p, p * 2.0, p + 1.0);";
+    let chosen = [
+        format!("{three} o.xy = a[n % 3];"),
+        format!("{three} o.x = a[n % 3].y;"),
+        format!("for (int i = 0; i < n; i++) {{ {three} if (i > 3) o.xy += a[i % 3]; else o.x += a[(i + 1) % 3].x; }}"),
+    ];
+    let left = [
+        "vec2 a[3]; o.xy = a[n % 3];".to_owned(),
+        format!("{three} a[n % 3] = p; o.xy = a[n % 2];"),
+        format!("{three} a[1].x = 4.0; o.xy = a[n % 3];"),
+        format!("{three} change(a); o.xy = a[n % 3];"),
+        format!("vec2 a[3]; for (int i = 0; i < n; i++) {{ o.xy += a[i % 3]; a = vec2[](p, p * 2.0, p + 1.0); }}"),
+        format!("vec2 a[3]; if (n > 2) a = vec2[](p, p * 2.0, p + 1.0); o.xy = a[n % 3];"),
+        "float a[9] = float[](p.x, 1., 2., 3., 4., 5., 6., 7., p.y); o.x = a[n % 9];".to_owned(),
+    ];
+    for body in &chosen {
+        assert_eq!(indexes(body), 0, "{body}");
+    }
+    for body in &left {
+        assert_ne!(indexes(body), 0, "{body}");
+    }
+    let Some(mut gpu) = gpu() else { return };
+    for scatters in [false, true] {
+        gpu.scatters_arrays = scatters;
+        let cases = [
+            case(
+                "vec3 a[4] = vec3[](vec3(Z), vec3(Z + 1.0, 5, 6), vec3(7, Z, 8), vec3(Z + 3.0));\n\
+                 int n = int(Z); r = vec4(a[n + 1].yz, a[n + 2].x, a[n + 3].z);",
+                [5., 6., 7., 3.],
+            ),
+            case(
+                "for (uint i = 0u; i < 4u; i++) { int a[4] = int[](int(Z), 10, 20, int(i)); r[i] = float(a[3u - i] + int(i)); }",
+                [0., 21., 12., 3.],
+            ),
+            case(
+                "bool a[2] = bool[](Z > 0.5, Z < 0.5); int n = int(Z); r = vec4(a[n], a[n + 1], a[n + 7], a[n - 3]);",
+                [0., 1., 1., 0.],
+            ),
+        ];
+        check_on(&gpu, &cases, true);
+    }
+}
+
+/// A short loop that limits a loop through an array is written out; others are left to the driver.
+#[test]
+fn short_loops_around_arrays_are_written_out() {
+    let loops = |body: &str| {
+        let code = format!(
+            "void mainImage(out vec4 o, in vec2 p) {{ o = vec4(0); vec2 a[4]; for (int i = 0; i < 4; i++) a[i] = p * float(i * i); {body} }}"
+        );
+        ir::optimised(&code, Driver::default()).matches("loop {").count() - 1
+    };
+    let inner = "for (int i = 0; i < n; i++) a[i] = mix(a[i], a[i + 1], p.x);";
+    assert_eq!(loops(&format!("int n = 3; while (n > 0) {{ {inner} n--; }} o.xy = a[0];")), 3);
+    assert_eq!(loops(&format!("for (int n = 3; n >= 1; n -= 1) {{ {inner} }} o.xy = a[0];")), 3);
+    assert_eq!(loops(&format!("for (int n = 0; n != 4; n++) {{ {inner} if (p.y > 3.0) return; }} o.xy = a[0];")), 4);
+    for left in [
+        format!("for (int n = 3; n > 0; n--) {{ {inner} if (p.y > 3.0) break; }}"),
+        format!("for (int n = 3; n > 0; n--) {{ if (p.y > 3.0) continue; {inner} }}"),
+        format!("for (int n = 3; n > int(p.x); n--) {{ {inner} }}"),
+        format!("for (int n = int(p.x); n > 0; n--) {{ {inner} }}"),
+        format!("for (int n = 3; n > 0; n--) {{ {inner} if (p.y > 3.0) n--; }}"),
+        "for (int n = 3; n > 0; n--) for (int i = 0; i < n; i++) o += sin(p.x + float(i));".to_owned(),
+        "for (int n = 3; n > 0; n--) for (int i = 0; i < 3; i++) a[i] += a[i + 1];".to_owned(),
+        "for (int n = 30; n > 0; n--) for (int i = 0; i < min(n, 3); i++) a[i] += a[i + 1];".to_owned(),
+    ] {
+        assert_eq!(loops(&format!("{left} o.xy = a[0];")), 2, "{left}");
+    }
+    check(&[
+        case(
+            "float a[4] = float[](Z + 1.0, Z + 2.0, Z + 4.0, Z + 8.0); int n = 3;\n\
+             while (n > 0) { for (int i = 0; i < n; i++) a[i] = mix(a[i], a[i + 1], 0.5); n--; }\n\
+             r = vec4(a[0], a[1], a[2], n);",
+            [3.375, 4.5, 6., 0.],
+        ),
+        case(
+            "float a[3] = float[](Z, Z, Z); int n;\n\
+             r.w = 0.0; for (n = -1; n < 3; n += 2) { int m = n; for (int i = 0; i <= m + 1; i++) a[i] += float(m * 10 + n + i); r.w += 1.0; }\n\
+             r.xyz = vec3(a[0] + a[1], a[2], n);",
+            [-11. + 11. + 12., 13., 3., 2.],
+        ),
+    ]);
+}

@@ -12,6 +12,7 @@ mod ranges;
 mod scalarize;
 #[cfg(test)]
 mod tests;
+mod unroll;
 
 use super::ir::{self, Module};
 
@@ -32,6 +33,11 @@ pub const PASSES: &[Pass] = &[
     },
     Pass { name: "scalarize", purpose: "writes arithmetic on vectors out by component", run: scalarize::run },
     Pass { name: "dce", purpose: "drops what nothing uses (dead code elimination)", run: dce::run },
+    Pass {
+        name: "unroll",
+        purpose: "writes short loops out that limit a loop through an array, so that drivers can unroll that one",
+        run: unroll::run,
+    },
     Pass {
         name: "inline",
         purpose: "joins long chains of calls, which a driver copies once for each function in them",

@@ -4,12 +4,14 @@
 
 mod angles;
 mod counters;
+mod discard_exits;
 mod discards;
 mod edges;
 mod filtering;
 mod limits;
 mod loop_exits;
 mod loop_steps;
+mod small_arrays;
 mod uniforms;
 mod zero_divisors;
 
@@ -18,6 +20,9 @@ use crate::glsl::{PassKind, PassSource, ir::Module};
 /// Applies those that a device and its driver need.
 pub(in crate::glsl) fn apply(program: &mut Module, source: &PassSource<'_>) {
     let &PassSource { kind, driver, bilinear_by_hand, .. } = source;
+    if driver.small_arrays {
+        small_arrays::run(program);
+    }
     loop_steps::run(program);
     zero_divisors::run(program);
     edges::run(program);
@@ -32,6 +37,9 @@ pub(in crate::glsl) fn apply(program: &mut Module, source: &PassSource<'_>) {
     }
     if driver.opaque_counters {
         counters::run(program);
+    }
+    if driver.discard_exits {
+        discard_exits::run(program);
     }
     if driver.loop_closing_exits {
         loop_exits::run(program);

@@ -3,11 +3,12 @@
 //! A variable is followed through its function in the order of the statements. Where two ways meet that an unknown
 //! condition parts, only a number that both bring is known. A loop is taken to be unrolled, so that a variable that it
 //! counts has all numbers that are stored to it; if an unknown condition leaves the loop, none is known behind it. A
-//! parameter has the numbers of all calls that pass known ones. What a parameter refers to, and a variable of the
-//! module, have all known numbers that are stored to them anywhere. Vectors, arrays and structures have one interval,
-//! that of all their parts.
+//! parameter has the numbers of all calls that pass known ones; where these differ, the function is looked at once more
+//! for each call. What a parameter refers to, and a variable of the module, have all known numbers that are stored to
+//! them anywhere; one of the module also has the first it holds, if that may be read ([`exposed`]). Vectors, arrays and
+//! structures have one interval, that of all their parts.
 
-use super::{known::Known, same::is_same};
+use super::{exposed::exposed, known::Known, same::is_same};
 use crate::glsl::{
     ir::{Binary, Block, ConstId, FuncId, Function, Global, GlobalId, GlobalKind, Math, Module, Op, Stmt, Value},
     types::{Scalar, Type},
@@ -17,6 +18,9 @@ use crate::glsl::{
 /// needed for each step by which a constant gets from variable to variable against the order of the program, so that a
 /// chain of ten thousand would take as many.
 const MOST_ROUNDS: usize = 64;
+
+/// The most calls of a function that are looked at one by one.
+const MOST_CALLS: usize = 16;
 
 /// The knowledge of a value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -136,20 +140,31 @@ pub(super) struct Constants {
     stale: Vec<bool>,
     /// `MOST_ROUNDS` through a loop were not enough.
     gave_up: bool,
+    /// All is found: what a function is looked at for again stays there.
+    is_found: bool,
+    /// The components of each parameter, where a function is looked at for one call and they are known one by one.
+    components: Vec<Vec<State>>,
 }
 
 impl Constants {
     pub(super) fn of(program: &Module) -> Constants {
         let count = program.functions.len();
+        let first = exposed(program).into_iter().zip(&program.globals);
+        let first = first.map(|(is_exposed, global)| match global.kind {
+            GlobalKind::Private(_) if !is_exposed => Unseen,
+            _ => begin(program, global),
+        });
         let mut constants = Constants {
             values: program.functions.iter().map(|f| vec![Unseen; f.len()]).collect(),
             params: program.functions.iter().map(|f| vec![Held::default(); f.params.len()]).collect(),
-            globals: program.globals.iter().map(|global| Held { state: begin(program, global), grown: 0 }).collect(),
+            globals: first.map(|state| Held { state, grown: 0 }).collect(),
             results: vec![Unknown; count],
             callers: vec![Vec::new(); count],
             readers: vec![Vec::new(); program.globals.len()],
             stale: vec![false; count],
             gave_up: false,
+            is_found: false,
+            components: Vec::new(),
         };
         constants.find_readers(program);
         // Callers come behind their callees, and hand them what they know.
@@ -159,7 +174,10 @@ impl Constants {
             match constants.stale.iter().position(|&is_stale| is_stale) {
                 _ if constants.gave_up => break,
                 Some(index) => constants.function(program, index),
-                None => return constants,
+                None => {
+                    constants.is_found = true;
+                    return constants;
+                }
             }
         }
         // Any value may be a zero: that costs an instruction a division.
@@ -190,20 +208,84 @@ impl Constants {
         }
     }
 
+    /// Drops the divisions of a function, by [`Value::index`], that divide by a zero in none of its calls: numbers that
+    /// come together are told apart from those of another call, as a driver does that inlines the function.
+    pub(super) fn look_at_each_call(&mut self, program: &Module, function: usize, divisions: &mut [bool]) {
+        let differs = |held: &Held| matches!(held.state, State::Known(known) if !known.is_exact());
+        if !self.is_found || !self.params[function].iter().any(differs) {
+            return;
+        }
+        let calls = self.calls(program, function);
+        if calls.len() < 2 || calls.len() > MOST_CALLS {
+            return;
+        }
+        let f = &program.functions[function];
+        let (values, params) = (self.values[function].clone(), self.params[function].clone());
+        let mut remain = vec![false; divisions.len()];
+        for (caller, args) in calls {
+            for (param, &arg) in args.iter().enumerate().filter(|&(param, _)| !f.params[param].by_reference) {
+                self.params[function][param].state = self.state(program, caller, arg);
+            }
+            self.components = args.iter().map(|&arg| self.components(program, caller, arg)).collect();
+            self.function(program, function);
+            for (value, op) in f.values().filter(|(value, _)| divisions[value.index()]) {
+                if let Op::Binary { right, .. } = *op {
+                    remain[value.index()] |= self.may_be_zero(program, function, right);
+                }
+            }
+        }
+        (self.values[function], self.params[function]) = (values, params);
+        self.components.clear();
+        divisions.copy_from_slice(&remain);
+    }
+
+    /// Returns the calls of a function: callers and arguments.
+    fn calls<'p>(&self, program: &'p Module, function: usize) -> Vec<(usize, &'p [Value])> {
+        let mut calls = Vec::new();
+        for &caller in &self.callers[function] {
+            calls.extend(program.functions[caller].values().filter_map(|(_, op)| match op {
+                Op::Call { function: callee, args } if callee.index() == function => Some((caller, &args[..])),
+                _ => None,
+            }));
+        }
+        calls
+    }
+
+    /// Returns what is known of each component of a vector; nothing where they are not told apart.
+    fn components(&self, program: &Module, function: usize, value: Value) -> Vec<State> {
+        let f = &program.functions[function];
+        let is_scalar = |&part: &Value| matches!(program.types.get(f.ty(part)), Type::Scalar(_));
+        match f[value] {
+            Op::Const(id) => match program.types.get(program[id].ty) {
+                Type::Vector { scalar, .. } => {
+                    program[id].words.iter().map(|&word| State::Known(Known::literal(scalar, word))).collect()
+                }
+                _ => Vec::new(),
+            },
+            Op::Compose { ref parts, .. } if parts.iter().all(is_scalar) => {
+                parts.iter().map(|&part| self.state(program, function, part)).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
     pub(super) fn may_be_zero(&self, program: &Module, function: usize, value: Value) -> bool {
-        let state = match program.functions[function][value] {
+        matches!(self.state(program, function, value), State::Known(known) if known.zero)
+    }
+
+    fn state(&self, program: &Module, function: usize, value: Value) -> State {
+        match program.functions[function][value] {
             Op::Literal(scalar, bits) => State::Known(Known::literal(scalar, bits)),
             Op::Zero(_) => State::Known(Known::literal(Scalar::Int, 0)),
             Op::Const(id) => of_const(program, id),
             Op::Param(param) => self.params[function][param as usize].state(),
             _ => self.values[function][value.index()],
-        };
-        matches!(state, State::Known(known) if known.zero)
+        }
     }
 
     /// Adds a known number to those that a parameter has, or that are where it refers to.
     fn pass(&mut self, program: &Module, function: usize, param: usize, state: State) {
-        if matches!(state, State::Known(_)) && self.params[function][param].add(state) {
+        if !self.is_found && matches!(state, State::Known(_)) && self.params[function][param].add(state) {
             self.stale[function] = true;
             // Callers read what it has left there.
             if program.functions[function].params[param].by_reference {
@@ -213,7 +295,7 @@ impl Constants {
     }
 
     fn store(&mut self, global: GlobalId, state: State) {
-        if matches!(state, State::Known(_)) && self.globals[global.index()].add(state) {
+        if !self.is_found && matches!(state, State::Known(_)) && self.globals[global.index()].add(state) {
             mark(&self.readers[global.index()], &mut self.stale);
         }
     }
@@ -240,6 +322,9 @@ impl Constants {
         walk.block(&f.body);
         let (values, result) = (walk.values, walk.result);
         self.values[index] = values;
+        if self.is_found {
+            return;
+        }
         let result = if result == Unseen { Unknown } else { result };
         if result != self.results[index] {
             self.results[index] = result;
@@ -447,6 +532,10 @@ impl Walk<'_> {
             Op::Part { base, index } => match f[base] {
                 Op::Const(id) if matches!(self.program.types.get(self.program[id].ty), Type::Vector { .. }) => {
                     State::Known(Known::literal(scalar(base), self.program[id].words[index as usize]))
+                }
+                Op::Param(param) => {
+                    let components = self.constants.components.get(param as usize).filter(|_| self.constants.is_found);
+                    components.and_then(|all| all.get(index as usize).copied()).unwrap_or_else(|| self.state(base))
                 }
                 _ => self.state(base),
             },

@@ -8,6 +8,7 @@
 //! folded into its quotient any more, which may change a last bit: so no more is hidden than may be a zero.
 
 mod constants;
+mod exposed;
 mod known;
 mod same;
 
@@ -25,12 +26,15 @@ pub(super) fn run(program: &mut Module) {
     if !program.functions.iter().any(divides) {
         return;
     }
-    let constants = Constants::of(program);
+    let mut constants = Constants::of(program);
     for index in 0..program.functions.len() {
         let f = &program.functions[index];
         let hides =
             |division| divisor(program, f, division).is_some_and(|it| constants.may_be_zero(program, index, it));
-        let divisions: Vec<bool> = f.values().map(hides).collect();
+        let mut divisions: Vec<bool> = f.values().map(hides).collect();
+        if divisions.contains(&true) {
+            constants.look_at_each_call(program, index, &mut divisions);
+        }
         if divisions.contains(&true) {
             rewrite::function(program, index, &mut HiddenDivisors(divisions));
         }

@@ -1,0 +1,146 @@
+//! Loops that end where the fragment is discarded.
+//!
+//! `discard` ends a shader (GLSL ES 3.00, 6.4), and [`Stmt::Discard`] has that meaning. Mesa's gallivm takes the
+//! fragment out of what is drawn and goes on with it (`discard` in `lp_bld_nir_soa.c`), as long as a loop has rounds to
+//! run: a pass that discards what it does not need takes the time of the whole picture. Mesa's GLSL compiler
+//! therefore ends loops itself (`lower_discard_flow.cpp`), with a flag, as is done here; of SPIR-V nothing does.
+
+use crate::glsl::{
+    ast::Loc,
+    ir::{
+        Block, Function, GlobalId, GlobalKind, Module, Op, Stmt, Value,
+        rewrite::{self, Rewriter, Rule},
+    },
+    types::{Scalar, TypeId},
+};
+
+pub(super) fn run(program: &mut Module) {
+    let discards = discards(program);
+    if !discards.contains(&true) {
+        return;
+    }
+    let marked = Marked::of(program, &discards).loops;
+    if marked.iter().all(|loops| !loops.contains(&true)) {
+        return;
+    }
+    let flag = program.add_global(TypeId::BOOL, GlobalKind::Private(None));
+    for (index, loops) in marked.into_iter().enumerate() {
+        let mut body = std::mem::take(&mut program.functions[index].body);
+        set_flag(&mut program.functions[index], &mut body, flag);
+        program.functions[index].body = body;
+        if loops.contains(&true) {
+            rewrite::function(program, index, &mut Exits { flag, loops: loops.into_iter() });
+        }
+    }
+}
+
+/// Returns for each function whether it, or one that it calls, may discard.
+fn discards(program: &Module) -> Vec<bool> {
+    fn has_discard(block: &Block) -> bool {
+        block.iter().any(|stmt| {
+            let mut found = matches!(stmt, Stmt::Discard);
+            stmt.blocks(|block| found |= has_discard(block));
+            found
+        })
+    }
+    let mut discards = Vec::with_capacity(program.functions.len());
+    for f in &program.functions {
+        let calls_one = f.values().any(|(_, op)| matches!(op, Op::Call { function, .. } if discards[function.index()]));
+        discards.push(calls_one || has_discard(&f.body));
+    }
+    discards
+}
+
+/// The loops that a discarded fragment may come to.
+struct Marked<'a> {
+    discards: &'a [bool],
+    /// By function: it may be called for a fragment that is discarded.
+    called: Vec<bool>,
+    /// By function: its loops, in the order of the text.
+    loops: Vec<Vec<bool>>,
+}
+
+impl Marked<'_> {
+    fn of<'a>(program: &'a Module, discards: &'a [bool]) -> Marked<'a> {
+        let count = program.functions.len();
+        let mut marked = Marked { discards, called: vec![false; count], loops: vec![Vec::new(); count] };
+        // Callers come behind their callees.
+        for index in (0..count).rev() {
+            let f = &program.functions[index];
+            marked.block(f, index, &f.body, marked.called[index]);
+        }
+        marked
+    }
+
+    /// Returns whether the fragment may be discarded behind a block.
+    fn block(&mut self, f: &Function, index: usize, block: &Block, mut is_discarded: bool) -> bool {
+        for stmt in block {
+            match stmt {
+                Stmt::Discard => is_discarded = true,
+                Stmt::Let(value) => {
+                    if let Op::Call { function, .. } = f[*value] {
+                        self.called[function.index()] |= is_discarded;
+                        is_discarded |= self.discards[function.index()];
+                    }
+                }
+                Stmt::Loop { body, continuing, .. } => {
+                    let number = self.loops[index].len();
+                    self.loops[index].push(false);
+                    is_discarded |= self.may_discard(f, body) || self.may_discard(f, continuing);
+                    self.loops[index][number] = is_discarded;
+                    self.block(f, index, body, is_discarded);
+                    self.block(f, index, continuing, is_discarded);
+                }
+                _ => {
+                    let before = is_discarded;
+                    stmt.blocks(|block| is_discarded |= self.block(f, index, block, before));
+                }
+            }
+        }
+        is_discarded
+    }
+
+    fn may_discard(&self, f: &Function, block: &Block) -> bool {
+        block.iter().any(|stmt| {
+            let mut may = match stmt {
+                Stmt::Discard => true,
+                Stmt::Let(value) => matches!(f[*value], Op::Call { function, .. } if self.discards[function.index()]),
+                _ => false,
+            };
+            stmt.blocks(|block| may |= self.may_discard(f, block));
+            may
+        })
+    }
+}
+
+/// Sets the flag before each discard.
+fn set_flag(f: &mut Function, block: &mut Block, flag: GlobalId) {
+    for stmt in block.iter_mut() {
+        stmt.blocks_mut(|inner| set_flag(f, inner, flag));
+    }
+    if let Some(Stmt::Discard) = block.last() {
+        let place = f.append(Op::Global(flag), TypeId::BOOL, Loc::default());
+        let value = f.append(Op::Literal(Scalar::Bool, 1), TypeId::BOOL, Loc::default());
+        block.insert(block.len() - 1, Stmt::Store { place, value });
+    }
+}
+
+/// Begins loops with an exit for discarded fragments.
+struct Exits {
+    flag: GlobalId,
+    loops: std::vec::IntoIter<bool>,
+}
+
+impl Rule for Exits {
+    fn operation(&mut self, _: &mut Rewriter<'_>, _: Value, _: &Op) -> Option<Value> {
+        None
+    }
+
+    fn begin_body(&mut self, r: &mut Rewriter<'_>, _: &Block) {
+        if self.loops.next() == Some(true) {
+            let place = r.f.append(Op::Global(self.flag), TypeId::BOOL, Loc::default());
+            let condition = r.add(Op::Load { place });
+            r.push(Stmt::If { condition, accept: vec![Stmt::Break], reject: Block::new() });
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! Small arrays that are made at once and then read by a changing index, as `vec2[](a, b, c)[i]`: each read chooses
+//! among the elements.
+//!
+//! Mesa's gallivm keeps an array that is indexed in memory, and stores to it pixel by pixel, with a branch for each
+//! (`emit_mask_scatter` in `lp_bld_nir_soa.c`): six elements of two floats are 96 branches. Comparing the index with
+//! each place takes a tenth of that. Mesa's GLSL compiler makes if-ladders or uniforms of such arrays
+//! (`lower_const_arrays_to_uniforms.cpp`); of SPIR-V nothing does.
+
+use rustc_hash::FxHashMap;
+
+use crate::glsl::{
+    ir::{
+        Binary, Block, Function, Module, Op, Stmt, Value, VarId,
+        rewrite::{self, Rewriter, Rule},
+    },
+    types::Type,
+};
+
+/// The most elements of such an array.
+const MOST_ELEMENTS: usize = 8;
+
+/// The most choices that the reads of an array may take together: about what filling the largest one costs.
+const MOST_CHOICES: usize = 64;
+
+pub(super) fn run(program: &mut Module) {
+    for index in 0..program.functions.len() {
+        let arrays = Arrays::of(program, &program.functions[index]);
+        if arrays.is_empty() {
+            continue;
+        }
+        let mut body = std::mem::take(&mut program.functions[index].body);
+        drop_stores(&program.functions[index], &mut body, &arrays);
+        program.functions[index].body = body;
+        rewrite::function(program, index, &mut Choices { arrays });
+    }
+}
+
+/// A store that fills an array, and the reads of its elements.
+#[derive(Default)]
+struct Array {
+    elements: Option<Box<[Value]>>,
+    reads: usize,
+    /// It is used in another way, or may be read before it is filled.
+    is_bad: bool,
+}
+
+struct Arrays<'a> {
+    f: &'a Function,
+    arrays: FxHashMap<VarId, Array>,
+    /// The arrays that are filled where the walk is.
+    filled: Vec<VarId>,
+}
+
+impl Arrays<'_> {
+    /// Returns the elements of each array that is filled once, before every read of an element.
+    fn of(program: &Module, f: &Function) -> FxHashMap<VarId, Box<[Value]>> {
+        let is_array = |ty| match program.types.get(ty) {
+            Type::Array { element, len } => {
+                len as usize <= MOST_ELEMENTS
+                    && matches!(program.types.get(element), Type::Scalar(_) | Type::Vector { .. })
+            }
+            _ => false,
+        };
+        let vars = f.vars.iter().enumerate().filter(|(_, var)| var.init.is_none() && is_array(var.ty));
+        let arrays: FxHashMap<VarId, Array> = vars.map(|(var, _)| (VarId::new(var), Array::default())).collect();
+        if arrays.is_empty() {
+            return FxHashMap::default();
+        }
+        let mut walk = Arrays { f, arrays, filled: Vec::new() };
+        walk.block(&f.body);
+        let is_worth =
+            |array: &Array, len: usize| !array.is_bad && array.reads > 0 && array.reads * (len - 1) <= MOST_CHOICES;
+        let arrays = walk.arrays.into_iter();
+        arrays
+            .filter_map(|(var, array)| {
+                array.elements.clone().filter(|it| is_worth(&array, it.len())).map(|it| (var, it))
+            })
+            .collect()
+    }
+
+    fn block(&mut self, block: &Block) {
+        let filled = self.filled.len();
+        for stmt in block {
+            match stmt {
+                Stmt::Let(value) => match &self.f[*value] {
+                    Op::Load { place } => self.load(*place),
+                    Op::Call { args, .. } => args.iter().for_each(|&arg| self.spoil(arg)),
+                    _ => {}
+                },
+                Stmt::Store { place, value } => self.store(*place, *value),
+                _ => stmt.blocks(|block| self.block(block)),
+            }
+        }
+        self.filled.truncate(filled);
+    }
+
+    fn array(&mut self, place: Value) -> Option<(VarId, &mut Array)> {
+        match self.f[self.f.root(place)] {
+            Op::Var(var) => self.arrays.get_mut(&var).map(|array| (var, array)),
+            _ => None,
+        }
+    }
+
+    fn spoil(&mut self, place: Value) {
+        if let Some((_, array)) = self.array(place) {
+            array.is_bad = true;
+        }
+    }
+
+    fn store(&mut self, place: Value, value: Value) {
+        let f = self.f;
+        let Some((var, array)) = self.array(place) else { return };
+        match (&f[place], &f[value]) {
+            (Op::Var(_), Op::Compose { parts, .. }) if array.elements.is_none() => {
+                array.elements = Some(parts.clone());
+                self.filled.push(var);
+            }
+            _ => array.is_bad = true,
+        }
+    }
+
+    fn load(&mut self, place: Value) {
+        let is_element = element(self.f, place).is_some();
+        let filled = std::mem::take(&mut self.filled);
+        if let Some((var, array)) = self.array(place) {
+            array.is_bad |= !is_element || !filled.contains(&var);
+            array.reads += 1;
+        }
+        self.filled = filled;
+    }
+}
+
+/// Returns the array, the index, and the component, of a place that is an element of a variable or one of its components.
+fn element(f: &Function, place: Value) -> Option<(VarId, Value, Option<u32>)> {
+    let of = |place: Value| match f[place] {
+        Op::Element { base, index } => match f[base] {
+            Op::Var(var) => Some((var, index)),
+            _ => None,
+        },
+        _ => None,
+    };
+    match f[place] {
+        Op::Part { base, index: component } => of(base).map(|(var, index)| (var, index, Some(component))),
+        _ => of(place).map(|(var, index)| (var, index, None)),
+    }
+}
+
+fn drop_stores(f: &Function, block: &mut Block, arrays: &FxHashMap<VarId, Box<[Value]>>) {
+    block.retain(|stmt| !matches!(stmt, Stmt::Store { place, .. } if matches!(f[*place], Op::Var(var) if arrays.contains_key(&var))));
+    block.iter_mut().for_each(|stmt| stmt.blocks_mut(|block| drop_stores(f, block, arrays)));
+}
+
+struct Choices {
+    arrays: FxHashMap<VarId, Box<[Value]>>,
+}
+
+impl Rule for Choices {
+    fn operation(&mut self, r: &mut Rewriter<'_>, _: Value, op: &Op) -> Option<Value> {
+        let Op::Load { place } = *op else { return None };
+        let (var, index, component) = element(&r.f, place)?;
+        let elements = self.arrays.get(&var)?.clone();
+        let scalar = r.module.scalar(r.f.ty(index));
+        let part = |r: &mut Rewriter<'_>, element: Value| {
+            let base = r.value(element);
+            component.map_or(base, |index| r.add(Op::Part { base, index }))
+        };
+        let (&last, others) = elements.split_last()?;
+        let mut chosen = part(r, last);
+        for (number, &other) in others.iter().enumerate().rev() {
+            let accept = part(r, other);
+            let number = r.literal(scalar, number as u32);
+            let condition = r.add(Op::Binary { op: Binary::Equal, left: index, right: number });
+            chosen = r.add(Op::Select { condition, accept, reject: chosen });
+        }
+        Some(chosen)
+    }
+}

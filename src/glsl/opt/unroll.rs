@@ -1,0 +1,315 @@
+//! Loop unrolling: a short loop is written out where it sets the limits of a loop within that goes through an array.
+//!
+//! Of `for (int n = 4; n > 0; n--) for (int i = 0; i < n - 1; i++) p[i] = mix(p[i], p[i + 1], t);` (de Casteljau's
+//! algorithm) a driver knows the rounds of the inner loop only when the outer one is gone. Then it unrolls that as well,
+//! and the elements become registers; before, the array lies in memory, which every driver is slow at. Mesa's GLSL
+//! compiler unrolls such loops (`loop_unroll.cpp`); of SPIR-V no driver here does. Other loops are left to the driver.
+
+use rustc_hash::FxHashMap;
+
+use crate::glsl::{
+    ast::Loc,
+    ir::{Binary, Block, Case, Function, Module, Op, Stmt, Unary, Value, VarId},
+    types::{Scalar, Type, TypeId},
+};
+
+/// The most rounds that are written out.
+const MOST_ROUNDS: usize = 8;
+
+/// The most statements that a loop becomes.
+const MOST_STATEMENTS: usize = 512;
+
+pub(super) fn run(module: &mut Module) {
+    for index in 0..module.functions.len() {
+        let f = &module.functions[index];
+        let is_array = |place: Value| {
+            matches!(f[f.root(place)], Op::Var(_)) && matches!(module.types.get(f.ty(place)), Type::Array { .. })
+        };
+        // Places in arrays of the function.
+        let elements: Vec<Value> = f
+            .values()
+            .filter(|(_, op)| matches!(**op, Op::Element { base, .. } if is_array(base)))
+            .map(|(value, _)| value)
+            .collect();
+        if elements.is_empty() {
+            continue;
+        }
+        let f = &mut module.functions[index];
+        let body = std::mem::take(&mut f.body);
+        let mut unroller = Unroller { f, elements };
+        let body = unroller.block(body);
+        f.body = body;
+    }
+}
+
+struct Unroller<'a> {
+    f: &'a mut Function,
+    /// In rising order.
+    elements: Vec<Value>,
+}
+
+/// A loop that is written out.
+struct Plan {
+    counter: VarId,
+    start: i32,
+    by: i32,
+    rounds: usize,
+    /// The place of its test in the body.
+    test: usize,
+}
+
+impl Unroller<'_> {
+    fn block(&mut self, block: Block) -> Block {
+        let mut out = Block::with_capacity(block.len());
+        // What variables hold here.
+        let mut known: FxHashMap<VarId, i32> = FxHashMap::default();
+        for mut stmt in block {
+            let plan = self.plan(&stmt, &known);
+            forget(self.f, &stmt, &mut known);
+            match (stmt, plan) {
+                (Stmt::Loop { body, continuing, .. }, Some(plan)) => {
+                    self.write_out(&plan, &body, &continuing, &mut out);
+                    continue;
+                }
+                (other, _) => stmt = other,
+            }
+            if let Stmt::Store { place, value } = stmt
+                && let (Op::Var(var), Some(number)) = (&self.f[place], self.number(value))
+            {
+                known.insert(*var, number);
+            }
+            stmt.blocks_mut(|inner| *inner = self.block(std::mem::take(inner)));
+            out.push(stmt);
+        }
+        out
+    }
+
+    fn number(&self, value: Value) -> Option<i32> {
+        match self.f[value] {
+            Op::Literal(Scalar::Int, bits) => Some(bits as i32),
+            Op::Zero(TypeId::INT) => Some(0),
+            _ => None,
+        }
+    }
+
+    fn loads(&self, value: Value) -> Option<VarId> {
+        let Op::Load { place } = self.f[value] else { return None };
+        match self.f[place] {
+            Op::Var(var) => Some(var),
+            _ => None,
+        }
+    }
+
+    fn plan(&self, stmt: &Stmt, known: &FxHashMap<VarId, i32>) -> Option<Plan> {
+        let Stmt::Loop { body, continuing, break_if: None } = stmt else { return None };
+        let test = body.iter().position(|stmt| !matches!(stmt, Stmt::Let(_)))?;
+        let Stmt::If { condition, accept, reject } = &body[test] else { return None };
+        let mut goes_on_if = match (&accept[..], &reject[..]) {
+            ([], [Stmt::Break]) => true,
+            ([Stmt::Break], []) => false,
+            _ => return None,
+        };
+        let mut condition = *condition;
+        while let Op::Unary { op: Unary::LogicalNot, operand } = self.f[condition] {
+            (condition, goes_on_if) = (operand, !goes_on_if);
+        }
+        let Op::Binary { op, left, right } = self.f[condition] else { return None };
+        let (counter, bound) = (self.loads(left)?, self.number(right)?);
+        let start = *known.get(&counter)?;
+        let rest = &body[test + 1..];
+        if rest.iter().any(leaves_round) || !self.bounds_inner_loop(rest, counter) {
+            return None;
+        }
+        let by = self.step(counter, rest, continuing)?;
+        let (mut rounds, mut count) = (0, start);
+        while compare(op, count, bound)? == goes_on_if {
+            rounds += 1;
+            count = count.checked_add(by)?;
+            if rounds > MOST_ROUNDS {
+                return None;
+            }
+        }
+        let statements = size(body) + size(continuing);
+        (statements * rounds <= MOST_STATEMENTS).then_some(Plan { counter, start, by, rounds, test })
+    }
+
+    /// Returns what each round adds to a counter, if that is all that is written to it.
+    fn step(&self, counter: VarId, body: &[Stmt], continuing: &Block) -> Option<i32> {
+        let steps: Vec<Value> = body.iter().chain(continuing).filter_map(|stmt| self.stores(stmt, counter)).collect();
+        let mut written = FxHashMap::from_iter([(counter, 0)]);
+        let others = body.iter().chain(continuing).filter(|stmt| self.stores(stmt, counter).is_none());
+        others.for_each(|stmt| forget(self.f, stmt, &mut written));
+        let (&[step], false) = (&steps[..], written.is_empty()) else { return None };
+        match self.f[step] {
+            Op::Binary { op: Binary::Add, left, right } if self.loads(left) == Some(counter) => self.number(right),
+            Op::Binary { op: Binary::Add, left, right } if self.loads(right) == Some(counter) => self.number(left),
+            Op::Binary { op: Binary::Subtract, left, right } if self.loads(left) == Some(counter) => {
+                self.number(right)?.checked_neg()
+            }
+            _ => None,
+        }
+    }
+
+    /// Returns the value that a statement stores to a variable as a whole.
+    fn stores(&self, stmt: &Stmt, var: VarId) -> Option<Value> {
+        match *stmt {
+            Stmt::Store { place, value } if matches!(self.f[place], Op::Var(id) if id == var) => Some(value),
+            _ => None,
+        }
+    }
+
+    /// Returns whether a loop within is limited by the counter and goes through an array.
+    fn bounds_inner_loop(&self, block: &[Stmt], counter: VarId) -> bool {
+        block.iter().any(|stmt| {
+            if let Stmt::Loop { body, .. } = stmt {
+                let before_test = body.iter().map_while(|stmt| match stmt {
+                    Stmt::Let(value) => Some(*value),
+                    _ => None,
+                });
+                if before_test.into_iter().any(|value| self.loads(value) == Some(counter)) && self.has_element(body) {
+                    return true;
+                }
+            }
+            let mut found = false;
+            stmt.blocks(|block| found |= self.bounds_inner_loop(block, counter));
+            found
+        })
+    }
+
+    fn has_element(&self, block: &[Stmt]) -> bool {
+        block.iter().any(|stmt| {
+            let mut found = matches!(stmt, Stmt::Let(value) if self.elements.binary_search(value).is_ok());
+            stmt.blocks(|block| found |= self.has_element(block));
+            found
+        })
+    }
+
+    fn write_out(&mut self, plan: &Plan, body: &Block, continuing: &Block, out: &mut Block) {
+        let mut count = self.literal(plan.start);
+        let mut next = plan.start;
+        for _ in 0..plan.rounds {
+            let mut copy = Copy { counter: plan.counter, count, map: FxHashMap::default() };
+            let statements = body.iter().enumerate().filter(|(at, _)| *at != plan.test).map(|(_, stmt)| stmt);
+            for stmt in statements.chain(continuing) {
+                if self.stores(stmt, plan.counter).is_some() {
+                    next = next.wrapping_add(plan.by);
+                    copy.count = self.literal(next);
+                } else if let Some(stmt) = self.copy(&mut copy, stmt) {
+                    out.push(stmt);
+                }
+            }
+            count = copy.count;
+        }
+        let place = self.f.append(Op::Var(plan.counter), TypeId::INT, Loc::default());
+        out.push(Stmt::Store { place, value: count });
+    }
+
+    fn literal(&mut self, number: i32) -> Value {
+        self.f.append(Op::Literal(Scalar::Int, number as u32), TypeId::INT, Loc::default())
+    }
+
+    fn copies(&mut self, copy: &mut Copy, block: &Block) -> Block {
+        block.iter().filter_map(|stmt| self.copy(copy, stmt)).collect()
+    }
+
+    /// Returns a statement with values of its own. A load of the counter becomes no statement.
+    fn copy(&mut self, copy: &mut Copy, stmt: &Stmt) -> Option<Stmt> {
+        Some(match stmt {
+            &Stmt::Let(value) => {
+                if self.loads(value) == Some(copy.counter) {
+                    copy.map.insert(value, copy.count);
+                    return None;
+                }
+                let mut op = self.f[value].clone();
+                op.operands_mut(|operand| *operand = copy.value(*operand));
+                let new = self.f.append(op, self.f.ty(value), self.f.loc(value));
+                if self.elements.binary_search(&value).is_ok() {
+                    self.elements.push(new);
+                }
+                copy.map.insert(value, new);
+                Stmt::Let(new)
+            }
+            Stmt::If { condition, accept, reject } => {
+                let condition = copy.value(*condition);
+                Stmt::If { condition, accept: self.copies(copy, accept), reject: self.copies(copy, reject) }
+            }
+            Stmt::Loop { body, continuing, break_if } => {
+                let (body, continuing) = (self.copies(copy, body), self.copies(copy, continuing));
+                Stmt::Loop { body, continuing, break_if: break_if.map(|value| copy.value(value)) }
+            }
+            Stmt::Switch { selector, cases } => {
+                let selector = copy.value(*selector);
+                let cases = cases.iter().map(|case| Case { body: self.copies(copy, &case.body), ..*case }).collect();
+                Stmt::Switch { selector, cases }
+            }
+            other => {
+                let mut stmt = other.clone();
+                stmt.operands_mut(|operand| *operand = copy.value(*operand));
+                stmt
+            }
+        })
+    }
+}
+
+/// A round that is being written out.
+struct Copy {
+    counter: VarId,
+    /// The value that the counter has.
+    count: Value,
+    /// The value that stands for each one that the loop computes.
+    map: FxHashMap<Value, Value>,
+}
+
+impl Copy {
+    fn value(&self, old: Value) -> Value {
+        self.map.get(&old).copied().unwrap_or(old)
+    }
+}
+
+fn compare(op: Binary, left: i32, right: i32) -> Option<bool> {
+    Some(match op {
+        Binary::Less => left < right,
+        Binary::LessEqual => left <= right,
+        Binary::Greater => left > right,
+        Binary::GreaterEqual => left >= right,
+        Binary::Equal => left == right,
+        Binary::NotEqual => left != right,
+        _ => return None,
+    })
+}
+
+/// Returns whether a statement may end a round of the loop around.
+fn leaves_round(stmt: &Stmt) -> bool {
+    let any = |block: &Block| block.iter().any(leaves_round);
+    match stmt {
+        Stmt::Break | Stmt::Continue => true,
+        Stmt::If { accept, reject, .. } => any(accept) || any(reject),
+        // A `Break` leaves the switch alone; none of these loops has one.
+        Stmt::Switch { cases, .. } => cases.iter().any(|case| any(&case.body)),
+        _ => false,
+    }
+}
+
+fn size(block: &Block) -> usize {
+    let mut sum = block.len();
+    block.iter().for_each(|stmt| stmt.blocks(|block| sum += size(block)));
+    sum
+}
+
+/// Drops what a statement may write.
+fn forget(f: &Function, stmt: &Stmt, known: &mut FxHashMap<VarId, i32>) {
+    let mut drop = |place: Value| {
+        if let Op::Var(var) = f[f.root(place)] {
+            known.remove(&var);
+        }
+    };
+    match stmt {
+        Stmt::Store { place, .. } => drop(*place),
+        Stmt::Let(value) => {
+            if let Op::Call { args, .. } = &f[*value] {
+                args.iter().copied().filter(|&arg| f.is_place(arg)).for_each(drop);
+            }
+        }
+        _ => stmt.blocks(|block| block.iter().for_each(|stmt| forget(f, stmt, known))),
+    }
+}
