@@ -15,6 +15,7 @@ use crate::{
     engine::{EngineError, FrameInputs, Pixels},
     gpu::{Gpu, GpuError},
 };
+use std::sync::Arc;
 use std::time::Duration;
 
 impl Session {
@@ -269,6 +270,11 @@ impl Session {
                 revision: self.documents.revision(),
                 shown: self.run.shown.clone(),
                 media_dir: self.options.media_dir.clone(),
+                trial: self
+                    .options
+                    .trials
+                    .as_ref()
+                    .map(|trials| trials.trial(self.options.media_dir.clone(), Arc::default())),
                 run,
             }),
         }

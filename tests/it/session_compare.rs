@@ -6,6 +6,7 @@ use eddy::{
     session::{
         Command, Session,
         comparing::{Against, Compared, Comparison},
+        trial::TrialSettings,
     },
 };
 use std::{fs, sync::Arc};
@@ -140,4 +141,30 @@ fn a_revision_is_drawn_as_it_was_and_what_is_not_there_is_said() {
     stage.for_a_while();
     assert!(ended(&stage.session).is_some_and(|end| end.is_err()));
     assert!(compare(&mut stage, Against::LastSave).is_ok());
+}
+
+/// The other project may be a stranger's, and one that the driver takes minutes for.
+#[cfg(unix)]
+#[test]
+fn a_large_project_to_compare_with_is_tried_first() {
+    use std::os::unix::fs::PermissionsExt;
+    let Some(gpu) = support::gpu().filter(|gpu| gpu.compiles_here) else { return };
+    let mut stage = Stage::with_options(gpu, |folder| {
+        let program = folder.join("child");
+        fs::write(&program, "#!/bin/sh\ncat > /dev/null\necho memory\nkill -ABRT $$\n").unwrap();
+        fs::set_permissions(&program, fs::Permissions::from_mode(0o700)).unwrap();
+        let trials = Some(TrialSettings { program, limit: std::time::Duration::from_secs(60) });
+        eddy::session::SessionOptions { trials, ..Default::default() }
+    });
+    stage.write("image.glsl", plain(0.5));
+    let large: String = (0..2000).map(|k| format!("a = a * {k}.5 + sin(a);")).collect();
+    let large = format!("void mainImage(out vec4 o, in vec2 p) {{ float a = p.x; {large} o = vec4(a); }}");
+    let other = stage.folder().with_file_name("other.glsl");
+    fs::write(&other, large).unwrap();
+    stage.session.apply(Command::Open(stage.folder().to_str().unwrap().into()));
+    stage.until_compiled();
+    stage.until("a frame", |s| s.transport().frame > 0);
+    let refused = compare(&mut stage, Against::Project(other.to_str().unwrap().into())).unwrap_err();
+    assert!(refused.contains("other.glsl: error: the graphics driver cannot compile Image"), "{refused}");
+    assert!(refused.contains("of memory"), "{refused}");
 }

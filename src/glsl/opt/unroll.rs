@@ -1,9 +1,9 @@
 //! Loop unrolling: a short loop is written out where it sets the limits of a loop within that goes through an array.
 //!
-//! Of `for (int n = 4; n > 0; n--) for (int i = 0; i < n - 1; i++) p[i] = mix(p[i], p[i + 1], t);` (de Casteljau's
-//! algorithm) a driver knows the rounds of the inner loop only when the outer one is gone. Then it unrolls that as well,
-//! and the elements become registers; before, the array lies in memory, which every driver is slow at. Mesa's GLSL
-//! compiler unrolls such loops (`loop_unroll.cpp`); of SPIR-V no driver here does. Other loops are left to the driver.
+//! A driver knows the rounds of the inner loop of de Casteljau's algorithm, `for (int n = 4; n > 0; n--) for (int i = 0;
+//! i < n - 1; i++) p[i] = mix(p[i], p[i + 1], t);`, only when the outer one is gone. Then it unrolls that as well, and
+//! the elements become registers; before, the array lies in memory, which every driver is slow at. Mesa's GLSL compiler
+//! unrolls such loops (`loop_unroll.cpp`), and does not where it gets SPIR-V. Other loops are left to the driver.
 
 use rustc_hash::FxHashMap;
 

@@ -5,6 +5,7 @@ use super::{
     work::{self, Job, Reference},
 };
 use crate::{
+    engine::Trial,
     gpu::Gpu,
     project::{Origin, PassId, Project},
     session::{
@@ -29,6 +30,8 @@ pub(in crate::session) struct Order {
     pub revision: u64,
     pub shown: PassId,
     pub media_dir: Option<PathBuf>,
+    /// The other project may be one that the driver takes minutes for.
+    pub trial: Option<Trial>,
     pub run: Run,
 }
 
@@ -72,7 +75,7 @@ impl Comparing {
 
     pub fn submit(&mut self, order: Order) {
         let Some(against) = self.against.clone() else { return };
-        let Order { gpu, project, saved, revision, shown, media_dir, run } = order;
+        let Order { gpu, project, saved, revision, shown, media_dir, trial, run } = order;
         let reference = match (&against, &project.origin) {
             (Against::LastSave, _) => Reference::Project(Box::new(saved)),
             (Against::Project(spec), _) => Reference::Load(spec.clone()),
@@ -85,8 +88,8 @@ impl Comparing {
             }
         };
         self.progress = Arc::default();
-        self.worker
-            .submit((Job { gpu, project, against, reference, revision, shown, media_dir, run }, self.progress.clone()));
+        let job = Job { gpu, project, against, reference, revision, shown, media_dir, trial, run };
+        self.worker.submit((job, self.progress.clone()));
     }
 
     pub fn failed(&mut self, why: &str) {

@@ -3,7 +3,7 @@
 use super::comparison::{Against, Comparison, Progress};
 use crate::{
     diag,
-    engine::{BuildError, BuildOptions, Engine, EngineError, FrameInputs, Program},
+    engine::{BuildError, BuildOptions, Engine, EngineError, FrameInputs, Program, Trial},
     gpu::{Gpu, GpuOptions},
     media,
     project::{self, PassId, Project},
@@ -33,6 +33,7 @@ pub struct Job {
     pub revision: u64,
     pub shown: PassId,
     pub media_dir: Option<PathBuf>,
+    pub trial: Option<Trial>,
     pub run: Run,
 }
 
@@ -46,7 +47,7 @@ pub enum Reference {
 
 /// `None`: nobody wants it any more. Fails where there is no other project, or one of both cannot be drawn.
 pub fn compare(job: Job, progress: &Progress, tell: &dyn Fn()) -> Result<Option<Comparison>, String> {
-    let Job { gpu, project, against, reference, revision, shown, media_dir, run } = job;
+    let Job { gpu, project, against, reference, revision, shown, media_dir, trial, run } = job;
     let Run { mut frames, is_whole } = run;
     let last = frames.last().cloned().ok_or("no frame is drawn yet")?;
     // Files of a revision are there for as long as they are read.
@@ -72,7 +73,8 @@ pub fn compare(job: Job, progress: &Progress, tell: &dyn Fn()) -> Result<Option<
     let gpu = Gpu::another(&gpu.info, &GpuOptions::default()).unwrap_or(gpu);
     progress.of.store(frames.len(), Ordering::Relaxed);
     let side = |project: &Project, name: &str| {
-        Side::new(&gpu, project, &pass, media_dir.as_deref(), frames[0].size).map_err(|why| format!("{name}: {why}"))
+        let made = Side::new(&gpu, project, &pass, media_dir.as_deref(), frames[0].size, trial.clone());
+        made.map_err(|why| format!("{name}: {why}"))
     };
     let (mut ours, mut theirs) = (side(&project, "this project")?, side(&other, &against.name())?);
     for frame in &frames {
@@ -117,12 +119,13 @@ impl Side {
         pass: &PassId,
         media_dir: Option<&Path>,
         (width, height): (u32, u32),
+        trial: Option<Trial>,
     ) -> Result<Self, String> {
         let (media, _) = media::gather(project, media_dir);
         let mut wanted = vec![PassId::Image];
         wanted.extend((*pass != PassId::Image).then(|| pass.clone()));
         // Also what does not change: it is timed.
-        let options = BuildOptions { wanted, skip: false, ..BuildOptions::default() };
+        let options = BuildOptions { wanted, skip: false, trial, ..BuildOptions::default() };
         let built = Program::build(gpu, project, &media, &options).map_err(|error| first_error(&error))?;
         let mut engine = Engine::new(gpu.clone(), width, height).map_err(|e| e.to_string())?;
         engine.set_program(built.program).map_err(|e| e.to_string())?;

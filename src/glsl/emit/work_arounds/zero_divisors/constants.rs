@@ -8,7 +8,15 @@
 //! them anywhere; one of the module also has the first it holds, if that may be read ([`exposed`]). Vectors, arrays and
 //! structures have one interval, that of all their parts.
 
-use super::{exposed::exposed, known::Known, same::is_same};
+use super::{
+    exposed::exposed,
+    known::Known,
+    same::is_same,
+    state::{
+        Held,
+        State::{self, Unknown, Unseen},
+    },
+};
 use crate::glsl::{
     ir::{Binary, Block, ConstId, FuncId, Function, Global, GlobalId, GlobalKind, Math, Module, Op, Stmt, Value},
     types::{Scalar, Type},
@@ -21,108 +29,6 @@ const MOST_ROUNDS: usize = 64;
 
 /// The most calls of a function that are looked at one by one.
 const MOST_CALLS: usize = 16;
-
-/// The knowledge of a value.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-enum State {
-    /// No statement that computes it has been looked at yet.
-    #[default]
-    Unseen,
-    /// It is one number of an interval: a driver may know which.
-    Known(Known),
-    Unknown,
-}
-
-use State::{Unknown, Unseen};
-
-impl State {
-    const ZERO: State = State::Known(Known::ZERO);
-
-    /// Returns what holds of both, where a driver knows which of the two it is.
-    fn or(self, other: State) -> State {
-        match (self, other) {
-            (Unseen, state) | (state, Unseen) => state,
-            (State::Known(a), State::Known(b)) => State::Known(a.or(b)),
-            _ => Unknown,
-        }
-    }
-
-    /// Returns what is known where an unknown condition has chosen between both.
-    fn met(self, other: State) -> State {
-        match (self, other) {
-            (Unseen, state) | (state, Unseen) => state,
-            (State::Known(a), State::Known(b)) if a == b && a.is_exact() => self,
-            _ => Unknown,
-        }
-    }
-
-    /// Returns what is known where two ways meet; a driver knows which it is if `is_known`.
-    fn join(self, other: State, is_known: bool) -> State {
-        if is_known { self.or(other) } else { self.met(other) }
-    }
-
-    fn map(self, f: impl FnOnce(Known) -> Known) -> State {
-        match self {
-            State::Known(known) => State::Known(f(known)),
-            state => state,
-        }
-    }
-
-    fn zip(self, other: State, f: impl FnOnce(Known, Known) -> Known) -> State {
-        match (self, other) {
-            (State::Known(a), State::Known(b)) => State::Known(f(a, b)),
-            (Unknown, _) | (_, Unknown) => Unknown,
-            _ => Unseen,
-        }
-    }
-}
-
-/// The knowledge of something that is written in several places.
-#[derive(Clone, Copy, Default)]
-struct Held {
-    state: State,
-    /// The number of times that its interval has grown.
-    grown: u8,
-}
-
-impl Held {
-    /// The number of times that an interval grows by as much as it must. What calls count up would grow for ever.
-    const MOST_GROWN: u8 = 3;
-
-    /// Returns what is known where it is read.
-    fn state(&self) -> State {
-        match self.state {
-            Unseen => Unknown,
-            state => state,
-        }
-    }
-
-    /// Adds what is stored; says whether that is new.
-    fn add(&mut self, state: State) -> bool {
-        self.add_growing(state, Self::MOST_GROWN)
-    }
-
-    /// Adds what a round of a loop stores. What grows in one most likely grows in each: it is taken to grow without end.
-    fn add_in_loop(&mut self, state: State) -> bool {
-        self.add_growing(state, 0)
-    }
-
-    fn add_growing(&mut self, state: State, most_grown: u8) -> bool {
-        let before = self.state;
-        let mut after = before.or(state);
-        if after == before {
-            return false;
-        }
-        if let (State::Known(old), State::Known(new)) = (before, after) {
-            self.grown = self.grown.saturating_add(1);
-            if self.grown > most_grown {
-                after = State::Known(new.widened(old));
-            }
-        }
-        self.state = after;
-        true
-    }
-}
 
 /// The knowledge of every value of a program.
 pub(super) struct Constants {

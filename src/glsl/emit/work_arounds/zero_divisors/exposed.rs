@@ -45,7 +45,7 @@ struct Walk<'a> {
     /// The callees.
     functions: &'a [Summary],
     exposed: Set,
-    /// What is written wherever the function returns.
+    /// All that is written wherever the function returns.
     returned: Option<Set>,
 }
 

@@ -11,6 +11,7 @@ mod constants;
 mod exposed;
 mod known;
 mod same;
+mod state;
 
 use self::constants::Constants;
 use crate::glsl::{

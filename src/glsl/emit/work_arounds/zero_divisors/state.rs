@@ -1,0 +1,104 @@
+//! What is known of a value, and of something that is written in several places.
+
+use super::known::Known;
+use State::{Unknown, Unseen};
+
+/// The knowledge of a value.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) enum State {
+    /// No statement that computes it has been looked at yet.
+    #[default]
+    Unseen,
+    /// It is one number of an interval: a driver may know which.
+    Known(Known),
+    Unknown,
+}
+
+impl State {
+    pub const ZERO: State = State::Known(Known::ZERO);
+
+    /// Returns what holds of both, where a driver knows which of the two it is.
+    pub fn or(self, other: State) -> State {
+        match (self, other) {
+            (Unseen, state) | (state, Unseen) => state,
+            (State::Known(a), State::Known(b)) => State::Known(a.or(b)),
+            _ => Unknown,
+        }
+    }
+
+    /// Returns what is known where an unknown condition has chosen between both.
+    pub fn met(self, other: State) -> State {
+        match (self, other) {
+            (Unseen, state) | (state, Unseen) => state,
+            (State::Known(a), State::Known(b)) if a == b && a.is_exact() => self,
+            _ => Unknown,
+        }
+    }
+
+    /// Returns what is known where two ways meet; a driver knows which it is if `is_known`.
+    pub fn join(self, other: State, is_known: bool) -> State {
+        if is_known { self.or(other) } else { self.met(other) }
+    }
+
+    pub fn map(self, f: impl FnOnce(Known) -> Known) -> State {
+        match self {
+            State::Known(known) => State::Known(f(known)),
+            state => state,
+        }
+    }
+
+    pub fn zip(self, other: State, f: impl FnOnce(Known, Known) -> Known) -> State {
+        match (self, other) {
+            (State::Known(a), State::Known(b)) => State::Known(f(a, b)),
+            (Unknown, _) | (_, Unknown) => Unknown,
+            _ => Unseen,
+        }
+    }
+}
+
+/// The knowledge of something that is written in several places.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Held {
+    pub state: State,
+    /// The number of times that its interval has grown.
+    pub grown: u8,
+}
+
+impl Held {
+    /// The number of times that an interval grows by as much as it must. What calls count up would grow for ever.
+    const MOST_GROWN: u8 = 3;
+
+    /// Returns what is known where it is read.
+    pub fn state(&self) -> State {
+        match self.state {
+            Unseen => Unknown,
+            state => state,
+        }
+    }
+
+    /// Adds what is stored; says whether that is new.
+    pub fn add(&mut self, state: State) -> bool {
+        self.add_growing(state, Self::MOST_GROWN)
+    }
+
+    /// Adds what a round of a loop stores. What grows in one most likely grows in each: it is taken to grow without end.
+    pub fn add_in_loop(&mut self, state: State) -> bool {
+        self.add_growing(state, 0)
+    }
+
+    fn add_growing(&mut self, state: State, most_grown: u8) -> bool {
+        let before = self.state;
+        let mut after = before.or(state);
+        if after == before {
+            return false;
+        }
+        if let (State::Known(old), State::Known(new)) = (before, after) {
+            self.grown = self.grown.saturating_add(1);
+            if self.grown > most_grown {
+                after = State::Known(new.widened(old));
+            }
+        }
+        self.state = after;
+        true
+    }
+}
