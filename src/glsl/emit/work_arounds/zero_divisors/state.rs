@@ -1,4 +1,4 @@
-//! What is known of a value, and of something that is written in several places.
+//! Knowledge of a value, and of something that is written in several places.
 
 use super::known::Known;
 use State::{Unknown, Unseen};
