@@ -20,7 +20,7 @@ pub fn height(session: &Session) -> f32 {
 pub fn tools(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     let custom_uniforms = session.custom_uniforms();
     if custom_uniforms.iter().any(|k| session.custom_uniform_value(k) != k.default) {
-        let reset = ui.add(Button::new("Reset all").small()).on_hover_text("Every uniform to its default");
+        let reset = ui.add(Button::new("Reset all").small()).on_hover_text("Reset all uniforms to their defaults");
         if out.clicked("uniforms:reset", &reset) {
             out.ask(Command::ResetCustomUniforms);
         }
@@ -33,7 +33,7 @@ pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     ui.spacing_mut().item_spacing.y = 3.0;
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
         if custom_uniforms.is_empty() {
-            ui.colored_label(theme::of(ui).weak, "A line of code like this one has its slider here:");
+            ui.colored_label(theme::of(ui).weak, "Add a line like this to get a slider:");
             let line = "#iUniform float speed = 1.0 in { 0.0, 4.0 }";
             ui.add(egui::Label::new(RichText::new(line).monospace()).selectable(true));
         }

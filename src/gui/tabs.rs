@@ -119,8 +119,8 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &m
             out.ask(Command::EditPasses(PassEdit::Remove(tab.clone())));
         }
         ui.separator();
-        let close = ui.button("Close the code");
-        if out.clicked("tab:close-code", &close.on_hover_text("\"View\" at the top opens it again")) {
+        let close = ui.button("Close code");
+        if out.clicked("tab:close-code", &close.on_hover_text("Reopen it from the View menu")) {
             out.wishes.push(Wish::ClosePanel(Panel::Code));
         }
     });
@@ -134,13 +134,13 @@ fn show_tab(ui: &mut Ui, session: &Session, tab: &Tab, is_current: bool, out: &m
             ui.colored_label(theme::of(ui).weak, path.display().to_string());
         }
         if let Some(time) = time {
-            ui.label(format!("{:.3} ms on the graphics device", time.gpu_millis));
+            ui.label(format!("{:.3} ms on the GPU", time.gpu_millis));
         }
         if dirty {
-            ui.colored_label(theme::of(ui).accent, "Not saved yet");
+            ui.colored_label(theme::of(ui).accent, "Not saved");
         }
         if *tab != Tab::Pass(PassId::Image) {
-            ui.colored_label(theme::of(ui).weak, "Right click or Shift+F10: show, remove");
+            ui.colored_label(theme::of(ui).weak, "Right-click or Shift+F10 for more");
         }
     });
 }

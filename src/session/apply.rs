@@ -258,7 +258,7 @@ impl Session {
             self.canvas.scale = scale;
             self.canvas.refused = None;
         } else {
-            self.notice(Level::Error, format!("a resolution scale of {scale} draws nothing; it must be above 0"));
+            self.notice(Level::Error, format!("the resolution scale must be above 0, not {scale}"));
         }
     }
 

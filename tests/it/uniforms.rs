@@ -95,12 +95,12 @@ fn what_is_wrong_with_a_declaration_is_told_at_its_line() {
     let Some(gpu) = gpu() else { return };
     let main = "\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }";
     for (line, message) in [
-        ("#iUniform float iTime", "no uniform can be called `iTime`: Shadertoy's header has a uniform of this name"),
-        ("#iUniform float mainImage", "no uniform can be called `mainImage`: it is the name of an entry point"),
+        ("#iUniform float iTime", "a uniform cannot be named `iTime`: Shadertoy's header has a uniform of this name"),
+        ("#iUniform float mainImage", "a uniform cannot be named `mainImage`: it is the name of an entry point"),
         ("#iUniform float smoothstep", "GLSL has a function of this name"),
-        ("#iUniform float input", "it is a word of GLSL's own"),
+        ("#iUniform float input", "it is a GLSL keyword"),
         ("#iUniform float a = 1.0 on", "expected `in`, `step` or the end of the line"),
-        ("#iUniform float a\nfloat a;", "`a` is already declared: an #iUniform line has it"),
+        ("#iUniform float a\nfloat a;", "`a` is already declared by an #iUniform line"),
         ("#iUniform float a\nvoid f() { a = 1.0; }", "`a` is a uniform and cannot be"),
     ] {
         let said = errors(&gpu, &project(vec![image(&format!("{line}{main}"), Default::default())]));

@@ -37,8 +37,8 @@ impl Group {
             Group::Window => "Window",
             Group::Search => "Find",
             Group::FindBar => "While the find bar is open",
-            Group::Trace => "While the panel Trace is open",
-            Group::Code => "While typing code",
+            Group::Trace => "While the Trace panel is open",
+            Group::Code => "Code editor",
             Group::Caret => "Caret and selection",
         }
     }
@@ -54,9 +54,15 @@ pub struct Entry {
     pub title: &'static str,
     pub keys: &'static [&'static str],
     pub group: Group,
+    /// Further words by which the palette finds it, in small letters: what other programs call it.
+    pub synonyms: &'static str,
 }
 
 impl Entry {
+    pub const fn found_by(self, synonyms: &'static str) -> Entry {
+        Entry { synonyms, ..self }
+    }
+
     /// Returns whether a key that is held down does it again and again.
     pub fn repeats(&self) -> bool {
         use Action as A;

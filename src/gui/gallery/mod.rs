@@ -99,10 +99,10 @@ impl Gallery {
             let field = TextEdit::singleline(&mut self.search).hint_text("Search").desired_width(150.0);
             let field = field.background_color(p.button);
             let field = ui.add(field);
-            accessible::name(&field, egui::Role::TextInput, "Search the presets");
+            accessible::name(&field, egui::Role::TextInput, "Search presets");
             out.place("gallery:search", field.rect);
         });
-        ui.colored_label(p.weak, "Editing a preset edits a copy. Rest the pointer on a card to see it move.");
+        ui.colored_label(p.weak, "Editing a preset edits a copy. Hover over a card to play it.");
     }
 
     /// Shows the cards. Returns the one that the pointer is on.
@@ -129,7 +129,7 @@ impl Gallery {
         }
         if is_empty {
             ui.add_space(10.0);
-            ui.colored_label(theme::of(ui).weak, format!("No preset has \"{}\" in its words", self.search.trim()));
+            ui.colored_label(theme::of(ui).weak, format!("No preset matches \"{}\"", self.search.trim()));
         }
         hovered
     }

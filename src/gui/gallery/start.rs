@@ -25,7 +25,7 @@ pub fn show(ui: &mut Ui, session: &Session, out: &mut Outbox) {
     let tiles = [
         ("gallery:new", "New shader", new),
         ("gallery:paste", "Paste", format!("{paste}: Shadertoy JSON, GLSL, a path")),
-        ("gallery:open-file", "Open file…", format!("{open}, or drop one here")),
+        ("gallery:open-file", "Open file…", format!("{open}, or drop a file here")),
         ("gallery:open", "Open folder…", "eddy.toml, or GLSL files".into()),
     ];
     let mut clicked = None;

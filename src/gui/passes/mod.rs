@@ -174,11 +174,11 @@ pub fn add_menu(ui: &mut Ui, session: &Session, out: &mut Outbox) {
         }
     }
     ui.separator();
-    ui.label(RichText::new("A buffer of any name").color(theme::of(ui).weak).small());
+    ui.label(RichText::new("Add a buffer with a name of your own").color(theme::of(ui).weak).small());
     let mut name = ui.data_mut(|d| d.get_temp_mut_or_default::<String>(id).clone());
     ui.horizontal(|ui| {
         let field = ui.add(egui::TextEdit::singleline(&mut name).hint_text("velocity").desired_width(110.0));
-        accessible::name(&field, egui::Role::TextInput, "Name of a new buffer");
+        accessible::name(&field, egui::Role::TextInput, "Name of the new buffer");
         out.place("add:name", field.rect);
         let wanted = PassId::buffer_named(&name).map(Tab::Pass);
         let is_free = wanted.as_ref().is_some_and(|tab| !session.tabs().contains(tab));
@@ -187,7 +187,7 @@ pub fn add_menu(ui: &mut Ui, session: &Session, out: &mut Outbox) {
         let clicked = out.clicked("add:named", &button);
         let why = match &wanted {
             None => PassId::NAMES.to_owned(),
-            Some(tab) => format!("There is a {} already", tab.title()),
+            Some(tab) => format!("{} already exists", tab.title()),
         };
         button.on_disabled_hover_text(why);
         if let Some(tab) = wanted.filter(|_| is_free && (entered || clicked)) {

@@ -30,7 +30,7 @@ impl SettingsFile {
     /// Changes a setting, here and in the file. Err: why it is not in the file, and so holds until the window closes.
     pub fn change(&mut self, change: Change) -> Result<(), String> {
         change.apply(self.content_mut());
-        self.edit(|text| file::change(text, change), "The setting holds until the window closes.")
+        self.edit(|text| file::change(text, change), "The setting applies until the window closes.")
     }
 }
 

@@ -82,7 +82,7 @@ impl Shell {
             // The rest is the picture's, with the mouse.
             let size = vec2((whole.width() * 0.56).clamp(320.0_f32.min(whole.width()), 1000.0), whole.height());
             let place = Rect::from_min_size(whole.min, size);
-            egui::Area::new(Id::unique("code over the picture"))
+            egui::Area::new(Id::unique("code over picture"))
                 .order(Order::Middle)
                 .fixed_pos(place.min)
                 .constrain(false)

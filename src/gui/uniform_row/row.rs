@@ -51,7 +51,7 @@ pub fn show(ui: &mut Ui, session: &Session, custom_uniform: &CustomUniform, out:
         let label = format!("Reset {}", custom_uniform.name);
         let button = icons::button(&mut child(ui, place), Icon::Reset, &label);
         let tip = format!(
-            "Back to {}\nA double click on the name or the rail does the same",
+            "Reset to {}\n(or double-click the name or the slider)",
             custom_uniform.default.glsl(custom_uniform.ty)
         );
         wants_default |= out.clicked(&format!("uniform:reset:{}", custom_uniform.name), &button.on_hover_text(tip));
@@ -71,7 +71,7 @@ fn title(ui: &mut Ui, custom_uniform: &CustomUniform, place: Rect) -> bool {
 
 fn tip(custom_uniform: &CustomUniform) -> String {
     let mut text = format!(
-        "{} {}, at first {}",
+        "{} {}, default {}",
         custom_uniform.ty.name(),
         custom_uniform.name,
         custom_uniform.default.glsl(custom_uniform.ty)
@@ -82,7 +82,7 @@ fn tip(custom_uniform: &CustomUniform) -> String {
             CustomUniformValue::new(custom_uniform.ty, &range.min[..n]),
             CustomUniformValue::new(custom_uniform.ty, &range.max[..n]),
         );
-        text.push_str(&format!(", from {} to {}", min.glsl(custom_uniform.ty), max.glsl(custom_uniform.ty)));
+        text.push_str(&format!(", range {} to {}", min.glsl(custom_uniform.ty), max.glsl(custom_uniform.ty)));
     }
     text
 }

@@ -59,17 +59,17 @@ fn broken_pictures_are_clear_errors() {
     };
     for (path, expected) in [
         (write("cut.png", &whole[..whole.len() / 2]), "cut.png"),
-        (write("empty.png", b""), "cut short"),
+        (write("empty.png", b""), "truncated"),
         (write("text.png", b"hello, this is no picture at all"), "damaged"),
-        (write("notes.txt", b"hello, this is no picture at all"), "not a picture of a known kind"),
+        (write("notes.txt", b"hello, this is no picture at all"), "not a supported image"),
         (write("zero.png", &with_size(0, 64)), "zero.png"),
         (write("huge.png", &with_size(0x7fff_ffff, 0x7fff_ffff)), "huge.png"),
         (
             write("large.png", &with_size(20000, 20000)),
-            "large.png: the picture has 20000x20000 texels, which take 1600000000 bytes; a picture may take 512 \
-            MiB",
+            "large.png: the image has 20000x20000 texels, which take 1600000000 bytes; the limit for an image is \
+             512 MiB",
         ),
-        (write("long.png", &with_size(40000, 2)), "40000x2 texels, and a side may have 32768"),
+        (write("long.png", &with_size(40000, 2)), "40000x2 texels, and the limit per side is 32768"),
         (dir.path().join("missing.png"), "cannot read"),
         (dir.path().join("sub"), "folder"),
     ] {
@@ -263,7 +263,7 @@ fn a_kind_of_picture_that_is_not_read_is_named() {
         let path = dir.path().join(name);
         std::fs::write(&path, bytes).unwrap();
         let error = load_file(&path, true).unwrap_err();
-        let says = format!("{name} is a picture of the kind {kind}, which is not read; known are PNG, JPEG");
+        let says = format!("{name} is a {kind} image, which is not supported; supported are PNG, JPEG");
         assert!(error.to_string().contains(&says) && error.hint().contains("PNG"), "{error}");
     }
 }

@@ -21,8 +21,7 @@ use crate::{
 };
 use std::ops::Range;
 
-const FORM: &str =
-    "the form is #iUniform float speed = 1.0 in { 0.0, 5.0 } step 0.1; default, range and step may be left out";
+const FORM: &str = "write #iUniform float speed = 1.0 in { 0.0, 5.0 } step 0.1; default, range and step are optional";
 
 pub(in crate::project) fn is_declaration(line: &HashLine<'_>) -> bool {
     line.body.strip_prefix("iUniform").is_some_and(|rest| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '_'))
@@ -84,7 +83,7 @@ impl Line {
         if custom_uniform.default != wanted {
             let shown = custom_uniform.default.glsl(self.ty);
             diagnostics.push(
-                Diagnostic::warning(self.span, format!("the default of `{}` lies outside of its range", self.name))
+                Diagnostic::warning(self.span, format!("the default of `{}` is outside its range", self.name))
                     .hint(format!("it starts at {shown}; change the default or the range")),
             );
         }
@@ -151,7 +150,7 @@ pub(super) fn parse(line: &HashLine<'_>, source: SourceId) -> Result<Line, Diagn
         words.next();
         let step = words.value(ty)?;
         if step[..ty.components()].iter().any(|s| *s <= 0.0) {
-            return Err(words.error("a step is a number above 0"));
+            return Err(words.error("a step must be above 0"));
         }
         out.step = Some(step);
     }
@@ -258,9 +257,9 @@ impl<'a> Words<'a> {
         CustomUniformType::ALL.into_iter().find(|t| t.name() == word).ok_or_else(|| {
             let known = match nearest(word, names) {
                 Some(near) => format!("did you mean {near}?"),
-                None => format!("there are {}", listed(&names)),
+                None => format!("the types are {}", listed(&names)),
             };
-            self.error(format!("there is no uniform of type {word} to set by hand")).hint(known)
+            self.error(format!("unknown slider type {word}")).hint(known)
         })
     }
 
@@ -286,14 +285,14 @@ impl<'a> Words<'a> {
 
     /// Numbers in parentheses; constructors among them count as the numbers they hold.
     fn arguments(&mut self) -> Result<Vec<f64>, Diagnostic> {
-        self.expect('(', "behind the type")?;
+        self.expect('(', "after the type")?;
         let mut depth = 1;
         let mut all = Vec::new();
         loop {
             match self.peek() {
                 Word::Name(name) if CustomUniformType::ALL.iter().any(|t| t.name() == name) => {
                     self.next();
-                    self.expect('(', "behind the type")?;
+                    self.expect('(', "after the type")?;
                     depth += 1;
                     continue;
                 }
@@ -348,15 +347,15 @@ impl<'a> Words<'a> {
         if ty == CustomUniformType::Bool {
             return Err(self.error("a bool has no range"));
         }
-        self.expect('{', "before the least value")?;
+        self.expect('{', "before the smallest value")?;
         let begin = self.last.start;
         let min = self.value(ty)?;
-        self.expect(',', "between the least and the greatest value")?;
+        self.expect(',', "between the smallest and the largest value")?;
         let max = self.value(ty)?;
-        self.expect('}', "behind the greatest value")?;
+        self.expect('}', "after the largest value")?;
         if min.iter().zip(max).any(|(a, b)| *a > b) {
             self.last.start = begin;
-            return Err(self.error("the range ends below its beginning"));
+            return Err(self.error("the range ends below its start"));
         }
         Ok(CustomUniformRange { min, max })
     }

@@ -66,7 +66,7 @@ impl CustomUniforms {
             Some(message) => self.diagnostics.push(
                 Diagnostic::error(line.span, message)
                     .label(known.span, "declared here too")
-                    .hint("one name is one slider: let both lines say the same, or choose another name"),
+                    .hint("a name has one slider: make both lines equal, or choose another name"),
             ),
             None if known.declared_in.contains(&source) => {}
             None => known.declared_in.push(source),
@@ -83,8 +83,8 @@ impl CustomUniforms {
         let names: Vec<&str> = self.list.iter().map(|k| k.name.as_str()).collect();
         let hint = match nearest(name, names.iter().copied()) {
             Some(near) => format!("did you mean {near}?"),
-            None if names.is_empty() => "the texts declare none".to_owned(),
-            None => format!("there are {}", super::listed(&names)),
+            None if names.is_empty() => "the project declares none".to_owned(),
+            None => format!("the uniforms are {}", super::listed(&names)),
         };
         (message, hint)
     }

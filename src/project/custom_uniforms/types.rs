@@ -145,8 +145,8 @@ impl CustomUniform {
         let range = self.range.map_or(String::new(), |r| format!("{:?} to {:?}", r.min[0], r.max[0]));
         let same = |all: &[f64; 4]| all[..self.ty.components()].iter().all(|x| *x == all[0]);
         Err(match self.range {
-            Some(r) if same(&r.min) && same(&r.max) => format!("lies outside of its range, {range}"),
-            _ => "lies outside of its range".to_owned(),
+            Some(r) if same(&r.min) && same(&r.max) => format!("is outside its range, {range}"),
+            _ => "is outside its range".to_owned(),
         })
     }
 

@@ -58,7 +58,7 @@ fn what_leads_nowhere_is_told_at_its_line() {
         ("#include \"lib\"", "cannot read"),
         ("#include \"bytes.glsl\"", "not UTF-8"),
         ("#include \"link.glsl\"", "a link that leads out"),
-        ("#include \"common.glsl\"", "stands before every pass"),
+        ("#include \"common.glsl\"", "is inserted before every pass"),
     ] {
         let dir = folder(&[
             ("image.glsl", &format!("int i;\n{line}\n")),
@@ -78,7 +78,7 @@ fn what_leads_nowhere_is_told_at_its_line() {
     let mut unsaved = open(&folder(TREE));
     unsaved.origin = Origin::Unsaved;
     unsaved.read_includes();
-    assert!(said(&unsaved).contains("save it into one first"), "{}", said(&unsaved));
+    assert!(said(&unsaved).contains("save it first"), "{}", said(&unsaved));
 }
 
 #[test]

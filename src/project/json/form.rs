@@ -178,7 +178,7 @@ impl<'de, T: Deserialize<'de>, const MAX: usize> Deserialize<'de> for Few<T, MAX
                 while let Some(one) = seq.next_element()? {
                     if all.len() == MAX {
                         return Err(A::Error::custom(format_args!(
-                            "this list has more than {MAX} entries, the most that Eddy reads"
+                            "this list has more than the limit of {MAX} entries"
                         )));
                     }
                     all.push(one);
